@@ -8,7 +8,7 @@
 #include "experiments/workbench/app/exit_codes.h"
 #include "experiments/workbench/app/gpu_choice.h"
 #include "experiments/workbench/app/run.h"
-#include "experiments/workbench/pages/closing_words.h"
+#include "experiments/workbench/pages/closing_summary.h"
 #include "sim/base/error.h"
 
 namespace {
@@ -33,7 +33,7 @@ int flushed(int exit_code) {
 int main(int count, char** words) {
   std::string experiment;
   std::optional<CommandLine> line;
-  const Ending ending = ending_of(experiment, [&] {
+  const Ending ending = run_ending(experiment, [&] {
     line = parse_command_line(count, words);
     if (!line) return flushed(0);
     experiment = line->experiment;

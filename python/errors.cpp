@@ -4,7 +4,7 @@
 namespace hysteron::python {
 namespace {
 
-const char* type_of(const Error& error) {
+const char* exception_type(const Error& error) {
   switch (error.exit_code()) {
     case 1:
       return "MachineError";
@@ -16,7 +16,7 @@ const char* type_of(const Error& error) {
 }
 
 void raise(const Error& error) {
-  const py::object type = py::module_::import("hysteron_cloth.errors").attr(type_of(error));
+  const py::object type = py::module_::import("hysteron_cloth.errors").attr(exception_type(error));
   PyErr_SetObject(type.ptr(), type(error.what(), error.key(), error.value()).ptr());
 }
 

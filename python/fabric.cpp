@@ -18,16 +18,16 @@ constexpr const char* kPrefix = "fabric.";
 
 // The key fabric.* of that attribute; null if there is none.
 const BoundKey* find(const Keys& keys, const std::string& name) {
-  const auto path_of = [](const BoundKey& key) { return key.description.path; };
+  const auto key_path = [](const BoundKey& key) { return key.description.path; };
   std::vector<std::string> all;
-  std::transform(keys.begin(), keys.end(), std::back_inserter(all), path_of);
+  std::transform(keys.begin(), keys.end(), std::back_inserter(all), key_path);
   const std::string path = key_named(kPrefix + name, all);
   const auto found =
-      std::find_if(keys.begin(), keys.end(), [&](const auto& k) { return path_of(k) == path; });
+      std::find_if(keys.begin(), keys.end(), [&](const auto& k) { return key_path(k) == path; });
   return found == keys.end() ? nullptr : &*found;
 }
 
-py::dict provenance_of(const Provenance& from) {
+py::dict provenance_dict(const Provenance& from) {
   py::dict entry;
   entry["source"] = from.source;
   entry["confidence"] = from.confidence;
@@ -81,14 +81,14 @@ py::list FabricValue::names() {
 
 py::dict FabricValue::provenance() const {
   py::dict all;
-  for (const auto& [key, from] : fabric().provenance) all[py::str(key)] = provenance_of(from);
+  for (const auto& [key, from] : fabric().provenance) all[py::str(key)] = provenance_dict(from);
   return all;
 }
 
 py::dict FabricValue::published() const {
   py::dict all;
   for (const auto& [name, number] : fabric().published) {
-    py::dict entry = provenance_of(number.provenance);
+    py::dict entry = provenance_dict(number.provenance);
     entry["value"] = number.value;
     entry["unit"] = number.unit;
     all[py::str(name)] = entry;
@@ -96,7 +96,7 @@ py::dict FabricValue::published() const {
   return all;
 }
 
-Fabric fabric_of(py::handle fabric) {
+Fabric fabric_from_python(py::handle fabric) {
   if (py::isinstance<FabricValue>(fabric)) return fabric.cast<const FabricValue&>().checked();
   return FabricValue(py::str(fabric), {}).fabric();
 }

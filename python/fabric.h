@@ -29,6 +29,6 @@ class FabricValue {
 };
 
 // What Python may name as a fabric: a FabricValue, a name or a file.
-Fabric fabric_of(py::handle fabric);
+Fabric fabric_from_python(py::handle fabric);
 
 }  // namespace hysteron::python

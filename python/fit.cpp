@@ -19,14 +19,14 @@ constexpr const char* kFrom = "arrays in Python";
 std::vector<double> column(const Numbers& values, const std::string& name, std::size_t rows) {
   if (values.ndim() != 1 || static_cast<std::size_t>(values.size()) != rows)
     throw Error::invalid_input(name + " must have " + std::to_string(rows) + " numbers, as many as curvature")
-        .of(name, std::to_string(values.size()));
+        .with_key(name, std::to_string(values.size()));
   return {values.data(), values.data() + values.size()};
 }
 
-MomentSeries series_of(const Numbers& curvature, const Numbers& moment, const std::optional<Numbers>& time,
-                       double ripple, const std::string& units) {
+MomentSeries moment_series(const Numbers& curvature, const Numbers& moment,
+                           const std::optional<Numbers>& time, double ripple, const std::string& units) {
   if (units != "si" && units != "kes")
-    throw Error::invalid_input("units = " + units + " must be si | kes").of("units", units);
+    throw Error::invalid_input("units = " + units + " must be si | kes").with_key("units", units);
   MomentSeries series;
   series.name = "the loop";
   const auto rows = static_cast<std::size_t>(curvature.size());
@@ -44,7 +44,7 @@ MomentSeries series_of(const Numbers& curvature, const Numbers& moment, const st
     for (std::size_t i = 1; i < rows; ++i)
       if (series.seconds[i] < 0)
         throw Error::invalid_input("time must not fall, as it does at row " + std::to_string(i))
-            .of("time", "");
+            .with_key("time", "");
   }
   prepare(series, ripple);
   return series;
@@ -53,7 +53,7 @@ MomentSeries series_of(const Numbers& curvature, const Numbers& moment, const st
 Identification fit(const Numbers& curvature, const Numbers& moment, const std::optional<Numbers>& time,
                    const std::string& law, const std::string& units, bool offset, double ripple,
                    const py::kwargs& parameters) {
-  const MomentSeries series = series_of(curvature, moment, time, ripple, units);
+  const MomentSeries series = moment_series(curvature, moment, time, ripple, units);
   CurveQuestion question;
   question.law.name = law;
   question.offset = offset;
@@ -67,7 +67,7 @@ Identification fit(const Numbers& curvature, const Numbers& moment, const std::o
   return found;
 }
 
-std::optional<double> error_of(const Estimate& estimate) {
+std::optional<double> estimate_error(const Estimate& estimate) {
   if (std::isnan(estimate.standard_error)) return {};
   return estimate.standard_error;
 }
@@ -75,7 +75,7 @@ std::optional<double> error_of(const Estimate& estimate) {
 // Beside the three numbers a fabric needs a density and a thickness.
 FabricValue fabric_found(const Identification& found, const std::string& name, double density,
                          double thickness) {
-  Fabric fabric = fabric_of(py::str("cotton-broad"));
+  Fabric fabric = fabric_from_python(py::str("cotton-broad"));
   fabric.name = name;
   fabric.bending = {};
   fabric.published.clear();
@@ -83,7 +83,7 @@ FabricValue fabric_found(const Identification& found, const std::string& name, d
   const std::pair<const char*, const Estimate&> numbers[] = {
       {"b1", found.b1}, {"b2", found.b2}, {"k0", found.k0}};
   for (const auto& [key, estimate] : numbers)
-    fabric.provenance[key] = {estimate.source, estimate.confidence, error_of(estimate)};
+    fabric.provenance[key] = {estimate.source, estimate.confidence, estimate_error(estimate)};
   fabric.b1 = found.b1.value;
   fabric.b2 = found.b2.value;
   fabric.k0 = found.k0.value;
@@ -111,16 +111,16 @@ void bind_fit(py::module_& module) {
       .def_property_readonly(
           "k0", [](const I& f) { return f.k0.value; }, "[1/m]")
       .def_property_readonly(
-          "b1_stderr", [](const I& f) { return error_of(f.b1); }, "[N m]; None: not known")
+          "b1_stderr", [](const I& f) { return estimate_error(f.b1); }, "[N m]; None: not known")
       .def_property_readonly(
-          "b2_stderr", [](const I& f) { return error_of(f.b2); }, "[N m]; None: not known")
+          "b2_stderr", [](const I& f) { return estimate_error(f.b2); }, "[N m]; None: not known")
       .def_property_readonly(
-          "k0_stderr", [](const I& f) { return error_of(f.k0); }, "[1/m]; None: not known")
+          "k0_stderr", [](const I& f) { return estimate_error(f.k0); }, "[1/m]; None: not known")
       .def_readonly("law", &I::law, "That the numbers were identified with.")
       .def_property_readonly("undetermined", &I::undetermined, "Names of what the data cannot fix.")
       .def_readonly("statements", &I::statements, "Sentences on what the data say and do not say.")
       .def_property_readonly(
-          "model", [](const I& f) { return array_of(f.model, 1); },
+          "model", [](const I& f) { return numpy_array(f.model, 1); },
           "Moments of the law at the data's curvatures [N], (n,).")
       .def_property_readonly("residual_rms", &I::residual_rms, "[N]")
       .def("fabric", &fabric_found, py::arg("name") = "fitted", py::kw_only(), py::arg("density"),

@@ -15,7 +15,7 @@ using Loop = LawLoop<double, Cpu>;
 std::string shape_text(py::array array) { return py::str(array.attr("shape")); }
 
 // A trial that builds up no rate.
-Loop::Trial trial_of(double dt) { return {dt, dt, 0, nullptr}; }
+Loop::Trial steady_trial(double dt) { return {dt, dt, 0, nullptr}; }
 
 }  // namespace
 
@@ -39,10 +39,10 @@ LawState::LawState(const LawChoice& choice, int dimension, int elements, int thr
 LawState LawState::copy() const {
   LawState copy(choice_, dimension_, elements_, cpu_->threads);
   Archive saved;
-  loop_->visit(saved, *cpu_);
+  loop_->serialise(saved, *cpu_);
   const std::string bytes = saved.take();
   Archive loaded(bytes);
-  copy.loop_->visit(loaded, *copy.cpu_);
+  copy.loop_->serialise(loaded, *copy.cpu_);
   return copy;
 }
 
@@ -59,7 +59,7 @@ const double* LawState::checked(const Numbers& curvature) const {
   throw Error::invalid_input(
       "curvature has shape " + shape + ", must be " +
       (dimension_ == 1 ? "(" + n + ",)" : "(" + n + ", " + std::to_string(dimension_) + ")"))
-      .of("curvature", shape);
+      .with_key("curvature", shape);
 }
 
 py::array_t<double> LawState::make_array(int columns, int of_each) const {
@@ -75,7 +75,7 @@ py::array LawState::step(const Numbers& curvature, double dt, py::object out) {
     using Doubles = py::array_t<double, py::array::c_style>;
     if (!Doubles::check_(out) || py::reinterpret_borrow<py::array>(out).size() != moment.size())
       throw Error::invalid_input("out must be a C-contiguous array of doubles, as many as curvature has")
-          .of("out", "");
+          .with_key("out", "");
     moment = py::reinterpret_borrow<py::array_t<double>>(out);
   }
   double* m = moment.mutable_data();
@@ -88,7 +88,7 @@ py::array LawState::trial(const Numbers& curvature, double dt) const {
   py::array_t<double> moment = make_array(dimension_);
   double* m = moment.mutable_data();
   std::vector<double> energy(elements_);
-  unlocked([&] { loop_->trial(*cpu_, view(), k, trial_of(dt), m, energy.data()); });
+  unlocked([&] { loop_->trial(*cpu_, view(), k, steady_trial(dt), m, energy.data()); });
   return moment;
 }
 
@@ -96,7 +96,7 @@ py::array LawState::trial(const Numbers& curvature, double dt) const {
 void LawState::tangents(const double* k, double dt, double* to) const {
   const int d = dimension_;
   std::vector<double> lower(static_cast<std::size_t>(elements_) * d * (d + 1) / 2);
-  loop_->tangents(*cpu_, view(), k, trial_of(dt), lower.data());
+  loop_->tangents(*cpu_, view(), k, steady_trial(dt), lower.data());
   const double* row = lower.data();
   for (int i = 0; i < elements_; ++i, to += d * d)
     for (int a = 0; a < d; ++a)
@@ -121,10 +121,10 @@ py::array LawState::stored(const Numbers& curvature) const {
 
 py::array LawState::friction_share(const Numbers& curvature) const {
   const double* k = checked(curvature);
-  py::array_t<double> share = make_array(1);
-  double* to = share.mutable_data();
+  py::array_t<double> fraction = make_array(1);
+  double* to = fraction.mutable_data();
   unlocked([&] { loop_->slip(*cpu_, view(), k, to); });
-  return share;
+  return fraction;
 }
 
 py::array LawState::residual() const {
@@ -136,7 +136,7 @@ py::array LawState::residual() const {
 
 py::array LawState::dissipated() const {
   const double* lost = loop_->dissipated();
-  return array_of(lost ? std::vector<double>(lost, lost + elements_) : std::vector<double>(elements_), 1);
+  return numpy_array(lost ? std::vector<double>(lost, lost + elements_) : std::vector<double>(elements_), 1);
 }
 
 namespace {
@@ -148,7 +148,7 @@ struct Law {
   LawState rest(int elements, int threads) const {
     if (elements < 1)
       throw Error::invalid_input("elements = " + std::to_string(elements) + " must be >= 1")
-          .of("elements", std::to_string(elements));
+          .with_key("elements", std::to_string(elements));
     return {choice, dimension, elements, threads};
   }
 };
@@ -156,14 +156,14 @@ struct Law {
 Law make_law(const std::string& name, py::object fabric, int dimension, const py::kwargs& parameters) {
   if (dimension != 1 && dimension != 3)
     throw Error::invalid_input("dimension = " + std::to_string(dimension) + " must be 1 or 3")
-        .of("dimension", std::to_string(dimension));
+        .with_key("dimension", std::to_string(dimension));
   const std::vector<std::string> known = law_parameter_names(name);
   LawParameters texts;
   for (const auto& [key, value] : parameters) {
     const std::string parameter = key_named(py::str(key), known);
     texts[parameter] = to_text(value, parameter);
   }
-  return {choose_law(name, fabric_of(fabric).virgin_curve(), texts), dimension};
+  return {choose_law(name, fabric_from_python(fabric).virgin_curve(), texts), dimension};
 }
 
 py::dict laws() {

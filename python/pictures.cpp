@@ -11,7 +11,7 @@
 namespace hysteron::python {
 namespace {
 
-py::array_t<std::uint8_t> array_of(const render::Image& image) {
+py::array_t<std::uint8_t> numpy_array(const render::Image& image) {
   return py::array_t<std::uint8_t>(
       {static_cast<py::ssize_t>(image.height()), static_cast<py::ssize_t>(image.width()),
        static_cast<py::ssize_t>(image.channels())},
@@ -19,7 +19,7 @@ py::array_t<std::uint8_t> array_of(const render::Image& image) {
 }
 
 // An array (H, W, 3 or 4) of bytes, or a PNG file.
-render::Image image_of(py::handle picture, const std::string& what) {
+render::Image image_from_python(py::handle picture, const std::string& what) {
   if (!py::isinstance<py::array>(picture)) return render::read_png(std::string(py::str(picture)));
   using Bytes = py::array_t<std::uint8_t, py::array::c_style>;
   const auto array = py::reinterpret_borrow<py::array>(picture);
@@ -27,7 +27,7 @@ render::Image image_of(py::handle picture, const std::string& what) {
       (array.shape(2) != 3 && array.shape(2) != 4))
     throw Error::invalid_input(
         what + " must be an array of bytes (uint8) of shape (H, W, 3) or (H, W, 4), or a PNG file")
-        .of(what, py::str(array.attr("shape")));
+        .with_key(what, py::str(array.attr("shape")));
   const Bytes bytes(array);
   render::Image image(static_cast<int>(bytes.shape(1)), static_cast<int>(bytes.shape(0)),
                       static_cast<int>(bytes.shape(2)));
@@ -40,14 +40,14 @@ py::dict diff(py::object a, py::object b, double pixels_per_degree, const std::s
   flags.pixels_per_degree = pixels_per_degree;
   flags.map = map;
   if (map != "steps" && map != "flip")
-    throw Error::invalid_input("map = " + map + " must be steps | flip").of("map", map);
+    throw Error::invalid_input("map = " + map + " must be steps | flip").with_key("map", map);
   experiments::Comparison found;
-  render::Image of_a = image_of(a, "a"), of_b = image_of(b, "b");
+  render::Image of_a = image_from_python(a, "a"), of_b = image_from_python(b, "b");
   unlocked([&] { found = compare_pictures(std::move(of_a), std::move(of_b), flags); });
   py::dict result;
   for (const experiments::Measure& measure : experiments::all_measures())
     result[measure.name] = found.measures.*measure.value;
-  result["heat"] = array_of(found.heat);
+  result["heat"] = numpy_array(found.heat);
   return result;
 }
 
@@ -65,16 +65,16 @@ void set_options(experiments::Options& options, const py::kwargs& given) {
     if (std::find(kNames.begin(), kNames.end(), path) == kNames.end())
       throw Error::invalid_input("render has no argument \"" + path +
                                  "\"; there are: size, bounds, caption, " + join(kNames, ", "))
-          .of(path, "");
+          .with_key(path, "");
     assign(find_key(keys, path, "render"), to_value(value, path), "render");
   }
 }
 
-std::optional<render::Box> box_of(const std::optional<std::pair<Numbers, Numbers>>& bounds) {
+std::optional<render::Box> bounding_box(const std::optional<std::pair<Numbers, Numbers>>& bounds) {
   if (!bounds) return {};
   const auto corner = [](const Numbers& at) -> Eigen::Vector3f {
     if (at.size() != 3)
-      throw Error::invalid_input("bounds must be two corners of three numbers [m]").of("bounds", "");
+      throw Error::invalid_input("bounds must be two corners of three numbers [m]").with_key("bounds", "");
     return Eigen::Map<const Eigen::Vector3d>(at.data()).cast<float>();
   };
   return render::Box{corner(bounds->first), corner(bounds->second)};
@@ -85,11 +85,11 @@ py::array_t<std::uint8_t> render_simulation(SimulationValue& sim, std::pair<int,
                                             const std::string& caption, const py::kwargs& options) {
   PictureChoice choice;
   choice.options.size = size_text(size);
-  choice.bounds = box_of(bounds);
+  choice.bounds = bounding_box(bounds);
   choice.caption = caption;
   set_options(choice.options, options);
   check_options(choice.options);
-  return array_of(sim.picture(choice));
+  return numpy_array(sim.picture(choice));
 }
 
 }  // namespace
@@ -107,7 +107,7 @@ camera_direction, camera_fov [degree], renderer.  MachineError where no OpenGL i
   module.def(
       "png",
       [](py::object picture) {
-        const std::vector<std::uint8_t> file = render::encode_png(image_of(picture, "picture"));
+        const std::vector<std::uint8_t> file = render::encode_png(image_from_python(picture, "picture"));
         return py::bytes(reinterpret_cast<const char*>(file.data()), file.size());
       },
       py::arg("picture"), "A picture, uint8 of shape (H, W, 3) or (H, W, 4), as the bytes of a PNG file.");

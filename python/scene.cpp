@@ -18,7 +18,7 @@ constexpr const char* kOrigin = "Scene";  // of messages
 // Takes a fabric that is an object out of the values.
 void take_fabric(Scene& scene, py::dict& values) {
   if (!values.contains("fabric") || !py::isinstance<FabricValue>(values["fabric"])) return;
-  scene.fabric = fabric_of(values["fabric"]);
+  scene.fabric = fabric_from_python(values["fabric"]);
   scene.origin["fabric.name"] = kOrigin;
   PyDict_DelItemString(values.ptr(), "fabric");
 }
@@ -63,7 +63,7 @@ py::list keys() {
     row["key"] = key.path;
     row["type"] = key.type;
     row["unit"] = key.unit;
-    row["default"] = key.usual;
+    row["default"] = key.default_text;
     row["choices"] = key.choices;
     row["doc"] = key.doc;
     all.append(row);

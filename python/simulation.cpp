@@ -40,7 +40,7 @@ void SimulationValue::alone(const Body& body) {
 void SimulationValue::advance(int steps) {
   if (steps < 0) {
     const std::string text = std::to_string(steps);
-    throw Error::invalid_input("steps = " + text + " must be >= 0").of("steps", text);
+    throw Error::invalid_input("steps = " + text + " must be >= 0").with_key("steps", text);
   }
   for (int s = 0; s < steps; ++s) {
     alone([](Simulation& simulation) { simulation.advance(1); });
@@ -66,9 +66,9 @@ py::array in_place(py::handle self, Simulation::InPlace (Simulation::*place)() c
   Simulation& simulation = value.at_rest();
   const Simulation::InPlace at = (simulation.*place)();
   const std::vector<py::ssize_t> shape = {value.cloth().mesh.vertices(), 3};
-  if (at.fp64) return view_of(at.fp64, shape, self);
-  if (at.fp32) return view_of(at.fp32, shape, self);
-  return array_of((simulation.*copy)());
+  if (at.fp64) return array_view(at.fp64, shape, self);
+  if (at.fp32) return array_view(at.fp32, shape, self);
+  return numpy_array((simulation.*copy)());
 }
 
 py::array_t<int> triangles(const S& self) {
@@ -97,20 +97,20 @@ std::string state_hash(const S& self) {
   return text;
 }
 
-py::tuple hand(const S& self, int pin) {
-  const Keyframe at = self.at_rest().hand(pin);
-  return py::make_tuple(array_of({at.position.x(), at.position.y(), at.position.z()}, 1), at.angle);
+py::tuple pin_displacement(const S& self, int pin) {
+  const Keyframe at = self.at_rest().pin_displacement(pin);
+  return py::make_tuple(numpy_array({at.position.x(), at.position.y(), at.position.z()}, 1), at.angle);
 }
 
 void drive(const S& self, int pin, const Numbers& velocity, double spin) {
   if (velocity.size() != 3)
-    throw Error::invalid_input("velocity must have three components [m/s]").of("velocity", "");
+    throw Error::invalid_input("velocity must have three components [m/s]").with_key("velocity", "");
   self.at_rest().drive(pin, Eigen::Map<const Eigen::Vector3d>(velocity.data()), spin);
 }
 
 // Vertices that the pin holds, or held.
 std::vector<int> pin_vertices(const S& self, int pin) {
-  self.at_rest().hand(pin);  // refuses one that there is not
+  self.at_rest().pin_displacement(pin);  // refuses one that there is not
   return self.cloth().pin_vertices[pin];
 }
 
@@ -134,24 +134,24 @@ Of cloth that starts far from the origin, which is simulated relative to its sta
           "Velocities of the vertices [m/s], shape (n, 3); a view as `positions`.")
       .def_property_readonly(
           "curvature",
-          [](const S& self) { return array_of(self.at_rest().curvature(), self.at_rest().dimension()); },
+          [](const S& self) { return numpy_array(self.at_rest().curvature(), self.at_rest().dimension()); },
           "Curvature of the elements [1/m], (hinges,) or (faces, 3): (Sxx, Syy, sqrt(2) Sxy) along warp, "
           "weft.")
       .def_property_readonly(
           "moment",
-          [](const S& self) { return array_of(self.at_rest().moment(), self.at_rest().dimension()); },
+          [](const S& self) { return numpy_array(self.at_rest().moment(), self.at_rest().dimension()); },
           "Moment of the elements [N], viscosity included, as `curvature`.")
       .def_property_readonly(
           "residual_curvature",
           [](const S& self) {
-            return array_of(self.at_rest().residual_curvature(), self.at_rest().dimension());
+            return numpy_array(self.at_rest().residual_curvature(), self.at_rest().dimension());
           },
           "Curvature that each element would keep if it were let go now [1/m].")
       .def_property_readonly(
-          "friction_share", [](const S& self) { return array_of(self.at_rest().friction_share(), 1); },
+          "friction_share", [](const S& self) { return numpy_array(self.at_rest().friction_share(), 1); },
           "Friction moment of the elements over M0, 0 to 1.")
       .def_property_readonly(
-          "handle_forces", [](const S& self) { return array_of(self.at_rest().handle_forces()); },
+          "handle_forces", [](const S& self) { return numpy_array(self.at_rest().handle_forces()); },
           "Forces of the hands on the vertices at the end of the last step [N], (n, 3); implicit "
           "integrators.")
       .def_property_readonly("ledger", &ledger, "Where the energy went since the start [J], by term.")
@@ -167,7 +167,7 @@ void bind_cloth(py::class_<S>& simulation) {
       .def_property_readonly(
           "scene", [](const S& self) { return self.scene(); }, "A copy of the scene.")
       .def_property_readonly(
-          "rest_positions", [](const S& self) { return array_of(self.cloth().mesh.rest); },
+          "rest_positions", [](const S& self) { return numpy_array(self.cloth().mesh.rest); },
           "Vertices of the rest shape [m], (n, 3).")
       .def_property_readonly("triangles", &triangles,
                              "Corners of the triangles, counter-clockwise from the front, (m, 3).")
@@ -197,7 +197,7 @@ RunError where the state is no longer finite, no equilibrium is found, or an obs
 
 velocity [m/s]: three components; spin: about the pin's axis and centre [degree/s].  It keeps both until it is
 driven again: a loop that controls a hand drives it before every step.)")
-      .def("hand", &hand, py::arg("pin"),
+      .def("hand", &pin_displacement, py::arg("pin"),
            "How far the hand of that pin has come from its start: displacement [m] and angle [degree].")
       .def(
           "become_static", [](const S& self) { self.at_rest().become_static(); },

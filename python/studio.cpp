@@ -38,19 +38,19 @@ render::Image Studio::picture(const Scene& scene, const Cloth& cloth, Simulation
                               const PictureChoice& choice) {
   const std::string& name = choice.options.look;
   const std::vector<float> xyz = pictures::flat_points(simulation.positions());
-  const render::Box bounds = choice.bounds.value_or(render::box_of(xyz));
-  const render::Camera camera = pictures::camera_of(choice.options, bounds);
+  const render::Box bounds = choice.bounds.value_or(render::bounding_box(xyz));
+  const render::Camera camera = pictures::framed_camera(choice.options, bounds);
   const pictures::SceneRenderer::Shown shown{simulation.time(), shown_values(name, cloth, simulation)};
   return room(scene, cloth, choice, bounds, simulation.cuda_device())
       .run([&](pictures::SceneRenderer& studio) {
         studio.view().set_bounds(bounds);
         studio.view().set_positions(xyz);
-        render::Image image = studio.draw(pictures::look_of(scene, choice.options, name), camera, shown);
+        render::Image image = studio.draw(pictures::scene_look(scene, choice.options, name), camera, shown);
         if (!studio.view().shows_cloth())
           throw Error::simulation("the picture shows no cloth: bounds must frame where it is");
         if (!choice.caption.empty())
           pictures::letter(image, camera, bounds.center(), choice.caption,
-                           pictures::color_bar_of(scene, choice.options, name));
+                           pictures::value_color_bar(scene, choice.options, name));
         return image;
       });
 }

@@ -19,7 +19,7 @@ std::string plain(std::string path) {
 
 [[noreturn]] void refuse(const std::string& key, py::handle value, const std::string& allowed) {
   const std::string text = py::repr(value);
-  throw Error::invalid_input(key + " = " + text + " must be " + allowed).of(key, text);
+  throw Error::invalid_input(key + " = " + text + " must be " + allowed).with_key(key, text);
 }
 
 bool is_mapping(py::handle value) { return py::isinstance<py::dict>(value); }
@@ -32,7 +32,7 @@ bool is_tables(const std::string& key, py::handle value) {
   return items.size() > 0 ? is_mapping(items[0]) : kTables.contains(key);
 }
 
-TomlNode node_of(TomlNode::Kind kind, const std::string& key) {
+TomlNode empty_node(TomlNode::Kind kind, const std::string& key) {
   TomlNode node;
   node.kind = kind;
   node.key = key;
@@ -40,24 +40,24 @@ TomlNode node_of(TomlNode::Kind kind, const std::string& key) {
 }
 
 TomlNode value_node(const std::string& key, py::handle value) {
-  TomlNode node = node_of(TomlNode::Kind::value, key);
+  TomlNode node = empty_node(TomlNode::Kind::value, key);
   node.value = to_value(value, key);
   return node;
 }
 
-TomlNode table_of(const py::dict& values);
+TomlNode table_from_python(const py::dict& values);
 
 TomlNode tables_node(const std::string& key, py::handle value) {
-  TomlNode node = node_of(TomlNode::Kind::array, key);
+  TomlNode node = empty_node(TomlNode::Kind::array, key);
   for (py::handle item : py::reinterpret_borrow<py::sequence>(value)) {
     if (!is_mapping(item)) refuse(key, item, "a dict");
-    node.children.push_back(table_of(py::reinterpret_borrow<py::dict>(item)));
+    node.children.push_back(table_from_python(py::reinterpret_borrow<py::dict>(item)));
   }
   return node;
 }
 
 // An element of an array of tables: its keys have hyphens where Python has underscores.
-TomlNode table_of(const py::dict& values) {
+TomlNode table_from_python(const py::dict& values) {
   TomlNode table;
   for (const auto& [name, value] : values) {
     std::string key = py::str(name);
@@ -72,7 +72,7 @@ void flatten(const std::string& prefix, const py::dict& values, const std::vecto
   for (const auto& [name, value] : values) {
     const std::string path = prefix + std::string(py::str(name));
     if (prefix == "param.") {
-      TomlNode node = node_of(TomlNode::Kind::value, path);
+      TomlNode node = empty_node(TomlNode::Kind::value, path);
       node.value = to_text(value, path);
       root.children.push_back(node);
     } else if (is_mapping(value)) {
@@ -86,7 +86,7 @@ void flatten(const std::string& prefix, const py::dict& values, const std::vecto
 }
 
 // One number of numpy's, or a list of them.
-Value numbers_of(py::handle value, const std::string& key) {
+Value numbers_from_python(py::handle value, const std::string& key) {
   const Numbers numbers = value.is_none() ? Numbers() : Numbers::ensure(value);
   if (!numbers || value.is_none() || numbers.ndim() > 1) {
     PyErr_Clear();
@@ -116,7 +116,7 @@ Value to_value(py::handle value, const std::string& key) {
   if (PyFloat_Check(value.ptr())) return value.cast<double>();
   if (py::isinstance<py::str>(value)) return value.cast<std::string>();
   if (py::hasattr(value, "__fspath__")) return std::string(py::str(value.attr("__fspath__")()));
-  return numbers_of(value, key);
+  return numbers_from_python(value, key);
 }
 
 std::string to_text(py::handle value, const std::string& key) {
@@ -150,14 +150,14 @@ py::object to_python(const Field& field) {
 
 py::object from_json(const std::string& text) { return py::module_::import("json").attr("loads")(text); }
 
-py::array array_of(const std::vector<double>& values, int columns) {
+py::array numpy_array(const std::vector<double>& values, int columns) {
   const auto rows = static_cast<py::ssize_t>(values.size()) / columns;
   std::vector<py::ssize_t> shape = {rows};
   if (columns > 1) shape.push_back(columns);
   return py::array_t<double>(shape, values.data());
 }
 
-py::array array_of(const std::vector<Eigen::Vector3d>& values) {
+py::array numpy_array(const std::vector<Eigen::Vector3d>& values) {
   py::array_t<double> result({static_cast<py::ssize_t>(values.size()), py::ssize_t(3)});
   double* to = result.mutable_data();
   for (const Eigen::Vector3d& v : values) to = std::copy(v.data(), v.data() + 3, to);

@@ -45,12 +45,12 @@ py::object to_python(const Field& field);
 py::object from_json(const std::string& text);
 
 // A copy in an array of this shape.
-py::array array_of(const std::vector<double>& values, int columns);
-py::array array_of(const std::vector<Eigen::Vector3d>& values);
+py::array numpy_array(const std::vector<double>& values, int columns);
+py::array numpy_array(const std::vector<Eigen::Vector3d>& values);
 
 // Memory of `owner`, which lives as long as the array; not writeable.
 template <class T>
-py::array view_of(const T* data, std::vector<py::ssize_t> shape, py::handle owner) {
+py::array array_view(const T* data, std::vector<py::ssize_t> shape, py::handle owner) {
   py::array_t<T> view(std::move(shape), data, owner);
   view.attr("flags").attr("writeable") = false;
   return view;

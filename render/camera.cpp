@@ -34,7 +34,7 @@ Eigen::Vector3f up_for(const Eigen::Vector3f& forward) {
 
 }  // namespace
 
-Box box_of(std::span<const float> positions) {
+Box bounding_box(std::span<const float> positions) {
   if (positions.size() < 3) throw Error::invalid_input("bounding box: there are no points");
   Box box{{positions[0], positions[1], positions[2]}, {positions[0], positions[1], positions[2]}};
   for (size_t i = 0; i + 2 < positions.size(); i += 3) {
@@ -86,7 +86,7 @@ Camera Camera::framing(const Box& box, const Eigen::Vector3f& direction, float f
 // two borders say how far it has to be and where between them.
 Camera Camera::around(std::span<const float> points, const Eigen::Vector3f& direction, float fov_degree,
                       float aspect, float margin) {
-  const Box box = box_of(points);
+  const Box box = bounding_box(points);
   const Eigen::Vector3f backward = direction.normalized(), center = box.center();
   const Eigen::Matrix3f axes = view_axes(-backward, up_for(backward));
   const float slope = std::tan(fov_degree * std::numbers::pi_v<float> / 360) * (1 - 2 * margin);
@@ -173,7 +173,7 @@ Eigen::Vector3f Camera::beside(float azimuth, float elevation) const {
 float Camera::metres_per_pixel(int height) const {
   return 2 * (is_orthographic() ? half_height_ : tan_half_fov_) / static_cast<float>(height);
 }
-Window Camera::window_of(std::span<const float> points, float aspect) const {
+Window Camera::image_window(std::span<const float> points, float aspect) const {
   if (points.size() < 3) throw Error::invalid_input("window of a picture: there are no points");
   const Eigen::Matrix4f clip = projection(aspect) * view();
   const double inf = std::numeric_limits<double>::infinity();

@@ -15,7 +15,7 @@ struct Box {
 };
 
 // Box of points given as x, y, z each.  Error::invalid_input if there are none or one is not finite.
-Box box_of(std::span<const float> positions);
+Box bounding_box(std::span<const float> positions);
 
 // Part of a picture, in shares of its width and height from its lower left corner; it may reach beyond.
 struct Window {
@@ -47,7 +47,7 @@ class Camera {
   // Whether all points, given as x, y, z each, lie within a picture of this aspect.
   bool frames(std::span<const float> positions, float aspect) const;
   // Box of the points' images, which may reach beyond the picture.  Error::invalid_input if there are none.
-  Window window_of(std::span<const float> points, float aspect) const;
+  Window image_window(std::span<const float> points, float aspect) const;
   const Eigen::Vector3f& eye() const { return eye_; }
   const Eigen::Vector3f& target() const { return target_; }
   float fov_degree() const;  // full vertical angle, of a perspective one

@@ -22,7 +22,7 @@ constexpr float kSmallest = 6;         // letters that can be read [pixels]
 bool is_right(Corner corner) { return corner == Corner::top_right || corner == Corner::bottom_right; }
 bool is_bottom(Corner corner) { return corner == Corner::bottom_left || corner == Corner::bottom_right; }
 
-std::vector<std::string_view> lines_of(std::string_view text) {
+std::vector<std::string_view> text_lines(std::string_view text) {
   std::vector<std::string_view> lines;
   while (!text.empty()) {
     const size_t end = std::min(text.find('\n'), text.size());
@@ -81,7 +81,7 @@ struct Line {
 std::vector<Line> set_lines(std::string_view text, float size, float width) {
   std::vector<Line> lines;
   bool title = true;
-  for (const std::string_view line : lines_of(text)) {
+  for (const std::string_view line : text_lines(text)) {
     const float letters = title ? kTitleGrowth * size : size;
     for (const std::string& part : broken(line, letters, width))
       lines.push_back({part, letters, text_width(part, letters)});

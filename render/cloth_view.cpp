@@ -62,7 +62,7 @@ float pictured_ground(float height, const Look& look) {
 }
 
 // Of the plane that lies nearest to the points.
-Eigen::Vector3f normal_of(std::span<const float> xyz) {
+Eigen::Vector3f plane_normal(std::span<const float> xyz) {
   const auto count = static_cast<Eigen::Index>(xyz.size() / 3);
   const Eigen::Map<const Eigen::Matrix3Xf> points(xyz.data(), 3, count);
   const Eigen::Matrix3Xf from_middle = points.colwise() - points.rowwise().mean();
@@ -169,8 +169,8 @@ void ClothView::set_positions(std::span<const float> xyz) {
   offscreen_.make_current();
   cloth_->set_positions(xyz);
   if (!triangles_.empty()) cloth_side_ = long_side(std::exchange(triangles_, {}), xyz, 3);
-  if (!given_bounds_ || is_figure()) position_bounds_ = box_of(xyz);
-  if (is_figure()) cloth_normal_ = normal_of(xyz);
+  if (!given_bounds_ || is_figure()) position_bounds_ = bounding_box(xyz);
+  if (is_figure()) cloth_normal_ = plane_normal(xyz);
 }
 
 void ClothView::set_values(std::span<const float> values) {
@@ -314,8 +314,8 @@ Image ClothView::draw_part(const Camera& camera, int left, int top) {
     if (lit) figure_light_->draw(pass, [this](const Program& program) { draw_casters(program); });
     target_.begin();
     const View view =
-        view_of(camera, left, top,
-                is_figure() ? bell_shift(pass, passes) : pass_shift(pass, passes, target_.samples()));
+        camera_view(camera, left, top,
+                    is_figure() ? bell_shift(pass, passes) : pass_shift(pass, passes, target_.samples()));
     draw_scene(view);
     shows_cloth_ = shows_cloth_ || is_cloth_seen(view);
     exposure.add(target_.finish());
@@ -323,7 +323,7 @@ Image ClothView::draw_part(const Camera& camera, int left, int top) {
   return exposure.image(is_transparent(), left, top);
 }
 
-ClothView::View ClothView::view_of(const Camera& camera, int left, int top, const Shift& shift) const {
+ClothView::View ClothView::camera_view(const Camera& camera, int left, int top, const Shift& shift) const {
   const double width = size_.width, height = size_.height, bottom = height - top - part_height_;
   const double dx = shift.x / size_.supersample, dy = shift.y / size_.supersample;
   const Window window{(left + dx) / width, (bottom + dy) / height, (left + part_width_ + dx) / width,

@@ -114,7 +114,7 @@ class ClothView {
   Eigen::Vector3f to_light(const Camera& camera) const;
   void update_body_sky() const;  // light of the room on the obstacles
   Image draw_part(const Camera& camera, int left, int top);
-  View view_of(const Camera& camera, int left, int top, const Shift& shift) const;
+  View camera_view(const Camera& camera, int left, int top, const Shift& shift) const;
   void draw_casters(const Program& program) const;
   void draw_scene(const View& view) const;
   bool is_cloth_seen(const View& view) const;

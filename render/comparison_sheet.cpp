@@ -12,9 +12,9 @@ namespace hysteron::render {
 namespace {
 
 constexpr Rgb8 kPaper{255, 255, 255}, kInk{38, 40, 44}, kGrey{96, 99, 104};
-constexpr float kPlateEdge = 0.02f;   // of an inset, around its frame
-constexpr float kInsetShare = 0.28f;  // of a cell's shorter side
-constexpr int kMinCell = 32;          // [pixels]
+constexpr float kPlateEdge = 0.02f;      // of an inset, around its frame
+constexpr float kInsetFraction = 0.28f;  // of a cell's shorter side
+constexpr int kMinCell = 32;             // [pixels]
 
 // Text that fits: its end gives way to an ellipsis.
 std::string fitting(std::string text, float letters, float room) {
@@ -28,12 +28,12 @@ std::string fitting(std::string text, float letters, float room) {
 
 Image enlarged(const Image& source, int width, int height) {
   Image result(width, height, source.channels());
-  const auto place = [](int i, int target, int from, int& low, float& share) {
+  const auto place = [](int i, int target, int from, int& low, float& fraction) {
     const float at = std::clamp(
         (static_cast<float>(i) + 0.5f) * static_cast<float>(from) / static_cast<float>(target) - 0.5f, 0.f,
         static_cast<float>(from - 1));
     low = std::min(static_cast<int>(at), std::max(0, from - 2));
-    share = at - static_cast<float>(low);
+    fraction = at - static_cast<float>(low);
   };
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
@@ -67,7 +67,7 @@ double bar_metres(double metres_per_pixel, double room) {
 }
 
 int inset_side(const Image& cell) {
-  return std::max(1, static_cast<int>(kInsetShare * std::min(cell.width(), 2 * cell.height())));
+  return std::max(1, static_cast<int>(kInsetFraction * std::min(cell.width(), 2 * cell.height())));
 }
 
 // Of a square within a picture, in shares of the room that it has.
@@ -326,10 +326,10 @@ void fade_to_page(Image& image) {
       const float in = std::min(static_cast<float>(std::min(x, w - 1 - x)) / band_x,
                                 static_cast<float>(std::min(y, h - 1 - y)) / band_y);
       if (in >= 1) continue;
-      const float share = in * in * (3 - 2 * in);
+      const float fraction = in * in * (3 - 2 * in);
       for (int c = 0; c < 3; ++c)
-        image.at(x, y)[c] =
-            static_cast<std::uint8_t>(std::lround(255 - share * static_cast<float>(255 - image.at(x, y)[c])));
+        image.at(x, y)[c] = static_cast<std::uint8_t>(
+            std::lround(255 - fraction * static_cast<float>(255 - image.at(x, y)[c])));
     }
 }
 

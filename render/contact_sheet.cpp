@@ -51,17 +51,18 @@ std::vector<int> spread(int total, int count) {
   return indices;
 }
 
-std::vector<int> spread_by_way(const std::vector<double>& moved, int count) {
-  std::vector<double> way;  // so far, at each
-  for (double step : moved) way.push_back((way.empty() ? 0 : way.back() + step));
+std::vector<int> spread_by_displacement(const std::vector<double>& moved, int count) {
+  std::vector<double> distance_so_far;  // so far, at each
+  for (double step : moved)
+    distance_so_far.push_back((distance_so_far.empty() ? 0 : distance_so_far.back() + step));
   std::vector<int> indices;
   const int last = static_cast<int>(moved.size()) - 1;
   if (last < 0 || count < 1) return indices;
   for (int i = 0; i < count - 1; ++i) {
-    const double wanted = way.back() * i / (count - 1);
-    const auto after = std::lower_bound(way.begin(), way.end(), wanted);
-    int nearest = static_cast<int>(after - way.begin());
-    if (nearest > 0 && wanted - way[nearest - 1] < way[nearest] - wanted) --nearest;
+    const double wanted = distance_so_far.back() * i / (count - 1);
+    const auto after = std::lower_bound(distance_so_far.begin(), distance_so_far.end(), wanted);
+    int nearest = static_cast<int>(after - distance_so_far.begin());
+    if (nearest > 0 && wanted - distance_so_far[nearest - 1] < distance_so_far[nearest] - wanted) --nearest;
     if (nearest < last && (indices.empty() || nearest > indices.back())) indices.push_back(nearest);
   }
   indices.push_back(last);

@@ -38,6 +38,6 @@ std::vector<int> spread(int total, int count);
 
 // `count` indices spread evenly over the way that is covered, which `moved` tells from the entry before to
 // each: the first and the last are among them, and of what stands still one alone.
-std::vector<int> spread_by_way(const std::vector<double>& moved, int count);
+std::vector<int> spread_by_displacement(const std::vector<double>& moved, int count);
 
 }  // namespace hysteron::render

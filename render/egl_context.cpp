@@ -77,7 +77,7 @@ std::vector<EGLDeviceEXT> query_devices() {
   return devices;
 }
 
-int cuda_device_of(EGLDeviceEXT device, const char* extensions) {
+int cuda_device_index(EGLDeviceEXT device, const char* extensions) {
   EGLAttrib index = -1;
   if (!has_extension(extensions, "EGL_NV_device_cuda") || !egl().QueryDeviceAttrib) return -1;
   return egl().QueryDeviceAttrib(device, EGL_CUDA_DEVICE_NV, &index) ? static_cast<int>(index) : -1;
@@ -88,7 +88,7 @@ Candidate describe_device(EGLDeviceEXT device, int index) {
   return {.kind = Candidate::Kind::egl_device,
           .device = index,
           .hardware = !has_extension(extensions, "EGL_MESA_device_software"),
-          .cuda_device = cuda_device_of(device, extensions)};
+          .cuda_device = cuda_device_index(device, extensions)};
 }
 
 Error egl_error(const char* attempted) {

@@ -46,8 +46,8 @@ Shift pass_shift(int pass, int passes, int samples) {
 }
 
 Shift bell_shift(int pass, int passes) {
-  const double share = (pass + 0.5) / passes, angle = 2 * std::numbers::pi * radical_inverse(pass, 2);
-  const double radius = kBell * std::sqrt(-2 * std::log(1 - share));
+  const double fraction = (pass + 0.5) / passes, angle = 2 * std::numbers::pi * radical_inverse(pass, 2);
+  const double radius = kBell * std::sqrt(-2 * std::log(1 - fraction));
   return {radius * std::cos(angle), radius * std::sin(angle)};
 }
 
@@ -77,8 +77,8 @@ Image Exposure::image(bool alpha, int left, int top) const {
   for (int y = 0; y < height_; ++y)
     for (int x = 0; x < width_; ++x, from += 4) {
       std::uint8_t* to = result.at(x, y);
-      const float share = alpha ? std::max(from[3], 1e-6f) : 1 / weight;  // what colours are multiplied by
-      for (int c = 0; c < 3; ++c) to[c] = rounded(from[c] / share, triangular_noise(left + x, top + y, c));
+      const float fraction = alpha ? std::max(from[3], 1e-6f) : 1 / weight;  // what colours are multiplied by
+      for (int c = 0; c < 3; ++c) to[c] = rounded(from[c] / fraction, triangular_noise(left + x, top + y, c));
       if (alpha) to[3] = static_cast<std::uint8_t>(255 * std::min(weight * from[3], 1.0f) + 0.5f);
     }
   return result;

@@ -37,8 +37,8 @@ Eigen::Matrix3d relative_xyz_of_rgb() {
   Eigen::Matrix3d primaries;
   primaries << xyz_of_chromaticity(0.64, 0.33), xyz_of_chromaticity(0.30, 0.60),
       xyz_of_chromaticity(0.15, 0.06);
-  const Eigen::Vector3d shares = primaries.inverse() * white;
-  return white.cwiseInverse().asDiagonal() * primaries * shares.asDiagonal();
+  const Eigen::Vector3d primary_luminances = primaries.inverse() * white;
+  return white.cwiseInverse().asDiagonal() * primaries * primary_luminances.asDiagonal();
 }
 
 // Relative XYZ to luminance, red-green and blue-yellow: YyCxCz (CIE 1976 without its roots, Flohr et al.
@@ -46,7 +46,7 @@ Eigen::Matrix3d relative_xyz_of_rgb() {
 const Eigen::Matrix3d kOpponent{{0, 1, 0}, {500, -500, 0}, {0, 200, -200}};
 
 // L*a*b* of relative XYZ (CIE 15:2004).
-Eigen::Vector3d lab_of(const Eigen::Vector3d& xyz) {
+Eigen::Vector3d cie_lab(const Eigen::Vector3d& xyz) {
   constexpr double kDelta = 6.0 / 29;
   const auto root = [](double t) {
     return t > kDelta * kDelta * kDelta ? std::cbrt(t) : t / (3 * kDelta * kDelta) + 4.0 / 29;
@@ -82,14 +82,14 @@ const std::array<Sensitivity, 3> kSensitivities = {
 };
 constexpr double kWidest = 0.04;  // the largest b: one radius serves all filters
 
-double sigma_of(double b, double ppd) { return ppd * std::sqrt(b / (2 * kPi * kPi)); }
+double kernel_sigma(double b, double ppd) { return ppd * std::sqrt(b / (2 * kPi * kPi)); }
 
 Plane seen(const Plane& plane, const Sensitivity& sensitivity, double ppd) {
-  const int radius = static_cast<int>(std::ceil(3 * sigma_of(kWidest, ppd)));
+  const int radius = static_cast<int>(std::ceil(3 * kernel_sigma(kWidest, ppd)));
   Plane sum(plane.width, plane.height);
   double total = 0;
   for (const Sensitivity::Term& term : sensitivity.terms) {
-    const Kernel kernel = gaussian_kernel(sigma_of(term.b, ppd), radius);
+    const Kernel kernel = gaussian_kernel(kernel_sigma(term.b, ppd), radius);
     const double height = 1 / kernel[static_cast<size_t>(radius)];  // its unscaled weights sum to this
     const double weight = term.a * std::sqrt(kPi / term.b) * height * height;
     const Plane part = filtered(plane, kernel, kernel);
@@ -103,7 +103,7 @@ Plane seen(const Plane& plane, const Sensitivity& sensitivity, double ppd) {
 // Luminance, red-green, blue-yellow of a picture.
 using Opponent = std::array<Plane, 3>;
 
-Opponent opponent_of(const Image& image) {
+Opponent opponent_colors(const Image& image) {
   const Eigen::Matrix3d m = kOpponent * relative_xyz_of_rgb();
   const auto& linear = linear_of_srgb8();
   Opponent planes;
@@ -122,13 +122,14 @@ Opponent opponent_of(const Image& image) {
 Opponent perceived(const Opponent& picture, double ppd) {
   Opponent planes;
   for (int c = 0; c < 3; ++c) planes[c] = seen(picture[c], kSensitivities[c], ppd);
-  const Eigen::Matrix3d xyz_of = relative_xyz_of_rgb(), rgb_of = (kOpponent * xyz_of).inverse();
+  const Eigen::Matrix3d xyz_from_rgb = relative_xyz_of_rgb(),
+                        rgb_from_opponent = (kOpponent * xyz_from_rgb).inverse();
 #pragma omp parallel for schedule(static) if (planes[0].height > kSerialRows)
   for (int y = 0; y < planes[0].height; ++y)
     for (int x = 0; x < planes[0].width; ++x) {
       const Eigen::Vector3d opponent(planes[0].row(y)[x], planes[1].row(y)[x], planes[2].row(y)[x]);
-      const Eigen::Vector3d rgb = (rgb_of * opponent).cwiseMax(0.0).cwiseMin(1.0);
-      const Eigen::Vector3d lab = hunt_adjusted(lab_of(xyz_of * rgb));
+      const Eigen::Vector3d rgb = (rgb_from_opponent * opponent).cwiseMax(0.0).cwiseMin(1.0);
+      const Eigen::Vector3d lab = hunt_adjusted(cie_lab(xyz_from_rgb * rgb));
       for (int c = 0; c < 3; ++c) planes[c].row(y)[x] = lab[c];
     }
   return planes;
@@ -137,7 +138,7 @@ Opponent perceived(const Opponent& picture, double ppd) {
 // The largest HyAB^q_c in the gamut, between green and blue.
 double largest_color_difference() {
   const auto of = [](const Eigen::Vector3d& rgb) {
-    return hunt_adjusted(lab_of(relative_xyz_of_rgb() * rgb));
+    return hunt_adjusted(cie_lab(relative_xyz_of_rgb() * rgb));
   };
   return std::pow(hyab(of({0, 1, 0}), of({0, 0, 1})), kColorExponent);
 }
@@ -188,7 +189,7 @@ struct Features {
   Plane edges, points;
 };
 
-Features features_of(const Plane& luminance, const FeatureKernels& kernels) {
+Features luminance_features(const Plane& luminance, const FeatureKernels& kernels) {
   const auto [smooth, edge, point] = kernels;
   return {length(filtered(luminance, edge, smooth), filtered(luminance, smooth, edge)),
           length(filtered(luminance, point, smooth), filtered(luminance, smooth, point))};
@@ -204,12 +205,12 @@ void require_ppd(double ppd) {
 Plane flip_map(const Image& a, const Image& b, double pixels_per_degree) {
   require_same_size(a, b);
   require_ppd(pixels_per_degree);
-  const Opponent opponent_a = opponent_of(a), opponent_b = opponent_of(b);
+  const Opponent opponent_a = opponent_colors(a), opponent_b = opponent_colors(b);
   const Opponent color_a = perceived(opponent_a, pixels_per_degree),
                  color_b = perceived(opponent_b, pixels_per_degree);
   const FeatureKernels kernels = feature_kernels(pixels_per_degree);
-  const Features features_a = features_of(opponent_a[0], kernels),
-                 features_b = features_of(opponent_b[0], kernels);
+  const Features features_a = luminance_features(opponent_a[0], kernels),
+                 features_b = luminance_features(opponent_b[0], kernels);
   const double largest = largest_color_difference();
   Plane result(a.width(), a.height());
 #pragma omp parallel for schedule(static) if (result.height > kSerialRows)

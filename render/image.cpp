@@ -62,8 +62,8 @@ std::vector<float> summed_columns(const Image& source, const Footprint& rows) {
 
 // Stores light that was multiplied by alpha, if there are four channels.
 void store(std::uint8_t* pixel, const std::array<float, 4>& light, int channels) {
-  const float share = channels == 4 ? std::max(light[3], 1e-6f) : 1;
-  for (int c = 0; c < 3; ++c) pixel[c] = srgb8_of_linear(light[c] / share);
+  const float fraction = channels == 4 ? std::max(light[3], 1e-6f) : 1;
+  for (int c = 0; c < 3; ++c) pixel[c] = srgb8_of_linear(light[c] / fraction);
   if (channels == 4) pixel[3] = static_cast<std::uint8_t>(255 * std::min(light[3], 1.0f) + 0.5f);
 }
 
@@ -156,7 +156,7 @@ bool encode(png_structp png, png_infop header, const Image& image, PngEffort eff
 }
 
 // What a header announces, against what the rest of the file can hold: "" if it may be so.
-std::string excess_of(std::int64_t width, std::int64_t height, std::size_t bytes) {
+std::string announced_excess(std::int64_t width, std::int64_t height, std::size_t bytes) {
   constexpr std::int64_t kMaxPixels = std::int64_t{1} << 28;  // 1 GiB of RGBA
   constexpr std::int64_t kMaxDeflated = 1032;  // zlib's technical details: bytes that one byte can stand for
   const std::string announced =
@@ -181,7 +181,7 @@ struct Opened {
     header.version = PNG_IMAGE_VERSION;
     if (!png_image_begin_read_from_memory(&header, bytes.data(), bytes.size()))
       throw Error::invalid_input(reading + "not a PNG picture (" + header.message + ")");
-    const std::string excess = excess_of(header.width, header.height, bytes.size());
+    const std::string excess = announced_excess(header.width, header.height, bytes.size());
     if (excess.empty() && has_end(bytes)) return;
     png_image_free(&header);
     throw Error::invalid_input(reading +

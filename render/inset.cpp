@@ -10,7 +10,7 @@ namespace {
 constexpr float kMaxOfThickness = 0.35f;  // on either side: three tenths of a plate are left
 // A chord of length s around an edge that turns by 60 degrees passes s/2 sin 30 = s/4 from it at most, and an
 // edge that recedes by d along both its faces gives way by d (sin 30 + cos 30) across the chord.
-constexpr float kEdgeShare = 0.5f / (1 + std::numbers::sqrt3_v<float>);
+constexpr float kEdgeFraction = 0.5f / (1 + std::numbers::sqrt3_v<float>);
 constexpr double kNotExceeded = 0.9;
 
 }  // namespace
@@ -42,7 +42,7 @@ float long_side(std::span<const int> triangles, std::span<const float> coordinat
 }
 
 float cut_depth(float side, float roundness) {
-  const float edge = kEdgeShare * side;
+  const float edge = kEdgeFraction * side;
   return roundness > 0 ? std::min(side * side / (6 * roundness), edge) : edge;
 }
 

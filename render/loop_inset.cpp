@@ -30,12 +30,12 @@ struct Frame {
   }
 };
 
-float side_of(const Image& image, float share) {
-  return share * static_cast<float>(std::min(image.width(), 2 * image.height()));
+float inset_width(const Image& image, float fraction) {
+  return fraction * static_cast<float>(std::min(image.width(), 2 * image.height()));
 }
 
-Frame frame_of(const Image& image, Corner corner, float share) {
-  const float side = side_of(image, share), edge = side_of(image, kEdge);
+Frame inset_frame(const Image& image, Corner corner, float fraction) {
+  const float side = inset_width(image, fraction), edge = inset_width(image, kEdge);
   const bool right = corner == Corner::top_right || corner == Corner::bottom_right,
              bottom = corner == Corner::bottom_left || corner == Corner::bottom_right;
   return {right ? static_cast<float>(image.width()) - edge - side : edge,
@@ -44,10 +44,10 @@ Frame frame_of(const Image& image, Corner corner, float share) {
           {}};
 }
 
-void mix(std::uint8_t* pixel, const Rgb8& color, float share) {
+void mix(std::uint8_t* pixel, const Rgb8& color, float fraction) {
   const auto& linear = linear_of_srgb8();
   for (int c = 0; c < 3; ++c)
-    pixel[c] = srgb8_of_linear(linear[pixel[c]] + share * (linear[color[c]] - linear[pixel[c]]));
+    pixel[c] = srgb8_of_linear(linear[pixel[c]] + fraction * (linear[color[c]] - linear[pixel[c]]));
 }
 
 void pale(Image& image, const Frame& at) {
@@ -64,10 +64,10 @@ bool clip(const Frame& at, float& x0, float& y0, float& x1, float& y1) {
   const std::array<std::array<float, 2>, 4> sides{
       {{-dx, x0 - at.left}, {dx, at.left + at.side - x0}, {-dy, y0 - at.top}, {dy, at.top + at.side - y0}}};
   float enters = 0, leaves = 1;
-  for (const auto& [way, room] : sides) {
-    if (way == 0 && room < 0) return false;
-    if (way < 0) enters = std::max(enters, room / way);
-    if (way > 0) leaves = std::min(leaves, room / way);
+  for (const auto& [change, room] : sides) {
+    if (change == 0 && room < 0) return false;
+    if (change < 0) enters = std::max(enters, room / change);
+    if (change > 0) leaves = std::min(leaves, room / change);
   }
   if (enters > leaves) return false;
   x1 = x0 + leaves * dx, y1 = y0 + leaves * dy;
@@ -131,9 +131,9 @@ void draw_line(Image& image, float x0, float y0, float x1, float y1, float width
     }
 }
 
-void draw_loop(Image& image, const LoopInset& inset, Corner corner, float share, float letters) {
+void draw_loop(Image& image, const LoopInset& inset, Corner corner, float fraction, float letters) {
   if (inset.empty()) return;
-  Frame at = frame_of(image, corner, share);
+  Frame at = inset_frame(image, corner, fraction);
   at.shown = inset.frame;
   if (at.shown.empty()) {
     at.shown.include(inset.path);

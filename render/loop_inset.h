@@ -36,9 +36,9 @@ struct LoopInset {
 // A straight line with round ends, blended in linear light.
 void draw_line(Image& image, float x0, float y0, float x1, float y1, float width, const Rgb8& color);
 
-// A square of `share` of the picture's width, or twice that of its height where that is less, in that corner,
-// with axes through zero named M and κ, whose capitals are `letters` pixels high.  Points that are not finite
-// make gaps; what is outside of the frame is not drawn.  An empty path draws nothing.
-void draw_loop(Image& image, const LoopInset& inset, Corner corner, float share, float letters);
+// A square of `fraction` of the picture's width, or twice that of its height where that is less, in that
+// corner, with axes through zero named M and κ, whose capitals are `letters` pixels high.  Points that are
+// not finite make gaps; what is outside of the frame is not drawn.  An empty path draws nothing.
+void draw_loop(Image& image, const LoopInset& inset, Corner corner, float fraction, float letters);
 
 }  // namespace hysteron::render

@@ -10,7 +10,7 @@ namespace hysteron::render {
 
 namespace {
 
-int radius_of(const Kernel& kernel) { return static_cast<int>(kernel.size() / 2); }
+int kernel_radius(const Kernel& kernel) { return static_cast<int>(kernel.size() / 2); }
 
 constexpr int kStrip = 64;  // [rows] filtered along both axes while they are in the cache
 
@@ -22,7 +22,7 @@ void add_scaled(double weight, const double* from, double* to, int count) {
 
 // `padded` has the kernel's radius more than `width` on both sides.
 void filter_row(const double* row, int width, const Kernel& kernel, std::vector<double>& padded, double* to) {
-  const int radius = radius_of(kernel);
+  const int radius = kernel_radius(kernel);
   std::fill_n(padded.begin(), radius, row[0]);
   std::copy_n(row, width, padded.begin() + radius);
   std::fill_n(padded.end() - radius, radius, row[width - 1]);
@@ -31,7 +31,7 @@ void filter_row(const double* row, int width, const Kernel& kernel, std::vector<
 
 // Rows [begin, end) of filtered().
 void filter_strip(const Plane& plane, const Kernel& x, const Kernel& y, int begin, int end, Plane& result) {
-  const int radius = radius_of(y), width = plane.width;
+  const int radius = kernel_radius(y), width = plane.width;
   Plane rows(width, end - begin + 2 * radius);
   std::vector<double> padded(static_cast<size_t>(width) + x.size() - 1);
   for (int j = 0; j < rows.height; ++j)

@@ -137,7 +137,7 @@ std::vector<EndLabel> end_labels(const Plot& plot, double step) {
   return labels;
 }
 
-std::string color_of(const Plot& plot, std::size_t series) {
+std::string series_color(const Plot& plot, std::size_t series) {
   return plot.series[series].color.empty() ? hex(method_color(series)) : plot.series[series].color;
 }
 
@@ -150,7 +150,7 @@ std::string end_label_commands(const Plot& plot) {
   for (const Series& series : plot.series) longest = std::max(longest, series.label.size());
   std::string script = "set rmargin " + std::to_string(longest + 5) + "\n";
   for (const EndLabel& label : end_labels(plot, step)) {
-    const std::string color = color_of(plot, label.series);
+    const std::string color = series_color(plot, label.series);
     script += "set arrow from graph 1," + gnuplot::number(label.reaches ? label.end : label.at) +
               " to graph " + gnuplot::number(1 + kLeader) + "," + gnuplot::number(label.at) +
               " nohead lw 1.2 lc rgb '" + color + "'\nset label " +

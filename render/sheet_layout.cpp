@@ -35,7 +35,7 @@ std::size_t most_numbers(const ComparisonSheet& sheet) {
 }
 
 // Families one after the other, in the order of their first columns.
-std::vector<SheetPlaces> families_of(const ComparisonSheet& sheet) {
+std::vector<SheetPlaces> column_families(const ComparisonSheet& sheet) {
   std::vector<SheetPlaces> families;
   for (std::size_t c = 0; c < sheet.columns.size(); ++c) {
     const auto same = [&](const SheetPlaces& f) {
@@ -48,14 +48,14 @@ std::vector<SheetPlaces> families_of(const ComparisonSheet& sheet) {
 }
 
 // A family that does not fit behind another begins a block; one that fits into none is spread evenly.
-std::vector<SheetPlaces> blocks_of(const ComparisonSheet& sheet, std::size_t beside) {
+std::vector<SheetPlaces> family_blocks(const ComparisonSheet& sheet, std::size_t beside) {
   std::vector<SheetPlaces> blocks;
   if (sheet.columns.size() <= beside) {
     blocks.emplace_back();
     for (std::size_t c = 0; c < sheet.columns.size(); ++c) blocks[0].push_back(c);
     return blocks;
   }
-  for (const SheetPlaces& family : families_of(sheet)) {
+  for (const SheetPlaces& family : column_families(sheet)) {
     if (!blocks.empty() && blocks.back().size() + family.size() <= beside) {
       blocks.back().insert(blocks.back().end(), family.begin(), family.end());
       continue;
@@ -69,7 +69,7 @@ std::vector<SheetPlaces> blocks_of(const ComparisonSheet& sheet, std::size_t bes
   return blocks;
 }
 
-int margin_of(const ComparisonSheet& sheet, float letters) {
+int sheet_margin(const ComparisonSheet& sheet, float letters) {
   float widest = 0;
   for (const ComparisonRow& row : sheet.rows) {
     widest = std::max(widest, text_width(row.time, letters));
@@ -105,13 +105,13 @@ SheetPage page_with(const ComparisonSheet& sheet, std::size_t beside) {
   page.width = sheet.width;
   page.letters = sheet_letters(sheet.width);
   page.gap = std::max(4, sheet.width / 120);
-  page.margin = margin_of(sheet, page.letters);
-  page.blocks = blocks_of(sheet, beside);
+  page.margin = sheet_margin(sheet, page.letters);
+  page.blocks = family_blocks(sheet, beside);
   std::size_t columns = 1;
   for (const SheetPlaces& block : page.blocks) columns = std::max(columns, block.size());
   if (page.blocks.size() > 1) columns = std::max(columns, beside);
   page.cell_width = (page.width - page.margin - page.gap) / static_cast<int>(columns) - page.gap;
-  page.families = page.blocks.size() > 1 && families_of(sheet).size() > 1;
+  page.families = page.blocks.size() > 1 && column_families(sheet).size() > 1;
   const auto fitting_numbers = [&](bool named) {
     std::size_t numbers = most_numbers(sheet);
     while (numbers > 0 &&

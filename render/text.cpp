@@ -70,9 +70,9 @@ void blend(Image& image, int x, int y, const Rgb8& color, float coverage) {
   const auto& linear = linear_of_srgb8();
   std::uint8_t* pixel = image.at(x, y);
   const float below = image.channels() == 4 ? static_cast<float>(pixel[3]) / 255 : 1;
-  const float alpha = coverage + below * (1 - coverage), share = coverage / alpha;
+  const float alpha = coverage + below * (1 - coverage), fraction = coverage / alpha;
   for (int c = 0; c < 3; ++c)
-    pixel[c] = srgb8_of_linear(linear[pixel[c]] + share * (linear[color[c]] - linear[pixel[c]]));
+    pixel[c] = srgb8_of_linear(linear[pixel[c]] + fraction * (linear[color[c]] - linear[pixel[c]]));
   if (image.channels() == 4) pixel[3] = static_cast<std::uint8_t>(255 * alpha + 0.5f);
 }
 
@@ -106,12 +106,12 @@ void draw_text(Image& image, std::string_view text, float x, float y, const Text
 }
 
 void draw_rectangle(Image& image, float left, float top, float right, float bottom, const Rgb8& color) {
-  const auto share = [](float low, float high, int pixel) {
+  const auto fraction = [](float low, float high, int pixel) {
     return std::clamp(std::min(high, pixel + 1.0f) - std::max(low, pixel * 1.0f), 0.0f, 1.0f);
   };
   for (int y = static_cast<int>(std::floor(top)); y < bottom; ++y)
     for (int x = static_cast<int>(std::floor(left)); x < right; ++x)
-      blend(image, x, y, color, share(left, right, x) * share(top, bottom, y));
+      blend(image, x, y, color, fraction(left, right, x) * fraction(top, bottom, y));
 }
 
 }  // namespace hysteron::render

@@ -57,9 +57,9 @@ const KeyRow<F> kRows[] = {
 };
 // clang-format on
 
-Keys keys_of(F& flags) { return with_output_options(bind(kRows, flags), flags.options); }
+Keys option_keys(F& flags) { return with_output_options(bind(kRows, flags), flags.options); }
 
-std::vector<Problem> problems_of(const F& flags) {
+std::vector<Problem> chosen_problems(const F& flags) {
   const Effort effort{flags.options.quick, value_named<DeviceChoice>(flags.device)};
   std::vector<Problem> all;
   for (const auto& make : {bend_problem, sag_problem, droop_problem, buckle_problem, decay_problem,
@@ -74,8 +74,8 @@ std::vector<Problem> problems_of(const F& flags) {
       std::string known;
       for (const Problem& problem : all) known += (known.empty() ? "" : ", ") + problem.name;
       throw Error::invalid_input("problem = " + name + " is not one of: " + known)
-          .of("problem", name)
-          .in("accuracy");
+          .with_key("problem", name)
+          .with_experiment("accuracy");
     }
     chosen.push_back(*found);
   }
@@ -126,15 +126,15 @@ void write_table(Run& run, const std::vector<Solution>& solutions) {
                  s.factor,
                  describe(solution, s),
                  s.mesh,
-                 name_of(s.element),
+                 enum_name(s.element),
                  s.law,
                  number(s.load),
-                 name_of(s.integrator),
-                 name_of(s.implicit_every),
+                 enum_name(s.integrator),
+                 enum_name(s.implicit_every),
                  number(s.step),
                  number(s.tolerance),
-                 name_of(s.precision),
-                 name_of(s.device),
+                 enum_name(s.precision),
+                 enum_name(s.device),
                  number(f.triangles),
                  number(f.value),
                  number(f.reference),
@@ -184,7 +184,7 @@ render::Plot plot_of(const Solution& solution) {
   render::Plot plot{solution.problem.title, {"computing [s]", true}, {solution.problem.error, true}};
   for (const auto& [setting, found] : solution.solved) {
     if (!found.failed.empty() || !solution.comparable(setting)) continue;
-    const std::string label = series_of(solution, setting);
+    const std::string label = curve_label(solution, setting);
     auto at = std::find_if(plot.series.begin(), plot.series.end(),
                            [&](const render::Series& s) { return s.label == label; });
     if (at == plot.series.end())
@@ -245,8 +245,8 @@ void print_accuracy(const std::vector<Solution>& solutions) {
 
 int run_accuracy(const CommandLine& line) {
   F flags;
-  set_keys(line, keys_of(flags));
-  const std::vector<Problem> problems = problems_of(flags);
+  set_keys(line, option_keys(flags));
+  const std::vector<Problem> problems = chosen_problems(flags);
   Run run(line, flags.options, to_json(bind(kRows, flags)));
   run.reserve({"table.csv", "orders.csv", "cheapest.csv"});
   std::vector<Solution> solutions;
@@ -268,7 +268,7 @@ Experiment accuracy() {
       .name = "accuracy",
       .question = "error against run time, against references of their own; orders; the cheapest settings",
       .run = run_accuracy,
-      .own_keys = own_keys_of<keys_of>};
+      .own_keys = own_key_descriptions<option_keys>};
 }
 
 }  // namespace hysteron::experiments

@@ -11,7 +11,7 @@ namespace {
 constexpr int kTriangles = 340;
 
 // Of B, 2HB and the loop's area, the largest relative difference from the law's own reading.
-double largest_of(const StripDifference& d) {
+double largest_reading_difference(const StripDifference& d) {
   double largest = 0;
   for (double percent : {d.rigidity, d.loop_width, d.loop_area})
     if (std::isfinite(percent)) largest = std::max(largest, std::abs(percent) / 100);
@@ -37,7 +37,7 @@ Found bend(const Setting& setting) {
   Found found;
   found.value = test.reading.rigidity;
   found.reference = test.law_reading.rigidity;
-  found.error = largest_of(difference(test, protocol.amplitude));
+  found.error = largest_reading_difference(difference(test, protocol.amplitude));
   found.triangles = strip.cloth.mesh.faces();
   found.steps = static_cast<long>(strip.walk.rows.size()) - 1;
   found.bytes = test.bytes;

@@ -12,14 +12,16 @@ constexpr double kLength = 0.1;              // [m]
 constexpr double kUpright = 10, kEdge = 20;  // length over width
 constexpr int kTriangles = 320;              // upright 40 square cells along, 4 across; on edge 57 and 3
 
-Buckling kind_of(const Setting& setting) { return setting.load == 0 ? Buckling::upright : Buckling::edge; }
+Buckling buckling_kind(const Setting& setting) {
+  return setting.load == 0 ? Buckling::upright : Buckling::edge;
+}
 
 Found solve(const Setting& setting) {
-  const Buckling kind = kind_of(setting);
+  const Buckling kind = buckling_kind(setting);
   Scene scene = with(setting, {});
   scene.cloth.width = kLength / (kind == Buckling::upright ? kUpright : kEdge);
   Found found;
-  found.reference = reference_gamma(kind, scene) * (1 + share_of_width(kind, scene, kLength));
+  found.reference = reference_gamma(kind, scene) * (1 + fraction_of_width(kind, scene, kLength));
   const BucklingStrip strip = measured_strip(scene, kind, kLength);
   const auto simulation = make_simulation(strip.scene, strip.cloth);
   const auto start = std::chrono::steady_clock::now();

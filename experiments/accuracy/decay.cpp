@@ -13,9 +13,9 @@ constexpr int kParts = 400;  // of the strip in the energy balance: its loss is 
 constexpr DecayKind kKinds[] = {DecayKind::hyperbolic, DecayKind::linear, DecayKind::exponential};
 
 // Setting::load counts the kinds from 0.
-DecayKind kind_of(const Setting& setting) { return kKinds[std::lround(setting.load)]; }
+DecayKind decay_kind(const Setting& setting) { return kKinds[std::lround(setting.load)]; }
 
-Setting base_of(DecayKind kind, const Effort& effort) {
+Setting base_setting(DecayKind kind, const Effort& effort) {
   const Scene scene = decay_scene(kind);
   Setting base;
   base.factor = kind == DecayKind::hyperbolic ? "base" : "kind";
@@ -39,7 +39,7 @@ void vary_all(const Setting& base, std::vector<Setting>& list) {
   vary(list, base, "integrator", &Setting::integrator, {Integrator::semi_implicit, Integrator::implicit});
   for (double times : {2.0, 0.5}) vary_step(base, Integrator::bdf2, times, list);
   vary(list, base, "size", &Setting::triangles, {32, 192});
-  if (kind_of(base) != DecayKind::hyperbolic) return;
+  if (decay_kind(base) != DecayKind::hyperbolic) return;
   list.push_back(varied(base, "integrator", [](Setting& s) {
     s.integrator = Integrator::semi_implicit, s.implicit_every = ImplicitEvery::step;
   }));
@@ -52,14 +52,14 @@ void vary_all(const Setting& base, std::vector<Setting>& list) {
 
 void vary_a_few(const Setting& base, std::vector<Setting>& list) {
   list.push_back(base);
-  if (kind_of(base) != DecayKind::hyperbolic) return;
+  if (decay_kind(base) != DecayKind::hyperbolic) return;
   vary(list, base, "integrator", &Setting::integrator, {Integrator::semi_implicit});
   vary_step(base, Integrator::implicit, 3, list);
 }
 
 Found solve(const Setting& setting) {
   Found found;
-  const Scene scene = with(setting, decay_scene(kind_of(setting)));
+  const Scene scene = with(setting, decay_scene(decay_kind(setting)));
   const auto amplitudes =
       amplitudes_by_energy(decaying_bend(scene), mode_curvatures(kParts), decay_first_amplitude(), kCycles);
   found.reference = 1 - amplitudes.back() / amplitudes.front();
@@ -84,7 +84,7 @@ Problem decay_problem(const Effort& effort) {
                   {},
                   solve};
   for (DecayKind kind : kKinds)
-    (effort.quick ? vary_a_few : vary_all)(base_of(kind, effort), problem.settings);
+    (effort.quick ? vary_a_few : vary_all)(base_setting(kind, effort), problem.settings);
   return problem;
 }
 

@@ -20,7 +20,7 @@ constexpr double kBeta = 1.8751040687119611;
 const double kOdd = (std::sinh(kBeta) - std::sin(kBeta)) / (std::cosh(kBeta) + std::cos(kBeta));
 
 // From the clamp's middle to its inner column [m].
-double slack_of(const CantileverStrip& flat) { return flat.scene.cloth.length - flat.length; }
+double clamp_offset(const CantileverStrip& flat) { return flat.scene.cloth.length - flat.length; }
 
 // Downwards, of a strip whose free end is deflected by `end`, at a distance from the clamp's middle [m].
 struct BentStrip {
@@ -50,7 +50,7 @@ std::vector<double> first_mode_weights(const CantileverStrip& flat) {
   std::vector<double> weight;
   double norm = 0;
   for (int i = 0; i < flat.cloth.mesh.vertices(); ++i) {
-    const double s = flat.cloth.mesh.rest[i].x() - slack_of(flat), area = flat.cloth.mesh.vertex_area[i];
+    const double s = flat.cloth.mesh.rest[i].x() - clamp_offset(flat), area = flat.cloth.mesh.vertex_area[i];
     const double mode = flat.cloth.pin[i] >= 0 ? 0 : mode_deflection(s / flat.length);
     weight.push_back(area * mode);
     norm += area * mode * mode;
@@ -103,9 +103,9 @@ std::vector<double> amplitudes_by_energy(const DecayingBend& bend, const std::ve
                                          double first, int cycles) {
   const auto rate = [&](double amplitude) {
     double loss = 0, slope = 0;
-    for (double share : shape) {
-      loss += bend.loss(amplitude * share);
-      slope += bend.stored_slope(amplitude * share) * share;
+    for (double fraction : shape) {
+      loss += bend.loss(amplitude * fraction);
+      slope += bend.stored_slope(amplitude * fraction) * fraction;
     }
     return slope > 0 ? -loss / slope : 0;
   };
@@ -165,7 +165,7 @@ double decay_period(const Scene& scene) {
 // Curvature begins at the clamp's middle, but cloth is held level up to the clamp's inner column.
 Cloth bent_in_first_mode(const CantileverStrip& flat) {
   Cloth cloth = flat.cloth;
-  const double slack = slack_of(flat);
+  const double slack = clamp_offset(flat);
   const BentStrip strip{kDeflection * flat.length, flat.length, slack};
   for (std::size_t i = 0; i < cloth.start.size(); ++i) {
     if (cloth.pin[i] >= 0) continue;

@@ -18,28 +18,28 @@ std::string duration(double seconds) {
   return fmt::format("{:.2g} ms", 1e3 * seconds);
 }
 
-std::vector<std::string> words_of(const Solution& solution, const Setting& s) {
+std::vector<std::string> setting_words(const Solution& solution, const Setting& s) {
   const Setting& base = solution.problem.settings.front();
   std::vector<std::string> words;
   if (is_static(base)) {
-    words = {name_of(s.element), s.mesh};
+    words = {enum_name(s.element), s.mesh};
   } else {
     words = {s.integrator == Integrator::semi_implicit && s.implicit_every == ImplicitEvery::step
                  ? "the chapter's"
-                 : name_of(s.integrator)};
+                 : enum_name(s.integrator)};
     if (s.tolerance > 0) words.back() += " adaptive";
-    if (s.element != base.element) words.push_back(name_of(s.element));
+    if (s.element != base.element) words.push_back(enum_name(s.element));
     if (s.mesh != base.mesh) words.push_back(s.mesh);
   }
   if (s.law != base.law) words.push_back(s.law);
   if (s.load != base.load) words.push_back(solution.problem.load + " = " + fmt::format("{:g}", s.load));
-  if (s.precision != base.precision) words.push_back(name_of(s.precision));
+  if (s.precision != base.precision) words.push_back(enum_name(s.precision));
   return words;
 }
 
 // Settings of a group differ in the size, or in the step, alone.
-std::string group_of(const Solution& solution, const Setting& s, bool in_space) {
-  std::vector<std::string> words = words_of(solution, s);
+std::string setting_group(const Solution& solution, const Setting& s, bool in_space) {
+  std::vector<std::string> words = setting_words(solution, s);
   words.push_back(in_space ? duration(s.step) : std::to_string(s.triangles) + " triangles");
   words.push_back(fmt::format("tolerance {:g}", s.tolerance));
   return join(words, ", ");
@@ -53,7 +53,7 @@ void add_orders(const Solution& solution, bool in_space, std::vector<Order>& ord
   for (const Solved& s : solution.solved) {
     if (!s.found.failed.empty() || !(s.found.error > 0)) continue;
     const double size = in_space ? 1 / std::sqrt(s.found.triangles) : s.setting.step;
-    if (size > 0) groups[group_of(solution, s.setting, in_space)].push_back({size, s.found.error});
+    if (size > 0) groups[setting_group(solution, s.setting, in_space)].push_back({size, s.found.error});
   }
   for (auto& [name, points] : groups) {
     std::sort(points.begin(), points.end(), [](const Point& a, const Point& b) { return a.size > b.size; });
@@ -108,16 +108,16 @@ std::vector<Order> observed_orders(const Solution& solution) {
 }
 
 // Few enough for as many colours: other elements, and other meshes of a motion, are one curve each.
-std::string series_of(const Solution& solution, const Setting& setting) {
+std::string curve_label(const Solution& solution, const Setting& setting) {
   const Setting& base = solution.problem.settings.front();
-  if (setting.element != base.element) return name_of(setting.element) + ", every mesh";
+  if (setting.element != base.element) return enum_name(setting.element) + ", every mesh";
   if (!is_static(base) && setting.mesh != base.mesh) return "other meshes";
-  if (setting.precision != base.precision) return name_of(setting.precision);
-  return join(words_of(solution, setting), ", ");
+  if (setting.precision != base.precision) return enum_name(setting.precision);
+  return join(setting_words(solution, setting), ", ");
 }
 
 std::string describe(const Solution& solution, const Setting& s) {
-  std::vector<std::string> words = words_of(solution, s);
+  std::vector<std::string> words = setting_words(solution, s);
   words.push_back(std::to_string(s.triangles) + " triangles");
   if (!is_static(s)) words.push_back(duration(s.step));
   const Setting& base = solution.problem.settings.front();

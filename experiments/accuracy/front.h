@@ -43,6 +43,6 @@ std::vector<Order> observed_orders(const Solution& solution);
 // "bdf2, 1/120 s", "shape, random, 512 triangles": what the problem's settings differ in.
 std::string describe(const Solution& solution, const Setting& setting);
 // A curve of the plot: neither size nor step.
-std::string series_of(const Solution& solution, const Setting& setting);
+std::string curve_label(const Solution& solution, const Setting& setting);
 
 }  // namespace hysteron::experiments

@@ -63,7 +63,7 @@ class References {
   // Computed when it is first asked for; what its runs throw is thrown then, and whenever it is asked for
   // again.
   const Reference& of(const Setting& setting) {
-    const auto [at, is_new] = known_.try_emplace(key_of(setting));
+    const auto [at, is_new] = known_.try_emplace(setting_key(setting));
     Reference& found = at->second;
     if (is_new) try {
         found.trajectory = reference_run(question_, setting, question_.reference.step);
@@ -79,8 +79,8 @@ class References {
 
  private:
   using Key = std::tuple<std::string, std::string, int, std::string>;
-  static Key key_of(const Setting& setting) {
-    return {setting.mesh, name_of(setting.element), setting.triangles, setting.law};
+  static Key setting_key(const Setting& setting) {
+    return {setting.mesh, enum_name(setting.element), setting.triangles, setting.law};
   }
 
   MotionQuestion question_;

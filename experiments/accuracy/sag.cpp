@@ -15,7 +15,7 @@ constexpr double kLength = 0.1, kWidth = 0.025;  // [m]
 constexpr int kAlong64 = 2048;                   // triangles: 64 square cells along the strip, 16 across
 constexpr double kGamma = 10;                    // density g L^3/b2
 
-Scene strip_of(const Setting& setting, bool unloaded) {
+Scene sag_scene(const Setting& setting, bool unloaded) {
   Scene scene = with(setting, {});
   scene.cloth.width = kWidth;
   scene.fabric.density = setting.load * scene.fabric.b2 / (scene.gravity.norm() * std::pow(kLength, 3));
@@ -38,7 +38,7 @@ struct Sag {
 Sag sag_of_curve(const Scene& scene) {
   constexpr int kSegments = 60;
   const auto with_segments = [&](int segments) {
-    HeavyStrip strip = elastica_of(scene, kLength);
+    HeavyStrip strip = strip_elastica(scene, kLength);
     strip.segments = segments;
     std::vector<double> loads;
     for (int k = 1; k <= 20; ++k) loads.push_back(load_at(scene, k * scene.seconds / 20));
@@ -82,7 +82,7 @@ Sag sag_of_cloth(const Scene& scene, Found& found) {
   return sag;
 }
 
-Setting base_of(const Effort& effort) {
+Setting base_setting(const Effort& effort) {
   Setting base;
   base.device = effort.device;
   base.triangles = effort.quick ? kAlong64 / 4 : kAlong64;
@@ -124,7 +124,7 @@ Problem sag_problem(const Effort& effort) {
                   "the heavy elastica with the same law, extrapolated from 60 and 120 segments",
                   {},
                   {}};
-  const Setting base = base_of(effort);
+  const Setting base = base_setting(effort);
   std::vector<Setting>& list = problem.settings;
   list.push_back(base);
   vary_meshes_and_sizes(base, effort.quick, list);
@@ -145,7 +145,7 @@ Problem sag_problem(const Effort& effort) {
   problem.load = "Gamma";
   problem.solve = [curves = std::make_shared<Curves>()](const Setting& setting) {
     Found found;
-    const Scene scene = strip_of(setting, false);
+    const Scene scene = sag_scene(setting, false);
     found.reference = curves->of(scene, setting).loaded;
     found.value = sag_of_cloth(scene, found).loaded;
     found.error = std::abs(found.value / found.reference - 1);
@@ -162,7 +162,7 @@ Problem droop_problem(const Effort& effort) {
                   "the heavy elastica with the same law and history, extrapolated from 60 and 120 segments",
                   {},
                   {}};
-  Setting base = base_of(effort);
+  Setting base = base_setting(effort);
   base.law = "prandtl";
   base.triangles = kAlong64 / 4;
   std::vector<Setting>& list = problem.settings;
@@ -180,7 +180,7 @@ Problem droop_problem(const Effort& effort) {
   problem.load = "Gamma";
   problem.solve = [curves = std::make_shared<Curves>()](const Setting& setting) {
     Found found;
-    const Scene scene = strip_of(setting, true);
+    const Scene scene = sag_scene(setting, true);
     const Sag& curve = curves->of(scene, setting);
     found.reference = curve.last;
     found.value = sag_of_cloth(scene, found).last;

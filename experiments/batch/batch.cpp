@@ -74,7 +74,7 @@ Member parsed(std::vector<std::string> words) {
   words.insert(words.begin(), std::filesystem::read_symlink("/proc/self/exe").string());
   std::vector<const char*> all;
   for (const std::string& word : words) all.push_back(word.c_str());
-  member.ending = ending_of(member.experiment, [&] {
+  member.ending = run_ending(member.experiment, [&] {
     member.line = parse_command_line(static_cast<int>(all.size()), all.data(), known);
     if (!member.line) return 0;
     member.experiment = member.line->experiment;
@@ -115,8 +115,8 @@ int run_batch(const CommandLine&) {
   run_together(on_gpu, static_cast<int>(members.size()), [&](int i) {
     Member& member = members[static_cast<std::size_t>(i)];
     if (member.line)
-      member.ending =
-          ending_of(member.experiment, [&] { return experiment_named(member.experiment).run(*member.line); });
+      member.ending = run_ending(member.experiment,
+                                 [&] { return experiment_named(member.experiment).run(*member.line); });
     reports.say(i, member.ending);
   });
   return 0;

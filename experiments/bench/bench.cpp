@@ -207,7 +207,7 @@ Experiment bench() {
           .question = "time and memory of a step: a hanging square, three laws",
           .run = run_bench,
           .simulates = true,
-          .own_keys = own_keys_of<kRows>,
+          .own_keys = own_key_descriptions<kRows>,
           .defaults = defaults,
           .timed = true};
 }

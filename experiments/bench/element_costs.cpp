@@ -45,11 +45,11 @@ Metrics measured_row(const Scene& scene, const Cloth& cloth, int steps) {
   const StepCost cost = cost_of_steps(*simulation, kBatches, steps);
   const auto after = simulation->stage_seconds();
   const std::string hash = fmt::format("{:016x}", simulation->state_hash());
-  Metrics row = {{"scene", "hanging-square"},         {"triangles", triangles},
-                 {"device", simulation->device()},    {"precision", name_of(scene.precision)},
-                 {"element", name_of(scene.element)}, {"law", scene.law}};
+  Metrics row = {{"scene", "hanging-square"},           {"triangles", triangles},
+                 {"device", simulation->device()},      {"precision", enum_name(scene.precision)},
+                 {"element", enum_name(scene.element)}, {"law", scene.law}};
   if (scene.law == "prandtl") row.set("memory", scene.param.at("memory"));
-  row.set("integrator", name_of(scene.integrator));
+  row.set("integrator", enum_name(scene.integrator));
   row.set("substeps", simulation->limits().substeps);
   row.set("solver_iterations", cost.solver_iterations);
   row.set("ms_per_step", cost.ms);
@@ -67,10 +67,10 @@ Metrics measured_row(const Scene& scene, const Cloth& cloth, int steps) {
 
 }  // namespace
 
-std::vector<Metrics> element_costs(const Scene& asked, int steps,
+std::vector<Metrics> element_costs(const Scene& requested, int steps,
                                    const std::function<void(const Metrics&)>& measured) {
-  const Cloth cloth = make_cloth(asked);
-  Scene scene = asked;
+  const Cloth cloth = make_cloth(requested);
+  Scene scene = requested;
   scene.substeps = common_substeps(scene, cloth);
   std::vector<Metrics> rows;
   for (const Case& c : kCases) {

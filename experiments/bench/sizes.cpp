@@ -38,9 +38,9 @@ void take(Integrator integrator, double explicit_step, Scene& scene) {
 
 Metrics blank_row(const Scene& scene, int triangles, const std::string& skipped) {
   Metrics row = {{"triangles", triangles},
-                 {"integrator", name_of(scene.integrator)},
+                 {"integrator", enum_name(scene.integrator)},
                  {"law", scene.law},
-                 {"precision", name_of(scene.precision)},
+                 {"precision", enum_name(scene.precision)},
                  {"step_s", NAN}};
   set(row, StepCost{});
   for (const char* key : {"bytes_per_step", "floor_ms_per_step", "fraction_of_copy_bandwidth",
@@ -86,7 +86,7 @@ class TimesBySize {
 
   // Why it was not done; "" if it was.
   std::string attempt(Experience& experience, const std::function<void()>& work) {
-    const std::string refusal = refusal_of(experience.expected(scene_.triangles));
+    const std::string refusal = exclusion_reason(experience.expected(scene_.triangles));
     if (!refusal.empty()) return refusal;
     const Stopwatch clock;
     try {
@@ -100,7 +100,7 @@ class TimesBySize {
   }
 
   // Why what is expected to take so long [s] is left out; "" if it fits.
-  std::string refusal_of(double expected) const {
+  std::string exclusion_reason(double expected) const {
     const double left = std::max(choice_.budget - clock_.seconds(), 0.0);
     if (expected < left) return "";
     if (left == 0) return fmt::format("the budget of {:.0f} s is used up", choice_.budget);

@@ -5,8 +5,8 @@
 namespace hysteron::experiments {
 namespace {
 
-Metrics row_of(const std::string& name, const KernelCost& cost, int steps, double all_seconds,
-               double bandwidth) {
+Metrics kernel_row(const std::string& name, const KernelCost& cost, int steps, double all_seconds,
+                   double bandwidth) {
   const double calls = static_cast<double>(cost.calls);
   const double stated = cost.bytes > 0 ? cost.bytes : NAN;
   return {{"kernel", name},
@@ -91,7 +91,7 @@ StepProfile profile_of_steps(Simulation& simulation, int steps) {
   for (const auto& [name, kernel] : costs) all.seconds += kernel.seconds;
   StepProfile profile;
   for (const auto& [name, kernel] : costs)
-    profile.kernels.push_back(row_of(name, kernel, steps, all.seconds, bandwidth));
+    profile.kernels.push_back(kernel_row(name, kernel, steps, all.seconds, bandwidth));
   std::sort(profile.kernels.begin(), profile.kernels.end(), [](const Metrics& a, const Metrics& b) {
     return a.number("us_per_step") > b.number("us_per_step");
   });

@@ -60,7 +60,7 @@ std::vector<DecidedKey> decided() {
 }
 
 // Bounds of a strip from its clamp at the origin that may bend down to the side.
-render::Box bounds_of(Buckling kind, double length, double width) {
+render::Box strip_bounds(Buckling kind, double length, double width) {
   const float l = static_cast<float>(length), b = static_cast<float>(width);
   if (kind == Buckling::upright) return {{-0.85f * l, 0, 0}, {0.1f * l, b, l}};
   return {{0, -0.5f * l, -0.35f * l}, {l, 0.05f * l, b}};
@@ -68,8 +68,8 @@ render::Box bounds_of(Buckling kind, double length, double width) {
 
 // With its width in place of the pictured one's.
 Scene measured_scene(Scene scene, const BuckleChoice& choice, Buckling kind) {
-  const double usual = kind == Buckling::upright ? 0.1 : 1.0 / 80;
-  scene.cloth.width = scene.cloth.length * (choice.width > 0 ? choice.width : usual);
+  const double default_width = kind == Buckling::upright ? 0.1 : 1.0 / 80;
+  scene.cloth.width = scene.cloth.length * (choice.width > 0 ? choice.width : default_width);
   return scene;
 }
 
@@ -86,19 +86,19 @@ Southwell measure(const Scene& scene, Buckling kind, double length, Session& ses
 void picture(Session& session, const BucklingStrip& strip, double reference) {
   const Scene& scene = session.scene();
   double last = 0;
-  RunPlan question;
-  question.bounds = bounds_of(strip.kind, strip.length, scene.cloth.width);
-  question.columns = {"gamma [1]", "deflection [1]"};
+  RunPlan plan;
+  plan.bounds = strip_bounds(strip.kind, strip.length, scene.cloth.width);
+  plan.columns = {"gamma [1]", "deflection [1]"};
   const auto gamma = [&](double time) { return reference * time; };  // the reference's weight acts after 1 s
-  question.measure = [&](const Snapshot& m) -> std::vector<double> {
+  plan.measure = [&](const Snapshot& m) -> std::vector<double> {
     last = strip.deflection(m.x) / strip.length;
     return {gamma(m.time), last};
   };
-  question.progress = [&](const Snapshot& m) {
+  plan.progress = [&](const Snapshot& m) {
     return fmt::format("Gamma {:.3f}  the end has moved by {:.4f} of the length", gamma(m.time), last);
   };
-  question.visit = [](Archive&) {};  // the last measurement alone counts
-  session.simulate(question);
+  plan.serialise = [](Archive&) {};  // the last measurement alone counts
+  session.simulate(plan);
 }
 
 // Gamma to the power in which the last of the plot is a straight line, and Gamma over the deflection.
@@ -157,7 +157,7 @@ void limit_to_quick(Setup& setup) { setup.scene.triangles = std::min(setup.scene
 int run_buckle(const CommandLine& line) {
   B choice;
   Setup setup = set_up(line, defaults(), bind(kRows, choice), limit_to_quick);
-  const Buckling kind = buckling_of(choice.kind);
+  const Buckling kind = buckling_named(choice.kind);
   const double length = setup.scene.cloth.length;  // that bends
   const Scene measured = measured_scene(setup.scene, choice, kind);
   const double reference = reference_gamma(kind, measured);
@@ -175,7 +175,7 @@ int run_buckle(const CommandLine& line) {
   run.metric("critical_gamma", found.critical_gamma);
   run.metric("reference_gamma", reference);
   run.metric("error_percent", 100 * (found.critical_gamma / reference - 1));
-  run.metric("clamp_effect_percent", 100 * share_of_width(kind, measured, length));
+  run.metric("clamp_effect_percent", 100 * fraction_of_width(kind, measured, length));
   if (session.pictures()) plot(session, columns, found, reference, power_of_load(kind));
   session.finish("Buckling, " + choice.kind + ": law " + setup.scene.law);
   return 0;
@@ -188,7 +188,7 @@ Experiment buckle() {
           .question = "strip that buckles under its own weight, upright or on its edge",
           .run = run_buckle,
           .simulates = true,
-          .own_keys = own_keys_of<kRows>,
+          .own_keys = own_key_descriptions<kRows>,
           .defaults = defaults,
           .decided = decided,
           .headlines = {.all = {{"critical_gamma", "critical gamma", "", "{:.3f}"},

@@ -99,28 +99,28 @@ int run_cantilever(const CommandLine& line) {
     times.push_back(k / setup.options.fps);
     loads.push_back(load_at(scene, times.back()));
   }
-  const std::vector<SaggingStrip> reference = sagging_strips(elastica_of(scene, length), loads);
+  const std::vector<SaggingStrip> reference = sagging_strips(strip_elastica(scene, length), loads);
   const auto elastica_drop = [&](double time) {
     for (std::size_t k = 0; k < times.size(); ++k)
       if (std::abs(times[k] - time) < scene.step / 2) return reference[k].drop() / length;
     return 0.0;
   };
   Drops drops;
-  RunPlan question;
+  RunPlan plan;
   const float l = static_cast<float>(length), width = static_cast<float>(scene.cloth.width);
-  question.bounds = {{0, 0, -l}, {1.05f * l, width, 0.1f * l}};
-  question.columns = {"load [1]", "drop [1]", "elastica [1]"};
-  question.measure = [&](const Snapshot& m) -> std::vector<double> {
+  plan.bounds = {{0, 0, -l}, {1.05f * l, width, 0.1f * l}};
+  plan.columns = {"load [1]", "drop [1]", "elastica [1]"};
+  plan.measure = [&](const Snapshot& m) -> std::vector<double> {
     const double drop = strip.free_end(m.x).y() / length;
     drops.see(drop, elastica_drop(m.time));
     return {load_at(scene, m.time), drop, elastica_drop(m.time)};
   };
-  question.progress = [&](const Snapshot& m) {
+  plan.progress = [&](const Snapshot& m) {
     return fmt::format("load {:.2f}  drop {:.4f} of the length, elastica {:.4f}", load_at(scene, m.time),
                        drops.last, elastica_drop(m.time));
   };
-  question.visit = [&](Archive& archive) { archive(drops); };
-  session.simulate(question);
+  plan.serialise = [&](Archive& archive) { archive(drops); };
+  session.simulate(plan);
 
   Run& run = session.run();
   run.metric("tip_drop_over_length", drops.largest);
@@ -146,7 +146,7 @@ Experiment cantilever() {
       .question = "a strip that sags, beside the elastica; bending length (ASTM D1388)",
       .run = run_cantilever,
       .simulates = true,
-      .own_keys = own_keys_of<kRows>,
+      .own_keys = own_key_descriptions<kRows>,
       .defaults = defaults,
       .decided = decided,
       .headlines = {.all = {{"tip_drop_over_length", "tip drop over length", "", "{:.4f}"},

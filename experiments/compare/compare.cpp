@@ -45,8 +45,8 @@ const KeyRow<CompareChoice> kRows[] = {
 // clang-format on
 
 // "Swing: cotton-broad, bdf2": what all columns share.
-std::string title_of(const CommandLine& line, const std::vector<ChildRun>& columns) {
-  std::string title = line.names[0];
+std::string comparison_title(const CommandLine& line, const std::vector<ChildRun>& columns) {
+  std::string title = line.positionals[0];
   title[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(title[0])));
   const auto shared = [&](const auto& read) {
     std::string text;
@@ -66,7 +66,7 @@ std::string title_of(const CommandLine& line, const std::vector<ChildRun>& colum
   return title + what;
 }
 
-std::vector<std::string> notes_of(const CompareChoice& choice, const Plan& plan) {
+std::vector<std::string> comparison_notes(const CompareChoice& choice, const Plan& plan) {
   if (plan.laws < 2) return {};
   if (choice.match == "fabric")
     return {"No stiffness is matched: a difference between laws may be one of stiffness alone."};
@@ -107,14 +107,14 @@ void read_flags(const CommandLine& line, CompareChoice& choice, Options& options
         if (key.description.path == flag.path)
           assign(key, parse_text(key.description, flag.text), "--" + flag.path);
   if (options.out.empty())
-    options.out = "out/compare-" + std::filesystem::path(line.names[0]).stem().string();
+    options.out = "out/compare-" + std::filesystem::path(line.positionals[0]).stem().string();
   if (!choice.to.empty()) choice.to = column_name(choice.to);
 }
 
 void draw_page(Run& run, const CommandLine& line, const std::string& experiment, const CompareChoice& choice,
                const Options& options, const Plan& plan) {
-  const ComparisonPage page{.title = title_of(line, plan.columns),
-                            .notes = notes_of(choice, plan),
+  const ComparisonPage page{.title = comparison_title(line, plan.columns),
+                            .notes = comparison_notes(choice, plan),
                             .rows = choice.rows,
                             .times = choice.times,
                             .metrics = split(choice.metrics),
@@ -131,7 +131,7 @@ void draw_page(Run& run, const CommandLine& line, const std::string& experiment,
 }
 
 int run_compare(const CommandLine& line) {
-  if (line.names.size() != 1) {
+  if (line.positionals.size() != 1) {
     std::string known;
     for (const Experiment& experiment : experiments())
       if (experiment.compared) known += std::string(experiment.name) + ", ";
@@ -141,11 +141,12 @@ int run_compare(const CommandLine& line) {
   Options options;
   read_flags(line, choice, options);
   const CommandLine inner = line_of_columns(line, choice);
-  std::vector<Variant> variants = variants_of(inner);
-  if (options.explain) return explain_columns(plan_of(inner, variants, choice, options.out).columns), 0;
+  std::vector<Variant> variants = named_variants(inner);
+  if (options.explain)
+    return explain_columns(comparison_plan(inner, variants, choice, options.out).columns), 0;
   check_batch({{inner.experiment, inner, options.out}}, choice.batch);
   if (!options.no_images && !choice.times.empty())
-    check_times(choice.times, plan_of(inner, variants, choice, options.out).columns);
+    check_times(choice.times, comparison_plan(inner, variants, choice, options.out).columns);
   SweepJobs jobs{choice.jobs, std::stoi(last_text(line.flags, "threads", "0")), options.resume,
                  last_text(inner.flags, "device", "auto") != "cpu", -1};
   jobs.batch = choice.batch;
@@ -154,7 +155,7 @@ int run_compare(const CommandLine& line) {
   if (!choice.metrics.empty()) keys["metrics"] = split(choice.metrics);
   if (!choice.tune.empty() || !choice.tune_metric.empty())
     keys["tuned"] = tune_first_column(inner, variants, choice, jobs, options);
-  Plan plan = plan_of(inner, variants, choice, options.out);
+  Plan plan = comparison_plan(inner, variants, choice, options.out);
   if (choice.difference == "curvature") jobs.first = plan.to;
   for (std::size_t c = 0; c < plan.columns.size(); ++c)
     keys["columns"].push_back({{"name", plan.columns[c].name}, {"stiffness_times", plan.scales[c]}});
@@ -177,7 +178,7 @@ Experiment compare() {
           .run = run_compare,
           .simulates = true,
           .own_keys = own_keys,
-          .names = "EXPERIMENT|SCENE"};
+          .positionals = "EXPERIMENT|SCENE"};
 }
 
 }  // namespace hysteron::experiments

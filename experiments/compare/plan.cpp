@@ -23,7 +23,7 @@ bool is_own(const Flag& flag) {
          flag.path == "integrators" || flag.path == "batch";
 }
 
-LawRequest law_of(const Fabric& fabric, const CommandLine& line, const std::string& law) {
+LawRequest requested_law(const Fabric& fabric, const CommandLine& line, const std::string& law) {
   LawRequest request{law, fabric.virgin_curve(), {}};
   for (const Flag& flag : line.flags)
     if (flag.path == "param")
@@ -51,7 +51,7 @@ struct ColumnFabric {
   std::string law;
 };
 
-ColumnFabric fabric_of(const CommandLine& line) {
+ColumnFabric column_fabric(const CommandLine& line) {
   Setup setup{default_scene(), {}};
   setup.own_tables = {"metric"};
   const std::string file = last_text(line.flags, "scene", "");
@@ -72,8 +72,9 @@ std::vector<Flag> matched(const CommandLine& inner, const Variant& variant, cons
   const Match match = match_named(choice.match);
   if (match == Match::fabric) return {};
   const CommandLine line = with_variant(inner, variant);
-  const auto [fabric, law] = fabric_of(line);
-  scale = matching_scale(law_of(fabric, line, law), law_of(fabric, line, to), match, choice.match_curvature);
+  const auto [fabric, law] = column_fabric(line);
+  scale = matching_scale(requested_law(fabric, line, law), requested_law(fabric, line, to), match,
+                         choice.match_curvature);
   const auto scaled = [&](const char* key, double value) { return Flag{key, number_text(scale * value)}; };
   BendingParts parts = stiffened(fabric.bending, scale);
   std::vector<Flag> flags = {scaled("fabric.b1", fabric.b1), scaled("fabric.b2", fabric.b2)};
@@ -90,12 +91,12 @@ std::vector<Flag> matched(const CommandLine& inner, const Variant& variant, cons
 Flag shared_range(const CommandLine& inner, const std::vector<Variant>& variants) {
   double most = 0;
   for (const Variant& variant : variants)
-    most = std::max(most, fabric_of(with_variant(inner, variant)).fabric.friction_curvature());
+    most = std::max(most, column_fabric(with_variant(inner, variant)).fabric.friction_curvature());
   return {"curvature-range", last_text(inner.flags, "curvature-range", number_text(2 * most))};
 }
 
 // What the experiment is asked for beside what it would be asked for alone.
-std::vector<Flag> asked_for_the_page(const CommandLine& inner, const CompareChoice& choice,
+std::vector<Flag> requested_for_page(const CommandLine& inner, const CompareChoice& choice,
                                      const std::filesystem::path& out, bool is_reference) {
   std::vector<Flag> flags = for_sheets(inner);
   std::string look = last_text(inner.flags, "look", "cloth");
@@ -115,8 +116,8 @@ std::vector<Flag> asked_for_the_page(const CommandLine& inner, const CompareChoi
 
 CommandLine line_of_columns(const CommandLine& line, const CompareChoice& choice) {
   CommandLine inner = line;
-  inner.names.clear();
-  const std::string what = line.names.front();
+  inner.positionals.clear();
+  const std::string what = line.positionals.front();
   inner.experiment = experiment_named(what).compared ? what : "run";
   std::erase_if(inner.flags, is_own);
   if (inner.experiment != what) inner.flags.push_back({"scene", what});
@@ -129,19 +130,19 @@ CommandLine line_of_columns(const CommandLine& line, const CompareChoice& choice
   return inner;
 }
 
-Plan plan_of(const CommandLine& inner, const std::vector<Variant>& variants, const CompareChoice& choice,
-             const std::filesystem::path& out) {
+Plan comparison_plan(const CommandLine& inner, const std::vector<Variant>& variants,
+                     const CompareChoice& choice, const std::filesystem::path& out) {
   Plan plan;
   std::set<std::string> laws;
   for (const Variant& variant : variants) {
-    const std::string law = fabric_of(with_variant(inner, variant)).law;
+    const std::string law = column_fabric(with_variant(inner, variant)).law;
     if (plan.reference != "prandtl") plan.reference = law;
     laws.insert(law);
   }
   plan.laws = laws.size();
   const Flag range = shared_range(inner, variants);
   const std::vector<Flag> framing = shared_framing(inner, variants);
-  plan.varied = varied_of(variants);
+  plan.varied = varied_key(variants);
   for (const Variant& variant : variants) {
     double scale = 1;
     std::vector<Flag> own = variant.flags;
@@ -150,13 +151,13 @@ Plan plan_of(const CommandLine& inner, const std::vector<Variant>& variants, con
     if (name == choice.to) plan.to = static_cast<int>(plan.columns.size());
     own.push_back(range);
     own.insert(own.end(), framing.begin(), framing.end());
-    for (const Flag& flag : asked_for_the_page(inner, choice, out, name == choice.to)) own.push_back(flag);
-    plan.columns.push_back(column_of(name, inner, own, out));
+    for (const Flag& flag : requested_for_page(inner, choice, out, name == choice.to)) own.push_back(flag);
+    plan.columns.push_back(child_run(name, inner, own, out));
     plan.scales.push_back(scale);
   }
   if (!choice.to.empty() && plan.to < 0)
     throw Error::invalid_input("compare.to = " + choice.to + " is no column (--compare.to)")
-        .of("compare.to", choice.to);
+        .with_key("compare.to", choice.to);
   return plan;
 }
 
@@ -169,14 +170,14 @@ void check_times(const std::vector<double>& times, const std::vector<ChildRun>& 
     if (!scene)
       throw Error::invalid_input("compare.times: " + column->name +
                                  " simulates no cloth to picture (--compare.times)")
-          .of("compare.times", "");
+          .with_key("compare.times", "");
     end = std::max(end, scene->seconds);
   }
   if (last <= end) return;
   throw Error::invalid_input(
       fmt::format("compare.times = {:g} s must be in [0, {:g}] s, the time of the run (--compare.times)",
                   last, end))
-      .of("compare.times", fmt::format("{:g}", last));
+      .with_key("compare.times", fmt::format("{:g}", last));
 }
 
 }  // namespace hysteron::experiments

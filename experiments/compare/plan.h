@@ -39,8 +39,8 @@ struct Plan {
 
 // A column for each variant of that line, in OUT/<name>/.  Throws Error::invalid_input if the column to
 // subtract is none of them.
-Plan plan_of(const CommandLine& inner, const std::vector<Variant>& variants, const CompareChoice& choice,
-             const std::filesystem::path& out);
+Plan comparison_plan(const CommandLine& inner, const std::vector<Variant>& variants,
+                     const CompareChoice& choice, const std::filesystem::path& out);
 
 // Throws Error::invalid_input for a time [s] after the end of the longest run of the columns, as their scenes
 // have it.

@@ -13,7 +13,7 @@ namespace {
 
 std::string four_digits(double value) { return fmt::format("{:.4g}", value); }
 
-std::string middle_of(const std::string& low, const std::string& high) {
+std::string geometric_middle(const std::string& low, const std::string& high) {
   return four_digits(std::sqrt(*number_in(low) * *number_in(high)));
 }
 
@@ -31,17 +31,17 @@ double metric_in(const ChildRun& column, const std::string& metric) {
   if (std::isnan(value))
     throw Error::invalid_input(column.name + " has no metric " + metric +
                                " that is a number (--compare.tune-metric)")
-        .of("compare.tune-metric", metric);
+        .with_key("compare.tune-metric", metric);
   return value;
 }
 
 }  // namespace
 
-Tuning tuning_of(const std::string& key_and_bracket, const std::string& metrics) {
+Tuning parsed_tuning(const std::string& key_and_bracket, const std::string& metrics) {
   const auto refuse = [&](const std::string& must) {
     return Error::invalid_input("compare.tune = " + key_and_bracket + " must be " + must +
                                 " (--compare.tune)")
-        .of("compare.tune", key_and_bracket);
+        .with_key("compare.tune", key_and_bracket);
   };
   const std::size_t equals = key_and_bracket.find('='), colon = key_and_bracket.find(':', equals);
   if (equals == 0 || colon == std::string::npos)
@@ -58,7 +58,7 @@ Tuning tuning_of(const std::string& key_and_bracket, const std::string& metrics)
         "compare.tune needs what is to be equal: --compare.tune-metric METRIC, or METRIC=METRIC of the "
         "second "
         "column")
-        .of("compare.tune-metric", "");
+        .with_key("compare.tune-metric", "");
   const std::size_t between = metrics.find('=');
   tuning.metric = metrics.substr(0, between);
   tuning.target = between == metrics.npos ? metrics : metrics.substr(between + 1);
@@ -72,10 +72,10 @@ std::string tuned(const Tuning& tuning, const Excess& excess) {
                                " the second column's " + tuning.target + " at both ends of " + tuning.key +
                                " = " + tuning.low + ":" + tuning.high +
                                ": widen the bracket (--compare.tune)")
-        .of("compare.tune", tuning.key + "=" + tuning.low + ":" + tuning.high);
+        .with_key("compare.tune", tuning.key + "=" + tuning.low + ":" + tuning.high);
   std::string low = tuning.low, high = tuning.high, middle;
   for (int i = 0; i < kBisections; ++i) {
-    middle = middle_of(low, high);
+    middle = geometric_middle(low, high);
     ((excess(middle) < 0) == (at_low < 0) ? low : high) = middle;
   }
   return middle;
@@ -83,11 +83,11 @@ std::string tuned(const Tuning& tuning, const Excess& excess) {
 
 Json tune_first_column(const CommandLine& inner, std::vector<Variant>& variants, CompareChoice choice,
                        SweepJobs jobs, const Options& options) {
-  const Tuning tuning = tuning_of(choice.tune, choice.tune_metric);
+  const Tuning tuning = parsed_tuning(choice.tune, choice.tune_metric);
   if (variants.size() < 2)
     throw Error::invalid_input(
         "compare.tune needs two columns, the one to tune and its target (--compare.tune)")
-        .of("compare.tune", choice.tune);
+        .with_key("compare.tune", choice.tune);
   const auto say = [&](const std::string& line) {
     if (!options.quiet) std::cerr << line << std::endl;
   };
@@ -95,8 +95,8 @@ Json tune_first_column(const CommandLine& inner, std::vector<Variant>& variants,
   line.flags = with_later(line.flags, {{"no-images", "true"}});
   choice.to.clear();
   const Excess excess = [&](const std::string& number) {
-    Plan plan = plan_of(line, {with_key(variants[0], tuning.key, number), variants[1]}, choice,
-                        std::filesystem::path(options.out) / "tries");
+    Plan plan = comparison_plan(line, {with_key(variants[0], tuning.key, number), variants[1]}, choice,
+                                std::filesystem::path(options.out) / "tries");
     run_columns(
         plan.columns, jobs, [](const ChildRun&) {}, say);
     jobs.resume = true;  // the second column is the same in every try

@@ -19,7 +19,7 @@ struct Tuning {
 
 // From "fabric.damping=1e-5:1e-1" (compare.tune) and "viscous_J=bending_friction_J" (compare.tune-metric; one
 // name is the same metric of both).  Throws Error::invalid_input.
-Tuning tuning_of(const std::string& key_and_bracket, const std::string& metrics);
+Tuning parsed_tuning(const std::string& key_and_bracket, const std::string& metrics);
 
 // By how much the metric exceeds the target, with that number.
 using Excess = std::function<double(const std::string& number)>;

@@ -91,8 +91,8 @@ double Recovered::angle_at(double since) const {
   const auto after = std::lower_bound(seconds.begin(), seconds.end(), since * (1 - 1e-9));
   const auto i = after - seconds.begin();
   if (after == seconds.end() || i == 0) return NAN;
-  const double share = std::log(since / seconds[i - 1]) / std::log(seconds[i] / seconds[i - 1]);
-  return angle[i - 1] + share * (angle[i] - angle[i - 1]);
+  const double fraction = std::log(since / seconds[i - 1]) / std::log(seconds[i] / seconds[i - 1]);
+  return angle[i - 1] + fraction * (angle[i] - angle[i - 1]);
 }
 
 // Curvature along the strip that was largest in each triangle, with its sign [1/m].
@@ -104,19 +104,18 @@ void keep_largest(Simulation& simulation, std::vector<double>& largest) {
     if (std::abs(curvature[d * e]) > std::abs(largest[e])) largest[e] = curvature[d * e];
 }
 
-RunPlan question_of(Session& session, const Crease& crease, std::vector<double>& largest,
-                    Recovered& recovered) {
-  RunPlan question;
+RunPlan run_plan(Session& session, const Crease& crease, std::vector<double>& largest, Recovered& recovered) {
+  RunPlan plan;
   const float length = static_cast<float>(crease.scene.cloth.length),
               width = static_cast<float>(crease.scene.cloth.width);
   // A specimen that is pressed lies on the ground; a soft fold swings freely, below its clamp as well.
   const bool pressed = crease.scene.obstacle.size() == 2;
   const float low = (pressed ? 0 : -0.35f) * length;
-  question.bounds = {{-0.05f * length, 0, low}, {length, width, (pressed ? 0.65f : 0.85f) * length}};
-  question.floor = low;
-  question.time_steps = crease.time_steps;
-  question.columns = {"opening [degree]", "plate_force [N]"};
-  question.measure = [&](const Snapshot& m) -> std::vector<double> {
+  plan.bounds = {{-0.05f * length, 0, low}, {length, width, (pressed ? 0.65f : 0.85f) * length}};
+  plan.floor = low;
+  plan.time_steps = crease.time_steps;
+  plan.columns = {"opening [degree]", "plate_force [N]"};
+  plan.measure = [&](const Snapshot& m) -> std::vector<double> {
     const bool plate =
         m.time > crease.times.folded && m.time <= crease.times.released + crease.scene.step / 2;
     const double force = plate ? crease.plate_force(m.x, m.time) : 0;
@@ -129,17 +128,17 @@ RunPlan question_of(Session& session, const Crease& crease, std::vector<double>&
     }
     return {recovered.opening, force};
   };
-  question.progress = [&](const Snapshot& m) {
+  plan.progress = [&](const Snapshot& m) {
     return fmt::format("t = {:.3f} s  opening {:.1f} degree", m.time, recovered.opening);
   };
-  question.visit = [&](Archive& archive) {
+  plan.serialise = [&](Archive& archive) {
     archive(largest);
     archive(recovered.opening);
     archive(recovered.force);
     archive(recovered.seconds);
     archive(recovered.angle);
   };
-  return question;
+  return plan;
 }
 
 // Crease recovery angles in print, mean of warp and weft: Fashion and Textiles 2017, s40691-017-0104-2, Table
@@ -207,7 +206,7 @@ Setup set_up_crease(const CommandLine& line, C& choice) {
     throw Error::invalid_input(
         "crease.release = quick moves, and its steps cannot grow: crease.grow-after = 0, or "
         "crease.release = slow")
-        .of("crease.grow-after", "");
+        .with_key("crease.grow-after", "");
   return setup;
 }
 
@@ -233,7 +232,7 @@ void crease_once(const CommandLine& line) {
   if (choice.grow_after > 0) session.reserve({"recovery.csv"}, {"plot_recovery"});
   Recovered recovered;
   std::vector<double> largest, left;
-  session.simulate(question_of(session, crease, largest, recovered));
+  session.simulate(run_plan(session, crease, largest, recovered));
   keep_largest(session.simulation(), left);
   Run& run = session.run();
   run.metric("recovery_angle_deg", recovered.opening);
@@ -256,7 +255,7 @@ void crease_once(const CommandLine& line) {
   session.finish("Crease: " + what);
 }
 
-VariantPage page_of(const CommandLine& line, std::vector<Variant>&) {
+VariantPage variants_page(const CommandLine& line, std::vector<Variant>&) {
   C choice;
   const Setup setup = set_up_crease(line, choice);
   const bool pressed = choice.fold == "plate";
@@ -269,7 +268,7 @@ VariantPage page_of(const CommandLine& line, std::vector<Variant>&) {
                                 : std::vector{opening_plot("", choice, end)}};
 }
 
-int run_crease(const CommandLine& line) { return run_variants(line, crease_once, page_of); }
+int run_crease(const CommandLine& line) { return run_variants(line, crease_once, variants_page); }
 
 }  // namespace
 
@@ -278,7 +277,7 @@ Experiment crease() {
           .question = "crease recovery (ISO 2313): fold, load, release",
           .run = run_crease,
           .simulates = true,
-          .own_keys = own_keys_of<kRows, page_keys>,
+          .own_keys = own_key_descriptions<kRows, page_keys>,
           .defaults = defaults,
           .decided = decided,
           .compared = true,

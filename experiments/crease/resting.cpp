@@ -23,8 +23,8 @@ void add_even(std::vector<double>& lengths, double seconds, double step) {
 
 void add_growing(std::vector<double>& lengths, double seconds, double step, double grow_after) {
   for (double passed = 0; seconds - passed > kRounding * step;) {
-    const double rest = seconds - passed, grown = step * (1 + passed / grow_after);
-    lengths.push_back(rest > 2 * grown ? grown : rest > grown ? rest / 2 : rest);
+    const double remainder = seconds - passed, grown = step * (1 + passed / grow_after);
+    lengths.push_back(remainder > 2 * grown ? grown : remainder > grown ? remainder / 2 : remainder);
     passed += lengths.back();
   }
 }

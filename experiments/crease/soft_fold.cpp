@@ -13,7 +13,7 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kTurn = 0.6, kRest = 0.1;  // durations [s]
 constexpr int kKeys = 36;                   // of the hand's way around the rod
-constexpr double kHeldShare = 0.2;          // of the specimen's length, at either end
+constexpr double kHeldFraction = 0.2;       // of the specimen's length, at either end
 constexpr double kAbove = 2e-3;             // of the strip over z = 0 [m]
 constexpr double kSlack = 2e-4;             // of the way around the rod that is left loose
 constexpr double kPleatRadius = 1.5;        // of the pleat's line, in thicknesses
@@ -52,7 +52,7 @@ Motion unfolding(double begin, double radius, double turn) {
   return motion;
 }
 
-CreaseTimes times_of(const CreaseChoice& choice) {
+CreaseTimes soft_fold_times(const CreaseChoice& choice) {
   CreaseTimes times{};
   times.folded = kTurn;
   times.pressed = times.folded + kRest;
@@ -63,7 +63,7 @@ CreaseTimes times_of(const CreaseChoice& choice) {
 }
 
 Crease begun(const Scene& given, const CreaseChoice& choice) {
-  Crease crease{given, {}, times_of(choice)};
+  Crease crease{given, {}, soft_fold_times(choice)};
   crease.scene.seconds = crease.times.end;
   crease.scene.cloth.shape = "strip";
   crease.scene.cloth.position = {0, 0, kAbove};
@@ -83,7 +83,7 @@ Crease wrapped(const Scene& given, const CreaseChoice& choice) {
   Scene& scene = crease.scene;
   const double limbs = scene.cloth.length, taken = std::numbers::pi * choice.radius;
   scene.cloth.length = limbs + taken;
-  crease.grip = kHeldShare * limbs / scene.cloth.length;
+  crease.limb_part = kHeldFraction * limbs / scene.cloth.length;
   const double shell = choice.radius + scene.fabric.thickness;  // of the cloth's middle around the rod
   const Eigen::Vector3d axis_at{limbs / 2, scene.cloth.width / 2, kAbove + shell};
   Obstacle rod;
@@ -94,10 +94,10 @@ Crease wrapped(const Scene& given, const CreaseChoice& choice) {
   rod.height = 2 * scene.cloth.width;
   rod.until = crease.times.released;
   scene.obstacle = {rod};
-  Pin hand = held_between(scene.cloth.length - kHeldShare * limbs, 2 * scene.cloth.length);
-  hand.until = crease.times.released;
-  hand.motion = around_rod(shell, axis_at);
-  scene.pin = {held_between(-1, kHeldShare * limbs), hand};
+  Pin moving_pin = held_between(scene.cloth.length - kHeldFraction * limbs, 2 * scene.cloth.length);
+  moving_pin.until = crease.times.released;
+  moving_pin.motion = around_rod(shell, axis_at);
+  scene.pin = {held_between(-1, kHeldFraction * limbs), moving_pin};
   return finished(std::move(crease), crease_specimen(scene, taken / 2));
 }
 
@@ -119,17 +119,17 @@ Crease pleated(const Scene& given, const CreaseChoice& choice) {
                          radius * (1 - std::cos(angle)) + straight * std::sin(angle)});
   }
   build_topology(mesh, "pleated specimen");
-  Pin clamp = crease_clamp(scene), hand;
-  hand.low = hand.high = mesh.rest.back();
+  Pin clamp = crease_clamp(scene), moving_pin;
+  moving_pin.low = moving_pin.high = mesh.rest.back();
   for (std::size_t i = 0; i < mesh.rest.size(); ++i)
-    if (mesh.pattern[i].x() >= (1 - kHeldShare) * length) {
-      hand.low = hand.low.cwiseMin(mesh.rest[i]);
-      hand.high = hand.high.cwiseMax(mesh.rest[i]);
+    if (mesh.pattern[i].x() >= (1 - kHeldFraction) * length) {
+      moving_pin.low = moving_pin.low.cwiseMin(mesh.rest[i]);
+      moving_pin.high = moving_pin.high.cwiseMax(mesh.rest[i]);
     }
-  hand.until = crease.times.released;
-  hand.motion = unfolding(begin, radius, turn * kDegree);
+  moving_pin.until = crease.times.released;
+  moving_pin.motion = unfolding(begin, radius, turn * kDegree);
   clamp.high.z() = 1e-9;
-  scene.pin = {clamp, hand};
+  scene.pin = {clamp, moving_pin};
   scene.obstacle.clear();
   return finished(std::move(crease), std::move(mesh));
 }

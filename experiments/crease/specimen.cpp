@@ -13,13 +13,13 @@
 namespace hysteron::experiments {
 namespace {
 
-constexpr double kGrip = 0.2;     // of the specimen's length, at either end
-constexpr double kFine = 0.075;   // of its length on either side of the crease
-constexpr double kFinest = 0.8;   // elements there, in thicknesses, for up to kCoarse triangles
-constexpr int kCoarse = 500;      // more triangles are smaller in both directions
-constexpr double kGrowth = 1.25;  // of columns from there on
-constexpr double kWidest = 0.05;  // column, of the length, likewise
-constexpr double kLoop = 0.1;     // radius of the hand's turn, of the length
+constexpr double kLimbPart = 0.2;  // of the specimen's length, at either end
+constexpr double kFine = 0.075;    // of its length on either side of the crease
+constexpr double kFinest = 0.8;    // elements there, in thicknesses, for up to kCoarse triangles
+constexpr int kCoarse = 500;       // more triangles are smaller in both directions
+constexpr double kGrowth = 1.25;   // of columns from there on
+constexpr double kWidest = 0.05;   // column, of the length, likewise
+constexpr double kLoop = 0.1;      // radius of the hand's turn, of the length
 constexpr double kFold = 0.4, kLower = 0.2, kSettle = 0.1, kPress = 0.3;  // durations [s]
 constexpr double kLetGo = 3;     // height at which the hand lets go, in thicknesses
 constexpr double kPlate = 2e-3;  // half the plate's thickness [m]
@@ -57,7 +57,7 @@ ClothMesh crease_specimen(const Scene& scene, double fine) {
   return graded;
 }
 
-Pin crease_clamp(const Scene& scene) { return held_between(-1, kGrip * scene.cloth.length); }
+Pin crease_clamp(const Scene& scene) { return held_between(-1, kLimbPart * scene.cloth.length); }
 
 namespace {
 
@@ -70,9 +70,9 @@ Keyframe key(double time, double height, double angle = 0) {
 }
 
 // The far limb's end goes over by half a turn, then down; it is let go before the plate presses.
-Pin hand(const Scene& scene, double ground, double lowered) {
+Pin moving_pin(const Scene& scene, double ground, double lowered) {
   const double length = scene.cloth.length, radius = kLoop * length;
-  Pin pin = held_between((1 - kGrip) * length, 2 * length);
+  Pin pin = held_between((1 - kLimbPart) * length, 2 * length);
   pin.until = lowered;
   pin.motion.axis = {0, -1, 0};
   pin.motion.center = {length / 2, 0, ground + radius};
@@ -82,7 +82,7 @@ Pin hand(const Scene& scene, double ground, double lowered) {
 }
 
 // Above the folded specimen and beyond its crease; `lowest` is where its underside stops.
-Obstacle plate_of(const Scene& scene, const CreaseTimes& times, double lowest) {
+Obstacle pressing_plate(const Scene& scene, const CreaseTimes& times, double lowest) {
   const double length = scene.cloth.length;
   const double ready = (2 + kLetGo) * scene.fabric.thickness;
   Obstacle plate;
@@ -116,8 +116,8 @@ Crease creased(const Scene& given, const CreaseChoice& choice, double plate) {
   scene.cloth.position = {0, 0, ground};
   Obstacle plane;
   plane.visible = false;
-  scene.pin = {crease_clamp(scene), hand(scene, ground, times.folded)};
-  scene.obstacle = {plane, plate_of(scene, times, plate)};
+  scene.pin = {crease_clamp(scene), moving_pin(scene, ground, times.folded)};
+  scene.obstacle = {plane, pressing_plate(scene, times, plate)};
   ClothMesh mesh = crease_specimen(scene, kFine * scene.cloth.length);
   scene.triangles = mesh.faces();
   crease.cloth = place_cloth(scene, std::move(mesh));
@@ -139,7 +139,7 @@ double Crease::plate_force(const std::vector<Eigen::Vector3d>& x, double time) c
 }
 
 double Crease::opening(const std::vector<Eigen::Vector3d>& x) const {
-  const double length = scene.cloth.length, reach = grip * length;
+  const double length = scene.cloth.length, reach = limb_part * length;
   const ClothMesh& mesh = cloth.mesh;
   const auto along = [&](std::size_t i) {
     return mesh.pattern.empty() ? mesh.rest[i].x() : mesh.pattern[i].x();
@@ -175,7 +175,7 @@ double loaded_plate(const Scene& scene, const CreaseChoice& choice) {
   }
   throw Error::simulation("the plate reaches the plane before it bears " + std::to_string(choice.force) +
                           " N: take a smaller force")
-      .in("crease");
+      .with_experiment("crease");
 }
 
 }  // namespace hysteron::experiments

@@ -39,7 +39,7 @@ struct Crease {
   CreaseTimes times;
   double rest_turn = 0;                 // of a pleat [degree]
   std::vector<double> time_steps = {};  // [s]; empty: the scene's
-  double grip = 0.2;  // share of the length at either end of which the limbs' directions are taken
+  double limb_part = 0.2;  // share of the length at either end of which the limbs' directions are taken
 
   // Force of the plate on the cloth at these positions [N]; 0 without a plate.
   double plate_force(const std::vector<Eigen::Vector3d>& x, double time) const;

@@ -53,7 +53,7 @@ struct RidgeMetrics {
   double residual = 0;   // what would be left without load, likewise [1/m]
 };
 
-RidgeMetrics wrinkles_of(Session& session, const C& choice) {
+RidgeMetrics measured_ridges(Session& session, const C& choice) {
   const ClothMesh& mesh = session.cloth().mesh;
   Simulation& simulation = session.simulation();
   const int d = simulation.dimension();
@@ -93,21 +93,21 @@ render::Box box_of_motion(const Scene& scene, const Cloth& cloth) {
   return box;
 }
 
-RunPlan question_of(Session& session, const C& choice, RidgeMetrics& last) {
-  RunPlan question;
-  question.bounds = box_of_motion(session.scene(), session.cloth());
-  question.wanders = true;
-  question.columns = {"ridge_length [m]", "curvature_rms [1/m]", "residual_curvature_rms [1/m]"};
-  question.measure = [&](const Snapshot&) -> std::vector<double> {
-    last = wrinkles_of(session, choice);
+RunPlan run_plan(Session& session, const C& choice, RidgeMetrics& last) {
+  RunPlan plan;
+  plan.bounds = box_of_motion(session.scene(), session.cloth());
+  plan.wanders = true;
+  plan.columns = {"ridge_length [m]", "curvature_rms [1/m]", "residual_curvature_rms [1/m]"};
+  plan.measure = [&](const Snapshot&) -> std::vector<double> {
+    last = measured_ridges(session, choice);
     return {last.ridges, last.curvature, last.residual};
   };
-  question.progress = [&](const Snapshot& m) {
+  plan.progress = [&](const Snapshot& m) {
     return fmt::format("t = {:.3f} s  {}  residual curvature {:.1f} 1/m  ridges {:.2f} m", m.time,
                        session.scene().phase_at(m.time), last.residual, last.ridges);
   };
-  question.visit = [](Archive&) {};  // the last measurement alone counts
-  return question;
+  plan.serialise = [](Archive&) {};  // the last measurement alone counts
+  return plan;
 }
 
 // residual.csv: share of the area by the curvature that it would keep.
@@ -121,14 +121,14 @@ void write_histogram(Session& session) {
       area.push_back(mesh.face_area[mesh.edge[e].face0] + mesh.face_area[mesh.edge[e].face1]);
   }
   const double bin = 2 * session.scene().fabric.friction_curvature() / kBins;
-  const std::vector<double> share =
-      area_shares(curvature_size(session.simulation().residual_curvature(), dimension), area, bin, kBins);
+  const std::vector<double> fraction =
+      area_fractions(curvature_size(session.simulation().residual_curvature(), dimension), area, bin, kBins);
   Table table("residual_curvature [1/m],share [%]");
-  for (int k = 0; k < kBins; ++k) table.row({(k + 0.5) * bin, share[k] > 0 ? 100 * share[k] : NAN});
+  for (int k = 0; k < kBins; ++k) table.row({(k + 0.5) * bin, fraction[k] > 0 ? 100 * fraction[k] : NAN});
   table.write(session.run().path("residual.csv"));
 }
 
-std::vector<TablePlot> plots_of(const std::string& title) {
+std::vector<TablePlot> ridge_plots(const std::string& title) {
   return {{"plot_residual",
            {title, {"norm of the residual curvature [1/m]"}, {"share of the area per bin [%]", true}},
            "residual.csv",
@@ -141,7 +141,7 @@ std::vector<TablePlot> plots_of(const std::string& title) {
            "curvature_rms"}};
 }
 
-std::string caption_of(double curvature, double residual) {
+std::string fold_caption(double curvature, double residual) {
   return fmt::format("curvature {:.1f} 1/m, residual {:.1f} 1/m", curvature, residual);
 }
 
@@ -149,14 +149,14 @@ void draw_all(Session& session, const RidgeMetrics& wrinkles) {
   Pictures& pictures = *session.pictures();
   const Scene& scene = session.scene();
   const std::string caption =
-      scene.fabric.name + ", law " + scene.law + ": " + caption_of(wrinkles.curvature, wrinkles.residual);
+      scene.fabric.name + ", law " + scene.law + ": " + fold_caption(wrinkles.curvature, wrinkles.residual);
   for (const char* look : {"curvature", "residual"})
     render::write_png(session.run().path(std::string(look) + ".png"),
                       pictures.picture(look, pictures.camera(), caption), render::PngEffort::best);
   pictures.set_light("raking");
   render::write_png(session.run().path("raking.png"), pictures.picture("cloth", pictures.camera(), caption),
                     render::PngEffort::best);
-  for (const TablePlot& plot : plots_of(scene.fabric.name)) draw(session.run(), plot, scene.law);
+  for (const TablePlot& plot : ridge_plots(scene.fabric.name)) draw(session.run(), plot, scene.law);
 }
 
 void limit_to_quick(Setup& setup) {
@@ -176,7 +176,7 @@ void crumple_once(const CommandLine& line) {
   session.reserve({"residual.csv"},
                   {"curvature.png", "residual.png", "raking.png", "plot_residual", "plot_curvature"});
   RidgeMetrics wrinkles;
-  session.simulate(question_of(session, choice, wrinkles));
+  session.simulate(run_plan(session, choice, wrinkles));
   session.run().metric("ridge_length_m", wrinkles.ridges);
   session.run().metric("curvature_rms_per_m", wrinkles.curvature);
   write_histogram(session);
@@ -184,14 +184,14 @@ void crumple_once(const CommandLine& line) {
   session.finish("Crumpled: " + setup.scene.fabric.name + ", law " + setup.scene.law);
 }
 
-VariantPage page_of(const CommandLine& line, std::vector<Variant>&) {
+VariantPage variants_page(const CommandLine& line, std::vector<Variant>&) {
   C choice;
   const Setup setup = set_up(line, defaults(), bind(kRows, choice));
   return {"Crumpled",
           setup,
           to_json(bind(kRows, choice)),
           {"residual_curvature_rms_per_m", "ridge_length_m", "curvature_rms_per_m", "intersections"},
-          plots_of(""),
+          ridge_plots(""),
           "raking.png"};
 }
 
@@ -200,7 +200,7 @@ std::optional<render::Box> framing(const CommandLine& line) {
   return planned_framing(set_up(line, defaults(), bind(kRows, choice), limit_to_quick), box_of_motion);
 }
 
-int run_crumple(const CommandLine& line) { return run_variants(line, crumple_once, page_of); }
+int run_crumple(const CommandLine& line) { return run_variants(line, crumple_once, variants_page); }
 
 }  // namespace
 
@@ -210,7 +210,7 @@ Experiment crumple() {
       .question = "crushed, opened, spread and hung: wrinkles that stay",
       .run = run_crumple,
       .simulates = true,
-      .own_keys = own_keys_of<kRows, page_keys>,
+      .own_keys = own_key_descriptions<kRows, page_keys>,
       .defaults = defaults,
       .framing = framing,
       .compared = true,

@@ -34,13 +34,13 @@ Keys bind_diff(DiffFlags& flags) {
   return keys;
 }
 
-Json json_of(const Measures& measures) {
+Json diff_json(const Measures& measures) {
   Json json;
   for (const Measure& m : all_measures()) json[m.name] = measures.*m.value;  // null where infinite
   return json;
 }
 
-std::string text_of(double value) { return std::isinf(value) ? "inf" : number_field(value); }
+std::string measure_text(double value) { return std::isinf(value) ? "inf" : number_field(value); }
 
 // One line on stderr for a pair beyond its limits.
 void report_error(const fs::path& a, const fs::path& b, const std::vector<std::string>& broken) {
@@ -49,9 +49,9 @@ void report_error(const fs::path& a, const fs::path& b, const std::vector<std::s
               << std::endl;
 }
 
-std::string suite_of(const fs::path& a, const fs::path& b) { return a.string() + " against " + b.string(); }
+std::string suite_name(const fs::path& a, const fs::path& b) { return a.string() + " against " + b.string(); }
 
-TestCase case_of(const std::string& name, const std::vector<std::string>& broken) {
+TestCase test_case(const std::string& name, const std::vector<std::string>& broken) {
   using Outcome = TestCase::Outcome;
   return {name, broken.empty() ? Outcome::passed : Outcome::failed, join(broken, "; ")};
 }
@@ -60,7 +60,7 @@ TestCase case_not_compared(const std::string& name, const std::string& why) {
   return {name, TestCase::Outcome::broken, why};
 }
 
-void make_folder_of(const fs::path& file) {
+void make_parent_folder(const fs::path& file) {
   std::error_code failure;
   if (file.has_parent_path()) fs::create_directories(file.parent_path(), failure);
   if (failure) throw Error::system("cannot create the folder of " + file.string() + ": " + failure.message());
@@ -72,7 +72,7 @@ void require_other(const fs::path& out, const fs::path& input) {
   if (fs::equivalent(out, input, missing))
     throw Error::invalid_input("--out " + out.string() + " is " + input.string() +
                                ", which is compared: give another name")
-        .of("out", out.string());
+        .with_key("out", out.string());
 }
 
 // One that cannot be compared is told to the file of tests, too.
@@ -81,7 +81,7 @@ Comparison compared_files(const fs::path& a, const fs::path& b, const DiffFlags&
     return compare_files(a, b, flags);
   } catch (const Error& error) {
     if (!flags.junit.empty())
-      write_junit(flags.junit, "diff", suite_of(a, b),
+      write_junit(flags.junit, "diff", suite_name(a, b),
                   {case_not_compared(a.filename().string(), error.what())});
     throw;
   }
@@ -90,26 +90,26 @@ Comparison compared_files(const fs::path& a, const fs::path& b, const DiffFlags&
 int diff_pictures(const fs::path& a, const fs::path& b, const DiffFlags& flags) {
   if (!flags.out.empty() && (fs::path(flags.out).extension() != ".png" || fs::is_directory(flags.out)))
     throw Error::invalid_input("--out " + flags.out + " must be a file *.png: the heat map of two pictures")
-        .of("out", flags.out);
+        .with_key("out", flags.out);
   for (const fs::path& picture : {a, b}) require_other(flags.out, picture);
   const std::string name = a.filename().string();
   const Comparison comparison = compared_files(a, b, flags);
-  const std::vector<std::string> broken = broken_limits(comparison.measures, flags.limits_of(name));
+  const std::vector<std::string> broken = broken_limits(comparison.measures, flags.picture_limits(name));
   if (!flags.out.empty()) {
-    make_folder_of(flags.out);
+    make_parent_folder(flags.out);
     render::write_png(flags.out, comparison.heat);
   }
   if (flags.json) {
     Json json = {{"a", a.string()}, {"b", b.string()}};
-    json.update(json_of(comparison.measures));
+    json.update(diff_json(comparison.measures));
     json["broken"] = broken;
     std::cout << json.dump(2) << std::endl;
   } else {
     for (const Measure& m : all_measures())
-      std::cout << m.name << " " << text_of(comparison.measures.*m.value) << "\n";
+      std::cout << m.name << " " << measure_text(comparison.measures.*m.value) << "\n";
   }
   report_error(a, b, broken);
-  if (!flags.junit.empty()) write_junit(flags.junit, "diff", suite_of(a, b), {case_of(name, broken)});
+  if (!flags.junit.empty()) write_junit(flags.junit, "diff", suite_name(a, b), {test_case(name, broken)});
   return broken.empty() ? 0 : kDiffers;
 }
 
@@ -120,7 +120,7 @@ void require_outside(const fs::path& out, const fs::path& folder) {
   if (end == outer.end())
     throw Error::invalid_input("--out " + out.string() + " must not be in " + folder.string() +
                                ", whose pictures are compared")
-        .of("out", out.string());
+        .with_key("out", out.string());
 }
 
 void print_row(const std::string& name, std::size_t width, std::vector<std::string> cells) {
@@ -133,7 +133,7 @@ void print_row(const std::string& name, std::size_t width, std::vector<std::stri
 
 std::vector<std::string> cells(const Measures& measures) {
   std::vector<std::string> texts;
-  for (const Measure& m : all_measures()) texts.push_back(text_of(measures.*m.value));
+  for (const Measure& m : all_measures()) texts.push_back(measure_text(measures.*m.value));
   return texts;
 }
 
@@ -146,10 +146,10 @@ FolderDiff compare_folders(const fs::path& a, const fs::path& b, const DiffFlags
     render::Image heat;
     const FolderDiff::Row& row = diff.rows.emplace_back(compare_in_folders(a, b, name, flags, heat));
     const bool compared = row.error.empty();
-    if (compared) diff.worst = diff.compared() == 1 ? row.measures : worst_of(diff.worst, row.measures);
+    if (compared) diff.worst = diff.compared() == 1 ? row.measures : worse_measures(diff.worst, row.measures);
     if (compared && !flags.out.empty()) {
       const fs::path file = fs::path(flags.out) / kHeatFolder / name;
-      make_folder_of(file);
+      make_parent_folder(file);
       render::write_png(file, heat);
     }
     if (!flags.json) print_row(name, width, compared ? cells(row.measures) : no_cells());
@@ -158,12 +158,12 @@ FolderDiff compare_folders(const fs::path& a, const fs::path& b, const DiffFlags
   return diff;
 }
 
-Json json_of(const FolderDiff& diff) {
+Json diff_json(const FolderDiff& diff) {
   Json pictures = Json::array();
   for (const FolderDiff::Row& row : diff.rows) {
     Json picture = {{"name", row.name}};
     if (row.error.empty()) {
-      picture.update(json_of(row.measures));
+      picture.update(diff_json(row.measures));
       picture["broken"] = row.broken;
     } else {
       picture["error"] = row.error;
@@ -171,7 +171,7 @@ Json json_of(const FolderDiff& diff) {
     pictures.push_back(picture);
   }
   Json all = {{"a", diff.a.string()}, {"b", diff.b.string()}, {"pictures", pictures}};
-  if (diff.compared() > 0) all["worst"] = json_of(diff.worst);
+  if (diff.compared() > 0) all["worst"] = diff_json(diff.worst);
   return all;
 }
 
@@ -207,7 +207,7 @@ int diff_folders(const fs::path& a, const fs::path& b, const DiffFlags& flags) {
   }
   const FolderDiff diff = compare_folders(a, b, flags, names, width);
   if (flags.json) {
-    std::cout << json_of(diff).dump(2) << std::endl;
+    std::cout << diff_json(diff).dump(2) << std::endl;
   } else {
     print_row("worst", width, diff.compared() > 0 ? cells(diff.worst) : no_cells());
   }
@@ -216,23 +216,23 @@ int diff_folders(const fs::path& a, const fs::path& b, const DiffFlags& flags) {
   int exit_code = 0;  // what could not be compared weighs more than what differs
   for (const FolderDiff::Row& row : diff.rows) {
     const bool compared = row.error.empty();
-    cases.push_back(compared ? case_of(row.name, row.broken) : case_not_compared(row.name, row.error));
+    cases.push_back(compared ? test_case(row.name, row.broken) : case_not_compared(row.name, row.error));
     if (!compared)
       exit_code = row.exit_code;
     else if (!row.broken.empty() && exit_code == 0)
       exit_code = kDiffers;
   }
-  if (!flags.junit.empty()) write_junit(flags.junit, "diff", suite_of(a, b), cases);
+  if (!flags.junit.empty()) write_junit(flags.junit, "diff", suite_name(a, b), cases);
   return exit_code;
 }
 
 int run_diff(const CommandLine& line) {
   DiffFlags flags;
   set_keys(line, bind_diff(flags));
-  if (line.names.size() != 2)
+  if (line.positionals.size() != 2)
     throw Error::invalid_input("needs two pictures or two folders: hysteron diff A.png B.png; " +
-                               std::to_string(line.names.size()) + " given");
-  const fs::path a = line.names[0], b = line.names[1];
+                               std::to_string(line.positionals.size()) + " given");
+  const fs::path a = line.positionals[0], b = line.positionals[1];
   if (!flags.limits_file.empty()) flags.from_file = read_limits(flags.limits_file);
   if (!fs::is_directory(a) && !fs::is_directory(b)) return diff_pictures(a, b, flags);
   for (const fs::path& path : {a, b})
@@ -250,8 +250,8 @@ Experiment diff() {
   return {.name = "diff",
           .question = "how far two pictures, or two folders of them, differ",
           .run = run_diff,
-          .own_keys = own_keys_of<bind_diff>,
-          .names = "A.png B.png",
+          .own_keys = own_key_descriptions<bind_diff>,
+          .positionals = "A.png B.png",
           .differs = "a picture is beyond a limit"};
 }
 

@@ -40,7 +40,7 @@ render::Image on(const render::Rgb8& background, const render::Image& image) {
   return result;
 }
 
-Measures measures_of(const render::Image& a, const render::Image& b, const render::Plane& flip) {
+Measures picture_measures(const render::Image& a, const render::Image& b, const render::Plane& flip) {
   const render::Difference steps = render::compare(a, b);
   return {steps.mean_abs,     steps.rmse, steps.psnr_db,
           render::ssim(a, b), mean(flip), steps.pixels_over_8_percent};
@@ -50,7 +50,8 @@ Measures measures_of(const render::Image& a, const render::Image& b, const rende
 std::pair<Measures, render::Image> compare_looks(const render::Image& a, const render::Image& b,
                                                  const DiffFlags& flags) {
   const render::Plane flip = render::flip_map(a, b, flags.pixels_per_degree);
-  return {measures_of(a, b, flip), flags.map == "flip" ? render::heat_map(flip) : render::heat_map(a, b)};
+  return {picture_measures(a, b, flip),
+          flags.map == "flip" ? render::heat_map(flip) : render::heat_map(a, b)};
 }
 
 }  // namespace
@@ -70,14 +71,14 @@ const std::array<Measure, 6>& all_measures() {
   return all;
 }
 
-Measures worst_of(const Measures& a, const Measures& b) {
+Measures worse_measures(const Measures& a, const Measures& b) {
   Measures worst;
   for (const Measure& m : all_measures())
     worst.*m.value = m.least ? std::min(a.*m.value, b.*m.value) : std::max(a.*m.value, b.*m.value);
   return worst;
 }
 
-PictureLimits DiffFlags::limits_of(const std::string& name) const {
+PictureLimits DiffFlags::picture_limits(const std::string& name) const {
   PictureLimits all = from_file.of_picture(name);
   all.set({limits});
   return all;
@@ -101,7 +102,7 @@ Comparison compare_pictures(render::Image a, render::Image b, const DiffFlags& f
   constexpr render::Rgb8 kBlack = {0, 0, 0}, kWhite = {255, 255, 255};
   auto [on_black, dark] = compare_looks(on(kBlack, result.a), on(kBlack, result.b), flags);
   auto [on_white, bright] = compare_looks(on(kWhite, result.a), on(kWhite, result.b), flags);
-  result.measures = worst_of(on_black, on_white);
+  result.measures = worse_measures(on_black, on_white);
   result.heat = on_white.mean_abs > on_black.mean_abs ? std::move(bright) : std::move(dark);
   return result;
 }
@@ -126,7 +127,7 @@ FolderDiff::Row compare_in_folders(const fs::path& a, const fs::path& b, const s
       if (!fs::exists(folder / name, ignored)) throw Error::invalid_input("missing in " + folder.string());
     Comparison comparison = compare_files(a / name, b / name, flags);
     row.measures = comparison.measures;
-    row.broken = broken_limits(row.measures, flags.limits_of(name));
+    row.broken = broken_limits(row.measures, flags.picture_limits(name));
     heat = std::move(comparison.heat);
   } catch (const Error& error) {
     row.error = error.what();

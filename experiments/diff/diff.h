@@ -25,7 +25,7 @@ struct DiffFlags {
   bool json = false;
 
   // Of the picture of that name: the file's, and in their place the flags'.
-  PictureLimits limits_of(const std::string& name) const;
+  PictureLimits picture_limits(const std::string& name) const;
 };
 
 // Two pictures of one size, the measures, and the picture of where they differ.

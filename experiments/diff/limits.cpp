@@ -58,7 +58,7 @@ class LimitsFile {
   const std::vector<TomlNode>& tables(const TomlNode& node) const {
     if (node.kind != TomlNode::Kind::array)
       throw Error::invalid_input(node.key + " must be an array of tables, [[" + node.key + "]]")
-          .from(place(file_, node));
+          .with_origin(place(file_, node));
     return node.children;
   }
 
@@ -66,7 +66,7 @@ class LimitsFile {
     const std::string origin = place(file_, node);
     const BoundKey& key = find_key(keys, node.key, origin);
     if (node.kind != TomlNode::Kind::value)
-      throw Error::invalid_input(node.key + " must be one value").from(origin);
+      throw Error::invalid_input(node.key + " must be one value").with_origin(origin);
     assign(key, node.value, origin);
   }
 
@@ -79,7 +79,7 @@ class LimitsFile {
     PictureLimits limits;
     for (const TomlNode& node : table.children)
       if (node.key != "name") read_limit(node, limits);
-    return {name_of(table), limits};
+    return {limit_name(table), limits};
   }
 
   std::pair<std::string, double> metric(const TomlNode& table) const {
@@ -87,16 +87,17 @@ class LimitsFile {
     const Keys keys = bind(kMetricRows, limit);
     for (const TomlNode& node : table.children) set(keys, node);
     if (!table.find("max-difference"))
-      throw Error::invalid_input("the limit of a metric needs max-difference").from(place(file_, table));
-    return {name_of(table), limit.max_difference};
+      throw Error::invalid_input("the limit of a metric needs max-difference")
+          .with_origin(place(file_, table));
+    return {limit_name(table), limit.max_difference};
   }
 
-  std::string name_of(const TomlNode& table) const {
+  std::string limit_name(const TomlNode& table) const {
     const TomlNode* node = table.find("name");
     const auto* name = node ? std::get_if<std::string>(&node->value) : nullptr;
     if (!name || name->empty())
       throw Error::invalid_input("a limit needs a name, in which * stands for any text")
-          .from(place(file_, node ? *node : table));
+          .with_origin(place(file_, node ? *node : table));
     return *name;
   }
 

@@ -29,6 +29,6 @@ struct Measure {
 const std::array<Measure, 6>& all_measures();
 
 // How the worse of both differs.
-Measures worst_of(const Measures& a, const Measures& b);
+Measures worse_measures(const Measures& a, const Measures& b);
 
 }  // namespace hysteron::experiments

@@ -6,7 +6,7 @@
 
 #include "experiments/drape/apparatus.h"
 #include "experiments/drape/outline.h"
-#include "experiments/workbench/pages/closing_words.h"
+#include "experiments/workbench/pages/closing_summary.h"
 #include "experiments/workbench/session/session.h"
 #include "render/caption.h"
 #include "sim/base/error.h"
@@ -75,12 +75,12 @@ void check_disc(const Scene& scene, const DrapeChoice& choice, const Specimen& s
   const std::string of = file.empty() ? "cloth.radius = " + number_text(specimen.radius) + " m"
                                       : fmt::format("{:.4g} m, the radius of mesh {}", specimen.radius, file);
   throw Error::invalid_input("drape.disc = " + number_text(choice.disc) + " m must be < " + of)
-      .of("drape.disc", number_text(choice.disc));
+      .with_key("drape.disc", number_text(choice.disc));
 }
 
 // The specimen lies on the pedestal, and scene and cloth say so.
 Specimen lay_on_pedestal(Scene& scene, const DrapeChoice& choice, Cloth& cloth) {
-  const Specimen specimen = specimen_of(scene, cloth);
+  const Specimen specimen = disc_specimen(scene, cloth);
   check_disc(scene, choice, specimen);
   const Eigen::Vector3d before = scene.cloth.position;
   add_apparatus(scene, choice, specimen);
@@ -102,10 +102,10 @@ double shadow_coefficient(Session& session, const DrapeChoice& choice, double ra
   double metres = 0;
   render::Image shadow = session.pictures()->silhouette(1.08 * radius, kShadowPixels, metres);
   const double found = drape_coefficient(render::covered_area(shadow, metres), choice.disc, radius);
-  const std::string unrest = not_at_rest_warning(session.run().metrics());
+  const std::string rest_warning = not_at_rest_warning(session.run().metrics());
   const std::string text =
       fmt::format("{}, law {}\nshadow from above: drape coefficient {:.1f} %{}", session.scene().fabric.name,
-                  session.scene().law, found, unrest.empty() ? "" : "\n" + unrest);
+                  session.scene().law, found, rest_warning.empty() ? "" : "\n" + rest_warning);
   render::draw_caption(shadow, text, render::Corner::top_left);
   render::draw_scale_bar(shadow, metres, render::Corner::bottom_left);
   render::write_png(session.run().path("shadow.png"), shadow, render::PngEffort::best);
@@ -173,10 +173,10 @@ void limit_to_quick(Setup& setup) {
 // A standard stands for the defaults of the other keys.
 Setup set_up_drape(const CommandLine& line, D& choice) {
   const auto with = [&](D of) {
-    Setup usual = defaults();
-    usual.scene.cloth.radius = specimen_radius(of.standard);
+    Setup default_setup = defaults();
+    default_setup.scene.cloth.radius = specimen_radius(of.standard);
     choice = of;
-    return set_up(line, std::move(usual), bind(kRows, choice), [&](Setup& setup) {
+    return set_up(line, std::move(default_setup), bind(kRows, choice), [&](Setup& setup) {
       limit_to_quick(setup);
       choice.lowering = std::min(choice.lowering, kQuickLowering);
     });
@@ -200,29 +200,29 @@ int run_drape(const CommandLine& line) {
   session.run().note("specimen_radius_m", radius);
 
   const float r = static_cast<float>(radius);
-  RunPlan question;
-  question.bounds = {{-r, -r, -0.6f * r}, {r, r, 0.02f}};
-  question.floor = -static_cast<float>(kPedestalHeight);
-  question.columns = {"drape_coefficient [%]", "node_count"};
+  RunPlan plan;
+  plan.bounds = {{-r, -r, -0.6f * r}, {r, r, 0.02f}};
+  plan.floor = -static_cast<float>(kPedestalHeight);
+  plan.columns = {"drape_coefficient [%]", "node_count"};
   double covered = 0, change = 0;  // the coefficient, and by how much the last record changed it [%]
-  question.measure = [&](const Snapshot& m) -> std::vector<double> {
+  plan.measure = [&](const Snapshot& m) -> std::vector<double> {
     const Outline outline = outline_from_above(session.cloth().mesh, m.x, kDirections);
     const double percent = drape_coefficient(outline.area(), choice.disc, radius);
     change = percent - covered;
     covered = percent;
     return {percent, static_cast<double>(outline.nodes(kProminence))};
   };
-  question.settled = [&](const Snapshot& m) {
+  plan.settled = [&](const Snapshot& m) {
     return m.time > choice.released() + kQuickLowering && m.fastest < choice.still;
   };
-  question.to_rest = true;
-  question.wait = choice.wait;
-  question.progress = [&](const Snapshot& m) {
+  plan.to_rest = true;
+  plan.wait = choice.wait;
+  plan.progress = [&](const Snapshot& m) {
     return fmt::format("t = {:.3f} s  drape coefficient {:.1f} %  fastest {:.4f} m/s", m.time, covered,
                        m.fastest);
   };
-  question.visit = [&](Archive& archive) { archive(covered); };
-  const bool settled = session.simulate(question);
+  plan.serialise = [&](Archive& archive) { archive(covered); };
+  const bool settled = session.simulate(plan);
 
   const Outline outline =
       outline_from_above(session.cloth().mesh, session.simulation().positions(), kDirections);
@@ -260,7 +260,7 @@ Experiment drape() {
           .question = "Cusick's drape test: a disc of cloth over a pedestal",
           .run = run_drape,
           .simulates = true,
-          .own_keys = own_keys_of<kRows>,
+          .own_keys = own_key_descriptions<kRows>,
           .defaults = defaults,
           .decided = decided,
           .compared = true,

@@ -19,7 +19,7 @@ constexpr double kRound = 0.01;
 
 using Points = std::vector<Eigen::Vector3d>;
 
-Points rim_of(const Cloth& cloth) {
+Points rim_points(const Cloth& cloth) {
   Points rim;
   const ClothMesh& mesh = cloth.mesh;
   for (std::size_t e = mesh.interior_edges; e < mesh.edge.size(); ++e)
@@ -44,7 +44,7 @@ Specimen circle_through(const Points& rim) {
           Eigen::Vector3d(mean.x() + abc.x(), mean.y() + abc.y(), mean.z())};
 }
 
-double area_of(const Cloth& cloth) {
+double cloth_area(const Cloth& cloth) {
   double area = 0;
   for (const Eigen::Vector3i& f : cloth.mesh.face)
     area += (cloth.start[f[1]] - cloth.start[f[0]]).cross(cloth.start[f[2]] - cloth.start[f[0]]).norm() / 2;
@@ -52,10 +52,10 @@ double area_of(const Cloth& cloth) {
 }
 
 // Why it is no disc; "" if it is one.
-std::string fault_of(const Cloth& cloth, const Specimen& disc) {
+std::string disc_fault(const Cloth& cloth, const Specimen& disc) {
   double nearest = INFINITY, farthest = 0, low = INFINITY, high = -INFINITY;
   for (const Eigen::Vector3d& x : cloth.start) low = std::min(low, x.z()), high = std::max(high, x.z());
-  for (const Eigen::Vector3d& x : rim_of(cloth)) {
+  for (const Eigen::Vector3d& x : rim_points(cloth)) {
     const double r = (x - disc.middle).head<2>().norm();
     nearest = std::min(nearest, r), farthest = std::max(farthest, r);
   }
@@ -65,7 +65,7 @@ std::string fault_of(const Cloth& cloth, const Specimen& disc) {
   if (!(farthest - nearest <= 2 * slack))
     return fmt::format("its edge is {:.3g} to {:.3g} m from its middle, which must be alike to {:g} %",
                        nearest, farthest, 200 * kRound);
-  const double area = area_of(cloth), most = std::numbers::pi * std::pow(disc.radius + slack, 2);
+  const double area = cloth_area(cloth), most = std::numbers::pi * std::pow(disc.radius + slack, 2);
   if (area > most) return fmt::format("it has {:.3g} m^2 within a rim around {:.3g} m^2", area, most);
   return "";
 }
@@ -77,11 +77,11 @@ std::string name_of_cloth(const Scene& scene) {
 
 }  // namespace
 
-Specimen specimen_of(const Scene& scene, const Cloth& cloth) {
-  const Points rim = rim_of(cloth);
+Specimen disc_specimen(const Scene& scene, const Cloth& cloth) {
+  const Points rim = rim_points(cloth);
   if (rim.empty()) throw Error::invalid_input(name_of_cloth(scene) + " is no disc: it has no edge");
   const Specimen found = circle_through(rim);
-  const std::string fault = fault_of(cloth, found);
+  const std::string fault = disc_fault(cloth, found);
   if (!fault.empty()) {
     // What is wrong with a mesh says why.
     const std::string doubt = cloth.warnings.empty() ? "" : "; " + cloth.warnings.front();

@@ -12,6 +12,6 @@ struct Specimen {
 
 // Measured where the cloth starts; that of a cloth that is built is its scene's.  Throws Error::invalid_input
 // unless it is a disc that lies flat.
-Specimen specimen_of(const Scene& scene, const Cloth& cloth);
+Specimen disc_specimen(const Scene& scene, const Cloth& cloth);
 
 }  // namespace hysteron::experiments

@@ -43,22 +43,22 @@ const KeyRow<TestFlags> kRows[] = {
 // clang-format on
 constexpr int kQuickSteps = 20;
 
-Keys keys_of(TestFlags& flags) { return with_output_options(bind(kRows, flags), flags.options); }
+Keys option_keys(TestFlags& flags) { return with_output_options(bind(kRows, flags), flags.options); }
 
-std::vector<double> numbers_of(const std::string& text, const std::string& key) {
+std::vector<double> parsed_numbers(const std::string& text, const std::string& key) {
   std::vector<double> numbers;
   for (const std::string& word : split(text)) {
     const auto number = number_in(word);
     if (!number)
       throw Error::invalid_input(key + " = " + text + " must be numbers [m] separated by commas")
-          .of(key, text);
+          .with_key(key, text);
     numbers.push_back(*number);
   }
   return numbers;
 }
 
 FabLoops loops_without_data(const TestFlags& flags) {
-  const std::vector<double> amplitudes = numbers_of(flags.compressions, "fab.compressions");
+  const std::vector<double> amplitudes = parsed_numbers(flags.compressions, "fab.compressions");
   const bool bends = flags.test.empty() || flags.test.front() != 'S';
   for (const double amplitude : amplitudes)
     if (!(amplitude > (bends ? flags.slack : 0) && (!bends || amplitude < 0.8 * flags.gauge)))
@@ -66,11 +66,11 @@ FabLoops loops_without_data(const TestFlags& flags) {
           fmt::format("a compression of {:g} m must be > fab.slack = {:g} m and < 0.8 of "
                       "fab.gauge = {:g} m",
                       amplitude, flags.slack, flags.gauge))
-          .of("fab.compressions", flags.compressions);
+          .with_key("fab.compressions", flags.compressions);
   FabLoops loops = made_up_loops(flags.test, flags.gauge, flags.slack, amplitudes, flags.steps);
   loops.direction = flags.direction;
   loops.width = flags.width;
-  check_fab_way(loops, "loops to be simulated", "fab");  // as fab.csv is, when it is read
+  check_clamp_path(loops, "loops to be simulated", "fab");  // as fab.csv is, when it is read
   return loops;
 }
 
@@ -78,7 +78,7 @@ void check_test(const std::string& test) {
   if (test.empty() || std::string("UDS").find(test.front()) == std::string::npos)
     throw Error::invalid_input("fab.test = " + test +
                                " must be U.. (bends up) | D.. (down) | S.. (stretches)")
-        .of("fab.test", test);
+        .with_key("fab.test", test);
 }
 
 void print_cycles(const ComparedLoops& compared) {
@@ -98,7 +98,7 @@ void print_cycles(const ComparedLoops& compared) {
 
 int run_test(const CommandLine& line) {
   TestFlags flags;
-  const Keys keys = keys_of(flags);
+  const Keys keys = option_keys(flags);
   set_keys(line, keys, [&] { flags.steps = std::min(flags.steps, kQuickSteps); });
   flags.fabric = last_text(line.flags, "fabric", flags.fabric);
   check_test(flags.test);
@@ -129,7 +129,7 @@ Experiment fab() {
   return {.name = "fab",
           .question = "virtual FAB loop test: a strip buckled or stretched between clamps, in growing cycles",
           .run = run_test,
-          .own_keys = own_keys_of<keys_of>};
+          .own_keys = own_key_descriptions<option_keys>};
 }
 
 }  // namespace hysteron::experiments

@@ -17,7 +17,7 @@ using Style = render::Series::Style;
 constexpr const char* kCycleColors[] = {"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9"};
 constexpr double kMillimetre = 1e3;
 
-const char* color_of(int cycle) { return kCycleColors[cycle % std::size(kCycleColors)]; }
+const char* cycle_color(int cycle) { return kCycleColors[cycle % std::size(kCycleColors)]; }
 
 // Around the middle between its ends, which a shape and its mirror image share.
 void add_line(const std::vector<Eigen::Vector2d>& line, double up, render::Series& series) {
@@ -28,7 +28,7 @@ void add_line(const std::vector<Eigen::Vector2d>& line, double up, render::Serie
   }
 }
 
-double rms_of(const BranchForces& a, const BranchForces& b) {
+double rms_difference(const BranchForces& a, const BranchForces& b) {
   double sum = 0;
   std::size_t count = 0;
   for (std::size_t i = 0; i < a.size(); ++i)
@@ -37,9 +37,9 @@ double rms_of(const BranchForces& a, const BranchForces& b) {
 }
 
 // Force [N/m] against distance [mm] of both branches of a cycle, one behind the other, without a label.
-render::Series series_of(const FabLoops& loops, const BranchForces& force, int cycle,
-                         render::Series::Style style) {
-  render::Series series{.label = "", .x = {}, .y = {}, .style = style, .color = color_of(cycle)};
+render::Series cycle_series(const FabLoops& loops, const BranchForces& force, int cycle,
+                            render::Series::Style style) {
+  render::Series series{.label = "", .x = {}, .y = {}, .style = style, .color = cycle_color(cycle)};
   for (int b = 2 * cycle; b <= 2 * cycle + 1; ++b)
     for (std::size_t i = 0; i < force[b].size(); ++i) {
       series.x.push_back(kMillimetre * loops.branches[b].distance[i]);
@@ -56,7 +56,7 @@ ComparedLoops::ComparedLoops(FabLoops loops, FabRun run, bool measured)
 }
 
 BranchForces ComparedLoops::measured_forces() const {
-  BranchForces forces = forces_of(loops);
+  BranchForces forces = branch_forces(loops);
   for (auto& branch : forces)
     for (double& force : branch) force -= zero;
   return forces;
@@ -67,7 +67,7 @@ TesterUnits tester_units(const std::string& name) {
   if (name == "fab") return TesterUnits::fab;
   throw Error::invalid_input("units = " + name +
                              " must be si (m, N) | fab (cm, gf) for loops of a FAB tester")
-      .of("units", name);
+      .with_key("units", name);
 }
 
 std::vector<CycleReading> readings(const FabLoops& loops, const BranchForces& force, int cycle) {
@@ -88,7 +88,7 @@ void add_metrics(Run& run, const ComparedLoops& compared) {
     if (compared.measured) add("measured_", measured);
   }
   if (compared.measured) {
-    run.metric("difference_rms_N_per_m", rms_of(compared.run.force, measured));
+    run.metric("difference_rms_N_per_m", rms_difference(compared.run.force, measured));
     run.metric("measured_force_zero_N_per_m", compared.zero);
   }
   const FabRun& r = compared.run;
@@ -125,12 +125,12 @@ void draw_loops(Run& run, const std::string& name, const std::string& title, con
   render::Plot plot{title, {"distance of the clamps [mm]"}, {"force per width, tension > 0 [N/m]"}};
   const BranchForces measured = compared.measured_forces();
   for (int cycle = 0; cycle < compared.loops.cycles(); ++cycle) {
-    render::Series model = series_of(compared.loops, compared.run.force, cycle, Style::line);
+    render::Series model = cycle_series(compared.loops, compared.run.force, cycle, Style::line);
     model.label = "cycle " + std::to_string(cycle + 1) +
                   fmt::format(", {:.3g} mJ/m", 1e3 * loop_area(compared.loops, compared.run.force, cycle));
     plot.series.push_back(model);
     if (!compared.measured) continue;
-    render::Series data = series_of(compared.loops, measured, cycle, Style::points);
+    render::Series data = cycle_series(compared.loops, measured, cycle, Style::points);
     data.label = fmt::format("measured, {:.3g} mJ/m", 1e3 * loop_area(compared.loops, measured, cycle));
     plot.series.push_back(data);
   }
@@ -147,7 +147,7 @@ void draw_shapes(Run& run, const std::string& name, const std::string& title, co
     render::Series series{.label = i == 0 ? "laid" : "", .x = {}, .y = {}};
     if (i > 0) series.label = "cycle " + std::to_string((i + 1) / 2) + (back ? ", back" : ", out");
     series.style = back ? Style::dashed : Style::line;
-    if (i > 0) series.color = color_of(static_cast<int>(i - 1) / 2);
+    if (i > 0) series.color = cycle_color(static_cast<int>(i - 1) / 2);
     add_line(compared.run.shapes[i], up, series);
     plot.series.push_back(series);
   }

@@ -28,7 +28,7 @@ void write_curves(const std::filesystem::path& path, const render::Plot& plot) {
   file.commit();
 }
 
-std::vector<FigureCaption> captions_of(const std::vector<Figure>& figures) {
+std::vector<FigureCaption> figure_captions(const std::vector<Figure>& figures) {
   std::vector<FigureCaption> captions;
   for (const Figure& figure : figures)
     captions.push_back({figure.name + ".png", figure.plot.title, figure.caption});
@@ -40,7 +40,7 @@ int run_figures(const CommandLine& line) {
   set_keys(line, bind_output_options(options));
   const std::string name = last_text(line.flags, "fabric", "cotton-broad-k50");
   Scene scene;
-  scene.fabric = fabric_of(name, line.flags);
+  scene.fabric = resolved_fabric(name, line.flags);
   const std::vector<Figure> all = chapter_figures(scene.fabric);
   Run run(line, options, {{"fabric", to_json(scene)["fabric"]}});
   for (const Figure& figure : all) {
@@ -53,7 +53,7 @@ int run_figures(const CommandLine& line) {
                  "Wong, \"Modelling Bending Behaviour Using Hysteresis\" (Wong, Leach, Zambetta, Computer "
                  "Graphics Forum 2013). Letters as in the chapter. Written by `" +
                      line.command + "`; curves and points are in the CSV files.",
-                 captions_of(all));
+                 figure_captions(all));
   run.finish();
   if (!options.json) {
     for (const Figure& figure : all) std::cout << figure.name << ": " << figure.plot.title << "\n";
@@ -67,7 +67,7 @@ Experiment figures() {
   return {.name = "figures",
           .question = "the chapter's Figures 4.2(b), 4.3 and 4.4 from the program's own laws",
           .run = run_figures,
-          .own_keys = own_keys_of<bind_output_options, fabric_keys>};
+          .own_keys = own_key_descriptions<bind_output_options, fabric_keys>};
 }
 
 }  // namespace hysteron::experiments

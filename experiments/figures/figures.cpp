@@ -306,7 +306,7 @@ std::vector<Figure> chapter_figures(const Fabric& fabric) {
   if (!(curve.b1 > curve.b2 && curve.b2 > 0 && curve.k0 > 0)) {
     throw Error::invalid_input(fabric.name + " has no hysteresis loop to draw; it needs b1 > b2 > 0 " +
                                "and k0 > 0")
-        .in("figures");
+        .with_experiment("figures");
   }
   const double m0 = curve.friction_moment();
   const Chapter c{fabric.name, curve, m0, curve.elastic_limit_moment(), 2.5 * curve.k0 + m0 / curve.b2};

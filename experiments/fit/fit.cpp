@@ -91,11 +91,11 @@ Keys bind_flags(FitFlags& flags) {
 
 std::string file_name(const std::string& path) { return std::filesystem::path(path).filename().string(); }
 
-std::vector<std::string> laws_of(const std::string& text) {
+std::vector<std::string> requested_laws(const std::string& text) {
   std::vector<std::string> laws;
   for (const std::string& word : listed(text, law_names()))
     if (!word.empty() && !std::count(laws.begin(), laws.end(), word)) laws.push_back(word);
-  if (laws.empty()) throw Error::invalid_input("law = \"\" must name a law (--law)").of("law", "");
+  if (laws.empty()) throw Error::invalid_input("law = \"\" must name a law (--law)").with_key("law", "");
   return laws;
 }
 
@@ -137,7 +137,7 @@ Answer from_loop(const FitFlags& flags) {
     answer.stops = std::move(found.stops);
     return answer;
   }
-  for (const std::string& law : laws_of(flags.law)) {
+  for (const std::string& law : requested_laws(flags.law)) {
     CurveQuestion question;
     question.law.name = law;
     for (const auto& [name, value] : flags.param) question.law.parameters[name] = value;
@@ -153,19 +153,20 @@ Answer from_virgin(const FitFlags& flags) {
   if (!flags.virgin_file.empty()) {
     if (flags.virgin.b1.given() || flags.virgin.c1.given())
       throw Error::invalid_input("takes virgin.file or virgin.b1 with virgin.c1, not both")
-          .of("virgin.file", flags.virgin_file);
+          .with_key("virgin.file", flags.virgin_file);
     return {{identify_virgin(read_virgin(flags.virgin_file, "fit"), flags.assume)},
             {},
             file_name(flags.virgin_file)};
   }
   if (!flags.virgin.b1.given() || !flags.virgin.c1.given())
-    throw Error::invalid_input("a virgin curve needs both --virgin.b1 and --virgin.c1").of("virgin.b1", "");
+    throw Error::invalid_input("a virgin curve needs both --virgin.b1 and --virgin.c1")
+        .with_key("virgin.b1", "");
   return {{identify_virgin(flags.virgin, flags.assume)}, {}, "b1 and c1 of its virgin curve"};
 }
 
 Answer from_kes(const FitFlags& flags) {
   if (!flags.kes.b.given() || !flags.kes.two_hb.given())
-    throw Error::invalid_input("KES-FB2 needs both --kes.b and --kes.2hb").of("kes.b", "");
+    throw Error::invalid_input("KES-FB2 needs both --kes.b and --kes.2hb").with_key("kes.b", "");
   return {{identify_kes(flags.kes, flags.assume)}, {}, "B and 2HB of KES-FB2"};
 }
 
@@ -173,7 +174,7 @@ Answer from_profile(const FitFlags& flags) {
   if (std::isnan(flags.density))
     throw Error::invalid_input(
         "a profile needs --fabric.density: the moments are those of the strip's weight")
-        .of("fabric.density", "");
+        .with_key("fabric.density", "");
   return {{identify_profile(read_profile(flags.profile, "fit"), flags.density, flags.assume)},
           {},
           file_name(flags.profile)};
@@ -184,7 +185,7 @@ void throw_if_without_loop(const FitFlags& flags) {
   if (flags.law != "prandtl" || !flags.param.empty() || flags.stops > 0 || flags.offset)
     throw Error::invalid_input(
         "--law, --param, --stops and --offset go with --loop: only a loop tells laws apart")
-        .of("loop", "");
+        .with_key("loop", "");
 }
 
 // Of what is not of a FAB tester.
@@ -192,31 +193,33 @@ void check_units(const FitFlags& flags) {
   if (flags.units == "si" || (flags.units == "kes" && !flags.loop.empty())) return;
   throw Error::invalid_input("units = " + flags.units +
                              " must be si; kes goes with --loop (1/cm, gf cm/cm), fab with --fab (cm, gf)")
-      .of("units", flags.units);
+      .with_key("units", flags.units);
 }
 
 Answer identify(const FitFlags& flags) {
-  struct Way {
-    bool asked;
+  struct Source {
+    bool requested;
     Answer (*go)(const FitFlags&);
   };
   const bool virgin = flags.virgin.b1.given() || flags.virgin.c1.given() || !flags.virgin_file.empty();
   const bool kes = flags.kes.b.given() || flags.kes.two_hb.given();
-  const Way ways[] = {{!flags.loop.empty(), from_loop},
-                      {virgin, from_virgin},
-                      {kes, from_kes},
-                      {!flags.profile.empty(), from_profile}};
+  const Source sources[] = {{!flags.loop.empty(), from_loop},
+                            {virgin, from_virgin},
+                            {kes, from_kes},
+                            {!flags.profile.empty(), from_profile}};
   check_units(flags);
-  const auto asked =
-      std::count_if(std::begin(ways), std::end(ways), [](const Way& way) { return way.asked; });
-  if (asked != 1) {
+  const auto requested = std::count_if(std::begin(sources), std::end(sources),
+                                       [](const Source& source) { return source.requested; });
+  if (requested != 1) {
     throw Error::invalid_input(
         "needs one of --loop FILE.csv, --virgin.b1 with --virgin.c1, --kes.b with --kes.2hb, "
         "--profile FILE.csv, --fab FILE.csv, --decay FILE.csv" +
-        std::string(asked > 1 ? ", not several" : ""));
+        std::string(requested > 1 ? ", not several" : ""));
   }
   throw_if_without_loop(flags);
-  return std::find_if(std::begin(ways), std::end(ways), [](const Way& way) { return way.asked; })->go(flags);
+  return std::find_if(std::begin(sources), std::end(sources),
+                      [](const Source& source) { return source.requested; })
+      ->go(flags);
 }
 
 std::optional<double> if_given(double x) { return std::isnan(x) ? std::nullopt : std::optional(x); }
@@ -239,7 +242,7 @@ void finish(Run& run, const FitFlags& flags, const std::string& summary, const F
 void fit_loops_of_fab(const CommandLine& line, const FitFlags& flags, const Keys& keys) {
   if (std::isnan(flags.density))
     throw Error::invalid_input("--fab needs --fabric.density: the strip's weight bears on it")
-        .of("fabric.density", "");
+        .with_key("fabric.density", "");
   const FabAnswer answer = fit_fab(flags.fab, flags.units, flags.density);
   Run run(line, flags.options, resolved(keys));
   const FabricNotes notes{flags.name, answer.found.from, if_given(flags.density), if_given(flags.thickness)};
@@ -253,7 +256,7 @@ void fit_decay(const CommandLine& line, const FitFlags& flags, const Keys& keys)
   const char* const names[] = {"decay.length", "fabric.density", "kes.b"};
   for (int i = 0; i < 3; ++i)
     if (!(given[i] > 0))
-      throw Error::invalid_input(std::string("--decay needs --") + names[i]).of(names[i], "");
+      throw Error::invalid_input(std::string("--decay needs --") + names[i]).with_key(names[i], "");
   Run run(line, flags.options, resolved(keys));
   const FabricNotes notes{flags.name, "a free vibration in " + file_name(flags.decay.file),
                           if_given(flags.density), if_given(flags.thickness)};
@@ -271,7 +274,7 @@ int run_fit(const CommandLine& line) {
     assign(key, parse_text(key.description, flag.text), "--" + flag.path);
   }
   if (flags.name.empty())
-    throw Error::invalid_input("name = \"\" must be the fabric's (--name)").of("name", "");
+    throw Error::invalid_input("name = \"\" must be the fabric's (--name)").with_key("name", "");
   if (!flags.fab.file.empty()) {
     fit_loops_of_fab(line, flags, keys);
     return 0;
@@ -287,8 +290,8 @@ int run_fit(const CommandLine& line) {
   report_fits(run, answer.fits, notes);
   if (!answer.stops.empty()) report_stops(run, answer.stops);
   const Identification& best = answer.fits[0];
-  if (const double share = best.residual_rms() / best.largest_moment(); !(share <= kMisses))
-    run.warn(best.law + " does not describe these data: it misses them by " + rounded(100 * share) +
+  if (const double fraction = best.residual_rms() / best.largest_moment(); !(fraction <= kMisses))
+    run.warn(best.law + " does not describe these data: it misses them by " + rounded(100 * fraction) +
              " % of the largest moment (rms)");
   finish(run, flags, summary(answer.fits), notes);
   return 0;
@@ -300,7 +303,7 @@ Experiment fit() {
   return {.name = "fit",
           .question = "identify a fabric from a measured loop, virgin curve, KES pair or profile",
           .run = run_fit,
-          .own_keys = own_keys_of<bind_flags>};
+          .own_keys = own_key_descriptions<bind_flags>};
 }
 
 }  // namespace hysteron::experiments

@@ -38,7 +38,7 @@ std::string report_decay(Run& run, const DecayFlags& flags, double density, doub
     throw Error::invalid_input(
         "decay: the friction that is found is steeper than kes.b = " + number_text(rigidity) +
         " N m where a tester reads it: check kes.b, fabric.density and decay.length")
-        .of("kes.b", number_text(rigidity));
+        .with_key("kes.b", number_text(rigidity));
   write_fab_fabric(run.path("fabric.toml"), answer.found, notes);
   write_forms(run, answer);
   add_shape(run, b, "");

@@ -24,26 +24,26 @@ constexpr int kThreads = 2;
 // the largest force of stretch, which no law of stops follows to less than some percent.
 constexpr double kMaxOverNoise = 3, kMaxOfStretch = 0.1;
 
-std::vector<double> numbers_of(const std::string& text, const std::string& key) {
+std::vector<double> parsed_numbers(const std::string& text, const std::string& key) {
   std::vector<double> numbers;
   for (const std::string& word : split(text)) {
     const auto number = number_in(word);
     if (!number || !(*number > 0) || !std::isfinite(*number))
       throw Error::invalid_input(key + " = " + text + " must be numbers > 0 separated by commas")
-          .of(key, text);
+          .with_key(key, text);
     numbers.push_back(*number);
   }
   if (numbers.empty() || !std::is_sorted(numbers.begin(), numbers.end(), std::less_equal<>()))
-    throw Error::invalid_input(key + " = " + text + " must be numbers that rise").of(key, text);
+    throw Error::invalid_input(key + " = " + text + " must be numbers that rise").with_key(key, text);
   return numbers;
 }
 
-std::vector<int> cycles_of(const std::string& text) {
+std::vector<int> parsed_cycles(const std::string& text) {
   std::vector<int> cycles;
-  for (const double cycle : numbers_of(text, "fab.cycles")) {
+  for (const double cycle : parsed_numbers(text, "fab.cycles")) {
     if (cycle != std::floor(cycle))
       throw Error::invalid_input("fab.cycles = " + text + " must be whole numbers, the first cycle being 1")
-          .of("fab.cycles", text);
+          .with_key("fab.cycles", text);
     cycles.push_back(static_cast<int>(cycle));
   }
   return cycles;
@@ -53,13 +53,13 @@ bool is_bias(const std::string& direction) { return strip_direction(direction) =
 
 // Those asked for, of which the first is warp and the second weft: a bias is neither, unless it is alone.
 // None asked for: warp before weft, whatever their order in the file, or the bias where it is alone.
-std::vector<std::string> directions_of(const std::string& text, const std::vector<FabLoops>& loops) {
+std::vector<std::string> requested_directions(const std::string& text, const std::vector<FabLoops>& loops) {
   std::vector<std::string> directions = split(text);
   if (directions.size() > 1 && (is_bias(directions[0]) || is_bias(directions[1])))
     throw Error::invalid_input(
         "fab.directions = " + text +
         " must begin with warp and weft, L,W, or name the bias alone, B: it stands for neither")
-        .of("fab.directions", text);
+        .with_key("fab.directions", text);
   if (!directions.empty()) return directions;
   for (const FabLoops& one : loops)
     if (std::find(directions.begin(), directions.end(), one.direction) == directions.end())
@@ -76,7 +76,7 @@ Error misfit(const std::string& direction, const std::string& by, double noise) 
              fmt::format("along {} the fit misses the forces by {}: check gauge, width, density, tests and "
                          "cycles; data that scatter so are fitted with --fab.noise {:.2g} [N]",
                          direction, by, noise))
-      .of("fab.noise", "");
+      .with_key("fab.noise", "");
 }
 
 void check_fit(const FabBending& b, double noise) {
@@ -104,7 +104,7 @@ void check_fit(const FabTension& t, double width, double noise) {
 }
 
 // Loops of one direction that bend, or that stretch, among the tests asked for.
-std::vector<FabLoops> asked(const FabAnswer& answer, const std::string& direction, bool bending) {
+std::vector<FabLoops> requested(const FabAnswer& answer, const std::string& direction, bool bending) {
   std::vector<FabLoops> loops;
   for (const std::string& test : answer.tests) {
     const FabLoops& one = find_loops(answer.loops, direction, test);
@@ -187,7 +187,7 @@ void write_forms(Run& run, const FabAnswer& answer) {
 
 void add_shape(Run& run, const FabBending& b, const std::string& prefix) {
   if (!b.is_shaped()) return;
-  const FrictionShape shape = shape_of(b.form);
+  const FrictionShape shape = friction_shape(b.form);
   run.metric(prefix + "median_per_m", shape.median);
   run.metric(prefix + "median_per_m_stderr", b.form_errors[1] * shape.median);
   run.metric(prefix + "spread", shape.spread);
@@ -198,12 +198,12 @@ FabAnswer fit_fab(const FabFlags& flags, const std::string& units, double densit
   FabAnswer answer;
   answer.loops = read_fab(flags.file, tester_units(units), "fit");
   answer.tests = split(flags.tests);
-  answer.cycles = cycles_of(flags.cycles);
-  const std::vector<std::string> directions = directions_of(flags.directions, answer.loops);
+  answer.cycles = parsed_cycles(flags.cycles);
+  const std::vector<std::string> directions = requested_directions(flags.directions, answer.loops);
   answer.found.from = where_from(flags, directions);
   FabBendingQuestion bending;
   bending.cycles = answer.cycles;
-  bending.thresholds = numbers_of(flags.thresholds, "fab.thresholds");
+  bending.thresholds = parsed_numbers(flags.thresholds, "fab.thresholds");
   bending.density = density;
   bending.noise = flags.noise;
   FabBendingQuestion main = bending;
@@ -215,7 +215,7 @@ FabAnswer fit_fab(const FabFlags& flags, const std::string& units, double densit
   std::vector<FabTension> stretched(directions.size());
   std::vector<std::vector<FabForm>> forms(directions.size());
   in_parallel(directions.size(), kThreads, [&](std::size_t i) {
-    if (const auto loops = asked(answer, directions[i], true); !loops.empty()) {
+    if (const auto loops = requested(answer, directions[i], true); !loops.empty()) {
       stops[i] = identify_fab_bending(loops, main);
       check_fit(stops[i], flags.noise);
       one[i] = identify_one_stop(loops, bending);
@@ -226,7 +226,7 @@ FabAnswer fit_fab(const FabFlags& flags, const std::string& units, double densit
         forms[i].insert(forms[i].begin(),
                         {free_stops(bending.thresholds).name, identify_fab_bending(loops, bending)});
     }
-    if (const auto loops = asked(answer, directions[i], false); !loops.empty()) {
+    if (const auto loops = requested(answer, directions[i], false); !loops.empty()) {
       stretched[i] = identify_fab_tension(loops, tension);
       check_fit(stretched[i], loops[0].width, tension.noise);
     }
@@ -241,7 +241,7 @@ FabAnswer fit_fab(const FabFlags& flags, const std::string& units, double densit
   }
   if (answer.found.bending.empty())
     throw Error::invalid_input("needs a test that bends (U.., D..) among --fab.tests for b1, b2 and k0")
-        .of("fab.tests", flags.tests);
+        .with_key("fab.tests", flags.tests);
   return answer;
 }
 
@@ -273,7 +273,7 @@ std::string summary(const FabAnswer& answer) {
         b.direction, b.law.spring, b.spring_error, b.law.friction(), b.friction_error,
         b.law.initial_stiffness(), b.residual_rms, b.iterations);
     if (b.is_shaped()) {
-      const FrictionShape shape = shape_of(b.form);
+      const FrictionShape shape = friction_shape(b.form);
       text += fmt::format(
           "  friction slips about {:.3g}/m (a factor of {:.2g}), spread {:.3g} (a factor of {:.2g})\n",
           shape.median, std::exp(b.form_errors[1]), shape.spread, std::exp(b.form_errors[2]));

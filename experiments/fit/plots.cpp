@@ -79,8 +79,8 @@ void draw_panels(Run& run, const std::vector<Identification>& fits, const std::s
   render::Panels left{"Data minus law, " + title, "dashed: one rms", {}, {}, {}};
   std::vector<double> all_left;
   for (const Identification& fit : fits) {
-    const std::vector<double> rest = milli(left_over(fit));
-    all_left.insert(all_left.end(), rest.begin(), rest.end());
+    const std::vector<double> fit_residuals = milli(left_over(fit));
+    all_left.insert(all_left.end(), fit_residuals.begin(), fit_residuals.end());
     const std::vector<std::string> numbers = {"b1 " + rounded(1e6 * fit.b1.value) + " µN m",
                                               "b2 " + rounded(1e6 * fit.b2.value) + " µN m",
                                               "k0 " + rounded(fit.k0.value) + " /m"};

@@ -17,14 +17,14 @@ struct Row {
   const Estimate* estimate;
 };
 
-std::vector<Row> rows_of(const Identification& found) {
+std::vector<Row> result_rows(const Identification& found) {
   return {{"b1_N_m", "b1", "N m", &found.b1},
           {"b2_N_m", "b2", "N m", &found.b2},
           {"k0_per_m", "k0", "1/m", &found.k0}};
 }
 
 void add_metrics(Run& run, const Identification& found, const std::string& prefix) {
-  for (const Row& row : rows_of(found)) {
+  for (const Row& row : result_rows(found)) {
     run.metric(prefix + row.metric, row.estimate->value);
     run.metric(prefix + row.metric + "_stderr", row.estimate->standard_error);
   }
@@ -60,11 +60,11 @@ std::string with_error(const Row& row) {
                      e.determined ? "" : "  (" + e.confidence + "; the data do not determine it)");
 }
 
-std::string summary_of(const Identification& found) {
+std::string fit_summary(const Identification& found) {
   std::string text = found.law + ": residual " + percent_text(found) + " of the largest moment (rms), " +
                      std::to_string(found.moment.size()) + " rows, " + std::to_string(found.iterations) +
                      " iterations\n";
-  for (const Row& row : rows_of(found)) text += with_error(row);
+  for (const Row& row : result_rows(found)) text += with_error(row);
   const std::vector<std::string> open = found.undetermined();
   text += "  undetermined: " + (open.empty() ? std::string("nothing") : join(open, ", ")) + "\n";
   for (const std::string& statement : found.statements) text += "  - " + statement + "\n";
@@ -106,7 +106,7 @@ std::string summary(const std::vector<Identification>& fits) {
             rounded(fit.b2.value) + " N m, k0 " + rounded(fit.k0.value) + "/m" +
             (open.empty() ? "" : "; undetermined: " + join(open, ", ")) + "\n";
   }
-  return text + summary_of(fits[0]);
+  return text + fit_summary(fits[0]);
 }
 
 }  // namespace hysteron::experiments

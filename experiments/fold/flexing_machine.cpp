@@ -92,14 +92,14 @@ std::string FlexingMachine::progress(const Snapshot& instant) const {
                      ended_, curvature_, reading_.recovery_angle);
 }
 
-void FlexingMachine::visit(Archive& archive) {
+void FlexingMachine::serialise(Archive& archive) {
   for (int* number : {&count_, &ended_}) archive(*number);
   for (double* number : {&curvature_, &largest_, &lost_, &crown_lost_, &time_}) archive(*number);
   archive(crown_);
   archive(reading_);
-  material_.visit(archive);
-  cycles_.visit(archive);
-  materials_.visit(archive);
+  material_.serialise(archive);
+  cycles_.serialise(archive);
+  materials_.serialise(archive);
   loops_.resize(archive.size(loops_.size()));
   for (render::Series& loop : loops_) {
     archive(loop.label);

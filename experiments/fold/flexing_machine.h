@@ -33,7 +33,7 @@ class FlexingMachine {
   bool pictured() const;
   std::string progress(const Snapshot& instant) const;
   void finish();
-  void visit(Archive& archive);  // all that has been read
+  void serialise(Archive& archive);  // all that has been read
 
   const FoldReading& reading() const { return reading_; }
   const std::vector<render::Series>& loops() const { return loops_; }  // of the crown, in pictured cycles

@@ -90,7 +90,7 @@ std::string what(const Scene& scene) { return scene.fabric.name + ", law " + law
 using Numbers = std::vector<std::pair<std::string, double>>;
 
 // Of the last cycle, as metrics; a page shows the first.
-Numbers numbers_of(const FoldReading& last) {
+Numbers cycle_numbers(const FoldReading& last) {
   return {{"recovery_angle_deg", last.recovery_angle},
           {"2HB_N", last.material.loop_width},
           {"set_curvature_per_m", last.set},
@@ -100,7 +100,7 @@ Numbers numbers_of(const FoldReading& last) {
           {"let_go_drop_mm", last.lowest}};
 }
 
-Numbers numbers_of(const BendingCycle& last) {
+Numbers cycle_numbers(const BendingCycle& last) {
   return {{"2HB_N", last.material.loop_width},
           {"set_curvature_per_m", last.set},
           {"M0_N", last.material.friction},
@@ -118,7 +118,7 @@ TablePlot over_cycles(const std::string& name, const render::Plot& plot, const s
 }
 
 // What runs over cycles, of a fabric and law.
-std::vector<TablePlot> plots_of(bool law_alone, const std::string& name) {
+std::vector<TablePlot> fold_plots(bool law_alone, const std::string& name) {
   const render::Axis cycles{"cycles", true};
   const render::Plot width{(law_alone ? "2HB, " : "2HB of the crown, ") + name, cycles, {"2HB [mN]"}};
   if (law_alone)
@@ -131,17 +131,17 @@ std::vector<TablePlot> plots_of(bool law_alone, const std::string& name) {
           over_cycles("plot_2HB", width, "material.csv", "2HB", 1e3)};
 }
 
-RunPlan question_of(const Fold& fold, FlexingMachine& folding) {
+RunPlan run_plan(const Fold& fold, FlexingMachine& folding) {
   const float width = static_cast<float>(fold.scene.cloth.width), free = static_cast<float>(fold.free_length),
-              grip = (static_cast<float>(fold.scene.cloth.length) - free) / 2;
-  RunPlan question;
-  question.bounds = {{-grip, 0, -free}, {free + grip, width, grip / 2}};
-  question.columns = FlexingMachine::columns();
-  question.measure = [&](const Snapshot& m) { return folding.measure(m); };
-  question.pictured = [&](const Snapshot&) { return folding.pictured(); };
-  question.progress = [&](const Snapshot& m) { return folding.progress(m); };
-  question.visit = [&](Archive& archive) { folding.visit(archive); };
-  return question;
+              clamp_length = (static_cast<float>(fold.scene.cloth.length) - free) / 2;
+  RunPlan plan;
+  plan.bounds = {{-clamp_length, 0, -free}, {free + clamp_length, width, clamp_length / 2}};
+  plan.columns = FlexingMachine::columns();
+  plan.measure = [&](const Snapshot& m) { return folding.measure(m); };
+  plan.pictured = [&](const Snapshot&) { return folding.pictured(); };
+  plan.progress = [&](const Snapshot& m) { return folding.progress(m); };
+  plan.serialise = [&](Archive& archive) { folding.serialise(archive); };
+  return plan;
 }
 
 // Of the figures over cycles, which both the cloth and the law alone have.
@@ -165,7 +165,7 @@ std::vector<FigureCaption> captions_of_cloth(const Scene& scene, const FoldChoic
 
 void plot(Session& session, const FlexingMachine& folding) {
   const std::string name = what(session.scene());
-  for (const TablePlot& plot : plots_of(false, name)) draw(session.run(), plot, "");
+  for (const TablePlot& plot : fold_plots(false, name)) draw(session.run(), plot, "");
   session.plot("plot_loop",
                {"The crown, " + name, {"curvature [1/m]"}, {"moment of the law [mN]"}, folding.loops()});
 }
@@ -182,9 +182,9 @@ void fold_cloth(const CommandLine& line, Request& request) {
   session.reserve({}, {"plot_recovery", "plot_2HB", "plot_loop"});
   if (!request.setup.options.no_images) run.path("README.md");
   FlexingMachine folding(fold, session);
-  session.simulate(question_of(fold, folding));
+  session.simulate(run_plan(fold, folding));
   folding.finish();
-  note(run, numbers_of(folding.reading()));
+  note(run, cycle_numbers(folding.reading()));
   if (session.pictures()) plot(session, folding);
   session.finish("Folded " + std::to_string(request.choice.cycles) + " times: " + what(fold.scene));
   if (session.pictures()) write_run_captions(run.folder(), captions_of_cloth(fold.scene, request.choice));
@@ -209,10 +209,10 @@ void fold_law(const CommandLine& line, const Request& request) {
   if (request.setup.options.errors)
     throw Error::invalid_input(
         "--errors: fold.law-alone has neither a mesh nor a step; only the cloth has errors")
-        .of("errors", "true");
+        .with_key("errors", "true");
   if (!request.setup.options.probe.empty())
     throw Error::invalid_input("--probe: fold.law-alone has no cloth")
-        .of("probe", request.setup.options.probe);
+        .with_key("probe", request.setup.options.probe);
   if (request.setup.options.checkpoint > 0 || request.setup.options.resume)
     throw Error::invalid_input(
         "--checkpoint and --resume: fold.law-alone takes no checkpoints; only the cloth does");
@@ -221,9 +221,9 @@ void fold_law(const CommandLine& line, const Request& request) {
   Run run(line, request.setup.options, keys);
   const std::vector<BendingCycle> all = bend_repeatedly(scene, request.choice);
   write_cycles(run, all);
-  note(run, numbers_of(all.back()));
+  note(run, cycle_numbers(all.back()));
   if (!request.setup.options.no_images)
-    for (const TablePlot& plot : plots_of(true, what(scene))) draw(run, plot, "");
+    for (const TablePlot& plot : fold_plots(true, what(scene))) draw(run, plot, "");
   finish_with_report(run);
 }
 
@@ -233,10 +233,11 @@ void fold_once(const CommandLine& line) {
 }
 
 // Laws that know fatigue come twice: without it, and with it as NAME-fatigue.
-std::vector<Variant> with_and_without_fatigue(const std::vector<Variant>& laws, const std::string& usual) {
+std::vector<Variant> with_and_without_fatigue(const std::vector<Variant>& laws,
+                                              const std::string& default_law) {
   std::vector<Variant> all;
   for (const Variant& law : laws) {
-    const std::vector<std::string> known = law_parameter_names(last_text(law.flags, "law", usual));
+    const std::vector<std::string> known = law_parameter_names(last_text(law.flags, "law", default_law));
     const bool tires = std::find(known.begin(), known.end(), "fatigue.dc") != known.end();
     Variant sound = law;
     if (tires) sound.flags.push_back({"fold.fatigue", "0"});
@@ -246,18 +247,18 @@ std::vector<Variant> with_and_without_fatigue(const std::vector<Variant>& laws, 
   return all;
 }
 
-VariantPage page_of(const CommandLine& line, std::vector<Variant>& variants) {
+VariantPage variants_page(const CommandLine& line, std::vector<Variant>& variants) {
   const Request request = read(line);
   const bool alone = request.choice.law_alone;
   if (!request.own_fatigue && request.choice.fatigue != 0)
     variants = with_and_without_fatigue(variants, request.setup.scene.law);
-  VariantPage page{"Repeated folding", request.setup, request.keys, {}, plots_of(alone, "")};
-  for (const auto& [name, value] : alone ? numbers_of(BendingCycle{}) : numbers_of(FoldReading{}))
+  VariantPage page{"Repeated folding", request.setup, request.keys, {}, fold_plots(alone, "")};
+  for (const auto& [name, value] : alone ? cycle_numbers(BendingCycle{}) : cycle_numbers(FoldReading{}))
     page.metrics.push_back(name);
   return page;
 }
 
-int run_fold(const CommandLine& line) { return run_variants(line, fold_once, page_of); }
+int run_fold(const CommandLine& line) { return run_variants(line, fold_once, variants_page); }
 
 }  // namespace
 
@@ -266,7 +267,7 @@ Experiment fold() {
           .question = "repeated folding (De Mattia): loops and fatigue",
           .run = run_fold,
           .simulates = true,
-          .own_keys = own_keys_of<kRows, page_keys>,
+          .own_keys = own_key_descriptions<kRows, page_keys>,
           .defaults = defaults,
           .decided = decided,
           .compared = true,

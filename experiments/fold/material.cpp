@@ -18,7 +18,7 @@ LawPoint bend(LawWalk& walk, double from, double to, int steps, double seconds) 
   return end;
 }
 
-LawRequest law_of(const Scene& scene) { return {scene.law, scene.fabric.virgin_curve(), scene.param}; }
+LawRequest scene_law(const Scene& scene) { return {scene.law, scene.fabric.virgin_curve(), scene.param}; }
 
 }  // namespace
 
@@ -45,13 +45,13 @@ MaterialReading test_material(const LawWalk& material, double curvature) {
 }
 
 LawRequest law_in_cloth(const Scene& scene) {
-  LawRequest law = law_of(scene);
+  LawRequest law = scene_law(scene);
   if (law.name == "prandtl") law.parameters.try_emplace("memory", "stops");
   return law;
 }
 
 std::vector<BendingCycle> bend_repeatedly(const Scene& scene, const FoldChoice& choice) {
-  LawRequest law = law_of(scene);
+  LawRequest law = scene_law(scene);
   // Exact: between two turning points no more than these are remembered.
   if (law.name == "prandtl" && !law.parameters.contains("memory")) law.parameters.try_emplace("stack", "8");
   LawWalk walk(law);

@@ -11,11 +11,11 @@
 namespace hysteron::experiments {
 namespace {
 
-constexpr double kGrip = 0.1;     // of the specimen's length, in either clamp
-constexpr double kSlack = 0.02;   // at the return, of the length between the clamps
-constexpr double kHang = 1;       // after the last return, from one clamp [s]
-constexpr double kJaw = 2e-3;     // half the height of a clamp [m]
-constexpr double kNoContact = 3;  // between cloth and the clamps that are seen, in thicknesses
+constexpr double kClampPart = 0.1;  // of the specimen's length, in either clamp
+constexpr double kSlack = 0.02;     // at the return, of the length between the clamps
+constexpr double kHang = 1;         // after the last return, from one clamp [s]
+constexpr double kJaw = 2e-3;       // half the height of a clamp [m]
+constexpr double kNoContact = 3;    // between cloth and the clamps that are seen, in thicknesses
 
 Keyframe shifted(double time, double distance) {
   Keyframe key;
@@ -24,7 +24,7 @@ Keyframe shifted(double time, double distance) {
   return key;
 }
 
-Motion motion_of(const FoldChoice& choice, double free_length) {
+Motion clamp_motion(const FoldChoice& choice, double free_length) {
   Motion motion;
   motion.keys = {shifted(0, 0)};
   for (int n = 0; n < choice.cycles; ++n) {
@@ -36,7 +36,7 @@ Motion motion_of(const FoldChoice& choice, double free_length) {
 
 // For the eye: beyond the cloth's end, which is the middle of a clamp's held cells.
 Obstacle jaw(const Scene& scene, double end, double outwards) {
-  const double half = kGrip * scene.cloth.length / 2;
+  const double half = kClampPart * scene.cloth.length / 2;
   Obstacle body;
   body.kind = ObstacleKind::box;
   body.size = {half, 0.6 * scene.cloth.width, kJaw};
@@ -58,7 +58,7 @@ std::vector<Phase> phases(const FoldChoice& choice) {
   return all;
 }
 
-int decade_of(int cycle) {
+int cycle_decade(int cycle) {
   int decade = 1;
   while (cycle / decade >= 10) decade *= 10;
   return decade;
@@ -74,21 +74,21 @@ void give_fatigue(Scene& scene, const FoldChoice& choice) {
 }
 
 bool is_chosen(int cycle, int last) {
-  const int decade = decade_of(cycle);
+  const int decade = cycle_decade(cycle);
   return cycle == last || cycle == decade || cycle == 2 * decade || cycle == 5 * decade;
 }
 
-bool is_pictured(int cycle, int last) { return cycle == last || cycle == decade_of(cycle); }
+bool is_pictured(int cycle, int last) { return cycle == last || cycle == cycle_decade(cycle); }
 
 Fold folded(const Scene& given, const FoldChoice& choice, double fps) {
   if (given.element != BendingElement::shape)
-    throw Error::invalid_input("element = " + name_of(given.element) +
+    throw Error::invalid_input("element = " + enum_name(given.element) +
                                " must be shape: recovery is read from the curvature tensors of faces")
-        .of("element", name_of(given.element))
-        .in("fold");
+        .with_key("element", enum_name(given.element))
+        .with_experiment("fold");
   Fold fold{given, {}};
   Scene& scene = fold.scene;
-  fold.free_length = (1 - 2 * kGrip) * scene.cloth.length;
+  fold.free_length = (1 - 2 * kClampPart) * scene.cloth.length;
   fold.half = std::max(1, static_cast<int>(std::lround(choice.period / 2 * fps)));
   const double apart = choice.period / 2 / fold.half;
   scene.step = apart / std::max(1.0, std::round(apart / scene.step));
@@ -103,7 +103,7 @@ Fold folded(const Scene& given, const FoldChoice& choice, double fps) {
   scene.cloth.shape = "strip";
   scene.triangles = clamped.mesh.faces();
   scene.pin = {held_between(-1, clamped.near()), held_between(clamped.far(), 1)};
-  scene.pin[1].motion = motion_of(choice, fold.free_length);
+  scene.pin[1].motion = clamp_motion(choice, fold.free_length);
   scene.pin[1].until = fold.released + scene.step / 2;
   scene.obstacle = {jaw(scene, 0, -1), jaw(scene, clamped.length, 1)};
   scene.obstacle[1].motion = scene.pin[1].motion;

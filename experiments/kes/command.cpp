@@ -57,7 +57,7 @@ const KeyRow<KesFlags> kStripRows[] = {
 // clang-format on
 constexpr int kQuickSteps = 1000, kQuickStripSteps = 18;
 
-Keys keys_of(KesFlags& flags) {
+Keys option_keys(KesFlags& flags) {
   Keys keys = bind(kRows, flags);
   for (const BoundKey& key : bind(kStripRows, flags)) keys.push_back(key);
   return with_output_options(keys, flags.options);
@@ -74,14 +74,14 @@ std::vector<Fabric> chosen_fabrics(const std::vector<Flag>& flags) {
   const std::string list = last_text(flags, "fabric", Fabric{}.name);
   std::vector<Fabric> fabrics;
   for (const std::string& name : listed(list, list_assets("fabrics")))
-    fabrics.push_back(fabric_of(name, flags));
-  if (fabrics.empty()) throw Error::invalid_input("--fabric names none").of("fabric", list);
+    fabrics.push_back(resolved_fabric(name, flags));
+  if (fabrics.empty()) throw Error::invalid_input("--fabric names none").with_key("fabric", list);
   return fabrics;
 }
 
 // With several laws each takes the parameters that it has; one that no law has is refused.
-LawParameters parameters_of(const std::string& law, const std::vector<std::string>& laws,
-                            const Parameters& given) {
+LawParameters accepted_parameters(const std::string& law, const std::vector<std::string>& laws,
+                                  const Parameters& given) {
   if (laws.size() == 1) return given;
   const auto has = [](const std::string& name, const std::string& parameter) {
     const std::vector<std::string> names = law_parameter_names(name);
@@ -93,7 +93,7 @@ LawParameters parameters_of(const std::string& law, const std::vector<std::strin
     if (std::none_of(laws.begin(), laws.end(),
                      [&, &name = name](const std::string& other) { return has(other, name); }))
       throw Error::invalid_input("none of the laws has a parameter " + name + " (--param)")
-          .of("param", name + "=" + value);
+          .with_key("param", name + "=" + value);
   }
   return own;
 }
@@ -103,7 +103,7 @@ void throw_if_strip_keys(const CommandLine& line) {
     for (const KeyRow<KesFlags>& row : kStripRows)
       if (flag.path == row.path)
         throw Error::invalid_input("--" + flag.path + " is of strips: it needs --on strip")
-            .of(flag.path, flag.text);
+            .with_key(flag.path, flag.text);
 }
 
 // Where no equilibrium is found, the test of other strips goes on.
@@ -114,7 +114,7 @@ StripResult strip_tested(const Fabric& fabric, const KesFlags& flags, const LawR
   const ClampedStrip strip = clamped_strip(shape, law, fabric, flags.protocol);
   StripResult result;
   result.mesh = mesh;
-  result.element = name_of(shape.element);
+  result.element = enum_name(shape.element);
   result.prefix = several_meshes ? mesh + "." : "";
   result.triangles = strip.cloth.mesh.faces();
   result.spacing = strip.spacing;
@@ -161,7 +161,7 @@ KesFabric tested(const Fabric& fabric, const KesFlags& flags, const std::vector<
   KesFabric result{fabric, test_in_kes({"prandtl", curve, {}}, flags.protocol), {}};
   for (const std::string& law : laws) {
     const std::string name = several_fabrics ? fabric.name + "." + law : laws.size() > 1 ? law : "";
-    const LawRequest request{law, curve, parameters_of(law, laws, flags.param)};
+    const LawRequest request{law, curve, accepted_parameters(law, laws, flags.param)};
     result.results.push_back({law, name, test_in_kes(request, flags.protocol)});
     if (flags.on == "law") continue;
     const std::vector<std::string> meshes = listed(flags.mesh, strip_meshes());
@@ -191,8 +191,8 @@ Json resolved(KesFlags& flags, const std::vector<std::string>& laws, const std::
 int run_kes(const CommandLine& line) {
   KesFlags flags;
   if (last_text(line.flags, "test", flags.test) != flags.test) return run_in_plane(line);
-  throw_if_other_tests(line, keys_of(flags), flags.test);
-  set_keys(line, keys_of(flags), [&] {
+  throw_if_other_tests(line, option_keys(flags), flags.test);
+  set_keys(line, option_keys(flags), [&] {
     flags.protocol.steps = std::min(flags.protocol.steps, kQuickSteps);
     flags.protocol.minor_loops = false;
     flags.strip.steps = std::min(flags.strip.steps, kQuickStripSteps);
@@ -200,7 +200,7 @@ int run_kes(const CommandLine& line) {
   if (flags.on == "law") throw_if_strip_keys(line);
   check_protocol(flags.protocol);
   const std::vector<std::string> laws = chosen_laws(flags.law, flags.on == "strip");
-  if (laws.empty()) throw Error::invalid_input("--law names none").of("law", flags.law);
+  if (laws.empty()) throw Error::invalid_input("--law names none").with_key("law", flags.law);
   const std::vector<Fabric> fabrics = chosen_fabrics(line.flags);
   std::vector<KesFabric> results;
   for (const Fabric& fabric : fabrics) results.push_back(tested(fabric, flags, laws, fabrics.size() > 1));
@@ -223,7 +223,7 @@ Experiment kes() {
       .name = "kes",
       .question = "virtual KES tests: bending (B, 2HB, residual curvature), shear (G, 2HG), tension (WT, RT)",
       .run = run_kes,
-      .own_keys = own_keys_of<keys_of, fabric_keys, in_plane_keys>};
+      .own_keys = own_key_descriptions<option_keys, fabric_keys, in_plane_keys>};
 }
 
 }  // namespace hysteron::experiments

@@ -39,7 +39,7 @@ const KeyRow<InPlaneFlags> kSharedRows[] = {
 // clang-format on
 constexpr int kQuickTriangles = 400;
 
-Keys keys_of(InPlaneFlags& flags) {
+Keys option_keys(InPlaneFlags& flags) {
   Keys keys = bind(kSharedRows, flags);
   for (const BoundKey& key : bind(kOwnRows, flags)) keys.push_back(key);
   return with_output_options(keys, flags.options);
@@ -48,13 +48,13 @@ Keys keys_of(InPlaneFlags& flags) {
 template <class Test, class OnCloth>
 void test_on_cloth(InPlaneResult& result, const Test& law, const InPlaneFlags& flags,
                    const OnCloth& on_cloth) {
-  result.law = loop_of(law);
+  result.law = in_plane_loop(law);
   if (flags.on == "law") return;
   InPlaneSpecimen coarse = flags.specimen;
   coarse.triangles /= 4;
   const auto cloth = on_cloth(result.fabric, flags.along, flags.specimen, flags.protocol);
-  result.cloth = loop_of(cloth.test);
-  result.coarse = loop_of(on_cloth(result.fabric, flags.along, coarse, flags.protocol).test);
+  result.cloth = in_plane_loop(cloth.test);
+  result.coarse = in_plane_loop(on_cloth(result.fabric, flags.along, coarse, flags.protocol).test);
   result.tension = cloth.tension;
   result.triangles = cloth.triangles;
   result.seconds = cloth.seconds;
@@ -72,7 +72,7 @@ InPlaneResult tested(const Fabric& fabric, InPlaneTest test, const InPlaneFlags&
 }
 
 Json resolved(InPlaneFlags& flags, const std::vector<InPlaneResult>& results) {
-  Json keys = to_json(keys_of(flags));
+  Json keys = to_json(option_keys(flags));
   for (const InPlaneResult& result : results) {
     Scene scene;
     scene.fabric = result.fabric;
@@ -92,22 +92,23 @@ void throw_if_other_tests(const CommandLine& line, const Keys& keys, const std::
     if (flag.path.starts_with("fabric")) continue;
     const auto is_it = [&](const BoundKey& key) { return key.description.path == flag.path; };
     if (std::none_of(keys.begin(), keys.end(), is_it))
-      throw Error::invalid_input("--" + flag.path + " is not of --test " + test).of(flag.path, flag.text);
+      throw Error::invalid_input("--" + flag.path + " is not of --test " + test)
+          .with_key(flag.path, flag.text);
   }
 }
 
 int run_in_plane(const CommandLine& line) {
   InPlaneFlags flags;
-  throw_if_other_tests(line, keys_of(flags), last_text(line.flags, "test", flags.test));
-  set_keys(line, keys_of(flags),
+  throw_if_other_tests(line, option_keys(flags), last_text(line.flags, "test", flags.test));
+  set_keys(line, option_keys(flags),
            [&] { flags.specimen.triangles = std::min(flags.specimen.triangles, kQuickTriangles); });
   const auto test = value_named<InPlaneTest>(flags.test);
   const std::string list = last_text(line.flags, "fabric", Fabric{}.name);
   const std::vector<std::string> fabrics = listed(list, list_assets("fabrics"));
-  if (fabrics.empty()) throw Error::invalid_input("--fabric names none").of("fabric", list);
+  if (fabrics.empty()) throw Error::invalid_input("--fabric names none").with_key("fabric", list);
   std::vector<InPlaneResult> results;
   for (const std::string& name : fabrics) {
-    results.push_back(tested(fabric_of(name, line.flags), test, flags));
+    results.push_back(tested(resolved_fabric(name, line.flags), test, flags));
     if (fabrics.size() > 1) results.back().prefix = results.back().fabric.name + ".";
   }
   Run run(line, flags.options, resolved(flags, results));
@@ -120,7 +121,7 @@ int run_in_plane(const CommandLine& line) {
 }
 
 std::vector<KeyDescription> in_plane_keys() {
-  std::vector<KeyDescription> keys = descriptions_of(kOwnRows);
+  std::vector<KeyDescription> keys = key_descriptions(kOwnRows);
   for (const KeyDescription& key : scene_keys()) {
     const bool stiffness =
         key.path == "fabric.warp" || key.path == "fabric.weft" || key.path == "fabric.shear";

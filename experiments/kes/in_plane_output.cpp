@@ -59,7 +59,7 @@ std::string ending(const std::vector<InPlaneResult>& results, const InPlaneResul
   return results.size() > 1 ? "_" + result.fabric.name : "";
 }
 
-const char* axis_of(InPlaneTest test) {
+const char* strain_axis_label(InPlaneTest test) {
   return test == InPlaneTest::shear ? "angle [degree]" : "extension [percent]";
 }
 
@@ -69,7 +69,7 @@ render::Series series(const InPlaneLoop& loop, const char* label, const char* co
 
 }  // namespace
 
-InPlaneLoop loop_of(const ShearTest& test) {
+InPlaneLoop in_plane_loop(const ShearTest& test) {
   InPlaneLoop loop;
   for (const LawRow& row : test.walk.shear.rows) loop.x.push_back(std::atan(row.curvature) / kDegree);
   loop.force = test.force;
@@ -81,7 +81,7 @@ InPlaneLoop loop_of(const ShearTest& test) {
   return loop;
 }
 
-InPlaneLoop loop_of(const TensionTest& test) {
+InPlaneLoop in_plane_loop(const TensionTest& test) {
   InPlaneLoop loop;
   for (const double e : test.extension) loop.x.push_back(100 * e);
   loop.force = test.force;
@@ -121,7 +121,7 @@ void write_in_plane_tables(Run& run, const std::vector<InPlaneResult>& results, 
   Table table("fabric,number,published,law,strip,strip of a quarter of the triangles");
   for (const InPlaneResult& result : results) {
     const auto write = [&](const std::string& name, const InPlaneLoop& loop) {
-      Table({{axis_of(test), loop.x}, {"force per width [N/m]", loop.force}})
+      Table({{strain_axis_label(test), loop.x}, {"force per width [N/m]", loop.force}})
           .write(run.path(name + ending(results, result) + ".csv"));
     };
     write("loops", result.law);
@@ -138,8 +138,8 @@ void write_in_plane_tables(Run& run, const std::vector<InPlaneResult>& results, 
 
 void write_in_plane_plots(Run& run, const std::vector<InPlaneResult>& results, InPlaneTest test) {
   for (const InPlaneResult& result : results) {
-    render::Plot plot{.title = "KES-FB1 " + name_of(test) + " of " + result.fabric.name,
-                      .x = {axis_of(test)},
+    render::Plot plot{.title = "KES-FB1 " + enum_name(test) + " of " + result.fabric.name,
+                      .x = {strain_axis_label(test)},
                       .y = {"force per width [N/m]"}};
     plot.axes_at_zero = plot.key_inside = true;
     plot.series.push_back(series(result.law, "law alone", kLawColor, 6));

@@ -24,8 +24,8 @@ struct InPlaneLoop {
   std::vector<double> x, force;  // force in N/m
   std::vector<InPlaneNumber> numbers;
 };
-InPlaneLoop loop_of(const ShearTest& test);
-InPlaneLoop loop_of(const TensionTest& test);
+InPlaneLoop in_plane_loop(const ShearTest& test);
+InPlaneLoop in_plane_loop(const TensionTest& test);
 
 struct InPlaneResult {
   Fabric fabric;

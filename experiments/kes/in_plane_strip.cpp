@@ -16,8 +16,8 @@ struct ClampPlace {
   double apart, along;
 };
 
-Scene scene_of(const Fabric& fabric, Along along, const InPlaneSpecimen& specimen,
-               const std::vector<ClampPlace>& places) {
+Scene strip_scene(const Fabric& fabric, Along along, const InPlaneSpecimen& specimen,
+                  const std::vector<ClampPlace>& places) {
   Scene scene;
   scene.fabric = fabric;
   scene.fabric.damping = 0;
@@ -53,7 +53,7 @@ struct ClampForces {
 
 ClampForces forces_at(const Fabric& fabric, Along along, const InPlaneSpecimen& specimen,
                       const std::vector<ClampPlace>& places) {
-  const Scene scene = scene_of(fabric, along, specimen, places);
+  const Scene scene = strip_scene(fabric, along, specimen, places);
   const Cloth cloth = make_cloth(scene);
   const auto simulation = make_simulation(scene, cloth);
   ClampForces result;

@@ -14,7 +14,7 @@ constexpr int kShownSteps = 100;  // rows of a table from zero to the amplitude
 
 std::string prefix(const KesResult& result) { return result.name.empty() ? "" : result.name + "."; }
 
-double amplitude_of(const KesResult& result) { return result.test.walk.rows.back().curvature; }
+double curvature_amplitude(const KesResult& result) { return result.test.walk.rows.back().curvature; }
 
 // Of the names of a result's own files.
 std::string ending(const std::string& name) { return name.empty() ? "" : "_" + name; }
@@ -116,7 +116,7 @@ void write_metrics(Run& run, const std::vector<KesFabric>& fabrics) {
       run.metric(p + "reversals_elastic", result.test.recovery_cases[0]);
       run.metric(p + "reversals_partial", result.test.recovery_cases[1]);
       run.metric(p + "reversals_full_slip", result.test.recovery_cases[2]);
-      write_strip_metrics(run, p, amplitude_of(result), result.strips);
+      write_strip_metrics(run, p, curvature_amplitude(result), result.strips);
     }
   }
 }
@@ -143,7 +143,7 @@ void print_table(const std::vector<KesFabric>& fabrics) {
         cases += (cases.empty() ? "" : "/") + std::to_string(count);
       print_row(result.law, {four_digits(r.rigidity), four_digits(r.loop_width), four_digits(r.residual),
                              four_digits(r.residual_by_formula), four_digits(r.loop_area), cases});
-      print_strips(amplitude_of(result), result.strips);
+      print_strips(curvature_amplitude(result), result.strips);
     }
     fmt::print("\n");
   }

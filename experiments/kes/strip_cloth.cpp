@@ -33,7 +33,7 @@ Pin clamp_between(double low, double high) {
   return pin;
 }
 
-Scene scene_of(const StripShape& shape, const LawRequest& law, const Fabric& fabric, const KesWalk& walk) {
+Scene strip_scene(const StripShape& shape, const LawRequest& law, const Fabric& fabric, const KesWalk& walk) {
   Scene scene;
   scene.fabric = fabric;
   scene.fabric.damping = 0;
@@ -54,22 +54,22 @@ void check_strip(const StripShape& shape, const LawRequest& law, const KesProtoc
   const auto& meshes = strip_meshes();
   if (std::find(meshes.begin(), meshes.end(), shape.mesh) == meshes.end())
     throw Error::invalid_input("mesh = " + shape.mesh + " of a strip is not one of: " + join(meshes, ", "))
-        .of("mesh", shape.mesh)
-        .in("kes");
+        .with_key("mesh", shape.mesh)
+        .with_experiment("kes");
   if (law.name == "grinspun-edit")
     throw Error::invalid_input(
         "grinspun-edit is tested alone (--on law): no edit is ordered on the strip's way, and without "
         "one it is linear")
-        .of("law", law.name)
-        .in("kes");
+        .with_key("law", law.name)
+        .with_experiment("kes");
   if (protocol.amplitude * kGauge >= 2 * kPi) {
     const std::string amplitude = fmt::format("{:g}", protocol.amplitude);
     throw Error::invalid_input(
         fmt::format("amplitude = {} 1/m bends a strip of {:g} m by a whole turn or more: the "
                     "clamps would meet; it must be < {:g} 1/m",
                     amplitude, kGauge, 2 * kPi / kGauge))
-        .of("amplitude", amplitude)
-        .in("kes");
+        .with_key("amplitude", amplitude)
+        .with_experiment("kes");
   }
 }
 
@@ -112,7 +112,7 @@ ClampedStrip clamped_strip(const StripShape& shape, const LawRequest& law, const
   ClampedStrip strip{{}, {}, strip_walk(protocol, shape.steps), 0};
   ClampedMesh clamped = clamped_mesh(shape.mesh, kGauge, shape.width, shape.triangles, 2, 1);
   const double d = strip.spacing = clamped.spacing;
-  Scene& scene = strip.scene = scene_of(shape, law, fabric, strip.walk);
+  Scene& scene = strip.scene = strip_scene(shape, law, fabric, strip.walk);
   scene.cloth.shape = "strip";
   scene.cloth.length = clamped.length;
   scene.cloth.width = shape.width;

@@ -27,7 +27,8 @@ double bend_between(const StripResult& strip) {
   return 100 * (strip.test.free_curvature[row] / strip.walk.rows[row].curvature - 1);
 }
 
-void write_metrics_of(Run& run, const std::string& p, const StripResult& strip, const StripDifference& d) {
+void write_strip_readings(Run& run, const std::string& p, const StripResult& strip,
+                          const StripDifference& d) {
   const StripTest& test = strip.test;
   run.metric(p + "strip_B_N_m", test.reading.rigidity);
   run.metric(p + "strip_2HB_N", test.reading.loop_width);
@@ -76,7 +77,7 @@ void write_strip_metrics(Run& run, const std::string& prefix, double amplitude,
     const std::string p = prefix + strip.prefix;
     if (!strip.renderer.empty()) run.manifest().renderer = strip.renderer;
     if (strip.failure.empty())
-      write_metrics_of(run, p, strip, difference(strip.test, amplitude));
+      write_strip_readings(run, p, strip, difference(strip.test, amplitude));
     else
       run.metric(p + "strip_failure", strip.failure);
   }

@@ -66,7 +66,7 @@ int run_law(const CommandLine& line) {
   std::error_code missing;
   if (std::filesystem::equivalent(flags.in, flags.out, missing))
     throw Error::invalid_input("--out " + flags.out + " is the input: give another file")
-        .of("out", flags.out);
+        .with_key("out", flags.out);
   return run_law_command(
       {flags.law, {flags.b1, flags.b2, flags.k0, flags.parts}, flags.param, flags.in, flags.out});
 }
@@ -77,7 +77,7 @@ Experiment law() {
   return {.name = "law",
           .question = "one law alone: curvatures in, moments out (CSV)",
           .run = run_law,
-          .own_keys = own_keys_of<kRows>};
+          .own_keys = own_key_descriptions<kRows>};
 }
 
 }  // namespace hysteron::experiments

@@ -23,8 +23,8 @@ void check_curve(const VirginCurve& curve) {
   const auto refuse = [](const char* name, double value, const char* unit, const std::string& allowed) {
     throw Error::invalid_input(std::string("--") + name + " = " + with_unit(value, unit) + " must be " +
                                allowed)
-        .of(name, fmt::format("{:g}", value))
-        .in("law");
+        .with_key(name, fmt::format("{:g}", value))
+        .with_experiment("law");
   };
   if (!(curve.b2 >= 0) || !std::isfinite(curve.b2)) refuse("b2", curve.b2, "N m", "finite and >= 0");
   if (!(curve.b1 >= curve.b2) || !std::isfinite(curve.b1))
@@ -33,12 +33,12 @@ void check_curve(const VirginCurve& curve) {
 }
 
 // None where the column is not there.
-std::vector<double> numbers_of(const Table& table, const std::string& column) {
+std::vector<double> metric_values(const Table& table, const std::string& column) {
   return table.find(column) ? table.numbers(column) : std::vector<double>{};
 }
 
 void check_time(const Table& table) {
-  const std::vector<double> time = numbers_of(table, kTime);
+  const std::vector<double> time = metric_values(table, kTime);
   for (size_t row = 1; row < time.size(); ++row) {
     if (time[row] < time[row - 1]) {
       throw table.refusal(row, "time = " + with_unit(time[row], "s") + " must be >= " +
@@ -48,7 +48,7 @@ void check_time(const Table& table) {
 }
 
 void check_edit(const Table& table) {
-  const std::vector<double> edit = numbers_of(table, kEdit);
+  const std::vector<double> edit = metric_values(table, kEdit);
   for (size_t row = 0; row < edit.size(); ++row) {
     if (edit[row] != 0 && edit[row] != 1) {
       throw table.refusal(row, "edit = " + with_unit(edit[row], "must be 0 or 1"));
@@ -79,9 +79,9 @@ void check_results(const std::vector<Column>& results, const Table& table) {
   }
 }
 
-std::vector<LawRow> rows_of(const Table& table) {
-  const std::vector<double> curvature = table.numbers(kCurvature), time = numbers_of(table, kTime),
-                            edit = numbers_of(table, kEdit);
+std::vector<LawRow> law_table_rows(const Table& table) {
+  const std::vector<double> curvature = table.numbers(kCurvature), time = metric_values(table, kTime),
+                            edit = metric_values(table, kEdit);
   std::vector<LawRow> rows;
   for (size_t i = 0; i < curvature.size(); ++i) {
     LawRow row{curvature[i]};
@@ -124,7 +124,7 @@ int run_law_command(const LawOptions& options) {
   check_curvature(table);
   check_time(table);
   check_edit(table);
-  const std::vector<LawRow> rows = rows_of(table);
+  const std::vector<LawRow> rows = law_table_rows(table);
   const LawRun run = run_law(request, rows);
   std::vector<Column> results = {{kCurvature, table.numbers(kCurvature)},
                                  {"moment [N]", run.moment},

@@ -144,13 +144,13 @@ int run_list(const CommandLine& line) {
   const auto is_part = [&](const std::string& name) {
     return std::any_of(parts.begin(), parts.end(), [&](const auto& part) { return part.first == name; });
   };
-  const std::vector<std::string>& names = line.names;
+  const std::vector<std::string>& names = line.positionals;
   if (names.size() > 1 && names.front() == "fabrics" &&
       std::none_of(names.begin() + 1, names.end(), is_part)) {
     nlohmann::ordered_json fabrics = nlohmann::ordered_json::array();
     for (auto name = names.begin() + 1; name != names.end(); ++name) {
       const FabricFile file = read_fabric(*name, "list fabrics");
-      flags.json ? fabrics.push_back(json_of(file)) : list_numbers(file);
+      flags.json ? fabrics.push_back(fabric_json(file)) : list_numbers(file);
     }
     if (flags.json) std::cout << nlohmann::ordered_json{{"fabrics", fabrics}}.dump(2) << "\n";
     return 0;
@@ -178,8 +178,8 @@ Experiment list() {
   return {.name = "list",
           .question = "what there is: fabrics, laws, scenes, devices",
           .run = run_list,
-          .own_keys = own_keys_of<kRows>,
-          .names = "fabrics [NAME|FILE]...|laws|scenes|devices"};
+          .own_keys = own_key_descriptions<kRows>,
+          .positionals = "fabrics [NAME|FILE]...|laws|scenes|devices"};
 }
 
 }  // namespace hysteron::experiments

@@ -53,7 +53,7 @@ std::vector<StatedNumber> stated_numbers(const FabricFile& file) {
   return result;
 }
 
-Json json_of(const FabricFile& file) {
+Json fabric_json(const FabricFile& file) {
   Json numbers = Json::object(), published = Json::object();
   for (const StatedNumber& stated : stated_numbers(file)) {
     Json& number = numbers[stated.name];
@@ -79,7 +79,7 @@ Json json_list(const std::string& name) {
   if (name == "scenes") return list_assets("scenes");
   if (name == "devices") return devices();
   Json list = Json::array();
-  for (const FabricFile& file : list_fabrics()) list.push_back(json_of(file));
+  for (const FabricFile& file : list_fabrics()) list.push_back(fabric_json(file));
   return list;
 }
 

@@ -22,7 +22,7 @@ std::vector<StatedNumber> stated_numbers(const FabricFile& file);
 
 // Name, description, every number with value, unit, how it is known, its range where one is stated and its
 // source, and the numbers as published.
-nlohmann::ordered_json json_of(const FabricFile& file);
+nlohmann::ordered_json fabric_json(const FabricFile& file);
 // The lists of that name: fabrics, laws, scenes or devices.
 nlohmann::ordered_json json_list(const std::string& name);
 

@@ -24,7 +24,7 @@ void apply_flags(const CommandLine& line, Options& options) {
     const std::string path = flag.path == "render.range" ? "curvature-range" : flag.path;
     if (path.starts_with("render.") || path == "fps")
       throw Error::invalid_input(flag.path + " is of mesh files, not of kept geometry (--" + flag.path + ")")
-          .of(flag.path, flag.text);
+          .with_key(flag.path, flag.text);
     const BoundKey& key = find_key(keys, path, "--" + flag.path);
     assign(key, parse_text(key.description, flag.text), "--" + flag.path);
   }
@@ -66,7 +66,7 @@ Json keys_of_kept(const fs::path& file, const KeptCloth& cloth) {
 
 void draw_run(const CommandLine& line, const fs::path& file, const Kept& kept) {
   const KeptCloth& cloth = kept.cloths.at(0);
-  Setup setup = setup_of(cloth, file.string());
+  Setup setup = kept_setup(cloth, file.string());
   apply_flags(line, setup.options);
   Run run(line, setup.options, keys_of_kept(file, cloth));
   // A run that has not ended has no sheet yet.
@@ -76,9 +76,10 @@ void draw_run(const CommandLine& line, const fs::path& file, const Kept& kept) {
 }
 
 // Beside the look that is asked for, those that the page needs.
-std::string looks_of(const ComparisonPage& page, const std::string& asked, const std::string& recorded) {
-  if (asked.empty()) return recorded;
-  std::string looks = asked;
+std::string page_looks(const ComparisonPage& page, const std::string& requested,
+                       const std::string& recorded) {
+  if (requested.empty()) return recorded;
+  std::string looks = requested;
   if (page.outlines) looks += ",silhouette";
   if (page.to >= 0 && page.curvature) looks += ",difference";
   return looks;
@@ -86,11 +87,11 @@ std::string looks_of(const ComparisonPage& page, const std::string& asked, const
 
 ChildRun draw_column(const CommandLine& line, const fs::path& file, const Kept& kept, const KeptCloth& cloth,
                      const ComparisonPage& page, const fs::path& out) {
-  Setup setup = setup_of(cloth, file.string());
+  Setup setup = kept_setup(cloth, file.string());
   const std::string recorded = setup.options.look;
   apply_flags(line, setup.options);
   setup.options.out = (out / cloth.name).string();
-  setup.options.look = looks_of(page, last_text(line.flags, "look", ""), recorded);
+  setup.options.look = page_looks(page, last_text(line.flags, "look", ""), recorded);
   setup.options.plain = true;  // the page has the letters
   setup.options.json = false;
   Run run(line, setup.options, keys_of_kept(file, cloth));
@@ -98,11 +99,11 @@ ChildRun draw_column(const CommandLine& line, const fs::path& file, const Kept& 
   if (cloth.setup.contains("probes"))
     write_text(run.path("probes.csv"), cloth.setup.at("probes").get<std::string>());
   run.finish();
-  return column_of(cloth, run.folder(), run.manifest().frames);
+  return redrawn_column(cloth, run.folder(), run.manifest().frames);
 }
 
 void draw_comparison(const CommandLine& line, const fs::path& file, const Kept& kept) {
-  ComparisonPage page = page_of(kept.sheet);
+  ComparisonPage page = kept_comparison_page(kept.sheet);
   Options options;
   apply_flags(line, options);
   page.look = last_text(line.flags, "look", page.look);
@@ -118,9 +119,9 @@ void draw_comparison(const CommandLine& line, const fs::path& file, const Kept& 
 
 }  // namespace
 
-fs::path kept_file_of(const CommandLine& line) {
-  if (line.names.size() != 1) return {};
-  const fs::path name = line.names[0];
+fs::path kept_geometry_file(const CommandLine& line) {
+  if (line.positionals.size() != 1) return {};
+  const fs::path name = line.positionals[0];
   if (name.extension() == ".hyg") return name;
   std::error_code ignored;
   return fs::is_directory(name / "mesh", ignored) ? fs::path() : kept_file_in(name);

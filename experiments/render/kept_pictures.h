@@ -8,7 +8,7 @@
 namespace hysteron::experiments {
 
 // "" unless the line names one folder that keeps geometry and has no meshes beside it, or such a file itself.
-std::filesystem::path kept_file_of(const CommandLine& line);
+std::filesystem::path kept_geometry_file(const CommandLine& line);
 
 // Draws it into the line's folder; flags win over what the run was drawn with.  A comparison's columns are
 // drawn into folders of their own, then its sheet.  Throws Error::invalid_input for a damaged file and for

@@ -53,7 +53,7 @@ const KeyRow<F> kRows[] = {
 
 constexpr int kCells = 12, kInstants = 5;  // pictures on the sheet of one sequence; of each of several
 
-Keys keys_of(F& flags) {
+Keys option_keys(F& flags) {
   static const std::vector<std::string> kNames = {"size",
                                                   "quality",
                                                   "renderer",
@@ -78,10 +78,11 @@ Keys keys_of(F& flags) {
 }
 
 Error refusal(const std::string& key, const std::string& value, const std::string& must) {
-  return Error::invalid_input(key + " = " + value + " must be " + must + " (--" + key + ")").of(key, value);
+  return Error::invalid_input(key + " = " + value + " must be " + must + " (--" + key + ")")
+      .with_key(key, value);
 }
 
-std::optional<float> ground_of(const F& flags) {
+std::optional<float> ground_height(const F& flags) {
   if (flags.ground == "none") return {};
   float height = 0;
   const char* const end = flags.ground.data() + flags.ground.size();
@@ -112,7 +113,7 @@ std::string after(const std::string& separator, const std::string& text) {
 }
 
 // The i-th of `count` values in a list of one for all or one for each; "" for an empty list.
-std::string value_of(const std::string& key, const std::string& list, std::size_t i, std::size_t count) {
+std::string listed_value(const std::string& key, const std::string& list, std::size_t i, std::size_t count) {
   const std::vector<std::string> values = split(list);
   if (values.empty()) return "";
   if (values.size() == 1) return values[0];
@@ -120,7 +121,7 @@ std::string value_of(const std::string& key, const std::string& list, std::size_
   throw refusal(key, list, "one value, or as many as sequences: " + std::to_string(count));
 }
 
-LengthUnit unit_of(const std::string& unit) {
+LengthUnit parsed_unit(const std::string& unit) {
   const auto units = names(LengthUnit{});
   if (std::count(units.begin(), units.end(), unit)) return value_named<LengthUnit>(unit);
   throw refusal("render.unit", unit, join({units.begin(), units.end()}, " | "));
@@ -131,7 +132,7 @@ bool is_y_up(const std::string& up) {
   return up == "y";
 }
 
-double rate_of(const std::string& fps) {
+double frame_rate(const std::string& fps) {
   if (fps.empty()) return 0;
   double rate = 0;
   const char* const end = fps.data() + fps.size();
@@ -159,31 +160,31 @@ void choose_instants(std::vector<Column>& columns) {
       column.shown.push_back(static_cast<int>(std::lround(k * (timed ? column.fps : 1) / rate)));
 }
 
-std::vector<Column> columns_of(const F& flags, const std::vector<std::string>& words) {
+std::vector<Column> rendered_columns(const F& flags, const std::vector<std::string>& words) {
   std::vector<Column> columns;
   if (words.empty()) throw Error::invalid_input("needs mesh files or folders: hysteron render FILES...");
   const std::vector<MeshSequence> sequences = mesh_sequences(words);
   for (std::size_t i = 0; i < sequences.size(); ++i) {
     const auto value = [&](const char* key, const std::string& list) {
-      return value_of(key, list, i, sequences.size());
+      return listed_value(key, list, i, sequences.size());
     };
     columns.push_back({sequences[i],
-                       {unit_of(value("render.unit", flags.unit)), is_y_up(value("render.up", flags.up))},
-                       rate_of(value("fps", flags.fps)),
+                       {parsed_unit(value("render.unit", flags.unit)), is_y_up(value("render.up", flags.up))},
+                       frame_rate(value("fps", flags.fps)),
                        {}});
   }
   choose_instants(columns);
   return columns;
 }
 
-Surface body_of(const F& flags, const FileAxes& axes) {
+Surface moving_obstacle(const F& flags, const FileAxes& axes) {
   if (!std::filesystem::exists(flags.body))
-    throw Error::invalid_input("no such file or folder: " + flags.body).of("render.body", flags.body);
+    throw Error::invalid_input("no such file or folder: " + flags.body).with_key("render.body", flags.body);
   return read_frame(flags.body, axes);
 }
 
 // As a cloth, whose triangles must be two sides of a surface.
-ClothMesh mesh_of(const Surface& frame, const std::string& what) {
+ClothMesh frame_mesh(const Surface& frame, const std::string& what) {
   ClothMesh mesh;
   mesh.rest = frame.vertex;
   mesh.face = frame.face;
@@ -196,9 +197,9 @@ void check_curvature(const F& flags, const Surface& frame, const std::string& wh
   if (flags.curvature == "file") {
     if (!frame.curvature.empty()) return;
     throw Error::invalid_input(what + ": no property curvature of its vertices (--render.curvature file)")
-        .of("render.curvature", flags.curvature);
+        .with_key("render.curvature", flags.curvature);
   }
-  mesh_of(frame, what);
+  frame_mesh(frame, what);
 }
 
 // What is doubtful about each sequence's first mesh: curvature needs an edge between two triangles.
@@ -206,7 +207,7 @@ void warn_of_loose_parts(const F& flags, const std::vector<Column>& columns, Run
   if (flags.options.look != "curvature" || flags.curvature == "file") return;
   for (const Column& column : columns) {
     const std::string what = "mesh " + column.files().front().string();
-    const ClothMesh mesh = mesh_of(read_frame(column.files().front(), column.axes), what);
+    const ClothMesh mesh = frame_mesh(read_frame(column.files().front(), column.axes), what);
     for (const std::string& doubt : mesh_doubts(mesh, {what, {}, {}})) run.warn(doubt);
   }
 }
@@ -215,7 +216,7 @@ void warn_of_loose_parts(const F& flags, const std::vector<Column>& columns, Run
 render::Box checked_box(const F& flags, const std::vector<Column>& columns) {
   std::optional<render::Box> box;
   const auto add = [&](const Surface& surface) {
-    const render::Box here = render::box_of(flat_points(surface.vertex));
+    const render::Box here = render::bounding_box(flat_points(surface.vertex));
     box = box ? box->merged(here) : here;
   };
   for (const Column& column : columns)
@@ -224,7 +225,7 @@ render::Box checked_box(const F& flags, const std::vector<Column>& columns) {
       check_curvature(flags, frame, "mesh " + file.string());
       add(frame);
     }
-  if (!flags.body.empty()) add(body_of(flags, columns.front().axes));
+  if (!flags.body.empty()) add(moving_obstacle(flags, columns.front().axes));
   return *box;
 }
 
@@ -234,7 +235,7 @@ render::Box framed(const F& flags, const render::Box& whole) {
     return {flags.low.cast<float>(), flags.high.cast<float>()};
   throw Error::invalid_input(
       "render.low must be less than render.high in x, y and z (--render.low, --render.high)")
-      .of("render.low", "");
+      .with_key("render.low", "");
 }
 
 std::string joined_names(const std::vector<Column>& columns) {
@@ -261,10 +262,10 @@ class FramesAndSheet {
         columns_(columns),
         run_(run),
         pictures_(flags.options,
-                  {bounds, ground_of(flags), flags.range, flags.curvature == "file", flags.fabric}) {}
+                  {bounds, ground_height(flags), flags.range, flags.curvature == "file", flags.fabric}) {}
 
   void draw() {
-    if (!flags_.body.empty()) pictures_.add_body(body_of(flags_, columns_.front().axes));
+    if (!flags_.body.empty()) pictures_.add_body(moving_obstacle(flags_, columns_.front().axes));
     for (const Column& column : columns_) draw_sequence(column);
     writer_.finish();
     write_sheet();
@@ -302,7 +303,7 @@ class FramesAndSheet {
     render::Image image = picture(frame, "mesh " + file);
     for (auto n = std::count(column.shown.begin(), column.shown.end(), static_cast<int>(k)); n > 0; --n) {
       const float aspect = static_cast<float>(image.width()) / static_cast<float>(image.height());
-      const render::Window at = pictures_.camera().window_of(flat_points(frame.vertex), aspect);
+      const render::Window at = pictures_.camera().image_window(flat_points(frame.vertex), aspect);
       cells_.push_back({image, when, {}});
       cells_.back().shown.cloth = {at.left, 1 - at.top, at.right, 1 - at.bottom};
     }
@@ -361,15 +362,15 @@ void check_look(const std::string& look) {
 }
 
 int run_render(const CommandLine& line) {
-  if (const auto kept = kept_file_of(line); !kept.empty()) return draw_kept(line, kept), 0;
+  if (const auto kept = kept_geometry_file(line); !kept.empty()) return draw_kept(line, kept), 0;
   F flags;
   flags.options.out = "out/render";
-  const Keys keys = keys_of(flags);
+  const Keys keys = option_keys(flags);
   set_keys(line, keys);
   check_options(flags.options);
   check_look(flags.options.look);
-  ground_of(flags);
-  const std::vector<Column> columns = columns_of(flags, line.names);
+  ground_height(flags);
+  const std::vector<Column> columns = rendered_columns(flags, line.positionals);
   const render::Box bounds = framed(flags, checked_box(flags, columns));
   Run run(line, flags.options, to_json(keys));
   note_sequences(columns, run);
@@ -387,8 +388,8 @@ Experiment render_files() {
               "pictures of OBJ/PLY sequences of any simulator, side by side in one look and camera; "
               "those of a run's folder again, from the geometry that it keeps",
           .run = run_render,
-          .own_keys = own_keys_of<keys_of>,
-          .names = "FILES|DIR",
+          .own_keys = own_key_descriptions<option_keys>,
+          .positionals = "FILES|DIR",
           .headlines = {.all = {{"frames_count", "frames", "", "{:.0f}", 1, kNoErrors}}}};
 }
 

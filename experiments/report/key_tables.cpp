@@ -21,18 +21,18 @@ std::string allowed(const KeyDescription& key) {
   return "`" + join(key.choices, "`, `") + "`";
 }
 
-std::string usual_of(const BoundKey& key) {
+std::string default_cell(const BoundKey& key) {
   if (const auto* flag = std::get_if<bool*>(&key.field)) return **flag ? "true" : "false";
-  return key.description.usual;
+  return key.description.default_text;
 }
 
-std::string table_of(const Keys& keys) {
+std::string keys_table(const Keys& keys) {
   std::string table = "\n| key | type | unit | allowed | default | |\n|---|---|---|---|---|---|\n";
   for (const BoundKey& key : keys) {
     const KeyDescription& what = key.description;
     const std::string type = what.choices.empty() ? what.type : "choice";
     for (const std::string& text :
-         {"`" + what.path + "`", type, what.unit, allowed(what), usual_of(key), what.doc})
+         {"`" + what.path + "`", type, what.unit, allowed(what), default_cell(key), what.doc})
       table += text.empty() ? "| " : "| " + cell(text) + " ";
     table += "|\n";
   }
@@ -48,7 +48,7 @@ Keys without_fabric(Keys keys) {
 }
 
 std::string section(const std::string& title, const Keys& keys) {
-  return "\n### " + title + "\n" + table_of(keys);
+  return "\n### " + title + "\n" + keys_table(keys);
 }
 
 // What stands between the two comments of a name.

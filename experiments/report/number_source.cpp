@@ -53,7 +53,7 @@ std::optional<double> as_number(const std::string& text) {
   return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
-double number_of(const Json& value, const std::string& name) {
+double json_number(const Json& value, const std::string& name) {
   if (!value.is_number()) throw Error::invalid_input(name + " is no number");
   return value.get<double>();
 }
@@ -65,7 +65,7 @@ std::string hint(const std::string& name, const std::vector<std::string>& known)
 
 double at_pointer(const Json& json, const std::string& pointer, const std::string& file) {
   try {
-    return number_of(json.at(Json::json_pointer(pointer)), file + " " + pointer);
+    return json_number(json.at(Json::json_pointer(pointer)), file + " " + pointer);
   } catch (const Json::exception&) {
     throw Error::invalid_input(file + " has no " + pointer);
   }
@@ -79,7 +79,7 @@ struct Found {
   std::map<std::string, double> beside;  // the other metrics of the run, the other cells of the row
 };
 
-Found metric_of(const Json& manifest, const std::string& key, const std::string& file) {
+Found manifest_metric(const Json& manifest, const std::string& key, const std::string& file) {
   const Json metrics = manifest.value("metrics", Json::object());
   Found found;
   std::vector<std::string> known;
@@ -88,7 +88,7 @@ Found metric_of(const Json& manifest, const std::string& key, const std::string&
     if (value.is_number()) found.beside[name] = value.get<double>();
   }
   if (!metrics.contains(key)) throw Error::invalid_input(file + " has no metric " + key + hint(key, known));
-  found.value = number_of(metrics[key], "metric " + key + " of " + file);
+  found.value = json_number(metrics[key], "metric " + key + " of " + file);
   found.name = key;
   return found;
 }
@@ -136,7 +136,7 @@ Table rows_at(const Table& table, const std::string& row) {
   return found;
 }
 
-Found cell_of(const Table& table, const std::string& row, const std::string& column) {
+Found table_cell(const Table& table, const std::string& row, const std::string& column) {
   const Table fitting = rows_at(table, row);
   const std::size_t at = place_of(table, column);
   if (fitting.rows.size() > 1) throw Error::invalid_input(table.file + " has several rows " + row);
@@ -155,12 +155,12 @@ Found found_in(const std::string& file, const fs::path& folder, Words& words) {
     return {at_pointer(read_json(path), words.next("a JSON pointer"), file), {}, "", {}};
   if (name == "manifest.json" || name == "errors.csv") {
     if (!fs::exists(path)) throw Error::invalid_input("no file " + file);
-    return metric_of(read_json(path.parent_path() / "manifest.json"), words.next("a metric"), file);
+    return manifest_metric(read_json(path.parent_path() / "manifest.json"), words.next("a metric"), file);
   }
   const Table table = table_at(path, file);
   std::string row = words.next("a row");
   while (words.ahead().find('=') != std::string::npos) row += "&" + words.next("a column");
-  return cell_of(table, row, words.next("a column"));
+  return table_cell(table, row, words.next("a column"));
 }
 
 struct Format {
@@ -170,7 +170,7 @@ struct Format {
   std::string unit;
 };
 
-Format format_of(const std::string& word) {
+Format parsed_format(const std::string& word) {
   Format format;
   if (word.starts_with(',')) return {false, 0, ',', word.substr(1)};
   std::size_t at = 0;
@@ -197,7 +197,7 @@ std::string written(double value, const Format& format) {
 }
 
 // " ± 0.1 ± 0.3 ± 0.2"
-std::string errors_of(const Found& found, const Format& format, double factor) {
+std::string errors_text(const Found& found, const Format& format, double factor) {
   const std::string& name = found.name;
   const bool is_mean = name.ends_with("_mean");
   const std::string one = is_mean ? name.substr(0, name.size() - 5) : name;
@@ -246,11 +246,11 @@ std::string number_from(const NumberSource& source, const fs::path& folder) {
     word = words.next("a format");
   }
   if (!std::isfinite(factor * found.value)) throw Error::invalid_input("this is no finite number");
-  std::string result = written(factor * found.value, format_of(word));
+  std::string result = written(factor * found.value, parsed_format(word));
   if (words.done()) return result;
   word = words.next("a format of errors");
   if (word.starts_with("+-") && words.done())
-    return result + errors_of(found, format_of(word.substr(2)), factor);
+    return result + errors_text(found, parsed_format(word.substr(2)), factor);
   throw Error::invalid_input("\"" + word + "\" is one word too many");
 }
 

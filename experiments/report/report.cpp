@@ -30,7 +30,7 @@ const KeyRow<ReportFlags> kRows[] = {
 // clang-format on
 
 // "results/" as "results", so that messages and paths read well.
-fs::path folder_of(const std::string& name) {
+fs::path named_folder(const std::string& name) {
   const fs::path path = fs::path(name).lexically_normal();
   const fs::path folder = path.has_filename() || !path.has_parent_path() ? path : path.parent_path();
   std::error_code ignored;
@@ -99,15 +99,15 @@ int write(const fs::path& folder, PageForm form) {
 int run_report(const CommandLine& line) {
   ReportFlags flags;
   set_keys(line, bind(kRows, flags));
-  if (line.names.empty())
+  if (line.positionals.empty())
     throw Error::invalid_input("needs the folder of a run or of runs: hysteron report DIR");
   if (flags.check && flags.self_contained)
     throw Error::invalid_input("--check is of pages that link their pictures: leave out --self-contained")
-        .of("self-contained", "true");
+        .with_key("self-contained", "true");
   const PageForm form = flags.self_contained ? PageForm::self_contained : PageForm::linked;
   int exit_code = 0;
-  for (const std::string& name : line.names) {
-    const fs::path folder = folder_of(name);
+  for (const std::string& name : line.positionals) {
+    const fs::path folder = named_folder(name);
     exit_code = std::max(exit_code, flags.check ? check(folder) : write(folder, form));
   }
   return exit_code;
@@ -122,8 +122,8 @@ Experiment report() {
           "write a run's folder as one page, report.html; a folder of runs as a gallery, index.html; in a "
           "folder of documentation the numbers and tables that it takes from runs, and its tables of keys",
       .run = run_report,
-      .own_keys = own_keys_of<kRows>,
-      .names = "DIR",
+      .own_keys = own_key_descriptions<kRows>,
+      .positionals = "DIR",
       .differs = "what is checked is missing or stale (--check)"};
 }
 

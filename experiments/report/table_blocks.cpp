@@ -61,7 +61,7 @@ std::string linked(const std::string& label, const std::string& file) {
   return label.empty() || label.find("](") != label.npos ? label : "[" + label + "](" + file + ")";
 }
 
-std::vector<Row> rows_of(const std::string& words, const Block& block, const fs::path& folder) {
+std::vector<Row> block_rows_text(const std::string& words, const Block& block, const fs::path& folder) {
   std::vector<Row> rows;
   if (words.starts_with("each ")) {
     for (const std::string& value : values_of_column(block.file, words.substr(5), folder))
@@ -75,7 +75,7 @@ std::vector<Row> rows_of(const std::string& words, const Block& block, const fs:
   return rows;
 }
 
-Block block_of(std::string words, const fs::path& folder) {
+Block parsed_block(std::string words, const fs::path& folder) {
   std::replace(words.begin(), words.end(), '\n', ' ');
   const std::vector<std::string> parts = split_at(words, " | ");
   if (parts.size() < 3)
@@ -89,19 +89,19 @@ Block block_of(std::string words, const fs::path& folder) {
     if (i > 1)
       block.columns.push_back({head, source});
     else
-      block.head = head, block.rows = rows_of(source, block, folder);
+      block.head = head, block.rows = block_rows_text(source, block, folder);
   }
   return block;
 }
 
 std::string cell(const Block& block, const Row& row, const Column& column, const fs::path& folder) {
-  const auto [first, rest] = halves(column.source, " ");
+  const auto [first, remainder] = halves(column.source, " ");
   const bool own = names_a_file(first);
   const std::string file = own ? first : block.file,
                     prefix = own || block.prefix.empty() ? "" : block.prefix + " ";
   try {
-    return number_from({filled(file, row.value), filled(prefix + (own ? rest : column.source), row.value)},
-                       folder);
+    return number_from(
+        {filled(file, row.value), filled(prefix + (own ? remainder : column.source), row.value)}, folder);
   } catch (const Error& error) {
     throw Error::invalid_input(row.value + ", " + column.head + ": " + error.what());
   }
@@ -172,7 +172,7 @@ void write_tables(Page& page) {
     std::string now = before.substr(first, end - first);
     try {
       const fs::path folder = page.file.parent_path();
-      const std::string expected = table(block_of(before.substr(words, close - words), folder), folder);
+      const std::string expected = table(parsed_block(before.substr(words, close - words), folder), folder);
       if (now != expected) page.faults.push_back({line, "this table is not what its files say", true});
       now = expected;
     } catch (const Error& error) {

@@ -41,7 +41,7 @@ std::vector<fs::path> manifests_below(const fs::path& folder) {
 }
 
 // "crease-laws", "scenes/hanging-square-half".
-std::string name_of(const fs::path& manifest, const fs::path& folder) {
+std::string workflow_name(const fs::path& manifest, const fs::path& folder) {
   fs::path name = fs::relative(manifest, folder).replace_extension();
   return (name.filename() == "manifest" ? name.parent_path() : name).generic_string();
 }
@@ -67,7 +67,7 @@ bool had_gpu(const RecordedRun& run, const CommandLine& line) {
   return false;
 }
 
-JobResources resources_of(const RecordedRun& run, const CommandLine& line, const std::vector<Flag>& flags) {
+JobResources job_resources(const RecordedRun& run, const CommandLine& line, const std::vector<Flag>& flags) {
   JobResources resources;
   const std::string recorded = last_text(line.flags, "threads", "1");
   resources.cores = std::max(1, std::atoi(last_text(flags, "threads", recorded).c_str()));
@@ -88,7 +88,7 @@ RecordedWorkflow workflow_of_runs(const fs::path& folder, const fs::path& out,
   RecordedWorkflow all{
       {.out = out, .jobs = {}, .product = "index.html", .collects = {"report", target.string()}}, {}};
   for (const fs::path& file : manifests_below(folder)) {
-    const std::string name = name_of(file, folder);
+    const std::string name = workflow_name(file, folder);
     try {
       const RecordedRun run = recorded_run(file.string());
       const CommandLine line = line_that_repeats(run);
@@ -101,7 +101,7 @@ RecordedWorkflow workflow_of_runs(const fs::path& folder, const fs::path& out,
                                         "--quiet", "--threads=" + std::string(kThreads)};
       for (const Flag& flag : flags)
         if (flag.path != "threads") words.push_back("--" + flag.path + "=" + flag.text);
-      all.workflow.jobs.push_back({name, words, resources_of(run, line, flags)});
+      all.workflow.jobs.push_back({name, words, job_resources(run, line, flags)});
     } catch (const Error& error) {
       all.left_out.push_back(name + ": " + error.what());
     }

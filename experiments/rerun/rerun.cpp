@@ -35,7 +35,7 @@ std::vector<KeyDescription> device_keys() {
   std::vector<KeyDescription> keys = scene_keys();
   std::erase_if(keys,
                 [](const KeyDescription& key) { return key.path != "device" && key.path != "threads"; });
-  for (KeyDescription& key : keys) key.usual = "";
+  for (KeyDescription& key : keys) key.default_text = "";
   return keys;
 }
 
@@ -54,7 +54,7 @@ std::string folder_for(const RecordedRun& run) {
 }
 
 // A warning of a run that is over: said, and kept in its manifest and on its page.
-void warn_of(const fs::path& folder, const std::string& text) {
+void add_warning(const fs::path& folder, const std::string& text) {
   std::cerr << "warning: " << text << std::endl;
   const fs::path file = folder / "manifest.json";
   Json manifest = read_json(file);
@@ -68,15 +68,15 @@ void say_outcome(const Manifest& before, const fs::path& folder, bool quiet) {
   const std::optional<Manifest> now = manifest_or_none(folder / "manifest.json");
   if (!now || !now->state_hash || !before.state_hash) return;
   if (now->state_hash != before.state_hash)
-    warn_of(folder, "state " + *now->state_hash + " differs from the recorded " + *before.state_hash +
-                        ": `hysteron verify` tells in what");
+    add_warning(folder, "state " + *now->state_hash + " differs from the recorded " + *before.state_hash +
+                            ": `hysteron verify` tells in what");
   else if (!quiet)
     std::cerr << "state " << *now->state_hash << ", as recorded" << std::endl;
 }
 
 // Of all runs below a folder, with what the line asks of each.
 int write_runs(const CommandLine& line, const std::string& flow) {
-  const fs::path folder = line.names.front();
+  const fs::path folder = line.positionals.front();
   std::vector<Flag> flags = line.flags;
   std::erase_if(flags, [](const Flag& flag) {
     return flag.path == "out" || flag.path == "snakemake" || flag.path == "quiet" || flag.path == "json";
@@ -94,10 +94,11 @@ int write_runs(const CommandLine& line, const std::string& flow) {
 }
 
 int run_rerun(const CommandLine& line) {
-  if (line.names.size() != 1) throw Error::invalid_input("needs one run: its folder or its manifest.json");
+  if (line.positionals.size() != 1)
+    throw Error::invalid_input("needs one run: its folder or its manifest.json");
   if (const std::string flow = last_text(line.flags, "snakemake", ""); !flow.empty())
     return write_runs(line, flow);
-  const RecordedRun run = recorded_run(line.names.front());
+  const RecordedRun run = recorded_run(line.positionals.front());
   const std::string out = last_text(line.flags, "out", folder_for(run));
   std::vector<Flag> later = line.flags;
   std::erase_if(later, [](const Flag& flag) { return flag.path == "no-errors" || flag.path == "out"; });
@@ -116,7 +117,7 @@ Experiment rerun() {
           .question = "a run once more, exactly as its manifest has it",
           .run = run_rerun,
           .own_keys = own_keys,
-          .names = "DIR|manifest.json"};
+          .positionals = "DIR|manifest.json"};
 }
 
 }  // namespace hysteron::experiments

@@ -54,12 +54,12 @@ void check_names(const std::vector<MetricRequest>& requests) {
     if (request.name.empty() || !std::all_of(request.name.begin(), request.name.end(), allowed))
       throw Error::invalid_input("metric.name = \"" + request.name +
                                  "\" must be small letters, digits and _ (" + request.origin + ")")
-          .of("metric.name", request.name);
+          .with_key("metric.name", request.name);
     if (!seen.insert(request.name).second) throw refusal(request, "there is a column of this name already");
   }
 }
 
-MetricRequest request_of(const TomlNode& table, const std::string& file) {
+MetricRequest metric_request(const TomlNode& table, const std::string& file) {
   MetricRequest request;
   request.origin = place(file, table);
   Keys keys = bind_metric(request);
@@ -83,11 +83,11 @@ std::vector<MetricRequest> in_file(const std::string& scene) {
     throw Error::invalid_input("metric must be an array of tables, [[metric]] (" + place(file, *tables) +
                                ")");
   std::vector<MetricRequest> requests;
-  for (const TomlNode& table : tables->children) requests.push_back(request_of(table, file));
+  for (const TomlNode& table : tables->children) requests.push_back(metric_request(table, file));
   return requests;
 }
 
-Value value_of(const Json& json) {
+Value setting_value(const Json& json) {
   if (json.is_number_integer()) return json.get<std::int64_t>();
   if (json.is_number()) return json.get<double>();
   if (json.is_array()) return json.get<std::vector<double>>();
@@ -103,7 +103,8 @@ std::vector<MetricRequest> in_manifest(const std::string& file) {
     MetricRequest& request = requests.emplace_back();
     request.origin = file;
     const Keys keys = bind_metric(request);
-    for (const auto& [name, value] : table.items()) assign(find_key(keys, name, file), value_of(value), file);
+    for (const auto& [name, value] : table.items())
+      assign(find_key(keys, name, file), setting_value(value), file);
   }
   return requests;
 }
@@ -176,7 +177,7 @@ RequestedMetric::RequestedMetric(const MetricRequest& request, const Scene& scen
                                std::to_string(scene.pin.size()) + ", the number of [[pin]] tables");
   if (!scene.is_implicit())
     throw refusal(request,
-                  "integrator = " + name_of(scene.integrator) +
+                  "integrator = " + enum_name(scene.integrator) +
                       " does not tell the forces of hands; implicit, bdf2, tr-bdf2 and quasi-static do");
 }
 

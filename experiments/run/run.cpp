@@ -27,10 +27,10 @@ void limit_to_quick(Setup& setup) {
 
 // The scene as an argument is that of --scene.
 CommandLine with_scene(CommandLine line) {
-  if (line.names.size() > 1)
-    throw Error::invalid_input("takes one scene, not " + std::to_string(line.names.size()));
-  if (!line.names.empty()) line.flags.push_back({"scene", line.names.front()});
-  line.names.clear();
+  if (line.positionals.size() > 1)
+    throw Error::invalid_input("takes one scene, not " + std::to_string(line.positionals.size()));
+  if (!line.positionals.empty()) line.flags.push_back({"scene", line.positionals.front()});
+  line.positionals.clear();
   if (last_text(line.flags, "scene", "").empty())
     throw Error::invalid_input(
         "needs a scene: a TOML file, one of `hysteron list scenes`, or the manifest of a run");
@@ -39,34 +39,33 @@ CommandLine with_scene(CommandLine line) {
 
 Setup set_up_run(const CommandLine& line) { return set_up(line, defaults(), {}, limit_to_quick); }
 
-std::string stem_of(const std::string& scene) {
+std::string scene_stem(const std::string& scene) {
   const std::filesystem::path path(scene);
   return path.filename() == "manifest.json" ? path.parent_path().filename().string() : path.stem().string();
 }
 
 render::Box box_at_start(const Scene&, const Cloth& cloth) {
-  return render::box_of(flat_points(cloth.start));
+  return render::bounding_box(flat_points(cloth.start));
 }
 
-RunPlan question_of(Session& session, const std::vector<RequestedMetric>& metrics,
-                    std::vector<double>& last) {
-  RunPlan question;
-  question.bounds = box_at_start(session.scene(), session.cloth());
-  question.wanders = true;
-  for (const RequestedMetric& metric : metrics) question.columns.push_back(metric.request().column());
-  question.measure = [&](const Snapshot& m) {
+RunPlan run_plan(Session& session, const std::vector<RequestedMetric>& metrics, std::vector<double>& last) {
+  RunPlan plan;
+  plan.bounds = box_at_start(session.scene(), session.cloth());
+  plan.wanders = true;
+  for (const RequestedMetric& metric : metrics) plan.columns.push_back(metric.request().column());
+  plan.measure = [&](const Snapshot& m) {
     last.clear();
     for (const RequestedMetric& metric : metrics) last.push_back(metric.value(session.simulation(), m.x));
     return last;
   };
-  question.progress = [&](const Snapshot& m) {
+  plan.progress = [&](const Snapshot& m) {
     std::string text = fmt::format("t = {:.3f} s  {}", m.time, session.scene().phase_at(m.time));
     for (std::size_t i = 0; i < metrics.size(); ++i)
       text += fmt::format("  {} = {:.4g}", metrics[i].request().column(), last[i]);
     return text;
   };
-  question.visit = [](Archive&) {};  // the last values alone count
-  return question;
+  plan.serialise = [](Archive&) {};  // the last values alone count
+  return plan;
 }
 
 void plot(Session& session, const RequestedMetric& metric) {
@@ -82,15 +81,15 @@ int run_scene(const CommandLine& given) {
   const CommandLine line = with_scene(given);
   const std::string scene = last_text(line.flags, "scene", "");
   Setup setup = set_up_run(line);
-  if (last_text(line.flags, "out", "").empty()) setup.options.out = "out/run-" + stem_of(scene);
+  if (last_text(line.flags, "out", "").empty()) setup.options.out = "out/run-" + scene_stem(scene);
   const std::vector<MetricRequest> requests = metrics_in(scene);
-  Json choices = Json::parse(setup.choices);
+  Json choices = Json::parse(setup.resolved);
   if (!requests.empty()) choices["metric"] = to_json(requests);
-  for (const MetricRequest& request : requests) setup.asked_metrics.push_back(request.metric());
+  for (const MetricRequest& request : requests) setup.requested_metrics.push_back(request.metric());
   if (setup.options.errors && requests.empty())
     throw Error::invalid_input("--errors: " + scene + " has no [[metric]] whose errors could be measured")
-        .of("errors", "true");
-  setup.choices = choices.dump();
+        .with_key("errors", "true");
+  setup.resolved = choices.dump();
 
   Session session(line, setup);
   if (session.is_over()) return 0;
@@ -99,12 +98,12 @@ int run_scene(const CommandLine& given) {
   for (const MetricRequest& request : requests)
     metrics.emplace_back(request, session.scene(), session.cloth(), session.simulation().dimension());
   std::vector<double> last;
-  session.simulate(question_of(session, metrics, last));
+  session.simulate(run_plan(session, metrics, last));
   for (std::size_t i = 0; i < metrics.size(); ++i)
     session.run().metric(metrics[i].request().metric(), last[i]);
   if (session.pictures())
     for (const RequestedMetric& metric : metrics) plot(session, metric);
-  session.finish(stem_of(scene) + ": " + setup.scene.fabric.name + ", law " + setup.scene.law);
+  session.finish(scene_stem(scene) + ": " + setup.scene.fabric.name + ", law " + setup.scene.law);
   return 0;
 }
 
@@ -121,8 +120,8 @@ Experiment run_scenes() {
           .simulates = true,
           .defaults = defaults,
           .framing = framing,
-          .names = "SCENE",
-          .headlines = {.asked = true}};
+          .positionals = "SCENE",
+          .headlines = {.requested = true}};
 }
 
 }  // namespace hysteron::experiments

@@ -16,7 +16,7 @@ namespace {
 constexpr double kUpright = 7.837347, kEdge = 12.853763;
 
 // Twist stretches cloth, bending does not: on edge Newton's method needs the smaller tilt.
-double tilt_of(Buckling kind) { return kind == Buckling::upright ? 1e-3 : 1e-5; }  // [rad]
+double initial_tilt(Buckling kind) { return kind == Buckling::upright ? 1e-3 : 1e-5; }  // [rad]
 constexpr double kMax = 2.5;       // of the reference's weight
 constexpr double kStep = 0.1;      // likewise
 constexpr double kNear = 0.8;      // of the threshold, for the last state
@@ -43,10 +43,10 @@ void check_axis(const Scene& scene) {
           "buckle.kind = edge has no reference for a strip that twists as it bends: cloth.warp-angle = "
           "{:g} degree must be a multiple of 90, or fabric.weft-bending and fabric.bias-bending 1",
           angle))
-      .of("cloth.warp-angle", fmt::format("{:g}", angle));
+      .with_key("cloth.warp-angle", fmt::format("{:g}", angle));
 }
 
-double gamma_of(const Scene& scene, double length) {
+double weight_number(const Scene& scene, double length) {
   return scene.fabric.density * scene.gravity.norm() * std::pow(length, 3) / scene.fabric.b2;
 }
 
@@ -59,7 +59,7 @@ double second_difference(const std::vector<double>& x, const std::vector<double>
 }
 
 // Threshold by the last three states: with x = Gamma^power, deflection/Gamma = (a + b x)/(1 - x/critical).
-double threshold_of(const Southwell& plot, int power) {
+double extrapolated_threshold(const Southwell& plot, int power) {
   std::vector<double> x, compliance, product;
   for (std::size_t k = 0; k < plot.gamma.size(); ++k) {
     x.push_back(std::pow(plot.gamma[k], power));
@@ -71,11 +71,11 @@ double threshold_of(const Southwell& plot, int power) {
 
 }  // namespace
 
-Buckling buckling_of(const std::string& name) {
+Buckling buckling_named(const std::string& name) {
   if (name == "upright") return Buckling::upright;
   if (name == "edge") return Buckling::edge;
   throw Error::invalid_input("buckle.kind = " + name + " is unknown; choose upright or edge")
-      .of("buckle.kind", name);
+      .with_key("buckle.kind", name);
 }
 
 int power_of_load(Buckling kind) { return kind == Buckling::upright ? 1 : 2; }
@@ -87,7 +87,7 @@ double reference_gamma(Buckling kind, const Scene& scene) {
   return kEdge * slope * std::sqrt(along * torsion(scene.fabric));
 }
 
-double share_of_width(Buckling kind, const Scene& scene, double length) {
+double fraction_of_width(Buckling kind, const Scene& scene, double length) {
   if (kind == Buckling::upright) return 0;
   const double stays_flat =
       scene.cloth.width * std::sqrt(rigidity_along(scene) / (12 * torsion(scene.fabric)));
@@ -124,15 +124,15 @@ BucklingStrip buckling_strip(Scene scene, Buckling kind, double length, double t
                                " with fabric.b2 = " + std::to_string(scene.fabric.b2) +
                                " N m has no threshold: its weight there would be " +
                                std::to_string(scene.fabric.density) + " kg/m^2")
-        .of("law", scene.law)
-        .in("buckle");
+        .with_key("law", scene.law)
+        .with_experiment("buckle");
   scene.pin = {held_between(-1, clamped.near())};
   Cloth cloth = place_cloth(scene, std::move(clamped.mesh));
   return {kind, std::move(scene), std::move(cloth), length, side};
 }
 
 BucklingStrip measured_strip(Scene scene, Buckling kind, double length) {
-  const double tilt = tilt_of(kind);
+  const double tilt = initial_tilt(kind);
   scene.step = kStep;
   scene.newton_residual = 1e-11;  // of all forces, most of them in the plane: the correction decides
   scene.newton_velocity = kPrecise * tilt * length;
@@ -151,7 +151,7 @@ BucklingStrip measured_strip(Scene scene, Buckling kind, double length) {
 
 Southwell approach_threshold(const BucklingStrip& strip, Simulation& simulation) {
   const Scene& scene = strip.scene;
-  const double full = gamma_of(scene, strip.length);
+  const double full = weight_number(scene, strip.length);
   Southwell plot;
   while (simulation.time() < scene.ramp - scene.step / 2) {
     simulation.advance(1);
@@ -159,14 +159,14 @@ Southwell approach_threshold(const BucklingStrip& strip, Simulation& simulation)
     plot.deflection.push_back(strip.deflection(simulation.positions()) / strip.length);
     if (plot.gamma.size() < 3) continue;
     const double before = plot.critical_gamma;
-    plot.critical_gamma = threshold_of(plot, power_of_load(strip.kind));
+    plot.critical_gamma = extrapolated_threshold(plot, power_of_load(strip.kind));
     const bool near = plot.gamma.back() > kNear * plot.critical_gamma;
     if (near && std::abs(plot.critical_gamma - before) < kAgreed * plot.critical_gamma) return plot;
   }
   throw Error::simulation("no threshold was found up to Gamma = " + std::to_string(plot.gamma.back()) +
                           ", where the free end has moved by " + std::to_string(plot.deflection.back()) +
                           " of the length")
-      .in("buckle");
+      .with_experiment("buckle");
 }
 
 }  // namespace hysteron::experiments

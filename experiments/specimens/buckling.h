@@ -13,7 +13,7 @@ namespace hysteron::experiments {
 // upright: it stands on its clamp and falls over (Greenhill 1881).
 // edge: it is clamped level, its width vertical, and turns over sideways (Prandtl 1899).
 enum class Buckling { upright, edge };
-Buckling buckling_of(const std::string& name);  // Error::invalid_input for unknown ones
+Buckling buckling_named(const std::string& name);  // Error::invalid_input for unknown ones
 
 // Heaviness Gamma, weight per area times L^3/b2, at which a strip of this law and fabric buckles that is
 // narrow, b << L, and bends far more easily out of its plane than in it.  Its bending rigidity is EI = B b
@@ -28,7 +28,7 @@ double reference_gamma(Buckling kind, const Scene& scene);
 // What a width b adds to the reference, as a share of it.  On edge the clamp keeps the strip from warping: a
 // length of sqrt(EI b^2/(12 GJ)) next to it hardly twists (Vlasov 1961), and Gamma goes as 1/L^3.  At b =
 // L/20 that is 3.1 %, and 0.06 % too little.
-double share_of_width(Buckling kind, const Scene& scene, double length);
+double fraction_of_width(Buckling kind, const Scene& scene, double length);
 
 struct BucklingStrip {
   Buckling kind;

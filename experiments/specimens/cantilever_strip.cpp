@@ -13,11 +13,11 @@ namespace {
 constexpr double kDegree = 3.14159265358979323846 / 180;
 constexpr double kSlope = 41.5 * kDegree;  // of the chord, ASTM D1388 and ISO 9073-7
 
-double weight_of(const Scene& scene) { return scene.fabric.density * scene.gravity.norm(); }
+double areal_weight(const Scene& scene) { return scene.fabric.density * scene.gravity.norm(); }
 
 // Slope of the chord of a strip with this overhang under its whole weight.
 double slope_of_elastica(const Scene& scene, double length) {
-  HeavyStrip strip = elastica_of(scene, length);
+  HeavyStrip strip = strip_elastica(scene, length);
   strip.segments = 150;
   return sagging_strips(strip, {1}, 20).back().chord_angle();
 }
@@ -63,11 +63,11 @@ CantileverStrip overhang(Scene scene, double length) {
   return {std::move(scene), std::move(cloth), length};
 }
 
-HeavyStrip elastica_of(const Scene& scene, double length) {
+HeavyStrip strip_elastica(const Scene& scene, double length) {
   HeavyStrip strip;
   strip.law = {scene.law, scene.fabric.virgin_curve(), scene.param};
   strip.rigidity = rigidity_along(scene);
-  strip.weight = weight_of(scene);
+  strip.weight = areal_weight(scene);
   strip.length = length;
   return strip;
 }
@@ -84,7 +84,7 @@ double load_at(const Scene& scene, double time) {
 }
 
 double elastica_bending_length(const Scene& scene) {
-  const double first = 2 * std::cbrt(rigidity_along(scene) * scene.fabric.b2 / weight_of(scene));
+  const double first = 2 * std::cbrt(rigidity_along(scene) * scene.fabric.b2 / areal_weight(scene));
   return critical_overhang(first, 1e-6, [&](double length) { return slope_of_elastica(scene, length); }) / 2;
 }
 

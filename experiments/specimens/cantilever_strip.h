@@ -25,7 +25,7 @@ CantileverStrip overhang(Scene scene, double length);
 double rigidity_along(const Scene& scene);
 
 // The same strip as a curve, with its law, its rigidity and weight.
-HeavyStrip elastica_of(const Scene& scene, double length);
+HeavyStrip strip_elastica(const Scene& scene, double length);
 
 // Share of the weight at a time of quasi-static runs (Scene::ramp, Scene::unload).
 double load_at(const Scene& scene, double time);

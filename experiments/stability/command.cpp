@@ -43,14 +43,14 @@ const KeyRow<F> kRows[] = {
 // clang-format on
 constexpr double kQuickWork = 300, kQuickLimitSteps = 600;
 
-Keys keys_of(F& flags) { return with_output_options(bind(kRows, flags), flags.options); }
+Keys option_keys(F& flags) { return with_output_options(bind(kRows, flags), flags.options); }
 
-int threads_of(const F& flags) {
+int thread_choice(const F& flags) {
   if (flags.threads > 0) return static_cast<int>(flags.threads);
   return flags.device == "cuda" ? 1 : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
-SweepChoice choice_of(const F& flags) {
+SweepChoice sweep_choice(const F& flags) {
   SweepChoice choice;
   if (flags.integrator != "all") choice.integrators = split(flags.integrator);
   choice.laws = split(flags.law);
@@ -60,10 +60,10 @@ SweepChoice choice_of(const F& flags) {
 }
 
 std::vector<SweepCell> tried(const F& flags, const std::vector<Sweep>& sweeps, Run& run) {
-  std::vector<SweepCell> cells = cells_of(sweeps, choice_of(flags));
+  std::vector<SweepCell> cells = untried_cells(sweeps, sweep_choice(flags));
   const auto stage = run.stage("cells");
   const std::size_t every = std::max<std::size_t>(1, cells.size() / 20);
-  try_all(cells, flags.effort, threads_of(flags), [&](std::size_t done) {
+  try_all(cells, flags.effort, thread_choice(flags), [&](std::size_t done) {
     if (done % every == 0)
       run.progress(std::to_string(done) + " of " + std::to_string(cells.size()) + " cells");
   });
@@ -86,14 +86,14 @@ Table table_of(const std::vector<SweepCell>& cells) {
                cell.x,
                cell.y,
                scene.law,
-               name_of(scene.element),
-               name_of(scene.precision),
+               enum_name(scene.element),
+               enum_name(scene.precision),
                scene.step,
-               name_of(f.outcome),
+               enum_name(f.outcome),
                if_ran(f.energy_growth),
                if_ran(f.remainder),
                if_ran(f.largest_stretch),
-               f.seconds_asked,
+               f.requested_seconds,
                if_ran(f.seconds_simulated),
                if_ran(f.steps),
                if_ran(f.substeps),
@@ -108,7 +108,7 @@ Table table_of(const std::vector<SweepCell>& cells) {
 void count(Run& run, const Table& cells, bool print) {
   const std::vector<int> widths = {-14, 9};
   const auto outcomes = names(Outcome{});
-  const auto count_of = [&](const Table& rows, const std::string& prefix) {
+  const auto occurrences = [&](const Table& rows, const std::string& prefix) {
     std::vector<std::string> counts = {prefix.substr(0, prefix.find('.'))};
     run.metric(prefix + "cells", rows.rows.size());
     for (const char* outcome : outcomes) {
@@ -121,10 +121,10 @@ void count(Run& run, const Table& cells, bool print) {
   std::vector<std::string> head = {"integrator"};
   head.insert(head.end(), outcomes.begin(), outcomes.end());
   std::string printed = aligned(head, widths) + "\n";
-  count_of(cells, "");
+  occurrences(cells, "");
   for (const std::string& integrator : cells.values("integrator"))
-    printed += aligned(count_of(cells.where("integrator", integrator), integrator + "."), widths) + "\n";
-  const Table usual = cells.where("integrator", name_of(default_scene().integrator));
+    printed += aligned(occurrences(cells.where("integrator", integrator), integrator + "."), widths) + "\n";
+  const Table usual = cells.where("integrator", enum_name(default_scene().integrator));
   run.metric("diverged_default", usual.where("outcome", "diverged").rows.size());
   if (print) fmt::print("{}", printed);
 }
@@ -163,7 +163,7 @@ void write_limits(Run& run, const std::vector<MeasuredLimit>& limits) {
   double least = kMaxRatio, most = 0, least_resonant = kMaxRatio;
   for (const MeasuredLimit& limit : limits) {
     const LimitCase& of = limit.of;
-    table.row({of.mesh, name_of(of.element), of.held ? "held" : "free", of.condition.law,
+    table.row({of.mesh, enum_name(of.element), of.held ? "held" : "free", of.condition.law,
                of.condition.damping, of.condition.amplitudes.back(), limit.bound, limit.measured,
                limit.ratio()});
     if (of.condition.resonates() && of.condition.damping == 0) {
@@ -180,14 +180,14 @@ void write_limits(Run& run, const std::vector<MeasuredLimit>& limits) {
 
 int run_stability(const CommandLine& line) {
   F flags;
-  set_keys(line, keys_of(flags), [&] {
+  set_keys(line, option_keys(flags), [&] {
     flags.effort.work = std::min(flags.effort.work, kQuickWork);
     flags.limit_steps = std::min(flags.limit_steps, kQuickLimitSteps);
   });
   std::vector<std::string> names = flags.sweep == "all" ? sweep_names() : split(flags.sweep);
   if (flags.sweep == "all") names.push_back(kLimitSweep);
   const bool with_limit = std::erase(names, kLimitSweep) > 0;
-  const std::vector<Sweep> sweeps = make_sweeps(names, choice_of(flags));
+  const std::vector<Sweep> sweeps = make_sweeps(names, sweep_choice(flags));
 
   Run run(line, flags.options, to_json(bind(kRows, flags)));
   if (!sweeps.empty()) run.reserve({"cells.csv"});
@@ -200,7 +200,7 @@ int run_stability(const CommandLine& line) {
   }
   if (with_limit) {
     const std::vector<MeasuredLimit> limits = measure_limits(
-        limit_cases(flags.options.quick), static_cast<int>(flags.limit_steps), threads_of(flags));
+        limit_cases(flags.options.quick), static_cast<int>(flags.limit_steps), thread_choice(flags));
     write_limits(run, limits);
   }
   finish_with_report(run);
@@ -213,7 +213,7 @@ Experiment stability() {
   return {.name = "stability",
           .question = "maps of what stays stable, over stiffness, step, mesh and extreme scenes",
           .run = run_stability,
-          .own_keys = own_keys_of<keys_of>};
+          .own_keys = own_key_descriptions<option_keys>};
 }
 
 }  // namespace hysteron::experiments

@@ -37,7 +37,7 @@ const LimitCondition kConditions[] = {
 };
 constexpr int kHeldConditions = 2;  // the first ones, in which cloth is also held
 
-Scene scene_of(const LimitCase& of) {
+Scene limit_scene(const LimitCase& of) {
   Scene scene = default_scene("cotton-broad-k50");
   scene.integrator = Integrator::semi_implicit;
   scene.cloth.length = kLength;
@@ -58,8 +58,8 @@ Cloth shaken_cloth(const Scene& scene, double amplitude) {
   Cloth cloth = make_cloth(scene);
   std::mt19937 generator(12);
   for (std::size_t i = 0; i < cloth.start.size(); ++i) {
-    const double share = 2.0 * generator() / std::mt19937::max() - 1;
-    if (cloth.pin[i] < 0) cloth.start[i].z() += amplitude * share;
+    const double fraction = 2.0 * generator() / std::mt19937::max() - 1;
+    if (cloth.pin[i] < 0) cloth.start[i].z() += amplitude * fraction;
   }
   return cloth;
 }
@@ -69,15 +69,15 @@ double energy(Simulation& simulation) {
   return l.kinetic + l.membrane + l.bending;
 }
 
-double bound_of(const LimitCase& of) {
-  Scene scene = scene_of(of);
+double time_step_bound(const LimitCase& of) {
+  Scene scene = limit_scene(of);
   scene.step = 1e-9;  // any step is allowed that is short enough
   return make_simulation(scene, make_cloth(scene))->limits().bending_step;
 }
 
 // The program refuses steps beyond its bound, so that its back end is asked directly.
 bool is_bounded(const LimitCase& of, double amplitude, double step, int substeps) {
-  Scene scene = scene_of(of);
+  Scene scene = limit_scene(of);
   scene.step = step;
   StepLimits limits;
   limits.substep = step;
@@ -108,7 +108,7 @@ bool is_bounded(const LimitCase& of, double step, int substeps) {
 }
 
 MeasuredLimit measure_limit(const LimitCase& of, int substeps) {
-  MeasuredLimit result{of, bound_of(of)};
+  MeasuredLimit result{of, time_step_bound(of)};
   const double next = of.condition.resonates() ? kFine : kCoarse;
   double bounded = 0, ratio = kMinRatio;
   while (ratio <= kMaxRatio && is_bounded(of, ratio * result.bound, substeps)) {

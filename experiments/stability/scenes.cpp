@@ -223,8 +223,8 @@ Sweep mesh_sweep(const SweepChoice& choice) {
 
 Sweep scene_sweep(const SweepChoice& choice, Precision precision) {
   const bool all = precision == Precision::fp64 && choice.laws.empty() && !choice.quick;
-  return named_sweep(precision == Precision::fp64 ? "scenes" : "scenes-" + name_of(precision),
-                     "Scenes that ask too much, in " + name_of(precision) + " precision", "scene", kScenes,
+  return named_sweep(precision == Precision::fp64 ? "scenes" : "scenes-" + enum_name(precision),
+                     "Scenes that ask too much, in " + enum_name(precision) + " precision", "scene", kScenes,
                      all ? law_names() : choice.few_laws(), {"step 1 ms", "step 1/60 s"},
                      [precision](Scene& scene, int variant) {
                        scene.precision = precision;
@@ -265,7 +265,7 @@ std::vector<Sweep> make_sweeps(const std::vector<std::string>& names, const Swee
                                     [&](const NamedSweep& sweep) { return name == sweep.name; });
     if (found == std::end(kSweeps))
       throw Error::invalid_input("--sweep " + name + " must be of " + join(sweep_names(), ", "))
-          .of("sweep", name);
+          .with_key("sweep", name);
     sweeps.push_back(found->make(choice));
   }
   return sweeps;

@@ -17,7 +17,7 @@ namespace {
 // away within a few more.
 constexpr int kLooks = 400;
 
-double mass_of(const Scene& scene, const ClothMesh& mesh) {
+double cloth_mass(const Scene& scene, const ClothMesh& mesh) {
   double area = 0;
   for (double a : mesh.vertex_area) area += a;
   return scene.fabric.density * area;
@@ -39,7 +39,7 @@ long planned_steps(const Simulation& simulation, const Scene& scene, const CellE
 class Watch {
  public:
   Watch(const Scene& scene, const Cloth& cloth, Finding& finding)
-      : weight_(mass_of(scene, cloth.mesh) * scene.gravity.norm() * diagonal(cloth.mesh)),
+      : weight_(cloth_mass(scene, cloth.mesh) * scene.gravity.norm() * diagonal(cloth.mesh)),
         finding_(finding) {}
 
   // False if the run has diverged.
@@ -70,7 +70,7 @@ class Watch {
   Finding& finding_;
 };
 
-void look_for_crossings(Simulation& simulation, const Cloth& cloth, Finding& finding) {
+void search_intersections(Simulation& simulation, const Cloth& cloth, Finding& finding) {
   const std::size_t crossing = intersecting_triangles(cloth.mesh.face, simulation.positions()).size();
   if (crossing == 0) return;
   finding.outcome = Outcome::diverged;
@@ -93,7 +93,7 @@ void simulate(const Scene& scene, const Cloth& cloth, const CellEffort& effort, 
   }
   finding.retried_steps = simulation->counts().retried;
   if (finding.outcome == Outcome::ended && scene.self_contact)
-    look_for_crossings(*simulation, cloth, finding);
+    search_intersections(*simulation, cloth, finding);
   if (finding.outcome == Outcome::ended && finding.retried_steps > 0) finding.outcome = Outcome::retried;
 }
 
@@ -109,7 +109,7 @@ Finding find_out(const Attempt& attempt, const CellEffort& effort) {
   Finding finding;
   const auto start = std::chrono::steady_clock::now();
   Scene scene = attempt.scene;
-  scene.seconds = finding.seconds_asked = std::min(effort.seconds, attempt.most_seconds);
+  scene.seconds = finding.requested_seconds = std::min(effort.seconds, attempt.most_seconds);
   try {
     check_scene(scene);
     simulate(scene, attempt.mesh ? place_cloth(scene, attempt.mesh()) : make_cloth(scene), effort, finding);
@@ -122,7 +122,7 @@ Finding find_out(const Attempt& attempt, const CellEffort& effort) {
   return finding;
 }
 
-std::vector<SweepCell> cells_of(const std::vector<Sweep>& sweeps, const SweepChoice& choice) {
+std::vector<SweepCell> untried_cells(const std::vector<Sweep>& sweeps, const SweepChoice& choice) {
   std::vector<SweepCell> cells;
   for (const Sweep& sweep : sweeps)
     for (std::size_t v = 0; v < sweep.variants.size(); ++v)

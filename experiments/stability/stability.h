@@ -45,7 +45,7 @@ struct Finding {
   double energy_growth = 0;
   double remainder = 0;        // of the ledger at the end, over S: what its terms do not explain
   double largest_stretch = 0;  // largest principal stretch minus 1 over the run
-  double seconds_asked = 0, seconds_simulated = 0;
+  double requested_seconds = 0, seconds_simulated = 0;
   long steps = 0, retried_steps = 0;
   int substeps = 0;
   double wall_seconds = 0;
@@ -128,7 +128,7 @@ struct SweepCell {
   Finding finding = {};
 };
 // The cells of all sweeps under all integrators, not yet tried.
-std::vector<SweepCell> cells_of(const std::vector<Sweep>& sweeps, const SweepChoice& choice);
+std::vector<SweepCell> untried_cells(const std::vector<Sweep>& sweeps, const SweepChoice& choice);
 // Tries them, so many at a time; `done` is called after each with how many are done.
 void try_all(std::vector<SweepCell>& cells, const CellEffort& effort, int threads,
              const std::function<void(std::size_t done)>& done);

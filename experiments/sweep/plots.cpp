@@ -30,7 +30,7 @@ struct ShownMetric {
 };
 
 ShownMetric shown_metric(const std::string& experiment, const std::string& metric) {
-  for (const Headline& headline : headlines_of(experiment).all) {
+  for (const Headline& headline : experiment_headlines(experiment).all) {
     const std::string unit = headline.unit, words = headline.words;
     if (headline.metric == metric)
       return {metric, words, words + (unit.empty() ? "" : " [" + unit + "]"), headline.scale};
@@ -92,7 +92,7 @@ class StudyPlots {
     return every;
   }
 
-  double x_of(std::size_t a, std::size_t run) const { return *number_in(study_.runs[run].values[a]); }
+  double axis_value(std::size_t a, std::size_t run) const { return *number_in(study_.runs[run].values[a]); }
 
   // Dots for the runs and, on a grid, a line through their means at each value.
   void add_series(std::vector<render::Series>& series, const std::string& name, std::size_t color,
@@ -103,7 +103,7 @@ class StudyPlots {
     std::map<double, std::pair<double, int>> sums;
     for (const std::size_t r : which) {
       if (std::isnan(numbers[r])) continue;
-      dots.x.push_back(x_of(x, r));
+      dots.x.push_back(axis_value(x, r));
       dots.y.push_back(numbers[r]);
       auto& [sum, count] = sums[dots.x.back()];
       sum += numbers[r], ++count;
@@ -150,7 +150,7 @@ class StudyPlots {
     for (const auto& [title, which] : panels) {
       render::Panel panel{title, {}};
       for (const auto& [value, of_value] : grouped(which, color))
-        add_series(panel.series, value, place_of(colors, value), of_value, x, numbers);
+        add_series(panel.series, value, group_index(colors, value), of_value, x, numbers);
       if (!panel.series.empty()) page.panels.push_back(std::move(panel));
     }
     if (page.panels.empty()) return;
@@ -159,7 +159,7 @@ class StudyPlots {
     run_.plot(name, [&](const std::filesystem::path& base) { render::write_panels(base, page); });
   }
 
-  static std::size_t place_of(const Groups& groups, const std::string& name) {
+  static std::size_t group_index(const Groups& groups, const std::string& name) {
     return static_cast<std::size_t>(
         std::find_if(groups.begin(), groups.end(), [&](const auto& group) { return group.first == name; }) -
         groups.begin());
@@ -279,7 +279,7 @@ void plot_study(Run& run, const Study& study, const std::vector<ChildRun>& runs,
   StudyPlots plots(run, study);
   for (const std::string& name : metrics) {
     const ShownMetric metric = shown_metric(study.experiment, name);
-    std::vector<double> numbers = numbers_of(runs, name);
+    std::vector<double> numbers = metric_values(runs, name);
     for (double& number : numbers) number *= metric.scale;
     plots.draw(metric, numbers);
   }

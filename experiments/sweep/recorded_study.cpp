@@ -46,7 +46,7 @@ TomlNode study_node(const Json& keys) {
 
 }  // namespace
 
-Json keys_of(const Study& study) {
+Json study_record(const Study& study) {
   Json shared = Json::array(), axes = Json::array();
   for (const Flag& flag : study.shared) shared.push_back(flag.path + "=" + flag.text);
   for (const StudyAxis& axis : study.axes) {
@@ -64,7 +64,7 @@ TomlNode recorded_study(const Manifest& manifest, const std::string& file) {
     if (manifest.experiment == "sweep" && manifest.keys) return study_node(*manifest.keys);
   } catch (const Json::exception&) {  // other keys, or others than texts
   }
-  throw Error::invalid_input(file + " is not the manifest of a sweep").of("study", file);
+  throw Error::invalid_input(file + " is not the manifest of a sweep").with_key("study", file);
 }
 
 }  // namespace hysteron::experiments

@@ -10,7 +10,7 @@
 namespace hysteron::experiments {
 
 // What the manifest keeps of it.
-Json keys_of(const Study& study);
+Json study_record(const Study& study);
 
 // Those as a study file would have them, beside what it cannot say: "scale" and "sampled" of an axis whose
 // values stand there.  Throws Error::invalid_input, naming `file`, where the manifest is not of a sweep.

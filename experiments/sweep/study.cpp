@@ -44,7 +44,7 @@ struct Part {
   std::size_t size;
 };
 
-std::vector<Part> parts_of(const std::vector<StudyAxis>& axes) {
+std::vector<Part> axis_parts(const std::vector<StudyAxis>& axes) {
   std::vector<Part> parts;
   std::size_t sample = axes.size();  // its part
   for (std::size_t a = 0; a < axes.size(); ++a) {
@@ -85,8 +85,8 @@ void name_runs(const std::vector<StudyAxis>& axes, const std::vector<Part>& part
 
 bool is_seed(const StudyAxis& axis) { return axis.key == kSeedKey; }
 
-std::vector<StudyRun> runs_of(const std::vector<StudyAxis>& axes) {
-  const std::vector<Part> parts = parts_of(axes);
+std::vector<StudyRun> runs_on_axes(const std::vector<StudyAxis>& axes) {
+  const std::vector<Part> parts = axis_parts(axes);
   std::size_t count = 1;
   for (const Part& part : parts) count *= part.size;
   std::vector<StudyRun> runs(count, {"", std::vector<std::string>(axes.size())});
@@ -101,7 +101,7 @@ std::vector<StudyRun> runs_of(const std::vector<StudyAxis>& axes) {
   return runs;
 }
 
-CommandLine line_of(const Study& study, const StudyRun& run) {
+CommandLine run_command_line(const Study& study, const StudyRun& run) {
   CommandLine line{study.experiment, "hysteron " + study.experiment, study.shared, {}};
   for (std::size_t a = 0; a < study.axes.size(); ++a) {
     const std::string& key = study.axes[a].key;

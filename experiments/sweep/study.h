@@ -49,9 +49,9 @@ Study read_study(const std::string& name_or_file);
 
 // Every combination of the axes' values, the last axis first; sampled axes go together.  Names are those of
 // files everywhere and differ from each other.
-std::vector<StudyRun> runs_of(const std::vector<StudyAxis>& axes);
+std::vector<StudyRun> runs_on_axes(const std::vector<StudyAxis>& axes);
 
 // What the run is asked for.
-CommandLine line_of(const Study& study, const StudyRun& run);
+CommandLine run_command_line(const Study& study, const StudyRun& run);
 
 }  // namespace hysteron::experiments

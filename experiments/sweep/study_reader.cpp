@@ -25,14 +25,14 @@ constexpr double kMaxValues = 100000, kMaxRuns = 1e6;
 constexpr int kDigits = 6;  // of values that a range or a sample gives: they stand in names and tables
 
 // Of those that a study leaves to `sweep` itself.
-const std::set<std::string> kOfTheSweep = {"out", "quiet", "json", "resume", "threads", "explain"};
+const std::set<std::string> kSweepFlags = {"out", "quiet", "json", "resume", "threads", "explain"};
 
 // It writes a folder with a manifest, and flags alone say what; one whose argument is a scene takes it as
 // --scene, too.
 bool can_be_repeated(const Experiment& experiment) {
-  const bool by_flags = !*experiment.names || (experiment.simulates && experiment.defaults);
+  const bool by_flags = !*experiment.positionals || (experiment.simulates && experiment.defaults);
   if (!experiment.run || !by_flags) return false;
-  const std::vector<KeyDescription> keys = options_of(experiment, Defaults::left_out);
+  const std::vector<KeyDescription> keys = experiment_options(experiment, Defaults::left_out);
   const auto takes = [&](const char* path) {
     return std::any_of(keys.begin(), keys.end(), [&](const KeyDescription& key) { return key.path == path; });
   };
@@ -98,9 +98,9 @@ class StudyFile {
     }
     if (const TomlNode* resources = root.find("resources")) read_resources(table(*resources));
     if (study_.axes.empty())
-      throw Error::invalid_input("a study needs an [[axis]] or seeds (" + file_ + ")").of("axis", "");
+      throw Error::invalid_input("a study needs an [[axis]] or seeds (" + file_ + ")").with_key("axis", "");
     check_number_of_runs();
-    study_.runs = runs_of(study_.axes);
+    study_.runs = runs_on_axes(study_.axes);
     return std::move(study_);
   }
 
@@ -108,7 +108,7 @@ class StudyFile {
   std::string at(const TomlNode& node) const { return place(file_, node); }
 
   Error refusal(const TomlNode& node, const std::string& what) const {
-    return Error::invalid_input(what).from(at(node));
+    return Error::invalid_input(what).with_origin(at(node));
   }
 
   void throw_if_unknown(const TomlNode& of, const std::vector<std::string>& known,
@@ -119,7 +119,7 @@ class StudyFile {
       throw refusal(child, "unknown key " + prefix + child.key + "; " +
                                (nearest.empty() ? "there are: " + join(known, ", ")
                                                 : "did you mean " + prefix + nearest + "?"))
-          .of(prefix + child.key, "");
+          .with_key(prefix + child.key, "");
     }
   }
 
@@ -174,21 +174,23 @@ class StudyFile {
     if (!std::count(known.begin(), known.end(), study_.experiment))
       throw refusal(*root.find("experiment"),
                     "experiment = " + study_.experiment + " must be " + join(known, " | "))
-          .of("experiment", study_.experiment);
-    for (const KeyDescription& key : options_of(experiment_named(study_.experiment), Defaults::left_out))
+          .with_key("experiment", study_.experiment);
+    for (const KeyDescription& key :
+         experiment_options(experiment_named(study_.experiment), Defaults::left_out))
       keys_.push_back({key, Field{}});
   }
 
   // As flags are called.
-  static std::string flag_of(const std::string& key) { return key == "fabric.name" ? "fabric" : key; }
+  static std::string called_flag(const std::string& key) { return key == "fabric.name" ? "fabric" : key; }
 
   // A key of the experiment by its name in the study, "param.stack" being of key "param".
   const KeyDescription& known_key(const std::string& key, const TomlNode& node) const {
-    if (kOfTheSweep.contains(key))
-      throw refusal(node, key + " is given to sweep (--" + key + "), not to its runs").of(key, "");
+    if (kSweepFlags.contains(key))
+      throw refusal(node, key + " is given to sweep (--" + key + "), not to its runs").with_key(key, "");
     for (const DecidedKey& decided : decided_by(study_.experiment))
       if (decided.path == key)
-        throw refusal(node, key + " cannot be set: " + decided_words(study_.experiment, decided)).of(key, "");
+        throw refusal(node, key + " cannot be set: " + decided_words(study_.experiment, decided))
+            .with_key(key, "");
     if (key.starts_with("param.")) return find_key(keys_, "param", at(node)).description;
     return find_key(keys_, key == "fabric" ? "fabric.name" : key, at(node)).description;
   }
@@ -202,12 +204,12 @@ class StudyFile {
     if (key == "scene") find_asset("scenes", value, key + ", " + at(node));
     const std::vector<std::string> laws = law_names();
     if (key == "law" && !std::count(laws.begin(), laws.end(), value))
-      throw refusal(node, "law = " + value + " must be " + join(laws, " | ")).of(key, value);
+      throw refusal(node, "law = " + value + " must be " + join(laws, " | ")).with_key(key, value);
   }
 
   void read_scene(const std::string& prefix, const TomlNode& of) {
     for (const TomlNode& child : of.children) {
-      const std::string key = flag_of(prefix + child.key);
+      const std::string key = called_flag(prefix + child.key);
       if (child.kind == TomlNode::Kind::table) {
         read_scene(key + ".", child);
         continue;
@@ -226,7 +228,7 @@ class StudyFile {
     for (const TomlNode& node : axes.children) {
       table(node);
       if (!recorded_) throw_if_unknown(node, {"key", "values", "linear", "log"}, "axis.");
-      read_axis(flag_of(text(node, "key", "axis.key")), node);
+      read_axis(called_flag(text(node, "key", "axis.key")), node);
       if (!recorded_) continue;
       study_.axes.back().logarithmic = node.find("scale");
       study_.axes.back().sampled = node.find("sampled");
@@ -236,9 +238,9 @@ class StudyFile {
   void read_axis(const std::string& key, const TomlNode& node) {
     const KeyDescription& description = known_key(key, *node.find("key"));
     if (!set_.insert(key).second)
-      throw refusal(node, key + " is set twice: an axis varies what nothing else sets").of(key, "");
+      throw refusal(node, key + " is set twice: an axis varies what nothing else sets").with_key(key, "");
     if (!recorded_ && node.children.size() != 2)
-      throw refusal(node, "the axis " + key + " must have one of values, linear, log").of(key, "");
+      throw refusal(node, "the axis " + key + " must have one of values, linear, log").with_key(key, "");
     const TomlNode& given = node.children[node.children[0].key == "key" ? 1 : 0];
     StudyAxis axis{key, description.unit, {}, false, given.key == "log", false};
     if (given.key == "values")
@@ -249,7 +251,8 @@ class StudyFile {
     for (std::size_t i = 1; i < axis.values.size(); ++i)
       if (std::count(axis.values.begin(), axis.values.begin() + static_cast<std::ptrdiff_t>(i),
                      axis.values[i]))
-        throw refusal(given, key + " = " + axis.values[i] + " stands twice among the values").of(key, "");
+        throw refusal(given, key + " = " + axis.values[i] + " stands twice among the values")
+            .with_key(key, "");
     axis.numeric = std::all_of(axis.values.begin(), axis.values.end(),
                                [](const std::string& value) { return number_in(value).has_value(); });
     if (!axis.numeric) axis.unit.clear();
@@ -304,7 +307,7 @@ class StudyFile {
     throw_if_unknown(*node, {"method", "n", "seed"}, "sample.");
     if (const std::string method = text(*node, "method", "sample.method"); method != "latin")
       throw refusal(*node->find("method"), "sample.method = " + method + " must be latin")
-          .of("method", method);
+          .with_key("method", method);
     if (!node->find("n")) throw refusal(*node, "sample.n must be given: how often is drawn");
     if (sampled == 0)
       throw refusal(*node, "[sample] needs an axis with a range without n: linear = [from, to]");

@@ -51,7 +51,7 @@ const KeyRow<S> kRows[] = {
 };
 // clang-format on
 
-Keys keys_of(SweepChoice& choice, Options& options) {
+Keys option_keys(SweepChoice& choice, Options& options) {
   Keys keys = with_output_options(bind(kRows, choice), options);
   std::erase_if(keys, [](const BoundKey& key) { return key.description.path == "quick"; });
   return keys;
@@ -60,18 +60,18 @@ Keys keys_of(SweepChoice& choice, Options& options) {
 std::vector<KeyDescription> own_keys() {
   SweepChoice choice;
   Options options;
-  return descriptions(keys_of(choice, options));
+  return descriptions(option_keys(choice, options));
 }
 
-std::vector<ChildRun> columns_of(const Study& study, const std::filesystem::path& out) {
+std::vector<ChildRun> study_columns(const Study& study, const std::filesystem::path& out) {
   std::vector<ChildRun> columns;
   columns.reserve(study.runs.size());
   for (const StudyRun& run : study.runs)
-    columns.push_back(column_of(run.name, line_of(study, run), {}, out / "runs"));
+    columns.push_back(child_run(run.name, run_command_line(study, run), {}, out / "runs"));
   return columns;
 }
 
-SweepJobs jobs_of(const SweepChoice& choice, const std::vector<ChildRun>& runs) {
+SweepJobs sweep_jobs(const SweepChoice& choice, const std::vector<ChildRun>& runs) {
   SweepJobs jobs;
   jobs.at_once = choice.jobs;
   jobs.threads = choice.threads;
@@ -79,7 +79,7 @@ SweepJobs jobs_of(const SweepChoice& choice, const std::vector<ChildRun>& runs) 
   jobs.resume = choice.resume || !choice.only.empty() || !choice.part.empty();
   jobs.checkpoints = jobs.resume;
   jobs.gpu = std::any_of(runs.begin(), runs.end(), [](const ChildRun& run) { return may_use_gpu(run.line); });
-  jobs.go_on = true;
+  jobs.tolerates_failures = true;
   jobs.keep_reasons = true;
   return jobs;
 }
@@ -97,10 +97,11 @@ void write_study(const SweepChoice& choice, const Study& study, const std::files
     return words;
   };
   Workflow workflow{.out = out, .jobs = {}, .product = "table.csv", .collects = with({"--collect"})};
-  std::vector<std::string> shares = {"--threads", kThreads, "--jobs", "1"};
-  if (choice.batch > 1) shares.insert(shares.end(), {"--batch", std::to_string(choice.batch)});
+  std::vector<std::string> shared_arguments = {"--threads", kThreads, "--jobs", "1"};
+  if (choice.batch > 1)
+    shared_arguments.insert(shared_arguments.end(), {"--batch", std::to_string(choice.batch)});
   for (int k = 1; k <= jobs; ++k) {
-    std::vector<std::string> words = shares;
+    std::vector<std::string> words = shared_arguments;
     words.insert(words.end(), {"--part", fmt::format("{}/{}", k, jobs)});
     workflow.jobs.push_back({std::to_string(k), with(words), study.resources});
   }
@@ -119,7 +120,7 @@ class Progress {
     if (!column.stopped.empty()) ++failed_;
     own_seconds_ += column.seconds;
     const long all = static_cast<long>(all_ - kept_);
-    run_.progress(fmt::format("{}/{}  {}: {}{}", done_ + kept_, all_, column.name, outcome_of(column),
+    run_.progress(fmt::format("{}/{}  {}: {}{}", done_ + kept_, all_, column.name, run_outcome(column),
                               time_left(static_cast<long>(done_), all, seconds(), false)));
   }
 
@@ -170,8 +171,8 @@ void throw_if_unknown_metric(const Study& study, const std::vector<ChildRun>& ru
   if (!unknown.empty())
     throw Error::invalid_input("metrics: no run has found " + unknown +
                                "; the runs are kept, and --collect tabulates them again")
-        .from(study.metrics_place)
-        .of("metrics", "");
+        .with_origin(study.metrics_place)
+        .with_key("metrics", "");
 }
 
 void run_all(Run& run, const Study& study, std::vector<ChildRun>& runs, const SweepJobs& jobs) {
@@ -237,7 +238,8 @@ std::vector<ChildRun> chosen(const std::vector<ChildRun>& runs, const SweepChoic
     std::copy_if(runs.begin(), runs.end(), std::back_inserter(some),
                  [&](const ChildRun& column) { return column.name == choice.only; });
     if (some.empty())
-      throw Error::invalid_input("no run is called " + choice.only + " (--only)").of("only", choice.only);
+      throw Error::invalid_input("no run is called " + choice.only + " (--only)")
+          .with_key("only", choice.only);
     return some;
   }
   const std::size_t slash = std::min(choice.part.find('/'), choice.part.size());
@@ -247,7 +249,7 @@ std::vector<ChildRun> chosen(const std::vector<ChildRun>& runs, const SweepChoic
   if (!(k >= 1 && k <= n && n <= all) || k != std::floor(k) || n != std::floor(n))
     throw Error::invalid_input(fmt::format("part = {} must be K/N with integers 1 <= K <= N <= {} (--part)",
                                            choice.part, runs.size()))
-        .of("part", choice.part);
+        .with_key("part", choice.part);
   const auto end = [&](double part) {
     return runs.begin() + static_cast<std::ptrdiff_t>(std::ceil(all * part / n));
   };
@@ -260,9 +262,9 @@ int run_some(std::vector<ChildRun> runs, const SweepChoice& choice, bool quiet) 
   for (const ChildRun& column : runs)
     if (std::filesystem::is_directory(column.folder)) const FolderLock free(column.folder);
   run_columns(
-      runs, jobs_of(choice, runs),
+      runs, sweep_jobs(choice, runs),
       [&](const ChildRun& column) {
-        if (!quiet) std::cerr << column.name << ": " << outcome_of(column) << std::endl;
+        if (!quiet) std::cerr << column.name << ": " << run_outcome(column) << std::endl;
       },
       [](const std::string&) {});
   const auto failed = std::find_if(runs.begin(), runs.end(), [](const ChildRun& column) {
@@ -273,25 +275,26 @@ int run_some(std::vector<ChildRun> runs, const SweepChoice& choice, bool quiet) 
 }
 
 int run_sweep(const CommandLine& line) {
-  if (line.names.size() != 1)
+  if (line.positionals.size() != 1)
     throw Error::invalid_input("needs one study: a file, or a name in assets/studies");
   SweepChoice choice;
   Options options;
-  set_keys(line, keys_of(choice, options));
-  const Study study = read_study(line.names[0]);
-  if (options.out.empty()) options.out = "out/sweep-" + std::filesystem::path(line.names[0]).stem().string();
-  std::vector<ChildRun> runs = columns_of(study, options.out);
+  set_keys(line, option_keys(choice, options));
+  const Study study = read_study(line.positionals[0]);
+  if (options.out.empty())
+    options.out = "out/sweep-" + std::filesystem::path(line.positionals[0]).stem().string();
+  std::vector<ChildRun> runs = study_columns(study, options.out);
   check_batch(runs, choice.batch);
   if (!choice.snakemake.empty()) return write_study(choice, study, options.out), 0;
   if (!choice.only.empty() || !choice.part.empty())
     return run_some(chosen(runs, choice), choice, options.quiet);
-  Run run(line, options, keys_of(study));
+  Run run(line, options, study_record(study));
   run.path("table.csv");
   run.reserve({"means.csv"});
   if (choice.collect)
     collect(run, runs);
   else
-    run_all(run, study, runs, jobs_of(choice, runs));
+    run_all(run, study, runs, sweep_jobs(choice, runs));
   write_results(run, study, runs, !options.no_images);
   throw_if_failed(run, runs);
   throw_if_unknown_metric(study, runs);
@@ -305,7 +308,7 @@ Experiment sweep() {
           .question = "an experiment over the axes of a study: one table, curves, maps",
           .run = run_sweep,
           .own_keys = own_keys,
-          .names = "STUDY",
+          .positionals = "STUDY",
           .headlines = {.all = {{"runs_count", "runs", "", "{:.0f}", 1, kNoErrors},
                                 {"failed_count", "of them not complete", "", "{:.0f}", 1, kNoErrors}}}};
 }

@@ -11,25 +11,26 @@ namespace hysteron::experiments {
 namespace {
 
 // Numbers, truths and texts as a field of a table; "" for others.
-std::string field_of(const MetricValue& value) {
+std::string metric_field(const MetricValue& value) {
   if (value.is_number()) return number_text(value.number());
   if (value.is_text()) return value.text();
   return value.is(true) ? "1" : value.is(false) ? "0" : "";
 }
 
-bool has_field(const MetricValue& value) { return !field_of(value).empty(); }
+bool has_field(const MetricValue& value) { return !metric_field(value).empty(); }
 
 // By the runs' scenes.
-std::vector<std::string> asked_of_any(const std::vector<ChildRun>& runs) {
+std::vector<std::string> requested_of_any(const std::vector<ChildRun>& runs) {
   std::vector<std::string> names;
   for (const ChildRun& run : runs)
-    for (const std::string& name : run.manifest ? run.manifest->asked_metrics : std::vector<std::string>{})
+    for (const std::string& name :
+         run.manifest ? run.manifest->requested_metrics : std::vector<std::string>{})
       if (!std::count(names.begin(), names.end(), name)) names.push_back(name);
   return names;
 }
 
 bool differs(const std::vector<ChildRun>& runs, const std::string& metric) {
-  std::vector<double> known = numbers_of(runs, metric);
+  std::vector<double> known = metric_values(runs, metric);
   std::erase_if(known, [](double x) { return std::isnan(x); });
   return !known.empty() && std::any_of(known.begin(), known.end(), [&](double x) { return x != known[0]; });
 }
@@ -41,7 +42,7 @@ struct Mean {
   double error = std::numeric_limits<double>::quiet_NaN();
 };
 
-Mean mean_of(const std::vector<double>& numbers, const std::vector<std::size_t>& which) {
+Mean selected_mean(const std::vector<double>& numbers, const std::vector<std::size_t>& which) {
   Mean mean;
   double sum = 0, squares = 0;
   for (const std::size_t r : which)
@@ -55,7 +56,7 @@ Mean mean_of(const std::vector<double>& numbers, const std::vector<std::size_t>&
 }
 
 // Numbers of the runs by their values but for the seed, in the order of the first.
-std::vector<std::pair<std::vector<std::string>, std::vector<std::size_t>>> points_of(const Study& study) {
+std::vector<std::pair<std::vector<std::string>, std::vector<std::size_t>>> study_points(const Study& study) {
   std::vector<std::pair<std::vector<std::string>, std::vector<std::size_t>>> points;
   std::map<std::vector<std::string>, std::size_t> places;
   for (std::size_t r = 0; r < study.runs.size(); ++r) {
@@ -71,7 +72,7 @@ std::vector<std::pair<std::vector<std::string>, std::vector<std::size_t>>> point
 
 }  // namespace
 
-std::vector<double> numbers_of(const std::vector<ChildRun>& runs, const std::string& metric) {
+std::vector<double> metric_values(const std::vector<ChildRun>& runs, const std::string& metric) {
   std::vector<double> numbers;
   for (const ChildRun& run : runs) numbers.push_back(run.metrics().number(metric));
   return numbers;
@@ -81,8 +82,8 @@ std::vector<std::string> metrics_shown(const Study& study, const std::vector<Chi
   constexpr std::size_t kFew = 4;
   const std::vector<std::string> known = metrics_in(runs, has_field);
   std::vector<std::string> wanted = study.metrics;
-  if (wanted.empty()) wanted = headlines_of(study.experiment).with_errors();
-  if (wanted.empty()) wanted = asked_of_any(runs);
+  if (wanted.empty()) wanted = experiment_headlines(study.experiment).with_errors();
+  if (wanted.empty()) wanted = requested_of_any(runs);
   std::erase_if(wanted,
                 [&](const std::string& name) { return !std::count(known.begin(), known.end(), name); });
   if (!wanted.empty()) return wanted;
@@ -117,7 +118,7 @@ Table table_of_runs(const Study& study, const std::vector<ChildRun>& runs) {
     const Metrics found = runs[r].metrics();
     std::vector<std::string>& row = table.rows.emplace_back(1, study.runs[r].name);
     row.insert(row.end(), study.runs[r].values.begin(), study.runs[r].values.end());
-    for (const std::string& metric : metrics) row.push_back(field_of(found[metric]));
+    for (const std::string& metric : metrics) row.push_back(metric_field(found[metric]));
     const std::optional<double> seconds = manifest ? manifest->own_seconds() : std::nullopt;
     row.push_back(seconds ? number_text(*seconds) : "");
     row.push_back(manifest ? manifest->state_hash.value_or("") : "");
@@ -136,15 +137,15 @@ Table table_of_means(const Study& study, const std::vector<ChildRun>& runs,
   std::vector<std::vector<double>> numbers;
   for (const std::string& metric : metrics) {
     table.head.insert(table.head.end(), {metric + "_mean", metric + "_stderr"});
-    numbers.push_back(numbers_of(runs, metric));
+    numbers.push_back(metric_values(runs, metric));
   }
-  for (const auto& [values, which] : points_of(study)) {
+  for (const auto& [values, which] : study_points(study)) {
     std::vector<std::string>& row = table.rows.emplace_back(values);
     const auto done =
         std::count_if(which.begin(), which.end(), [&](std::size_t r) { return runs[r].exit_code == 0; });
     row.push_back(std::to_string(done));
     for (const std::vector<double>& of_metric : numbers) {
-      const Mean mean = mean_of(of_metric, which);
+      const Mean mean = selected_mean(of_metric, which);
       row.push_back(std::isnan(mean.value) ? "" : number_text(mean.value));
       row.push_back(std::isnan(mean.error) ? "" : number_text(mean.error));
     }

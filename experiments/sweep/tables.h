@@ -30,6 +30,6 @@ Table table_of_means(const Study& study, const std::vector<ChildRun>& runs,
                      const std::vector<std::string>& metrics);
 
 // The metric of each run; NaN where it is not known.
-std::vector<double> numbers_of(const std::vector<ChildRun>& runs, const std::string& metric);
+std::vector<double> metric_values(const std::vector<ChildRun>& runs, const std::string& metric);
 
 }  // namespace hysteron::experiments

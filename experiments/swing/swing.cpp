@@ -80,7 +80,7 @@ double line_departure(const std::vector<Amplitude>& amplitudes, const Decay& dec
 }
 
 void note_decay(Run& run, const std::vector<Amplitude>& amplitudes, const Decay& decay) {
-  run.metric("decay_shape", name_of(decay.shape));
+  run.metric("decay_shape", enum_name(decay.shape));
   run.metric("decay_amplitudes_count", decay.used);
   if (decay.used >= kMinAmplitudes) run.metric("decay_per_turn_percent", 100 * decay.per_turn);
   if (decay.fits.empty()) return;
@@ -107,7 +107,7 @@ void plot_decay(Session& session, const std::vector<Amplitude>& amplitudes, cons
   for (const Amplitude& a : amplitudes) measured.x.push_back(a.time), measured.y.push_back(1e3 * a.value);
   plot.series = {measured};
   if (decay.shape != DecayShape::unknown && !decay.fits.empty()) {
-    render::Series fit{name_of(decay.shape), {}, {}};
+    render::Series fit{enum_name(decay.shape), {}, {}};
     const double from = amplitudes[decay.first].time, whole = amplitudes.back().time - from;
     for (int i = 0; i <= kDrawn; ++i) {
       fit.x.push_back(from + whole * i / kDrawn);
@@ -133,7 +133,7 @@ void plot(Session& session) {
   session.plot("plot_energy", energy);
 }
 
-std::vector<FigureCaption> captions_of(const Scene& scene) {
+std::vector<FigureCaption> plot_captions(const Scene& scene) {
   const std::string what = ", " + scene.fabric.name + ", law " + scene.law;
   return {
       {"plot_decay.png", "Amplitude against time" + what, kDecayCaption},
@@ -168,7 +168,7 @@ std::optional<Cloth> clamp(const CommandLine& line, Setup& setup) {
 }
 
 // Along x and y; a strip that is built ends where the scene says, though its clamp is a little longer.
-Eigen::Vector2d sides_of(const Scene& scene, const ClothMesh& mesh) {
+Eigen::Vector2d sheet_sides(const Scene& scene, const ClothMesh& mesh) {
   if (rest_file(scene).empty()) return {scene.cloth.length, scene.cloth.width};
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& x : mesh.rest) box.extend(x);
@@ -184,7 +184,7 @@ int run_swing(const CommandLine& line) {
   Session session(line, setup, std::move(clamped));
   if (session.is_over()) return 0;
   session.reserve({"turns.csv"}, {"plot_decay", "plot_decay_log", "plot_tip", "plot_energy"});
-  const Eigen::Vector2d sides = sides_of(setup.scene, session.cloth().mesh);
+  const Eigen::Vector2d sides = sheet_sides(setup.scene, session.cloth().mesh);
   const float length = static_cast<float>(sides.x()), width = static_cast<float>(sides.y());
   if (!setup.options.no_images) session.run().path("README.md");
 
@@ -194,29 +194,29 @@ int run_swing(const CommandLine& line) {
     if (rest[i].x() - std::abs(rest[i].y() - width / 2) > rest[tip].x() - std::abs(rest[tip].y() - width / 2))
       tip = static_cast<int>(i);
   std::vector<double> times, swing;
-  RunPlan question;
+  RunPlan plan;
   const float low = -length;
-  question.bounds = {{-0.7f * length, 0, low}, {length, width, 0.15f * length}};
-  question.columns = {"tip_x [m]", "tip_height [m]"};
-  question.measure = [&](const Snapshot& m) -> std::vector<double> {
+  plan.bounds = {{-0.7f * length, 0, low}, {length, width, 0.15f * length}};
+  plan.columns = {"tip_x [m]", "tip_height [m]"};
+  plan.measure = [&](const Snapshot& m) -> std::vector<double> {
     times.push_back(m.time);
     swing.push_back(m.x[tip].x());
     return {m.x[tip].x(), m.x[tip].z() - m.x[0].z()};
   };
-  question.visit = [&](Archive& archive) {
+  plan.serialise = [&](Archive& archive) {
     archive(times);
     archive(swing);
   };
-  question.progress = [&](const Snapshot& m) {
+  plan.progress = [&](const Snapshot& m) {
     return fmt::format("t = {:.3f} s  tip at {:.4f}, {:.4f} m", m.time, m.x[tip].x(), m.x[tip].z());
   };
-  session.simulate(question);
+  session.simulate(plan);
   const Ledger ledger = session.simulation().ledger();
   Run& run = session.run();
   const auto turns = turning_points(times, swing, kMinTurn * sides.x());
   const std::vector<Amplitude> amplitudes =
-      amplitudes_of(turning_points(times, swing, kMinTurn * sides.x(), kSwingRipple));
-  const Decay decay = decay_of(amplitudes, kSmallSwing * (sides.x() - kClamp));
+      turning_amplitudes(turning_points(times, swing, kMinTurn * sides.x(), kSwingRipple));
+  const Decay decay = decay_between_amplitudes(amplitudes, kSmallSwing * (sides.x() - kClamp));
   run.metric("turns", turns.size());
   note_decay(run, amplitudes, decay);
   write_turns(run, amplitudes);
@@ -230,7 +230,7 @@ int run_swing(const CommandLine& line) {
     plot_decay(session, amplitudes, decay);
   }
   session.finish("Swing: " + setup.scene.fabric.name + ", law " + setup.scene.law);
-  if (session.pictures()) write_run_captions(run.folder(), captions_of(setup.scene));
+  if (session.pictures()) write_run_captions(run.folder(), plot_captions(setup.scene));
   return 0;
 }
 

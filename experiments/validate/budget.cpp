@@ -24,7 +24,7 @@ Drape on_other_tester(Drape drape) {
 }
 
 // Of trial `number`, a drape a mesh.
-std::vector<Drape> drapes_of(const Trial& trial, std::size_t number, int draws) {
+std::vector<Drape> trial_drapes(const Trial& trial, std::size_t number, int draws) {
   std::vector<Drape> drapes;
   for (int draw = 1; draw <= draws; ++draw) {
     Drape& drape = drapes.emplace_back(trial.drape);
@@ -37,7 +37,7 @@ std::vector<Drape> drapes_of(const Trial& trial, std::size_t number, int draws) 
 
 }  // namespace
 
-std::vector<Trial> trials_of(const FabricFile& file, const ValidateFlags& flags) {
+std::vector<Trial> budget_trials(const FabricFile& file, const ValidateFlags& flags) {
   const Drape nominal = nominal_drape(file.fabric.name, flags);
   std::vector<Trial> trials = {{"as its file says", "", nominal}};
   for (const auto& [key, range] : file.range)
@@ -45,7 +45,7 @@ std::vector<Trial> trials_of(const FabricFile& file, const ValidateFlags& flags)
       Sample sample = {{key, end}};
       keep_what_was_measured(file.fabric, sample);
       trials.push_back({key, number_text(end), nominal});
-      trials.back().drape.further = flags_of(sample);
+      trials.back().drape.further = drape_flags(sample);
     }
   const Drape other = on_other_tester(nominal);
   trials.push_back({"tester", other.standard, other});
@@ -105,10 +105,10 @@ render::Plot budget_plot(const std::vector<BudgetRow>& rows) {
 void write_budget(const ValidateFlags& flags, Run& run) {
   Table table({"fabric", "number", "value", "meshes", kMean, kError, kChange, kPublished});
   for (const std::string& fabric : split(flags.fabrics)) {
-    const std::vector<Trial> trials = trials_of(read_fabric(fabric, "--fabrics"), flags);
+    const std::vector<Trial> trials = budget_trials(read_fabric(fabric, "--fabrics"), flags);
     std::vector<Drape> all;
     for (std::size_t t = 0; t < trials.size(); ++t)
-      for (Drape& drape : drapes_of(trials[t], t, flags.draws)) all.push_back(std::move(drape));
+      for (Drape& drape : trial_drapes(trials[t], t, flags.draws)) all.push_back(std::move(drape));
     run_drapes(all, flags, run);
     std::vector<BudgetRow> rows;
     for (const Trial& trial : trials) {
@@ -116,8 +116,8 @@ void write_budget(const ValidateFlags& flags, Run& run) {
       for (int draw = 0; draw < flags.draws; ++draw)
         coefficients.push_back(all[rows.size() * static_cast<std::size_t>(flags.draws) + draw].coefficient());
       BudgetRow& row = rows.emplace_back(
-          BudgetRow{fabric, trial.number, trial.value, flags.draws, mean_of(coefficients),
-                    spread_of(coefficients) / std::sqrt(flags.draws), NAN, all.back().published()});
+          BudgetRow{fabric, trial.number, trial.value, flags.draws, mean_value(coefficients),
+                    sample_deviation(coefficients) / std::sqrt(flags.draws), NAN, all.back().published()});
       row.change = row.coefficient - rows[0].coefficient;
       table.row(
           {fabric, row.number, row.value, row.meshes, row.coefficient, row.error, row.change, row.published});

@@ -14,12 +14,12 @@
 
 namespace hysteron::experiments {
 
-std::vector<Manifest> results_of(const std::string& experiment, const std::vector<Variant>& runs,
-                                 const ValidateFlags& flags, Run& run) {
+std::vector<Manifest> run_manifests(const std::string& experiment, const std::vector<Variant>& runs,
+                                    const ValidateFlags& flags, Run& run) {
   CommandLine line{experiment, "", {}, {}};
   if (flags.options.no_images) line.flags.push_back({"no-images", "true"});
   std::vector<ChildRun> columns;
-  for (const Variant& one : runs) columns.push_back(column_of(one.name, line, one.flags, run.folder()));
+  for (const Variant& one : runs) columns.push_back(child_run(one.name, line, one.flags, run.folder()));
   // A drape leaves most of a GPU idle; those that draw pictures cannot share its launches.
   constexpr int kTogether = 8;
   const bool gpu = flags.device != "cpu";
@@ -47,7 +47,7 @@ Drape nominal_drape(const std::string& fabric, const ValidateFlags& flags) {
           flags.tolerance};
 }
 
-std::vector<Flag> flags_of(const Drape& drape, const ValidateFlags& flags) {
+std::vector<Flag> drape_flags(const Drape& drape, const ValidateFlags& flags) {
   std::vector<Flag> own = {{"fabric", drape.fabric},
                            {"law", drape.law},
                            {"drape.standard", drape.standard},
@@ -67,8 +67,8 @@ std::vector<Flag> flags_of(const Drape& drape, const ValidateFlags& flags) {
 
 void run_drapes(std::vector<Drape>& drapes, const ValidateFlags& flags, Run& run) {
   std::vector<Variant> runs;
-  for (const Drape& drape : drapes) runs.push_back({drape.name(), flags_of(drape, flags)});
-  const std::vector<Manifest> manifests = results_of("drape", runs, flags, run);
+  for (const Drape& drape : drapes) runs.push_back({drape.name(), drape_flags(drape, flags)});
+  const std::vector<Manifest> manifests = run_manifests("drape", runs, flags, run);
   for (std::size_t d = 0; d < drapes.size(); ++d) {
     Drape& drape = drapes[d];
     drape.metrics = manifests[d].metrics;

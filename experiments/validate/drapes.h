@@ -31,13 +31,13 @@ struct Drape {
 
 // Runs of another subcommand, each in a folder of this one, side by side; their manifests.  What they warn of
 // this one does, too.  Throws Error::simulation where one of them cannot go on.
-std::vector<Manifest> results_of(const std::string& experiment, const std::vector<Variant>& runs,
-                                 const ValidateFlags& flags, Run& run);
+std::vector<Manifest> run_manifests(const std::string& experiment, const std::vector<Variant>& runs,
+                                    const ValidateFlags& flags, Run& run);
 
 // As the flags say: with the first of their laws, on the tester that the fabric's file names.
 Drape nominal_drape(const std::string& fabric, const ValidateFlags& flags);
 // What the subcommand `drape` is told; numbers lose no bit on the way.
-std::vector<Flag> flags_of(const Drape& drape, const ValidateFlags& flags);
+std::vector<Flag> drape_flags(const Drape& drape, const ValidateFlags& flags);
 void run_drapes(std::vector<Drape>& drapes, const ValidateFlags& flags, Run& run);
 
 // Every fabric under every law, released as on its tester and lowered alone, and the first law with four

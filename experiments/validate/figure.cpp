@@ -27,7 +27,7 @@ constexpr const char* kMeasuredColor = "#6F7F8F";
 constexpr const char* kLineColor = "#888888";
 
 // One for each fabric in all plots, which colour-blind eyes can tell apart (Okabe & Ito 2008).
-std::string color_of(std::size_t fabric) {
+std::string fabric_color(std::size_t fabric) {
   static const std::vector<std::string> kColors = {"#0072B2", "#D55E00", "#009E73", "#CC79A7"};
   return kColors[fabric % kColors.size()];
 }
@@ -74,7 +74,7 @@ render::Series decay_line(const DecayFit& fit, double start, double from, double
 render::PagePlot decay_plot(const fs::path& swing) {
   constexpr double kFifth = 0.2;
   const std::vector<Amplitude> amplitudes = read_amplitudes(swing);
-  const Decay decay = decay_of(amplitudes, INFINITY);
+  const Decay decay = decay_between_amplitudes(amplitudes, INFINITY);
   if (decay.fits.empty())
     throw Error::invalid_input("validate: the swing in " + swing.string() + " does not fall");
   const DecayFit two = decay.of(DecayShape::two_step);
@@ -99,7 +99,7 @@ render::Series interval(const PredictedDrape& drape, const std::string& color, c
 
 // A fabric's name, where the diagonal is not: of limp fabrics below the interval and to the right, of stiff
 // ones above it and to the left.
-render::Mark name_of(const PredictedDrape& drape, bool stiff, const std::string& color) {
+render::Mark drape_mark(const PredictedDrape& drape, bool stiff, const std::string& color) {
   constexpr double kAway = 3.5;  // [%]
   if (stiff) return {drape.fabric, drape.measured + 1, drape.high + kAway, -0.1, 0, color, false};
   return {drape.fabric, drape.measured - 1, drape.low - kAway, 0.1, 0, color, false};
@@ -115,24 +115,24 @@ render::PagePlot drapes_plot(const std::vector<PredictedDrape>& drapes) {
   render::Series elastic{"elasticity alone", {}, {}, Style::rings, "#222222"};
   for (std::size_t f = 0; f < drapes.size(); ++f) {
     const PredictedDrape& drape = drapes[f];
-    plot.series.push_back(interval(drape, color_of(f), f == 0 ? "95 % interval" : ""));
+    plot.series.push_back(interval(drape, fabric_color(f), f == 0 ? "95 % interval" : ""));
     for (render::Series* series : {&mean, &elastic}) series->x.push_back(drape.measured);
     mean.y.push_back(drape.mean), elastic.y.push_back(drape.elastic);
-    plot.marks.push_back(name_of(drape, 2 * f >= drapes.size(), color_of(f)));
+    plot.marks.push_back(drape_mark(drape, 2 * f >= drapes.size(), fabric_color(f)));
   }
   plot.series.insert(plot.series.end(), {mean, elastic});
   return {plot, "top left"};
 }
 
 // Of the fabrics in this order, which their colours have.
-render::PagePlot folds_of(const std::vector<CountedDrape>& counted,
-                          const std::vector<PredictedDrape>& order) {
+render::PagePlot fold_counts_plot(const std::vector<CountedDrape>& counted,
+                                  const std::vector<PredictedDrape>& order) {
   render::Plot plot{"Folds of drapes, 300 mm on 180 mm",
                     {"drape coefficient [%]", false, 10, 100},
                     {"folds", false, 0, 18}};
   plot.series = real_drape_boxes("584 real drapes");
   for (std::size_t f = 0; f < order.size(); ++f) {
-    render::Series series{order[f].fabric, {}, {}, Style::points, color_of(f)};
+    render::Series series{order[f].fabric, {}, {}, Style::points, fabric_color(f)};
     for (const CountedDrape& drape : counted)
       if (drape.fabric == order[f].fabric)
         series.x.push_back(drape.coefficient), series.y.push_back(drape.folds);
@@ -174,7 +174,7 @@ render::PlotPage validation_page(const fs::path& recorded) {
   return {"From the raw loop to decay, drape and folds",
           "friction fitted on one loop of a knit; its shape, with B and 2HB of each fabric, gives the rest",
           {loops_plot(recorded / kLoops), decay_plot(recorded / kSwing), drapes_plot(drapes),
-           folds_of(read_counted(recorded / kFolds), drapes)}};
+           fold_counts_plot(read_counted(recorded / kFolds), drapes)}};
 }
 
 void draw_recorded(const fs::path& recorded, Run& run) {

@@ -76,7 +76,7 @@ std::vector<Prediction> predict_loops(const std::string& folder) {
   if (!all.find("is fitted"))
     throw Error::invalid_input("loops: " + file.string() + " has no column \"is fitted\": give a folder of " +
                                "fit --fab")
-        .of("loops", folder);
+        .with_key("loops", folder);
   const Table table = all.where("is fitted", "0");
   std::vector<Prediction> predictions;
   for (std::size_t r = 0; r < table.rows.size(); ++r)

@@ -41,24 +41,25 @@ double reach(std::size_t n) {
 // What drapes of one fabric say together: the mean, and where one more would lie.
 Prediction together(const std::vector<double>& values, const std::string& question, const std::string& unit,
                     double measured) {
-  Prediction p{question, kDrapeFittedOn, unit, mean_of(values), measured};
-  const double half = reach(values.size()) * spread_of(values);
+  Prediction p{question, kDrapeFittedOn, unit, mean_value(values), measured};
+  const double half = reach(values.size()) * sample_deviation(values);
   p.low = p.predicted - half, p.high = p.predicted + half;
   return p;
 }
 
-std::vector<double> numbers_of(const std::vector<Drape>& drapes, const std::string& metric) {
+std::vector<double> drape_metrics(const std::vector<Drape>& drapes, const std::string& metric) {
   std::vector<double> numbers;
   for (const Drape& drape : drapes) numbers.push_back(drape.number(metric));
   return numbers;
 }
 
 Prediction summary(const std::vector<Drape>& drapes, const std::string& question) {
-  return together(numbers_of(drapes, "drape_coefficient_percent"), question, "%", drapes.front().published());
+  return together(drape_metrics(drapes, "drape_coefficient_percent"), question, "%",
+                  drapes.front().published());
 }
 
 Prediction folds(const std::vector<Drape>& drapes, const std::string& question) {
-  return together(numbers_of(drapes, "node_count"), question, "folds",
+  return together(drape_metrics(drapes, "node_count"), question, "folds",
                   drapes.front().number("published_node_count"));
 }
 
@@ -102,12 +103,12 @@ void draw_spread(Run& run, const DrapesOf& all) {
 
 }  // namespace
 
-double mean_of(const std::vector<double>& values) {
+double mean_value(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-double spread_of(const std::vector<double>& values) {
-  const double mean = mean_of(values);
+double sample_deviation(const std::vector<double>& values) {
+  const double mean = mean_value(values);
   double squares = 0;
   for (const double x : values) squares += (x - mean) * (x - mean);
   return std::sqrt(squares / static_cast<double>(values.size() - 1));
@@ -127,19 +128,19 @@ void keep_what_was_measured(const Fabric& fabric, Sample& sample) {
   }
 }
 
-std::vector<Flag> flags_of(const Sample& sample) {
+std::vector<Flag> drape_flags(const Sample& sample) {
   std::vector<Flag> flags;
   for (const auto& [key, value] : sample) flags.push_back({"fabric." + key, number_text(value)});
   return flags;
 }
 
-std::vector<Sample> samples_of(const FabricFile& file, int count, unsigned seed) {
+std::vector<Sample> fabric_samples(const FabricFile& file, int count, unsigned seed) {
   std::vector<Sample> samples(count);
   Uniform uniform(seed);
   for (const auto& [key, range] : file.range) {
     if (!(range.low > 0))
       throw Error::invalid_input("validate: the range of " + key + " in " + file.fabric.name + " must be > 0")
-          .of("fabrics", file.fabric.name);
+          .with_key("fabrics", file.fabric.name);
     const double decades = std::log(range.high / range.low);
     const std::vector<int> part = shuffled(count, uniform);
     for (int i = 0; i < count; ++i)
@@ -157,11 +158,11 @@ std::vector<Prediction> predict_spread(const ValidateFlags& flags, Run& run) {
     const FabricFile file = read_fabric(fabric, "--fabrics");
     auto& drapes = all.emplace_back(fabric, std::vector<Drape>{}).second;
     int number = 0;
-    for (const Sample& sample : samples_of(file, flags.samples, flags.seed)) {
+    for (const Sample& sample : fabric_samples(file, flags.samples, flags.seed)) {
       for (const auto& [key, value] : sample) keys.insert(key);
       Drape drape = nominal_drape(fabric, flags);
       drape.varied = "sample-" + std::to_string(++number);
-      drape.further = flags_of(sample);
+      drape.further = drape_flags(sample);
       drape.further.push_back({"seed", std::to_string(number)});
       drape.further.push_back({"no-images", "true"});
       drapes.push_back(std::move(drape));
@@ -201,7 +202,7 @@ std::vector<Prediction> predict_draws(const ValidateFlags& flags, Run& run) {
       const std::string key = fabric + "-" + law;
       const std::string what = fabric + ", " + law + ", " + drapes.front().release + ", on several meshes";
       const Prediction p = summary(drapes, "drape of " + what), n = folds(drapes, "folds of " + what);
-      const double spread = spread_of(numbers_of(drapes, "drape_coefficient_percent"));
+      const double spread = sample_deviation(drape_metrics(drapes, "drape_coefficient_percent"));
       table.row({fabric, law, drapes.front().release, flags.draws, p.predicted, spread, n.predicted,
                  p.measured, n.measured});
       run.metric(key + ".drape_coefficient_percent_mean", p.predicted);

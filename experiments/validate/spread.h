@@ -18,18 +18,18 @@ using Sample = std::map<std::string, double>;
 // `count` parts of its range that are equal in the logarithm, which part with which by chance.  B, 2HB or the
 // friction moment stay as published, the mean of warp and weft; the range of bias-bending is that of its
 // ratio to that mean.
-std::vector<Sample> samples_of(const FabricFile& file, int count, unsigned seed);
+std::vector<Sample> fabric_samples(const FabricFile& file, int count, unsigned seed);
 
 // What is published holds for a sample: the friction moment for each k0, and B and 2HB as the mean of warp
 // and weft. A range of bias-bending is that of its ratio to the mean of both.
 void keep_what_was_measured(const Fabric& fabric, Sample& sample);
 
-double mean_of(const std::vector<double>& values);
+double mean_value(const std::vector<double>& values);
 // Standard deviation of one, of at least two.
-double spread_of(const std::vector<double>& values);
+double sample_deviation(const std::vector<double>& values);
 
 // As a drape is told of it, with all bits.
-std::vector<Flag> flags_of(const Sample& sample);
+std::vector<Flag> drape_flags(const Sample& sample);
 
 // The first law, on the fabric's tester, for each fabric with `samples` draws of its uncertain numbers, each
 // on another mesh: spread.csv, plot_spread.

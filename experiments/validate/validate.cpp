@@ -39,7 +39,7 @@ const KeyRow<F> kRows[] = {
 };
 // clang-format on
 
-Keys keys_of(F& flags) { return with_output_options(bind(kRows, flags), flags.options); }
+Keys option_keys(F& flags) { return with_output_options(bind(kRows, flags), flags.options); }
 
 // Bending length of ASTM D1388, cloth and curve.
 void measure_bending_lengths(const F& flags, Run& run) {
@@ -49,7 +49,7 @@ void measure_bending_lengths(const F& flags, Run& run) {
     for (const std::string& law : split(flags.laws))
       runs.push_back(
           {"cantilever-" + fabric + "-" + law, {{"fabric", fabric}, {"law", law}, {"triangles", "512"}}});
-  const std::vector<Manifest> results = results_of("cantilever", runs, flags, run);
+  const std::vector<Manifest> results = run_manifests("cantilever", runs, flags, run);
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const Metrics& metrics = results[r].metrics;
     const double cloth = metrics.number("bending_length_m"),
@@ -68,18 +68,19 @@ void check_parts(const F& flags) {
                                                   "draws", "budget", "figure"};
   for (const std::string& part : split(flags.parts))
     if (!std::count(kParts.begin(), kParts.end(), part))
-      throw Error::invalid_input("parts = " + part + " must be " + join(kParts, " | ")).of("parts", part);
+      throw Error::invalid_input("parts = " + part + " must be " + join(kParts, " | "))
+          .with_key("parts", part);
 }
 
 int run_validate(const CommandLine& line) {
   F flags;
-  set_keys(line, keys_of(flags), [&] {
+  set_keys(line, option_keys(flags), [&] {
     flags.triangles = std::min(flags.triangles, 400.0);
     flags.samples = flags.draws = 2;
   });
   check_parts(flags);
   const std::vector<std::string> parts = split(flags.parts);
-  const auto asked = [&](const char* part) { return std::count(parts.begin(), parts.end(), part) > 0; };
+  const auto requested = [&](const char* part) { return std::count(parts.begin(), parts.end(), part) > 0; };
   Run run(line, flags.options, to_json(bind(kRows, flags)));
   run.reserve({"predictions.csv", "cantilever.csv", "drape.csv", "spread.csv", "draws.csv", "budget.csv"});
   std::vector<Prediction> predictions;
@@ -88,13 +89,13 @@ int run_validate(const CommandLine& line) {
     write_predictions(run, predictions);  // a run that is cut short keeps what it has found
   };
   if (!flags.loops.empty()) add(predict_loops(flags.loops));
-  if (asked("pairs")) add(predict_pairs(run));
-  if (asked("spread")) add(predict_spread(flags, run));
-  if (asked("draws")) add(predict_draws(flags, run));
-  if (asked("budget")) write_budget(flags, run);
-  if (asked("drapes")) compare_drapes(flags, run);
-  if (asked("figure")) draw_recorded(flags.recorded, run);
-  if (asked("lengths")) measure_bending_lengths(flags, run);
+  if (requested("pairs")) add(predict_pairs(run));
+  if (requested("spread")) add(predict_spread(flags, run));
+  if (requested("draws")) add(predict_draws(flags, run));
+  if (requested("budget")) write_budget(flags, run);
+  if (requested("drapes")) compare_drapes(flags, run);
+  if (requested("figure")) draw_recorded(flags.recorded, run);
+  if (requested("lengths")) measure_bending_lengths(flags, run);
   finish_with_report(run);
   return 0;
 }
@@ -106,7 +107,7 @@ Experiment validate() {
       .name = "validate",
       .question = "the model against measurements: KES pairs, loops, drape coefficients, bending lengths",
       .run = run_validate,
-      .own_keys = own_keys_of<keys_of>,
+      .own_keys = own_key_descriptions<option_keys>,
       .headlines = {.all = {{"drape_coefficient_percent", "drape coefficient", "%", "{:.1f}", 1, kNoErrors},
                             {"node_count", "folds", "", "{:.0f}", 1, kNoErrors},
                             {"bending_length_m", "bending length", "mm", "{:.2f}", 1e3, kNoErrors}}}};

@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kMinRoundOff = 1e-6;
-constexpr double kOfSolver = 0.1;  // times its tolerance
+constexpr double kSolverToleranceFraction = 0.1;  // times its tolerance
 
 bool has_part(const std::string& name, const char* part) { return name.find(part) != name.npos; }
 
@@ -44,7 +44,7 @@ double stated_error(const Metrics& metrics, const std::string& name) {
   return sum;
 }
 
-std::string change_of(const std::string& name, double before, double now) {
+std::string metric_change(const std::string& name, double before, double now) {
   constexpr double kSmall = 1e-4;  // below, the digits that are printed are the same
   const double part = std::abs(now - before) / std::max(std::abs(before), std::abs(now));
   return part < kSmall ? fmt::format("{} by {:.1e} of itself", name, part)
@@ -54,8 +54,8 @@ std::string change_of(const std::string& name, double before, double now) {
 void compare_numbers(const std::string& name, double before, double now, std::optional<double> limit,
                      double error, bool counts, Repetition& repetition) {
   const double difference = std::abs(now - before);
-  const double size = std::max(size_of(name, before), size_of(name, now));
-  std::string words = change_of(name, before, now);
+  const double size = std::max(metric_scale(name, before), metric_scale(name, now));
+  std::string words = metric_change(name, before, now);
   if (limit)
     words += fmt::format(" (limit {:.2g})", *limit);
   else if (error > 0)
@@ -87,7 +87,7 @@ std::string without_threads(const std::string& device) {
 }
 
 bool share_bits(const Manifest& recorded, const Manifest& now) {
-  return !recorded.instructions.empty() && recorded.instructions == now.instructions &&
+  return !recorded.isa.empty() && recorded.isa == now.isa &&
          without_threads(recorded.device.value_or("")) == without_threads(now.device.value_or(""));
 }
 
@@ -105,16 +105,16 @@ Agreement Repetition::agreement() const {
   return bits_are_due ? Agreement::none : Agreement::errors;
 }
 
-double round_off_of(const Manifest& run) {
+double round_off_bound(const Manifest& run) {
   const std::string& integrator = run.scene.integrator;
   if (integrator.empty() || integrator == "explicit" || !run.keys) return kMinRoundOff;
   const auto tolerance =
       run.keys->find(integrator == "semi-implicit" ? "solver-tolerance" : "newton-residual");
   if (tolerance == run.keys->end() || !tolerance->is_number()) return kMinRoundOff;
-  return std::max(kMinRoundOff, kOfSolver * tolerance->get<double>());
+  return std::max(kMinRoundOff, kSolverToleranceFraction * tolerance->get<double>());
 }
 
-double size_of(const std::string& name, double number) {
+double metric_scale(const std::string& name, double number) {
   double whole = 0;
   if (name.ends_with("_percent")) whole = 100;
   if (name.ends_with("_relative") || has_part(name, "_over_")) whole = 1;
@@ -128,7 +128,7 @@ Repetition compare_runs(const Manifest& recorded, const Manifest& now, const Lim
   repetition.has_state = recorded.state_hash.has_value();
   repetition.same_state = repetition.has_state && recorded.state_hash == now.state_hash;
   repetition.bits_are_due = exact || share_bits(recorded, now);
-  repetition.round_off = round_off_of(recorded);
+  repetition.round_off = round_off_bound(recorded);
   for (const auto& [name, value] : recorded.metrics) {
     if (is_duration(name) || is_error(name)) continue;
     if (now.metrics.contains(name))
@@ -172,10 +172,9 @@ std::string reasons_between(const Manifest& recorded, const Manifest& now) {
   if (recorded.commit != now.commit || recorded.dirty || now.dirty)
     reasons.push_back("program " + recorded.commit.substr(0, 7) + (recorded.dirty ? " (modified)" : "") +
                       ", now " + now.commit.substr(0, 7) + (now.dirty ? " (modified)" : ""));
-  if (recorded.instructions != now.instructions)
-    reasons.push_back("instructions " +
-                      (recorded.instructions.empty() ? "not noted" : recorded.instructions) + ", now " +
-                      now.instructions);
+  if (recorded.isa != now.isa)
+    reasons.push_back("instructions " + (recorded.isa.empty() ? "not noted" : recorded.isa) + ", now " +
+                      now.isa);
   if (recorded.device != now.device)
     reasons.push_back("device " + recorded.device.value_or("none") + ", now " + now.device.value_or("none"));
   const std::string keys =

@@ -36,10 +36,10 @@ struct Repetition {
 // enough, and runs without such steps stay within 1e-6.  (Measured on a dozen quick runs, without fused
 // multiplication in the mathematical library and with the simulation built for AVX-512: at most 2e-5 where
 // the tolerance is 1e-3, but 1.03e-4 of the integrator's share in `crease --quick`; 5e-8 where it is 1e-6.)
-double round_off_of(const Manifest& run);
+double round_off_bound(const Manifest& run);
 // What round-off is a share of: the number itself, or, if it is less, the whole of what has one: 100 % of a
 // percentage, 1 of a ratio, half a turn of an angle; and 1/m of a curvature, below which cloth is flat.
-double size_of(const std::string& name, double number);
+double metric_scale(const std::string& name, double number);
 
 // Numbers are compared exactly, then with the limits of `limits` or else the errors that --errors has stated
 // of them, then with round-off; counts, texts and truths exactly.  How often a solver iterated, and what it

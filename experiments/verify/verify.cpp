@@ -90,7 +90,7 @@ std::string why_skipped(const Manifest& m, const fs::path& folder, const VerifyC
   return "";
 }
 
-std::string words_of(const Repetition& r, const std::string& reasons) {
+std::string repetition_words(const Repetition& r, const std::string& reasons) {
   std::vector<std::string> parts;
   const std::string state = r.same_state ? "same state" : r.has_state ? "state differs" : "no state is kept";
   parts.push_back(fmt::format(
@@ -110,7 +110,7 @@ std::string words_of(const Repetition& r, const std::string& reasons) {
   return join(parts, "; ");
 }
 
-Outcome outcome_of(Agreement agreement) {
+Outcome verified_outcome(Agreement agreement) {
   if (agreement == Agreement::bits) return Outcome::same;
   return agreement == Agreement::errors ? Outcome::within : Outcome::differs;
 }
@@ -132,12 +132,13 @@ Line compared(const ErrorRunResult& run, const ChildRun& now, const VerifyChoice
   compare_pictures(run.pictures, run.recorded.file.parent_path(), now.folder, limits, repetition);
   if (!repetition.has_state && repetition.metrics + repetition.pictures == 0)
     return {Outcome::skipped, "skipped: it holds nothing that could be compared"};
-  return {outcome_of(repetition.agreement()), words_of(repetition, reasons_between(before, *now.manifest))};
+  return {verified_outcome(repetition.agreement()),
+          repetition_words(repetition, reasons_between(before, *now.manifest))};
 }
 
 // The runs that are repeated as columns below OUT; of the others it is said why they are not.
-std::vector<ChildRun> columns_of(std::vector<ErrorRunResult>& runs, const VerifyChoice& choice,
-                                 const Options& options) {
+std::vector<ChildRun> repeated_columns(std::vector<ErrorRunResult>& runs, const VerifyChoice& choice,
+                                       const Options& options) {
   std::vector<ChildRun> columns;
   for (ErrorRunResult& run : runs) {
     const fs::path folder = run.recorded.file.parent_path();
@@ -150,7 +151,7 @@ std::vector<ChildRun> columns_of(std::vector<ErrorRunResult>& runs, const Verify
     if (run.pictures.empty()) later.push_back({"no-images", "true"});
     if (!choice.device.empty()) later.push_back({"device", choice.device});
     try {
-      columns.push_back(column_of(run.name, line_that_repeats(run.recorded, later, false), {}, options.out));
+      columns.push_back(child_run(run.name, line_that_repeats(run.recorded, later, false), {}, options.out));
     } catch (const Error& error) {
       run.said = {Outcome::failed, std::string("could not be repeated: ") + error.what()};
     }
@@ -158,24 +159,25 @@ std::vector<ChildRun> columns_of(std::vector<ErrorRunResult>& runs, const Verify
   return columns;
 }
 
-const char* word_of(Outcome outcome) {
+const char* outcome_word(Outcome outcome) {
   constexpr const char* kWords[] = {"same", "within", "DIFFERS", "-", "failed"};
   return kWords[static_cast<int>(outcome)];
 }
 
-TestCase case_of(const std::string& name, const Line& said, double seconds) {
+TestCase test_case(const std::string& name, const Line& said, double seconds) {
   using Case = TestCase::Outcome;
   constexpr Case kCases[] = {Case::passed, Case::passed, Case::failed, Case::skipped, Case::broken};
   return {name, kCases[static_cast<int>(said.outcome)], said.words, seconds};
 }
 
 int run_verify(const CommandLine& line) {
-  if (line.names.size() != 1) throw Error::invalid_input("needs a run's folder, or a folder of many runs");
+  if (line.positionals.size() != 1)
+    throw Error::invalid_input("needs a run's folder, or a folder of many runs");
   VerifyChoice choice;
   Options options;
   options.out = "out/verify";
   set_keys(line, bind_verify(choice, options), [&] { choice.at_most = kQuickSeconds; });
-  const fs::path root = line.names.front();
+  const fs::path root = line.positionals.front();
   const Limits limits = read_limits(choice.limits);
   std::vector<ErrorRunResult> runs;
   for (const fs::path& folder : folders_below(root))
@@ -185,17 +187,17 @@ int run_verify(const CommandLine& line) {
   const auto say = [&] {  // in the order of their names, as far as they are known
     for (std::size_t next = cases.size(); next < runs.size() && runs[next].said; ++next) {
       const auto& [outcome, words] = *runs[next].said;
-      cases.push_back(case_of(runs[next].name, *runs[next].said, runs[next].seconds));
+      cases.push_back(test_case(runs[next].name, *runs[next].said, runs[next].seconds));
       ++count[static_cast<int>(outcome)];
       if (outcome == Outcome::skipped && options.quiet) continue;
-      std::cout << fmt::format("{:<8}{:<36} {}", word_of(outcome), runs[next].name, words) << std::endl;
+      std::cout << fmt::format("{:<8}{:<36} {}", outcome_word(outcome), runs[next].name, words) << std::endl;
     }
   };
-  std::vector<ChildRun> columns = columns_of(runs, choice, options);
+  std::vector<ChildRun> columns = repeated_columns(runs, choice, options);
   say();
   if (!columns.empty())
     run_columns(
-        columns, {.threads = choice.threads, .gpu = choice.device != "cpu", .go_on = true},
+        columns, {.threads = choice.threads, .gpu = choice.device != "cpu", .tolerates_failures = true},
         [&](const ChildRun& column) {
           ErrorRunResult& run = *std::find_if(runs.begin(), runs.end(), [&](const ErrorRunResult& other) {
             return other.name == column.name;
@@ -225,7 +227,7 @@ Experiment verify() {
           .question = "runs repeated and compared with their manifests: state, metrics, pictures",
           .run = run_verify,
           .own_keys = own_keys,
-          .names = "DIR",
+          .positionals = "DIR",
           .differs = "a run is not what its manifest says"};
 }
 

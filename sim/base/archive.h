@@ -20,9 +20,9 @@ class Archive {
   explicit Archive(std::string_view bytes) : loaded_(bytes), loads_(true) {}  // loads what was saved
 
   bool loads() const { return loads_; }
-  std::string take() { return std::move(saved_); }   // what was saved
-  bool at_end() const { return loaded_.empty(); }    // all has been loaded
-  std::string_view rest() const { return loaded_; }  // what has not been loaded yet
+  std::string take() { return std::move(saved_); }        // what was saved
+  bool at_end() const { return loaded_.empty(); }         // all has been loaded
+  std::string_view remainder() const { return loaded_; }  // what has not been loaded yet
 
   // Bytes of an array, as they stand in memory.
   void bytes(void* memory, std::size_t count) {

@@ -40,7 +40,7 @@ std::string_view without_plus(std::string_view field) {
   return field;
 }
 
-std::optional<double> number_of(std::string_view field) { return number_in(without_plus(field)); }
+std::optional<double> vector_component(std::string_view field) { return number_in(without_plus(field)); }
 
 // "-0,35" is "-0.35"; what is no number stays.
 std::string with_decimal_point(std::string field) {
@@ -48,7 +48,7 @@ std::string with_decimal_point(std::string field) {
   if (comma == field.npos) return field;
   std::string number = field;
   number[comma] = '.';
-  return number_of(number) ? number : field;
+  return vector_component(number) ? number : field;
 }
 
 Error error_at(const std::string& file, int line, const std::string& what) {
@@ -176,8 +176,8 @@ void Table::row(const std::vector<Cell>& cells) {
 
 void Table::write(const std::filesystem::path& csv) const {
   AtomicFile target(csv.string());
-  target.stream() << row_of(head);
-  for (const std::vector<std::string>& fields : rows) target.stream() << row_of(fields);
+  target.stream() << csv_row(head);
+  for (const std::vector<std::string>& fields : rows) target.stream() << csv_row(fields);
   target.commit();
 }
 
@@ -190,15 +190,15 @@ std::optional<std::size_t> Table::find(const std::string& column) const {
 std::size_t Table::at(const std::string& column) const {
   if (const auto found = find(column)) return *found;
   const Error error = Error::invalid_input(file + " has no column " + column);
-  throw reader.empty() ? error : error.in(reader);
+  throw reader.empty() ? error : error.with_experiment(reader);
 }
 
 double Table::number(std::size_t row, const std::string& column) const {
-  return number_of(word(row, column)).value_or(NAN);
+  return vector_component(word(row, column)).value_or(NAN);
 }
 
 double Table::finite(std::size_t row, std::size_t column) const {
-  const std::optional<double> value = number_of(rows[row][column]);
+  const std::optional<double> value = vector_component(rows[row][column]);
   if (!value || !std::isfinite(*value))
     throw refusal(
         row, fmt::format("{} = '{}' must be a finite number", head[column], without_plus(rows[row][column])));
@@ -221,11 +221,11 @@ std::vector<std::string> Table::values(const std::string& column) const {
 
 Table Table::where(const std::string& column, const std::string& value) const {
   const std::size_t place = at(column);
-  const std::optional<double> number = number_of(value);
+  const std::optional<double> number = vector_component(value);
   Table some = *this;
   some.rows.clear(), some.lines.clear();
   for (std::size_t r = 0; r < rows.size(); ++r) {
-    if (rows[r][place] != value && !(number && number_of(rows[r][place]) == number)) continue;
+    if (rows[r][place] != value && !(number && vector_component(rows[r][place]) == number)) continue;
     some.rows.push_back(rows[r]);
     if (!lines.empty()) some.lines.push_back(lines[r]);
   }
@@ -247,7 +247,7 @@ Table Table::only(const std::vector<std::string>& columns) const {
 
 Error Table::refusal(std::size_t row, const std::string& what) const {
   const Error error = error_at(file, lines.at(row), what);
-  return reader.empty() ? error : error.in(reader);
+  return reader.empty() ? error : error.with_experiment(reader);
 }
 
 Table table_in(const std::string& text, const std::string& file) {
@@ -284,19 +284,19 @@ Table read_csv(const std::filesystem::path& file, const std::vector<std::string>
     table.reader = reader;
     return table;
   } catch (const Error& error) {
-    throw error.in(reader);
+    throw error.with_experiment(reader);
   }
 }
 
 std::string number_field(double value) { return std::isfinite(value) ? fmt::format("{:.6g}", value) : ""; }
 
-std::string row_of(const std::vector<std::string>& fields) {
+std::string csv_row(const std::vector<std::string>& fields) {
   std::string row;
   for (std::size_t i = 0; i < fields.size(); ++i) row += (i ? "," : "") + quoted_where_needed(fields[i]);
   return row + "\n";
 }
 
-std::string exact_row_of(const std::vector<double>& numbers) {
+std::string exact_csv_row(const std::vector<double>& numbers) {
   std::string row;
   for (std::size_t i = 0; i < numbers.size(); ++i) row += (i ? "," : "") + exact_field(numbers[i]);
   return row + "\n";

@@ -89,9 +89,9 @@ Table read_csv(const std::filesystem::path& file, const std::vector<std::string>
                const std::vector<std::string>& optional, const std::string& reader);
 
 // A line of a table, its end included.
-std::string row_of(const std::vector<std::string>& fields);
+std::string csv_row(const std::vector<std::string>& fields);
 // Of numbers with 17 significant digits.
-std::string exact_row_of(const std::vector<double>& numbers);
+std::string exact_csv_row(const std::vector<double>& numbers);
 
 // Cells beside each other on a terminal, each in its width, to the left of a negative one; further ones are
 // as wide as the last.  Blanks at the end are left out.

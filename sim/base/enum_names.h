@@ -17,7 +17,7 @@ concept Named = requires(E value) {
 };
 
 template <Named E>
-std::string name_of(E value) {
+std::string enum_name(E value) {
   return names(value)[static_cast<std::size_t>(value)];
 }
 

@@ -22,20 +22,20 @@ class Error : public std::runtime_error {
   static Error simulation(const std::string& message) { return Error(3, message); }
 
   // The same, of a key and the value that it was given: "fabric.b2", "-1".
-  Error of(std::string key, std::string value) const {
+  Error with_key(std::string key, std::string value) const {
     Error error = *this;
     error.key_ = std::move(key);
     error.value_ = std::move(value);
     return error;
   }
   // The same, of the experiment of that name, which then begins its message: "law: k.csv:3: ...".
-  Error in(const std::string& experiment) const {
+  Error with_experiment(const std::string& experiment) const {
     Error error = with_message(experiment + ": " + what());
     error.experiment_ = experiment;
     return error;
   }
   // The same with where it stands behind its message: "... (scene.toml:7)".
-  Error from(const std::string& origin) const {
+  Error with_origin(const std::string& origin) const {
     return with_message(std::string(what()) + " (" + origin + ")");
   }
 

@@ -13,8 +13,8 @@ namespace hysteron {
 inline std::optional<double> number_in(std::string_view text) {
   double value = 0;
   const char* end = text.data() + text.size();
-  const auto [rest, failure] = std::from_chars(text.data(), end, value);
-  if (failure != std::errc() || rest != end) return std::nullopt;
+  const auto [remainder, failure] = std::from_chars(text.data(), end, value);
+  if (failure != std::errc() || remainder != end) return std::nullopt;
   return value;
 }
 

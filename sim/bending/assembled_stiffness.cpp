@@ -26,7 +26,7 @@ Adjacency vertices_of_elements(Device& device, const BendingFactors<Real>& facto
 
 // Off-diagonal blocks of vertices that share an element, or a block of the narrower matrix.
 template <class Real, class Device>
-Adjacency pattern_of(const Adjacency& elements, const BlockRows<Real, Device>& narrow) {
+Adjacency stiffness_pattern(const Adjacency& elements, const BlockRows<Real, Device>& narrow) {
   const int n = static_cast<int>(narrow.row_ptr().size()) - 1;
   std::vector<std::vector<int>> neighbours(n);
   for (int i = 0; i < n; ++i)
@@ -81,7 +81,8 @@ AssembledStiffness<Real, Device>::AssembledStiffness(Device& device, const Block
                                                      const Bending<Real, Device>& bending)
     : device_(device), bending_(bending) {
   const BendingFactors<Real> factors = bending.factors();
-  const Adjacency elements = vertices_of_elements(device, factors), pattern = pattern_of(elements, rows);
+  const Adjacency elements = vertices_of_elements(device, factors),
+                  pattern = stiffness_pattern(elements, rows);
   const std::vector<UpperBlock> upper = upper_blocks(pattern);
   std::vector<int> element, pair_start, narrow;
   for (int e = 0; e < factors.elements; ++e) element.resize(elements.start[e + 1], e);
@@ -126,7 +127,7 @@ void AssembledStiffness<Real, Device>::find_rates(const BendingFactors<Real>& fa
   const std::size_t read = factors.hinges * (8 * sizeof(Real) + sizeof(Eigen::Vector4i)) +
                            factors.items * (D * sizeof(Real) + sizeof(int));
   for_each(
-      device_, {"bending rates of vertices", read + bytes_of(element_, vertex_, rate_)},
+      device_, {"bending rates of vertices", read + total_bytes(element_, vertex_, rate_)},
       static_cast<int>(vertex_.size()), HYST_KERNEL(int k) {
         const int e = element[k], v = vertex[k];
         Eigen::Matrix<Real, D, 3> sum = Eigen::Matrix<Real, D, 3>::Zero();
@@ -156,9 +157,9 @@ void AssembledStiffness<Real, Device>::add_up(const BendingFactors<Real>& factor
   const Real *rate = rate_.data(), *tangent = factors.tangent;
   Mat3<Real>*off_diagonal = off_diagonal_.data(), *diagonal = diagonal_.data();
   const std::size_t read = factors.elements * kPacked * sizeof(Real) +
-                           bytes_of(upper_, pair_start_, narrow_, element_, pair_, rate_);
+                           total_bytes(upper_, pair_start_, narrow_, element_, pair_, rate_);
   for_each(
-      device_, {"assembled matrix", read + bytes_of(off_diagonal_, diagonal_)},
+      device_, {"assembled matrix", read + total_bytes(off_diagonal_, diagonal_)},
       static_cast<int>(upper_.size()), HYST_KERNEL(int u) {
         using Rate = Eigen::Matrix<Real, 3, D>;  // a vertex's rates, as columns
         const UpperBlock at = upper[u];
@@ -195,7 +196,7 @@ void AssembledStiffness<Real, Device>::add_up(const BendingFactors<Real>& factor
 
 template <class Real, class Device>
 std::size_t AssembledStiffness<Real, Device>::bytes() const {
-  return matrix_bytes() + bytes_of(element_, vertex_, rate_, upper_, pair_start_, narrow_, pair_);
+  return matrix_bytes() + total_bytes(element_, vertex_, rate_, upper_, pair_start_, narrow_, pair_);
 }
 
 template class AssembledStiffness<double, ThisDevice>;

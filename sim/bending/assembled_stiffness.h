@@ -23,7 +23,7 @@ class AssembledStiffness {
   // Of `rows`, softening (null: none) and bending where it was linearised last [N/m].
   BlockRowsView<Real> assemble(const BlockRowsView<Real>& matrix, const ScalarRowsView<Real>& softening);
   std::size_t blocks() const { return off_diagonal_.size(); }  // off the diagonal
-  std::size_t matrix_bytes() const { return bytes_of(row_ptr_, col_, off_diagonal_, diagonal_); }
+  std::size_t matrix_bytes() const { return total_bytes(row_ptr_, col_, off_diagonal_, diagonal_); }
   std::size_t bytes() const;
 
   // The parts of assemble(); public because nvcc allows no device lambda in a private member function.

@@ -89,7 +89,7 @@ Bending<Real, Device>::Bending(Device& device, const ClothMesh& mesh, const Curv
 
 template <class Real, class Device>
 OperatorView<Real> Bending<Real, Device>::view() const {
-  const std::size_t bytes = element_bytes() + bytes_of(angle_);
+  const std::size_t bytes = element_bytes() + total_bytes(angle_);
   return {elements_,         area_.data(), row_start_.data(), row_hinge_.data(), coefficient_.data(),
           direction_.data(), bytes};
 }
@@ -114,10 +114,11 @@ void Bending<Real, Device>::compute_angles(const Vec3<Real>* x, const Real* prev
   const Eigen::Vector4i* corner = corner_.data();
   const Real* rest = rest_angle_.data();
   Real* gradient = gradient_.data();
-  const std::size_t read = bytes_of(corner_, rest_angle_, angle_) + vertex_bytes();
-  const std::size_t rated = rates.rate ? bytes_of(rate_, reference_) : 0;
+  const std::size_t read = total_bytes(corner_, rest_angle_, angle_) + vertex_bytes();
+  const std::size_t rated = rates.rate ? total_bytes(rate_, reference_) : 0;
   for_each(
-      device_, {"bending angles", read + rated + bytes_of(gradient_, angle_)}, hinges_, HYST_KERNEL(int h) {
+      device_, {"bending angles", read + rated + total_bytes(gradient_, angle_)}, hinges_,
+      HYST_KERNEL(int h) {
         const Eigen::Vector4i c = corner[h];
         const Angle<Real> a = dihedral_angle<Real>(x[c[0]], x[c[1]], x[c[2]], x[c[3]]);
         const Real angle = continued_angle(a.theta, previous[h] + rest[h]) - rest[h];
@@ -130,7 +131,7 @@ void Bending<Real, Device>::compute_angles(const Vec3<Real>* x, const Real* prev
 
 template <class Real, class Device>
 void Bending<Real, Device>::compute_rates(const Vec3<Real>* v) {
-  for_each(device_, {"bending rates", bytes_of(corner_, gradient_, rate_) + vertex_bytes()}, hinges_,
+  for_each(device_, {"bending rates", total_bytes(corner_, gradient_, rate_) + vertex_bytes()}, hinges_,
            HingeRates<Real>{corner_.data(), gradient_.data(), v, rate_.data()});
 }
 
@@ -155,7 +156,8 @@ void Bending<Real, Device>::compute_energy_forces() {
 template <class Real, class Device>
 template <int D>
 void Bending<Real, Device>::gather_torques() {
-  for_each(device_, {"bending forces", column_bytes() + bytes_of(moment_area_, gradient_, force_)}, hinges_,
+  for_each(device_, {"bending forces", column_bytes() + total_bytes(moment_area_, gradient_, force_)},
+           hinges_,
            HingeForces<Real, D>{column_start_.data(), column_element_.data(), transposed_.data(),
                                 moment_area_.data(), gradient_.data(), force_.data()});
 }
@@ -259,10 +261,10 @@ std::vector<double> Bending<Real, Device>::slip() {
 
 template <class Real, class Device>
 std::size_t Bending<Real, Device>::bytes() const {
-  return bytes_of(area_, coefficient_, direction_, transposed_, rest_angle_, row_start_, row_hinge_,
-                  column_start_, column_element_, corner_, vertex_start_, vertex_item_, angle_, rate_,
-                  viscous_, gradient_, moment_area_, force_, energy_, taken_, trial_angle_, iterate_angle_,
-                  tangent_, hinge_stiffness_, reference_, angle_before_);
+  return total_bytes(area_, coefficient_, direction_, transposed_, rest_angle_, row_start_, row_hinge_,
+                     column_start_, column_element_, corner_, vertex_start_, vertex_item_, angle_, rate_,
+                     viscous_, gradient_, moment_area_, force_, energy_, taken_, trial_angle_, iterate_angle_,
+                     tangent_, hinge_stiffness_, reference_, angle_before_);
 }
 
 template class Bending<double, ThisDevice>;

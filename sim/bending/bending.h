@@ -66,7 +66,7 @@ class Bending {
   }
 
   // What outlives a step.  Not forces and trials: every step begins with evaluate() or commit().
-  void visit(Archive& archive);
+  void serialise(Archive& archive);
 
   // Irons or edits the elements with chosen[i] != 0 at the last accepted state.
   void command(CommandKind kind, const std::vector<char>& chosen);
@@ -86,7 +86,7 @@ class Bending {
   const LawLoop<Real, Device>& law() const { return *law_; }
   int vertices() const { return static_cast<int>(vertex_start_.size()) - 1; }
   std::size_t bytes() const;  // without the law's history
-  std::size_t force_bytes() const { return bytes_of(vertex_start_, vertex_item_, force_); }  // of forces()
+  std::size_t force_bytes() const { return total_bytes(vertex_start_, vertex_item_, force_); }  // of forces()
 
   // (angle - reference) over time of the hinges.
   struct AngleRates {
@@ -110,9 +110,9 @@ class Bending {
   OperatorView<Real> view() const;
   std::size_t vertex_bytes() const { return vertices() * sizeof(Vec3<Real>); }
   std::size_t element_bytes() const {
-    return bytes_of(area_, row_start_, row_hinge_, coefficient_, direction_);
+    return total_bytes(area_, row_start_, row_hinge_, coefficient_, direction_);
   }
-  std::size_t column_bytes() const { return bytes_of(column_start_, column_element_, transposed_); }
+  std::size_t column_bytes() const { return total_bytes(column_start_, column_element_, transposed_); }
   std::vector<double> geometric(const std::vector<Real>& curvature) const;  // without the metric
   double sum_over_elements(const double* on_device);                        // in their order; 0 of null
 

@@ -42,7 +42,7 @@ class FloatBending : public FloatStiffness<Device> {
   GatheredForces<float> apply(const Vec3<float>* p) override;
   std::size_t force_bytes() const override;
   std::size_t bytes() const override {
-    return bytes_of(coefficient_, transposed_, gradient_, tangent_, rate_, moment_area_, force_);
+    return total_bytes(coefficient_, transposed_, gradient_, tangent_, rate_, moment_area_, force_);
   }
 
  private:

@@ -22,16 +22,16 @@ void Bending<Real, Device>::make_trials() {
 
 // The moments are there for measurements before the next step.
 template <class Real, class Device>
-void Bending<Real, Device>::visit(Archive& archive) {
+void Bending<Real, Device>::serialise(Archive& archive) {
   bool tries = trial_angle_.size() > 0;
   archive(tries);
   if (tries && trial_angle_.size() == 0) make_trials();
-  hysteron::visit(archive, device_, angle_);
-  hysteron::visit(archive, device_, angle_before_);
-  hysteron::visit(archive, device_, viscous_);
-  hysteron::visit(archive, device_, taken_);
-  hysteron::visit(archive, device_, moment_area_);
-  law_->visit(archive, device_);
+  hysteron::serialise(archive, device_, angle_);
+  hysteron::serialise(archive, device_, angle_before_);
+  hysteron::serialise(archive, device_, viscous_);
+  hysteron::serialise(archive, device_, taken_);
+  hysteron::serialise(archive, device_, moment_area_);
+  law_->serialise(archive, device_);
 }
 
 template <class Real, class Device>
@@ -45,7 +45,7 @@ void Bending<Real, Device>::begin_step(const StepFormula& formula) {
   const Real *angle = angle_.data(), *before = angle_before_.data();
   Real* reference = reference_.data();
   for_each(
-      device_, {"bending reference", bytes_of(angle_, angle_before_, reference_)}, hinges_,
+      device_, {"bending reference", total_bytes(angle_, angle_before_, reference_)}, hinges_,
       HYST_KERNEL(int h) { reference[h] = now * angle[h] - extrapolation * before[h]; });
 }
 
@@ -77,7 +77,7 @@ template <class Real, class Device>
 void Bending<Real, Device>::apply_stiffness(const Vec3<Real>* p) {
   compute_rates(p);
   const OperatorView<Real> op = view();
-  const Kernel stiffness = {"bending stiffness", op.bytes + bytes_of(tangent_, moment_area_)};
+  const Kernel stiffness = {"bending stiffness", op.bytes + total_bytes(tangent_, moment_area_)};
   if (dimension_ == 1)
     for_each(device_, stiffness, elements_,
              ElementMoments<Real, 1>{op, rate_.data(), tangent_.data(), moment_area_.data()});
@@ -105,7 +105,7 @@ void Bending<Real, Device>::gather_stiffness() {
   const Real *coefficient = transposed_.data(), *tangent = tangent_.data();
   Real* stiffness = hinge_stiffness_.data();
   for_each(
-      device_, {"bending stiffness of hinges", column_bytes() + bytes_of(tangent_, hinge_stiffness_)},
+      device_, {"bending stiffness of hinges", column_bytes() + total_bytes(tangent_, hinge_stiffness_)},
       hinges_, HYST_KERNEL(int h) {
         Real sum = 0;
         for (int j = start[h]; j < start[h + 1]; ++j) {
@@ -129,7 +129,7 @@ void Bending<Real, Device>::add_stiffness_diagonal(Mat3<Real>* diagonal) {
   const std::size_t blocks = 2 * vertices * sizeof(Mat3<Real>);  // read and written
   for_each(
       device_,
-      {"bending diagonal", bytes_of(vertex_start_, vertex_item_, gradient_, hinge_stiffness_) + blocks},
+      {"bending diagonal", total_bytes(vertex_start_, vertex_item_, gradient_, hinge_stiffness_) + blocks},
       vertices, HYST_KERNEL(int v) {
         Mat3<Real> block = diagonal[v];
         for (int j = first[v]; j < first[v + 1]; ++j) {

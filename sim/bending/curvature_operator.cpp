@@ -98,8 +98,8 @@ Eigen::Vector3d across(const ClothMesh& mesh, int i) {
 }
 
 // Factors of the D components of element i, with Q as the header has it.
-Eigen::Vector3d metric_of(const CurvatureOperator& op, const ClothMesh& mesh, int i,
-                          const Eigen::Vector3d& q) {
+Eigen::Vector3d component_factors(const CurvatureOperator& op, const ClothMesh& mesh, int i,
+                                  const Eigen::Vector3d& q) {
   if (op.dimension == 3) return q.cwiseSqrt();
   const Eigen::Vector3d nu = across(mesh, i);
   return {std::sqrt(nu.dot(q.cwiseProduct(nu))), 0, 0};
@@ -122,7 +122,7 @@ void stiffen(CurvatureOperator& op, const ClothMesh& mesh, double weft, double b
   const int d = op.dimension;
   op.metric.clear();
   for (int i = 0; i < op.elements(); ++i) {
-    const Eigen::Vector3d factor = metric_of(op, mesh, i, q);
+    const Eigen::Vector3d factor = component_factors(op, mesh, i, q);
     op.metric.insert(op.metric.end(), factor.data(), factor.data() + d);
     for (int j = op.hinge.start[i]; j < op.hinge.start[i + 1]; ++j)
       for (int k = 0; k < d; ++k) op.coefficient[j * d + k] *= factor[k];

@@ -33,7 +33,7 @@ template <class Device>
 GatheredForces<float> FloatBending<Device>::apply(const Vec3<float>* p) {
   const BendingFactors<double> factors = bending_.factors();
   const std::size_t read = factors.hinges * sizeof(Eigen::Vector4i) + bending_.vertices() * sizeof(*p);
-  for_each(device_, {"in float: bending rates", read + bytes_of(gradient_, rate_)}, factors.hinges,
+  for_each(device_, {"in float: bending rates", read + total_bytes(gradient_, rate_)}, factors.hinges,
            HingeRates<float>{factors.corner, gradient_.data(), p, rate_.data()});
   factors.dimension == 1 ? apply_moments<1>(factors) : apply_moments<3>(factors);
   const GatheredForces<double> rows = bending_.forces();
@@ -46,16 +46,17 @@ void FloatBending<Device>::apply_moments(const BendingFactors<double>& factors) 
   const std::size_t items = factors.items * sizeof(int), rows = (factors.elements + 1) * sizeof(int),
                     columns = (factors.hinges + 1) * sizeof(int);
   const OperatorView<float> op{factors.elements, nullptr, factors.start, factors.hinge, coefficient_.data()};
-  for_each(
-      device_,
-      {"in float: bending stiffness", rows + items + bytes_of(coefficient_, rate_, tangent_, moment_area_)},
-      factors.elements, ElementMoments<float, D>{op, rate_.data(), tangent_.data(), moment_area_.data()});
-  for_each(
-      device_,
-      {"in float: bending forces", columns + items + bytes_of(transposed_, moment_area_, gradient_, force_)},
-      factors.hinges,
-      HingeForces<float, D>{factors.column_start, factors.column_element, transposed_.data(),
-                            moment_area_.data(), gradient_.data(), force_.data()});
+  for_each(device_,
+           {"in float: bending stiffness",
+            rows + items + total_bytes(coefficient_, rate_, tangent_, moment_area_)},
+           factors.elements,
+           ElementMoments<float, D>{op, rate_.data(), tangent_.data(), moment_area_.data()});
+  for_each(device_,
+           {"in float: bending forces",
+            columns + items + total_bytes(transposed_, moment_area_, gradient_, force_)},
+           factors.hinges,
+           HingeForces<float, D>{factors.column_start, factors.column_element, transposed_.data(),
+                                 moment_area_.data(), gradient_.data(), force_.data()});
 }
 
 // Where forces of double precision would be twice as large.

@@ -73,11 +73,12 @@ class LawLoop {
   virtual void residual(Device& device, const OperatorView<Real>& op, Real* curvature) = 0;
   // How far friction or plasticity is used, 0 (not) to 1 (slides, yields), for each element; 0 for laws
   // without history.
-  virtual void slip(Device& device, const OperatorView<Real>& op, const Real* angle_change, Real* share) = 0;
+  virtual void slip(Device& device, const OperatorView<Real>& op, const Real* angle_change,
+                    Real* fraction) = 0;
   virtual double largest_stiffness() const = 0;  // bound on dM/dK [N m]
   virtual bool has_history() const = 0;
   virtual std::size_t history_bytes() const = 0;
-  virtual void visit(Archive& archive, Device& device) = 0;  // history and losses
+  virtual void serialise(Archive& archive, Device& device) = 0;  // history and losses
   virtual const double* dissipated() const = 0;  // per element [J]; null where the law loses nothing
   virtual const double* relaxed() const = 0;     // what of it branches have lost; null where there are none
 };

@@ -38,7 +38,7 @@ Row mixed(const Vector2d& n, const Vector2d& t) {  // row of H -> n^T H t
 // A patch of faces unfolded into one plane, keyed by face: positions of its three corners.
 using Patch = std::map<int, std::array<Vector2d, 3>>;
 
-int corner_of(const ClothMesh& mesh, int face, int vertex) {
+int corner_index(const ClothMesh& mesh, int face, int vertex) {
   for (int k = 0; k < 3; ++k)
     if (mesh.face[face][k] == vertex) return k;
   return -1;
@@ -60,8 +60,8 @@ std::array<Vector2d, 3> flat_face(const ClothMesh& mesh, int f) {
 void unfold(const ClothMesh& mesh, const Edge& e, int from, int to, Patch& patch) {
   const auto& placed = patch.at(from);
   std::array<Vector2d, 3> corner = flat_face(mesh, to);
-  const int t2 = corner_of(mesh, to, e.p2), t3 = corner_of(mesh, to, e.p3);
-  const Vector2d a = placed[corner_of(mesh, from, e.p2)], b = placed[corner_of(mesh, from, e.p3)];
+  const int t2 = corner_index(mesh, to, e.p2), t3 = corner_index(mesh, to, e.p3);
+  const Vector2d a = placed[corner_index(mesh, from, e.p2)], b = placed[corner_index(mesh, from, e.p3)];
   const Vector2d u = (corner[t3] - corner[t2]).normalized(), w = (b - a).normalized();
   Eigen::Matrix2d rotation;
   const double c = u.dot(w), s = u.x() * w.y() - u.y() * w.x();
@@ -81,9 +81,9 @@ struct FlatHinge {
 FlatHinge flat_hinge(const ClothMesh& mesh, const Edge& e, const Patch& patch) {
   const auto& f0 = patch.at(e.face0);
   const auto& f1 = patch.at(e.face1);
-  const Vector2d p2 = f0[corner_of(mesh, e.face0, e.p2)], p3 = f0[corner_of(mesh, e.face0, e.p3)];
-  const Vector2d u0 = f0[corner_of(mesh, e.face0, e.p0)] - p2;
-  const Vector2d u1 = f1[corner_of(mesh, e.face1, e.p1)] - p2;
+  const Vector2d p2 = f0[corner_index(mesh, e.face0, e.p2)], p3 = f0[corner_index(mesh, e.face0, e.p3)];
+  const Vector2d u0 = f0[corner_index(mesh, e.face0, e.p0)] - p2;
+  const Vector2d u1 = f1[corner_index(mesh, e.face1, e.p1)] - p2;
   FlatHinge h;
   h.length = (p3 - p2).norm();
   h.t = (p3 - p2) / h.length;

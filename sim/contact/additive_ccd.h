@@ -99,7 +99,7 @@ HYST_HD void remove_mean(Vec3<Real> (&direction)[4]) {
 }
 
 template <class Real>
-HYST_HD Real distance_of(const Vec3<Real> (&x)[4], bool edges) {
+HYST_HD Real pair_distance(const Vec3<Real> (&x)[4], bool edges) {
   return (edges ? edge_edge(x) : point_triangle(x)).offset.norm();
 }
 
@@ -112,7 +112,7 @@ struct Approach {
 template <class Real>
 HYST_HD Approach<Real> approach(const Vec3<Real> (&x)[4], Vec3<Real> (&direction)[4], bool edges) {
   remove_mean(direction);
-  return {distance_of(x, edges), fastest_approach(direction, edges)};
+  return {pair_distance(x, edges), fastest_approach(direction, edges)};
 }
 
 // Step length in [0, 1] along the directions up to which the distance stays above `least`: 1, or where
@@ -134,7 +134,7 @@ HYST_HD Real feasible_step(const Approach<Real>& start, Vec3<Real> (&x)[4], Vec3
     step_length += advance;
     if (step_length >= 1) return 1;
     for (int i = 0; i < 4; ++i) x[i] += advance * direction[i];
-    gap = distance_of(x, edges) - least;
+    gap = pair_distance(x, edges) - least;
   }
   return step_length;
 }

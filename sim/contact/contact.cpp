@@ -31,10 +31,10 @@ Contact<Real, Device>::Contact(Device& device, const ClothMesh& mesh, const Scen
       vertices_(mesh.vertices()),
       area_(device, std::vector<Real>(mesh.vertex_area.begin(), mesh.vertex_area.end())),
       stops_(device, vertices_, scene.integrator == Integrator::quasi_static ? vertices_ : 0),
-      spared_(device, vertices_),
+      exempt_(device, vertices_),
       energy_(device, 0),
       inside_(device, 1),
-      share_(device),
+      fraction_(device),
       scratch_(device) {
   if (is_sharper_than_mesh(scene, mesh)) faces_.emplace(device, mesh, scene, model_);
   energy_ = Buffer<double, Device>(device, vertices_ + (faces_ ? faces_->faces() : 0));
@@ -48,12 +48,12 @@ void Contact<Real, Device>::move(double start, double end) {
 }
 
 template <class Real, class Device>
-void Contact<Real, Device>::visit(Archive& archive) {
+void Contact<Real, Device>::serialise(Archive& archive) {
   archive(moved_from_);
   archive(moved_to_);
   if (archive.loads()) move(moved_from_, moved_to_);
-  stops_.visit(archive, device_, spared_);
-  if (faces_) faces_->visit(archive);
+  stops_.serialise(archive, device_, exempt_);
+  if (faces_) faces_->serialise(archive);
 }
 
 template <class Real, class Device>
@@ -64,10 +64,10 @@ void Contact<Real, Device>::add(const Vec3<Real>* x, const Vec3<Real>* before, R
   const StopView<Real> stops = stops_.view();
   for_each(
       device_, "contact", vertices_, HYST_KERNEL(int i) {
-        const Touch<Real> t = contact.touch_of(i, x);
+        const Touch<Real> t = contact.vertex_touch(i, x);
         if (t.index < 0) return;
-        const Slip<Real> s = contact.slip_of(i, t, x[i] - before[i], stops);
-        const Real kt = s.stiffness * s.share;
+        const Slip<Real> s = contact.vertex_slip(i, t, x[i] - before[i], stops);
+        const Real kt = s.stiffness * s.fraction;
         rhs[i] += step * (t.normal_force - kt * s.trial);
         if (!diagonal) return;
         diagonal[i] += step * step *
@@ -81,16 +81,16 @@ int Contact<Real, Device>::commit(const Vec3<Real>* x, const Vec3<Real>* before,
   const VertexContact<Real> contact = view();
   const StopView<Real> stops = stops_.view();
   double* inside = inside_.data();
-  const char* spared = spared_.data();
+  const char* exempted = exempt_.data();
   for_each_sum<1>(
       device_, "contact history", vertices_,
       HYST_KERNEL(int i, Sums<1>& sums) {
-        const Touch<Real> t = contact.touch_of(i, x);
-        if (stops.force) stops.work_before(i, i, motion_of(contact.set, stops.touching[i] - 1, x[i]));
+        const Touch<Real> t = contact.vertex_touch(i, x);
+        if (stops.force) stops.work_before(i, i, surface_motion(contact.set, stops.touching[i] - 1, x[i]));
         stops.touch(i, t.index);
         if (t.index < 0) return;
-        if (t.inside && !(held[i] && spared[i])) sums.term[0] += 1;
-        const Slip<Real> s = contact.slip_of(i, t, x[i] - before[i], stops);
+        if (t.inside && !(held[i] && exempted[i])) sums.term[0] += 1;
+        const Slip<Real> s = contact.vertex_slip(i, t, x[i] - before[i], stops);
         stops.work_after(i, i, t.normal_force - s.stiffness * stops.accept(i, s), t.obstacle_motion);
       },
       HYST_KERNEL(const Sums<1>& total) { *inside = total.term[0]; });
@@ -104,7 +104,7 @@ double Contact<Real, Device>::stored_energy(const Vec3<Real>* x) {
   double* energy = energy_.data();
   for_each(
       device_, "contact energy", vertices_,
-      HYST_KERNEL(int i) { energy[i] = contact.touch_of(i, x).energy + stored[i]; });
+      HYST_KERNEL(int i) { energy[i] = contact.vertex_touch(i, x).energy + stored[i]; });
   if (faces_) faces_->store_energies(set_, x, energy + vertices_);
   const std::vector<double> values = energy_.download();
   return std::accumulate(values.begin(), values.end(), 0.0);
@@ -123,7 +123,7 @@ ContactLoss Contact<Real, Device>::losses() const {
 
 template <class Real, class Device>
 std::size_t Contact<Real, Device>::bytes() const {
-  return bytes_of(area_, stops_, spared_, energy_, lagged_, inside_, share_, scratch_) +
+  return total_bytes(area_, stops_, exempt_, energy_, lagged_, inside_, fraction_, scratch_) +
          (faces_ ? faces_->bytes() : 0);
 }
 
@@ -149,7 +149,7 @@ void Contact<Real, Device>::lag(const Vec3<Real>* x) {
   LaggedFriction<Real>* lagged = lagged_.data();
   for_each(
       device_, "contact friction, lagged", vertices_, HYST_KERNEL(int i) {
-        const Touch<Real> t = contact.touch_of(i, x);
+        const Touch<Real> t = contact.vertex_touch(i, x);
         lagged[i] = {t.normal, -t.obstacle_motion, t.friction * t.strongest};
         if (stops.touching[i] == t.index + 1) lagged[i].start += stops.slip[i];
       });
@@ -163,7 +163,7 @@ void Contact<Real, Device>::evaluate(const Vec3<Real>* x, const Vec3<Real>* befo
   double* energy = energy_.data();
   for_each(
       device_, "contact, tried", vertices_, HYST_KERNEL(int i) {
-        const Touch<Real> t = contact.touch_of(i, x);
+        const Touch<Real> t = contact.vertex_touch(i, x);
         energy[i] = t.energy;
         gradient[i] -= t.normal_force;
         if (!(lagged[i].limit > 0)) return;
@@ -177,19 +177,19 @@ void Contact<Real, Device>::evaluate(const Vec3<Real>* x, const Vec3<Real>* befo
 
 template <class Real, class Device>
 void Contact<Real, Device>::add_stiffness(const Vec3<Real>* x, const Vec3<Real>* before,
-                                          BlockRowsView<Real> matrix, Real sliding_share) {
+                                          BlockRowsView<Real> matrix, Real sliding_fraction) {
   const VertexContact<Real> contact = view();
   const LaggedFriction<Real>* lagged = lagged_.data();
   Mat3<Real>* diagonal = matrix.diagonal;
   for_each(
       device_, "contact stiffness", vertices_, HYST_KERNEL(int i) {
-        diagonal[i] += contact.touch_of(i, x).normal_stiffness;
+        diagonal[i] += contact.vertex_touch(i, x).normal_stiffness;
         if (!(lagged[i].limit > 0)) return;
         const Real k = contact.model.stop_stiffness(lagged[i].limit, contact.area[i]);
         diagonal[i] +=
-            lagged[i].stiffness_at(lagged_slip<Real>(lagged[i], x[i] - before[i]), k, sliding_share);
+            lagged[i].stiffness_at(lagged_slip<Real>(lagged[i], x[i] - before[i]), k, sliding_fraction);
       });
-  if (faces_) faces_->add_stiffness(set_, x, before, Real(1), matrix, sliding_share);
+  if (faces_) faces_->add_stiffness(set_, x, before, Real(1), matrix, sliding_fraction);
 }
 
 // Obstacles that vertices, or they themselves, would pass through in one step.
@@ -199,25 +199,26 @@ template <class Real, class Device>
 void Contact<Real, Device>::clip_to_obstacles(const Vec3<Real>* start, Vec3<Real>* end, const char* held) {
   if (!set_.has_thin()) return;
   const ObstacleSet<Real> set = set_;
-  const Real rest = static_cast<Real>(1 - kCompressed) * model_.shell.thickness;  // where it is pressed back
+  const Real rest_distance =
+      static_cast<Real>(1 - kCompressed) * model_.shell.thickness;  // where it is pressed back
   for_each(
       device_, "contact: guess", vertices_, HYST_KERNEL(int i) {
-        if (!held[i]) end[i] = kept_out(set, start[i], end[i], rest);
+        if (!held[i]) end[i] = kept_out(set, start[i], end[i], rest_distance);
       });
-  if (faces_) faces_->clip_to_obstacles(set, start, end, held, rest);
+  if (faces_) faces_->clip_to_obstacles(set, start, end, held, rest_distance);
 }
 
 template <class Real, class Device>
-bool Contact<Real, Device>::reaches(const Vec3<Real>* start, const Vec3<Real>* end, const char* held) {
+bool Contact<Real, Device>::path_is_clear(const Vec3<Real>* start, const Vec3<Real>* end, const char* held) {
   if (!set_.has_thin()) return true;
   const ObstacleSet<Real> set = set_;
-  Real* share = share_.reserve(vertices_);
+  Real* fraction = fraction_.reserve(vertices_);
   for_each(
       device_, "contact: reached", vertices_, HYST_KERNEL(int i) {
-        share[i] = held[i] || hysteron::reaches(set, start[i], end[i]) ? Real(1) : Real(0);
+        fraction[i] = held[i] || hysteron::path_is_clear(set, start[i], end[i]) ? Real(1) : Real(0);
       });
-  if (!(smallest(device_, scratch_, share, vertices_, Real(1)) > 0)) return false;
-  return !faces_ || faces_->reaches(set, start, end, held);
+  if (!(smallest(device_, scratch_, fraction, vertices_, Real(1)) > 0)) return false;
+  return !faces_ || faces_->path_is_clear(set, start, end, held);
 }
 
 // Where all go the same share of their way, as along a direction of Newton's method.
@@ -226,20 +227,21 @@ double Contact<Real, Device>::feasible_step(const Vec3<Real>* x, const Vec3<Real
                                             const char* held, double max_step) {
   if (!set_.has_thin()) return max_step;
   const ObstacleSet<Real> set = set_;
-  const Real asked = static_cast<Real>(max_step);
-  Real* share = share_.reserve(vertices_);
+  const Real requested = static_cast<Real>(max_step);
+  Real* fraction = fraction_.reserve(vertices_);
   for_each(
       device_, "contact: collisions", vertices_, HYST_KERNEL(int i) {
-        share[i] = 1;
+        fraction[i] = 1;
         if (held[i]) return;
-        const Vec3<Real> way = asked * direction[i];
+        const Vec3<Real> displacement = requested * direction[i];
         for (int o = 0; o < set.count; ++o) {
           if (!set.item[o].is_thin()) continue;
-          const Real free = free_share(set.item[o], x[i], way);
-          share[i] = free < share[i] ? free : share[i];
+          const Real free = free_fraction(set.item[o], x[i], displacement);
+          fraction[i] = free < fraction[i] ? free : fraction[i];
         }
       });
-  const double free = max_step * static_cast<double>(smallest(device_, scratch_, share, vertices_, Real(1)));
+  const double free =
+      max_step * static_cast<double>(smallest(device_, scratch_, fraction, vertices_, Real(1)));
   return faces_ ? faces_->feasible_step(set, x, direction, held, free) : free;
 }
 

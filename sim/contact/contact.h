@@ -33,31 +33,31 @@ class Contact {
   // Implicit steps.  lag() fixes normals and limits of friction at `position`; with
   // them friction has a potential, to which evaluate() adds the shells': its gradient to `gradient`,
   // its energies() per vertex and triangle.  add_stiffness() is its positive semidefinite part
-  // (sliding_share: sliding_stop.h).
+  // (sliding_fraction: sliding_stop.h).
   void lag(const Vec3<Real>* position);
   void evaluate(const Vec3<Real>* position, const Vec3<Real>* before, Vec3<Real>* gradient);
   const double* energies() const { return energy_.data(); }  // [J]
   int energies_count() const { return static_cast<int>(energy_.size()); }
   void add_stiffness(const Vec3<Real>* position, const Vec3<Real>* before, BlockRowsView<Real> matrix,
-                     Real sliding_share);
+                     Real sliding_fraction);
 
   // Free vertices, and triangles of free vertices beside sharp obstacles, do not pass through a solid that
   // has another side, nor it through them (sweep.h, face_sweep.cpp).  clip_to_obstacles() ends each path of
   // a step from `start` to `end` where it meets an obstacle that bars it, reaches() says whether none is
   // barred, and feasible_step() how long a step along `direction` from x may be, up to `max_step`.
   void clip_to_obstacles(const Vec3<Real>* start, Vec3<Real>* end, const char* held);
-  bool reaches(const Vec3<Real>* start, const Vec3<Real>* end, const char* held);
+  bool path_is_clear(const Vec3<Real>* start, const Vec3<Real>* end, const char* held);
   double feasible_step(const Vec3<Real>* x, const Vec3<Real>* direction, const char* held, double max_step);
 
   // Accepts the positions: slips, losses and the obstacles' work, which in quasi-static scenes is that of the
   // mean of the forces before and after.  Returns how many vertices and triangles are in a solid.
   int commit(const Vec3<Real>* position, const Vec3<Real>* before, const char* held);
   // Vertices that may be there while they are held: they were when they or the obstacle came.
-  void spare(const std::vector<char>& vertices) { spared_.upload(vertices); }
-  std::vector<char> spared() const { return spared_.download(); }
+  void exempt(const std::vector<char>& vertices) { exempt_.upload(vertices); }
+  std::vector<char> exempted() const { return exempt_.download(); }
 
   // What outlives a step: the stops, what they touch, losses, and where the obstacles were placed.
-  void visit(Archive& archive);
+  void serialise(Archive& archive);
 
   double stored_energy(const Vec3<Real>* position);  // [J]
   ContactLoss losses() const;                        // since the start
@@ -75,11 +75,11 @@ class Contact {
   double moved_from_ = 0, moved_to_ = 0;  // for which it is [s]
   Buffer<Real, Device> area_;
   FrictionStops<Real, Device> stops_;
-  Buffer<char, Device> spared_;
+  Buffer<char, Device> exempt_;
   Buffer<double, Device> energy_, inside_;
   Buffer<LaggedFriction<Real>, Device> lagged_;     // of implicit steps; empty before the first
   std::optional<FaceContact<Real, Device>> faces_;  // where an obstacle is sharper than the mesh
-  GrowingBuffer<Real, Device> share_;               // of their ways that vertices may go; empty where all may
+  GrowingBuffer<Real, Device> fraction_;            // of their ways that vertices may go; empty where all may
   Scratch<Device> scratch_;
 };
 

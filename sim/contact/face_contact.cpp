@@ -19,7 +19,7 @@ FaceContact<Real, Device>::FaceContact(Device& device, const ClothMesh& mesh, co
       lagged_(device, faces_),
       stiffness_(device, faces_),
       force_(device, 3 * static_cast<std::size_t>(faces_)),
-      share_(device),
+      fraction_(device),
       scratch_(device) {}
 
 template <class Real, class Device>
@@ -74,7 +74,7 @@ void FaceContact<Real, Device>::evaluate(const ObstacleSet<Real>& set, const Vec
 template <class Real, class Device>
 void FaceContact<Real, Device>::add_stiffness(const ObstacleSet<Real>& set, const Vec3<Real>* x,
                                               const Vec3<Real>* before, Real factor,
-                                              BlockRowsView<Real> matrix, Real sliding_share) {
+                                              BlockRowsView<Real> matrix, Real sliding_fraction) {
   const FaceView<Real> faces = view(set);
   const FaceFriction<Real>* lagged = lagged_.data();
   FaceStiffness<Real>* stiffness = stiffness_.data();
@@ -99,7 +99,7 @@ void FaceContact<Real, Device>::add_stiffness(const ObstacleSet<Real>& set, cons
           }
           if (rubs)
             s.block += friction.stiffness_at(faces.slip(f, friction, x, before),
-                                             faces.stop_stiffness(f, friction.limit), sliding_share);
+                                             faces.stop_stiffness(f, friction.limit), sliding_fraction);
         });
     gather_stiffness(factor, matrix);
   }
@@ -145,7 +145,7 @@ int FaceContact<Real, Device>::commit(const ObstacleSet<Real>& set, const Vec3<R
         Vec3<Real> at[3], pressed[3];
         faces.place(f, x, at);
         for (int k = 0; stops.force && k < 3; ++k)
-          stops.work_before(f, 3 * f + k, motion_of(faces.set, stops.touching[f] - 1, at[k]));
+          stops.work_before(f, 3 * f + k, surface_motion(faces.set, stops.touching[f] - 1, at[k]));
         stops.touch(f, friction.index);
         if (friction.index < 0) return;
         if (friction.inside && !held[face[0]] && !held[face[1]] && !held[face[2]]) sums.term[0] += 1;
@@ -155,7 +155,7 @@ int FaceContact<Real, Device>::commit(const ObstacleSet<Real>& set, const Vec3<R
             stops.accept(f, slip_within<Real>(faces.slip(f, friction, x, before), friction.limit, k_t));
         for (int k = 0; k < 3; ++k)
           stops.work_after(f, 3 * f + k, pressed[k] - k_t * friction.weight[k] * stretched,
-                           motion_of(faces.set, friction.index, at[k]));
+                           surface_motion(faces.set, friction.index, at[k]));
       },
       HYST_KERNEL(const Sums<1>& total) { *inside = total.term[0]; });
   return static_cast<int>(inside_.download()[0]);
@@ -176,8 +176,8 @@ void FaceContact<Real, Device>::store_energies(const ObstacleSet<Real>& set, con
 
 template <class Real, class Device>
 std::size_t FaceContact<Real, Device>::bytes() const {
-  return bytes_of(corner_, vertex_start_, vertex_item_, area_, stops_, inside_, lagged_, stiffness_, force_,
-                  share_, scratch_);
+  return total_bytes(corner_, vertex_start_, vertex_item_, area_, stops_, inside_, lagged_, stiffness_,
+                     force_, fraction_, scratch_);
 }
 
 template class FaceContact<double, ThisDevice>;

@@ -100,19 +100,19 @@ class FaceContact {
   void evaluate(const ObstacleSet<Real>& set, const Vec3<Real>* x, const Vec3<Real>* before, Real factor,
                 Vec3<Real>* target, double* energy);
   void add_stiffness(const ObstacleSet<Real>& set, const Vec3<Real>* x, const Vec3<Real>* before, Real factor,
-                     BlockRowsView<Real> matrix, Real sliding_share);
+                     BlockRowsView<Real> matrix, Real sliding_fraction);
   int commit(const ObstacleSet<Real>& set, const Vec3<Real>* x, const Vec3<Real>* before, const char* held);
   void store_energies(const ObstacleSet<Real>& set, const Vec3<Real>* x, double* energy);
 
   // Paths of triangles (face_sweep.cpp); those with a held corner go where that leads them.
   void clip_to_obstacles(const ObstacleSet<Real>& set, const Vec3<Real>* start, Vec3<Real>* end,
-                         const char* held, Real rest);
-  bool reaches(const ObstacleSet<Real>& set, const Vec3<Real>* start, const Vec3<Real>* end,
-               const char* held);
+                         const char* held, Real rest_distance);
+  bool path_is_clear(const ObstacleSet<Real>& set, const Vec3<Real>* start, const Vec3<Real>* end,
+                     const char* held);
   double feasible_step(const ObstacleSet<Real>& set, const Vec3<Real>* x, const Vec3<Real>* direction,
                        const char* held, double max_step);
 
-  void visit(Archive& archive) { stops_.visit(archive, device_); }
+  void serialise(Archive& archive) { stops_.serialise(archive, device_); }
   ContactLoss losses() const { return stops_.losses(); }
   int faces() const { return faces_; }
   std::size_t bytes() const;
@@ -120,7 +120,7 @@ class FaceContact {
   // Parts; public because nvcc allows no device lambda in a private member function.
   void gather_stiffness(Real factor, BlockRowsView<Real> matrix);
   Real end_before(const Obstacle3<Real>& obstacle, const Vec3<Real>* start, Vec3<Real>* end, const char* held,
-                  Real rest, bool stay);
+                  Real rest_distance, bool stay);
 
  private:
   bool is_sharp(const Obstacle3<Real>& obstacle) const { return obstacle.sharpest < sharp_; }
@@ -140,7 +140,7 @@ class FaceContact {
   Buffer<FaceFriction<Real>, Device> lagged_;
   Buffer<FaceStiffness<Real>, Device> stiffness_;
   Buffer<Vec3<Real>, Device> force_;  // three for each face
-  GrowingBuffer<Real, Device> share_;
+  GrowingBuffer<Real, Device> fraction_;
   Scratch<Device> scratch_;
 };
 

@@ -10,20 +10,20 @@ namespace {
 
 template <class Real>
 struct FacePath {
-  Vec3<Real> from[3], way[3];
+  Vec3<Real> from[3], displacement[3];
 
   HYST_HD Real length() const {
     Real longest = 0;
-    for (const Vec3<Real>& w : way) longest = w.norm() > longest ? w.norm() : longest;
+    for (const Vec3<Real>& w : displacement) longest = w.norm() > longest ? w.norm() : longest;
     return longest;
   }
-  HYST_HD void place(const Obstacle3<Real>& obstacle, Real share, Vec3<Real> (&p)[3]) const {
+  HYST_HD void place(const Obstacle3<Real>& obstacle, Real fraction, Vec3<Real> (&p)[3]) const {
     for (int k = 0; k < 3; ++k)
-      p[k] = obstacle.rotation.transpose() * (from[k] + share * way[k] - obstacle.center);
+      p[k] = obstacle.rotation.transpose() * (from[k] + fraction * displacement[k] - obstacle.center);
   }
-  HYST_HD Real distance_at(const Obstacle3<Real>& obstacle, Real share) const {
+  HYST_HD Real distance_at(const Obstacle3<Real>& obstacle, Real fraction) const {
     Vec3<Real> p[3];
-    place(obstacle, share, p);
+    place(obstacle, fraction, p);
     return face_point<Real>(obstacle.shape, p, Real(0)).distance;
   }
   HYST_HD bool stays_away(const Obstacle3<Real>& obstacle) const {
@@ -40,25 +40,25 @@ HYST_HD FacePath<Real> path_beside(const Obstacle3<Real>& obstacle, const Eigen:
   FacePath<Real> path;
   for (int k = 0; k < 3; ++k) {
     path.from[k] = carried(obstacle, start[face[k]]);
-    path.way[k] = end[face[k]] - path.from[k];
+    path.displacement[k] = end[face[k]] - path.from[k];
   }
   return path;
 }
 
 template <class Real>
-HYST_HD Real share_before(const FacePath<Real>& path, const Obstacle3<Real>& obstacle, Real distance,
-                          Real depth) {
-  return share_above<Real>(path.length(), distance, depth, obstacle.thinnest,
-                           [&](Real share) { return path.distance_at(obstacle, share); });
+HYST_HD Real fraction_before(const FacePath<Real>& path, const Obstacle3<Real>& obstacle, Real distance,
+                             Real depth) {
+  return fraction_above<Real>(path.length(), distance, depth, obstacle.thinnest,
+                              [&](Real fraction) { return path.distance_at(obstacle, fraction); });
 }
 
-// As free_share() of a vertex.
+// As free_fraction() of a vertex.
 template <class Real>
-HYST_HD HYST_NOINLINE Real free_share(const FacePath<Real>& path, const Obstacle3<Real>& obstacle) {
+HYST_HD HYST_NOINLINE Real free_fraction(const FacePath<Real>& path, const Obstacle3<Real>& obstacle) {
   if (path.stays_away(obstacle)) return 1;
   const Real distance = path.distance_at(obstacle, Real(0)), deep = distance < 0 ? -distance : Real(0);
   if (!(deep < obstacle.thinnest)) return 1;
-  return share_before(path, obstacle, distance, (deep + obstacle.thinnest) / 2);
+  return fraction_before(path, obstacle, distance, (deep + obstacle.thinnest) / 2);
 }
 
 HYST_HD inline bool any_held(const Eigen::Vector3i& face, const char* held) {
@@ -71,39 +71,40 @@ HYST_HD inline bool any_held(const Eigen::Vector3i& face, const char* held) {
 // barred again, the same once more, and at last they stay beside the obstacle.
 template <class Real, class Device>
 void FaceContact<Real, Device>::clip_to_obstacles(const ObstacleSet<Real>& set, const Vec3<Real>* start,
-                                                  Vec3<Real>* end, const char* held, Real rest) {
+                                                  Vec3<Real>* end, const char* held, Real rest_distance) {
   constexpr int kRounds = 8, kShortened = 4;
   for (int o = 0; o < set.count; ++o) {
     if (!is_sharp(set.item[o])) continue;
     for (int round = 0; round < kRounds; ++round)
-      if (end_before(set.item[o], start, end, held, rest, round >= kShortened) == 1) break;
+      if (end_before(set.item[o], start, end, held, rest_distance, round >= kShortened) == 1) break;
   }
 }
 
 // The least share of its way that a corner has kept.
 template <class Real, class Device>
 Real FaceContact<Real, Device>::end_before(const Obstacle3<Real>& in, const Vec3<Real>* start,
-                                           Vec3<Real>* end, const char* held, Real rest, bool stay) {
+                                           Vec3<Real>* end, const char* held, Real rest_distance, bool stay) {
   const Obstacle3<Real> obstacle = in;
   const Eigen::Vector3i* corner = corner_.data();
-  Real* share = share_.reserve(faces_);
+  Real* fraction = fraction_.reserve(faces_);
   for_each(
       device_, "face contact: guess", faces_, HYST_KERNEL(int f) {
-        share[f] = 1;
+        fraction[f] = 1;
         if (any_held(corner[f], held)) return;
         const FacePath<Real> path = path_beside(obstacle, corner[f], start, end);
-        if (!(free_share(path, obstacle) < 1)) return;
-        share[f] =
-            stay ? Real(0) : share_before<Real>(path, obstacle, path.distance_at(obstacle, Real(0)), -rest);
+        if (!(free_fraction(path, obstacle) < 1)) return;
+        fraction[f] =
+            stay ? Real(0)
+                 : fraction_before<Real>(path, obstacle, path.distance_at(obstacle, Real(0)), -rest_distance);
       });
-  const Real least = smallest(device_, scratch_, share, faces_, Real(1));
+  const Real least = smallest(device_, scratch_, fraction, faces_, Real(1));
   if (!(least < 1)) return 1;
   const int *first = vertex_start_.data(), *item = vertex_item_.data();
   for_each(
       device_, "face contact: shortened", vertices_, HYST_KERNEL(int i) {
         Real own = 1;
         for (int j = first[i]; j < first[i + 1]; ++j)
-          own = share[item[j] / 3] < own ? share[item[j] / 3] : own;
+          own = fraction[item[j] / 3] < own ? fraction[item[j] / 3] : own;
         if (!(own < 1)) return;
         const Vec3<Real> from = carried(obstacle, start[i]);
         end[i] = from + own * (end[i] - from);
@@ -112,21 +113,21 @@ Real FaceContact<Real, Device>::end_before(const Obstacle3<Real>& in, const Vec3
 }
 
 template <class Real, class Device>
-bool FaceContact<Real, Device>::reaches(const ObstacleSet<Real>& set, const Vec3<Real>* start,
-                                        const Vec3<Real>* end, const char* held) {
+bool FaceContact<Real, Device>::path_is_clear(const ObstacleSet<Real>& set, const Vec3<Real>* start,
+                                              const Vec3<Real>* end, const char* held) {
   const FaceView<Real> faces = view(set);
-  Real* share = share_.reserve(faces_);
+  Real* fraction = fraction_.reserve(faces_);
   for_each(
       device_, "face contact: reached", faces_, HYST_KERNEL(int f) {
-        share[f] = 1;
+        fraction[f] = 1;
         if (any_held(faces.corner[f], held)) return;
         for (int o = 0; o < faces.set.count; ++o) {
           if (!faces.feels(o)) continue;
           const FacePath<Real> path = path_beside(faces.set.item[o], faces.corner[f], start, end);
-          if (free_share(path, faces.set.item[o]) < 1) share[f] = 0;
+          if (free_fraction(path, faces.set.item[o]) < 1) fraction[f] = 0;
         }
       });
-  return smallest(device_, scratch_, share, faces_, Real(1)) > 0;
+  return smallest(device_, scratch_, fraction, faces_, Real(1)) > 0;
 }
 
 template <class Real, class Device>
@@ -134,22 +135,22 @@ double FaceContact<Real, Device>::feasible_step(const ObstacleSet<Real>& set, co
                                                 const Vec3<Real>* direction, const char* held,
                                                 double max_step) {
   const FaceView<Real> faces = view(set);
-  const Real asked = static_cast<Real>(max_step);
-  Real* share = share_.reserve(faces_);
+  const Real requested = static_cast<Real>(max_step);
+  Real* fraction = fraction_.reserve(faces_);
   for_each(
       device_, "face contact: collisions", faces_, HYST_KERNEL(int f) {
-        share[f] = 1;
+        fraction[f] = 1;
         if (any_held(faces.corner[f], held)) return;
         FacePath<Real> path;
         faces.place(f, x, path.from);
-        for (int k = 0; k < 3; ++k) path.way[k] = asked * direction[faces.corner[f][k]];
+        for (int k = 0; k < 3; ++k) path.displacement[k] = requested * direction[faces.corner[f][k]];
         for (int o = 0; o < faces.set.count; ++o) {
           if (!faces.feels(o)) continue;
-          const Real free = free_share(path, faces.set.item[o]);
-          share[f] = free < share[f] ? free : share[f];
+          const Real free = free_fraction(path, faces.set.item[o]);
+          fraction[f] = free < fraction[f] ? free : fraction[f];
         }
       });
-  return max_step * static_cast<double>(smallest(device_, scratch_, share, faces_, Real(1)));
+  return max_step * static_cast<double>(smallest(device_, scratch_, fraction, faces_, Real(1)));
 }
 
 template class FaceContact<double, ThisDevice>;

@@ -78,9 +78,9 @@ HYST_HD Lowest<Real> lowest(const SlopeAt& slope_at) {
       side = 1;
     }
   }
-  const Real share = low.slope / (low.slope - high.slope);  // a kink: slopes of both sides that cancel
-  return {a + share * (b - a), low.normal + share * (high.normal - low.normal),
-          low.inner + share * (high.inner - low.inner)};
+  const Real fraction = low.slope / (low.slope - high.slope);  // a kink: slopes of both sides that cancel
+  return {a + fraction * (b - a), low.normal + fraction * (high.normal - low.normal),
+          low.inner + fraction * (high.inner - low.inner)};
 }
 
 // Corners p and the point in the solid's frame; `centring` is c [m].
@@ -89,20 +89,20 @@ HYST_HD HYST_NOINLINE FacePoint<Real> face_point(const Shape<Real>& shape, const
                                                  Real centring) {
   const Vec3<Real> p0 = p[0], p1 = p[1], p2 = p[2];
   const Lowest<Real> found = lowest<Real>([&](Real a) {
-    const Real rest = 1 - a;
+    const Real remainder = 1 - a;
     const Lowest<Real> across = lowest<Real>([&](Real t) {
-      const Vec3<Real> at = a * p0 + rest * ((1 - t) * p1 + t * p2);
+      const Vec3<Real> at = a * p0 + remainder * ((1 - t) * p1 + t * p2);
       const Vec3<Real> n = signed_distance(shape, at).normal;
-      return Incline<Real>{n.dot(p2 - p1) + 2 * centring * rest * (2 * t - 1), n, t};
+      return Incline<Real>{n.dot(p2 - p1) + 2 * centring * remainder * (2 * t - 1), n, t};
     });
     const Real t = across.at;
-    const Real centre = a - rest * ((1 - t) * (1 - t) + t * t);
+    const Real centre = a - remainder * ((1 - t) * (1 - t) + t * t);
     return Incline<Real>{across.normal.dot(p0 - (1 - t) * p1 - t * p2) + 2 * centring * centre, across.normal,
                          t};
   });
-  const Real rest = 1 - found.at;
+  const Real remainder = 1 - found.at;
   FacePoint<Real> point;
-  point.weight = {found.at, rest * (1 - found.inner), rest * found.inner};
+  point.weight = {found.at, remainder * (1 - found.inner), remainder * found.inner};
   const Vec3<Real> at = point.weight[0] * p0 + point.weight[1] * p1 + point.weight[2] * p2;
   point.distance =
       signed_distance(shape, at).value + centring * (point.weight.squaredNorm() - Real(1) / Real(3));
@@ -123,8 +123,8 @@ HYST_HD Real least_possible(const Shape<Real>& shape, const Vec3<Real> (&p)[3]) 
   return d.value + least;
 }
 
-inline constexpr double kFaceShare = 1.0 / 6;  // of a triangle's area
-inline constexpr double kCentring = 0.1;       // c of face_point(), over the thickness
+inline constexpr double kFaceFraction = 1.0 / 6;  // of a triangle's area
+inline constexpr double kCentring = 0.1;          // c of face_point(), over the thickness
 
 template <class Real>
 struct FaceTouch {
@@ -169,13 +169,13 @@ HYST_HD HYST_NOINLINE FaceTouch<Real> face_touch(const Obstacle3<Real>& obstacle
       of_b[k] = v.energy / b.energy;
       slope[k] = v.slope;
     }
-    const Real rest = 1 - of_b[k];
-    if (!(rest > 0)) return touch;
-    left *= rest;
-    sum += of_b[k] / rest;
-    curved += of_b[k] * (2 - of_b[k]) / (rest * rest);
+    const Real remainder = 1 - of_b[k];
+    if (!(remainder > 0)) return touch;
+    left *= remainder;
+    sum += of_b[k] / remainder;
+    curved += of_b[k] * (2 - of_b[k]) / (remainder * remainder);
   }
-  const Real share = static_cast<Real>(kFaceShare) * area, factor = share * left * left;
+  const Real fraction = static_cast<Real>(kFaceFraction) * area, factor = fraction * left * left;
   const Real first_order = 1 + 2 * sum,
              second_order = first_order * first_order - 1 - 2 * curved;  // by B, times B
   const Real hardening = factor * (b.stiffness * first_order + b.slope * b.slope / b.energy * second_order);

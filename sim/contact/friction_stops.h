@@ -24,8 +24,8 @@ struct LaggedFriction {
     gradient = (slides ? k * most / length : k) * e;
     return static_cast<double>(k * (slides ? most * (length - most / 2) : length * length / 2));
   }
-  HYST_HD Mat3<Real> stiffness_at(const Vec3<Real>& e, Real k, Real sliding_share) const {
-    return sliding_stiffness<Real>(e, normal, k, limit / k, sliding_share);
+  HYST_HD Mat3<Real> stiffness_at(const Vec3<Real>& e, Real k, Real sliding_fraction) const {
+    return sliding_stiffness<Real>(e, normal, k, limit / k, sliding_fraction);
   }
 };
 
@@ -33,7 +33,7 @@ struct LaggedFriction {
 template <class Real>
 struct Slip {
   Vec3<Real> trial;
-  Real share, stiffness;
+  Real fraction, stiffness;
 };
 
 template <class Real>
@@ -62,7 +62,7 @@ struct StopView {
   // Returns by how much the stop is stretched [m].  Its stiffness follows the pressure: what the work done on
   // it does not leave stored is lost.
   HYST_HD Vec3<Real> accept(int i, const Slip<Real>& s) const {
-    const Vec3<Real> stretched = s.share * s.trial;
+    const Vec3<Real> stretched = s.fraction * s.trial;
     const double kept = static_cast<double>(s.stiffness * stretched.squaredNorm() / 2);
     loss[i] += stored[i] - kept + static_cast<double>(s.stiffness * stretched.dot(s.trial - slip[i]));
     stored[i] = kept;
@@ -98,20 +98,20 @@ struct FrictionStops {
   }
   // `between`: buffers that stand among its own.
   template <class... Between>
-  void visit(Archive& archive, Device& device, Between&... between) {
-    hysteron::visit(archive, device, slip);
-    hysteron::visit(archive, device, touching);
-    (hysteron::visit(archive, device, between), ...);
-    hysteron::visit(archive, device, stored);
-    hysteron::visit(archive, device, loss);
-    hysteron::visit(archive, device, work);
-    hysteron::visit(archive, device, force);
+  void serialise(Archive& archive, Device& device, Between&... between) {
+    hysteron::serialise(archive, device, slip);
+    hysteron::serialise(archive, device, touching);
+    (hysteron::serialise(archive, device, between), ...);
+    hysteron::serialise(archive, device, stored);
+    hysteron::serialise(archive, device, loss);
+    hysteron::serialise(archive, device, work);
+    hysteron::serialise(archive, device, force);
   }
   ContactLoss losses() const {
     const std::vector<double> lost = loss.download(), done = work.download();
     return {std::accumulate(lost.begin(), lost.end(), 0.0), std::accumulate(done.begin(), done.end(), 0.0)};
   }
-  std::size_t bytes() const { return bytes_of(slip, touching, stored, loss, work, force); }
+  std::size_t bytes() const { return total_bytes(slip, touching, stored, loss, work, force); }
 
   Buffer<Vec3<Real>, Device> slip;
   Buffer<int, Device> touching;

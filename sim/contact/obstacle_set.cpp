@@ -59,7 +59,7 @@ ObstacleSet<Real> obstacles_during(const std::vector<Obstacle>& obstacles, doubl
     item.back_translation = (then.translation - back * now.translation).cast<Real>();
     item.friction = static_cast<Real>(o.friction < 0 ? fabric_friction : o.friction);
     item.index = static_cast<int>(i);
-    item.thinnest = static_cast<Real>(now.scale * form_of(o).half_thickness);
+    item.thinnest = static_cast<Real>(now.scale * obstacle_form(o).half_thickness);
     item.sharpest = static_cast<Real>(sharpest_radius(o));
   }
   return set;
@@ -76,10 +76,10 @@ std::vector<char> immersed(const ObstacleSet<double>& set, const std::vector<Eig
 }
 
 Immersion deepest(const ObstacleSet<double>& set, const std::vector<Eigen::Vector3d>& x,
-                  const std::vector<char>& spared) {
+                  const std::vector<char>& exempted) {
   Immersion result;
   for (std::size_t i = 0; i < x.size(); ++i) {
-    if (spared[i]) continue;
+    if (exempted[i]) continue;
     bool counted = false;
     for (int o = 0; o < set.count; ++o) {
       const double depth = -distance_to<double>(set.item[o], x[i]).value;
@@ -127,7 +127,7 @@ std::string immersion_text(const Immersion& immersion, const std::vector<Obstacl
   char depth[60];
   std::snprintf(depth, sizeof depth, " lies %.3g mm %s obstacle[%d] (", 1e3 * immersion.depth,
                 kind == ObstacleKind::hollow ? "outside" : "inside", immersion.obstacle);
-  return vertex_text(immersion.vertex, at) + depth + name_of(kind) + ")";
+  return vertex_text(immersion.vertex, at) + depth + enum_name(kind) + ")";
 }
 
 template ObstacleSet<double> obstacles_during(const std::vector<Obstacle>&, double, double, double);

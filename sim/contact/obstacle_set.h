@@ -66,7 +66,7 @@ std::vector<char> immersed(const ObstacleSet<double>& set, const std::vector<Eig
 
 // The deepest vertex of those that are not spared and are in one of the obstacles.
 Immersion deepest(const ObstacleSet<double>& set, const std::vector<Eigen::Vector3d>& x,
-                  const std::vector<char>& spared);
+                  const std::vector<char>& exempted);
 
 // Whether a vertex at x that is in one obstacle is pressed from its other side by at least half as much: by
 // other obstacles, or by other layers with a `pressure` [Pa].

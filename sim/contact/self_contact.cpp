@@ -53,7 +53,7 @@ SelfContact<Real, Device>::SelfContact(Device& device, const ClothMesh& mesh, co
 // Of any vertex at the full step, without what all have in common.
 template <class Real, class Device>
 Real SelfContact<Real, Device>::longest_displacement(const Vec3<Real>* direction) {
-  const Vec3<Real> mean = pairs_.mean_of(direction);
+  const Vec3<Real> mean = pairs_.mean_direction(direction);
   Real* lengths = step_length_.reserve(vertices_);
   for_each(
       device_, "self-contact: displacements", vertices_,
@@ -76,8 +76,8 @@ template <class Real, class Device>
 double SelfContact<Real, Device>::prepare(const Vec3<Real>* x, const Vec3<Real>* direction, const char* held,
                                           double max_step) {
   clock_.begin(Stage::contact);
-  const Real longest = longest_displacement(direction), asked = static_cast<Real>(max_step),
-             step_length = asked * longest > max_displacement_ ? max_displacement_ / longest : asked;
+  const Real longest = longest_displacement(direction), requested = static_cast<Real>(max_step),
+             step_length = requested * longest > max_displacement_ ? max_displacement_ / longest : requested;
   if (!ready_ || pending_ || !(farthest(x, direction, step_length) <= reach_))
     rebuild(x, direction, step_length, held,
             std::clamp(step_length * longest / 2, least_reach_, most_reach_));
@@ -102,7 +102,7 @@ double SelfContact<Real, Device>::prepare(const Vec3<Real>* x, const Vec3<Real>*
 }
 
 template <class Real, class Device>
-void SelfContact<Real, Device>::moved(const Vec3<Real>* x) {
+void SelfContact<Real, Device>::accept_iterate(const Vec3<Real>* x) {
   if (!pending_) return;
   pending_ = false;
   Vec3<Real>* center = center_.data();
@@ -138,16 +138,16 @@ void SelfContact<Real, Device>::index_corners() {
 }
 
 template <class Real, class Device>
-void SelfContact<Real, Device>::visit(Archive& archive) {
-  pairs_.visit(archive);
-  hysteron::visit(archive, device_, friction_.reserve(pairs_.count()), pairs_.count());
+void SelfContact<Real, Device>::serialise(Archive& archive) {
+  pairs_.serialise(archive);
+  hysteron::serialise(archive, device_, friction_.reserve(pairs_.count()), pairs_.count());
   archive(ready_);
   archive(pending_);
   archive(reach_);
   archive(stored_);
   archive(loss_);
-  hysteron::visit(archive, device_, center_);
-  hysteron::visit(archive, clock_);
+  hysteron::serialise(archive, device_, center_);
+  hysteron::serialise(archive, clock_);
   if (archive.loads()) index_corners();
 }
 
@@ -222,13 +222,14 @@ int SelfContact<Real, Device>::find_pressing(const Vec3<Real>* x) {
         if (!near[p]) return;
         Vec3<Real> at[4];
         pairs[p].gather(x, at);
-        presses[p] = friction[p].limit > 0 || distance_of(at, pairs[p].is_edges()) < pairs[p].shell;
+        presses[p] = friction[p].limit > 0 || pair_distance(at, pairs[p].is_edges()) < pairs[p].shell;
       });
   return exclusive_scan(device_, pairs_.scratch(), presses, count, pressing_.reserve(count + 1));
 }
 
 template <class Real, class Device>
-void SelfContact<Real, Device>::linearise(const Vec3<Real>* x, const Vec3<Real>* before, Real sliding_share) {
+void SelfContact<Real, Device>::linearise(const Vec3<Real>* x, const Vec3<Real>* before,
+                                          Real sliding_fraction) {
   clock_.begin(Stage::contact);
   pressing_count_ = find_pressing(x);
   const std::size_t entries = 4 * static_cast<std::size_t>(pressing_count_);
@@ -253,7 +254,7 @@ void SelfContact<Real, Device>::linearise(const Vec3<Real>* x, const Vec3<Real>*
         }
         if (!(f.limit > 0)) return;
         const Vec3<Real> e = pair_slip(pairs[p], f, x, before);
-        s.block += sliding_stiffness<Real>(e, f.normal, f.limit / model.slip, model.slip, sliding_share);
+        s.block += sliding_stiffness<Real>(e, f.normal, f.limit / model.slip, model.slip, sliding_fraction);
       });
   group(device_, pairs_.scratch(), key, 4 * pressing_count_, vertices_, stiffness_rows_.start.data(),
         stiffness_rows_.item.reserve(entries));
@@ -408,13 +409,13 @@ void SelfContact<Real, Device>::commit(const Vec3<Real>* x, const Vec3<Real>* be
   const std::vector<double> total = sum_.download();
   loss_ += stored_ + total[0] - total[1];
   stored_ = total[1];
-  hand_over();
+  pass_friction_on();
   clock_.end(Stage::contact);
 }
 
 // To pairs that do not bear yet.
 template <class Real, class Device>
-void SelfContact<Real, Device>::hand_over() {
+void SelfContact<Real, Device>::pass_friction_on() {
   gather_bearing();
   const SelfPair<Real>* pairs = pairs_.pairs();
   const BearingRows bearing = this->bearing();

@@ -73,7 +73,7 @@ class SelfContact {
   // farther than some edges from where the others go on average; afterwards evaluate() and its kind may be
   // called on the path up to there.  moved() tells which of its points was taken.
   double prepare(const Vec3<Real>* x, const Vec3<Real>* direction, const char* held, double max_step = 1);
-  void moved(const Vec3<Real>* x);
+  void accept_iterate(const Vec3<Real>* x);
   // Vertices that were held are free: the next prepare() looks for their pairs, too.
   void invalidate_pairs() { pending_ = ready_; }
 
@@ -82,8 +82,8 @@ class SelfContact {
   void evaluate(const Vec3<Real>* x, const Vec3<Real>* before, Vec3<Real>* gradient);
   const double* energies() const { return energy_.data(); }  // of pairs() pairs [J]
   int pairs() const { return pairs_.count(); }
-  // sliding_share: sliding_stop.h.
-  void linearise(const Vec3<Real>* x, const Vec3<Real>* before, Real sliding_share);
+  // sliding_fraction: sliding_stop.h.
+  void linearise(const Vec3<Real>* x, const Vec3<Real>* before, Real sliding_fraction);
   GatheredForces<Real> apply_stiffness(const Vec3<Real>* p);  // to be gathered
   void add_stiffness_diagonal(Mat3<Real>* diagonal);
   // What linearise() has found, on the device.
@@ -99,7 +99,7 @@ class SelfContact {
 
   // What outlives a step: the list of pairs, which decides the order of sums and when the next one is made,
   // and their stops.
-  void visit(Archive& archive);
+  void serialise(Archive& archive);
 
   // For messages: the forces on vertices where evaluate() was called last [N], and the pair that limited the
   // step of the last prepare().
@@ -116,7 +116,7 @@ class SelfContact {
                Real reach);
   void gather_bearing();
   void carry_over();
-  void hand_over();
+  void pass_friction_on();
   void index_corners();
   Real longest_displacement(const Vec3<Real>* direction);
   Real farthest(const Vec3<Real>* x, const Vec3<Real>* direction, Real step_length);

@@ -8,16 +8,16 @@ namespace hysteron {
 
 namespace {
 
-constexpr double kOfRestDistance = 0.5;  // most of the distance at rest that a shell may take
-constexpr double kParallel = 1e-3;       // sine squared at rest below which edges fade (Li et al. 2020)
+constexpr double kRestDistanceFraction = 0.5;  // most of the distance at rest that a shell may take
+constexpr double kParallel = 1e-3;             // sine squared at rest below which edges fade (Li et al. 2020)
 
-std::vector<std::array<int, 3>> triangles_of(const ClothMesh& mesh) {
+std::vector<std::array<int, 3>> triangle_corners(const ClothMesh& mesh) {
   std::vector<std::array<int, 3>> corners;
   for (const auto& f : mesh.face) corners.push_back({f[0], f[1], f[2]});
   return corners;
 }
 
-std::vector<std::array<int, 3>> edges_of(const ClothMesh& mesh) {
+std::vector<std::array<int, 3>> edge_corners(const ClothMesh& mesh) {
   std::vector<std::array<int, 3>> corners;
   for (const Edge& e : mesh.edge) corners.push_back({e.p2, e.p3, e.p3});
   return corners;
@@ -31,15 +31,15 @@ struct Candidates {  // what the loops need, by value
   Real thickness, reach;
   Sweep<Real> sweep;
   const char* held;
-  const int* hand;  // null: pairs that are not all held
+  const int* pin;  // null: pairs that are not all held
 
   HYST_HD bool is_out(const int (&v)[4], bool edges) const {
     for (int i = 0; i < (edges ? 2 : 1); ++i)
       for (int j = edges ? 2 : 1; j < 4; ++j)
         if (v[i] == v[j]) return true;
     const bool all_held = held[v[0]] && held[v[1]] && held[v[2]] && held[v[3]];
-    if (!hand) return all_held;
-    return !all_held || (hand[v[0]] == hand[v[1]] && hand[v[0]] == hand[v[2]] && hand[v[0]] == hand[v[3]]);
+    if (!pin) return all_held;
+    return !all_held || (pin[v[0]] == pin[v[1]] && pin[v[0]] == pin[v[2]] && pin[v[0]] == pin[v[3]]);
   }
 
   // Whether the pair can matter; completes it.
@@ -50,10 +50,10 @@ struct Candidates {  // what the loops need, by value
     pair.gather(sweep.direction, direction);
     remove_mean(direction);
     const Real near =
-        distance_of(x, edges) - sweep.step_length * fastest_approach(direction, edges) - 2 * reach;
+        pair_distance(x, edges) - sweep.step_length * fastest_approach(direction, edges) - 2 * reach;
     if (near > thickness) return false;
     pair.gather(rest, x);
-    const Real apart = Real(kOfRestDistance) * distance_of(x, edges);
+    const Real apart = Real(kRestDistanceFraction) * pair_distance(x, edges);
     pair.shell = apart < thickness ? apart : thickness;
     pair.parallel = edges ? Real(kParallel) * (x[1] - x[0]).squaredNorm() * (x[3] - x[2]).squaredNorm() : 0;
     return near <= pair.shell;
@@ -78,8 +78,8 @@ struct Candidates {  // what the loops need, by value
   }
 
   // Of a row and the rank of what it may meet in its tree.
-  HYST_HD bool pair_of(int row, int vertices, int rank, const BoxTreeView<Real>& triangles,
-                       SelfPair<Real>& pair) const {
+  HYST_HD bool pair_at_rank(int row, int vertices, int rank, const BoxTreeView<Real>& triangles,
+                            SelfPair<Real>& pair) const {
     return row < vertices ? vertex_on_triangle(row, triangles.item[rank], pair)
                           : edge_on_edge(row - vertices, rank, pair);
   }
@@ -102,8 +102,8 @@ SelfPairs<Real, Device>::SelfPairs(Device& device, const ClothMesh& mesh, double
       edges_(static_cast<int>(mesh.edge.size())),
       rows_(vertices_ + edges_),
       thickness_(static_cast<Real>(thickness)),
-      triangle_tree_(device, triangles_of(mesh), mesh.rest),
-      edge_tree_(device, edges_of(mesh), mesh.rest),
+      triangle_tree_(device, triangle_corners(mesh), mesh.rest),
+      edge_tree_(device, edge_corners(mesh), mesh.rest),
       found_(device, rows_),
       kept_(device, static_cast<std::size_t>(kKept) * rows_),
       start_(device, rows_ + 1),
@@ -136,7 +136,7 @@ SelfPairs<Real, Device>::SelfPairs(Device& device, const ClothMesh& mesh, double
 }
 
 template <class Real, class Device>
-Vec3<Real> SelfPairs<Real, Device>::mean_of(const Vec3<Real>* direction) {
+Vec3<Real> SelfPairs<Real, Device>::mean_direction(const Vec3<Real>* direction) {
   Vec3<double>* sum = sum_.data();
   for_each_sum<3>(
       device_, "self-contact: mean direction", vertices_,
@@ -153,11 +153,10 @@ Vec3<Real> SelfPairs<Real, Device>::mean_of(const Vec3<Real>* direction) {
 // is all, by a second walk where it is not.
 template <class Real, class Device>
 template <bool kWrite>
-void SelfPairs<Real, Device>::search(const Sweep<Real>& sweep, const char* held, Real reach,
-                                     const int* hand) {
+void SelfPairs<Real, Device>::search(const Sweep<Real>& sweep, const char* held, Real reach, const int* pin) {
   const Candidates<Real> candidates{
       rest_.data(), face_.data(), edge_.data(), vertex_area_.data(), edge_area_.data(), thickness_, reach,
-      sweep,        held,         hand};
+      sweep,        held,         pin};
   const BoxTreeView<Real> triangles = triangle_tree_.view(), edges = edge_tree_.view();
   int *found = found_.data(), *kept = kept_.data();
   const int* start = start_.data();
@@ -169,7 +168,7 @@ void SelfPairs<Real, Device>::search(const Sweep<Real>& sweep, const char* held,
         const int first = kWrite ? start[row] : 0;
         const auto visit = [&](int rank) {
           SelfPair<Real> pair;
-          if (!candidates.pair_of(row, vertices, rank, triangles, pair)) return;
+          if (!candidates.pair_at_rank(row, vertices, rank, triangles, pair)) return;
           if (kWrite) {
             pairs[first + n] = pair;
           } else if (n < kKept) {
@@ -194,25 +193,25 @@ void SelfPairs<Real, Device>::search(const Sweep<Real>& sweep, const char* held,
 
 template <class Real, class Device>
 void SelfPairs<Real, Device>::find(const Vec3<Real>* x, const Vec3<Real>* direction, Real step_length,
-                                   const char* held, Real reach, const int* hand) {
+                                   const char* held, Real reach, const int* pin) {
   std::swap(start_, old_start_);
   pair_.swap(old_pair_);
-  const Sweep<Real> sweep{x, direction, mean_of(direction), step_length, thickness_ + 2 * reach};
+  const Sweep<Real> sweep{x, direction, mean_direction(direction), step_length, thickness_ + 2 * reach};
   triangle_tree_.fit(sweep);
   Sweep<Real> half = sweep;  // both edges' boxes are wider
   half.margin = sweep.margin / 2;
   edge_tree_.fit(half);
-  search<false>(sweep, held, reach, hand);
+  search<false>(sweep, held, reach, pin);
   count_ = exclusive_scan(device_, scratch_, found_.data(), rows_, start_.data());
   pair_.reserve(count_);
-  search<true>(sweep, held, reach, hand);
+  search<true>(sweep, held, reach, pin);
 }
 
 template <class Real, class Device>
-void SelfPairs<Real, Device>::visit(Archive& archive) {
+void SelfPairs<Real, Device>::serialise(Archive& archive) {
   count_ = static_cast<int>(archive.size(count_));
-  hysteron::visit(archive, device_, start_);
-  hysteron::visit(archive, device_, pair_.reserve(count_), count_);
+  hysteron::serialise(archive, device_, start_);
+  hysteron::serialise(archive, device_, pair_.reserve(count_), count_);
 }
 
 template <class Real, class Device>
@@ -230,26 +229,26 @@ constexpr double kNearer = 0.9;  // of the distance of layers that begin pressed
 }  // namespace
 
 template <class Real, class Device>
-bool HandSweep<Real, Device>::is_free(const Vec3<Real>* x, const Vec3<Real>* way, const char* held,
-                                      const int* hand) {
-  pairs_.find(x, way, 1, held, 0, hand);
+bool PinSweep<Real, Device>::is_free(const Vec3<Real>* x, const Vec3<Real>* displacement, const char* held,
+                                     const int* pin) {
+  pairs_.find(x, displacement, 1, held, 0, pin);
   const SelfPair<Real>* pairs = pairs_.pairs();
-  Real* share = share_.reserve(pairs_.count());
+  Real* fraction = fraction_.reserve(pairs_.count());
   for_each(
       device_, "hands: collisions", pairs_.count(), HYST_KERNEL(int p) {
         const SelfPair<Real> pair = pairs[p];
         Vec3<Real> from[4], along[4];
         pair.gather(x, from);
-        pair.gather(way, along);
+        pair.gather(displacement, along);
         const Approach<Real> start = approach(from, along, pair.is_edges());
         const Real hardest = static_cast<Real>(kHardest) * pair.shell,
                    nearer = static_cast<Real>(kNearer) * start.distance;
-        share[p] = feasible_step(start, from, along, pair.is_edges(), nearer < hardest ? nearer : hardest);
+        fraction[p] = feasible_step(start, from, along, pair.is_edges(), nearer < hardest ? nearer : hardest);
       });
-  return !(smallest(device_, pairs_.scratch(), share, pairs_.count(), Real(1)) < 1);
+  return !(smallest(device_, pairs_.scratch(), fraction, pairs_.count(), Real(1)) < 1);
 }
 
-template class HandSweep<double, ThisDevice>;
-template class HandSweep<float, ThisDevice>;
+template class PinSweep<double, ThisDevice>;
+template class PinSweep<float, ThisDevice>;
 
 }  // namespace hysteron

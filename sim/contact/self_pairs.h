@@ -26,7 +26,7 @@ struct SelfPair {
 // The pairs that can matter while vertices go from x by a step along `direction`, and anywhere within `reach`
 // of a point of that path: all that come nearer to each other than their shells.  Rows: vertices, then edges
 // by rank in their tree.  Pairs that share a vertex are none, nor are those whose vertices are all held; of
-// those alone whose vertices are held by different hands there is a list of its own (HandSweep).
+// those alone whose vertices are held by different hands there is a list of its own (PinSweep).
 //
 // A pair's shell is the cloth's thickness, or half its distance at rest if that is less: what is near on
 // the flat cloth is no contact.  On flat layers one upon the other the areas of vertices right above
@@ -40,12 +40,12 @@ class SelfPairs {
 
   // Makes the list anew; what is kept of pairs that stay is the caller's to carry over: `old_start`, of as
   // many rows, and old_pairs() are those of the list before.  With the number of the hand at each vertex
-  // `hand`: the pairs whose vertices are all held, but not all by one hand.
+  // `pin`: the pairs whose vertices are all held, but not all by one hand.
   void find(const Vec3<Real>* x, const Vec3<Real>* direction, Real step_length, const char* held, Real reach,
-            const int* hand = nullptr);
+            const int* pin = nullptr);
   // The list; boxes and the list before are made anew by find().
-  void visit(Archive& archive);
-  Vec3<Real> mean_of(const Vec3<Real>* direction);
+  void serialise(Archive& archive);
+  Vec3<Real> mean_direction(const Vec3<Real>* direction);
   int count() const { return count_; }
   int rows() const { return rows_; }
   const SelfPair<Real>* pairs() const { return pair_.data(); }
@@ -57,7 +57,7 @@ class SelfPairs {
 
   // A part of find(); public because nvcc allows no device lambda in a private member function.
   template <bool kWrite>
-  void search(const Sweep<Real>& sweep, const char* held, Real reach, const int* hand);
+  void search(const Sweep<Real>& sweep, const char* held, Real reach, const int* pin);
 
  private:
   Device& device_;
@@ -77,21 +77,21 @@ class SelfPairs {
 // Whether hands lead the layers that they hold through each other: vertices that are all held are in no pair
 // of self-contact.
 template <class Real, class Device>
-class HandSweep {
+class PinSweep {
  public:
-  HandSweep(Device& device, const ClothMesh& mesh, double thickness)
-      : device_(device), pairs_(device, mesh, thickness), share_(device) {}
+  PinSweep(Device& device, const ClothMesh& mesh, double thickness)
+      : device_(device), pairs_(device, mesh, thickness), fraction_(device) {}
 
   // Whether layers that different hands hold stay as far apart as pressure could press them while held
-  // vertices go from x along `way` [m], which is 0 of free ones; `hand` is the number of the one at each
-  // vertex.
-  bool is_free(const Vec3<Real>* x, const Vec3<Real>* way, const char* held, const int* hand);
-  std::size_t bytes() const { return pairs_.bytes() + share_.bytes(); }
+  // vertices go from x along `displacement` [m], which is 0 of free ones; `pin` is the number of the one at
+  // each vertex.
+  bool is_free(const Vec3<Real>* x, const Vec3<Real>* displacement, const char* held, const int* pin);
+  std::size_t bytes() const { return pairs_.bytes() + fraction_.bytes(); }
 
  private:
   Device& device_;
   SelfPairs<Real, Device> pairs_;
-  GrowingBuffer<Real, Device> share_;  // of its way that each pair may go
+  GrowingBuffer<Real, Device> fraction_;  // of its way that each pair may go
 };
 
 }  // namespace hysteron

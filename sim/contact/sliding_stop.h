@@ -12,14 +12,14 @@
 
 namespace hysteron {
 
-// Of a stop of stiffness k [N/m] that slides from |e| = `most` on [m]; `share` of e e'/|e|^2 is taken out.
+// Of a stop of stiffness k [N/m] that slides from |e| = `most` on [m]; `fraction` of e e'/|e|^2 is taken out.
 template <class Real>
 HYST_HD Mat3<Real> sliding_stiffness(const Vec3<Real>& e, const Vec3<Real>& normal, Real k, Real most,
-                                     Real share) {
+                                     Real fraction) {
   Mat3<Real> tangent = Mat3<Real>::Identity() - normal * normal.transpose();
   const Real length = e.norm();
   if (length > most) {
-    tangent = most / length * (tangent - share * (e / length) * (e / length).transpose());
+    tangent = most / length * (tangent - fraction * (e / length) * (e / length).transpose());
   }
   return k * tangent;
 }

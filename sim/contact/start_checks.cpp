@@ -52,7 +52,7 @@ std::vector<NearPair> too_near(const Scene& scene, const Cloth& cloth) {
     const SelfPair<double>& pair = pairs.pairs()[p];
     Eigen::Vector3d x[4];
     pair.gather(cloth.start.data(), x);
-    const double distance = distance_of(x, pair.is_edges());
+    const double distance = pair_distance(x, pair.is_edges());
     if (!(distance > least_distance(pair))) result.push_back({pair, distance});
   }
   return result;

@@ -26,8 +26,8 @@ HYST_HD Vec3<Real> carried(const Obstacle3<Real>& obstacle, const Vec3<Real>& x)
 // Share of a path of this length on which what moves along it, at `distance` from the surface at first, stays
 // above `depth` below it; distance_at(share) from there on.
 template <class Real, class DistanceAt>
-HYST_HD Real share_above(Real length, Real distance, Real depth, Real thinnest,
-                         const DistanceAt& distance_at) {
+HYST_HD Real fraction_above(Real length, Real distance, Real depth, Real thinnest,
+                            const DistanceAt& distance_at) {
   const Real first = distance + depth;
   if (!(length > first)) return 1;
   if (!(first > 0)) return 0;
@@ -46,44 +46,48 @@ HYST_HD Real share_above(Real length, Real distance, Real depth, Real thinnest,
   return gone / length;
 }
 
-// Of a point that starts at `from` and goes `way`.
+// Of a point that starts at `from` and goes `displacement`.
 template <class Real>
-HYST_HD Real share_above(const Obstacle3<Real>& obstacle, const Vec3<Real>& from, const Vec3<Real>& way,
-                         Real distance, Real depth) {
-  return share_above<Real>(way.norm(), distance, depth, obstacle.thinnest,
-                           [&](Real share) { return distance_to<Real>(obstacle, from + share * way).value; });
+HYST_HD Real fraction_above(const Obstacle3<Real>& obstacle, const Vec3<Real>& from,
+                            const Vec3<Real>& displacement, Real distance, Real depth) {
+  return fraction_above<Real>(displacement.norm(), distance, depth, obstacle.thinnest, [&](Real fraction) {
+    return distance_to<Real>(obstacle, from + fraction * displacement).value;
+  });
 }
 
-// Share of `way` from `from` on which a point does not go through the obstacle.  One that is past the middle
-// already may go anywhere.
+// Share of `displacement` from `from` on which a point does not go through the obstacle.  One that is past
+// the middle already may go anywhere.
 template <class Real>
-HYST_HD Real free_share(const Obstacle3<Real>& obstacle, const Vec3<Real>& from, const Vec3<Real>& way) {
+HYST_HD Real free_fraction(const Obstacle3<Real>& obstacle, const Vec3<Real>& from,
+                           const Vec3<Real>& displacement) {
   const Real distance = distance_to(obstacle, from).value, deep = distance < 0 ? -distance : Real(0);
   if (!(deep < obstacle.thinnest)) return 1;
-  return share_above(obstacle, from, way, distance, (deep + obstacle.thinnest) / 2);
+  return fraction_above(obstacle, from, displacement, distance, (deep + obstacle.thinnest) / 2);
 }
 
 // Whether a vertex that was at `start` can be at `end` without having gone through an obstacle.
 template <class Real>
-HYST_HD bool reaches(const ObstacleSet<Real>& set, const Vec3<Real>& start, const Vec3<Real>& end) {
+HYST_HD bool path_is_clear(const ObstacleSet<Real>& set, const Vec3<Real>& start, const Vec3<Real>& end) {
   for (int o = 0; o < set.count; ++o) {
     if (!set.item[o].is_thin()) continue;
     const Vec3<Real> from = carried(set.item[o], start);
-    if (free_share<Real>(set.item[o], from, end - from) < 1) return false;
+    if (free_fraction<Real>(set.item[o], from, end - from) < 1) return false;
   }
   return true;
 }
 
-// `end`, or where the path there comes within `rest` of an obstacle that bars it.
+// `end`, or where the path there comes within `rest_distance` of an obstacle that bars it.
 template <class Real>
 HYST_HD Vec3<Real> kept_out(const ObstacleSet<Real>& set, const Vec3<Real>& start, Vec3<Real> end,
-                            Real rest) {
+                            Real rest_distance) {
   for (int o = 0; o < set.count; ++o) {
     const Obstacle3<Real>& obstacle = set.item[o];
     if (!obstacle.is_thin()) continue;
-    const Vec3<Real> from = carried(obstacle, start), way = end - from;
-    if (free_share(obstacle, from, way) < 1)
-      end = from + share_above(obstacle, from, way, distance_to(obstacle, from).value, -rest) * way;
+    const Vec3<Real> from = carried(obstacle, start), displacement = end - from;
+    if (free_fraction(obstacle, from, displacement) < 1)
+      end = from +
+            fraction_above(obstacle, from, displacement, distance_to(obstacle, from).value, -rest_distance) *
+                displacement;
   }
   return end;
 }

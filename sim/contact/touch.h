@@ -14,7 +14,7 @@ HYST_HD Vec3<Real> motion_over_step(const Obstacle3<Real>& obstacle, const Vec3<
 
 // That of the scene's obstacle `index`; zero where it is not there.
 template <class Real>
-HYST_HD Vec3<Real> motion_of(const ObstacleSet<Real>& set, int index, const Vec3<Real>& x) {
+HYST_HD Vec3<Real> surface_motion(const ObstacleSet<Real>& set, int index, const Vec3<Real>& x) {
   for (int o = 0; o < set.count; ++o)
     if (set.item[o].index == index) return motion_over_step(set.item[o], x);
   return Vec3<Real>::Zero();
@@ -66,10 +66,12 @@ struct VertexContact {
   ObstacleSet<Real> set;
   const Real* area;
 
-  HYST_HD Touch<Real> touch_of(int i, const Vec3<Real>* x) const { return touch(set, model, x[i], area[i]); }
+  HYST_HD Touch<Real> vertex_touch(int i, const Vec3<Real>* x) const {
+    return touch(set, model, x[i], area[i]);
+  }
   // Of a vertex that has moved by `moved` over the step.
-  HYST_HD Slip<Real> slip_of(int i, const Touch<Real>& t, const Vec3<Real>& moved,
-                             const StopView<Real>& stops) const {
+  HYST_HD Slip<Real> vertex_slip(int i, const Touch<Real>& t, const Vec3<Real>& moved,
+                                 const StopView<Real>& stops) const {
     Vec3<Real> e = moved - t.obstacle_motion;
     if (stops.touching[i] == t.index + 1) e += stops.slip[i];
     e -= t.normal * t.normal.dot(e);

@@ -8,7 +8,7 @@ namespace hysteron {
 
 // `count` elements from `data` on, which has room for them.
 template <class T, class Device>
-void visit(Archive& archive, Device& device, T* data, std::size_t count) {
+void serialise(Archive& archive, Device& device, T* data, std::size_t count) {
   if (count == 0) return;
   std::string copy(count * sizeof(T), '\0');
   if (!archive.loads()) device_download(device, copy.data(), data, copy.size());
@@ -19,10 +19,10 @@ void visit(Archive& archive, Device& device, T* data, std::size_t count) {
 // A whole buffer.  One whose size differs, as that of an array which is made when it is first needed, is made
 // anew.
 template <class T, class Device>
-void visit(Archive& archive, Device& device, Buffer<T, Device>& buffer) {
+void serialise(Archive& archive, Device& device, Buffer<T, Device>& buffer) {
   const std::size_t size = archive.size(buffer.size());
   if (size != buffer.size()) buffer = Buffer<T, Device>(device, size);
-  visit(archive, device, buffer.data(), size);
+  serialise(archive, device, buffer.data(), size);
 }
 
 }  // namespace hysteron

@@ -55,7 +55,7 @@ class Buffer {
 
 // Of arrays that a loop reads or writes whole.
 template <class... Buffers>
-std::size_t bytes_of(const Buffers&... buffer) {
+std::size_t total_bytes(const Buffers&... buffer) {
   return (std::size_t(0) + ... + buffer.bytes());
 }
 

@@ -15,8 +15,8 @@ namespace hysteron {
 namespace {
 
 bool may_use_graphs() {
-  const char* asked = std::getenv("HYSTERON_CUDA_GRAPHS");
-  return !asked || std::string(asked) != "0";
+  const char* requested = std::getenv("HYSTERON_CUDA_GRAPHS");
+  return !requested || std::string(requested) != "0";
 }
 
 }  // namespace

@@ -282,7 +282,7 @@ inline void copy_in_batch(Cuda& cuda, const char* name, void* to, const void* fr
 // In a batch what is small travels with the loops.
 inline void device_upload(Cuda& cuda, void* to, const void* from, std::size_t bytes) {
   if (cuda.batch && bytes <= Cuda::kStaged)
-    return copy_in_batch(cuda, "upload", to, cuda.batch->copy_of(from, bytes), bytes);
+    return copy_in_batch(cuda, "upload", to, cuda.batch->staged_copy(from, bytes), bytes);
   if (cuda.batch) cuda.batch->send();
   check_cuda(cudaMemcpyAsync(to, from, bytes, cudaMemcpyHostToDevice, cuda.stream), "upload");
   cuda.synchronize();

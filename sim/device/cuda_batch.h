@@ -75,7 +75,7 @@ class CudaBatch {
     if (!member().orders.empty()) wait();
   }
   // Bytes of the host in the GPU's memory, until this member waits.
-  const char* copy_of(const void* bytes, std::size_t size) {
+  const char* staged_copy(const void* bytes, std::size_t size) {
     const Place place = room(size);
     std::memcpy(place.host, bytes, size);
     return static_cast<const char*>(place.device);

@@ -85,7 +85,7 @@ void Fibers::begin() {
   fiber.of->switch_to_caller(fiber);
 }
 
-void Fibers::go_on(Fiber& fiber) {
+void Fibers::resume_fiber(Fiber& fiber) {
   current_ = fiber.index;
   beginning = &fiber;
   exchange_with_thread(fiber.of_thread);
@@ -118,7 +118,7 @@ void Fibers::run(int count, const std::function<void(int)>& job, const std::func
   for (bool all_ended = false; !all_ended;) {
     all_ended = true;
     for (const auto& fiber : fiber_) {
-      if (!fiber->ended) go_on(*fiber);
+      if (!fiber->ended) resume_fiber(*fiber);
       all_ended = all_ended && fiber->ended;
     }
     try {

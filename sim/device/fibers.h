@@ -28,7 +28,7 @@ class Fibers {
  private:
   struct Fiber;
   static void begin();
-  void go_on(Fiber& fiber);
+  void resume_fiber(Fiber& fiber);
   void switch_to_caller(Fiber& fiber);
 
   std::vector<std::unique_ptr<Fiber>> fiber_;

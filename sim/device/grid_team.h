@@ -56,7 +56,7 @@ class GridTeam {
     // Neighbouring rows go to different multiprocessors: few rows use all of them.
     const int first = threadIdx.x / Warp::kCount * gridDim.x + blockIdx.x;
     for (int warp = first; warp < warps_for<Lanes>(rows); warp += gridDim.x * kWarps)
-      at_row_of<Lanes>(warp, rows, body);
+      run_on_warp_row<Lanes>(warp, rows, body);
     barrier_.wait();
   }
   // The total, in every thread.

@@ -13,7 +13,7 @@ struct SingleLane {
   HYST_HD int index() const { return 0; }
   HYST_HD bool leads() const { return true; }
   template <class Matrix>
-  HYST_HD Matrix sum_of(const Matrix& matrix) const {
+  HYST_HD Matrix lane_sum(const Matrix& matrix) const {
     return matrix;
   }
 };
@@ -36,7 +36,7 @@ struct LanesOfWarp {
 #endif
   }
   template <class Real>
-  HYST_HD Real value_of(Real value, [[maybe_unused]] int lane) const {
+  HYST_HD Real lane_value(Real value, [[maybe_unused]] int lane) const {
 #ifdef __CUDA_ARCH__
     return __shfl_sync(threads(), value, slot() * kCount + lane);
 #else
@@ -45,7 +45,7 @@ struct LanesOfWarp {
   }
   // Sum of the lanes' matrices in a fixed order; valid in the lane that leads.
   template <class Matrix>
-  HYST_HD Matrix sum_of(Matrix matrix) const {
+  HYST_HD Matrix lane_sum(Matrix matrix) const {
     static_assert(kCount == kWarp, "halves of halves");
     for (int k = 0; k < static_cast<int>(Matrix::SizeAtCompileTime); ++k)
       for (int by = kCount / 2; by > 0; by /= 2) matrix.data()[k] += further(matrix.data()[k], by);
@@ -109,7 +109,7 @@ HYST_HD int warps_for(int rows) {
 
 // What a thread does for its row, if it has one.
 template <class Lanes, class Body, class... Terms>
-__device__ void at_row_of(int warp, int rows, const Body& body, Terms&... terms) {
+__device__ void run_on_warp_row(int warp, int rows, const Body& body, Terms&... terms) {
   const Lanes lanes;
   const int i = warp * Lanes::kRows + lanes.slot();
   if (lanes.slot() < Lanes::kRows && i < rows) body(i, lanes, terms...);
@@ -124,7 +124,7 @@ struct RowLoop {
 
   __device__ void operator()() const {
     if (stop && *stop) return;
-    at_row_of<Lanes>(blockIdx.x * kWarpsPerBlock + threadIdx.x / Warp::kCount, rows, body);
+    run_on_warp_row<Lanes>(blockIdx.x * kWarpsPerBlock + threadIdx.x / Warp::kCount, rows, body);
   }
 };
 
@@ -141,7 +141,7 @@ struct LaneOfRow {
   Body body;
   template <int K>
   __device__ void operator()(int i, Sums<K>& sums) const {
-    at_row_of<Lanes>(i / Warp::kCount, rows, body, sums);
+    run_on_warp_row<Lanes>(i / Warp::kCount, rows, body, sums);
   }
 };
 

@@ -91,7 +91,7 @@ class StageClock<Cuda> {
 
 // A run that goes on goes on counting.
 template <class Device>
-void visit(Archive& archive, StageClock<Device>& clock) {
+void serialise(Archive& archive, StageClock<Device>& clock) {
   StageSeconds seconds{};
   if (!archive.loads()) seconds = clock.seconds();
   archive(seconds);

@@ -25,8 +25,8 @@ class WhileLoop<Cpu> {
 #ifdef __CUDACC__
 #if CUDART_VERSION >= 12040
 template <class Flag>
-__global__ void go_on_kernel(cudaGraphConditionalHandle go_on, const Flag* done) {
-  cudaGraphSetConditional(go_on, *done == 0);
+__global__ void loop_condition_kernel(cudaGraphConditionalHandle loop_condition, const Flag* done) {
+  cudaGraphSetConditional(loop_condition, *done == 0);
 }
 #endif
 
@@ -92,12 +92,13 @@ class WhileLoop<Cuda> {
   template <class Order>
   static bool capture(Cuda& cuda, cudaGraph_t graph, const int* done, const Order& order) {
 #if CUDART_VERSION >= 12040
-    cudaGraphConditionalHandle go_on;
-    if (cudaGraphConditionalHandleCreate(&go_on, graph, 1, cudaGraphCondAssignDefault) != cudaSuccess)
+    cudaGraphConditionalHandle loop_condition;
+    if (cudaGraphConditionalHandleCreate(&loop_condition, graph, 1, cudaGraphCondAssignDefault) !=
+        cudaSuccess)
       return false;
     cudaGraphNodeParams condition{};
     condition.type = cudaGraphNodeTypeConditional;
-    condition.conditional.handle = go_on;
+    condition.conditional.handle = loop_condition;
     condition.conditional.type = cudaGraphCondTypeWhile;
     condition.conditional.size = 1;
     if (add_node(graph, condition) != cudaSuccess) return false;
@@ -109,7 +110,7 @@ class WhileLoop<Cuda> {
     const bool early_blocks = std::exchange(cuda.early_blocks, false);  // slower in a graph
     try {
       order();
-      go_on_kernel<<<1, 1, 0, cuda.stream>>>(go_on, done);
+      loop_condition_kernel<<<1, 1, 0, cuda.stream>>>(loop_condition, done);
     } catch (const Error&) {  // a real one is met again without capture
       ordered = false;
     }

@@ -38,15 +38,15 @@ Mode first_mode(const DecayQuestion& q) {
   const int n = 2 * (kElements + 1);
   Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(n, n), mass = stiffness;
   const double gauss[] = {0.0694318442029737, 0.3300094782075719, 0.6699905217924281, 0.9305681557970263};
-  const double share[] = {0.1739274225687269, 0.3260725774312731, 0.3260725774312731, 0.1739274225687269};
+  const double fraction[] = {0.1739274225687269, 0.3260725774312731, 0.3260725774312731, 0.1739274225687269};
   Eigen::Vector4d f, f1, f2;
   for (int e = 0; e < kElements; ++e)
     for (int g = 0; g < 4; ++g) {
       hermite(gauss[g], h, f, f1, f2);
       const double tension = load * (q.length - (e + gauss[g]) * h);
       stiffness.block<4, 4>(2 * e, 2 * e) +=
-          share[g] * h * (q.rigidity * f2 * f2.transpose() + tension * f1 * f1.transpose());
-      mass.block<4, 4>(2 * e, 2 * e) += share[g] * h * f * f.transpose();
+          fraction[g] * h * (q.rigidity * f2 * f2.transpose() + tension * f1 * f1.transpose());
+      mass.block<4, 4>(2 * e, 2 * e) += fraction[g] * h * f * f.transpose();
     }
   const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(
       stiffness.bottomRightCorner(n - 2, n - 2), mass.bottomRightCorner(n - 2, n - 2));
@@ -180,7 +180,7 @@ FabBending identify_decay(const DecaySeries& series, const DecayQuestion& questi
 }
 
 std::vector<FabForm> even_forms(const DecaySeries& series, const DecayQuestion& question) {
-  return even_forms_of([&](const FrictionForm& form) {
+  return even_form_fits([&](const FrictionForm& form) {
     DecayQuestion one = question;
     one.form = form;
     return identify_decay(series, one);

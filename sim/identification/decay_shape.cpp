@@ -126,7 +126,7 @@ Eigen::Vector2d vertex_of_parabola(double before, double at, double after) {
 }
 
 std::vector<TurningPoint> turning_points(const std::vector<double>& time, const std::vector<double>& x,
-                                         double least, double share) {
+                                         double least, double fraction) {
   std::vector<TurningPoint> found;
   std::size_t extreme = 0;
   int direction = 0;
@@ -140,7 +140,7 @@ std::vector<TurningPoint> turning_points(const std::vector<double>& time, const 
     if (direction >= 0 && x[i] > x[extreme]) extreme = i, direction = 1;
     if (direction <= 0 && x[i] < x[extreme]) extreme = i, direction = -1;
     const double swing = std::abs(x[extreme] - (found.empty() ? x.front() : found.back().value));
-    if (std::abs(x[i] - x[extreme]) > std::max(least, share * swing)) {
+    if (std::abs(x[i] - x[extreme]) > std::max(least, fraction * swing)) {
       note(extreme);
       direction = x[i] > x[extreme] ? 1 : -1;
       extreme = i;
@@ -149,7 +149,7 @@ std::vector<TurningPoint> turning_points(const std::vector<double>& time, const 
   return found;
 }
 
-std::vector<Amplitude> amplitudes_of(const std::vector<TurningPoint>& turns) {
+std::vector<Amplitude> turning_amplitudes(const std::vector<TurningPoint>& turns) {
   std::vector<Amplitude> result;
   for (std::size_t i = 1; i + 1 < turns.size(); ++i) {
     const double mean = (turns[i - 1].value + turns[i + 1].value) / 2;
@@ -163,7 +163,7 @@ DecayLine line_through(const std::vector<Amplitude>& amplitudes) {
   return {fit.first, fit.rate};
 }
 
-std::string name_of(DecayShape shape) {
+std::string enum_name(DecayShape shape) {
   switch (shape) {
     case DecayShape::linear:
       return "linear";
@@ -197,7 +197,7 @@ const DecayFit& Decay::of(DecayShape shape) const {
   return *std::find_if(fits.begin(), fits.end(), [&](const DecayFit& fit) { return fit.shape == shape; });
 }
 
-Decay decay_of(const std::vector<Amplitude>& all, double largest) {
+Decay decay_between_amplitudes(const std::vector<Amplitude>& all, double largest) {
   Decay decay;
   const auto take_from = [&](std::size_t first) {
     decay.first = first;
@@ -221,8 +221,10 @@ Decay decay_of(const std::vector<Amplitude>& all, double largest) {
                    [](const DecayFit& a, const DecayFit& b) { return a.criterion < b.criterion; });
   // Two lines describe one line as well, at a place of their choice: they have to be clearly better, and are
   // no rival.
-  const auto is_of = [](DecayShape shape) { return [=](const DecayFit& fit) { return fit.shape == shape; }; };
-  const auto one = std::find_if(decay.fits.begin(), decay.fits.end(), is_of(DecayShape::linear));
+  const auto has_shape = [](DecayShape shape) {
+    return [=](const DecayFit& fit) { return fit.shape == shape; };
+  };
+  const auto one = std::find_if(decay.fits.begin(), decay.fits.end(), has_shape(DecayShape::linear));
   if (decay.best().shape == DecayShape::two_step && one->criterion - decay.best().criterion < kClearMargin)
     std::rotate(decay.fits.begin(), one, one + 1);
   const bool one_line = decay.best().shape == DecayShape::linear;

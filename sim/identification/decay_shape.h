@@ -30,10 +30,10 @@ struct TurningPoint {
 };
 
 // Where a series of equally spaced `time`s turns and goes back by more than `least` and, once it has swung,
-// by more than the `share` of its last swing; by the parabola through the samples around.  Both of one
+// by more than the `fraction` of its last swing; by the parabola through the samples around.  Both of one
 // length; the start is none.
 std::vector<TurningPoint> turning_points(const std::vector<double>& time, const std::vector<double>& x,
-                                         double least, double share = 0);
+                                         double least, double fraction = 0);
 
 struct Amplitude {
   int turn;      // of the turning point, from 0
@@ -41,7 +41,7 @@ struct Amplitude {
   double value;  // half of its distance to the mean of its neighbours
 };
 // Of every turning point between two others.
-std::vector<Amplitude> amplitudes_of(const std::vector<TurningPoint>& turns);
+std::vector<Amplitude> turning_amplitudes(const std::vector<TurningPoint>& turns);
 
 // The line nearest to amplitudes, two at least: its value at the first one's time [m], and how fast it falls
 // [m/s].
@@ -58,7 +58,7 @@ enum class DecayShape {
   plateau,  // a turn takes less than kPlateau: nothing brakes
   unknown,  // too few amplitudes, they fall by less than kMinFall, or two shapes describe them alike
 };
-std::string name_of(DecayShape shape);
+std::string enum_name(DecayShape shape);
 
 constexpr double kPlateau = 0.01;          // of the amplitude, in a turn
 constexpr std::size_t kMinAmplitudes = 6;  // two lines of three each
@@ -99,9 +99,9 @@ struct Decay {
   }
 };
 
-// Amplitudes in the order of time, as amplitudes_of() gives them; those above `largest` [m] are left out, and
-// what comes before the last turn that one mode alone would not make: one that grows, or that falls by much
-// more than those around it.
-Decay decay_of(const std::vector<Amplitude>& amplitudes, double largest);
+// Amplitudes in the order of time, as turning_amplitudes() gives them; those above `largest` [m] are left
+// out, and what comes before the last turn that one mode alone would not make: one that grows, or that falls
+// by much more than those around it.
+Decay decay_between_amplitudes(const std::vector<Amplitude>& amplitudes, double largest);
 
 }  // namespace hysteron

@@ -32,13 +32,13 @@ FrictionForm free_stops(const std::vector<double>& thresholds) {
           }};
 }
 
-FrictionShape shape_of(const VectorXd& p) {
+FrictionShape friction_shape(const VectorXd& p) {
   return {kUsualMedian * std::exp(p[1]), kUsualSpread * std::exp(p[2])};
 }
 
 FrictionForm shaped_friction() {
   return {"shaped", {kMomentSpread, kMedianSpread, kShapeSpread}, [](const VectorXd& p, double moment) {
-            return shaped_stops(shape_of(p), std::exp(p[0]) * moment);
+            return shaped_stops(friction_shape(p), std::exp(p[0]) * moment);
           }};
 }
 
@@ -96,7 +96,8 @@ double friction_of_loop(const FabLoops& loops, int cycle, double noise) {
   BuckledStripTest elastica({{1, {}, {}}, loops.gauge, 0, 32}, *high, BuckledStripTest::Start::relaxed);
   const double before = elastica.bend();
   elastica.go_to(*low, 0.02);
-  const double work = std::max(std::abs(loop_area(loops, forces_of(loops), cycle)), noise * (*high - *low));
+  const double work =
+      std::max(std::abs(loop_area(loops, branch_forces(loops), cycle)), noise * (*high - *low));
   return work / (2 * (elastica.bend() - before));
 }
 
@@ -108,7 +109,7 @@ class BendingModel {
         question_(question),
         form_(question.form ? *question.form : free_stops(question.thresholds)),
         numbers_(static_cast<int>(form_.spreads.size())),
-        rows_(rows_of(loops, question.cycles)) {
+        rows_(branch_rows(loops, question.cycles)) {
     double friction = 0;
     for (const FabLoops& one : loops)
       for (const int cycle : question.cycles)
@@ -241,7 +242,7 @@ double FabForm::misfit(const FabBending& best) const {
   return 2 * rows * std::log(found.residual_rms / best.residual_rms);
 }
 
-std::vector<FabForm> even_forms_of(const std::function<FabBending(const FrictionForm&)>& identify) {
+std::vector<FabForm> even_form_fits(const std::function<FabBending(const FrictionForm&)>& identify) {
   std::vector<FabForm> forms;
   for (const double k0 : kSaturations) {
     const FrictionForm form = even_friction(k0);
@@ -255,7 +256,7 @@ std::vector<FabForm> even_forms_of(const std::function<FabBending(const Friction
 }
 
 std::vector<FabForm> even_forms(const std::vector<FabLoops>& loops, const FabBendingQuestion& question) {
-  return even_forms_of([&](const FrictionForm& form) {
+  return even_form_fits([&](const FrictionForm& form) {
     FabBendingQuestion one = question;
     one.form = form;
     return identify_fab_bending(loops, one);

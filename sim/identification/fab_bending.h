@@ -36,7 +36,7 @@ FrictionForm free_stops(const std::vector<double>& thresholds);
 // kUsualSpread.
 inline constexpr double kUsualMedian = 10, kUsualSpread = 1.5;  // 1/m, 1: between measured spectra
 FrictionForm shaped_friction();
-FrictionShape shape_of(const Eigen::VectorXd& parameters);
+FrictionShape friction_shape(const Eigen::VectorXd& parameters);
 
 // Friction that saturates at k0 [1/m] as even stops: the logarithm of HB.
 FrictionForm even_friction(double k0);
@@ -93,7 +93,7 @@ struct FabForm {
 inline constexpr double kLikelihoodFall = 3.84;  // twice that of its logarithm, 95 % (Wilks 1938)
 // Friction that saturates at k0 of a grid [1/m]; without those for which no equilibrium is found.
 std::vector<FabForm> even_forms(const std::vector<FabLoops>& loops, const FabBendingQuestion& question);
-std::vector<FabForm> even_forms_of(const std::function<FabBending(const FrictionForm&)>& identify);
+std::vector<FabForm> even_form_fits(const std::function<FabBending(const FrictionForm&)>& identify);
 
 // The one element of the grid that describes the same loops best: a constant 2HB.
 FabBending identify_one_stop(const std::vector<FabLoops>& loops, const FabBendingQuestion& question);

@@ -13,10 +13,10 @@ void check_cycles(const std::vector<FabLoops>& loops, const std::vector<int>& cy
       if (cycle < 1 || cycle > one.cycles())
         throw Error::invalid_input("cycle " + std::to_string(cycle) + " of " + one.name() + " must be 1 to " +
                                    std::to_string(one.cycles()))
-            .of("fab.cycles", std::to_string(cycle));
+            .with_key("fab.cycles", std::to_string(cycle));
 }
 
-std::vector<FabRow> rows_of(const std::vector<FabLoops>& loops, const std::vector<int>& cycles) {
+std::vector<FabRow> branch_rows(const std::vector<FabLoops>& loops, const std::vector<int>& cycles) {
   std::vector<FabRow> rows;
   for (std::size_t l = 0; l < loops.size(); ++l)
     for (const int cycle : cycles)

@@ -20,7 +20,7 @@ struct FabRow {
 void check_cycles(const std::vector<FabLoops>& loops, const std::vector<int>& cycles);
 
 // Of all branches of these cycles, without a weight yet.
-std::vector<FabRow> rows_of(const std::vector<FabLoops>& loops, const std::vector<int>& cycles);
+std::vector<FabRow> branch_rows(const std::vector<FabLoops>& loops, const std::vector<int>& cycles);
 
 // Covariance of the parameters after least squares over `rows` rows, weighted by their noise, and the
 // distances from a prior behind them: by the noise or, where rows scatter by more, by that scatter.

@@ -30,8 +30,8 @@ std::string verdict(double relative_error, bool determined) {
 }
 
 // A comment on each stop: value, standard error, and what decided about it.
-std::string notes_of(const StopsLaw& law, const std::vector<double>& errors,
-                     const std::vector<bool>& determined, const char* threshold_unit, const char* unit) {
+std::string stop_notes(const StopsLaw& law, const std::vector<double>& errors,
+                       const std::vector<bool>& determined, const char* threshold_unit, const char* unit) {
   std::string text;
   for (int j = 0; j < law.stops(); ++j)
     text += fmt::format("#   {}{}: {:.3g} +- {:.2g} {}, {}\n", number_text(law.thresholds[j]), threshold_unit,
@@ -47,7 +47,7 @@ std::string table(const std::string& name, const StopsLaw& law, const std::strin
 
 // "; friction slips about 18.9/m, ..."
 std::string shape_words(const FabBending& b) {
-  const FrictionShape shape = shape_of(b.form);
+  const FrictionShape shape = friction_shape(b.form);
   return fmt::format(
       ";\n# of friction that slips about {:.3g}/m, known within a factor of {:.2g} (standard error), with a "
       "spread of "
@@ -62,7 +62,7 @@ std::string bending_tables(const FabIdentification& found) {
     text += "\n# Bends along " + b.direction + ", identified from " + found.from +
             (b.is_shaped() ? shape_words(b)
                            : "; thresholds [1/m] are a grid that was given, stiffnesses [N m]:\n") +
-            notes_of(b.law, b.stiffness_errors, b.determined, "/m", "N m") +
+            stop_notes(b.law, b.stiffness_errors, b.determined, "/m", "N m") +
             table(i == 0 ? "bending.stops" : "bending.stops.weft", b.law, found.from);
   }
   return text;
@@ -74,7 +74,7 @@ std::string tension_tables(const FabIdentification& found) {
     const FabTension& t = found.tension[i];
     text += "\n# Stretch along " + t.direction + ", identified from " + found.from +
             "; thresholds (strain) are a grid that was given, stiffnesses [N/m]:\n" +
-            notes_of(t.law, t.stiffness_errors, t.determined, "", "N/m") +
+            stop_notes(t.law, t.stiffness_errors, t.determined, "", "N/m") +
             table(i == 0 ? "membrane.stops.warp" : "membrane.stops.weft", t.law, found.from);
   }
   return text;
@@ -147,7 +147,7 @@ StopsLaw scaled(StopsLaw law, double q) {
 }
 
 // Half of each side by side: responses are the mean of both.
-StopsLaw mean_of(const StopsLaw& a, const StopsLaw& b) {
+StopsLaw mean_law(const StopsLaw& a, const StopsLaw& b) {
   StopsLaw law{(a.spring + b.spring) / 2, {}, {}};
   for (const StopsLaw* of : {&a, &b}) {
     law.thresholds.insert(law.thresholds.end(), of->thresholds.begin(), of->thresholds.end());
@@ -169,7 +169,7 @@ StripDirection strip_direction(const std::string& name) {
   if (name == "W" || name == "weft") return StripDirection::weft;
   if (name == "B" || name == "bias") return StripDirection::bias;
   throw Error::invalid_input("direction = " + name + " must be L (warp) | W (weft) | B (bias)")
-      .of("fab.direction", name);
+      .with_key("fab.direction", name);
 }
 
 FabStrip FabFabric::strip(const std::string& direction) const {
@@ -181,7 +181,7 @@ FabStrip FabFabric::strip(const std::string& direction) const {
     case StripDirection::bias:
       break;
   }
-  return {bias ? *bias : mean_of(warp, weft), mean_of(warp_tension, weft_tension), density};
+  return {bias ? *bias : mean_law(warp, weft), mean_law(warp_tension, weft_tension), density};
 }
 
 FabFabric fab_fabric(const Fabric& fabric) {

@@ -23,7 +23,7 @@ class TensionModel {
       : loops_(loops),
         question_(question),
         stops_(static_cast<int>(question.thresholds.size())),
-        rows_(rows_of(loops, question.cycles)) {
+        rows_(branch_rows(loops, question.cycles)) {
     for (const FabRow& row : rows_) {
       const FabLoops& one = loops[row.loops];
       largest_force = std::max(largest_force, row.force - smallest(one));
@@ -31,7 +31,7 @@ class TensionModel {
           std::max(largest_strain_, one.branches[row.branch].distance[row.index] / one.gauge - 1);
     }
     for (FabRow& row : rows_)
-      row.weight = 1 / std::hypot(question.noise / loops[row.loops].width, question.share * largest_force);
+      row.weight = 1 / std::hypot(question.noise / loops[row.loops].width, question.fraction * largest_force);
   }
 
   StopsLaw law(const VectorXd& p) const {

@@ -13,8 +13,8 @@ namespace hysteron {
 struct FabTensionQuestion {
   std::vector<int> cycles = {2};                                        // the first being 1
   std::vector<double> thresholds = {0.002, 0.005, 0.0125, 0.03, 0.08};  // (strain), rising
-  double noise = 2e-3;  // of the force of the whole strip [N], beside `share` of the largest force
-  double share = 0.01;  // that no such law describes to less
+  double noise = 2e-3;     // of the force of the whole strip [N], beside `fraction` of the largest force
+  double fraction = 0.01;  // that no such law describes to less
 };
 
 struct FabTension {

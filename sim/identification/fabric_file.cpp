@@ -57,14 +57,14 @@ void throw_if_unreadable(const std::string& temporary, const std::string& file) 
 }  // namespace
 
 std::vector<std::string> borrowed_warnings(const FabricNotes& notes) {
-  const Fabric usual;
+  const Fabric default_fabric;
   std::vector<std::string> lines;
   const auto warn = [&](const std::string& name, double value, const std::string& unit) {
-    lines.push_back(name + " was not given: fabric.toml holds that of another fabric, " + usual.name + ", " +
-                    number_text(value) + " " + unit + "; give --fabric." + name);
+    lines.push_back(name + " was not given: fabric.toml holds that of another fabric, " +
+                    default_fabric.name + ", " + number_text(value) + " " + unit + "; give --fabric." + name);
   };
-  if (!notes.density) warn("density", usual.density, "kg/m^2");
-  if (!notes.thickness) warn("thickness", usual.thickness, "m");
+  if (!notes.density) warn("density", default_fabric.density, "kg/m^2");
+  if (!notes.thickness) warn("thickness", default_fabric.thickness, "m");
   return lines;
 }
 
@@ -79,9 +79,9 @@ std::string fabric_text(const Identification& found, const FabricNotes& notes) {
       "name = " + quoted(notes.name) + "\ndescription = " + quoted("identified from " + notes.from) + "\n";
   text += "\n[parameters]\n" + entry("b1", found.b1.value, "N m", found.b1) +
           entry("b2", found.b2.value, "N m", found.b2) + entry("k0", found.k0.value, "1/m", found.k0);
-  const Fabric usual;
-  text += given_or_default("density", notes.density, usual.density, "kg/m^2") +
-          given_or_default("thickness", notes.thickness, usual.thickness, "m");
+  const Fabric default_fabric;
+  text += given_or_default("density", notes.density, default_fabric.density, "kg/m^2") +
+          given_or_default("thickness", notes.thickness, default_fabric.thickness, "m");
   return text;
 }
 

@@ -18,7 +18,7 @@ namespace {
 constexpr double kDifference = 1e-4;
 constexpr int kMaxIterations = 500;
 
-Eigen::MatrixXd jacobian_of(const Residuals& residuals, const Eigen::VectorXd& at) {
+Eigen::MatrixXd numerical_jacobian(const Residuals& residuals, const Eigen::VectorXd& at) {
   Eigen::MatrixXd jacobian;
   for (int j = 0; j < at.size(); ++j) {
     Eigen::VectorXd above = at, below = at;
@@ -52,7 +52,7 @@ class Cost : public ceres::CostFunction {
     Eigen::Map<Eigen::VectorXd>(values, num_residuals()) = residuals;
     if (jacobians && jacobians[0]) {
       using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-      const Eigen::MatrixXd jacobian = jacobian_of(residuals_, at);
+      const Eigen::MatrixXd jacobian = numerical_jacobian(residuals_, at);
       if (!jacobian.allFinite()) return false;
       if (at.size() == 1) {
         Eigen::Map<Eigen::VectorXd>(jacobians[0], num_residuals()) = jacobian.col(0);
@@ -93,7 +93,7 @@ LeastSquares minimize(const Residuals& residuals, const Eigen::VectorXd& start, 
   result.iterations = summary.num_successful_steps + summary.num_unsuccessful_steps;
   result.converged = summary.termination_type == ceres::CONVERGENCE;
   result.residuals = residuals(result.parameters);
-  result.jacobian = jacobian_of(residuals, result.parameters);
+  result.jacobian = numerical_jacobian(residuals, result.parameters);
   return result;
 }
 

@@ -57,8 +57,8 @@ CurvePoint CurveModel::best_at(double k0, int& iterations) const {
 std::vector<CurvePoint> CurveModel::scan(int& iterations) const {
   std::vector<CurvePoint> points;
   for (int i = 0; i < kScanned; ++i) {
-    const double share = static_cast<double>(i) / (kScanned - 1);
-    points.push_back(best_at(curvature_ * kScanLow * std::pow(kScanHigh / kScanLow, share), iterations));
+    const double fraction = static_cast<double>(i) / (kScanned - 1);
+    points.push_back(best_at(curvature_ * kScanLow * std::pow(kScanHigh / kScanLow, fraction), iterations));
   }
   return points;
 }

@@ -118,9 +118,9 @@ void check_order(const Profile& profile, const Table& table) {
   const double span = (p.back() - p.front()).norm();
   double furthest = p[0].x();
   for (std::size_t i = 1; i < p.size(); ++i) {
-    const Eigen::Vector2d way = p[i] - p[i - 1];
+    const Eigen::Vector2d increment = p[i] - p[i - 1];
     furthest = std::max(furthest, p[i].x());
-    if (way.x() - way.y() > 0 && p[i].x() > furthest - kBackwards * span) continue;
+    if (increment.x() - increment.y() > 0 && p[i].x() > furthest - kBackwards * span) continue;
     throw table.refusal(
         i, "the point " + number_text(p[i].x()) + ", " + number_text(p[i].y()) + " m lies back from " +
                number_text(p[i - 1].x()) + ", " + number_text(p[i - 1].y()) +
@@ -130,7 +130,7 @@ void check_order(const Profile& profile, const Table& table) {
 
 void check_profile(const Profile& profile, const Table& table) {
   const auto refused = [&](const std::string& what) {
-    return Error::invalid_input(table.file + ": " + what).in(table.reader);
+    return Error::invalid_input(table.file + ": " + what).with_experiment(table.reader);
   };
   const auto& p = profile.points;
   if (static_cast<int>(p.size()) < kFewestPoints) {
@@ -173,7 +173,7 @@ double distance(const std::vector<Eigen::Vector2d>& line, const Eigen::Vector2d&
   return signed_distance;
 }
 
-Eigen::VectorXd start_of(const Profile& profile, int terms) {
+Eigen::VectorXd start_parameters(const Profile& profile, int terms) {
   const auto& p = profile.points;
   double length = 0;
   for (std::size_t i = 1; i < p.size(); ++i) length += (p[i] - p[i - 1]).norm();
@@ -197,12 +197,12 @@ Profile read_profile(const std::filesystem::path& file, const std::string& reade
   return profile;
 }
 
-std::vector<double> chord_shares(const Profile& profile) {
-  std::vector<double> shares = {0};
+std::vector<double> chord_fractions(const Profile& profile) {
+  std::vector<double> fractions = {0};
   for (std::size_t i = 1; i < profile.points.size(); ++i)
-    shares.push_back(shares.back() + (profile.points[i] - profile.points[i - 1]).norm());
-  for (double& share : shares) share /= shares.back();
-  return shares;
+    fractions.push_back(fractions.back() + (profile.points[i] - profile.points[i - 1]).norm());
+  for (double& fraction : fractions) fraction /= fractions.back();
+  return fractions;
 }
 
 double bend(const SmoothProfile& line, double t) {
@@ -245,7 +245,8 @@ Eigen::VectorXd distances(const std::vector<Eigen::Vector2d>& line, const Profil
 
 SmoothProfile smooth_with(const Profile& profile, const Eigen::VectorXd& start) {
   std::vector<int> about;
-  for (const double share : chord_shares(profile)) about.push_back(static_cast<int>(share * kSegments));
+  for (const double fraction : chord_fractions(profile))
+    about.push_back(static_cast<int>(fraction * kSegments));
   SmoothProfile line;
   const auto residuals = [&](const Eigen::VectorXd& parameters) {
     SmoothProfile trial;
@@ -267,7 +268,7 @@ SmoothProfile smooth(const Profile& profile) {
   double least = INFINITY;
   int iterations = 0;
   for (int terms = 1; terms <= std::min(kMaxTerms, rows / 4); ++terms) {
-    Eigen::VectorXd start = start_of(profile, terms);
+    Eigen::VectorXd start = start_parameters(profile, terms);
     if (terms > 1) start.head(line.parameters.size()) = line.parameters;
     line = smooth_with(profile, start);
     iterations += line.iterations;
@@ -324,7 +325,8 @@ StripModel::StripModel(const Profile& profile, const SmoothProfile& line, double
       weight_(weight),
       length_(line.parameters[3]),
       start_(start) {
-  for (const double share : chord_shares(profile)) about_.push_back(static_cast<int>(share * kSegments));
+  for (const double fraction : chord_fractions(profile))
+    about_.push_back(static_cast<int>(fraction * kSegments));
   slope_ = start.b2 + start.g;
   const std::vector<Eigen::Vector2d> points = centre_line(line);
   const Eigen::Vector2d last = points[kSegments] - points[kSegments - 1], end = points.back() / length_;

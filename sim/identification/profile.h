@@ -64,7 +64,7 @@ double bend(const SmoothProfile& line, double t);
 std::vector<Eigen::Vector2d> centre_line(const SmoothProfile& line);
 
 // Share of the length up to each point, along the polygon of the points.
-std::vector<double> chord_shares(const Profile& profile);
+std::vector<double> chord_fractions(const Profile& profile);
 
 // Distances of the points from a line of kSegments, left of it positive [m]; then how far the first and the
 // last point are from the line's ends, along it.  `about`: segment near which each point lies.

@@ -28,10 +28,10 @@ void check_c1(double c1, const std::string& where) {
       where + " = " + number_text(c1) +
       " N m^2 must be < 0: with c1 >= 0 the fabric stiffens as it bends, and k0 = (b2 - b1)/(2 "
       "c1), where friction saturates and stiffness has fallen to b2 <= b1, does not exist")
-      .of(where, number_text(c1));
+      .with_key(where, number_text(c1));
 }
 
-Measured mean_of(const std::vector<double>& values) {
+Measured mean_measured(const std::vector<double>& values) {
   const auto n = static_cast<double>(values.size());
   double mean = 0, scatter = 0;
   for (double value : values) mean += value / n;
@@ -78,7 +78,7 @@ VirginNumbers read_virgin(const std::filesystem::path& file, const std::string& 
       throw table.refusal(i, error.what());
     }
   }
-  return {mean_of(b1), mean_of(c1)};
+  return {mean_measured(b1), mean_measured(c1)};
 }
 
 Identification identify_virgin(const VirginNumbers& numbers, const Assumptions& assumptions) {
@@ -90,7 +90,7 @@ Identification identify_virgin(const VirginNumbers& numbers, const Assumptions& 
     throw Error::invalid_input("virgin.c1 = " + number_text(c1) + " N m^2 makes k0 = (b2 - b1)/(2 c1) = " +
                                rounded(k0) + " 1/m, must be in [" + number_text(kSmallestK0) + ", " +
                                number_text(kLargestK0) + "] 1/m; 1 gf cm^3/cm is 9.80665e-07 N m^2")
-        .of("virgin.c1", number_text(c1));
+        .with_key("virgin.c1", number_text(c1));
   Identification result;
   result.law = "prandtl";
   result.b1 = given(numbers.b1, "virgin curve M = b1 K + c1 K^2");
@@ -128,13 +128,13 @@ void check_kes(const KesNumbers& numbers) {
   if (!(b > 0)) {
     throw Error::invalid_input("kes.b = " + number_text(b) +
                                " N m must be > 0: a fabric that does not resist bending has no slope")
-        .of("kes.b", number_text(b));
+        .with_key("kes.b", number_text(b));
   }
   check_rigidity(b, "kes.b");
   if (!(hb >= 0)) {
     throw Error::invalid_input("kes.2hb = " + number_text(2 * hb) +
                                " N must be >= 0: a loop that gives work back has no width")
-        .of("kes.2hb", number_text(2 * hb));
+        .with_key("kes.2hb", number_text(2 * hb));
   }
   if (hb / b > kLargestHbOverB) {
     throw Error::invalid_input(
@@ -143,7 +143,7 @@ void check_kes(const KesNumbers& numbers) {
         " 1/m would leave folds of a radius below a millimetre; KES prints gf cm/cm, which is "
         "0.00980665 N, and times 0.00980665 it is " +
         rounded(2 * hb * kGramForceCentimetrePerCentimetre) + " N")
-        .of("kes.2hb", number_text(2 * hb));
+        .with_key("kes.2hb", number_text(2 * hb));
   }
 }
 
@@ -187,7 +187,7 @@ Identification identify_kes(const KesNumbers& numbers, const Assumptions& assump
   if (b1 > kGreatestRigidity)
     throw Error::invalid_input("k0 = " + number_text(k0) + " 1/m makes b1 = B + 2HB/k0 = " + rounded(b1) +
                                " N m, must be <= " + number_text(kGreatestRigidity) + " N m, as fabrics are")
-        .of(known ? "kes.k0" : "assume.k0", number_text(k0));
+        .with_key(known ? "kes.k0" : "assume.k0", number_text(k0));
   Identification result;
   result.law = "prandtl";
   result.b2 = given(numbers.b, "B of KES-FB2");

@@ -24,7 +24,7 @@ constexpr CurveUnits kKes = {"kes", "1/cm", "gf cm/cm", 100, kGramForceCentimetr
 // backwards: noise around a curve without a loop.
 constexpr double kWorkOfNoise = 0.05;
 
-double range_of(const std::vector<double>& values) {
+double value_range(const std::vector<double>& values) {
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
   return *high - *low;
 }
@@ -40,11 +40,11 @@ std::vector<int> turning_rows(const std::vector<double>& k, double noise) {
   std::vector<int> turns = {0};
   int extreme = 0, direction = 0;
   for (int i = 1; i < static_cast<int>(k.size()); ++i) {
-    const double way = k[i] - k[extreme];
-    if (direction * way > 0 || (direction == 0 && std::abs(way) > noise)) {
-      direction = way > 0 ? 1 : -1;
+    const double increment = k[i] - k[extreme];
+    if (direction * increment > 0 || (direction == 0 && std::abs(increment) > noise)) {
+      direction = increment > 0 ? 1 : -1;
       extreme = i;
-    } else if (direction * way < -noise) {
+    } else if (direction * increment < -noise) {
       turns.push_back(extreme);
       direction = -direction;
       extreme = i;
@@ -97,7 +97,7 @@ double relative_work(const MomentSeries& series) {
   for (int i = 1; i < series.rows(); ++i) {
     work += (series.moment[i] + series.moment[i - 1]) / 2 * (series.drive[i] - series.drive[i - 1]);
   }
-  return work / (range_of(series.drive) * range_of(series.moment));
+  return work / (value_range(series.drive) * value_range(series.moment));
 }
 
 // Rows of a way from one turn to the next, on the average, below which there is no way but disorder: shuffled
@@ -151,7 +151,7 @@ class CurveFile {
 
  private:
   Error refusal(const std::string& what) const {
-    return Error::invalid_input(name_ + ": " + what).in(reader_);
+    return Error::invalid_input(name_ + ": " + what).with_experiment(reader_);
   }
 
   // -1 where no column has that quantity.
@@ -210,7 +210,7 @@ class CurveFile {
       throw Error::invalid_input(
           name_ + ":" + std::to_string(table_.lines[i]) + ": time = " + number_text(time[i]) +
           " s must be >= " + number_text(time[i - 1]) + " s, the time of the row before")
-          .in(reader_);
+          .with_experiment(reader_);
     }
     return seconds;
   }
@@ -245,12 +245,12 @@ void prepare(MomentSeries& series, double ripple) {
     throw Error::invalid_input(series.name + ": " + std::to_string(series.rows()) + " rows, at least " +
                                std::to_string(kFewestRows) + " are needed");
   }
-  const double range = range_of(series.curvature);
+  const double range = value_range(series.curvature);
   if (!(range > 0)) {
     throw Error::invalid_input(series.name + ": the curvature is " + number_text(series.curvature.front()) +
                                " 1/m in all rows, and must vary");
   }
-  if (!(range_of(series.moment) > 0)) {
+  if (!(value_range(series.moment) > 0)) {
     throw Error::invalid_input(series.name + ": the moment is " + number_text(series.moment.front()) +
                                " N in all rows, and must vary");
   }
@@ -259,8 +259,8 @@ void prepare(MomentSeries& series, double ripple) {
   series.drive = series.curvature;
   for (std::size_t i = 1; i < turns.size(); ++i) {
     const int first = turns[i - 1], last = turns[i];
-    const double way = series.curvature[last] - series.curvature[first];
-    make_monotone(&series.drive[first], last - first + 1, way >= 0 ? 1 : -1);
+    const double increment = series.curvature[last] - series.curvature[first];
+    make_monotone(&series.drive[first], last - first + 1, increment >= 0 ? 1 : -1);
   }
   check_order(series);
   check_magnitudes(series);

@@ -98,7 +98,7 @@ bool prune(StopsModel& model, LeastSquares& best) {
   return true;
 }
 
-StopsModel model_of(const MomentSeries& series, int count, bool cycling) {
+StopsModel stops_model(const MomentSeries& series, int count, bool cycling) {
   return {law_rows(series, cycling), Eigen::Map<const Eigen::VectorXd>(series.moment.data(), series.rows()),
           series.largest_curvature(), series.largest_moment(), count};
 }
@@ -113,16 +113,16 @@ void set_stop_errors(const Covariance& c, std::vector<Stop>& stops) {
   }
 }
 
-void say(StopsIdentification& found, int asked) {
+void say(StopsIdentification& found, int requested) {
   Identification& fabric = found.fabric;
   const int used = static_cast<int>(found.stops.size());
   int open = 0;
   for (const Stop& stop : found.stops) open += !(stop.threshold_error > 0 && stop.stiffness_error > 0);
   fabric.statements.insert(
       fabric.statements.begin(),
-      std::to_string(asked) + " friction elements beside a spring took " + std::to_string(fabric.iterations) +
-          " iterations" + (found.converged ? "" : " without converging") +
-          (used < asked ? "; " + std::to_string(used) + " of them do something that can be seen" : "") +
+      std::to_string(requested) + " friction elements beside a spring took " +
+          std::to_string(fabric.iterations) + " iterations" + (found.converged ? "" : " without converging") +
+          (used < requested ? "; " + std::to_string(used) + " of them do something that can be seen" : "") +
           "; b1, b2 and k0 are those of the quadratic law (prandtl) from the same data");
   if (open == 0) return;
   fabric.statements.push_back("the data do not fix threshold and stiffness of " + std::to_string(open) +
@@ -159,11 +159,11 @@ std::vector<double> stops_moments(double b2, const std::vector<Stop>& stops,
 }
 
 StopsIdentification identify_stops(const MomentSeries& series, int count, const Assumptions& assumptions) {
-  StopsModel model = model_of(series, count, false);
+  StopsModel model = stops_model(series, count, false);
   LeastSquares best = fit(model, model.start());
   bool cycling = false;
   if (series.reversals > 0) {
-    const StopsModel cycle = model_of(series, count, true);
+    const StopsModel cycle = stops_model(series, count, true);
     const LeastSquares other = fit(cycle, cycle.start());
     cycling = other.residuals.norm() < kClearlyBetter * best.residuals.norm();
     if (cycling) {

@@ -110,7 +110,7 @@ void SparseCholesky::assemble(const Front& front, const SymmetricBlocks& matrix,
 
 // Adds the child's update to the front's own columns and to the rest.
 void SparseCholesky::take_over(const Front& child, const Front& front, const double* update, double* panel,
-                               double* rest) const {
+                               double* remainder) const {
   const int* place = plan_.place.data() + child.place_start;
   const std::ptrdiff_t own_stride = 3 * front.rows, rest_stride = 3 * front.updated(),
                        stride = 3 * child.updated();
@@ -120,7 +120,7 @@ void SparseCholesky::take_over(const Front& child, const Front& front, const dou
     for (int k = 0; k < 3; ++k) {
       const double* from = update + (3 * j + k) * stride;
       double* to = is_own ? panel + (3 * place[j] + k) * own_stride
-                          : rest + (3 * (place[j] - front.pivots) + k) * rest_stride;
+                          : remainder + (3 * (place[j] - front.pivots) + k) * rest_stride;
       for (int i = j; i < child.updated(); ++i)
         for (int l = 0; l < 3; ++l) to[3 * (place[i] - below) + l] += from[3 * i + l];
     }
@@ -141,17 +141,17 @@ int SparseCholesky::factorise(const SymmetricBlocks& matrix) {
   for (const Front& front : plan_.front) {
     const int rows = 3 * front.rows, pivots = 3 * front.pivots, updated = rows - pivots;
     const std::size_t size = static_cast<std::size_t>(updated) * updated;
-    double *panel = factor_.data() + front.panel, *rest = free;
+    double *panel = factor_.data() + front.panel, *remainder = free;
     assemble(front, matrix, panel);
-    std::fill(rest, rest + size, 0.0);
+    std::fill(remainder, remainder + size, 0.0);
     const std::size_t others = waiting.size() - front.children;
     for (std::size_t w = others; w < waiting.size(); ++w)
-      take_over(*waiting[w].front, front, waiting[w].update, panel, rest);
+      take_over(*waiting[w].front, front, waiting[w].update, panel, remainder);
     replaced += eliminate({panel, rows}, rows, pivots, least_pivot_.data() + 3 * front.first);
-    subtract_square({rest, updated}, {panel + pivots, rows}, updated, updated, pivots);
+    subtract_square({remainder, updated}, {panel + pivots, rows}, updated, updated, pivots);
     if (front.children > 0) {
       free = waiting[others].update;
-      std::copy(rest, rest + size, free);
+      std::copy(remainder, remainder + size, free);
       waiting.resize(others);
     }
     if (updated == 0) continue;
@@ -330,8 +330,8 @@ void CholeskySolver<Real>::apply(const Vec3<Real>* r, Vec3<Real>* z, PcgScalars*
 }
 
 template <class Real>
-void CholeskySolver<Real>::visit(Archive& archive) {
-  pcg_.visit(archive);
+void CholeskySolver<Real>::serialise(Archive& archive) {
+  pcg_.serialise(archive);
   archive(spent_);
   archive(held_);
   if (held_.empty()) return;

@@ -36,7 +36,7 @@ class SparseCholesky {
  private:
   void assemble(const Front& front, const SymmetricBlocks& matrix, double* panel) const;
   void take_over(const Front& child, const Front& front, const double* update, double* panel,
-                 double* rest) const;
+                 double* remainder) const;
 
   Elimination plan_;
   std::vector<double> factor_, updates_, least_pivot_;
@@ -55,7 +55,7 @@ class CholeskySolver : public LinearSolver<Real, Cpu>, private Preconditioner<Re
   PcgOutcome solve(const System& system, const char* held, const Vec3<Real>* rhs, Vec3<Real>* x,
                    double tolerance) override;
   // The factorisation as the matrix it is of, which later solves go on with.
-  void visit(Archive& archive) override;
+  void serialise(Archive& archive) override;
   std::size_t bytes() const override;
 
   long factorisations() const { return factorisations_; }  // since the start

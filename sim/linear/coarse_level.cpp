@@ -88,7 +88,7 @@ CoarseLevelView<Real> CoarseLevel<Real, Device>::view() {
 template <class Real, class Device>
 std::size_t CoarseLevel<Real, Device>::bytes() const {
   return matrix_bytes() + gather_bytes() +
-         bytes_of(finer, upper, plate_off_diagonal, plate_diagonal, inverse, inverse_eigenvalue, b, x, y);
+         total_bytes(finer, upper, plate_off_diagonal, plate_diagonal, inverse, inverse_eigenvalue, b, x, y);
 }
 
 template struct CoarseLevel<double, ThisDevice>;

@@ -16,7 +16,7 @@ struct DeviceInterpolation {
   HYST_HD Vec3<Real> of(const Vec3<Real>* coarse) const {
     return weight[0] * coarse[node[0]] + weight[1] * coarse[node[1]] + weight[2] * coarse[node[2]];
   }
-  HYST_HD Real weight_of(int coarse) const {
+  HYST_HD Real interpolation_weight(int coarse) const {
     Real sum = 0;
     for (int k = 0; k < 3; ++k) sum += node[k] == coarse ? weight[k] : Real(0);
     return sum;
@@ -58,8 +58,8 @@ struct CoarseLevel {
 
   CoarseLevel(Device& device, const RestLevel& level);
   CoarseLevelView<Real> view();
-  std::size_t matrix_bytes() const { return bytes_of(row_ptr, col, off_diagonal, diagonal); }
-  std::size_t gather_bytes() const { return bytes_of(gather_start, gather_item, gather_weight); }
+  std::size_t matrix_bytes() const { return total_bytes(row_ptr, col, off_diagonal, diagonal); }
+  std::size_t gather_bytes() const { return total_bytes(gather_start, gather_item, gather_weight); }
   std::size_t bytes() const;
 };
 

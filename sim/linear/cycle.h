@@ -54,7 +54,7 @@ struct JacobiSweep {
     } else {  // what waits for nothing is read first
       const LaneBlock<Lanes, Real> inverse(lanes, level.inverse[i]);
       const int r = lanes.index() % 3;
-      const Real b = number_of(level.b, i, r), before = number_of(from, i, r);
+      const Real b = vector_component(level.b, i, r), before = vector_component(from, i, r);
       const Real change = inverse.times(b - lane_sum_of_row(lanes, level.matrix, i, from).component());
       if (lanes.index() < 3) to[i].data()[r] = before + factor * change;
     }
@@ -72,7 +72,7 @@ struct LevelResidual {
       level.x[i] = level.b[i] - level.matrix.times(i, level.y);
     } else {
       const int r = lanes.index() % 3;
-      const Real b = number_of(level.b, i, r);
+      const Real b = vector_component(level.b, i, r);
       const Real residual = b - lane_sum_of_row(lanes, level.matrix, i, level.y).component();
       if (lanes.index() < 3) level.x[i].data()[r] = residual;
     }
@@ -105,7 +105,7 @@ struct DenseRow {
       }
     Vec<double, 1> sum = Vec<double, 1>::Zero();
     for (const double each : part) sum[0] += each;
-    sum = lanes.sum_of(sum);
+    sum = lanes.lane_sum(sum);
     if (lanes.leads()) y[i] = static_cast<Real>(sum[0]);
   }
 };

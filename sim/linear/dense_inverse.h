@@ -38,7 +38,7 @@ class DenseInverse<Real, Cpu> {
       : nodes_(nodes), blocks_(cpu, nodes * nodes), next_(cpu, nodes * nodes), pivot_(cpu, nodes) {}
 
   void make(Cpu& cpu, const BlockRowsView<Real>& matrix) {
-    for_each(cpu, kernel(), nodes_ * nodes_, [&](int e) { put(blocks_, e, block_of(matrix, e), 0); });
+    for_each(cpu, kernel(), nodes_ * nodes_, [&](int e) { put(blocks_, e, matrix_block(matrix, e), 0); });
     for (int k = 0; k < nodes_; ++k) {
       for_each(cpu, kernel(), nodes_ * nodes_, [&](int e) { put(next_, e, eliminated(k, e), k + 1); });
       std::swap(blocks_, next_);
@@ -61,7 +61,7 @@ class DenseInverse<Real, Cpu> {
   using Blocks = Buffer<Eigen::Matrix3d, Cpu>;
   Kernel kernel() const { return {"multigrid: dense inverse", 2 * blocks_.bytes()}; }
 
-  Eigen::Matrix3d block_of(const BlockRowsView<Real>& matrix, int e) const {
+  Eigen::Matrix3d matrix_block(const BlockRowsView<Real>& matrix, int e) const {
     const int i = e / nodes_, column = e % nodes_;
     if (i == column) return matrix.diagonal[i].template cast<double>();
     for (int j = matrix.row_ptr[i]; j < matrix.row_ptr[i + 1]; ++j)

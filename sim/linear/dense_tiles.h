@@ -69,17 +69,17 @@ struct TileProduct {
 // Of a positive definite tile's lower triangle, by a block of threads: four take a row together.
 template <class Real>
 __device__ void invert(const Tile& tile, double* inverse) {
-  constexpr int kShare = kTile / 4;
+  constexpr int kColumnsPerThread = kTile / 4;
   // A direction without stiffness beyond rounding gets that of the rounding; the diagonal was 1.
   constexpr double kMin = 2 * std::numeric_limits<Real>::epsilon();
   __shared__ double shared_column[2][kTile], shared_inverse[2];
-  const int row = threadIdx.x / 4, first = threadIdx.x % 4 * kShare;
-  double a[kShare];
-  for (int c = 0; c < kShare; ++c) a[c] = tile.at[max(row, first + c)][min(row, first + c)];
+  const int row = threadIdx.x / 4, first = threadIdx.x % 4 * kColumnsPerThread;
+  double a[kColumnsPerThread];
+  for (int c = 0; c < kColumnsPerThread; ++c) a[c] = tile.at[max(row, first + c)][min(row, first + c)];
   for (int part = 0; part < 4; ++part)
 #pragma unroll
-    for (int q = 0; q < kShare; ++q) {
-      const int pivot = part * kShare + q;
+    for (int q = 0; q < kColumnsPerThread; ++q) {
+      const int pivot = part * kColumnsPerThread + q;
       double* column = shared_column[q % 2];
       if (threadIdx.x % 4 == part) {
         column[row] = a[q];
@@ -87,7 +87,7 @@ __device__ void invert(const Tile& tile, double* inverse) {
       }
       __syncthreads();
       const double inverse_pivot = shared_inverse[q % 2], mine = column[row] * inverse_pivot;
-      for (int c = 0; c < kShare; ++c) {
+      for (int c = 0; c < kColumnsPerThread; ++c) {
         const double other = column[first + c];
         const bool in_column = first + c == pivot;
         if (row == pivot)
@@ -96,7 +96,7 @@ __device__ void invert(const Tile& tile, double* inverse) {
           a[c] = in_column ? mine : fma(-mine, other, a[c]);
       }
     }
-  for (int c = 0; c < kShare; ++c) inverse[row * kTile + first + c] = -a[c];
+  for (int c = 0; c < kColumnsPerThread; ++c) inverse[row * kTile + first + c] = -a[c];
 }
 
 // A row of blocks, left of the diagonal.
@@ -223,7 +223,7 @@ class DenseInverse<Real, Cuda> {
   }
   // Half of that for each pivot, since several solves may take the more iterations.
   double worth() const { return tiles_ / 4.0; }
-  std::size_t bytes() const { return bytes_of(matrix_, column_, pivot_, scale_); }
+  std::size_t bytes() const { return total_bytes(matrix_, column_, pivot_, scale_); }
 
   // The parts of make(); public because nvcc allows no device lambda in a private member function.
   // The lower triangle, scaled; ones on the diagonal, where nothing moves a node, too.

@@ -32,7 +32,8 @@ LinearSystem<float, Device> FloatSolver<Device>::rounded(const LinearSystem<doub
   round_blocks("in float: diagonal", matrix.diagonal, diagonal_);
   LinearSystem<float, Device> result;
   result.matrix = {matrix.rows, matrix.row_ptr, matrix.col, off_diagonal_.data(), diagonal_.data()};
-  result.bytes = (matrix.rows + 1 + off_diagonal_.size()) * sizeof(int) + bytes_of(off_diagonal_, diagonal_);
+  result.bytes =
+      (matrix.rows + 1 + off_diagonal_.size()) * sizeof(int) + total_bytes(off_diagonal_, diagonal_);
   if (system.rest_diagonal) {
     round_blocks("in float: diagonal", system.rest_diagonal, rest_diagonal_);
     result.rest_diagonal = rest_diagonal_.data();
@@ -51,7 +52,7 @@ LinearSystem<float, Device> FloatSolver<Device>::rounded(const LinearSystem<doub
       round_all(device_, "in float: softening", softening_diagonal_.size(), system.softening.diagonal,
                 softening_diagonal_.data());
       result.softening = {softening_off_diagonal_.data(), softening_diagonal_.data()};
-      result.bytes += bytes_of(softening_off_diagonal_, softening_diagonal_);
+      result.bytes += total_bytes(softening_off_diagonal_, softening_diagonal_);
     }
     if (system.bending) result.bending = product(*bending_);
   }
@@ -74,7 +75,7 @@ void FloatSolver<Device>::take_whole(const LinearSystem<double, Device>& system,
   result.whole = {whole.rows, whole.row_ptr, whole.col, whole_off_diagonal_.data(), whole_diagonal_.data()};
   result.whole_blocks = system.whole_blocks;
   result.bytes = (whole.rows + 1 + whole_off_diagonal_.size()) * sizeof(int) +
-                 bytes_of(whole_off_diagonal_, whole_diagonal_);
+                 total_bytes(whole_off_diagonal_, whole_diagonal_);
 }
 
 template <class Device>
@@ -122,8 +123,8 @@ template <class Device>
 std::size_t FloatSolver<Device>::bytes() const {
   return solver_->bytes() + (bending_ ? bending_->bytes() : 0) +
          (self_contact_ ? self_contact_->bytes() : 0) +
-         bytes_of(off_diagonal_, diagonal_, rest_diagonal_, softening_off_diagonal_, softening_diagonal_,
-                  whole_off_diagonal_, whole_diagonal_, rhs_, x_, norm_);
+         total_bytes(off_diagonal_, diagonal_, rest_diagonal_, softening_off_diagonal_, softening_diagonal_,
+                     whole_off_diagonal_, whole_diagonal_, rhs_, x_, norm_);
 }
 
 template class FloatSolver<ThisDevice>;

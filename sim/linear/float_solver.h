@@ -29,7 +29,7 @@ class FloatSolver : public LinearSolver<double, Device> {
   void begin() override { solver_->begin(); }
   PcgOutcome solve(const LinearSystem<double, Device>& system, const char* held, const Vec3<double>* rhs,
                    Vec3<double>* x, double tolerance) override;
-  void visit(Archive& archive) override { solver_->visit(archive); }
+  void serialise(Archive& archive) override { solver_->serialise(archive); }
   std::size_t bytes() const override;
 
   // The parts of solve(); public because nvcc allows no device lambda in a private member function.

@@ -14,12 +14,12 @@ HYST_HD inline Vec3<Real> times_cholesky(const Mat3<Real>& block, const Vec3<Rea
   Mat3<Real> l = Mat3<Real>::Zero();
   for (int k = 0; k < 3; ++k)
     for (int i = k; i < 3; ++i) {
-      Real rest = block(i, k);
-      for (int m = 0; m < k; ++m) rest -= l(i, m) * l(k, m);
+      Real remainder = block(i, k);
+      for (int m = 0; m < k; ++m) remainder -= l(i, m) * l(k, m);
       if (i == k)
-        l(k, k) = rest > 0 ? sqrt(rest) : Real(0);
+        l(k, k) = remainder > 0 ? sqrt(remainder) : Real(0);
       else
-        l(i, k) = l(k, k) > 0 ? rest / l(k, k) : Real(0);
+        l(i, k) = l(k, k) > 0 ? remainder / l(k, k) : Real(0);
     }
   return l * v;
 }
@@ -49,7 +49,7 @@ struct Coarsening {
   template <class Lanes>
   HYST_HD void operator()(int u, const Lanes& lanes) const {
     const UpperBlock at = upper[u];
-    const Eigen::Matrix3d sum = lanes.sum_of(gathered(at, lanes));
+    const Eigen::Matrix3d sum = lanes.lane_sum(gathered(at, lanes));
     if (!lanes.leads()) return;
     if (at.slot >= 0) {
       put(at.slot, sum);
@@ -74,12 +74,12 @@ struct Coarsening {
       if (held && held[i]) continue;
       const Real own = coarse.weight[k];
       if (lane == 0) {
-        const Real diagonal = own * coarse.finer[i].weight_of(at.column);
+        const Real diagonal = own * coarse.finer[i].interpolation_weight(at.column);
         if (diagonal != 0) sum += (diagonal * finer.diagonal[i]).template cast<double>();
       }
       for (int j = finer.row_ptr[i] + lane; j < finer.row_ptr[i + 1]; j += kWide) {
         const int other = finer.col[j];
-        const Real weight = own * coarse.finer[other].weight_of(at.column);
+        const Real weight = own * coarse.finer[other].interpolation_weight(at.column);
         if (weight == 0 || (held && held[other])) continue;
         sum += (weight * finer.off_diagonal[j]).template cast<double>();
       }

@@ -14,7 +14,7 @@ class LinearSolver {
   // system * x = rhs for the rows that are not held, zero for those that are.
   virtual PcgOutcome solve(const LinearSystem<Real, Device>& system, const char* held, const Vec3<Real>* rhs,
                            Vec3<Real>* x, double tolerance) = 0;
-  virtual void visit(Archive& archive) = 0;  // what outlives a solve
+  virtual void serialise(Archive& archive) = 0;  // what outlives a solve
   virtual std::size_t bytes() const = 0;
 };
 
@@ -28,7 +28,7 @@ class BlockJacobiSolver : public LinearSolver<Real, Device> {
     constexpr int kMaxIterations = 20000;
     return pcg_.solve(system, held, rhs, nullptr, nullptr, x, {tolerance, kMaxIterations});
   }
-  void visit(Archive& archive) override { pcg_.visit(archive); }
+  void serialise(Archive& archive) override { pcg_.serialise(archive); }
   std::size_t bytes() const override { return pcg_.bytes(); }
 
  private:

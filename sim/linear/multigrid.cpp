@@ -18,8 +18,8 @@ constexpr double kFinestWeight = 0.6;
 constexpr double kPlateSoftening = 0.5;
 
 template <class Real, class Device>
-Kernel sweep_of(const CoarseLevel<Real, Device>& level) {
-  return {"multigrid: sweep", level.matrix_bytes() + bytes_of(level.inverse, level.b, level.x, level.y)};
+Kernel smoothing_kernel(const CoarseLevel<Real, Device>& level) {
+  return {"multigrid: sweep", level.matrix_bytes() + total_bytes(level.inverse, level.b, level.x, level.y)};
 }
 
 // What a level adds to the share of the plate that its matrix has from the finer one.
@@ -73,8 +73,8 @@ template <class Real, class Device>
 void Multigrid<Real, Device>::coarsen(BlockRowsView<Real> finer, const char* held, Real rigidity,
                                       CoarseLevel<Real, Device>& level) {
   // Beside the finer matrix.
-  const std::size_t bytes = level.gather_bytes() + bytes_of(level.finer, level.upper, level.off_diagonal,
-                                                            level.diagonal, level.inverse);
+  const std::size_t bytes = level.gather_bytes() + total_bytes(level.finer, level.upper, level.off_diagonal,
+                                                               level.diagonal, level.inverse);
   for_each_row(device_, {"multigrid: coarse matrix", bytes}, static_cast<int>(level.upper.size()),
                Coarsening<Real>{finer, held, level.view(), level.upper.data(),
                                 level.plate_off_diagonal.data(), level.plate_diagonal.data(), rigidity});
@@ -83,9 +83,10 @@ void Multigrid<Real, Device>::coarsen(BlockRowsView<Real> finer, const char* hel
 template <class Real, class Device>
 void Multigrid<Real, Device>::find_eigenvalue(CoarseLevel<Real, Device>& level) {
   const CoarseLevelView<Real> v = level.view();
-  for_each(device_, {"multigrid: rough vector", bytes_of(level.inverse, level.x)}, v.nodes,
+  for_each(device_, {"multigrid: rough vector", total_bytes(level.inverse, level.x)}, v.nodes,
            RoughStart<Real>{v});
-  const Kernel power = {"multigrid: power", level.matrix_bytes() + bytes_of(level.inverse, level.x, level.y)};
+  const Kernel power = {"multigrid: power",
+                        level.matrix_bytes() + total_bytes(level.inverse, level.x, level.y)};
   for (int step = 1; step < kPowerSteps; ++step)
     for_each_block_row(device_, power, v.nodes,
                        PowerStep<Real>{v, step % 2 ? v.x : v.y, step % 2 ? v.y : v.x});
@@ -115,7 +116,7 @@ void Multigrid<Real, Device>::rebuild(BlockRowsView<Real> matrix, const Mat3<Rea
 template <class Real, class Device>
 void Multigrid<Real, Device>::sweep(CoarseLevel<Real, Device>& level, const int* stop) {
   const CoarseLevelView<Real> v = level.view();
-  const Kernel sweep = sweep_of(level);
+  const Kernel sweep = smoothing_kernel(level);
   for_each_block_row(device_, sweep, v.nodes, JacobiSweep<Real>{v, kFirstDamping, v.y, v.x}, stop);
   for_each_block_row(device_, sweep, v.nodes, JacobiSweep<Real>{v, kSecondDamping, v.x, v.y}, stop);
 }
@@ -130,28 +131,29 @@ void Multigrid<Real, Device>::apply(const Vec3<Real>* r, Vec3<Real>* z, PcgScala
     const CoarseLevelView<Real> v = level_[l].view();
     const Kernel restriction = {"multigrid: restrict", level.gather_bytes() +
                                                            level.finer.size() * sizeof(Vec3<Real>) +
-                                                           bytes_of(level.inverse, level.b, level.x)};
-    const Kernel rest = {"multigrid: residual", level.matrix_bytes() + bytes_of(level.b, level.x, level.y)};
+                                                           total_bytes(level.inverse, level.b, level.x)};
+    const Kernel residual_kernel = {"multigrid: residual",
+                                    level.matrix_bytes() + total_bytes(level.b, level.x, level.y)};
     for_each_block_row(device_, restriction, v.nodes, Restriction<Real>{v, residual, l < swept()}, stop);
     if (l == swept()) {
       dense_->apply(device_, v.b, v.y, stop);
       break;
     }
-    for_each_block_row(device_, sweep_of(level), v.nodes, JacobiSweep<Real>{v, kSecondDamping, v.x, v.y},
-                       stop);
-    if (l + 1 < levels) for_each_block_row(device_, rest, v.nodes, LevelResidual<Real>{v}, stop);
+    for_each_block_row(device_, smoothing_kernel(level), v.nodes,
+                       JacobiSweep<Real>{v, kSecondDamping, v.x, v.y}, stop);
+    if (l + 1 < levels) for_each_block_row(device_, residual_kernel, v.nodes, LevelResidual<Real>{v}, stop);
     residual = v.x;
   }
   for (int l = swept() - 1; l >= 0; --l) {
     if (l + 1 < levels)
       for_each(
           device_,
-          {"multigrid: correct", bytes_of(level_[l + 1].finer, level_[l + 1].y, level_[l].y, level_[l].y)},
+          {"multigrid: correct", total_bytes(level_[l + 1].finer, level_[l + 1].y, level_[l].y, level_[l].y)},
           level_[l].nodes, CoarseCorrection<Real>{level_[l].view(), level_[l + 1].view()});
     sweep(level_[l], stop);
   }
   const std::size_t vectors = 2 * vertices_ * sizeof(Vec3<Real>),
-                    from_coarse = levels > 0 ? bytes_of(level_[0].finer, level_[0].y) : 0;
+                    from_coarse = levels > 0 ? total_bytes(level_[0].finer, level_[0].y) : 0;
   sum_over_vertices(
       device_, {"multigrid: combine", inverse_.bytes() + vectors + from_coarse}, vertices_,
       combination(r, z, scalars), HYST_KERNEL(const Sums<1>& total) {

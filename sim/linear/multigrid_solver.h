@@ -33,7 +33,7 @@ class MultigridSolver : public LinearSolver<Real, Device> {
   }
   void begin() override { is_stale_ = true; }
   // The levels are made anew where begin() was called.
-  void visit(Archive& archive) override { pcg_.visit(archive); }
+  void serialise(Archive& archive) override { pcg_.serialise(archive); }
   std::size_t bytes() const override { return multigrid_.bytes() + pcg_.bytes(); }
 
  private:

@@ -20,7 +20,7 @@ Pcg<Real, Device>::Pcg(Device& device, int rows, bool preconditioned)
 
 template <class Real, class Device>
 std::size_t Pcg<Real, Device>::bytes() const {
-  return bytes_of(inverse_, r_, z_, p_, q_, other_p_, scalars_);
+  return total_bytes(inverse_, r_, z_, p_, q_, other_p_, scalars_);
 }
 
 namespace {
@@ -31,7 +31,7 @@ GatheredForces<Real> product(const StiffnessProduct<Real>& stiffness, const Vec3
 }
 
 template <class Real, class Device>
-SystemProduct<Real> product_of(const LinearSystem<Real, Device>& system, const Vec3<Real>* p) {
+SystemProduct<Real> system_product(const LinearSystem<Real, Device>& system, const Vec3<Real>* p) {
   if (system.whole.rows > 0) return {system.whole, {}, {}, product(system.self_contact, p)};
   return {system.matrix, system.softening, product(system.bending, p), product(system.self_contact, p)};
 }
@@ -52,7 +52,7 @@ constexpr int kIterationsAtOnce = 4;
 template <class Real, class Device>
 void Pcg<Real, Device>::project(const System& system, const char* held, const Vec3<Real>* rhs,
                                 const Vec3<Real>* guess) {
-  const SystemProduct<Real> product_of{
+  const SystemProduct<Real> system_product{
       system.matrix, {}, product(system.bending, guess), product(system.self_contact, guess)};
   Vec3<Real>* q = q_.data();
   PcgScalars* s = scalars_.data();
@@ -60,7 +60,7 @@ void Pcg<Real, Device>::project(const System& system, const char* held, const Ve
       device_, {"solve: guess", system.bytes + vectors(3)}, rows_,
       HYST_KERNEL(int i, const LanesOn<Device>& lanes, Sums<2>& sums) {
         if (held[i]) return;
-        const Vec3<Real> product = product_of.at(lanes, i, guess);
+        const Vec3<Real> product = system_product.at(lanes, i, guess);
         if (!lanes.leads()) return;
         q[i] = product;
         sums.term[0] += static_cast<double>(guess[i].dot(rhs[i]));
@@ -172,7 +172,7 @@ PcgIterations<Real> Pcg<Real, Device>::iterations(const System& system, const ch
   const PcgScalars* s = scalars_.data();
   Vec3<Real>* p = p_.data();
   return {rows_,
-          {product_of(system, static_cast<const Vec3<Real>*>(p)), held, p, q_.data(), s},
+          {system_product(system, static_cast<const Vec3<Real>*>(p)), held, p, q_.data(), s},
           {{held, p, q_.data(), x, r_.data(), s}, inverse_.data(), z_.data()},
           {held, z_.data(), p, s},
           other_p_.data(),

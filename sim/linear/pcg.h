@@ -73,7 +73,7 @@ class Pcg {
   PcgOutcome solve(const System& system, const char* held, const Vec3<Real>* rhs, const Vec3<Real>* known,
                    const Vec3<Real>* guess, Vec3<Real>* x, PcgEnd end);
   // How fast the last solve converged, on which the batches depend that a GPU is sent.
-  void visit(Archive& archive) { archive(iterations_per_decade_); }
+  void serialise(Archive& archive) { archive(iterations_per_decade_); }
   std::size_t bytes() const;
 
   // The parts of solve(); public because nvcc allows no device lambda in a private member function.

@@ -57,7 +57,7 @@ std::vector<int> boundary_ranks(const ClothMesh& mesh) {
   return rank;
 }
 
-Surface surface_of(const ClothMesh& mesh) {
+Surface mesh_surface(const ClothMesh& mesh) {
   Surface s;
   s.position = mesh.rest;
   s.normal.assign(mesh.vertices(), Vector3d::Zero());
@@ -367,7 +367,7 @@ void next_plate(const RestLevel& finer, RestLevel& level) {
 RestHierarchy make_rest_hierarchy(const ClothMesh& mesh, const Adjacency& couplings,
                                   const std::vector<char>& held) {
   RestHierarchy hierarchy;
-  Surface surface = surface_of(mesh);
+  Surface surface = mesh_surface(mesh);
   while (surface.size() > kCoarsestNodes) {
     const std::vector<char> root = choose_roots(surface);
     const std::vector<int> cell = cells(surface, root);

@@ -16,7 +16,7 @@ namespace hysteron {
 
 // Component k of v[i].
 template <class Real>
-HYST_HD Real number_of(const Vec3<Real>* v, int i, int k) {
+HYST_HD Real vector_component(const Vec3<Real>* v, int i, int k) {
   return v[i].data()[k];
 }
 
@@ -28,7 +28,7 @@ struct NextDirection {
   HYST_HD Vec3<Real> operator[](int i) const { return z[i] + beta * p[i]; }
 };
 template <class Real>
-HYST_HD Real number_of(const NextDirection<Real>& v, int i, int k) {
+HYST_HD Real vector_component(const NextDirection<Real>& v, int i, int k) {
   return v.z[i].data()[k] + v.beta * v.p[i].data()[k];
 }
 
@@ -42,21 +42,21 @@ class LaneSum {
 
   template <class Vector>
   HYST_HD void add(const Mat3<Real>& block, const Vector& v, int i) {  // times v[i]
-    if (lanes_.index() < 9) part_ += block.data()[entry_] * number_of(v, i, column());
+    if (lanes_.index() < 9) part_ += block.data()[entry_] * vector_component(v, i, column());
   }
   // block[j] times v[col[j]] for j in [first, last).
   template <class Vector>
   HYST_HD void add(const Mat3<Real>* block, const int* col, int first, int last, const Vector& v) {
     if (!active_) return;
     for (int j = first + lanes_.index() / 9; j < last; j += kBlocks)
-      part_ += block[j].data()[entry_] * number_of(v, col[j], column());
+      part_ += block[j].data()[entry_] * vector_component(v, col[j], column());
   }
   // factor[j] times v[index[j]] for j in [first, last).
   template <class Vector>
   HYST_HD void add(const Real* factor, const int* index, int first, int last, const Vector& v) {
     if (!active_) return;
     for (int j = first + lanes_.index() / 3; j < last; j += 3 * kBlocks)
-      part_ += factor[j] * number_of(v, index[j], lanes_.index() % 3);
+      part_ += factor[j] * vector_component(v, index[j], lanes_.index() % 3);
   }
   // sign times the forces on a vertex.
   HYST_HD void add(Real sign, const GatheredForces<Real>& forces, int vertex) {
@@ -74,7 +74,7 @@ class LaneSum {
   // The sum over the lanes, in each of them.
   HYST_HD Vec3<Real> total() const {
     const Real sum = component();
-    return {lanes_.value_of(sum, 0), lanes_.value_of(sum, 1), lanes_.value_of(sum, 2)};
+    return {lanes_.lane_value(sum, 0), lanes_.lane_value(sum, 1), lanes_.lane_value(sum, 2)};
   }
 
  private:
@@ -92,7 +92,7 @@ class LaneBlock {
   HYST_HD LaneBlock(const Lanes& lanes, const Mat3<Real>& block)
       : lanes_(lanes), entry_(lanes.index() < 9 ? block.data()[lanes.index()] : Real(0)) {}
   HYST_HD Real times(Real component) const {
-    const Real part = entry_ * lanes_.value_of(component, lanes_.index() / 3 % 3);
+    const Real part = entry_ * lanes_.lane_value(component, lanes_.index() / 3 % 3);
     return part + lanes_.further(part, 3) + lanes_.further(part, 6);
   }
 

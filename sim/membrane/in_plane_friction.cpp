@@ -16,7 +16,7 @@ std::vector<StrainStop<Real>> all_stops(const InPlaneStops& stops) {
 }
 
 template <class Real>
-HYST_HD MembraneStress<Real> sum_of(const MembraneStress<Real>& a, const Vec3<Real>& b) {
+HYST_HD MembraneStress<Real> stress_sum(const MembraneStress<Real>& a, const Vec3<Real>& b) {
   return {a.s11 + b[0], a.s22 + b[1], a.s12 + b[2]};
 }
 
@@ -40,10 +40,10 @@ void InPlaneFriction<Strains, Device>::add(const Strains& strains, const SiteStr
   const SiteStresses<Real> sites = to;
   Vec3<Real>* tangent = tangent_.data();
   for_each(
-      device_, {"membrane friction", bytes_of(slip_, tangent_)}, sites_, HYST_KERNEL(int i) {
+      device_, {"membrane friction", total_bytes(slip_, tangent_)}, sites_, HYST_KERNEL(int i) {
         const StopsReply<Real> now = stops.reply(i, of.evaluated(i));
-        sites.stress[i] = sum_of(sites.stress[i], now.stress);
-        const MembraneStress<Real> tension = sum_of(sites.tension[i], now.stress);
+        sites.stress[i] = stress_sum(sites.stress[i], now.stress);
+        const MembraneStress<Real> tension = stress_sum(sites.tension[i], now.stress);
         sites.tension[i] = sites.projects ? tensile_part(tension) : tension;
         tangent[i] = now.tangent;
       });
@@ -57,9 +57,9 @@ void InPlaneFriction<Strains, Device>::add_to_trial(const Strains& strains, cons
   const SiteStresses<Real> sites = to;
   Vec3<Real>* tangent = tangent_.data();
   for_each(
-      device_, {"membrane friction, tried", bytes_of(slip_, tangent_)}, sites_, HYST_KERNEL(int i) {
+      device_, {"membrane friction, tried", total_bytes(slip_, tangent_)}, sites_, HYST_KERNEL(int i) {
         const StopsReply<Real> now = stops.reply(i, of.evaluated(i));
-        const MembraneStress<Real> stress = sum_of(sites.stress[i], now.stress);
+        const MembraneStress<Real> stress = stress_sum(sites.stress[i], now.stress);
         sites.stress[i] = stress;
         if (sites.projects) sites.tension[i] = tensile_part(stress);
         energy[i] += static_cast<double>(of.area(i) * (now.stored + now.lost));
@@ -84,7 +84,7 @@ void InPlaneFriction<Strains, Device>::commit(const Strains& strains, const Vec3
   const Strains of = strains;
   double* lost = lost_.data();
   for_each(
-      device_, {"membrane history", bytes_of(slip_, lost_)}, sites_, HYST_KERNEL(int i) {
+      device_, {"membrane history", total_bytes(slip_, lost_)}, sites_, HYST_KERNEL(int i) {
         const Vec3<Real> strain = of.at(i, x);
         if (!is_start) lost[i] += static_cast<double>(of.area(i) * stops.reply(i, strain).lost);
         stops.accept(i, strain);
@@ -98,10 +98,10 @@ double InPlaneFriction<Strains, Device>::loss() const {
 }
 
 template <class Strains, class Device>
-void InPlaneFriction<Strains, Device>::visit(Archive& archive) {
+void InPlaneFriction<Strains, Device>::serialise(Archive& archive) {
   if (!any()) return;
-  hysteron::visit(archive, device_, slip_);
-  hysteron::visit(archive, device_, lost_);
+  hysteron::serialise(archive, device_, slip_);
+  hysteron::serialise(archive, device_, lost_);
 }
 
 template class InPlaneFriction<FaceStrains<double>, ThisDevice>;

@@ -40,7 +40,7 @@ struct StrainStops {
   Real* slip;    // S: begin[3] for each
   int faces;
 
-  HYST_HD Real& slip_of(int face, int j) const { return slip[slot_index(face, j, begin[3], faces)]; }
+  HYST_HD Real& slot_slip(int face, int j) const { return slip[slot_index(face, j, begin[3], faces)]; }
   // Without branches, which would be guessed wrongly where some stops hold and some slip.
   HYST_HD static Real clipped(Real offset, Real limit) {
     const Real below = offset < limit ? offset : limit;
@@ -53,7 +53,7 @@ struct StrainStops {
       Real stress = 0, tangent = 0;
       for (int j = begin[c]; j < begin[c + 1]; ++j) {
         const StrainStop<Real> of = stop[j];
-        const Real offset = strain[c] - slip_of(face, j), held = clipped(offset, of.limit);
+        const Real offset = strain[c] - slot_slip(face, j), held = clipped(offset, of.limit);
         const Real force = of.stiffness * held;
         stress += force;
         tangent += held == offset ? of.stiffness : Real(0);
@@ -70,8 +70,8 @@ struct StrainStops {
   HYST_HD void accept(int face, const Vec3<Real>& strain) const {
     for (int c = 0; c < 3; ++c)
       for (int j = begin[c]; j < begin[c + 1]; ++j) {
-        const Real offset = strain[c] - slip_of(face, j), held = clipped(offset, stop[j].limit);
-        if (held != offset) slip_of(face, j) = strain[c] - held;
+        const Real offset = strain[c] - slot_slip(face, j), held = clipped(offset, stop[j].limit);
+        if (held != offset) slot_slip(face, j) = strain[c] - held;
       }
   }
 };
@@ -106,9 +106,9 @@ class InPlaneFriction {
   void commit(const Strains& strains, const Vec3<Real>* position, bool is_start);
   double loss() const;  // since the start [J]
 
-  void visit(Archive& archive);
-  std::size_t history_bytes() const { return bytes_of(slip_, lost_); }
-  std::size_t bytes() const { return bytes_of(stop_, tangent_); }  // beside its history
+  void serialise(Archive& archive);
+  std::size_t history_bytes() const { return total_bytes(slip_, lost_); }
+  std::size_t bytes() const { return total_bytes(stop_, tangent_); }  // beside its history
 
  private:
   StrainStops<Real> view() { return {stop_.data(), {0, end_[0], end_[1], end_[2]}, slip_.data(), sites_}; }

@@ -35,7 +35,8 @@ std::string locking_words(const Scene& scene, const ClothMesh& mesh) {
   const double number = locking_number(scene, mesh);
   if (!(number > kLocks) || !std::isfinite(number)) return "";
   const bool averages = split_membrane(scene.fabric, scene.membrane_element).averages;
-  const bool may_average = std::max(scene.fabric.warp, scene.fabric.weft) > kOfTriangles && !averages;
+  const bool may_average =
+      std::max(scene.fabric.warp, scene.fabric.weft) > kMaxTriangleStiffness && !averages;
   char text[400];
   std::snprintf(
       text, sizeof text,

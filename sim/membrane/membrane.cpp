@@ -38,7 +38,7 @@ std::vector<Eigen::Vector2i> block_terms(const ClothMesh& mesh, const BlockRows<
 
 // Of each node's triangles A_f/(3 A_v).
 template <class Real>
-std::vector<Real> weights_of(const ClothMesh& mesh, const MembraneNodes& nodes) {
+std::vector<Real> node_weights(const ClothMesh& mesh, const MembraneNodes& nodes) {
   std::vector<Real> weight;
   for (int n = 0; n < nodes.count(); ++n)
     for (int j = nodes.faces.start[n]; j < nodes.faces.start[n + 1]; ++j)
@@ -78,12 +78,12 @@ Membrane<Real, Device>::Nodes::Nodes(Device& device, const ClothMesh& mesh, cons
                                      const Faces& faces, const BlockRows<Real, Device>& rows)
     : start(device, nodes.faces.start),
       item(device, nodes.faces.item),
-      weight(device, weights_of<Real>(mesh, nodes)),
+      weight(device, node_weights<Real>(mesh, nodes)),
       area(device, std::vector<Real>(nodes.area.begin(), nodes.area.end())),
       of_face(device, nodes.of_face),
       strains{faces, start.data(), item.data(), weight.data(), area.data()},
       sites(device, strains, nodes.count(), split.nodes, fabric.damping, stops_of_nodes(fabric, split), false,
-            {mesh.faces() * sizeof(Deformation<Real>) + bytes_of(start, item, weight, area),
+            {mesh.faces() * sizeof(Deformation<Real>) + total_bytes(start, item, weight, area),
              mesh.vertices() * sizeof(Vec3<Real>)}),
       stiffness(device, nodes, rows) {}
 
@@ -100,7 +100,7 @@ Membrane<Real, Device>::Membrane(Device& device, const ClothMesh& mesh, const Fa
       deformation_(device, mesh.faces()),
       faces_(device, face_strains(), mesh.faces(), split.faces, fabric.damping, stops_of_faces(fabric, split),
              !split.averages,
-             {bytes_of(rest_, corner_, deformation_) + vertices_ * sizeof(Vec3<Real>),
+             {total_bytes(rest_, corner_, deformation_) + vertices_ * sizeof(Vec3<Real>),
               vertices_ * sizeof(Vec3<Real>)}) {
   if (split.averages) {
     nodes_.emplace(device, mesh, fabric, split, membrane_nodes(mesh), face_strains(), rows);
@@ -194,9 +194,9 @@ double Membrane<Real, Device>::friction_loss() const {
 }
 
 template <class Real, class Device>
-void Membrane<Real, Device>::visit(Archive& archive) {
-  faces_.visit(archive);
-  if (nodes_) nodes_->sites.visit(archive);
+void Membrane<Real, Device>::serialise(Archive& archive) {
+  faces_.serialise(archive);
+  if (nodes_) nodes_->sites.serialise(archive);
 }
 
 template <class Real, class Device>
@@ -215,10 +215,11 @@ double Membrane<Real, Device>::largest_stretch(const Vec3<Real>* x) {
 
 template <class Real, class Device>
 std::size_t Membrane<Real, Device>::bytes() const {
-  std::size_t sum = bytes_of(rest_, corner_, vertex_start_, vertex_item_, block_sum_, deformation_, energy_) +
-                    faces_.bytes();
+  std::size_t sum =
+      total_bytes(rest_, corner_, vertex_start_, vertex_item_, block_sum_, deformation_, energy_) +
+      faces_.bytes();
   if (nodes_)
-    sum += bytes_of(nodes_->start, nodes_->item, nodes_->weight, nodes_->area, nodes_->of_face) +
+    sum += total_bytes(nodes_->start, nodes_->item, nodes_->weight, nodes_->area, nodes_->of_face) +
            nodes_->sites.bytes() + nodes_->stiffness.bytes();
   return sum;
 }

@@ -102,7 +102,7 @@ class Membrane {
   double friction_loss() const;  // since the start [J]
 
   // What outlives a step: losses, and what friction remembers; stresses follow from positions.
-  void visit(Archive& archive);
+  void serialise(Archive& archive);
 
   double stored_energy(const Vec3<Real>* position);              // [J]
   void add_viscous_loss(const Vec3<Real>* velocity, Real step);  // of the last update's geometry
@@ -110,7 +110,7 @@ class Membrane {
   // Largest principal stretch minus 1, of a triangle or of the means at a node.
   double largest_stretch(const Vec3<Real>* position);
   std::size_t force_bytes() const {  // of forces()
-    return bytes_of(vertex_start_, vertex_item_, rest_, deformation_) + faces_.stress_bytes();
+    return total_bytes(vertex_start_, vertex_item_, rest_, deformation_) + faces_.stress_bytes();
   }
   std::size_t bytes() const;  // without friction's history
   std::size_t history_bytes() const {

@@ -19,10 +19,10 @@ struct ElasticStiffness {
 template <class Real>
 struct StiffnessWithStops {
   MembraneStiffness<Real> c;
-  Real share;  // viscosity, a part of the factor, is of elasticity alone
+  Real fraction;  // viscosity, a part of the factor, is of elasticity alone
   const Vec3<Real>* tangent;
   HYST_HD MembraneStiffness<Real> of(int face) const {
-    const Vec3<Real> t = share * tangent[face];
+    const Vec3<Real> t = fraction * tangent[face];
     return {c.warp + t[0], c.weft + t[1], c.coupling, c.shear + t[2]};
   }
 };
@@ -75,7 +75,7 @@ void Membrane<Real, Device>::gather_blocks(const Stiffness& stiffness, Real fact
   const std::size_t bytes = all_blocks() * sizeof(Mat3<Real>);
   for_each(
       device_,
-      {"membrane matrix", bytes + bytes_of(block_sum_, vertex_start_, vertex_item_, rest_, deformation_) +
+      {"membrane matrix", bytes + total_bytes(block_sum_, vertex_start_, vertex_item_, rest_, deformation_) +
                               faces_.tension_bytes()},
       all_blocks(), HYST_KERNEL(int b) {
         const Mat3<Real> block = blocks.gather(b, Mat3<Real>(Mat3<Real>::Zero()), [&](int f, int i, int j) {
@@ -99,7 +99,7 @@ void Membrane<Real, Device>::gather_columns(const Stiffness& stiffness, Real fac
   const std::size_t bytes = all_blocks() * sizeof(Mat3<Real>);
   for_each(
       device_,
-      {"membrane matrix", bytes + bytes_of(block_sum_, vertex_start_, vertex_item_, rest_, deformation_) +
+      {"membrane matrix", bytes + total_bytes(block_sum_, vertex_start_, vertex_item_, rest_, deformation_) +
                               faces_.tension_bytes()},
       3 * all_blocks(), HYST_KERNEL(int e) {
         const int b = e / 3, col = e % 3;
@@ -120,7 +120,7 @@ void Membrane<Real, Device>::assemble_softening(ScalarRowsView<Real> softening) 
   const std::size_t bytes = all_blocks() * sizeof(Real);
   for_each(
       device_,
-      {"membrane softening", bytes + bytes_of(block_sum_, vertex_start_, vertex_item_, rest_) +
+      {"membrane softening", bytes + total_bytes(block_sum_, vertex_start_, vertex_item_, rest_) +
                                  faces_.stress_bytes() + faces_.tension_bytes()},
       all_blocks(), HYST_KERNEL(int b) {
         const Real sum = blocks.gather(b, Real(0), [&](int f, int i, int j) {

@@ -70,15 +70,17 @@ MembraneSplit split_membrane(const Fabric& fabric, MembraneElement element) {
   const MembraneStiffness<double> all{fabric.warp, fabric.weft, fabric.coupling, fabric.shear};
   const double stiffest = std::max(fabric.warp + fabric.in_plane.warp.stiffness(),
                                    fabric.weft + fabric.in_plane.weft.stiffness());
-  if (element == MembraneElement::constant || stiffest <= kOfTriangles) return {all, {0, 0, 0, 0}, false};
-  const double warp = std::min(all.warp, kOfTriangles), weft = std::min(all.weft, kOfTriangles);
+  if (element == MembraneElement::constant || stiffest <= kMaxTriangleStiffness)
+    return {all, {0, 0, 0, 0}, false};
+  const double warp = std::min(all.warp, kMaxTriangleStiffness),
+               weft = std::min(all.weft, kMaxTriangleStiffness);
   const double most = std::sqrt((all.warp - warp) * (all.weft - weft));
   const double coupling = std::clamp(all.coupling, -most, most), kept = all.coupling - coupling;
   if (kept * kept <= warp * weft / 4)
     return {{warp, weft, kept, all.shear}, {all.warp - warp, all.weft - weft, coupling, 0}, true};
-  const double share = kOfTriangles / std::max(all.warp, all.weft), rest = 1 - share;
-  return {{share * all.warp, share * all.weft, share * all.coupling, all.shear},
-          {rest * all.warp, rest * all.weft, rest * all.coupling, 0},
+  const double fraction = kMaxTriangleStiffness / std::max(all.warp, all.weft), complement = 1 - fraction;
+  return {{fraction * all.warp, fraction * all.weft, fraction * all.coupling, all.shear},
+          {complement * all.warp, complement * all.weft, complement * all.coupling, 0},
           true};
 }
 

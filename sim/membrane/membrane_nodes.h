@@ -19,7 +19,7 @@
 
 namespace hysteron {
 
-inline constexpr double kOfTriangles = 1000;  // what they keep along warp and weft, at most [N/m]
+inline constexpr double kMaxTriangleStiffness = 1000;  // what they keep along warp and weft, at most [N/m]
 
 // Stiffness that acts on strains of triangles, and on means at nodes (no shear).
 struct MembraneSplit {

@@ -31,7 +31,8 @@ void MembraneSites<Strains, Device>::update(const Vec3<Real>* x, const Vec3<Real
   MembraneStress<Real>*stress = stress_.data(), *tension = tension_.data();
   for_each(
       device_,
-      {"membrane stress", bytes_.strains + (damping > 0 ? bytes_.vectors : 0) + bytes_of(stress_, tension_)},
+      {"membrane stress",
+       bytes_.strains + (damping > 0 ? bytes_.vectors : 0) + total_bytes(stress_, tension_)},
       sites_, HYST_KERNEL(int i) {
         Vec3<Real> strain = of.evaluate(i, x);
         const MembraneStress<Real> elastic = membrane_stress(c, strain);
@@ -54,7 +55,7 @@ void MembraneSites<Strains, Device>::begin_step(const StepFormula& formula, cons
   for_each(
       device_,
       {"membrane reference",
-       bytes_.strains + (extrapolation > 0 ? bytes_.vectors : 0) + bytes_of(reference_)},
+       bytes_.strains + (extrapolation > 0 ? bytes_.vectors : 0) + total_bytes(reference_)},
       sites_, HYST_KERNEL(int i) {
         const Vec3<Real> last = of.at(i, now);
         reference[i] = last;
@@ -78,7 +79,7 @@ void MembraneSites<Strains, Device>::evaluate(const Vec3<Real>* x, double* energ
   for_each(
       device_,
       {"membrane stress, tried",
-       bytes_.strains + bytes_of(reference_, stress_, tension_) + sites_ * sizeof(double)},
+       bytes_.strains + total_bytes(reference_, stress_, tension_) + sites_ * sizeof(double)},
       sites_, HYST_KERNEL(int i) {
         Vec3<Real> strain = of.evaluate(i, x);
         Real potential = membrane_energy(c, strain);
@@ -106,7 +107,7 @@ void MembraneSites<Strains, Device>::add_viscous_loss() {
   const Vec3<Real>* reference = reference_.data();
   double* lost = viscous_.data();
   for_each(
-      device_, {"viscous loss", bytes_.strains + bytes_of(reference_, viscous_, viscous_)}, sites_,
+      device_, {"viscous loss", bytes_.strains + total_bytes(reference_, viscous_, viscous_)}, sites_,
       HYST_KERNEL(int i) {
         const Vec3<Real> change = of.evaluated(i) - reference[i];
         lost[i] += static_cast<double>(factor * of.area(i) * membrane_energy(c, change));
@@ -121,7 +122,8 @@ void MembraneSites<Strains, Device>::add_viscous_loss(const Vec3<Real>* v, Real 
   const Strains of = strains_;
   double* lost = viscous_.data();
   for_each(
-      device_, {"viscous loss", bytes_.strains + bytes_of(viscous_, viscous_)}, sites_, HYST_KERNEL(int i) {
+      device_, {"viscous loss", bytes_.strains + total_bytes(viscous_, viscous_)}, sites_,
+      HYST_KERNEL(int i) {
         lost[i] += static_cast<double>(factor * of.area(i) * membrane_energy(c, of.rate(i, v)));
       });
 }

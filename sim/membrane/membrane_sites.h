@@ -47,13 +47,15 @@ class MembraneSites {
   void commit_friction(const Vec3<Real>* position, bool is_start);
   double friction_loss() const { return friction_.loss(); }  // since the start [J]
 
-  void visit(Archive& archive) {
-    hysteron::visit(archive, device_, viscous_);
-    friction_.visit(archive);
+  void serialise(Archive& archive) {
+    hysteron::serialise(archive, device_, viscous_);
+    friction_.serialise(archive);
   }
-  std::size_t stress_bytes() const { return bytes_of(stress_); }
-  std::size_t tension_bytes() const { return bytes_of(tension_); }
-  std::size_t bytes() const { return bytes_of(stress_, tension_, viscous_, reference_) + friction_.bytes(); }
+  std::size_t stress_bytes() const { return total_bytes(stress_); }
+  std::size_t tension_bytes() const { return total_bytes(tension_); }
+  std::size_t bytes() const {
+    return total_bytes(stress_, tension_, viscous_, reference_) + friction_.bytes();
+  }
   std::size_t history_bytes() const { return friction_.history_bytes(); }
 
  private:

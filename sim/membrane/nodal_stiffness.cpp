@@ -53,16 +53,16 @@ void NodalStiffness<Real, Device>::find_rates(const NodeStrains<Real>& strains) 
   const int *node = node_.data(), *start = corner_start_.data(), *corner = corner_.data();
   NodeRates<Real>* rate = rate_.data();
   for_each(
-      device_, {"nodal rates", bytes_of(node_, corner_start_, corner_, rate_)},
+      device_, {"nodal rates", total_bytes(node_, corner_start_, corner_, rate_)},
       static_cast<int>(node_.size()), HYST_KERNEL(int p) {
         NodeRates<Real> sum{Vec3<Real>::Zero(), Vec3<Real>::Zero()};
-        const Real share = 1 / (3 * of.area(node[p]));
+        const Real fraction = 1 / (3 * of.area(node[p]));
         for (int j = start[p]; j < start[p + 1]; ++j) {
           const int face = corner[j] / 3, k = corner[j] % 3;
           const MembraneRest<Real>& rest = of.faces.rest[face];
           const Deformation<Real>& d = of.faces.deformed[face];
-          sum.warp += share * rest.area * rest.b1[k] * d.f1;
-          sum.weft += share * rest.area * rest.b2[k] * d.f2;
+          sum.warp += fraction * rest.area * rest.b1[k] * d.f1;
+          sum.weft += fraction * rest.area * rest.b2[k] * d.f2;
         }
         rate[p] = sum;
       });
@@ -82,7 +82,8 @@ void NodalStiffness<Real, Device>::add(const NodeStrains<Real>& strains,
   const int blocks = static_cast<int>(pair_start_.size()) - 1, off_diagonal = blocks - matrix.rows;
   // Three threads take a block, a column each.
   for_each(
-      device_, {"nodal matrix", 2 * blocks * sizeof(Mat3<Real>) + bytes_of(node_, pair_start_, pair_, rate_)},
+      device_,
+      {"nodal matrix", 2 * blocks * sizeof(Mat3<Real>) + total_bytes(node_, pair_start_, pair_, rate_)},
       3 * blocks, HYST_KERNEL(int e) {
         const int b = e / 3, col = e % 3;
         Vec3<Real> column = Vec3<Real>::Zero();

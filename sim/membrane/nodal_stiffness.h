@@ -23,7 +23,7 @@ class NodalStiffness {
   // node; null without stops.  Where the triangles were evaluated last.
   void add(const NodeStrains<Real>& strains, const MembraneStiffness<Real>& elastic, Real factor,
            const Vec3<Real>* tangents, Real of_stops, BlockRowsView<Real> matrix);
-  std::size_t bytes() const { return bytes_of(node_, corner_start_, corner_, rate_, pair_start_, pair_); }
+  std::size_t bytes() const { return total_bytes(node_, corner_start_, corner_, rate_, pair_start_, pair_); }
 
   // The parts of add(); public because nvcc allows no device lambda in a private member function.
   void find_rates(const NodeStrains<Real>& strains);

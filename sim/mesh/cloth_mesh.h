@@ -109,7 +109,7 @@ ClothMesh make_disc(double radius, int triangles, MeshFamily family, unsigned se
 ClothMesh make_tube(double length, double radius, int triangles, MeshFamily family, unsigned seed);
 
 // That many of the same mesh, each `offset` further than the one before; vertices and triangles copy by copy.
-ClothMesh copies_of(const ClothMesh& mesh, int copies, const Eigen::Vector3d& offset);
+ClothMesh copied_mesh(const ClothMesh& mesh, int copies, const Eigen::Vector3d& offset);
 
 // Reads a Wavefront OBJ of triangles and quads (quads are cut along the shorter diagonal) in that unit.
 // Texture coordinates, where every corner has one, become the pattern, or panels if they have seams.

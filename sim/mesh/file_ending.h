@@ -9,13 +9,13 @@
 namespace hysteron {
 
 // ".obj" of "Shirt.OBJ".
-inline std::string ending_of(const std::filesystem::path& file) {
+inline std::string file_extension(const std::filesystem::path& file) {
   std::string ending = file.extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return ending;
 }
 
-inline bool names_an_obj(const std::filesystem::path& file) { return ending_of(file) == ".obj"; }
+inline bool names_an_obj(const std::filesystem::path& file) { return file_extension(file) == ".obj"; }
 
 }  // namespace hysteron

@@ -37,7 +37,7 @@ double length_of_sides(const ClothMesh& mesh) {
 }
 
 // "1 2 12", counted as in files.
-std::string vertices_of(const Eigen::Vector3i& face) {
+std::string vertex_list(const Eigen::Vector3i& face) {
   return std::to_string(face[0] + 1) + " " + std::to_string(face[1] + 1) + " " + std::to_string(face[2] + 1);
 }
 
@@ -52,7 +52,7 @@ void check_triangles(const ClothMesh& start, const ClothMesh& rest, const std::s
     if (start.face[f] != rest.face[f])
       throw Error::invalid_input(
           what + ": its triangle " + std::to_string(f + 1) + " has the vertices " +
-          vertices_of(start.face[f]) + " and at rest " + vertices_of(rest.face[f]) +
+          vertex_list(start.face[f]) + " and at rest " + vertex_list(rest.face[f]) +
           "; where cloth starts all must be the same (a quad that is bent may be cut along its "
           "other diagonal: triangulate both files alike)");
 }

@@ -17,7 +17,7 @@ struct Bounds {
   Eigen::Vector3d low, high;
 };
 
-Bounds bounds_of(const Eigen::Vector3i& f, const std::vector<Eigen::Vector3d>& x) {
+Bounds triangle_bounds(const Eigen::Vector3i& f, const std::vector<Eigen::Vector3d>& x) {
   return {x[f[0]].cwiseMin(x[f[1]]).cwiseMin(x[f[2]]), x[f[0]].cwiseMax(x[f[1]]).cwiseMax(x[f[2]])};
 }
 
@@ -128,7 +128,7 @@ std::vector<std::pair<int, int>> intersecting_triangles(const std::vector<Eigen:
                                                         const std::vector<Eigen::Vector3d>& position,
                                                         std::size_t most) {
   std::vector<Bounds> bounds;
-  for (const auto& f : face) bounds.push_back(bounds_of(f, position));
+  for (const auto& f : face) bounds.push_back(triangle_bounds(f, position));
   const auto [first, second, third] = axes_by_spread(bounds);
   std::vector<int> order(face.size());
   std::iota(order.begin(), order.end(), 0);

@@ -80,9 +80,9 @@ class Doubts {
 
   // Whether point i lies within the edge.
   bool is_within(int i, std::size_t e) const {
-    const Eigen::Vector3d along = to(e) - from(e), way = at_[i] - from(e);
-    const double length = along.norm(), s = way.dot(along) / length;
-    return s > near_ && s < length - near_ && (way - s / length * along).norm() < near_;
+    const Eigen::Vector3d along = to(e) - from(e), displacement = at_[i] - from(e);
+    const double length = along.norm(), s = displacement.dot(along) / length;
+    return s > near_ && s < length - near_ && (displacement - s / length * along).norm() < near_;
   }
 
   void see_junctions() {

@@ -11,7 +11,9 @@ namespace hysteron {
 namespace {
 namespace fs = std::filesystem;
 
-bool is_mesh(const fs::path& file) { return ending_of(file) == ".obj" || ending_of(file) == ".ply"; }
+bool is_mesh(const fs::path& file) {
+  return file_extension(file) == ".obj" || file_extension(file) == ".ply";
+}
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
@@ -53,32 +55,33 @@ std::vector<fs::path> meshes_in(const fs::path& folder) {
 }
 
 // The last name of a path that may end in "/" or be ".".
-std::string name_of(const fs::path& path) {
+std::string sequence_name(const fs::path& path) {
   const fs::path whole = fs::weakly_canonical(path);
   const std::string name = (whole.has_filename() ? whole : whole.parent_path()).filename().string();
   return name.empty() || name == "/" ? "root" : name;
 }
 
 MeshSequence folder_sequence(const fs::path& folder) {
-  MeshSequence sequence{name_of(folder), meshes_in(folder)};
+  MeshSequence sequence{sequence_name(folder), meshes_in(folder)};
   if (sequence.files.empty() && fs::is_directory(folder / "mesh"))
     sequence.files = meshes_in(folder / "mesh");
   if (sequence.files.empty())
     throw Error::invalid_input("the folder " + folder.string() + " holds no .obj and no .ply");
-  if (sequence.name == "mesh") sequence.name = name_of(fs::weakly_canonical(folder).parent_path());
+  if (sequence.name == "mesh") sequence.name = sequence_name(fs::weakly_canonical(folder).parent_path());
   return sequence;
 }
 
 void check_format(const MeshSequence& sequence) {
   for (const fs::path& file : sequence.files)
-    if (ending_of(file) != ending_of(sequence.files.front()))
+    if (file_extension(file) != file_extension(sequence.files.front()))
       throw Error::invalid_input("one sequence of two formats: " + sequence.files.front().string() + " and " +
                                  file.string());
 }
 
 void name_files(MeshSequence& sequence) {
-  sequence.name = sequence.files.size() == 1 ? sequence.files.front().stem().string()
-                                             : name_of(fs::absolute(sequence.files.front()).parent_path());
+  sequence.name = sequence.files.size() == 1
+                      ? sequence.files.front().stem().string()
+                      : sequence_name(fs::absolute(sequence.files.front()).parent_path());
 }
 
 // Names of folders in the results.
@@ -94,7 +97,7 @@ void tell_apart(std::vector<MeshSequence>& sequences) {
 }
 
 // Of all triangles, and of their images in the texture.
-double area_of(const Surface& surface) {
+double surface_area(const Surface& surface) {
   double area = 0;
   for (const Eigen::Vector3i& f : surface.face)
     area += (surface.vertex[f[1]] - surface.vertex[f[0]])
@@ -104,7 +107,7 @@ double area_of(const Surface& surface) {
   return area;
 }
 
-double texture_area_of(const Surface& surface) {
+double texture_area(const Surface& surface) {
   double area = 0;
   for (const Eigen::Vector3i& f : surface.face) {
     const Eigen::Vector2d u = surface.pattern[f[1]] - surface.pattern[f[0]],
@@ -118,7 +121,7 @@ double texture_area_of(const Surface& surface) {
 constexpr double kStretch = 1.25;
 
 double texture_scale(const Surface& surface) {
-  const double scale = std::sqrt(area_of(surface) / texture_area_of(surface));
+  const double scale = std::sqrt(surface_area(surface) / texture_area(surface));
   if (!std::isfinite(scale) || (scale < kStretch && scale > 1 / kStretch)) return 1;
   return scale;
 }

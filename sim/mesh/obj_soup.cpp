@@ -128,7 +128,7 @@ void scan_line(const std::vector<std::string_view>& word, const std::string& wha
 }
 
 // Text may begin with a byte order mark.
-std::string text_of(const std::string& file, const std::string& what) {
+std::string file_text(const std::string& file, const std::string& what) {
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
   std::string text = whole_file(file, "cannot read mesh " + file);
   if (text.find('\0') != text.npos)
@@ -222,7 +222,7 @@ class Faces {
 }  // namespace
 
 ObjSoup read_obj_soup(const std::string& file, const std::string& what) {
-  Lines lines = scan(text_of(file, what), what);
+  Lines lines = scan(file_text(file, what), what);
   if (lines.vertex.empty() && lines.face_line.empty())
     throw Error::invalid_input(
         what + ": not an OBJ: none of its lines is a vertex, \"v X Y Z\", or a face, \"f A B C\"");

@@ -50,7 +50,7 @@ std::int64_t binary_integer(std::istream& in, std::size_t bytes, bool big_endian
 
 // The largest number of items that a list can count.
 std::int64_t most_items(const PlyProperty& list) {
-  const int bits = 8 * static_cast<int>(bytes_of(list.count_type)) - !list.count_type.starts_with('u');
+  const int bits = 8 * static_cast<int>(type_bytes(list.count_type)) - !list.count_type.starts_with('u');
   return (std::int64_t{1} << bits) - 1;
 }
 
@@ -64,12 +64,12 @@ bool has_room(const PlyProperty& list, const PlyHeader& header, std::size_t file
     in >> count;
   else
     count =
-        binary_integer(in, bytes_of(list.count_type), header.big_endian, !list.count_type.starts_with('u'));
+        binary_integer(in, type_bytes(list.count_type), header.big_endian, !list.count_type.starts_with('u'));
   if (begin < 0 || in.fail() || count < 0 || count > most_items(list)) return false;
   in.clear();  // the end of the file, where the list is empty
   const std::size_t left = file_bytes - static_cast<std::size_t>(in.tellg());
   in.seekg(begin);
-  const std::size_t least = header.ascii ? 2 : bytes_of(list.type);  // a number and a separator
+  const std::size_t least = header.ascii ? 2 : type_bytes(list.type);  // a number and a separator
   return static_cast<std::size_t>(count) <= (left + 1) / least;
 }
 

@@ -10,7 +10,7 @@
 
 namespace hysteron {
 
-std::size_t bytes_of(std::string_view type) {
+std::size_t type_bytes(std::string_view type) {
   static const std::pair<std::string_view, std::size_t> kTypes[] = {
       {"char", 1},   {"int8", 1},    {"uchar", 1},  {"uint8", 1},  {"short", 2}, {"int16", 2},
       {"ushort", 2}, {"uint16", 2},  {"int", 4},    {"int32", 4},  {"uint", 4},  {"uint32", 4},
@@ -26,7 +26,7 @@ namespace {
 std::size_t least_bytes(const PlyElement& element, bool ascii) {
   std::size_t sum = 0;
   for (const PlyProperty& p : element.property)
-    sum += ascii ? 2 : bytes_of(p.is_list() ? p.count_type : p.type);
+    sum += ascii ? 2 : type_bytes(p.is_list() ? p.count_type : p.type);
   return sum;
 }
 
@@ -83,8 +83,8 @@ class HeaderReader {
     if (word.size() != 3) throw bad("an element needs a name and a number");
     std::size_t count = 0;
     const char* const end = word[2].data() + word[2].size();
-    const auto [rest, code] = std::from_chars(word[2].data(), end, count);
-    if (code != std::errc() || rest != end) throw bad("\"" + word[2] + "\" is no number of elements");
+    const auto [parse_end, code] = std::from_chars(word[2].data(), end, count);
+    if (code != std::errc() || parse_end != end) throw bad("\"" + word[2] + "\" is no number of elements");
     header_.element.push_back({word[1], count, line_, {}});
   }
 
@@ -94,8 +94,8 @@ class HeaderReader {
     if (header_.element.empty()) throw bad("a property before the first element");
     PlyProperty property{word.back(), word[word.size() - 2], list ? word[2] : ""};
     for (const std::string& type : {property.type, property.count_type})
-      if (!type.empty() && bytes_of(type) == 0) throw bad("the type \"" + type + "\" is unknown");
-    const bool counts = bytes_of(property.count_type) <= 4 && !property.count_type.starts_with("float");
+      if (!type.empty() && type_bytes(type) == 0) throw bad("the type \"" + type + "\" is unknown");
+    const bool counts = type_bytes(property.count_type) <= 4 && !property.count_type.starts_with("float");
     if (list && !counts) throw bad("a list counts its items in integers");
     header_.element.back().property.push_back(std::move(property));
   }

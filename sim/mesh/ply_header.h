@@ -11,7 +11,7 @@
 namespace hysteron {
 
 // Bytes of a binary number; 0: PLY has no such type.
-std::size_t bytes_of(std::string_view type);
+std::size_t type_bytes(std::string_view type);
 
 struct PlyProperty {
   std::string name, type;

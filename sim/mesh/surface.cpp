@@ -110,7 +110,7 @@ Surface read_ply(const std::string& file) {
 }
 
 Surface read_surface(const std::string& file) {
-  const std::string ending = ending_of(file);
+  const std::string ending = file_extension(file);
   if (ending == ".obj") return read_obj_surface(file);
   if (ending == ".ply") return read_ply(file);
   throw Error::invalid_input("mesh " + file + ": its name must end in .obj or .ply");

@@ -244,7 +244,7 @@ std::vector<int> nearby_representatives(const std::vector<Eigen::Vector3d>& poin
   return representative;
 }
 
-ClothMesh copies_of(const ClothMesh& mesh, int copies, const Eigen::Vector3d& offset) {
+ClothMesh copied_mesh(const ClothMesh& mesh, int copies, const Eigen::Vector3d& offset) {
   ClothMesh all;
   all.warp_axis = mesh.warp_axis;
   all.sewn = mesh.sewn;

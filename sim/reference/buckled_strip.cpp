@@ -14,7 +14,7 @@ using Eigen::VectorXd;
 constexpr int kMaxIterations = 60;
 constexpr double kConverged = 1e-10;                   // residuals, of the moment b1/L and of the length
 constexpr double kShortestStep = 1e-7;                 // of the clamps, of the length
-constexpr double kSmallestShare = 1e-4;                // of a Newton step
+constexpr double kSmallestFraction = 1e-4;             // of a Newton step
 constexpr double kFirstRaise = 1e-3, kMaxRaise = 1e3;  // of the diagonal, of b1 over an element
 constexpr double kPenalty = 2;                         // on the gap, of the force
 constexpr double kArmijo = 0.1;                        // of the fall that the slope promises
@@ -54,10 +54,10 @@ BuckledStripTest::Direction BuckledStripTest::direction(const Trial& at) const {
     VectorXd pivot = at.diagonal.array() + raised, x = -at.residual, y = at.border;
     int negative = pivot[0] < 0;
     for (int i = 1; i < n; ++i) {
-      const double share = at.above[i - 1] / pivot[i - 1];
-      pivot[i] -= share * at.above[i - 1];
-      x[i] -= share * x[i - 1];
-      y[i] -= share * y[i - 1];
+      const double fraction = at.above[i - 1] / pivot[i - 1];
+      pivot[i] -= fraction * at.above[i - 1];
+      x[i] -= fraction * x[i - 1];
+      y[i] -= fraction * y[i - 1];
       negative += pivot[i] < 0;
     }
     for (int i = n - 1; i >= 0; --i) {
@@ -126,17 +126,17 @@ bool BuckledStripTest::solve(double distance, double weight) {
       force_ = at.force;
       return true;
     }
-    const Direction way = direction(at);
-    if (!way.turn.allFinite()) return false;
-    penalty = std::max(penalty, kPenalty * std::abs(at.force + way.force));
-    const double merit = at.merit(penalty), slope = at.slope(way.turn, penalty);
+    const Direction newton_step = direction(at);
+    if (!newton_step.turn.allFinite()) return false;
+    penalty = std::max(penalty, kPenalty * std::abs(at.force + newton_step.force));
+    const double merit = at.merit(penalty), slope = at.slope(newton_step.turn, penalty);
     Trial next = at;
     bool lower = false;
-    for (double share = 1; !lower && share > kSmallestShare; share /= 2) {
-      next.angle = at.angle + share * way.turn;
-      next.force = at.force + share * way.force;
+    for (double fraction = 1; !lower && fraction > kSmallestFraction; fraction /= 2) {
+      next.angle = at.angle + fraction * newton_step.turn;
+      next.force = at.force + fraction * newton_step.force;
       assemble(next, distance, weight);
-      lower = next.merit(penalty) <= merit + kArmijo * share * slope || next.norm <= at.norm / 2;
+      lower = next.merit(penalty) <= merit + kArmijo * fraction * slope || next.norm <= at.norm / 2;
     }
     if (!lower) return false;
     std::swap(at, next);

@@ -71,7 +71,7 @@ struct Curve {
   MatrixXd by_curvature;
 };
 
-Curve curve_of(const VectorXd& h, const VectorXd& curvature, double weight) {
+Curve deflection_curve(const VectorXd& h, const VectorXd& curvature, double weight) {
   const int n = static_cast<int>(h.size());
   Curve c{VectorXd::Zero(n + 1), {{0, 0}}, VectorXd(n), MatrixXd(n, n)};
   MatrixXd turn = MatrixXd::Zero(n, n), middle_moves(n, n);  // of angles and places at the middles
@@ -121,8 +121,8 @@ class Solver {
   void go_to(double load, double longest) {
     double step = longest;
     for (int halvings = 0; load_ != load;) {
-      const double way = std::clamp(load - load_, -step, step);
-      const double next = std::abs(load - load_) <= step ? load : load_ + way;
+      const double newton_step = std::clamp(load - load_, -step, step);
+      const double next = std::abs(load - load_) <= step ? load : load_ + newton_step;
       if (solve(next)) {
         load_ = next;
         continue;
@@ -135,7 +135,7 @@ class Solver {
   }
 
   SaggingStrip state() const {
-    const Curve c = curve_of(h_, curvature_, strip_.weight);
+    const Curve c = deflection_curve(h_, curvature_, strip_.weight);
     SaggingStrip result;
     result.load = load_;
     result.arc = {0};
@@ -151,7 +151,7 @@ class Solver {
   bool solve(double load) {
     const double scale = kBalanced * strip_.weight * strip_.length * strip_.length * std::max(1.0, load);
     VectorXd k = curvature_, moment, tangent;
-    Curve c = curve_of(h_, k, strip_.weight);
+    Curve c = deflection_curve(h_, k, strip_.weight);
     points_.look(k, moment, tangent);
     VectorXd residual = moment - load * c.moment;
     for (int iteration = 0; iteration < kMaxNewtonSteps; ++iteration) {
@@ -162,12 +162,12 @@ class Solver {
       }
       MatrixXd jacobian = -load * c.by_curvature;
       jacobian.diagonal() += tangent;
-      const VectorXd way = jacobian.partialPivLu().solve(-residual);
+      const VectorXd newton_step = jacobian.partialPivLu().solve(-residual);
       const double before = residual.norm();
       bool lower = false;
-      for (double share = 1; !lower && share > 1e-4; share /= 2) {
-        const VectorXd tried = k + share * way;
-        c = curve_of(h_, tried, strip_.weight);
+      for (double fraction = 1; !lower && fraction > 1e-4; fraction /= 2) {
+        const VectorXd tried = k + fraction * newton_step;
+        c = deflection_curve(h_, tried, strip_.weight);
         points_.look(tried, moment, tangent);
         residual = moment - load * c.moment;
         lower = residual.norm() < before;

@@ -49,7 +49,7 @@ class Checks {
           !(d > 0 && d < kMaxStretch * loops_.gauge) || (loops_.bends() && d >= loops_.gauge))
         refuse(fmt::format("clamps at {:g} m do not fit a gauge of {:g} m", d, loops_.gauge), line(b, i));
     order(b);
-    if (b > 0 && std::abs(distance.front() - loops_.branches[b - 1].distance.back()) > kGap * way(b))
+    if (b > 0 && std::abs(distance.front() - loops_.branches[b - 1].distance.back()) > kGap * clamp_travel(b))
       refuse(fmt::format("branch {} begins at {:g} m, far from where the one before it ends, {:g} m", b,
                          distance.front(), loops_.branches[b - 1].distance.back()),
              line(b, 0));
@@ -63,14 +63,14 @@ class Checks {
   }
 
   void forces(int cycle) const {
-    const BranchForces force = forces_of(loops_);
+    const BranchForces force = branch_forces(loops_);
     const double range = force_range(force, cycle);
     const std::string first = line(2 * static_cast<std::size_t>(cycle), 0);
     if (!(range > 0))
       refuse(fmt::format("the force is {:g} N in all rows of cycle {}, and must vary",
                          force[2 * cycle][0] * loops_.width, cycle + 1),
              first);
-    const double longest = std::max(way(2 * cycle), way(2 * cycle + 1));
+    const double longest = std::max(clamp_travel(2 * cycle), clamp_travel(2 * cycle + 1));
     const double area = loop_area(loops_, force, cycle) / (range * longest);
     const double rise = slope(force, cycle) * longest / range;
     // Weight makes a strip that bends up push less as it goes on.
@@ -89,7 +89,7 @@ class Checks {
 
  private:
   [[noreturn]] void refuse(const std::string& what, const std::string& line = "") const {
-    throw Error::invalid_input(file_ + line + ": " + loops_.name() + ": " + what).in(reader_);
+    throw Error::invalid_input(file_ + line + ": " + loops_.name() + ": " + what).with_experiment(reader_);
   }
 
   // ":17" of a row that was read there.
@@ -102,7 +102,7 @@ class Checks {
   int sense(std::size_t b) const { return (b % 2 == 0) == loops_.bends() ? -1 : 1; }
 
   // [m]
-  double way(std::size_t b) const {
+  double clamp_travel(std::size_t b) const {
     const auto [low, high] =
         std::minmax_element(loops_.branches[b].distance.begin(), loops_.branches[b].distance.end());
     return *high - *low;
@@ -115,13 +115,13 @@ class Checks {
     double farthest = -INFINITY;
     for (std::size_t i = 0; i < distance.size(); ++i) {
       farthest = std::max(farthest, sense * distance[i]);
-      if (farthest - sense * distance[i] > kRipple * way(b)) return i;
+      if (farthest - sense * distance[i] > kRipple * clamp_travel(b)) return i;
     }
     return distance.size();
   }
 
   void order(std::size_t b) const {
-    if (!(way(b) > 0)) refuse(fmt::format("the clamps do not move on branch {}", b));
+    if (!(clamp_travel(b) > 0)) refuse(fmt::format("the clamps do not move on branch {}", b));
     const std::vector<double>& distance = loops_.branches[b].distance;
     const std::size_t row = comes_back(b, sense(b));
     if (row == distance.size()) return;
@@ -155,14 +155,14 @@ class Checks {
 
 }  // namespace
 
-void check_fab_way(const FabLoops& loops, const std::string& file, const std::string& reader) {
+void check_clamp_path(const FabLoops& loops, const std::string& file, const std::string& reader) {
   const Checks checks(loops, file, reader);
   checks.names();
   checks.lengths();
   for (std::size_t b = 0; b < loops.branches.size(); ++b) checks.branch(b);
   if (loops.branches.size() % 2 != 0)
     throw Error::invalid_input(file + ": " + loops.name() + ": every cycle has a branch out and one back")
-        .in(reader);
+        .with_experiment(reader);
   checks.start();
 }
 
@@ -190,45 +190,45 @@ struct Columns {
 };
 
 // "m" of "clamp_distance_m"; none unless the column is of that quantity.
-std::optional<std::string> unit_of(const std::string& column, const std::string& quantity) {
+std::optional<std::string> column_unit(const std::string& column, const std::string& quantity) {
   if (!column.starts_with(quantity)) return std::nullopt;
   const std::string ending = column.substr(quantity.size());
   if (ending.empty()) return "";
   return ending.front() == '_' ? std::optional(ending.substr(1)) : std::nullopt;
 }
 
-std::string said_of(const UnitNames& units) {
+std::string unit_sentence(const UnitNames& units) {
   return std::string("--units ") + units.flag + " reads " + (units.length + 1) + " and " + (units.force + 1);
 }
 
 // A length or a force; where it is there in other units, these are named.
-std::size_t column_of(const Table& table, const std::string& quantity, const char* ending,
-                      const fs::path& file, const std::string& reader) {
+std::size_t column_index(const Table& table, const std::string& quantity, const char* ending,
+                         const fs::path& file, const std::string& reader) {
   for (const std::string& column : table.head) {
-    const std::optional<std::string> unit = unit_of(column, quantity);
+    const std::optional<std::string> unit = column_unit(column, quantity);
     if (!unit || *unit == ending + 1) continue;
-    const auto is_of = [&](const UnitNames& units) {
+    const auto has_units = [&](const UnitNames& units) {
       return *unit == units.length + 1 || *unit == units.force + 1;
     };
-    const std::string read = said_of(kSi) + ", " + said_of(kFab);
+    const std::string read = unit_sentence(kSi) + ", " + unit_sentence(kFab);
     const std::string what = file.filename().string() + ": " + quantity;
     if (unit->empty())
       throw Error::invalid_input(what + " names no unit: it must be " + quantity + ending + " (" + read + ")")
-          .in(reader);
-    if (!is_of(kSi) && !is_of(kFab))
+          .with_experiment(reader);
+    if (!has_units(kSi) && !has_units(kFab))
       throw Error::invalid_input(what + " is in " + *unit + ": convert its numbers (" + read + ")")
-          .in(reader);
-    throw Error::invalid_input(what + " is in " + *unit + ": give --units " + (is_of(kSi) ? kSi : kFab).flag +
-                               ", which reads it (" + read + ")")
-        .in(reader);
+          .with_experiment(reader);
+    throw Error::invalid_input(what + " is in " + *unit + ": give --units " +
+                               (has_units(kSi) ? kSi : kFab).flag + ", which reads it (" + read + ")")
+        .with_experiment(reader);
   }
   return table.at(quantity + ending);
 }
 
-Columns columns_of(const Table& table, const UnitNames& unit, const fs::path& file,
-                   const std::string& reader) {
+Columns loop_columns(const Table& table, const UnitNames& unit, const fs::path& file,
+                     const std::string& reader) {
   const auto in = [&](const std::string& quantity, const char* ending) {
-    return column_of(table, quantity, ending, file, reader);
+    return column_index(table, quantity, ending, file, reader);
   };
   return {table.at("direction"),   table.at("test"),
           table.at("branch"),      in("clamp_distance", unit.length),
@@ -236,7 +236,7 @@ Columns columns_of(const Table& table, const UnitNames& unit, const fs::path& fi
           in("width", unit.length)};
 }
 
-FabLoops& loops_of(std::vector<FabLoops>& all, const std::string& direction, const std::string& test) {
+FabLoops& loops_entry(std::vector<FabLoops>& all, const std::string& direction, const std::string& test) {
   for (FabLoops& loops : all)
     if (loops.direction == direction && loops.test == test) return loops;
   all.push_back({direction, test, 0, 0, {}});
@@ -266,17 +266,17 @@ std::vector<FabLoops> read_fab(const fs::path& file, TesterUnits units, const st
   const UnitNames& unit = units == TesterUnits::si ? kSi : kFab;
   const std::string distance = "clamp_distance";
   const Table table = read_tester_table(
-      file, [&](const std::string& field) { return unit_of(field, distance).has_value(); },
+      file, [&](const std::string& field) { return column_unit(field, distance).has_value(); },
       "a column " + distance + unit.length, reader);
-  const Columns c = columns_of(table, unit, file, reader);
+  const Columns c = loop_columns(table, unit, file, reader);
   std::vector<FabLoops> all;
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
     const auto number = [&](std::size_t column) { return table.finite(row, column); };
     const auto& words = table.rows[row];
     const std::string where = file.filename().string() + ":" + std::to_string(table.lines[row]);
     if (words[c.direction].empty() || words[c.test].empty())
-      throw Error::invalid_input(where + " names no direction or no test").in(reader);
-    FabLoops& loops = loops_of(all, words[c.direction], words[c.test]);
+      throw Error::invalid_input(where + " names no direction or no test").with_experiment(reader);
+    FabLoops& loops = loops_entry(all, words[c.direction], words[c.test]);
     const double branch = number(c.branch);
     const std::size_t next = loops.branches.size();
     if (branch == static_cast<double>(next)) loops.branches.emplace_back();
@@ -284,13 +284,13 @@ std::vector<FabLoops> read_fab(const fs::path& file, TesterUnits units, const st
       throw Error::invalid_input(where + ": branch " + words[c.branch] + " must be " +
                                  (next > 0 ? std::to_string(next - 1) + " or " : "") + std::to_string(next) +
                                  ": the rows of a test stand in the order of its branches, 0, 1, 2 ...")
-          .in(reader);
+          .with_experiment(reader);
     const auto same = [&](double& of_test, std::size_t column) {
       const double here = unit.metre * number(column);
       if (of_test != 0 && here != of_test)
         throw Error::invalid_input(where + ": " + table.head[column] + " = " + words[column] +
                                    " differs from that of the rows before, and one test has one strip")
-            .in(reader);
+            .with_experiment(reader);
       of_test = here;
     };
     same(loops.gauge, c.gauge);
@@ -300,7 +300,7 @@ std::vector<FabLoops> read_fab(const fs::path& file, TesterUnits units, const st
     loops.branches.back().force.push_back(unit.newton * number(c.force) / loops.width);
   }
   for (const FabLoops& loops : all) {
-    check_fab_way(loops, file.filename().string(), reader);
+    check_clamp_path(loops, file.filename().string(), reader);
     check_fab_forces(loops, file.filename().string(), reader);
   }
   return all;
@@ -314,10 +314,10 @@ const FabLoops& find_loops(const std::vector<FabLoops>& all, const std::string& 
     there += (there.empty() ? "" : ", ") + loops.name();
   }
   throw Error::invalid_input("the data have no " + direction + " " + test + "; they have " + there)
-      .of("fab.test", test);
+      .with_key("fab.test", test);
 }
 
-BranchForces forces_of(const FabLoops& loops) {
+BranchForces branch_forces(const FabLoops& loops) {
   BranchForces forces;
   for (const FabBranch& branch : loops.branches) forces.push_back(branch.force);
   return forces;

@@ -33,7 +33,7 @@ enum class TesterUnits { si, fab };
 // as endings: _m and _N (si), or _cm and _gf (fab: the tester's own; lines before the head, semicolons and
 // decimal commas are read, too).  Force is of the whole width.  Throws Error::system, Error::invalid_input
 // with file and line: other units than said, a column or a number that is missing, branches out of order,
-// another gauge or width within a test; and as check_fab_way() and check_fab_forces().
+// another gauge or width within a test; and as check_clamp_path() and check_fab_forces().
 std::vector<FabLoops> read_fab(const std::filesystem::path& file, TesterUnits units,
                                const std::string& reader);
 
@@ -44,7 +44,7 @@ const FabLoops& find_loops(const std::vector<FabLoops>& all, const std::string& 
 // Readings of one cycle, the first being 0, on which the zero of force has no influence: forces are taken
 // from their mean over the cycle.  `force`: per branch, as in the loops (theirs, or a model's).
 using BranchForces = std::vector<std::vector<double>>;
-BranchForces forces_of(const FabLoops& loops);
+BranchForces branch_forces(const FabLoops& loops);
 // Of both branches by the trapezoidal rule, work lost > 0, per width [J/m].
 double loop_area(const FabLoops& loops, const BranchForces& force, int cycle);
 // Largest less smallest force [N/m].
@@ -61,10 +61,10 @@ inline constexpr double kLargestStart = 0.25;
 // The way of the clamps: a test and a direction that there are, two branches a cycle, lengths of a strip, a
 // beginning near the gauge, rows in order, branches that go out and back, each from where the last ended.
 // Throws Error::invalid_input: "fit: loops.csv: L D1: ...".
-void check_fab_way(const FabLoops& loops, const std::string& file, const std::string& reader);
+void check_clamp_path(const FabLoops& loops, const std::string& file, const std::string& reader);
 
 // Forces on that way: they vary, rise as the clamps part (tension > 0), and over a cycle the strip takes
-// work. The zero of force does not matter.  Throws as check_fab_way().
+// work. The zero of force does not matter.  Throws as check_clamp_path().
 void check_fab_forces(const FabLoops& loops, const std::string& file, const std::string& reader);
 
 }  // namespace hysteron

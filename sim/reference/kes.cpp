@@ -38,8 +38,8 @@ struct Leg {
     for (std::size_t i = 0; i < count; ++i) {
       if (moment[i] > 0) continue;
       if (i == 0) return row[0].curvature;
-      const double share = moment[i - 1] / (moment[i - 1] - moment[i]);
-      return row[i - 1].curvature + share * (row[i].curvature - row[i - 1].curvature);
+      const double fraction = moment[i - 1] / (moment[i - 1] - moment[i]);
+      return row[i - 1].curvature + fraction * (row[i].curvature - row[i - 1].curvature);
     }
     return kNaN;
   }
@@ -111,14 +111,14 @@ void check_protocol(const KesProtocol& p) {
     throw Error::invalid_input("slope-from = " + per_metre(p.slope_from) +
                                ", slope-to = " + per_metre(p.slope_to) +
                                " must be 0 <= slope-from < slope-to <= amplitude = " + per_metre(p.amplitude))
-        .of("slope-from", fmt::format("{:g}", p.slope_from))
-        .in("kes");
+        .with_key("slope-from", fmt::format("{:g}", p.slope_from))
+        .with_experiment("kes");
   }
   if (!(p.width_at > 0 && p.width_at < p.amplitude)) {
     throw Error::invalid_input("width-at = " + per_metre(p.width_at) +
                                " must be > 0 and < amplitude = " + per_metre(p.amplitude))
-        .of("width-at", fmt::format("{:g}", p.width_at))
-        .in("kes");
+        .with_key("width-at", fmt::format("{:g}", p.width_at))
+        .with_experiment("kes");
   }
 }
 

@@ -38,7 +38,9 @@ struct Component {
   std::vector<double> anchors;
 };
 
-double strain_of(double stretch, double shear) { return (stretch * stretch + shear * shear - 1) / 2; }
+double green_lagrange_strain(double stretch, double shear) {
+  return (stretch * stretch + shear * shear - 1) / 2;
+}
 
 KesProtocol as_bending(const InPlaneProtocol& p, double width_at) {
   KesProtocol protocol;
@@ -63,8 +65,8 @@ KesWalk shear_walk(const InPlaneProtocol& p) {
   return walk;
 }
 
-double work_of(const std::vector<double>& extension, const std::vector<double>& force, std::size_t from,
-               std::size_t to) {
+double extension_work(const std::vector<double>& extension, const std::vector<double>& force,
+                      std::size_t from, std::size_t to) {
   double sum = 0;
   for (std::size_t i = from + 1; i <= to; ++i)
     sum += (force[i - 1] + force[i]) / 2 * (extension[i] - extension[i - 1]);
@@ -90,9 +92,9 @@ ShearReading read_shear(const InPlaneProtocol& p, const KesWalk& walk, const std
 TensionReading read_tension(const std::vector<double>& extension, const std::vector<double>& force,
                             std::size_t turn) {
   TensionReading reading;
-  reading.work = work_of(extension, force, 0, turn);
+  reading.work = extension_work(extension, force, 0, turn);
   reading.linearity = reading.work / (force[turn] * extension[turn] / 2);
-  reading.resilience = -100 * work_of(extension, force, turn, force.size() - 1) / reading.work;
+  reading.resilience = -100 * extension_work(extension, force, turn, force.size() - 1) / reading.work;
   reading.extension = 100 * extension[turn];
   return reading;
 }
@@ -104,10 +106,11 @@ ShearTest test_shear(const InPlaneLaw& law, const InPlaneProtocol& p) {
   for (const LawRow& row : test.walk.shear.rows) {
     const double g = row.curvature;
     const double stretch =
-        root([&](double l) { return tension.stress(strain_of(l, g)) * l - p.weight; }, 0.5, kMaxExtension);
+        root([&](double l) { return tension.stress(green_lagrange_strain(l, g)) * l - p.weight; }, 0.5,
+             kMaxExtension);
     test.walk.stretch.push_back(stretch);
     test.force.push_back(shear.stress(g));
-    tension.accept(strain_of(stretch, g));
+    tension.accept(green_lagrange_strain(stretch, g));
     shear.accept(g);
   }
   test.reading = read_shear(p, test.walk.shear, test.force);
@@ -117,7 +120,7 @@ ShearTest test_shear(const InPlaneLaw& law, const InPlaneProtocol& p) {
 TensionTest test_tension(const InPlaneLaw& law, const InPlaneProtocol& p) {
   Component tension(law.tension);
   const auto force = [&](double extension) {
-    return tension.stress(strain_of(1 + extension, 0)) * (1 + extension);
+    return tension.stress(green_lagrange_strain(1 + extension, 0)) * (1 + extension);
   };
   if (force(kMaxExtension - 1) < p.largest)
     throw Error::invalid_input(
@@ -128,7 +131,7 @@ TensionTest test_tension(const InPlaneLaw& law, const InPlaneProtocol& p) {
   const auto go = [&](double extension) {
     test.extension.push_back(extension);
     test.force.push_back(force(extension));
-    tension.accept(strain_of(1 + extension, 0));
+    tension.accept(green_lagrange_strain(1 + extension, 0));
   };
   const double largest = root([&](double e) { return force(e) - p.largest; }, 0, kMaxExtension - 1);
   for (int i = 0; i <= p.steps; ++i) go(largest * i / p.steps);

@@ -38,20 +38,21 @@ Table read_tester_table(const std::filesystem::path& file,
   if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
   const std::string name = file.filename().string();
   const std::size_t head = begin_of_head(text, is_of_head);
-  if (head == text.npos) throw Error::invalid_input(name + " has no line that names " + wanted).in(reader);
+  if (head == text.npos)
+    throw Error::invalid_input(name + " has no line that names " + wanted).with_experiment(reader);
   // Blank lines in place of those before the head: the rows keep their numbers.
   const auto before = static_cast<std::size_t>(std::count(text.begin(), text.begin() + head, '\n'));
   Table table;
   try {
     table = table_in(std::string(before, '\n') + text.substr(head), name);
   } catch (const Error& error) {
-    throw error.in(reader);
+    throw error.with_experiment(reader);
   }
   for (std::string& field : table.head) field = trimmed(field);
   for (std::vector<std::string>& row : table.rows)
     for (std::string& field : row) field = trimmed(field);
   table.reader = reader;
-  if (table.rows.empty()) throw Error::invalid_input(name + " has no rows").in(reader);
+  if (table.rows.empty()) throw Error::invalid_input(name + " has no rows").with_experiment(reader);
   return table;
 }
 

@@ -53,7 +53,7 @@ ClothMesh rest_mesh(const Scene& scene, std::vector<std::string>& doubts) {
   ClothMesh one = one_rest_mesh(scene, doubts);
   if (scene.cloth.copies == 1) return one;
   check_copies(scene, one);
-  return copies_of(one, scene.cloth.copies, scene.cloth.copy_offset);
+  return copied_mesh(one, scene.cloth.copies, scene.cloth.copy_offset);
 }
 
 std::vector<int> selected(const ClothMesh& mesh, const Pin& pin) {

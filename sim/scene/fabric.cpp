@@ -22,7 +22,7 @@ void check_pairs(const Scene& scene, const PairedLists& lists) {
   const std::string key = table + lists.first_name;
   const std::string of = lists.first.empty() && !scene.origin.contains(key) ? table + lists.second_name : key;
   const auto refuse = [&](const std::string& what) {
-    throw Error::invalid_input(key + " " + what + " (" + origin_of(scene, of) + ")").of(key, "");
+    throw Error::invalid_input(key + " " + what + " (" + key_origin(scene, of) + ")").with_key(key, "");
   };
   if (lists.first.size() != lists.second.size())
     refuse("has " + std::to_string(lists.first.size()) + " numbers and must have as many as " + table +
@@ -74,7 +74,7 @@ void check_bending_parts(const Scene& scene) {
   if (!b.weft_stops.empty() && b.weft_stops.size() != b.stops.size())
     throw Error::invalid_input(weft + " has " + std::to_string(b.weft_stops.size()) +
                                " numbers and must have as many as fabric.bending.stops.thresholds, " +
-                               std::to_string(b.stops.size()) + " (" + origin_of(scene, weft) + ")");
+                               std::to_string(b.stops.size()) + " (" + key_origin(scene, weft) + ")");
   check_pairs(scene, {"bending.branches", "times", "stiffnesses", b.branches.times, b.branches.stiffnesses,
                       kMaxBranches});
   if (b.set.on() != (b.set.yield > 0))

@@ -46,7 +46,9 @@ std::string with_unit(const std::string& value, const KeyDescription& key) {
 // "fabric.b2 = -1 N m must be >= 0 (scene.toml:7)"
 Error refusal(const KeyDescription& key, const std::string& value, const std::string& must,
               const std::string& origin) {
-  return Error::invalid_input(key.path + " = " + value + " must be " + must).from(origin).of(key.path, value);
+  return Error::invalid_input(key.path + " = " + value + " must be " + must)
+      .with_origin(origin)
+      .with_key(key.path, value);
 }
 
 Error wrong_type(const KeyDescription& key, const Value& value, const std::string& origin) {
@@ -66,7 +68,7 @@ Error wrong_type(const KeyDescription& key, const Value& value, const std::strin
 void check_number(const KeyDescription& key, double x, const std::string& shown, const std::string& origin) {
   const std::string allowed = std::isfinite(x) ? key.range.text() : "finite";
   if (std::isfinite(x) && key.range.contains(x)) return;
-  throw refusal(key, with_unit(shown, key), allowed, origin).of(key.path, shown);
+  throw refusal(key, with_unit(shown, key), allowed, origin).with_key(key.path, shown);
 }
 
 void check_choice(const KeyDescription& key, const std::string& name, const std::string& origin) {
@@ -75,7 +77,7 @@ void check_choice(const KeyDescription& key, const std::string& name, const std:
   if (std::count(key.announced.begin(), key.announced.end(), name)) {
     throw Error::invalid_input(key.path + " = " + name + " is not built yet (" + origin +
                                "); built: " + join(key.choices, " | "))
-        .of(key.path, name);
+        .with_key(key.path, name);
   }
   const std::string nearest = nearest_name(name, key.choices);
   throw refusal(key, name, join(key.choices, " | "),
@@ -167,7 +169,7 @@ void split_choices(const char* text, KeyDescription& key) {
 }
 
 // Numbers with four digits; "" for what is not set.
-std::string usual_text(const Field& field) {
+std::string described_default(const Field& field) {
   const auto rounded = [](double x) {
     char text[32];
     std::snprintf(text, sizeof text, "%.4g", x);
@@ -196,7 +198,7 @@ std::string Range::text() const {
 
 KeyDescription describe(const char* path, const Field& field, const char* unit, Range range,
                         const char* choices, const char* doc) {
-  KeyDescription key{path, type_name(field), unit, range, {}, {}, doc, usual_text(field)};
+  KeyDescription key{path, type_name(field), unit, range, {}, {}, doc, described_default(field)};
   split_choices(choices, key);
   if (const auto* named = std::get_if<NamedValue>(&field)) key.choices = named->names;
   return key;
@@ -258,7 +260,7 @@ const BoundKey& find_key(const Keys& keys, const std::string& path, const std::s
   const std::string nearest = nearest_name(path, names);
   throw Error::invalid_input("unknown key " + path + " (" + origin + ")" +
                              (nearest.empty() ? "" : "; did you mean " + nearest + "?"))
-      .of(path, "");
+      .with_key(path, "");
 }
 
 nlohmann::ordered_json to_json(const Keys& keys) {

@@ -70,7 +70,7 @@ struct KeyDescription {
   std::vector<std::string> choices;    // of texts; empty: any text
   std::vector<std::string> announced;  // texts that are part of the interface and not built yet
   std::string doc;                     // one line
-  std::string usual;                   // the value when it was described, four digits; "": none, or a flag
+  std::string default_text;            // the value when it was described, four digits; "": none, or a flag
 };
 
 struct BoundKey {

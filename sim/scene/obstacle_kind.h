@@ -25,7 +25,7 @@ struct ObstacleForm {
   bool has_axis, has_rim;
 };
 template <class Obstacle>
-ObstacleForm form_of(const Obstacle& o) {
+ObstacleForm obstacle_form(const Obstacle& o) {
   switch (o.kind) {
 #define HYST_OBSTACLE(kind, half_thickness, has_axis, has_rim) \
   case ObstacleKind::kind:                                     \

@@ -31,7 +31,7 @@ struct Size {
   Size times(double scale) const { return {scale * extent, scale * scale * weight, scale * edge}; }
 };
 
-Size size_of(const Scene& scene, const ClothMesh& mesh) {
+Size scene_size(const Scene& scene, const ClothMesh& mesh) {
   const int faces = mesh.faces() / scene.cloth.copies;  // of one cloth
   Eigen::AlignedBox3d box;
   for (int f = 0; f < faces; ++f)
@@ -74,15 +74,15 @@ std::string fitting_units(const Size& size, LengthUnit unit) {
     const auto other = static_cast<LengthUnit>(i);
     const Size then = size.times(in_metres(1, other) / in_metres(1, unit));
     if (other != unit && beyond(then).empty())
-      fitting.push_back(name_of(other) + (fitting.empty() ? " would make it " : " ") + rounded(then.extent) +
-                        " m" + (fitting.empty() ? " long" : ""));
+      fitting.push_back(enum_name(other) + (fitting.empty() ? " would make it " : " ") +
+                        rounded(then.extent) + " m" + (fitting.empty() ? " long" : ""));
   }
   return fitting.empty() ? "" : "cloth.unit = " + join(fitting, ", ");
 }
 
 // Of cloth that is built the edges are asked for.
 std::string size_doubt(const Scene& scene, const ClothMesh& mesh) {
-  Size size = size_of(scene, mesh);
+  Size size = scene_size(scene, mesh);
   const std::string file = rest_file(scene);
   if (file.empty()) size.edge = kShortestEdge;
   const std::string what = beyond(size);
@@ -92,8 +92,9 @@ std::string size_doubt(const Scene& scene, const ClothMesh& mesh) {
   // The rest shape of a pattern is not in that unit.
   const bool is_pattern = scene.cloth.shape == "pattern" && !names_an_obj(scene.mesh);
   const std::string fitting = is_pattern ? "" : fitting_units(size, unit);
-  return "mesh " + file + ", read in " + (is_pattern ? "units of cloth.texture-scale" : name_of(unit) + "s") +
-         ", " + what + (fitting.empty() ? "" : ": " + fitting);
+  return "mesh " + file + ", read in " +
+         (is_pattern ? "units of cloth.texture-scale" : enum_name(unit) + "s") + ", " + what +
+         (fitting.empty() ? "" : ": " + fitting);
 }
 
 // Neither a bend nor a weave's stretch: vertices in another order, or another cloth's.

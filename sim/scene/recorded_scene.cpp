@@ -13,10 +13,10 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Error malformed(const std::string& path, const std::string& what, const std::string& file) {
-  return Error::invalid_input("scene." + path + " " + what + " (" + file + ")").of(path, "");
+  return Error::invalid_input("scene." + path + " " + what + " (" + file + ")").with_key(path, "");
 }
 
-std::string text_of(const Json& json, const std::string& path, const std::string& file) {
+std::string string_at(const Json& json, const std::string& path, const std::string& file) {
   if (!json.is_string()) throw malformed(path, "must be a text", file);
   return json.get<std::string>();
 }
@@ -58,15 +58,15 @@ class RecordedTree {
   std::map<std::string, std::string> texts(const Json& entries, const std::string& path) const {
     if (!entries.is_object()) throw malformed(path, "must be an object", file_);
     std::map<std::string, std::string> all;
-    for (const auto& [name, text] : entries.items()) all[name] = text_of(text, path + "." + name, file_);
+    for (const auto& [name, text] : entries.items()) all[name] = string_at(text, path + "." + name, file_);
     return all;
   }
 
   Provenance provenance(const Json& entry, const std::string& path) const {
     if (!entry.is_object() || !entry.contains("source") || !entry.contains("confidence"))
       throw malformed(path, "must have source and confidence", file_);
-    return {text_of(entry["source"], path + ".source", file_),
-            text_of(entry["confidence"], path + ".confidence", file_)};
+    return {string_at(entry["source"], path + ".source", file_),
+            string_at(entry["confidence"], path + ".confidence", file_)};
   }
 
   void read_provenance(const Json& entries) {
@@ -83,8 +83,8 @@ class RecordedTree {
       if (!entry.contains("value") || !entry["value"].is_number() || !entry.contains("unit"))
         throw malformed(path, "must have a value and its unit", file_);
       scene_.fabric.published[name] = {
-          entry["value"].get<double>(), text_of(entry["unit"], path + ".unit", file_), from,
-          entry.contains("tester") ? text_of(entry["tester"], path + ".tester", file_) : ""};
+          entry["value"].get<double>(), string_at(entry["unit"], path + ".unit", file_), from,
+          entry.contains("tester") ? string_at(entry["tester"], path + ".tester", file_) : ""};
     }
   }
 

@@ -26,28 +26,28 @@ void check_fabric(const Scene& scene) {
                                shown(scene, "fabric.kes-2hb", f.kes.read.loop_width, "N") + " steeper than " +
                                shown(scene, "fabric.kes-b", f.kes.read.rigidity, "N m") +
                                " where the tester reads: no elasticity is left beside it")
-        .of("fabric.stops-median", number_text(f.kes.shape.median));
+        .with_key("fabric.stops-median", number_text(f.kes.shape.median));
   }
   if (f.b1 < f.b2) {
     throw Error::invalid_input(shown(scene, "fabric.b1", f.b1, "N m") +
                                " must be >= " + shown(scene, "fabric.b2", f.b2, "N m"))
-        .of("fabric.b1", number_text(f.b1));
+        .with_key("fabric.b1", number_text(f.b1));
   }
   if (f.k0 == 0 && f.b1 > f.b2) {
     throw Error::invalid_input(shown(scene, "fabric.k0", f.k0, "1/m") +
                                " must be > 0 while fabric.b1 > fabric.b2")
-        .of("fabric.k0", "0");
+        .with_key("fabric.k0", "0");
   }
   if (4 * f.bias_bending < 1 + f.weft_bending) {
     throw Error::invalid_input(shown(scene, "fabric.bias-bending", f.bias_bending, "") + " must be >= " +
                                number_text((1 + f.weft_bending) / 4) + ", (1 + fabric.weft-bending)/4")
-        .of("fabric.bias-bending", number_text(f.bias_bending));
+        .with_key("fabric.bias-bending", number_text(f.bias_bending));
   }
   if (f.coupling * f.coupling >= f.warp * f.weft) {
     throw Error::invalid_input(shown(scene, "fabric.coupling", f.coupling, "N/m") + " must be within +-" +
                                number_text(std::sqrt(f.warp * f.weft)) +
                                " N/m, sqrt(fabric.warp * fabric.weft)")
-        .of("fabric.coupling", number_text(f.coupling));
+        .with_key("fabric.coupling", number_text(f.coupling));
   }
   check_bending_parts(scene);
   check_in_plane_stops(scene);
@@ -57,12 +57,12 @@ void check_mesh(const Scene& scene) {
   const std::string& shape = scene.cloth.shape;
   const bool given = shape == "file" && names_an_obj(scene.mesh);
   if ((shape == "file" || shape == "pattern") && scene.cloth.file.empty() && !given) {
-    throw Error::invalid_input("cloth.shape = " + shape + " (" + origin_of(scene, "cloth.shape") +
+    throw Error::invalid_input("cloth.shape = " + shape + " (" + key_origin(scene, "cloth.shape") +
                                ") needs cloth.file, an OBJ");
   }
   if (names_an_obj(scene.mesh) || std::count(kMeshFamilies.begin(), kMeshFamilies.end(), scene.mesh)) return;
   const std::string nearest = nearest_name(scene.mesh, kMeshFamilies);
-  throw Error::invalid_input("mesh = " + scene.mesh + " (" + origin_of(scene, "mesh") + ") must be " +
+  throw Error::invalid_input("mesh = " + scene.mesh + " (" + key_origin(scene, "mesh") + ") must be " +
                              join(kMeshFamilies, " | ") + " | FILE.obj" +
                              (nearest.empty() ? "" : "; did you mean " + nearest + "?"));
 }
@@ -72,8 +72,8 @@ void check_one_mesh(const Scene& scene) {
   const ClothShape& cloth = scene.cloth;
   const bool of_file = cloth.shape == "file" || cloth.shape == "pattern";
   if (!of_file || cloth.file.empty() || !scene.origin.count("mesh")) return;
-  throw Error::invalid_input("mesh = " + scene.mesh + " (" + origin_of(scene, "mesh") +
-                             ") and cloth.file = " + cloth.file + " (" + origin_of(scene, "cloth.file") +
+  throw Error::invalid_input("mesh = " + scene.mesh + " (" + key_origin(scene, "mesh") +
+                             ") and cloth.file = " + cloth.file + " (" + key_origin(scene, "cloth.file") +
                              ") both define the triangles: leave one out");
 }
 
@@ -81,16 +81,16 @@ void check_one_mesh(const Scene& scene) {
 void check_unit(const Scene& scene) {
   const ClothShape& cloth = scene.cloth;
   if (cloth.unit == LengthUnit::metre || !rest_file(scene).empty() || names_an_obj(cloth.start)) return;
-  throw Error::invalid_input(shown(scene, "cloth.unit", name_of(cloth.unit), "") +
+  throw Error::invalid_input(shown(scene, "cloth.unit", enum_name(cloth.unit), "") +
                              " is that of an OBJ, and this cloth is built: lengths of keys are metres")
-      .of("cloth.unit", name_of(cloth.unit));
+      .with_key("cloth.unit", enum_name(cloth.unit));
 }
 
 void check_method(const Scene& scene) {
   if (scene.force == ForceConvention::chapter && scene.element != BendingElement::hinge) {
-    throw Error::invalid_input("force = chapter (" + origin_of(scene, "force") +
-                               ") needs element = hinge, not " + name_of(scene.element) + " (" +
-                               origin_of(scene, "element") + ")");
+    throw Error::invalid_input("force = chapter (" + key_origin(scene, "force") +
+                               ") needs element = hinge, not " + enum_name(scene.element) + " (" +
+                               key_origin(scene, "element") + ")");
   }
 }
 
@@ -100,11 +100,11 @@ void check_motion(const Scene& scene, const std::string& path, const Motion& mot
     if (i > 0 && motion.keys[i].time <= motion.keys[i - 1].time) {
       throw Error::invalid_input(key + ".time = " + number_text(motion.keys[i].time) + " s must be > " +
                                  number_text(motion.keys[i - 1].time) + " s, the key before (" +
-                                 origin_of(scene, key) + ")");
+                                 key_origin(scene, key) + ")");
     }
     if (motion.keys[i].angle != 0 && motion.axis.isZero(0)) {
       throw Error::invalid_input(key + ".angle = " + number_text(motion.keys[i].angle) +
-                                 " degree needs an axis that is not zero (" + origin_of(scene, key) + ")");
+                                 " degree needs an axis that is not zero (" + key_origin(scene, key) + ")");
     }
   }
 }
@@ -112,24 +112,24 @@ void check_motion(const Scene& scene, const std::string& path, const Motion& mot
 void check_times(const Scene& scene, double from, double until, const std::string& path) {
   if (from >= until)
     throw Error::invalid_input(path + ".from = " + number_text(from) + " s must be < " + path +
-                               ".until = " + number_text(until) + " s (" + origin_of(scene, path) + ")");
+                               ".until = " + number_text(until) + " s (" + key_origin(scene, path) + ")");
 }
 
 void check_pin(const Scene& scene, const Pin& pin, const std::string& path) {
   check_times(scene, pin.from, pin.until, path);
   if (pin.select == "box" && (pin.low.array() > pin.high.array()).any()) {
     throw Error::invalid_input(path + ".low must be <= " + path + ".high in x, y and z [m] (" +
-                               origin_of(scene, path) + ")");
+                               key_origin(scene, path) + ")");
   }
   if (pin.strength > 0 && !scene.is_implicit())
     throw Error::invalid_input(
-        path + ".strength = " + number_text(pin.strength) + " N (" + origin_of(scene, path) +
-        ") needs integrator = implicit, bdf2, tr-bdf2 or quasi-static, not " + name_of(scene.integrator));
+        path + ".strength = " + number_text(pin.strength) + " N (" + key_origin(scene, path) +
+        ") needs integrator = implicit, bdf2, tr-bdf2 or quasi-static, not " + enum_name(scene.integrator));
   check_motion(scene, path, pin.motion);
   for (std::size_t i = 0; i < pin.motion.keys.size(); ++i)
     if (pin.motion.keys[i].scale != 1)
       throw Error::invalid_input(path + ".keys[" + std::to_string(i) + "].scale is for obstacles (" +
-                                 origin_of(scene, path) + ")");
+                                 key_origin(scene, path) + ")");
 }
 
 // How far its middle comes in any one step [m].
@@ -149,10 +149,10 @@ double longest_stride(const Scene& scene, const Obstacle& solid) {
 
 // An obstacle that is beyond the cloth after one step pushes it out on the wrong side, or misses it.
 void check_stride(const Scene& scene, const Obstacle& solid, const std::string& path) {
-  const double stride = longest_stride(scene, solid), most = form_of(solid).half_thickness;
+  const double stride = longest_stride(scene, solid), most = obstacle_form(solid).half_thickness;
   if (stride <= most) return;
   throw Error::invalid_input(path + " moves " + number_text(stride) + " m in a step of " +
-                             number_text(scene.step) + " s (" + origin_of(scene, path) +
+                             number_text(scene.step) + " s (" + key_origin(scene, path) +
                              "), further than half its thickness, " + number_text(most) +
                              " m: it may pass through the cloth; take a step below " +
                              number_text(scene.step * most / stride) + " s");
@@ -160,20 +160,20 @@ void check_stride(const Scene& scene, const Obstacle& solid, const std::string& 
 
 void check_obstacle(const Scene& scene, const Obstacle& solid, const std::string& path) {
   check_times(scene, solid.from, solid.until, path);
-  const ObstacleForm form = form_of(solid);
+  const ObstacleForm form = obstacle_form(solid);
   if (form.has_axis && solid.axis.isZero(0)) {
-    throw Error::invalid_input(path + ".axis = [0, 0, 0] must not be zero (" + origin_of(scene, path) + ")");
+    throw Error::invalid_input(path + ".axis = [0, 0, 0] must not be zero (" + key_origin(scene, path) + ")");
   }
   if (solid.kind == ObstacleKind::torus && solid.radius <= solid.height / 2) {
     throw Error::invalid_input(path + ".radius = " + number_text(solid.radius) + " m must be > " +
                                number_text(solid.height / 2) + " m, half of " + path +
-                               ".height: a torus needs a hole (" + origin_of(scene, path) + ")");
+                               ".height: a torus needs a hole (" + key_origin(scene, path) + ")");
   }
   const double room = form.has_rim ? form.half_thickness : kInfinity;
   if (solid.rim > room) {
     throw Error::invalid_input(path + ".rim = " + number_text(solid.rim) + " m must be in [0, " +
-                               number_text(room) + "], half of the thinnest part (" + origin_of(scene, path) +
-                               ")");
+                               number_text(room) + "], half of the thinnest part (" +
+                               key_origin(scene, path) + ")");
   }
   check_motion(scene, path, solid.motion);
   check_stride(scene, solid, path);
@@ -186,13 +186,14 @@ void check_parameters(const Scene& scene) {
     try {
       choose_law(scene.law, curve, {{name, text}});
     } catch (const Error& error) {
-      throw error.from(origin_of(scene, "param." + name));
+      throw error.with_origin(key_origin(scene, "param." + name));
     }
   }
   try {
     choose_law(scene.law, curve, scene.param);
   } catch (const Error& error) {
-    throw error.from(origin_of(scene, scene.param.contains(error.key()) ? "param." + error.key() : "law"));
+    throw error.with_origin(
+        key_origin(scene, scene.param.contains(error.key()) ? "param." + error.key() : "law"));
   }
 }
 
@@ -200,7 +201,7 @@ void check_parameters(const Scene& scene) {
 void check_phases(const Scene& scene) {
   const auto table = [&](std::size_t i) {
     const std::string path = "phase[" + std::to_string(i) + "]";
-    return path + " (" + origin_of(scene, path) + ")";
+    return path + " (" + key_origin(scene, path) + ")";
   };
   for (std::size_t i = 0; i < scene.phase.size(); ++i) {
     const std::string& name = scene.phase[i].name;
@@ -214,7 +215,7 @@ void check_phases(const Scene& scene) {
 // Where a key of a table stands, or the table if the key was left out.
 std::string origin_in(const Scene& scene, const std::string& path, const std::string& key) {
   const std::string full = path + "." + key;
-  return origin_of(scene, scene.origin.count(full) ? full : path);
+  return key_origin(scene, scene.origin.count(full) ? full : path);
 }
 
 // What falls due when the scene is over is never done.
@@ -241,27 +242,27 @@ void check_command(const Scene& scene, const Command& command, const std::string
 void check_steps(const Scene& scene) {
   if (scene.self_contact && scene.integrator == Integrator::explicit_euler)
     throw Error::invalid_input(
-        "self-contact (" + origin_of(scene, "self-contact") +
+        "self-contact (" + key_origin(scene, "self-contact") +
         ") needs integrator = implicit | bdf2 | tr-bdf2 | quasi-static | semi-implicit, not explicit (" +
-        origin_of(scene, "integrator") + ")");
+        key_origin(scene, "integrator") + ")");
   if (scene.self_contact && scene.integrator == Integrator::semi_implicit &&
       scene.implicit_every == ImplicitEvery::step)
-    throw Error::invalid_input("self-contact (" + origin_of(scene, "self-contact") +
+    throw Error::invalid_input("self-contact (" + key_origin(scene, "self-contact") +
                                ") needs implicit-every = substep, not step (" +
-                               origin_of(scene, "implicit-every") + ")");
+                               key_origin(scene, "implicit-every") + ")");
   if (!(scene.tolerance > 0)) return;
   if (scene.integrator == Integrator::explicit_euler || scene.integrator == Integrator::quasi_static)
     throw Error::invalid_input(shown(scene, "tolerance", scene.tolerance, "m") +
                                " needs integrator = bdf2 | tr-bdf2 | implicit | semi-implicit, not " +
-                               name_of(scene.integrator) + " (" + origin_of(scene, "integrator") + ")");
+                               enum_name(scene.integrator) + " (" + key_origin(scene, "integrator") + ")");
   if (scene.integrator == Integrator::semi_implicit && scene.self_contact)
     throw Error::invalid_input(
         shown(scene, "tolerance", scene.tolerance, "m") +
         " with self-contact needs integrator = bdf2 | tr-bdf2 | implicit, not semi-implicit (" +
-        origin_of(scene, "integrator") + ")");
+        key_origin(scene, "integrator") + ")");
   if (scene.integrator == Integrator::semi_implicit && scene.implicit_every == ImplicitEvery::step)
     throw Error::invalid_input(shown(scene, "tolerance", scene.tolerance, "m") +
-                               " needs implicit-every = substep (" + origin_of(scene, "implicit-every") +
+                               " needs implicit-every = substep (" + key_origin(scene, "implicit-every") +
                                ")");
 }
 

@@ -36,13 +36,13 @@ void flatten(const std::string& prefix, const TomlNode& table, const std::vector
 class SceneFile {
  public:
   SceneFile(Scene& scene, std::string file, const Keys& extra, const std::vector<std::string>& left)
-      : scene_(scene), file_(std::move(file)), extra_(extra), left_(left), known_(bind_scene(scene)) {
+      : scene_(scene), file_(std::move(file)), extra_(extra), left_out_(left), known_(bind_scene(scene)) {
     known_.insert(known_.end(), extra.begin(), extra.end());
   }
 
   void apply(const TomlNode& root) {
     std::vector<std::string> lists = {"pin", "obstacle", "command", "phase"};
-    lists.insert(lists.end(), left_.begin(), left_.end());
+    lists.insert(lists.end(), left_out_.begin(), left_out_.end());
     std::vector<Setting> settings;
     flatten("", root, lists, settings);
     const auto come_first = [](const Setting& s) { return s.path == "fabric.name" || s.path == "phase"; };
@@ -59,7 +59,7 @@ class SceneFile {
     if (setting.path == "command") return read_tables(node, scene_.command, bind_command);
     if (setting.path == "obstacle") return read_tables(node, scene_.obstacle, bind_obstacle);
     if (setting.path.starts_with("param.")) return set_parameter(setting.path.substr(6), node, origin);
-    if (std::count(left_.begin(), left_.end(), setting.path)) return throw_if_unless_array(node);
+    if (std::count(left_out_.begin(), left_out_.end(), setting.path)) return throw_if_unless_array(node);
     if (node.kind == TomlNode::Kind::array && is_table(setting.path))
       throw Error::invalid_input(setting.path + " must be one table, [" + setting.path + "] (" + origin +
                                  ")");
@@ -85,7 +85,7 @@ class SceneFile {
   Value timed(const BoundKey& key, const Value& value, const std::string& origin) const {
     const auto* text = std::get_if<std::string>(&value);
     if (!text || key.description.unit != "s") return value;
-    return time_of(scene_.phase, *text, key.description.path + ", " + origin);
+    return phase_time(scene_.phase, *text, key.description.path + ", " + origin);
   }
 
   bool is_extra(const std::string& path) const {
@@ -176,7 +176,7 @@ class SceneFile {
   Scene& scene_;
   std::string file_;
   const Keys& extra_;
-  const std::vector<std::string>& left_;
+  const std::vector<std::string>& left_out_;
   Keys known_;
 };
 
@@ -240,7 +240,7 @@ double phases_end(const std::vector<Phase>& phases) {
   return end;
 }
 
-double time_of(const std::vector<Phase>& phases, const std::string& text, const std::string& origin) {
+double phase_time(const std::vector<Phase>& phases, const std::string& text, const std::string& origin) {
   const std::size_t sign = text.find_first_of("+-");
   const std::string name = text.substr(0, text.find_last_not_of(" +-", sign) + 1);
   const double start = phase_start(phases, name);

@@ -55,6 +55,6 @@ double phase_start(const std::vector<Phase>& phases, const std::string& name);
 double phases_end(const std::vector<Phase>& phases);
 // A time written as "hang", "hang + 0.2" or "hang - 0.2" (spaces as one likes) [s].  Error::invalid_input,
 // which ends in `origin`, for a name that is no phase or a number that is none.
-double time_of(const std::vector<Phase>& phases, const std::string& text, const std::string& origin);
+double phase_time(const std::vector<Phase>& phases, const std::string& text, const std::string& origin);
 
 }  // namespace hysteron

@@ -25,19 +25,19 @@ std::string in_quotes(const std::string& text) {
 }
 
 template <class Numbers>
-std::string list_of(const Numbers& numbers) {
+std::string number_list(const Numbers& numbers) {
   std::vector<std::string> words;
   for (const double x : numbers) words.push_back(toml_number(x));
   return "[" + join(words, ", ") + "]";
 }
 
-std::string value_of(const Field& field) {
+std::string field_text(const Field& field) {
   if (const auto* x = std::get_if<bool*>(&field)) return **x ? "true" : "false";
   if (const auto* x = std::get_if<int*>(&field)) return std::to_string(**x);
   if (const auto* x = std::get_if<unsigned*>(&field)) return std::to_string(**x);
   if (const auto* x = std::get_if<double*>(&field)) return toml_number(**x);
-  if (const auto* x = std::get_if<Eigen::Vector3d*>(&field)) return list_of(**x);
-  if (const auto* x = std::get_if<Numbers*>(&field)) return list_of(**x);
+  if (const auto* x = std::get_if<Eigen::Vector3d*>(&field)) return number_list(**x);
+  if (const auto* x = std::get_if<Numbers*>(&field)) return number_list(**x);
   if (const auto* x = std::get_if<NamedValue>(&field)) return in_quotes(x->name());
   return in_quotes(*std::get<std::string*>(field));
 }
@@ -59,7 +59,7 @@ class TomlWriter {
       const std::string& path = key.description.path;
       if (std::holds_alternative<Parameters*>(key.field)) continue;
       const std::string value =
-          path == "fabric.name" ? in_quotes(fabric_to_read(scene_)) : value_of(key.field);
+          path == "fabric.name" ? in_quotes(fabric_to_read(scene_)) : field_text(key.field);
       line(path, value, key.description.unit, own_.contains(path) ? kOwn : origin(path));
     }
   }
@@ -79,8 +79,8 @@ class TomlWriter {
             << prefix_ << "[[" << name << "]]  # " << (prefix_.empty() ? found->second.c_str() : kOwn)
             << "\n";
       for (const BoundKey& key : bind_one(items[i]))
-        line(key.description.path, value_of(key.field), key.description.unit,
-             place_of(path + "." + key.description.path));
+        line(key.description.path, field_text(key.field), key.description.unit,
+             key_place(path + "." + key.description.path));
       if constexpr (requires { items[i].motion; }) keyframes(items[i].motion);
     }
     prefix_.clear();
@@ -97,18 +97,18 @@ class TomlWriter {
     for (Keyframe frame : motion.keys) {
       std::vector<std::string> entries;
       for (const BoundKey& key : bind_keyframe(frame))
-        entries.push_back(key.description.path + " = " + value_of(key.field));
+        entries.push_back(key.description.path + " = " + field_text(key.field));
       text_ << prefix_ << "  {" << join(entries, ", ") << "},\n";
     }
     text_ << prefix_ << "]\n";
   }
 
-  std::string place_of(const std::string& key) const {
+  std::string key_place(const std::string& key) const {
     const auto found = scene_.origin.find(key);
     return found == scene_.origin.end() ? "" : found->second;
   }
   std::string origin(const std::string& key) const {
-    const std::string place = place_of(key);
+    const std::string place = key_place(key);
     return place.empty() ? "default" : place;
   }
 
@@ -131,8 +131,8 @@ std::string fabric_to_read(const Scene& scene) {
   return scene.fabric.name;
 }
 
-std::string toml_of(const Scene& scene, const std::set<std::string>& own,
-                    const std::vector<FurtherKey>& others) {
+std::string scene_toml(const Scene& scene, const std::set<std::string>& own,
+                       const std::vector<FurtherKey>& others) {
   Scene copy = scene;
   TomlWriter writer(scene, own);
   writer.comment("A resolved scene: every key, its unit, and where its value comes from.");

@@ -19,7 +19,7 @@ struct FurtherKey {
 
 // Every key with its unit and where its value comes from as a comment.  `own`: keys that the experiment has
 // set itself.  Tables that it has added are commented out: it will add them again.
-std::string toml_of(const Scene& scene, const std::set<std::string>& own = {},
-                    const std::vector<FurtherKey>& others = {});
+std::string scene_toml(const Scene& scene, const std::set<std::string>& own = {},
+                       const std::vector<FurtherKey>& others = {});
 
 }  // namespace hysteron

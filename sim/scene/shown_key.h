@@ -9,7 +9,7 @@
 namespace hysteron {
 
 // Where a key was set; the program's defaults and the experiment's have no place.
-inline std::string origin_of(const Scene& scene, const std::string& key) {
+inline std::string key_origin(const Scene& scene, const std::string& key) {
   const auto found = scene.origin.find(key);
   return found == scene.origin.end() ? "default" : found->second;
 }
@@ -17,7 +17,7 @@ inline std::string origin_of(const Scene& scene, const std::string& key) {
 // "fabric.b1 = 1e-6 N m (--fabric.b1)"
 inline std::string shown(const Scene& scene, const std::string& key, const std::string& value,
                          const std::string& unit) {
-  return key + " = " + value + (unit.empty() ? "" : " " + unit) + " (" + origin_of(scene, key) + ")";
+  return key + " = " + value + (unit.empty() ? "" : " " + unit) + " (" + key_origin(scene, key) + ")";
 }
 inline std::string shown(const Scene& scene, const std::string& key, double value, const std::string& unit) {
   return shown(scene, key, number_text(value), unit);

@@ -50,18 +50,18 @@ struct KnotCurve {
 class Knot {
  public:
   Knot(double width, double radius) : curve_{width, radius} {
-    way_.push_back(0);
+    arc_length_.push_back(0);
     for (int i = 1; i <= kPieces; ++i) {
       const double u = kEnd * i / kPieces, h = kEnd / kPieces;  // Simpson's rule
-      way_.push_back(
-          way_.back() +
+      arc_length_.push_back(
+          arc_length_.back() +
           h / 6 * (curve_.first(u - h).norm() + 4 * curve_.first(u - h / 2).norm() + curve_.first(u).norm()));
     }
     // Its ends have the same direction, in the plane of x and z.
     level_ = Eigen::Quaterniond::FromTwoVectors(curve_.first(0), Vector3d::UnitX()).toRotationMatrix();
   }
 
-  double length() const { return way_.back(); }
+  double length() const { return arc_length_.back(); }
 
   // At `s` from the knot's beginning along its middle line and `v` beside it.
   Vector3d at(double s, double v) const {
@@ -73,22 +73,24 @@ class Knot {
 
  private:
   double angle_at(double s) const {
-    const auto after = std::upper_bound(way_.begin() + 1, way_.end() - 1, s);
+    const auto after = std::upper_bound(arc_length_.begin() + 1, arc_length_.end() - 1, s);
     const double part = (s - *(after - 1)) / (*after - *(after - 1));
-    return kEnd * (static_cast<double>(after - 1 - way_.begin()) + part) / kPieces;
+    return kEnd * (static_cast<double>(after - 1 - arc_length_.begin()) + part) / kPieces;
   }
 
   KnotCurve curve_;
-  std::vector<double> way_;  // [m], up to each piece's beginning
+  std::vector<double> arc_length_;  // [m], up to each piece's beginning
   Eigen::Matrix3d level_;
 };
 
 // Length of a flat run.
-double run_of(const ClothShape& c) { return (c.length - (c.pleats - 1) * kPi * c.radius) / c.pleats; }
+double flat_run_length(const ClothShape& c) {
+  return (c.length - (c.pleats - 1) * kPi * c.radius) / c.pleats;
+}
 
 // Of a point at `s` along the cloth, in the plane of the pleats.
 Vector3d pleated(const ClothShape& c, double s, double y) {
-  const double run = run_of(c), period = run + kPi * c.radius;
+  const double run = flat_run_length(c), period = run + kPi * c.radius;
   const int layer = std::clamp(static_cast<int>(s / period), 0, c.pleats - 1);
   const double on = s - layer * period, turn = std::max(0.0, on - run) / c.radius;
   const double along = std::min(on, run) + c.radius * std::sin(turn);
@@ -133,7 +135,7 @@ void check_pleats(const Scene& scene) {
     throw Error::invalid_input(shown(scene, "cloth.radius", c.radius, "m") +
                                " must be >= " + number_text(scene.fabric.thickness) +
                                " m, fabric.thickness, for cloth.start = pleats");
-  if (run_of(c) <= 0)
+  if (flat_run_length(c) <= 0)
     throw Error::invalid_input(shown(scene, "cloth.length", c.length, "m") + " must be > " +
                                number_text((c.pleats - 1) * kPi * c.radius) + " m for " +
                                shown(scene, "cloth.pleats", std::to_string(c.pleats), "") +
@@ -147,7 +149,7 @@ void check_start_name(const Scene& scene) {
   const std::string nearest = nearest_name(start, kNames);
   throw Error::invalid_input(shown(scene, "cloth.start", start, "") + " must be " + join(kNames, " | ") +
                              " | FILE.obj" + (nearest.empty() ? "" : "; did you mean " + nearest + "?"))
-      .of("cloth.start", start);
+      .with_key("cloth.start", start);
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ struct Source {
 
 TomlNode convert(const Source& from, const std::string& key, const toml::node& source);
 
-int line_of(const toml::node& source) { return static_cast<int>(source.source().begin.line); }
+int line_number(const toml::node& source) { return static_cast<int>(source.source().begin.line); }
 
 bool all_numbers(const toml::array& array) {
   return std::all_of(array.begin(), array.end(), [](const toml::node& x) { return x.is_number(); });
@@ -50,16 +50,16 @@ Value convert_value(const std::string& file, const std::string& key, const toml:
   if (const auto* x = source.as_integer()) return x->get();
   if (const auto* x = source.as_floating_point()) return x->get();
   if (const auto* x = source.as_string()) {
-    throw_if_control_characters(x->get(), file, line_of(source));
+    throw_if_control_characters(x->get(), file, line_number(source));
     return x->get();
   }
   throw Error::invalid_input(key + " is a date or a mixed array (" + file + ":" +
-                             std::to_string(line_of(source)) +
+                             std::to_string(line_number(source)) +
                              "); allowed are true, false, numbers, texts, arrays of numbers, tables");
 }
 
 TomlNode convert_array(const Source& from, const std::string& key, const toml::array& source) {
-  TomlNode node{TomlNode::Kind::array, key, line_of(source), {}, {}};
+  TomlNode node{TomlNode::Kind::array, key, line_number(source), {}, {}};
   if (all_numbers(source) && !source.empty()) {
     node.kind = TomlNode::Kind::value;
     std::vector<double> numbers;
@@ -77,10 +77,10 @@ TomlNode convert_array(const Source& from, const std::string& key, const toml::a
 
 TomlNode convert(const Source& from, const std::string& key, const toml::node& source) {
   if (const auto* array = source.as_array()) return convert_array(from, key, *array);
-  TomlNode node{TomlNode::Kind::table, key, line_of(source), {}, {}};
+  TomlNode node{TomlNode::Kind::table, key, line_number(source), {}, {}};
   if (const auto* table = source.as_table()) {
     for (const auto& [name, child] : *table) {
-      throw_if_control_characters(std::string(name.str()), from.file, line_of(child));
+      throw_if_control_characters(std::string(name.str()), from.file, line_number(child));
       node.children.push_back(convert(from, std::string(name.str()), child));
     }
     // The library sorts by name; messages should come in reading order.

@@ -29,7 +29,7 @@ std::size_t behind_text(std::string_view text, std::size_t at) {
 
 bool is_beyond_ascii(char c) { return static_cast<unsigned char>(c) >= 0x80; }
 
-bool is_one_of(char c, std::string_view characters) { return characters.find(c) != characters.npos; }
+bool is_among(char c, std::string_view characters) { return characters.find(c) != characters.npos; }
 
 // Whether a backslash of this text in quotation marks is followed, but for white space, by a letter beyond
 // ASCII.
@@ -49,11 +49,11 @@ class Structure {
   std::string see(char c, int line) {
     const char before = std::exchange(before_, c);
     if (before == '\r' && c != '\n') return "a carriage return stands without a line feed";
-    if (is_one_of(c, " \t\r#")) return {};
+    if (is_among(c, " \t\r#")) return {};
     if (c == '\n') return end_line();
     if (is_beyond_ascii(c)) return "a letter beyond ASCII stands outside of a text: a key is malformed";
     if (header_ == Header::over) return "something stands behind a header in brackets: it is malformed";
-    if (is_one_of(c, "\"'") && !may_stand_before_a_text(before)) return "a key or a value is malformed";
+    if (is_among(c, "\"'") && !may_stand_before_a_text(before)) return "a key or a value is malformed";
     if (c == '[' && open_.empty() && is_first_in_line_) header_ = Header::opens;
     is_first_in_line_ = false;
     if (header_ != Header::none && !continues_header(c)) return "a header in brackets is malformed";
@@ -74,7 +74,7 @@ class Structure {
   enum class Header { none, opens, has_key, closes, over };  // "[[", "[[a.b", "[[a.b]", "[[a.b]]"
 
   bool may_stand_before_a_text(char c) const {
-    return is_one_of(c, " \t\r\n=[{,") || (c == '.' && !in_value_);
+    return is_among(c, " \t\r\n=[{,") || (c == '.' && !in_value_);
   }
 
   bool continues_header(char c) {
@@ -82,16 +82,16 @@ class Structure {
     if (c == ']') return header_ == Header::has_key || header_ == Header::closes;
     if (header_ == Header::closes || (c == '.' && header_ == Header::opens)) return false;
     header_ = Header::has_key;
-    return std::isalnum(static_cast<unsigned char>(c)) || is_one_of(c, "_-.\"'");
+    return std::isalnum(static_cast<unsigned char>(c)) || is_among(c, "_-.\"'");
   }
 
   std::string take(char c, int line) {
-    if (is_one_of(c, "=,[]{}")) dots_ = 0;
+    if (is_among(c, "=,[]{}")) dots_ = 0;
     if (c == '.' && ++dots_ >= kMaxKeyParts)
       return "a key has more than " + std::to_string(kMaxKeyParts) + " parts";
     if (c == '=' && std::exchange(in_value_, true)) return "a value holds an equals sign";
-    if (is_one_of(c, "[{")) open_.push_back({c, line});
-    if (is_one_of(c, "]}")) return close(c);
+    if (is_among(c, "[{")) open_.push_back({c, line});
+    if (is_among(c, "]}")) return close(c);
     if (c == '{' || (c == ',' && !open_.empty() && open_.back().character == '{')) in_value_ = false;
     return {};
   }
@@ -134,7 +134,7 @@ std::optional<TomlFault> fault_before_parsing(std::string_view text) {
     if (c == '"' || c == '\'') next = behind_text(text, at);
     if (c == '#') next = std::min(text.find('\n', at), text.size());
     if (std::string what = structure.see(c, line); !what.empty()) return TomlFault{line, std::move(what)};
-    if (is_one_of(c, "\"'") && has_letter_behind_backslash(text.substr(at, next - at)))
+    if (is_among(c, "\"'") && has_letter_behind_backslash(text.substr(at, next - at)))
       return TomlFault{line, "a text is malformed: behind a backslash stands a letter beyond ASCII"};
     line += static_cast<int>(std::count(text.begin() + at, text.begin() + next, '\n'));
     at = next;

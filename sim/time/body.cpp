@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "sim/scene/cloth.h"
-#include "sim/time/refusals.h"
+#include "sim/time/step_errors.h"
 
 namespace hysteron {
 
@@ -39,7 +39,7 @@ Body<Real, Device>::Body(std::unique_ptr<Device> on, const Scene& s, const Cloth
       mass(*device, masses<Real>(s, c.mesh)),
       held(*device, c.held(s, 0)),
       ledger(*device, vertices),
-      hands(*device, scene, cloth, s.finds_equilibrium()),
+      pins(*device, scene, cloth, s.finds_equilibrium()),
       size_(*device, 1) {
   if (!scene.command.empty()) command_center_ = cloth.element_centers(op.dimension);
   if (!scene.obstacle.empty()) {
@@ -52,7 +52,7 @@ Body<Real, Device>::Body(std::unique_ptr<Device> on, const Scene& s, const Cloth
   membrane.start_friction(x.data());
   if (self_contact) {
     self_contact->prepare(x.data(), v.data(), held.data());  // at rest: v = 0
-    self_contact->moved(x.data());
+    self_contact->accept_iterate(x.data());
   }
   initial_ = energies();
   initial_.initial =
@@ -60,8 +60,8 @@ Body<Real, Device>::Body(std::unique_ptr<Device> on, const Scene& s, const Cloth
 }
 
 template <class Real, class Device>
-void Body<Real, Device>::meet(double start, Real h) {
-  forces_discontinuous |= hands.attach_and_release(*this, start);
+void Body<Real, Device>::apply_due_events(double start, Real h) {
+  forces_discontinuous |= pins.attach_and_release(*this, start);
   if (contact && start >= next_obstacle_) {
     throw_if_arrival(*this, met_, start);
     met_ = start;
@@ -70,24 +70,24 @@ void Body<Real, Device>::meet(double start, Real h) {
     for (const Obstacle& o : scene.obstacle)
       if (o.from > start) next_obstacle_ = std::min(next_obstacle_, o.from);
   }
-  hands.move(*this, start, h);
+  pins.move(*this, start, h);
 }
 
 template <class Real, class Device>
 void Body<Real, Device>::begin_stage(double start, Real h) {
-  meet(start, h);
+  apply_due_events(start, h);
   if (contact) contact->move(start, start + static_cast<double>(h));
   if (before.size() == 0) return;
   const Vec3<Real>* from = x.data();
   Vec3<Real>* to = before.data();
   for_each(
-      *device, {"remember positions", bytes_of(x, before)}, vertices,
+      *device, {"remember positions", total_bytes(x, before)}, vertices,
       HYST_KERNEL(int i) { to[i] = from[i]; });
 }
 
 template <class Real, class Device>
 void Body<Real, Device>::end_stage(double time) {
-  hands.end_stage(*this);
+  pins.end_stage(*this);
   if (self_contact) self_contact->commit(x.data(), before.data());
   if (!contact) return;
   clock.begin(Stage::contact);
@@ -112,22 +112,22 @@ void Body<Real, Device>::carry_out_commands(double start, double end) {
 }
 
 template <class Real, class Device>
-void Body<Real, Device>::visit(Archive& archive) {
-  hysteron::visit(archive, *device, x);
-  hysteron::visit(archive, *device, v);
-  hysteron::visit(archive, *device, held);
-  hysteron::visit(archive, *device, ledger);
-  hysteron::visit(archive, clock);
+void Body<Real, Device>::serialise(Archive& archive) {
+  hysteron::serialise(archive, *device, x);
+  hysteron::serialise(archive, *device, v);
+  hysteron::serialise(archive, *device, held);
+  hysteron::serialise(archive, *device, ledger);
+  hysteron::serialise(archive, clock);
   archive(counts);
   archive(forces_discontinuous);
   archive(initial_);
   archive(next_obstacle_);
   archive(met_);
-  hands.visit(archive, *this);
-  membrane.visit(archive);
-  bending.visit(archive);
-  if (contact) contact->visit(archive);
-  if (self_contact) self_contact->visit(archive);
+  pins.serialise(archive, *this);
+  membrane.serialise(archive);
+  bending.serialise(archive);
+  if (contact) contact->serialise(archive);
+  if (self_contact) self_contact->serialise(archive);
 }
 
 template <class Real, class Device>
@@ -135,7 +135,7 @@ bool Body<Real, Device>::is_finite() {
   const Vec3<Real>*at = x.data(), *moving = v.data();
   double* size = size_.data();
   for_each_sum<1>(
-      *device, {"finite", bytes_of(x, v)}, vertices,
+      *device, {"finite", total_bytes(x, v)}, vertices,
       HYST_KERNEL(int i, Sums<1>& sums) {
         sums.term[0] += static_cast<double>(at[i].squaredNorm() + moving[i].squaredNorm());
       },
@@ -152,10 +152,10 @@ template <class Real, class Device>
 Ledger Body<Real, Device>::energies() {
   Ledger sum;
   const auto at = x.download(), moving = v.download();
-  const auto m_of = mass.download();
+  const auto host_mass = mass.download();
   const auto fixed = held.download();
   for (int i = 0; i < vertices; ++i) {
-    const double m = static_cast<double>(m_of[i]);
+    const double m = static_cast<double>(host_mass[i]);
     sum.gravitational -= m * scene.gravity.dot(at[i].template cast<double>());
     if (!fixed[i]) sum.kinetic += m / 2 * moving[i].template cast<double>().squaredNorm();
   }
@@ -181,7 +181,7 @@ Ledger Body<Real, Device>::balance() {
     sum.unbalanced += of.unbalanced;
     sum.handle_work += of.handle_work;
   }
-  sum.handle_work += hands.work();
+  sum.handle_work += pins.work();
   sum.bending_relaxation = bending.relaxed_energy();
   sum.bending_friction = bending.dissipated_energy() - sum.bending_relaxation;
   const double viscous_bending = bending.viscous_loss(), viscous_membrane = membrane.viscous_loss();

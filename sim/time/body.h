@@ -11,8 +11,8 @@
 #include "sim/device/stage_clock.h"
 #include "sim/membrane/membrane.h"
 #include "sim/time/diagnostics.h"
-#include "sim/time/hands.h"
 #include "sim/time/ledger.h"
+#include "sim/time/pins.h"
 
 namespace hysteron {
 
@@ -43,7 +43,7 @@ struct Body {
   Buffer<Real, Device> mass;          // [kg]
   Buffer<char, Device> held;
   Buffer<VertexLedger, Device> ledger;
-  Hands<Real, Device> hands;
+  Pins<Real, Device> pins;
   Diagnostics counts;
   // Hands, obstacles or commands have changed forces at once since the stage accepted last.
   bool forces_discontinuous = false;
@@ -53,12 +53,12 @@ struct Body {
   // Accepts the positions at the end of a stage for contact's history.
   void end_stage(double time);
   // Hands and obstacles that are due.
-  void meet(double start, Real h);
+  void apply_due_events(double start, Real h);
   // Commands that are due in a step, on the state accepted last.
   void carry_out_commands(double start, double end);
 
   // All that outlives a step; the rest follows from the scene, or is made anew in every step.
-  void visit(Archive& archive);
+  void serialise(Archive& archive);
 
   Ledger energies();  // at this moment
   Ledger balance();   // since the start

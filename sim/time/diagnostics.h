@@ -29,8 +29,8 @@ struct Diagnostics {
   // Of hands of limited strength, and of rigid ones that gave way to the cloth: parts of steps in which one
   // pulled with all that it may, in which rigid ones gave way, and how far vertices have lagged behind at
   // most [m].
-  long slack_hands = 0, barred_hands = 0;
-  double hand_lag = 0;
+  long saturated_pins = 0, blocked_pins = 0;
+  double pin_lag = 0;
   long newton = 0, linear = 0;  // iterations of all implicit solves
   double time_steps = 0;        // sum over Newton's iterations, 1 for a full step
   double last_residual = 0;     // unbalanced force over load where Newton's method ended last

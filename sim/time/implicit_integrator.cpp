@@ -6,7 +6,7 @@
 
 #include "sim/base/error.h"
 #include "sim/time/make_linear_solver.h"
-#include "sim/time/refusals.h"
+#include "sim/time/step_errors.h"
 #include "sim/time/time_integrator.h"
 
 namespace hysteron {
@@ -15,9 +15,9 @@ namespace {
 
 // What a solve works on.
 template <class Real, class Device>
-VertexState<Real> vertices_of(Body<Real, Device>& body) {
-  return {body.x.data(),    body.v.data(),     body.held.data(),
-          body.mass.data(), body.hands.arcs(), body.hands.grips()};
+VertexState<Real> vertex_state(Body<Real, Device>& body) {
+  return {body.x.data(),    body.v.data(),    body.held.data(),
+          body.mass.data(), body.pins.arcs(), body.pins.compliant_pins()};
 }
 
 }  // namespace
@@ -44,7 +44,7 @@ void ImplicitIntegrator<Real, Device>::step_by(double start, double h) {
 
 template <class Real, class Device>
 std::vector<Vec3<Real>> ImplicitIntegrator<Real, Device>::handle_forces() {
-  return solver_.handle_forces(vertices_of(body_));
+  return solver_.handle_forces(vertex_state(body_));
 }
 
 template <class Real, class Device>
@@ -69,27 +69,27 @@ template <class Real, class Device>
 NewtonOutcome ImplicitIntegrator<Real, Device>::attempt(double start, double h, bool is_first_stage,
                                                         bool is_last_resort) {
   const Real length = static_cast<Real>(h);
-  Hands<Real, Device>& hands = body_.hands;
+  Pins<Real, Device>& pins = body_.pins;
   body_.begin_stage(start, length);
   if (body_.forces_discontinuous) solver_.forget_acceleration();
-  const bool gives_way =
-      body_.self_contact && hands.are_barred(body_, length) && hands.give_way(body_, length);
+  const bool yields =
+      body_.self_contact && pins.are_blocked(body_, length) && pins.yield_to_cloth(body_, length);
   const NewtonOutcome outcome = solve(start, h, is_first_stage);
   const bool fails = outcome.blocked || (is_last_resort && !outcome.converged);
-  if (!fails || gives_way || !body_.self_contact || !hands.give_way(body_, length)) return outcome;
+  if (!fails || yields || !body_.self_contact || !pins.yield_to_cloth(body_, length)) return outcome;
   return solve(start, h, is_first_stage);
 }
 
 template <class Real, class Device>
 NewtonOutcome ImplicitIntegrator<Real, Device>::solve(double start, double h, bool is_first_stage) {
   body_.clock.begin(Stage::solve);
-  const NewtonOutcome outcome = solver_.solve(vertices_of(body_), h, load_share(start + h), is_first_stage);
+  const NewtonOutcome outcome = solver_.solve(vertex_state(body_), h, load_share(start + h), is_first_stage);
   body_.clock.end(Stage::solve);
   body_.counts.newton += outcome.iterations;
   body_.counts.linear += outcome.linear_iterations;
   body_.counts.unbalanced += outcome.unbalanced;
   body_.counts.time_steps += outcome.time_steps;
-  left_ = outcome;
+  last_outcome_ = outcome;
   body_.counts.last_residual = outcome.load > 0 ? outcome.residual / outcome.load : 0;
   return outcome;
 }
@@ -100,11 +100,11 @@ void ImplicitIntegrator<Real, Device>::accept(double end) {
   counts.largest_residual = std::max(counts.largest_residual, counts.last_residual);
   if (!solver_.is_static()) {
     ++counts.stages;
-    counts.velocities += left_.velocity;
-    counts.largest_velocity = std::max(counts.largest_velocity, left_.velocity);
+    counts.velocities += last_outcome_.velocity;
+    counts.largest_velocity = std::max(counts.largest_velocity, last_outcome_.velocity);
   }
   body_.clock.begin(Stage::history);
-  solver_.accept(vertices_of(body_), body_.ledger.data());
+  solver_.accept(vertex_state(body_), body_.ledger.data());
   body_.clock.end(Stage::history);
   body_.forces_discontinuous = false;
   body_.end_stage(end);
@@ -121,12 +121,13 @@ void ImplicitIntegrator<Real, Device>::take_interval(double start, double h, int
 // steps can start.
 template <class Real, class Device>
 void ImplicitIntegrator<Real, Device>::finish(double start, double h, int halvings) {
-  const double first = first_stage(h), rest = h - first;
+  const double first = first_stage(h), remainder = h - first;
   accept(start + first);
   ++body_.counts.parts;
   if (!solver_.has_two_stages()) return;
-  const NewtonOutcome outcome = attempt(start + first, rest, false, halvings == kMaxHalvings);
-  outcome.converged ? accept(start + first + rest) : take_halves(start + first, rest, halvings, outcome);
+  const NewtonOutcome outcome = attempt(start + first, remainder, false, halvings == kMaxHalvings);
+  outcome.converged ? accept(start + first + remainder)
+                    : take_halves(start + first, remainder, halvings, outcome);
 }
 
 template <class Real, class Device>
@@ -146,7 +147,7 @@ void ImplicitIntegrator<Real, Device>::take_adaptive_step(double start) {
   for (double now = start; end - now > least / 2;) {
     const double h = equal_part(end - now, part_);
     const NewtonOutcome outcome = attempt(now, first_stage(h), solver_.has_two_stages(), false);
-    const double error = outcome.converged ? solver_.local_error(vertices_of(body_)) : 1e30;
+    const double error = outcome.converged ? solver_.local_error(vertex_state(body_)) : 1e30;
     const double wanted = next_part(h, std::pow(tolerance_ / error, 1 / solver_.error_order()));
     if (outcome.converged && error <= tolerance_) {
       finish(now, h, 0);
@@ -170,7 +171,7 @@ void LaggedBending<Real, Device>::step(double start) {
   for (int k = 0; k < stages_; ++k) {
     const double from = start + whole * k / stages_;
     const Real h = static_cast<Real>(whole / stages_);
-    body.meet(from, h);
+    body.apply_due_events(from, h);
     body.clock.begin(Stage::bending);
     body.bending.commit(body.x.data(), body.v.data(), h);
     body.clock.end(Stage::bending);

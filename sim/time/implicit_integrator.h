@@ -17,10 +17,10 @@ class ImplicitIntegrator : public TimeIntegrator<Real, Device> {
   void step_by(double start, double h) override;
   void become_static() override;
   std::vector<Vec3<Real>> handle_forces() override;
-  void visit(Archive& archive) override {
+  void serialise(Archive& archive) override {
     archive(part_);
     archive(tolerance_);
-    solver_.visit(archive);
+    solver_.serialise(archive);
   }
   std::size_t bytes() const override { return solver_.bytes(); }
 
@@ -33,16 +33,16 @@ class ImplicitIntegrator : public TimeIntegrator<Real, Device> {
   void take_adaptive_step(double start);
   void finish(double start, double h, int halvings);
   void take_halves(double start, double h, int halvings, const NewtonOutcome& outcome);
-  double first_stage(double h) const { return solver_.has_two_stages() ? kTrapezoidalShare * h : h; }
+  double first_stage(double h) const { return solver_.has_two_stages() ? kTrapezoidalFraction * h : h; }
   NewtonOutcome attempt(double start, double h, bool is_first_stage, bool is_last_resort);
   NewtonOutcome solve(double start, double h, bool is_first_stage);
   void accept(double end);
   double load_share(double time) const;
 
   ImplicitStep<Real, Device> solver_;
-  double tolerance_;    // 0: steps as given
-  NewtonOutcome left_;  // of the attempt last made
-  double part_ = 0;     // of adaptive steps: the coming one [s]
+  double tolerance_;            // 0: steps as given
+  NewtonOutcome last_outcome_;  // of the attempt last made
+  double part_ = 0;             // of adaptive steps: the coming one [s]
 };
 
 // Bending explicit with its substeps, the rest solved to the end: layers are kept apart by the line search.

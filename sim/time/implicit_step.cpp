@@ -20,7 +20,7 @@ namespace hysteron {
 namespace {
 
 template <class Real, class Device>
-double sum_of(const Buffer<Real, Device>& values) {
+double buffer_sum(const Buffer<Real, Device>& values) {
   const std::vector<Real> host = values.download();
   return std::accumulate(host.begin(), host.end(), 0.0);
 }
@@ -67,7 +67,7 @@ ImplicitStep<Real, Device>::ImplicitStep(Device& device, const Scene& scene, con
       gravity_(scene.gravity.cast<Real>()),
       drag_(static_cast<Real>(scene.air_drag / scene.fabric.density)),
       vertices_(static_cast<int>(mass.size())),
-      total_mass_(sum_of(mass)),
+      total_mass_(buffer_sum(mass)),
       membrane_(membrane),
       bending_(bending),
       potential_(device, matrix, membrane, bending, contact, self_contact, mass, bending_lags_, scene.tuning),
@@ -105,40 +105,40 @@ std::size_t ImplicitStep<Real, Device>::bytes() const {
 }
 
 template <class Real, class Device>
-void ImplicitStep<Real, Device>::visit(Archive& archive) {
+void ImplicitStep<Real, Device>::serialise(Archive& archive) {
   archive(knows_acceleration_);
   archive(last_h_);
-  hysteron::visit(archive, device_, acceleration_);
-  hysteron::visit(archive, device_, x_before_);
-  hysteron::visit(archive, device_, v_before_);
+  hysteron::serialise(archive, device_, acceleration_);
+  hysteron::serialise(archive, device_, x_before_);
+  hysteron::serialise(archive, device_, v_before_);
   archive(knows_forces_);
-  hysteron::visit(archive, device_, forces_);
-  potential_.visit(archive);
-  solver_->visit(archive);
+  hysteron::serialise(archive, device_, forces_);
+  potential_.serialise(archive);
+  solver_->serialise(archive);
 }
 
 template <class Real, class Device>
-StepFormula ImplicitStep<Real, Device>::rates_of(double h) const {
+StepFormula ImplicitStep<Real, Device>::rate_formula(double h) const {
   if (static_) return StepFormula::statics(h);
   const bool two_steps = two_step_ && last_h_ > 0 && h <= kMaxGrowth * last_h_;
   return two_steps ? StepFormula::bdf2(h, last_h_) : StepFormula::backward_euler(h);
 }
 
 template <class Real, class Device>
-StepFormula ImplicitStep<Real, Device>::formula_of(double h, bool is_first_stage) const {
-  if (static_ || !is_first_stage) return rates_of(h);
+StepFormula ImplicitStep<Real, Device>::step_formula(double h, bool is_first_stage) const {
+  if (static_ || !is_first_stage) return rate_formula(h);
   return knows_acceleration_ ? StepFormula::trapezoidal(h) : StepFormula::backward_euler(h);
 }
 
 template <class Real, class Device>
-NewtonOutcome ImplicitStep<Real, Device>::solve(const VertexState<Real>& state, double h, double share,
+NewtonOutcome ImplicitStep<Real, Device>::solve(const VertexState<Real>& state, double h, double fraction,
                                                 bool is_first_stage) {
-  formula_ = formula_of(h, is_first_stage);
+  formula_ = step_formula(h, is_first_stage);
   solver_->begin();
-  share_ = static_cast<Real>(share);
+  fraction_ = static_cast<Real>(fraction);
   place(state);
-  potential_.begin({formula_, rates_of(h), state.x, x_before_.data(), reference_.data(), predicted_.data(),
-                    state.held, gravity_, drag_, share_, state.grips});
+  potential_.begin({formula_, rate_formula(h), state.x, x_before_.data(), reference_.data(),
+                    predicted_.data(), state.held, gravity_, drag_, fraction_, state.compliant_pins});
   // The better of two beginnings: at constant velocity, and with the acceleration of the step before.
   const PotentialValue steady = potential_of_guess(state, false);
   PotentialValue begun = steady;
@@ -165,15 +165,16 @@ std::vector<Vec3<Real>> ImplicitStep<Real, Device>::handle_forces(const VertexSt
   device_download(device_, mask.data(), state.held, mask.size());
   for (int i = 0; i < vertices_; ++i)
     if (!mask[i]) force[i].setZero();
-  if (!state.grips.strength) return force;
+  if (!state.compliant_pins.strength) return force;
   std::vector<Vec3<Real>> place(vertices_);
   std::vector<Real> strength(vertices_);
-  device_download(device_, place.data(), state.grips.place, place.size() * sizeof(Vec3<Real>));
-  device_download(device_, strength.data(), state.grips.strength, strength.size() * sizeof(Real));
-  const Grips<Real> grips{place.data(), strength.data(), state.grips.give};
+  device_download(device_, place.data(), state.compliant_pins.place, place.size() * sizeof(Vec3<Real>));
+  device_download(device_, strength.data(), state.compliant_pins.strength, strength.size() * sizeof(Real));
+  const CompliantPins<Real> compliant_pins{place.data(), strength.data(),
+                                           state.compliant_pins.yield_distance};
   std::vector<Vec3<Real>> x(vertices_);
   device_download(device_, x.data(), state.x, x.size() * sizeof(Vec3<Real>));
-  for (int i = 0; i < vertices_; ++i) force[i] += grips.force(i, x[i]);
+  for (int i = 0; i < vertices_; ++i) force[i] += compliant_pins.force(i, x[i]);
   return force;
 }
 
@@ -201,8 +202,9 @@ PotentialValue ImplicitStep<Real, Device>::potential_of_guess(const VertexState<
   guess(state, accelerated);
   potential_.clip_to_obstacles(end_.data());
   const bool apart = !potential_.has_self_contact() || keep_apart(state);
-  if (!apart || !potential_.reaches(end_.data())) return {.energy = std::numeric_limits<double>::infinity()};
-  potential_.lag_friction(end_.data());
+  if (!apart || !potential_.path_is_clear(end_.data()))
+    return {.energy = std::numeric_limits<double>::infinity()};
+  potential_.update_friction_limits(end_.data());
   return potential_.evaluate(end_.data(), nullptr);
 }
 
@@ -258,7 +260,7 @@ bool ImplicitStep<Real, Device>::keep_apart(const VertexState<Real>& state) {
     shorten_guess(state, static_cast<Real>(shorter));
     const double feasible = potential_.collision_free_step(state.x, displacement_.data(), 1);
     if (feasible >= 1) {
-      potential_.took(end_.data());
+      potential_.accept_iterate(end_.data());
       return true;
     }
     shorter = std::max(kWithin * feasible, kFastest);
@@ -287,11 +289,11 @@ template <class Real, class Device>
 double ImplicitStep<Real, Device>::local_error(const VertexState<Real>& state) {
   const double w = last_h_ > 0 ? formula_.dt / last_h_ : 1;
   const double of_bdf2 = (1 + w) * (1 + w) / (6 * w * (1 + 2 * w)), of_extrapolation = 1.0 / 6 + 1 / (4 * w);
-  const double of_step = (std::sqrt(2.0) - 1) / 2 - 1.0 / 6, of_stage = std::pow(kTrapezoidalShare, 3) / 4;
+  const double of_step = (std::sqrt(2.0) - 1) / 2 - 1.0 / 6, of_stage = std::pow(kTrapezoidalFraction, 3) / 4;
   const bool second = error_order() == 3;
-  const double share = formula_.carried > 0 ? of_step / of_stage
-                       : second             ? of_bdf2 / (of_bdf2 + of_extrapolation)
-                                            : 0.5;
+  const double fraction = formula_.carried > 0 ? of_step / of_stage
+                          : second             ? of_bdf2 / (of_bdf2 + of_extrapolation)
+                                               : 0.5;
   const Real h = static_cast<Real>(formula_.dt), curved = second ? h * h / 2 : Real(0);
   const Vec3<Real>*x = state.x, *v = state.v, *a = acceleration_.data(), *end = end_.data();
   const char* held = state.held;
@@ -305,7 +307,7 @@ double ImplicitStep<Real, Device>::local_error(const VertexState<Real>& state) {
         sums.term[0] += static_cast<double>(mass[i] * miss.squaredNorm());
       },
       HYST_KERNEL(const Sums<1>& total) { *size = total.term[0]; });
-  return share * std::sqrt(size_.download()[0] / total_mass_);
+  return fraction * std::sqrt(size_.download()[0] / total_mass_);
 }
 
 template <class Real, class Device>
@@ -327,14 +329,14 @@ template <class Real, class Device>
 void ImplicitStep<Real, Device>::book(const VertexState<Real>& state, VertexLedger* ledger) {
   const Real rate = static_cast<Real>(1 / formula_.beta_dt);  // 0 in statics
   const Real inertia = rate * rate, drag = drag_ * rate;
-  const Vec3<Real> g = gravity_, carried = (1 - share_) * gravity_;
+  const Vec3<Real> g = gravity_, carried = (1 - fraction_) * gravity_;
   const GatheredForces<Real> bending = bending_.forces();
   const Vec3<Real>*x = state.x, *v = state.v, *end = end_.data(), *reference = reference_.data();
   const Vec3<Real>*predicted = predicted_.data(), *drift = drift_.data(), *gradient = potential_.gradient();
   const char* held = state.held;
   const Real* mass = state.mass;
   const Vec3<Real>* handle_displacement = state.handle_displacement;
-  const Grips<Real> grips = state.grips;
+  const CompliantPins<Real> compliant_pins = state.compliant_pins;
   const bool knows_forces = knows_forces_, along_arc = handle_displacement && !knows_forces;
   knows_forces_ = forces_.size() > 0;
   VertexForces<Real>* kept = knows_forces_ ? forces_.data() : nullptr;
@@ -343,21 +345,21 @@ void ImplicitStep<Real, Device>::book(const VertexState<Real>& state, VertexLedg
   for_each(
       device_, {"implicit ledger", bytes}, vertices_, HYST_KERNEL(int i) {
         const Vec3<Real> d = end[i] - x[i], weight = mass[i] * g;
-        const Vec3<Real> way = held[i] && along_arc ? handle_displacement[i] : d;
+        const Vec3<Real> arc_displacement = held[i] && along_arc ? handle_displacement[i] : d;
         const Vec3<Real> air = -mass[i] * drag * (end[i] - reference[i]);
         const Vec3<Real> inertial = mass[i] * inertia * (end[i] - predicted[i]);
-        VertexForces<Real> now{bending.at(i), grips.force(i, end[i]) - mass[i] * carried, {}};
-        now.rest = inertial - air - weight - now.hands - now.bending - gradient[i];
+        VertexForces<Real> now{bending.at(i), compliant_pins.force(i, end[i]) - mass[i] * carried, {}};
+        now.remainder = inertial - air - weight - now.pins - now.bending - gradient[i];
         const VertexForces<Real> of = knows_forces ? now.mean(kept[i]) : now;
         if (kept) kept[i] = now;
         VertexLedger& sum = ledger[i];
-        sum.bending_work += static_cast<double>(of.bending.dot(way));
+        sum.bending_work += static_cast<double>(of.bending.dot(arc_displacement));
         sum.gravity_work += static_cast<double>(weight.dot(d));
-        sum.implicit_work += static_cast<double>(of.rest.dot(way));
-        sum.handle_work += static_cast<double>(of.hands.dot(d));
+        sum.implicit_work += static_cast<double>(of.remainder.dot(arc_displacement));
+        sum.handle_work += static_cast<double>(of.pins.dot(d));
         if (held[i]) {
-          sum.handle_work -=
-              static_cast<double>((weight + of.hands).dot(d) + (of.bending + of.rest).dot(way));
+          sum.handle_work -= static_cast<double>((weight + of.pins).dot(d) +
+                                                 (of.bending + of.remainder).dot(arc_displacement));
           return;
         }
         // What Newton's method has left unbalanced acts like one more force on the masses.

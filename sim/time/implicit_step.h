@@ -28,18 +28,19 @@ struct VertexState {
   // Of moving handles: the displacement along their arcs as the end of the step sees it, duration times
   // velocity; null if none moves [m].
   const Vec3<Real>* handle_displacement;
-  Grips<Real> grips = {};
+  CompliantPins<Real> compliant_pins = {};
 };
 
 // What acts on a vertex beside its weight and air [N].
 template <class Real>
 struct VertexForces {
-  Vec3<Real> bending, hands, rest;  // hands: weak ones, and the one that lets the cloth down
+  Vec3<Real> bending, pins, remainder;  // hands: weak ones, and the one that lets the cloth down
 
-  HYST_HD Vec3<Real> sum() const { return bending + hands + rest; }
+  HYST_HD Vec3<Real> sum() const { return bending + pins + remainder; }
   HYST_HD VertexForces mean(const VertexForces& other) const {
     const Real half = Real(0.5);
-    return {half * (bending + other.bending), half * (hands + other.hands), half * (rest + other.rest)};
+    return {half * (bending + other.bending), half * (pins + other.pins),
+            half * (remainder + other.remainder)};
   }
 };
 
@@ -50,7 +51,7 @@ struct Unbalanced {
   Eigen::Vector3d position{0, 0, 0};
 };
 
-inline constexpr double kTrapezoidalShare = 0.58578643762690495;  // of a step of tr-bdf2: 2 - sqrt 2
+inline constexpr double kTrapezoidalFraction = 0.58578643762690495;  // of a step of tr-bdf2: 2 - sqrt 2
 
 template <class Real, class Device>
 class ImplicitStep {
@@ -60,9 +61,9 @@ class ImplicitStep {
                Bending<Real, Device>& bending, Contact<Real, Device>* contact,
                SelfContact<Real, Device>* self_contact, std::unique_ptr<LinearSolver<Real, Device>> solver);
 
-  // Looks for the positions after h [s]; changes nothing that lasts.  `share` of the weight acts at the end.
-  // The first stage of tr-bdf2 is its trapezoidal one.
-  NewtonOutcome solve(const VertexState<Real>& state, double h, double share, bool is_first_stage = false);
+  // Looks for the positions after h [s]; changes nothing that lasts.  `fraction` of the weight acts at the
+  // end. The first stage of tr-bdf2 is its trapezoidal one.
+  NewtonOutcome solve(const VertexState<Real>& state, double h, double fraction, bool is_first_stage = false);
   bool is_static() const { return static_; }
   bool has_two_stages() const { return two_stage_; }  // tr-bdf2
   // Forces have forces_discontinuous: the acceleration that was is not the one to go on with.
@@ -77,7 +78,7 @@ class ImplicitStep {
   double local_error(const VertexState<Real>& state);
   double error_order() const { return formula_.extrapolation > 0 || formula_.carried > 0 ? 3 : 2; }
   // What outlives a step: motion before it, and the forces that handle_forces() tells of.
-  void visit(Archive& archive);
+  void serialise(Archive& archive);
   // Forces of the handles on held vertices, of the step accepted last; zero on free ones [N].
   std::vector<Vec3<Real>> handle_forces(const VertexState<Real>& state) const;
   // Where solve() has ended without success.
@@ -96,8 +97,8 @@ class ImplicitStep {
 
  private:
   static constexpr double kMaxGrowth = 2.4;  // of a step over the one before; bdf2 is stable below 1 + sqrt2
-  StepFormula formula_of(double h, bool is_first_stage) const;
-  StepFormula rates_of(double h) const;
+  StepFormula step_formula(double h, bool is_first_stage) const;
+  StepFormula rate_formula(double h) const;
   PotentialValue potential_of_guess(const VertexState<Real>& state, bool accelerated);
   std::size_t vectors(int count) const { return count * end_.bytes(); }
 
@@ -106,8 +107,8 @@ class ImplicitStep {
   bool knows_acceleration_ = false;  // at the state accepted last
   bool evaluated_ = false;           // the potential was last, at the end of the solve
   Vec3<Real> gravity_;
-  Real drag_;       // over mass [1/s]
-  Real share_ = 1;  // of the weight
+  Real drag_;          // over mass [1/s]
+  Real fraction_ = 1;  // of the weight
   int vertices_;
   double total_mass_;
   Membrane<Real, Device>& membrane_;

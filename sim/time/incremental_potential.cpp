@@ -54,17 +54,17 @@ void IncrementalPotential<Real, Device>::clip_to_obstacles(Vec3<Real>* end) {
 }
 
 template <class Real, class Device>
-bool IncrementalPotential<Real, Device>::reaches(const Vec3<Real>* end) {
-  return !contact_ || contact_->reaches(start_.now, end, start_.held);
+bool IncrementalPotential<Real, Device>::path_is_clear(const Vec3<Real>* end) {
+  return !contact_ || contact_->path_is_clear(start_.now, end, start_.held);
 }
 
 template <class Real, class Device>
-void IncrementalPotential<Real, Device>::took(const Vec3<Real>* x) {
-  if (self_contact_) self_contact_->moved(x);
+void IncrementalPotential<Real, Device>::accept_iterate(const Vec3<Real>* x) {
+  if (self_contact_) self_contact_->accept_iterate(x);
 }
 
 template <class Real, class Device>
-void IncrementalPotential<Real, Device>::lag_friction(const Vec3<Real>* x) {
+void IncrementalPotential<Real, Device>::update_friction_limits(const Vec3<Real>* x) {
   if (contact_) contact_->lag(x);
   if (self_contact_) self_contact_->lag(x);
 }
@@ -80,7 +80,7 @@ PotentialValue IncrementalPotential<Real, Device>::evaluate(const Vec3<Real>* x,
 // Membrane and bending stand as they are.
 template <class Real, class Device>
 PotentialValue IncrementalPotential<Real, Device>::renew_friction(const Vec3<Real>* x) {
-  lag_friction(x);
+  update_friction_limits(x);
   return balance(x, nullptr);
 }
 
@@ -145,7 +145,7 @@ void IncrementalPotential<Real, Device>::compute_gradient(const Vec3<Real>* x) {
   const StepStart<Real> s = start_;
   const Real beta_dt = static_cast<Real>(s.formula.beta_dt);
   const Real inertia = 1 / (beta_dt * beta_dt), drag = s.drag / beta_dt;  // 0 in statics
-  const Vec3<Real> g = s.share * s.gravity;
+  const Vec3<Real> g = s.fraction * s.gravity;
   const MembraneForceView<Real> membrane = membrane_.forces();
   const GatheredForces<Real> bending = bending_.forces();
   const Real* mass = mass_.data();
@@ -159,14 +159,14 @@ void IncrementalPotential<Real, Device>::compute_gradient(const Vec3<Real>* x) {
         const Vec3<Real> moved = x[i] - s.predicted[i], drift = x[i] - s.reference[i];
         const Vec3<Real> stretch = membrane.at(i), bend = bending.at(i);
         gradient[i] = mass[i] * (inertia * moved + drag * drift - g) - stretch - bend;
-        if (s.grips.any_at(i)) gradient[i] -= s.grips.force(i, x[i]);
+        if (s.compliant_pins.any_at(i)) gradient[i] -= s.compliant_pins.force(i, x[i]);
         sums.term[2] += static_cast<double>(stretch.squaredNorm() + bend.squaredNorm());
         if (s.held[i]) return;
         sums.term[4] += static_cast<double>((mass[i] * s.gravity).squaredNorm());
         sums.term[3] += static_cast<double>((mass[i] * inertia * moved).squaredNorm());
         double kinetic =
             static_cast<double>(mass[i] / 2 * (inertia * moved.squaredNorm() + drag * drift.squaredNorm()));
-        if (s.grips.any_at(i)) kinetic += static_cast<double>(s.grips.energy(i, x[i]));
+        if (s.compliant_pins.any_at(i)) kinetic += static_cast<double>(s.compliant_pins.energy(i, x[i]));
         Vec3<Real> given = mass[i] * g;
         if (lags) given += bend;
         const double weight = static_cast<double>(given.dot(x[i] - s.now[i]));
@@ -186,7 +186,7 @@ void IncrementalPotential<Real, Device>::add_up(const Energies& energies, const 
   const int vertices = vertices_, longest = std::max(vertices, *std::max_element(of.count, of.count + 4));
   const Vec3<Real>* gradient = gradient_.data();
   const char* held = start_.held;
-  const Grips<Real> grips = start_.grips;
+  const CompliantPins<Real> compliant_pins = start_.compliant_pins;
   const Totals* of_vertices = vertex_totals_.data();
   Totals* totals = totals_.data();
   std::size_t bytes = vertex_bytes(direction ? 2 : 1);
@@ -203,7 +203,8 @@ void IncrementalPotential<Real, Device>::add_up(const Energies& energies, const 
         if (i >= vertices) return;
         const double force2 = static_cast<double>(gradient[i].squaredNorm());
         (held[i] ? sums.term[1] : sums.term[0]) += force2;
-        if (grips.any_at(i)) sums.term[1] += static_cast<double>(grips.force(i, x[i]).squaredNorm());
+        if (compliant_pins.any_at(i))
+          sums.term[1] += static_cast<double>(compliant_pins.force(i, x[i]).squaredNorm());
         if (direction && !held[i]) sums.term[2] += static_cast<double>(gradient[i].dot(direction[i]));
       },
       HYST_KERNEL(const Sums<11>& total) {
@@ -230,8 +231,8 @@ LinearSystem<Real, Device> IncrementalPotential<Real, Device>::linearise(const V
   const Real beta_dt = static_cast<Real>(start_.formula.beta_dt);
   const Real inertia = 1 / (beta_dt * beta_dt) + start_.drag / beta_dt + shift;
   const Real* mass = mass_.data();
-  const Real sliding_share = static_cast<Real>(full ? tuning_.sliding_near : tuning_.sliding_far);
-  const Grips<Real> grips = start_.grips;
+  const Real sliding_fraction = static_cast<Real>(full ? tuning_.sliding_near : tuning_.sliding_far);
+  const CompliantPins<Real> compliant_pins = start_.compliant_pins;
   const Vec3<Real>* gradient = gradient_.data();
   Vec3<Real>* descent = descent_.data();
   Mat3<Real>* rest = rest_diagonal_.data();
@@ -239,18 +240,19 @@ LinearSystem<Real, Device> IncrementalPotential<Real, Device>::linearise(const V
       device_, {"potential: masses", vertex_bytes(2) + vertices_ * (3 * sizeof(Mat3<Real>) + sizeof(Real))},
       vertices_, HYST_KERNEL(int i) {
         for (int k = 0; k < 3; ++k) matrix.diagonal[i](k, k) += inertia * mass[i];
-        if (grips.any_at(i)) matrix.diagonal[i] += grips.stiffness(i, x[i], sliding_share);
+        if (compliant_pins.any_at(i))
+          matrix.diagonal[i] += compliant_pins.stiffness(i, x[i], sliding_fraction);
         rest[i].setZero();
         descent[i] = -gradient[i];
       });
-  if (contact_) contact_->add_stiffness(x, start_.now, matrix, sliding_share);
+  if (contact_) contact_->add_stiffness(x, start_.now, matrix, sliding_fraction);
   if (!bending_lags_) bending_.add_stiffness_diagonal(rest);
   if (self_contact_) {
-    self_contact_->linearise(x, start_.now, sliding_share);
+    self_contact_->linearise(x, start_.now, sliding_fraction);
     self_contact_->add_stiffness_diagonal(rest);
   }
   LinearSystem<Real, Device> system{matrix, {}, rest, nullptr, softening, {}, matrix_.bytes()};
-  if (full) system.bytes += bytes_of(softening_off_diagonal_, softening_diagonal_);
+  if (full) system.bytes += total_bytes(softening_off_diagonal_, softening_diagonal_);
   if (!bending_lags_) {
     system.bending = [this](const Vec3<Real>* p) {
       bending_.apply_stiffness(p);

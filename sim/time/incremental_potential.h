@@ -21,7 +21,7 @@
 #include "sim/linear/pcg.h"
 #include "sim/membrane/membrane.h"
 #include "sim/scene/solver_tuning.h"
-#include "sim/time/grips.h"
+#include "sim/time/compliant_pins.h"
 
 namespace hysteron {
 
@@ -34,8 +34,8 @@ struct StepStart {
   const char* held;
   Vec3<Real> gravity;  // [m/s^2]
   Real drag;           // air drag over mass [1/s]
-  Real share;          // of the weight that acts: the load of statics grows
-  Grips<Real> grips = {};
+  Real fraction;       // of the weight that acts: the load of statics grows
+  CompliantPins<Real> compliant_pins = {};
 };
 
 struct PotentialValue {
@@ -59,17 +59,17 @@ class IncrementalPotential {
 
   void begin(const StepStart<Real>& start);
   // Largest step length along `direction` from x, up to `max_step`, on which the cloth does not pass through
-  // itself; feasible_step() also counts obstacles.  evaluate() then serves points up to there; took() tells
-  // which of them was taken.
+  // itself; feasible_step() also counts obstacles.  evaluate() then serves points up to there;
+  // accept_iterate() tells which of them was taken.
   double collision_free_step(const Vec3<Real>* x, const Vec3<Real>* direction, double max_step);
   double feasible_step(const Vec3<Real>* x, const Vec3<Real>* direction, double max_step);
-  void took(const Vec3<Real>* x);
+  void accept_iterate(const Vec3<Real>* x);
   // Ends the paths of free vertices to `end` before the obstacles that bar them; whether none does.
   void clip_to_obstacles(Vec3<Real>* end);
-  bool reaches(const Vec3<Real>* end);
+  bool path_is_clear(const Vec3<Real>* end);
   bool has_self_contact() const { return self_contact_ != nullptr; }
   // Limits of friction from the contact at x; Phi changes with them.
-  void lag_friction(const Vec3<Real>* x);
+  void update_friction_limits(const Vec3<Real>* x);
   // Phi and its gradient; the direction may be null.  The host waits for the device.
   PotentialValue evaluate(const Vec3<Real>* x, const Vec3<Real>* direction);
   // Both at x, where evaluate() was called last, with limits of friction from there.
@@ -81,15 +81,15 @@ class IncrementalPotential {
   LinearSystem<Real, Device> linearise(const Vec3<Real>* x, Real shift, bool full);
   // From now on linearise() assembles the whole Hessian but for self-contact; bending must not lag.
   void assemble() { whole_.emplace(device_, matrix_, bending_); }
-  void visit(Archive& archive) { hysteron::visit(archive, device_, gradient_); }
+  void serialise(Archive& archive) { hysteron::serialise(archive, device_, gradient_); }
   const Vec3<Real>* gradient() const { return gradient_.data(); }  // of held vertices as well [N]
   const Vec3<Real>* descent() const { return descent_.data(); }    // -gradient of the last linearise() [N]
   // Which part is not finite at x, in a user's words; "" if none.
   std::string not_finite(const Vec3<Real>* x);
   bool has_friction() const { return contact_ || self_contact_; }
   std::size_t bytes() const {
-    return bytes_of(gradient_, descent_, rest_diagonal_, softening_off_diagonal_, softening_diagonal_,
-                    vertex_totals_) +
+    return total_bytes(gradient_, descent_, rest_diagonal_, softening_off_diagonal_, softening_diagonal_,
+                       vertex_totals_) +
            (whole_ ? whole_->bytes() : 0);
   }
 

@@ -75,7 +75,7 @@ NewtonOutcome Newton<Real, Device>::minimise(Buffer<Vec3<Real>, Device>& x, Pote
             .iterations;
     const bool is_free = std::hypot(weight, value.reaction) == 0;
     measure_correction(system, x.data(), mass, held, is_free || kIsCoarse);
-    const TriedStep tried = first_try(x.data(), farthest, total_mass);
+    const Trial tried = first_try(x.data(), farthest, total_mass);
     const Correction correction = *correction_;
     const double blur = kBlur<Real> * std::sqrt(correction.forces2);
     if (is_free) rounding = blur;
@@ -120,8 +120,8 @@ NewtonOutcome Newton<Real, Device>::minimise(Buffer<Vec3<Real>, Device>& x, Pote
 // Layers limit the step by its length: only there the host has to know the correction before it asks for a
 // trial.
 template <class Real, class Device>
-typename Newton<Real, Device>::TriedStep Newton<Real, Device>::first_try(const Vec3<Real>* x, double farthest,
-                                                                         double total_mass) {
+typename Newton<Real, Device>::Trial Newton<Real, Device>::first_try(const Vec3<Real>* x, double farthest,
+                                                                     double total_mass) {
   double max_step = 1;
   if (potential_.has_self_contact()) {
     device_.synchronize();
@@ -138,7 +138,7 @@ typename Newton<Real, Device>::TriedStep Newton<Real, Device>::first_try(const V
 // enough, and returns its length; 0 if there is none.  Where the difference is within rounding, the slope
 // must have become flatter instead (Hager & Zhang 2005).
 template <class Real, class Device>
-double Newton<Real, Device>::search(Buffer<Vec3<Real>, Device>& x, PotentialValue& value, TriedStep tried,
+double Newton<Real, Device>::search(Buffer<Vec3<Real>, Device>& x, PotentialValue& value, Trial tried,
                                     double slope, double blurred) {
   if (!(slope < 0) || !(tried.length > 0)) return 0;
   for (int halving = 1;; ++halving) {
@@ -148,7 +148,7 @@ double Newton<Real, Device>::search(Buffer<Vec3<Real>, Device>& x, PotentialValu
                flatter = std::abs(rise) <= blurred && std::abs(tried.value.slope) <= -0.9 * slope;
     if (lower || flatter) {
       std::swap(x, trial_);
-      potential_.took(x.data());
+      potential_.accept_iterate(x.data());
       value = tried.value;
       return step_length;
     }
@@ -161,8 +161,7 @@ double Newton<Real, Device>::search(Buffer<Vec3<Real>, Device>& x, PotentialValu
 }
 
 template <class Real, class Device>
-typename Newton<Real, Device>::TriedStep Newton<Real, Device>::try_step(const Vec3<Real>* x,
-                                                                        double step_length) {
+typename Newton<Real, Device>::Trial Newton<Real, Device>::try_step(const Vec3<Real>* x, double step_length) {
   place_trial(x, static_cast<Real>(step_length));
   return {step_length, potential_.evaluate(trial_.data(), direction_.data())};
 }
@@ -171,7 +170,7 @@ template <class Real, class Device>
 void Newton<Real, Device>::measure_correction(const LinearSystem<Real, Device>& system, const Vec3<Real>* x,
                                               const Real* mass, const char* held, bool with_forces) {
   const Vec3<Real>*d = direction_.data(), *gradient = potential_.gradient();
-  const Mat3<Real>*diagonal = system.matrix.diagonal, *rest = system.rest_diagonal;
+  const Mat3<Real>*diagonal = system.matrix.diagonal, *remainder_diagonal = system.rest_diagonal;
   Correction* result = correction_.data();
   for_each_sum<4>(
       device_, {"newton: correction", 3 * direction_.bytes() + vertices_ * sizeof(Real)}, vertices_,
@@ -181,7 +180,7 @@ void Newton<Real, Device>::measure_correction(const LinearSystem<Real, Device>& 
         sums.term[1] += static_cast<double>(gradient[i].dot(d[i]));
         sums.term[2] += static_cast<double>(mass[i] * x[i].squaredNorm());
         if (!with_forces) return;  // the blocks are most of what would be read
-        const Real stiffness = diagonal[i].trace() + rest[i].trace();
+        const Real stiffness = diagonal[i].trace() + remainder_diagonal[i].trace();
         sums.term[3] += static_cast<double>(stiffness * stiffness * x[i].squaredNorm());
       },
       HYST_KERNEL(const Sums<4>& total) {

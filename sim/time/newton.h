@@ -47,7 +47,7 @@ class Newton {
   NewtonOutcome minimise(Buffer<Vec3<Real>, Device>& x, PotentialValue value, const char* held,
                          const Real* mass, double total_mass, double beta_dt);
   void set_limits(const NewtonLimits& limits) { limits_ = limits; }
-  std::size_t bytes() const { return bytes_of(direction_, trial_); }
+  std::size_t bytes() const { return total_bytes(direction_, trial_); }
 
   // The parts of minimise(); public because nvcc allows no device lambda in a private member function.
   struct Correction {
@@ -63,13 +63,13 @@ class Newton {
 
  private:
   // A step along the direction and the potential after it; of length 0: none that is feasible.
-  struct TriedStep {
+  struct Trial {
     double length = 0;
     PotentialValue value = {};
   };
-  TriedStep first_try(const Vec3<Real>* x, double farthest, double total_mass);
-  TriedStep try_step(const Vec3<Real>* x, double step_length);
-  double search(Buffer<Vec3<Real>, Device>& x, PotentialValue& value, TriedStep first, double slope,
+  Trial first_try(const Vec3<Real>* x, double farthest, double total_mass);
+  Trial try_step(const Vec3<Real>* x, double step_length);
+  double search(Buffer<Vec3<Real>, Device>& x, PotentialValue& value, Trial first, double slope,
                 double blurred);
 
   Device& device_;

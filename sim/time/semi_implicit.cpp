@@ -41,12 +41,12 @@ constexpr int kMaxIterations = 2000;
 // that holds them, another in each step; a hundredth of that moves a hanging cloth by less than single
 // precision does.  In double precision no solve comes near it.
 template <class Real>
-double blur_of(double size) {
-  constexpr double kRounding = sizeof(Real) == 8 ? 0 : 6e-8, kOfRounding = 0.01;
-  return kOfRounding * kRounding * size;
+double rounding_allowance(double size) {
+  constexpr double kRounding = sizeof(Real) == 8 ? 0 : 6e-8, kRoundingFraction = 0.01;
+  return kRoundingFraction * kRounding * size;
 }
 
-double reach_of(const std::vector<Eigen::Vector3d>& x) {
+double largest_coordinate(const std::vector<Eigen::Vector3d>& x) {
   double reach = 0;
   for (const Eigen::Vector3d& p : x) reach = std::max(reach, p.cwiseAbs().maxCoeff());
   return reach;
@@ -101,7 +101,7 @@ void SemiImplicit<Real, Device>::gather_impulses(Real h) {
   const Vec3<Real>* v = body_.v.data();
   Vec3<Real>*x = body_.x.data(), *impulse = impulse_.data();
   const std::size_t bytes =
-      body_.bending.force_bytes() + bytes_of(body_.mass, body_.v, body_.x, body_.x, impulse_);
+      body_.bending.force_bytes() + total_bytes(body_.mass, body_.v, body_.x, body_.x, impulse_);
   for_each(
       *body_.device, {"explicit impulse", bytes}, body_.vertices, HYST_KERNEL(int i) {
         impulse[i] = h * (bending.at(i) + mass[i] * (g - drag * v[i]));
@@ -132,7 +132,7 @@ void ChapterSteps<Real, Device>::substep(Real dt) {
   VertexLedger* ledger = body_.ledger.data();
   const std::size_t bytes =
       body_.bending.force_bytes() +
-      bytes_of(body_.mass, body_.held, body_.x, body_.x, body_.v, body_.v, body_.ledger, body_.ledger);
+      total_bytes(body_.mass, body_.held, body_.x, body_.x, body_.v, body_.v, body_.ledger, body_.ledger);
   for_each(
       *body_.device, {"substep", bytes}, body_.vertices, HYST_KERNEL(int i) {
         const Vec3<Real> force = bending.at(i);
@@ -163,7 +163,7 @@ void ChapterSteps<Real, Device>::substep(Real dt) {
 template <class Real, class Device>
 LinearisedSolve<Real, Device>::LinearisedSolve(Body<Real, Device>& body)
     : body_(body),
-      blur_(blur_of<Real>(reach_of(body.cloth.start))),
+      blur_(rounding_allowance<Real>(largest_coordinate(body.cloth.start))),
       pcg_(*body.device, body.vertices),
       change_(*body.device, body.vertices),
       correction_(*body.device, body.vertices),
@@ -171,9 +171,9 @@ LinearisedSolve<Real, Device>::LinearisedSolve(Body<Real, Device>& body)
       size_(*body.device, 1) {}
 
 template <class Real, class Device>
-void LinearisedSolve<Real, Device>::visit(Archive& archive) {
-  pcg_.visit(archive);
-  hysteron::visit(archive, *body_.device, change_);
+void LinearisedSolve<Real, Device>::serialise(Archive& archive) {
+  pcg_.serialise(archive);
+  hysteron::serialise(archive, *body_.device, change_);
 }
 
 template <class Real, class Device>
@@ -234,7 +234,7 @@ void LinearisedSolve<Real, Device>::correct(Real h, bool first) {
   const Vec3<Real>* dv = correction_.data();
   Vec3<Real>*x = body_.x.data(), *v = body_.v.data(), *total = change_.data();
   const char* held = body_.held.data();
-  const std::size_t bytes = bytes_of(correction_, change_, body_.v, body_.v, body_.x, body_.x, body_.held);
+  const std::size_t bytes = total_bytes(correction_, change_, body_.v, body_.v, body_.x, body_.x, body_.held);
   for_each(
       *body_.device, {"correct", bytes}, body_.vertices, HYST_KERNEL(int i) {
         if (held[i]) return;
@@ -256,13 +256,13 @@ void LinearisedSolve<Real, Device>::book(Real h, const Vec3<Real>* explicit_impu
   const BlockRowsView<Real> matrix = body_.matrix.view();
   const GatheredForces<Real> bending = body_.bending.forces();
   const Vec3<Real> g = body_.scene.gravity.template cast<Real>();
-  const bool handles = body_.hands.any_moves();
+  const bool handles = body_.pins.any_moves();
   VertexLedger* ledger = body_.ledger.data();
   const std::size_t explicit_bytes = explicit_impulse ? body_.bending.force_bytes() + rhs_.bytes() : 0;
   for_each(
       *body_.device,
       {"implicit ledger",
-       explicit_bytes + bytes_of(body_.mass, body_.held, body_.v, change_, body_.ledger, body_.ledger)},
+       explicit_bytes + total_bytes(body_.mass, body_.held, body_.v, change_, body_.ledger, body_.ledger)},
       body_.vertices, HYST_KERNEL(int i) {
         if (held[i] && !handles) return;
         VertexLedger& sum = ledger[i];
@@ -292,7 +292,7 @@ double LinearisedSolve<Real, Device>::change_size() {
   const Vec3<Real>* dv = change_.data();
   double* size = size_.data();
   for_each_sum<2>(
-      *body_.device, {"velocity change", bytes_of(body_.mass, body_.held, change_)}, body_.vertices,
+      *body_.device, {"velocity change", total_bytes(body_.mass, body_.held, change_)}, body_.vertices,
       HYST_KERNEL(int i, Sums<2>& sums) {
         sums.term[1] += static_cast<double>(mass[i]);
         if (!held[i]) sums.term[0] += static_cast<double>(mass[i] * dv[i].squaredNorm());
@@ -338,15 +338,15 @@ void ExplicitEuler<Real, Device>::substep(Real dt) {
   Vec3<Real>*x = body_.x.data(), *v = body_.v.data();
   VertexLedger* ledger = body_.ledger.data();
   const std::size_t bytes =
-      body_.bending.force_bytes() + bytes_of(force_, body_.mass, body_.held, body_.x, body_.x, body_.v,
-                                             body_.v, body_.ledger, body_.ledger);
+      body_.bending.force_bytes() + total_bytes(force_, body_.mass, body_.held, body_.x, body_.x, body_.v,
+                                                body_.v, body_.ledger, body_.ledger);
   for_each(
       *body_.device, {"explicit substep", bytes}, body_.vertices, HYST_KERNEL(int i) {
-        const Vec3<Real> bend = bending.at(i), rest = force[i], weight = mass[i] * g;
+        const Vec3<Real> bend = bending.at(i), other_force = force[i], weight = mass[i] * g;
         VertexLedger& sum = ledger[i];
         const Vec3<Real> air = held[i] ? Vec3<Real>(Vec3<Real>::Zero()) : Vec3<Real>(-drag * mass[i] * v[i]);
         if (!held[i]) {
-          const Vec3<Real> dv = dt / mass[i] * (bend + rest + weight + air);
+          const Vec3<Real> dv = dt / mass[i] * (bend + other_force + weight + air);
           v[i] += dv;
           sum.inertia += static_cast<double>(mass[i] / 2 * dv.squaredNorm());
         }
@@ -354,9 +354,9 @@ void ExplicitEuler<Real, Device>::substep(Real dt) {
         x[i] += d;
         sum.bending_work += static_cast<double>(bend.dot(d));
         sum.gravity_work += static_cast<double>(weight.dot(d));
-        sum.implicit_work += static_cast<double>(rest.dot(d));
+        sum.implicit_work += static_cast<double>(other_force.dot(d));
         sum.air -= static_cast<double>(air.dot(d));
-        if (held[i]) sum.handle_work -= static_cast<double>((bend + rest + weight).dot(d));
+        if (held[i]) sum.handle_work -= static_cast<double>((bend + other_force + weight).dot(d));
       });
   body_.membrane.add_viscous_loss(body_.v.data(), dt);
   body_.membrane.commit_friction(body_.x.data());

@@ -16,7 +16,7 @@ class LinearisedSolve {
   // stage too [N s]; null where they have acted before.
   void solve(Real h, const Vec3<Real>* impulse);
   // The last stage's velocity change, from which the next solve starts.
-  void visit(Archive& archive);
+  void serialise(Archive& archive);
   double change_size();  // root mean square of the last stage's velocity change, by mass [m/s]
   std::size_t bytes() const { return pcg_.bytes() + change_.bytes() + correction_.bytes() + rhs_.bytes(); }
 
@@ -42,9 +42,9 @@ class SemiImplicit : public TimeIntegrator<Real, Device> {
   void step(double start) override;
   void step_by(double, double) override { throw_if_long_step(body_.scene); }
   void become_static() override { throw_if_statics(body_.scene); }
-  void visit(Archive& archive) override {
+  void serialise(Archive& archive) override {
     archive(part_);
-    solve_.visit(archive);
+    solve_.serialise(archive);
   }
   std::size_t bytes() const override { return solve_.bytes() + impulse_.bytes(); }
 
@@ -71,7 +71,7 @@ class ChapterSteps : public TimeIntegrator<Real, Device> {
   void step(double start) override;
   void step_by(double, double) override { throw_if_long_step(body_.scene); }
   void become_static() override { throw_if_statics(body_.scene); }
-  void visit(Archive& archive) override { solve_.visit(archive); }
+  void serialise(Archive& archive) override { solve_.serialise(archive); }
   std::size_t bytes() const override { return solve_.bytes(); }
 
   void substep(Real dt);  // public because nvcc allows no device lambda in a private member function
@@ -90,7 +90,7 @@ class ExplicitEuler : public TimeIntegrator<Real, Device> {
   void step(double start) override;
   void step_by(double, double) override { throw_if_long_step(body_.scene); }
   void become_static() override { throw_if_statics(body_.scene); }
-  void visit(Archive&) override {}  // forces are those of each substep's start
+  void serialise(Archive&) override {}  // forces are those of each substep's start
   std::size_t bytes() const override { return force_.bytes(); }
 
   void substep(Real dt);  // public because nvcc allows no device lambda in a private member function

@@ -115,7 +115,7 @@ void check(const Scene& scene, const Cloth& cloth) {
     throw Error::invalid_input("force = chapter needs element = hinge");
   if (scene.force == ForceConvention::chapter && scene.is_implicit())
     throw Error::invalid_input("force = chapter has no potential: use semi-implicit or explicit, not " +
-                               name_of(scene.integrator));
+                               enum_name(scene.integrator));
   check_steps(scene);
   check_start(scene, cloth);
 }

@@ -43,10 +43,10 @@ class Simulation {
   long steps() const { return counts().steps; }
 
   // From now on the hand of that pin goes on from where it is with this velocity [m/s] and spin about its
-  // axis [degree/s], whatever its motion was, until it is driven again; hand() is how far it has come by now.
-  // Error::invalid_input for a pin that there is not.
+  // axis [degree/s], whatever its motion was, until it is driven again; pin_displacement() is how far it has
+  // come by now. Error::invalid_input for a pin that there is not.
   virtual void drive(int pin, const Eigen::Vector3d& velocity, double spin) = 0;
-  virtual Keyframe hand(int pin) const = 0;
+  virtual Keyframe pin_displacement(int pin) const = 0;
 
   // Where the state lies in the host's memory, for who looks at it between steps without a copy: three
   // numbers a vertex, of one of the two types; both null on a GPU, and for positions of cloth that starts far

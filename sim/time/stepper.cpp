@@ -9,8 +9,8 @@
 #include "sim/device/share_positions.h"
 #include "sim/scene/motion.h"
 #include "sim/time/implicit_integrator.h"
-#include "sim/time/refusals.h"
 #include "sim/time/semi_implicit.h"
+#include "sim/time/step_errors.h"
 
 namespace hysteron {
 
@@ -71,16 +71,16 @@ void Stepper<Real, Device>::advance_by(double seconds) {
   body_.carry_out_commands(time(), time() + seconds);
   integrator_->step_by(time(), seconds);
   ++body_.counts.steps;
-  beyond_ += seconds - body_.scene.step;
+  extra_time_ += seconds - body_.scene.step;
   throw_if_divergence(body_, time());
   body_.counts.device += device_counts - before;
 }
 
 template <class Real, class Device>
-void Stepper<Real, Device>::visit(Archive& archive) {
-  archive(beyond_);
-  body_.visit(archive);
-  integrator_->visit(archive);
+void Stepper<Real, Device>::serialise(Archive& archive) {
+  archive(extra_time_);
+  body_.serialise(archive);
+  integrator_->serialise(archive);
 }
 
 template <class Real, class Device>
@@ -93,14 +93,14 @@ Diagnostics Stepper<Real, Device>::counts() const {
 template <class Real, class Device>
 std::string Stepper<Real, Device>::save() {
   Archive archive;
-  visit(archive);
+  serialise(archive);
   return archive.take();
 }
 
 template <class Real, class Device>
 void Stepper<Real, Device>::load(std::string_view state) {
   Archive archive(state);
-  visit(archive);
+  serialise(archive);
   if (!archive.at_end()) throw Error::invalid_input("the state is of another simulation");
 }
 
@@ -113,17 +113,17 @@ const Pin& Stepper<Real, Device>::pin(int number) const {
       "pin = " + text +
       (pins.empty() ? ": the scene has none"
                     : " must be in [0, " + std::to_string(pins.size() - 1) + "], a pin of the scene"))
-      .of("pin", text);
+      .with_key("pin", text);
 }
 
 template <class Real, class Device>
 void Stepper<Real, Device>::drive(int number, const Eigen::Vector3d& velocity, double spin) {
   pin(number);
-  body_.hands.drive(body_, number, time(), velocity, spin);
+  body_.pins.drive(body_, number, time(), velocity, spin);
 }
 
 template <class Real, class Device>
-Keyframe Stepper<Real, Device>::hand(int number) const {
+Keyframe Stepper<Real, Device>::pin_displacement(int number) const {
   return state_at(pin(number).motion, time());
 }
 
@@ -248,7 +248,7 @@ std::vector<ScenePart> Stepper<Real, Device>::parts() const {
   add("commands", !scene.command.empty(), 0, "bending command", "no command");
   add("viscous damping", scene.fabric.damping > 0, 0, "bending rates, viscous loss", "fabric.damping = 0");
   add("air drag", scene.air_drag > 0, 0, "substep", "air-drag = 0");
-  add("moving handles", body_.hands.any_moves(), body_.hands.bytes(), "handles", "no pin moves");
+  add("moving handles", body_.pins.any_moves(), body_.pins.bytes(), "handles", "no pin moves");
   add("obstacles", contact.has_value(), contact ? contact->bytes() + body_.before.bytes() : 0,
       "contact, contact history", "no obstacles");
   add("self-contact", self_contact.has_value(), self_contact ? self_contact->bytes() : 0,

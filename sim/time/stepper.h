@@ -18,12 +18,12 @@ class Stepper : public Simulation {
   void load(std::string_view state) override;
   void wait() override { body_.device->synchronize(); }
   double time() const override {
-    return static_cast<double>(body_.counts.steps) * body_.scene.step + beyond_;
+    return static_cast<double>(body_.counts.steps) * body_.scene.step + extra_time_;
   }
   Diagnostics counts() const override;
 
   void drive(int pin, const Eigen::Vector3d& velocity, double spin) override;
-  Keyframe hand(int pin) const override;
+  Keyframe pin_displacement(int pin) const override;
   InPlace positions_in_place() const override { return is_shifted() ? InPlace{} : in_place(body_.x); }
   InPlace velocities_in_place() const override { return in_place(body_.v); }
   std::vector<Eigen::Vector3d> positions() override;
@@ -47,14 +47,14 @@ class Stepper : public Simulation {
   double launch_seconds() override;
 
  private:
-  void visit(Archive& archive);
+  void serialise(Archive& archive);
   bool is_shifted() const { return !body_.origin.isZero(0); }  // positions are not the world's
   const Pin& pin(int number) const;
   static InPlace in_place(const Buffer<Vec3<Real>, Device>& buffer);
 
   Body<Real, Device> body_;
   std::unique_ptr<TimeIntegrator<Real, Device>> integrator_;
-  double beyond_ = 0;  // by which steps of other lengths have exceeded the scene's [s]
+  double extra_time_ = 0;  // by which steps of other lengths have exceeded the scene's [s]
 };
 
 }  // namespace hysteron

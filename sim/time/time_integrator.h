@@ -23,17 +23,17 @@ class TimeIntegrator {
   virtual void become_static() = 0;
   // Of the step accepted last, on each vertex [N]; empty where they are not known.
   virtual std::vector<Vec3<Real>> handle_forces() { return {}; }
-  virtual void visit(Archive& archive) = 0;  // what outlives a step, without the body
+  virtual void serialise(Archive& archive) = 0;  // what outlives a step, without the body
   virtual std::size_t bytes() const = 0;
 };
 
 [[noreturn]] inline void throw_if_statics(const Scene& scene) {
-  throw Error::invalid_input("integrator = " + name_of(scene.integrator) +
+  throw Error::invalid_input("integrator = " + enum_name(scene.integrator) +
                              " has no equilibrium solve: use implicit | bdf2 | tr-bdf2 | quasi-static");
 }
 
 [[noreturn]] inline void throw_if_long_step(const Scene& scene) {
-  throw Error::invalid_input("integrator = " + name_of(scene.integrator) +
+  throw Error::invalid_input("integrator = " + enum_name(scene.integrator) +
                              " has steps of one length only: use quasi-static");
 }
 
@@ -54,6 +54,8 @@ inline double next_part(double h, double growth) {
 }
 
 // The rest of a step in equal parts of at most `part`.
-inline double equal_part(double rest, double part) { return rest / std::ceil(rest / part * (1 - 1e-9)); }
+inline double equal_part(double remainder, double part) {
+  return remainder / std::ceil(remainder / part * (1 - 1e-9));
+}
 
 }  // namespace hysteron

@@ -36,7 +36,7 @@ class Folder {
   std::filesystem::path path_;
 };
 
-inline std::string text_of(const std::filesystem::path& file) {
+inline std::string file_text(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), {}};
 }

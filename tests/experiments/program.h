@@ -17,10 +17,10 @@ struct Outcome {
 // What is said on stderr beside warnings.
 inline std::string without_warnings(const std::string& err) {
   std::istringstream lines(err);
-  std::string rest;
+  std::string remainder;
   for (std::string line; std::getline(lines, line);)
-    if (!line.starts_with("warning: ")) rest += line + "\n";
-  return rest;
+    if (!line.starts_with("warning: ")) remainder += line + "\n";
+  return remainder;
 }
 
 // HYSTERON_PROGRAM is defined by the build.
@@ -28,7 +28,7 @@ inline Outcome program(const std::string& arguments) {
   const Folder folder;
   const std::string out = folder.path() / "out", err = folder.path() / "err";
   const int status = std::system((HYSTERON_PROGRAM " " + arguments + " >" + out + " 2>" + err).c_str());
-  return {WEXITSTATUS(status), text_of(out), text_of(err)};
+  return {WEXITSTATUS(status), file_text(out), file_text(err)};
 }
 
 }  // namespace hysteron::experiments

@@ -100,7 +100,7 @@ TEST(Camera, AroundPointsTheyTouchTheBordersOfTheirPicture) {
        {Eigen::Vector3f(-0.1f, -1, 0.45f), Eigen::Vector3f(0, 0, 1), Eigen::Vector3f(1, 0.2f, 0)})
     for (const float aspect : {0.7f, 1.0f, 2.4f}) {
       const float margin = 0.06f;
-      const Window at = Camera::around(points, direction, 22, aspect, margin).window_of(points, aspect);
+      const Window at = Camera::around(points, direction, 22, aspect, margin).image_window(points, aspect);
       const double width = at.right - at.left, height = at.top - at.bottom;
       EXPECT_NEAR(std::max(width, height), 1 - 2 * margin, 1e-4);
       EXPECT_NEAR(width > height ? at.left + at.right : at.bottom + at.top, 1, 1e-3);
@@ -140,11 +140,11 @@ TEST(Camera, AWindowShowsItsPartOfThePicture) {
 }
 
 TEST(Camera, ImpossibleViewsAreRefused) {
-  EXPECT_EQ(test::error_of([] { Camera::perspective({0, 0, 0}, {0, 0, 0}, 30); }).exit_code(), 2);
-  EXPECT_EQ(test::error_of([] { Camera::perspective({1, 0, 0}, {0, 0, 0}, 180); }).exit_code(), 2);
-  EXPECT_EQ(test::error_of([] { box_of({}); }).exit_code(), 2);
+  EXPECT_EQ(test::thrown_error([] { Camera::perspective({0, 0, 0}, {0, 0, 0}, 30); }).exit_code(), 2);
+  EXPECT_EQ(test::thrown_error([] { Camera::perspective({1, 0, 0}, {0, 0, 0}, 180); }).exit_code(), 2);
+  EXPECT_EQ(test::thrown_error([] { bounding_box({}); }).exit_code(), 2);
   const std::vector<float> broken{0, 0, std::numeric_limits<float>::infinity()};
-  EXPECT_EQ(test::error_of([&] { box_of(broken); }).exit_code(), 2);
+  EXPECT_EQ(test::thrown_error([&] { bounding_box(broken); }).exit_code(), 2);
 }
 
 }  // namespace

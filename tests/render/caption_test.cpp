@@ -52,7 +52,7 @@ TEST(ScaleBar, LengthIsRoundAndNearASixthOfTheWidth) {
   EXPECT_DOUBLE_EQ(scale_bar_length(image, 2.5e-4), 0.05);
   EXPECT_DOUBLE_EQ(scale_bar_length(image, 5e-4), 0.1);
   for (const double bad : {0.0, -1.0, std::nan(""), std::numeric_limits<double>::infinity()})
-    EXPECT_EQ(test::error_of([&] { scale_bar_length(image, bad); }).exit_code(), 2);
+    EXPECT_EQ(test::thrown_error([&] { scale_bar_length(image, bad); }).exit_code(), 2);
 }
 
 TEST(Text, GreekAndSuperscriptsAreLetters) {
@@ -162,7 +162,7 @@ TEST(ColorBar, RunsFromTheMapsLowToItsHighColour) {
   EXPECT_TRUE(has_near(low, 0, 60));
   EXPECT_FALSE(has_near(low, 200, 400));
   EXPECT_TRUE(has_near(high, 200, 400));
-  EXPECT_EQ(test::error_of([&] {
+  EXPECT_EQ(test::thrown_error([&] {
               draw_color_bar(image, {.low = 1, .high = 1, .label = "", .unit = ""}, Corner::top_left);
             }).exit_code(),
             2);

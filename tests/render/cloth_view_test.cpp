@@ -12,7 +12,7 @@ namespace hysteron::render {
 namespace {
 
 using test::brightness;
-using test::error_of;
+using test::thrown_error;
 
 constexpr PictureSize kSquarePicture{200, 200};
 
@@ -20,7 +20,7 @@ class ClothViewTest : public testing::Test {
  protected:
   std::unique_ptr<Offscreen> offscreen_ = Offscreen::create(Renderer::automatic);
 
-  std::unique_ptr<ClothView> view_of(const test::Cloth& cloth, const Look& look) {
+  std::unique_ptr<ClothView> viewed_cloth(const test::Cloth& cloth, const Look& look) {
     auto view = std::make_unique<ClothView>(*offscreen_, kSquarePicture);
     view->set_cloth(cloth.topology());
     view->set_positions(cloth.positions);
@@ -33,7 +33,7 @@ class ClothViewTest : public testing::Test {
 TEST_F(ClothViewTest, GroundIsDarkUnderTheOccludersShadowAndNowhereElse) {
   Look look;
   look.to_light = {-1, 0, 1};
-  auto view = view_of(test::flat_square(8, 0.1f, 0.1f), look);
+  auto view = viewed_cloth(test::flat_square(8, 0.1f, 0.1f), look);
   view->set_ground(0.0f);
   const Camera camera = Camera::top({{-0.2f, -0.2f, 0}, {0.2f, 0.2f, 0.1f}}, 1);
   const Image image = view->draw(camera);
@@ -43,7 +43,7 @@ TEST_F(ClothViewTest, GroundIsDarkUnderTheOccludersShadowAndNowhereElse) {
   const double open = brightness(image, center - static_cast<int>(0.11 * pixels_per_metre), center);
   EXPECT_LT(dark, 0.85 * open);
 
-  auto bare = view_of(test::flat_square(8, 0.1f, 0.1f), look);
+  auto bare = viewed_cloth(test::flat_square(8, 0.1f, 0.1f), look);
   EXPECT_GT(brightness(bare->draw(camera), shadow, center), 1.1 * dark)
       << "without a ground there is no shadow";
 }
@@ -52,7 +52,7 @@ TEST_F(ClothViewTest, AnOccluderShadesTheClothBelowIt) {
   Look look;
   look.to_light = {0, 0, 1};
   look.weave = 0;
-  auto view = view_of(test::flat_square(8, 0.2f, 0.0f), look);
+  auto view = viewed_cloth(test::flat_square(8, 0.2f, 0.0f), look);
   const Camera camera = Camera::perspective({0, -0.6f, 0.25f}, {0, 0, 0.02f}, 30);
   const Image open = view->draw(camera);
   view->add_obstacle(sphere_mesh(0.03f), placed({0, 0, 0.12f}, {0, 0, 1}));
@@ -62,7 +62,7 @@ TEST_F(ClothViewTest, AnOccluderShadesTheClothBelowIt) {
 }
 
 TEST_F(ClothViewTest, ClothIsShownUnlessItIsBesideThePictureOrBehindAnObstacle) {
-  auto view = view_of(test::flat_square(8, 0.02f, 0.0f), Look{});
+  auto view = viewed_cloth(test::flat_square(8, 0.02f, 0.0f), Look{});
   const Camera camera = Camera::perspective({0, -0.6f, 0.25f}, {0, 0, 0}, 30);
   EXPECT_FALSE(view->shows_cloth()) << "nothing is drawn yet";
   view->draw(camera);
@@ -83,7 +83,7 @@ TEST_F(ClothViewTest, AFlatSheetDoesNotShadeItself) {
   look.weave = 0;
   for (const Eigen::Vector3f& to_light : {Eigen::Vector3f(0, 0, 1), Eigen::Vector3f(1, 0.3f, 0.4f)}) {
     look.to_light = to_light;
-    auto view = view_of(test::flat_square(16, 0.2f, 0.0f), look);
+    auto view = viewed_cloth(test::flat_square(16, 0.2f, 0.0f), look);
     const Image image = view->draw(Camera::top({{-0.08f, -0.08f, 0}, {0.08f, 0.08f, 0}}, 1));
     int darkest = 255, brightest = 0;
     for (int y = 10; y < 190; ++y)
@@ -102,7 +102,7 @@ TEST_F(ClothViewTest, FrontAndBackHaveTheirOwnColours) {
   look.back = {40, 40, 200};
   look.weave = 0;
   const test::Cloth cloth = test::flat_square(4, 0.2f, 0.0f);
-  auto view = view_of(cloth, look);
+  auto view = viewed_cloth(cloth, look);
   const Image above = view->draw(Camera::perspective({0, -0.1f, 0.5f}, {0, 0, 0}, 15));
   const Image below = view->draw(Camera::perspective({0, -0.1f, -0.5f}, {0, 0, 0}, 15));
   EXPECT_GT(above.at(100, 100)[0], 2 * above.at(100, 100)[2]);
@@ -112,7 +112,7 @@ TEST_F(ClothViewTest, FrontAndBackHaveTheirOwnColours) {
 // Black share of a silhouette times the picture's area is the projected area, here side^2.
 TEST_F(ClothViewTest, SilhouetteFromAboveHasTheClothsArea) {
   constexpr float kSide = 0.1234f;
-  auto view = view_of(test::flat_square(3, kSide, 0.05f), look_named("silhouette"));
+  auto view = viewed_cloth(test::flat_square(3, kSide, 0.05f), look_named("silhouette"));
   const Camera camera = Camera::top({{-0.1f, -0.1f, 0}, {0.1f, 0.1f, 0.1f}}, 1);
   const double area =
       covered_area(view->draw(camera), camera.metres_per_pixel({0, 0, 0}, kSquarePicture.height));
@@ -128,7 +128,7 @@ TEST_F(ClothViewTest, ValuesAreShownByTheColourMap) {
   look.value_high = 2;
   look.to_light = {0, 0, 1};
   const test::Cloth cloth = test::flat_square(4, 0.2f, 0.0f);
-  auto view = view_of(cloth, look);
+  auto view = viewed_cloth(cloth, look);
   const Camera camera = Camera::top({{-0.05f, -0.05f, 0}, {0.05f, 0.05f, 0}}, 1);
   for (const float value : {-2.0f, -1.0f, 0.0f, 1.0f, 2.0f}) {
     view->set_values(std::vector<float>(cloth.values.size(), value));
@@ -150,7 +150,7 @@ TEST_F(ClothViewTest, NormalsFollowThePositions) {
   look.weave = 0;
   look.to_light = {1, 0, 1};
   test::Cloth cloth = test::flat_square(4, 0.2f, 0.0f);
-  auto view = view_of(cloth, look);
+  auto view = viewed_cloth(cloth, look);
   const Camera camera = Camera::top({{-0.05f, -0.05f, 0}, {0.05f, 0.05f, 0}}, 1);
   const double flat = brightness(view->draw(camera), 100, 100);
   std::vector<float> toward = cloth.positions, away = cloth.positions;
@@ -166,7 +166,7 @@ TEST_F(ClothViewTest, NormalsFollowThePositions) {
 
 TEST_F(ClothViewTest, WireframeDrawsDarkEdgesOnPaleCloth) {
   const test::Cloth cloth = test::flat_square(4, 0.2f, 0.0f);
-  auto view = view_of(cloth, look_named("wireframe"));
+  auto view = viewed_cloth(cloth, look_named("wireframe"));
   // One cell is 50 pixels; its edges run through the picture's centre.
   const Image image = view->draw(Camera::top({{-0.098f, -0.098f, 0}, {0.098f, 0.098f, 0}}, 1));
   EXPECT_LT(brightness(image, 100, 100, 0), 0.75 * brightness(image, 112, 112, 1));
@@ -175,25 +175,25 @@ TEST_F(ClothViewTest, WireframeDrawsDarkEdgesOnPaleCloth) {
 TEST_F(ClothViewTest, BadInputIsRefused) {
   const test::Cloth cloth = test::flat_square(2, 0.2f, 0.0f);
   ClothView view(*offscreen_, {32, 32});
-  EXPECT_EQ(error_of([&] { view.set_positions(cloth.positions); }).exit_code(), 2);
+  EXPECT_EQ(thrown_error([&] { view.set_positions(cloth.positions); }).exit_code(), 2);
   test::Cloth broken = cloth;
   broken.triangles[4] = 99;
-  EXPECT_EQ(error_of([&] { view.set_cloth(broken.topology()); }).exit_code(), 2);
+  EXPECT_EQ(thrown_error([&] { view.set_cloth(broken.topology()); }).exit_code(), 2);
   view.set_cloth(cloth.topology());
-  EXPECT_EQ(error_of([&] { view.set_positions(std::vector<float>(5)); }).exit_code(), 2);
-  EXPECT_EQ(error_of([&] { view.set_values(std::vector<float>(1)); }).exit_code(), 2);
+  EXPECT_EQ(thrown_error([&] { view.set_positions(std::vector<float>(5)); }).exit_code(), 2);
+  EXPECT_EQ(thrown_error([&] { view.set_values(std::vector<float>(1)); }).exit_code(), 2);
   std::vector<float> holed = cloth.positions;
   holed[0] = std::numeric_limits<float>::quiet_NaN();
-  EXPECT_EQ(error_of([&] { view.set_positions(holed); }).exit_code(), 2);
-  EXPECT_EQ(error_of([&] { view.move_obstacle(0, Eigen::Matrix4f::Identity()); }).exit_code(), 2);
-  EXPECT_EQ(error_of([&] { ClothView(*offscreen_, {0, 720}); }).exit_code(), 2);
-  EXPECT_EQ(error_of([&] { ClothView(*offscreen_, {1 << 20, 720}); }).exit_code(), 2);
-  EXPECT_EQ(error_of([] { look_named("velvet"); }).exit_code(), 2);
-  EXPECT_EQ(error_of([] { background_named("black"); }).exit_code(), 2);
+  EXPECT_EQ(thrown_error([&] { view.set_positions(holed); }).exit_code(), 2);
+  EXPECT_EQ(thrown_error([&] { view.move_obstacle(0, Eigen::Matrix4f::Identity()); }).exit_code(), 2);
+  EXPECT_EQ(thrown_error([&] { ClothView(*offscreen_, {0, 720}); }).exit_code(), 2);
+  EXPECT_EQ(thrown_error([&] { ClothView(*offscreen_, {1 << 20, 720}); }).exit_code(), 2);
+  EXPECT_EQ(thrown_error([] { look_named("velvet"); }).exit_code(), 2);
+  EXPECT_EQ(thrown_error([] { background_named("black"); }).exit_code(), 2);
 }
 
 TEST_F(ClothViewTest, AHiddenObstacleIsNeitherSeenNorCastsAShadow) {
-  auto view = view_of(test::flat_square(4, 0.2f, 0.0f), Look{});
+  auto view = viewed_cloth(test::flat_square(4, 0.2f, 0.0f), Look{});
   view->set_bounds({{-0.1f, -0.1f, 0}, {0.1f, 0.1f, 0.1f}});
   const Camera camera = Camera::perspective({0, -0.5f, 0.3f}, {0, 0, 0}, 30);
   const Image without = view->draw(camera);

@@ -13,18 +13,18 @@ namespace hysteron::render {
 namespace {
 
 // Cells are of one colour each, by column and row, on a page that has none of these.
-Rgb8 color_of(std::size_t column, std::size_t row) {
+Rgb8 cell_color(std::size_t column, std::size_t row) {
   return {static_cast<std::uint8_t>(10 + 12 * column), 200, static_cast<std::uint8_t>(10 + 40 * row)};
 }
 
-ComparisonSheet sheet_of(std::size_t columns, std::size_t rows, int width = 400, int height = 300) {
+ComparisonSheet sample_sheet(std::size_t columns, std::size_t rows, int width = 400, int height = 300) {
   ComparisonSheet sheet;
   sheet.title = "Crease";
   for (std::size_t r = 0; r < rows; ++r) sheet.rows.push_back({std::to_string(r) + ".00 s", "", 1e-4});
   for (std::size_t c = 0; c < columns; ++c) {
     sheet.columns.push_back({"law " + std::to_string(c), {"116°", "κ 31 /m"}, Rgb8{0, 90, 0}, "", {}});
     for (std::size_t r = 0; r < rows; ++r)
-      sheet.columns[c].cells.push_back({Image(width, height, color_of(c, r))});
+      sheet.columns[c].cells.push_back({Image(width, height, cell_color(c, r))});
   }
   return sheet;
 }
@@ -35,7 +35,7 @@ struct Extent {
   int height() const { return bottom - top + 1; }
 };
 
-Extent extent_of(const Image& page, const Rgb8& color) {
+Extent color_extent(const Image& page, const Rgb8& color) {
   Extent at;
   for (int y = 0; y < page.height(); ++y)
     for (int x = 0; x < page.width(); ++x)
@@ -45,12 +45,12 @@ Extent extent_of(const Image& page, const Rgb8& color) {
 }
 
 TEST(ComparisonSheet, IsTwiceTheWidthOfAFrontPageWithLettersByItsWidth) {
-  const Image page = draw_comparison(sheet_of(3, 2));
+  const Image page = draw_comparison(sample_sheet(3, 2));
   EXPECT_EQ(page.width(), 2 * 838);
   EXPECT_GE(sheet_letters(page.width()), page.width() / 84.0);
   for (std::size_t c = 0; c < 3; ++c)
     for (std::size_t r = 0; r < 2; ++r) {
-      const Extent cell = extent_of(page, color_of(c, r));
+      const Extent cell = color_extent(page, cell_color(c, r));
       EXPECT_GT(cell.width(), 400) << "three cells share the page but for times and gaps";
       EXPECT_NEAR(cell.width(), cell.height() * 4 / 3.0, 2);
     }
@@ -58,9 +58,9 @@ TEST(ComparisonSheet, IsTwiceTheWidthOfAFrontPageWithLettersByItsWidth) {
 
 TEST(ComparisonSheet, HasAtMostFiveColumnsBesideEachOther) {
   for (const std::size_t count : {1u, 2u, 5u, 6u, 9u, 15u}) {
-    const Image page = draw_comparison(sheet_of(count, 1));
+    const Image page = draw_comparison(sample_sheet(count, 1));
     std::set<int> lefts;
-    for (std::size_t c = 0; c < count; ++c) lefts.insert(extent_of(page, color_of(c, 0)).left);
+    for (std::size_t c = 0; c < count; ++c) lefts.insert(color_extent(page, cell_color(c, 0)).left);
     EXPECT_LE(lefts.size(), static_cast<std::size_t>(kMaxBeside)) << count;
     const double aspect = 1.0 * page.width() / page.height();
     EXPECT_GE(aspect, 0.5) << count;
@@ -70,64 +70,66 @@ TEST(ComparisonSheet, HasAtMostFiveColumnsBesideEachOther) {
 
 // A family begins a block where it does not fit behind another, whatever the order of its columns.
 TEST(ComparisonSheet, KeepsFamiliesTogether) {
-  ComparisonSheet sheet = sheet_of(8, 1);
+  ComparisonSheet sheet = sample_sheet(8, 1);
   for (std::size_t c = 0; c < 8; ++c) sheet.columns[c].family = c % 2 ? "plastic" : "elastic";
   const Image page = draw_comparison(sheet);
   std::set<int> elastic, plastic;
-  for (std::size_t c = 0; c < 8; ++c) (c % 2 ? plastic : elastic).insert(extent_of(page, color_of(c, 0)).top);
+  for (std::size_t c = 0; c < 8; ++c)
+    (c % 2 ? plastic : elastic).insert(color_extent(page, cell_color(c, 0)).top);
   for (int top : elastic) EXPECT_EQ(plastic.count(top), 0u);
 }
 
 // A name, however long, stays in its column.
 TEST(ComparisonSheet, KeepsLongTextsInTheirColumns) {
-  ComparisonSheet sheet = sheet_of(2, 1);
+  ComparisonSheet sheet = sample_sheet(2, 1);
   sheet.columns[0].name = std::string(300, 'W');
   sheet.columns[1].name.clear();
   sheet.columns[1].numbers.clear();
   sheet.columns[1].color.reset();
   const Image page = draw_comparison(sheet);
-  const Extent right = extent_of(page, color_of(1, 0));
+  const Extent right = color_extent(page, cell_color(1, 0));
   for (int y = 0; y < right.top; ++y)
     for (int x = right.left; x < page.width(); ++x) EXPECT_GT(page.at(x, y)[0], 200);
 }
 
 TEST(ComparisonSheet, SetsNumbersBelowNamesWhereNoneFindsRoomBehind) {
-  ComparisonSheet sheet = sheet_of(5, 2);
+  ComparisonSheet sheet = sample_sheet(5, 2);
   for (ComparisonColumn& column : sheet.columns) column.name = "viscoelastic law";
-  const Extent first = extent_of(draw_comparison(sheet), color_of(0, 0));
+  const Extent first = color_extent(draw_comparison(sheet), cell_color(0, 0));
   for (std::size_t c = 1; c < 5; ++c)
-    EXPECT_EQ(extent_of(draw_comparison(sheet), color_of(c, 0)).top, first.top) << "all in one block";
+    EXPECT_EQ(color_extent(draw_comparison(sheet), cell_color(c, 0)).top, first.top) << "all in one block";
   for (ComparisonColumn& column : sheet.columns) column.numbers.clear();
   const double line = 1.65 * sheet_letters(sheet.width);
-  EXPECT_NEAR(first.top - extent_of(draw_comparison(sheet), color_of(0, 0)).top, line, 1);
+  EXPECT_NEAR(first.top - color_extent(draw_comparison(sheet), cell_color(0, 0)).top, line, 1);
 }
 
 TEST(ComparisonSheet, BreaksALongNameBeforeTheKeysThatItCarries) {
-  ComparisonSheet sheet = sheet_of(5, 2);
+  ComparisonSheet sheet = sample_sheet(5, 2);
   for (ComparisonColumn& column : sheet.columns) column.numbers.clear();
-  const Extent first = extent_of(draw_comparison(sheet), color_of(0, 0));
+  const Extent first = color_extent(draw_comparison(sheet), cell_color(0, 0));
   sheet.columns[1].name = "linear+fabric.damping=0.006378";
   const Image page = draw_comparison(sheet);
   const double line = 1.65 * sheet_letters(sheet.width);
-  EXPECT_NEAR(extent_of(page, color_of(0, 0)).top - first.top, 2 * line, 1) << "law, key, value";
-  EXPECT_EQ(extent_of(page, color_of(4, 0)).top, extent_of(page, color_of(0, 0)).top) << "all in one block";
+  EXPECT_NEAR(color_extent(page, cell_color(0, 0)).top - first.top, 2 * line, 1) << "law, key, value";
+  EXPECT_EQ(color_extent(page, cell_color(4, 0)).top, color_extent(page, cell_color(0, 0)).top)
+      << "all in one block";
 }
 
 // Words in the margin make their row as high as they are, however low its pictures.
 TEST(ComparisonSheet, KeepsWordsOfARowAboveTheNext) {
-  ComparisonSheet sheet = sheet_of(4, 2, 400, 20);
+  ComparisonSheet sheet = sample_sheet(4, 2, 400, 20);
   sheet.beside = 4;
-  const Extent low = extent_of(draw_comparison(sheet), color_of(0, 0));
+  const Extent low = color_extent(draw_comparison(sheet), cell_color(0, 0));
   for (ComparisonRow& row : sheet.rows) row.phase = "cycle 100, returned";
   const Image page = draw_comparison(sheet);
   const double line = 1.65 * sheet_letters(sheet.width);
-  EXPECT_GE(extent_of(page, color_of(0, 1)).top - extent_of(page, color_of(0, 0)).top, 4 * line - 2)
+  EXPECT_GE(color_extent(page, cell_color(0, 1)).top - color_extent(page, cell_color(0, 0)).top, 4 * line - 2)
       << "the time, cycle, 100, and returned; pictures are " << low.height() << " high";
 }
 
 // The same scale in all rows is said once, at the foot; rows that differ have a bar each.
 TEST(ComparisonSheet, SaysAScaleOnce) {
-  ComparisonSheet sheet = sheet_of(2, 2);
+  ComparisonSheet sheet = sample_sheet(2, 2);
   const int once = draw_comparison(sheet).height();
   sheet.rows[1].metres_per_pixel = 2e-4;
   EXPECT_LT(draw_comparison(sheet).height(), once);
@@ -150,12 +152,12 @@ TEST(LoopInset, EndsInADotOfItsColorWithinItsSquare) {
 
 // In a cell whose right half is cloth the inset is drawn in the left one, though it belongs to the right.
 TEST(ComparisonSheet, PutsInsetsWhereTheyHideNothing) {
-  ComparisonSheet sheet = sheet_of(1, 1);
+  ComparisonSheet sheet = sample_sheet(1, 1);
   Image& picture = sheet.columns[0].cells[0].image = Image(400, 300, Rgb8{255, 255, 255});
   draw_rectangle(picture, 200, 0, 400, 300, {90, 91, 92});
   sheet.columns[0].cells[0].loop = {.path = {{0, 50, 100}, {0, 2e-4, 3e-4}}, .color = {0, 0, 220}};
   const Image page = draw_comparison(sheet);
-  const Extent cloth = extent_of(page, {90, 91, 92}), loop = extent_of(page, {0, 0, 220});
+  const Extent cloth = color_extent(page, {90, 91, 92}), loop = color_extent(page, {0, 0, 220});
   EXPECT_GT(loop.right, 0);
   EXPECT_LT(loop.right, cloth.left);
 }
@@ -174,7 +176,7 @@ TEST(LoopInset, ReachesAsFarAsHalfOfThePathsAndCutsWhatGoesBeyond) {
   const Rgb8 color{200, 30, 30};
   Image picture(200, 150, {128, 128, 128});
   draw_loop(picture, {{{0, 1000}, {0, 0}}, {}, color, frame}, Corner::bottom_right, 0.28f, 10);
-  const Extent line = extent_of(picture, color);
+  const Extent line = color_extent(picture, color);
   EXPECT_GT(line.width(), 20);
   EXPECT_LT(line.right, 200 - 4) << "within the inset, whose dot is outside";
   EXPECT_LT(line.height(), 5);

@@ -10,15 +10,15 @@
 namespace hysteron::render {
 namespace {
 
-using test::error_of;
 using test::ScratchFolder;
+using test::thrown_error;
 
-Rgb8 color_of(int i) { return {static_cast<std::uint8_t>(20 + 30 * i), 0, 0}; }
+Rgb8 cell_color(int i) { return {static_cast<std::uint8_t>(20 + 30 * i), 0, 0}; }
 
 std::vector<SheetEntry> entries(int count, int width = 640, int height = 360) {
   std::vector<SheetEntry> list;
   for (int i = 0; i < count; ++i)
-    list.push_back({Image(width, height, color_of(i)), "t = " + std::to_string(i) + " s"});
+    list.push_back({Image(width, height, cell_color(i)), "t = " + std::to_string(i) + " s"});
   return list;
 }
 
@@ -72,7 +72,7 @@ std::size_t read_by(const Body& body) {
 // As runs do: a thumbnail of 640 pixels a frame, so that the page never reads a whole frame again.
 std::vector<SheetEntry> thumbnails(int frames) {
   std::vector<SheetEntry> all;
-  const Image frame(1280, 720, color_of(1));
+  const Image frame(1280, 720, cell_color(1));
   for (int i = 0; i < frames; ++i)
     all.push_back({shrink(frame, 640, 360), "t = " + std::to_string(i) + " s"});
   return all;
@@ -88,11 +88,11 @@ TEST(ContactSheet, OfSixtyFourFramesReadsEachPixelAtMostTwice) {
 }
 
 // Where nothing moves there is one instant and the last; else as much way lies between any two.
-TEST(SpreadByWay, PassesOverWhatStandsStill) {
-  EXPECT_EQ(spread_by_way({0, 1, 1, 0, 0, 0, 0, 1, 1}, 5), (std::vector<int>{0, 1, 2, 7, 8}));
-  EXPECT_EQ(spread_by_way({0, 0, 0, 0}, 3), (std::vector<int>{0, 3}));
-  EXPECT_EQ(spread_by_way({0}, 3), (std::vector<int>{0}));
-  EXPECT_TRUE(spread_by_way({}, 3).empty());
+TEST(SpreadByDisplacement, PassesOverWhatStandsStill) {
+  EXPECT_EQ(spread_by_displacement({0, 1, 1, 0, 0, 0, 0, 1, 1}, 5), (std::vector<int>{0, 1, 2, 7, 8}));
+  EXPECT_EQ(spread_by_displacement({0, 0, 0, 0}, 3), (std::vector<int>{0, 3}));
+  EXPECT_EQ(spread_by_displacement({0}, 3), (std::vector<int>{0}));
+  EXPECT_TRUE(spread_by_displacement({}, 3).empty());
 }
 
 TEST(Spread, KeepsFirstAndLast) {

@@ -12,8 +12,8 @@
 namespace hysteron::render {
 namespace {
 
-using test::error_of;
 using test::ScratchFolder;
+using test::thrown_error;
 
 // Two maps of 3 x 2 cells: all of the first kind, and one of the second kind in the lower left corner.
 HeatMaps two_maps() {
@@ -30,7 +30,7 @@ HeatMaps two_maps() {
   return page;
 }
 
-int pixels_of(const Image& image, int channel, int from_x, int to_x, int from_y, int to_y) {
+int channel_pixels(const Image& image, int channel, int from_x, int to_x, int from_y, int to_y) {
   int count = 0;
   for (int y = from_y; y < to_y; ++y) {
     for (int x = from_x; x < to_x; ++x) {
@@ -58,15 +58,15 @@ TEST_F(HeatMapTest, EveryCellHasTheColourOfItsKindAtItsPlace) {
   const Image image = read_png(folder_.file("m.png"));
   constexpr int kLegendEnds = 110;                  // [pixels] from the top
   const int middle = 490, bottom = image.height();  // between the maps, in pixels
-  const int green_left = pixels_of(image, 1, 0, middle, kLegendEnds, bottom),
-            red_left = pixels_of(image, 0, 0, middle, kLegendEnds, bottom),
-            red = pixels_of(image, 0, 0, image.width(), kLegendEnds, bottom);
+  const int green_left = channel_pixels(image, 1, 0, middle, kLegendEnds, bottom),
+            red_left = channel_pixels(image, 0, 0, middle, kLegendEnds, bottom),
+            red = channel_pixels(image, 0, 0, image.width(), kLegendEnds, bottom);
   ASSERT_GT(green_left, 1000);
   EXPECT_EQ(red_left, 0);
   constexpr double kTexts = 0.1;  // of a cell, hidden by its text
   EXPECT_NEAR(red, green_left / 6.0, kTexts * green_left / 6) << "one cell of six";
   const int half = kLegendEnds + 26 + 34;  // where the lower row of cells begins
-  EXPECT_EQ(pixels_of(image, 0, 0, image.width(), kLegendEnds, half), 0) << "rows stand from below";
+  EXPECT_EQ(channel_pixels(image, 0, 0, image.width(), kLegendEnds, half), 0) << "rows stand from below";
 }
 
 TEST_F(HeatMapTest, TextsAxesAndLegendAreDrawnAsTheyAre) {
@@ -82,9 +82,9 @@ TEST(HeatMap, WhatDoesNotFitItsAxesIsRefused) {
   const ScratchFolder folder;
   HeatMaps page = two_maps();
   page.maps[1].rows[1].pop_back();
-  EXPECT_EQ(error_of([&] { write_heat_maps(folder.file("m"), page); }).exit_code(), 2);
+  EXPECT_EQ(thrown_error([&] { write_heat_maps(folder.file("m"), page); }).exit_code(), 2);
   page.maps.clear();
-  EXPECT_EQ(error_of([&] { write_heat_maps(folder.file("m"), page); }).exit_code(), 2);
+  EXPECT_EQ(thrown_error([&] { write_heat_maps(folder.file("m"), page); }).exit_code(), 2);
   EXPECT_TRUE(folder.names().empty());
 }
 

@@ -12,8 +12,8 @@
 namespace hysteron::render {
 namespace {
 
-using test::error_of;
 using test::ScratchFolder;
+using test::thrown_error;
 
 Image gradient(int width, int height, int channels) {
   Image image(width, height, channels);
@@ -35,7 +35,7 @@ TEST(Png, KeepsEveryByteInBothFormatsAndEfforts) {
 
 TEST(Png, AMissingFolderIsTheMachinesFailure) {
   const ScratchFolder folder;
-  const Error error = error_of([&] { write_png(folder.file("none/a.png"), Image(2, 2)); });
+  const Error error = thrown_error([&] { write_png(folder.file("none/a.png"), Image(2, 2)); });
   EXPECT_EQ(error.exit_code(), 1);
   EXPECT_NE(std::string(error.what()).find("none/a.png"), std::string::npos);
   EXPECT_TRUE(folder.names().empty());
@@ -49,8 +49,8 @@ TEST(Png, AFullDiskLeavesTheOldPictureAndNoHalfOne) {
   ASSERT_GT(encode_png(large).size(), 4096u);
   {
     const hysteron::test::SmallDisk disk(4096);
-    EXPECT_EQ(error_of([&] { write_png(folder.file("a.png"), large); }).exit_code(), 1);
-    EXPECT_EQ(error_of([&] { write_png(folder.file("b.png"), large); }).exit_code(), 1);
+    EXPECT_EQ(thrown_error([&] { write_png(folder.file("a.png"), large); }).exit_code(), 1);
+    EXPECT_EQ(thrown_error([&] { write_png(folder.file("b.png"), large); }).exit_code(), 1);
   }
   EXPECT_EQ(folder.names(), std::vector<std::string>{"a.png"});
   EXPECT_EQ(read_png(folder.file("a.png")), old);
@@ -61,7 +61,7 @@ TEST(Png, WhatIsNoPictureIsRefused) {
   std::ofstream(folder.file("text.png")) << "no picture";
   std::ofstream(folder.file("empty.png"));
   for (const char* name : {"text.png", "empty.png", "missing.png"}) {
-    const Error error = error_of([&] { read_png(folder.file(name)); });
+    const Error error = thrown_error([&] { read_png(folder.file(name)); });
     EXPECT_EQ(error.exit_code(), 2);
     EXPECT_NE(std::string(error.what()).find(name), std::string::npos);
   }
@@ -72,14 +72,14 @@ TEST(Png, ATruncatedPictureIsRefused) {
   const auto whole = encode_png(gradient(60, 60, 3));
   std::ofstream(folder.file("half.png"), std::ios::binary)
       .write(reinterpret_cast<const char*>(whole.data()), static_cast<std::streamsize>(whole.size() / 2));
-  EXPECT_EQ(error_of([&] { read_png(folder.file("half.png")); }).exit_code(), 2);
+  EXPECT_EQ(thrown_error([&] { read_png(folder.file("half.png")); }).exit_code(), 2);
 }
 
 // Four bytes that would break the line of the message.
 TEST(Png, ADamagedNameOfAChunkIsNotRepeated) {
   auto bytes = encode_png(gradient(6, 6, 3));
   bytes[bytes.size() - 6] = '\n';  // IEND
-  const Error error = error_of([&] { decode_png(bytes, "a.png"); });
+  const Error error = thrown_error([&] { decode_png(bytes, "a.png"); });
   EXPECT_EQ(std::string(error.what()), "reading a.png: a broken PNG picture: the file ends too early");
 }
 
@@ -93,7 +93,7 @@ TEST(Png, AHeaderThatCannotBeTrueIsRefusedBeforeAnythingIsAllocated) {
     }
     const auto sum = static_cast<std::uint32_t>(crc32(0, &bytes[12], 17));  // of the header's chunk
     for (int i = 0; i < 4; ++i) bytes[29 + i] = static_cast<std::uint8_t>(sum >> (24 - 8 * i));
-    const Error error = error_of([&] { decode_png(bytes, "a.png"); });
+    const Error error = thrown_error([&] { decode_png(bytes, "a.png"); });
     EXPECT_EQ(error.exit_code(), 2);
     return std::string(error.what());
   };
@@ -112,16 +112,16 @@ TEST(Png, AWrongBitIsFound) {
     wrong[at] ^= 1;
     std::ofstream(folder.file("wrong.png"), std::ios::binary)
         .write(reinterpret_cast<const char*>(wrong.data()), static_cast<std::streamsize>(wrong.size()));
-    const Error error = error_of([&] { read_png(folder.file("wrong.png")); });
+    const Error error = thrown_error([&] { read_png(folder.file("wrong.png")); });
     EXPECT_EQ(error.exit_code(), 2) << at;
     EXPECT_NE(std::string(error.what()).find("PNG picture"), std::string::npos) << error.what();
   }
 }
 
 TEST(Image, SizesBelowOneAreRefused) {
-  EXPECT_EQ(error_of([] { Image(0, 10); }).exit_code(), 2);
-  EXPECT_EQ(error_of([] { Image(10, -1); }).exit_code(), 2);
-  EXPECT_EQ(error_of([] { Image(10, 10, 2); }).exit_code(), 2);
+  EXPECT_EQ(thrown_error([] { Image(0, 10); }).exit_code(), 2);
+  EXPECT_EQ(thrown_error([] { Image(10, -1); }).exit_code(), 2);
+  EXPECT_EQ(thrown_error([] { Image(10, 10, 2); }).exit_code(), 2);
 }
 
 // Half black, half white is half the light, not half the encoded value: 188, not 128.
@@ -145,7 +145,7 @@ TEST(Shrink, WeighsPartlyCoveredPixels) {
 TEST(Shrink, KeepsAnEvenPictureAndRefusesToGrow) {
   const Image even(97, 61, Rgb8{120, 7, 250});
   EXPECT_EQ(shrink(even, 13, 10), Image(13, 10, Rgb8{120, 7, 250}));
-  EXPECT_EQ(error_of([&] { shrink(even, 98, 10); }).exit_code(), 2);
+  EXPECT_EQ(thrown_error([&] { shrink(even, 98, 10); }).exit_code(), 2);
 }
 
 // A red pixel beside nothing is half a red pixel, not a dark one.

@@ -65,10 +65,10 @@ test::Cloth under_roof(float height) {
 }
 
 // Where the light first passes a share, right of pixel `from`, between pixels.
-double crossing(const std::vector<double>& light, double share, int from) {
+double crossing(const std::vector<double>& light, double fraction, int from) {
   for (size_t x = static_cast<size_t>(from); x + 1 < light.size(); ++x)
-    if (light[x] < share && light[x + 1] >= share)
-      return static_cast<double>(x) + (share - light[x]) / (light[x + 1] - light[x]);
+    if (light[x] < fraction && light[x + 1] >= fraction)
+      return static_cast<double>(x) + (fraction - light[x]) / (light[x + 1] - light[x]);
   return -1;
 }
 

@@ -45,7 +45,7 @@ int red_rows(const Image& image) {
 
 class ObstacleTest : public testing::Test {
  protected:
-  std::unique_ptr<ClothView> view_of(const test::Cloth& cloth) {
+  std::unique_ptr<ClothView> viewed_cloth(const test::Cloth& cloth) {
     auto view = std::make_unique<ClothView>(*offscreen_, PictureSize{kSide, kSide});
     view->set_cloth(cloth.topology());
     view->set_positions(cloth.positions);
@@ -63,8 +63,8 @@ test::Cloth around_cylinder(int cells, float radius) {
   const float quarter = 0.5f * std::numbers::pi_v<float> * radius;
   for (size_t i = 0; i < cloth.positions.size(); i += 3) {
     float& x = cloth.positions[i];
-    const float way = std::abs(x), angle = std::min(way, quarter) / radius;
-    cloth.positions[i + 2] = radius * std::cos(angle) - std::max(way - quarter, 0.0f);
+    const float arc = std::abs(x), angle = std::min(arc, quarter) / radius;
+    cloth.positions[i + 2] = radius * std::cos(angle) - std::max(arc - quarter, 0.0f);
     x = std::copysign(radius * std::sin(angle), x);
   }
   return cloth;
@@ -74,7 +74,7 @@ test::Cloth around_cylinder(int cells, float radius) {
 TEST_F(ObstacleTest, NoCylinderShowsThroughTheClothAroundIt) {
   constexpr float kRadius = 0.04f;
   for (const int cells : {12, 15, 30}) {
-    auto view = view_of(around_cylinder(cells, kRadius));
+    auto view = viewed_cloth(around_cylinder(cells, kRadius));
     view->add_obstacle(cylinder_mesh(kRadius, 0.2f, 0.002f), placed({0, 0, 0}, {0, 1, 0}));
     for (const Eigen::Vector3f& eye : {Eigen::Vector3f(0, -0.2f, 0.8f), Eigen::Vector3f(0.6f, -0.1f, 0.4f)})
       EXPECT_EQ(red_pixels(view->draw(Camera::perspective(eye, {0, 0, 0}, 18))), 0) << cells << " cells";
@@ -84,7 +84,7 @@ TEST_F(ObstacleTest, NoCylinderShowsThroughTheClothAroundIt) {
 // From above the drape hides its pedestal, however coarse it is.
 TEST_F(ObstacleTest, NoRimShowsThroughACoarseDrape) {
   for (const int rings : {7, 8, 11, 16}) {
-    auto view = view_of(test::draped_disc(rings, 4 * rings));
+    auto view = viewed_cloth(test::draped_disc(rings, 4 * rings));
     view->add_obstacle(cylinder_mesh(0.045f, 0.12f, 0.002f), placed({0, 0, 0.06f}, {0, 0, 1}));
     EXPECT_EQ(red_pixels(view->draw(Camera::top({{-0.1f, -0.1f, 0}, {0.1f, 0.1f, 0.12f}}, 1))), 0)
         << rings << " rings";
@@ -94,7 +94,7 @@ TEST_F(ObstacleTest, NoRimShowsThroughACoarseDrape) {
 // A plate of 2 mm beside cloth of 50 mm sides keeps three tenths of its height.
 TEST_F(ObstacleTest, AThinPlateIsStillSeen) {
   constexpr float kThick = 2e-3f;
-  auto view = view_of(test::flat_square(4, 0.2f, 0.1f));
+  auto view = viewed_cloth(test::flat_square(4, 0.2f, 0.1f));
   view->add_obstacle(box_mesh({0.02f, 0.02f, kThick / 2}, 0.5e-3f), placed({0, 0, 0}, {0, 0, 1}));
   const Camera camera = Camera::perspective({0, -0.2f, 0}, {0, 0, 0}, 4);
   const double rows = 0.3 * kThick / camera.metres_per_pixel({0, -0.02f, 0}, kSide);
@@ -105,7 +105,7 @@ TEST_F(ObstacleTest, ABodyOnTheGroundKeepsStandingOnIt) {
   const Camera camera = Camera::perspective({0, -0.5f, 0.02f}, {0, 0, 0.02f}, 20);
   std::vector<int> lowest;
   for (const int cells : {40, 4}) {
-    auto view = view_of(test::flat_square(cells, 0.2f, 0.2f));
+    auto view = viewed_cloth(test::flat_square(cells, 0.2f, 0.2f));
     view->add_obstacle(cylinder_mesh(0.03f, 0.06f, 1e-3f), placed({0, 0, 0.03f}, {0, 0, 1}));
     view->set_ground(0.0f);
     const Image image = view->draw(camera);
@@ -169,7 +169,7 @@ TEST(Refine, KeepsTheSurfaceClosedAndLeavesNoLongSide) {
     EXPECT_EQ(count, 1);
     EXPECT_EQ(sides.count({side.second, side.first}), 1u) << "a gap";
   }
-  EXPECT_EQ(test::error_of([] { refined(cuboid({1, 1, 1}), 0); }).exit_code(), 2);
+  EXPECT_EQ(test::thrown_error([] { refined(cuboid({1, 1, 1}), 0); }).exit_code(), 2);
 }
 
 // With the key light off: the corners of a bare cuboid see all of the sky, its middle below a sheet does not.
@@ -177,7 +177,7 @@ TEST_F(ObstacleTest, APlateOfEightCornersIsDarkBelowASheet) {
   const Camera camera = Camera::perspective({0, -0.6f, 0.13f}, {0, 0, 0.01f}, 25);
   std::vector<double> light;
   for (const float height : {0.02f, 0.3f}) {
-    auto view = view_of(test::flat_square(20, 0.1f, height));
+    auto view = viewed_cloth(test::flat_square(20, 0.1f, height));
     Look look = red_bodies();
     look.room = 19.0f / 9;  // the key light's 1.9 - 0.9 room is 0
     view->set_look(look);

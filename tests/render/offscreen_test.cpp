@@ -72,14 +72,14 @@ TEST(Offscreen, HardwareIsTriedFirstAndOSMesaLast) {
 
 TEST(Offscreen, ADeviceThatIsNotThereIsTheMachinesFailure) {
   const Candidate missing{.kind = Candidate::Kind::egl_device, .device = 999};
-  EXPECT_EQ(test::error_of([&] { Offscreen::create(missing); }).exit_code(), 1);
+  EXPECT_EQ(test::thrown_error([&] { Offscreen::create(missing); }).exit_code(), 1);
 }
 
 TEST(Offscreen, RendererNamesAreThoseOfTheInterface) {
   EXPECT_EQ(renderer_named("auto"), Renderer::automatic);
   EXPECT_EQ(renderer_named("egl"), Renderer::egl);
   EXPECT_EQ(renderer_named("osmesa"), Renderer::osmesa);
-  const Error error = test::error_of([] { renderer_named("vulkan"); });
+  const Error error = test::thrown_error([] { renderer_named("vulkan"); });
   EXPECT_EQ(error.exit_code(), 2);
   EXPECT_NE(std::string(error.what()).find("auto, egl, osmesa"), std::string::npos);
 }

@@ -13,12 +13,12 @@
 namespace hysteron::render {
 namespace {
 
-using test::error_of;
 using test::ScratchFolder;
+using test::thrown_error;
 
 constexpr int kLeft = 90, kColumn = 172;  // [pixels] where the first panel begins, and every next one
 
-Panels grid_of(int count) {
+Panels panel_grid(int count) {
   Panels grid{.title = "Loops", .subtitle = "red: a line", .x = {"x [m]"}, .y = {"y [m]"}, .panels = {}};
   grid.columns = 3;
   grid.panel_width = 150;
@@ -30,7 +30,7 @@ Panels grid_of(int count) {
   return grid;
 }
 
-std::string text_of(const std::filesystem::path& path) {
+std::string file_text(const std::filesystem::path& path) {
   std::ifstream file(path);
   return {std::istreambuf_iterator<char>(file), {}};
 }
@@ -45,15 +45,15 @@ class PanelsTest : public testing::Test {
 };
 
 TEST_F(PanelsTest, EveryPanelHasItsTitleAndItsTexts) {
-  write_panels(folder_.file("p"), grid_of(5));
+  write_panels(folder_.file("p"), panel_grid(5));
   EXPECT_EQ(folder_.names(), (std::vector<std::string>{"p.pdf", "p.png", "p.svg"}));
-  const std::string svg = text_of(folder_.file("p.svg"));
+  const std::string svg = file_text(folder_.file("p.svg"));
   for (const char* text : {"panel_0", "panel_4", "B = 1", "lower right", "Loops", "red: a line", "x [m]"})
     EXPECT_NE(svg.find(text), std::string::npos) << text;
 }
 
 TEST_F(PanelsTest, PanelsStandInRowsOfTheGivenLength) {
-  write_panels(folder_.file("p"), grid_of(4));
+  write_panels(folder_.file("p"), panel_grid(4));
   const Image image = read_png(folder_.file("p.png"));
   std::vector<int> red(3);  // pixels of the lines, by column of the grid
   for (int y = 0; y < image.height(); ++y) {
@@ -68,22 +68,22 @@ TEST_F(PanelsTest, PanelsStandInRowsOfTheGivenLength) {
 }
 
 TEST_F(PanelsTest, AxesAreCommonToAllPanels) {
-  Panels wide = grid_of(2), cut = grid_of(2);
+  Panels wide = panel_grid(2), cut = panel_grid(2);
   wide.panels[1].series[0].y = {-10, 10};
   cut.panels[1].series[0].y = {-10, 10};
   cut.y.low = -1, cut.y.high = 1;
   write_panels(folder_.file("wide"), wide);
   write_panels(folder_.file("cut"), cut);
-  EXPECT_NE(text_of(folder_.file("wide.svg")).find("10"), std::string::npos);
-  EXPECT_EQ(text_of(folder_.file("cut.svg")).find("> 10<"), std::string::npos);
+  EXPECT_NE(file_text(folder_.file("wide.svg")).find("10"), std::string::npos);
+  EXPECT_EQ(file_text(folder_.file("cut.svg")).find("> 10<"), std::string::npos);
 }
 
 TEST(Panels, NothingToDrawIsRefused) {
   const ScratchFolder folder;
-  EXPECT_EQ(error_of([&] { write_panels(folder.file("p"), grid_of(0)); }).exit_code(), 2);
-  Panels uneven = grid_of(2);
+  EXPECT_EQ(thrown_error([&] { write_panels(folder.file("p"), panel_grid(0)); }).exit_code(), 2);
+  Panels uneven = panel_grid(2);
   uneven.panels[1].series[0].x.pop_back();
-  EXPECT_EQ(error_of([&] { write_panels(folder.file("p"), uneven); }).exit_code(), 2);
+  EXPECT_EQ(thrown_error([&] { write_panels(folder.file("p"), uneven); }).exit_code(), 2);
   EXPECT_TRUE(folder.names().empty());
 }
 

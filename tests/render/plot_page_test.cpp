@@ -12,8 +12,8 @@
 namespace hysteron::render {
 namespace {
 
-using test::error_of;
 using test::ScratchFolder;
+using test::thrown_error;
 
 PlotPage two_plots() {
   Plot rising{"rising", {"x [m]"}, {"force [N]"}}, falling{"falling", {"t [s]", false, 0, 400}, {"y [mm]"}};
@@ -23,7 +23,7 @@ PlotPage two_plots() {
   return {"Page", "what it shows", {{rising, "top left"}, {falling, "bottom left"}}, 2, 200, 150};
 }
 
-std::string text_of(const std::filesystem::path& path) {
+std::string file_text(const std::filesystem::path& path) {
   std::ifstream file(path);
   return {std::istreambuf_iterator<char>(file), {}};
 }
@@ -40,7 +40,7 @@ class PlotPageTest : public testing::Test {
 TEST_F(PlotPageTest, EveryPlotHasItsOwnAxesKeyAndMarksOnce) {
   write_plot_page(folder_.file("p"), two_plots());
   EXPECT_EQ(folder_.names(), (std::vector<std::string>{"p.pdf", "p.png", "p.svg"}));
-  const std::string svg = text_of(folder_.file("p.svg"));
+  const std::string svg = file_text(folder_.file("p.svg"));
   for (const char* text :
        {"Page", "what it shows", "rising", "falling", "x [m]", "t [s]", "force [N]", "y [mm]", "here"}) {
     const std::size_t at = svg.find(text);
@@ -69,14 +69,14 @@ TEST_F(PlotPageTest, PlotsStandBesideEachOther) {
 }
 
 TEST_F(PlotPageTest, WithoutPlotsOrDataIsRefused) {
-  EXPECT_NE(
-      std::string(error_of([&] { write_plot_page(folder_.file("p"), {}); }).what()).find("nothing to draw"),
-      std::string::npos);
+  EXPECT_NE(std::string(thrown_error([&] { write_plot_page(folder_.file("p"), {}); }).what())
+                .find("nothing to draw"),
+            std::string::npos);
   PlotPage page = two_plots();
   page.plots[1].plot.series[0].y.pop_back();
-  EXPECT_NE(
-      std::string(error_of([&] { write_plot_page(folder_.file("p"), page); }).what()).find("series \"b\""),
-      std::string::npos);
+  EXPECT_NE(std::string(thrown_error([&] { write_plot_page(folder_.file("p"), page); }).what())
+                .find("series \"b\""),
+            std::string::npos);
 }
 
 }  // namespace

@@ -17,8 +17,8 @@
 namespace hysteron::render {
 namespace {
 
-using test::error_of;
 using test::ScratchFolder;
+using test::thrown_error;
 
 Plot parabola() {
   Plot plot{.title = "don't mix_up ^this^",
@@ -33,7 +33,7 @@ Plot parabola() {
   return plot;
 }
 
-std::string text_of(const std::filesystem::path& path) {
+std::string file_text(const std::filesystem::path& path) {
   std::ifstream file(path);
   return {std::istreambuf_iterator<char>(file), {}};
 }
@@ -62,7 +62,7 @@ TEST_F(PlotTest, WritesPngAndSvgAndNothingElse) {
 
 TEST_F(PlotTest, LabelsAreTextNotMarkup) {
   write_plot(folder_.file("p"), parabola());
-  const std::string svg = text_of(folder_.file("p.svg"));
+  const std::string svg = file_text(folder_.file("p.svg"));
   EXPECT_NE(svg.find("mix_up ^this^"), std::string::npos);
   EXPECT_NE(svg.find("curvature [1/m]"), std::string::npos);
 }
@@ -72,7 +72,7 @@ TEST_F(PlotTest, LineEndsAtAGap) {
   plot.series[0].color = "#123456";
   const auto lines = [&] {
     write_plot(folder_.file("p"), plot);
-    const std::string svg = text_of(folder_.file("p.svg")), path = "<path stroke='rgb( 18,  52,  86)'  d='";
+    const std::string svg = file_text(folder_.file("p.svg")), path = "<path stroke='rgb( 18,  52,  86)'  d='";
     std::size_t begun = 0;
     for (std::size_t at = svg.rfind(path); at < svg.size() && svg[at] != '>'; ++at) begun += svg[at] == 'M';
     return begun;
@@ -84,7 +84,7 @@ TEST_F(PlotTest, LineEndsAtAGap) {
 }
 
 // The height of a text in an SVG [pixels from above]; -1 where it is not there once.
-double height_of(const std::string& svg, const std::string& text) {
+double text_height(const std::string& svg, const std::string& text) {
   const std::string drawn = ">" + text + "</tspan>";
   const std::size_t at = svg.find(drawn);
   if (at == std::string::npos || svg.find(drawn, at + 1) != std::string::npos) return -1;
@@ -97,8 +97,9 @@ TEST_F(PlotTest, LinesHaveTheirLabelsAtTheirEndsAndApart) {
   Plot plot = parabola();
   plot.series = {{"low", {0, 1}, {0, 0}}, {"high", {0, 1}, {0, 10}}, {"higher", {0, 1}, {0, 10.1}}};
   write_plot(folder_.file("p"), plot);
-  const std::string svg = text_of(folder_.file("p.svg"));
-  const double low = height_of(svg, "low"), high = height_of(svg, "high"), higher = height_of(svg, "higher");
+  const std::string svg = file_text(folder_.file("p.svg"));
+  const double low = text_height(svg, "low"), high = text_height(svg, "high"),
+               higher = text_height(svg, "higher");
   EXPECT_GT(higher, 0);
   EXPECT_GT(low, high + 100);
   EXPECT_GT(high, higher + 14) << "the letters are 14 pixels";
@@ -109,7 +110,7 @@ TEST_F(PlotTest, SmallNumbersTakeThePrefixOfTheirUnit) {
   for (double& y : plot.series[0].y) y *= 1e-5;  // 1 mJ/m² at most
   plot.note = "zero throughout: linear";
   write_plot(folder_.file("p"), plot);
-  const std::string svg = text_of(folder_.file("p.svg"));
+  const std::string svg = file_text(folder_.file("p.svg"));
   EXPECT_NE(svg.find("energy [mJ/m²]"), std::string::npos);
   EXPECT_NE(svg.find("curvature [1/m]"), std::string::npos) << "of which there are no prefixes";
   EXPECT_NE(svg.find("zero throughout: linear"), std::string::npos);
@@ -132,7 +133,7 @@ TEST(SiPrefix, LeavesOneTo999) {
 TEST_F(PlotTest, PdfsDoNotSayWhenTheyWereWritten) {
   write_plot(folder_.file("p"), parabola());
   if (!std::filesystem::exists(folder_.file("p.pdf"))) GTEST_SKIP() << "this gnuplot writes no PDF";
-  const std::string text = text_of(folder_.file("p.pdf"));
+  const std::string text = file_text(folder_.file("p.pdf"));
   EXPECT_EQ(text.substr(0, 5), "%PDF-");
   const std::size_t date = text.find("/CreationDate (D:");
   if (date != std::string::npos) {
@@ -161,7 +162,7 @@ TEST_F(PlotTest, BarsHaveTheirCategoriesBelowAndTheirHeights) {
   plot.y.high = 4;
   plot.series = grouped_bars({""}, {{1, 4}}, plot.bar_width);
   write_plot(folder_.file("p"), plot);
-  const std::string svg = text_of(folder_.file("p.svg"));
+  const std::string svg = file_text(folder_.file("p.svg"));
   for (const std::string& name : plot.x.categories) EXPECT_NE(svg.find(name), std::string::npos) << name;
   const Image image = read_png(folder_.file("p.png"));
   std::vector<int> blue(image.width());  // pixels of the bars in each column
@@ -179,7 +180,7 @@ TEST_F(PlotTest, BarsHaveTheirCategoriesBelowAndTheirHeights) {
 TEST_F(PlotTest, WhatGnuplotCannotDrawFailsInOneLineAndLeavesNothing) {
   Plot plot = parabola();
   plot.series[0].y.assign(plot.series[0].y.size(), std::numeric_limits<double>::quiet_NaN());
-  const Error error = error_of([&] { write_plot(folder_.file("p"), plot); });
+  const Error error = thrown_error([&] { write_plot(folder_.file("p"), plot); });
   EXPECT_EQ(error.exit_code(), 1);
   EXPECT_TRUE(folder_.names().empty());
 }
@@ -207,7 +208,7 @@ TEST_F(PlotTest, WithoutFontsIsRefused) {
   std::ofstream(own.file("fonts.conf"))
       << "<fontconfig><cachedir>" << own.file("cache") << "</cachedir></fontconfig>\n";
   const Setting file("FONTCONFIG_FILE", own.file("fonts.conf"));
-  const Error error = error_of([&] { write_plot(folder_.file("p"), parabola()); });
+  const Error error = thrown_error([&] { write_plot(folder_.file("p"), parabola()); });
   EXPECT_EQ(error.exit_code(), 1);
   EXPECT_NE(std::string(error.what()).find("fonts-dejavu-core"), std::string::npos) << error.what();
   EXPECT_TRUE(folder_.names().empty());
@@ -217,7 +218,7 @@ TEST(Plot, MissingGnuplotNamesThePackage) {
   const ScratchFolder folder;
   const std::string before = std::getenv("PATH");
   setenv("PATH", folder.file("empty").c_str(), 1);
-  const Error error = error_of([&] { write_plot(folder.file("p"), parabola()); });
+  const Error error = thrown_error([&] { write_plot(folder.file("p"), parabola()); });
   setenv("PATH", before.c_str(), 1);
   EXPECT_EQ(error.exit_code(), 1);
   EXPECT_NE(std::string(error.what()).find("gnuplot-nox"), std::string::npos);
@@ -226,10 +227,10 @@ TEST(Plot, MissingGnuplotNamesThePackage) {
 
 TEST(Plot, NothingToDrawIsRefused) {
   const ScratchFolder folder;
-  EXPECT_EQ(error_of([&] { write_plot(folder.file("p"), Plot{}); }).exit_code(), 2);
+  EXPECT_EQ(thrown_error([&] { write_plot(folder.file("p"), Plot{}); }).exit_code(), 2);
   Plot uneven = parabola();
   uneven.series[0].x.pop_back();
-  EXPECT_EQ(error_of([&] { write_plot(folder.file("p"), uneven); }).exit_code(), 2);
+  EXPECT_EQ(thrown_error([&] { write_plot(folder.file("p"), uneven); }).exit_code(), 2);
 }
 
 TEST(SeriesFromCsv, ReadsColumnsByNameWithOrWithoutUnit) {
@@ -246,11 +247,11 @@ TEST(SeriesFromCsv, ReadsColumnsByNameWithOrWithoutUnit) {
 TEST(SeriesFromCsv, BadFilesAreRefusedWithTheirPlace) {
   const ScratchFolder folder;
   std::ofstream(folder.file("m.csv")) << "t,y\n0,1\n1,oops\n";
-  EXPECT_EQ(error_of([&] { series_from_csv(folder.file("none.csv"), "t", "y", ""); }).exit_code(), 2);
-  EXPECT_NE(
-      std::string(error_of([&] { series_from_csv(folder.file("m.csv"), "t", "z", ""); }).what()).find("t, y"),
-      std::string::npos);
-  EXPECT_NE(std::string(error_of([&] { series_from_csv(folder.file("m.csv"), "t", "y", ""); }).what())
+  EXPECT_EQ(thrown_error([&] { series_from_csv(folder.file("none.csv"), "t", "y", ""); }).exit_code(), 2);
+  EXPECT_NE(std::string(thrown_error([&] { series_from_csv(folder.file("m.csv"), "t", "z", ""); }).what())
+                .find("t, y"),
+            std::string::npos);
+  EXPECT_NE(std::string(thrown_error([&] { series_from_csv(folder.file("m.csv"), "t", "y", ""); }).what())
                 .find("m.csv:3"),
             std::string::npos);
 }

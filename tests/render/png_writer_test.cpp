@@ -29,7 +29,7 @@ TEST(PngWriter, FinishReportsTheFirstErrorAndKeepsTheOtherPictures) {
   PngWriter writer(1, 8);
   writer.write(folder.file("good.png"), Image(4, 4));
   writer.write(folder.file("none/bad.png"), Image(4, 4));
-  const Error error = test::error_of([&] { writer.finish(); });
+  const Error error = test::thrown_error([&] { writer.finish(); });
   EXPECT_EQ(error.exit_code(), 1);
   EXPECT_NE(std::string(error.what()).find("none/bad.png"), std::string::npos);
   EXPECT_EQ(folder.names(), std::vector<std::string>{"good.png"});
@@ -38,7 +38,7 @@ TEST(PngWriter, FinishReportsTheFirstErrorAndKeepsTheOtherPictures) {
 TEST(PngWriter, WriteStopsARunAfterAnError) {
   const ScratchFolder folder;
   PngWriter writer(1, 2);
-  const Error error = test::error_of([&] {
+  const Error error = test::thrown_error([&] {
     for (int i = 0; i < 1000; ++i) writer.write(folder.file("none/bad.png"), Image(4, 4));
   });
   EXPECT_EQ(error.exit_code(), 1);

@@ -139,7 +139,7 @@ TEST_F(QualityTest, ThreadsMakeNoMoireAndDoNotDarken) {
   constexpr double kWhole = 0.01;
   // Where single threads are not resolved, their unevenness is missing too (a factor of 1 +- 0.065): 4 % of a
   // block.
-  constexpr double kShare = 0.05;
+  constexpr double kFraction = 0.05;
   for (const bool tilted : {false, true})
     for (const float threads : {0.15f, 0.25f, 0.35f, 0.5f, 0.7f, 1.0f, 1.5f, 3.0f, 7.0f}) {
       const float half = 0.5f * threads * Look{}.thread_spacing * kPixels;
@@ -150,7 +150,7 @@ TEST_F(QualityTest, ThreadsMakeNoMoireAndDoNotDarken) {
       for (int y = 0; y < kPixels; y += kBlock)
         for (int x = 0; x < kPixels; x += kBlock) {
           const double expected = mean_light(fine, x, y, kBlock);
-          EXPECT_NEAR(mean_light(image, x, y, kBlock), expected, kShare * expected)
+          EXPECT_NEAR(mean_light(image, x, y, kBlock), expected, kFraction * expected)
               << threads << " threads a pixel, block at " << x << ", " << y << (tilted ? ", tilted" : "");
         }
     }

@@ -46,7 +46,7 @@ class SharedPositions : public testing::Test {
     view->set_bounds({{-0.1f, -0.1f, -0.1f}, {0.1f, 0.1f, 0.1f}});
     return view;
   }
-  void share(ClothView& view, std::vector<float> xyz) {
+  void share_with(ClothView& view, std::vector<float> xyz) {
     view.share_positions(std::make_unique<HostPositions>(offscreen_->gl(), view.position_buffer(),
                                                          std::move(xyz), closed_in_time_));
   }
@@ -60,7 +60,7 @@ class SharedPositions : public testing::Test {
 
 TEST_F(SharedPositions, GiveThePictureOfPositionsThatWereSet) {
   auto shared = new_view(), set = new_view();
-  share(*shared, cloth_.positions);
+  share_with(*shared, cloth_.positions);
   EXPECT_TRUE(shared->write_positions(reason_));
   set->set_positions(cloth_.positions);
   EXPECT_EQ(draw(*shared), draw(*set));
@@ -73,13 +73,13 @@ TEST_F(SharedPositions, GiveThePictureOfPositionsThatWereSet) {
 
 TEST_F(SharedPositions, AreClosedBeforeTheirBufferGoes) {
   auto view = new_view();
-  share(*view, cloth_.positions);
+  share_with(*view, cloth_.positions);
   view->set_cloth(cloth_.topology());
   EXPECT_EQ(closed_in_time_, true);
   EXPECT_FALSE(view->write_positions(reason_)) << "wrote a buffer that is gone";
 
   closed_in_time_.reset();
-  share(*view, cloth_.positions);
+  share_with(*view, cloth_.positions);
   EXPECT_TRUE(view->write_positions(reason_));
   const auto another = Offscreen::create(Renderer::automatic);  // is current now
   view.reset();
@@ -90,7 +90,7 @@ TEST_F(SharedPositions, AreGivenUpWhenWritingFails) {
   auto view = new_view();
   EXPECT_FALSE(view->write_positions(reason_));
   EXPECT_EQ(reason_, "") << "nothing was shared, so nothing failed";
-  share(*view, {});
+  share_with(*view, {});
   EXPECT_FALSE(view->write_positions(reason_));
   EXPECT_EQ(reason_, "nothing to write");
   EXPECT_EQ(closed_in_time_, true);

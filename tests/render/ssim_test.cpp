@@ -35,7 +35,7 @@ double index_at(const Image& a, const Image& b, int x, int y) {
          ((mean_a * mean_a + mean_b * mean_b + kC1) * (var_a + var_b + kC2));
 }
 
-Image corner_of(const Image& image, int width, int height) {
+Image image_corner(const Image& image, int width, int height) {
   Image result(width, height);
   paste(result, image, 0, 0);
   return result;
@@ -57,7 +57,7 @@ TEST(Ssim, OfUniformPicturesIsTheLuminanceTerm) {
 
 // 13 x 12 pixels have room for 3 x 2 windows: no other place counts, and none is left out.
 TEST(Ssim, IsTheMeanOfTheDefinitionOverTheWindowsInside) {
-  const Image a = corner_of(test::texture(), 13, 12), b = corner_of(test::noisy_texture(), 13, 12);
+  const Image a = image_corner(test::texture(), 13, 12), b = image_corner(test::noisy_texture(), 13, 12);
   double sum = 0;
   for (int y = 5; y <= 6; ++y)
     for (int x = 5; x <= 7; ++x) sum += index_at(a, b, x, y);
@@ -87,8 +87,8 @@ TEST(Ssim, IsNegativeWhereStructureIsInverted) {
 
 TEST(Ssim, TakesPicturesSmallerThanItsWindow) {
   for (const auto& [width, height] : {std::pair{1, 1}, {3, 40}, {10, 2}}) {
-    const Image a = corner_of(test::texture(), width, height),
-                b = corner_of(test::noisy_texture(), width, height);
+    const Image a = image_corner(test::texture(), width, height),
+                b = image_corner(test::noisy_texture(), width, height);
     EXPECT_EQ(ssim(a, a), 1) << width;
     EXPECT_LT(ssim(a, b), 1) << width;
     EXPECT_GT(ssim(a, b), 0) << width;

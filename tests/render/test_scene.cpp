@@ -103,7 +103,7 @@ std::vector<std::string> ScratchFolder::names() const {
   return names;
 }
 
-Error error_of(const std::function<void()>& action) {
+Error thrown_error(const std::function<void()>& action) {
   try {
     action();
   } catch (const Error& error) {

@@ -45,7 +45,7 @@ class ScratchFolder {
 };
 
 // The hysteron::Error that `action` throws; a test failure and a run error "nothing was thrown" otherwise.
-Error error_of(const std::function<void()>& action);
+Error thrown_error(const std::function<void()>& action);
 
 // Mean of the channels over a square of pixels around (x, y).
 double brightness(const Image& image, int x, int y, int half_side = 2);

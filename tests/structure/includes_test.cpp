@@ -26,7 +26,7 @@ constexpr std::array kLayers = {"sim",    "sim/reference", "sim/identification",
 
 using Folders = std::map<std::string, std::set<std::string>>;  // what each includes
 
-std::string layer_of(const std::string& folder) {
+std::string folder_layer(const std::string& folder) {
   std::string found;
   for (const std::string layer : kLayers)
     if ((folder + "/").starts_with(layer + "/") && layer.size() > found.size()) found = layer;
@@ -38,7 +38,7 @@ bool is_source(const fs::path& file) {
   return kEndings.contains(file.extension().string());
 }
 
-Folders folders_of(const fs::path& root) {
+Folders source_folders(const fs::path& root) {
   static const std::regex kInclude(
       "#\\s*include \"((?:sim|render|experiments|python)(?:/[^\"/]+)*)/[^/\"]+\"");
   Folders folders;
@@ -70,7 +70,7 @@ bool leads_to(const Folders& folders, const std::string& from, const std::string
 
 std::vector<std::string> arrows_back(const Folders& folders) {
   const auto rank = [](const std::string& folder) {
-    return std::find(kLayers.begin(), kLayers.end(), layer_of(folder)) - kLayers.begin();
+    return std::find(kLayers.begin(), kLayers.end(), folder_layer(folder)) - kLayers.begin();
   };
   std::vector<std::string> back;
   for (const auto& [folder, included] : folders)
@@ -133,7 +133,7 @@ TEST(Calls, ThatRunUpAreFound) {
 }
 
 TEST(Includes, OfTheProjectRunOneWay) {
-  const Folders folders = folders_of(HYSTERON_SOURCE_FOLDER);
+  const Folders folders = source_folders(HYSTERON_SOURCE_FOLDER);
   EXPECT_GT(folders.size(), 30u);
   EXPECT_EQ(arrows_back(folders), std::vector<std::string>());
 }
@@ -147,17 +147,17 @@ TEST(Includes, ThatRunBackAreFound) {
   };
   write("sim/a/a.h", "sim/b/b.h");
   write("sim/b/b.cpp", "sim/c/c.h");
-  EXPECT_EQ(arrows_back(folders_of(root)), std::vector<std::string>());
+  EXPECT_EQ(arrows_back(source_folders(root)), std::vector<std::string>());
   write("sim/c/c.cpp", "sim/a/a.h");
-  EXPECT_EQ(arrows_back(folders_of(root)),
+  EXPECT_EQ(arrows_back(source_folders(root)),
             (std::vector<std::string>{"sim/a -> sim/b", "sim/b -> sim/c", "sim/c -> sim/a"}));
   write("sim/c/c.cpp", "sim/identification/i.h");
-  EXPECT_EQ(arrows_back(folders_of(root)), std::vector<std::string>{"sim/c -> sim/identification"});
+  EXPECT_EQ(arrows_back(source_folders(root)), std::vector<std::string>{"sim/c -> sim/identification"});
   write("experiments/a/a.cpp", "python/a.h");
-  EXPECT_EQ(arrows_back(folders_of(root)).front(), "experiments/a -> python");
+  EXPECT_EQ(arrows_back(source_folders(root)).front(), "experiments/a -> python");
   write("experiments/a/a.cpp", "sim/a/a.h");
   write("sim/c/c.cpp", "render/a/a.h");
-  EXPECT_EQ(arrows_back(folders_of(root)), std::vector<std::string>{"sim/c -> render/a"});
+  EXPECT_EQ(arrows_back(source_folders(root)), std::vector<std::string>{"sim/c -> render/a"});
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ struct Quotation {
 };
 
 // <!-- FILE:begin -->, a fenced block, <!-- FILE:end -->
-std::vector<Quotation> quotations_of(const std::string& page) {
+std::vector<Quotation> page_quotations(const std::string& page) {
   static const std::regex kBegin("<!-- (tests/\\S+):begin -->\n```[a-z]*\n");
   std::vector<Quotation> all;
   for (std::sregex_iterator match(page.begin(), page.end(), kBegin), end; match != end; ++match) {
@@ -34,7 +34,8 @@ TEST(Quotations, InTheDocumentationAreTheFilesTheyName) {
   int quotations = 0;
   for (const auto& page : fs::directory_iterator(root / "docs")) {
     if (page.path().extension() != ".md") continue;
-    for (const Quotation& quotation : quotations_of(whole_file(page.path().string(), "reading quotations"))) {
+    for (const Quotation& quotation :
+         page_quotations(whole_file(page.path().string(), "reading quotations"))) {
       EXPECT_EQ(quotation.text, whole_file((root / quotation.file).string(), "reading what is quoted"))
           << quotation.file << " in " << page.path();
       ++quotations;
@@ -44,7 +45,7 @@ TEST(Quotations, InTheDocumentationAreTheFilesTheyName) {
 }
 
 TEST(Quotations, WithoutAnEndOrWithOtherTextAreFound) {
-  const auto found = quotations_of(
+  const auto found = page_quotations(
       "<!-- tests/a.h:begin -->\n```cpp\nint a;\n```\n<!-- tests/a.h:end -->\n"
       "<!-- tests/b.h:begin -->\n```cpp\nint b;\n```\n");
   ASSERT_EQ(found.size(), 2u);

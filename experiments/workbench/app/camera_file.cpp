@@ -9,10 +9,10 @@
 namespace hysteron::experiments {
 namespace {
 
-Json list_of(const Eigen::Vector3f& v) { return {v.x(), v.y(), v.z()}; }
+Json vector_json(const Eigen::Vector3f& v) { return {v.x(), v.y(), v.z()}; }
 
 Error refusal(const std::string& file, const std::string& what) {
-  return Error::invalid_input("camera = " + file + ": " + what + " (--camera)").of("camera", file);
+  return Error::invalid_input("camera = " + file + ": " + what + " (--camera)").with_key("camera", file);
 }
 
 double camera_number(const Json& value, const std::string& name, const std::string& file) {
@@ -37,9 +37,9 @@ Json parsed(const std::string& file) {
 
 std::string camera_text(const render::Camera& camera, const std::string& size) {
   const Json json = {{"camera",
-                      {{"direction", list_of(-camera.forward())},
+                      {{"direction", vector_json(-camera.forward())},
                        {"fov", camera.fov_degree()},
-                       {"target", list_of(camera.target())},
+                       {"target", vector_json(camera.target())},
                        {"distance", (camera.target() - camera.eye()).norm()}}},
                      {"size", size}};
   return json.dump(1) + "\n";

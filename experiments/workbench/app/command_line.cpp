@@ -21,7 +21,7 @@ struct Command {
   const Experiment* experiment;
   CLI::App* app;
   std::vector<std::pair<std::string, CLI::Option*>> flags;
-  std::vector<std::string> names;
+  std::vector<std::string> positionals;
 };
 
 CLI::Option* add_flag(CLI::App& app, const KeyDescription& key) {
@@ -34,7 +34,7 @@ CLI::Option* add_flag(CLI::App& app, const KeyDescription& key) {
 }
 
 // The experiment's own, then those of every simulated run.
-std::vector<KeyDescription> every_option_of(const Experiment& experiment, Defaults defaults) {
+std::vector<KeyDescription> every_option(const Experiment& experiment, Defaults defaults) {
   std::vector<KeyDescription> keys;
   if (experiment.own_keys) keys = experiment.own_keys();
   if (!experiment.simulates) return keys;
@@ -43,7 +43,7 @@ std::vector<KeyDescription> every_option_of(const Experiment& experiment, Defaul
   std::vector<KeyDescription> general = descriptions(bind_options(setup.options));
   for (const KeyDescription& key : descriptions(bind_scene(setup.scene))) general.push_back(key);
   for (KeyDescription& key : general) {
-    if (!shown) key.usual.clear();
+    if (!shown) key.default_text.clear();
     keys.push_back(std::move(key));
   }
   return keys;
@@ -55,9 +55,10 @@ void add_command(CLI::App& program, const Experiment& experiment, Command& comma
   command.app = program.add_subcommand(experiment.name, experiment.question);
   command.app->allow_extras();
   command.app->set_version_flag("--version", program_version());
-  for (const KeyDescription& key : every_option_of(experiment, Defaults::left_out))
+  for (const KeyDescription& key : every_option(experiment, Defaults::left_out))
     command.flags.emplace_back(option_name(key).substr(2), add_flag(*command.app, key));
-  if (*experiment.names) command.app->add_option("names", command.names)->type_name(experiment.names);
+  if (*experiment.positionals)
+    command.app->add_option("names", command.positionals)->type_name(experiment.positionals);
 }
 
 // A word that the shell reads back as it is.
@@ -101,8 +102,8 @@ std::vector<std::string> with_their_values(const std::vector<std::string>& words
       if (value.starts_with("--"))
         throw Error::invalid_input(name + " needs a value, and " + value + " is an option: " + name + "=" +
                                    value + " if it is not")
-            .of(name.substr(2), value)
-            .in(command.experiment->name);
+            .with_key(name.substr(2), value)
+            .with_experiment(command.experiment->name);
       all.push_back(value);
     }
   }
@@ -119,7 +120,7 @@ void throw_if_unknown(const Command& command) {
   const std::string word = unknown.front().substr(0, unknown.front().find('='));
   const std::string experiment = command.experiment->name;
   if (!word.starts_with('-'))
-    throw Error::invalid_input("unexpected argument \"" + word + "\"").in(experiment);
+    throw Error::invalid_input("unexpected argument \"" + word + "\"").with_experiment(experiment);
   std::vector<std::string> known;
   for (const auto& flag : command.flags) known.push_back("--" + flag.first);
   const std::string owner = whose(word.substr(std::min(word.find_first_not_of('-'), word.size())));
@@ -127,7 +128,9 @@ void throw_if_unknown(const Command& command) {
   std::string more = owner;
   if (!nearest.empty()) more = "did you mean " + nearest + "?" + (owner.empty() ? "" : " (" + owner + ")");
   if (more.empty()) more = "see hysteron " + experiment + " --help";
-  throw Error::invalid_input("unknown option " + word + "; " + more).of(word, "").in(experiment);
+  throw Error::invalid_input("unknown option " + word + "; " + more)
+      .with_key(word, "")
+      .with_experiment(experiment);
 }
 
 // A word before the subcommand, or instead of one.
@@ -142,13 +145,15 @@ void throw_if_stray_word(const std::string& word, const std::vector<Experiment>&
 }
 
 CommandLine taken_apart(const Command& command, std::string shell_command) {
-  CommandLine line{command.experiment->name, std::move(shell_command), {}, command.names};
+  CommandLine line{command.experiment->name, std::move(shell_command), {}, command.positionals};
   if (!command.experiment->run) return line;
   throw_if_unknown(command);
   for (const auto& [path, option] : command.flags) {
     for (const std::string& text : option->reduced_results()) {
       if (path == "out" && text.empty())
-        throw Error::invalid_input("--out is empty: name where to write").of("out", "").in(line.experiment);
+        throw Error::invalid_input("--out is empty: name where to write")
+            .with_key("out", "")
+            .with_experiment(line.experiment);
       line.flags.push_back({path, text});
     }
   }
@@ -157,8 +162,8 @@ CommandLine taken_apart(const Command& command, std::string shell_command) {
 
 }  // namespace
 
-std::vector<KeyDescription> options_of(const Experiment& experiment, Defaults defaults) {
-  std::vector<KeyDescription> keys = every_option_of(experiment, defaults);
+std::vector<KeyDescription> experiment_options(const Experiment& experiment, Defaults defaults) {
+  std::vector<KeyDescription> keys = every_option(experiment, defaults);
   if (!experiment.decided) return keys;
   const std::vector<DecidedKey> decided = experiment.decided();
   std::erase_if(keys, [&](const KeyDescription& key) {
@@ -177,7 +182,7 @@ std::string option_help(const KeyDescription& key) {
   if (!key.choices.empty()) text += ": " + join(key.choices, " | ");
   if (!key.unit.empty()) text += " [" + key.unit + "]";
   if (key.range.text() != "finite") text += ", " + key.range.text();
-  if (!key.usual.empty()) text += ", default " + key.usual;
+  if (!key.default_text.empty()) text += ", default " + key.default_text;
   return text;
 }
 
@@ -224,12 +229,12 @@ std::optional<CommandLine> parse_command_line(int count, const char* const* word
   };
   try {
     parse(program, checked(given, commands));
-  } catch (const CLI::Success& asked) {
-    program.exit(asked);
+  } catch (const CLI::Success& requested) {
+    program.exit(requested);
     return std::nullopt;
   } catch (const CLI::ParseError& error) {
     const Error refused = Error::invalid_input(error.what());
-    throw chosen() ? refused.in(chosen()->experiment->name) : refused;
+    throw chosen() ? refused.with_experiment(chosen()->experiment->name) : refused;
   }
   if (!program.remaining().empty()) throw_if_stray_word(program.remaining().front(), known);
   if (!chosen()) throw Error::invalid_input("needs a subcommand; see hysteron --help");

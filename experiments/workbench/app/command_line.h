@@ -15,7 +15,7 @@ std::optional<CommandLine> parse_command_line(int count, const char* const* word
 // The options of a subcommand in the order of --help: its own, then those of every simulated run.  Their
 // defaults, and with them the fabric's file, are read only to be shown.
 enum class Defaults { left_out, shown };
-std::vector<KeyDescription> options_of(const Experiment& experiment, Defaults defaults);
+std::vector<KeyDescription> experiment_options(const Experiment& experiment, Defaults defaults);
 // As it is typed: "--fabric", "--step".
 std::string option_name(const KeyDescription& key);
 // "radius of the pedestal [m], > 0, default 0.09"

@@ -49,7 +49,7 @@ void throw_if_flags(const CommandLine& line, const std::vector<DecidedKey>& deci
       if ((flag.path == "fabric" ? "fabric.name" : flag.path) == key.path)
         throw Error::invalid_input("--" + flag.path + (flag.text == "true" ? "" : " " + flag.text) + ": " +
                                    decided_words(line.experiment, key))
-            .of(key.path, flag.text);
+            .with_key(key.path, flag.text);
 }
 
 void decide(const CommandLine& line, Setup& setup, const std::vector<DecidedKey>& keys) {
@@ -62,15 +62,17 @@ std::vector<std::string> lost_words(const CommandLine& line, const Setup& setup)
   std::vector<std::string> words;
   const auto defaults = experiment_named(line.experiment).defaults;
   if (!defaults || setup.decided.empty()) return words;
-  const Json usual = to_json(defaults().scene), asked = Json::parse(setup.asked), now = to_json(setup.scene);
+  const Json default_values = to_json(defaults().scene), requested = Json::parse(setup.requested),
+             now = to_json(setup.scene);
   for (const DecidedKey& key : setup.decided) {
     if (const std::string place = place_of_tables(setup.scene, key.path); !place.empty())
       words.push_back("[[" + key.path + "]] (" + place +
                       ") is not used: " + decided_words(line.experiment, key));
     if (!setup.scene.origin.contains(key.path)) continue;
-    const Json value = value_at(asked, key.path);
-    if (value == value_at(usual, key.path) || (!key.unused && value == value_at(now, key.path))) continue;
-    words.push_back(key.path + " = " + value.dump() + " (" + origin_of(setup.scene, key.path) +
+    const Json value = value_at(requested, key.path);
+    if (value == value_at(default_values, key.path) || (!key.unused && value == value_at(now, key.path)))
+      continue;
+    words.push_back(key.path + " = " + value.dump() + " (" + key_origin(setup.scene, key.path) +
                     ") is not used: " + decided_words(line.experiment, key));
   }
   return words;

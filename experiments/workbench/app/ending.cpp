@@ -15,7 +15,7 @@ Ending failed(const std::string& experiment, const std::string& message, int exi
 
 }  // namespace
 
-Ending ending_of(const std::string& experiment, const std::function<int()>& body) {
+Ending run_ending(const std::string& experiment, const std::function<int()>& body) {
   try {
     return {body()};
   } catch (const Error& error) {

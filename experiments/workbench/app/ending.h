@@ -13,6 +13,6 @@ struct Ending {
 
 // What `body` returns or throws.  The error names the experiment, which `body` may set before it throws:
 // "hysteron drape: fabric.b2 = -1 N m must be >= 0 (drape.toml:7)".
-Ending ending_of(const std::string& experiment, const std::function<int()>& body);
+Ending run_ending(const std::string& experiment, const std::function<int()>& body);
 
 }  // namespace hysteron::experiments

@@ -40,7 +40,7 @@ std::vector<std::string> Headlines::with_errors() const {
   return metrics;
 }
 
-const Headlines& headlines_of(const std::string& experiment) {
+const Headlines& experiment_headlines(const std::string& experiment) {
   return experiment_named(experiment).headlines;
 }
 
@@ -52,15 +52,15 @@ bool is_asked_for(const std::string& metric) {
 }
 
 void check_errors(const std::string& experiment) {
-  const auto can_have = [](const Headlines& h) { return h.asked || !h.with_errors().empty(); };
-  if (can_have(headlines_of(experiment))) return;
+  const auto can_have = [](const Headlines& h) { return h.requested || !h.with_errors().empty(); };
+  if (can_have(experiment_headlines(experiment))) return;
   std::vector<std::string> known;
   for (const Experiment& other : experiments())
     if (can_have(other.headlines)) known.emplace_back(other.name);
   throw Error::invalid_input(
       "--errors: " + experiment +
       " has no headline whose errors can be measured; these have: " + join(known, ", "))
-      .of("errors", "true");
+      .with_key("errors", "true");
 }
 
 std::string last_text(const std::vector<Flag>& flags, const std::string& path, const std::string& otherwise) {
@@ -96,7 +96,8 @@ Error with_owner(const Error& error, const Keys& known) {
   if (std::any_of(all.begin(), all.end(), [&](const KeyDescription& key) { return key.path == error.key(); }))
     return error;
   const std::string owner = error.key().empty() ? "" : whose(error.key());
-  return owner.empty() ? error : Error::invalid_input(error.what() + ("; " + owner)).of(error.key(), "");
+  return owner.empty() ? error
+                       : Error::invalid_input(error.what() + ("; " + owner)).with_key(error.key(), "");
 }
 
 // What asks for more throws std::bad_alloc, which ends the run (ending.h).  [MB], of the process; 0: no
@@ -110,7 +111,7 @@ void limit_memory(double megabytes) {
 }
 
 // Without those that change no file of a run, or whose outcome is in the scene.
-std::string choices_of(Keys keys) {
+std::string resolved_options(Keys keys) {
   static const std::set<std::string> kOthers = {"scene",        "camera",      "out",          "quick",
                                                 "explain",      "quiet",       "json",         "errors",
                                                 "errors.draws", "errors.jobs", "errors.batch", "checkpoint",
@@ -147,8 +148,8 @@ Setup set_up(const CommandLine& line, Setup setup, const Keys& own,
   check_options(setup.options);
   limit_memory(setup.options.max_memory);
   if (setup.options.errors) check_errors(line.experiment);
-  setup.choices = choices_of(extra);
-  setup.asked = asked_text(setup.scene);
+  setup.resolved = resolved_options(extra);
+  setup.requested = requested_text(setup.scene);
   if (setup.options.out.empty()) setup.options.out = "out/" + line.experiment;
   return setup;
 }
@@ -195,7 +196,7 @@ std::vector<KeyDescription> fabric_keys() {
   return keys;
 }
 
-Fabric fabric_of(const std::string& name_or_file, const std::vector<Flag>& flags) {
+Fabric resolved_fabric(const std::string& name_or_file, const std::vector<Flag>& flags) {
   std::vector<Flag> own = {{"fabric", name_or_file}};
   for (const Flag& flag : flags) {
     if (flag.path.starts_with("fabric.")) own.push_back(flag);

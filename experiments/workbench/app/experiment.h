@@ -22,7 +22,7 @@ struct CommandLine {
   std::string experiment;   // "drape"
   std::string command;      // the whole line, quoted for a shell, for the manifest
   std::vector<Flag> flags;  // {"fabric.b2", "1e-5"}, in the order of the keys; bare flags have text "true"
-  std::vector<std::string> names;  // arguments that are no flags: files, folders
+  std::vector<std::string> positionals;  // arguments that are no flags: files, folders
 };
 
 // What the last flag of that path says; `otherwise` without one.
@@ -49,13 +49,13 @@ struct Experiment {
   // it draws none or says so itself.  Null: it is the same for all.
   std::optional<render::Box> (*framing)(const CommandLine&) = nullptr;
   std::vector<DecidedKey> (*decided)() =
-      nullptr;               // of an experiment that simulates: flags of these are refused; null: none
-  const char* names = "";    // what CommandLine::names are ("DIR"); "": not allowed
-  const char* differs = "";  // what exit code 4 says; "": it does not occur
-  bool hidden = false;       // called by scripts of the project: not in --help
-  bool compared = false;     // `compare NAME` takes it by its name, other scenes by their files
-  double onion = 0;          // a comparison shows all instants up to then in one picture first [s]; 0: none
-  bool timed = false;        // its results are durations: it shares no process, and no two runs agree
+      nullptr;                   // of an experiment that simulates: flags of these are refused; null: none
+  const char* positionals = "";  // what CommandLine::names are ("DIR"); "": not allowed
+  const char* differs = "";      // what exit code 4 says; "": it does not occur
+  bool hidden = false;           // called by scripts of the project: not in --help
+  bool compared = false;         // `compare NAME` takes it by its name, other scenes by their files
+  double onion = 0;    // a comparison shows all instants up to then in one picture first [s]; 0: none
+  bool timed = false;  // its results are durations: it shares no process, and no two runs agree
   Headlines headlines = {};
 };
 
@@ -77,12 +77,13 @@ std::string whose(const std::string& key);
 struct Setup {
   Scene scene;
   Options options;
-  std::string choices = "{}";  // resolved keys of the run and its experiment that decide what it writes, JSON
-  std::string asked = "";      // the scene before the experiment changes it, JSON; empty: it is not changed
+  std::string resolved =
+      "{}";                    // resolved keys of the run and its experiment that decide what it writes, JSON
+  std::string requested = "";  // the scene before the experiment changes it, JSON; empty: it is not changed
   std::vector<std::string> own_tables =
       {};  // arrays of tables of a scene file that the experiment reads itself
   std::vector<MeshRecord> recorded_meshes = {};  // of the manifest that the scene is from
-  std::vector<std::string> asked_metrics =
+  std::vector<std::string> requested_metrics =
       {};  // of the scene file: said at the end, and --errors finds theirs, beside the headlines'
   std::vector<DecidedKey> decided = {};  // by the experiment: what a file says of them is not done
 };
@@ -99,31 +100,31 @@ std::vector<std::string> law_names();
 // For Experiment::own_keys: the keys of a table of rows, or of a function that binds a struct, each with the
 // struct's own default; then those that the functions `more` describe.
 template <class Owner, std::size_t n>
-std::vector<KeyDescription> descriptions_of(const KeyRow<Owner> (&rows)[n]) {
+std::vector<KeyDescription> key_descriptions(const KeyRow<Owner> (&rows)[n]) {
   Owner owner;
   return descriptions(bind(rows, owner));
 }
 template <class Owner>
-std::vector<KeyDescription> descriptions_of(Keys (&bound)(Owner&)) {
+std::vector<KeyDescription> key_descriptions(Keys (&bound)(Owner&)) {
   Owner owner;
   return descriptions(bound(owner));
 }
 template <auto& source, auto... more>
-std::vector<KeyDescription> own_keys_of() {
-  std::vector<KeyDescription> keys = descriptions_of(source);
+std::vector<KeyDescription> own_key_descriptions() {
+  std::vector<KeyDescription> keys = key_descriptions(source);
   for (const auto& list : std::initializer_list<std::vector<KeyDescription>>{more()...})
     keys.insert(keys.end(), list.begin(), list.end());
   return keys;
 }
 
 // For experiments without a scene.  Sets `keys` from the flags, which win over `quick`: what --quick, one of
-// the keys, makes of the struct that they are bound to.  Those of a fabric are left to fabric_of().  Throws
-// Error::invalid_input.
+// the keys, makes of the struct that they are bound to.  Those of a fabric are left to resolved_fabric().
+// Throws Error::invalid_input.
 void set_keys(const CommandLine& line, const Keys& keys, const std::function<void()>& quick = {});
 // --fabric, --fabric.b1, --fabric.b2, --fabric.k0, --fabric.kes-*, --fabric.stops-*, --fabric.bending.*.
 std::vector<KeyDescription> fabric_keys();
 // The fabric of that name or file with the flags fabric.* in place of its own numbers, checked like a
 // scene's. Throws Error::invalid_input, Error::system.
-Fabric fabric_of(const std::string& name_or_file, const std::vector<Flag>& flags);
+Fabric resolved_fabric(const std::string& name_or_file, const std::vector<Flag>& flags);
 
 }  // namespace hysteron::experiments

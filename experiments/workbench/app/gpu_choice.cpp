@@ -31,14 +31,14 @@ void choose_gpu(CommandLine& line) {
     if (number.empty() || number.size() > kMaxDigits || number.find_first_not_of("0123456789") != number.npos)
       throw Error::invalid_input("--device " + flag.text +
                                  ": after cuda: comes the number of a GPU, from 0 on")
-          .of("device", "")
-          .in(line.experiment);
+          .with_key("device", "")
+          .with_experiment(line.experiment);
     const int gpu = std::stoi(number), allowed = static_cast<int>(allowed_gpus().size());
     if (allowed > 0 && gpu >= allowed)
       throw Error::invalid_input("--device " + flag.text + ": " + kAllowed + " leaves " +
                                  std::to_string(allowed) + ", numbered from 0 on")
-          .of("device", "")
-          .in(line.experiment);
+          .with_key("device", "")
+          .with_experiment(line.experiment);
     setenv(kAllowed, visible_gpu(gpu).c_str(), 1);
     flag.text = "cuda";
   }

@@ -23,14 +23,14 @@ struct Headlines {
   bool own_mesh = false;             // the experiment cuts its mesh, whatever --mesh and --seed say
   std::string release{};             // key of how the cloth is let go, where that matters
   std::vector<std::string> paths{};  // its values; the first that is not the run's is the other path
-  bool asked = false;                // each scene file asks for its own metrics (Manifest::asked_metrics)
+  bool requested = false;            // each scene file asks for its own metrics (Manifest::requested_metrics)
 
   // Those whose errors can be measured.
   std::vector<std::string> with_errors() const;
 };
 
 // None of an experiment without, or that is not in the catalogue.
-const Headlines& headlines_of(const std::string& experiment);
+const Headlines& experiment_headlines(const std::string& experiment);
 
 // Whether the metric is a headline of any experiment.
 bool is_asked_for(const std::string& metric);

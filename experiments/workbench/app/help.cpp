@@ -49,14 +49,14 @@ bool begins(const std::string& path, const std::string& beginning) {
   return open ? path.starts_with(beginning) : path == beginning;
 }
 
-std::string group_of(const KeyDescription& key, const std::set<std::string>& of_scenes) {
+std::string option_group_name(const KeyDescription& key, const std::set<std::string>& of_scenes) {
   for (const Group& group : groups())
     for (const std::string& beginning : group.beginnings)
       if (begins(key.path, beginning)) return group.name;
   return of_scenes.contains(key.path) ? "scene" : "running";
 }
 
-std::vector<KeyDescription> own_keys_of(const Experiment& experiment) {
+std::vector<KeyDescription> own_key_descriptions(const Experiment& experiment) {
   return experiment.own_keys ? experiment.own_keys() : std::vector<KeyDescription>();
 }
 
@@ -69,12 +69,12 @@ std::string other_owner(const KeyDescription& key, const std::string& experiment
   const std::string name = key.path.substr(0, key.path.find('.'));
   if (name == experiment || name == key.path) return "";
   for (const Experiment& other : experiments())
-    if (other.name == name && has(own_keys_of(other), key.path)) return name;
+    if (other.name == name && has(own_key_descriptions(other), key.path)) return name;
   return "";
 }
 
 // Words of a text; lists without spaces that are longer than `most` in parts that end with a comma.
-std::vector<std::string> words_of(const std::string& text, std::size_t most) {
+std::vector<std::string> breakable_words(const std::string& text, std::size_t most) {
   std::istringstream stream(text);
   std::vector<std::string> words;
   for (std::string word; stream >> word;) {
@@ -91,7 +91,7 @@ std::vector<std::string> words_of(const std::string& text, std::size_t most) {
 std::string wrapped(const std::string& text, int width, int indent, int begun) {
   std::string all;
   int column = begun;
-  for (const std::string& word : words_of(text, static_cast<std::size_t>(width - indent))) {
+  for (const std::string& word : breakable_words(text, static_cast<std::size_t>(width - indent))) {
     const int length = static_cast<int>(word.size());
     if (column > indent && column + 1 + length > width) {
       all += "\n" + std::string(indent, ' ');
@@ -148,7 +148,7 @@ std::string exit_codes_text(const std::string& differs, int width) {
 }
 
 // The other groups, a line each.
-std::string list_of(const Experiment& experiment, const std::vector<OptionGroup>& others, int width) {
+std::string group_list(const Experiment& experiment, const std::vector<OptionGroup>& others, int width) {
   const std::string command = std::string("hysteron ") + experiment.name + " --help";
   std::vector<std::pair<std::string, std::string>> all;
   for (const OptionGroup& group : others)
@@ -160,40 +160,40 @@ std::string list_of(const Experiment& experiment, const std::vector<OptionGroup>
 
 std::string opening(const Experiment& experiment, int width) {
   const std::string name = std::string("hysteron ") + experiment.name;
-  const std::string names = *experiment.names ? std::string(" ") + experiment.names : "";
+  const std::string names = *experiment.positionals ? std::string(" ") + experiment.positionals : "";
   return wrapped(name + ": " + experiment.question, width, 0, 0) + "\n\n" +
          wrapped("Usage: " + name + names + " [options]", width, 2, 0) + "\n\n";
 }
 
 // Where the fabric of the defaults cannot be read, the options are listed all the same.
-std::vector<KeyDescription> shown_options_of(const Experiment& experiment) {
+std::vector<KeyDescription> shown_options(const Experiment& experiment) {
   try {
-    return options_of(experiment, Defaults::shown);
+    return experiment_options(experiment, Defaults::shown);
   } catch (const Error&) {
-    return options_of(experiment, Defaults::left_out);
+    return experiment_options(experiment, Defaults::left_out);
   }
 }
 
-std::string help_of(const Experiment& experiment, bool all, int width) {
+std::string help_text(const Experiment& experiment, bool all, int width) {
   std::string text = opening(experiment, width);
-  const std::vector<OptionGroup> groups = option_groups(experiment, shown_options_of(experiment));
+  const std::vector<OptionGroup> groups = option_groups(experiment, shown_options(experiment));
   for (std::size_t i = 0; i < groups.size() && (i == 0 || all); ++i)
     if (!groups[i].keys.empty()) text += group_text(experiment, groups[i], width) + "\n";
   if (groups.size() > 1 && !all)
-    text += list_of(experiment, {groups.begin() + 1, groups.end()}, width) + "\n";
+    text += group_list(experiment, {groups.begin() + 1, groups.end()}, width) + "\n";
   return text + exit_codes_text(experiment.differs, width);
 }
 
 std::string help_of_group(const Experiment& experiment, const std::string& name, int width) {
   std::vector<std::string> known;
-  for (const OptionGroup& group : option_groups(experiment, shown_options_of(experiment))) {
+  for (const OptionGroup& group : option_groups(experiment, shown_options(experiment))) {
     if (group.name == name) return group_text(experiment, group, width);
     known.push_back(group.name);
   }
   throw Error::invalid_input("--help " + name + ": no group of options is called so; there are " +
                              join(known, ", "))
-      .of("help", name)
-      .in(experiment.name);
+      .with_key("help", name)
+      .with_experiment(experiment.name);
 }
 
 std::string program_help(const std::vector<Experiment>& known, int width) {
@@ -216,7 +216,7 @@ std::string program_help(const std::vector<Experiment>& known, int width) {
 std::vector<OptionGroup> option_groups(const Experiment& experiment, std::vector<KeyDescription> keys) {
   std::set<std::string> of_scenes;
   for (const KeyDescription& key : scene_keys()) of_scenes.insert(key.path);
-  const std::vector<KeyDescription> own = own_keys_of(experiment), fabric = fabric_keys();
+  const std::vector<KeyDescription> own = own_key_descriptions(experiment), fabric = fabric_keys();
   // Of a test of fabrics, which simulates none.
   const bool takes_fabrics = std::all_of(fabric.begin(), fabric.end(),
                                          [&](const KeyDescription& key) { return has(own, key.path); });
@@ -227,7 +227,7 @@ std::vector<OptionGroup> option_groups(const Experiment& experiment, std::vector
   for (KeyDescription& key : keys) {
     const bool of_fabric = takes_fabrics && has(fabric, key.path);
     const bool is_own = !of_fabric && (!experiment.simulates || has(own, key.path));
-    std::string name = is_own ? experiment.name : group_of(key, of_scenes);
+    std::string name = is_own ? experiment.name : option_group_name(key, of_scenes);
     if (const std::string other = is_own && experiment.simulates ? other_owner(key, name) : "";
         !other.empty())
       name = other;
@@ -265,7 +265,7 @@ std::optional<std::string> help_asked(const std::vector<std::string>& words,
   if (experiment == known.end() && (asks == words.begin() || words.front().starts_with('-')))
     return program_help(known, width);
   if (experiment == known.end()) return std::nullopt;  // an unknown subcommand
-  return group.empty() ? help_of(*experiment, *asks == "--help-all", width)
+  return group.empty() ? help_text(*experiment, *asks == "--help-all", width)
                        : help_of_group(*experiment, group, width);
 }
 

@@ -155,23 +155,23 @@ struct Statements {
 
 // What a run was asked for beside its experiment, as it can be asked for again.
 struct RunSpec {
-  std::vector<std::string> names;                            // files, folders
+  std::vector<std::string> positionals;                      // files, folders
   std::vector<std::pair<std::string, std::string>> flags{};  // path and text, in their order
 };
 
 struct Manifest {
   std::string version, commit;
-  std::string instructions;  // that the program was built for, "x86-64-v3"; "": not noted
+  std::string isa;  // that the program was built for, "x86-64-v3"; "": not noted
   bool dirty = false;
   std::string experiment, command, started;
   std::optional<RunSpec> spec;       // of older programs only the command is known
   std::shared_ptr<const Json> keys;  // all that the run was asked for, as it is written
   SceneRecord scene;                 // the same, as it is read
   std::shared_ptr<const Json>
-      options;                        // resolved keys of a simulated run and its experiment; null: not noted
-  std::shared_ptr<const Json> asked;  // merge patch that turns `keys` into the scene before its experiment
-                                      // changed it; null: not noted
-  std::vector<MeshRecord> meshes;     // files that its cloth was read from
+      options;  // resolved keys of a simulated run and its experiment; null: not noted
+  std::shared_ptr<const Json> requested;  // merge patch that turns `keys` into the scene before its
+                                          // experiment changed it; null: not noted
+  std::vector<MeshRecord> meshes;         // files that its cloth was read from
   std::optional<std::string> device, renderer, positions, precision, element, law;
   std::optional<std::int64_t> triangles, hinges, steps;
   std::optional<double> seconds_simulated;
@@ -192,7 +192,7 @@ struct Manifest {
   std::vector<std::string> warnings;  // in the order in which they were given, each once
   std::vector<std::string> plots_missing, errors_missing;
   Metrics metrics;
-  std::vector<std::string> asked_metrics;  // those that its scene file asks for
+  std::vector<std::string> requested_metrics;  // those that its scene file asks for
   std::vector<std::string> files;
   bool complete = false;
 

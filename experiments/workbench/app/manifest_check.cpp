@@ -9,7 +9,7 @@
 namespace hysteron::experiments {
 namespace {
 
-std::string kind_of(const Json& value) {
+std::string json_kind(const Json& value) {
   if (value.is_null()) return "null";
   if (value.is_boolean()) return "true or false";
   if (value.is_number()) return "a number";
@@ -66,7 +66,7 @@ const Json* find(const Json& manifest, const char* path) {
 
 void check_names(const Json& names, const char* path, const std::filesystem::path& file) {
   for (const Json& name : names.is_array() ? names : Json::array())
-    if (!name.is_string()) throw bad(file, path, "holds " + kind_of(name) + " where a name must be");
+    if (!name.is_string()) throw bad(file, path, "holds " + json_kind(name) + " where a name must be");
 }
 
 void check_entries(const Json& entries, const Entries& wanted, const std::filesystem::path& file) {
@@ -81,8 +81,8 @@ void check_entries(const Json& entries, const Entries& wanted, const std::filesy
 void check_manifest(const Json& manifest, const std::filesystem::path& file) {
   for (const Rule& rule : kRules) {
     const Json* value = find(manifest, rule.path);
-    if (value && !std::count(rule.kinds.begin(), rule.kinds.end(), kind_of(*value)))
-      throw bad(file, rule.path, "is " + kind_of(*value) + ", must be " + rule.kinds[0]);
+    if (value && !std::count(rule.kinds.begin(), rule.kinds.end(), json_kind(*value)))
+      throw bad(file, rule.path, "is " + json_kind(*value) + ", must be " + rule.kinds[0]);
   }
   for (const char* path : kNames)
     if (const Json* names = find(manifest, path)) check_names(*names, path, file);

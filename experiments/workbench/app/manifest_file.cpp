@@ -105,7 +105,7 @@ void add_what_some_have(const Manifest& m, Json& json) {
   if (!m.warnings.empty()) json["warnings"] = m.warnings;
   if (!m.plots_missing.empty()) json["plots_missing"] = m.plots_missing;
   if (!m.errors_missing.empty()) json["errors_missing"] = m.errors_missing;
-  if (!m.asked_metrics.empty()) json["asked_metrics"] = m.asked_metrics;
+  if (!m.requested_metrics.empty()) json["asked_metrics"] = m.requested_metrics;
 }
 
 // Null if there is nothing.
@@ -165,9 +165,9 @@ void take(const Json& json, const char* key, std::vector<std::pair<std::string, 
   numbers = numbers_at(json, key);
 }
 
-Metrics metrics_of(const Json& json) {
+Metrics parsed_metrics(const Json& json) {
   Metrics metrics;
-  for (const auto& [name, value] : json.items()) metrics.set(name, value_of(value));
+  for (const auto& [name, value] : json.items()) metrics.set(name, metric_value(value));
   return metrics;
 }
 
@@ -183,7 +183,7 @@ std::vector<std::string> names_at(const Json& scene, const std::string& key) {
   return names;
 }
 
-FabricRecord fabric_of(const Json& json) {
+FabricRecord fabric_record(const Json& json) {
   FabricRecord fabric{text_at(json, "name"),
                       number_at(json, "b1"),
                       number_at(json, "b2"),
@@ -193,17 +193,17 @@ FabricRecord fabric_of(const Json& json) {
                       {},
                       {}};
   for (const auto& [name, from] : at(json, "provenance").items())
-    fabric.numbers.push_back(
-        {name, value_of(at(json, name.c_str())), "", shown_at(from, "confidence"), shown_at(from, "source")});
+    fabric.numbers.push_back({name, metric_value(at(json, name.c_str())), "", shown_at(from, "confidence"),
+                              shown_at(from, "source")});
   for (const auto& [name, number] : at(json, "published").items())
-    fabric.published.push_back({name, value_of(at(number, "value")), shown_at(number, "unit"),
+    fabric.published.push_back({name, metric_value(at(number, "value")), shown_at(number, "unit"),
                                 shown_at(number, "confidence"), shown_at(number, "source")});
   return fabric;
 }
 
-SceneRecord scene_of(const Json& json) {
+SceneRecord scene_record(const Json& json) {
   SceneRecord scene;
-  scene.fabric = fabric_of(at(json, "fabric"));
+  scene.fabric = fabric_record(at(json, "fabric"));
   const Json& cloth = at(json, "cloth");
   scene.shape = text_at(cloth, "shape");
   scene.length = number_at(cloth, "length");
@@ -226,7 +226,7 @@ SceneRecord scene_of(const Json& json) {
   return scene;
 }
 
-std::optional<RunSpec> spec_of(const Json& json) {
+std::optional<RunSpec> recorded_spec(const Json& json) {
   if (!json.is_object()) return {};
   RunSpec spec{texts_at(json, "names")};
   for (const Json& flag : at(json, "flags"))
@@ -235,7 +235,7 @@ std::optional<RunSpec> spec_of(const Json& json) {
   return spec;
 }
 
-std::array<double, 4> cloth_of(const Json& instant) {
+std::array<double, 4> cloth_box(const Json& instant) {
   const Json& box = at(instant, "cloth");
   std::array<double, 4> cloth{};
   if (box.is_array() && box.size() == cloth.size())
@@ -244,7 +244,7 @@ std::array<double, 4> cloth_of(const Json& instant) {
   return cloth;
 }
 
-std::optional<Frames> frames_of(const Json& json) {
+std::optional<Frames> recorded_frames(const Json& json) {
   if (!json.is_object()) return {};
   Frames frames;
   for (const auto& [name, bar] : at(json, "looks").items()) {
@@ -256,7 +256,7 @@ std::optional<Frames> frames_of(const Json& json) {
   frames.metres_per_pixel = number_at(json, "m_per_pixel");
   for (const Json& instant : at(json, "moments"))
     frames.instants.push_back({number_at(instant, "s"), text_at(instant, "phase"),
-                               known_at<double>(instant, "difference_rms_per_m"), cloth_of(instant),
+                               known_at<double>(instant, "difference_rms_per_m"), cloth_box(instant),
                                known_at<double>(instant, "moved_m").value_or(0)});
   return frames;
 }
@@ -272,7 +272,7 @@ void take_what_some_have(const Json& json, Manifest& m) {
   if (statements.is_object())
     for (const auto& [law, sentences] : statements.items())
       m.statements.push_back({law, texts_at(statements, law.c_str())});
-  m.frames = frames_of(at(json, "frames"));
+  m.frames = recorded_frames(at(json, "frames"));
   for (const Json& curve : at(json, "curves"))
     m.curves.push_back({text_at(curve, "plot"), text_at(curve, "file"), text_at(curve, "x"),
                         text_at(curve, "y"), is_true_at(curve, "logarithmic"), text_at(curve, "caption")});
@@ -280,7 +280,7 @@ void take_what_some_have(const Json& json, Manifest& m) {
   m.warnings = texts_at(json, "warnings");
   m.plots_missing = texts_at(json, "plots_missing");
   m.errors_missing = texts_at(json, "errors_missing");
-  m.asked_metrics = texts_at(json, "asked_metrics");
+  m.requested_metrics = texts_at(json, "asked_metrics");
 }
 
 // The first key without which a JSON is no manifest; "" if it has all.
@@ -303,14 +303,14 @@ Json to_json(const Metrics& metrics) {
 Json to_json(const Manifest& m) {
   Json json;
   json["hysteron"] = {{"version", m.version}, {"commit", m.commit}, {"dirty", m.dirty}};
-  if (!m.instructions.empty()) json["hysteron"]["instructions"] = m.instructions;
+  if (!m.isa.empty()) json["hysteron"]["instructions"] = m.isa;
   json["experiment"] = m.experiment;
   json["command"] = m.command;
-  if (m.spec) json["spec"] = {{"names", m.spec->names}, {"flags", m.spec->flags}};
+  if (m.spec) json["spec"] = {{"names", m.spec->positionals}, {"flags", m.spec->flags}};
   json["started"] = m.started;
   json["scene"] = *m.keys;
   if (m.options) json["options"] = *m.options;
-  if (m.asked) json["asked"] = *m.asked;
+  if (m.requested) json["asked"] = *m.requested;
   if (!m.meshes.empty()) json["meshes"] = to_json(m.meshes);
   visit_results(m, [&](const char* key, const auto& value) { json[key] = to_json(value); });
   add_what_some_have(m, json);
@@ -320,33 +320,33 @@ Json to_json(const Manifest& m) {
   return json;
 }
 
-Manifest manifest_of(const Json& json) {
+Manifest parsed_manifest(const Json& json) {
   Manifest m;
   const Json& program = at(json, "hysteron");
   m.version = shown_at(program, "version");
   m.commit = shown_at(program, "commit");
-  m.instructions = text_at(program, "instructions");
+  m.isa = text_at(program, "instructions");
   m.dirty = is_true_at(program, "dirty");
   m.experiment = json.contains("experiment") ? text_at(json, "experiment") : "run";
   m.command = text_at(json, "command");
-  m.spec = spec_of(at(json, "spec"));
+  m.spec = recorded_spec(at(json, "spec"));
   m.started = text_at(json, "started");
-  m.scene = scene_of(at(json, "scene"));
+  m.scene = scene_record(at(json, "scene"));
   m.keys = std::make_shared<const Json>(at(json, "scene"));
   if (at(json, "options").is_object()) m.options = std::make_shared<const Json>(json["options"]);
-  if (at(json, "asked").is_object()) m.asked = std::make_shared<const Json>(json["asked"]);
+  if (at(json, "asked").is_object()) m.requested = std::make_shared<const Json>(json["asked"]);
   if (at(json, "meshes").is_object())
     for (const auto& [key, mesh] : json["meshes"].items())
       m.meshes.push_back({key, text_at(mesh, "file"), text_at(mesh, "hash")});
   visit_results(m, [&](const char* key, auto& value) { take(json, key, value); });
   take_what_some_have(json, m);
-  m.metrics = metrics_of(at(json, "metrics"));
+  m.metrics = parsed_metrics(at(json, "metrics"));
   m.files = texts_at(json, "files");
   m.complete = is_true_at(json, "complete");
   return m;
 }
 
-MetricValue value_of(const Json& json) {
+MetricValue metric_value(const Json& json) {
   if (json.is_boolean()) return json.get<bool>();
   if (json.is_number_integer()) return json.get<std::int64_t>();
   if (json.is_number()) return json.get<double>();
@@ -363,7 +363,7 @@ bool has_manifest(const std::filesystem::path& folder) {
 
 Manifest checked_manifest(const Json& json, const std::filesystem::path& file) {
   check_manifest(json, file);
-  return manifest_of(json);
+  return parsed_manifest(json);
 }
 
 Manifest read_manifest(const std::filesystem::path& file) {
@@ -376,7 +376,7 @@ Manifest read_manifest(const std::filesystem::path& file) {
 std::optional<Manifest> manifest_or_none(const std::filesystem::path& file) {
   const Json json = json_or_none(file);
   if (!json.is_object() || !json.contains("hysteron")) return {};
-  return manifest_of(json);
+  return parsed_manifest(json);
 }
 
 }  // namespace hysteron::experiments

@@ -12,10 +12,10 @@ namespace hysteron::experiments {
 Json to_json(const Manifest& manifest);
 Json to_json(const Metrics& metrics);
 // What is missing, or of another type, is not known.
-Manifest manifest_of(const Json& json);
+Manifest parsed_manifest(const Json& json);
 
 // A list or an object is its text.
-MetricValue value_of(const Json& json);
+MetricValue metric_value(const Json& json);
 
 // Whether the JSON of a file is a manifest.
 bool is_manifest(const Json& json);

@@ -12,7 +12,7 @@ namespace hysteron::experiments {
 namespace {
 namespace fs = std::filesystem;
 
-std::string hash_of(const fs::path& file) {
+std::string file_hash(const fs::path& file) {
   const std::string bytes = whole_file(file, "cannot read mesh " + file.string());
   return fmt::format("{:016x}", fnv1a(bytes.data(), bytes.size()));
 }
@@ -28,7 +28,7 @@ std::optional<fs::path> below(const fs::path& folder, const MeshRecord& record) 
   fs::path tail;
   for (auto part = path.end(); part != path.begin();) {
     tail = tail.empty() ? *--part : *--part / tail;
-    if (is_file(folder / tail) && hash_of(folder / tail) == record.hash) return folder / tail;
+    if (is_file(folder / tail) && file_hash(folder / tail) == record.hash) return folder / tail;
   }
   return {};
 }
@@ -53,7 +53,8 @@ std::vector<MeshRecord> mesh_records(const Scene& scene) {
   Scene copy = scene;
   std::vector<MeshRecord> records;
   for (const MeshFile& mesh : mesh_files(copy))
-    records.push_back({mesh.key, fs::absolute(*mesh.path).lexically_normal().string(), hash_of(*mesh.path)});
+    records.push_back(
+        {mesh.key, fs::absolute(*mesh.path).lexically_normal().string(), file_hash(*mesh.path)});
   return records;
 }
 

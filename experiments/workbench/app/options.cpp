@@ -75,7 +75,7 @@ void check_look(const std::string& look) {
   const std::string nearest = nearest_name(look, kLooks);
   throw Error::invalid_input("look = " + look + " must be " + join(kLooks, " | ") +
                              (nearest.empty() ? "" : "; did you mean " + nearest + "?") + " (--look)")
-      .of("look", look);
+      .with_key("look", look);
 }
 
 // Of as many numbers as it takes, or none.
@@ -83,13 +83,13 @@ void check_place(const Numbers& given, std::size_t wanted, const char* key) {
   if (given.empty() || given.size() == wanted) return;
   throw Error::invalid_input(
       fmt::format("{} has {} numbers and must have {} [m] (--{})", key, given.size(), wanted, key))
-      .of(key, "");
+      .with_key(key, "");
 }
 
 void check_camera(const Options& options) {
   if (options.camera_direction.isZero(0))
     throw Error::invalid_input("camera.direction = [0, 0, 0] must not be zero (--camera.direction)")
-        .of("camera.direction", "0, 0, 0");
+        .with_key("camera.direction", "0, 0, 0");
   check_place(options.camera_target, 3, "camera.target");
   check_place(options.camera_box, 6, "camera.box");
   const Numbers& box = options.camera_box;
@@ -98,7 +98,7 @@ void check_camera(const Options& options) {
       throw Error::invalid_input(
           fmt::format("camera.box reaches from {} to {} m along {} and must be ascending (--camera.box)",
                       box[k], box[k + 3], "xyz"[k]))
-          .of("camera.box", "");
+          .with_key("camera.box", "");
 }
 
 bool drawable(int side) { return side >= kSmallestSide && side <= kLargestSide; }
@@ -131,7 +131,7 @@ void check_options(const Options& options) {
     throw Error::invalid_input("size = " + options.size + " must be WIDTHxHEIGHT with sides in [" +
                                std::to_string(kSmallestSide) + ", " + std::to_string(kLargestSide) +
                                "] pixels (--size)")
-        .of("size", options.size);
+        .with_key("size", options.size);
   }
   check_camera(options);
   if (options.looks().empty()) check_look("");
@@ -139,7 +139,7 @@ void check_options(const Options& options) {
     check_look(look);
     if (look == "difference" && options.reference.empty())
       throw Error::invalid_input("look = difference needs the run that it is taken from (--reference DIR)")
-          .of("look", look);
+          .with_key("look", look);
   }
 }
 

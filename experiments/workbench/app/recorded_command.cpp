@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Of programs that noted no more than the command, which is quoted for a shell; none where it is not.
-std::vector<std::string> words_of(const std::string& command) {
+std::vector<std::string> command_words(const std::string& command) {
   wordexp_t found{};
   if (wordexp(command.c_str(), &found, WRDE_NOCMD | WRDE_UNDEF) != 0) return {};
   const std::vector<std::string> words(found.we_wordv, found.we_wordv + found.we_wordc);
@@ -23,20 +23,20 @@ std::vector<std::string> words_of(const std::string& command) {
   return words;
 }
 
-CommandLine line_of(const RecordedRun& run) {
+CommandLine recorded_line(const RecordedRun& run) {
   if (run.manifest.spec) {
-    CommandLine line{run.manifest.experiment, "", {}, run.manifest.spec->names};
+    CommandLine line{run.manifest.experiment, "", {}, run.manifest.spec->positionals};
     for (const auto& [path, text] : run.manifest.spec->flags) line.flags.push_back({path, text});
     if (!experiment_named(line.experiment).run)
       throw Error::invalid_input(run.file.string() + ": there is no experiment " + line.experiment);
     return line;
   }
-  const std::vector<std::string> words = words_of(run.manifest.command);
+  const std::vector<std::string> words = command_words(run.manifest.command);
   std::vector<const char*> pointers;
   for (const std::string& word : words) pointers.push_back(word.c_str());
   if (words.size() < 2)
     throw Error::invalid_input(run.file.string() + " holds no command that could be repeated")
-        .of("command", "");
+        .with_key("command", "");
   const auto line = parse_command_line(static_cast<int>(pointers.size()), pointers.data());
   if (!line)
     throw Error::invalid_input(run.file.string() + ": its command, \"" + run.manifest.command +
@@ -71,30 +71,31 @@ RecordedRun recorded_run(const std::string& folder_or_manifest) {
 
 CommandLine line_that_repeats(const RecordedRun& run, const std::vector<Flag>& later, bool with_errors) {
   const Manifest& m = run.manifest;
-  CommandLine line = line_of(run);
-  static const std::set<std::string> kOfThatTime = {"out", "resume",
-                                                    "collect"};  // collected runs are run again
-  std::erase_if(line.flags, [](const Flag& flag) { return kOfThatTime.contains(flag.path); });
+  CommandLine line = recorded_line(run);
+  static const std::set<std::string> kNotRepeatedFlags = {"out", "resume",
+                                                          "collect"};  // collected runs are run again
+  std::erase_if(line.flags, [](const Flag& flag) { return kNotRepeatedFlags.contains(flag.path); });
   if (m.options && m.keys->contains("cloth")) {
     std::erase_if(line.flags, [](const Flag& flag) { return !flag.path.starts_with("errors"); });
     line.experiment = m.experiment;
-    line.names.clear();
+    line.positionals.clear();
     line.flags.push_back({"scene", run.file.string()});
   } else {
     find_scene(line, run);
   }
-  if (m.experiment == "sweep") line.names = {run.file.string()};  // its study's file may be another by now
+  if (m.experiment == "sweep")
+    line.positionals = {run.file.string()};  // its study's file may be another by now
   if (!with_errors)
     std::erase_if(line.flags, [](const Flag& flag) { return flag.path.starts_with("errors"); });
   for (const Flag& flag : later)
     if (takes(experiment_named(line.experiment), flag.path)) line.flags.push_back(flag);
-  line.command = command_of(line);
+  line.command = typed_command(line);
   return line;
 }
 
-std::string command_of(const CommandLine& line) {
+std::string typed_command(const CommandLine& line) {
   std::vector<std::string> words = {"hysteron", line.experiment};
-  words.insert(words.end(), line.names.begin(), line.names.end());
+  words.insert(words.end(), line.positionals.begin(), line.positionals.end());
   for (const Flag& flag : line.flags) words.push_back("--" + flag.path + "=" + flag.text);
   return shell_text(words);
 }

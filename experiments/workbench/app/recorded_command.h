@@ -24,6 +24,6 @@ CommandLine line_that_repeats(const RecordedRun& run, const std::vector<Flag>& l
                               bool with_errors = true);
 
 // As it is typed: "hysteron drape --scene=a.toml".
-std::string command_of(const CommandLine& line);
+std::string typed_command(const CommandLine& line);
 
 }  // namespace hysteron::experiments

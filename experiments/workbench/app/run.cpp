@@ -33,7 +33,7 @@ std::string utc_now() {
 }
 
 // That this program was built for: sums of vectors of another width round differently.
-constexpr const char* kInstructions =
+constexpr const char* kIsa =
 #if defined(__AVX512F__)
     "x86-64-v4";
 #elif defined(__AVX2__) && defined(__FMA__)
@@ -55,11 +55,11 @@ Manifest first_entries(const CommandLine& line, const Json& scene) {
   Manifest manifest;
   manifest.version = kVersion;
   manifest.commit = kGitCommit;
-  manifest.instructions = kInstructions;
+  manifest.isa = kIsa;
   manifest.dirty = kGitDirty;
   manifest.experiment = line.experiment;
   manifest.command = line.command;
-  manifest.spec = RunSpec{line.names};
+  manifest.spec = RunSpec{line.positionals};
   for (const Flag& flag : line.flags) manifest.spec->flags.emplace_back(flag.path, flag.text);
   manifest.started = utc_now();
   manifest.keys = std::make_shared<const Json>(scene);
@@ -98,12 +98,12 @@ std::string program_version() {
 
 Run::Run(const CommandLine& line, const Setup& setup, const std::vector<std::string>& kept)
     : Run(line, setup.options, to_json(setup.scene), kept) {
-  manifest_.options = std::make_shared<const Json>(Json::parse(setup.choices));
-  manifest_.asked_metrics = setup.asked_metrics;
+  manifest_.options = std::make_shared<const Json>(Json::parse(setup.resolved));
+  manifest_.requested_metrics = setup.requested_metrics;
   manifest_.meshes = mesh_records(setup.scene);
   for (const std::string& change : changed_meshes(setup.recorded_meshes, manifest_.meshes)) warn(change);
-  if (!setup.asked.empty())
-    manifest_.asked = std::make_shared<const Json>(asked_patch(*manifest_.keys, setup.asked));
+  if (!setup.requested.empty())
+    manifest_.requested = std::make_shared<const Json>(requested_patch(*manifest_.keys, setup.requested));
 }
 
 Run::Run(const CommandLine& line, const Options& options, const Json& keys,
@@ -170,7 +170,7 @@ void Run::begun_at(std::chrono::steady_clock::time_point time) {
   start_ = time;
 }
 
-void Run::visit(Archive& archive) {
+void Run::serialise(Archive& archive) {
   archive(manifest_.files);
   archive(manifest_.warnings);
   archive(manifest_.started);

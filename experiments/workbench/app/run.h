@@ -102,7 +102,7 @@ class Run {
 
   // What is known of the run and was found before an instant at which it may be interrupted: files first.
   // Results are not: they are found anew.
-  void visit(Archive& archive);
+  void serialise(Archive& archive);
 
   // Writes what is known so far, as of a run that is not complete: work that follows may be interrupted.
   // Throws Error::system.

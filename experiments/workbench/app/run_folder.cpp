@@ -47,9 +47,9 @@ bool stays_inside(const fs::path& name) {
 // One of the folders on the way from `folder` to the file of that name is a link.
 bool is_behind_a_link(const fs::path& folder, const fs::path& name) {
   std::error_code ignored;
-  fs::path way = folder;
+  fs::path path_part = folder;
   for (const fs::path& part : name.parent_path())
-    if (fs::is_symlink(fs::symlink_status(way /= part, ignored))) return true;
+    if (fs::is_symlink(fs::symlink_status(path_part /= part, ignored))) return true;
   return false;
 }
 
@@ -65,7 +65,7 @@ std::optional<Manifest> run_before(const fs::path& folder) {
 }
 
 // Names of its files, and of the page that `hysteron report` may have written since.
-std::vector<fs::path> files_of(const std::optional<Manifest>& manifest, const fs::path& folder) {
+std::vector<fs::path> recorded_files(const std::optional<Manifest>& manifest, const fs::path& folder) {
   if (!manifest) return {};
   std::vector<fs::path> names = {"report.html"};
   for (const fs::path name : manifest->files)
@@ -82,7 +82,7 @@ std::string half_written(const std::string& name) {
 }
 
 // "frames/0013.png" of "frames/0012.png".
-fs::path next_of(const fs::path& name) {
+fs::path next_in_sequence(const fs::path& name) {
   std::string digits = name.stem().string();
   const std::size_t grows = digits.find_last_not_of('9');
   if (grows == digits.npos) digits.insert(0, 1, '0');
@@ -98,8 +98,8 @@ std::set<fs::path> with_their_sequences(const fs::path& folder, const std::vecto
   std::set<fs::path> names(listed.begin(), listed.end());
   for (const fs::path& first : listed)
     if (is_numbered(first))
-      for (fs::path name = next_of(first); names.insert(name).second && stands(folder / name);)
-        name = next_of(name);
+      for (fs::path name = next_in_sequence(first); names.insert(name).second && stands(folder / name);)
+        name = next_in_sequence(name);
   return names;
 }
 
@@ -124,7 +124,7 @@ void remove_interrupted(const fs::path& folder, const std::vector<fs::path>& lis
 
 void remove_run(const std::optional<Manifest>& manifest, const fs::path& folder,
                 const std::set<fs::path>& kept) {
-  const std::vector<fs::path> names = files_of(manifest, folder);
+  const std::vector<fs::path> names = recorded_files(manifest, folder);
   std::error_code ignored;
   for (const fs::path& name : names)
     if (!kept.contains(name) && is_plain(folder / name)) fs::remove(folder / name, ignored);
@@ -156,7 +156,7 @@ void throw_if_inputs(const CommandLine& line, const fs::path& folder, const std:
     for (const std::string& text : split(flag.text))
       throw_if_input("--" + flag.path + " ", text, folder, names);
   }
-  for (const std::string& text : line.names) throw_if_input("", text, folder, names);
+  for (const std::string& text : line.positionals) throw_if_input("", text, folder, names);
 }
 
 }  // namespace
@@ -168,7 +168,7 @@ FolderLock::FolderLock(const fs::path& folder, const std::string& otherwise)
   if (::flock(handle_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
   ::close(handle_);
   throw Error::invalid_input(folder.string() + " is in use by another run: wait for its end" + otherwise)
-      .of("out", folder.string());
+      .with_key("out", folder.string());
 }
 
 FolderLock::~FolderLock() { ::close(handle_); }
@@ -176,7 +176,7 @@ FolderLock::~FolderLock() { ::close(handle_); }
 RunFolder::RunFolder(const fs::path& path, const CommandLine& line, const std::vector<std::string>& kept)
     : path_(made(path)), lock_(path, ", or give another folder (--out)") {
   const std::optional<Manifest> before = run_before(path_);
-  throw_if_inputs(line, path_, files_of(before, path_));
+  throw_if_inputs(line, path_, recorded_files(before, path_));
   remove_run(before, path_, {kept.begin(), kept.end()});
 }
 

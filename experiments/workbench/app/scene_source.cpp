@@ -44,8 +44,8 @@ Json patch_between(const Json& from, const Json& to) {
 Json scene_for(const std::string& experiment, const Manifest& manifest) {
   Json scene = *manifest.keys;
   if (manifest.experiment != experiment) return scene;
-  if (!manifest.asked) return given_in(scene, scene.value("origin", Json::object()));
-  scene.merge_patch(*manifest.asked);
+  if (!manifest.requested) return given_in(scene, scene.value("origin", Json::object()));
+  scene.merge_patch(*manifest.requested);
   return scene;
 }
 
@@ -61,7 +61,7 @@ void collect_leaves(const Json& tree, const std::string& path,
   }
 }
 
-std::vector<std::pair<std::string, Json>> leaves_of(const Json& tree) {
+std::vector<std::pair<std::string, Json>> json_leaves(const Json& tree) {
   std::vector<std::pair<std::string, Json>> leaves;
   collect_leaves(tree, "", leaves);
   return leaves;
@@ -71,11 +71,11 @@ std::vector<std::pair<std::string, Json>> leaves_of(const Json& tree) {
 bool is_own_table(const Json& value) { return value.is_array() && !value.empty() && value[0].is_object(); }
 
 // As a file has it; a table in one line.
-std::string toml_of(const Json& value) {
+std::string toml_value(const Json& value) {
   if (!value.is_structured()) return value.dump();
   std::vector<std::string> entries;
   for (const auto& [name, entry] : value.items())
-    entries.push_back((value.is_object() ? name + " = " : "") + toml_of(entry));
+    entries.push_back((value.is_object() ? name + " = " : "") + toml_value(entry));
   const std::string inner = join(entries, ", ");
   return value.is_object() ? "{" + inner + "}" : "[" + inner + "]";
 }
@@ -89,26 +89,26 @@ void apply_scene(Setup& setup, const std::string& experiment, const std::string&
     throw Error::invalid_input(
         name + " is of `" + manifest.experiment +
         "` and holds no scene that was simulated: name the manifest of one of its runs (--scene)")
-        .of("scene", name);
+        .with_key("scene", name);
   apply_recorded_scene(setup.scene, scene_for(experiment, manifest), name);
   find_meshes(setup.scene, manifest.meshes, name);
   setup.recorded_meshes = manifest.meshes;
   if (manifest.experiment != experiment || !manifest.options) return;
-  for (const auto& [path, value] : leaves_of(*manifest.options))
+  for (const auto& [path, value] : json_leaves(*manifest.options))
     if (!is_own_table(value)) assign(find_key(extra, path, name), recorded_value(value, path, name), name);
 }
 
-std::string asked_text(const Scene& scene) { return to_json(scene).dump(); }
+std::string requested_text(const Scene& scene) { return to_json(scene).dump(); }
 
-Json asked_patch(const Json& simulated, const std::string& asked) {
-  return patch_between(simulated, Json::parse(asked));
+Json requested_patch(const Json& simulated, const std::string& requested) {
+  return patch_between(simulated, Json::parse(requested));
 }
 
 // What was asked for, since the experiment will change it once more; but the time and the steps that it has
 // set, which it sets only where they are not given, and all hands and obstacles.
 void dump_scene(const Setup& setup) {
   Scene scene = setup.scene;
-  apply_recorded_scene(scene, Json::parse(setup.asked), setup.options.dump_scene);
+  apply_recorded_scene(scene, Json::parse(setup.requested), setup.options.dump_scene);
   std::set<std::string> own;
   const auto keep = [&](const char* key, auto Scene::*member) {
     if (scene.*member != setup.scene.*member) own.insert(key);
@@ -122,9 +122,9 @@ void dump_scene(const Setup& setup) {
   scene.pin = setup.scene.pin;
   scene.obstacle = setup.scene.obstacle;
   std::vector<FurtherKey> others;
-  for (const auto& [path, value] : leaves_of(Json::parse(setup.choices)))
-    others.push_back({path, toml_of(value)});
-  write_text(setup.options.dump_scene, toml_of(scene, own, others));
+  for (const auto& [path, value] : json_leaves(Json::parse(setup.resolved)))
+    others.push_back({path, toml_value(value)});
+  write_text(setup.options.dump_scene, scene_toml(scene, own, others));
 }
 
 }  // namespace hysteron::experiments

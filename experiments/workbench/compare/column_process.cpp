@@ -27,15 +27,15 @@ constexpr const char* kOutcome = "outcome.json";
 constexpr int kNotRun = -1;  // as an exit code
 
 // Words after `hysteron`.
-std::vector<std::string> words_of(const CommandLine& line) {
+std::vector<std::string> line_arguments(const CommandLine& line) {
   std::vector<std::string> words = {line.experiment};
-  words.insert(words.end(), line.names.begin(), line.names.end());
+  words.insert(words.end(), line.positionals.begin(), line.positionals.end());
   for (const Flag& flag : line.flags) words.push_back("--" + flag.path + "=" + flag.text);
   return words;
 }
 
-Json asked(const ChildRun& column) {
-  return {{"commit", kGitCommit}, {"dirty", kGitDirty}, {"words", words_of(column.line)}};
+Json requested(const ChildRun& column) {
+  return {{"commit", kGitCommit}, {"dirty", kGitDirty}, {"words", line_arguments(column.line)}};
 }
 
 bool takes_checkpoints(const ChildRun& column) {
@@ -43,18 +43,18 @@ bool takes_checkpoints(const ChildRun& column) {
 }
 
 // This program with its share of the machine.
-std::vector<std::string> program_with(ProcessShare share) {
+std::vector<std::string> program_with(ProcessShare process_share) {
   std::vector<std::string> words = {"env"};
-  if (share.gpu >= 0) words.push_back("CUDA_VISIBLE_DEVICES=" + visible_gpu(share.gpu));
+  if (process_share.gpu >= 0) words.push_back("CUDA_VISIBLE_DEVICES=" + visible_gpu(process_share.gpu));
   for (const char* others : {"OMP_NUM_THREADS=", "LP_NUM_THREADS="})  // libraries' and Mesa's own threads
-    words.push_back(others + std::to_string(share.threads));
+    words.push_back(others + std::to_string(process_share.threads));
   words.push_back(fs::read_symlink("/proc/self/exe").string());
   return words;
 }
 
 // Words after `hysteron` of the column's run.
-std::vector<std::string> all_words_of(const ChildRun& column, const SweepJobs& jobs, int threads) {
-  std::vector<std::string> words = words_of(column.line);
+std::vector<std::string> child_arguments(const ChildRun& column, const SweepJobs& jobs, int threads) {
+  std::vector<std::string> words = line_arguments(column.line);
   words.push_back("--quiet=true");
   words.push_back("--out=" + column.folder.string());
   if (experiment_named(column.line.experiment).simulates)
@@ -64,7 +64,7 @@ std::vector<std::string> all_words_of(const ChildRun& column, const SweepJobs& j
 }
 
 // Why a run ended without having finished.
-std::string reason_of(int exit_code, const std::string& first_error_line) {
+std::string ending_reason(int exit_code, const std::string& first_error_line) {
   if (!first_error_line.empty()) return first_error_line;
   return exit_code < 0 ? "ended by a signal" : "ended with exit code " + std::to_string(exit_code);
 }
@@ -75,7 +75,7 @@ void write_outcome(const ChildRun& column, bool make_folder) {
   if (make_folder) fs::create_directories(column.folder, ignored);
   if (!fs::is_directory(column.folder, ignored)) return;
   const Json outcome = {
-      {"asked", asked(column)}, {"exit_code", column.exit_code}, {"stopped", column.stopped}};
+      {"asked", requested(column)}, {"exit_code", column.exit_code}, {"stopped", column.stopped}};
   write_text(column.folder / kOutcome, outcome.dump(2) + "\n");
 }
 
@@ -83,11 +83,11 @@ void write_outcome(const ChildRun& column, bool make_folder) {
 void take_back(ChildRun& column, const SweepJobs& jobs, int exit_code, const std::string& error) {
   const bool has_results = exit_code == 0 || exit_code == kCouldNotGoOn;
   column.exit_code = exit_code;
-  if (!has_results && !jobs.go_on) {
+  if (!has_results && !jobs.tolerates_failures) {
     const std::string why = column.name + ": " + error;
     throw exit_code == 2 ? Error::invalid_input(why) : Error::system(why);
   }
-  if (exit_code != 0) column.stopped = reason_of(exit_code, error);
+  if (exit_code != 0) column.stopped = ending_reason(exit_code, error);
   if (has_results) column.manifest = manifest_or_none(column.folder / "manifest.json");
   write_outcome(column, jobs.keep_reasons);
 }
@@ -103,12 +103,12 @@ class Batch {
         const std::function<void(std::size_t)>& ended)
       : columns_(columns), chunk_(chunk), jobs_(jobs), ended_(ended), waiting_(chunk.begin(), chunk.end()) {}
 
-  void run(ProcessShare share) {
-    std::vector<std::string> command = program_with(share);
+  void run(ProcessShare process_share) {
+    std::vector<std::string> command = program_with(process_share);
     command.push_back("batch");
     std::string lines;
     for (const std::size_t i : chunk_)
-      lines += Json(all_words_of(columns_[i], jobs_, share.threads)).dump() + "\n";
+      lines += Json(child_arguments(columns_[i], jobs_, process_share.threads)).dump() + "\n";
     const ProcessResult result = run_process(command, lines, [this](const std::string& line) { hear(line); });
     if (!result.started) throw Error::system("cannot start the run " + columns_[chunk_[0]].name);
     for (const std::size_t i : std::set(waiting_)) end(i, result.exit_code, result.first_error_line);
@@ -158,7 +158,7 @@ bool recall(ChildRun& column) {
   std::optional<Manifest> manifest = manifest_or_none(column.folder / "manifest.json");
   const Json outcome = json_or_none(column.folder / kOutcome);
   column.kept = manifest && manifest->complete && outcome.is_object() &&
-                outcome.value("asked", Json()) == asked(column);
+                outcome.value("asked", Json()) == requested(column);
   if (column.kept) column.manifest = std::move(manifest);
   return column.kept;
 }
@@ -179,10 +179,10 @@ void check_batch(const std::vector<ChildRun>& columns, int batch) {
   for (const ChildRun& column : columns)
     if (const std::string why = why_not_batchable(column.line); !why.empty())
       throw Error::invalid_input("batch = " + std::to_string(batch) + " " + why + " (--batch)")
-          .of("batch", std::to_string(batch));
+          .with_key("batch", std::to_string(batch));
 }
 
-std::vector<Chunk> chunks_of(const std::vector<ChildRun>& columns, int largest, int first) {
+std::vector<Chunk> batch_chunks(const std::vector<ChildRun>& columns, int largest, int first) {
   std::vector<Chunk> chunks;
   std::map<std::pair<std::string, bool>, std::size_t> open;  // those that take more columns of a kind
   for (std::size_t i = 0; i < columns.size(); ++i) {
@@ -199,11 +199,11 @@ std::vector<Chunk> chunks_of(const std::vector<ChildRun>& columns, int largest, 
   return chunks;
 }
 
-void run_chunk(std::vector<ChildRun>& columns, const Chunk& chunk, const SweepJobs& jobs, ProcessShare share,
-               const std::function<void(std::size_t)>& ended) {
+void run_chunk(std::vector<ChildRun>& columns, const Chunk& chunk, const SweepJobs& jobs,
+               ProcessShare process_share, const std::function<void(std::size_t)>& ended) {
   std::error_code ignored;
   for (const std::size_t i : chunk) fs::remove(columns[i].folder / kOutcome, ignored);
-  Batch(columns, chunk, jobs, ended).run(share);
+  Batch(columns, chunk, jobs, ended).run(process_share);
 }
 
 }  // namespace hysteron::experiments

@@ -10,7 +10,7 @@ using Chunk = std::vector<std::size_t>;
 
 // In the order of the columns, `largest` in each or what is left.  Those of a chunk name the same device, and
 // all of them or none take checkpoints; the column `first` is by itself.
-std::vector<Chunk> chunks_of(const std::vector<ChildRun>& columns, int largest, int first);
+std::vector<Chunk> batch_chunks(const std::vector<ChildRun>& columns, int largest, int first);
 
 // What a process gets of the machine.
 struct ProcessShare {
@@ -21,7 +21,7 @@ struct ProcessShare {
 // Runs the columns of the chunk in one process and takes from each what it has left; `ended` is called with
 // its place.  A run that fails leaves the others alone: the errors of run_columns() are thrown after their
 // end.
-void run_chunk(std::vector<ChildRun>& columns, const Chunk& chunk, const SweepJobs& jobs, ProcessShare share,
-               const std::function<void(std::size_t)>& ended);
+void run_chunk(std::vector<ChildRun>& columns, const Chunk& chunk, const SweepJobs& jobs,
+               ProcessShare process_share, const std::function<void(std::size_t)>& ended);
 
 }  // namespace hysteron::experiments

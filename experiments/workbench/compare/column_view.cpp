@@ -46,18 +46,18 @@ std::string with_unit(double value, const std::string& unit) {
 }
 
 // The law of a column, or "" where its manifest is missing.
-std::string law_of(const ChildRun& column) {
+std::string column_law(const ChildRun& column) {
   return column.manifest ? column.manifest->scene.law.value_or("") : "";
 }
 
 bool differ_in_laws(const std::vector<ChildRun>& columns) {
   std::set<std::string> laws;
-  for (const ChildRun& column : columns) laws.insert(law_of(column));
+  for (const ChildRun& column : columns) laws.insert(column_law(column));
   return laws.size() > 1 && laws.size() == columns.size() && !laws.contains("");
 }
 
-std::vector<std::string> numbers_of(const ChildRun& column, const std::vector<std::string>& metrics,
-                                    std::size_t most) {
+std::vector<std::string> head_numbers(const ChildRun& column, const std::vector<std::string>& metrics,
+                                      std::size_t most) {
   std::vector<std::string> numbers;
   if (!column.stopped.empty()) numbers.emplace_back("stopped");
   if (!column.manifest) return numbers;
@@ -96,15 +96,15 @@ const std::vector<ShownNumber>& shown_numbers() {
 }
 
 std::vector<std::string> shown_metrics(const std::vector<ChildRun>& columns,
-                                       const std::vector<std::string>& asked) {
-  std::vector<std::string> metrics = asked;
-  if (asked.empty())
+                                       const std::vector<std::string>& requested) {
+  std::vector<std::string> metrics = requested;
+  if (requested.empty())
     for (const ShownNumber& number : shown_numbers()) metrics.emplace_back(number.metric);
   std::erase_if(metrics, [&](const std::string& metric) {
     return std::none_of(columns.begin(), columns.end(),
                         [&](const ChildRun& c) { return is_shown(c.metrics()[metric]); });
   });
-  if (asked.empty() && metrics.size() > kShown) metrics.resize(kShown);
+  if (requested.empty() && metrics.size() > kShown) metrics.resize(kShown);
   return metrics;
 }
 
@@ -120,32 +120,33 @@ std::string short_number(const std::string& metric, const MetricValue& value) {
   return symbol.empty() ? number : symbol + " " + number;
 }
 
-std::vector<std::string> families_of(const std::vector<ChildRun>& columns) {
+std::vector<std::string> column_families(const std::vector<ChildRun>& columns) {
   std::vector<std::string> families(columns.size());
   if (differ_in_laws(columns))
-    for (std::size_t c = 0; c < columns.size(); ++c) families[c] = family_of_law(law_of(columns[c]));
+    for (std::size_t c = 0; c < columns.size(); ++c) families[c] = family_of_law(column_law(columns[c]));
   return families;
 }
 
-std::vector<render::Rgb8> colors_of(const std::vector<ChildRun>& columns) {
+std::vector<render::Rgb8> column_colors(const std::vector<ChildRun>& columns) {
   constexpr int kHues = 4;
   const int count = static_cast<int>(columns.size()), shades = (count + kHues - 1) / kHues;
   std::vector<render::Rgb8> colors;
   for (int c = 0; c < count; ++c)
-    colors.push_back(differ_in_laws(columns) ? color_of_law(law_of(columns[static_cast<std::size_t>(c)]))
+    colors.push_back(differ_in_laws(columns) ? color_of_law(column_law(columns[static_cast<std::size_t>(c)]))
                      : count <= render::kMethodColors ? render::method_color(static_cast<std::size_t>(c))
                                                       : render::family_color(c / shades, c % shades, shades));
   return colors;
 }
 
-std::vector<render::ComparisonColumn> heads_of(const std::vector<ChildRun>& columns,
-                                               const std::vector<std::string>& asked) {
-  const std::vector<std::string> metrics = shown_metrics(columns, asked), families = families_of(columns);
-  const std::vector<render::Rgb8> colors = colors_of(columns);
+std::vector<render::ComparisonColumn> column_heads(const std::vector<ChildRun>& columns,
+                                                   const std::vector<std::string>& requested) {
+  const std::vector<std::string> metrics = shown_metrics(columns, requested),
+                                 families = column_families(columns);
+  const std::vector<render::Rgb8> colors = column_colors(columns);
   std::vector<render::ComparisonColumn> heads;
   for (std::size_t c = 0; c < columns.size(); ++c)
     heads.push_back({columns[c].name,
-                     numbers_of(columns[c], metrics, std::max(kShown, asked.size())),
+                     head_numbers(columns[c], metrics, std::max(kShown, requested.size())),
                      colors[c],
                      families[c],
                      {}});
@@ -168,7 +169,7 @@ std::size_t frame_at(const ChildRun& column, double time) {
   return nearest;
 }
 
-fs::path picture_of(const ChildRun& column, const std::string& look, std::size_t frame) {
+fs::path picture_file(const ChildRun& column, const std::string& look, std::size_t frame) {
   const std::string folder = column.manifest->frames->looks.at(0).name == look ? "frames" : "frames-" + look;
   return column.folder / folder / fmt::format("{:04}.png", frame);
 }
@@ -240,7 +241,7 @@ double most_bent(const ChildRun& column, const Curve& curve) {
 }  // namespace
 
 ProbedLoops::ProbedLoops(const std::vector<ChildRun>& columns)
-    : loops_(columns.size()), colors_(colors_of(columns)) {
+    : loops_(columns.size()), colors_(column_colors(columns)) {
   std::string direction;  // the plot's name
   double most = 0;
   for (const ChildRun& column : columns)
@@ -254,7 +255,7 @@ ProbedLoops::ProbedLoops(const std::vector<ChildRun>& columns)
       const render::Series curvature = render::series_from_csv(file, "time", curve.x, "");
       loops_[c] = {curvature.x, {curvature.y, render::series_from_csv(file, "time", curve.y, "").y}};
     }
-    if (law_of(columns[c]) == "prandtl" && !reference_ && !loops_[c].time.empty()) reference_ = c;
+    if (column_law(columns[c]) == "prandtl" && !reference_ && !loops_[c].time.empty()) reference_ = c;
     if (!loops_[c].time.empty()) frames.emplace_back().include(loops_[c].path);
   }
   frame_ = render::LoopFrame::median(frames);

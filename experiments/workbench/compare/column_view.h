@@ -23,26 +23,26 @@ const std::vector<ShownNumber>& shown_numbers();
 
 // Those of the asked metrics, or of shown_numbers() where none is asked for, that any column knows.
 std::vector<std::string> shown_metrics(const std::vector<ChildRun>& columns,
-                                       const std::vector<std::string>& asked);
+                                       const std::vector<std::string>& requested);
 // "116°", "κ 31 /m", "0.94 mN": three digits, with the prefix of SI that leaves 1 to 999; zero below 1e-9 of
 // the unit, where sums of doubles end.
 std::string short_number(const std::string& metric, const MetricValue& value);
 
 // "elastic", "plastic", "hysteretic", "relaxing" where columns differ in their laws; else "" of all.
-std::vector<std::string> families_of(const std::vector<ChildRun>& columns);
+std::vector<std::string> column_families(const std::vector<ChildRun>& columns);
 // One for each column, of a family shades of one hue; they do not come again below 12 columns.
-std::vector<render::Rgb8> colors_of(const std::vector<ChildRun>& columns);
+std::vector<render::Rgb8> column_colors(const std::vector<ChildRun>& columns);
 
 // The columns with names, numbers, families and colours, still without cells.
-std::vector<render::ComparisonColumn> heads_of(const std::vector<ChildRun>& columns,
-                                               const std::vector<std::string>& asked);
+std::vector<render::ComparisonColumn> column_heads(const std::vector<ChildRun>& columns,
+                                                   const std::vector<std::string>& requested);
 
 bool has_frames(const ChildRun& column);
 const std::vector<Frames::Instant>& instants(const ChildRun& column);
 // The picture nearest to a time [s], the last one where the run had ended before.
 std::size_t frame_at(const ChildRun& column, double time);
 // The first look's pictures stand in frames/.
-std::filesystem::path picture_of(const ChildRun& column, const std::string& look, std::size_t frame);
+std::filesystem::path picture_file(const ChildRun& column, const std::string& look, std::size_t frame);
 
 // The part of a row's pictures that has cloth in any of them, with some room; all of it where no run notes
 // where its cloth is.

@@ -13,7 +13,7 @@ namespace {
 bool is_numeric(const MetricValue& value) { return value.is_numeric(); }
 bool is_number_or_text(const MetricValue& value) { return value.is_numeric() || value.is_text(); }
 
-Cell field_of(const MetricValue& value) {
+Cell metric_field(const MetricValue& value) {
   if (value.is_text()) return value.text();
   return value.is_number() ? Cell(value.number()) : Cell("");
 }
@@ -31,7 +31,7 @@ std::vector<std::string> metrics_in(const std::vector<ChildRun>& columns,
 
 void run_columns(Run& run, std::vector<ChildRun>& columns, const SweepJobs& jobs) {
   run_columns(
-      columns, jobs, [&](const ChildRun& c) { run.progress(c.name + ": " + outcome_of(c)); },
+      columns, jobs, [&](const ChildRun& c) { run.progress(c.name + ": " + run_outcome(c)); },
       [&](const std::string& line) { run.progress(line); });
   ColumnWarnings warnings;
   for (const ChildRun& column : columns) warnings.hear(column);
@@ -46,7 +46,7 @@ void check_metrics(const std::vector<ChildRun>& columns, const std::vector<std::
     if (!std::count(known.begin(), known.end(), name))
       throw Error::invalid_input("compare.metrics = " + name + " must be among " + join(known, ", ") +
                                  "; --resume keeps the columns that have run (--compare.metrics)")
-          .of("compare.metrics", name);
+          .with_key("compare.metrics", name);
 }
 
 void run_comparison(Run& run, const std::string& varied, std::vector<ChildRun>& columns,
@@ -64,10 +64,10 @@ void write_comparison_table(Run& run, const std::string& varied, const std::vect
   Table table(head);
   for (const ChildRun& column : columns) {
     const Metrics found = column.metrics();
-    if (column.manifest) run.manifest().asked_metrics = column.manifest->asked_metrics;
+    if (column.manifest) run.manifest().requested_metrics = column.manifest->requested_metrics;
     std::vector<Cell> fields = {column.name};
     for (const std::string& key : keys) {
-      fields.push_back(field_of(found[key]));
+      fields.push_back(metric_field(found[key]));
       if (found[key].is_number() || found[key].is_text()) run.metric(column.name + "." + key, found[key]);
     }
     fields.push_back(column.stopped);

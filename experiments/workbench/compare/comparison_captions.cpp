@@ -14,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // "" of a metric that no page shows.
-std::string meaning_of(const std::string& metric) {
+std::string metric_meaning(const std::string& metric) {
   for (const ShownNumber& number : shown_numbers())
     if (number.metric == metric) return number.meaning;
   return "";
@@ -24,7 +24,7 @@ std::string meaning_of(const std::string& metric) {
 std::string numbers_text(const ComparisonPage& page, const std::vector<ChildRun>& columns) {
   std::string text;
   for (const std::string& key : shown_metrics(columns, page.metrics)) {
-    const std::string meaning = meaning_of(key);
+    const std::string meaning = metric_meaning(key);
     text += (text.empty() ? "Numbers behind the names: " : "; ") + split_unit(key).text() +
             (meaning.empty() ? "" : ", " + meaning);
   }
@@ -67,7 +67,7 @@ std::string facts_text(const std::vector<ChildRun>& columns) {
   std::vector<const Manifest*> manifests;
   for (const ChildRun& c : columns)
     if (c.manifest) names.push_back(c.name), manifests.push_back(&*c.manifest);
-  return facts_of(names, manifests);
+  return run_facts(names, manifests);
 }
 
 // "plot_tip_height.png" is "tip height".
@@ -84,7 +84,7 @@ std::string shown_in(const std::string& stem, const ComparisonPage& page,
     if (c.manifest)
       for (const Curve& curve : c.manifest->curves)
         if (curve.plot == stem) return curve.caption;
-  const std::string metric = stem.substr(std::string("plot_").size()), meaning = meaning_of(metric);
+  const std::string metric = stem.substr(std::string("plot_").size()), meaning = metric_meaning(metric);
   if (!meaning.empty()) return "A bar for each column: " + meaning + ".";
   if (std::count(page.metrics.begin(), page.metrics.end(), metric))
     return "A bar for each column: " + plotted(stem) + ".";
@@ -97,8 +97,9 @@ void write_comparison_captions(Run& run, const ComparisonPage& page, const std::
                                const std::string& command, const std::vector<ChildRun>& columns) {
   std::vector<FigureCaption> figures = {
       {"sheet.png", page.title,
-       joined({first_upper(question_of(experiment)) + ".", columns_text(columns), rows_text(page, columns),
-               numbers_text(page, columns), joined(page.notes, " "), facts_text(columns),
+       joined({first_upper(experiment_question(experiment)) + ".", columns_text(columns),
+               rows_text(page, columns), numbers_text(page, columns), joined(page.notes, " "),
+               facts_text(columns),
                origin_words(command, columns.front().manifest ? &*columns.front().manifest : nullptr)},
               " ")}};
   std::vector<std::string> plots;

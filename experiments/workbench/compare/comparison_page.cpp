@@ -27,7 +27,7 @@ constexpr std::size_t kMaxOutlined = 4;            // columns beside which outli
 double second(const ChildRun& column, std::size_t frame) { return instants(column).at(frame).time; }
 
 // The column that went on longest; null where none has a picture.
-const ChildRun* longest_of(const std::vector<ChildRun>& columns) {
+const ChildRun* longest_column(const std::vector<ChildRun>& columns) {
   const ChildRun* longest = nullptr;
   for (const ChildRun& c : columns)
     if (has_frames(c) &&
@@ -37,7 +37,7 @@ const ChildRun* longest_of(const std::vector<ChildRun>& columns) {
 }
 
 // How far the cloth goes from each picture of the longest column to the next, in the column where it is most.
-std::vector<double> way_of(const ChildRun& longest, const std::vector<ChildRun>& columns) {
+std::vector<double> frame_displacements(const ChildRun& longest, const std::vector<ChildRun>& columns) {
   std::vector<double> moved(instants(longest).size(), 0);
   for (const ChildRun& c : columns)
     for (std::size_t f = 1; has_frames(c) && f < std::min(moved.size(), instants(c).size()); ++f)
@@ -47,13 +47,13 @@ std::vector<double> way_of(const ChildRun& longest, const std::vector<ChildRun>&
 
 // Of pictures of the column that went on longest: those nearest to the page's own times, or apart by what
 // moves between them, without the first picture, which is the same in all columns.
-std::vector<double> times_of(const ComparisonPage& page, const std::vector<ChildRun>& columns) {
-  const ChildRun* longest = longest_of(columns);
+std::vector<double> shown_times(const ComparisonPage& page, const std::vector<ChildRun>& columns) {
+  const ChildRun* longest = longest_column(columns);
   std::vector<double> times;
   if (!longest) return times;
   for (double time : page.times) times.push_back(second(*longest, frame_at(*longest, time)));
   if (!times.empty()) return times;
-  for (int f : render::spread_by_way(way_of(*longest, columns), page.rows + 1))
+  for (int f : render::spread_by_displacement(frame_displacements(*longest, columns), page.rows + 1))
     if (f > 0 || instants(*longest).size() == 1)
       times.push_back(second(*longest, static_cast<std::size_t>(f)));
   return times;
@@ -65,7 +65,7 @@ struct InstantText {
 };
 
 // Times of one's own may be milliseconds apart.
-InstantText text_of(const ComparisonPage& page, const std::vector<ChildRun>& columns, double time) {
+InstantText instant_text(const ComparisonPage& page, const std::vector<ChildRun>& columns, double time) {
   const std::string text = fmt::format("{:.{}f} s", time, page.times.empty() ? 2 : 3);
   for (const ChildRun& c : columns) {
     if (!has_frames(c)) continue;
@@ -80,7 +80,7 @@ class Table {
  public:
   Table(const ComparisonPage& page, const std::vector<ChildRun>& columns)
       : page_(page), columns_(columns), loops_(columns) {
-    sheet_.columns = heads_of(columns, page.metrics);
+    sheet_.columns = column_heads(columns, page.metrics);
     sheet_.scale_note = "at the cloth's middle";
     if (page.outlines && columns.size() > 1 && columns.size() <= kMaxOutlined)
       sheet_.columns.push_back({"all, outlined", {}, {}, "", {}});
@@ -100,7 +100,7 @@ class Table {
   }
 
   void add_row(double time, const Crop& crop) {
-    const InstantText text = text_of(page_, columns_, time);
+    const InstantText text = instant_text(page_, columns_, time);
     sheet_.rows.push_back({text.time, text.phase, scale()});
     for (std::size_t c = 0; c < columns_.size(); ++c) sheet_.columns[c].cells.push_back(cell(c, time, crop));
     if (sheet_.columns.size() > columns_.size())
@@ -137,7 +137,7 @@ class Table {
     const std::size_t frame = frame_at(column, time);
     const bool over = time - second(column, frame) > 1e-9;
     const auto file =
-        page_.picture.empty() ? picture_of(column, page_.look, frame) : column.folder / page_.picture;
+        page_.picture.empty() ? picture_file(column, page_.look, frame) : column.folder / page_.picture;
     return {crop.of(render::read_png(file)),
             over ? fmt::format("{} {:.2f} s", column.stopped.empty() ? "at rest since" : "stopped at",
                                second(column, frame))
@@ -152,9 +152,9 @@ class Table {
     for (std::size_t f = 0; f <= frame_at(columns_[c], end); ++f)
       moved.push_back(f == 0 ? 0 : instants(columns_[c])[f].moved);
     std::vector<render::Image> skins;
-    for (int f : render::spread_by_way(moved, kSkins))
+    for (int f : render::spread_by_displacement(moved, kSkins))
       skins.push_back(
-          crop.of(render::read_png(picture_of(columns_[c], page_.look, static_cast<std::size_t>(f)))));
+          crop.of(render::read_png(picture_file(columns_[c], page_.look, static_cast<std::size_t>(f)))));
     return {render::onion_skin(skins), "", loops_.at(c, end)};
   }
 
@@ -162,12 +162,12 @@ class Table {
     if (!has_frames(columns_[c]) || !has_frames(columns_[to])) return {};
     const std::size_t frame = frame_at(columns_[c], time);
     if (page_.curvature)
-      return {crop.of(render::read_png(picture_of(columns_[c], kDifference, frame))),
+      return {crop.of(render::read_png(picture_file(columns_[c], kDifference, frame))),
               fmt::format("rms {:.3g} /m", instants(columns_[c]).at(frame).difference_rms.value()),
               {}};
     const auto read = [&](std::size_t column) {
       return crop.of(
-          render::read_png(picture_of(columns_[column], page_.look, frame_at(columns_[column], time))));
+          render::read_png(picture_file(columns_[column], page_.look, frame_at(columns_[column], time))));
     };
     const render::Image image = read(c), other = read(to);
     return {render::heat_map(image, other, kDifferenceScale),
@@ -177,11 +177,11 @@ class Table {
 
   render::Image outlines(double time, const Crop& crop) const {
     render::Image over;
-    const std::vector<render::Rgb8> colors = colors_of(columns_);
+    const std::vector<render::Rgb8> colors = column_colors(columns_);
     for (std::size_t c = 0; c < columns_.size(); ++c) {
       if (!has_frames(columns_[c])) continue;
       const render::Image shape =
-          crop.of(render::read_png(picture_of(columns_[c], "silhouette", frame_at(columns_[c], time))));
+          crop.of(render::read_png(picture_file(columns_[c], "silhouette", frame_at(columns_[c], time))));
       if (over.empty()) over = render::Image(shape.width(), shape.height(), render::Rgb8{255, 255, 255});
       render::draw_outline(over, shape, colors[c], std::max(2, shape.width() / 160));
     }
@@ -194,30 +194,32 @@ class Table {
   render::ComparisonSheet sheet_;
 };
 
-std::optional<render::ColorBar> bar_of(const std::vector<ChildRun>& columns, const std::string& look) {
+std::optional<render::ColorBar> look_color_bar(const std::vector<ChildRun>& columns,
+                                               const std::string& look) {
   for (const ChildRun& c : columns) {
     if (!has_frames(c)) continue;
     for (const auto& [name, bar] : c.manifest->frames->looks)
       if (name == look && bar)
-        return render::ColorBar{map_of(look), bar->low, bar->high, bar->label, bar->unit};
+        return render::ColorBar{look_color_map(look), bar->low, bar->high, bar->label, bar->unit};
   }
   return {};
 }
 
-std::vector<render::ColorBar> bars_of(const ComparisonPage& page, const std::vector<ChildRun>& columns) {
+std::vector<render::ColorBar> look_color_bars(const ComparisonPage& page,
+                                              const std::vector<ChildRun>& columns) {
   std::vector<render::ColorBar> bars;
   std::vector<std::string> looks = {page.look};
   if (page.to >= 0 && page.curvature) looks.emplace_back(kDifference);
   for (const std::string& look : looks)
-    if (const auto bar = bar_of(columns, look)) bars.push_back(*bar);
+    if (const auto bar = look_color_bar(columns, look)) bars.push_back(*bar);
   if (page.to >= 0 && !page.curvature)
     bars.push_back(
         {render::ColorMap::sequential, 0, kDifferenceScale, "difference of pictures", "8-bit steps", 5});
   return bars;
 }
 
-Table table_of(const ComparisonPage& page, const std::vector<ChildRun>& columns,
-               const std::vector<double>& times) {
+Table columns_table(const ComparisonPage& page, const std::vector<ChildRun>& columns,
+                    const std::vector<double>& times) {
   Table table(page, columns);
   std::vector<Crop> crops;
   for (double time : times) crops.push_back(table.crop_at(time));
@@ -235,24 +237,24 @@ Table table_of(const ComparisonPage& page, const std::vector<ChildRun>& columns,
   }
   table.sheet().title = page.title;
   table.sheet().notes = page.notes;
-  table.sheet().bars = bars_of(page, columns);
+  table.sheet().bars = look_color_bars(page, columns);
   return table;
 }
 
 // A page of many columns is twice as high as wide at most: the first of its instants go, unless they are
 // asked for.
-render::Image sheet_of(const ComparisonPage& page, const std::vector<ChildRun>& columns,
-                       std::vector<double> times) {
+render::Image page_sheet(const ComparisonPage& page, const std::vector<ChildRun>& columns,
+                         std::vector<double> times) {
   render::Image sheet;
   for (;; times.erase(times.begin())) {
-    sheet = render::draw_comparison(table_of(page, columns, times).sheet());
+    sheet = render::draw_comparison(columns_table(page, columns, times).sheet());
     if (times.size() == 1 || !page.times.empty() || sheet.height() <= 2 * sheet.width()) return sheet;
   }
 }
 
 // All columns side by side at each instant of the film; the part that is shown stays the same.
-std::vector<render::Image> strips_of(const ComparisonPage& page, const std::vector<ChildRun>& columns,
-                                     const std::vector<double>& times) {
+std::vector<render::Image> film_strips(const ComparisonPage& page, const std::vector<ChildRun>& columns,
+                                       const std::vector<double>& times) {
   Crop crop;
   for (const ChildRun& c : columns)
     if (has_frames(c))
@@ -269,12 +271,12 @@ std::vector<render::Image> strips_of(const ComparisonPage& page, const std::vect
 // A film at the columns' own speed, where ffmpeg is there.
 void film(Run& run, const ComparisonPage& page, const std::vector<ChildRun>& columns) {
   std::vector<double> times;
-  if (const ChildRun* longest = longest_of(columns))
+  if (const ChildRun* longest = longest_column(columns))
     for (const Frames::Instant& instant : instants(*longest)) times.push_back(instant.time);
   const double rate =
       times.size() > 1 ? static_cast<double>(times.size() - 1) / (times.back() - times.front()) : 1;
   int f = 0;
-  for (const render::Image& strip : strips_of(page, columns, times))
+  for (const render::Image& strip : film_strips(page, columns, times))
     render::write_png(run.path(fmt::format("film/{:04}.png", f++)), strip);
   const std::string name = "film." + page.video, strips = (run.folder() / "film" / "%04d.png").string();
   std::vector<std::string> words = {
@@ -291,8 +293,8 @@ void film(Run& run, const ComparisonPage& page, const std::vector<ChildRun>& col
 
 // Of each column the frames in its rows, or up to the end of what moves in one picture, and the first, which
 // tells of no motion before them.
-std::vector<std::vector<int>> frames_of(const ComparisonPage& page, const std::vector<ChildRun>& columns,
-                                        const std::vector<double>& times) {
+std::vector<std::vector<int>> shown_frames(const ComparisonPage& page, const std::vector<ChildRun>& columns,
+                                           const std::vector<double>& times) {
   std::vector<std::vector<int>> frames(columns.size());
   for (std::size_t c = 0; c < columns.size(); ++c) {
     if (!has_frames(columns[c])) continue;
@@ -311,15 +313,15 @@ std::vector<std::vector<int>> frames_of(const ComparisonPage& page, const std::v
 
 std::vector<std::string> shown_instants(const ComparisonPage& page, const std::vector<ChildRun>& columns) {
   std::vector<std::string> texts;
-  for (double time : times_of(page, columns)) texts.push_back(text_of(page, columns, time).text());
+  for (double time : shown_times(page, columns)) texts.push_back(instant_text(page, columns, time).text());
   return texts;
 }
 
 void draw_comparison_page(Run& run, const ComparisonPage& page, const std::vector<ChildRun>& columns) {
-  const std::vector<double> times = times_of(page, columns);
+  const std::vector<double> times = shown_times(page, columns);
   if (times.empty()) throw Error::simulation("no column has a picture");
-  render::write_png(run.path("sheet.png"), sheet_of(page, columns, times), render::PngEffort::best);
-  keep_page(run, page, columns, frames_of(page, columns, times));
+  render::write_png(run.path("sheet.png"), page_sheet(page, columns, times), render::PngEffort::best);
+  keep_page(run, page, columns, shown_frames(page, columns, times));
   if (page.video != "none") film(run, page, columns);
 }
 

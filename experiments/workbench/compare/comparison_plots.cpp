@@ -18,7 +18,7 @@ List first_list(const std::vector<ChildRun>& columns, List (*noted)(const Manife
 }
 
 // "probe1_curvature_warp [1/m]" as an axis says it.
-std::string words_of(std::string column) {
+std::string axis_title_words(std::string column) {
   std::replace(column.begin(), column.end(), '_', ' ');
   return column;
 }
@@ -29,7 +29,9 @@ void plot_series(Run& run, const std::string& title, const std::vector<ChildRun>
   for (const std::string& name :
        first_list<Names>(columns, [](const Manifest& m) { return m.series.value_or(Names{}); })) {
     const std::string word = name.substr(0, name.find(" ["));
-    draw(run, TablePlot{"plot_" + word, {title, {"time [s]"}, {words_of(name)}}, "metrics.csv", "time", word},
+    draw(run,
+         TablePlot{
+             "plot_" + word, {title, {"time [s]"}, {axis_title_words(name)}}, "metrics.csv", "time", word},
          columns);
   }
 }
@@ -41,7 +43,7 @@ void plot_curves(Run& run, const std::string& title, const std::vector<ChildRun>
     const bool probed = curve.plot.starts_with("plot_probe");
     draw(run,
          TablePlot{curve.plot,
-                   {title, {words_of(curve.x)}, {words_of(curve.y), curve.logarithmic}},
+                   {title, {axis_title_words(curve.x)}, {axis_title_words(curve.y), curve.logarithmic}},
                    curve.file,
                    curve.x,
                    curve.y,
@@ -52,8 +54,8 @@ void plot_curves(Run& run, const std::string& title, const std::vector<ChildRun>
 
 // The page's metrics, or what these experiments are asked for, a bar a column; none where all are zero.
 void plot_answers(Run& run, const ComparisonPage& page, const std::vector<ChildRun>& columns) {
-  const std::vector<std::string> usual = {"drape_coefficient_percent", "recovery_angle_deg"};
-  for (const std::string& key : page.metrics.empty() ? usual : page.metrics) {
+  const std::vector<std::string> default_metrics = {"drape_coefficient_percent", "recovery_angle_deg"};
+  for (const std::string& key : page.metrics.empty() ? default_metrics : page.metrics) {
     render::Plot plot{page.title, {""}, {split_unit(key).text()}};
     std::vector<double> values;
     for (const ChildRun& c : columns) {

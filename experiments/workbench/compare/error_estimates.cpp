@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t kDrawsForAMean = 3;
 
 // "--step=0.0005 --seed=2"
-std::string words_of(const std::vector<Flag>& flags) {
+std::string flag_words(const std::vector<Flag>& flags) {
   std::string words;
   for (const Flag& flag : flags) words += (words.empty() ? "--" : " --") + flag.path + "=" + flag.text;
   return words;
@@ -21,18 +21,18 @@ std::string words_of(const std::vector<Flag>& flags) {
 class Estimate {
  public:
   Estimate(const std::vector<std::string>& headlines, const Metrics& metrics,
-           const std::vector<ErrorRunResult>& repeats)
-      : run_(metrics), repeats_(repeats) {
+           const std::vector<ErrorRunResult>& error_runs)
+      : run_(metrics), error_runs_(error_runs) {
     for (const std::string& name : headlines)
       if (metrics[name].is_number()) names_.push_back(name);
-    for (const ErrorRunResult& r : repeats_) usable_.push_back(is_usable(r));
+    for (const ErrorRunResult& r : error_runs_) usable_.push_back(is_usable(r));
   }
 
   Errors errors() {
     for (const std::string& name : names_) {
       single(name, "step", kStepError);
       single(name, "mesh", kMeshError);
-      draws(name);
+      mesh_samples(name);
       path(name);
     }
     return std::move(errors_);
@@ -41,10 +41,10 @@ class Estimate {
  private:
   // A repeat that leaves every bit as it was tells nothing of an error: what it changes is not used.  Two
   // paths may be the same.
-  static bool unused(const ErrorRunResult& r) { return r.unchanged && r.repeat.name != "path"; }
+  static bool unused(const ErrorRunResult& r) { return r.unchanged && r.error_run.name != "path"; }
 
   bool is_usable(const ErrorRunResult& r) {
-    const std::string what = r.repeat.name + " (" + words_of(r.repeat.changes) + ")";
+    const std::string what = r.error_run.name + " (" + flag_words(r.error_run.changes) + ")";
     if (!r.stopped.empty())
       errors_.missing.push_back(what + " is not complete: " + r.stopped);
     else if (unused(r))
@@ -55,10 +55,10 @@ class Estimate {
   // The headline's values in the repeats of that name, "draw-2" being a "draw".
   std::vector<double> values(const std::string& name, const std::string& kind) {
     std::vector<double> found;
-    for (std::size_t i = 0; i < repeats_.size(); ++i) {
-      const std::string& own = repeats_[i].repeat.name;
+    for (std::size_t i = 0; i < error_runs_.size(); ++i) {
+      const std::string& own = error_runs_[i].error_run.name;
       if (!usable_[i] || own.substr(0, own.find('-')) != kind) continue;
-      if (const MetricValue& value = repeats_[i].metrics[name]; value.is_number())
+      if (const MetricValue& value = error_runs_[i].metrics[name]; value.is_number())
         found.push_back(value.number());
       else
         errors_.missing.push_back(own + " has no " + name);
@@ -73,7 +73,7 @@ class Estimate {
     errors_.metrics.set(name + ending, found.empty() ? MetricValue() : std::abs(found[0] - of_run(name)));
   }
 
-  void draws(const std::string& name) {
+  void mesh_samples(const std::string& name) {
     std::vector<double> all = values(name, "draw");
     errors_.metrics.set(name + kDrawError, {});
     if (all.empty()) return;
@@ -91,15 +91,15 @@ class Estimate {
   }
 
   void path(const std::string& name) {
-    const bool asked = std::any_of(repeats_.begin(), repeats_.end(),
-                                   [](const ErrorRunResult& r) { return r.repeat.name == "path"; });
-    if (!asked) return;
+    const bool requested = std::any_of(error_runs_.begin(), error_runs_.end(),
+                                       [](const ErrorRunResult& r) { return r.error_run.name == "path"; });
+    if (!requested) return;
     const std::vector<double> found = values(name, "path");
     errors_.metrics.set(name + kPathDifference, found.empty() ? MetricValue() : found[0] - of_run(name));
   }
 
   const Metrics& run_;
-  const std::vector<ErrorRunResult>& repeats_;
+  const std::vector<ErrorRunResult>& error_runs_;
   std::vector<std::string> names_;
   std::vector<bool> usable_;
   Errors errors_;
@@ -107,14 +107,15 @@ class Estimate {
 
 }  // namespace
 
-Errors errors_of(const std::string& experiment, const Metrics& metrics,
-                 const std::vector<ErrorRunResult>& repeats, const std::vector<std::string>& asked) {
-  const Headlines& headlines = headlines_of(experiment);
+Errors estimated_errors(const std::string& experiment, const Metrics& metrics,
+                        const std::vector<ErrorRunResult>& error_runs,
+                        const std::vector<std::string>& requested) {
+  const Headlines& headlines = experiment_headlines(experiment);
   std::vector<std::string> names = headlines.with_errors();
-  names.insert(names.end(), asked.begin(), asked.end());
-  Errors errors = Estimate(names, metrics, repeats).errors();
-  const bool of_a_file = std::any_of(repeats.begin(), repeats.end(), [](const ErrorRunResult& r) {
-    return !r.repeat.changes.empty() && r.repeat.changes.front().path == kSubdivisions;
+  names.insert(names.end(), requested.begin(), requested.end());
+  Errors errors = Estimate(names, metrics, error_runs).errors();
+  const bool of_a_file = std::any_of(error_runs.begin(), error_runs.end(), [](const ErrorRunResult& r) {
+    return !r.error_run.changes.empty() && r.error_run.changes.front().path == kSubdivisions;
   });
   if (of_a_file) errors.missing.push_back("draw: the cloth's triangles come from a file");
   if (headlines.equilibria)

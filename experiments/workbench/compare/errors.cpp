@@ -25,17 +25,17 @@ std::vector<std::string> other_families(const Scene& scene) {
 }
 
 // Draw 1, 2 ...: other families first, then random meshes of other seeds.
-std::vector<Flag> drawn_mesh(const Scene& scene, int draw) {
+std::vector<Flag> resampled_mesh(const Scene& scene, int mesh_sample) {
   const std::vector<std::string> families = other_families(scene);
-  const int random = draw - static_cast<int>(families.size());
-  if (random <= 0) return {{"mesh", families[static_cast<std::size_t>(draw) - 1]}};
+  const int random = mesh_sample - static_cast<int>(families.size());
+  if (random <= 0) return {{"mesh", families[static_cast<std::size_t>(mesh_sample) - 1]}};
   return {{"mesh", "random"}, {"seed", std::to_string(scene.seed + static_cast<unsigned>(random))}};
 }
 
 // Draw 1, 2 ...: 3/2, 2/3, 2, 1/2 ... times the triangles.
-std::vector<Flag> drawn_number(const Scene& scene, int draw) {
-  const int halves = 2 + (draw + 1) / 2;
-  const int number = draw % 2 ? scene.triangles / 2 * halves : scene.triangles * 2 / halves;
+std::vector<Flag> resized_mesh(const Scene& scene, int mesh_sample) {
+  const int halves = 2 + (mesh_sample + 1) / 2;
+  const int number = mesh_sample % 2 ? scene.triangles / 2 * halves : scene.triangles * 2 / halves;
   return {{"triangles", std::to_string(number)}};
 }
 
@@ -46,8 +46,8 @@ Flag finer_mesh(const Scene& scene) {
   return {"triangles", std::to_string(kFiner * scene.triangles)};
 }
 
-ChildRun column_of(const Run& run, const CommandLine& line, const ErrorRun& repeat) {
-  std::vector<Flag> own = repeat.changes;
+ChildRun child_run(const Run& run, const CommandLine& line, const ErrorRun& error_run) {
+  std::vector<Flag> own = error_run.changes;
   // A scene's file may say otherwise.
   own.insert(own.end(), {{"errors", "false"},
                          {"json", "false"},
@@ -56,11 +56,11 @@ ChildRun column_of(const Run& run, const CommandLine& line, const ErrorRun& repe
                          {"export", "none"},
                          {"checkpoint", "0"},
                          {"resume", "false"}});
-  return column_of(repeat.name, line, own, run.folder() / "errors");
+  return child_run(error_run.name, line, own, run.folder() / "errors");
 }
 
 // How the run's cloth was let go, from what it noted: "drape.release" is `release` of "drape".
-std::string release_of(const Run& run, const Headlines& headlines) {
+std::string noted_release(const Run& run, const Headlines& headlines) {
   const std::size_t dot = headlines.release.find('.');
   if (dot == std::string::npos) return "";
   for (const auto& [key, value] : run.manifest().own)
@@ -74,14 +74,14 @@ std::string changes_text(const std::vector<Flag>& flags) {
   return text;
 }
 
-ErrorRunResult what_came_of(const ErrorRun& repeat, const ChildRun& column, const Run& run) {
+ErrorRunResult error_run_result(const ErrorRun& error_run, const ChildRun& column, const Run& run) {
   const bool unchanged = column.manifest && column.manifest->state_hash &&
                          column.manifest->state_hash == run.manifest().state_hash;
-  return {repeat, column.metrics(), column.stopped, unchanged};
+  return {error_run, column.metrics(), column.stopped, unchanged};
 }
 
 // Beyond what the run itself warns of.
-void warn_of(const std::vector<ChildRun>& columns, Run& run) {
+void warn_about_columns(const std::vector<ChildRun>& columns, Run& run) {
   ColumnWarnings warnings;
   const std::vector<std::string>& own = run.manifest().warnings;
   for (const ChildRun& column : columns) {
@@ -95,15 +95,15 @@ void warn_of(const std::vector<ChildRun>& columns, Run& run) {
 }
 
 // errors.csv: a row for each repeat.
-void write_table(Run& run, const std::vector<std::string>& metrics, const std::vector<ErrorRun>& repeats,
+void write_table(Run& run, const std::vector<std::string>& metrics, const std::vector<ErrorRun>& error_runs,
                  const std::vector<ChildRun>& columns) {
   std::vector<std::string> head = {"repeat", "differs"};
   head.insert(head.end(), metrics.begin(), metrics.end());
   head.insert(head.end(), {"wall_s", "complete", "stopped"});
   Table table(head);
-  for (std::size_t i = 0; i < repeats.size(); ++i) {
+  for (std::size_t i = 0; i < error_runs.size(); ++i) {
     const Metrics found = columns[i].metrics();
-    std::vector<Cell> fields = {repeats[i].name, changes_text(repeats[i].changes)};
+    std::vector<Cell> fields = {error_runs[i].name, changes_text(error_runs[i].changes)};
     for (const std::string& name : metrics) {
       const MetricValue& value = found[name];
       fields.push_back(value.is_number() ? number_text(value.number()) : "");
@@ -129,48 +129,50 @@ std::vector<Flag> half_the_step(const Scene& scene) {
 
 }  // namespace
 
-std::vector<ErrorRun> repeats_of(const std::string& experiment, const Scene& scene,
-                                 const std::string& release, int draws) {
-  const Headlines& headlines = headlines_of(experiment);
-  std::vector<ErrorRun> repeats;
+std::vector<ErrorRun> planned_error_runs(const std::string& experiment, const Scene& scene,
+                                         const std::string& release, int mesh_samples) {
+  const Headlines& headlines = experiment_headlines(experiment);
+  std::vector<ErrorRun> error_runs;
   const bool drawn = !from_a_file(scene);
   // The longest first: they run side by side.
-  repeats.push_back({"mesh", {finer_mesh(scene)}});
-  if (!headlines.equilibria) repeats.push_back({"step", half_the_step(scene)});
-  for (int draw = 1; drawn && draw <= draws; ++draw)
-    repeats.push_back({"draw-" + std::to_string(draw),
-                       headlines.own_mesh ? drawn_number(scene, draw) : drawn_mesh(scene, draw)});
+  error_runs.push_back({"mesh", {finer_mesh(scene)}});
+  if (!headlines.equilibria) error_runs.push_back({"step", half_the_step(scene)});
+  for (int mesh_sample = 1; drawn && mesh_sample <= mesh_samples; ++mesh_sample)
+    error_runs.push_back({"draw-" + std::to_string(mesh_sample), headlines.own_mesh
+                                                                     ? resized_mesh(scene, mesh_sample)
+                                                                     : resampled_mesh(scene, mesh_sample)});
   const auto other = std::find_if(headlines.paths.begin(), headlines.paths.end(),
                                   [&](const std::string& path) { return path != release; });
-  if (other != headlines.paths.end()) repeats.push_back({"path", {{headlines.release, *other}}});
-  return repeats;
+  if (other != headlines.paths.end()) error_runs.push_back({"path", {{headlines.release, *other}}});
+  return error_runs;
 }
 
 void measure_errors(Run& run, const CommandLine& line, const Setup& setup) {
   const auto stage = run.stage("errors");
   run.keep();
-  const Headlines& headlines = headlines_of(line.experiment);
+  const Headlines& headlines = experiment_headlines(line.experiment);
   std::vector<std::string> names = headlines.with_errors();
-  names.insert(names.end(), setup.asked_metrics.begin(), setup.asked_metrics.end());
-  const std::vector<ErrorRun> repeats =
-      repeats_of(line.experiment, setup.scene, release_of(run, headlines), setup.options.errors_draws);
+  names.insert(names.end(), setup.requested_metrics.begin(), setup.requested_metrics.end());
+  const std::vector<ErrorRun> error_runs = planned_error_runs(
+      line.experiment, setup.scene, noted_release(run, headlines), setup.options.errors_draws);
   std::vector<ChildRun> columns;
-  for (const ErrorRun& repeat : repeats) columns.push_back(column_of(run, line, repeat));
+  for (const ErrorRun& error_run : error_runs) columns.push_back(child_run(run, line, error_run));
   SweepJobs jobs;
   jobs.at_once = setup.options.errors_jobs;
   jobs.batch = setup.options.errors_batch;
   jobs.cores = setup.scene.threads;
   jobs.gpu = setup.scene.device != DeviceChoice::cpu;
-  jobs.go_on = true;
+  jobs.tolerates_failures = true;
   run_columns(
       columns, jobs,
-      [&](const ChildRun& column) { run.progress("errors, " + column.name + ": " + outcome_of(column)); },
+      [&](const ChildRun& column) { run.progress("errors, " + column.name + ": " + run_outcome(column)); },
       [&](const std::string& line) { run.progress("errors: " + line); });
-  warn_of(columns, run);
-  write_table(run, names, repeats, columns);
+  warn_about_columns(columns, run);
+  write_table(run, names, error_runs, columns);
   std::vector<ErrorRunResult> found;
-  for (std::size_t i = 0; i < repeats.size(); ++i) found.push_back(what_came_of(repeats[i], columns[i], run));
-  const Errors errors = errors_of(line.experiment, run.metrics(), found, setup.asked_metrics);
+  for (std::size_t i = 0; i < error_runs.size(); ++i)
+    found.push_back(error_run_result(error_runs[i], columns[i], run));
+  const Errors errors = estimated_errors(line.experiment, run.metrics(), found, setup.requested_metrics);
   for (const auto& [name, value] : errors.metrics) run.metric(name, value);
   run.manifest().errors_missing = errors.missing;
   for (const std::string& name : names)

@@ -21,18 +21,18 @@ struct ErrorRun {
 };
 // Of a resolved scene.  `release` is how its cloth is let go, "" where there is one path only.  The triangles
 // of a file are subdivided, and there are no other draws of them.
-std::vector<ErrorRun> repeats_of(const std::string& experiment, const Scene& scene,
-                                 const std::string& release, int draws);
+std::vector<ErrorRun> planned_error_runs(const std::string& experiment, const Scene& scene,
+                                         const std::string& release, int mesh_samples);
 
 // What came of one.
 struct ErrorRunResult {
-  ErrorRun repeat;
+  ErrorRun error_run;
   Metrics metrics{};
   std::string stopped{};   // why it is not complete; empty: it is
   bool unchanged = false;  // it ended in the run's own state, bit for bit
 };
 
-// For each headline and each of `asked` among the metrics of the run:
+// For each headline and each of `requested` among the metrics of the run:
 //   _step_error, _mesh_error   |its value there - the run's|
 //   _draw_error                standard deviation over the run and the draws
 //   _mean, _mean_stderr        of the same, from three draws on
@@ -42,8 +42,9 @@ struct Errors {
   Metrics metrics{};
   std::vector<std::string> missing;
 };
-Errors errors_of(const std::string& experiment, const Metrics& metrics,
-                 const std::vector<ErrorRunResult>& repeats, const std::vector<std::string>& asked = {});
+Errors estimated_errors(const std::string& experiment, const Metrics& metrics,
+                        const std::vector<ErrorRunResult>& error_runs,
+                        const std::vector<std::string>& requested = {});
 
 // Runs the repeats of a run whose metrics are known, adds its errors to them, the sentences as
 // `errors_missing`, and writes errors.csv.  Throws Error::system.

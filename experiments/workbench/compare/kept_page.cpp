@@ -33,7 +33,7 @@ KeptRecord with_column(KeptRecord record, const ChildRun& column, std::size_t me
 }
 
 // The place of the mesh among those that are written already, where it is appended if it is new.
-std::size_t place_of(const KeptRecord& mesh, std::vector<KeptRecord>& known, std::vector<KeptRecord>& all) {
+std::size_t mesh_index(const KeptRecord& mesh, std::vector<KeptRecord>& known, std::vector<KeptRecord>& all) {
   for (std::size_t i = 0; i < known.size(); ++i)
     if (known[i].head == mesh.head && known[i].blocks == mesh.blocks) return i;
   known.push_back(mesh);
@@ -59,7 +59,7 @@ void keep_page(Run& run, const ComparisonPage& page, const std::vector<ChildRun>
     std::size_t mesh = 0;
     for (const KeptRecord& record : chosen_records(columns[c].folder / kKeptFrames, frames[c])) {
       if (record.kind() == "mesh")
-        mesh = place_of(record, meshes, all);
+        mesh = mesh_index(record, meshes, all);
       else
         all.push_back(record.kind() == "cloth" ? with_column(record, columns[c], mesh) : record);
     }
@@ -71,7 +71,7 @@ void keep_page(Run& run, const ComparisonPage& page, const std::vector<ChildRun>
 
 bool is_page(const Json& sheet) { return sheet.is_object() && sheet.contains("page"); }
 
-ComparisonPage page_of(const Json& sheet) {
+ComparisonPage kept_comparison_page(const Json& sheet) {
   const Json& json = sheet.at("page");
   ComparisonPage page;
   page.title = json.at("title");
@@ -87,12 +87,12 @@ ComparisonPage page_of(const Json& sheet) {
   return page;
 }
 
-ChildRun column_of(const KeptCloth& cloth, const fs::path& folder, const std::optional<Frames>& frames) {
+ChildRun redrawn_column(const KeptCloth& cloth, const fs::path& folder, const std::optional<Frames>& frames) {
   ChildRun column{cloth.name, {}, folder};
   column.stopped = cloth.setup.at("stopped");
   Json json = cloth.setup.at("manifest");
   json["scene"] = cloth.setup.at("scene");
-  column.manifest = manifest_of(json);
+  column.manifest = parsed_manifest(json);
   column.manifest->frames = frames;
   return column;
 }

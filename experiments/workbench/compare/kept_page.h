@@ -15,9 +15,9 @@ void keep_page(Run& run, const ComparisonPage& page, const std::vector<ChildRun>
 
 // The page of a kept comparison; it is of one if `sheet` has it.
 bool is_page(const Json& sheet);
-ComparisonPage page_of(const Json& sheet);
+ComparisonPage kept_comparison_page(const Json& sheet);
 // The column whose pictures were drawn again into that folder, as `frames` say.
-ChildRun column_of(const KeptCloth& cloth, const std::filesystem::path& folder,
-                   const std::optional<Frames>& frames);
+ChildRun redrawn_column(const KeptCloth& cloth, const std::filesystem::path& folder,
+                        const std::optional<Frames>& frames);
 
 }  // namespace hysteron::experiments

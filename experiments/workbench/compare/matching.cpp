@@ -34,7 +34,7 @@ Match match_named(const std::string& name) {
   if (name == "small-strain") return Match::small_strain;
   if (name == "energy") return Match::energy;
   throw Error::invalid_input("compare.match = " + name + " must be fabric | small-strain | energy")
-      .of("compare.match", name);
+      .with_key("compare.match", name);
 }
 
 double bending_work(const LawRequest& law, double curvature) {
@@ -64,7 +64,7 @@ double matching_scale(const LawRequest& law, const LawRequest& reference, Match 
   }
   throw Error::invalid_input("law " + law.name + " cannot be made as stiff as " + reference.name +
                              " by scaling its stiffnesses")
-      .of("law", law.name);
+      .with_key("law", law.name);
 }
 
 }  // namespace hysteron::experiments

@@ -109,10 +109,10 @@ class GpuQueue {
 };
 
 // What the columns share, and how many processes may do so at a time.
-struct Machine {
+struct Resources {
   int gpus, cores, at_once;
 };
-Machine machine_for(const SweepJobs& jobs) {
+Resources resources_for(const SweepJobs& jobs) {
   std::string reason;
   const int gpus = jobs.gpu ? gpu_count(reason) : 0;
   const int cores =
@@ -125,19 +125,19 @@ Machine machine_for(const SweepJobs& jobs) {
 
 // Batches no larger than leaves something to each GPU or core.
 std::vector<Chunk> chunks_for(const std::vector<ChildRun>& columns, const SweepJobs& jobs,
-                              const Machine& machine) {
+                              const Resources& resources) {
   const int count = static_cast<int>(columns.size());
-  return chunks_of(columns, std::min(jobs.batch, (count + machine.at_once - 1) / machine.at_once),
-                   jobs.first);
+  return batch_chunks(columns, std::min(jobs.batch, (count + resources.at_once - 1) / resources.at_once),
+                      jobs.first);
 }
 
 }  // namespace
 
-ChildRun column_of(const std::string& name, const CommandLine& line, const std::vector<Flag>& own,
+ChildRun child_run(const std::string& name, const CommandLine& line, const std::vector<Flag>& own,
                    const fs::path& out) {
-  static const std::set<std::string> kOfThePage = {"out", "json", "quiet", "resume", "threads"};
+  static const std::set<std::string> kPageFlags = {"out", "json", "quiet", "resume", "threads"};
   ChildRun column{name, line, out / name};
-  std::erase_if(column.line.flags, [](const Flag& flag) { return kOfThePage.contains(flag.path); });
+  std::erase_if(column.line.flags, [](const Flag& flag) { return kPageFlags.contains(flag.path); });
   column.line.flags = with_later(column.line.flags, own);
   return column;
 }
@@ -149,7 +149,7 @@ void explain_columns(const std::vector<ChildRun>& columns) {
   }
 }
 
-std::string outcome_of(const ChildRun& column) {
+std::string run_outcome(const ChildRun& column) {
   return column.kept ? "kept" : column.stopped.empty() ? "done" : column.stopped;
 }
 
@@ -161,25 +161,25 @@ std::string progress_in(const fs::path& folder) {
 }
 
 int processes_at_once(const std::vector<ChildRun>& columns, const SweepJobs& jobs) {
-  const Machine machine = machine_for(jobs);
-  return std::min(static_cast<int>(chunks_for(columns, jobs, machine).size()), machine.at_once);
+  const Resources resources = resources_for(jobs);
+  return std::min(static_cast<int>(chunks_for(columns, jobs, resources).size()), resources.at_once);
 }
 
 void run_columns(std::vector<ChildRun>& columns, const SweepJobs& jobs,
                  const std::function<void(ChildRun&)>& said,
                  const std::function<void(const std::string&)>& progress) {
   check_batch(columns, jobs.batch);
-  const Machine machine = machine_for(jobs);
-  const std::vector<Chunk> chunks = chunks_for(columns, jobs, machine);
-  const int at_once = std::min(static_cast<int>(chunks.size()), machine.at_once);
-  const int threads = jobs.threads > 0 ? jobs.threads : std::max(1, machine.cores / at_once);
+  const Resources resources = resources_for(jobs);
+  const std::vector<Chunk> chunks = chunks_for(columns, jobs, resources);
+  const int at_once = std::min(static_cast<int>(chunks.size()), resources.at_once);
+  const int threads = jobs.threads > 0 ? jobs.threads : std::max(1, resources.cores / at_once);
   std::mutex one_at_a_time;
   const std::function<void(const std::string&)> say = [&](const std::string& line) {
     const std::lock_guard lock(one_at_a_time);
     progress(line);
   };
   Watch watch(columns, at_once, say);
-  GpuQueue queue(machine.gpus);
+  GpuQueue queue(resources.gpus);
   const auto tell = [&](std::size_t i) {
     watch.end(i);
     const std::lock_guard lock(one_at_a_time);
@@ -198,7 +198,7 @@ void run_columns(std::vector<ChildRun>& columns, const SweepJobs& jobs,
     queue.give_back(gpu);
   };
   if (jobs.first >= 0)
-    finish({static_cast<std::size_t>(jobs.first)}, jobs.threads > 0 ? jobs.threads : machine.cores);
+    finish({static_cast<std::size_t>(jobs.first)}, jobs.threads > 0 ? jobs.threads : resources.cores);
   in_parallel(chunks.size(), at_once, [&](std::size_t c) {
     if (chunks[c] != Chunk{static_cast<std::size_t>(jobs.first)}) finish(chunks[c], threads);
   });

@@ -29,7 +29,7 @@ struct ChildRun {
 };
 
 // The line with the column's own flags, in OUT/<name>/, without what the page keeps for itself.
-ChildRun column_of(const std::string& name, const CommandLine& line, const std::vector<Flag>& own,
+ChildRun child_run(const std::string& name, const CommandLine& line, const std::vector<Flag>& own,
                    const std::filesystem::path& out);
 // Prints what each of them includes and leaves out (--explain).
 void explain_columns(const std::vector<ChildRun>& columns);
@@ -39,13 +39,13 @@ struct SweepJobs {
   int at_once = 0;  // 0: one for each GPU, or for each core or `threads` of them
   int threads = 0;  // of each on the CPU; 0: its share of the cores
   bool resume = false;
-  bool gpu = true;            // may be used
-  int first = -1;             // a column that the others need: it ends before they start; -1: none
-  int cores = 0;              // that they share; 0: all
-  bool go_on = false;         // a run that is wrong or fails is only marked as stopped
-  bool checkpoints = false;   // a run that was interrupted goes on from its own, if it takes any
-  bool keep_reasons = false;  // a run that did not begin has a folder, too, for recall_outcome()
-  int batch = 1;              // the most that share a process and, on a GPU, its launches
+  bool gpu = true;                  // may be used
+  int first = -1;                   // a column that the others need: it ends before they start; -1: none
+  int cores = 0;                    // that they share; 0: all
+  bool tolerates_failures = false;  // a run that is wrong or fails is only marked as stopped
+  bool checkpoints = false;         // a run that was interrupted goes on from its own, if it takes any
+  bool keep_reasons = false;        // a run that did not begin has a folder, too, for recall_outcome()
+  int batch = 1;                    // the most that share a process and, on a GPU, its launches
 };
 // Of the key `batch` of what runs columns.
 inline constexpr int kLargestBatch = 1024;
@@ -65,7 +65,7 @@ void recall_outcome(ChildRun& column);
 int processes_at_once(const std::vector<ChildRun>& columns, const SweepJobs& jobs);
 
 // "kept", "done", or why it stopped.
-std::string outcome_of(const ChildRun& column);
+std::string run_outcome(const ChildRun& column);
 
 // "1.20/4 s": how far a run has come that is not finished, by its folder; "" before its first instant.
 std::string progress_in(const std::filesystem::path& folder);

@@ -10,8 +10,8 @@
 namespace hysteron::experiments {
 namespace {
 
-render::Series series_of(const TablePlot& plot, const std::filesystem::path& folder,
-                         const std::string& label) {
+render::Series table_series(const TablePlot& plot, const std::filesystem::path& folder,
+                            const std::string& label) {
   render::Series series = render::series_from_csv(folder / plot.file, plot.x, plot.y, label);
   series.style = plot.style;
   for (double& y : series.y) y *= plot.scale;
@@ -64,16 +64,16 @@ void unite_equal(std::vector<render::Series>& all) {
 }  // namespace
 
 void draw(Run& run, TablePlot plot, const std::string& label) {
-  plot.plot.series.push_back(series_of(plot, run.folder(), label));
+  plot.plot.series.push_back(table_series(plot, run.folder(), label));
   run.plot(plot.name, plot.plot);
 }
 
 void draw(Run& run, TablePlot plot, const std::vector<ChildRun>& columns) {
-  const std::vector<render::Rgb8> colors = colors_of(columns);
+  const std::vector<render::Rgb8> colors = column_colors(columns);
   std::vector<render::Series> own;
   for (std::size_t c = 0; c < columns.size(); ++c) {
     if (!columns[c].manifest || !std::filesystem::exists(columns[c].folder / plot.file)) continue;
-    render::Series series = series_of(plot, columns[c].folder, columns[c].name);
+    render::Series series = table_series(plot, columns[c].folder, columns[c].name);
     if (series.x.empty()) continue;
     series.color = render::hex(colors[c]);
     own.push_back(std::move(series));

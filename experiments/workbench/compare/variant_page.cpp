@@ -72,22 +72,22 @@ std::vector<Variant> in_one_frame(const CommandLine& line, std::vector<Variant> 
 
 }  // namespace
 
-std::vector<KeyDescription> page_keys() { return descriptions_of(kRows); }
+std::vector<KeyDescription> page_keys() { return key_descriptions(kRows); }
 
 int run_variants(const CommandLine& given, void (*once)(const CommandLine&),
-                 VariantPage (*page_of)(const CommandLine&, std::vector<Variant>&)) {
+                 VariantPage (*first_page)(const CommandLine&, std::vector<Variant>&)) {
   CommandLine line = given;
   const PageChoice choice = taken_from(line);
-  std::vector<Variant> variants = variants_of(line);
+  std::vector<Variant> variants = named_variants(line);
   if (variants.size() == 1) return once(line), 0;
-  VariantPage page = page_of(without_lists(line), variants);
+  VariantPage page = first_page(without_lists(line), variants);
   const Scene& scene = page.setup.scene;
   if (page.setup.options.checkpoint > 0)
     throw Error::invalid_input("--checkpoint is of single runs: name one law, fabric, integrator");
   if (!lists_fabrics(line)) page.title += ", " + scene.fabric.name;
   std::vector<ChildRun> columns;
   for (const Variant& variant : in_one_frame(line, variants))
-    columns.push_back(column_of(variant.name, line, variant.flags, page.setup.options.out));
+    columns.push_back(child_run(variant.name, line, variant.flags, page.setup.options.out));
   if (page.setup.options.explain) return explain_columns(columns), 0;
   check_batch(columns, choice.batch);
   page.keys["fabric"] = to_json(scene)["fabric"];  // of variants that name none
@@ -97,9 +97,9 @@ int run_variants(const CommandLine& given, void (*once)(const CommandLine&),
   const SweepJobs jobs{.threads = scene.threads,
                        .resume = page.setup.options.resume,
                        .gpu = scene.device != DeviceChoice::cpu,
-                       .go_on = true,
+                       .tolerates_failures = true,
                        .batch = choice.batch};
-  run_comparison(run, varied_of(variants), columns, jobs, page.metrics);
+  run_comparison(run, varied_key(variants), columns, jobs, page.metrics);
   for (const ChildRun& column : columns)
     if (column.exit_code == 1) throw Error::system(column.name + ": " + column.stopped);
   if (!page.setup.options.no_images) draw_page(run, page, columns);

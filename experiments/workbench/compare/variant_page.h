@@ -23,10 +23,11 @@ struct VariantPage {
 // Keys of such a page, which run_variants() takes off the line, for Experiment::own_keys.
 std::vector<KeyDescription> page_keys();
 
-// Runs the experiment `once`, or its page where the line names several variants.  `page_of` makes it from the
-// line without lists, and may change the variants.  A column that cannot go on has its message in the table.
-// Throws Error::invalid_input, and Error::system where that happens to a column.  Returns the exit code.
+// Runs the experiment `once`, or its page where the line names several variants.  `first_page` makes it from
+// the line without lists, and may change the variants.  A column that cannot go on has its message in the
+// table. Throws Error::invalid_input, and Error::system where that happens to a column.  Returns the exit
+// code.
 int run_variants(const CommandLine& line, void (*once)(const CommandLine&),
-                 VariantPage (*page_of)(const CommandLine& first, std::vector<Variant>& variants));
+                 VariantPage (*first_page)(const CommandLine& first, std::vector<Variant>& variants));
 
 }  // namespace hysteron::experiments

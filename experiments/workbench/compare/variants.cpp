@@ -13,10 +13,10 @@ namespace hysteron::experiments {
 namespace {
 
 // What the flag sets.
-std::string key_of(const Flag& flag) { return flag.path == "fabric.name" ? "fabric" : flag.path; }
+std::string flag_key(const Flag& flag) { return flag.path == "fabric.name" ? "fabric" : flag.path; }
 
 bool is_list(const Flag& flag) {
-  const std::string key = key_of(flag);
+  const std::string key = flag_key(flag);
   return (key == "law" || key == "fabric" || key == "integrator") &&
          (flag.text == "all" || flag.text.find_first_of(",+") != std::string::npos);
 }
@@ -26,7 +26,7 @@ std::vector<std::string> names_in(const CommandLine& line, const std::string& ke
                                   const std::vector<std::string>& every) {
   std::string text;
   for (const Flag& flag : line.flags)
-    if (key_of(flag) == key) text = flag.text;
+    if (flag_key(flag) == key) text = flag.text;
   if (text.empty()) return {""};
   return listed(text, every);
 }
@@ -40,7 +40,7 @@ void add_flags(std::vector<Flag>& flags, const std::string& path, const std::str
   while (std::getline(parts, part, '+')) {
     const std::size_t equals = part.find('=');
     if (equals == part.npos)
-      throw Error::invalid_input(text + ": \"" + part + "\" must be key=value").of(path, text);
+      throw Error::invalid_input(text + ": \"" + part + "\" must be key=value").with_key(path, text);
     flags.push_back({part.substr(0, equals), part.substr(equals + 1)});
   }
 }
@@ -54,7 +54,7 @@ std::vector<Variant> multiplied(const std::vector<Variant>& variants, const std:
       Variant one = variant;
       if (names.size() > 1 && name.empty())
         throw Error::invalid_input(path + " has a comma without a name before it (--" + path + ")")
-            .of(path, "");
+            .with_key(path, "");
       if (names.size() > 1) one.name += (one.name.empty() ? "" : "-") + column_name(name);
       if (!name.empty()) add_flags(one.flags, path, name);
       result.push_back(std::move(one));
@@ -85,13 +85,13 @@ void name_apart(std::vector<Variant>& variants) {
 std::vector<Flag> with_later(std::vector<Flag> flags, const std::vector<Flag>& later) {
   std::erase_if(flags, [&](const Flag& flag) {
     return std::any_of(later.begin(), later.end(),
-                       [&](const Flag& own) { return key_of(own) == key_of(flag); });
+                       [&](const Flag& own) { return flag_key(own) == flag_key(flag); });
   });
   flags.insert(flags.end(), later.begin(), later.end());
   return flags;
 }
 
-std::vector<Variant> variants_of(const CommandLine& line) {
+std::vector<Variant> named_variants(const CommandLine& line) {
   const std::vector<std::string> every_law = law_names();
   std::vector<Variant> variants = {{"", {}}};
   const std::pair<const char*, std::vector<std::string>> keys[] = {
@@ -117,15 +117,15 @@ std::string column_name(const std::string& text) {
   return name.empty() || name.front() == '.' ? "column" + name : name;
 }
 
-std::string varied_of(const std::vector<Variant>& variants) {
+std::string varied_key(const std::vector<Variant>& variants) {
   std::map<std::string, std::set<std::string>> texts;
   for (const Variant& variant : variants)
-    for (const Flag& flag : variant.flags) texts[key_of(flag)];
+    for (const Flag& flag : variant.flags) texts[flag_key(flag)];
   for (auto& [key, known] : texts)
     for (const Variant& variant : variants) {
       std::string own;
       for (const Flag& flag : variant.flags)
-        if (key_of(flag) == key) own = flag.text;
+        if (flag_key(flag) == key) own = flag.text;
       known.insert(own);
     }
   std::erase_if(texts, [](const auto& text) { return text.second.size() < 2; });
@@ -145,7 +145,7 @@ CommandLine without_lists(const CommandLine& line) {
 
 bool lists_fabrics(const CommandLine& line) {
   return std::any_of(line.flags.begin(), line.flags.end(),
-                     [](const Flag& flag) { return key_of(flag) == "fabric" && is_list(flag); });
+                     [](const Flag& flag) { return flag_key(flag) == "fabric" && is_list(flag); });
 }
 
 }  // namespace hysteron::experiments

@@ -18,12 +18,12 @@ struct Variant {
 // What --fabric, --law and --integrator name, each `all` or names separated by commas: every combination of
 // them. A name may carry further keys for itself: "linear+fabric.damping=1e-3".  One variant, without a name
 // where nothing is named, where none is a list.  Throws Error::invalid_input where two are the same.
-std::vector<Variant> variants_of(const CommandLine& line);
+std::vector<Variant> named_variants(const CommandLine& line);
 // Of a variant that a list calls so, and of its folder: files go by their stems, "../mine/wool.toml" by
 // "wool".
 std::string column_name(const std::string& text);
 // The one key in which they differ: "law", "fabric", "integrator"; "column" where it is several.
-std::string varied_of(const std::vector<Variant>& variants);
+std::string varied_key(const std::vector<Variant>& variants);
 // The flags and behind them the later ones, which take the place of those that set the same.
 std::vector<Flag> with_later(std::vector<Flag> flags, const std::vector<Flag>& later);
 // The line of that variant.

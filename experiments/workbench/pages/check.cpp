@@ -14,7 +14,7 @@ namespace hysteron::experiments {
 namespace {
 namespace fs = std::filesystem;
 
-std::optional<std::string> text_of(const fs::path& file) {
+std::optional<std::string> page_text(const fs::path& file) {
   if (!is_there(file)) return std::nullopt;
   return whole_file(file, "cannot read " + file.string());
 }
@@ -37,7 +37,7 @@ std::vector<fs::path> reports_below(const fs::path& folder) {
 std::vector<StalePage> stale_pages(const fs::path& folder) {
   std::vector<StalePage> stale;
   const auto check = [&](const fs::path& of, const char* name, const std::string& page) {
-    const std::optional<std::string> written = text_of(of / name);
+    const std::optional<std::string> written = page_text(of / name);
     if (!written || *written != page) stale.push_back({of / name, of, !written});
   };
   if (has_manifest(folder)) {

@@ -22,7 +22,7 @@ constexpr Source kSources[] = {{kStepError, "step"}, {kMeshError, "mesh"}, {kDra
 bool is_number(const Metrics& metrics, const std::string& name) { return metrics[name].is_number(); }
 
 // The power of ten that an error is rounded to.
-int place_of(double error) {
+int decimal_place(double error) {
   const std::string text = fmt::format("{:.0e}", error);  // "8e-01"
   return std::atoi(text.c_str() + 2) - (text[0] == '1' ? 1 : 0);
 }
@@ -36,26 +36,26 @@ std::string rounded(double x, int place) {
                : fmt::format("{:.{}f}", x, std::max(0, -place));
 }
 
-std::string rounded_error(double error) { return error > 0 ? rounded(error, place_of(error)) : "0"; }
+std::string rounded_error(double error) { return error > 0 ? rounded(error, decimal_place(error)) : "0"; }
 
 // With the decimals of its largest error, in another unit.
 std::string value_text(const MetricValue& value, double largest, double scale) {
   if (value.is_integer() && scale == 1) return shown(value);
-  if (largest > 0) return rounded(scale * value.number(), place_of(largest));
+  if (largest > 0) return rounded(scale * value.number(), decimal_place(largest));
   return shown(scale == 1 ? value : MetricValue(scale * value.number()));
 }
 
 // Value and errors of a headline whose errors were asked for.
 HeadlineWords scaled_words(const Metrics& metrics, const std::string& name, double scale) {
-  const auto error_of = [&](const std::string& key) { return scale * std::abs(metrics[key].number()); };
+  const auto metric_error = [&](const std::string& key) { return scale * std::abs(metrics[key].number()); };
   HeadlineWords words;
   double largest = 0;
   std::string unknown;
   for (const Source& source : kSources) {
     const std::string key = name + source.ending;
     if (is_number(metrics, key)) {
-      largest = std::max(largest, error_of(key));
-      words.errors = joined({words.errors, "± " + rounded_error(error_of(key)), source.word}, " ");
+      largest = std::max(largest, metric_error(key));
+      words.errors = joined({words.errors, "± " + rounded_error(metric_error(key)), source.word}, " ");
     } else {
       unknown += (unknown.empty() ? "" : " and ") + std::string(source.word);
     }
@@ -63,11 +63,11 @@ HeadlineWords scaled_words(const Metrics& metrics, const std::string& name, doub
   if (!unknown.empty()) words.errors += (words.errors.empty() ? "" : ", ") + unknown + " error unknown";
   if (const std::string path = name + kPathDifference; is_number(metrics, path))
     words.errors += std::string(", other path ") + (metrics[path].number() < 0 ? "-" : "+") +
-                    rounded_error(error_of(path));
+                    rounded_error(metric_error(path));
   if (const std::string mean = name + kDrawMean, error = name + kDrawMeanError;
       is_number(metrics, mean) && is_number(metrics, error))
-    words.errors += ", mean of draws " + value_text(metrics[mean], error_of(error), scale) + " ± " +
-                    rounded_error(error_of(error));
+    words.errors += ", mean of draws " + value_text(metrics[mean], metric_error(error), scale) + " ± " +
+                    rounded_error(metric_error(error));
   words.value = value_text(metrics[name], largest, scale);
   return words;
 }
@@ -80,7 +80,7 @@ bool is_headline(const Metrics& metrics, const std::string& name) {
                      [&](const Source& source) { return metrics.contains(name + source.ending); });
 }
 
-std::string headline_of(const Metrics& metrics, const std::string& name) {
+std::string described_headline(const Metrics& metrics, const std::string& name) {
   for (const char* ending :
        {kStepError, kMeshError, kDrawError, kDrawMeanError, kDrawMean, kPathDifference}) {
     const std::string end = ending;
@@ -91,7 +91,7 @@ std::string headline_of(const Metrics& metrics, const std::string& name) {
   return "";
 }
 
-HeadlineWords with_unrest(HeadlineWords words, const Metrics& metrics, const std::string& name) {
+HeadlineWords with_rest_warning(HeadlineWords words, const Metrics& metrics, const std::string& name) {
   const bool is_ours = !name.starts_with("published_");
   if (is_ours && metrics["settled"].is(false)) words.errors = joined({words.errors, "(not at rest)"}, " ");
   return words;
@@ -102,7 +102,7 @@ std::string HeadlineWords::text() const { return joined({value, unit, errors}, "
 HeadlineWords headline_words(const Metrics& metrics, const std::string& name) {
   HeadlineWords words = scaled_words(metrics, name, 1);
   words.unit = split_unit(name).unit;
-  return with_unrest(std::move(words), metrics, name);
+  return with_rest_warning(std::move(words), metrics, name);
 }
 
 HeadlineWords headline_words(const Metrics& metrics, const Headline& headline) {
@@ -117,7 +117,7 @@ HeadlineWords headline_words(const Metrics& metrics, const Headline& headline) {
     words.value = fmt::format(fmt::runtime(headline.format), headline.scale * metrics[name].number());
   }
   words.unit = headline.unit;
-  return with_unrest(std::move(words), metrics, name);
+  return with_rest_warning(std::move(words), metrics, name);
 }
 
 std::string with_errors(const Metrics& metrics, const std::string& name) {

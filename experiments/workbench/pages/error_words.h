@@ -22,7 +22,7 @@ inline constexpr const char* kStandardError = "_stderr";
 // Whether the metric's errors were asked for.
 bool is_headline(const Metrics& metrics, const std::string& name);
 // The headline that this metric is an error, a mean or a difference of; "" if none.
-std::string headline_of(const Metrics& metrics, const std::string& name);
+std::string described_headline(const Metrics& metrics, const std::string& name);
 
 // A headline in parts.  Errors have one significant digit, two if the first is 1, and the value ends where
 // the largest of them does.  An error that could not be measured is said to be unknown.
@@ -37,7 +37,7 @@ HeadlineWords headline_words(const Metrics& metrics, const Headline& headline);
 
 // Words on a result of cloth that should have come to rest and did not are marked as such: its shape is none
 // that could be measured.
-HeadlineWords with_unrest(HeadlineWords words, const Metrics& metrics, const std::string& name);
+HeadlineWords with_rest_warning(HeadlineWords words, const Metrics& metrics, const std::string& name);
 
 // Name, value, unit and errors in one line; without errors for a number that is no headline.
 std::string with_errors(const Metrics& metrics, const std::string& name);

@@ -29,7 +29,7 @@ void gather(const Exhibit& exhibit, std::set<std::string>& devices, std::set<std
   for (const Exhibit& part : exhibit.parts) gather(part, devices, dates);
 }
 
-std::string facts_of(const std::vector<ExhibitGroup>& groups) {
+std::string gallery_facts(const std::vector<ExhibitGroup>& groups) {
   std::set<std::string> devices, dates;
   std::size_t folders = 0;
   for (const ExhibitGroup& group : groups) {
@@ -44,7 +44,7 @@ std::string facts_of(const std::vector<ExhibitGroup>& groups) {
 }
 
 // Where the page has its numbers from.
-std::string origin_of(PageForm form) {
+std::string data_origin(PageForm form) {
   return form == PageForm::linked
              ? "Every number and picture is read from the folders beside this page; a picture "
                "leads to its full size."
@@ -53,14 +53,14 @@ std::string origin_of(PageForm form) {
 }
 
 // "drape" as "Drape"; names of instruments stay names.
-std::string title_of(std::string experiment) {
+std::string experiment_title(std::string experiment) {
   if (experiment == "kes") return "KES";
   return first_upper(experiment);
 }
 
 // The picture that the README above the gallery shows first, if it is one of the gallery's: what a reader saw
 // who comes from there.
-std::string teaser_of(const fs::path& folder, PageForm form) {
+std::string gallery_teaser(const fs::path& folder, PageForm form) {
   constexpr int kWidth = 1200;  // [pixels] of an embedded picture
   const fs::path above = fs::absolute(folder).lexically_normal(), readme = above.parent_path() / "README.md";
   const std::string name = above.filename().string() + "/";
@@ -71,8 +71,8 @@ std::string teaser_of(const fs::path& folder, PageForm form) {
   const std::string path = text.substr(open + 2 + name.size(), close - open - 2 - name.size()),
                     words = text.substr(image + 2, open - image - 2);
   if (!path.ends_with(".png") || !is_there(folder / path)) return "";
-  return filled("teaser.html", {{"link", form == PageForm::linked ? url_of(path) : ""},
-                                {"image", image_of({folder / path, path, words, kWidth}, form)},
+  return filled("teaser.html", {{"link", form == PageForm::linked ? relative_url(path) : ""},
+                                {"image", image_element({folder / path, path, words, kWidth}, form)},
                                 {"words", words}});
 }
 
@@ -98,15 +98,15 @@ std::string gallery_page(const std::filesystem::path& folder, PageForm form) {
   for (const ExhibitGroup& group : groups) {
     std::vector<Fields> exhibits;
     for (const Exhibit& exhibit : group.exhibits)
-      exhibits.push_back({{"anchor", anchor_of(exhibit)}, {"name", exhibit.name}, {"html", html[next++]}});
+      exhibits.push_back({{"anchor", page_anchor(exhibit)}, {"name", exhibit.name}, {"html", html[next++]}});
     sections.push_back({{"experiment", group.experiment},
-                        {"title", title_of(group.experiment)},
-                        {"question", first_upper(question_of(group.experiment))},
+                        {"title", experiment_title(group.experiment)},
+                        {"question", first_upper(experiment_question(group.experiment))},
                         {"exhibits", exhibits}});
   }
-  const std::string body = filled("gallery.html", {{"facts", facts_of(groups)},
-                                                   {"from", origin_of(form)},
-                                                   {"teaser", teaser_of(folder, form)},
+  const std::string body = filled("gallery.html", {{"facts", gallery_facts(groups)},
+                                                   {"from", data_origin(form)},
+                                                   {"teaser", gallery_teaser(folder, form)},
                                                    {"groups", sections}});
   return html_page("hysteron: results", body, "gallery");
 }

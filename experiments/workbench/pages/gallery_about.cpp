@@ -19,7 +19,7 @@ std::string named_or_counted(const std::vector<std::string>& names, const std::s
 }
 
 // Of one fabric or several.
-std::string fabrics_of(const SceneRecord& scene) {
+std::string fabric_names(const SceneRecord& scene) {
   if (!scene.fabric.name.empty()) return scene.fabric.name;
   const std::string several = named_or_counted(scene.fabrics, "fabric");
   return several.starts_with("fabric ") ? several.substr(7) : several;
@@ -37,7 +37,7 @@ std::string first_upper(std::string text) {
   return text;
 }
 
-std::string question_of(const std::string& name) { return experiment_named(name).question; }
+std::string experiment_question(const std::string& name) { return experiment_named(name).question; }
 
 std::string counted(std::size_t count, const std::string& thing) {
   return std::to_string(count) + " " + thing + (count == 1 ? "" : "s");
@@ -47,19 +47,19 @@ std::string seconds_text(double seconds) {
   return seconds < 100 ? fmt::format("{:.3g} s", seconds) : fmt::format("{:.0f} s", seconds);
 }
 
-std::string subject_of(const SceneRecord& scene) {
-  return joined({fabrics_of(scene), named_or_counted(scene.laws, "law")}, ", ");
+std::string scene_subject(const SceneRecord& scene) {
+  return joined({fabric_names(scene), named_or_counted(scene.laws, "law")}, ", ");
 }
 
 std::string about_html(const Manifest& m) {
-  std::vector<std::string> facts = {subject_of(m.scene), named_or_counted(m.scene.elements, "element")};
+  std::vector<std::string> facts = {scene_subject(m.scene), named_or_counted(m.scene.elements, "element")};
   if (m.triangles) facts.push_back(std::to_string(*m.triangles) + " triangles");
   facts.push_back(m.precision.value_or(""));
   if (m.seconds_simulated) facts.push_back(seconds_text(*m.seconds_simulated) + " simulated");
   if (!m.wall_seconds.empty() && !m.batch) facts.push_back("computed in " + seconds_text(m.total_seconds()));
   facts.push_back(m.device.value_or(""));
   facts.push_back(m.started.substr(0, 10));
-  facts.push_back(program_of(m));
+  facts.push_back(program_description(m));
   for (std::string& fact : facts) {
     if (!fact.empty()) fact = "<span>" + escaped(fact) + "</span>";  // broken across lines between facts
   }

@@ -12,7 +12,7 @@ namespace hysteron::experiments {
 std::string joined(std::vector<std::string> texts, const std::string& between);
 std::string first_upper(std::string text);
 // What the experiment of that name asks; "" if there is none.
-std::string question_of(const std::string& experiment);
+std::string experiment_question(const std::string& experiment);
 // "3 rows", "1 row".
 std::string counted(std::size_t count, const std::string& thing);
 // "0.35 s", "20.6 s", "1042 s".
@@ -20,7 +20,7 @@ std::string seconds_text(double seconds);
 
 // Fabric and law, "cotton-broad, law prandtl", "cotton-broad, 14 laws"; what the manifest does not say is
 // left out.
-std::string subject_of(const SceneRecord& scene);
+std::string scene_subject(const SceneRecord& scene);
 
 // The same and more, as a paragraph of HTML: mesh, precision, times, device, date, program.
 std::string about_html(const Manifest& manifest);

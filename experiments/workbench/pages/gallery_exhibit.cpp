@@ -20,7 +20,7 @@ constexpr std::uintmax_t kLargestDrawing = 60000;  // [byte] SVG files above thi
 constexpr int kExhibitFrames = 12;
 
 // What names of files mean, see Options::look and Options::light.
-std::string words_of(std::string stem) {
+std::string stem_words(std::string stem) {
   static const std::map<std::string, std::string> kWords = {
       {"sheet", "contact sheet"},
       {"shadow", "shadow, from above"},
@@ -65,7 +65,7 @@ std::string first_sentences(const std::string& caption) {
 
 // ": cotton-broad, law prandtl, 0 to 3.67 s"
 std::string subject_words(const Manifest& manifest) {
-  std::string words = subject_of(manifest.scene);
+  std::string words = scene_subject(manifest.scene);
   if (const auto& seconds = manifest.seconds_simulated)
     words += (words.empty() ? "" : ", ") + ("0 to " + seconds_text(*seconds));
   return words.empty() ? "" : ": " + words;
@@ -83,7 +83,7 @@ struct Picture {
 };
 
 // Of the exhibit and its parts, the contact sheet first and plots last.
-std::vector<Picture> pictures_of(const Exhibit& exhibit, const std::string& prefix) {
+std::vector<Picture> exhibit_pictures(const Exhibit& exhibit, const std::string& prefix) {
   std::vector<fs::path> files = files_ending(exhibit.folder, ".png");
   for (const fs::path& file : files_ending(exhibit.folder, ".svg")) {
     if (!is_there(fs::path(file).replace_extension(".png"))) files.push_back(file);
@@ -98,14 +98,14 @@ std::vector<Picture> pictures_of(const Exhibit& exhibit, const std::string& pref
     const std::string name = file.filename().string(), written = captions[name];
     std::string caption = written;
     if (written.empty()) {
-      caption = first_upper(prefix + words_of(file.stem().string()));
+      caption = first_upper(prefix + stem_words(file.stem().string()));
       if (file.stem() == "sheet" && exhibit.manifest) caption += subject_words(*exhibit.manifest);
     }
     pictures.push_back({file, exhibit.name + "/" + name, caption});
   }
   for (const Exhibit& part : exhibit.parts) {
     const std::string name = fs::path(part.name).filename().string();
-    for (const Picture& picture : pictures_of(part, prefix + name + ": ")) pictures.push_back(picture);
+    for (const Picture& picture : exhibit_pictures(part, prefix + name + ": ")) pictures.push_back(picture);
   }
   return pictures;
 }
@@ -119,8 +119,8 @@ std::string figure(const Exhibit& exhibit, const Picture& picture, PageForm form
   const std::string shown = as_drawing ? svg : picture.link;
   const bool linked = form == PageForm::linked;
   return filled("picture.html",
-                {{"link", linked ? url_of(shown) : ""},
-                 {"image", image_of({as_drawing ? drawing : picture.file, shown, words, kWidth}, form)},
+                {{"link", linked ? relative_url(shown) : ""},
+                 {"image", image_element({as_drawing ? drawing : picture.file, shown, words, kWidth}, form)},
                  {"caption", first_sentences(picture.caption)},
                  {"drawing", linked && drawn && !as_drawing ? html_link(svg, "SVG") : ""}});
 }
@@ -129,7 +129,7 @@ std::string figure(const Exhibit& exhibit, const Picture& picture, PageForm form
 // played.
 std::string pictures_html(const Exhibit& exhibit, PageForm form) {
   std::string large, beside, plots;
-  for (const Picture& picture : pictures_of(exhibit, "")) {
+  for (const Picture& picture : exhibit_pictures(exhibit, "")) {
     const bool sheet = picture.file.stem() == "sheet" && picture.file.parent_path() == exhibit.folder;
     (sheet ? large : is_drawn(picture.file) ? plots : beside) += figure(exhibit, picture, form);
   }
@@ -146,7 +146,7 @@ std::string metrics_html(const Manifest& manifest) {
   Metrics first;
   std::size_t cards = 0;
   for (const auto& [key, value] : manifest.metrics)
-    if (!headline_of(manifest.metrics, key).empty() || (!is_numerics(key) && cards++ < kMaxCards))
+    if (!described_headline(manifest.metrics, key).empty() || (!is_numerics(key) && cards++ < kMaxCards))
       first.set(key, value);
   return metric_cards(first);
 }
@@ -175,7 +175,7 @@ std::string parts_links(const Exhibit& exhibit, PageForm form) {
 }
 
 // Links to files, apart by dots.
-std::string links_of(const Exhibit& exhibit, PageForm form) {
+std::string exhibit_links(const Exhibit& exhibit, PageForm form) {
   std::string links;
   const auto add = [&](const std::string& name) {
     links += (links.empty() ? "" : " · ") + file_link(exhibit.name + "/" + name, name, form);
@@ -189,7 +189,7 @@ std::string links_of(const Exhibit& exhibit, PageForm form) {
 
 }  // namespace
 
-std::string anchor_of(const Exhibit& exhibit) {
+std::string page_anchor(const Exhibit& exhibit) {
   std::string anchor = exhibit.name;
   for (char& c : anchor) {
     if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-' && c != '_' && c != '.') c = '-';
@@ -201,7 +201,7 @@ std::string exhibit_html(const Exhibit& exhibit, PageForm form) {
   const std::optional<Manifest>& manifest = exhibit.manifest;
   const std::string metrics = manifest ? metrics_html(*manifest) + missing_errors(*manifest) : "";
   const std::vector<Fields> warnings = manifest ? shown_warnings(manifest->warnings) : std::vector<Fields>();
-  return filled("exhibit.html", {{"anchor", anchor_of(exhibit)},
+  return filled("exhibit.html", {{"anchor", page_anchor(exhibit)},
                                  {"name", exhibit.name},
                                  {"badge", manifest ? warning(*manifest) : ""},
                                  {"warnings", warnings},
@@ -210,7 +210,7 @@ std::string exhibit_html(const Exhibit& exhibit, PageForm form) {
                                  {"metrics", metrics},
                                  {"has_command", manifest.has_value()},
                                  {"command", manifest ? manifest->command : ""},
-                                 {"links", links_of(exhibit, form)}});
+                                 {"links", exhibit_links(exhibit, form)}});
 }
 
 }  // namespace hysteron::experiments

@@ -7,7 +7,7 @@
 namespace hysteron::experiments {
 
 // "stability/bdf2" -> "stability-bdf2": name of its place on the page.
-std::string anchor_of(const Exhibit& exhibit);
+std::string page_anchor(const Exhibit& exhibit);
 
 // Heading, contact sheet, metrics, pictures and plots, the command, links to the files.  Links are relative
 // to the gallery.  Throws Error::invalid_input, naming the file, if a picture is broken.

@@ -12,7 +12,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // As in --help; others follow in the order of their names.
-std::ptrdiff_t place_of(const std::string& name) {
+std::ptrdiff_t catalogue_index(const std::string& name) {
   const auto& all = experiments();
   return std::find_if(all.begin(), all.end(), [&](const Experiment& e) { return name == e.name; }) -
          all.begin();
@@ -48,7 +48,7 @@ std::vector<fs::path> subfolders(const fs::path& folder) {
 // `beside` receives the subfolders of a folder that is no run.
 void collect(const fs::path& folder, const std::string& name, std::vector<Exhibit>& beside);
 
-Exhibit exhibit_of(const fs::path& folder, const std::string& name, std::vector<Exhibit>& beside) {
+Exhibit folder_exhibit(const fs::path& folder, const std::string& name, std::vector<Exhibit>& beside) {
   Exhibit exhibit{name, folder, {}, {}};
   if (const fs::path file = folder / "manifest.json"; is_there(file)) exhibit.manifest = read_manifest(file);
   for (const fs::path& sub : subfolders(folder)) {
@@ -64,7 +64,7 @@ bool holds_anything(const Exhibit& exhibit) {
 }
 
 void collect(const fs::path& folder, const std::string& name, std::vector<Exhibit>& beside) {
-  Exhibit exhibit = exhibit_of(folder, name, beside);
+  Exhibit exhibit = folder_exhibit(folder, name, beside);
   if (holds_anything(exhibit)) beside.push_back(std::move(exhibit));
 }
 
@@ -89,7 +89,7 @@ std::vector<ExhibitGroup> exhibits_in(const fs::path& gallery) {
   }
   std::stable_sort(all.begin(), all.end(), [](const Exhibit& a, const Exhibit& b) {
     const auto key = [](const Exhibit& e) {
-      return std::tuple(place_of(e.experiment()), e.experiment(), !e.has_pictures(), e.name);
+      return std::tuple(catalogue_index(e.experiment()), e.experiment(), !e.has_pictures(), e.name);
     };
     return key(a) < key(b);
   });

@@ -72,7 +72,7 @@ std::string state_badge(const Manifest& manifest) {
                            : "<span class=\"state bad\">incomplete</span>";
 }
 
-std::string program_of(const Manifest& manifest) {
+std::string program_description(const Manifest& manifest) {
   return "hysteron " + manifest.version + ", commit " + manifest.commit.substr(0, 12) +
          (manifest.dirty ? ", modified" : "");
 }

@@ -32,6 +32,6 @@ bool is_numerics(const std::string& metric);
 std::string state_badge(const Manifest& manifest);
 
 // "hysteron 0.1.0, commit 0123456789ab, modified"
-std::string program_of(const Manifest& manifest);
+std::string program_description(const Manifest& manifest);
 
 }  // namespace hysteron::experiments

@@ -27,13 +27,13 @@ std::vector<std::pair<std::string, Metrics>> columns_in(const Metrics& metrics) 
 HeadlineWords metric_words(const Metrics& metrics, const std::string& key) {
   if (is_headline(metrics, key)) return headline_words(metrics, key);
   const HeadlineWords words{shown(metrics[key]), split_unit(key).unit, ""};
-  return is_asked_for(key) ? with_unrest(words, metrics, key) : words;
+  return is_asked_for(key) ? with_rest_warning(words, metrics, key) : words;
 }
 
 std::string metric_cards(const Metrics& metrics) {
   std::vector<Card> cards;
   for (const auto& [key, value] : metrics) {
-    if (key.find('.') != key.npos || !headline_of(metrics, key).empty()) continue;
+    if (key.find('.') != key.npos || !described_headline(metrics, key).empty()) continue;
     HeadlineWords words = metric_words(metrics, key);
     if (!is_headline(metrics, key)) {
       const ShownQuantity quantity = shown_quantity(metrics[key], words.unit);
@@ -46,7 +46,7 @@ std::string metric_cards(const Metrics& metrics) {
 
 namespace {
 
-Card card_of(const Metrics& metrics, const Headline& headline) {
+Card metric_card(const Metrics& metrics, const Headline& headline) {
   const std::string key = headline.metric;
   HeadlineWords words = headline_words(metrics, headline);
   if (!is_headline(metrics, key) && !metrics.contains(key + kStandardError) && headline.scale != 1) {
@@ -61,11 +61,12 @@ std::vector<Card> column_cards(const Manifest& manifest) {
   constexpr std::size_t kMax = 8;  // more are a table
   const std::string& compared = manifest.scene.compared;
   const auto columns = columns_in(manifest.metrics);
-  for (const Headline& headline : headlines_of(compared.empty() ? manifest.experiment : compared).all) {
+  for (const Headline& headline :
+       experiment_headlines(compared.empty() ? manifest.experiment : compared).all) {
     std::vector<Card> cards;
     for (const auto& [name, own] : columns) {
       if (!own[headline.metric].is_number()) continue;
-      cards.push_back(card_of(own, headline));
+      cards.push_back(metric_card(own, headline));
       cards.back().name = name + ": " + headline.words;
     }
     if (!cards.empty()) return cards.size() <= kMax ? cards : std::vector<Card>{};
@@ -77,20 +78,21 @@ std::vector<Card> column_cards(const Manifest& manifest) {
 
 std::string answer_cards(const Manifest& manifest) {
   std::vector<Card> cards;
-  for (const Headline& headline : headlines_of(manifest.experiment).all) {
+  for (const Headline& headline : experiment_headlines(manifest.experiment).all) {
     const MetricValue& value = manifest.metrics[headline.metric];
     if (value.is_text() && value.text() != "unknown") cards.push_back({value.text(), "", headline.words});
-    if (value.is_number()) cards.push_back(card_of(manifest.metrics, headline));
+    if (value.is_number()) cards.push_back(metric_card(manifest.metrics, headline));
   }
   return html_cards(cards.empty() ? column_cards(manifest) : cards);
 }
 
 Metrics further_metrics(const Manifest& manifest) {
   std::set<std::string> answers;
-  for (const Headline& headline : headlines_of(manifest.experiment).all) answers.insert(headline.metric);
+  for (const Headline& headline : experiment_headlines(manifest.experiment).all)
+    answers.insert(headline.metric);
   Metrics further;
   for (const auto& [key, value] : manifest.metrics) {
-    const std::string headline = headline_of(manifest.metrics, key);
+    const std::string headline = described_headline(manifest.metrics, key);
     if (!answers.contains(headline.empty() ? key : headline) && !is_numerics(key)) further.set(key, value);
   }
   return further;
@@ -109,7 +111,8 @@ std::string metric_table(const Metrics& metrics) {
   std::vector<std::string> keys;
   for (const auto& [name, own] : columns)
     for (const auto& [key, value] : own)
-      if (headline_of(own, key).empty() && !std::count(keys.begin(), keys.end(), key)) keys.push_back(key);
+      if (described_headline(own, key).empty() && !std::count(keys.begin(), keys.end(), key))
+        keys.push_back(key);
   std::vector<std::string> head = {""};
   std::vector<std::size_t> numeric;
   for (const std::string& key : keys) {

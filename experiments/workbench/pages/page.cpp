@@ -42,7 +42,8 @@ std::string linked_image(const std::string& path, const render::ImageSize& size,
       size == render::ImageSize{}
           ? ""
           : " width=\"" + std::to_string(size.width) + "\" height=\"" + std::to_string(size.height) + "\"";
-  return "<img loading=\"lazy\"" + place + " alt=\"" + escaped(words) + "\" src=\"" + url_of(path) + "\">";
+  return "<img loading=\"lazy\"" + place + " alt=\"" + escaped(words) + "\" src=\"" + relative_url(path) +
+         "\">";
 }
 
 std::string html_figure(const std::string& image, const std::string& caption) {
@@ -52,7 +53,7 @@ std::string html_figure(const std::string& image, const std::string& caption) {
 std::string html_table(const std::vector<std::string>& head,
                        const std::vector<std::vector<std::string>>& rows,
                        const std::vector<std::size_t>& numeric) {
-  const auto cells_of = [&](const std::vector<std::string>& texts) {
+  const auto row_cells = [&](const std::vector<std::string>& texts) {
     std::vector<Fields> cells;
     for (std::size_t i = 0; i < texts.size(); ++i) {
       const bool right = std::count(numeric.begin(), numeric.end(), i) > 0;
@@ -61,11 +62,11 @@ std::string html_table(const std::vector<std::string>& head,
     return cells;
   };
   std::vector<Fields> lines;
-  for (const auto& row : rows) lines.push_back({{"cells", cells_of(row)}});
-  return filled("table.html", {{"head", cells_of(head)}, {"rows", lines}});
+  for (const auto& row : rows) lines.push_back({{"cells", row_cells(row)}});
+  return filled("table.html", {{"head", row_cells(head)}, {"rows", lines}});
 }
 
-std::string url_of(const std::string& path) {
+std::string relative_url(const std::string& path) {
   static const char* const kDigits = "0123456789ABCDEF";
   std::string url;
   for (const char c : path) {
@@ -78,7 +79,7 @@ std::string url_of(const std::string& path) {
 }
 
 std::string html_link(const std::string& target, const std::string& text) {
-  return "<a href=\"" + url_of(target) + "\">" + escaped(text) + "</a>";
+  return "<a href=\"" + relative_url(target) + "\">" + escaped(text) + "</a>";
 }
 
 std::string file_link(const std::string& target, const std::string& text, PageForm form) {

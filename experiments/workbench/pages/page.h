@@ -38,7 +38,7 @@ std::string html_table(const std::vector<std::string>& head,
                        const std::vector<std::size_t>& numeric);
 
 // A relative path as the target of a link: what is no letter, digit, /, -, _, . or ~ as %XX.
-std::string url_of(const std::string& path);
+std::string relative_url(const std::string& path);
 std::string html_link(const std::string& target, const std::string& text);
 // The same to a file beside the page; the text alone where the page is self-contained.
 std::string file_link(const std::string& target, const std::string& text, PageForm form);

@@ -9,7 +9,7 @@ namespace {
 
 using kainjow::mustache::data;
 
-data data_of(const Fields& fields) {
+data template_data(const Fields& fields) {
   data object;
   for (const auto& [name, value] : fields.entries()) {
     if (const auto* text = std::get_if<std::string>(&value)) {
@@ -18,7 +18,7 @@ data data_of(const Fields& fields) {
       object.set(name, *truth);
     } else {
       kainjow::mustache::list list;
-      for (const Fields& entry : std::get<std::vector<Fields>>(value)) list.push_back(data_of(entry));
+      for (const Fields& entry : std::get<std::vector<Fields>>(value)) list.push_back(template_data(entry));
       object.set(name, std::move(list));
     }
   }
@@ -31,7 +31,7 @@ std::string filled(const std::string& name, const Fields& fields) {
   kainjow::mustache::mustache engine(embedded_text(name));
   if (!engine.is_valid()) throw std::logic_error("template " + name + ": " + engine.error_message());
   engine.set_custom_escape(escaped);
-  return engine.render(data_of(fields));
+  return engine.render(template_data(fields));
 }
 
 std::string embedded_text(const std::string& name) {

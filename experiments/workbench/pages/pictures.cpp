@@ -44,7 +44,7 @@ std::vector<fs::path> files_ending(const fs::path& folder, const std::string& en
   return files;
 }
 
-std::vector<std::uint8_t> bytes_of(const fs::path& file) {
+std::vector<std::uint8_t> content_bytes(const fs::path& file) {
   const std::string bytes = whole_file(file, "cannot read " + file.string());
   return {bytes.begin(), bytes.end()};
 }
@@ -65,13 +65,13 @@ render::ImageSize drawing_size(const fs::path& file) {
   return size.width > 0 && size.height > 0 ? size : render::ImageSize{};
 }
 
-std::string image_of(const PagePicture& picture, PageForm form) {
+std::string image_element(const PagePicture& picture, PageForm form) {
   const bool drawing = picture.file.extension() == ".svg";
   if (form == PageForm::linked)
     return linked_image(picture.path, drawing ? drawing_size(picture.file) : render::png_size(picture.file),
                         picture.words);
   const bool shrunk = !drawing && picture.width > 0;
-  return embedded_image(shrunk ? thumbnail(picture.file, picture.width) : bytes_of(picture.file),
+  return embedded_image(shrunk ? thumbnail(picture.file, picture.width) : content_bytes(picture.file),
                         drawing ? "image/svg+xml" : "image/png", picture.words);
 }
 
@@ -83,7 +83,7 @@ std::string player(const fs::path& folder, const std::string& path, int count, P
   in_parallel(chosen.size(), static_cast<int>(std::thread::hardware_concurrency()), [&](std::size_t i) {
     const fs::path& file = frames[static_cast<std::size_t>(chosen[i])];
     const std::string name = "frames/" + file.filename().string();
-    figures[i] = html_figure(image_of({file, path + name, name, kFrameWidth}, form), name);
+    figures[i] = html_figure(image_element({file, path + name, name, kFrameWidth}, form), name);
   });
   std::string html;
   for (const std::string& figure : figures) html += figure;

@@ -18,7 +18,7 @@ std::vector<std::filesystem::path> files_ending(const std::filesystem::path& fol
                                                 const std::string& ending);
 
 // Throws Error::system if the file cannot be read.
-std::vector<std::uint8_t> bytes_of(const std::filesystem::path& file);
+std::vector<std::uint8_t> content_bytes(const std::filesystem::path& file);
 
 bool is_plot(const std::filesystem::path& file);
 
@@ -37,7 +37,7 @@ struct PagePicture {
   std::string path, words;
   int width = 0;
 };
-std::string image_of(const PagePicture& picture, PageForm form);
+std::string image_element(const PagePicture& picture, PageForm form);
 
 // FOLDER/frames as a sequence that plays; at most `count` of them, spread over the whole of it.  `path` is
 // where the folder lies, seen from the page: "" or "NAME/".  "" if there are none.

@@ -1,7 +1,7 @@
 #include "experiments/workbench/pages/report.h"
 
 #include "experiments/workbench/app/manifest_file.h"
-#include "experiments/workbench/pages/closing_words.h"
+#include "experiments/workbench/pages/closing_summary.h"
 #include "experiments/workbench/pages/gallery_about.h"
 #include "experiments/workbench/pages/manifest.h"
 #include "experiments/workbench/pages/metrics.h"
@@ -19,16 +19,16 @@ using Rows = std::vector<std::vector<std::string>>;
 
 constexpr int kMaxFrames = 24;  // more would make a page of many megabytes
 
-std::string title_of(const Manifest& manifest, const std::string& between) {
+std::string report_title(const Manifest& manifest, const std::string& between) {
   const std::string& fabric = manifest.scene.fabric.name;
   return manifest.experiment + (fabric.empty() ? "" : between + fabric);
 }
 
-std::string about_of(const Manifest& manifest) {
+std::string law_and_program(const Manifest& manifest) {
   std::string about;
   if (manifest.scene.law) about += "law " + *manifest.scene.law + " · ";
   if (manifest.scene.element) about += "element " + *manifest.scene.element + " · ";
-  return about + manifest.started + " · " + program_of(manifest);
+  return about + manifest.started + " · " + program_description(manifest);
 }
 
 std::string energy_table(const Manifest& manifest) {
@@ -70,7 +70,7 @@ std::string run_table(const Manifest& m) {
 }
 
 std::string picture(const fs::path& file, const std::string& words, PageForm form) {
-  return html_figure(image_of({file, file.filename().string(), words}, form), words);
+  return html_figure(image_element({file, file.filename().string(), words}, form), words);
 }
 
 // Moment against curvature: of a probe, of cycles, of a law.
@@ -109,14 +109,14 @@ std::string turning_cloth(const fs::path& folder) {
   if (!is_there(file) || fs::file_size(file) > kMax) return "";
   return filled("turn.html",
                 {{"caption", "The cloth, to be turned: drag it, or use the arrow keys, + and -."},
-                 {"data", base64(bytes_of(file))}});
+                 {"data", base64(content_bytes(file))}});
 }
 
 // The question, the numbers and the picture that answer it.
 std::string answer(const fs::path& folder, const Manifest& manifest, PageForm form) {
   const fs::path sheet = folder / "sheet.png";
   return "<div class=\"answer\">" +
-         filled("answer.html", {{"question", question_of(manifest.experiment)},
+         filled("answer.html", {{"question", experiment_question(manifest.experiment)},
                                 {"numbers", answer_cards(manifest) + missing_errors(manifest)},
                                 {"picture", is_there(sheet) ? picture(sheet, "contact sheet", form) : ""},
                                 {"turn", turning_cloth(folder)}}) +
@@ -161,14 +161,14 @@ std::string report_page(const fs::path& folder, PageForm form) {
   std::vector<Fields> warnings;
   for (const std::string& text : manifest.warnings) warnings.push_back({{"text", text}});
   // A cloth that still moves has no shape that could be measured: the page says so before any number.
-  const std::string body = filled("report.html", {{"title", title_of(manifest, ": ")},
+  const std::string body = filled("report.html", {{"title", report_title(manifest, ": ")},
                                                   {"badge", state_badge(manifest)},
                                                   {"unrest", not_at_rest_warning(metrics)},
                                                   {"warnings", warnings},
-                                                  {"about", about_of(manifest)},
+                                                  {"about", law_and_program(manifest)},
                                                   {"command", manifest.command},
                                                   {"sections", all}});
-  return html_page(title_of(manifest, ", "), body);
+  return html_page(report_title(manifest, ", "), body);
 }
 
 fs::path write_report(const fs::path& folder, PageForm form) {

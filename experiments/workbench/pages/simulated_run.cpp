@@ -79,7 +79,7 @@ std::string solver_words(const Manifest& manifest) {
 
 std::string device_words(const Manifest& manifest) { return manifest.device.value_or("not known"); }
 
-std::string facts_of(const std::vector<std::string>& names, const std::vector<const Manifest*>& manifests) {
+std::string run_facts(const std::vector<std::string>& names, const std::vector<const Manifest*>& manifests) {
   std::string text;
   for (const Fact& fact : kFacts) {
     Said said = said_by(fact, names, manifests);
@@ -119,13 +119,13 @@ void write_run_captions(const std::filesystem::path& folder, std::vector<FigureC
   if (figures.empty()) return;  // without gnuplot
   for (std::size_t i = 1; i < figures.size(); ++i)
     figures[i].text += " The run is that of " + figures[0].file + ".";
-  figures[0].text += " " + facts_of({""}, {&manifest}) + " " + origin_words(manifest.command, &manifest);
+  figures[0].text += " " + run_facts({""}, {&manifest}) + " " + origin_words(manifest.command, &manifest);
   write_captions(folder / "README.md", figures[0].title,
                  "What the figures of this folder show, in words from the run's manifest.", figures);
 }
 
 std::string origin_words(const std::string& command, const Manifest* manifest) {
-  return "Written by `" + command + "`" + (manifest ? ", " + program_of(*manifest) : "") + ".";
+  return "Written by `" + command + "`" + (manifest ? ", " + program_description(*manifest) : "") + ".";
 }
 
 }  // namespace hysteron::experiments

@@ -25,7 +25,7 @@ std::string grouped(long count);
 
 // "Cloth: ... Fabric: ... Law: ... Solver: ... Device: ..." of runs with these names: each fact once, and
 // where some differ, theirs with their names.
-std::string facts_of(const std::vector<std::string>& names, const std::vector<const Manifest*>& manifests);
+std::string run_facts(const std::vector<std::string>& names, const std::vector<const Manifest*>& manifests);
 
 // A figure with its caption, for readers and for the gallery, which shows captions below its pictures.
 struct FigureCaption {

@@ -16,7 +16,7 @@ Table table_of(const fs::path& file) { return is_there(file) ? read_table(file) 
 // Columns that say the same in every row stand above the table.
 std::string shown_table(Table table) {
   const std::string common = take_common(table);
-  return (common.empty() ? "" : html_about("In all rows " + common)) + html_of(table);
+  return (common.empty() ? "" : html_about("In all rows " + common)) + text_table_html(table);
 }
 
 // "1, 2, 3"; of many the first few and the last.
@@ -55,7 +55,7 @@ std::string study_means(const fs::path& folder) {
 std::string study_failures(const fs::path& folder) {
   Table table = table_of(folder / "table.csv").only({"run", "exit_code", "stopped"});
   std::erase_if(table.rows, [](const auto& row) { return row.back().empty(); });
-  return table.rows.empty() ? "" : html_of(table);
+  return table.rows.empty() ? "" : text_table_html(table);
 }
 
 std::string study_runs(const fs::path& folder) {

@@ -55,7 +55,7 @@ std::string take_common(Table& table) {
   return common;
 }
 
-std::string html_of(const Table& table) {
+std::string text_table_html(const Table& table) {
   std::vector<std::string> head;
   std::vector<std::size_t> right;
   for (std::size_t c = 0; c < table.head.size(); ++c) {

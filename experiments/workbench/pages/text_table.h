@@ -12,6 +12,6 @@ namespace hysteron::experiments {
 std::string take_common(Table& table);
 
 // HTML: names with their units apart, long numbers with six digits, numbers to the right.
-std::string html_of(const Table& table);
+std::string text_table_html(const Table& table);
 
 }  // namespace hysteron::experiments

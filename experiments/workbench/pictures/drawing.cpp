@@ -37,7 +37,7 @@ render::PictureSize picture_size(const Options& options) {
   return size;
 }
 
-render::Camera camera_of(const Options& options, const render::Box& bounds) {
+render::Camera framed_camera(const Options& options, const render::Box& bounds) {
   const float aspect = static_cast<float>(options.width()) / static_cast<float>(options.height());
   const Eigen::Vector3f direction = options.camera_direction.cast<float>();
   const float fov = static_cast<float>(options.camera_fov);

@@ -17,7 +17,7 @@ namespace hysteron::experiments {
 // The options' size and quality.
 render::PictureSize picture_size(const Options& options);
 // The options' camera: as near as `bounds`, or the options' box, stays whole, unless they give a distance.
-render::Camera camera_of(const Options& options, const render::Box& bounds);
+render::Camera framed_camera(const Options& options, const render::Box& bounds);
 // The look in the options' light, "studio" or "raking", before their background.
 render::Look lit(render::Look look, const Options& options);
 

@@ -79,7 +79,7 @@ render::Rgb8 lighter(render::Rgb8 color) {
   return color;
 }
 
-render::Weave weave_of(const Table& table) {
+render::Weave fabric_weave(const Table& table) {
   try {
     return render::weave_named(table.text("weave"));
   } catch (const Error& error) {
@@ -98,7 +98,7 @@ render::Look dressed(render::Look look, const std::string& fabric) {
   const Table table(file, *node);
   look.front = table.colour("colour");
   look.back = table.has("back") ? table.colour("back") : lighter(look.front);
-  look.weave_kind = weave_of(table);
+  look.weave_kind = fabric_weave(table);
   const std::vector<double> threads = table.numbers("threads", 2, 1, 200);
   look.thread_spacing = static_cast<float>(0.01 / threads[0]);
   look.weft_spacing = static_cast<float>(0.01 / threads[1]);

@@ -14,7 +14,7 @@ constexpr int kTriangles = 400;
 // Of the box's diagonal: a fine mesh passes a little beside a coarse one.
 constexpr float kRoom = 0.03f;
 
-render::Box box_of(const std::vector<Eigen::Vector3d>& x) {
+render::Box bounding_box(const std::vector<Eigen::Vector3d>& x) {
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& p : x) box.extend(p);
   return {box.min().cast<float>(), box.max().cast<float>()};
@@ -42,7 +42,7 @@ struct Trial {
 };
 
 // On the scene's own mesh where a coarse one cannot start, as when pins select none of its vertices.
-std::unique_ptr<Trial> trial_of(const Scene& scene) {
+std::unique_ptr<Trial> framing_trial(const Scene& scene) {
   if (scene.triangles <= kTriangles && scene.cloth.subdivisions == 0) return std::make_unique<Trial>(scene);
   Scene coarse = scene;
   coarse.triangles = std::min(scene.triangles, kTriangles);
@@ -60,17 +60,17 @@ int steps_per_frame(const Setup& setup) {
   return std::max(1, static_cast<int>(std::lround(1 / (setup.options.fps * setup.scene.step))));
 }
 
-Framing framing_of(const Setup& setup, const render::Box& known) {
+Framing scene_framing(const Setup& setup, const render::Box& known) {
   const Scene& scene = setup.scene;
-  const auto trial = trial_of(scene);
+  const auto trial = framing_trial(scene);
   Simulation& simulation = *trial->simulation;
-  Framing framing{box_of(trial->cloth.start), trial->cloth.mesh.faces()};
+  Framing framing{bounding_box(trial->cloth.start), trial->cloth.mesh.faces()};
   const long steps = std::lround(scene.seconds / scene.step);
   try {
     while (simulation.steps() < steps) {
       simulation.advance(
           static_cast<int>(std::min<long>(steps_per_frame(setup), steps - simulation.steps())));
-      framing.box = framing.box.merged(box_of(simulation.positions()));
+      framing.box = framing.box.merged(bounding_box(simulation.positions()));
     }
   } catch (const Error& error) {
     framing.stopped = error.what();
@@ -83,7 +83,7 @@ std::optional<render::Box> planned_framing(const Setup& setup,
                                            render::Box (*known)(const Scene&, const Cloth&)) {
   const Options& options = setup.options;
   if (options.no_images || options.explain || !options.camera_box.empty()) return {};
-  return framing_of(setup, known(setup.scene, make_cloth(setup.scene))).box;
+  return scene_framing(setup, known(setup.scene, make_cloth(setup.scene))).box;
 }
 
 }  // namespace hysteron::experiments

@@ -22,7 +22,7 @@ struct Framing {
 // Simulates the scene on a coarse mesh, or on its own where that is a file, and frames `known`, which the
 // cloth is expected to pass through; where it leaves that at the times of pictures, with some room, what it
 // passes through as well.  Throws what make_cloth() and make_simulation() do.
-Framing framing_of(const Setup& setup, const render::Box& known);
+Framing scene_framing(const Setup& setup, const render::Box& known);
 // The same before the run, so that several have one; nothing where it draws no pictures or its options say
 // what they frame.
 std::optional<render::Box> planned_framing(const Setup& setup,

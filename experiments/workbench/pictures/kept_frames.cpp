@@ -32,10 +32,10 @@ Json setup_json(const Setup& setup) {
   return {{"scene", scene}, {"options", to_json(keys)}};
 }
 
-std::map<std::string, double> quanta_of(const Setup& setup) {
+std::map<std::string, double> storage_quanta(const Setup& setup) {
   std::map<std::string, double> quanta;
   for (const std::string& name : setup.options.looks()) {
-    const render::Look look = look_of(setup.scene, setup.options, name);
+    const render::Look look = scene_look(setup.scene, setup.options, name);
     quanta[name] = (look.value_high - look.value_low) / kStepsAcross;
   }
   return quanta;
@@ -64,19 +64,20 @@ KeptFrames::KeptFrames(const Setup& setup, const DrawnMesh& mesh, const render::
     : mesh_(mesh),
       packer_(mesh.vertices, mesh.triangles),
       cloth_{"", 0, setup_json(setup), bounds, floor, {}},
-      quanta_(quanta_of(setup)) {}
+      quanta_(storage_quanta(setup)) {}
 
 void KeptFrames::add(const fs::path& file, KeptState instant) {
-  if (!has_begun_) append(file, std::ios::trunc, text_of(mesh_record(mesh_)) + text_of(cloth_record(cloth_)));
+  if (!has_begun_)
+    append(file, std::ios::trunc, record_text(mesh_record(mesh_)) + record_text(cloth_record(cloth_)));
   has_begun_ = true;
-  append(file, std::ios::app, text_of(instant_record(mesh_, packer_, instant, quanta_)));
+  append(file, std::ios::app, record_text(instant_record(mesh_, packer_, instant, quanta_)));
 }
 
 void KeptFrames::end(const fs::path& file, const KeptRecord& sheet) {
-  append(file, std::ios::app, text_of(sheet));
+  append(file, std::ios::app, record_text(sheet));
 }
 
-void KeptFrames::go_on(const fs::path& file, std::size_t instants) {
+void KeptFrames::continue_file(const fs::path& file, std::size_t instants) {
   std::vector<int> all(instants);
   for (std::size_t i = 0; i < instants; ++i) all[i] = static_cast<int>(i);
   write_records(file, chosen_records(file, all));
@@ -102,11 +103,11 @@ std::vector<KeptRecord> chosen_records(const fs::path& frames, const std::vector
 
 void write_records(const fs::path& file, const std::vector<KeptRecord>& records) {
   std::string text;
-  for (const KeptRecord& record : records) text += text_of(record);
+  for (const KeptRecord& record : records) text += record_text(record);
   write_text(file, text);
 }
 
-Setup setup_of(const KeptCloth& cloth, const std::string& file) {
+Setup kept_setup(const KeptCloth& cloth, const std::string& file) {
   Setup setup{default_scene(), {}};
   apply_recorded_scene(setup.scene, cloth.setup.at("scene"), file);
   assign_all(bind_options(setup.options), cloth.setup.at("options"), "", file);

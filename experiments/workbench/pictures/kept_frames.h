@@ -22,7 +22,7 @@ class KeptFrames {
   // Appends how the sheet of these instants is headed, as the file beside the sheet has it.
   static void end(const std::filesystem::path& file, const KeptRecord& sheet);
   // A run goes on that had kept at least as many instants: those behind them go.
-  void go_on(const std::filesystem::path& file, std::size_t instants);
+  void continue_file(const std::filesystem::path& file, std::size_t instants);
   // Multiple to which a look's values are rounded, in their unit.
   double quantum(const std::string& look) const { return quanta_.at(look); }
 
@@ -41,6 +41,6 @@ void write_records(const std::filesystem::path& file, const std::vector<KeptReco
 
 // Scene and options that draw the cloth; `file` names it in messages.  Throws Error::invalid_input for what
 // this program does not know.
-Setup setup_of(const KeptCloth& cloth, const std::string& file);
+Setup kept_setup(const KeptCloth& cloth, const std::string& file);
 
 }  // namespace hysteron::experiments

@@ -16,14 +16,14 @@ constexpr std::size_t kMaxHead = 1 << 20;  // [byte] of a record's line
 std::vector<int> all_steps(std::span<const float> values, double quantum) {
   std::vector<int> steps;
   steps.reserve(values.size());
-  for (const float value : values) steps.push_back(steps_of(value, quantum));
+  for (const float value : values) steps.push_back(quantum_count(value, quantum));
   return steps;
 }
 
 std::vector<float> all_values(const std::vector<int>& steps, double quantum) {
   std::vector<float> values;
   values.reserve(steps.size());
-  for (const int step : steps) values.push_back(value_of(step, quantum));
+  for (const int step : steps) values.push_back(dequantized(step, quantum));
   return values;
 }
 
@@ -49,7 +49,7 @@ const std::string& block(const KeptRecord& record, std::size_t i) {
   return record.blocks[i];
 }
 
-DrawnMesh mesh_of(const KeptRecord& record) {
+DrawnMesh record_mesh(const KeptRecord& record) {
   DrawnMesh mesh;
   mesh.vertices = record.head.at("vertices");
   mesh.quantum = record.head.at("quantum");
@@ -60,7 +60,7 @@ DrawnMesh mesh_of(const KeptRecord& record) {
   return mesh;
 }
 
-KeptCloth cloth_of(const KeptRecord& record, std::size_t meshes) {
+KeptCloth kept_cloth(const KeptRecord& record, std::size_t meshes) {
   KeptCloth cloth;
   cloth.name = record.head.at("name");
   cloth.mesh = record.head.at("mesh");
@@ -68,12 +68,12 @@ KeptCloth cloth_of(const KeptRecord& record, std::size_t meshes) {
   cloth.setup = Json::parse(inflated(block(record, 0), record.head.at("setup_bytes")));
   const auto corners = record.head.at("bounds").get<std::vector<float>>();
   if (corners.size() != 6) throw Error::invalid_input("bounds have other than six numbers");
-  cloth.bounds = render::box_of(corners);
+  cloth.bounds = render::bounding_box(corners);
   if (!record.head.at("floor").is_null()) cloth.floor = record.head.at("floor").get<float>();
   return cloth;
 }
 
-KeptState instant_of(const KeptRecord& record, const DrawnMesh& mesh, const MeshPacker& packer) {
+KeptState instant_state(const KeptRecord& record, const DrawnMesh& mesh, const MeshPacker& packer) {
   KeptState instant;
   instant.time = record.head.at("time");
   instant.loop = record.head.at("loop");
@@ -84,20 +84,20 @@ KeptState instant_of(const KeptRecord& record, const DrawnMesh& mesh, const Mesh
   return instant;
 }
 
-Kept kept_of(const std::vector<KeptRecord>& records) {
+Kept kept_contents(const std::vector<KeptRecord>& records) {
   Kept kept;
   std::vector<MeshPacker> packers;
   for (const KeptRecord& record : records) {
     const std::string kind = record.kind();
     if (kind == "mesh") {
-      kept.meshes.push_back(mesh_of(record));
+      kept.meshes.push_back(record_mesh(record));
       packers.emplace_back(kept.meshes.back().vertices, kept.meshes.back().triangles);
     } else if (kind == "cloth") {
-      kept.cloths.push_back(cloth_of(record, kept.meshes.size()));
+      kept.cloths.push_back(kept_cloth(record, kept.meshes.size()));
     } else if (kind == "instant") {
       if (kept.cloths.empty()) throw Error::invalid_input("an instant stands before its cloth");
       KeptCloth& cloth = kept.cloths.back();
-      cloth.instants.push_back(instant_of(record, kept.meshes[cloth.mesh], packers[cloth.mesh]));
+      cloth.instants.push_back(instant_state(record, kept.meshes[cloth.mesh], packers[cloth.mesh]));
     } else if (kind == "sheet") {
       kept.sheet = record.head;
     }
@@ -107,12 +107,12 @@ Kept kept_of(const std::vector<KeptRecord>& records) {
 
 }  // namespace
 
-int steps_of(double value, double quantum) { return static_cast<int>(std::lround(value / quantum)); }
+int quantum_count(double value, double quantum) { return static_cast<int>(std::lround(value / quantum)); }
 
 std::vector<float> rounded(std::span<const float> values, double quantum) {
   std::vector<float> result;
   result.reserve(values.size());
-  for (const float value : values) result.push_back(value_of(steps_of(value, quantum), quantum));
+  for (const float value : values) result.push_back(dequantized(quantum_count(value, quantum), quantum));
   return result;
 }
 
@@ -151,7 +151,7 @@ KeptRecord instant_record(const DrawnMesh& mesh, const MeshPacker& packer, const
   return record;
 }
 
-std::string text_of(const KeptRecord& record) {
+std::string record_text(const KeptRecord& record) {
   Json head = record.head;
   head["bytes"] = Json::array();
   for (const std::string& block : record.blocks) head["bytes"].push_back(block.size());
@@ -177,7 +177,7 @@ std::vector<KeptRecord> read_records(const fs::path& file) {
 Kept read_kept(const fs::path& file) {
   const std::vector<KeptRecord> records = read_records(file);
   try {
-    return kept_of(records);
+    return kept_contents(records);
   } catch (const std::exception& e) {
     throw Error::invalid_input(file.string() + ": " + e.what());
   }

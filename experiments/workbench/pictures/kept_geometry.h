@@ -30,8 +30,8 @@ inline constexpr const char* kKeptFrames = "frames.hyg";  // of all pictures of 
 inline constexpr const char* kKeptSheet = "sheet.hyg";    // of those on its sheet
 
 // The nearest multiple.
-int steps_of(double value, double quantum);
-inline float value_of(int steps, double quantum) { return static_cast<float>(quantum * steps); }
+int quantum_count(double value, double quantum);
+inline float dequantized(int steps, double quantum) { return static_cast<float>(quantum * steps); }
 std::vector<float> rounded(std::span<const float> values, double quantum);
 
 struct DrawnMesh {
@@ -77,7 +77,7 @@ KeptRecord cloth_record(const KeptCloth& cloth);
 KeptRecord instant_record(const DrawnMesh& mesh, const MeshPacker& packer, const KeptState& instant,
                           const std::map<std::string, double>& quanta);
 
-std::string text_of(const KeptRecord& record);
+std::string record_text(const KeptRecord& record);
 // Whole records; what stands behind the last one is left out.  Throws Error::invalid_input, naming the file,
 // for what is no file of these, Error::system if it cannot be read.
 std::vector<KeptRecord> read_records(const std::filesystem::path& file);

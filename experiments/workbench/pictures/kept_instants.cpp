@@ -34,11 +34,12 @@ std::vector<KeptInstant> KeptInstants::chosen(int count, double until) const {
   std::vector<double> moved;
   for (std::size_t i = 0; i < all_.size() && all_[i].time <= until; ++i) moved.push_back(moved_[i]);
   std::vector<KeptInstant> chosen;
-  for (int i : render::spread_by_way(moved, count)) chosen.push_back(all_[static_cast<std::size_t>(i)]);
+  for (int i : render::spread_by_displacement(moved, count))
+    chosen.push_back(all_[static_cast<std::size_t>(i)]);
   return chosen;
 }
 
-void KeptInstants::visit(Archive& archive) {
+void KeptInstants::serialise(Archive& archive) {
   archive(moved_);
   archive(last_);
   all_.resize(archive.size(all_.size()));

@@ -30,7 +30,7 @@ class KeptInstants {
   const std::vector<KeptInstant>& all() const { return all_; }
   // `count` of those up to a time [s], apart by what moves between them.
   std::vector<KeptInstant> chosen(int count, double until = INFINITY) const;
-  void visit(Archive& archive);
+  void serialise(Archive& archive);
 
  private:
   static constexpr std::size_t kMax = 48;

@@ -13,7 +13,7 @@
 namespace hysteron::experiments {
 namespace {
 
-render::Look look_of(const Options& options, const MeshPictures::Choice& choice) {
+render::Look mesh_look(const Options& options, const MeshPictures::Choice& choice) {
   render::Look look = render::look_named(options.look);
   if (look.show == render::Show::curvature) {
     look.value_high = static_cast<float>(choice.range);
@@ -47,7 +47,7 @@ render::TriangleMesh matte_mesh(const Surface& surface) {
 MeshPictures::MeshPictures(const Options& options, const Choice& choice)
     : options_(options),
       choice_(choice),
-      look_(look_of(options, choice)),
+      look_(mesh_look(options, choice)),
       offscreen_(render::Offscreen::create(render::renderer_named(options.renderer))),
       view_(*offscreen_, picture_size(options)) {
   view_.set_look(look_);
@@ -59,7 +59,7 @@ void MeshPictures::add_body(const Surface& body) {
   view_.add_obstacle(matte_mesh(body), Eigen::Matrix4f::Identity());
 }
 
-std::vector<float> MeshPictures::curvature_of(const Surface& frame, const std::string& what) const {
+std::vector<float> MeshPictures::frame_curvature(const Surface& frame, const std::string& what) const {
   if (!choice_.stored_curvature) return surface_curvature(frame.vertex, frame.face, what);
   return {frame.curvature.begin(), frame.curvature.end()};
 }
@@ -72,7 +72,7 @@ render::Image MeshPictures::picture(const Surface& frame, const std::string& wha
   }
   view_.set_positions(flat_points(frame.vertex));
   if (look_.show == render::Show::curvature) {
-    curvature_ = curvature_of(frame, what);
+    curvature_ = frame_curvature(frame, what);
     view_.set_values(curvature_);
   }
   render::Image image = view_.draw(camera());

@@ -37,14 +37,14 @@ class MeshPictures {
   render::Image picture(const Surface& frame, const std::string& what);
   // Caption, scale and colour bar.
   void letter_picture(render::Image& image, const std::string& caption) const;
-  render::Camera camera() const { return camera_of(options_, choice_.bounds); }
+  render::Camera camera() const { return framed_camera(options_, choice_.bounds); }
   double metres_per_pixel() const;
   std::optional<render::ColorBar> color_bar() const;  // of looks that show a value
   // Root of the mean square over the vertices last pictured [1/m]; nothing in other looks than "curvature".
   std::optional<double> curvature_rms() const;
 
  private:
-  std::vector<float> curvature_of(const Surface& frame, const std::string& what) const;
+  std::vector<float> frame_curvature(const Surface& frame, const std::string& what) const;
 
   Options options_;
   Choice choice_;

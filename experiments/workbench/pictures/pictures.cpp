@@ -25,7 +25,7 @@ constexpr double kAlike = 0.02;            // FLIP of two of them that show the 
 constexpr double kCellPixels = 560 * 420;  // drawn for each of them
 constexpr float kSheetRoom = 0.06f;        // around what is shown there, of either side
 constexpr int kSkins = 14;                 // of a motion in one picture
-constexpr float kInsetShare = 0.18f;       // of a picture, which is wide
+constexpr float kInsetFraction = 0.18f;    // of a picture, which is wide
 
 // "frames/0012.png"; of further looks "frames-LOOK/0012.png".
 std::string frame_file(const std::string& look, bool first, int number) {
@@ -37,7 +37,7 @@ Error no_cloth_in(const std::string& picture, double time) {
       fmt::format("{} shows no cloth at t = {:.3f} s: frame where it is (--camera.box)", picture, time));
 }
 
-float aspect_of(const Options& options) {
+float picture_aspect(const Options& options) {
   return static_cast<float>(options.width()) / static_cast<float>(options.height());
 }
 
@@ -47,7 +47,7 @@ render::Image small_copy(const render::Image& cell) {
   return render::shrink(cell, std::max(1, cell.width() / kSmaller), std::max(1, cell.height() / kSmaller));
 }
 
-std::vector<double> times_of(const std::vector<KeptInstant>& instants) {
+std::vector<double> instant_times(const std::vector<KeptInstant>& instants) {
   std::vector<double> times;
   for (const KeptInstant& instant : instants) times.push_back(instant.time);
   return times;
@@ -97,7 +97,7 @@ Pictures::Pictures(const Setup& setup, std::unique_ptr<Subject> subject, const r
   });
 }
 
-render::Camera Pictures::camera() const { return camera_of(options_, bounds_); }
+render::Camera Pictures::camera() const { return framed_camera(options_, bounds_); }
 
 // The studio's thread reads the options while it draws.
 void Pictures::set_light(const std::string& light) {
@@ -132,10 +132,10 @@ render::Image Pictures::picture(const std::string& look, const render::Camera& c
   const SceneRenderer::Shown shown{subject_->time(), subject_->values(look)};
   return scene_renderer_.run([&](SceneRenderer& studio) {
     const Stopwatch watch(render_seconds_);
-    render::Image image = studio.draw(look_of(scene_, options_, look), camera, shown);
+    render::Image image = studio.draw(scene_look(scene_, options_, look), camera, shown);
     if (!studio.view().shows_cloth()) throw no_cloth_in("the picture of look " + look, shown.time);
     if (!options_.plain)
-      letter(image, camera, bounds_.center(), captioned(text), color_bar_of(scene_, options_, look));
+      letter(image, camera, bounds_.center(), captioned(text), value_color_bar(scene_, options_, look));
     return image;
   });
 }
@@ -150,10 +150,10 @@ void Pictures::note_frame(Run& run, const std::vector<Order>& orders, const std:
   instant.difference_rms = difference;
   for (const Order& order : orders) {
     frames->looks.push_back({order.look});
-    if (const auto bar = color_bar_of(scene_, options_, order.look))
+    if (const auto bar = value_color_bar(scene_, options_, order.look))
       frames->looks.back().bar = {bar->label, bar->unit, bar->low, bar->high};
   }
-  const render::Window at = camera().window_of(xyz, aspect_of(options_));
+  const render::Window at = camera().image_window(xyz, picture_aspect(options_));
   instant.cloth = {at.left, 1 - at.top, at.right, 1 - at.bottom};
   instant.moved = kept_.add(
       {instant.time, xyz, orders.front().shown.values, when(instant.time), orders.front().loop.path});
@@ -162,7 +162,7 @@ void Pictures::note_frame(Run& run, const std::vector<Order>& orders, const std:
 }
 
 void Pictures::watch_border(Run& run, const std::filesystem::path& file, const std::vector<float>& xyz) {
-  if (is_cut_off_ || camera().frames(xyz, aspect_of(options_))) return;
+  if (is_cut_off_ || camera().frames(xyz, picture_aspect(options_))) return;
   is_cut_off_ = true;
   run.warn(
       fmt::format("from t = {:.3f} s on ({}) the cloth is cut off at the border of pictures: --camera.box "
@@ -202,16 +202,17 @@ void Pictures::frame(Run& run, const std::vector<Eigen::Vector3d>& x, const rend
 
 // On the studio's thread.
 void Pictures::fill(SceneRenderer& studio, const Order& order) {
-  render::Image image = studio.draw_with_ghosts(look_of(scene_, options_, order.look), camera(), order.shown);
+  render::Image image =
+      studio.draw_with_ghosts(scene_look(scene_, options_, order.look), camera(), order.shown);
   if (!studio.view().shows_cloth()) {
     writer_.write(order.file, std::move(image));
     throw no_cloth_in(order.file.string(), order.shown.time);
   }
   if (!options_.plain) {
-    const auto bar = color_bar_of(scene_, options_, order.look);
+    const auto bar = value_color_bar(scene_, options_, order.look);
     letter(image, camera(), bounds_.center(), captioned(caption(order.shown.time)), bar);
     render::draw_loop(image, order.loop, bar ? render::Corner::top_right : render::Corner::bottom_right,
-                      kInsetShare, render::text_size(image));
+                      kInsetFraction, render::text_size(image));
   }
   writer_.write(order.file, std::move(image));
 }
@@ -226,7 +227,7 @@ render::Image Pictures::silhouette(double half_width, int pixels, double& metres
       [&](SceneRenderer& studio) { return studio.silhouette(subject_->mesh(), xyz, camera, pixels); });
 }
 
-void Pictures::visit(Archive& archive, Run& run) {
+void Pictures::serialise(Archive& archive, Run& run) {
   scene_renderer_.wait();
   if (!archive.loads()) writer_.finish();
   archive(frames_);
@@ -245,10 +246,10 @@ void Pictures::visit(Archive& archive, Run& run) {
     archive(instant.cloth);
     archive(instant.moved);
   }
-  kept_.visit(archive);
+  kept_.serialise(archive);
   if (!archive.loads()) return;
   encode_seconds_ = encode;
-  if (frames_ > 0) kept_frames_.go_on(run.path(kKeptFrames), static_cast<std::size_t>(frames_));
+  if (frames_ > 0) kept_frames_.continue_file(run.path(kKeptFrames), static_cast<std::size_t>(frames_));
 }
 
 // As near as all of the instants stay whole, unless the options say what is framed; its aspect is that of
@@ -257,12 +258,13 @@ SheetView Pictures::sheet_view(const std::vector<KeptInstant>& instants) const {
   constexpr float kTallest = 0.7f, kWidest = 2.4f;
   const Options& o = options_;
   if (!o.camera_box.empty() || !o.camera_target.empty() || o.camera_distance > 0)
-    return {camera(), aspect_of(o)};
+    return {camera(), picture_aspect(o)};
   std::vector<float> all;
   for (const KeptInstant& instant : instants) all.insert(all.end(), instant.xyz.begin(), instant.xyz.end());
   const Eigen::Vector3f direction = o.camera_direction.cast<float>();
   const float fov = static_cast<float>(o.camera_fov);
-  const render::Window square = render::Camera::around(all, direction, fov, 1, kSheetRoom).window_of(all, 1);
+  const render::Window square =
+      render::Camera::around(all, direction, fov, 1, kSheetRoom).image_window(all, 1);
   const float aspect = std::clamp(
       static_cast<float>((square.right - square.left) / (square.top - square.bottom)), kTallest, kWidest);
   return {render::Camera::around(all, direction, fov, aspect, kSheetRoom), aspect};
@@ -273,7 +275,7 @@ render::Look Pictures::sheet_look() const {
   Options options = options_;
   const std::string look = options.looks().front();
   if (look == "cloth" && options.background == "studio") options.background = "white";
-  return look_of(scene_, options, look);
+  return scene_look(scene_, options, look);
 }
 
 render::Image Pictures::sheet_picture(SceneRenderer& studio, const KeptInstant& instant,
@@ -346,9 +348,10 @@ void Pictures::write_sheet(Run& run, const std::string& title) {
   for (const render::SheetEntry& cell : cells) frame.include(cell.loop.path);
   for (render::SheetEntry& cell : cells) cell.loop.frame = frame;
   render::SheetLayout layout{.title = title, .scale_note = "at the cloth's middle"};
-  layout.metres_per_pixel = view.camera.metres_per_pixel(render::box_of(instants.back().xyz).center(),
+  layout.metres_per_pixel = view.camera.metres_per_pixel(render::bounding_box(instants.back().xyz).center(),
                                                          cells.front().image.height());
-  if (const auto bar = color_bar_of(scene_, options_, options_.looks().front())) layout.bars.push_back(*bar);
+  if (const auto bar = value_color_bar(scene_, options_, options_.looks().front()))
+    layout.bars.push_back(*bar);
   render::write_png(run.path("sheet.png"), render::contact_sheet(cells, layout), render::PngEffort::best);
   keep_sheet(run, instants, skins, title);
 }
@@ -377,7 +380,7 @@ void Pictures::keep_sheet(Run& run, const std::vector<KeptInstant>& cells,
                           const std::vector<KeptInstant>& skins, const std::string& title) const {
   const std::filesystem::path frames = run.folder() / kKeptFrames;
   std::vector<int> instants;
-  const std::vector<double> cell_times = times_of(cells), skin_times = times_of(skins);
+  const std::vector<double> cell_times = instant_times(cells), skin_times = instant_times(skins);
   const std::vector<Frames::Instant>& all = run.manifest().frames->instants;
   for (std::size_t f = 0; f < all.size(); ++f)
     if (std::count(cell_times.begin(), cell_times.end(), all[f].time) +
@@ -407,7 +410,7 @@ void Pictures::finish(Run& run, const std::string& title) {
   write_sheet(run, title);
   write_text(run.path("camera.json"), camera_text(camera(), options_.size));
   run.manifest().renderer = renderer();
-  run.manifest().positions = positions_way();
+  run.manifest().positions = positions_route();
   run.add_seconds("render", render_seconds_);
   run.add_seconds("encode", encode_seconds_ + writer_.encode_seconds());
   run.add_seconds("waited", waited_seconds_);

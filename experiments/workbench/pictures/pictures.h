@@ -42,7 +42,7 @@ class Pictures {
 
   const std::string& renderer() const { return renderer_; }
   // How positions reach the renderer: "CUDA-GL" without passing the host, or "host (why)".
-  std::string positions_way() const { return why_host_.empty() ? "CUDA-GL" : "host (" + why_host_ + ")"; }
+  std::string positions_route() const { return why_host_.empty() ? "CUDA-GL" : "host (" + why_host_ + ")"; }
 
   // Has the present state drawn as the next of frames/, captioned with what is simulated and the time; in
   // further looks as the next of frames-LOOK/.  Returns when positions and values are taken; throws what went
@@ -69,7 +69,7 @@ class Pictures {
   // The cloth's shadow from straight above; `metres_per_pixel` of the picture.
   render::Image silhouette(double half_width, int pixels, double& metres_per_pixel);
   // Waits for the files so far.  Throws Error::system.
-  void visit(Archive& archive, Run& run);
+  void serialise(Archive& archive, Run& run);
   // Waits for the files and writes sheet.png: instants apart by what moves between them, framed by what they
   // show; and what its pictures were drawn from, sheet.hyg.
   void finish(Run& run, const std::string& title);

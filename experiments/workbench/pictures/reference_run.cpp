@@ -24,7 +24,7 @@ ReferenceRun::ReferenceRun(fs::path folder) : folder_(std::move(folder)) {
   if (time_.empty() || !fs::exists(folder_ / "mesh" / "0000.ply", ignored))
     throw Error::invalid_input("reference = " + folder_.string() +
                                " must be the folder of a run with pictures and --export ply (--reference)")
-        .of("reference", folder_.string());
+        .with_key("reference", folder_.string());
 }
 
 std::vector<float> ReferenceRun::curvature(const ClothMesh& mesh, double time) const {
@@ -38,7 +38,7 @@ std::vector<float> ReferenceRun::curvature(const ClothMesh& mesh, double time) c
                                std::to_string(surface.face.size()) + " and " +
                                std::to_string(mesh.face.size()) +
                                "): run it with the same mesh (--reference)")
-        .of("reference", folder_.string());
+        .with_key("reference", folder_.string());
   return {surface.curvature.begin(), surface.curvature.end()};
 }
 

@@ -111,16 +111,16 @@ double ridge_length(const ClothMesh& mesh, const std::vector<Eigen::Vector2d>& a
   return nodes > 0 ? std::numbers::pi / 2 * area * ridges / (nodes * spacing) : 0;
 }
 
-std::vector<double> area_shares(const std::vector<double>& value, const std::vector<double>& area, double bin,
-                                int bins) {
-  std::vector<double> share(bins, 0);
+std::vector<double> area_fractions(const std::vector<double>& value, const std::vector<double>& area,
+                                   double bin, int bins) {
+  std::vector<double> fraction(bins, 0);
   double sum = 0;
   for (std::size_t i = 0; i < value.size(); ++i) {
-    share[std::min(bins - 1, static_cast<int>(value[i] / bin))] += area[i];
+    fraction[std::min(bins - 1, static_cast<int>(value[i] / bin))] += area[i];
     sum += area[i];
   }
-  for (double& s : share) s /= sum;
-  return share;
+  for (double& s : fraction) s /= sum;
+  return fraction;
 }
 
 }  // namespace hysteron::experiments

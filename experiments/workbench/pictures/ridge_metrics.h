@@ -23,7 +23,7 @@ double ridge_length(const ClothMesh& mesh, const std::vector<Eigen::Vector2d>& a
                     const std::vector<float>& value, double threshold, double spacing);
 
 // Share of the area per bin of width `bin` from 0 on; values beyond the last bin are in it.
-std::vector<double> area_shares(const std::vector<double>& value, const std::vector<double>& area, double bin,
-                                int bins);
+std::vector<double> area_fractions(const std::vector<double>& value, const std::vector<double>& area,
+                                   double bin, int bins);
 
 }  // namespace hysteron::experiments

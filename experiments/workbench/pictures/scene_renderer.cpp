@@ -41,16 +41,16 @@ double hidden_share(const render::Image& bare, const render::Image& whole) {
   return dark == 0 ? 0 : static_cast<double>(hidden) / static_cast<double>(dark);
 }
 
-render::Image between(render::Image bare, const render::Image& whole, int share) {
+render::Image between(render::Image bare, const render::Image& whole, int fraction) {
   for (std::size_t i = 0; i < bare.pixels().size(); ++i)
-    bare.pixels()[i] =
-        static_cast<std::uint8_t>(((256 - share) * bare.pixels()[i] + share * whole.pixels()[i] + 128) / 256);
+    bare.pixels()[i] = static_cast<std::uint8_t>(
+        ((256 - fraction) * bare.pixels()[i] + fraction * whole.pixels()[i] + 128) / 256);
   return bare;
 }
 
 }  // namespace
 
-std::optional<render::TriangleMesh> body_of(const Obstacle& o) {
+std::optional<render::TriangleMesh> obstacle_mesh(const Obstacle& o) {
   const auto f = [](double x) { return static_cast<float>(x); };
   switch (o.kind) {
     case ObstacleKind::ground:
@@ -78,9 +78,9 @@ Eigen::Matrix4f placed_at(const Obstacle& o, double time) {
   return motion * render::placed(o.center.cast<float>(), o.axis.normalized().cast<float>());
 }
 
-render::ColorMap map_of(const std::string& look) { return base_look(look).map; }
+render::ColorMap look_color_map(const std::string& look) { return base_look(look).map; }
 
-render::Look look_of(const Scene& scene, const Options& options, const std::string& name) {
+render::Look scene_look(const Scene& scene, const Options& options, const std::string& name) {
   render::Look look = base_look(name);
   if (look.show == render::Show::curvature) {
     look.value_high = static_cast<float>(curvature_range(scene, options, name));
@@ -93,9 +93,9 @@ render::Look look_of(const Scene& scene, const Options& options, const std::stri
   return dressed(lit(look, options), fabric_to_read(scene));
 }
 
-std::optional<render::ColorBar> color_bar_of(const Scene& scene, const Options& options,
-                                             const std::string& name) {
-  const render::Look look = look_of(scene, options, name);
+std::optional<render::ColorBar> value_color_bar(const Scene& scene, const Options& options,
+                                                const std::string& name) {
+  const render::Look look = scene_look(scene, options, name);
   if (look.show == render::Show::curvature) {
     const char* what = name == "residual"     ? "residual curvature"
                        : name == "difference" ? "difference of curvature"
@@ -124,7 +124,7 @@ void SceneRenderer::take_size(const render::PictureSize& size) {
   view_->set_cloth({mesh_.vertices, mesh_.triangles, mesh_.pattern});
   body_.clear();
   for (const Obstacle& o : scenery_) {
-    const auto body = body_of(o);
+    const auto body = obstacle_mesh(o);
     body_.push_back(body && o.visible ? view_->add_obstacle(*body, placed_at(o, 0)) : -1);
     if (o.kind == ObstacleKind::ground && !floor_) floor_ = static_cast<float>(o.center.z());
   }

@@ -17,18 +17,18 @@
 namespace hysteron::experiments {
 
 // An obstacle's surface before it is placed; none of what is drawn otherwise, or not at all.
-std::optional<render::TriangleMesh> body_of(const Obstacle& obstacle);
+std::optional<render::TriangleMesh> obstacle_mesh(const Obstacle& obstacle);
 // Where it is at `time` [s].
 Eigen::Matrix4f placed_at(const Obstacle& obstacle, double time);
 
 // The colours of a look that shows a value.
-render::ColorMap map_of(const std::string& look);
+render::ColorMap look_color_map(const std::string& look);
 // Light, and the ends of the colour map, of the options' look `name` ("cloth", "curvature", "residual",
 // "difference", ...) for a scene.
-render::Look look_of(const Scene& scene, const Options& options, const std::string& name);
+render::Look scene_look(const Scene& scene, const Options& options, const std::string& name);
 // Of looks that show a value.
-std::optional<render::ColorBar> color_bar_of(const Scene& scene, const Options& options,
-                                             const std::string& name);
+std::optional<render::ColorBar> value_color_bar(const Scene& scene, const Options& options,
+                                                const std::string& name);
 
 // All of it belongs to the thread that made it, as its OpenGL context does.
 class SceneRenderer {

@@ -17,7 +17,7 @@ namespace {
 constexpr double kStepsAnEdge = 256;  // quanta in the mean edge: normals turn by 0.2 degrees at most
 
 // None of panels that are sewn together: a vertex on a seam is at several places of the pattern.
-std::vector<float> pattern_of(const ClothMesh& mesh, const ClothShape& shape) {
+std::vector<float> pattern_coordinates(const ClothMesh& mesh, const ClothShape& shape) {
   std::vector<float> uv;
   if (mesh.sewn) return uv;
   if (shape.shape == "tube") {
@@ -92,7 +92,7 @@ std::vector<float> SimulatedSubject::values(const std::string& look) {
 }  // namespace
 
 DrawnMesh drawn_mesh(const ClothMesh& mesh, const ClothShape& shape) {
-  DrawnMesh drawn{mesh.rest.size(), flat_triangles(mesh.face), pattern_of(mesh, shape),
+  DrawnMesh drawn{mesh.rest.size(), flat_triangles(mesh.face), pattern_coordinates(mesh, shape),
                   mean_edge(mesh) / kStepsAnEdge};
   drawn.pattern = rounded(drawn.pattern, drawn.quantum);
   return drawn;
@@ -110,7 +110,7 @@ std::vector<float> KeptSubject::values(const std::string& look) {
   if (look == "residual" || look == "friction" || look == "difference")
     throw Error::invalid_input("look = " + look + " needs values that were not kept: run with --look " +
                                look + " (--look)")
-        .of("look", look);
+        .with_key("look", look);
   if (look != "curvature") return {};
   std::vector<Eigen::Vector3d> x;
   for (std::size_t i = 0; i + 2 < instant.xyz.size(); i += 3)

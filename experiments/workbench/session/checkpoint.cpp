@@ -18,11 +18,11 @@ constexpr const char* kAnew = "; without --resume the run begins anew";
 
 [[noreturn]] void refuse(const fs::path& file, const std::string& why) {
   throw Error::invalid_input("cannot resume from " + file.string() + ": " + why + kAnew)
-      .of("resume", file.string());
+      .with_key("resume", file.string());
 }
 
-void visit(Archive& archive, CheckpointOwner& owner) {
-  for (std::string* text : {&owner.program, &owner.experiment, &owner.device, &owner.scene, &owner.choices})
+void serialise(Archive& archive, CheckpointOwner& owner) {
+  for (std::string* text : {&owner.program, &owner.experiment, &owner.device, &owner.scene, &owner.resolved})
     archive(*text);
   archive(owner.cloth);
 }
@@ -31,7 +31,7 @@ struct Seal {
   std::uint64_t size = 0, hash = 0;
 };
 
-Seal seal_of(std::string_view body) { return {body.size(), fnv1a(body.data(), body.size())}; }
+Seal content_seal(std::string_view body) { return {body.size(), fnv1a(body.data(), body.size())}; }
 
 // What stands behind magic and seal.
 std::string_view checked_body(const fs::path& file, std::string_view all) {
@@ -45,7 +45,7 @@ std::string_view checked_body(const fs::path& file, std::string_view all) {
   Archive(all.substr(head, sizeof seal))(seal);
   const std::string_view body = all.substr(head + sizeof seal);
   if (body.size() < seal.size) refuse(file, "it is cut off");
-  if (body.size() > seal.size || seal_of(body).hash != seal.hash) refuse(file, "it is damaged");
+  if (body.size() > seal.size || content_seal(body).hash != seal.hash) refuse(file, "it is damaged");
   return body;
 }
 
@@ -53,11 +53,11 @@ std::string_view checked_body(const fs::path& file, std::string_view all) {
 CheckpointOwner owner_in(Archive& archive, const fs::path& file) {
   CheckpointOwner owner;
   try {
-    visit(archive, owner);
+    serialise(archive, owner);
   } catch (const Error&) {
     refuse(file, "it is damaged");
   }
-  for (const std::string& keys : {owner.scene, owner.choices})
+  for (const std::string& keys : {owner.scene, owner.resolved})
     if (!nlohmann::json::parse(keys, nullptr, false).is_object()) refuse(file, "it is damaged");
   return owner;
 }
@@ -69,9 +69,9 @@ void throw_if_another(const fs::path& file, const CheckpointOwner& there, const 
   compare("program", there.program, here.program);
   compare("experiment", there.experiment, here.experiment);
   std::string keys = differing_keys(there.scene, here.scene);
-  const std::string choices = differing_keys(there.choices, here.choices);
-  if (!keys.empty() && !choices.empty()) keys += ", ";
-  keys += choices;
+  const std::string resolved = differing_keys(there.resolved, here.resolved);
+  if (!keys.empty() && !resolved.empty()) keys += ", ";
+  keys += resolved;
   if (!keys.empty()) refuse(file, "other values of " + keys);
   compare("device", there.device, here.device);
   if (there.cloth != here.cloth) refuse(file, "its cloth has another mesh");
@@ -104,9 +104,9 @@ std::string differing_keys(const std::string& json, const std::string& other) {
 
 void write_checkpoint(const fs::path& file, CheckpointOwner owner, const std::string& state) {
   Archive archive;
-  visit(archive, owner);
+  serialise(archive, owner);
   const std::string body = archive.take() + state;
-  const Seal seal = seal_of(body);
+  const Seal seal = content_seal(body);
   AtomicFile target(file.string());
   target.stream() << kMagic << kFormat;
   target.stream().write(reinterpret_cast<const char*>(&seal), sizeof seal);
@@ -121,7 +121,7 @@ std::optional<std::string> read_checkpoint(const fs::path& file, const Checkpoin
   const std::string_view body = checked_body(file, all);
   Archive archive(body);
   throw_if_another(file, owner_in(archive, file), owner);
-  return std::string(archive.rest());
+  return std::string(archive.remainder());
 }
 
 }  // namespace hysteron::experiments

@@ -13,7 +13,7 @@ namespace hysteron::experiments {
 struct CheckpointOwner {
   std::string program, experiment, device;
   std::string scene;        // resolved, JSON
-  std::string choices;      // keys of the run and the experiment that decide what is written, JSON
+  std::string resolved;     // keys of the run and the experiment that decide what is written, JSON
   std::uint64_t cloth = 0;  // hash of triangles and start: meshes may come from files
 };
 

@@ -95,12 +95,12 @@ std::string drawing_words(const Scene& scene, const Cloth& cloth) {
       step);
 }
 
-std::string integrator_words(double share, double step) {
+std::string integrator_words(double fraction, double step) {
   constexpr double kMax = 0.25, kMin = 0.01;
-  if (!(share > kMax) || share == 1) return "";
-  const double factor = kMax / (1 - kMax) * (1 - share) / share;
+  if (!(fraction > kMax) || fraction == 1) return "";
+  const double factor = kMax / (1 - kMax) * (1 - fraction) / fraction;
   const std::string text =
-      fmt::format("the integrator took {:.0f} % of all energy that was dissipated", 100 * share);
+      fmt::format("the integrator took {:.0f} % of all energy that was dissipated", 100 * fraction);
   if (factor < kMin) return text + ": nearly all, so that no step can be named that would do";
   return text + fmt::format(": steps of about {:.2g} s would take {:.0f} %", factor * step, 100 * kMax);
 }

@@ -24,6 +24,6 @@ std::string drawing_words(const Scene& scene, const Cloth& cloth);
 // Where the integrator took more than a quarter of all energy that was dissipated; "" where it did not.  The
 // step [s] that would do is an estimate, the share being taken to fall as the step does: it is not named
 // where it would be less than a hundredth of the one taken, nor of cloth that dissipates nothing itself.
-std::string integrator_words(double share, double step);
+std::string integrator_words(double fraction, double step);
 
 }  // namespace hysteron::experiments

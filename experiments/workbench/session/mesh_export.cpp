@@ -46,15 +46,16 @@ void write_fields(const std::string& file, const ClothMesh& mesh, Simulation& si
                   const std::vector<Eigen::Vector3d>& x) {
   const int d = simulation.dimension();
   const std::vector<double> curvature = simulation.curvature(), moment = simulation.moment(),
-                            residual = simulation.residual_curvature(), share = simulation.friction_share();
+                            residual = simulation.residual_curvature(),
+                            fraction = simulation.friction_share();
   const std::vector<float> trace = vertex_curvature(mesh, curvature, d),
-                           mean = vertex_average(mesh, share, d);
+                           mean = vertex_average(mesh, fraction, d);
   std::vector<VtkField> of_faces;
   if (d == 3)
     of_faces = {{"curvature_tensor", d, curvature},
                 {"moment_tensor", d, moment},
                 {"residual_curvature_tensor", d, residual},
-                {"friction_share_of_face", 1, share}};
+                {"friction_share_of_face", 1, fraction}};
   write_vtp(file, mesh, x,
             {velocities(simulation),
              {"curvature", 1, {trace.begin(), trace.end()}},
@@ -86,7 +87,7 @@ void MeshExport::write_scene(Session& session, std::size_t number, double time) 
   const std::vector<Obstacle>& obstacles = session.scene().obstacle;
   std::vector<std::string> bodies;
   for (std::size_t i = 0; i < obstacles.size(); ++i) {
-    const auto body = obstacles[i].visible ? body_of(obstacles[i]) : std::nullopt;
+    const auto body = obstacles[i].visible ? obstacle_mesh(obstacles[i]) : std::nullopt;
     bodies.push_back(body ? body_file(i) : "");
     if (body && number == 0) write_body(run.path("mesh/" + bodies[i]).string(), *body, view_->look, side_);
   }

@@ -18,7 +18,7 @@ class MeshExport : public Observer {
   // fields of vertices and, where elements are faces, those of faces, and cloth.pvd with the times; mitsuba,
   // ply with a scene beside it that draws it; pc2, all instants in one file beside an OBJ of the first.
   void record(Session& session, const Snapshot& instant) override;
-  void visit(Archive& archive) override { archive(times_); }
+  void serialise(Archive& archive) override { archive(times_); }
 
  private:
   void write_scene(Session& session, std::size_t number, double time);

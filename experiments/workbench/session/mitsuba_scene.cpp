@@ -70,14 +70,14 @@ std::string sensor(const MitsubaView& view) {
       view.height);
 }
 
-Eigen::Vector3d to_light_of(const MitsubaView& view) {
+Eigen::Vector3d key_light_direction(const MitsubaView& view) {
   return view.look.to_light.value_or(render::key_beside(view.camera)).normalized().cast<double>();
 }
 
 // Radiance of a disc that throws the key light's irradiance, and of a sky that throws its own; a diffuse
 // surface is as bright as its colour under light of kExposure's inverse.
 std::string lights(const MitsubaView& view) {
-  const Eigen::Vector3d to_light = to_light_of(view), middle = view.bounds.center().cast<double>();
+  const Eigen::Vector3d to_light = key_light_direction(view), middle = view.bounds.center().cast<double>();
   const double distance = kFar * view.bounds.radius(), room = view.look.room;
   const Eigen::Vector3d key = kExposure / (kKeyRadius * kKeyRadius) * kKey, sky = room * kExposure * kSky,
                         side = Eigen::Vector3d::UnitX().cross(to_light).normalized();
@@ -93,7 +93,7 @@ std::string lights(const MitsubaView& view) {
 // A page: white under the whole sky and key light.
 std::string ground(const MitsubaView& view) {
   if (!view.floor) return "";
-  const double facing = std::max(0.0, to_light_of(view).z());
+  const double facing = std::max(0.0, key_light_direction(view).z());
   const Eigen::Array3d open = kExposure * (facing * kKey + view.look.room * kSky).array();
   const Eigen::Vector3d middle(view.bounds.center().x(), view.bounds.center().y(), *view.floor);
   return fmt::format(
@@ -123,8 +123,8 @@ MitsubaView mitsuba_view(const Setup& setup, const render::Box& bounds, std::opt
   for (const Obstacle& o : setup.scene.obstacle)
     if (o.kind == ObstacleKind::ground && !floor) floor = static_cast<float>(o.center.z());
   const Options& options = setup.options;
-  return {camera_of(options, bounds),
-          look_of(setup.scene, options, "cloth"),
+  return {framed_camera(options, bounds),
+          scene_look(setup.scene, options, "cloth"),
           options.width(),
           options.height(),
           bounds,

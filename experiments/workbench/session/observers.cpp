@@ -6,9 +6,9 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/workbench/compare/errors.h"
-#include "experiments/workbench/pages/closing_words.h"
-#include "experiments/workbench/session/crossings.h"
+#include "experiments/workbench/pages/closing_summary.h"
 #include "experiments/workbench/session/doubts.h"
+#include "experiments/workbench/session/intersection_count.h"
 #include "experiments/workbench/session/mesh_export.h"
 #include "experiments/workbench/session/probes.h"
 #include "experiments/workbench/session/record.h"
@@ -39,7 +39,7 @@ class Series : public Observer {
     rows_->row(row);
   }
   void close() override { rows_->finish(); }
-  void visit(Archive& archive) override { rows_->visit(archive); }
+  void serialise(Archive& archive) override { rows_->serialise(archive); }
 
  private:
   std::optional<Record> rows_;
@@ -55,17 +55,17 @@ class Drawing : public Observer {
                                                session.bounds(), session.plan().floor);
     pictures_ = pictures.get();
     session.draw_by(std::move(pictures));
-    run_->progress("pictures: " + pictures_->renderer() + "; positions: " + pictures_->positions_way());
+    run_->progress("pictures: " + pictures_->renderer() + "; positions: " + pictures_->positions_route());
   }
   void record(Session& session, const Snapshot& instant) override {
     if (session.is_pictured(instant)) pictures_->frame(*run_, instant.x, probes_.loop());
   }
   void finish(Session& session, const std::string& title) override {
-    const std::string unrest = not_at_rest_warning(run_->metrics());
-    pictures_->finish(*run_, title + (unrest.empty() ? "" : ". " + unrest));
+    const std::string rest_warning = not_at_rest_warning(run_->metrics());
+    pictures_->finish(*run_, title + (rest_warning.empty() ? "" : ". " + rest_warning));
     probes_.plot(*run_, session.scene().fabric.name + ", law " + session.scene().law);
   }
-  void visit(Archive& archive) override { pictures_->visit(archive, *run_); }
+  void serialise(Archive& archive) override { pictures_->serialise(archive, *run_); }
 
  private:
   const Probes& probes_;
@@ -81,7 +81,7 @@ class Account : public Observer {
     stretched_ = std::max(stretched_, session.simulation().largest_stretch());
   }
   void finish(Session& session, const std::string& title) override;
-  void visit(Archive& archive) override { archive(stretched_); }
+  void serialise(Archive& archive) override { archive(stretched_); }
 
  private:
   double stretched_ = 0;  // largest principal stretch minus 1, of the instants recorded
@@ -116,11 +116,11 @@ void fill_manifest(Run& run, Simulation& simulation, const Diagnostics& counts) 
 // step, and what the mean of the forces misses, of second order in it.
 void note_energy(Run& run, const Ledger& ledger, const Scene& scene) {
   run.manifest().energy = ledger.rows();
-  const double share = ledger.integrator_share();
+  const double fraction = ledger.integrator_share();
   run.metric("energy_remainder_relative", ledger.remainder_relative);
-  run.metric("integrator_share_percent", 100 * share);
+  run.metric("integrator_share_percent", 100 * fraction);
   if (scene.integrator == Integrator::quasi_static) return;
-  const std::string doubt = integrator_words(share, scene.step);
+  const std::string doubt = integrator_words(fraction, scene.step);
   if (!doubt.empty()) run.warn(doubt);
 }
 
@@ -151,19 +151,19 @@ void note_deep_contact(Run& run, long deep) {
            "keeps it out");
 }
 
-void note_slack_hands(Run& run, const Diagnostics& counts, const Scene& scene) {
-  const long barred = counts.barred_hands;
+void note_saturated_pins(Run& run, const Diagnostics& counts, const Scene& scene) {
+  const long blocked = counts.blocked_pins;
   const bool weak =
       std::any_of(scene.pin.begin(), scene.pin.end(), [](const Pin& p) { return p.strength > 0; });
-  if (!weak && barred == 0) return;
-  run.metric("slack_hand_steps_count", counts.slack_hands);
-  run.metric("hand_lag_m", counts.hand_lag);
-  if (barred == 0) return;
-  run.metric("barred_hand_steps_count", barred);
+  if (!weak && blocked == 0) return;
+  run.metric("slack_hand_steps_count", counts.saturated_pins);
+  run.metric("hand_lag_m", counts.pin_lag);
+  if (blocked == 0) return;
+  run.metric("barred_hand_steps_count", blocked);
   run.warn(
       fmt::format("in {} parts of steps cloth barred the way of rigid pins, which gave way: what they hold "
                   "lagged behind by up to {:.2g} mm",
-                  barred, 1e3 * counts.hand_lag));
+                  blocked, 1e3 * counts.pin_lag));
 }
 
 void Account::finish(Session& session, const std::string&) {
@@ -178,7 +178,7 @@ void Account::finish(Session& session, const std::string&) {
     run.warn(doubt);
   note_convergence(run, counts, scene);
   if (!scene.obstacle.empty()) note_deep_contact(run, counts.deep);
-  note_slack_hands(run, counts, scene);
+  note_saturated_pins(run, counts, scene);
 }
 
 class Folds : public Observer {
@@ -199,7 +199,7 @@ class Folds : public Observer {
         "too soft: take more triangles",
         100 * largest_, kSharp));
   }
-  void visit(Archive& archive) override { archive(largest_); }
+  void serialise(Archive& archive) override { archive(largest_); }
 
  private:
   // An edge folded by an angle of 0.25 is 0.6 % too soft in the `shape` element, by 0.5 2.5 %, by 1 9 %.
@@ -221,8 +221,8 @@ class MeasuredErrors : public Observer {
 
 }  // namespace
 
-Observers observers_of(Session& session, std::unique_ptr<Probes> probes,
-                       std::unique_ptr<Checkpoints> checkpoints) {
+Observers session_observers(Session& session, std::unique_ptr<Probes> probes,
+                            std::unique_ptr<Checkpoints> checkpoints) {
   const Options& options = session.setup().options;
   const ClothMesh& mesh = session.cloth().mesh;
   session.reserve({kMetricsFile}, picture_files(options));
@@ -236,8 +236,9 @@ Observers observers_of(Session& session, std::unique_ptr<Probes> probes,
   if (!options.no_images) all.push_back(std::make_unique<Drawing>(loops));
   all.push_back(std::make_unique<Account>());
   if (options.check_intersections || session.scene().self_contact)
-    all.push_back(std::make_unique<Crossings>(mesh.face, session.simulation().cuda_device() >= 0,
-                                              [&](const std::string& text) { session.run().warn(text); }));
+    all.push_back(
+        std::make_unique<IntersectionCount>(mesh.face, session.simulation().cuda_device() >= 0,
+                                            [&](const std::string& text) { session.run().warn(text); }));
   all.push_back(std::make_unique<Folds>(mesh));
   all.push_back(std::make_unique<Recoveries>(session.scene()));
   all.push_back(std::make_unique<MeshExport>());

@@ -22,10 +22,10 @@ constexpr const char *kHeight = "plot_probe_height", *kCurvature = "plot_probe_c
                      *kMoment = "plot_probe_moment";
 
 Error refusal(const std::string& text, const std::string& what) {
-  return Error::invalid_input("probe = " + text + " " + what + " (--probe)").of("probe", text);
+  return Error::invalid_input("probe = " + text + " " + what + " (--probe)").with_key("probe", text);
 }
 
-Eigen::Vector2d place_of(const std::string& text) {
+Eigen::Vector2d parsed_point(const std::string& text) {
   const std::vector<std::string> words = split(text);
   if (words.size() == 2) {
     const std::optional<double> x = number_in(words[0]), y = number_in(words[1]);
@@ -34,15 +34,15 @@ Eigen::Vector2d place_of(const std::string& text) {
   throw refusal(text, "must be x,y[;x,y...], numbers in m");
 }
 
-std::vector<Eigen::Vector2d> places_of(const std::string& text) {
+std::vector<Eigen::Vector2d> parsed_points(const std::string& text) {
   std::vector<Eigen::Vector2d> places;
   std::istringstream stream(text);
-  for (std::string one; std::getline(stream, one, ';');) places.push_back(place_of(one));
+  for (std::string one; std::getline(stream, one, ';');) places.push_back(parsed_point(one));
   return places;
 }
 
 // "x in [0, 0.3] and y in [0, 0.2] m"
-std::string extent_of(const ClothMesh& mesh) {
+std::string flat_extent(const ClothMesh& mesh) {
   Eigen::AlignedBox2d box;
   for (int f = 0; f < mesh.faces(); ++f)
     for (const Eigen::Vector3d& corner : mesh.corners(f)) box.extend(corner.head<2>());
@@ -67,13 +67,13 @@ void probe_unless_told(Options& options, const Eigen::Vector2d& at) {
 Probes::Probes(const std::string& text, const ClothMesh& mesh, int dimension)
     : mesh_(mesh), dimension_(dimension) {
   if (text.empty() || text == kNone) return;
-  const std::vector<Eigen::Vector2d> places = places_of(text);
+  const std::vector<Eigen::Vector2d> places = parsed_points(text);
   if (!is_flat(mesh)) throw refusal(text, "needs a cloth that is flat at rest, in planes z = constant");
   for (const Eigen::Vector2d& at : places) {
     const std::optional<MaterialPoint> point = material_point(mesh, at);
     if (!point)
       throw refusal(fmt::format("{:g},{:g}", at.x(), at.y()),
-                    "is beside the cloth, which at rest has " + extent_of(mesh));
+                    "is beside the cloth, which at rest has " + flat_extent(mesh));
     const int element = dimension == 1 ? nearest_hinge(mesh, *point) : point->face;
     if (element < 0) throw refusal(text, "needs a hinge at the triangle of each point");
     all_.push_back({"probe" + std::to_string(all_.size() + 1), at, *point, element});
@@ -123,14 +123,15 @@ void Probes::record(Session& session, const Snapshot& instant) {
   if (empty()) return;
   Simulation& simulation = session.simulation();
   const std::vector<double> curvature = simulation.curvature(), moment = simulation.moment(),
-                            residual = simulation.residual_curvature(), share = simulation.friction_share();
+                            residual = simulation.residual_curvature(),
+                            fraction = simulation.friction_share();
   std::vector<double> row = {instant.time};
   for (const Probe& probe : all_) {
     const Eigen::Vector3d at = probe.point.among(mesh_, instant.x);
     row.insert(row.end(), at.begin(), at.end());
     for (const auto* values : {&curvature, &moment, &residual})
       append(row, *values, probe.element, dimension_);
-    row.push_back(share[probe.element]);
+    row.push_back(fraction[probe.element]);
   }
   series_->row(row);
   const Probe& first = all_.front();
@@ -157,9 +158,9 @@ void Probes::close() {
   if (!empty()) series_->finish();
 }
 
-void Probes::visit(Archive& archive) {
+void Probes::serialise(Archive& archive) {
   if (empty()) return;
-  series_->visit(archive);
+  series_->serialise(archive);
   loops_.resize(archive.size(loops_.size()));
   for (render::Path& path : loops_) {
     archive(path.curvature);

@@ -39,7 +39,7 @@ class Probes : public Observer {
   // For comparisons, behind the curves that the experiment has named itself: height and curvature against
   // time, moment against curvature.
   void finish(Session& session, const std::string& title) override;
-  void visit(Archive& archive) override;
+  void serialise(Archive& archive) override;
   // Moment against curvature of the first point so far, in the direction in which it has bent most.
   render::Path loop() const;
 

@@ -22,7 +22,7 @@ Record::Record(std::filesystem::path file, const std::vector<std::string>& colum
   errno = 0;
   stream_.open(growing_, std::ios::trunc);
   if (!stream_) throw failure("create", growing_, errno);
-  write(row_of(columns));
+  write(csv_row(columns));
 }
 
 Record::~Record() {
@@ -37,7 +37,7 @@ void Record::row(const std::vector<double>& values) {
     throw Error::simulation(file_.string() + ": a row of " + std::to_string(values.size()) + " numbers for " +
                             std::to_string(columns_) + " columns");
   }
-  write(exact_row_of(values));
+  write(exact_csv_row(values));
 }
 
 void Record::finish() {
@@ -46,7 +46,7 @@ void Record::finish() {
   finished_ = true;
 }
 
-void Record::visit(Archive& archive) {
+void Record::serialise(Archive& archive) {
   const std::string head = text_;
   archive(text_);
   if (!archive.loads()) return;

@@ -27,7 +27,7 @@ class Record {
   void row(const std::vector<double>& values);
   void finish();
   // Rows so far, which a run that goes on begins with.  Throws Error::invalid_input where columns differ.
-  void visit(Archive& archive);
+  void serialise(Archive& archive);
 
  private:
   void write(const std::string& row);

@@ -26,7 +26,7 @@ class Recoveries : public Observer {
   void finish(Session& session, const std::string& title) override;
   // `moment`: `dimension` components per element [N].
   void see(const std::vector<double>& moment, int dimension);
-  void visit(Archive& archive) override {
+  void serialise(Archive& archive) override {
     archive(before_);
     archive(peak_);
   }

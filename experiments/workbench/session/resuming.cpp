@@ -25,7 +25,7 @@ std::string comparable(Json scene) {
   return scene.dump();
 }
 
-std::uint64_t hash_of(const Cloth& cloth) {
+std::uint64_t cloth_hash(const Cloth& cloth) {
   std::uint64_t hash = kFnv1aStart;
   for (const auto& face : cloth.mesh.face) hash = fnv1a(face.data(), sizeof(int) * 3, hash);
   if (cloth.mesh.sewn)
@@ -36,10 +36,10 @@ std::uint64_t hash_of(const Cloth& cloth) {
   return fnv1a(cloth.pin.data(), cloth.pin.size() * sizeof cloth.pin[0], hash);
 }
 
-CheckpointOwner owner_of(const CommandLine& line, const Setup& setup, const Cloth& cloth,
-                         const Simulation& simulation) {
-  return {program_version(), line.experiment, simulation.device(), comparable(to_json(setup.scene)),
-          setup.choices,     hash_of(cloth)};
+CheckpointOwner checkpoint_owner(const CommandLine& line, const Setup& setup, const Cloth& cloth,
+                                 const Simulation& simulation) {
+  return {program_version(), line.experiment,  simulation.device(), comparable(to_json(setup.scene)),
+          setup.resolved,    cloth_hash(cloth)};
 }
 
 }  // namespace
@@ -51,7 +51,7 @@ Checkpoints::Checkpoints(const CommandLine& line, const Setup& setup, const Clot
   const fs::path folder = options.out;
   const std::optional<Manifest> before = manifest_or_none(folder / "manifest.json");
   if (!before || !before->complete) {
-    state_ = read_checkpoint(folder / kFile, owner_of(line, setup, cloth, simulation)).value_or("");
+    state_ = read_checkpoint(folder / kFile, checkpoint_owner(line, setup, cloth, simulation)).value_or("");
     return;
   }
   const std::string keys = differing_keys(comparable(before->keys ? *before->keys : Json::object()),
@@ -59,7 +59,7 @@ Checkpoints::Checkpoints(const CommandLine& line, const Setup& setup, const Clot
   if (before->experiment != line.experiment || !keys.empty())
     throw Error::invalid_input(folder.string() + " has a complete run of other values" +
                                (keys.empty() ? "" : " (" + keys + ")") + ": give another folder (--out)")
-        .of("resume", folder.string());
+        .with_key("resume", folder.string());
   is_complete_ = true;
   if (options.json)
     std::cout << whole_file(folder / "manifest.json", "cannot read the manifest") << std::flush;
@@ -80,7 +80,7 @@ std::vector<std::string> Checkpoints::kept_files() const {
 void Checkpoints::begin(Session& session) {
   const Options& options = session.setup().options;
   if (options.checkpoint <= 0 && !options.resume) return;
-  if (!session.plan().visit)
+  if (!session.plan().serialise)
     throw Error::invalid_input("--checkpoint and --resume: not built yet for " + session.line().experiment);
   Run& run = session.run();
   if (state_.empty()) {
@@ -88,7 +88,7 @@ void Checkpoints::begin(Session& session) {
     return;
   }
   Archive archive{state_};
-  session.visit(archive);
+  session.serialise(archive);
   state_ = {};
   const double time = session.simulation().time();
   resumed_at_.push_back(time);
@@ -100,8 +100,9 @@ void Checkpoints::take(Session& session) {
   const auto stage = session.run().stage("io");
   const fs::path file = session.run().path(kFile);
   Archive archive;
-  session.visit(archive);
-  write_checkpoint(file, owner_of(session.line(), session.setup(), session.cloth(), session.simulation()),
+  session.serialise(archive);
+  write_checkpoint(file,
+                   checkpoint_owner(session.line(), session.setup(), session.cloth(), session.simulation()),
                    archive.take());
   taken_ = Clock::now();
 }

@@ -24,7 +24,7 @@ class Checkpoints : public Observer {
   // Takes one if one is due.  Throws Error::simulation where a signal has asked for the end.
   void step(Session& session) override;
   void finish(Session& session, const std::string& title) override;
-  void visit(Archive& archive) override { archive(resumed_at_); }
+  void serialise(Archive& archive) override { archive(resumed_at_); }
 
  private:
   using Clock = std::chrono::steady_clock;

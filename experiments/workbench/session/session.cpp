@@ -36,7 +36,7 @@ void explain(const Cloth& cloth, const Simulation& simulation) {
   const MethodChoice& method = simulation.method;
   if (!method.reason.empty()) std::cout << method.reason << "\n";
   if (method.linear_solver != Preconditioning::automatic)
-    std::cout << "linear solver " << name_of(method.linear_solver) << (method.in_float ? " in float" : "")
+    std::cout << "linear solver " << enum_name(method.linear_solver) << (method.in_float ? " in float" : "")
               << "\n";
   const StepLimits limits = simulation.limits();
   std::cout << "substeps " << limits.substeps << " of " << limits.substep << " s";
@@ -94,7 +94,7 @@ Session::Session(const CommandLine& line, const Setup& setup, std::optional<Clot
   run_ = std::make_unique<Run>(line, setup, checkpoints->kept_files());
   run_->begun_at(begun_);
   describe_start();
-  observers_ = observers_of(*this, std::move(probes), std::move(checkpoints));
+  observers_ = session_observers(*this, std::move(probes), std::move(checkpoints));
   for (const std::string& words : lost_words(line, setup)) run_->warn(words);
 }
 
@@ -106,7 +106,7 @@ void Session::describe_start() {
   manifest.substeps = simulation_->limits().substeps;
   const MethodChoice& method = simulation_->method;
   if (method.linear_solver != Preconditioning::automatic)
-    manifest.linear_solver = name_of(method.linear_solver);
+    manifest.linear_solver = enum_name(method.linear_solver);
   if (!method.reason.empty()) run_->progress(method.reason);
   for (const std::string& warning : cloth_.warnings) run_->warn(warning);
   for (const std::string& doubt : doubts_at_start(setup_.scene, cloth_, *simulation_)) run_->warn(doubt);
@@ -188,21 +188,21 @@ render::Box Session::framed() {
   const Options& options = setup_.options;
   if (!plan_->wanders || (options.no_images && options.export_format != "mitsuba")) return plan_->bounds;
   if (const Numbers& box = options.camera_box; !box.empty())
-    return render::box_of(std::vector<float>(box.begin(), box.end()));
+    return render::bounding_box(std::vector<float>(box.begin(), box.end()));
   const auto stage = run_->stage("framing");
-  const Framing framing = framing_of(setup_, plan_->bounds);
+  const Framing framing = scene_framing(setup_, plan_->bounds);
   run_->progress(fmt::format("pictures frame what a run of {} triangles passes through", framing.triangles));
   if (!framing.stopped.empty())
     run_->warn("pictures frame what a coarse run passes through, which stopped: " + framing.stopped);
   return framing.box;
 }
 
-bool Session::simulate(const RunPlan& question) {
-  plan_ = &question;
+bool Session::simulate(const RunPlan& plan) {
+  plan_ = &plan;
   run_->progress(opening_words());
   bounds_ = framed();
   bool settled = run_to_end();
-  if (question.to_rest && setup_.scene.is_implicit()) settled = find_rest();
+  if (plan.to_rest && setup_.scene.is_implicit()) settled = find_rest();
   for (const auto& observer : observers_) observer->close();
   plan_ = nullptr;
   return settled;
@@ -214,11 +214,11 @@ void Session::finish(const std::string& title) {
   write_report(run_->folder());
 }
 
-void Session::visit(Archive& archive) {
-  run_->visit(archive);
+void Session::serialise(Archive& archive) {
+  run_->serialise(archive);
   archive(recorded_);
-  for (const auto& observer : observers_) observer->visit(archive);
-  plan_->visit(archive);
+  for (const auto& observer : observers_) observer->serialise(archive);
+  plan_->serialise(archive);
   std::string state;
   if (!archive.loads()) state = simulation_->save();
   archive(state);

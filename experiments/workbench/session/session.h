@@ -42,7 +42,7 @@ struct RunPlan {
   std::function<bool(const Snapshot&)> pictured;  // which instants are drawn and exported; empty: all of them
   std::function<std::string(const Snapshot&)> progress;
   // What the experiment has collected in measure() and its like, for checkpoints; empty: it takes none.
-  std::function<void(Archive&)> visit;
+  std::function<void(Archive&)> serialise;
 };
 
 // What watches a run: a series of numbers, pictures, a count, doubts.  The session calls all of them in the
@@ -56,15 +56,15 @@ class Observer {
   virtual void close() {}                            // after the last one: its series can be read
   // After the experiment's own results: metrics, warnings and entries of the manifest.
   virtual void finish(Session&, const std::string& /*title*/) {}
-  virtual void visit(Archive&) {}  // what it has collected, for checkpoints
+  virtual void serialise(Archive&) {}  // what it has collected, for checkpoints
 };
 
 using Observers = std::vector<std::unique_ptr<Observer>>;
 // Of every run, in the order of their calls: metrics.csv, whose row the experiment measures, probes,
 // pictures, which show a probe's loop, what the solver says, crossings, folds, recoveries, meshes, errors,
 // checkpoints, which go when all else is there.  Refuses files that Run::reserve() does.
-Observers observers_of(Session& session, std::unique_ptr<Probes> probes,
-                       std::unique_ptr<Checkpoints> checkpoints);
+Observers session_observers(Session& session, std::unique_ptr<Probes> probes,
+                            std::unique_ptr<Checkpoints> checkpoints);
 
 // Prints what the scene includes and leaves out, with bytes and loops (--explain).
 void explain(const Cloth& cloth, const Simulation& simulation);
@@ -99,12 +99,12 @@ class Session {
   void reserve(const std::vector<std::string>& files, const std::vector<std::string>& drawn = {});
   // Simulates, records and draws, an instant per 1/fps, until the time is over or the question is settled,
   // and then to rest if the question asks for it.  Returns whether it is settled or, then, at rest.
-  bool simulate(const RunPlan& question);
+  bool simulate(const RunPlan& plan);
   void plot(const std::string& name, const render::Plot& plot) { run_->plot(name, plot); }
   // Metrics that every simulated run has, the manifest, the report.
   void finish(const std::string& title);
   // All that outlives an instant; files of the run first.
-  void visit(Archive& archive);
+  void serialise(Archive& archive);
 
  private:
   void describe_start();

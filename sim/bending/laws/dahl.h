@@ -38,16 +38,17 @@ struct Dahl {
 
   HYST_HD LawStep<Real, D, kHistory> step(const Vec<Real, D>& curvature, const Memory& before) const {
     const Vec<Real, D> held = load_set<Real, D>(before, D);
-    const Way way = way_to(curvature, before);
-    const Real ahead = held.dot(way.along);
-    Vec<Real, D> friction = way.share * held;
-    friction += (m0 * way.gone + ahead * (way.left - way.share)) * way.along;
+    const Increment increment = increment_to(curvature, before);
+    const Real ahead = held.dot(increment.along);
+    Vec<Real, D> friction = increment.fraction * held;
+    friction += (m0 * increment.gone + ahead * (increment.left - increment.fraction)) * increment.along;
     LawStep<Real, D, kHistory> result;
     store_set<Real, D>(curvature, result.history);
     store_set<Real, D>(friction, result.history, D);
     result.moment = b2 * curvature + friction;
     result.stored = b2 * curvature.squaredNorm() / 2 + energy(friction);
-    const Real work = m0 * (way.length - l * way.gone) + ahead * way.length * way.share;
+    const Real work =
+        m0 * (increment.length - l * increment.gone) + ahead * increment.length * increment.fraction;
     result.dissipated = work - energy(friction) + energy(held);
     return result;
   }
@@ -55,15 +56,16 @@ struct Dahl {
   // The Hessian of W; at a step of length zero, where it depends on the direction to come, that of F_r = 0.
   HYST_HD Tangent<Real, D> tangent(const Vec<Real, D>& curvature, const Memory& before) const {
     const Tangent<Real, D> one = Tangent<Real, D>::Identity();
-    const Way way = way_to(curvature, before);
-    if (!(way.length > 0)) return (b2 + g) * one;
-    const Vec<Real, D>& n = way.along;
+    const Increment increment = increment_to(curvature, before);
+    if (!(increment.length > 0)) return (b2 + g) * one;
+    const Vec<Real, D>& n = increment.along;
     const Vec<Real, D> held = load_set<Real, D>(before, D);
     const Tangent<Real, D> along = n * n.transpose(), across = one - along;
-    const Real first = way.share_slope(l), second = way.share_bend(l), ahead = held.dot(n);
-    Tangent<Real, D> result = b2 * one + m0 * (way.left / l * along + way.gone / way.length * across);
+    const Real first = increment.fraction_slope(l), second = increment.fraction_bend(l), ahead = held.dot(n);
+    Tangent<Real, D> result =
+        b2 * one + m0 * (increment.left / l * along + increment.gone / increment.length * across);
     result += first * (held * n.transpose() + n * held.transpose());
-    return result + ahead * (way.length * second * along + first * across);
+    return result + ahead * (increment.length * second * along + first * across);
   }
 
   HYST_HD Vec<Real, D> residual(const Memory& history) const {
@@ -73,25 +75,25 @@ struct Dahl {
   HYST_HD Real largest_stiffness() const { return b2 + 2 * g; }
 
  private:
-  struct Way {
+  struct Increment {
     Vec<Real, D> along;  // unit direction of the step, zero without a step
     Real length;         // [1/m]
     Real left, gone;     // E, 1 - E
-    Real share;          // phi
+    Real fraction;       // phi
     Real z;              // length / l
 
     static constexpr Real kSeries =
-        Real(sizeof(Real) == 8 ? 1e-3 : 3e-2);  // below: differences by their series
-    HYST_HD Real share_slope(Real l) const {    // d phi/d length
-      return z < kSeries ? (Real(-0.5) + z / 3 - z * z / 8) / l : (left - share) / length;
+        Real(sizeof(Real) == 8 ? 1e-3 : 3e-2);   // below: differences by their series
+    HYST_HD Real fraction_slope(Real l) const {  // d phi/d length
+      return z < kSeries ? (Real(-0.5) + z / 3 - z * z / 8) / l : (left - fraction) / length;
     }
-    HYST_HD Real share_bend(Real l) const {
+    HYST_HD Real fraction_bend(Real l) const {
       if (z < kSeries) return (Real(1) / 3 - z / 4 + z * z / 10) / (l * l);
-      return (-left / l - 2 * share_slope(l)) / length;
+      return (-left / l - 2 * fraction_slope(l)) / length;
     }
   };
 
-  HYST_HD Way way_to(const Vec<Real, D>& curvature, const Memory& before) const {
+  HYST_HD Increment increment_to(const Vec<Real, D>& curvature, const Memory& before) const {
     using std::expm1;
     const Vec<Real, D> step = curvature - load_set<Real, D>(before);
     const Real d = step.norm(), z = d / l, gone = -expm1(-z);

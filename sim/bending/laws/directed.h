@@ -48,7 +48,7 @@ concept DirectedLaw = requires(const Law& law, const typename Law::Scalar* direc
 
 // The law of element i: that of all elements, or its own.
 template <class Law>
-HYST_HD decltype(auto) law_of(const Law& law, const typename Law::Scalar* direction, int i) {
+HYST_HD decltype(auto) law_in_direction(const Law& law, const typename Law::Scalar* direction, int i) {
   if constexpr (DirectedLaw<Law>)
     return law.of(direction, i);
   else

@@ -46,11 +46,13 @@ struct Fatigue {
   }
 
   HYST_HD LawStep<Real, D, kHistory> step(const Vec<Real, D>& curvature, const Memory& before) const {
-    return step_of(law.step(curvature, part(before)), curvature, before);
+    return weakened_step(law.step(curvature, part(before)), curvature, before);
   }
-  HYST_HD TriedStep<Fatigue> tried_step(const Vec<Real, D>& curvature, const Memory& before) const {
-    const auto sound = hysteron::tried_step(law, curvature, part(before));
-    return {step_of(sound.step, curvature, before), potential_of(sound.potential, curvature, before)};
+  HYST_HD StepAndPotential<Fatigue> step_and_potential(const Vec<Real, D>& curvature,
+                                                       const Memory& before) const {
+    const auto sound = hysteron::step_and_potential(law, curvature, part(before));
+    return {weakened_step(sound.step, curvature, before),
+            trial_potential(sound.potential, curvature, before)};
   }
 
   HYST_HD Tangent<Real, D> tangent(const Vec<Real, D>& curvature, const Memory& before) const {
@@ -58,13 +60,13 @@ struct Fatigue {
   }
   // Strength and set act from the next step on.
   HYST_HD Real potential(const Vec<Real, D>& curvature, const Memory& before) const {
-    return potential_of(step_potential(law, curvature, part(before)), curvature, before);
+    return trial_potential(step_potential(law, curvature, part(before)), curvature, before);
   }
   HYST_HD Vec<Real, D> residual(const Memory& history) const {
     return zero_moment(*this, history, load_set<Real, D>(history, kSet));
   }
   // |F|/M0 of the law at full strength.
-  HYST_HD Real used(const Vec<Real, D>& curvature, const Memory& history) const {
+  HYST_HD Real utilisation(const Vec<Real, D>& curvature, const Memory& history) const {
     return m0 > 0 ? called_step(law, curvature, part(history)).moment.norm() / m0 : Real(0);
   }
   HYST_HD Real largest_stiffness() const { return b2 + law.largest_stiffness(); }
@@ -76,8 +78,10 @@ struct Fatigue {
     return after;
   }
 
-  HYST_HD static Vec<Real, D> set_of(const Memory& m) { return load_set<Real, D>(m, kSet); }  // K_p [1/m]
-  HYST_HD Real strength(const Memory& m) const { return strength_at(m[kSpent]); }             // M0(D)/M0
+  HYST_HD static Vec<Real, D> set_curvature(const Memory& m) {
+    return load_set<Real, D>(m, kSet);
+  }                                                                                // K_p [1/m]
+  HYST_HD Real strength(const Memory& m) const { return strength_at(m[kSpent]); }  // M0(D)/M0
 
  private:
   static constexpr int kSpent = Law::kHistory, kSet = kSpent + 1;
@@ -93,8 +97,9 @@ struct Fatigue {
     return result;
   }
   // With the step, with the potential of the law at full strength.
-  HYST_HD LawStep<Real, D, kHistory> step_of(const LawStep<Real, D, Law::kHistory>& sound,
-                                             const Vec<Real, D>& curvature, const Memory& before) const {
+  HYST_HD LawStep<Real, D, kHistory> weakened_step(const LawStep<Real, D, Law::kHistory>& sound,
+                                                   const Vec<Real, D>& curvature,
+                                                   const Memory& before) const {
     const Vec<Real, D> elastic = curvature - load_set<Real, D>(before, kSet);
     const Real m = strength(before), slid = m * sound.dissipated,
                spent = before[kSpent] + (slid > 0 ? slid : Real(0));
@@ -114,7 +119,7 @@ struct Fatigue {
     store_set<Real, D>(curvature - left, result.history, kSet);
     return result;
   }
-  HYST_HD Real potential_of(Real sound, const Vec<Real, D>& curvature, const Memory& before) const {
+  HYST_HD Real trial_potential(Real sound, const Vec<Real, D>& curvature, const Memory& before) const {
     return b2 * (curvature - load_set<Real, D>(before, kSet)).squaredNorm() / 2 + strength(before) * sound;
   }
   HYST_HD Real strength_at(Real spent) const {

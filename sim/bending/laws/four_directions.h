@@ -48,12 +48,13 @@ struct FourDirections {
       add(law.step(Vec<Real, 1>(direction(d).dot(curvature)), part(before, d)), d, result);
     return result;
   }
-  HYST_HD TriedStep<FourDirections> tried_step(const Vec<Real, 3>& curvature,
-                                               const History<Real, kHistory>& before) const {
-    TriedStep<FourDirections> result{{}, 0};
+  HYST_HD StepAndPotential<FourDirections> step_and_potential(const Vec<Real, 3>& curvature,
+                                                              const History<Real, kHistory>& before) const {
+    StepAndPotential<FourDirections> result{{}, 0};
     result.step.moment.setZero();
     for (int d = 0; d < kDirections; ++d) {
-      const auto one = hysteron::tried_step(law, Vec<Real, 1>(direction(d).dot(curvature)), part(before, d));
+      const auto one =
+          hysteron::step_and_potential(law, Vec<Real, 1>(direction(d).dot(curvature)), part(before, d));
       add(one.step, d, result.step);
       result.potential += one.potential;
     }
@@ -91,11 +92,11 @@ struct FourDirections {
     return after;
   }
   // The direction where it is used most.
-  HYST_HD Real used(const Vec<Real, 3>& curvature,
-                    const History<Real, kHistory>& history) const requires LawWithUse<ScalarLaw> {
+  HYST_HD Real utilisation(const Vec<Real, 3>& curvature,
+                           const History<Real, kHistory>& history) const requires LawWithUse<ScalarLaw> {
     Real most = 0;
     for (int d = 0; d < kDirections; ++d) {
-      const Real one = law.used(Vec<Real, 1>(direction(d).dot(curvature)), part(history, d));
+      const Real one = law.utilisation(Vec<Real, 1>(direction(d).dot(curvature)), part(history, d));
       if (one > most) most = one;
     }
     return most;

@@ -81,7 +81,7 @@ struct Gong {
   HYST_HD Vec<Real, 1> residual(const Memory& history) const {
     return zero_moment(*this, history, Vec<Real, 1>(history[kSet]));
   }
-  HYST_HD Real used(const Vec<Real, 1>& curvature, const Memory& history) const {  // |u|/r(s)
+  HYST_HD Real utilisation(const Vec<Real, 1>& curvature, const Memory& history) const {  // |u|/r(s)
     const Real now = limit_after(history[kStuck]);
     return now > 0 ? absolute(curvature[0] - history[kAnchor]) / now : Real(0);
   }
@@ -118,7 +118,9 @@ struct Gong {
     return {m[kPosition] - (e > 0 ? now.held : -now.held), m[kHard] + (n - now.held), now.lost_by_creep(n)};
   }
   HYST_HD void remember_motion(Real k, const Memory& before, Memory& after) const {
-    const Real way = k - before[kPosition], direction = way > 0 ? Real(1) : way < 0 ? Real(-1) : Real(0);
+    const Real increment = k - before[kPosition], direction = increment > 0   ? Real(1)
+                                                              : increment < 0 ? Real(-1)
+                                                                              : Real(0);
     after[kHeld] = direction * before[kDirection] < 0 ? Real(0) : before[kHeld] + dt;
     if (direction != 0) after[kDirection] = direction;
     after[kPosition] = k;

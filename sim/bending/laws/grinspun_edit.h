@@ -43,7 +43,7 @@ struct GrinspunEdit {
     for (int c = 0; c < D; ++c) rest[c] = history[c];
     return rest;
   }
-  HYST_HD Real used(const Vec<Real, D>&, const Memory&) const { return 0; }
+  HYST_HD Real utilisation(const Vec<Real, D>&, const Memory&) const { return 0; }
   HYST_HD Real largest_stiffness() const { return b2; }
 };
 

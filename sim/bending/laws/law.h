@@ -107,13 +107,13 @@ concept LawWithIroning = requires(const Law& law, const HistoryOf<Law>& h) {
 // How far friction or plasticity is used, 0 (not) to 1 (slides, yields), where |M - b2 K|/M0 does not say it.
 template <class Law>
 concept LawWithUse = requires(const Law& law, const CurvatureOf<Law>& k, const HistoryOf<Law>& h) {
-  { law.used(k, h) } -> std::convertible_to<typename Law::Scalar>;
+  { law.utilisation(k, h) } -> std::convertible_to<typename Law::Scalar>;
 };
 
 // A rest curvature that sets permanently [1/m].
 template <class Law>
 concept SettingLaw = requires(const HistoryOf<Law>& h) {
-  { Law::set_of(h) } -> std::convertible_to<CurvatureOf<Law>>;
+  { Law::set_curvature(h) } -> std::convertible_to<CurvatureOf<Law>>;
 };
 
 // Friction that weakens: its share that is left; the rest of it has set.

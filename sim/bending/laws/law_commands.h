@@ -36,10 +36,10 @@ HYST_HD History<Real, N> ironed(Law law, const Vec<Real, D>& curvature, const Hi
 
 // How far friction or plasticity is used, 0 to 1: what the law says of itself, else |M - b2 K|/M0.
 template <class Law, class Real, int D, int N>
-HYST_HD Real share_used(const Law& law, const Vec<Real, D>& curvature, const History<Real, N>& memory,
-                        Real b2, Real m0) {
+HYST_HD Real friction_utilisation(const Law& law, const Vec<Real, D>& curvature,
+                                  const History<Real, N>& memory, Real b2, Real m0) {
   if constexpr (LawWithUse<Law>)
-    return law.used(curvature, memory);
+    return law.utilisation(curvature, memory);
   else if (N > 0 && m0 > 0)
     return (called_step(law, curvature, memory).moment - b2 * curvature).norm() / m0;
   return 0;

@@ -58,7 +58,7 @@ struct ParameterText {
   double number(double low, double high, const std::string& allowed) const;
   double positive(const std::string& unit) const;
   double not_negative(const std::string& unit) const;
-  int one_of(const std::vector<int>& allowed) const;
+  int allowed_integer(const std::vector<int>& allowed) const;
   bool is_second(const std::string& first, const std::string& second) const;
 };
 

@@ -38,7 +38,7 @@ const LawEntry& law_named(const std::string& name) {
   throw Error::invalid_input("unknown law '" + name + "'; known: " + known);
 }
 
-std::vector<std::string> names_of(const std::vector<LawParameter>& parameters) {
+std::vector<std::string> parameter_names(const std::vector<LawParameter>& parameters) {
   std::vector<std::string> names;
   for (const LawParameter& parameter : parameters) names.push_back(parameter.name);
   return names;
@@ -54,7 +54,8 @@ void check_fatigue(const LawChoice& choice) {
 }  // namespace
 
 void ParameterText::refuse(const std::string& allowed) const {
-  throw Error::invalid_input("law " + law + ": " + key + " = " + text + " must be " + allowed).of(key, text);
+  throw Error::invalid_input("law " + law + ": " + key + " = " + text + " must be " + allowed)
+      .with_key(key, text);
 }
 
 double ParameterText::number(double low, double high, const std::string& allowed) const {
@@ -71,7 +72,7 @@ double ParameterText::not_negative(const std::string& unit) const {
   return number(0, kLargest, ">= 0 " + unit);
 }
 
-int ParameterText::one_of(const std::vector<int>& allowed) const {
+int ParameterText::allowed_integer(const std::vector<int>& allowed) const {
   std::string list;
   for (int a : allowed) list += (list.empty() ? "" : a == allowed.back() ? " or " : ", ") + std::to_string(a);
   const double x = number(0, kLargest, list);
@@ -102,7 +103,7 @@ LawParameter tau() {
   return {"tau", [](const ParameterText& t, LawChoice& c) { c.tau = t.positive("s"); }};
 }
 LawParameter stops() {
-  return {"stops", [](const ParameterText& t, LawChoice& c) { c.stops = t.one_of({4, 8, 16, 32}); }};
+  return {"stops", [](const ParameterText& t, LawChoice& c) { c.stops = t.allowed_integer({4, 8, 16, 32}); }};
 }
 
 std::vector<LawParameter> with_fatigue(std::vector<LawParameter> own) {
@@ -124,12 +125,12 @@ std::string shown(double x) {
 }
 
 void LawChoice::refuse(const std::string& key, const std::string& what) const {
-  throw Error::invalid_input("law " + name + ": " + what).of(key, "");
+  throw Error::invalid_input("law " + name + ": " + what).with_key(key, "");
 }
 
 std::vector<std::string> law_parameter_names(const std::string& name) {
   const LawEntry* law = find_law(name);
-  return law ? names_of(law->parameters) : std::vector<std::string>();
+  return law ? parameter_names(law->parameters) : std::vector<std::string>();
 }
 
 LawChoice choose_law(const std::string& name, const VirginCurve& curve, const LawParameters& given,
@@ -144,11 +145,11 @@ LawChoice choose_law(const LawEntry& law, const VirginCurve& curve, const LawPar
                                     [&, &key = key](const LawParameter& p) { return p.name == key; });
     if (known == law.parameters.end()) {
       std::string list;
-      for (const std::string& allowed : names_of(law.parameters))
+      for (const std::string& allowed : parameter_names(law.parameters))
         list += (list.empty() ? "" : ", ") + allowed;
       throw Error::invalid_input("law " + law.name + ": unknown parameter " + key + " = " + text +
                                  "; allowed: " + (list.empty() ? "none" : list))
-          .of(key, text);
+          .with_key(key, text);
     }
     known->read({law.name, key, text, use}, choice);
   }

@@ -19,21 +19,21 @@ HYST_HD Real step_potential(const Law& law, const Vec<Real, D>& curvature, const
 }
 
 template <class Law>
-struct TriedStep {
+struct StepAndPotential {
   LawStep<typename Law::Scalar, Law::kDimension, Law::kHistory> step;
   typename Law::Scalar potential;  // step_potential()
 };
 template <class Law>
 concept LawWithTriedStep = requires(const Law& law, const CurvatureOf<Law>& k, const HistoryOf<Law>& h) {
-  { law.tried_step(k, h) } -> std::same_as<TriedStep<Law>>;
+  { law.step_and_potential(k, h) } -> std::same_as<StepAndPotential<Law>>;
 };
 
 // A step and its potential at once: laws around other laws have them made once for both.
 template <class Law>
-HYST_HD TriedStep<Law> tried_step(const Law& law, const CurvatureOf<Law>& curvature,
-                                  const HistoryOf<Law>& before) {
+HYST_HD StepAndPotential<Law> step_and_potential(const Law& law, const CurvatureOf<Law>& curvature,
+                                                 const HistoryOf<Law>& before) {
   if constexpr (LawWithTriedStep<Law>) {
-    return law.tried_step(curvature, before);
+    return law.step_and_potential(curvature, before);
   } else {
     const auto step = law.step(curvature, before);
     if constexpr (LawWithPotential<Law>)

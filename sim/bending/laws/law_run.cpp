@@ -16,7 +16,7 @@ struct LawWalk::State {
   virtual double residual() const = 0;
   virtual double friction_moment() const = 0;
   virtual double permanent_set() const = 0;
-  virtual void visit(Archive& archive) = 0;
+  virtual void serialise(Archive& archive) = 0;
 };
 
 namespace {
@@ -31,7 +31,7 @@ struct Drive final : LawWalk::State {
   explicit Drive(const L& chosen) : law(chosen) {}
   std::unique_ptr<State> copy() const override { return std::make_unique<Drive>(*this); }
 
-  void visit(Archive& archive) override {
+  void serialise(Archive& archive) override {
     archive.bytes(&history, sizeof history);
     archive(dissipated);
     archive(relaxed);
@@ -75,7 +75,7 @@ struct Drive final : LawWalk::State {
 
   double permanent_set() const override {
     if constexpr (SettingLaw<L>)
-      return L::set_of(history)[0];
+      return L::set_curvature(history)[0];
     else
       return 0;
   }
@@ -121,6 +121,6 @@ LawPoint LawWalk::to(const LawRow& row) { return state_->to(row); }
 double LawWalk::residual() const { return state_->residual(); }
 double LawWalk::friction_moment() const { return state_->friction_moment(); }
 double LawWalk::permanent_set() const { return state_->permanent_set(); }
-void LawWalk::visit(Archive& archive) { state_->visit(archive); }
+void LawWalk::serialise(Archive& archive) { state_->serialise(archive); }
 
 }  // namespace hysteron

@@ -59,7 +59,7 @@ class LawWalk {
   double friction_moment() const;  // M0 that fatigue has left [N]; NaN for a law without fatigue
   double permanent_set() const;    // K_p of fatigue or of a fabric's set [1/m]; 0 of other laws
 
-  void visit(Archive& archive);  // its memory, for one that goes on from there
+  void serialise(Archive& archive);  // its memory, for one that goes on from there
 
   struct State;  // of some law
 

@@ -47,19 +47,20 @@ struct Setting {
 
   HYST_HD LawStep<Real, D, kHistory> step(const Vec<Real, D>& curvature, const Memory& before) const {
     const Vec<Real, D> moved = flow(curvature, before);
-    return step_around(law.step(Vec<Real, D>(curvature - (set_of(before) + moved)), part(before)), moved,
-                       before);
+    return step_around(law.step(Vec<Real, D>(curvature - (set_curvature(before) + moved)), part(before)),
+                       moved, before);
   }
-  HYST_HD TriedStep<Setting> tried_step(const Vec<Real, D>& curvature, const Memory& before) const {
-    const Vec<Real, D> moved = flow(curvature, before), set = set_of(before) + moved;
-    const auto inner = hysteron::tried_step(law, Vec<Real, D>(curvature - set), part(before));
-    return {step_around(inner.step, moved, before), with_cost_of(moved, set, inner.potential)};
+  HYST_HD StepAndPotential<Setting> step_and_potential(const Vec<Real, D>& curvature,
+                                                       const Memory& before) const {
+    const Vec<Real, D> moved = flow(curvature, before), set = set_curvature(before) + moved;
+    const auto inner = hysteron::step_and_potential(law, Vec<Real, D>(curvature - set), part(before));
+    return {step_around(inner.step, moved, before), with_flow_cost(moved, set, inner.potential)};
   }
 
   HYST_HD Tangent<Real, D> tangent(const Vec<Real, D>& curvature, const Memory& before) const {
     const Vec<Real, D> moved = flow(curvature, before);
     const Tangent<Real, D> stiff =
-        law.tangent(Vec<Real, D>(curvature - set_of(before) - moved), part(before));
+        law.tangent(Vec<Real, D>(curvature - set_curvature(before) - moved), part(before));
     if (!(moved.norm() > 0)) return stiff;
     const Tangent<Real, D> sum = stiff + flow_stiffness(moved);
     Tangent<Real, D> soft;
@@ -68,19 +69,20 @@ struct Setting {
     return stiff - (product + product.transpose()) / 2;
   }
   HYST_HD Real potential(const Vec<Real, D>& curvature, const Memory& before) const {
-    return potential_of(flow(curvature, before), curvature, before);
+    return trial_potential(flow(curvature, before), curvature, before);
   }
   HYST_HD Vec<Real, D> residual(const Memory& history) const {
     Setting at_once = *this;
     if constexpr (TimedLaw<Law>) at_once.law.dt = 0;
-    return zero_moment(at_once, history, set_of(history));
+    return zero_moment(at_once, history, set_curvature(history));
   }
-  HYST_HD Real used(const Vec<Real, D>& curvature, const Memory& history) const requires LawWithUse<Law> {
-    return law.used(Vec<Real, D>(curvature - set_of(history)), part(history));
+  HYST_HD Real utilisation(const Vec<Real, D>& curvature,
+                           const Memory& history) const requires LawWithUse<Law> {
+    return law.utilisation(Vec<Real, D>(curvature - set_curvature(history)), part(history));
   }
   HYST_HD Real largest_stiffness() const { return law.largest_stiffness(); }
 
-  HYST_HD static Vec<Real, D> set_of(const Memory& m) {  // K_p [1/m]
+  HYST_HD static Vec<Real, D> set_curvature(const Memory& m) {  // K_p [1/m]
     return load_set<Real, D>(m, Law::kHistory);
   }
 
@@ -101,7 +103,7 @@ struct Setting {
   // With what the law makes of the step from its rest curvature.
   HYST_HD LawStep<Real, D, kHistory> step_around(const LawStep<Real, D, Law::kHistory>& inner,
                                                  const Vec<Real, D>& moved, const Memory& before) const {
-    const Vec<Real, D> set = set_of(before) + moved;
+    const Vec<Real, D> set = set_curvature(before) + moved;
     LawStep<Real, D, kHistory> result;
     for (int i = 0; i < Law::kHistory; ++i) result.history[i] = inner.history[i];
     store_set<Real, D>(set, result.history, Law::kHistory);
@@ -112,13 +114,13 @@ struct Setting {
     return result;
   }
   // The law's potential, what hardening stores and what the flow loses.
-  HYST_HD Real with_cost_of(const Vec<Real, D>& moved, const Vec<Real, D>& set, Real potential) const {
+  HYST_HD Real with_flow_cost(const Vec<Real, D>& moved, const Vec<Real, D>& set, Real potential) const {
     return potential + hardening * set.squaredNorm() / 2 + limit * moved.norm();
   }
-  HYST_HD Real potential_of(const Vec<Real, D>& moved, const Vec<Real, D>& curvature,
-                            const Memory& before) const {
-    const Vec<Real, D> set = set_of(before) + moved;
-    return with_cost_of(moved, set, step_potential(law, Vec<Real, D>(curvature - set), part(before)));
+  HYST_HD Real trial_potential(const Vec<Real, D>& moved, const Vec<Real, D>& curvature,
+                               const Memory& before) const {
+    const Vec<Real, D> set = set_curvature(before) + moved;
+    return with_flow_cost(moved, set, step_potential(law, Vec<Real, D>(curvature - set), part(before)));
   }
 
   // d of the step, by damped Newton steps on its potential.  From the length that the law's largest stiffness
@@ -129,7 +131,7 @@ struct Setting {
   HYST_HD Vec<Real, D> flow(const Vec<Real, D>& curvature, const Memory& before) const {
     constexpr int kMaxSteps = 40, kMaxHalvings = 20;
     constexpr Real kEnoughDescent = Real(1e-4);  // Armijo's fraction of the predicted decrease
-    const Vec<Real, D> old = set_of(before);
+    const Vec<Real, D> old = set_curvature(before);
     const auto past = part(before);
     Vec<Real, D> moved = Vec<Real, D>::Zero(), next = moved, newton = moved;
     Real fraction = 1, precise = 0, half_slope = 0, descent = 0;
@@ -170,7 +172,8 @@ struct Setting {
                         const Vec<Real, D>& curvature, const Memory& before) const {
     Real potential[2];
     HYST_UNROLL(1)
-    for (int end = 0; end < 2; ++end) potential[end] = potential_of(end == 0 ? to : from, curvature, before);
+    for (int end = 0; end < 2; ++end)
+      potential[end] = trial_potential(end == 0 ? to : from, curvature, before);
     return potential[0] <= potential[1] + by;
   }
 };
@@ -237,8 +240,9 @@ struct Relaxing {
   HYST_HD LawStep<Real, D, kHistory> step(const Vec<Real, D>& curvature, const Memory& before) const {
     return step_around(law.step(curvature, part(before)), curvature, before);
   }
-  HYST_HD TriedStep<Relaxing> tried_step(const Vec<Real, D>& curvature, const Memory& before) const {
-    const auto inner = hysteron::tried_step(law, curvature, part(before));
+  HYST_HD StepAndPotential<Relaxing> step_and_potential(const Vec<Real, D>& curvature,
+                                                        const Memory& before) const {
+    const auto inner = hysteron::step_and_potential(law, curvature, part(before));
     return {step_around(inner.step, curvature, before), potential_around(inner.potential, curvature, before)};
   }
 
@@ -256,8 +260,9 @@ struct Relaxing {
     at_once.dt = 0;
     return zero_moment(at_once, history, load_set<Real, D>(history, kCurvature));
   }
-  HYST_HD Real used(const Vec<Real, D>& curvature, const Memory& history) const requires LawWithUse<Law> {
-    return law.used(curvature, part(history));
+  HYST_HD Real utilisation(const Vec<Real, D>& curvature,
+                           const Memory& history) const requires LawWithUse<Law> {
+    return law.utilisation(curvature, part(history));
   }
   HYST_HD Real largest_stiffness() const {
     Real sum = law.largest_stiffness();

@@ -54,9 +54,9 @@ HYST_HD PlasticFlow<Real, D> plastic_flow(const Vec<Real, D>& trial, Real n, con
     const Real room = bound - along[0] * set[0];
     if (moved > room) moved = room, slope = 1;
   }
-  const Real share = 1 - moved / n;
+  const Real fraction = 1 - moved / n;
   return {trial - moved * along, set + moved * along, moved,
-          share * one + (slope - share) * along * along.transpose()};
+          fraction * one + (slope - fraction) * along * along.transpose()};
 }
 
 // The first D numbers of a history as a vector, and back.

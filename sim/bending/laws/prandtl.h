@@ -20,7 +20,8 @@ struct PrandtlLaw {
         {{"memory", [](const ParameterText& t, LawChoice& c) { c.stack = t.is_second("stops", "stack"); }},
          law_parameter::stops(),
          {"stack", [](const ParameterText& t, LawChoice& c) {
-            c.depth = t.use == LawUse::alone ? t.one_of({4, 6, 8, 16, 32, 64}) : t.one_of({4, 6, 8, 16});
+            c.depth = t.use == LawUse::alone ? t.allowed_integer({4, 6, 8, 16, 32, 64})
+                                             : t.allowed_integer({4, 6, 8, 16});
           }}});
   }
   static void check(const LawChoice& c, LawUse use) {

@@ -49,7 +49,7 @@ struct PrandtlStack {
     LawStep<Real, 1, kHistory> result;
     result.history = before;
     result.dissipated = travel(curvature[0], result.history);
-    const Branch branch = branch_of(result.history);
+    const Branch branch = active_branch(result.history);
     const Real x = branch.position(curvature[0]);
     result.moment[0] = b2 * curvature[0] + friction(branch, x);
     result.stored = b2 * curvature[0] * curvature[0] / 2 + friction_energy(branch, x);
@@ -59,7 +59,7 @@ struct PrandtlStack {
   HYST_HD Tangent<Real, 1> tangent(const Vec<Real, 1>& curvature, const Memory& before) const {
     Memory after = before;
     travel(curvature[0], after);
-    const Branch branch = branch_of(after);
+    const Branch branch = active_branch(after);
     const Real x = branch.position(curvature[0]);
     return Tangent<Real, 1>(b2 + (x < branch.reach ? g - 2 * branch.bend * x : Real(0)));
   }
@@ -67,13 +67,13 @@ struct PrandtlStack {
   // Walks the branches that unloading follows and takes the root on the one where the moment vanishes.
   HYST_HD Vec<Real, 1> residual(const Memory& history) const {
     Memory memory = history;
-    const Branch current = branch_of(memory);
+    const Branch current = active_branch(memory);
     const Real moment = b2 * memory[kCurvature] + friction(current, current.position(memory[kCurvature]));
     if (moment == 0) return Vec<Real, 1>(memory[kCurvature]);
     turn_towards(moment > 0 ? Real(-1) : Real(1), memory);
     for (;;) {
-      const Branch branch = branch_of(memory);
-      const Real x = root(branch), end = end_of(branch, memory);
+      const Branch branch = active_branch(memory);
+      const Real x = root(branch), end = branch_end(branch, memory);
       if (runs_out(memory) || x <= end) return Vec<Real, 1>(branch.start.curvature + branch.direction * x);
       leave(branch, end, memory);
     }
@@ -108,7 +108,7 @@ struct PrandtlStack {
     m[kTurns + 3 * i] = t.curvature, m[kTurns + 3 * i + 1] = t.friction, m[kTurns + 3 * i + 2] = t.energy;
   }
 
-  HYST_HD Branch branch_of(const Memory& m) const {
+  HYST_HD Branch active_branch(const Memory& m) const {
     const Real bend = k0 > 0 ? g / (4 * k0) : Real(0);
     if (count(m) == 0) return {{0, 0, 0}, m[kDirection], k0, 2 * bend, 2 * bend / 3};
     return {turn(m, count(m) - 1), m[kDirection], 2 * k0, bend, bend / 6};
@@ -130,14 +130,14 @@ struct PrandtlStack {
 
   // Moves to `curvature` and returns what is dissipated on the way [J/m^2].
   HYST_HD Real travel(Real curvature, Memory& m) const {
-    const Real way = curvature - m[kCurvature];
-    if (way == 0) return 0;
-    turn_towards(way > 0 ? Real(1) : Real(-1), m);
+    const Real increment = curvature - m[kCurvature];
+    if (increment == 0) return 0;
+    turn_towards(increment > 0 ? Real(1) : Real(-1), m);
     Real dissipated = 0, at = m[kCurvature];
     for (;;) {
-      const Branch branch = branch_of(m);
+      const Branch branch = active_branch(m);
       const Real from = branch.position(at), to = branch.position(curvature);
-      const Real end = runs_out(m) ? to : end_of(branch, m);
+      const Real end = runs_out(m) ? to : branch_end(branch, m);
       if (runs_out(m) || to < end) {
         dissipated += loss(branch, to) - loss(branch, from);
         m[kCurvature] = curvature;
@@ -151,13 +151,13 @@ struct PrandtlStack {
     }
   }
   HYST_HD Real energy_at(Real curvature, const Memory& m) const {
-    const Branch branch = branch_of(m);
+    const Branch branch = active_branch(m);
     return friction_energy(branch, branch.position(curvature));
   }
 
   HYST_HD void turn_towards(Real direction, Memory& m) const {
     if (direction * m[kDirection] < 0) {
-      const Branch branch = branch_of(m);
+      const Branch branch = active_branch(m);
       const Real x = branch.position(m[kCurvature]);
       if (count(m) == Depth) m[kCount] -= 2, m[kDropped] += 1;
       put(m, count(m), {m[kCurvature], friction(branch, x), friction_energy(branch, x)});
@@ -174,7 +174,7 @@ struct PrandtlStack {
   HYST_HD static bool runs_out(const Memory& m) { return count(m) == 1 && m[kSlippedThrough] != 0; }
 
   // Position at which the branch hands over to another one.
-  HYST_HD Real end_of(const Branch& b, const Memory& m) const {
+  HYST_HD Real branch_end(const Branch& b, const Memory& m) const {
     using std::abs;
     const int n = count(m);
     if (n == 0) return b.reach;

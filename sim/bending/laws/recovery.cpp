@@ -53,12 +53,12 @@ RecoveryCounts count_recoveries(const VirginCurve& curve, const std::vector<LawR
   RecoveryCounts counts;
   double direction = 0, last = 0;
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const double way = rows[i].curvature - last;
+    const double increment = rows[i].curvature - last;
     last = rows[i].curvature;
-    if (way == 0) continue;
-    if (i > 0 && way * direction < 0 && run.moment[i - 1] * direction > 0)
+    if (increment == 0) continue;
+    if (i > 0 && increment * direction < 0 && run.moment[i - 1] * direction > 0)
       ++counts.of[static_cast<int>(recovery_case(curve, run.moment[i - 1])) - 1];
-    direction = way;
+    direction = increment;
   }
   return counts;
 }

@@ -156,7 +156,7 @@ struct SpectrumStops : StopMemory<Real, D, N> {
     for (int c = 0; c < D; ++c) mean_slip[c] = sum(PerStop(slip(history, c))) / N;
     return zero_moment(*this, history, mean_slip);
   }
-  HYST_HD Real used(const Vec<Real, D>& curvature, const Past& history) const {  // |F|/HB along warp
+  HYST_HD Real utilisation(const Vec<Real, D>& curvature, const Past& history) const {  // |F|/HB along warp
     return hb > 0 ? (called_step(*this, curvature, history).moment - b2 * curvature).norm() / hb : Real(0);
   }
   HYST_HD Real largest_stiffness() const {

@@ -100,9 +100,9 @@ struct Wong {
 
   // Moves to `k` and returns the work of friction on the way [J/m^2].
   HYST_HD Real travel(Real k, Memory& m) const {
-    const Real way = k - m[kCurvature];
-    if (way == 0) return 0;
-    turn_towards(way > 0 ? Real(1) : Real(-1), m);
+    const Real increment = k - m[kCurvature];
+    if (increment == 0) return 0;
+    turn_towards(increment > 0 ? Real(1) : Real(-1), m);
     Real spent = -work(m, m[kCurvature]);
     if (m[kBranch] == kReturning && m[kDirection] * k >= 0) {
       spent += work(m, Real(0));

@@ -18,9 +18,9 @@ TEST(PoleExample, IsOneRowWithItsNameAndHalfThickness) {
   } o;
   EXPECT_STREQ(names(o.kind)[static_cast<std::size_t>(o.kind)], "pole");
   EXPECT_EQ(names(o.kind).size(), 8u);
-  EXPECT_DOUBLE_EQ(form_of(o).half_thickness, 0.5);
-  EXPECT_TRUE(form_of(o).has_axis);
-  EXPECT_FALSE(form_of(o).has_rim);
+  EXPECT_DOUBLE_EQ(obstacle_form(o).half_thickness, 0.5);
+  EXPECT_TRUE(obstacle_form(o).has_axis);
+  EXPECT_FALSE(obstacle_form(o).has_rim);
 }
 
 TEST(PoleExample, IsReachedByTheSignedDistanceOfItsKind) {

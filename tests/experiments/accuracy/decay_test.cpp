@@ -225,7 +225,7 @@ TEST(DecayShape, OfTheFrictionOfAParabolaIsHyperbolic) {
     amplitudes.push_back({turn, 0.1 * turn, value});
   }
   constexpr double kAny = 1e9;  // amplitudes that are all small
-  const Decay decay = decay_of(amplitudes, kAny);
+  const Decay decay = decay_between_amplitudes(amplitudes, kAny);
   EXPECT_EQ(decay.shape, DecayShape::hyperbolic);
   EXPECT_LT(decay.best().rms, 5e-3) << "the stored energy's slope falls by 7 % of it";
 }
@@ -242,7 +242,7 @@ TEST(DecayProblem, IsSolvedByAllButBackwardEuler) {
     if (setting.integrator == Integrator::implicit)
       EXPECT_GT(found.error, 1) << setting.load;
     else
-      EXPECT_LT(found.error, kTolerance) << name_of(setting.integrator) << ' ' << setting.load;
+      EXPECT_LT(found.error, kTolerance) << enum_name(setting.integrator) << ' ' << setting.load;
     EXPECT_GT(found.steps, 0);
   }
   for (int count : of_kind) EXPECT_GT(count, 0);

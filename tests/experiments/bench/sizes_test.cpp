@@ -23,7 +23,7 @@ Scene hanging() {
   return scene;
 }
 
-SizeTable table_of(const SizeChoice& choice) {
+SizeTable sizes_table(const SizeChoice& choice) {
   return times_by_size(hanging(), choice, [](const Metrics&) {});
 }
 
@@ -40,14 +40,14 @@ TEST(TimesBySize, HaveARowForEachSizeAndIntegrator) {
     for (const Integrator integrator : choice.integrators) {
       const Metrics& row = table.rows[k++];
       EXPECT_EQ(row.number("triangles"), triangles);
-      EXPECT_EQ(row["integrator"].text(), name_of(integrator));
+      EXPECT_EQ(row["integrator"].text(), enum_name(integrator));
       EXPECT_EQ(row["skipped"].text(), "");
       EXPECT_EQ(row["state_hash"].text().size(), 16u);
     }
 }
 
 TEST(TimesBySize, SetTheBytesOfAStepBesideACopy) {
-  const SizeTable table = table_of({{32}, {Integrator::explicit_euler, Integrator::tr_bdf2}, 1});
+  const SizeTable table = sizes_table({{32}, {Integrator::explicit_euler, Integrator::tr_bdf2}, 1});
   for (const Metrics& row : table.rows) {
     const double bytes = row.number("bytes_per_step"), floor = row.number("floor_ms_per_step");
     EXPECT_GT(bytes, 0);
@@ -59,7 +59,7 @@ TEST(TimesBySize, SetTheBytesOfAStepBesideACopy) {
 // Explicit steps are divided until they are stable: then a row is of one part, and moves as much as any
 // other.
 TEST(TimesBySize, AreOfOneStableStep) {
-  const SizeTable table = table_of({{32, 128}, {Integrator::explicit_euler, Integrator::implicit}, 1});
+  const SizeTable table = sizes_table({{32, 128}, {Integrator::explicit_euler, Integrator::implicit}, 1});
   const auto at = [&](int row, const char* key) { return table.rows[row].number(key); };
   EXPECT_LT(at(0, "step_s"), hanging().step);
   EXPECT_LT(at(2, "step_s"), at(0, "step_s")) << "finer cloth asks for shorter steps";
@@ -77,7 +77,7 @@ TEST(TimesBySize, AreOfOneStableStep) {
 TEST(TimesBySize, AreLeftOutWhereTheBudgetCannotHoldThem) {
   SizeChoice choice{{18, 72}, {Integrator::implicit}, 1};
   choice.budget = 1e-9;
-  const SizeTable table = table_of(choice);
+  const SizeTable table = sizes_table(choice);
   ASSERT_EQ(table.rows.size(), 2u);
   EXPECT_EQ(table.device, "");
   for (const Metrics& row : table.rows) {

@@ -28,18 +28,18 @@ StepProfile falling() {
 TEST(StepProfile, KernelsAddUpToTheStep) {
   constexpr double kRounding = 1e-9;
   const StepProfile profile = falling();
-  double calls = 0, us = 0, share = 0;
+  double calls = 0, us = 0, stage_share = 0;
   for (const Metrics& row : profile.kernels) {
     EXPECT_LE(row.number("us_per_step"), profile.kernels[0].number("us_per_step"));
     EXPECT_NEAR(row.number("us_per_step"), row.number("us_per_call") * row.number("calls_per_step"),
                 kRounding * row.number("us_per_step"));
     calls += row.number("calls_per_step");
     us += row.number("us_per_step");
-    share += row.number("share_percent");
+    stage_share += row.number("share_percent");
   }
   EXPECT_NEAR(calls, profile.step.number("launches_per_step"), kRounding * calls);
   EXPECT_NEAR(1e-3 * us, profile.step.number("ms_per_step_in_kernels"), kRounding * us);
-  EXPECT_NEAR(share, 100, kRounding * 100);
+  EXPECT_NEAR(stage_share, 100, kRounding * 100);
   EXPECT_LE(profile.step.number("ms_per_step_in_kernels"), profile.step.number("ms_per_step_profiled"));
 }
 
@@ -91,7 +91,7 @@ TEST(StepProfile, KnowsTheBytesOfEveryLoop) {
   for (const Scene& scene : scenes)
     for (const auto& [name, cost] : loops_of_steps(*make_simulation(scene, make_cloth(scene)), 2))
       EXPECT_EQ(cost.bytes > 0, name != "multigrid: small levels")
-          << name_of(scene.integrator) << ", " << name;
+          << enum_name(scene.integrator) << ", " << name;
 }
 
 // A block of 3 x 3 numbers for each vertex and each end of an edge with the number of its column, where each

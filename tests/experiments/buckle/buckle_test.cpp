@@ -83,7 +83,7 @@ TEST(BucklingReference, IsRefusedOnEdgeWhereBendingTwists) {
   }
 }
 
-Scene scene_of(const char* mesh, Buckling kind) {
+Scene buckling_scene(const char* mesh, Buckling kind) {
   Scene scene;
   scene.law = "linear";
   scene.mesh = mesh;
@@ -103,7 +103,7 @@ double threshold_ratio(const Scene& scene, Buckling kind, double stiffer = 1) {
   const BucklingStrip strip = measured_strip(changed, kind, kLength);
   const auto simulation = make_simulation(strip.scene, strip.cloth);
   const double gamma = approach_threshold(strip, *simulation).critical_gamma * stiffer;
-  return gamma / (reference_gamma(kind, scene) * (1 + share_of_width(kind, scene, kLength)));
+  return gamma / (reference_gamma(kind, scene) * (1 + fraction_of_width(kind, scene, kLength)));
 }
 
 class Upright : public testing::TestWithParam<const char*> {};
@@ -111,7 +111,8 @@ INSTANTIATE_TEST_SUITE_P(Meshes, Upright,
                          testing::Values("aligned", "aligned-45", "flipped", "unionjack", "equilateral",
                                          "random"));
 TEST_P(Upright, BucklesAtTheReference) {
-  EXPECT_NEAR(threshold_ratio(scene_of(GetParam(), Buckling::upright), Buckling::upright), 1, kTarget / 4);
+  EXPECT_NEAR(threshold_ratio(buckling_scene(GetParam(), Buckling::upright), Buckling::upright), 1,
+              kTarget / 4);
 }
 
 class OnEdge : public testing::TestWithParam<const char*> {};
@@ -119,12 +120,12 @@ INSTANTIATE_TEST_SUITE_P(Meshes, OnEdge,
                          testing::Values("aligned", "aligned-45", "flipped", "unionjack", "equilateral",
                                          "random"));
 TEST_P(OnEdge, BucklesAtTheReference) {
-  EXPECT_NEAR(threshold_ratio(scene_of(GetParam(), Buckling::edge), Buckling::edge), 1, kTarget);
+  EXPECT_NEAR(threshold_ratio(buckling_scene(GetParam(), Buckling::edge), Buckling::edge), 1, kTarget);
 }
 // Next to the threshold potentials of a coarse strip differ by less than its rounded positions make of them:
 // the search has to go by the slope.
 TEST_P(OnEdge, HasEquilibriaWherePotentialsAreRounding) {
-  Scene scene = scene_of(GetParam(), Buckling::edge);
+  Scene scene = buckling_scene(GetParam(), Buckling::edge);
   scene.law = "prandtl";
   scene.triangles = 80;
   EXPECT_NEAR(threshold_ratio(scene, Buckling::edge), 1, 0.06);
@@ -132,41 +133,41 @@ TEST_P(OnEdge, HasEquilibriaWherePotentialsAreRounding) {
 
 // So narrow that the clamp's hold on warping adds 0.8 %: against 12.8538 sqrt2 itself.
 TEST(Buckling, OfANarrowStripOnEdgeMeetsTheClosedForm) {
-  Scene scene = scene_of("aligned-45", Buckling::edge);
+  Scene scene = buckling_scene("aligned-45", Buckling::edge);
   scene.cloth.width = kLength / 80;
   const double ratio = threshold_ratio(scene, Buckling::edge);
-  EXPECT_NEAR(ratio * (1 + share_of_width(Buckling::edge, scene, kLength)), 1, kTarget);
+  EXPECT_NEAR(ratio * (1 + fraction_of_width(Buckling::edge, scene, kLength)), 1, kTarget);
 }
 
 TEST(Buckling, OfAStripAlongWeftMeetsItsOwnReference) {
   for (Buckling kind : {Buckling::upright, Buckling::edge})
-    EXPECT_NEAR(threshold_ratio(along_weft(scene_of("unionjack", kind)), kind), 1, kTarget);
+    EXPECT_NEAR(threshold_ratio(along_weft(buckling_scene("unionjack", kind)), kind), 1, kTarget);
 }
 
 TEST(Buckling, FollowsALawWithFriction) {
-  Scene scene = scene_of("unionjack", Buckling::upright);
+  Scene scene = buckling_scene("unionjack", Buckling::upright);
   scene.law = "prandtl";
   EXPECT_NEAR(threshold_ratio(scene, Buckling::upright), 1, kTarget);
 }
 
 TEST(Buckling, ShowsARigidityFivePercentOff) {
   for (const char* mesh : {"unionjack", "random"})
-    EXPECT_GT(threshold_ratio(scene_of(mesh, Buckling::upright), Buckling::upright, 1.05), 1 + kTarget);
-  EXPECT_GT(threshold_ratio(scene_of("unionjack", Buckling::edge), Buckling::edge, 1.05), 1 + kTarget);
+    EXPECT_GT(threshold_ratio(buckling_scene(mesh, Buckling::upright), Buckling::upright, 1.05), 1 + kTarget);
+  EXPECT_GT(threshold_ratio(buckling_scene("unionjack", Buckling::edge), Buckling::edge, 1.05), 1 + kTarget);
 }
 
-nlohmann::json metrics_of(const std::vector<Flag>& flags) {
+nlohmann::json recorded_metrics(const std::vector<Flag>& flags) {
   const Folder folder;
   CommandLine line{"buckle", "hysteron buckle", flags, {}};
   for (const char* on : {"no-images", "quiet", "quick"}) line.flags.push_back({on, "true"});
   line.flags.push_back({"out", (folder.path() / "run").string()});
   EXPECT_EQ(experiment_named("buckle").run(line), 0);
   EXPECT_TRUE(std::filesystem::exists(folder.path() / "run" / "southwell.csv"));
-  return nlohmann::json::parse(text_of(folder.path() / "run" / "manifest.json"))["metrics"];
+  return nlohmann::json::parse(file_text(folder.path() / "run" / "manifest.json"))["metrics"];
 }
 
 TEST(Buckle, WritesTheThresholdBesideTheReference) {
-  const auto metrics = metrics_of({{"buckle.kind", "upright"}});
+  const auto metrics = recorded_metrics({{"buckle.kind", "upright"}});
   EXPECT_NEAR(metrics["reference_gamma"].get<double>(), 7.8373, 1e-4);
   EXPECT_NEAR(metrics["critical_gamma"].get<double>() / 7.8373, 1, kTarget);
   EXPECT_LT(std::abs(metrics["error_percent"].get<double>()), 100 * kTarget);

@@ -10,13 +10,13 @@ namespace {
 
 using Words = std::vector<Flag>;
 
-nlohmann::json metrics_of(const Words& flags) {
+nlohmann::json recorded_metrics(const Words& flags) {
   const Folder folder;
   CommandLine line{"cantilever", "hysteron cantilever", flags, {}};
   for (const char* on : {"no-images", "quiet"}) line.flags.push_back({on, "true"});
   line.flags.push_back({"out", (folder.path() / "run").string()});
   EXPECT_EQ(experiment_named("cantilever").run(line), 0);
-  return nlohmann::json::parse(text_of(folder.path() / "run" / "manifest.json"))["metrics"];
+  return nlohmann::json::parse(file_text(folder.path() / "run" / "manifest.json"))["metrics"];
 }
 
 constexpr double kDropOfTen = 0.7001997;  // over the length, heaviness 10: the elastica by shooting
@@ -33,7 +33,7 @@ INSTANTIATE_TEST_SUITE_P(Meshes, OnAMesh,
                          });
 
 TEST_P(OnAMesh, DropsAsTheElastica) {
-  const auto metrics = metrics_of({{"gamma", "10"}, {"mesh", GetParam()}, {"triangles", "512"}});
+  const auto metrics = recorded_metrics({{"gamma", "10"}, {"mesh", GetParam()}, {"triangles", "512"}});
   EXPECT_NEAR(metrics["tip_drop_over_length"].get<double>() / kDropOfTen, 1, kWithin);
   EXPECT_LT(std::abs(metrics["error_percent"].get<double>()), 100 * kWithin);
   EXPECT_NEAR(metrics["bending_length_m"].get<double>() / (0.1 / std::cbrt(10)), 1, kWithin);
@@ -45,11 +45,11 @@ TEST(Cantilever, ShowsAWrongRigidity) {
   const double density = 10 * kB / (kGravity * kLength * kLength * kLength);
   for (const double wrong : {0.95, 1.05}) {
     const std::string b = std::to_string(1e6 * wrong * kB) + "e-6";
-    const auto metrics = metrics_of({{"law", "linear"},
-                                     {"triangles", "512"},
-                                     {"fabric.b1", b},
-                                     {"fabric.b2", b},
-                                     {"fabric.density", std::to_string(density)}});
+    const auto metrics = recorded_metrics({{"law", "linear"},
+                                           {"triangles", "512"},
+                                           {"fabric.b1", b},
+                                           {"fabric.b2", b},
+                                           {"fabric.density", std::to_string(density)}});
     EXPECT_GT(std::abs(metrics["tip_drop_over_length"].get<double>() / kDropOfTen - 1), 2 * kWithin);
     EXPECT_GT(std::abs(metrics["bending_length_m"].get<double>() / (kLength / std::cbrt(10)) - 1),
               2 * kWithin);
@@ -58,7 +58,7 @@ TEST(Cantilever, ShowsAWrongRigidity) {
 
 TEST(Cantilever, FollowsTheElasticaWithFrictionAndKeepsItsDroop) {
   const auto metrics =
-      metrics_of({{"triangles", "512"}, {"law", "prandtl"}, {"gamma", "10"}, {"mesh", "random"}});
+      recorded_metrics({{"triangles", "512"}, {"law", "prandtl"}, {"gamma", "10"}, {"mesh", "random"}});
   EXPECT_LT(std::abs(metrics["error_percent"].get<double>()), 0.3);
   EXPECT_NEAR(metrics["bending_length_m"].get<double>() / metrics["elastica_bending_length_m"].get<double>(),
               1, kWithin);
@@ -70,11 +70,11 @@ TEST(Cantilever, FollowsTheElasticaWithFrictionAndKeepsItsDroop) {
 // The droop that stays, when the fabric's bending, friction with it, is 5 % off under the same weight.
 TEST(Cantilever, ShowsAWrongRigidityInItsDroopAsWell) {
   const auto residual = [](double wrong, const char* key) {
-    const auto metrics = metrics_of({{"law", "prandtl"},
-                                     {"triangles", "512"},
-                                     {"fabric.b1", std::to_string(36 * wrong) + "e-6"},
-                                     {"fabric.b2", std::to_string(12 * wrong) + "e-6"},
-                                     {"fabric.density", "0.0122"}});
+    const auto metrics = recorded_metrics({{"law", "prandtl"},
+                                           {"triangles", "512"},
+                                           {"fabric.b1", std::to_string(36 * wrong) + "e-6"},
+                                           {"fabric.b2", std::to_string(12 * wrong) + "e-6"},
+                                           {"fabric.density", "0.0122"}});
     return metrics[key].get<double>();
   };
   const double elastica = residual(1, "elastica_residual_drop_over_length");
@@ -86,12 +86,12 @@ TEST(Cantilever, ShowsAWrongRigidityInItsDroopAsWell) {
 // Weft half as stiff as warp: half the weight bends it as far, and the reference is the strip's own.
 TEST(Cantilever, ComparesWithTheElasticaOfItsOwnDirection) {
   for (const char* law : {"linear", "prandtl"}) {
-    const auto metrics = metrics_of({{"law", law},
-                                     {"gamma", "5"},
-                                     {"triangles", "256"},
-                                     {"fabric.weft-bending", "0.5"},
-                                     {"fabric.bias-bending", "0.7"},
-                                     {"cloth.warp-angle", "90"}});
+    const auto metrics = recorded_metrics({{"law", law},
+                                           {"gamma", "5"},
+                                           {"triangles", "256"},
+                                           {"fabric.weft-bending", "0.5"},
+                                           {"fabric.bias-bending", "0.7"},
+                                           {"cloth.warp-angle", "90"}});
     EXPECT_LT(std::abs(metrics["error_percent"].get<double>()), 100 * kWithin) << law;
     EXPECT_NEAR(
         metrics["bending_length_m"].get<double>() / metrics["elastica_bending_length_m"].get<double>(), 1,
@@ -105,24 +105,24 @@ TEST(Cantilever, ComparesWithTheElasticaOfItsOwnDirection) {
 // A long strip cut on the bias twists as it bends: softer than a plate bent to a cylinder, whose rigidity is
 // 0.7 there.
 TEST(Cantilever, OnTheBiasFollowsAFreeStrip) {
-  const auto metrics = metrics_of({{"law", "linear"},
-                                   {"gamma", "1"},
-                                   {"triangles", "512"},
-                                   {"cloth.width", "0.01"},
-                                   {"fabric.weft-bending", "0.5"},
-                                   {"fabric.bias-bending", "0.7"},
-                                   {"cloth.warp-angle", "45"}});
+  const auto metrics = recorded_metrics({{"law", "linear"},
+                                         {"gamma", "1"},
+                                         {"triangles", "512"},
+                                         {"cloth.width", "0.01"},
+                                         {"fabric.weft-bending", "0.5"},
+                                         {"fabric.bias-bending", "0.7"},
+                                         {"cloth.warp-angle", "45"}});
   EXPECT_LT(std::abs(metrics["error_percent"].get<double>()), 2) << "a cylinder's rigidity is 6 % more";
 }
 
 // Bent far past 2 Ma at the clamp and relieved of its weight, it rests under no moment.
 TEST(Cantilever, CountsWhatWasBentPastTwiceTheElasticLimitAsFullSlip) {
   const auto cases = [](const char* k0) {
-    const auto metrics = metrics_of({{"law", "prandtl"},
-                                     {"gamma", "10"},
-                                     {"triangles", "128"},
-                                     {"fabric", "cotton-broad-k50"},
-                                     {"fabric.k0", k0}});
+    const auto metrics = recorded_metrics({{"law", "prandtl"},
+                                           {"gamma", "10"},
+                                           {"triangles", "128"},
+                                           {"fabric", "cotton-broad-k50"},
+                                           {"fabric.k0", k0}});
     return std::array<long, 3>{metrics["recovery_elastic_count"], metrics["recovery_partial_count"],
                                metrics["recovery_full_slip_count"]};
   };
@@ -150,13 +150,13 @@ TEST(Recoveries, GoByTheLastReversalFromPastTheElasticLimit) {
 }
 
 TEST(Cantilever, ComesBackWithoutFriction) {
-  const auto metrics = metrics_of({{"triangles", "128"}, {"gamma", "10"}});
+  const auto metrics = recorded_metrics({{"triangles", "128"}, {"gamma", "10"}});
   EXPECT_NEAR(metrics["residual_drop_over_length"].get<double>(), 0, 1e-4);
 }
 
 TEST(Cantilever, SaysWhenItsEdgesAreFoldedTooSharply) {
-  EXPECT_EQ(metrics_of({{"gamma", "1"}, {"triangles", "128"}})["sharp_edges_percent"], 0);
-  EXPECT_GT(metrics_of({{"gamma", "1000"}, {"triangles", "32"}})["sharp_edges_percent"], 1);
+  EXPECT_EQ(recorded_metrics({{"gamma", "1"}, {"triangles", "128"}})["sharp_edges_percent"], 0);
+  EXPECT_GT(recorded_metrics({{"gamma", "1000"}, {"triangles", "32"}})["sharp_edges_percent"], 1);
 }
 
 }  // namespace

@@ -70,7 +70,7 @@ TEST(Compare, SetsLawsSideBySideAndKeepsWhatIsFinished) {
        {"sheet.png", "table.csv", "plot_tip_height.png", "report.html", "linear/manifest.json",
         "prandtl/frames/0003.png", "prandtl/frames-silhouette/0003.png"})
     EXPECT_TRUE(fs::exists(fs::path(out) / name)) << name;
-  const auto metrics = nlohmann::json::parse(text_of(fs::path(out) / "manifest.json"))["metrics"];
+  const auto metrics = nlohmann::json::parse(file_text(fs::path(out) / "manifest.json"))["metrics"];
   EXPECT_EQ(metrics["linear.bending_friction_J"].get<double>(), 0);
   EXPECT_GT(metrics["prandtl.bending_friction_J"].get<double>(), 0);
 
@@ -131,14 +131,14 @@ Variant variant(const std::string& fabric, const std::string& law) {
 }
 
 TEST(Variants, AreNamedAfterTheOneKeyInWhichTheyDiffer) {
-  EXPECT_EQ(varied_of({variant("a", "linear"), variant("a", "prandtl")}), "law");
-  EXPECT_EQ(varied_of({variant("a", "linear"), variant("b", "linear")}), "fabric");
-  EXPECT_EQ(varied_of({variant("a", "linear"), variant("b", "prandtl")}), "column");
-  EXPECT_EQ(varied_of({{"", {{"integrator", "bdf2"}}}, {"", {{"integrator", "implicit"}}}}), "integrator");
+  EXPECT_EQ(varied_key({variant("a", "linear"), variant("a", "prandtl")}), "law");
+  EXPECT_EQ(varied_key({variant("a", "linear"), variant("b", "linear")}), "fabric");
+  EXPECT_EQ(varied_key({variant("a", "linear"), variant("b", "prandtl")}), "column");
+  EXPECT_EQ(varied_key({{"", {{"integrator", "bdf2"}}}, {"", {{"integrator", "implicit"}}}}), "integrator");
   Variant damped = variant("a", "linear");
   damped.flags.push_back({"fabric.damping", "1e-3"});
-  EXPECT_EQ(varied_of({variant("a", "linear"), damped}), "fabric.damping");
-  EXPECT_EQ(varied_of({variant("a", "linear"), damped, variant("a", "prandtl")}), "column");
+  EXPECT_EQ(varied_key({variant("a", "linear"), damped}), "fabric.damping");
+  EXPECT_EQ(varied_key({variant("a", "linear"), damped, variant("a", "prandtl")}), "column");
 }
 
 TEST(ComparisonTable, HasAColumnForEveryMetricOfAnyRow) {
@@ -155,35 +155,35 @@ TEST(ComparisonTable, HasAColumnForEveryMetricOfAnyRow) {
   columns[1].manifest.emplace().metrics = {{"turns", 2}, {"loss_J", 0.5}, {"set_m", NAN}};
   write_comparison_table(run, "law", columns);
   run.finish();
-  EXPECT_EQ(text_of(folder.path() / "table.csv"),
+  EXPECT_EQ(file_text(folder.path() / "table.csv"),
             "law,turns,loss_J,set_m,stopped\nlinear,3,,,\nprandtl,2,0.5,,\"at 1 s, crushed\"\n");
-  const auto metrics = Json::parse(text_of(folder.path() / "manifest.json"))["metrics"];
+  const auto metrics = Json::parse(file_text(folder.path() / "manifest.json"))["metrics"];
   EXPECT_EQ(metrics, Json({{"linear.turns", 3}, {"prandtl.turns", 2}, {"prandtl.loss_J", 0.5}}));
 }
 
 Manifest manifest_with(const std::string& law, double damping) {
-  return manifest_of({{"hysteron", {{"version", "1"}, {"commit", "0123456789abcdef"}}},
-                      {"device", "one core"},
-                      {"triangles", 12345},
-                      {"scene",
-                       {{"cloth", {{"shape", "strip"}, {"length", 0.09}, {"width", 0.03}}},
-                        {"mesh", "unionjack"},
-                        {"fabric", {{"name", "wool"}, {"b1", 2e-5}, {"damping", damping}}},
-                        {"law", law},
-                        {"integrator", "bdf2"},
-                        {"step", 0.004}}}});
+  return parsed_manifest({{"hysteron", {{"version", "1"}, {"commit", "0123456789abcdef"}}},
+                          {"device", "one core"},
+                          {"triangles", 12345},
+                          {"scene",
+                           {{"cloth", {{"shape", "strip"}, {"length", 0.09}, {"width", 0.03}}},
+                            {"mesh", "unionjack"},
+                            {"fabric", {{"name", "wool"}, {"b1", 2e-5}, {"damping", damping}}},
+                            {"law", law},
+                            {"integrator", "bdf2"},
+                            {"step", 0.004}}}});
 }
 
 // What runs share is said once; what one of them has of its own, with its name.
 TEST(Captions, SayOfRunsWhatTheirManifestsSay) {
   const Manifest a = manifest_with("linear", 1e-5), b = manifest_with("linear", 5e-3),
                  c = manifest_with("dahl", 1e-5);
-  const std::string text = facts_of({"a", "b", "c"}, {&a, &b, &c});
+  const std::string text = run_facts({"a", "b", "c"}, {&a, &b, &c});
   for (const char* part : {"Cloth: strip of 90 by 30 mm, mesh unionjack, 12,345 triangles.",
                            "Fabric: wool (b1 2e-05 N m", "Damping of bending: 1e-05 s; b: 0.005 s.",
                            "Law: linear; c: dahl.", "Solver: bdf2, step 4 ms", "Device: one core."})
     EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
-  EXPECT_EQ(facts_of({"linear", "dahl"}, {&a, &c}).find("Law:"), std::string::npos) << "their names say it";
+  EXPECT_EQ(run_facts({"linear", "dahl"}, {&a, &c}).find("Law:"), std::string::npos) << "their names say it";
   EXPECT_EQ(origin_words("hysteron x", &a), "Written by `hysteron x`, hysteron 1, commit 0123456789ab.");
   EXPECT_EQ(grouped(999), "999");
   EXPECT_EQ(grouped(1234567), "1,234,567");
@@ -196,19 +196,19 @@ TEST(Compare, CaptionsItsFiguresFromTheManifests) {
                     " --triangles 60 --fps 30 --device cpu --size 160x120 --compare.rows 2 --quiet")
                 .exit_code,
             0);
-  const std::string captions = text_of(fs::path(out) / "README.md");
+  const std::string captions = file_text(fs::path(out) / "README.md");
   for (const char* part :
        {"(sheet.png)", "(plot_decay.png)", "Columns: linear, prandtl.", "in look cloth",
         "Cloth: strip of 90 by 30 mm", "cotton-broad", "Solver: bdf2", "hysteron compare swing --laws"})
     EXPECT_NE(captions.find(part), std::string::npos) << part;
-  EXPECT_EQ(text_of(fs::path(out) / "table.csv").substr(0, 4), "law,");
+  EXPECT_EQ(file_text(fs::path(out) / "table.csv").substr(0, 4), "law,");
   EXPECT_TRUE(fs::exists(fs::path(out) / "plot_decay.svg"));
-  EXPECT_GT(text_of(fs::path(out) / "linear/turns.csv").size(), 40u);
+  EXPECT_GT(file_text(fs::path(out) / "linear/turns.csv").size(), 40u);
   ASSERT_EQ(program("report " + folder.path().string()).exit_code, 0);
-  EXPECT_NE(text_of(folder.path() / "index.html").find("Columns: linear, prandtl."), std::string::npos);
+  EXPECT_NE(file_text(folder.path() / "index.html").find("Columns: linear, prandtl."), std::string::npos);
 }
 
-std::string refusal_of(const std::string& more) {
+std::string compare_refusal(const std::string& more) {
   const Folder folder;
   const fs::path out = folder.path() / "out";
   const Outcome outcome =
@@ -227,14 +227,14 @@ TEST(Compare, ShowsTheInstantsAndTheMetricsThatItIsAskedForInTheirOrder) {
                     out.string() + kSmall)
                 .exit_code,
             0);
-  const std::string table = text_of(out / "table.csv");
+  const std::string table = file_text(out / "table.csv");
   EXPECT_EQ(table.substr(0, table.find('\n')),
             "law,max_stretch_percent,decay_shape,bending_friction_J,stopped");
-  const Json metrics = Json::parse(text_of(out / "manifest.json"))["metrics"];
+  const Json metrics = Json::parse(file_text(out / "manifest.json"))["metrics"];
   EXPECT_EQ(metrics.size(), 6u) << metrics;
   EXPECT_EQ(metrics["linear.decay_shape"], "unknown");
   // Pictures are 1/30 s apart: the one at 0.033 s is the nearest to 0.035 s.
-  const std::string captions = text_of(out / "README.md");
+  const std::string captions = file_text(out / "README.md");
   for (const char* part : {"Rows: t = 0.100 s; t = 0.033 s (", "behind the names: max stretch [%]",
                            "; bending friction [J]", "(plot_bending_friction_J.png)"})
     EXPECT_NE(captions.find(part), std::string::npos) << part << captions;
@@ -242,10 +242,10 @@ TEST(Compare, ShowsTheInstantsAndTheMetricsThatItIsAskedForInTheirOrder) {
 }
 
 TEST(Compare, RefusesInstantsAfterTheEndOfTheRunBeforeItBegins) {
-  EXPECT_EQ(refusal_of(" --compare.times 0.05,0.11"),
+  EXPECT_EQ(compare_refusal(" --compare.times 0.05,0.11"),
             "hysteron compare: compare.times = 0.11 s must be in [0, 0.1] s, the time of the run "
             "(--compare.times)\n");
-  EXPECT_NE(refusal_of(" --compare.times=-0.1").find("must be >= 0"), std::string::npos);
+  EXPECT_NE(compare_refusal(" --compare.times=-0.1").find("must be >= 0"), std::string::npos);
 }
 
 TEST(Compare, NamesTheColumnThatIsWrong) {
@@ -268,8 +268,8 @@ from = 0.04
 )";
   const Outcome outcome =
       program("compare swing --scene " + scene.string() + " --laws linear --out " + out.string() + kSmall);
-  EXPECT_NE(text_of(out / "table.csv").find("an obstacle appears where the cloth is"), std::string::npos)
-      << outcome.out << outcome.err << text_of(out / "table.csv");
+  EXPECT_NE(file_text(out / "table.csv").find("an obstacle appears where the cloth is"), std::string::npos)
+      << outcome.out << outcome.err << file_text(out / "table.csv");
   EXPECT_NE(outcome.err.find("warning: linear: "), std::string::npos) << "though it is quiet";
 }
 
@@ -286,9 +286,9 @@ TEST(Compare, SetsFabricsOfASceneSideBySide) {
                                     "--out " +
                                     out.string());
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-    const auto column = nlohmann::json::parse(text_of(out / "wool-tropical/manifest.json"));
+    const auto column = nlohmann::json::parse(file_text(out / "wool-tropical/manifest.json"));
     EXPECT_EQ(column["law"], *law ? "dahl" : "prandtl");
-    const auto page = nlohmann::json::parse(text_of(out / "manifest.json"))["scene"]["columns"];
+    const auto page = nlohmann::json::parse(file_text(out / "manifest.json"))["scene"]["columns"];
     ASSERT_EQ(page.size(), 2u);
     for (const auto& one : page) EXPECT_EQ(one["stiffness_times"], 1) << "of one law nothing is matched";
   }
@@ -302,7 +302,7 @@ TEST(Compare, MatchesLawsByTheirWorkUnlessToldOtherwise) {
                     line = "compare swing --laws linear,prandtl --out " + out + kSmall;
   const auto times = [&] {
     return nlohmann::json::parse(
-               text_of(fs::path(out) / "manifest.json"))["scene"]["columns"][0]["stiffness_times"]
+               file_text(fs::path(out) / "manifest.json"))["scene"]["columns"][0]["stiffness_times"]
         .get<double>();
   };
   ASSERT_EQ(program(line).exit_code, 0);

@@ -11,10 +11,10 @@ namespace hysteron::experiments {
 namespace {
 namespace fs = std::filesystem;
 
-Tuning tuning() { return tuning_of("fabric.damping=1e-5:1e-1", "viscous_J=bending_friction_J"); }
+Tuning tuning() { return parsed_tuning("fabric.damping=1e-5:1e-1", "viscous_J=bending_friction_J"); }
 
 TEST(Tuning, IsReadFromItsTwoOptions) {
-  const Tuning two = tuning(), one = tuning_of("step=1e-3:2e-3", "tip_m");
+  const Tuning two = tuning(), one = parsed_tuning("step=1e-3:2e-3", "tip_m");
   EXPECT_EQ(two.key, "fabric.damping");
   EXPECT_EQ(two.low, "1e-5");
   EXPECT_EQ(two.high, "1e-1");
@@ -76,7 +76,7 @@ TEST(Compare, TunesItsFirstColumnToItsSecond) {
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const std::string line = outcome.out.substr(0, outcome.out.find('\n'));
   ASSERT_EQ(line.find("fabric.damping="), 0u) << outcome.out;
-  const Json scene = Json::parse(text_of(out / "manifest.json"))["scene"];
+  const Json scene = Json::parse(file_text(out / "manifest.json"))["scene"];
   const double found = scene["tuned"]["value"].get<double>();
   const double bracket = std::log(4.0) / 512, four_digits = 5e-4;  // relative, after nine halvings
   EXPECT_NEAR(found / 2e-3, 1, bracket + four_digits);

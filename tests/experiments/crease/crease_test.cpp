@@ -61,7 +61,7 @@ TEST(CreaseSpecimen, KnowsWhatTheLawAloneKeeps) {
 }
 
 nlohmann::json metrics_in(const std::filesystem::path& out) {
-  return nlohmann::json::parse(text_of(out / "manifest.json"))["metrics"];
+  return nlohmann::json::parse(file_text(out / "manifest.json"))["metrics"];
 }
 
 // Both laws by one command.
@@ -73,7 +73,7 @@ TEST(Crease, OpensWithoutAnIntersectionAndKeepsWhatTheLawKeeps) {
       "--crease.force 5 --no-images --quiet --out " +
       out.string());
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  const std::string table = text_of(out / "table.csv");
+  const std::string table = file_text(out / "table.csv");
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 3);
   const auto elastic = metrics_in(out / "linear"), hysteretic = metrics_in(out / "prandtl");
   EXPECT_EQ(elastic["intersections"], 0);
@@ -181,9 +181,10 @@ TEST(CreaseInTime, KeepsWhatTheClosedFormOfOneBranchKeeps) {
     const std::vector<double> largest(crease.cloth.mesh.faces(), 100.0);
     return (180 - crease.opening_of_law(largest)) * std::numbers::pi / 180 / crease.scene.cloth.length;
   };
-  const double share = 0.8, bend = 0.6, hold = 40.4, tau = 20, recovery = 30;
+  const double fraction = 0.8, bend = 0.6, hold = 40.4, tau = 20, recovery = 30;
   const double relaxed = 1 - std::exp(-hold / tau) * (1 - std::exp(-bend / tau)) * tau / bend;
-  const double expected = 100 * share / (1 + share) * relaxed * std::exp(-recovery / ((1 + share) * tau));
+  const double expected =
+      100 * fraction / (1 + fraction) * relaxed * std::exp(-recovery / ((1 + fraction) * tau));
   const double error = std::abs(kept(1.0 / 120) / expected - 1),
                half = std::abs(kept(1.0 / 240) / expected - 1);
   EXPECT_LT(error, 0.02);
@@ -250,7 +251,7 @@ CommandLine naming(std::vector<Flag> flags) { return {"crease", "hysteron crease
 TEST(Variants, AreThePairsOfFabricAndLaw) {
   const auto names = [](const CommandLine& line) {
     std::vector<std::string> result;
-    for (const Variant& variant : variants_of(line)) result.push_back(variant.name);
+    for (const Variant& variant : named_variants(line)) result.push_back(variant.name);
     return result;
   };
   using Names = std::vector<std::string>;

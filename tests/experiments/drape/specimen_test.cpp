@@ -18,7 +18,7 @@ constexpr double kRadius = 0.12;  // [m]
 // Of an OBJ with these vertices.
 class Draped : public testing::Test {
  protected:
-  Scene scene_of(const ClothMesh& mesh, const std::vector<Eigen::Vector3d>& at) {
+  Scene disc_scene(const ClothMesh& mesh, const std::vector<Eigen::Vector3d>& at) {
     write_obj(file(), mesh, at);
     Scene scene = default_scene();
     scene.cloth.shape = "file";
@@ -26,7 +26,7 @@ class Draped : public testing::Test {
     return scene;
   }
   std::string refusal(const Scene& scene) {
-    return test::refusal([&] { specimen_of(scene, make_cloth(scene)); });
+    return test::refusal([&] { disc_specimen(scene, make_cloth(scene)); });
   }
   Outcome drape(const std::string& flags) {
     return program("drape --quick --no-images --quiet --device cpu --threads 1 --triangles 200 --out " +
@@ -42,32 +42,32 @@ TEST_F(Draped, DiscIsMeasuredWhereverItLies) {
   const Eigen::Vector3d middle(0.3, -0.2, 0.05);
   std::vector<Eigen::Vector3d> at;
   for (const Eigen::Vector3d& x : disc.rest) at.push_back(x + middle);
-  const Scene scene = scene_of(disc, at);
-  const Specimen found = specimen_of(scene, make_cloth(scene));
+  const Scene scene = disc_scene(disc, at);
+  const Specimen found = disc_specimen(scene, make_cloth(scene));
   EXPECT_NEAR(found.radius, kRadius, 1e-12);
   EXPECT_LT((found.middle - middle).norm(), 1e-12);
 }
 
 TEST_F(Draped, WhatIsNoFlatDiscIsRefused) {
   const ClothMesh square = make_grid(0.2, 0.2, 8, 8, MeshFamily::unionjack, 1);
-  EXPECT_NE(refusal(scene_of(square, square.rest)).find("is no disc: its edge is 0.1 to 0.141 m"),
+  EXPECT_NE(refusal(disc_scene(square, square.rest)).find("is no disc: its edge is 0.1 to 0.141 m"),
             std::string::npos);
   const ClothMesh disc = make_disc(kRadius, 300, MeshFamily::random, 1);
   std::vector<Eigen::Vector3d> upright;
   for (const Eigen::Vector3d& x : disc.rest) upright.emplace_back(x.x(), 0, x.y());
-  Scene scene = scene_of(disc, upright);
+  Scene scene = disc_scene(disc, upright);
   EXPECT_NE(refusal(scene).find("m high and must lie flat"), std::string::npos);
   scene.cloth.rotation = {90, 0, 0};
-  EXPECT_NEAR(specimen_of(scene, make_cloth(scene)).radius, kRadius, 1e-12);
+  EXPECT_NEAR(disc_specimen(scene, make_cloth(scene)).radius, kRadius, 1e-12);
 }
 
 TEST_F(Draped, CoefficientRefersToTheFileThatIsRead) {
   const ClothMesh disc = make_disc(kRadius, 200, MeshFamily::random, 1);
-  scene_of(disc, disc.rest);
+  disc_scene(disc, disc.rest);
   const Outcome outcome =
       drape("--cloth.shape file --cloth.file " + file() + " --seconds 0.01 --drape.release dropped");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  const Json manifest = Json::parse(text_of(folder_.path() / "out" / "manifest.json"));
+  const Json manifest = Json::parse(file_text(folder_.path() / "out" / "manifest.json"));
   EXPECT_NEAR(manifest["specimen_radius_m"].get<double>(), kRadius, 1e-12);
   // It lies flat at first: the polygon of its rim, less the pedestal, over the ring.
   const int rim = 2 * disc.vertices() - disc.faces() - 2;
@@ -84,7 +84,7 @@ TEST_F(Draped, CoefficientRefersToTheFileThatIsRead) {
 
 TEST_F(Draped, DiscThatLiesOnThePedestalIsRefused) {
   const ClothMesh disc = make_disc(0.08, 200, MeshFamily::random, 1);
-  scene_of(disc, disc.rest);
+  disc_scene(disc, disc.rest);
   const Outcome outcome = drape("--cloth.shape file --cloth.file " + file());
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_NE(outcome.err.find("drape.disc = 0.09 m must be < 0.08 m, the radius of mesh " + file()),
@@ -100,7 +100,7 @@ TEST_F(Draped, CoefficientThatNoShadowHasIsNoResult) {
       "semi-implicit");
   EXPECT_EQ(outcome.exit_code, 3);
   EXPECT_NE(outcome.err.find("% of the ring, which must be 0 to 101"), std::string::npos) << outcome.err;
-  const Json manifest = Json::parse(text_of(folder_.path() / "out" / "manifest.json"));
+  const Json manifest = Json::parse(file_text(folder_.path() / "out" / "manifest.json"));
   EXPECT_EQ(manifest["complete"], false);
   EXPECT_FALSE(manifest["metrics"].contains("drape_coefficient_percent"));
 }

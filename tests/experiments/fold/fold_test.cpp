@@ -148,8 +148,8 @@ CommandLine fold_line(const std::filesystem::path& out, std::vector<Flag> flags)
   return line;
 }
 
-nlohmann::json metrics_of(const std::filesystem::path& run) {
-  return nlohmann::json::parse(text_of(run / "manifest.json"))["metrics"];
+nlohmann::json recorded_metrics(const std::filesystem::path& run) {
+  return nlohmann::json::parse(file_text(run / "manifest.json"))["metrics"];
 }
 
 // An elastic law, and a hysteretic one without and with fatigue, by one command.
@@ -161,10 +161,10 @@ TEST(Fold, RepeatsWithoutFatigueAndWeakensAndSetsWithIt) {
       "--quiet --out " +
       out.string());
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  const std::string table = text_of(out / "table.csv");
+  const std::string table = file_text(out / "table.csv");
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 4);
-  const auto elastic = metrics_of(out / "linear"), sound = metrics_of(out / "prandtl"),
-             tired = metrics_of(out / "prandtl-fatigue");
+  const auto elastic = recorded_metrics(out / "linear"), sound = recorded_metrics(out / "prandtl"),
+             tired = recorded_metrics(out / "prandtl-fatigue");
   for (const auto& run : {elastic, sound, tired}) {
     EXPECT_EQ(run["intersections"], 0);
     EXPECT_LT(run["energy_remainder_relative"], 1e-6);
@@ -216,7 +216,7 @@ TEST(Fold, OfTheLawAloneWritesItsCyclesAndMetrics) {
       experiment_named("fold").run(fold_line(out, {{"fold.law-alone", "true"}, {"fold.cycles", "1000"}})), 0);
   const Table cycles = read_csv(out / "cycles.csv", {"cycle", "2HB [N]"}, {}, "test");
   EXPECT_EQ(cycles.numbers("cycle").back(), 1000);
-  EXPECT_EQ(metrics_of(out)["2HB_N"].get<double>(), cycles.numbers("2HB [N]").back());
+  EXPECT_EQ(recorded_metrics(out)["2HB_N"].get<double>(), cycles.numbers("2HB [N]").back());
 }
 
 TEST(Fold, RefusesWhatCannotBeFolded) {

@@ -17,12 +17,12 @@ Setup defaults() {
 int run_still(const CommandLine& line) {
   Session session(line, set_up(line, defaults()));
   if (session.is_over()) return 0;
-  RunPlan question;
-  question.bounds = render::box_of(flat_points(session.cloth().start));
-  question.columns = {"corner_height [m]"};
-  question.measure = [](const Snapshot& m) { return std::vector{m.x[0].z()}; };
-  question.progress = [](const Snapshot& m) { return "t = " + std::to_string(m.time) + " s"; };
-  session.simulate(question);
+  RunPlan plan;
+  plan.bounds = render::bounding_box(flat_points(session.cloth().start));
+  plan.columns = {"corner_height [m]"};
+  plan.measure = [](const Snapshot& m) { return std::vector{m.x[0].z()}; };
+  plan.progress = [](const Snapshot& m) { return "t = " + std::to_string(m.time) + " s"; };
+  session.simulate(plan);
   session.run().metric("stillness_m", session.scene().step);
   session.finish("Still");
   return 0;

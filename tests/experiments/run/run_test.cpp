@@ -13,10 +13,10 @@ using Json = nlohmann::json;
 class Scenes : public testing::Test {
  protected:
   // Metrics of a run of this scene.
-  Json metrics_of(const std::string& scene, const std::string& flags = "--no-images") {
+  Json recorded_metrics(const std::string& scene, const std::string& flags = "--no-images") {
     const Outcome outcome = run(scene, flags);
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-    return Json::parse(text_of(out() / "manifest.json"))["metrics"];
+    return Json::parse(file_text(out() / "manifest.json"))["metrics"];
   }
   Outcome run(const std::string& scene, const std::string& flags) {
     std::ofstream(folder_.path() / "mine.toml") << scene;
@@ -40,7 +40,7 @@ length = 0.2
 
 TEST_F(Scenes, FallFreelyAsImplicitEulerHasIt) {
   constexpr double kRounding = 1e-9;
-  const Json metrics = metrics_of(kSquare + R"([[metric]]
+  const Json metrics = recorded_metrics(kSquare + R"([[metric]]
 name = "corner"
 kind = "height"
 point = [0.2, 0.2, 0]
@@ -80,7 +80,7 @@ direction = [0, 0, 1]
 name = "size"
 kind = "force"
 )";
-  const Json metrics = metrics_of(scene + "[fabric]\ndensity = 0.25\n");
+  const Json metrics = recorded_metrics(scene + "[fabric]\ndensity = 0.25\n");
   const double weight = 0.25 * 0.2 * 0.2 * 9.81;
   EXPECT_NEAR(metrics["weight_N"], weight, kBalanced * weight);
   EXPECT_NEAR(metrics["size_N"], weight, kBalanced * weight);
@@ -88,7 +88,7 @@ kind = "force"
 
 TEST_F(Scenes, TurnAPartByTheAngleOfItsHand) {
   constexpr double kRounding = 1e-9;
-  const Json metrics = metrics_of(R"(gravity = [0, 0, 0]
+  const Json metrics = recorded_metrics(R"(gravity = [0, 0, 0]
 )" + kSquare + R"([[pin]]
 low = [0, 0, -1]
 high = [0.05, 0.2, 1]
@@ -115,8 +115,8 @@ seconds = 0.05
 name = "swing"
 seconds = 0.05
 )";
-  metrics_of(kSquare + phases, "--fps 20 --size 160x120");
-  const Json manifest = Json::parse(text_of(out() / "manifest.json"));
+  recorded_metrics(kSquare + phases, "--fps 20 --size 160x120");
+  const Json manifest = Json::parse(file_text(out() / "manifest.json"));
   ASSERT_EQ(manifest["frames"]["moments"].size(), 3u);
   EXPECT_EQ(manifest["frames"]["moments"][0]["phase"], "hang");
   EXPECT_EQ(manifest["frames"]["moments"][2]["phase"], "swing");
@@ -129,7 +129,7 @@ TEST_F(Scenes, FailWhereAPictureShowsNoCloth) {
   EXPECT_EQ(outcome.exit_code, 3);
   EXPECT_NE(outcome.err.find("frames/0000.png shows no cloth at t = 0.000 s"), std::string::npos)
       << outcome.err;
-  EXPECT_EQ(Json::parse(text_of(out() / "manifest.json"))["complete"], false);
+  EXPECT_EQ(Json::parse(file_text(out() / "manifest.json"))["complete"], false);
 }
 
 // A quarter of the square is framed from above.
@@ -139,7 +139,7 @@ TEST_F(Scenes, WarnWhereTheBorderOfThePicturesCutsOffCloth) {
   EXPECT_EQ(outcome.exit_code, 0);
   const std::string warning = "from t = 0.000 s on (frames/0000.png) the cloth is cut off at the border";
   EXPECT_NE(outcome.err.find("warning: " + warning), std::string::npos) << outcome.err;
-  const Json warnings = Json::parse(text_of(out() / "manifest.json"))["warnings"];
+  const Json warnings = Json::parse(file_text(out() / "manifest.json"))["warnings"];
   EXPECT_EQ(std::count_if(warnings.begin(), warnings.end(),
                           [&](const Json& text) { return text.get<std::string>().starts_with(warning); }),
             1);
@@ -152,8 +152,8 @@ TEST_F(Scenes, AreComparedInOneFrame) {
               " --laws linear,prandtl --quiet --threads 1 --device cpu --size 160x120 --fps 10 --out " +
               out().string());
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  const Json linear = Json::parse(text_of(out() / "linear/manifest.json"));
-  const Json prandtl = Json::parse(text_of(out() / "prandtl/manifest.json"));
+  const Json linear = Json::parse(file_text(out() / "linear/manifest.json"));
+  const Json prandtl = Json::parse(file_text(out() / "prandtl/manifest.json"));
   EXPECT_NE(outcome.out.find("linear                        side "), std::string::npos) << outcome.out;
   EXPECT_EQ(linear["experiment"], "run");
   EXPECT_EQ(linear["options"]["camera"]["box"].size(), 6u);
@@ -177,7 +177,7 @@ TEST_F(Scenes, WarnOfPlotsAndFilmsThatCannotBeMade) {
   const std::string film = "compare.video: there is no film.mp4: ffmpeg is not installed";
   EXPECT_NE(outcome.err.find("warning: " + film + "\n"), std::string::npos) << outcome.err;
   EXPECT_NE(outcome.err.find("warning: the plot plot_side is missing: "), std::string::npos) << outcome.err;
-  const Json warnings = Json::parse(text_of(out() / "manifest.json"))["warnings"];
+  const Json warnings = Json::parse(file_text(out() / "manifest.json"))["warnings"];
   EXPECT_NE(std::find(warnings.begin(), warnings.end(), film), warnings.end()) << warnings;
   EXPECT_TRUE(std::filesystem::exists(out() / "sheet.png"));
 }
@@ -186,7 +186,7 @@ TEST_F(Scenes, WarnOfPlotsAndFilmsThatCannotBeMade) {
 TEST_F(Scenes, SayAtTheEndWhatTheyWereAskedFor) {
   const Outcome outcome = run(kSquare + "[[metric]]\nname = \"side\"\nto = [0.2, 0, 0]\n", "--no-images");
   EXPECT_NE(outcome.out.find("  side                          0.2 m\n"), std::string::npos) << outcome.out;
-  EXPECT_EQ(Json::parse(text_of(out() / "manifest.json"))["asked_metrics"], Json({"side_m"}));
+  EXPECT_EQ(Json::parse(file_text(out() / "manifest.json"))["asked_metrics"], Json({"side_m"}));
 }
 
 const std::string kCornerHeight = R"([[metric]]
@@ -198,7 +198,7 @@ point = [0.2, 0.2, 0]
 // A free fall by implicit Euler with the step h ends at -g T (T + h)/2, wherever the vertices are.
 TEST_F(Scenes, HaveTheErrorsOfTheirOwnMetrics) {
   constexpr double kStep = 0.01, kSeconds = 0.1, kRounding = 1e-9;
-  const Json metrics = metrics_of(kSquare + kCornerHeight, "--no-images --errors --errors.draws 1");
+  const Json metrics = recorded_metrics(kSquare + kCornerHeight, "--no-images --errors --errors.draws 1");
   EXPECT_NEAR(metrics["corner_m_step_error"], 9.81 * kSeconds * kStep / 4, kRounding);
   EXPECT_NEAR(metrics["corner_m_mesh_error"], 0, kRounding);
   EXPECT_NEAR(metrics["corner_m_draw_error"], 0, kRounding);
@@ -234,7 +234,7 @@ TEST(Camera, StandsAtItsDistanceFromTheTarget) {
   options.camera_direction = {0, -2, 0};
   options.camera_target = {0.1, 0.2, 0.3};
   options.camera_distance = 1.5;
-  const render::Camera camera = camera_of(options, {{0, 0, 0}, {1, 1, 1}});
+  const render::Camera camera = framed_camera(options, {{0, 0, 0}, {1, 1, 1}});
   EXPECT_LT((camera.eye() - Eigen::Vector3f(0.1f, -1.3f, 0.3f)).norm(), 1e-6);
   EXPECT_LT((camera.forward() - Eigen::Vector3f(0, 1, 0)).norm(), 1e-6);
 }
@@ -243,23 +243,23 @@ TEST(Camera, KeepsABoxWholeAroundItsTarget) {
   Options options;
   const render::Box box{{0, 0, 0}, {1, 1, 1}};
   options.camera_target = {0.5, 0.5, 0.5};
-  EXPECT_EQ(camera_of(options, box).eye(), camera_of(Options(), box).eye());
+  EXPECT_EQ(framed_camera(options, box).eye(), framed_camera(Options(), box).eye());
   options.camera_target = {0.5, 0.5, 0};
-  EXPECT_EQ(camera_of(options, box).eye(), camera_of(Options(), {{0, 0, -1}, {1, 1, 1}}).eye());
+  EXPECT_EQ(framed_camera(options, box).eye(), framed_camera(Options(), {{0, 0, -1}, {1, 1, 1}}).eye());
   options.camera_target.clear();
   options.camera_box = {0, 0, -1, 1, 1, 1};
-  EXPECT_EQ(camera_of(options, box).eye(), camera_of(Options(), {{0, 0, -1}, {1, 1, 1}}).eye());
+  EXPECT_EQ(framed_camera(options, box).eye(), framed_camera(Options(), {{0, 0, -1}, {1, 1, 1}}).eye());
 }
 
 TEST_F(Scenes, AreDrawnWithFewerSamplesAsADraft) {
-  const auto picture_of = [&](const std::string& quality) {
+  const auto picture_bytes = [&](const std::string& quality) {
     const Outcome outcome = run(kSquare, "--fps 10 --size 64x48 --quality " + quality);
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     const render::Image picture = render::read_png(out() / "frames" / "0001.png");
     std::filesystem::remove_all(out());
     return picture;
   };
-  const auto difference = render::compare(picture_of("final"), picture_of("draft"));
+  const auto difference = render::compare(picture_bytes("final"), picture_bytes("draft"));
   EXPECT_GT(difference.mean_abs, 0);
   EXPECT_GT(difference.psnr_db, 40);  // measured 47.6
 }

@@ -72,14 +72,14 @@ TEST(Attempt, IsCutShortWhenItsWorkIsDone) {
   attempt.scene.substeps = 10;
   const Finding f = find_out(attempt, {1, 200});
   EXPECT_EQ(f.steps, 20);
-  EXPECT_EQ(f.seconds_asked, 1);
+  EXPECT_EQ(f.requested_seconds, 1);
   EXPECT_NEAR(f.seconds_simulated, 20 * attempt.scene.step, 1e-12);
 }
 
 TEST(Sweeps, CoverWhatTheProgramPromises) {
   const SweepChoice all;
   const std::vector<Sweep> sweeps = make_sweeps(sweep_names(), all);
-  const std::vector<SweepCell> cells = cells_of(sweeps, all);
+  const std::vector<SweepCell> cells = untried_cells(sweeps, all);
   EXPECT_GE(cells.size(), 600u);
   double softest = 1, stiffest = 0, shortest = 1, longest = 0;
   for (const SweepCell& cell : cells) {
@@ -152,7 +152,7 @@ TEST_P(ClosingSphere, CrushesASheetWithoutACrossingAndWithBoundedEnergy) {
 TEST(Cells, AreTriedAllOnceByAnyNumberOfThreads) {
   const SweepChoice quick{{"semi-implicit"}, {"linear"}, DeviceChoice::cpu, true};
   const std::vector<Sweep> sweeps = make_sweeps({"density-step"}, quick);
-  std::vector<SweepCell> one = cells_of(sweeps, quick), three = one;
+  std::vector<SweepCell> one = untried_cells(sweeps, quick), three = one;
   std::size_t calls = 0;
   try_all(one, {0.1, 50}, 1, [&](std::size_t) { ++calls; });
   try_all(three, {0.1, 50}, 3, [](std::size_t) {});
@@ -167,7 +167,7 @@ constexpr int kLimitSteps = 600;
 
 class ExplicitLimit : public testing::TestWithParam<LimitCase> {};
 INSTANTIATE_TEST_SUITE_P(Bending, ExplicitLimit, testing::ValuesIn(limit_cases(true)), [](const auto& of) {
-  return of.param.mesh + "_" + name_of(of.param.element) + (of.param.held ? "_held" : "_free");
+  return of.param.mesh + "_" + enum_name(of.param.element) + (of.param.held ? "_held" : "_free");
 });
 
 // Linear waves without damping: the limit is 2/omega, of which the program keeps 0.75.
@@ -189,9 +189,9 @@ class StabilityCommand : public testing::Test {
     printed_ = testing::internal::GetCapturedStdout();
     return exit_code;
   }
-  Json manifest() const { return Json::parse(text_of(folder_.path() / "manifest.json")); }
+  Json manifest() const { return Json::parse(file_text(folder_.path() / "manifest.json")); }
   std::vector<std::string> lines(const char* file) const {
-    std::istringstream stream(text_of(folder_.path() / file));
+    std::istringstream stream(file_text(folder_.path() / file));
     std::vector<std::string> all;
     for (std::string line; std::getline(stream, line);) all.push_back(line);
     return all;

@@ -13,14 +13,14 @@
 namespace hysteron::experiments {
 namespace {
 
-Study study_of(const std::string& text) {
+Study parsed_study(const std::string& text) {
   const Folder folder;
   write_text(folder.path() / "s.toml", text);
   return read_study(folder.path() / "s.toml");
 }
 
 TEST(Study, RunsEveryCombinationTheLastAxisFirst) {
-  const Study study = study_of(
+  const Study study = parsed_study(
       "experiment = \"swing\"\nseeds = 2\n[scene]\nfabric.damping = 1e-5\n"
       "[[axis]]\nkey = \"law\"\nvalues = [\"linear\", \"dahl\"]\n[[axis]]\nkey = \"fabric.k0\"\nvalues = "
       "[12.5, 40]\n");
@@ -31,7 +31,7 @@ TEST(Study, RunsEveryCombinationTheLastAxisFirst) {
   EXPECT_FALSE(study.axes[0].numeric);
   EXPECT_TRUE(study.axes[1].numeric);
   EXPECT_EQ(study.axes[1].unit, "1/m");
-  const CommandLine line = line_of(study, study.runs[7]);
+  const CommandLine line = run_command_line(study, study.runs[7]);
   EXPECT_EQ(last_text(line.flags, "fabric.damping", ""), "1e-05");
   EXPECT_EQ(last_text(line.flags, "law", ""), "dahl");
   EXPECT_EQ(last_text(line.flags, "fabric.k0", ""), "40");
@@ -39,7 +39,7 @@ TEST(Study, RunsEveryCombinationTheLastAxisFirst) {
 }
 
 TEST(Study, SpacesValuesByEqualDifferencesOrEqualRatios) {
-  const Study study = study_of(
+  const Study study = parsed_study(
       "experiment = \"swing\"\n[[axis]]\nkey = \"step\"\nlog = [1e-3, 8e-3, 4]\n"
       "[[axis]]\nkey = \"triangles\"\nlinear = [100000, 200000, 3]\n");
   EXPECT_EQ(study.axes[0].values, (std::vector<std::string>{"0.001", "0.002", "0.004", "0.008"}));
@@ -48,7 +48,7 @@ TEST(Study, SpacesValuesByEqualDifferencesOrEqualRatios) {
 }
 
 TEST(Study, NamesRunsApartWithCharactersThatShellsLeaveAlone) {
-  const Study study = study_of(
+  const Study study = parsed_study(
       "experiment = \"swing\"\n[[axis]]\nkey = \"fabric.b1\"\nvalues = [1e-5, 2e-5]\n"
       "[[axis]]\nkey = \"gravity\"\nvalues = [\"0 0 -9.81\", \"0,0,-9.81\"]\n");
   std::set<std::string> names;
@@ -76,7 +76,7 @@ TEST(LatinHypercube, DrawsOnceFromEveryPartOfEveryAxis) {
 }
 
 TEST(Study, SamplesTwoAxesTogetherAndCrossesThemWithTheOthers) {
-  const Study study = study_of(
+  const Study study = parsed_study(
       "experiment = \"swing\"\n[[axis]]\nkey = \"fabric.k0\"\nlog = [10, 1000]\n"
       "[[axis]]\nkey = \"law\"\nvalues = [\"dahl\", \"prandtl\"]\n"
       "[[axis]]\nkey = \"triangles\"\nlinear = [101, 110]\n[sample]\nmethod = \"latin\"\nn = 10\nseed = 3\n");
@@ -151,7 +151,7 @@ ChildRun found(const Metrics& metrics) {
 
 TEST(Study, TellsTheMeanOfRepeatedDrawsWithItsStandardError) {
   constexpr double kRounding = 1e-12;
-  const Study study = study_of(
+  const Study study = parsed_study(
       "experiment = \"swing\"\nseeds = 4\n[[axis]]\nkey = \"law\"\nvalues = [\"dahl\", \"prandtl\"]\n");
   std::vector<ChildRun> runs;
   for (const double x : {1, 2, 3, 4, 5, 5, 5, 5}) runs.push_back(found({{"x_m", x}}));
@@ -165,7 +165,7 @@ TEST(Study, TellsTheMeanOfRepeatedDrawsWithItsStandardError) {
 }
 
 TEST(Study, WritesARowForEachRunWithNumbersTruthsAndTexts) {
-  const Study study = study_of("experiment = \"swing\"\nseeds = 2\n");
+  const Study study = parsed_study("experiment = \"swing\"\nseeds = 2\n");
   std::vector<ChildRun> runs = {found({{"x_m", 0.1}, {"settled", true}}), found({{"shape", "plateau"}})};
   runs[1].exit_code = 3;
   runs[1].stopped = "no convergence";

@@ -20,7 +20,7 @@ double told(const Trial& trial, const std::string& key) {
 TEST(BudgetTrials, ChangeOneThingEach) {
   ValidateFlags flags;
   const FabricFile file = read_fabric("cotton-broad", "test");
-  const std::vector<Trial> trials = trials_of(file, flags);
+  const std::vector<Trial> trials = budget_trials(file, flags);
   ASSERT_EQ(trials.size(), 1 + 2 * file.range.size() + 2);
   EXPECT_TRUE(trials[0].drape.further.empty());
   std::size_t next = 1;
@@ -48,7 +48,7 @@ TEST(BudgetTrials, KeepWhatWasMeasured) {
   const FabricFile file = read_fabric("cotton-broad", "test");
   const KesPair published = file.fabric.kes.read;
   int ratios = 0;
-  for (const Trial& trial : trials_of(file, {})) {
+  for (const Trial& trial : budget_trials(file, {})) {
     if (trial.number == "weft-bending") {
       const double mean = (1 + told(trial, "weft-bending")) / 2;
       EXPECT_NEAR(mean * told(trial, "kes-b"), published.rigidity, kRounding * published.rigidity);
@@ -91,12 +91,12 @@ class InFolder {
   std::filesystem::path before_ = std::filesystem::current_path();
 };
 
-double drape_of(const std::filesystem::path& out, int trial, int draw) {
+double recorded_drape(const std::filesystem::path& out, int trial, int draw) {
   for (const auto& entry : std::filesystem::directory_iterator(out))
     if (entry.path().filename().string().ends_with("-budget-" + std::to_string(trial) + "-" +
                                                    std::to_string(draw)))
       return nlohmann::json::parse(
-          text_of(entry.path() / "manifest.json"))["metrics"]["drape_coefficient_percent"];
+          file_text(entry.path() / "manifest.json"))["metrics"]["drape_coefficient_percent"];
   return NAN;
 }
 
@@ -115,7 +115,7 @@ TEST(Budget, RowsAreMeansOfTheirDrapesAndChangesFromTheFirst) {
   ASSERT_EQ(rows.size(), 5u);  // file, two ends, tester, mesh
   for (int trial = 0; trial < 5; ++trial) {
     const BudgetRow& row = rows[trial];
-    const double one = drape_of(out, trial, 1), two = drape_of(out, trial, 2);
+    const double one = recorded_drape(out, trial, 1), two = recorded_drape(out, trial, 2);
     EXPECT_EQ(row.meshes, 2) << row.number;
     EXPECT_NEAR(row.coefficient, (one + two) / 2, kDigits) << row.number;
     EXPECT_NEAR(row.error, std::abs(one - two) / 2, kDigits) << row.number << ": of the mean of two";
@@ -128,7 +128,7 @@ TEST(Budget, RowsAreMeansOfTheirDrapesAndChangesFromTheFirst) {
   // A drape falls as its weight grows, by more than meshes differ.
   EXPECT_GT(rows[1].change, 2 * (rows[1].error + rows[0].error)) << "a fifteenth of the weight";
   EXPECT_LT(rows[2].change, -2 * (rows[2].error + rows[0].error)) << "four times the weight";
-  const auto metrics = nlohmann::json::parse(text_of(out / "manifest.json"))["metrics"];
+  const auto metrics = nlohmann::json::parse(file_text(out / "manifest.json"))["metrics"];
   EXPECT_NEAR(metrics["one-unknown.density=0.6.change_percent"].get<double>(), rows[2].change, kDigits);
 }
 

@@ -21,23 +21,23 @@ TEST(Validate, SetsDrapesAndBendingLengthsBesideWhatIsPublished) {
                     out.string())
                 .exit_code,
             0);
-  const auto metrics = nlohmann::json::parse(text_of(out / "manifest.json"))["metrics"];
+  const auto metrics = nlohmann::json::parse(file_text(out / "manifest.json"))["metrics"];
   // What the drape of its own folder found, and nothing else: which of several ways so coarse a disc buckles
   // (three meshes: 45, 60 and 75 %) is chance.  Closed forms are in outline_test.cpp, a fine drape among the
   // golden ones.
   const auto drape =
-      nlohmann::json::parse(text_of(out / "wool-tropical-linear-shaken" / "manifest.json"))["metrics"];
+      nlohmann::json::parse(file_text(out / "wool-tropical-linear-shaken" / "manifest.json"))["metrics"];
   EXPECT_EQ(drape["published_drape_coefficient_percent"], 49.8);
   EXPECT_EQ(metrics["wool-tropical-linear-shaken.drape_coefficient_percent"],
             drape["drape_coefficient_percent"]);
   // (b2/(sigma g))^(1/3), which half the overhang is to 0.02 % (ASTM D1388).
   const double bending = std::cbrt(read_fabric("wool-tropical", "test").fabric.b2 / (0.1629 * 9.81));
   EXPECT_NEAR(metrics["cantilever-wool-tropical-linear.bending_length_m"].get<double>() / bending, 1, 5e-3);
-  EXPECT_NE(text_of(out / "drape.csv").find("wool-tropical,linear,jis,shaken"), std::string::npos);
-  EXPECT_NE(text_of(out / "drape.csv").find("49.8"), std::string::npos) << "published";
+  EXPECT_NE(file_text(out / "drape.csv").find("wool-tropical,linear,jis,shaken"), std::string::npos);
+  EXPECT_NE(file_text(out / "drape.csv").find("49.8"), std::string::npos) << "published";
   // B and 2HB of ten fabrics come back as they went in.
   EXPECT_LT(metrics["kes_pairs_largest_error_percent"], 1);
-  const std::string table = text_of(out / "predictions.csv");
+  const std::string table = file_text(out / "predictions.csv");
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 1 + 2 * 10);
 }
 
@@ -47,9 +47,9 @@ TEST(Validate, HandsItsDrapesTheirNumbersBitForBit) {
   flags.tolerance = 1e-5 / 3;
   flags.seconds = 10.0 / 3;
   Drape drape = nominal_drape("cotton-broad", flags);
-  const Sample sample = samples_of(read_fabric("cotton-broad", "test"), 3, 1).front();
-  drape.further = flags_of(sample);
-  std::vector<Flag> told = flags_of(drape, flags);
+  const Sample sample = fabric_samples(read_fabric("cotton-broad", "test"), 3, 1).front();
+  drape.further = drape_flags(sample);
+  std::vector<Flag> told = drape_flags(drape, flags);
   std::erase_if(told, [](const Flag& flag) { return flag.path.starts_with("drape."); });
   const Scene scene =
       set_up({"drape", "hysteron drape", told, {}}, experiment_named("drape").defaults()).scene;
@@ -65,7 +65,7 @@ TEST(Validate, DrawsUncertainNumbersFromALatinHypercubeThatKeepsTheFrictionMomen
   constexpr int kCount = 7;
   constexpr double kRounding = 1e-12;
   const FabricFile file = read_fabric("cotton-broad-k50", "test");
-  const std::vector<Sample> samples = samples_of(file, kCount, 1);
+  const std::vector<Sample> samples = fabric_samples(file, kCount, 1);
   for (const auto& [key, range] : file.range) {
     std::set<int> parts;
     for (const Sample& sample : samples) {
@@ -84,8 +84,8 @@ TEST(Validate, DrawsUncertainNumbersFromALatinHypercubeThatKeepsTheFrictionMomen
         (sample.at("b1") - sample.at("b2")) * sample.at("k0") / 2 * (1 + sample.at("weft-bending")) / 2,
         moment, kRounding * moment)
         << "the mean of warp and weft";
-  EXPECT_EQ(samples_of(file, kCount, 1), samples);
-  EXPECT_NE(samples_of(file, kCount, 2), samples);
+  EXPECT_EQ(fabric_samples(file, kCount, 1), samples);
+  EXPECT_NE(fabric_samples(file, kCount, 2), samples);
 }
 
 // Loops that were not fitted, by the stops and by one constant 2HB, beside what was measured.
@@ -111,16 +111,17 @@ TEST(Validate, SaysWhetherTheMeasuredDrapeLiesAmongTheDrawn) {
                     out.string())
                 .exit_code,
             0);
-  const auto metrics = nlohmann::json::parse(text_of(out / "manifest.json"))["metrics"];
+  const auto metrics = nlohmann::json::parse(file_text(out / "manifest.json"))["metrics"];
   const double low = metrics["polyester-faille.spread_low_percent"],
                high = metrics["polyester-faille.spread_high_percent"];
   EXPECT_LT(low, high);  // two samples differ
   EXPECT_EQ(metrics["polyester-faille.spread_has_measured"].get<bool>(), low <= 28.3 && 28.3 <= high);
   double sum = 0;
   for (const char* draw : {"1", "2"})
-    sum += nlohmann::json::parse(text_of(out / (std::string("polyester-faille-prandtl-shaken-draw-") + draw) /
-                                         "manifest.json"))["metrics"]["drape_coefficient_percent"]
-               .get<double>();
+    sum +=
+        nlohmann::json::parse(file_text(out / (std::string("polyester-faille-prandtl-shaken-draw-") + draw) /
+                                        "manifest.json"))["metrics"]["drape_coefficient_percent"]
+            .get<double>();
   EXPECT_NEAR(metrics["polyester-faille-prandtl.drape_coefficient_percent_mean"].get<double>(), sum / 2,
               1e-9);
 }

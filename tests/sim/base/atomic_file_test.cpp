@@ -21,14 +21,14 @@ TEST(AtomicFile, AppearsOnlyOnCommit) {
   EXPECT_NE(folder.names(), std::vector<std::string>{"a.txt"});
   file.commit();
   EXPECT_EQ(folder.names(), std::vector<std::string>{"a.txt"});
-  EXPECT_EQ(test::content_of(folder.file("a.txt")), "whole");
+  EXPECT_EQ(test::file_content(folder.file("a.txt")), "whole");
 }
 
 TEST(AtomicFile, LeavesTheOldContentWithoutCommit) {
   const Folder folder;
   folder.write("a.txt", "old");
   { AtomicFile(folder.file("a.txt")).stream() << "half"; }
-  EXPECT_EQ(test::content_of(folder.file("a.txt")), "old");
+  EXPECT_EQ(test::file_content(folder.file("a.txt")), "old");
   EXPECT_EQ(folder.names(), std::vector<std::string>{"a.txt"});
 }
 
@@ -40,7 +40,7 @@ TEST(AtomicFile, ReplacesWhatALinkLeadsToAndNotTheLink) {
   file.stream() << "new";
   file.commit();
   EXPECT_TRUE(std::filesystem::is_symlink(folder.file("link")));
-  EXPECT_EQ(test::content_of(folder.file("a.txt")), "new");
+  EXPECT_EQ(test::file_content(folder.file("a.txt")), "new");
 }
 
 TEST(AtomicFile, ReplacesNoFileThatIsStandardOutput) {
@@ -69,13 +69,13 @@ TEST(AtomicFile, TwoWritersOfOneTargetDoNotMix) {
   b.stream() << "second";
   a.commit();
   b.commit();
-  EXPECT_EQ(test::content_of(folder.file("a.txt")), "second");
+  EXPECT_EQ(test::file_content(folder.file("a.txt")), "second");
 }
 
 TEST(AtomicFile, FolderInTheWayIsTheMachinesFailure) {
   const Folder folder;
   folder.write("taken", "");
-  const Error below = test::error_of([&] { AtomicFile(folder.file("taken/a.txt")); });
+  const Error below = test::thrown_error([&] { AtomicFile(folder.file("taken/a.txt")); });
   EXPECT_EQ(below.exit_code(), 1);
   EXPECT_EQ(std::string(below.what()), "cannot create " + folder.file("taken/a.txt") + ": Not a directory");
 }
@@ -84,7 +84,7 @@ TEST(AtomicFile, FullDiskKeepsTheOldFileAndNothingElse) {
   const Folder folder;
   folder.write("a.txt", "old");
   for (const std::size_t size : {2000, 2000000}) {  // fails when flushed, and while writing
-    const Error error = test::error_of([&] {
+    const Error error = test::thrown_error([&] {
       const test::SmallDisk disk(1000);
       AtomicFile file(folder.file("a.txt"));
       file.stream() << std::string(size, 'x');
@@ -92,7 +92,7 @@ TEST(AtomicFile, FullDiskKeepsTheOldFileAndNothingElse) {
     });
     EXPECT_EQ(error.exit_code(), 1);
     EXPECT_EQ(std::string(error.what()).find("cannot write " + folder.file("a.txt") + ": "), 0u);
-    EXPECT_EQ(test::content_of(folder.file("a.txt")), "old");
+    EXPECT_EQ(test::file_content(folder.file("a.txt")), "old");
     EXPECT_EQ(folder.names(), std::vector<std::string>{"a.txt"});
   }
 }

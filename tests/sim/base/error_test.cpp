@@ -6,7 +6,10 @@ namespace hysteron {
 namespace {
 
 TEST(Error, CarriesKeyValueAndExperimentBesideItsMessage) {
-  const Error error = Error::invalid_input("k0 = -1 1/m must be >= 0").of("k0", "-1").in("law").from("--k0");
+  const Error error = Error::invalid_input("k0 = -1 1/m must be >= 0")
+                          .with_key("k0", "-1")
+                          .with_experiment("law")
+                          .with_origin("--k0");
   EXPECT_STREQ(error.what(), "law: k0 = -1 1/m must be >= 0 (--k0)");
   EXPECT_EQ(error.exit_code(), 2);
   EXPECT_EQ(error.key(), "k0");
@@ -21,7 +24,7 @@ TEST(Error, OfNothingInParticularHasItsMessageAlone) {
 }
 
 TEST(Error, IsOneLineWhateverItQuotes) {
-  EXPECT_STREQ(Error::invalid_input("law = a\r\n\tb must be c\n").in("swing").what(),
+  EXPECT_STREQ(Error::invalid_input("law = a\r\n\tb must be c\n").with_experiment("swing").what(),
                "swing: law = a   b must be c");
 }
 

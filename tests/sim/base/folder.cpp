@@ -33,13 +33,13 @@ std::vector<std::string> Folder::names() const {
   return found;
 }
 
-std::string content_of(const std::string& file) {
+std::string file_content(const std::string& file) {
   std::ostringstream text;
   text << std::ifstream(file, std::ios::binary).rdbuf();
   return text.str();
 }
 
-Error error_of(const std::function<void()>& call) {
+Error thrown_error(const std::function<void()>& call) {
   try {
     call();
   } catch (const Error& error) {

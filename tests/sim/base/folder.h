@@ -24,9 +24,9 @@ class Folder {
   std::string path_;
 };
 
-std::string content_of(const std::string& file);
+std::string file_content(const std::string& file);
 
 // The Error that the call throws; fails the test if there is none.
-Error error_of(const std::function<void()>& call);
+Error thrown_error(const std::function<void()>& call);
 
 }  // namespace hysteron::test

@@ -11,8 +11,8 @@
 namespace hysteron {
 namespace {
 
-using test::error_of;
 using test::Folder;
+using test::thrown_error;
 
 TEST(WholeFile, HasAllBytes) {
   const Folder folder;
@@ -28,7 +28,7 @@ TEST(WholeFile, IsNeitherAFolderNorAPipeNorADevice) {
   const std::string pipe = folder.file("pipe.toml");
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
   const auto refusal = [&](const std::string& file) {
-    const Error error = error_of([&] { whole_file(file, "cannot read it"); });
+    const Error error = thrown_error([&] { whole_file(file, "cannot read it"); });
     EXPECT_EQ(error.exit_code(), 1);
     return std::string(error.what());
   };
@@ -36,8 +36,8 @@ TEST(WholeFile, IsNeitherAFolderNorAPipeNorADevice) {
   EXPECT_EQ(refusal("/dev/zero"), refusal(pipe));
   EXPECT_EQ(refusal(folder.file(".")), "cannot read it: it is a folder");
   EXPECT_EQ(refusal(folder.file("none")), "cannot read it: No such file or directory");
-  EXPECT_EQ(error_of([&] { read_toml(pipe); }).exit_code(), 1);
-  EXPECT_EQ(error_of([&] { read_obj(pipe, 0); }).exit_code(), 1);
+  EXPECT_EQ(thrown_error([&] { read_toml(pipe); }).exit_code(), 1);
+  EXPECT_EQ(thrown_error([&] { read_obj(pipe, 0); }).exit_code(), 1);
 }
 
 // A file with a hole: nothing of its size is on the disk.
@@ -45,13 +45,13 @@ TEST(WholeFile, LargerThanTheLimitIsRefusedBeforeItIsRead) {
   const Folder folder;
   const std::string file = folder.write("large", "a");
   std::filesystem::resize_file(file, std::uintmax_t{1} << 40);
-  const Error error = error_of([&] { whole_file(file, "cannot read it"); });
+  const Error error = thrown_error([&] { whole_file(file, "cannot read it"); });
   EXPECT_EQ(error.exit_code(), 2);
   EXPECT_EQ(std::string(error.what()), "cannot read it: it is larger than 2047 MiB");
 }
 
 TEST(WholeFile, ThatARequestNamesIsPartOfTheRequest) {
-  const Error error = error_of([] { file_named("/nowhere/a.png", "reading a.png"); });
+  const Error error = thrown_error([] { file_named("/nowhere/a.png", "reading a.png"); });
   EXPECT_EQ(error.exit_code(), 2);
   EXPECT_EQ(std::string(error.what()), "reading a.png: No such file or directory");
 }

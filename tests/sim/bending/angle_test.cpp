@@ -19,7 +19,7 @@ constexpr double kRounding = 1e-13;
 // The second term of the error series changes the observed order by about (size of the difference)^2.
 constexpr double kOrderSlack = 0.05;
 
-Angle<double> angle_of(const Hinge& p) { return dihedral_angle<double>(p[0], p[1], p[2], p[3]); }
+Angle<double> stencil_angle(const Hinge& p) { return dihedral_angle<double>(p[0], p[1], p[2], p[3]); }
 
 // Derivatives of the angle by the four corners, from the two that the code stores.
 Hinge gradient(const Angle<double>& a) {
@@ -43,8 +43,8 @@ Hinge random_hinge(std::mt19937& generator) {
 
 TEST(DihedralAngle, IsPositiveWhereTheFrontIsConcave) {
   for (const double theta : {0.0, 0.1, 1.0, 2.0, 3.1}) {
-    EXPECT_NEAR(angle_of(folded(theta)).theta, theta, kRounding);
-    EXPECT_NEAR(angle_of(folded(-theta)).theta, -theta, kRounding);
+    EXPECT_NEAR(stencil_angle(folded(theta)).theta, theta, kRounding);
+    EXPECT_NEAR(stencil_angle(folded(-theta)).theta, -theta, kRounding);
   }
 }
 
@@ -53,7 +53,7 @@ TEST(DihedralAngle, GradientMatchesCentralDifferencesToSecondOrder) {
   constexpr double kStep = 1e-3;
   for (int trial = 0; trial < 20; ++trial) {
     const Hinge p = random_hinge(generator);
-    const Hinge exact = gradient(angle_of(p));
+    const Hinge exact = gradient(stencil_angle(p));
     double error[2] = {0, 0}, size = 0;
     for (int i = 0; i < 4; ++i)
       for (int k = 0; k < 3; ++k) {
@@ -63,10 +63,10 @@ TEST(DihedralAngle, GradientMatchesCentralDifferencesToSecondOrder) {
           Hinge plus = p, minus = p;
           plus[i][k] += h;
           minus[i][k] -= h;
-          const double here = angle_of(p).theta;
-          const double difference =
-              (continued_angle(angle_of(plus).theta, here) - continued_angle(angle_of(minus).theta, here)) /
-              (2 * h);
+          const double here = stencil_angle(p).theta;
+          const double difference = (continued_angle(stencil_angle(plus).theta, here) -
+                                     continued_angle(stencil_angle(minus).theta, here)) /
+                                    (2 * h);
           error[level] += std::pow(difference - exact[i][k], 2);
         }
       }
@@ -78,7 +78,7 @@ TEST(DihedralAngle, GradientMatchesCentralDifferencesToSecondOrder) {
 TEST(DihedralAngle, GradientHasNoForceAndNoTorque) {
   std::mt19937 generator(5);
   for (int trial = 0; trial < 20; ++trial) {
-    const Hinge p = random_hinge(generator), g = gradient(angle_of(p));
+    const Hinge p = random_hinge(generator), g = gradient(stencil_angle(p));
     Vector3d force = Vector3d::Zero(), torque = Vector3d::Zero();
     double size = 0;
     for (int i = 0; i < 4; ++i) {
@@ -103,10 +103,10 @@ TEST(DihedralAngle, KeepsItsValueUnderRigidMotionScalingAndExchangeOfSides) {
       moved[i] = turn * p[i] + shift;
       scaled[i] = 0.01 * p[i];
     }
-    const double theta = angle_of(p).theta;
-    EXPECT_NEAR(angle_of(moved).theta, theta, 10 * kRounding);
-    EXPECT_NEAR(angle_of(scaled).theta, theta, 10 * kRounding);
-    EXPECT_NEAR(angle_of({p[1], p[0], p[3], p[2]}).theta, theta, 10 * kRounding);
+    const double theta = stencil_angle(p).theta;
+    EXPECT_NEAR(stencil_angle(moved).theta, theta, 10 * kRounding);
+    EXPECT_NEAR(stencil_angle(scaled).theta, theta, 10 * kRounding);
+    EXPECT_NEAR(stencil_angle({p[1], p[0], p[3], p[2]}).theta, theta, 10 * kRounding);
   }
 }
 
@@ -115,11 +115,11 @@ TEST(ContinuedAngle, FollowsAFoldThroughPlusAndMinusPiForSeveralTurns) {
   for (const double direction : {1.0, -1.0}) {
     double accepted = 0;
     for (double theta = 0; theta < 5 * kPi; theta += kStride) {
-      accepted = continued_angle(angle_of(folded(direction * theta)).theta, accepted);
+      accepted = continued_angle(stencil_angle(folded(direction * theta)).theta, accepted);
       ASSERT_NEAR(accepted, direction * theta, 100 * kRounding);
     }
     for (double theta = 5 * kPi; theta > 0; theta -= kStride)
-      accepted = continued_angle(angle_of(folded(direction * theta)).theta, accepted);
+      accepted = continued_angle(stencil_angle(folded(direction * theta)).theta, accepted);
     EXPECT_LT(std::abs(accepted), kStride);
   }
 }

@@ -53,7 +53,7 @@ std::set<int> inner_vertices(const ClothMesh& mesh) {
 }
 
 // Largest error of the curvature over the inner vertices, relative to `expected`.
-double error_of(const ClothMesh& mesh, const std::vector<Vector3d>& x, double expected) {
+double curvature_error(const ClothMesh& mesh, const std::vector<Vector3d>& x, double expected) {
   const std::vector<float> k = surface_curvature(x, mesh.face, "test");
   double worst = 0;
   for (const int v : inner_vertices(mesh)) worst = std::max(worst, std::abs(k[v] / expected - 1));
@@ -77,16 +77,16 @@ TEST_P(EveryFamily, OfAPlaneIsZeroHoweverItLies) {
 
 TEST_P(EveryFamily, OfACylinderIsItsReciprocalRadius) {
   const ClothMesh coarse = sheet(GetParam(), 1000), fine = sheet(GetParam(), 16000);
-  const double e1 = error_of(coarse, rolled(coarse, kRadius), 1 / kRadius),
-               e2 = error_of(fine, rolled(fine, kRadius), 1 / kRadius);
+  const double e1 = curvature_error(coarse, rolled(coarse, kRadius), 1 / kRadius),
+               e2 = curvature_error(fine, rolled(fine, kRadius), 1 / kRadius);
   EXPECT_LT(e1, kCoarse);
   EXPECT_NEAR(std::log(e1 / e2) / std::log(4.0), 2, kOrder) << e1 << " then " << e2;
 }
 
 TEST_P(EveryFamily, OfASphereIsTwiceItsReciprocalRadius) {
   const ClothMesh coarse = make_disc(0.02, 1000, GetParam(), 3), fine = make_disc(0.02, 16000, GetParam(), 3);
-  const double e1 = error_of(coarse, over_a_sphere(coarse, kRadius), 2 / kRadius),
-               e2 = error_of(fine, over_a_sphere(fine, kRadius), 2 / kRadius);
+  const double e1 = curvature_error(coarse, over_a_sphere(coarse, kRadius), 2 / kRadius),
+               e2 = curvature_error(fine, over_a_sphere(fine, kRadius), 2 / kRadius);
   EXPECT_LT(e1, kCoarse);
   EXPECT_NEAR(std::log(e1 / e2) / std::log(4.0), 2, kOrder) << e1 << " then " << e2;
 }

@@ -20,7 +20,7 @@ TEST(ObstacleShell, HasTheStiffnessOfTheSceneThereAndUntilItIsCrushed) {
   scene.contact_stiffness = 1e7;
   const ObstacleShell<double> shell = obstacle_shell(scene);
   const double t = scene.fabric.thickness;
-  for (double share : {0.8, 0.5, 0.4}) EXPECT_NEAR(shell.at(share * t).stiffness / 1e7, 1, 1e-12);
+  for (double fraction : {0.8, 0.5, 0.4}) EXPECT_NEAR(shell.at(fraction * t).stiffness / 1e7, 1, 1e-12);
   EXPECT_LT(shell.at(0.9 * t).stiffness, 0.5e7);
   EXPECT_GT(shell.at(0.1 * t).stiffness, 5e7);
 }
@@ -32,8 +32,8 @@ TEST(ObstacleShell, KeepsItsStiffnessBeyondThatWhereStepsFindNoEquilibrium) {
     scene.contact_stiffness = 1e7;
     scene.integrator = integrator;
     const ObstacleShell<double> shell = obstacle_shell(scene);
-    for (double share : {0.8, 0.4, 0.0, -3.0})
-      EXPECT_NEAR(shell.at(share * scene.fabric.thickness).stiffness / 1e7, 1, 1e-12);
+    for (double fraction : {0.8, 0.4, 0.0, -3.0})
+      EXPECT_NEAR(shell.at(fraction * scene.fabric.thickness).stiffness / 1e7, 1, 1e-12);
   }
 }
 
@@ -50,11 +50,11 @@ TEST(ObstacleShell, HasSmoothEnergyPressureAndStiffness) {
   scene.integrator = Integrator::implicit;
   const ObstacleShell<double> shell = obstacle_shell(scene);
   const double t = shell.thickness, h = 1e-5 * t;
-  for (double share : {0.999, 0.95, 0.85, 0.8001, 0.7999, 0.6, 0.399, 0.1, 0.0041, 0.0039, -0.5}) {
-    const double d = share * t;
+  for (double fraction : {0.999, 0.95, 0.85, 0.8001, 0.7999, 0.6, 0.399, 0.1, 0.0041, 0.0039, -0.5}) {
+    const double d = fraction * t;
     const auto low = shell.at(d - h), high = shell.at(d + h), middle = shell.at(d);
-    EXPECT_NEAR((high.energy - low.energy) / (2 * h) / middle.slope, 1, 1e-4) << share;
-    EXPECT_NEAR((high.slope - low.slope) / (2 * h) / middle.stiffness, 1, 1e-3) << share;
+    EXPECT_NEAR((high.energy - low.energy) / (2 * h) / middle.slope, 1, 1e-4) << fraction;
+    EXPECT_NEAR((high.slope - low.slope) / (2 * h) / middle.stiffness, 1, 1e-3) << fraction;
   }
 }
 

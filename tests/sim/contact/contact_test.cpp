@@ -109,16 +109,16 @@ TEST(Contact, HeatOfSlidingIsFrictionTimesWay) {
 // A table that drives off gently (its greatest acceleration, 6 s/T^2 = 1.5 m/s^2, stays below mu g) and
 // stops.
 TEST(Contact, MovingTableCarriesItsCloth) {
-  constexpr double kWay = 0.04, kSeconds = 0.4;
+  constexpr double kTravel = 0.04, kSeconds = 0.4;
   constexpr double kSlip = 1e-5;  // [m]: the stop's elastic slip is up to 5e-6 m
   Trial trial = on_slope(0, 0.3);
   Obstacle& table = trial.scene.obstacle[0];
   table.kind = ObstacleKind::box;
   table.size = {0.2, 0.2, 0.05};
   table.center = {0.05, 0.05, -0.05};
-  table.motion.keys = {{0, {0, 0, 0}, 0}, {kSeconds, {kWay, 0, 0}, 0}};
+  table.motion.keys = {{0, {0, 0, 0}, 0}, {kSeconds, {kTravel, 0, 0}, 0}};
   const auto simulation = trial.after(600);
-  EXPECT_NEAR(slid(trial, *simulation, 0), kWay, kSlip);
+  EXPECT_NEAR(slid(trial, *simulation, 0), kTravel, kSlip);
   EXPECT_LT(simulation->ledger().remainder_relative, 1e-9);
 }
 
@@ -162,7 +162,7 @@ TEST(Contact, NothingFallsThroughAnyObstacle) {
     o.height = 0.1;
     o.size = {0.05, 0.05, 0.05};
     o.rim = 0.005;
-    const std::string name = name_of(kind);
+    const std::string name = enum_name(kind);
     o.center.z() = name == "ground" ? 0 : name == "sphere" ? -0.06 : name == "capsule" ? -0.11 : -0.05;
     scene.obstacle = {o};
     const Trial trial(scene);

@@ -21,7 +21,7 @@ void expect_naming(const Failure& failure, const std::vector<std::string>& parts
 }
 
 // Share of the way of a motion between two keys at a share u of the time between them.
-double way_done(double u) { return u * u * (3 - 2 * u); }
+double displacement_done(double u) { return u * u * (3 - 2 * u); }
 
 // A plate of 2 cm over the ground whose underside comes down from 1 cm to `lowest` [m].
 void add_press(Scene& scene, double lowest) {
@@ -48,7 +48,7 @@ Trial pressed_sheet(const std::string& integrator, double lowest) {
 
 // Moves on until the plate is down; when, in steps.
 Failure press(const Trial& trial, Simulation& simulation) {
-  return failure_of(
+  return caught_failure(
       [&] { simulation.advance(static_cast<int>(std::lround(1.2 * kDown / trial.scene.step))); });
 }
 
@@ -76,9 +76,9 @@ TEST(Press, BeyondTheThicknessEndsTheRunWithObstacleVertexPlaceAndTime) {
                             "obstacle[0] (ground)", "obstacle[1] (box)", " and ", "at t = 0."});
     double time = 0;
     EXPECT_EQ(std::sscanf(failure.message.c_str(), "at t = %lf s", &time), 1);
-    const double way = 0.01 / (0.01 + 4 * Fabric{}.thickness);
+    const double displacement = 0.01 / (0.01 + 4 * Fabric{}.thickness);
     double u = 0;
-    while (way_done(u) < way) u += 1e-4;
+    while (displacement_done(u) < displacement) u += 1e-4;
     EXPECT_NEAR(time, u * kDown, 2 * trial.scene.step) << integrator;
     EXPECT_NEAR(simulation->time(), time, 1.01 * trial.scene.step)
         << integrator;  // the state is that before it
@@ -152,7 +152,7 @@ TEST(Blow, ThatDrivesTheClothDeepIntoAnObstacleIsNoCrushing) {
   scene.obstacle = {ball};
   const Trial trial(scene);
   const auto simulation = trial.simulation();
-  const Failure failure = failure_of([&] { simulation->advance(250); });
+  const Failure failure = caught_failure([&] { simulation->advance(250); });
   EXPECT_EQ(failure.message, "");
   EXPECT_GT(simulation->counts().deep, 0);
   int top = 0;
@@ -169,7 +169,7 @@ TEST(Equilibrium, ThatIsNotFoundIsReportedWithTheVertexThatIsFarthestFromIt) {
   scene.integrator = Integrator::implicit;
   scene.gravity = {0, 0, -1e140};
   const Trial trial(scene);
-  const Failure failure = failure_of([&] { trial.after(1); });
+  const Failure failure = caught_failure([&] { trial.after(1); });
   expect_naming(failure, {"no equilibrium of the step at t = 0 s was found, even in parts of ",
                           "an unbalanced force of ", "most of it, ", " N, at vertex ", ") m"});
 }

@@ -71,7 +71,7 @@ Obstacle rod(double radius, const Vector3d& center) {
 
 Obstacle3<double> placed(const Obstacle& o) { return obstacles_during<double>({o}, 0.3, 0, 0).item[0]; }
 
-ContactModel<double> model_of(const Scene& scene) {
+ContactModel<double> scene_contact_model(const Scene& scene) {
   const ObstacleShell<double> shell = obstacle_shell(scene);
   return {shell, kElasticSlip * shell.thickness, 0.5 * shell.stiffest()};
 }
@@ -115,9 +115,9 @@ TEST(FacePoint, IsTheNearestPointOfATriangleToAConvexSolid) {
       for (int k = 0; k < 3; ++k) p[k] = obstacle.rotation.transpose() * x[k];
       const double found = face_point<double>(obstacle.shape, p, 0).distance,
                    sampled = least_distance(obstacle, x);
-      EXPECT_LT(found, sampled + 1e-12) << name_of(o.kind);
-      EXPECT_GT(found, sampled - kSpacing) << name_of(o.kind);
-      EXPECT_LT(least_possible(obstacle.shape, p), found + 1e-12) << name_of(o.kind);
+      EXPECT_LT(found, sampled + 1e-12) << enum_name(o.kind);
+      EXPECT_GT(found, sampled - kSpacing) << enum_name(o.kind);
+      EXPECT_LT(least_possible(obstacle.shape, p), found + 1e-12) << enum_name(o.kind);
     }
   }
 }
@@ -125,7 +125,7 @@ TEST(FacePoint, IsTheNearestPointOfATriangleToAConvexSolid) {
 // The nearest point of anything on a flat side is a corner.
 TEST(FaceTouch, LeavesFlatContactToTheVertices) {
   const Scene scene;
-  const ContactModel<double> model = model_of(scene);
+  const ContactModel<double> model = scene_contact_model(scene);
   const Obstacle3<double> table = placed(box({0.1, 0.1, 0.1}, {0, 0, -0.1}));
   std::mt19937 generator(7);
   for (int n = 0; n < 100; ++n) {
@@ -140,7 +140,7 @@ TEST(FaceTouch, LeavesFlatContactToTheVertices) {
 // Central differences of the energy: the error falls with the square of their width, or is rounding.
 TEST(FaceTouch, ForceIsTheGradientOfItsEnergy) {
   const Scene scene;
-  const ContactModel<double> model = model_of(scene);
+  const ContactModel<double> model = scene_contact_model(scene);
   const double thickness = scene.fabric.thickness, area = 5e-5;
   std::mt19937 generator(11);
   int bearing = 0, with_corners = 0;
@@ -158,7 +158,7 @@ TEST(FaceTouch, ForceIsTheGradientOfItsEnergy) {
       double slope = 0;
       for (int k = 0; k < 3; ++k) slope -= touch.on_corner(k).dot(d[k]);
       EXPECT_NE(slope, 0);
-      const auto error_of = [&](double width) {
+      const auto width_error = [&](double width) {
         Triangle ahead, behind;
         for (int k = 0; k < 3; ++k) {
           ahead[k] = x[k] + width * d[k];
@@ -169,8 +169,8 @@ TEST(FaceTouch, ForceIsTheGradientOfItsEnergy) {
                             (2 * width) -
                         slope);
       };
-      const double coarse = error_of(4e-7), fine = error_of(1e-7), rounding = 1e-5 * touch.force;
-      EXPECT_LT(fine, coarse / 10 + rounding) << name_of(o.kind) << " " << n;
+      const double coarse = width_error(4e-7), fine = width_error(1e-7), rounding = 1e-5 * touch.force;
+      EXPECT_LT(fine, coarse / 10 + rounding) << enum_name(o.kind) << " " << n;
     }
   }
   EXPECT_GT(bearing, 100);
@@ -180,7 +180,7 @@ TEST(FaceTouch, ForceIsTheGradientOfItsEnergy) {
 // Off corners in the shell and along the normal of a side that is straight there, nothing else curves it.
 TEST(FaceTouch, StiffnessIsTheSecondDerivativeAlongTheNormal) {
   const Scene scene;
-  const ContactModel<double> model = model_of(scene);
+  const ContactModel<double> model = scene_contact_model(scene);
   const Obstacle3<double> thin = placed(rod(1e-3, {0, 0, 0}));
   const double height = 1e-3 + 0.4 * scene.fabric.thickness, width = 1e-7, area = 5e-5;
   const auto at = [&](double z) {
@@ -231,7 +231,7 @@ TEST(FaceContact, SheetLetDownOnEdgesCornersAndRodsIsNeverInThem) {
 }
 
 // The cloth's point that was at `at` when it lay flat.
-Vector3d point_of(const Trial& trial, const std::vector<Vector3d>& x, const Eigen::Vector2d& at) {
+Vector3d material_position(const Trial& trial, const std::vector<Vector3d>& x, const Eigen::Vector2d& at) {
   constexpr double kRounding = 1e-9;
   for (const auto& face : trial.cloth.mesh.face) {
     Eigen::Matrix3d corners;
@@ -251,7 +251,7 @@ double turn_around(const Trial& trial, Simulation& simulation, double y, double 
   double turn = 0;
   Eigen::Vector2d last;
   for (int i = 0; i <= kPoints; ++i) {
-    const Vector3d point = point_of(trial, x, {(static_cast<double>(i) / kPoints - 0.5) * kSide, y});
+    const Vector3d point = material_position(trial, x, {(static_cast<double>(i) / kPoints - 0.5) * kSide, y});
     const Eigen::Vector2d here(point.x(), point.z() - z);
     if (i > 0) turn += std::atan2(last.x() * here.y() - last.y() * here.x(), last.dot(here));
     last = here;
@@ -271,14 +271,14 @@ INSTANTIATE_TEST_SUITE_P(Integrators, FastRod,
 
 // Two keys a way L and a time T apart are 1.5 L/T apart in speed in their middle.
 TEST_P(FastRod, AtFiveMetresASecondCarriesACoarseMeshBeforeIt) {
-  constexpr double kWay = 0.5, kSeconds = 0.15, kRadius = 1e-3;
+  constexpr double kTravel = 0.5, kSeconds = 0.15, kRadius = 1e-3;
   Scene scene = sheet(70, GetParam());
   scene.self_contact = scene.integrator == Integrator::semi_implicit;  // else its solve has no line search
   scene.step = 1.0 / 60;
   scene.gravity.setZero();
   scene.cloth.position.z() = 0;
-  scene.obstacle = {rod(kRadius, {0, 0, -kWay / 2})};
-  scene.obstacle[0].motion.keys = {{0, {0, 0, 0}, 0}, {kSeconds, {0, 0, kWay}, 0}};
+  scene.obstacle = {rod(kRadius, {0, 0, -kTravel / 2})};
+  scene.obstacle[0].motion.keys = {{0, {0, 0, 0}, 0}, {kSeconds, {0, 0, kTravel}, 0}};
   const Trial trial(scene);
   const auto simulation = trial.simulation();
   for (int k = 0; k < 9; ++k) {
@@ -286,7 +286,7 @@ TEST_P(FastRod, AtFiveMetresASecondCarriesACoarseMeshBeforeIt) {
     EXPECT_GT(least_distance(trial, *simulation), 0);
   }
   for (double y : {-0.4, -0.2, 0.0, 0.2, 0.4})  // it slides round the rod as it likes: only its sense stays
-    EXPECT_LT(turn_around(trial, *simulation, y * kSide, kWay / 2), 0);
+    EXPECT_LT(turn_around(trial, *simulation, y * kSide, kTravel / 2), 0);
   EXPECT_EQ(simulation->counts().deep, 0);
   EXPECT_GT(simulation->ledger().obstacle_work, 0);
   EXPECT_LT(simulation->ledger().remainder_relative, kClosed);
@@ -331,9 +331,9 @@ TEST(FaceContact, HoldsBelowTheFrictionAngleAndSlidesByCoulombsLawAboveIt) {
   constexpr double kHeld = 1e-5;                              // [m]: the stops' elastic slip is 5e-6 m
   constexpr double kLanding = 0.05;                           // the first steps build contact and stops up
   EXPECT_LT(std::abs(slid_on_wall(0.25, kFriction)), kHeld);  // tan 0.25 = 0.255
-  const double slope = 0.5,
-               way = kGravity * (std::sin(slope) - kFriction * std::cos(slope)) * kSeconds * kSeconds / 2;
-  EXPECT_NEAR(slid_on_wall(slope, kFriction) / way, 1, kLanding);
+  const double slope = 0.5, displacement = kGravity * (std::sin(slope) - kFriction * std::cos(slope)) *
+                                           kSeconds * kSeconds / 2;
+  EXPECT_NEAR(slid_on_wall(slope, kFriction) / displacement, 1, kLanding);
 }
 
 TEST(FaceContact, SavedInTheMiddleGoesOnBitForBit) {
@@ -365,7 +365,7 @@ TEST(FaceContact, IsThereOnlyForObstaclesSharperThanTheMesh) {
   for (const ObstacleKind kind :
        {ObstacleKind::ground, ObstacleKind::hollow, ObstacleKind::cylinder, ObstacleKind::torus}) {
     o.kind = kind;
-    EXPECT_FALSE(needs(o)) << name_of(kind);
+    EXPECT_FALSE(needs(o)) << enum_name(kind);
   }
   o.kind = ObstacleKind::sphere;
   o.radius = 1.01 * sharp;

@@ -16,17 +16,17 @@ using test::Trial;
 constexpr double kGravity = 9.81, kFriction = 0.3;
 constexpr double kBelow = 0.99, kAbove = 1.01;  // tan(slope)/mu
 
-double slope_of(double ratio) { return std::atan(ratio * kFriction); }
+double ramp_angle(double ratio) { return std::atan(ratio * kFriction); }
 
 // How far those vertices have come in x, in the mean [m].
-double way_of(const Trial& trial, Simulation& simulation, const std::vector<int>& vertices) {
+double mean_displacement(const Trial& trial, Simulation& simulation, const std::vector<int>& vertices) {
   const auto x = simulation.positions();
   double sum = 0;
   for (int i : vertices) sum += x[i].x() - trial.cloth.start[i].x();
   return sum / static_cast<double>(vertices.size());
 }
 
-double speed_of(Simulation& simulation, const std::vector<int>& vertices) {
+double average_speed(Simulation& simulation, const std::vector<int>& vertices) {
   const auto v = simulation.velocities();
   double sum = 0;
   for (int i : vertices) sum += v[i].x();
@@ -68,10 +68,11 @@ Slide slide(const Trial& trial, double seconds) {
   std::vector<int> vertices = test::upper_vertices(trial);
   const int half = static_cast<int>(std::lround(seconds / trial.scene.step / 2));
   const auto simulation = trial.after(half);
-  const double way = way_of(trial, *simulation, vertices), speed = speed_of(*simulation, vertices);
+  const double displacement = mean_displacement(trial, *simulation, vertices),
+               speed = average_speed(*simulation, vertices);
   simulation->advance(half);
-  return {way_of(trial, *simulation, vertices) - way,
-          (speed_of(*simulation, vertices) - speed) / (half * trial.scene.step)};
+  return {mean_displacement(trial, *simulation, vertices) - displacement,
+          (average_speed(*simulation, vertices) - speed) / (half * trial.scene.step)};
 }
 
 double coulomb(double slope) { return kGravity * (std::sin(slope) - kFriction * std::cos(slope)); }
@@ -82,23 +83,23 @@ class SlopeOfGround : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Integrators, SlopeOfGround, testing::Values("implicit", "bdf2", "tr-bdf2"));
 
 TEST_P(SlopeOfGround, HoldsASheetForGoodOnePercentBelowTheTangentOfFriction) {
-  const Slide found = slide(on_ground(slope_of(kBelow), GetParam()), 1);
+  const Slide found = slide(on_ground(ramp_angle(kBelow), GetParam()), 1);
   EXPECT_LT(std::abs(found.creep), kHeld);
 }
 
 TEST_P(SlopeOfGround, LetsItSlideByCoulombsLawOnePercentAbove) {
   constexpr double kNewton = 1e-3;  // of the acceleration: what Newton's tolerance leaves
-  const double slope = slope_of(kAbove);
+  const double slope = ramp_angle(kAbove);
   EXPECT_GT(coulomb(slope), 0);
   EXPECT_NEAR(slide(on_ground(slope, GetParam()), 1).acceleration / coulomb(slope), 1, kNewton);
 }
 
 TEST(SlopeOfCloth, HoldsASheetForGoodOnePercentBelowTheTangentOfFriction) {
-  EXPECT_LT(std::abs(slide(on_cloth(slope_of(kBelow)), 0.5).creep), kHeld);
+  EXPECT_LT(std::abs(slide(on_cloth(ramp_angle(kBelow)), 0.5).creep), kHeld);
 }
 
 TEST(SlopeOfCloth, HoldsASheetForAMinute) {
-  Trial trial = on_cloth(slope_of(kBelow));
+  Trial trial = on_cloth(ramp_angle(kBelow));
   trial.scene.step = 1.0 / 60;
   const Slide found = slide(trial, 60);
   EXPECT_LT(std::abs(found.creep), kHeld);
@@ -108,7 +109,7 @@ TEST(SlopeOfCloth, HoldsASheetForAMinute) {
 // the pairs that bear change, and the sheet must not walk.  Once, it comes down by less than the elastic
 // slip.
 TEST(SlopeOfCloth, KeepsASheetThatIsPressedAgainAndAgain) {
-  Trial trial = on_cloth(slope_of(0.5));
+  Trial trial = on_cloth(ramp_angle(0.5));
   trial.scene.step = 1.0 / 120;
   const double thickness = Fabric{}.thickness;
   Obstacle plate;
@@ -121,9 +122,9 @@ TEST(SlopeOfCloth, KeepsASheetThatIsPressedAgainAndAgain) {
   trial.scene.obstacle = {plate};
   const std::vector<int> vertices = test::upper_vertices(trial);
   const auto simulation = trial.after(36);
-  const double once = way_of(trial, *simulation, vertices);
+  const double once = mean_displacement(trial, *simulation, vertices);
   simulation->advance(19 * 24);
-  const double often = way_of(trial, *simulation, vertices);
+  const double often = mean_displacement(trial, *simulation, vertices);
   constexpr double kWalk = 1e-3;  // of the elastic slip
   EXPECT_GT(once, 0);
   EXPECT_LT(once, kElasticSlip * thickness);
@@ -134,7 +135,7 @@ TEST(SlopeOfCloth, KeepsASheetThatIsPressedAgainAndAgain) {
 // little, the pressure.
 TEST(SlopeOfCloth, LetsItSlideByCoulombsLawOnePercentAbove) {
   constexpr double kPairs = 0.02;
-  const double slope = slope_of(kAbove);
+  const double slope = ramp_angle(kAbove);
   EXPECT_NEAR(slide(on_cloth(slope), 0.5).acceleration / coulomb(slope), 1, kPairs);
 }
 

@@ -41,11 +41,11 @@ TEST(SelfContact, OfFlatLayersHasTheBarriersPressureOnAnyMesh) {
   const double thickness = Fabric{}.thickness;
   const auto pressure = [](double u) { return 2 * (u - 1) * std::log(u) + (u - 1) * (u - 1) / u; };
   for (int triangles : {100, 200, 800, 3200})
-    for (double share : {0.6, 0.8, 0.9}) {
+    for (double fraction : {0.6, 0.8, 0.9}) {
       const int places = 3200 / triangles;
       double force = 0;
       for (int place = 0; place < places; ++place) {
-        Trial trial = two_sheets(share * thickness, triangles);
+        Trial trial = two_sheets(fraction * thickness, triangles);
         const Eigen::Rotation2Dd turn(0.7 * place);
         const Eigen::Vector2d middle(0.7 * kSide, 0.7 * kSide);
         for (int i : upper_vertices(trial)) {
@@ -58,12 +58,12 @@ TEST(SelfContact, OfFlatLayersHasTheBarriersPressureOnAnyMesh) {
         const std::vector<Vector3d> still(x.size(), Vector3d::Zero());
         const std::vector<char> held(x.size());
         EXPECT_EQ(contact.prepare(x.data(), still.data(), held.data()), 1);
-        contact.moved(x.data());
+        contact.accept_iterate(x.data());
         force += force_on_upper(contact, trial, x, x).z() / places;
       }
       // At a fifth of the thickness it is 4.9 kPa.
-      const double expected = 4903.3 * pressure(2 * share - 1) / pressure(0.6) * kSide * kSide;
-      EXPECT_NEAR(force / expected, 1, 0.1) << triangles << " triangles, " << share << " of the thickness";
+      const double expected = 4903.3 * pressure(2 * fraction - 1) / pressure(0.6) * kSide * kSide;
+      EXPECT_NEAR(force / expected, 1, 0.1) << triangles << " triangles, " << fraction << " of the thickness";
     }
 }
 
@@ -78,7 +78,7 @@ TEST(SelfContact, HandsTheStretchOfItsStopsToThePairsThatFollow) {
   const std::vector<char> held(x.size());
   const auto arrive = [&](const std::vector<Vector3d>& before) {
     ASSERT_EQ(contact.prepare(x.data(), still.data(), held.data()), 1);
-    contact.moved(x.data());
+    contact.accept_iterate(x.data());
     contact.lag(x.data());
     contact.commit(x.data(), before.data());
   };
@@ -110,13 +110,13 @@ TEST(SelfContact, MissesNoPairThatTouchesOnThePath) {
   const std::vector<char> held(x.size());
   ASSERT_EQ(contact.prepare(x.data(), direction.data(), held.data()), 1);
   double last = 0;
-  for (double share : {0.5, 0.9, 0.95, 1.0}) {
+  for (double fraction : {0.5, 0.9, 0.95, 1.0}) {
     std::vector<Vector3d> on_path = x, gradient(x.size(), Vector3d::Zero());
-    for (std::size_t i = 0; i < x.size(); ++i) on_path[i] += share * direction[i];
+    for (std::size_t i = 0; i < x.size(); ++i) on_path[i] += fraction * direction[i];
     contact.evaluate(on_path.data(), x.data(), gradient.data());
     const double energy = std::accumulate(contact.energies(), contact.energies() + contact.pairs(), 0.0);
-    EXPECT_NEAR(energy, contact.stored_energy(on_path.data()), 1e-13 * energy) << share;
-    EXPECT_EQ(energy > 0, share * (gap - end) > gap - thickness) << share;
+    EXPECT_NEAR(energy, contact.stored_energy(on_path.data()), 1e-13 * energy) << fraction;
+    EXPECT_EQ(energy > 0, fraction * (gap - end) > gap - thickness) << fraction;
     EXPECT_GE(energy, last);
     last = energy;
   }
@@ -173,7 +173,7 @@ TEST(SelfContact, GradientIsTheEnergys) {
   const std::vector<Vector3d> still(x.size(), Vector3d::Zero());
   const std::vector<char> held(x.size());
   contact.prepare(x.data(), still.data(), held.data());
-  contact.moved(x.data());
+  contact.accept_iterate(x.data());
   std::vector<Vector3d> gradient(x.size(), Vector3d::Zero());
   contact.evaluate(x.data(), x.data(), gradient.data());
   Vector3d sum = Vector3d::Zero();

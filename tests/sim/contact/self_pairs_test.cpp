@@ -64,7 +64,7 @@ TEST_P(Figures, FeasibleStepsEndBeforeContact) {
     Vector x[4], direction[4];
     for (Vector& v : x) v = random_vector(random);
     for (Vector& v : direction) v = random_vector(random);
-    if (distance_of(x, GetParam()) < 2 * kMin) continue;
+    if (pair_distance(x, GetParam()) < 2 * kMin) continue;
     Vector from[4], along[4];
     std::copy(x, x + 4, from);
     std::copy(direction, direction + 4, along);
@@ -73,12 +73,12 @@ TEST_P(Figures, FeasibleStepsEndBeforeContact) {
     const auto at = [&](double s) {
       Vector y[4];
       for (int i = 0; i < 4; ++i) y[i] = x[i] + s * direction[i];
-      return distance_of(y, GetParam());
+      return pair_distance(y, GetParam());
     };
     for (int i = 0; i <= 100; ++i) EXPECT_GT(at(step_length * i / 100), kMin) << k;
     if (step_length == 1) continue;
     ++stopped;
-    EXPECT_LT(at(step_length), kMin + 0.11 * (distance_of(x, GetParam()) - kMin)) << k;
+    EXPECT_LT(at(step_length), kMin + 0.11 * (pair_distance(x, GetParam()) - kMin)) << k;
   }
   EXPECT_GT(stopped, 50);
 }
@@ -141,12 +141,12 @@ TEST(SelfPairs, MissNoneThatComesNear) {
   const auto check = [&](std::array<int, 4> v, bool edges) {
     Vector at_rest[4];
     for (int i = 0; i < 4; ++i) at_rest[i] = mesh.rest[v[i]];
-    const double shell = std::min(kThickness, distance_of(at_rest, edges) / 2);
+    const double shell = std::min(kThickness, pair_distance(at_rest, edges) / 2);
     bool comes_near = false;
     for (int step = 0; step <= 8; ++step) {
       Vector y[4];
       for (int i = 0; i < 4; ++i) y[i] = x[v[i]] + step / 8.0 * direction[v[i]];
-      comes_near |= distance_of(y, edges) < shell;
+      comes_near |= pair_distance(y, edges) < shell;
     }
     if (!comes_near) return;
     ++near;

@@ -17,8 +17,8 @@ using Eigen::Vector3d;
 using test::Trial;
 
 // What make_simulation(), through which every experiment goes, says.
-Failure start_of(const Trial& trial) {
-  return failure_of([&] { trial.simulation(); });
+Failure start_failure(const Trial& trial) {
+  return caught_failure([&] { trial.simulation(); });
 }
 
 void expect_naming(const Failure& failure, const std::vector<std::string>& parts) {
@@ -33,12 +33,12 @@ TEST(Start, OfClothThickerThanItIsLongIsRefused) {
   const double diagonal = std::sqrt(2.0) * scene.cloth.length;
   for (double thickness : {1.001 * diagonal, 100.0}) {
     scene.fabric.thickness = thickness;
-    const Failure failure = start_of(Trial(scene));
+    const Failure failure = start_failure(Trial(scene));
     EXPECT_EQ(failure.exit_code, 2);
     expect_naming(failure, {"fabric.thickness = ", " mm (default) must be < 282.8 mm, the cloth's diagonal"});
   }
   scene.fabric.thickness = 0.99 * diagonal;
-  EXPECT_EQ(start_of(Trial(scene)).message, "");
+  EXPECT_EQ(start_failure(Trial(scene)).message, "");
 }
 
 TEST(Start, ThatPassesThroughItselfIsRefusedWithTheTriangles) {
@@ -46,17 +46,17 @@ TEST(Start, ThatPassesThroughItselfIsRefusedWithTheTriangles) {
   for (int i : test::upper_vertices(trial))
     trial.cloth.start[i].z() -= 0.1 * (trial.cloth.start[i].x() - 0.7 * test::kUpperSide);
   const auto pairs = intersecting_triangles(trial.cloth.mesh.face, trial.cloth.start);
-  const Failure failure = start_of(trial);
+  const Failure failure = start_failure(trial);
   EXPECT_EQ(failure.exit_code, 2);
   expect_naming(failure, {"self-contact: the cloth passes through itself at the start: triangles " +
                               std::to_string(pairs[0].first) + " and " + std::to_string(pairs[0].second),
                           "(" + std::to_string(pairs.size()) + " pairs in all)"});
   trial.scene.self_contact = false;  // then nothing keeps it apart later either
-  EXPECT_EQ(start_of(trial).exit_code, 0);
+  EXPECT_EQ(start_failure(trial).exit_code, 0);
 }
 
 // Of pairs that are far apart at rest.
-double least_of(double thickness) {
+double least_start_distance(double thickness) {
   SelfPair<double> pair{};
   pair.shell = thickness;
   return least_distance(pair);
@@ -69,15 +69,15 @@ std::string millimetres(double metres) {
 }
 
 TEST(Start, WithLayersNearerThanAnyStepMayBringThemIsRefusedWithTheirDistance) {
-  const double least = least_of(Fabric{}.thickness);
+  const double least = least_start_distance(Fabric{}.thickness);
   constexpr double kJust = 1e-3;  // relative: beyond the rounding of the distance
-  EXPECT_EQ(start_of(test::two_sheets((1 + kJust) * least, 60)).exit_code, 0);
-  const Failure failure = start_of(test::two_sheets(0.8 * least, 60));
+  EXPECT_EQ(start_failure(test::two_sheets((1 + kJust) * least, 60)).exit_code, 0);
+  const Failure failure = start_failure(test::two_sheets(0.8 * least, 60));
   EXPECT_EQ(failure.exit_code, 2);
   expect_naming(failure, {"self-contact: the cloth starts too near to itself",
                           "are " + millimetres(0.8 * least) + " apart", "more than " + millimetres(least),
                           "fabric.thickness = 0.497 mm"});
-  EXPECT_EQ(failure_of([&] { test::two_sheets((1 + kJust) * least, 60).after(2); }).exit_code, 0);
+  EXPECT_EQ(caught_failure([&] { test::two_sheets((1 + kJust) * least, 60).after(2); }).exit_code, 0);
 }
 
 // Layers that just touch press on nothing: without weight they stay where they are.
@@ -167,13 +167,13 @@ TEST(Start, InsideAnObstacleIsRefusedWithObstacleVertexPlaceAndDepth) {
     const Trial trial = sheet_with(solid);
     const auto set = obstacles_during<double>(trial.scene.obstacle, 0.3, 0, 0);
     const Immersion found = deepest(set, trial.cloth.start, std::vector<char>(trial.cloth.start.size()));
-    EXPECT_NEAR(found.depth, solid.depth, 1e-12) << name_of(solid.kind);
-    const Failure failure = start_of(trial);
-    EXPECT_EQ(failure.exit_code, 2) << name_of(solid.kind);
+    EXPECT_NEAR(found.depth, solid.depth, 1e-12) << enum_name(solid.kind);
+    const Failure failure = start_failure(trial);
+    EXPECT_EQ(failure.exit_code, 2) << enum_name(solid.kind);
     char depth[32];
     std::snprintf(depth, sizeof depth, "%.3g mm", 1e3 * solid.depth);
     expect_naming(failure, {"at the start " + vertex_text(found.vertex, trial.cloth.start[found.vertex]),
-                            depth, std::string("inside obstacle[1] (") + name_of(solid.kind) + ")",
+                            depth, std::string("inside obstacle[1] (") + enum_name(solid.kind) + ")",
                             "of " + std::to_string(found.count) + " such vertices"});
   }
 }
@@ -182,14 +182,14 @@ TEST(Start, BetweenObstaclesThatOverlapAroundItIsRefused) {
   Trial trial = sheet_with({ObstacleKind::box, {0.1, 0.1, -0.04}, 0});
   trial.scene.obstacle[0] = trial.scene.obstacle[1];
   trial.scene.obstacle[0].center.z() = 0.03;
-  const Failure failure = start_of(trial);
+  const Failure failure = start_failure(trial);
   EXPECT_EQ(failure.exit_code, 2);
   expect_naming(failure, {"obstacle: at the start vertex ", "20 mm inside obstacle[0] (box)"});
 }
 
 // A hollow sphere of 5 cm about the middle of the sheet: its corners are 10 sqrt(2) cm away.
 TEST(Start, OutsideAHollowSphereIsRefused) {
-  const Failure failure = start_of(sheet_with({ObstacleKind::hollow, {0.1, 0.1, 0}, 0}));
+  const Failure failure = start_failure(sheet_with({ObstacleKind::hollow, {0.1, 0.1, 0}, 0}));
   EXPECT_EQ(failure.exit_code, 2);
   expect_naming(failure, {"91.4 mm outside obstacle[1] (hollow)", "vertex 0 at (0, 0, 0) m"});
 }
@@ -197,8 +197,9 @@ TEST(Start, OutsideAHollowSphereIsRefused) {
 TEST(Start, WithinTheShellOfAnObstacleIsFineAndItsSurfaceIsTheLimit) {
   const double t = Fabric{}.thickness;
   for (double height : {0.0, 0.5, 1.0})  // of the cloth's middle surface above the ground, in thicknesses
-    EXPECT_EQ(start_of(sheet_with({ObstacleKind::ground, {0, 0, -height * t}, 0})).exit_code, 0) << height;
-  EXPECT_EQ(start_of(sheet_with({ObstacleKind::ground, {0, 0, 0.01 * t}, 0})).exit_code, 2);
+    EXPECT_EQ(start_failure(sheet_with({ObstacleKind::ground, {0, 0, -height * t}, 0})).exit_code, 0)
+        << height;
+  EXPECT_EQ(start_failure(sheet_with({ObstacleKind::ground, {0, 0, 0.01 * t}, 0})).exit_code, 2);
 }
 
 TEST(Start, OfHeldVerticesInsideAnObstacleIsFine) {
@@ -208,9 +209,9 @@ TEST(Start, OfHeldVerticesInsideAnObstacleIsFine) {
   pin.high = {0.145, 0.145, 1};
   trial.scene.pin = {pin};
   trial = Trial(trial.scene);
-  EXPECT_EQ(failure_of([&] { trial.after(10); }).exit_code, 0);
+  EXPECT_EQ(caught_failure([&] { trial.after(10); }).exit_code, 0);
   trial.scene.pin[0].until = 0.005;  // let go where the sphere is
-  const Failure failure = failure_of([&] { trial.after(10); });
+  const Failure failure = caught_failure([&] { trial.after(10); });
   EXPECT_EQ(failure.exit_code, 3);
   expect_naming(failure, {"inside obstacle[1] (sphere)", "at t = 0.005 s a pin releases the cloth"});
 }
@@ -224,7 +225,7 @@ TEST(Obstacle, ThatAppearsWhereTheClothIsEndsTheRunWithPlaceAndTime) {
     trial.scene.obstacle[1].from = 0.02;
     const auto simulation = trial.simulation();
     simulation->advance(20);
-    const Failure failure = failure_of([&] { simulation->advance(1); });
+    const Failure failure = caught_failure([&] { simulation->advance(1); });
     EXPECT_EQ(failure.exit_code, 3) << integrator;
     expect_naming(failure, {"at t = 0.02 s", "10 mm inside obstacle[1] (box)", "vertex ", " at ("});
   }
@@ -233,7 +234,7 @@ TEST(Obstacle, ThatAppearsWhereTheClothIsEndsTheRunWithPlaceAndTime) {
 TEST(Obstacles, AreAtMostTwelve) {
   Trial trial = sheet_with({ObstacleKind::box, {0.1, 0.1, -0.1}, 0});
   trial.scene.obstacle.resize(kMaxObstacles + 1, trial.scene.obstacle[0]);
-  const Failure failure = start_of(trial);
+  const Failure failure = start_failure(trial);
   EXPECT_EQ(failure.exit_code, 2);
   expect_naming(failure, {"13 obstacles, at most 12"});
 }

@@ -67,19 +67,19 @@ INSTANTIATE_TEST_SUITE_P(Integrators, SweepInMotion,
 
 // Two keys a way L and a time T apart are 1.5 L/T apart in speed in their middle: 5 m/s there, 83 mm a step.
 TEST_P(Sweep, PlateOfAMillimetreAtFiveMetresASecondCarriesTheClothBeforeIt) {
-  constexpr double kWay = 0.5, kSeconds = 0.15;
+  constexpr double kTravel = 0.5, kSeconds = 0.15;
   Scene scene = sheet(GetParam());
   scene.gravity = {0, 0, -9.81};
   // Free cloth has no equilibrium until it lies on the plate.
   const bool statics = scene.integrator == Integrator::quasi_static;
-  const double below = statics ? kHalf + 2 * scene.fabric.thickness : kWay / 2;
+  const double below = statics ? kHalf + 2 * scene.fabric.thickness : kTravel / 2;
   Obstacle plate = plate_at({0, 0, -below});
-  plate.motion.keys = {{0, {0, 0, 0}, 0}, {kSeconds, {0, 0, kWay}, 0}};
+  plate.motion.keys = {{0, {0, 0, 0}, 0}, {kSeconds, {0, 0, kTravel}, 0}};
   scene.obstacle = {plate};
   const Trial trial(scene);
   const auto simulation = trial.simulation();
   simulation->advance(static_cast<int>(std::lround(kSeconds / kStep)));
-  EXPECT_GT(lowest_over(*simulation, kWay - below + kHalf), 0);
+  EXPECT_GT(lowest_over(*simulation, kTravel - below + kHalf), 0);
   EXPECT_EQ(simulation->counts().deep, 0);
   EXPECT_LT(simulation->ledger().remainder_relative, kClosed);
   EXPECT_GT(simulation->ledger().obstacle_work, 0);
@@ -119,19 +119,19 @@ TEST_P(SweepInMotion, TurningPlateTakesTheClothAlong) {
 // The plate reaches all three layers in one step, and each may go no farther than the next one: steps in
 // parts.
 TEST(SweepOfLayers, PlateThatPassesThemInOneStepCarriesAllOfThemApart) {
-  constexpr double kWay = 0.5, kSeconds = 0.15;
+  constexpr double kTravel = 0.5, kSeconds = 0.15;
   for (const char* integrator : {"implicit", "tr-bdf2"}) {
     Scene scene = sheet(integrator, 150);
     scene.self_contact = true;
     scene.cloth.length = kSide / 2;
     scene.cloth.copies = 3;
     scene.cloth.copy_offset = {0, 0, 5e-3};
-    Obstacle plate = plate_at({0, 0, -kWay / 2});
-    plate.motion.keys = {{0, {0, 0, 0}, 0}, {kSeconds, {0, 0, kWay}, 0}};
+    Obstacle plate = plate_at({0, 0, -kTravel / 2});
+    plate.motion.keys = {{0, {0, 0, 0}, 0}, {kSeconds, {0, 0, kTravel}, 0}};
     scene.obstacle = {plate};
     const Trial trial(scene);
     const auto simulation = trial.after(9);
-    EXPECT_GT(lowest_over(*simulation, kWay / 2 + kHalf), 0) << integrator;
+    EXPECT_GT(lowest_over(*simulation, kTravel / 2 + kHalf), 0) << integrator;
     EXPECT_TRUE(intersecting_triangles(trial.cloth.mesh.face, simulation->positions()).empty()) << integrator;
     EXPECT_EQ(simulation->counts().deep, 0) << integrator;
     EXPECT_EQ(simulation->counts().unbalanced, 0) << integrator;
@@ -150,7 +150,7 @@ TEST(SweepInSinglePrecision, CarriesTheClothBeforeAFastPlate) {
 
 // Four diameters a step; vertices are 12.5 mm apart.
 TEST_P(SweepInMotion, CapsuleOfACentimetreTakesTheVerticesInItsPathAlong) {
-  constexpr double kWay = 0.5, kSeconds = 0.15, kRadius = 0.01;
+  constexpr double kTravel = 0.5, kSeconds = 0.15, kRadius = 0.01;
   Scene scene = sheet(GetParam(), 128);
   scene.mesh = "aligned";  // rows of 9 vertices
   Obstacle capsule;
@@ -158,8 +158,8 @@ TEST_P(SweepInMotion, CapsuleOfACentimetreTakesTheVerticesInItsPathAlong) {
   capsule.axis = {0, 1, 0};
   capsule.radius = kRadius;
   capsule.height = 0.3;
-  capsule.center = {0, 0, -kWay / 2};
-  capsule.motion.keys = {{0, {0, 0, 0}, 0}, {kSeconds, {0, 0, kWay}, 0}};
+  capsule.center = {0, 0, -kTravel / 2};
+  capsule.motion.keys = {{0, {0, 0, 0}, 0}, {kSeconds, {0, 0, kTravel}, 0}};
   scene.obstacle = {capsule};
   const Trial trial(scene);
   const auto simulation = trial.after(6);  // one step beyond its fastest one
@@ -194,28 +194,28 @@ TEST_P(SweepInMotion, HollowSphereThatClosesKeepsTheClothInside) {
 }
 
 // A point on its way to an obstacle stops half of the way to the middle, where the way meets it at all.
-TEST(FreeShare, EndsHalfwayToTheMiddleOfTheThinnestPart) {
+TEST(FreeFraction, EndsHalfwayToTheMiddleOfTheThinnestPart) {
   const auto set = obstacles_during<double>({plate_at({0, 0, 0})}, 0.3, 0, 0);
   const Obstacle3<double>& plate = set.item[0];
   const Vector3d from(0.1, 0, 0.02), through(0, 0, -0.1);
-  const double share = free_share<double>(plate, from, through);
-  EXPECT_NEAR(from.z() - share * 0.1, kHalf / 2, kTouching * kHalf);
-  EXPECT_EQ(free_share<double>(plate, from, Vector3d(0.1, 0.1, 0)), 1);
-  EXPECT_EQ(free_share<double>(plate, from, Vector3d(0, 0, 0.1)), 1);
-  EXPECT_EQ(free_share<double>(plate, Vector3d(0.6, 0, 0.02), through), 1);  // beside it
+  const double fraction = free_fraction<double>(plate, from, through);
+  EXPECT_NEAR(from.z() - fraction * 0.1, kHalf / 2, kTouching * kHalf);
+  EXPECT_EQ(free_fraction<double>(plate, from, Vector3d(0.1, 0.1, 0)), 1);
+  EXPECT_EQ(free_fraction<double>(plate, from, Vector3d(0, 0, 0.1)), 1);
+  EXPECT_EQ(free_fraction<double>(plate, Vector3d(0.6, 0, 0.02), through), 1);  // beside it
   // From half the depth a quarter of it is left, and the way out is free.
   const Vector3d inside(0, 0, kHalf / 2);
-  EXPECT_NEAR(inside.z() - free_share<double>(plate, inside, through) * 0.1, kHalf / 4, kTouching * kHalf);
-  EXPECT_EQ(free_share<double>(plate, inside, Vector3d(0, 0, 0.1)), 1);
+  EXPECT_NEAR(inside.z() - free_fraction<double>(plate, inside, through) * 0.1, kHalf / 4, kTouching * kHalf);
+  EXPECT_EQ(free_fraction<double>(plate, inside, Vector3d(0, 0, 0.1)), 1);
 }
 
 // Of every kind that has another side, at rest and in motion: no point of a free path is past the middle, and
 // a barred guess ends outside.
-TEST(FreeShare, LeadsNoPathPastTheMiddleOfAnySolid) {
+TEST(FreeFraction, LeadsNoPathPastTheMiddleOfAnySolid) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> within(-0.03, 0.03);
   const auto point = [&] { return Vector3d(within(random), within(random), within(random)); };
-  int barred = 0;
+  int blocked = 0;
   for (const ObstacleKind kind : {ObstacleKind::sphere, ObstacleKind::cylinder, ObstacleKind::box,
                                   ObstacleKind::capsule, ObstacleKind::torus}) {
     Obstacle o;
@@ -229,29 +229,31 @@ TEST(FreeShare, LeadsNoPathPastTheMiddleOfAnySolid) {
     const auto set = obstacles_during<double>({o}, 0.3, 0.3, 0.7);
     const Obstacle3<double>& item = set.item[0];
     for (int k = 0; k < 2000; ++k) {
-      const Vector3d start = point(), from = carried<double>(item, start), end = point(), way = end - from;
+      const Vector3d start = point(), from = carried<double>(item, start), end = point(),
+                     displacement = end - from;
       if (distance_to<double>(item, from).value < 0) continue;
-      const double share = free_share<double>(item, from, way);
+      const double fraction = free_fraction<double>(item, from, displacement);
       constexpr int kSamples = 200;
       for (int j = 0; j <= kSamples; ++j)
-        ASSERT_GT(distance_to<double>(item, from + share * j / kSamples * way).value, -0.51 * item.thinnest)
-            << name_of(kind);
-      EXPECT_EQ(share == 1, reaches<double>(set, start, end)) << name_of(kind);
+        ASSERT_GT(distance_to<double>(item, from + fraction * j / kSamples * displacement).value,
+                  -0.51 * item.thinnest)
+            << enum_name(kind);
+      EXPECT_EQ(fraction == 1, path_is_clear<double>(set, start, end)) << enum_name(kind);
       const Vector3d kept = kept_out<double>(set, start, end, 0.0);
-      if (share == 1) {
-        EXPECT_EQ(kept, end) << name_of(kind);
+      if (fraction == 1) {
+        EXPECT_EQ(kept, end) << enum_name(kind);
         continue;
       }
-      ++barred;
-      EXPECT_GE(distance_to<double>(item, kept).value, 0) << name_of(kind);
-      EXPECT_TRUE(reaches<double>(set, start, kept)) << name_of(kind);
+      ++blocked;
+      EXPECT_GE(distance_to<double>(item, kept).value, 0) << enum_name(kind);
+      EXPECT_TRUE(path_is_clear<double>(set, start, kept)) << enum_name(kind);
     }
   }
-  EXPECT_GT(barred, 100);
+  EXPECT_GT(blocked, 100);
 }
 
 // Ground and hollow spheres have no other side; a set of them is not looked at.
-TEST(FreeShare, OfObstaclesWithoutAnotherSideIsNotLookedFor) {
+TEST(FreeFraction, OfObstaclesWithoutAnotherSideIsNotLookedFor) {
   Obstacle ground, hollow;
   hollow.kind = ObstacleKind::hollow;
   EXPECT_FALSE(obstacles_during<double>({ground, hollow}, 0.3, 0, 0).has_thin());

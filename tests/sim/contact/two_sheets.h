@@ -27,8 +27,8 @@ inline Trial two_sheets(double gap, int triangles) {
   trial.cloth = place_cloth(scene, both);
   for (int i = lower.vertices(); i < both.vertices(); ++i)
     trial.cloth.start[i] += Eigen::Vector3d(0.2 * kUpperSide - 1, 0.2 * kUpperSide, gap);
-  Pin hand;
-  trial.scene.pin = {hand};
+  Pin moving_pin;
+  trial.scene.pin = {moving_pin};
   trial.cloth.pin_vertices = {{}};
   for (int i = 0; i < lower.vertices(); ++i) {
     trial.cloth.pin[i] = 0;
@@ -45,8 +45,8 @@ inline std::vector<int> upper_vertices(const Trial& trial) {
 }
 
 // The upper sheet, or its part up to `most_x` [m] from its own edge, gets a hand of its own.
-inline void hold_upper(Trial& trial, const Pin& hand, double most_x) {
-  trial.scene.pin.push_back(hand);
+inline void hold_upper(Trial& trial, const Pin& moving_pin, double most_x) {
+  trial.scene.pin.push_back(moving_pin);
   trial.cloth.pin_vertices.emplace_back();
   for (int i : upper_vertices(trial)) {
     if (trial.cloth.mesh.rest[i].x() > 1 + most_x) continue;

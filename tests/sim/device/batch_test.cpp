@@ -116,7 +116,7 @@ TEST(BatchOfContact, EveryClothHasTheBitsThatItHasAlone) {
   std::string reason;
   if (gpu_is_missing(reason)) GTEST_SKIP() << "no GPU: " << reason;
   constexpr int kMembers = 3, kSteps = 30;
-  const auto scene_of = [](int i) {
+  const auto batch_scene = [](int i) {
     Scene scene = member_scene({"prandtl", "shape", "implicit"}, i);
     scene.self_contact = true;
     Obstacle sphere;
@@ -127,8 +127,8 @@ TEST(BatchOfContact, EveryClothHasTheBitsThatItHasAlone) {
     return scene;
   };
   std::vector<std::uint64_t> together(kMembers), alone;
-  run_together(true, kMembers, [&](int i) { together[i] = hash_after(scene_of(i), kSteps); });
-  for (int i = 0; i < kMembers; ++i) alone.push_back(hash_after(scene_of(i), kSteps));
+  run_together(true, kMembers, [&](int i) { together[i] = hash_after(batch_scene(i), kSteps); });
+  for (int i = 0; i < kMembers; ++i) alone.push_back(hash_after(batch_scene(i), kSteps));
   EXPECT_EQ(together, alone);
 }
 

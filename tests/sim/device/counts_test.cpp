@@ -31,7 +31,7 @@ CountedStep counted_step(Simulation& simulation) {
 }
 
 // A square that hangs by two corners: no obstacle, no self-contact.
-std::vector<CountedStep> steps_of(const char* integrator, const char* device) {
+std::vector<CountedStep> recorded_steps(const char* integrator, const char* device) {
   Scene scene = test::hanging_square();
   scene.law = "prandtl";
   scene.integrator = value_named<Integrator>(integrator);
@@ -55,7 +55,7 @@ INSTANTIATE_TEST_SUITE_P(Devices, DeviceCountsOfAStep, testing::Values("cpu", "c
                          [](const auto& device) { return std::string(device.param); });
 
 TEST_P(DeviceCountsOfAStep, ExplicitStepsAreAllTheSame) {
-  const auto steps = steps_of("explicit", GetParam());
+  const auto steps = recorded_steps("explicit", GetParam());
   EXPECT_GT(steps[0].counts.loops, 0);
   for (int i = 1; i < kSteps; ++i) {
     EXPECT_EQ(steps[i].counts.loops, steps[0].counts.loops) << "step " << i;
@@ -70,7 +70,7 @@ bool repeats_by_itself(const std::string& device) { return device == "cuda"; }
 
 TEST_P(DeviceCountsOfAStep, SemiImplicitStepsTakeThreeLoopsAnIterationAndFourteen) {
   constexpr long kOwn = 14, kIteration = 3;
-  const auto steps = steps_of("semi-implicit", GetParam());
+  const auto steps = recorded_steps("semi-implicit", GetParam());
   for (int i = 1; i < kSteps; ++i) {
     EXPECT_GT(steps[i].solver, 10);
     EXPECT_EQ(steps[i].counts.loops,
@@ -88,7 +88,7 @@ TEST_P(DeviceCountsOfAStep, SemiImplicitStepsTakeThreeLoopsAnIterationAndFourtee
 TEST_P(DeviceCountsOfAStep, ImplicitStepsAreBoundedByTheirIterations) {
   constexpr long kOwn = 60, kNewton = 60, kIteration = 10, kWaits = 7, kNewtonWaits = 4;
   constexpr long kCaptured = 2;  // with the membrane's softening and without
-  const auto steps = steps_of("implicit", GetParam());
+  const auto steps = recorded_steps("implicit", GetParam());
   for (int i = 1; i < kSteps; ++i) {
     const long sent = repeats_by_itself(GetParam()) ? kCaptured : steps[i].solver;
     EXPECT_GE(steps[i].newton, 1);

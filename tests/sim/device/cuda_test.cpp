@@ -167,15 +167,15 @@ Scene folding_strip(const std::string& integrator) {
   scene.step = 5e-3;
   scene.law = "prandtl";
   scene.newton_residual = 1e-9;
-  Pin clamp, hand;
+  Pin clamp, moving_pin;
   clamp.low = {-1, -1, -1};
   clamp.high = {0.02, 1, 1};
-  hand.low = {0.05, -1, -1};
-  hand.high = {1, 1, 1};
-  hand.motion.axis = {0, -1, 0};
-  hand.motion.center = {0.035, 0, 0.005};
-  hand.motion.keys = {{0, {0, 0, 0}, 0}, {0.2, {0, 0, 0}, 180}, {0.25, {0, 0, -0.0096}, 180}};
-  scene.pin = {clamp, hand};
+  moving_pin.low = {0.05, -1, -1};
+  moving_pin.high = {1, 1, 1};
+  moving_pin.motion.axis = {0, -1, 0};
+  moving_pin.motion.center = {0.035, 0, 0.005};
+  moving_pin.motion.keys = {{0, {0, 0, 0}, 0}, {0.2, {0, 0, 0}, 180}, {0.25, {0, 0, -0.0096}, 180}};
+  scene.pin = {clamp, moving_pin};
   return scene;
 }
 

@@ -70,7 +70,7 @@ class CudaToOpenGl : public testing::TestWithParam<std::string> {
     test::ripple(trial_->cloth, 5e-3);
     simulation_ = trial_->simulation();
   }
-  testing::AssertionResult share(Drawing& drawing) {
+  testing::AssertionResult share_with(Drawing& drawing) {
     std::string reason;
     auto positions =
         simulation_->share_positions(drawing.view.position_buffer(), offscreen_->cuda_device(), reason);
@@ -94,7 +94,7 @@ INSTANTIATE_TEST_SUITE_P(Precisions, CudaToOpenGl, testing::Values("double", "fl
 // Both ways round the same numbers to float, so that the same driver draws the same bits.
 TEST_P(CudaToOpenGl, GivesThePicturesOfPositionsThatPassTheHost) {
   Drawing direct(*offscreen_, trial_->cloth), by_host(*offscreen_, trial_->cloth);
-  ASSERT_TRUE(share(direct));
+  ASSERT_TRUE(share_with(direct));
   render::Image earlier = direct.draw();
   for (int picture = 0; picture < 3; ++picture) {
     simulation_->advance(kSteps);
@@ -109,11 +109,11 @@ TEST_P(CudaToOpenGl, GivesThePicturesOfPositionsThatPassTheHost) {
 
 TEST_P(CudaToOpenGl, GoesOnAfterTheClothWasSetAgain) {
   Drawing direct(*offscreen_, trial_->cloth), by_host(*offscreen_, trial_->cloth);
-  ASSERT_TRUE(share(direct));
+  ASSERT_TRUE(share_with(direct));
   ASSERT_TRUE(write(direct));
   direct.set_cloth(trial_->cloth);
   EXPECT_FALSE(write(direct)) << "wrote a buffer that is gone";
-  ASSERT_TRUE(share(direct));
+  ASSERT_TRUE(share_with(direct));
   ASSERT_TRUE(write(direct));
   by_host.set_positions(*simulation_);
   EXPECT_TRUE(direct.draw() == by_host.draw());
@@ -122,7 +122,7 @@ TEST_P(CudaToOpenGl, GoesOnAfterTheClothWasSetAgain) {
 TEST_P(CudaToOpenGl, RefusesABufferThatIsTooSmallAndStillSimulates) {
   const Trial coarse(test::hanging_square(100));
   Drawing small(*offscreen_, coarse.cloth);
-  ASSERT_TRUE(share(small));
+  ASSERT_TRUE(share_with(small));
   std::string reason;
   EXPECT_FALSE(small.view.write_positions(reason));
   EXPECT_NE(reason.find("bytes"), std::string::npos) << reason;

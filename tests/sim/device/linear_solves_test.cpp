@@ -22,7 +22,9 @@ constexpr double kPlain = 1e-8;
 // Hierarchies without a level, with small levels only, and with levels of more than a thousand nodes.
 constexpr int kTriangles[] = {2, 3000, 40000};
 
-ClothMesh mesh_of(int triangles) { return make_rectangle(0.5, 0.5, triangles, MeshFamily::random, 1); }
+ClothMesh random_rectangle(int triangles) {
+  return make_rectangle(0.5, 0.5, triangles, MeshFamily::random, 1);
+}
 
 double farthest(const std::vector<Eigen::Vector3d>& a, const std::vector<Eigen::Vector3d>& b) {
   double farthest = 0;
@@ -57,7 +59,7 @@ INSTANTIATE_TEST_SUITE_P(Devices, LinearSolvesOnEachDevice, testing::Values("cpu
 TEST_P(LinearSolvesOnEachDevice, LeaveTheResidualThatTheyWereAskedFor) {
   for (const int triangles : triangles_here())
     for (const bool multigrid : {false, true}) {
-      const LinearSolve solve = solves->solve(mesh_of(triangles), multigrid, kTolerance);
+      const LinearSolve solve = solves->solve(random_rectangle(triangles), multigrid, kTolerance);
       EXPECT_TRUE(solve.converged) << triangles;
       EXPECT_LT(solve.residual, kPlain) << triangles;
       EXPECT_EQ(solve.x[0], Eigen::Vector3d::Zero().eval());
@@ -67,7 +69,7 @@ TEST_P(LinearSolvesOnEachDevice, LeaveTheResidualThatTheyWereAskedFor) {
 TEST_P(LinearSolvesOnEachDevice, HaveTheBitsOfBatchesTwiceTheSame) {
   for (const int triangles : triangles_here())
     for (const bool multigrid : {false, true}) {
-      const ClothMesh mesh = mesh_of(triangles);
+      const ClothMesh mesh = random_rectangle(triangles);
       constexpr double kLoose = 1e-4;
       const LinearSolve once = solves->solve(mesh, multigrid, kLoose),
                         again = solves->solve(mesh, multigrid, kLoose, false, 3),
@@ -84,7 +86,7 @@ TEST_P(LinearSolvesOnEachDevice, AgreeWithTheCpu) {
   if (!on_gpu()) GTEST_SKIP() << "this is the CPU";
   for (const int triangles : kTriangles)
     for (const bool multigrid : {false, true}) {
-      const ClothMesh mesh = mesh_of(triangles);
+      const ClothMesh mesh = random_rectangle(triangles);
       const LinearSolve here = solves->solve(mesh, multigrid, kTolerance),
                         there = test::cpu_linear_solves()->solve(mesh, multigrid, kTolerance);
       double size = 0;
@@ -101,7 +103,7 @@ TEST_P(LinearSolvesOnEachDevice, InvertASmallMatrixToRounding) {
   constexpr double kRounding = 1e-12;  // the matrix's condition is below 2000
   for (const int triangles : {2, 40, 300})
     for (const bool without_first : {false, true}) {
-      const LinearSolve solve = solves->invert(mesh_of(triangles), without_first);
+      const LinearSolve solve = solves->invert(random_rectangle(triangles), without_first);
       EXPECT_LT(solve.residual, kRounding) << triangles;
       for (const Eigen::Vector3d& x : solve.x) EXPECT_TRUE(x.allFinite()) << triangles;
     }
@@ -110,7 +112,7 @@ TEST_P(LinearSolvesOnEachDevice, InvertASmallMatrixToRounding) {
 TEST_P(LinearSolvesOnEachDevice, OrderNoLoopForAnIterationThatTheGpuRepeatsItself) {
   if (!on_gpu()) GTEST_SKIP() << "the CPU orders each";
   constexpr int kTimes = 4;
-  const ClothMesh mesh = mesh_of(3000);
+  const ClothMesh mesh = random_rectangle(3000);
   const LinearSolve tight = solves->solve(mesh, false, kTolerance, false, kTimes),
                     loose = solves->solve(mesh, false, 1e-2, false, kTimes);
   EXPECT_GT(tight.iterations, 2 * loose.iterations);

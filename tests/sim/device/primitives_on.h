@@ -60,7 +60,7 @@ std::vector<double> row_sums(Device& device, const Rows& rows, const std::vector
   double* sum = out.data();
   for_each_row(
       device, "row sums", static_cast<int>(out.size()), HYST_KERNEL(int i, const LanesOn<Device>& lanes) {
-        const Vec<double, 1> total = lanes.sum_of(part_of_row(lanes, start, item, value, i));
+        const Vec<double, 1> total = lanes.lane_sum(part_of_row(lanes, start, item, value, i));
         if (lanes.leads()) sum[i] = total[0];
       });
   return out.download();
@@ -77,7 +77,7 @@ Totals row_totals(Device& device, const Rows& rows, const std::vector<double>& v
   for_each_row_sum<2>(
       device, "row totals", static_cast<int>(rows.start.size()) - 1,
       HYST_KERNEL(int i, const LanesOn<Device>& lanes, Sums<2>& sums) {
-        const Vec<double, 1> sum = lanes.sum_of(part_of_row(lanes, start, item, value, i));
+        const Vec<double, 1> sum = lanes.lane_sum(part_of_row(lanes, start, item, value, i));
         if (!lanes.leads()) return;
         sums.term[0] += sum[0];
         sums.term[1] += 1;
@@ -121,20 +121,20 @@ class PrimitivesOn : public Primitives {
 
   Scan scan(const std::vector<int>& count) override {
     Buffer<int, Device> in(device_, count), start(device_, count.size() + 1);
-    const int total = exclusive_scan(device_, scratch_, in.data(), size_of(count), start.data());
+    const int total = exclusive_scan(device_, scratch_, in.data(), value_count(count), start.data());
     return {start.download(), total};
   }
 
   double smallest(const std::vector<double>& values, double otherwise) override {
-    return smallest_of(values, otherwise);
+    return smallest_value(values, otherwise);
   }
   float smallest(const std::vector<float>& values, float otherwise) override {
-    return smallest_of(values, otherwise);
+    return smallest_value(values, otherwise);
   }
 
   Rows group(const std::vector<int>& key, int rows) override {
     Buffer<int, Device> in(device_, key), start(device_, rows + 1), item(device_, key.size());
-    hysteron::group(device_, scratch_, in.data(), size_of(key), rows, start.data(), item.data());
+    hysteron::group(device_, scratch_, in.data(), value_count(key), rows, start.data(), item.data());
     Rows result{start.download(), item.download()};
     result.item.resize(result.start.back());
     return result;
@@ -164,13 +164,13 @@ class PrimitivesOn : public Primitives {
 
  private:
   template <class T>
-  static int size_of(const std::vector<T>& values) {
+  static int value_count(const std::vector<T>& values) {
     return static_cast<int>(values.size());
   }
   template <class Real>
-  Real smallest_of(const std::vector<Real>& values, Real otherwise) {
+  Real smallest_value(const std::vector<Real>& values, Real otherwise) {
     Buffer<Real, Device> in(device_, values);
-    return hysteron::smallest(device_, scratch_, in.data(), size_of(values), otherwise);
+    return hysteron::smallest(device_, scratch_, in.data(), value_count(values), otherwise);
   }
 
   Device device_;

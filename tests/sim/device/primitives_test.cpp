@@ -86,7 +86,7 @@ TEST_P(DevicePrimitives, SumsOfFractionsAreNearAndTheSameBitsTwice) {
   }
 }
 
-test::Rows rows_of(const std::vector<int>& counts) {
+test::Rows counted_rows(const std::vector<int>& counts) {
   test::Rows rows{{0}, {}};
   for (const int count : counts) {
     for (int k = 0; k < count; ++k) rows.item.push_back(static_cast<int>(rows.item.size()));
@@ -101,7 +101,7 @@ TEST_P(DevicePrimitives, RowsOfAnyLengthAreSummedWholeByWhoeverTakesThem) {
   for (const int n : {0, 1, 3, 4, 5, 1000, 70000}) {
     std::vector<int> counts(n);
     for (int i = 0; i < n; ++i) counts[i] = lengths[i % lengths.size()];
-    const test::Rows rows = rows_of(counts);
+    const test::Rows rows = counted_rows(counts);
     const auto whole = whole_numbers(static_cast<int>(rows.item.size()), -1000, 1000);
     const std::vector<double> values(whole.begin(), whole.end());
     std::vector<double> expected(n, 0.0);
@@ -116,7 +116,7 @@ TEST_P(DevicePrimitives, RowsOfAnyLengthAreSummedWholeByWhoeverTakesThem) {
 }
 
 TEST_P(DevicePrimitives, RowsOfFractionsHaveTheSameBitsTwice) {
-  const test::Rows rows = rows_of(std::vector<int>(3000, 37));
+  const test::Rows rows = counted_rows(std::vector<int>(3000, 37));
   const auto values = fractions(static_cast<int>(rows.item.size()));
   EXPECT_EQ(primitives->row_sums(rows, values), primitives->row_sums(rows, values));
   EXPECT_EQ(primitives->row_totals(rows, values).sum, primitives->row_totals(rows, values).sum);

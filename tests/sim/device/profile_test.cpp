@@ -30,7 +30,7 @@ struct Profile {
   ClothMesh mesh;
 };
 
-Profile profile_of(const Scene& scene) {
+Profile kernel_profile(const Scene& scene) {
   const test::Trial trial(scene);
   const auto simulation = trial.simulation();
   simulation->advance(1);  // scratch is allocated
@@ -56,7 +56,7 @@ INSTANTIATE_TEST_SUITE_P(Devices, ProfileOfSteps, testing::Values("cpu", "cuda")
 
 TEST_P(ProfileOfSteps, CountsEveryLaunchOnce) {
   for (const char* integrator : {"explicit", "semi-implicit", "implicit"}) {
-    const Profile profile = profile_of(hanging(integrator, GetParam()));
+    const Profile profile = kernel_profile(hanging(integrator, GetParam()));
     long calls = 0;
     for (const auto& [name, cost] : profile.costs) {
       calls += cost.calls;
@@ -71,7 +71,7 @@ TEST_P(ProfileOfSteps, CountsEveryLaunchOnce) {
 // matrix written, and of each triangle its rest shape (7 numbers), deformation (6) and tension (3) read, with
 // the two terms of a block off the diagonal and the corners of a block on it.
 TEST_P(ProfileOfSteps, StatesTheBytesOfArraysReadAndWrittenOnce) {
-  const Profile profile = profile_of(hanging("implicit", GetParam()));
+  const Profile profile = kernel_profile(hanging("implicit", GetParam()));
   const double vertices = profile.mesh.vertices(), faces = profile.mesh.faces(),
                edges = static_cast<double>(profile.mesh.edge.size());
   const auto bytes = [&](const char* name) {
@@ -90,7 +90,7 @@ TEST_P(ProfileOfSteps, HalvesTheNumbersThatAProductReadsInFloat) {
   scene.tuning.full_stiffness = 0;  // no softening
   const auto product = [&](Precision precision) {
     scene.linear_precision = precision;
-    const Profile profile = profile_of(scene);
+    const Profile profile = kernel_profile(scene);
     const KernelCost& cost = profile.costs.at("solve: product");
     return cost.bytes / static_cast<double>(cost.calls);
   };
@@ -107,7 +107,7 @@ TEST_P(ProfileOfSteps, HalvesTheNumbersThatAProductReadsInFloat) {
 // The guess, at constant velocity and with the last acceleration, and one trial per iteration where none is
 // shortened; nothing is evaluated again where it was evaluated last.
 TEST_P(ProfileOfSteps, EvaluatesThePotentialOncePerTrial) {
-  const Profile profile = profile_of(hanging("implicit", GetParam()));
+  const Profile profile = kernel_profile(hanging("implicit", GetParam()));
   const long evaluated = profile.costs.at("membrane stress, tried").calls,
              tried = profile.costs.at("newton: try").calls;
   EXPECT_GE(profile.newton, kSteps);
@@ -123,7 +123,7 @@ TEST_P(ProfileOfSteps, EvaluatesThePotentialOncePerTrial) {
 //   1 per trial
 //   12 per step        start, references of both rates, three guesses, history, losses, ledger, end, finite
 TEST_P(ProfileOfSteps, LaunchesNoMoreThanItsPartsNeed) {
-  const Profile profile = profile_of(hanging("implicit", GetParam()));
+  const Profile profile = kernel_profile(hanging("implicit", GetParam()));
   const auto calls = [&](const char* name) { return profile.costs.at(name).calls; };
   long own = on_gpu() ? 0 : -3 * calls("bending stiffness");
   for (const auto& [name, cost] : profile.costs)
@@ -139,7 +139,7 @@ TEST_P(ProfileOfSteps, HasNoLoopOfAPartThatTheSceneLacks) {
   Scene plain = hanging("implicit", GetParam());
   plain.law = "linear";
   plain.fabric.damping = 0;
-  const Profile without = profile_of(plain);
+  const Profile without = kernel_profile(plain);
   Scene full = hanging("implicit", GetParam());
   full.self_contact = true;
   Obstacle ball;
@@ -148,7 +148,7 @@ TEST_P(ProfileOfSteps, HasNoLoopOfAPartThatTheSceneLacks) {
   ball.radius = 0.1;
   full.obstacle = {ball};
   full.linear_precision = Precision::fp32;
-  const Profile with = profile_of(full);
+  const Profile with = kernel_profile(full);
   for (const char* part : {"contact: ", "self-contact: ", "bending reference", "in float: "}) {
     const auto runs = [&](const Profile& profile) {
       return std::any_of(profile.costs.begin(), profile.costs.end(),

@@ -12,7 +12,7 @@ namespace {
 constexpr double kAny = 1e9;  // amplitudes that are all small
 constexpr double kPi = 3.14159265358979323846;
 
-std::vector<Amplitude> series_of(const std::vector<double>& values) {
+std::vector<Amplitude> amplitude_series(const std::vector<double>& values) {
   std::vector<Amplitude> all;
   for (std::size_t i = 0; i < values.size(); ++i) all.push_back({static_cast<int>(i), 0.1 * i, values[i]});
   return all;
@@ -25,7 +25,7 @@ template <class Law>
 std::vector<Amplitude> decaying(const Law& law) {
   std::vector<double> values;
   for (int n = 0; n < kTurns; ++n) values.push_back(0.06 * law(n));
-  return series_of(values);
+  return amplitude_series(values);
 }
 
 TEST(TurningPoints, OfASineAreItsExtremesBetweenTheSamples) {
@@ -68,7 +68,7 @@ TEST(TurningPoints, PassOverRipplesOnLargerSwings) {
 TEST(Amplitudes, AreDistancesToTheNeighboursMean) {
   std::vector<TurningPoint> turns;
   for (int n = 0; n < 8; ++n) turns.push_back({0.1 * n, 0.5 + 0.03 * n + (n % 2 ? -0.2 : 0.2)});
-  const auto all = amplitudes_of(turns);
+  const auto all = turning_amplitudes(turns);
   ASSERT_EQ(all.size(), 6u);
   for (const Amplitude& a : all) EXPECT_NEAR(a.value, 0.2, 1e-15) << a.turn;
   EXPECT_EQ(all.front().turn, 1);
@@ -88,8 +88,8 @@ const Closed kClosed[] = {
 
 TEST(DecayShape, OfEveryClosedLawIsItsOwn) {
   for (const Closed& closed : kClosed) {
-    const Decay decay = decay_of(decaying(closed.law), kAny);
-    EXPECT_EQ(name_of(decay.shape), closed.name);
+    const Decay decay = decay_between_amplitudes(decaying(closed.law), kAny);
+    EXPECT_EQ(enum_name(decay.shape), closed.name);
     EXPECT_EQ(decay.shape, closed.shape);
     ASSERT_EQ(decay.fits.size(), 4u);
     EXPECT_GT(decay.margin, 20) << closed.name;
@@ -100,7 +100,7 @@ TEST(DecayShape, OfEveryClosedLawIsItsOwn) {
 }
 
 TEST(DecayShape, OfTwoLinesSaysWhereTheSecondBegins) {
-  const Decay decay = decay_of(decaying(kClosed[1].law), kAny);
+  const Decay decay = decay_between_amplitudes(decaying(kClosed[1].law), kAny);
   EXPECT_NEAR(decay.step_fraction(), 0.2, 2e-3);
   EXPECT_NEAR(decay.best().rate, 0.1 * 0.06 / 0.1, 1e-3 * 0.06);
   EXPECT_NEAR(decay.best().last_rate, 0.008 * 0.06 / 0.1, 1e-3 * 0.06);
@@ -115,7 +115,7 @@ TEST(DecayShape, IsNamedRightIn95Of100NoisySeries) {
     for (int draw = 0; draw < 100; ++draw) {
       auto all = decaying(closed.law);
       for (Amplitude& a : all) a.value += noise(random);
-      const DecayShape shape = decay_of(all, kAny).shape;
+      const DecayShape shape = decay_between_amplitudes(all, kAny).shape;
       right += shape == closed.shape;
       other += shape != closed.shape && shape != DecayShape::unknown;
     }
@@ -125,18 +125,24 @@ TEST(DecayShape, IsNamedRightIn95Of100NoisySeries) {
 
 TEST(DecayShape, IsNotNamedWhereAmplitudesAreFewOrHardlyFall) {
   const auto law = [](int n) { return 1 / (1 + 0.2 * n); };
-  EXPECT_EQ(decay_of({}, kAny).shape, DecayShape::unknown);
-  EXPECT_EQ(decay_of(series_of({1, law(1), law(2), law(3), law(4)}), kAny).shape, DecayShape::unknown);
-  EXPECT_TRUE(decay_of(series_of({1, law(1), law(2), law(3), law(4)}), kAny).fits.empty());
-  EXPECT_EQ(decay_of(series_of({1, law(1), law(2), law(3), law(4), law(5)}), kAny).shape,
-            DecayShape::hyperbolic);
-  EXPECT_EQ(decay_of(series_of({1, 0.97, 0.94, 0.91, 0.88, 0.85}), kAny).shape, DecayShape::unknown)
+  EXPECT_EQ(decay_between_amplitudes({}, kAny).shape, DecayShape::unknown);
+  EXPECT_EQ(decay_between_amplitudes(amplitude_series({1, law(1), law(2), law(3), law(4)}), kAny).shape,
+            DecayShape::unknown);
+  EXPECT_TRUE(
+      decay_between_amplitudes(amplitude_series({1, law(1), law(2), law(3), law(4)}), kAny).fits.empty());
+  EXPECT_EQ(
+      decay_between_amplitudes(amplitude_series({1, law(1), law(2), law(3), law(4), law(5)}), kAny).shape,
+      DecayShape::hyperbolic);
+  EXPECT_EQ(decay_between_amplitudes(amplitude_series({1, 0.97, 0.94, 0.91, 0.88, 0.85}), kAny).shape,
+            DecayShape::unknown)
       << "15 %";
-  EXPECT_EQ(decay_of(series_of({1, 0.92, 0.95, 0.83, 0.86, 0.8, 0.81}), kAny).shape, DecayShape::unknown);
+  EXPECT_EQ(decay_between_amplitudes(amplitude_series({1, 0.92, 0.95, 0.83, 0.86, 0.8, 0.81}), kAny).shape,
+            DecayShape::unknown);
 }
 
 TEST(DecayShape, IsAPlateauWhereATurnTakesNothing) {
-  const Decay decay = decay_of(decaying([](int n) { return 0.3 + 0.7 * (n == 0) - 0.001 * n; }), kAny);
+  const Decay decay =
+      decay_between_amplitudes(decaying([](int n) { return 0.3 + 0.7 * (n == 0) - 0.001 * n; }), kAny);
   EXPECT_EQ(decay.first, 1u) << "the first turn took two thirds";
   EXPECT_EQ(decay.shape, DecayShape::plateau);
   EXPECT_TRUE(decay.fits.empty());
@@ -146,17 +152,17 @@ TEST(DecayShape, IsAPlateauWhereATurnTakesNothing) {
 TEST(DecayShape, IsThatOfSmallSwings) {
   std::vector<double> values = {1, 0.9, 0.82};  // as by another law
   for (int n = 0; n < 10; ++n) values.push_back(0.8 * std::exp(-0.1 * n));
-  const Decay decay = decay_of(series_of(values), 0.81);
+  const Decay decay = decay_between_amplitudes(amplitude_series(values), 0.81);
   EXPECT_EQ(decay.first, 3u);
   EXPECT_EQ(decay.shape, DecayShape::exponential);
-  EXPECT_EQ(decay_of(series_of(values), 0.4).shape, DecayShape::unknown);
+  EXPECT_EQ(decay_between_amplitudes(amplitude_series(values), 0.4).shape, DecayShape::unknown);
 }
 
 // Two modes beat; after them one is left.
 TEST(DecayShape, IsReadBehindTheLastTurnOfSeveralModes) {
   std::vector<double> values = {1, 0.4, 0.9};
   for (int n = 0; n < 10; ++n) values.push_back(0.5 * std::exp(-0.1 * n));
-  const Decay decay = decay_of(series_of(values), kAny);
+  const Decay decay = decay_between_amplitudes(amplitude_series(values), kAny);
   EXPECT_EQ(decay.first, 3u);
   EXPECT_EQ(decay.used, 10u);
   EXPECT_EQ(decay.shape, DecayShape::exponential);

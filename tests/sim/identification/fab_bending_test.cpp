@@ -72,7 +72,7 @@ TEST(FabBending, FromOneCyclePredictsTheOthersAndTheBendUp) {
     const FabLoops truth = recorded(kLaw, test, 1, 0);
     const BranchForces predicted = run_fab(truth, {found.law, {}, kDensity}).force;
     for (int cycle = 0; cycle < 3; ++cycle) {
-      const double area = loop_area(truth, forces_of(truth), cycle);
+      const double area = loop_area(truth, branch_forces(truth), cycle);
       EXPECT_NEAR(loop_area(truth, predicted, cycle) / area, 1, tolerance) << test << " " << cycle;
     }
   }
@@ -110,12 +110,12 @@ TEST(FabBending, RefusesACycleThatIsNotThere) {
 }
 
 TEST(FabTension, ComesBackFromNoiseWithinThreeStandardErrors) {
-  FabTensionQuestion asked;
-  asked.thresholds = {0.005, 0.03};
-  const StopsLaw law{60, asked.thresholds, {300, 40}};
+  FabTensionQuestion requested;
+  requested.thresholds = {0.005, 0.03};
+  const StopsLaw law{60, requested.thresholds, {300, 40}};
   for (unsigned seed = 1; seed <= seeds(); ++seed) {
-    FabLoops loops = recorded(law, "S1", seed, asked.noise);
-    const FabTension found = identify_fab_tension({loops}, asked);
+    FabLoops loops = recorded(law, "S1", seed, requested.noise);
+    const FabTension found = identify_fab_tension({loops}, requested);
     EXPECT_TRUE(within(found.law.spring, law.spring, found.spring_error)) << seed;
     for (int j = 0; j < law.stops(); ++j)
       EXPECT_TRUE(within(found.law.stiffnesses[j], law.stiffnesses[j], found.stiffness_errors[j]))

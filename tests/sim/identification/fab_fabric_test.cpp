@@ -68,7 +68,7 @@ TEST(FabFabric, ThatNoSceneWouldTakeIsNotWritten) {
   const double no_number = std::nan("");
   for (const FabBending& bad : {bending("L", 4e-6, {0, 0, 0}), bending("L", no_number, {1e-5, 1e-6, 5e-7}),
                                 bending("L", -1e-6, {1e-5, 1e-6, 5e-7})}) {
-    const Error error = test::error_of([&] {
+    const Error error = test::thrown_error([&] {
       write_fab_fabric(folder.file("fabric.toml"), {{bad}, {}, "a test"}, notes);
     });
     EXPECT_EQ(error.exit_code(), 3);

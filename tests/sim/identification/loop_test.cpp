@@ -60,7 +60,7 @@ class NoisyLoop : public testing::TestWithParam<LoopCase> {};
 // three in one of 300.  The scatter of 100 values is known to 7 %: true standard errors are within 25 % of
 // it.
 TEST_P(NoisyLoop, GivesTheFabricBackWithinThreeStandardErrorsThatAreTrue) {
-  constexpr double kMinShare = 0.97, kHonest = 0.25;
+  constexpr double kMinFraction = 0.97, kHonest = 0.25;
   const LoopCase& loop = GetParam();
   Recovery b1{kCotton.b1, {}, {}}, b2{kCotton.b2, {}, {}}, k0{kCotton.k0, {}, {}};
   for (int seed = 1; seed <= kSeeds; ++seed) {
@@ -72,7 +72,7 @@ TEST_P(NoisyLoop, GivesTheFabricBackWithinThreeStandardErrorsThatAreTrue) {
     k0.add(found.k0);
   }
   for (const auto& [name, recovery] : {std::pair{"b1", b1}, {"b2", b2}, {"k0", k0}}) {
-    EXPECT_GE(recovery.share_within(3), kMinShare) << name;
+    EXPECT_GE(recovery.share_within(3), kMinFraction) << name;
     EXPECT_NEAR(recovery.stated() / recovery.scatter(), 1, kHonest) << name;
   }
 }
@@ -88,7 +88,7 @@ INSTANTIATE_TEST_SUITE_P(Loops, NoisyLoop,
 // Heavy data: the last of many cycles, recorded from somewhere in its middle.
 TEST(Loop, OfACycleThatWasRunningBeforeTheFirstRowIsRecognised) {
   const std::vector<double> all = path({150, -150, 150, -150, 150}, 60);
-  std::vector<double> moment = moments_of("prandtl", kCotton, all);
+  std::vector<double> moment = law_moments("prandtl", kCotton, all);
   const std::vector<double> k(all.begin() + 90, all.end());
   moment.erase(moment.begin(), moment.begin() + 90);
   const Identification found = identified(measured(k, moment, kNoise, 1));
@@ -100,7 +100,7 @@ TEST(Loop, OfACycleThatWasRunningBeforeTheFirstRowIsRecognised) {
 TEST(Loop, WithRippleInItsCurvatureIsNotTakenForManySmallLoops) {
   constexpr double kRippleOfCurvature = 2;  // [1/m] of an amplitude of 250/m
   std::vector<double> k = path({250, -250, 250}, 80);
-  const std::vector<double> moment = moments_of("prandtl", kCotton, k);
+  const std::vector<double> moment = law_moments("prandtl", kCotton, k);
   std::mt19937 random(3);
   std::normal_distribution<double> normal(0, kRippleOfCurvature);
   for (double& x : k) x += normal(random);

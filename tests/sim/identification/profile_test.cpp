@@ -94,7 +94,7 @@ std::string refusal(const std::string& rows) {
   return test::refusal([&] { read_profile(file, "test"); });
 }
 
-std::string rows_of(const std::vector<Eigen::Vector2d>& points) {
+std::string csv_points(const std::vector<Eigen::Vector2d>& points) {
   std::ostringstream text;
   for (const Eigen::Vector2d& p : points) text << p.x() << "," << p.y() << "\n";
   return text.str();
@@ -102,17 +102,17 @@ std::string rows_of(const std::vector<Eigen::Vector2d>& points) {
 
 TEST(Profile, ThatIsNoneIsRefusedWithTheReason) {
   std::vector<Eigen::Vector2d> points = seen(kCotton, kEighty, 0, 1).points;
-  EXPECT_EQ(refusal(rows_of(points)), "(accepted)");
+  EXPECT_EQ(refusal(csv_points(points)), "(accepted)");
   const auto says = [](const std::string& text, const char* part) { return text.find(part) != text.npos; };
   EXPECT_TRUE(says(refusal("0,0\n0.01,-0.001\n"), "2 points, at least 12"));
   std::vector<Eigen::Vector2d> swapped = points, upwards = points, millimetres = points;
   std::swap(swapped[20], swapped[30]);
-  EXPECT_TRUE(says(refusal(rows_of(swapped)), "p.csv:23")) << refusal(rows_of(swapped));
-  EXPECT_TRUE(says(refusal(rows_of({points.rbegin(), points.rend()})), "from the clamp to the free end"));
+  EXPECT_TRUE(says(refusal(csv_points(swapped)), "p.csv:23")) << refusal(csv_points(swapped));
+  EXPECT_TRUE(says(refusal(csv_points({points.rbegin(), points.rend()})), "from the clamp to the free end"));
   for (Eigen::Vector2d& p : upwards) p.y() = -0.1 * p.y();
-  EXPECT_TRUE(says(refusal(rows_of(upwards)), "y points up")) << refusal(rows_of(upwards));
+  EXPECT_TRUE(says(refusal(csv_points(upwards)), "y points up")) << refusal(csv_points(upwards));
   for (Eigen::Vector2d& p : millimetres) p *= 1000;
-  EXPECT_TRUE(says(refusal(rows_of(millimetres)), "x and y are metres"));
+  EXPECT_TRUE(says(refusal(csv_points(millimetres)), "x and y are metres"));
 }
 
 }  // namespace

@@ -107,7 +107,7 @@ TEST(MeasuredCurve, InTheUnitsOfKesKeepsItsTimesWhateverSeparatesIt) {
 TEST(MeasuredCurve, InSiIsNoneOfTheUnitsOfKes) {
   const test::Folder folder;
   const std::string file = folder.write("loop.csv", kGramForce);
-  const std::string said = test::error_of([&] { read_kes_series(file, kRipple, "test"); }).what();
+  const std::string said = test::thrown_error([&] { read_kes_series(file, kRipple, "test"); }).what();
   EXPECT_NE(said.find("curvature is in 1/m and moment in N: give --units si"), std::string::npos) << said;
 }
 
@@ -116,7 +116,7 @@ TEST(MeasuredCurve, IsNotGuessedToBeInOtherUnits) {
   const std::string kes = folder.write("kes.csv", kKes + kKesRows), si = folder.write("si.csv", kGramForce);
   for (const auto& read : {std::function([&] { read_kes_series(si, kRipple, "test"); }),
                            std::function([&] { read_series(kes, kRipple, "test"); })})
-    EXPECT_EQ(test::error_of(read).exit_code(), 2);
+    EXPECT_EQ(test::thrown_error(read).exit_code(), 2);
 }
 
 // Along a loop the fabric takes work; the same rows from the last to the first give it back.

@@ -37,7 +37,7 @@ TEST(Stops, OfAnExactLoopComeBackExactly) {
 
 TEST(Stops, ComeBackFromNoiseWithinThreeStandardErrors) {
   constexpr int kSeeds = 60;
-  constexpr double kMinShare = 0.95;  // of 60 seeds at 99.7 %, three outside are one case in 1400
+  constexpr double kMinFraction = 0.95;  // of 60 seeds at 99.7 %, three outside are one case in 1400
   int hits[4] = {};
   for (int seed = 1; seed <= kSeeds; ++seed) {
     const StopsIdentification found = identify_stops(loop_of_stops(0.02, unsigned(seed)), 2, {});
@@ -48,7 +48,7 @@ TEST(Stops, ComeBackFromNoiseWithinThreeStandardErrors) {
       hits[2 * j + 1] += std::abs(stop.stiffness - truth.stiffness) <= 3 * stop.stiffness_error;
     }
   }
-  for (int count : hits) EXPECT_GE(count, kMinShare * kSeeds);
+  for (int count : hits) EXPECT_GE(count, kMinFraction * kSeeds);
 }
 
 // Their sums: slope at the start b2 + sum p, friction moment sum p r.

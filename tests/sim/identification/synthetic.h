@@ -28,8 +28,8 @@ inline std::vector<double> path(const std::vector<double>& turns, int per_leg) {
   return k;
 }
 
-inline std::vector<double> moments_of(const std::string& law, const VirginCurve& curve,
-                                      const std::vector<double>& curvature) {
+inline std::vector<double> law_moments(const std::string& law, const VirginCurve& curve,
+                                       const std::vector<double>& curvature) {
   std::vector<LawRow> rows;
   for (double k : curvature) {
     LawRow row;
@@ -67,7 +67,7 @@ inline MomentSeries measured(const std::string& law, const VirginCurve& curve,
                              const std::vector<double>& turns, double noise, unsigned seed,
                              int per_leg = 50) {
   const std::vector<double> k = path(turns, per_leg);
-  return measured(k, moments_of(law, curve, k), noise, seed);
+  return measured(k, law_moments(law, curve, k), noise, seed);
 }
 
 }  // namespace hysteron

@@ -182,10 +182,10 @@ TEST(Cholesky, GoesOnFromAnArchiveWithTheSameBits) {
   System one, two;
   one.solve();
   Archive saved;
-  one.solver->visit(saved);
+  one.solver->serialise(saved);
   const std::string bytes = saved.take();
   Archive loaded(bytes);
-  two.solver->visit(loaded);
+  two.solver->serialise(loaded);
   ASSERT_TRUE(loaded.at_end());
   for (System* system : {&one, &two}) {
     for (int i = 0; i < system->n(); ++i) system->rows.view().diagonal[i] *= 1.02;

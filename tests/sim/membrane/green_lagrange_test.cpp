@@ -157,11 +157,12 @@ TEST(Membrane, ForcesHaveNoResultantAndNoTorque) {
 // F = diag(1 + e, 1): E11 = e + e^2/2 alone, so that S11 = C11 E11, S22 = C12 E11, S12 = 0; weft likewise.
 TEST(Membrane, UniaxialStretchMeetsTheStiffnessOfItsOwnDirection) {
   constexpr double e = 0.1, strain = e + e * e / 2;
-  const auto stress_of = [](double warp, double weft, double shear) {
+  const auto stretch_stress = [](double warp, double weft, double shear) {
     const Corners x = mapped((Eigen::Matrix2d() << warp, shear, 0, weft).finished());
     return membrane_stress(kOrthotropic, green_strain(deformation(rest(), x[0], x[1], x[2])));
   };
-  const auto warp = stress_of(1 + e, 1, 0), weft = stress_of(1, 1 + e, 0), shear = stress_of(1, 1, e);
+  const auto warp = stretch_stress(1 + e, 1, 0), weft = stretch_stress(1, 1 + e, 0),
+             shear = stretch_stress(1, 1, e);
   const double slack = kRounding * kOrthotropic.warp;
   EXPECT_NEAR(warp.s11, kOrthotropic.warp * strain, slack);
   EXPECT_NEAR(warp.s22, kOrthotropic.coupling * strain, slack);

@@ -109,9 +109,9 @@ TEST(InPlaneFriction, OfASquareInShearIsTheMasingLoopOfItsStops) {
   for (int branch = 0; branch < 5; ++branch) {
     for (int row = 1; row <= kRows; ++row) {
       const double gamma = reversal + (turns[branch] - reversal) * row / kRows;
-      const double way = std::abs(gamma - reversal), sign = branch % 2 ? -1 : 1;
-      const double expected =
-          branch == 0 ? stops.friction_at(way) : at_reversal + sign * 2 * stops.friction_at(way / 2);
+      const double increment = std::abs(gamma - reversal), sign = branch % 2 ? -1 : 1;
+      const double expected = branch == 0 ? stops.friction_at(increment)
+                                          : at_reversal + sign * 2 * stops.friction_at(increment / 2);
       EXPECT_NEAR(square.shear_force(gamma), square.fabric.shear * gamma + expected,
                   kRounding * stops.friction_moment())
           << branch << " " << row;

@@ -119,12 +119,12 @@ TEST(MembraneNodes, OfTrianglesThatTouchAtAVertexAreTwo) {
 
 TEST(MembraneSplit, IsOfTwoPositiveParts) {
   std::mt19937 generator(4);
-  std::uniform_real_distribution<double> decades(2, 6), share(-0.999, 0.999);
+  std::uniform_real_distribution<double> decades(2, 6), fraction(-0.999, 0.999);
   for (int trial = 0; trial < 1000; ++trial) {
     Fabric fabric;
     fabric.warp = std::pow(10, decades(generator));
     fabric.weft = std::pow(10, decades(generator));
-    fabric.coupling = share(generator) * std::sqrt(fabric.warp * fabric.weft);
+    fabric.coupling = fraction(generator) * std::sqrt(fabric.warp * fabric.weft);
     const MembraneSplit split = split_membrane(fabric, MembraneElement::nodal);
     EXPECT_EQ(split.averages, std::max(fabric.warp, fabric.weft) > 1000);
     const auto &a = split.faces, &b = split.nodes;

@@ -14,7 +14,7 @@ using test::PanelTube;
 constexpr MembraneStiffness<double> kFabric{1000, 300, 50, 60};  // [N/m]
 
 // Of the panels where they are sewn [J].
-double energy_of(const PanelTube& panels) {
+double seam_energy(const PanelTube& panels) {
   const TextFile file(panels.obj(), ".obj");
   const ClothMesh mesh = read_pattern(file.path(), 0, 1);
   const auto rest = membrane_rest(mesh);
@@ -32,15 +32,15 @@ Vector2d turned(const Vector2d& at) { return {-at.y(), at.x()}; }
 Vector2d mirrored(const Vector2d& at) { return {at.x(), -at.y()}; }
 
 TEST(SewnMembrane, StoresNothingWherePanelsAreFoldedAndSewnButNotStretched) {
-  for (const auto& second : {moved, turned, mirrored}) EXPECT_EQ(energy_of({.second = second}), 0);
+  for (const auto& second : {moved, turned, mirrored}) EXPECT_EQ(seam_energy({.second = second}), 0);
 }
 
 // One panel along warp, the other along weft where its texture is turned: W = C E^2/2, E = (1.1^2 - 1)/2.
 TEST(SewnMembrane, ResistsByTheWarpAndWeftOfEachPanel) {
   const auto longer = [](const Vector3d& x) { return Vector3d(1.1 * x.x(), x.y(), x.z()); };
   const double strain = (1.1 * 1.1 - 1) / 2, of_one = PanelTube::area() / 2 * strain * strain / 2;
-  EXPECT_NEAR(energy_of({.second = moved, .worn = longer}), 2 * kFabric.warp * of_one, 1e-12);
-  EXPECT_NEAR(energy_of({.second = turned, .worn = longer}), (kFabric.warp + kFabric.weft) * of_one, 1e-12);
+  EXPECT_NEAR(seam_energy({.second = moved, .worn = longer}), 2 * kFabric.warp * of_one, 1e-12);
+  EXPECT_NEAR(seam_energy({.second = turned, .worn = longer}), (kFabric.warp + kFabric.weft) * of_one, 1e-12);
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ class BadObj : public testing::Test {
   // Expects the refusal of a file with this content, in one line that names the file.
   void expect(const std::string& content, const std::string& message, double weld = 0) {
     const std::string file = folder_.write("bad.obj", content);
-    const Error error = test::error_of([&] { read_obj(file, weld); });
+    const Error error = test::thrown_error([&] { read_obj(file, weld); });
     EXPECT_EQ(error.exit_code(), 2);
     EXPECT_EQ(std::string(error.what()), "mesh " + file + ": " + message);
     EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
@@ -31,14 +31,14 @@ class BadObj : public testing::Test {
 
 TEST_F(BadObj, MissingFile) {
   const std::string file = folder_.file("none.obj");
-  const Error error = test::error_of([&] { read_obj(file, 0); });
+  const Error error = test::thrown_error([&] { read_obj(file, 0); });
   EXPECT_EQ(error.exit_code(), 1);
   EXPECT_EQ(std::string(error.what()), "cannot read mesh " + file + ": No such file or directory");
 }
 
 TEST_F(BadObj, FolderInsteadOfAFile) {
   const std::string file = folder_.file(".");
-  const Error error = test::error_of([&] { read_obj(file, 0); });
+  const Error error = test::thrown_error([&] { read_obj(file, 0); });
   EXPECT_EQ(error.exit_code(), 1);
   EXPECT_EQ(std::string(error.what()), "cannot read mesh " + file + ": it is a folder");
 }
@@ -77,7 +77,7 @@ TEST_F(BadObj, IndicesOutOfRange) {
 
 TEST_F(BadObj, IndexZeroIsRefusedWithItsLine) {
   const std::string file = folder_.write("zero.obj", std::string(kTriangle) + "f 0 1 2\n");
-  const std::string message = test::error_of([&] { read_obj(file, 0); }).what();
+  const std::string message = test::thrown_error([&] { read_obj(file, 0); }).what();
   EXPECT_NE(message.find("mesh " + file), std::string::npos);
   EXPECT_NE(message.find("line 4"), std::string::npos);
   EXPECT_EQ(message.find('\n'), std::string::npos);

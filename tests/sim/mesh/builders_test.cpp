@@ -21,7 +21,7 @@ double stated_share(int triangles) { return std::sqrt(2.0 / triangles); }
 
 class Rectangle : public testing::TestWithParam<MeshFamily> {};
 INSTANTIATE_TEST_SUITE_P(Families, Rectangle, testing::ValuesIn(kFamilies),
-                         [](const auto& family) { return test::name_of(family.param); });
+                         [](const auto& family) { return test::enum_name(family.param); });
 
 TEST_P(Rectangle, HasEulerCharacteristicOfADisc) {
   for (const int n : kSizes)
@@ -132,7 +132,7 @@ TEST(RectangleRequest, ImpossibleOnesAreRefusedByName) {
   EXPECT_EQ(refusal(1, NAN, 10), "rectangle mesh: width = nan m must be > 0");
   EXPECT_EQ(refusal(1, 1, 1), "rectangle mesh: triangles = 1 must be 2 to 10000000");
   EXPECT_EQ(refusal(1, 1, 2000000000), "rectangle mesh: triangles = 2000000000 must be 2 to 10000000");
-  const Error cells = test::error_of([] { make_grid(1, 1, 3, 0, MeshFamily::aligned, 0); });
+  const Error cells = test::thrown_error([] { make_grid(1, 1, 3, 0, MeshFamily::aligned, 0); });
   EXPECT_STREQ(cells.what(), "rectangle mesh: 3 x 0 cells must be at least 1 x 1 and at most 10000000");
 }
 

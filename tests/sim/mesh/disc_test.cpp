@@ -18,7 +18,7 @@ constexpr double kSumRounding = 1e-12;
 // A unit vector is normalised to 1 ulp or so, then scaled.
 constexpr double kOnCircle = 1e-15;
 // The docstring's promise about the triangle count.
-constexpr double kStatedShare = 0.05;
+constexpr double kStatedFraction = 0.05;
 constexpr double kStatedCount = 8;
 
 class Disc : public testing::TestWithParam<MeshFamily> {
@@ -26,7 +26,7 @@ class Disc : public testing::TestWithParam<MeshFamily> {
   static ClothMesh disc(int triangles) { return make_disc(kRadius, triangles, GetParam(), 1); }
 };
 INSTANTIATE_TEST_SUITE_P(Families, Disc, testing::ValuesIn(kFamilies),
-                         [](const auto& family) { return test::name_of(family.param); });
+                         [](const auto& family) { return test::enum_name(family.param); });
 
 TEST_P(Disc, HasEulerCharacteristicOfADisc) {
   for (const int n : kSizes) EXPECT_EQ(test::euler_characteristic(disc(n)), 1) << n;
@@ -63,7 +63,7 @@ TEST_P(Disc, EveryTriangleShowsItsFrontToPlusZ) {
 
 TEST_P(Disc, TriangleCountIsWithinTheStatedShare) {
   for (int n = 2; n <= 20000; n += 1 + n / 4)
-    EXPECT_NEAR(disc(n).faces(), n, std::max(kStatedShare * n, kStatedCount));
+    EXPECT_NEAR(disc(n).faces(), n, std::max(kStatedFraction * n, kStatedCount));
 }
 
 TEST_P(Disc, HasNoSliversAtAnySize) {
@@ -136,10 +136,10 @@ TEST(RandomDisc, AnglesStayWideForManySeeds) {
 }
 
 TEST(DiscRequest, ImpossibleOnesAreRefusedByName) {
-  const Error radius = test::error_of([] { make_disc(0, 100, MeshFamily::aligned, 0); });
+  const Error radius = test::thrown_error([] { make_disc(0, 100, MeshFamily::aligned, 0); });
   EXPECT_EQ(radius.exit_code(), 2);
   EXPECT_STREQ(radius.what(), "disc mesh: radius = 0 m must be > 0");
-  const Error count = test::error_of([] { make_disc(1, 0, MeshFamily::random, 0); });
+  const Error count = test::thrown_error([] { make_disc(1, 0, MeshFamily::random, 0); });
   EXPECT_STREQ(count.what(), "disc mesh: triangles = 0 must be 2 to 10000000");
 }
 

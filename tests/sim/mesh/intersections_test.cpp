@@ -14,19 +14,19 @@ namespace {
 using Whole = Eigen::Matrix<long long, 3, 1>;
 using Triangle = std::array<Whole, 3>;
 
-int side_of(const Whole& a, const Whole& b, const Whole& c, const Whole& d) {
+int plane_side(const Whole& a, const Whole& b, const Whole& c, const Whole& d) {
   const long long volume = (b - a).cross(c - a).dot(d - a);
   return (volume > 0) - (volume < 0);
 }
 
 // Of a segment and a triangle; nothing where the segment lies in the triangle's plane.
-std::optional<bool> meet(const Whole& p, const Whole& q, const Triangle& t) {
-  const int sp = side_of(t[0], t[1], t[2], p), sq = side_of(t[0], t[1], t[2], q);
+std::optional<bool> share_an_end(const Whole& p, const Whole& q, const Triangle& t) {
+  const int sp = plane_side(t[0], t[1], t[2], p), sq = plane_side(t[0], t[1], t[2], q);
   if (sp == 0 && sq == 0) return std::nullopt;
   if (sp * sq > 0) return false;
   int low = 1, high = -1;
   for (int k = 0; k < 3; ++k) {
-    const int s = side_of(p, q, t[k], t[(k + 1) % 3]);
+    const int s = plane_side(p, q, t[k], t[(k + 1) % 3]);
     low = std::min(low, s);
     high = std::max(high, s);
   }
@@ -51,7 +51,7 @@ struct Soup {
     bool open = false;
     for (int k = 0; k < 3; ++k) {
       if (!common.empty() && common[0] != k) continue;  // the side opposite to the common corner
-      const std::optional<bool> met = meet(t[(k + 1) % 3], t[(k + 2) % 3], triangle(g));
+      const std::optional<bool> met = share_an_end(t[(k + 1) % 3], t[(k + 2) % 3], triangle(g));
       if (met && *met) return true;
       open = open || !met;
     }
@@ -60,7 +60,7 @@ struct Soup {
 };
 
 // Points of a small grid, so that many triangles touch; flat: of three layers, as cloth folded twice.
-Soup soup_of(std::mt19937& random, bool flat) {
+Soup random_soup(std::mt19937& random, bool flat) {
   constexpr int kPoints = 60, kFaces = 120;
   std::uniform_int_distribution<int> place(0, 9), layer(0, 2), any(0, kPoints - 1);
   Soup soup;
@@ -81,7 +81,7 @@ TEST(Intersections, AreThoseOfWholeNumbers) {
   std::mt19937 random(7);
   int crossing = 0, apart = 0;
   for (int round = 0; round < 40; ++round) {
-    const Soup soup = soup_of(random, round % 2 == 1);
+    const Soup soup = random_soup(random, round % 2 == 1);
     std::vector<Eigen::Vector3d> position;
     for (const Whole& p : soup.point) position.push_back(p.cast<double>());
     const auto found = intersecting_triangles(soup.face, position);

@@ -60,7 +60,7 @@ TEST(MaterialPoint, HasTheHingeOfTheEdgeThatIsNearestToIt) {
 TEST(FlatCloth, IsOneWhoseTrianglesAllLieInPlanesOfConstantHeight) {
   const ClothMesh mesh = make_grid(0.2, 0.1, 2, 1, MeshFamily::aligned, 1);
   EXPECT_TRUE(is_flat(mesh));
-  EXPECT_TRUE(is_flat(copies_of(mesh, 3, {0, 0, 0.01})));
+  EXPECT_TRUE(is_flat(copied_mesh(mesh, 3, {0, 0, 0.01})));
   EXPECT_FALSE(is_flat(make_tube(0.2, 0.05, 100, MeshFamily::aligned, 1)));
 }
 

@@ -13,7 +13,7 @@ namespace {
 using Doubts = std::vector<std::string>;
 
 // Of an OBJ with this content, without "mesh FILE: ".
-Doubts doubts_of(const std::string& content, double weld = 0) {
+Doubts obj_doubts(const std::string& content, double weld = 0) {
   const test::Folder folder;
   const std::string file = folder.write("cloth.obj", content);
   Doubts doubts;
@@ -23,7 +23,7 @@ Doubts doubts_of(const std::string& content, double weld = 0) {
 }
 
 // Every triangle with vertices of its own, as STL has them, with six digits.
-std::string soup_of(const ClothMesh& mesh) {
+std::string stl_soup(const ClothMesh& mesh) {
   std::ostringstream text;
   for (const Eigen::Vector3i& face : mesh.face)
     for (const int v : face) text << "v " << mesh.rest[v].transpose() << "\n";
@@ -36,8 +36,8 @@ bool has(const std::string& text, const std::string& part) { return text.find(pa
 
 TEST(MeshDoubts, TrianglesThatShareNoVerticesAreCountedAndTheWeldIsNamed) {
   const ClothMesh mesh = make_grid(0.2, 0.2, 10, 10, MeshFamily::aligned, 0);
-  const std::string soup = soup_of(mesh);
-  const Doubts doubts = doubts_of(soup);
+  const std::string soup = stl_soup(mesh);
+  const Doubts doubts = obj_doubts(soup);
   ASSERT_EQ(doubts.size(), 2u);
   EXPECT_EQ(doubts[0], "200 triangles in 200 parts that share no edge, with 0 hinges");
   const int coincident = 3 * mesh.faces() - mesh.vertices();
@@ -45,7 +45,7 @@ TEST(MeshDoubts, TrianglesThatShareNoVerticesAreCountedAndTheWeldIsNamed) {
       << doubts[1];
   // A thousandth of the mean edge (20 mm and its diagonals), rounded down to a power of ten.
   EXPECT_TRUE(has(doubts[1], "cloth.weld = 1e-05 m joins them")) << doubts[1];
-  EXPECT_EQ(doubts_of(soup, 1e-5), Doubts());
+  EXPECT_EQ(obj_doubts(soup, 1e-5), Doubts());
 }
 
 // Two strips of n cells, the seam between them stored twice.
@@ -60,7 +60,7 @@ TEST(MeshDoubts, SeamThatIsStoredTwiceIsCounted) {
       const int a = first + i, b = a + n + 1;
       text << "f " << a << " " << a + 1 << " " << b + 1 << " " << b << "\n";
     }
-  const Doubts doubts = doubts_of(text.str());
+  const Doubts doubts = obj_doubts(text.str());
   ASSERT_EQ(doubts.size(), 2u);
   EXPECT_TRUE(has(doubts[0], "in 2 parts")) << doubts[0];
   EXPECT_TRUE(has(doubts[1], std::to_string(n + 1) + " vertices on its boundary")) << doubts[1];
@@ -68,7 +68,7 @@ TEST(MeshDoubts, SeamThatIsStoredTwiceIsCounted) {
 
 TEST(MeshDoubts, FansThatMeetInOneVertexAreNamed) {
   const Doubts doubts =
-      doubts_of("v 0 0 0\nv 0.1 0 0\nv 0.1 0.1 0\nv -0.1 0 0\nv -0.1 -0.1 0\nf 1 2 3\nf 1 4 5\n");
+      obj_doubts("v 0 0 0\nv 0.1 0 0\nv 0.1 0.1 0\nv -0.1 0 0\nv -0.1 -0.1 0\nf 1 2 3\nf 1 4 5\n");
   ASSERT_EQ(doubts.size(), 2u);
   EXPECT_EQ(doubts[0], "2 triangles in 2 parts that share no edge, with 0 hinges");
   EXPECT_TRUE(has(doubts[1], "meet in 1 vertex alone (the first is the vertex of line 1)")) << doubts[1];
@@ -79,13 +79,13 @@ TEST(MeshDoubts, TipsOfTwoClosedConesMeet) {
   std::string text = "v 0 0 0\n";
   for (const char* z : {" 1", " -1"})
     for (const char* xy : {"v 1 0", "v 0 1", "v -1 -1"}) text += xy + std::string(z) + "\n";
-  const Doubts doubts = doubts_of(text + "f 1 2 3\nf 1 3 4\nf 1 4 2\nf 1 6 5\nf 1 7 6\nf 1 5 7\n");
+  const Doubts doubts = obj_doubts(text + "f 1 2 3\nf 1 3 4\nf 1 4 2\nf 1 6 5\nf 1 7 6\nf 1 5 7\n");
   ASSERT_EQ(doubts.size(), 2u);
   EXPECT_TRUE(has(doubts[1], "two fans of triangles meet in 1 vertex")) << doubts[1];
 }
 
 TEST(MeshDoubts, VertexWithinASideOfATriangleIsNamed) {
-  const Doubts doubts = doubts_of(
+  const Doubts doubts = obj_doubts(
       "v 0 0 0\nv 0.1 0 0\nv 0.1 0.1 0\nv 0 0.1 0\nv 0.1 0.05 0\nv 0.2 0 0\nv 0.2 0.1 0\n"
       "f 1 2 3 4\nf 2 6 5\nf 5 6 7\nf 5 7 3\n");
   ASSERT_EQ(doubts.size(), 3u);
@@ -96,7 +96,7 @@ TEST(MeshDoubts, VertexWithinASideOfATriangleIsNamed) {
 }
 
 TEST(MeshDoubts, LoneTriangleCannotBend) {
-  EXPECT_EQ(doubts_of("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"),
+  EXPECT_EQ(obj_doubts("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"),
             Doubts{"one triangle with 0 hinges: it cannot bend"});
 }
 

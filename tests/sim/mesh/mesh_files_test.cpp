@@ -129,10 +129,10 @@ TEST(MeshWriters, FailingOnesNameTheFileAndLeaveNothing) {
   const Folder folder;
   const ClothMesh mesh = make_grid(1, 1, 1, 1, MeshFamily::aligned, 0);
   const std::string file = folder.file("missing/frame.obj");
-  const Error error = test::error_of([&] { write_obj(file, mesh, mesh.rest); });
+  const Error error = test::thrown_error([&] { write_obj(file, mesh, mesh.rest); });
   EXPECT_EQ(error.exit_code(), 1);
   EXPECT_EQ(std::string(error.what()), "cannot create " + file + ": No such file or directory");
-  const Error counts = test::error_of([&] { write_ply(folder.file("a.ply"), mesh, mesh.rest, {1.0}); });
+  const Error counts = test::thrown_error([&] { write_ply(folder.file("a.ply"), mesh, mesh.rest, {1.0}); });
   EXPECT_EQ(counts.exit_code(), 2);
   EXPECT_TRUE(folder.names().empty());
 }

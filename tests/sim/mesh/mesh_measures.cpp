@@ -13,7 +13,7 @@
 
 namespace hysteron::test {
 
-std::string name_of(MeshFamily family) {
+std::string enum_name(MeshFamily family) {
   std::string name = to_string(family);
   std::erase(name, '-');
   return name;

@@ -15,7 +15,7 @@ inline constexpr MeshFamily kFamilies[] = {MeshFamily::aligned,     MeshFamily::
                                            MeshFamily::flipped,     MeshFamily::unionjack,
                                            MeshFamily::equilateral, MeshFamily::random};
 
-std::string name_of(MeshFamily family);  // as gtest takes it: "aligned45"
+std::string enum_name(MeshFamily family);  // as gtest takes it: "aligned45"
 
 double total_area(const ClothMesh& mesh);         // [m^2]
 double least_angle(const ClothMesh& mesh);        // [degrees]

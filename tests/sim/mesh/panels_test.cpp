@@ -32,7 +32,7 @@ int seams(const ClothMesh& mesh) {
 
 Failure refusal(const std::string& obj, double scale = 1) {
   const TextFile file(obj, ".obj");
-  return failure_of([&, name = file.path()] { read_pattern(name, 0, scale); });
+  return caught_failure([&, name = file.path()] { read_pattern(name, 0, scale); });
 }
 
 TEST(Panels, SewnAtTwoSeamsMakeATube) {

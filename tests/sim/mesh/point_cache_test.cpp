@@ -26,9 +26,9 @@ TEST(PointCache, HoldsEachInstantAndMayGoOnFromAnEarlierOne) {
   const auto positions = [](double at) { return Positions{{at, 0, 1}, {0, at, 2}}; };
   for (int k = 0; k < 3; ++k) write_to_point_cache(file, k, positions(k));
   write_to_point_cache(file, 1, positions(5));
-  EXPECT_EQ(at<std::int32_t>(test::content_of(file), 28), 2) << "what lay behind no longer counts";
+  EXPECT_EQ(at<std::int32_t>(test::file_content(file), 28), 2) << "what lay behind no longer counts";
   write_to_point_cache(file, 2, positions(7));
-  const std::string bytes = test::content_of(file);
+  const std::string bytes = test::file_content(file);
   ASSERT_EQ(bytes.size(), 32 + 3 * 2 * 12u);
   EXPECT_STREQ(bytes.c_str(), "POINTCACHE2");
   EXPECT_EQ(at<std::int32_t>(bytes, 12), 1);

@@ -116,7 +116,7 @@ class BadSurface : public testing::Test {
   // Expects the refusal of a file with this content, in one line that names the file.
   void expect(const std::string& content, const std::string& message, const std::string& name = "bad.ply") {
     const std::string file = folder_.write(name, content);
-    const Error error = test::error_of([&] { read_surface(file); });
+    const Error error = test::thrown_error([&] { read_surface(file); });
     EXPECT_EQ(error.exit_code(), 2);
     EXPECT_EQ(std::string(error.what()), "mesh " + file + ": " + message);
   }
@@ -125,7 +125,7 @@ class BadSurface : public testing::Test {
 };
 
 TEST_F(BadSurface, MissingFileIsTheMachinesFault) {
-  EXPECT_EQ(test::error_of([&] { read_surface(folder_.file("none.ply")); }).exit_code(), 1);
+  EXPECT_EQ(test::thrown_error([&] { read_surface(folder_.file("none.ply")); }).exit_code(), 1);
 }
 
 TEST_F(BadSurface, OtherEnding) { expect("", "its name must end in .obj or .ply", "bad.stl"); }
@@ -181,7 +181,7 @@ TEST_F(BadSurface, NumbersThatAreMissingOrTooMany) {
 TEST_F(BadSurface, BinaryThatBreaksOff) {
   const ClothMesh mesh = make_grid(1, 1, 2, 2, MeshFamily::aligned, 0);
   write_ply(folder_.file("whole.ply"), mesh, mesh.rest, {});
-  const std::string bytes = test::content_of(folder_.file("whole.ply"));
+  const std::string bytes = test::file_content(folder_.file("whole.ply"));
   expect(bytes.substr(0, bytes.size() - 3), "item 7 of the 8 of \"face\": a number is missing or malformed");
 }
 
@@ -202,7 +202,7 @@ TEST_F(BadSurface, PositionsThatAreNotFinite) {
   ClothMesh mesh = make_grid(1, 1, 1, 1, MeshFamily::aligned, 0);
   mesh.rest[2].y() = std::numeric_limits<double>::quiet_NaN();
   write_ply(folder_.file("nan.ply"), mesh, mesh.rest, {});
-  expect(test::content_of(folder_.file("nan.ply")), "vertex 2 is not a finite number");
+  expect(test::file_content(folder_.file("nan.ply")), "vertex 2 is not a finite number");
   expect("v 0 0 0\nv 1 nan 0\nv 0 1 0\nf 1 2 3\n", "line 2: coordinate \"nan\" must be a finite number",
          "bad.obj");
 }

@@ -31,7 +31,7 @@ TEST(Vtp, HoldsPositionsAndFieldsWhereItsHeaderSays) {
   for (std::size_t f = 0; f < numbered.size(); ++f) numbered[f] = static_cast<double>(f);
   const std::string file = folder.file("cloth.vtp");
   write_vtp(file, mesh, mesh.rest, {}, {{"number", 1, numbered}});
-  const std::string text = test::content_of(file);
+  const std::string text = test::file_content(file);
   const std::vector<double> position = numbers(text, "position");
   ASSERT_EQ(position.size(), 3 * mesh.rest.size());
   for (std::size_t v = 0; v < mesh.rest.size(); ++v)
@@ -43,7 +43,7 @@ TEST(Vtp, HoldsPositionsAndFieldsWhereItsHeaderSays) {
 TEST(Vtp, RefusesAFieldOfAnotherSize) {
   const test::Folder folder;
   const ClothMesh mesh = make_rectangle(0.1, 0.1, 8, MeshFamily::aligned, 1);
-  const Error why = test::error_of([&] {
+  const Error why = test::thrown_error([&] {
     write_vtp(folder.file("x.vtp"), mesh, mesh.rest, {{"speed", 1, {1, 2}}}, {});
   });
   EXPECT_NE(std::string(why.what()).find("2 values of speed"), std::string::npos) << why.what();
@@ -53,8 +53,9 @@ TEST(Vtp, RefusesAFieldOfAnotherSize) {
 TEST(Pvd, GivesEachInstantItsTime) {
   const test::Folder folder;
   write_pvd(folder.file("cloth.pvd"), {{0, "0000.vtp"}, {0.1, "0001.vtp"}});
-  EXPECT_NE(test::content_of(folder.file("cloth.pvd")).find("timestep=\"0.1\" part=\"0\" file=\"0001.vtp\""),
-            std::string::npos);
+  EXPECT_NE(
+      test::file_content(folder.file("cloth.pvd")).find("timestep=\"0.1\" part=\"0\" file=\"0001.vtp\""),
+      std::string::npos);
 }
 
 }  // namespace

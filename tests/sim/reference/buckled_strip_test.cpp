@@ -17,13 +17,15 @@ BuckledStrip elastic(int elements) { return {{kRigidity, {}, {}}, kLength, 0, el
 
 // Clamped elastica of modulus k: P = 16 K^2 B/L^2 at the distance L (2 E/K - 1), curvature 8 k K/L at the
 // clamps and in the middle (Love 1927, section 263; a quarter of it is a cantilever).
-double distance_of(double k) { return kLength * (2 * std::comp_ellint_2(k) / std::comp_ellint_1(k) - 1); }
-double push_of(double k) { return 16 * std::pow(std::comp_ellint_1(k), 2) * kRigidity / (kLength * kLength); }
+double clamp_distance(double k) { return kLength * (2 * std::comp_ellint_2(k) / std::comp_ellint_1(k) - 1); }
+double elastica_force(double k) {
+  return 16 * std::pow(std::comp_ellint_1(k), 2) * kRigidity / (kLength * kLength);
+}
 
 double force_error(double k, int elements) {
-  BuckledStripTest test(elastic(elements), distance_of(0.1), Start::virgin);
-  test.go_to(distance_of(k));
-  return test.force() / -push_of(k) - 1;
+  BuckledStripTest test(elastic(elements), clamp_distance(0.1), Start::virgin);
+  test.go_to(clamp_distance(k));
+  return test.force() / -elastica_force(k) - 1;
 }
 
 TEST(BuckledStrip, PushesAsTheClampedElasticaDoes) {
@@ -36,7 +38,7 @@ TEST(BuckledStrip, IsOfSecondOrderInItsElements) {
 }
 
 TEST(BuckledStrip, BendsMostAsTheClampedElasticaDoes) {
-  BuckledStripTest test(elastic(128), distance_of(0.5), Start::virgin);
+  BuckledStripTest test(elastic(128), clamp_distance(0.5), Start::virgin);
   EXPECT_NEAR(test.peak_curvature() * kLength / (8 * 0.5 * std::comp_ellint_1(0.5)), 1, 1e-3);
 }
 
@@ -58,7 +60,7 @@ struct Cycle {
   double work = 0, stored = 0, dissipated = 0;
 };
 
-Cycle cycle_of(const BuckledStrip& strip, int steps) {
+Cycle buckling_cycle(const BuckledStrip& strip, int steps) {
   BuckledStripTest test(strip, 0.0195, Start::relaxed);
   Cycle sum;
   const double before = test.energy();
@@ -77,7 +79,7 @@ Cycle cycle_of(const BuckledStrip& strip, int steps) {
 
 TEST(BuckledStrip, LosesWhatTheClampsSpendAndDoNotGetBack) {
   for (const double weight : {-3.0, 0.0, 3.0}) {
-    const Cycle cycle = cycle_of({kStops, kLength, weight, 32}, 200);
+    const Cycle cycle = buckling_cycle({kStops, kLength, weight, 32}, 200);
     EXPECT_GT(cycle.dissipated, 0);
     EXPECT_NEAR((cycle.work - cycle.stored) / cycle.dissipated, 1, 1e-4) << weight;
   }

@@ -41,8 +41,8 @@ TEST(FabLoops, OfAParallelogramEncloseBaseTimesHeight) {
   const FabLoops loops =
       find_loops(read_fab(folder.write("a.csv", si_rows()), TesterUnits::si, "t"), "L", "D1");
   ASSERT_EQ(loops.cycles(), 1);
-  EXPECT_NEAR(loop_area(loops, forces_of(loops), 0), 2e-3 * 1, 1e-12);
-  EXPECT_NEAR(force_range(forces_of(loops), 0), 1, 1e-12);
+  EXPECT_NEAR(loop_area(loops, branch_forces(loops), 0), 2e-3 * 1, 1e-12);
+  EXPECT_NEAR(force_range(branch_forces(loops), 0), 1, 1e-12);
 }
 
 // 1 gf = 9.80665e-3 N by definition.
@@ -114,7 +114,7 @@ TEST(FabLoops, ThatAreNotThereAreNamed) {
 TEST(FabLoops, OfAFileThatIsNotThereSayWhichFile) {
   const Folder folder;
   const std::string missing = folder.file("missing.csv");
-  const Error error = test::error_of([&] { read_fab(missing, TesterUnits::si, "t"); });
+  const Error error = test::thrown_error([&] { read_fab(missing, TesterUnits::si, "t"); });
   EXPECT_EQ(error.exit_code(), 1);
   EXPECT_EQ(error.what(), "cannot read " + missing + ": No such file or directory");
 }

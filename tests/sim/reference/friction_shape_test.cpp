@@ -12,7 +12,7 @@
 namespace hysteron {
 namespace {
 
-LawRequest law_of(const ShapedFriction& friction, const std::string& name = "prandtl") {
+LawRequest stops_request(const ShapedFriction& friction, const std::string& name = "prandtl") {
   return {name, {friction.b2 + friction.stops.stiffness(), friction.b2, 1, {friction.stops, {}, {}, {}}}, {}};
 }
 
@@ -40,7 +40,7 @@ TEST(FrictionShape, IsReadByTheTesterAsItWasMade) {
     const ShapedFriction friction = friction_from_kes({b, 2 * hb}, shape);
     if (!(friction.b2 > 0)) continue;
     ++made;
-    const KesReading reading = read(law_of(friction));
+    const KesReading reading = read(stops_request(friction));
     EXPECT_NEAR(reading.rigidity / b, 1, 5e-3) << shape.median << " " << shape.spread;
     EXPECT_NEAR(reading.loop_width / (2 * hb), 1, 5e-3) << shape.median << " " << shape.spread;
     const KesPair closed = kes_pair(friction.b2, friction.stops);
@@ -80,7 +80,7 @@ TEST(FrictionShape, LoopsAreMasingsOfItsVirginCurve) {
   for (const double turn : {90.0, -90.0, 90.0})
     for (int i = 1; i <= 60; ++i)
       rows.push_back({turn > 0 && rows.size() < 62 ? turn * i / 60 : turn * (i - 30) / 30, 1});
-  const LawRun run = run_law(law_of(f), rows);
+  const LawRun run = run_law(stops_request(f), rows);
   for (std::size_t i = 1; i <= 60; ++i)
     EXPECT_NEAR(run.moment[i], f.b2 * rows[i].curvature + f.stops.friction_at(rows[i].curvature), 1e-15);
   const double top = f.stops.friction_at(90);
@@ -97,7 +97,7 @@ TEST(FrictionShape, NeverGivesEnergyAway) {
   std::uniform_real_distribution<double> anywhere(-300, 300);
   std::vector<LawRow> rows = {{0, 0}};
   for (int i = 0; i < 500; ++i) rows.push_back({anywhere(random), 1});
-  const LawRun run = run_law(law_of(cotton()), rows);
+  const LawRun run = run_law(stops_request(cotton()), rows);
   for (std::size_t i = 1; i < rows.size(); ++i) {
     EXPECT_GE(run.dissipated[i], run.dissipated[i - 1]);
     EXPECT_GE(run.stored[i], 0);
@@ -106,7 +106,7 @@ TEST(FrictionShape, NeverGivesEnergyAway) {
 
 // Friction that wears off keeps the shape: it starts with the tester's pair.
 TEST(FrictionShape, CanWeaken) {
-  LawRequest law = law_of(cotton());
+  LawRequest law = stops_request(cotton());
   law.curve.k0 = 2 * cotton().stops.friction_moment() / cotton().stops.stiffness();
   law.parameters = {{"fatigue.dc", "1e9"}, {"fatigue.m-inf", "1e-4"}};
   EXPECT_NEAR(read(law).loop_width / 1.216e-3, 1, 5e-3);

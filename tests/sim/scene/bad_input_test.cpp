@@ -30,7 +30,7 @@ class BadSceneFile : public testing::TestWithParam<BadScene> {};
 
 TEST_P(BadSceneFile, IsRefusedInOneLineThatNamesFileLineKeyValueAndRange) {
   const TextFile file(GetParam().text);
-  const Failure failure = failure_of([&] {
+  const Failure failure = caught_failure([&] {
     Scene scene = default_scene();
     apply_scene_file(scene, file.path());
     check_scene(scene);
@@ -184,46 +184,46 @@ TEST(LongKey, CountsThePartsOfOneKeyOnly) {
   EXPECT_EQ(scene.param.at("memory"), std::string(80, '.'));
 }
 
-Failure duration_of(const std::string& text, const std::vector<Flag>& flags = {}) {
+Failure duration_failure(const std::string& text, const std::vector<Flag>& flags = {}) {
   const TextFile file(text);
   Scene scene = default_scene();
   apply_scene_file(scene, file.path());
   apply_flags(scene, flags);
-  return failure_of([&] { check_duration(scene); });
+  return caught_failure([&] { check_duration(scene); });
 }
 
 TEST(Duration, OfASceneThatEndsBeforeItsFirstStepIsRefused) {
-  const Failure failure = duration_of("step = 0.02\n", {{"seconds", "0.01"}});
+  const Failure failure = duration_failure("step = 0.02\n", {{"seconds", "0.01"}});
   EXPECT_EQ(failure.exit_code, 2);
   EXPECT_NE(failure.message.find(":1) must be <= seconds = 0.01 s (--seconds)"), std::string::npos)
       << failure.message;
-  EXPECT_EQ(duration_of("step = 0.02\nseconds = 0.02\n").exit_code, 0);
-  EXPECT_EQ(duration_of("step = 0.02\nseconds = 0\n").exit_code, 0);  // the start alone
+  EXPECT_EQ(duration_failure("step = 0.02\nseconds = 0.02\n").exit_code, 0);
+  EXPECT_EQ(duration_failure("step = 0.02\nseconds = 0\n").exit_code, 0);  // the start alone
 }
 
 TEST(Duration, HasRoomForEveryCommand) {
-  const Failure failure = duration_of("seconds = 1\n[[command]]\n[[command]]\ntime = 1.0\n");
+  const Failure failure = duration_failure("seconds = 1\n[[command]]\n[[command]]\ntime = 1.0\n");
   EXPECT_EQ(failure.exit_code, 2);
   EXPECT_NE(failure.message.find("command[1].time = 1 s"), std::string::npos) << failure.message;
   EXPECT_NE(failure.message.find(":4) must be < seconds = 1 s"), std::string::npos) << failure.message;
-  EXPECT_EQ(duration_of("seconds = 1\n[[command]]\ntime = 0.99\n").exit_code, 0);
+  EXPECT_EQ(duration_failure("seconds = 1\n[[command]]\ntime = 0.99\n").exit_code, 0);
 }
 
 TEST(BadFlag, IsRefusedInOneLineThatNamesTheFlag) {
   Scene scene = default_scene();
-  const Failure range = failure_of([&] { apply_flags(scene, {{"fabric.b2", "-1"}}); });
+  const Failure range = caught_failure([&] { apply_flags(scene, {{"fabric.b2", "-1"}}); });
   EXPECT_EQ(range.exit_code, 2);
   EXPECT_EQ(range.message, "fabric.b2 = -1 N m must be >= 0 (--fabric.b2)");
-  const Failure type = failure_of([&] { apply_flags(scene, {{"step", "1e-3s"}}); });
+  const Failure type = caught_failure([&] { apply_flags(scene, {{"step", "1e-3s"}}); });
   EXPECT_EQ(type.message, "step = \"1e-3s\" must be a number in (0, 1] [s] (--step)");
-  const Failure parameter = failure_of([&] { apply_flags(scene, {{"param", "stops"}}); });
+  const Failure parameter = caught_failure([&] { apply_flags(scene, {{"param", "stops"}}); });
   EXPECT_EQ(parameter.message, "param = \"stops\" must be of the form name=value (--param)");
 }
 
 TEST(BadFlag, ContradictingTheFabricFileNamesBothPlaces) {
   Scene scene = default_scene("wool-tropical");
   apply_flags(scene, {{"fabric.b2", "1e-3"}});
-  const Failure failure = failure_of([&] { check_scene(scene); });
+  const Failure failure = caught_failure([&] { check_scene(scene); });
   EXPECT_EQ(failure.exit_code, 2);
   EXPECT_NE(failure.message.find("wool-tropical.toml:"), std::string::npos) << failure.message;
   EXPECT_NE(failure.message.find("fabric.b2 = 0.001 N m (--fabric.b2)"), std::string::npos)
@@ -232,7 +232,7 @@ TEST(BadFlag, ContradictingTheFabricFileNamesBothPlaces) {
 
 TEST(BadSceneName, ThatDoesNotExistIsAWrongRequest) {
   Scene scene;
-  const Failure failure = failure_of([&] { apply_scene_file(scene, "/nowhere/drape.toml"); });
+  const Failure failure = caught_failure([&] { apply_scene_file(scene, "/nowhere/drape.toml"); });
   EXPECT_EQ(failure.exit_code, 2);
   EXPECT_NE(failure.message.find("/nowhere/drape.toml"), std::string::npos);
 }

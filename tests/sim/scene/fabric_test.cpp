@@ -270,7 +270,7 @@ class BadFabricFile : public testing::TestWithParam<BadFabric> {};
 
 TEST_P(BadFabricFile, IsRefusedInOneLineThatNamesFileAndLine) {
   const TextFile file(std::string(kMinimal) + GetParam().tail);
-  const Failure failure = failure_of([&] { read_fabric(file.path(), "test"); });
+  const Failure failure = caught_failure([&] { read_fabric(file.path(), "test"); });
   EXPECT_EQ(failure.exit_code, 2) << failure.message;
   EXPECT_NE(failure.message.find(GetParam().naming), std::string::npos) << failure.message;
   EXPECT_NE(failure.message.find(file.line(GetParam().line)), std::string::npos) << failure.message;
@@ -361,7 +361,7 @@ TEST(Assets, AreNamedWithoutTheFolderTheyLieIn) {
 
 TEST(Assets, InAFolderThatIsNotThereAreAMachineError) {
   setenv("HYSTERON_ASSETS", "/nowhere", 1);
-  const Failure failure = failure_of([] { list_assets("fabrics"); });
+  const Failure failure = caught_failure([] { list_assets("fabrics"); });
   unsetenv("HYSTERON_ASSETS");
   EXPECT_EQ(failure.exit_code, 1);
   EXPECT_NE(failure.message.find("HYSTERON_ASSETS = /nowhere"), std::string::npos);

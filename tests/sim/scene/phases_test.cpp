@@ -22,14 +22,14 @@ TEST(Phases, FollowOneAnother) {
 }
 
 TEST(Phases, AreTimesWithAndWithoutAnOffset) {
-  EXPECT_EQ(time_of(kPhases, "hold", "here"), 0.5);
-  EXPECT_EQ(time_of(kPhases, "hang + 0.25", "here"), 1);
-  EXPECT_EQ(time_of(kPhases, "hang-0.25", "here"), 0.5);
+  EXPECT_EQ(phase_time(kPhases, "hold", "here"), 0.5);
+  EXPECT_EQ(phase_time(kPhases, "hang + 0.25", "here"), 1);
+  EXPECT_EQ(phase_time(kPhases, "hang-0.25", "here"), 0.5);
 }
 
 TEST(Phases, ThatAreUnknownOrMistypedAreRefused) {
   for (const char* text : {"spread", "hold + soon", "hold +", "1.5"}) {
-    const Failure failure = failure_of([&] { time_of(kPhases, text, "s.toml:3"); });
+    const Failure failure = caught_failure([&] { phase_time(kPhases, text, "s.toml:3"); });
     EXPECT_EQ(failure.exit_code, 2) << text;
     EXPECT_NE(failure.message.find("s.toml:3"), std::string::npos) << failure.message;
   }

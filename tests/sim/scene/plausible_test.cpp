@@ -38,8 +38,8 @@ TEST_F(DiscFile, ClothHasItsSizeInEveryUnit) {
   for (const auto& [unit, in_a_metre] : kUnits) {
     const Cloth cloth = make_cloth(read(in_a_metre, unit));
     for (int v = 0; v < disc_.vertices(); ++v)
-      EXPECT_LT((cloth.mesh.rest[v] - disc_.rest[v]).norm(), 1e-15) << name_of(unit);
-    EXPECT_EQ(cloth.warnings, std::vector<std::string>()) << name_of(unit);
+      EXPECT_LT((cloth.mesh.rest[v] - disc_.rest[v]).norm(), 1e-15) << enum_name(unit);
+    EXPECT_EQ(cloth.warnings, std::vector<std::string>()) << enum_name(unit);
   }
 }
 
@@ -58,8 +58,8 @@ TEST_F(DiscFile, WrongUnitIsDoubtedAndTheRightOneNamed) {
         std::tuple{1000., LengthUnit::metre, "millimetre"}, std::tuple{1., LengthUnit::centimetre, "metre"},
         std::tuple{1., LengthUnit::millimetre, "metre"}}) {
     const Cloth cloth = make_cloth(read(scale, unit));
-    ASSERT_EQ(cloth.warnings.size(), 1u) << scale << " " << name_of(unit);
-    EXPECT_TRUE(has(cloth.warnings[0], "read in " + name_of(unit) + "s")) << cloth.warnings[0];
+    ASSERT_EQ(cloth.warnings.size(), 1u) << scale << " " << enum_name(unit);
+    EXPECT_TRUE(has(cloth.warnings[0], "read in " + enum_name(unit) + "s")) << cloth.warnings[0];
     EXPECT_TRUE(has(cloth.warnings[0], right + std::string(" 0.24 m")) ||
                 has(cloth.warnings[0], right + std::string(" would make it 0.24 m")))
         << cloth.warnings[0];
@@ -88,7 +88,7 @@ TEST(BuiltCloth, TooLargeOrHeavyIsDoubted) {
 TEST(BuiltCloth, HasNoUnitOfAFile) {
   Scene scene = default_scene();
   set_key(scene, "cloth.unit", "inch", "--cloth.unit");
-  EXPECT_EQ(failure_of([&] { check_scene(scene); }).message,
+  EXPECT_EQ(caught_failure([&] { check_scene(scene); }).message,
             "cloth.unit = inch (--cloth.unit) is that of an OBJ, and this cloth is built: lengths of keys "
             "are metres");
 }
@@ -119,7 +119,7 @@ TEST_F(StartFile, OfVerticesInAnotherOrderIsRefusedOrDoubted) {
   ASSERT_EQ(doubts.size(), 2u);
   EXPECT_TRUE(has(doubts[0], "edges by more than 50 %")) << doubts[0];
   for (Eigen::Vector3d& x : at) x *= 100;
-  const Failure failure = failure_of([&] { make_cloth(started(at)); });
+  const Failure failure = caught_failure([&] { make_cloth(started(at)); });
   EXPECT_EQ(failure.exit_code, 2);
   EXPECT_TRUE(has(failure.message,
                   "times as long as at rest, which must be 0.5 to 2: both files must be in cloth.unit"))
@@ -131,7 +131,7 @@ TEST_F(StartFile, OfOtherTrianglesNamesTheFirst) {
   ClothMesh other = disc_;
   std::swap(other.face[3], other.face[4]);
   write_obj(start_.path(), other, other.rest);
-  const Failure failure = failure_of([&] { make_cloth(scene); });
+  const Failure failure = caught_failure([&] { make_cloth(scene); });
   EXPECT_EQ(failure.exit_code, 2);
   EXPECT_TRUE(has(failure.message, ": its triangle 4 has the vertices ")) << failure.message;
 }

@@ -72,7 +72,7 @@ TEST(RecordedScene, RefusesInOneLineThatNamesTheKey) {
            {R"({"seconds": null})", "scene.seconds is no value"}}) {
     Scene scene = default_scene();
     const Failure failure =
-        failure_of([&, text = tree] { apply_recorded_scene(scene, Json::parse(text), "manifest.json"); });
+        caught_failure([&, text = tree] { apply_recorded_scene(scene, Json::parse(text), "manifest.json"); });
     EXPECT_EQ(failure.exit_code, 2);
     EXPECT_NE(failure.message.find(words), std::string::npos) << failure.message;
     EXPECT_NE(failure.message.find("manifest.json"), std::string::npos) << failure.message;
@@ -83,7 +83,7 @@ TEST(SceneText, ReadsBackToTheSameScene) {
   std::vector<Scene> scenes = {unusual(), default_scene("polyester-faille")};
   for (const std::string& name : list_assets("scenes")) scenes.push_back(shipped(name));
   for (const Scene& scene : scenes) {
-    const TextFile file(toml_of(scene));
+    const TextFile file(scene_toml(scene));
     Scene back = default_scene();
     apply_scene_file(back, file.path());
     EXPECT_EQ(without_origins(back), without_origins(scene));
@@ -91,7 +91,7 @@ TEST(SceneText, ReadsBackToTheSameScene) {
 }
 
 TEST(SceneText, TellsTheOriginOfEachValue) {
-  const std::string text = toml_of(unusual());
+  const std::string text = scene_toml(unusual());
   for (const char* line : {"fabric.b1 = 3.3e-05  # [N m] --fabric.b1\n", "seed = 7  # --seed\n",
                            "element = \"shape\"  # assets/scenes/strip-over-sphere.toml:",
                            "fabric.density = 0.1629  # [kg/m^2] assets/fabrics/wool-tropical.toml:",
@@ -103,7 +103,7 @@ TEST(SceneText, CommentsOutWhatTheExperimentAdds) {
   Scene scene = default_scene();
   scene.obstacle.emplace_back();  // without a place in a file
   scene.seconds = 3;
-  const std::string text = toml_of(scene, {"seconds"});
+  const std::string text = scene_toml(scene, {"seconds"});
   const TextFile file(text);
   Scene back = default_scene();
   apply_scene_file(back, file.path());
@@ -119,7 +119,7 @@ double with_all_bits(const Range& range) {
 }
 
 // All numbers of a scene.
-std::vector<double> numbers_of(Scene scene) {
+std::vector<double> number_values(Scene scene) {
   std::vector<double> all;
   for (const BoundKey& key : bind_scene(scene)) {
     if (const auto* x = std::get_if<double*>(&key.field)) all.push_back(**x);
@@ -144,7 +144,7 @@ Scene with_all_bits() {
 }
 
 // The same scene by flags, as studies, comparisons and estimates of errors tell it to runs.
-std::vector<Flag> flags_of(Scene scene) {
+std::vector<Flag> drape_flags(Scene scene) {
   const auto joined = [](const auto& numbers) {
     std::string text;
     for (const double x : numbers) text += (text.empty() ? "" : " ") + number_text(x);
@@ -162,19 +162,19 @@ std::vector<Flag> flags_of(Scene scene) {
 
 TEST(ResolvedScene, ReachesAnotherRunWithEveryBitWhateverItIsTold) {
   const Scene scene = with_all_bits();
-  const std::vector<double> wanted = numbers_of(scene);
+  const std::vector<double> wanted = number_values(scene);
   const auto same_bits = [&](const Scene& other) {
-    const std::vector<double> found = numbers_of(other);
+    const std::vector<double> found = number_values(other);
     return found.size() == wanted.size() &&
            std::memcmp(found.data(), wanted.data(), wanted.size() * sizeof(double)) == 0;
   };
   Scene by_manifest = default_scene(), by_file = default_scene(), by_flags = default_scene();
   apply_recorded_scene(by_manifest, Json::parse(to_json(scene).dump()), "manifest.json");
   EXPECT_TRUE(same_bits(by_manifest));
-  const TextFile file(toml_of(scene));
+  const TextFile file(scene_toml(scene));
   apply_scene_file(by_file, file.path());
   EXPECT_TRUE(same_bits(by_file));
-  apply_flags(by_flags, flags_of(scene));
+  apply_flags(by_flags, drape_flags(scene));
   EXPECT_TRUE(same_bits(by_flags));
 }
 

@@ -39,7 +39,7 @@ struct Failure {
 
 // Exit code and line of what `attempt` throws; {0, ""} if it does not.
 template <class Attempt>
-Failure failure_of(Attempt attempt) {
+Failure caught_failure(Attempt attempt) {
   try {
     attempt();
   } catch (const Error& error) {

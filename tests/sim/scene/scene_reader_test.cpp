@@ -125,7 +125,7 @@ TEST(SceneFile, TakesIntegersWithAnExponent) {
 TEST(SceneFile, LeavesNoTableToOthersThatIsNoArray) {
   const TextFile file("[metric]\nname = \"a\"\n");
   Scene scene;
-  const Failure failure = failure_of([&] { apply_scene_file(scene, file.path(), {}, {"metric"}); });
+  const Failure failure = caught_failure([&] { apply_scene_file(scene, file.path(), {}, {"metric"}); });
   EXPECT_EQ(failure.message, "metric must be an array of tables, [[metric]] (" + file.line(1) + ")");
 }
 

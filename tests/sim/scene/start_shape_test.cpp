@@ -121,7 +121,7 @@ void PrintTo(const BadStart& bad, std::ostream* out) { *out << bad.name; }
 class BadStartShape : public testing::TestWithParam<BadStart> {};
 
 TEST_P(BadStartShape, IsRefusedInOneLineThatNamesKeyValueAndRange) {
-  const Failure failure = failure_of([&] {
+  const Failure failure = caught_failure([&] {
     Scene scene = GetParam().scene();
     GetParam().spoil(scene);
     check_start_shape(scene);

@@ -52,7 +52,7 @@ TEST(TomlText, OfAnyPiecesIsReadOrRefused) {
     for (int length = 1 + static_cast<int>(random() % 9); length > 0; --length)
       text += kPieces[random() % kPieces.size()];
     const TextFile file(text);
-    const Failure failure = failure_of([&] { read_toml(file.path()); });
+    const Failure failure = caught_failure([&] { read_toml(file.path()); });
     EXPECT_TRUE(failure.exit_code == 0 || failure.exit_code == 2) << text;
     ++(failure.exit_code == 0 ? read : refused);
   }

@@ -85,10 +85,10 @@ struct Fold {
     pin.motion.center = {x + side * kCell / 2, 0, 0};
     pin.motion.axis = {0, 1, 0};
     constexpr int kKeys = 8;
-    const auto add = [&](double time, double share) {
-      const double turn = share * kCurvature * kFree / 2;
-      const double way = share > 0 ? kFree / 2 * (1 - std::sin(turn) / turn) : 0;
-      pin.motion.keys.push_back({time, {side * way, 0, 0}, side * turn * 180 / pi});
+    const auto add = [&](double time, double fraction) {
+      const double turn = fraction * kCurvature * kFree / 2;
+      const double displacement = fraction > 0 ? kFree / 2 * (1 - std::sin(turn) / turn) : 0;
+      pin.motion.keys.push_back({time, {side * displacement, 0, 0}, side * turn * 180 / pi});
     };
     for (int i = 0; i <= kKeys; ++i) add(kBent * i / kKeys, double(i) / kKeys);
     for (int i = kKeys; i >= 0; --i) add(kBack - (kBack - kHeld) * i / kKeys, double(i) / kKeys);

@@ -20,10 +20,10 @@ Scene lifted(const Vector3d& place) {
   scene.step = 1.0 / 240;
   scene.seconds = 1;
   scene.cloth.position = place;
-  Pin hand = test::pin_at(0, 0.2);
-  hand.motion.keys = {{0}, {0.2, {0, 0, 0.05}, 20}};
-  hand.motion.axis = {0, 1, 0};
-  hand.motion.center = place + Vector3d(0.1, 0.2, 0);
+  Pin moving_pin = test::pin_at(0, 0.2);
+  moving_pin.motion.keys = {{0}, {0.2, {0, 0, 0.05}, 20}};
+  moving_pin.motion.axis = {0, 1, 0};
+  moving_pin.motion.center = place + Vector3d(0.1, 0.2, 0);
   Obstacle ground, ball;
   ground.kind = ObstacleKind::ground;
   ground.axis = {0.1, 0, 1};
@@ -35,7 +35,7 @@ Scene lifted(const Vector3d& place) {
   ball.motion.keys = {{0}, {0.1, {0, 0, 0.02}, 40}};
   ball.motion.axis = {1, 0, 0};
   ball.motion.center = ball.center;
-  scene.pin = {hand};
+  scene.pin = {moving_pin};
   scene.obstacle = {ground, ball};
   return scene;
 }
@@ -81,7 +81,7 @@ TEST(FarFromTheOrigin, RefusalsNamePlacesInTheWorld) {
   scene.obstacle.resize(1);
   scene.obstacle[0].center.z() += 0.05;
   scene.obstacle[0].from = 0.05;
-  const Failure failure = failure_of([&] { Trial(scene).after(24); });
+  const Failure failure = caught_failure([&] { Trial(scene).after(24); });
   EXPECT_EQ(failure.exit_code, 3);
   EXPECT_NE(failure.message.find("an obstacle appears where the cloth is: vertex"), std::string::npos)
       << failure.message;

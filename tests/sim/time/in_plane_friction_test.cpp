@@ -67,7 +67,7 @@ TEST(InPlaneFriction, LosesInTheChaptersStepsToo) {
   EXPECT_LT(ledger.remainder_relative, 1e-9);
 }
 
-ScenePart history_of(const Simulation& simulation) {
+ScenePart friction_history(const Simulation& simulation) {
   for (const ScenePart& part : simulation.parts())
     if (part.name == std::string("membrane history")) return part;
   throw Error::simulation("no such part");
@@ -86,7 +86,7 @@ TEST(InPlaneFriction, CostsNothingWhereAFabricHasNone) {
     return names;
   };
   const Trial without = sheared("implicit", {}), with = sheared("implicit", test::in_plane_stops());
-  const ScenePart none = history_of(*without.simulation()), some = history_of(*with.simulation());
+  const ScenePart none = friction_history(*without.simulation()), some = friction_history(*with.simulation());
   EXPECT_FALSE(none.included);
   EXPECT_EQ(none.bytes, 0u);
   EXPECT_TRUE(some.included);

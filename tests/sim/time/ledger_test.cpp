@@ -20,7 +20,7 @@ Obstacle ground(double height) {
   return o;
 }
 
-Scene scene_of(const std::string& law, const std::string& integrator) {
+Scene law_scene(const std::string& law, const std::string& integrator) {
   Scene scene = test::hanging_square();
   scene.law = law;
   scene.integrator = value_named<Integrator>(integrator);
@@ -48,7 +48,7 @@ INSTANTIATE_TEST_SUITE_P(Cases, Balance,
                          [](const auto& c) { return c.param.name(); });
 
 TEST_P(Balance, ClosesForASwingingCloth) {
-  Scene scene = scene_of(GetParam().law, GetParam().integrator);
+  Scene scene = law_scene(GetParam().law, GetParam().integrator);
   scene.fabric.damping = 0;
   Trial trial(scene);
   test::ripple(trial.cloth, 3e-3);
@@ -62,7 +62,7 @@ TEST_P(Balance, ClosesForASwingingCloth) {
 }
 
 TEST_P(Balance, ClosesWithDampingAirMovingHandleMovingObstacleAndARelease) {
-  Scene scene = scene_of(GetParam().law, GetParam().integrator);
+  Scene scene = law_scene(GetParam().law, GetParam().integrator);
   if (scene.integrator == Integrator::explicit_euler) {
     scene.step = 1e-4;  // the contact shell is stiff
     scene.contact_stiffness = 1e6;
@@ -107,7 +107,7 @@ TEST(Ledger, ClosesForClothFallingOnTheGround) {
 // What has been moving is brought to rest: nothing moves any more, and what was kinetic energy is booked.
 TEST(Ledger, ClosesWhenAMotionIsEndedAtItsEquilibrium) {
   for (const char* integrator : {"implicit", "bdf2"}) {
-    Trial trial(scene_of("prandtl", integrator));
+    Trial trial(law_scene("prandtl", integrator));
     test::ripple(trial.cloth, 3e-3);
     const auto simulation = trial.after(20);
     ASSERT_GT(simulation->ledger().kinetic, 0);
@@ -124,7 +124,7 @@ TEST(Ledger, ClosesWhenAMotionIsEndedAtItsEquilibrium) {
 }
 
 TEST(Equilibrium, IsNotForIntegratorsThatAreExplicitInBending) {
-  Trial trial(scene_of("prandtl", "semi-implicit"));
+  Trial trial(law_scene("prandtl", "semi-implicit"));
   EXPECT_THROW(trial.after(1)->become_static(), Error);
 }
 
@@ -147,7 +147,7 @@ TEST(Ledger, OfFreeFallIsItsClosedForm) {
 double loss_order(const std::string& integrator, double step, double damping) {
   double loss[2];
   for (int level = 0; level < 2; ++level) {
-    Scene scene = scene_of("linear", integrator);
+    Scene scene = law_scene("linear", integrator);
     scene.triangles = 50;
     scene.step = step / (1 << level);
     scene.fabric.damping = damping;
@@ -170,7 +170,7 @@ TEST(Ledger, IntegratorsLossShrinksWithFirstOrderInTheStep) {
 TEST(Ledger, OfEquilibriaMissesWorkWithSecondOrderInTheStep) {
   double missed[2], stored = 0;
   for (int level = 0; level < 2; ++level) {
-    Scene scene = scene_of("linear", "quasi-static");
+    Scene scene = law_scene("linear", "quasi-static");
     scene.gravity.setZero();
     scene.step = 0.01 / (1 << level);
     scene.pin[0].motion.keys = {{0, {0, 0, 0}, 0}, {0.1, {-0.004, 0.003, 0.002}, 0}};
@@ -187,16 +187,16 @@ TEST(Ledger, OfEquilibriaMissesWorkWithSecondOrderInTheStep) {
 // Backward Euler takes all from a cloth without friction, air and viscosity, and the less beside friction's
 // part the shorter the steps are.
 TEST(Ledger, SharesWhatWasDissipatedBetweenTheIntegratorAndTheCloth) {
-  const auto share = [](const std::string& law, double step) {
-    Scene scene = scene_of(law, "implicit");
+  const auto fraction = [](const std::string& law, double step) {
+    Scene scene = law_scene(law, "implicit");
     scene.step = step;
     scene.air_drag = scene.fabric.damping = 0;
     Trial trial(scene);
     test::ripple(trial.cloth, 3e-3);
     return trial.after(std::lround(0.02 / step))->ledger().integrator_share();
   };
-  EXPECT_EQ(share("linear", 1e-3), 1);
-  const double coarse = share("prandtl", 1e-3), fine = share("prandtl", 2.5e-4);
+  EXPECT_EQ(fraction("linear", 1e-3), 1);
+  const double coarse = fraction("prandtl", 1e-3), fine = fraction("prandtl", 2.5e-4);
   EXPECT_GT(fine, 0);
   EXPECT_LT(fine, coarse);
   EXPECT_LT(coarse, 1);
@@ -205,7 +205,7 @@ TEST(Ledger, SharesWhatWasDissipatedBetweenTheIntegratorAndTheCloth) {
 
 TEST(Ledger, AccountsAreThoseOfTheLaw) {
   const auto of = [](const std::string& law) {
-    Trial trial(scene_of(law, "semi-implicit"));
+    Trial trial(law_scene(law, "semi-implicit"));
     test::ripple(trial.cloth, 3e-3);
     return trial.after(50)->ledger();
   };
@@ -216,7 +216,7 @@ TEST(Ledger, AccountsAreThoseOfTheLaw) {
 }
 
 TEST(Ledger, RowsAddUpToTheRemainder) {
-  Trial trial(scene_of("prandtl", "semi-implicit"));
+  Trial trial(law_scene("prandtl", "semi-implicit"));
   const Ledger ledger = trial.after(30)->ledger();
   double sum = 0, remainder = 0;
   for (const auto& [name, value] : ledger.rows()) {

@@ -73,13 +73,13 @@ TEST(MeasuredFabric, PaysForThePartsThatItHasAlone) {
 TEST(MeasuredFabric, PaysForDirectionsOfHingesWhereItsStopsDifferByThem) {
   const BendingParts all = test::all_parts();
   std::map<std::string, std::size_t> more, one;
-  const auto parts_of = [](const BendingParts& parts, std::map<std::string, std::size_t>& bytes) {
+  const auto count_parts = [](const BendingParts& parts, std::map<std::string, std::size_t>& bytes) {
     const Trial trial = rippled({"prandtl", "hinge", "semi-implicit"}, parts);
     for (const ScenePart& part : trial.simulation()->parts()) bytes[part.name] = part.bytes;
     return trial.cloth.mesh.interior_edges;
   };
-  const int hinges = parts_of({all.stops, {}, {}, {}}, one);
-  parts_of({all.stops, all.weft_stops, {}, {}}, more);
+  const int hinges = count_parts({all.stops, {}, {}, {}}, one);
+  count_parts({all.stops, all.weft_stops, {}, {}}, more);
   EXPECT_EQ(more["bending"] - one["bending"], 2 * sizeof(double) * hinges);
   EXPECT_EQ(more["bending history"], 8 * sizeof(double) * hinges);
   EXPECT_EQ(one["bending history"], more["bending history"]);
@@ -88,9 +88,9 @@ TEST(MeasuredFabric, PaysForDirectionsOfHingesWhereItsStopsDifferByThem) {
 // A sheet with one relaxing branch, held in waves that it is not at rest in.
 Trial held_in_waves(const char* integrator, double tau) {
   Trial trial = rippled({"chapman", "shape", integrator}, {{}, {}, {{tau}, {6e-6}}, {}});
-  Pin hand;
-  hand.low = {-1, -1, -1}, hand.high = {1, 1, 1};
-  trial.scene.pin = {hand};
+  Pin holding_pin;
+  holding_pin.low = {-1, -1, -1}, holding_pin.high = {1, 1, 1};
+  trial.scene.pin = {holding_pin};
   const std::vector<Eigen::Vector3d> start = trial.cloth.start;
   trial.cloth = make_cloth(trial.scene);
   trial.cloth.start = start;

@@ -32,9 +32,9 @@ double dot(const Positions& a, const Positions& b) {
   return sum;
 }
 
-Positions moved(const Positions& x, double share, const Positions& d) {
+Positions moved(const Positions& x, double fraction, const Positions& d) {
   Positions result = x;
-  for (std::size_t i = 0; i < x.size(); ++i) result[i] += share * d[i];
+  for (std::size_t i = 0; i < x.size(); ++i) result[i] += fraction * d[i];
   return result;
 }
 
@@ -162,7 +162,7 @@ void expect_gradient_of_second_order(Step& step) {
   step.begin();
   const Positions x = moved(step.reference, 1e-3, random_vectors(step.reference.size(), 1, 5));
   const Positions d = step.free_direction(6);
-  step.potential.lag_friction(x.data());
+  step.potential.update_friction_limits(x.data());
   const double slope = step.at(x, d).slope;
   ASSERT_NE(slope, 0);
   const auto error = [&](double h) {
@@ -189,7 +189,7 @@ TEST_P(OfACloth, StiffnessIsTheDerivativeOfTheGradientWhereNothingIsStressed) {
   Step step(GetParam());
   step.begin();
   const Positions x = step.reference, p = step.free_direction(7);
-  step.potential.lag_friction(x.data());
+  step.potential.update_friction_limits(x.data());
   step.at(x, p);
   const Positions base = step.gradient();
   const Positions linear = step.product(step.potential.linearise(x.data(), 0, false), p);
@@ -212,7 +212,7 @@ TEST_P(OfACloth, FullStiffnessIsTheDerivativeOfTheGradientOfAPressedSheet) {
   Positions x = step.reference;
   for (Vector3d& v : x) v = Vector3d(0.9 * v.x(), v.y(), v.z() + kLifted);
   const Positions p = step.free_direction(7);
-  step.potential.lag_friction(x.data());
+  step.potential.update_friction_limits(x.data());
   step.at(x, p);
   const Positions base = step.gradient();
   const LinearSystem<double, Cpu> system = step.potential.linearise(x.data(), 0, true);
@@ -235,7 +235,7 @@ TEST_P(OfACloth, TheAssembledStiffnessIsThatOfTheParts) {
   step.begin();
   const Positions x = moved(step.reference, 1e-3, random_vectors(step.reference.size(), 1, 5));
   const Positions d = step.free_direction(6);
-  step.potential.lag_friction(x.data());
+  step.potential.update_friction_limits(x.data());
   for (const bool full : {false, true}) {
     step.at(x, d);
     const Positions parts = step.product(step.potential.linearise(x.data(), 1, full), d);
@@ -262,13 +262,13 @@ TEST_P(OfACloth, RenewedFrictionIsThatOfANewEvaluation) {
   for (Step* step : {&renewed, &anew}) {
     step->give_it_a_past();
     step->begin();
-    step->potential.lag_friction(step->reference.data());
+    step->potential.update_friction_limits(step->reference.data());
     before = step->potential.evaluate(x.data(), nullptr);
   }
   const long loops = device_counts.loops;
   values[0] = renewed.potential.renew_friction(x.data());
   const long renewing = device_counts.loops - loops;
-  anew.potential.lag_friction(x.data());
+  anew.potential.update_friction_limits(x.data());
   values[1] = anew.potential.evaluate(x.data(), nullptr);
   EXPECT_LT(renewing, device_counts.loops - loops - renewing);
   EXPECT_NE(values[0].energy, before.energy);
@@ -287,7 +287,7 @@ TEST_P(OfACloth, SolvingWithAnIndefiniteStiffnessLeadsDownhill) {
   Step step(GetParam());
   step.begin(kLong);
   const Positions x = pressed_almost_flat(step);
-  step.potential.lag_friction(x.data());
+  step.potential.update_friction_limits(x.data());
   const double here = step.at(x, x).energy;
   Positions load = moved(Positions(x.size(), Vector3d::Zero()), -1, step.gradient());
   for (Vector3d& v : load) v.x() = v.y() = 0;  // only what acts out of the plane
@@ -297,8 +297,8 @@ TEST_P(OfACloth, SolvingWithAnIndefiniteStiffnessLeadsDownhill) {
   EXPECT_FALSE(solver.solve(system, step.held.data(), load.data(), direction.data(), 1e-3).converged);
   EXPECT_GT(dot(direction, load), 0);
   double least = here;
-  for (double share = 1; share > 1e-6; share /= 2)
-    least = std::min(least, step.at(moved(x, share, direction), direction).energy);
+  for (double fraction = 1; fraction > 1e-6; fraction /= 2)
+    least = std::min(least, step.at(moved(x, fraction, direction), direction).energy);
   EXPECT_LT(least, here * (1 - 1e-12));
 }
 
@@ -309,7 +309,7 @@ TEST_P(OfACloth, StiffnessIsPositiveAndSymmetricAlsoUnderCompression) {
   step.begin();
   Positions x = moved(step.reference, 5e-4, random_vectors(step.reference.size(), 1, 8));
   for (Vector3d& p : x) p.x() *= 0.9;
-  step.potential.lag_friction(x.data());
+  step.potential.update_friction_limits(x.data());
   step.at(x, x);
   const LinearSystem<double, Cpu> system = step.potential.linearise(x.data(), 0, false);
   for (unsigned seed = 10; seed < 20; ++seed) {
@@ -336,7 +336,7 @@ TEST_P(OfACloth, LineSearchNeverAcceptsAnIncrease) {
     limits.iterations = iterations;
     Newton<double, Cpu> newton(step.cpu, step.mass.size(), step.potential, solver, limits);
     Buffer<Vector3d, Cpu> x(step.cpu, moved(step.reference, 3e-3, step.free_direction(9)));
-    step.potential.lag_friction(x.data());
+    step.potential.update_friction_limits(x.data());
     const PotentialValue first = step.potential.evaluate(x.data(), nullptr);
     newton.minimise(x, first, step.held.data(), step.mass.data(), 1, kStep);
     const PotentialValue value = step.potential.evaluate(x.data(), nullptr);

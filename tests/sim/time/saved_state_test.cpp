@@ -21,7 +21,7 @@ struct Saved {
   bool chapter = false;  // implicit-every = step
   LawParameters param = {};
   double strength = 0;    // of the second hand [N]
-  bool barred = false;    // two layers: a rigid hand leads the upper one through the lower
+  bool blocked = false;   // two layers: a rigid hand leads the upper one through the lower
   bool parts = false;     // stops along warp and weft, branches and set
   bool in_plane = false;  // stops of the membrane
   Precision linear_precision = Precision::fp64;
@@ -112,7 +112,7 @@ Scene over_a_ball() {
   return scene;
 }
 
-Trial trial_of(const Saved& of) {
+Trial saved_trial(const Saved& of) {
   Trial trial = of.layers ? test::two_sheets(Fabric{}.thickness * 1.2, 60) : Trial(over_a_ball());
   Scene& scene = trial.scene;
   scene.integrator = value_named<Integrator>(of.integrator);
@@ -123,10 +123,10 @@ Trial trial_of(const Saved& of) {
   scene.linear_precision = of.linear_precision;
   scene.tolerance = of.tolerance;
   if (of.layers) scene.gravity = {4, 1, -9};
-  if (of.barred) {
-    Pin hand;
-    hand.motion.keys = {{0}, {4 * scene.step, {0, 0, -2e-3}, 0}};
-    test::hold_upper(trial, hand, test::kUpperSide / 2);
+  if (of.blocked) {
+    Pin moving_pin;
+    moving_pin.motion.keys = {{0}, {4 * scene.step, {0, 0, -2e-3}, 0}};
+    test::hold_upper(trial, moving_pin, test::kUpperSide / 2);
   }
   if (of.parts) scene.fabric.bending = test::all_parts();
   if (of.in_plane) scene.fabric.in_plane = test::in_plane_stops();
@@ -151,13 +151,13 @@ void expect_same(Simulation& a, Simulation& b) {
   EXPECT_EQ(a.counts().linear, b.counts().linear);
   EXPECT_EQ(a.counts().newton, b.counts().newton);
   EXPECT_EQ(a.counts().parts, b.counts().parts);
-  EXPECT_EQ(a.counts().slack_hands, b.counts().slack_hands);
-  EXPECT_EQ(a.counts().barred_hands, b.counts().barred_hands);
-  EXPECT_EQ(a.counts().hand_lag, b.counts().hand_lag);
+  EXPECT_EQ(a.counts().saturated_pins, b.counts().saturated_pins);
+  EXPECT_EQ(a.counts().blocked_pins, b.counts().blocked_pins);
+  EXPECT_EQ(a.counts().pin_lag, b.counts().pin_lag);
 }
 
 TEST_P(SavedState, GoesOnBitForBit) {
-  const Trial trial = trial_of(GetParam());
+  const Trial trial = saved_trial(GetParam());
   const auto first = trial.simulation();
   for (const int steps : {5, 4}) {  // the second time with the hand that comes later, and the command
     first->advance(steps);
@@ -177,7 +177,7 @@ TEST_P(SavedState, GoesOnBitForBit) {
 
 // Taking the state down is a measurement.
 TEST_P(SavedState, IsNotChangedBySaving) {
-  const Trial trial = trial_of(GetParam());
+  const Trial trial = saved_trial(GetParam());
   const auto first = trial.simulation(), second = trial.simulation();
   for (int k = 0; k < 4; ++k) {
     first->advance(2);
@@ -188,11 +188,11 @@ TEST_P(SavedState, IsNotChangedBySaving) {
 }
 
 TEST(SavedState, CutOffOrTooLongIsRefused) {
-  const Trial trial = trial_of(kCases[0]);
+  const Trial trial = saved_trial(kCases[0]);
   const std::string state = trial.after(1)->save();
   for (const std::string& wrong : {state + "x", state.substr(0, state.size() / 2), std::string()}) {
     const auto simulation = trial.simulation();
-    EXPECT_EQ(failure_of([&] { simulation->load(wrong); }).exit_code, 2);
+    EXPECT_EQ(caught_failure([&] { simulation->load(wrong); }).exit_code, 2);
   }
 }
 

@@ -113,12 +113,13 @@ TEST_P(FreeCloth, DriftsSlowlyInSinglePrecision) {
   constexpr double kSpeed = 1e-4;  // [m/s]
   Scene scene = weightless(GetParam());
   scene.precision = Precision::fp32;
-  Pin hand;
-  hand.low = {-1, -1, -1};
-  hand.high = {1, 1, 1};
-  hand.until = 5 * scene.step;
-  hand.motion.keys = {{0, {0, 0, 0}, 0, 1}, {2 * hand.until, {0, 0, 2 * hand.until * kSpeed}, 0, 1}};
-  scene.pin = {hand};
+  Pin moving_pin;
+  moving_pin.low = {-1, -1, -1};
+  moving_pin.high = {1, 1, 1};
+  moving_pin.until = 5 * scene.step;
+  moving_pin.motion.keys = {{0, {0, 0, 0}, 0, 1},
+                            {2 * moving_pin.until, {0, 0, 2 * moving_pin.until * kSpeed}, 0, 1}};
+  scene.pin = {moving_pin};
   const Trial trial(scene);
   auto simulation = trial.after(6);
   const double before = simulation->positions()[0].z();

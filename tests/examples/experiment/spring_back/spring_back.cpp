@@ -20,7 +20,7 @@ const KeyRow<S> kRows[] = {
 };
 // clang-format on
 
-Keys keys_of(SpringBackChoice& choice, Options& options) {
+Keys option_keys(SpringBackChoice& choice, Options& options) {
   Keys keys = bind(kRows, choice);
   for (const BoundKey& key : bind_output_options(options)) keys.push_back(key);
   return keys;
@@ -29,7 +29,7 @@ Keys keys_of(SpringBackChoice& choice, Options& options) {
 std::vector<KeyDescription> own_keys() {
   SpringBackChoice choice;
   Options options;
-  std::vector<KeyDescription> keys = descriptions(keys_of(choice, options));
+  std::vector<KeyDescription> keys = descriptions(option_keys(choice, options));
   for (const KeyDescription& key : fabric_keys()) keys.push_back(key);
   return keys;
 }
@@ -38,10 +38,10 @@ int run_spring_back(const CommandLine& line) {
   SpringBackChoice choice;
   Options options;
   options.out = "out/spring-back";
-  set_keys(line, keys_of(choice, options));
+  set_keys(line, option_keys(choice, options));
   Scene scene;
   scene.law = choice.law;
-  scene.fabric = fabric_of(last_text(line.flags, "fabric", Fabric{}.name), line.flags);
+  scene.fabric = resolved_fabric(last_text(line.flags, "fabric", Fabric{}.name), line.flags);
   const double residual = residual_after({choice.law, scene.fabric.virgin_curve(), {}}, {{choice.curvature}});
   const Json keys = {{"law", choice.law}, {"fabric", to_json(scene)["fabric"]}};
   Run run(line, options, keys);

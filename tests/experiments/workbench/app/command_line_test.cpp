@@ -11,7 +11,7 @@ int nothing(const CommandLine&) { return 0; }
 
 const std::vector<Experiment> kKnown = {
     {.name = "drape", .question = "simulates", .run = nothing, .simulates = true},
-    {.name = "report", .question = "takes names", .run = nothing, .names = "DIR"}};
+    {.name = "report", .question = "takes names", .run = nothing, .positionals = "DIR"}};
 
 std::optional<CommandLine> parsed(std::vector<const char*> words) {
   words.insert(words.begin(), "/somewhere/hysteron");
@@ -78,8 +78,8 @@ TEST(CommandLine, IsKeptForTheManifestAsTheShellReadsIt) {
 }
 
 TEST(CommandLine, TakesNamesWhereTheExperimentDoes) {
-  EXPECT_EQ(parsed({"report", "a", "drape"})->names, (std::vector<std::string>{"a", "drape"}));
-  EXPECT_EQ(parsed({"report", "--", "--a", ""})->names, (std::vector<std::string>{"--a", ""}));
+  EXPECT_EQ(parsed({"report", "a", "drape"})->positionals, (std::vector<std::string>{"a", "drape"}));
+  EXPECT_EQ(parsed({"report", "--", "--a", ""})->positionals, (std::vector<std::string>{"--a", ""}));
   EXPECT_EQ(refusal({"drape", "a"}), "drape: unexpected argument \"a\"");
 }
 

@@ -19,7 +19,7 @@ std::string help(const std::vector<std::string>& words, int width = kWidth) {
   return help_asked(words, experiments(), width).value_or("(not asked)");
 }
 
-std::vector<std::string> lines_of(const std::string& text) {
+std::vector<std::string> text_lines(const std::string& text) {
   std::istringstream stream(text);
   std::vector<std::string> lines;
   for (std::string line; std::getline(stream, line);) lines.push_back(line);
@@ -51,9 +51,9 @@ TEST(Help, OfAGroupHasItsOptionsAlone) {
 TEST(Help, OfAllHasEveryOptionOnce) {
   for (const Experiment& experiment : experiments()) {
     std::map<std::string, int> times;
-    for (const std::string& line : lines_of(help({experiment.name, "--help-all"})))
+    for (const std::string& line : text_lines(help({experiment.name, "--help-all"})))
       if (line.starts_with("  --")) ++times[line.substr(2, line.find(' ', 2) - 2)];
-    const std::vector<KeyDescription> keys = options_of(experiment, Defaults::left_out);
+    const std::vector<KeyDescription> keys = experiment_options(experiment, Defaults::left_out);
     for (const KeyDescription& key : keys)
       EXPECT_EQ(times[option_name(key)], 1) << experiment.name << key.path;
     EXPECT_EQ(times.size(), keys.size()) << experiment.name;
@@ -63,10 +63,10 @@ TEST(Help, OfAllHasEveryOptionOnce) {
 TEST(Help, IsNoWiderThanTheTerminal) {
   for (const Experiment& experiment : experiments())
     for (const int width : {80, 100, 160})
-      for (const char* asked : {"--help", "--help-all"})
-        for (const std::string& line : lines_of(help({experiment.name, asked}, width)))
+      for (const char* requested : {"--help", "--help-all"})
+        for (const std::string& line : text_lines(help({experiment.name, requested}, width)))
           EXPECT_LE(line.size(), static_cast<std::size_t>(width)) << experiment.name << ": " << line;
-  for (const std::string& line : lines_of(help({"--help"}, 80))) EXPECT_LE(line.size(), 80u) << line;
+  for (const std::string& line : text_lines(help({"--help"}, 80))) EXPECT_LE(line.size(), 80u) << line;
 }
 
 }  // namespace

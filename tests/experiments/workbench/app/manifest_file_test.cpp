@@ -156,7 +156,7 @@ TEST(ManifestFile, OfARunThatHasJustBegunHoldsNullsWhereNothingIsKnown) {
 }
 
 TEST(ManifestFile, IsReadAsItWasWritten) {
-  Manifest read = manifest_of(Json::parse(kWhole));
+  Manifest read = parsed_manifest(Json::parse(kWhole));
   EXPECT_EQ(read.scene.fabric.name, "wool");
   EXPECT_EQ(read.scene.fabric.b1, 2e-5);
   EXPECT_EQ(read.scene.laws, std::vector<std::string>{"prandtl"});
@@ -170,7 +170,7 @@ TEST(ManifestFile, IsReadAsItWasWritten) {
 }
 
 TEST(ManifestFile, OfAnOlderProgramIsReadAsFarAsItGoes) {
-  const Manifest old = manifest_of(Json::parse(
+  const Manifest old = parsed_manifest(Json::parse(
       R"({"hysteron":{"version":1,"commit":"c"},"scene":{"laws":["linear",{"name":"dahl"}]},"steps":"many"})"));
   EXPECT_EQ(old.version, "1");
   EXPECT_EQ(old.experiment, "run");

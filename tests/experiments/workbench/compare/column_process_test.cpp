@@ -16,10 +16,10 @@ ChildRun column(const std::vector<Flag>& flags) {
 
 TEST(Chunks, HaveColumnsInTheirOrderAndNoMoreThanIsAsked) {
   const std::vector<ChildRun> columns(5, column({}));
-  EXPECT_EQ(chunks_of(columns, 2, -1), (std::vector<Chunk>{{0, 1}, {2, 3}, {4}}));
-  EXPECT_EQ(chunks_of(columns, 8, -1), (std::vector<Chunk>{{0, 1, 2, 3, 4}}));
-  EXPECT_EQ(chunks_of(columns, 1, -1), (std::vector<Chunk>{{0}, {1}, {2}, {3}, {4}}));
-  EXPECT_EQ(chunks_of(columns, 8, 2), (std::vector<Chunk>{{0, 1, 3, 4}, {2}}));
+  EXPECT_EQ(batch_chunks(columns, 2, -1), (std::vector<Chunk>{{0, 1}, {2, 3}, {4}}));
+  EXPECT_EQ(batch_chunks(columns, 8, -1), (std::vector<Chunk>{{0, 1, 2, 3, 4}}));
+  EXPECT_EQ(batch_chunks(columns, 1, -1), (std::vector<Chunk>{{0}, {1}, {2}, {3}, {4}}));
+  EXPECT_EQ(batch_chunks(columns, 8, 2), (std::vector<Chunk>{{0, 1, 3, 4}, {2}}));
 }
 
 // A process sees the GPUs that its first line leaves, and keeps signals for all of its runs.
@@ -27,7 +27,7 @@ TEST(Chunks, AreOfOneDeviceAndOfOneKindOfEndBySignals) {
   const std::vector<ChildRun> columns = {column({{"device", "cuda:0"}}), column({{"device", "cuda:1"}}),
                                          column({{"device", "cuda:0"}}), column({{"checkpoint", "60"}}),
                                          column({{"device", "cuda:1"}}), column({{"checkpoint", "30"}})};
-  EXPECT_EQ(chunks_of(columns, 8, -1), (std::vector<Chunk>{{0, 2}, {1, 4}, {3, 5}}));
+  EXPECT_EQ(batch_chunks(columns, 8, -1), (std::vector<Chunk>{{0, 2}, {1, 4}, {3, 5}}));
 }
 
 std::string refusal(const ChildRun& of) {

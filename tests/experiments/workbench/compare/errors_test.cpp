@@ -28,28 +28,28 @@ Scene scene_on(const std::string& mesh, const std::string& shape) {
 }
 
 // "mesh: triangles=4000; step: step=0.005; ...".
-std::string words(const std::vector<ErrorRun>& repeats) {
+std::string words(const std::vector<ErrorRun>& error_runs) {
   std::string text;
-  for (const ErrorRun& repeat : repeats) {
-    text += (text.empty() ? "" : "; ") + repeat.name + ":";
-    for (const Flag& flag : repeat.changes) text += " " + flag.path + "=" + flag.text;
+  for (const ErrorRun& error_run : error_runs) {
+    text += (text.empty() ? "" : "; ") + error_run.name + ":";
+    for (const Flag& flag : error_run.changes) text += " " + flag.path + "=" + flag.text;
   }
   return text;
 }
 
 TEST(Repeats, OfARandomMeshAreFinerShorterAndOfOtherSeeds) {
-  EXPECT_EQ(words(repeats_of("swing", scene_on("random", "strip"), "", 3)),
+  EXPECT_EQ(words(planned_error_runs("swing", scene_on("random", "strip"), "", 3)),
             "mesh: triangles=4000; step: step=0.005; draw-1: mesh=random seed=8; draw-2: mesh=random seed=9; "
             "draw-3: mesh=random seed=10");
 }
 
 TEST(Repeats, OfAStructuredMeshAreOfOtherFamiliesFirst) {
-  EXPECT_EQ(words(repeats_of("cantilever", scene_on("unionjack", "strip"), "", 2)),
+  EXPECT_EQ(words(planned_error_runs("cantilever", scene_on("unionjack", "strip"), "", 2)),
             "mesh: triangles=4000; step: step=0.005; draw-1: mesh=equilateral; draw-2: mesh=random seed=8");
 }
 
 TEST(Repeats, OfASpecimenThatCutsItsOwnMeshHaveOtherNumbersOfTriangles) {
-  EXPECT_EQ(words(repeats_of("crease", scene_on("random", "strip"), "", 2)),
+  EXPECT_EQ(words(planned_error_runs("crease", scene_on("random", "strip"), "", 2)),
             "mesh: triangles=4000; step: step=0.005; draw-1: triangles=1500; draw-2: triangles=666");
 }
 
@@ -59,37 +59,38 @@ TEST(Errors, OfACreaseInTimeAreThoseOfEachOfItsAngles) {
       {"release_angle_deg", 68.0}, {"recovery_angle_15_s_deg", 73.0}, {"recovery_angle_deg", 77.0}};
   const Metrics finer = {
       {"release_angle_deg", 67.0}, {"recovery_angle_15_s_deg", 75.0}, {"recovery_angle_deg", 80.0}};
-  const Errors errors = errors_of("crease", run, {{{"step", {}}, finer}, {{"mesh", {}}, run}});
+  const Errors errors = estimated_errors("crease", run, {{{"step", {}}, finer}, {{"mesh", {}}, run}});
   EXPECT_EQ(errors.metrics["release_angle_deg_step_error"].number(), 1);
   EXPECT_EQ(errors.metrics["recovery_angle_15_s_deg_step_error"].number(), 2);
   EXPECT_EQ(errors.metrics["recovery_angle_deg_step_error"].number(), 3);
   EXPECT_EQ(errors.metrics["recovery_angle_15_s_deg_mesh_error"].number(), 0);
-  const Errors at_once = errors_of("crease", {{"recovery_angle_deg", 77.0}}, {{{"step", {}}, finer}});
+  const Errors at_once = estimated_errors("crease", {{"recovery_angle_deg", 77.0}}, {{{"step", {}}, finer}});
   EXPECT_FALSE(at_once.metrics.contains("recovery_angle_15_s_deg_step_error"));
 }
 
 TEST(Repeats, OfADrapeGoAlongTheOtherPathToo) {
   const Scene scene = scene_on("random", "disc");
-  EXPECT_EQ(words({repeats_of("drape", scene, "lowered", 1).back()}), "path: drape.release=dropped");
-  EXPECT_EQ(words({repeats_of("drape", scene, "dropped", 1).back()}), "path: drape.release=lowered");
+  EXPECT_EQ(words({planned_error_runs("drape", scene, "lowered", 1).back()}), "path: drape.release=dropped");
+  EXPECT_EQ(words({planned_error_runs("drape", scene, "dropped", 1).back()}), "path: drape.release=lowered");
 }
 
 TEST(Repeats, AtHalfTheStepKeepAToleranceToMatch) {
   Scene scene = scene_on("random", "disc");
   scene.tolerance = 8e-5;
   scene.integrator = Integrator::tr_bdf2;
-  EXPECT_EQ(words({repeats_of("drape", scene, "lowered", 0)[1]}), "step: step=0.005 tolerance=1e-05");
+  EXPECT_EQ(words({planned_error_runs("drape", scene, "lowered", 0)[1]}), "step: step=0.005 tolerance=1e-05");
   scene.integrator = Integrator::implicit;
-  EXPECT_EQ(words({repeats_of("drape", scene, "lowered", 0)[1]}), "step: step=0.005 tolerance=2e-05");
+  EXPECT_EQ(words({planned_error_runs("drape", scene, "lowered", 0)[1]}), "step: step=0.005 tolerance=2e-05");
 }
 
 TEST(Repeats, OfAClothFromAFileSubdivideItAndHaveNoOtherDraws) {
-  const std::vector<ErrorRun> repeats = repeats_of("crumple", scene_on("sheet.obj", "square"), "", 2);
-  EXPECT_EQ(words(repeats), "mesh: cloth.subdivisions=1; step: step=0.005");
+  const std::vector<ErrorRun> error_runs =
+      planned_error_runs("crumple", scene_on("sheet.obj", "square"), "", 2);
+  EXPECT_EQ(words(error_runs), "mesh: cloth.subdivisions=1; step: step=0.005");
   const Metrics metrics = {{"curvature_rms_per_m", 5.0}};
-  const Errors errors =
-      errors_of("crumple", metrics,
-                {{repeats[0], {{"curvature_rms_per_m", 7.0}}}, {repeats[1], {{"curvature_rms_per_m", 6.0}}}});
+  const Errors errors = estimated_errors(
+      "crumple", metrics,
+      {{error_runs[0], {{"curvature_rms_per_m", 7.0}}}, {error_runs[1], {{"curvature_rms_per_m", 6.0}}}});
   EXPECT_EQ(errors.metrics["curvature_rms_per_m_mesh_error"].number(), 2);
   EXPECT_EQ(errors.metrics["curvature_rms_per_m_step_error"].number(), 1);
   EXPECT_FALSE(errors.metrics["curvature_rms_per_m_draw_error"].is_known());
@@ -102,10 +103,10 @@ ErrorRunResult bent(const std::string& name, double length) {
 }
 
 TEST(Repeats, OfEquilibriaHaveNoStep) {
-  EXPECT_EQ(words(repeats_of("buckle", scene_on("random", "strip"), "", 1)),
+  EXPECT_EQ(words(planned_error_runs("buckle", scene_on("random", "strip"), "", 1)),
             "mesh: triangles=4000; draw-1: mesh=random seed=8");
   const Errors errors =
-      errors_of("buckle", {{"critical_gamma", 8.0}}, {{{"mesh", {}}, {{"critical_gamma", 7.0}}}});
+      estimated_errors("buckle", {{"critical_gamma", 8.0}}, {{{"mesh", {}}, {{"critical_gamma", 7.0}}}});
   EXPECT_EQ(errors.metrics["critical_gamma_mesh_error"].number(), 1);
   EXPECT_FALSE(errors.metrics["critical_gamma_step_error"].is_known());
   EXPECT_EQ(errors.missing,
@@ -114,7 +115,7 @@ TEST(Repeats, OfEquilibriaHaveNoStep) {
 
 TEST(Errors, AreDifferencesToTheRunAndTheDeviationOverDraws) {
   const Metrics metrics = {{"bending_length_m", 8.0}};
-  const Errors errors = errors_of(
+  const Errors errors = estimated_errors(
       "cantilever", metrics,
       {bent("mesh", 7.5), bent("step", 8.25), bent("draw-1", 7), bent("draw-2", 9), bent("path", 7)});
   EXPECT_EQ(errors.metrics["bending_length_m_step_error"].number(), 0.25);
@@ -127,7 +128,7 @@ TEST(Errors, AreDifferencesToTheRunAndTheDeviationOverDraws) {
 
 TEST(Errors, OfThreeDrawsHaveAMeanAndItsStandardError) {
   const Metrics metrics = {{"bending_length_m", 6.0}};
-  const Errors errors = errors_of(
+  const Errors errors = estimated_errors(
       "cantilever", metrics,
       {bent("mesh", 7.5), bent("step", 8.25), bent("draw-1", 6), bent("draw-2", 8), bent("draw-3", 8)});
   EXPECT_EQ(errors.metrics["bending_length_m_mean"].number(), 7);
@@ -140,7 +141,7 @@ TEST(Errors, ThatAreNotKnownAreNullAndSaidToBe) {
   stopped.stopped = "no convergence";
   same.unchanged = true;
   without.metrics = {};
-  const Errors errors = errors_of("cantilever", {{"bending_length_m", 8.0}}, {stopped, same, without});
+  const Errors errors = estimated_errors("cantilever", {{"bending_length_m", 8.0}}, {stopped, same, without});
   for (const char* ending : {kStepError, kMeshError, kDrawError})
     EXPECT_FALSE(errors.metrics[std::string("bending_length_m") + ending].is_known()) << ending;
   ASSERT_EQ(errors.missing.size(), 3);
@@ -200,7 +201,7 @@ TEST(MetricTable, ShowsErrorsInTheHeadlinesCell) {
 
 const std::string kSmall = " --triangles 60 --seconds 0.05 --fps 30 --device cpu --no-images --quiet";
 
-Json manifest_in(const fs::path& folder) { return Json::parse(text_of(folder / "manifest.json")); }
+Json manifest_in(const fs::path& folder) { return Json::parse(file_text(folder / "manifest.json")); }
 
 double friction_in(const fs::path& folder) {
   return manifest_in(folder)["metrics"]["bending_friction_J"].get<double>();
@@ -245,7 +246,7 @@ TEST(SwingWithErrors, FindsWhatSeparateRunsFind) {
   ASSERT_EQ(table.rows.size(), 4);
   EXPECT_EQ(table.head.front(), "repeat");
   EXPECT_EQ(table.rows[0][1], "triangles=240");
-  EXPECT_NE(text_of("run/report.html").find(" step ± "), std::string::npos);
+  EXPECT_NE(file_text("run/report.html").find(" step ± "), std::string::npos);
 }
 
 TEST(SwingWithErrors, PassesFlagsOnButThoseThatItChanges) {
@@ -286,7 +287,7 @@ TEST(SwingWithErrors, SaysWhichRepeatFailed) {
   const auto complete = std::find(table.head.begin(), table.head.end(), "complete") - table.head.begin();
   EXPECT_EQ(table.rows[0][complete], "0");
   EXPECT_EQ(table.rows[1][complete], "1");
-  EXPECT_NE(text_of(folder.path() / "run/report.html").find("Errors that are not known: mesh"),
+  EXPECT_NE(file_text(folder.path() / "run/report.html").find("Errors that are not known: mesh"),
             std::string::npos);
   EXPECT_NE(outcome.err.find("mesh error unknown"), std::string::npos) << outcome.err;
 }
@@ -315,7 +316,7 @@ TEST(Compare, GivesEachColumnItsErrors) {
   const Json metrics = manifest_in(out)["metrics"];
   EXPECT_EQ(metrics["linear.bending_friction_J_step_error"], 0);
   EXPECT_GT(metrics["prandtl.bending_friction_J_step_error"].get<double>(), 0);
-  EXPECT_NE(text_of(fs::path(out) / "report.html").find(" step ± "), std::string::npos);
+  EXPECT_NE(file_text(fs::path(out) / "report.html").find(" step ± "), std::string::npos);
 }
 
 TEST(RequestForErrors, IsRefusedWhereThereIsNone) {

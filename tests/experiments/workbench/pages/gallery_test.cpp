@@ -18,7 +18,7 @@ namespace hysteron::experiments {
 namespace {
 namespace fs = std::filesystem;
 
-int count_of(const std::string& text, const std::string& part) {
+int occurrences(const std::string& text, const std::string& part) {
   int count = 0;
   for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
   return count;
@@ -82,8 +82,8 @@ TEST_F(Gallery, GroupsRunsByExperimentInTheOrderOfAReader) {
 TEST_F(Gallery, ListsEveryExhibitInItsContentsAndLeadsThere) {
   const std::string html = page();
   for (const char* anchor : {"z-drape", "a-kes", "stability-bdf2", "speed"}) {
-    EXPECT_EQ(count_of(html, "id=\"" + std::string(anchor) + "\""), 1) << anchor;
-    EXPECT_GE(count_of(html, "href=\"#" + std::string(anchor) + "\""), 2) << anchor;
+    EXPECT_EQ(occurrences(html, "id=\"" + std::string(anchor) + "\""), 1) << anchor;
+    EXPECT_GE(occurrences(html, "href=\"#" + std::string(anchor) + "\""), 2) << anchor;
   }
 }
 
@@ -96,24 +96,24 @@ TEST_F(Gallery, NamesTheCommandTheDeviceTheMetricAndTheManifest) {
 }
 
 TEST_F(Gallery, SaysWhatRunsWarnOf) {
-  EXPECT_EQ(count_of(page(), "class=\"warning\""), 0);
+  EXPECT_EQ(occurrences(page(), "class=\"warning\""), 0);
   {
     ExperimentRun run({"drape", "hysteron drape", {}, {}}, setup_in(results_ / "doubtful"));
     run.warn("layers < 2 are thin");
     run.finish();
   }
-  EXPECT_EQ(count_of(page(), "<p class=\"warning\">Warning: layers &lt; 2 are thin</p>"), 1);
+  EXPECT_EQ(occurrences(page(), "<p class=\"warning\">Warning: layers &lt; 2 are thin</p>"), 1);
 }
 
 TEST_F(Gallery, SaysWhichRunsAreIncomplete) {
-  EXPECT_EQ(count_of(page(), ">incomplete<"), 0);
+  EXPECT_EQ(occurrences(page(), ">incomplete<"), 0);
   { ExperimentRun run({"drape", "hysteron drape", {}, {}}, setup_in(results_ / "broken-off")); }
-  EXPECT_EQ(count_of(page(), ">incomplete<"), 1);
+  EXPECT_EQ(occurrences(page(), ">incomplete<"), 1);
 }
 
 TEST(GalleryAbout, NamesFewLawsAndCountsMany) {
   const auto subject = [](const char* scene) {
-    return subject_of(manifest_of({{"scene", Json::parse(scene)}}).scene);
+    return scene_subject(parsed_manifest({{"scene", Json::parse(scene)}}).scene);
   };
   EXPECT_EQ(subject(R"({"fabric": {"name": "wool"}, "law": "prandtl"})"), "wool, law prandtl");
   EXPECT_EQ(subject(R"({"fabric": {"name": "wool"}, "law": "dahl,wong"})"), "wool, laws dahl, wong");
@@ -124,21 +124,21 @@ TEST(GalleryAbout, NamesFewLawsAndCountsMany) {
 
 TEST_F(Gallery, ShowsADrawingInsteadOfThePictureOfIt) {
   const std::string html = page();
-  EXPECT_EQ(count_of(html, "src=\"z-drape/plot_energy.svg\""), 1);
-  EXPECT_EQ(count_of(html, "href=\"z-drape/plot_energy.svg\""), 1);
+  EXPECT_EQ(occurrences(html, "src=\"z-drape/plot_energy.svg\""), 1);
+  EXPECT_EQ(occurrences(html, "href=\"z-drape/plot_energy.svg\""), 1);
   write_text(results_ / "z-drape/plot_energy.svg", "<svg>" + std::string(100000, ' ') + "</svg>");
   const std::string heavy = page();
-  EXPECT_EQ(count_of(heavy, "src=\"z-drape/plot_energy.svg\""), 0);
-  EXPECT_EQ(count_of(heavy, "src=\"z-drape/plot_energy.png\""), 1);
-  EXPECT_EQ(count_of(heavy, "href=\"z-drape/plot_energy.svg\""), 1) << "linked";
+  EXPECT_EQ(occurrences(heavy, "src=\"z-drape/plot_energy.svg\""), 0);
+  EXPECT_EQ(occurrences(heavy, "src=\"z-drape/plot_energy.png\""), 1);
+  EXPECT_EQ(occurrences(heavy, "href=\"z-drape/plot_energy.svg\""), 1) << "linked";
 }
 
 TEST_F(Gallery, LeadsToTablesAndLists) {
   write_text(results_ / "tables/large.csv", "x\n7123\n");
   const std::string html = page();
   for (const char* part : {"href=\"tables/large.csv\"", "href=\"speed/bench.json\""})
-    EXPECT_EQ(count_of(html, part), 1) << part;
-  EXPECT_EQ(count_of(html, "7123"), 0);
+    EXPECT_EQ(occurrences(html, part), 1) << part;
+  EXPECT_EQ(occurrences(html, "7123"), 0);
 }
 
 TEST_F(Gallery, TakesTheRunsBelowARunAsItsParts) {
@@ -146,28 +146,28 @@ TEST_F(Gallery, TakesTheRunsBelowARunAsItsParts) {
   write_picture(results_ / "z-drape/wong/sheet.png", 60, 40);
   EXPECT_EQ(exhibits_in(results_)[0].exhibits.size(), 1u);
   const std::string html = page();
-  EXPECT_EQ(count_of(html, "href=\"z-drape/wong/manifest.json\""), 1);
-  EXPECT_EQ(count_of(html, "href=\"z-drape/wong/sheet.png\""), 1);
+  EXPECT_EQ(occurrences(html, "href=\"z-drape/wong/manifest.json\""), 1);
+  EXPECT_EQ(occurrences(html, "href=\"z-drape/wong/sheet.png\""), 1);
   EXPECT_NE(html.find("Wong: contact sheet: "), std::string::npos);
 }
 
 TEST_F(Gallery, PlaysFramesThatAreThere) {
-  EXPECT_EQ(count_of(page(), "class=\"player\""), 0);
+  EXPECT_EQ(occurrences(page(), "class=\"player\""), 0);
   for (int i = 0; i < 30; ++i)
     write_picture(results_ / "z-drape/frames" / (std::to_string(1000 + i) + ".png"), 32, 18);
   const std::string html = page();
-  EXPECT_EQ(count_of(html, "class=\"player\""), 1);
-  EXPECT_EQ(count_of(html, "alt=\"frames/"), 12);
-  EXPECT_EQ(count_of(html, "alt=\"frames/1000.png\""), 1);
-  EXPECT_EQ(count_of(html, "alt=\"frames/1029.png\""), 1);
+  EXPECT_EQ(occurrences(html, "class=\"player\""), 1);
+  EXPECT_EQ(occurrences(html, "alt=\"frames/"), 12);
+  EXPECT_EQ(occurrences(html, "alt=\"frames/1000.png\""), 1);
+  EXPECT_EQ(occurrences(html, "alt=\"frames/1029.png\""), 1);
 }
 
 // Sequences in other looks, and a comparison's film, are no exhibits.
 TEST_F(Gallery, PassesOverOtherSequences) {
-  const int before = count_of(page(), "<figure>");
+  const int before = occurrences(page(), "<figure>");
   for (const char* folder : {"frames-silhouette", "film"})
     write_picture(results_ / "z-drape" / folder / "0000.png", 32, 18);
-  EXPECT_EQ(count_of(page(), "<figure>"), before);
+  EXPECT_EQ(occurrences(page(), "<figure>"), before);
 }
 
 TEST_F(Gallery, TakesCaptionsThatTheRunWrote) {
@@ -177,15 +177,15 @@ TEST_F(Gallery, TakesCaptionsThatTheRunWrote) {
 }
 
 TEST_F(Gallery, OpensWithThePictureThatTheReadmeBesideItShowsFirst) {
-  EXPECT_EQ(count_of(page(), "class=\"teaser\""), 0);
+  EXPECT_EQ(occurrences(page(), "class=\"teaser\""), 0);
   write_text(folder_.path() / "README.md", "# Cloth\n\n![One cloth](results/z-drape/sheet.png)\n");
   const std::string html = page(),
                     teaser = "<figure class=\"teaser\"><a class=\"zoom\" href=\"z-drape/sheet.png\">";
-  EXPECT_EQ(count_of(html, teaser), 1);
+  EXPECT_EQ(occurrences(html, teaser), 1);
   EXPECT_LT(html.find(teaser), html.find("<nav"));
-  EXPECT_EQ(count_of(html, "<figcaption>One cloth</figcaption>"), 1);
+  EXPECT_EQ(occurrences(html, "<figcaption>One cloth</figcaption>"), 1);
   write_text(folder_.path() / "README.md", "![elsewhere](../secret/sheet.png)\n");
-  EXPECT_EQ(count_of(page(), "class=\"teaser\""), 0);
+  EXPECT_EQ(occurrences(page(), "class=\"teaser\""), 0);
 }
 
 TEST_F(Gallery, IsTheSameWhereverItLies) {
@@ -198,7 +198,7 @@ TEST_F(Gallery, IsTheSameWhereverItLies) {
 TEST_F(Gallery, IsNotBrokenByOddNames) {
   write_run(results_ / "a <b> & \"c\" #1", "drape");
   const std::string html = page();
-  EXPECT_EQ(count_of(html, "<b> &"), 0);
+  EXPECT_EQ(occurrences(html, "<b> &"), 0);
   EXPECT_NE(html.find("a &lt;b&gt; &amp; &quot;c&quot; #1"), std::string::npos);
   EXPECT_NE(html.find("href=\"a%20%3Cb%3E%20%26%20%22c%22%20%231/manifest.json\""), std::string::npos);
 }
@@ -210,7 +210,7 @@ TEST_F(Gallery, NamesABrokenPicture) {
 }
 
 TEST_F(Gallery, NamesABrokenManifest) {
-  const std::string whole = text_of(results_ / "a-kes/manifest.json");
+  const std::string whole = file_text(results_ / "a-kes/manifest.json");
   write_text(results_ / "a-kes/manifest.json", whole.substr(0, whole.size() / 2));
   EXPECT_NE(refusal().find("results/a-kes/manifest.json is no manifest"), std::string::npos) << refusal();
   write_text(results_ / "a-kes/manifest.json",
@@ -221,7 +221,7 @@ TEST_F(Gallery, NamesABrokenManifest) {
 // A manifest that lacks a key, or has one of another type, is named with the key and in words.
 TEST_F(Gallery, SaysWhatIsWrongWithAManifest) {
   const fs::path file = results_ / "a-kes/manifest.json";
-  const Json whole = Json::parse(text_of(file));
+  const Json whole = Json::parse(file_text(file));
   const auto says = [&](const char* path, const Json& value, const std::string& problem) {
     Json changed = whole;
     changed[Json::json_pointer(path)] = value;
@@ -293,7 +293,7 @@ std::pair<int, std::string> outcome(const std::string& arguments, const fs::path
   const fs::path err = folder / "err";
   const int status =
       std::system((HYSTERON_PROGRAM " " + arguments + " >/dev/null 2>" + err.string()).c_str());
-  return {WEXITSTATUS(status), text_of(err)};
+  return {WEXITSTATUS(status), file_text(err)};
 }
 
 TEST_F(Gallery, OfTheProgramSaysHowToRefreshAStalePage) {

@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Values of an attribute, in the order of the page.
-std::vector<std::string> values_of(const std::string& html, const std::string& name) {
+std::vector<std::string> attribute_values(const std::string& html, const std::string& name) {
   const std::string begin = " " + name + "=\"";
   std::vector<std::string> values;
   for (std::size_t at = 0; (at = html.find(begin, at)) != html.npos;) {
@@ -26,7 +26,7 @@ std::vector<std::string> values_of(const std::string& html, const std::string& n
   return values;
 }
 
-std::string path_of(const std::string& url) {
+std::string url_path(const std::string& url) {
   std::string path;
   for (std::size_t i = 0; i < url.size(); ++i) {
     const bool coded = url[i] == '%';
@@ -42,17 +42,18 @@ bool leads_to_a_place(const std::string& url) { return url.starts_with('#'); }
 void expect_all_there(const std::string& html, const fs::path& folder) {
   ASSERT_EQ(html.find("=\"data:"), html.npos);
   for (const char* name : {"src", "href"}) {
-    for (const std::string& url : values_of(html, name)) {
+    for (const std::string& url : attribute_values(html, name)) {
       if (leads_to_a_place(url)) continue;
       EXPECT_EQ(url.find_first_of(":?#&+= "), url.npos) << url;
-      EXPECT_TRUE(fs::is_regular_file(folder / path_of(url))) << url;
+      EXPECT_TRUE(fs::is_regular_file(folder / url_path(url))) << url;
     }
   }
 }
 
 void expect_alone(const std::string& html) {
-  for (const std::string& url : values_of(html, "src")) EXPECT_TRUE(url.starts_with("data:image/")) << url;
-  for (const std::string& url : values_of(html, "href")) EXPECT_TRUE(leads_to_a_place(url)) << url;
+  for (const std::string& url : attribute_values(html, "src"))
+    EXPECT_TRUE(url.starts_with("data:image/")) << url;
+  for (const std::string& url : attribute_values(html, "href")) EXPECT_TRUE(leads_to_a_place(url)) << url;
   for (const char* part : {"<link", "<script src", "url(", "@import"})
     EXPECT_EQ(html.find(part), html.npos) << part;
 }
@@ -91,19 +92,19 @@ class PageForms : public testing::Test {
 };
 
 TEST_F(PageForms, ByDefaultEveryPictureOfARunIsAFileThatExists) {
-  const std::string html = text_of(write_report(run_));
+  const std::string html = file_text(write_report(run_));
   expect_all_there(html, run_);
-  EXPECT_EQ(values_of(html, "src"),
+  EXPECT_EQ(attribute_values(html, "src"),
             (std::vector<std::string>{"sheet.png", "plot_energy.svg", "frames/0000.png", "frames/0001.png"}));
 }
 
 TEST_F(PageForms, ASelfContainedPageRefersToNoFile) {
   const std::string gallery = gallery_page(results_, PageForm::self_contained);
   expect_alone(gallery);
-  EXPECT_EQ(values_of(gallery, "src").size(), values_of(gallery_page(results_), "src").size());
-  const std::string report = text_of(write_report(run_, PageForm::self_contained));
+  EXPECT_EQ(attribute_values(gallery, "src").size(), attribute_values(gallery_page(results_), "src").size());
+  const std::string report = file_text(write_report(run_, PageForm::self_contained));
   expect_alone(report);
-  EXPECT_EQ(values_of(report, "src").size(), 4u);
+  EXPECT_EQ(attribute_values(report, "src").size(), 4u);
 }
 
 TEST_F(PageForms, ASelfContainedGalleryHoldsPicturesShrunk) {
@@ -120,10 +121,10 @@ TEST_F(PageForms, OfTheProgramAreLinkedUnlessAskedForAlone) {
   const Outcome alone = program("report " + results + " --self-contained");
   EXPECT_EQ(alone.exit_code, 0) << alone.err;
   EXPECT_EQ(alone.out, page + "\n");
-  expect_alone(text_of(page));
+  expect_alone(file_text(page));
   EXPECT_EQ(program("report --check " + results).exit_code, 4) << "the default form is compared";
   EXPECT_EQ(program("report " + results).exit_code, 0);
-  expect_all_there(text_of(page), results_);
+  expect_all_there(file_text(page), results_);
   EXPECT_EQ(program("report --check " + results).exit_code, 0);
   const Outcome both = program("report --check --self-contained " + results);
   EXPECT_EQ(both.exit_code, 2);
@@ -150,14 +151,14 @@ TEST(DrawingSize, IsKnownWhereTheFirstTagSaysIt) {
 TEST(Results, PageIsBelow300KilobytesAndItsPicturesExist) {
   const fs::path results = HYSTERON_RESULTS;
   EXPECT_LT(fs::file_size(results / "index.html"), 300000u);
-  expect_all_there(text_of(results / "index.html"), results);
+  expect_all_there(file_text(results / "index.html"), results);
 }
 
 TEST(Results, NameNoFolderOfTheMachineThatMadeThem) {
   const std::regex absolute(R"(["\s=]/\w+/)");
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(HYSTERON_RESULTS)) {
     if (entry.path().extension() != ".json") continue;
-    const std::string text = text_of(entry.path());
+    const std::string text = file_text(entry.path());
     std::smatch found;
     EXPECT_FALSE(std::regex_search(text, found, absolute)) << entry.path() << ":" << found.str();
   }

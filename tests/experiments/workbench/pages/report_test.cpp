@@ -26,7 +26,7 @@ TEST(Base64, GivesTheVectorsOfRfc4648) {
   EXPECT_EQ(encoded("\xff\xfe\x80 bar"), "//6AIGJhcg==");
 }
 
-int count_of(const std::string& text, const std::string& part) {
+int occurrences(const std::string& text, const std::string& part) {
   int count = 0;
   for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
   return count;
@@ -51,16 +51,16 @@ class Report : public testing::Test {
     render::write_png(run.path("plot_energy.png"), render::Image(64, 32, render::Rgb8{10, 10, 200}));
     run.finish();
   }
-  std::string html() const { return text_of(write_report(folder_.path())); }
+  std::string html() const { return file_text(write_report(folder_.path())); }
   Folder folder_;
 };
 
 TEST_F(Report, ShowsTheSheetThePlotOnceAndPlaysItsFrames) {
   const std::string page = html();
-  EXPECT_EQ(count_of(page, "alt=\"contact sheet\""), 1);
-  EXPECT_EQ(count_of(page, "alt=\"plot_energy\""), 1);
-  EXPECT_EQ(count_of(page, "class=\"player\""), 1);
-  EXPECT_EQ(count_of(page, "alt=\"frames/"), 24);
+  EXPECT_EQ(occurrences(page, "alt=\"contact sheet\""), 1);
+  EXPECT_EQ(occurrences(page, "alt=\"plot_energy\""), 1);
+  EXPECT_EQ(occurrences(page, "class=\"player\""), 1);
+  EXPECT_EQ(occurrences(page, "alt=\"frames/"), 24);
   EXPECT_NE(page.find("alt=\"frames/1000.png\""), std::string::npos);
   EXPECT_NE(page.find("alt=\"frames/1049.png\""), std::string::npos);
 }
@@ -79,19 +79,19 @@ TEST_F(Report, OpensWithTheQuestionTheNumberAndThePictureThatAnswerIt) {
 
 TEST_F(Report, FoldsTheSolversFiguresAway) {
   const std::string page = html(), fold = "<details><summary>Numerics";
-  ASSERT_EQ(count_of(page, fold), 1);
+  ASSERT_EQ(occurrences(page, fold), 1);
   EXPECT_GT(page.find("energy remainder relative"), page.find(fold));
   EXPECT_GT(page.find("kinetic [J]"), page.find(fold));
   EXPECT_LT(page.find("drape coefficient"), page.find(fold));
-  EXPECT_EQ(count_of(page, "2.60106e-16"), 0);
+  EXPECT_EQ(occurrences(page, "2.60106e-16"), 0);
 }
 
 TEST_F(Report, HasTheClothInItThatTheRunKept) {
-  EXPECT_EQ(count_of(html(), "class=\"turn\""), 0);
+  EXPECT_EQ(occurrences(html(), "class=\"turn\""), 0);
   std::ofstream(folder_.path() / "sheet.hyg") << "foobar";
   const std::string page = html();
-  EXPECT_EQ(count_of(page, "<script type=\"text/plain\">Zm9vYmFy</script>"), 1);
-  EXPECT_EQ(count_of(page, "DecompressionStream"), 1);
+  EXPECT_EQ(occurrences(page, "<script type=\"text/plain\">Zm9vYmFy</script>"), 1);
+  EXPECT_EQ(occurrences(page, "DecompressionStream"), 1);
 }
 
 TEST(ShownQuantity, HasThePrefixThatLeavesOneToThreeDigits) {
@@ -115,10 +115,10 @@ TEST(ReportOfSeveralLaws, HasARowForEachAndAColumnForEachMetric) {
   for (const char* law : {"wong", "pabst"}) run.metric(std::string(law) + ".2HB_N", law[0] == 'w' ? 0.5 : 0);
   run.metric("recovery_cases", 3);
   run.finish();
-  const std::string page = text_of(write_report(folder.path()));
-  EXPECT_EQ(count_of(page, "2HB [N]"), 1);
+  const std::string page = file_text(write_report(folder.path()));
+  EXPECT_EQ(occurrences(page, "2HB [N]"), 1);
   EXPECT_LT(page.find("<td>wong"), page.find("<td>pabst"));
-  EXPECT_EQ(count_of(page, "recovery cases"), 1);
+  EXPECT_EQ(occurrences(page, "recovery cases"), 1);
 }
 
 TEST(ReportOfSeveralLaws, OpensWithWhatEachAnswers) {
@@ -127,8 +127,8 @@ TEST(ReportOfSeveralLaws, OpensWithWhatEachAnswers) {
   run.metric("linear.recovery_angle_deg", 180.0);
   run.metric("prandtl.recovery_angle_deg", 116.04);
   run.finish();
-  const std::string page = text_of(write_report(folder.path()));
-  EXPECT_EQ(count_of(page, "<b>116.0 <small>degree</small></b><span>prandtl: recovery angle</span>"), 1);
+  const std::string page = file_text(write_report(folder.path()));
+  EXPECT_EQ(occurrences(page, "<b>116.0 <small>degree</small></b><span>prandtl: recovery angle</span>"), 1);
   EXPECT_LT(page.find("linear: recovery angle"), page.find("prandtl: recovery angle"));
 }
 

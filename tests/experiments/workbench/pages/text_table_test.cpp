@@ -18,7 +18,7 @@ TEST(TextTable, ReadsWhatRowsAreWrittenAs) {
   const std::vector<std::vector<std::string>> rows = {
       {"law", "note"}, {"wong", "a, b"}, {"\"quoted\"", "two\nlines"}, {"", ""}};
   std::string text;
-  for (const auto& row : rows) text += row_of(row);
+  for (const auto& row : rows) text += csv_row(row);
   const Table table = table_of(text);
   EXPECT_EQ(table.head, rows[0]);
   EXPECT_EQ(table.rows, std::vector(rows.begin() + 1, rows.end()));
@@ -53,14 +53,15 @@ TEST(TextTable, SaysOnceWhatEveryRowSays) {
 }
 
 TEST(TextTable, SetsNumbersToTheRightWithSixDigits) {
-  const std::string html = html_of(table_of("law,2HB_N,count\nwong,0.00012345678,1170\ndahl,1e-8,\n"));
+  const std::string html =
+      text_table_html(table_of("law,2HB_N,count\nwong,0.00012345678,1170\ndahl,1e-8,\n"));
   for (const char* part : {"<th>law<th>2HB [N]", "<td>0.000123457<", "<td>1e-8<", "<td>1170\n", "<td>wong<"})
     EXPECT_NE(html.find(part), std::string::npos) << part << "\n" << html;
 }
 
 // All but the first column are numbers unless a class says otherwise.
 TEST(TextTable, MarksTextsBesideTheFirstColumnAndNumbersInIt) {
-  const std::string html = html_of(table_of("count,note\n12,\"cut, twice\"\n7,\n"));
+  const std::string html = text_table_html(table_of("count,note\n12,\"cut, twice\"\n7,\n"));
   for (const char* part : {"<th class=\"n\">count", "<td class=\"n\">12<", "<th class=\"t\">note",
                            "<td class=\"t\">cut, twice\n"})
     EXPECT_NE(html.find(part), std::string::npos) << part << "\n" << html;

@@ -38,7 +38,7 @@ std::vector<float> wave() {
 
 std::vector<int> steps(const std::vector<float>& values) {
   std::vector<int> all;
-  for (const float value : values) all.push_back(steps_of(value, kQuantum));
+  for (const float value : values) all.push_back(quantum_count(value, kQuantum));
   return all;
 }
 
@@ -83,9 +83,9 @@ TEST(KeptGeometry, AFileThatEndsWithinARecordHasAllBeforeIt) {
   const DrawnMesh mesh = grid();
   const MeshPacker packer(mesh.vertices, mesh.triangles);
   const KeptCloth cloth{"", 0, {{"scene", Json::object()}}, {{-1, -2, -3}, {1, 2, 3}}, -0.5f, {}};
-  std::string text = text_of(mesh_record(mesh)) + text_of(cloth_record(cloth));
+  std::string text = record_text(mesh_record(mesh)) + record_text(cloth_record(cloth));
   for (const double time : {0.0, 0.1})
-    text += text_of(instant_record(mesh, packer, {time, wave(), {}, 0}, {}));
+    text += record_text(instant_record(mesh, packer, {time, wave(), {}, 0}, {}));
   std::ofstream(folder.path() / "frames.hyg", std::ios::binary) << text.substr(0, text.size() - 5);
   const Kept kept = read_kept(folder.path() / "frames.hyg");
   ASSERT_EQ(kept.cloths.size(), 1u);

@@ -44,9 +44,9 @@ TEST(RidgeLength, IsZeroBelowTheThreshold) {
   EXPECT_EQ(ridge_length(mesh, flat(mesh), ridge_across(mesh, 0), 1.5, 1e-3), 0);
 }
 
-TEST(AreaShares, SumToOneWithTheLargestInTheLastBin) {
-  const std::vector<double> share = area_shares({0.5, 1.5, 99}, {1, 2, 1}, 1, 3);
-  EXPECT_EQ(share, (std::vector<double>{0.25, 0.5, 0.25}));
+TEST(AreaFractions, SumToOneWithTheLargestInTheLastBin) {
+  const std::vector<double> fraction = area_fractions({0.5, 1.5, 99}, {1, 2, 1}, 1, 3);
+  EXPECT_EQ(fraction, (std::vector<double>{0.25, 0.5, 0.25}));
 }
 
 TEST(CurvatureSize, IsTheNormOfATensorAndTheMagnitudeOfAHinge) {

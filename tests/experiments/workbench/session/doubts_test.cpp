@@ -21,17 +21,18 @@ void expect_one(const std::vector<std::string>& texts, const std::string& part) 
 TEST(Integrator, ThatTakesMoreThanAQuarterIsSaidWithTheStepThatWouldDo) {
   EXPECT_EQ(integrator_words(0.25, 1e-3), "");
   // The step over the rest's share is to the one taken as 1/3 is to s/(1 - s).
-  for (const double share : {0.5, 0.75, 0.9}) {
-    const std::string text = integrator_words(share, 1e-3);
-    EXPECT_NE(text.find(fmt::format("{:.2g} s would take 25 %", 1e-3 / 3 * (1 - share) / share)), text.npos)
+  for (const double fraction : {0.5, 0.75, 0.9}) {
+    const std::string text = integrator_words(fraction, 1e-3);
+    EXPECT_NE(text.find(fmt::format("{:.2g} s would take 25 %", 1e-3 / 3 * (1 - fraction) / fraction)),
+              text.npos)
         << text;
   }
 }
 
 TEST(Integrator, ThatTakesNearlyAllGetsNoAdvice) {
-  for (const double share : {0.98, 0.9999999, 1 - 1e-12}) {
-    const std::string text = integrator_words(share, 1.0 / 120);
-    EXPECT_NE(text.find(fmt::format("took {:.0f} %", 100 * share)), text.npos) << text;
+  for (const double fraction : {0.98, 0.9999999, 1 - 1e-12}) {
+    const std::string text = integrator_words(fraction, 1.0 / 120);
+    EXPECT_NE(text.find(fmt::format("took {:.0f} %", 100 * fraction)), text.npos) << text;
     EXPECT_EQ(text.find("steps of"), text.npos) << text;
   }
   EXPECT_EQ(integrator_words(1, 1e-3), "") << "of cloth that dissipates nothing itself";
@@ -77,7 +78,7 @@ TEST(End, WithClothTornApartIsSaidWithQuietToo) {
       program("run " + scene.path() + " --no-images --quiet --out " + folder.path().string());
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_NE(outcome.err.find("warning: the cloth was stretched by up to "), std::string::npos) << outcome.err;
-  EXPECT_NE(text_of(folder.path() / "manifest.json").find("\"the cloth was stretched by up to "),
+  EXPECT_NE(file_text(folder.path() / "manifest.json").find("\"the cloth was stretched by up to "),
             std::string::npos);
 }
 

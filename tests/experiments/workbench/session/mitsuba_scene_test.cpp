@@ -25,7 +25,7 @@ Setup setup_with_a_ball() {
   return setup;
 }
 
-std::string xml_of(const Setup& setup, std::optional<float> floor) {
+std::string exported_xml(const Setup& setup, std::optional<float> floor) {
   const MitsubaView view = mitsuba_view(setup, {{-0.2f, -0.1f, 0}, {0.2f, 0.1f, 0.3f}}, floor);
   return mitsuba_scene(view, setup.scene, 0, "0000.ply", {"bodies/0000.ply"});
 }
@@ -62,13 +62,13 @@ bool is_well_formed(const std::string& xml) {
 }
 
 TEST(MitsubaScene, IsWellFormed) {
-  EXPECT_TRUE(is_well_formed(xml_of(setup_with_a_ball(), 0.0f)));
+  EXPECT_TRUE(is_well_formed(exported_xml(setup_with_a_ball(), 0.0f)));
   EXPECT_FALSE(is_well_formed("<scene><a></scene>\n"));
 }
 
 TEST(MitsubaScene, LooksFromThePicturesCamera) {
   const auto setup = setup_with_a_ball();
-  const std::string xml = xml_of(setup, {});
+  const std::string xml = exported_xml(setup, {});
   const render::Camera camera = mitsuba_view(setup, {{-0.2f, -0.1f, 0}, {0.2f, 0.1f, 0.3f}}, {}).camera;
   const std::vector<double> eye = numbers_after(xml, "<sensor", "origin"),
                             target = numbers_after(xml, "<sensor", "target");
@@ -85,7 +85,7 @@ TEST(MitsubaScene, LooksFromThePicturesCamera) {
 TEST(MitsubaScene, BodiesAreWhereTheyAreAtThatTime) {
   auto setup = setup_with_a_ball();
   setup.scene.obstacle[0].center = {0.1, 0.2, 0.3};
-  const std::string xml = xml_of(setup, {});
+  const std::string xml = exported_xml(setup, {});
   const std::vector<double> placed =
       numbers_after(xml.substr(xml.find("bodies/0000.ply")), "<matrix", "value");
   ASSERT_EQ(placed.size(), 16u);
@@ -93,13 +93,13 @@ TEST(MitsubaScene, BodiesAreWhereTheyAreAtThatTime) {
   EXPECT_NEAR(placed[7], 0.2, 1e-6);
   EXPECT_NEAR(placed[11], 0.3, 1e-6);
   setup.scene.obstacle[0].from = 1;
-  EXPECT_EQ(xml_of(setup, {}).find("bodies/"), std::string::npos);
+  EXPECT_EQ(exported_xml(setup, {}).find("bodies/"), std::string::npos);
 }
 
 TEST(MitsubaScene, GroundIsThereWhereItIsPictured) {
   const auto setup = setup_with_a_ball();
-  EXPECT_NE(xml_of(setup, 0.0f).find("type=\"rectangle\""), std::string::npos);
-  EXPECT_EQ(xml_of(setup, {}).find("type=\"rectangle\""), std::string::npos);
+  EXPECT_NE(exported_xml(setup, 0.0f).find("type=\"rectangle\""), std::string::npos);
+  EXPECT_EQ(exported_xml(setup, {}).find("type=\"rectangle\""), std::string::npos);
 }
 
 }  // namespace

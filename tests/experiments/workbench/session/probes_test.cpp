@@ -29,7 +29,7 @@ void expect_linear(const std::string& element, const std::vector<std::string>& c
   const fs::path out = folder.path() / "out", probes = out / "probes.csv";
   ASSERT_EQ(program(kSwing + " --law linear --probe 0.024,0.008 --element " + element + in(out)).exit_code,
             0);
-  const double b2 = Json::parse(text_of(out / "manifest.json"))["scene"]["fabric"]["b2"];
+  const double b2 = Json::parse(file_text(out / "manifest.json"))["scene"]["fabric"]["b2"];
   for (const std::string& component : components) {
     const auto k = column(probes, "probe1_curvature" + component + " [1/m]"),
                m = column(probes, "probe1_moment" + component + " [N]"),
@@ -60,8 +60,8 @@ TEST(Probes, StayWhereTheClothIsHeldAndFallWhereItIsFree) {
   for (const double z : column(probes, "probe1_z [m]")) EXPECT_EQ(z, 0);
   EXPECT_NEAR(column(probes, "probe2_x [m]").front(), 0.08, kRounding);
   EXPECT_LT(column(probes, "probe2_z [m]").back(), -0.01);
-  const std::vector<double> share = column(probes, "probe1_friction_share");
-  EXPECT_LE(*std::max_element(share.begin(), share.end()), 1 + kRounding);
+  const std::vector<double> fraction = column(probes, "probe1_friction_share");
+  EXPECT_LE(*std::max_element(fraction.begin(), fraction.end()), 1 + kRounding);
 }
 
 TEST(Probes, AreThoseOfTheRunThatIsRunAgain) {
@@ -69,8 +69,8 @@ TEST(Probes, AreThoseOfTheRunThatIsRunAgain) {
   const fs::path first = folder.path() / "first", again = folder.path() / "again";
   ASSERT_EQ(program(kSwing + " --probe '0.02,0.01;0.08,0.02'" + in(first)).exit_code, 0);
   ASSERT_EQ(program("rerun " + first.string() + " --quiet" + in(again)).exit_code, 0);
-  EXPECT_EQ(text_of(again / "probes.csv"), text_of(first / "probes.csv"));
-  const Json files = Json::parse(text_of(again / "manifest.json"))["files"];
+  EXPECT_EQ(file_text(again / "probes.csv"), file_text(first / "probes.csv"));
+  const Json files = Json::parse(file_text(again / "manifest.json"))["files"];
   EXPECT_NE(std::find(files.begin(), files.end(), "probes.csv"), files.end());
 }
 
@@ -78,7 +78,7 @@ TEST(Probes, ChangeNothingInTheRun) {
   const Folder folder;
   const auto hash = [&](const std::string& name, const std::string& more) {
     EXPECT_EQ(program(kSwing + more + in(folder.path() / name)).exit_code, 0);
-    return Json::parse(text_of(folder.path() / name / "manifest.json"))["state_hash"].get<std::string>();
+    return Json::parse(file_text(folder.path() / name / "manifest.json"))["state_hash"].get<std::string>();
   };
   EXPECT_EQ(hash("with", " --probe 0.02,0.01"), hash("without", ""));
 }

@@ -14,7 +14,7 @@ using ExampleLaws = LawList<ExponentialLaw>;  // a law that no program ships
 // What a fabric has beyond three numbers, on the scale of these, so that extreme fabrics have it as well.
 enum Part { kStops = 1, kManyStops = 2, kWeft = 4, kBranches = 8, kSet = 16 };
 
-Spectrum spectrum_of(const VirginCurve& curve, int count) {
+Spectrum stop_spectrum(const VirginCurve& curve, int count) {
   const double scale = curve.k0 > 0 ? curve.k0 : 1;
   Spectrum stops;
   for (int j = 0; j < count; ++j) {
@@ -25,10 +25,10 @@ Spectrum spectrum_of(const VirginCurve& curve, int count) {
 }
 
 // Yields at 1.2 k0, branches of a third and a half of the friction's stiffness.
-BendingParts parts_of(int which, const VirginCurve& curve) {
+BendingParts sample_parts(int which, const VirginCurve& curve) {
   BendingParts parts;
   const double g = curve.b1 - curve.b2;
-  if (which & (kStops | kManyStops)) parts.stops = spectrum_of(curve, which & kManyStops ? 12 : 5);
+  if (which & (kStops | kManyStops)) parts.stops = stop_spectrum(curve, which & kManyStops ? 12 : 5);
   if (which & kWeft) {
     parts.weft_stops = parts.stops;
     for (double& r : parts.weft_stops.thresholds) r *= 0.6;
@@ -154,7 +154,7 @@ std::vector<LawCase> law_cases() {
 
 std::unique_ptr<AnyLaw> any_law(const LawCase& c, As as, double seconds, const VirginCurve& curve) {
   VirginCurve fabric = curve;
-  fabric.parts = parts_of(c.parts, curve);
+  fabric.parts = sample_parts(c.parts, curve);
   const LawChoice choice = choose_law(law_or_example(c.law), fabric, c.parameters);
   auto law = as == As::kScalar   ? make_any_law<double, 1>(choice)
              : as == As::kTensor ? make_any_law<double, 3>(choice)

@@ -4,7 +4,7 @@
 // says so.
 #include <Eigen/Eigenvalues>
 
-#include "sim/bending/law_loop_of.h"
+#include "sim/bending/typed_law_loop.h"
 #include "tests/sim/bending/laws/every_law.h"
 
 namespace hysteron::testing {
@@ -132,8 +132,8 @@ TEST_P(EveryLaw, ButWongNeverGivesBackWhatItLost) {
 
 // |int M dK - stored - dissipated| along straight pieces by the trapezium rule; the whole way takes 10 s.
 double balance_error(AnyLaw& law, const Path<double, 3>& corners, int pieces) {
-  constexpr double kWholeWay = 10;
-  law.set_seconds(kWholeWay / (static_cast<double>(corners.size()) * pieces));
+  constexpr double kWholePath = 10;
+  law.set_seconds(kWholePath / (static_cast<double>(corners.size()) * pieces));
   Vec<double, 3> at = Vec<double, 3>::Zero(), moment = at;
   double work = 0, stored = 0, dissipated = 0;
   for (const auto& corner : corners) {

@@ -55,7 +55,7 @@ TEST(Fatigue, SetStaysWithinTheFrictionMomentLostOverTheRigidity) {
     double largest = 0;
     for (double k : random_turns(3000, 4 * c.k0, 4)) {
       cloth.moment(std::abs(k));  // always to one side, as a fold is
-      const double set = std::abs(Fatigue<Stops>::set_of(cloth.history)[0]);
+      const double set = std::abs(Fatigue<Stops>::set_curvature(cloth.history)[0]);
       ASSERT_LE(set, bound * (1 + 1e-12));
       largest = std::max(largest, set);
     }
@@ -73,7 +73,8 @@ TEST(Fatigue, EndsAsAnElasticSheetWithAPermanentCrease) {
     for (double k : {200., cloth.law.residual(cloth.history)[0]}) cloth.moment(k);
     if (cycle == kCycles / 2) strength_after_half = cloth.law.strength(cloth.history);
   }
-  const double set = Fatigue<Stops>::set_of(cloth.history)[0], left = cloth.law.strength(cloth.history);
+  const double set = Fatigue<Stops>::set_curvature(cloth.history)[0],
+               left = cloth.law.strength(cloth.history);
   EXPECT_NEAR(strength_after_half / left, 2, 0.1);
   EXPECT_LT(left, 1e-3);
   EXPECT_GT(set, 1);  // [1/m]
@@ -101,9 +102,9 @@ TEST(Fatigue, IsHealedByIroningButStaysWeak) {
   for (int i = 0; i < 20; ++i)
     for (double k : {200., 20.}) cloth.moment(k);
   const double strength = cloth.law.strength(cloth.history);
-  ASSERT_GT(Fatigue<Stops>::set_of(cloth.history)[0], 1);
+  ASSERT_GT(Fatigue<Stops>::set_curvature(cloth.history)[0], 1);
   const auto flat = ironed(cloth.law, Vec<double, 1>(0.), cloth.history);
-  EXPECT_EQ(Fatigue<Stops>::set_of(flat)[0], 0);
+  EXPECT_EQ(Fatigue<Stops>::set_curvature(flat)[0], 0);
   EXPECT_EQ(cloth.law.step(Vec<double, 1>(0.), flat).moment[0], 0);
   EXPECT_NEAR(cloth.law.strength(flat), strength, 1e-15);
 }

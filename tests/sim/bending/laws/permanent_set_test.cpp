@@ -17,13 +17,15 @@ using Stops = SpectrumStops<double, 1, 8>;
 Setting<Stops> law(const Spectrum& friction = {}) {
   return Setting<Stops>::make(Stops::make(kB2, friction, {}), kB2, {kYield, kHardening});
 }
-double set_of(const Driven<Setting<Stops>>& cloth) { return Setting<Stops>::set_of(cloth.history)[0]; }
+double set_curvature(const Driven<Setting<Stops>>& cloth) {
+  return Setting<Stops>::set_curvature(cloth.history)[0];
+}
 
 TEST(PermanentSet, IsNoneBelowTheYieldCurvature) {
   Driven<Setting<Stops>> cloth(law());
   for (double k : {kYield, -kYield, 0.5 * kYield}) {
     EXPECT_NEAR(cloth.moment(k), kB2 * k, kRounding * kB2 * kYield);
-    EXPECT_EQ(set_of(cloth), 0);
+    EXPECT_EQ(set_curvature(cloth), 0);
   }
   EXPECT_EQ(cloth.dissipated, 0);
 }
@@ -33,12 +35,12 @@ TEST(PermanentSet, GrowsWithTheBendAsHardeningHasIt) {
   Driven<Setting<Stops>> cloth(law());
   for (double k : {200.0, 400.0, 600.0}) {
     const double moment = cloth.moment(k), set = kB2 * (k - kYield) / (kB2 + kHardening);
-    EXPECT_NEAR(set_of(cloth), set, kRounding * k);
+    EXPECT_NEAR(set_curvature(cloth), set, kRounding * k);
     EXPECT_NEAR(moment, kB2 * (k - set), kRounding * kB2 * k);
     EXPECT_NEAR(cloth.law.tangent(Vec<double, 1>(k + 1), cloth.history)(0, 0),
                 kB2 * kHardening / (kB2 + kHardening), kRounding * kB2);
   }
-  const double set = set_of(cloth);
+  const double set = set_curvature(cloth);
   EXPECT_NEAR(cloth.dissipated, kB2 * kYield * set, kRounding * kB2 * kYield * set);
   EXPECT_NEAR(cloth.law.residual(cloth.history)[0], set, kRounding * set);
 }
@@ -48,7 +50,7 @@ TEST(PermanentSet, IsLeftUpToTheYieldMomentOverTheHardening) {
   for (double k : {700.0, 1200.0, 5000.0}) {
     Driven<Setting<Stops>> cloth(law());
     cloth.moment(k);
-    ASSERT_GT(kHardening * set_of(cloth), kB2 * kYield);
+    ASSERT_GT(kHardening * set_curvature(cloth), kB2 * kYield);
     const double most = kB2 * kYield / kHardening;
     EXPECT_NEAR(cloth.law.residual(cloth.history)[0], most, kRounding * most);
   }
@@ -62,7 +64,7 @@ TEST(PermanentSet, AndFrictionLeaveTheirResidualCurvaturesSideBySide) {
   Driven<Setting<Stops>> cloth(law(friction));
   cloth.moment(k);
   const double set = (kB2 * (k - kYield) + hb) / (kB2 + kHardening);
-  EXPECT_NEAR(set_of(cloth), set, kRounding * k);
+  EXPECT_NEAR(set_curvature(cloth), set, kRounding * k);
   EXPECT_NEAR(cloth.law.residual(cloth.history)[0], set + hb / kB2, kRounding * k);
 }
 
@@ -73,7 +75,7 @@ TEST(PermanentSet, IsTheSameInOneStepAsInManyOfOneDirection) {
     Driven<Setting<Stops>> one(law(friction)), many(law(friction));
     one.moment(turn);
     for (int i = 1; i <= 1000; ++i) many.moment(turn * i / 1000);
-    EXPECT_NEAR(set_of(many), set_of(one), 1e-9 * std::abs(turn));
+    EXPECT_NEAR(set_curvature(many), set_curvature(one), 1e-9 * std::abs(turn));
     EXPECT_NEAR(many.last.moment[0], one.last.moment[0], 1e-9 * kB2 * std::abs(turn));
   }
 }
@@ -87,7 +89,7 @@ TEST(PermanentSet, IsLargerInAFastFoldThanInASlowOne) {
     Driven<Setting<Relaxed>> cloth(Setting<Relaxed>::make(inner, kB2, {kYield, kHardening}));
     cloth.law.law.dt = seconds / 100;
     for (int i = 1; i <= 100; ++i) cloth.moment(300.0 * i / 100);
-    return Setting<Relaxed>::set_of(cloth.history)[0];
+    return Setting<Relaxed>::set_curvature(cloth.history)[0];
   };
   const double fast = (1.5e-5 * 300 - kB2 * kYield) / (1.5e-5 + kHardening),
                slow = (kB2 * 300 - kB2 * kYield) / (kB2 + kHardening);

@@ -140,12 +140,12 @@ void expect_no_jumps(unsigned seed) {
   double at = 0, moment = 0;
   for (double target : random_turns(3000, 2 * c.k0, seed)) {
     for (int i = 1; i <= 10; ++i) {
-      const double way = (target - at) / 10, k = i < 10 ? at + way * i : target, before = moment;
+      const double increment = (target - at) / 10, k = i < 10 ? at + increment * i : target, before = moment;
       moment = cloth.moment(k);
       // Increasing, never steeper than b1: no jump, at any step size.
-      ASSERT_LE(std::abs(moment - before), c.b1 * std::abs(way) + kRounding * c.friction_moment());
-      ASSERT_GE((moment - before) * way,
-                (c.b2 * way * way) - kRounding * c.friction_moment() * std::abs(way));
+      ASSERT_LE(std::abs(moment - before), c.b1 * std::abs(increment) + kRounding * c.friction_moment());
+      ASSERT_GE((moment - before) * increment,
+                (c.b2 * increment * increment) - kRounding * c.friction_moment() * std::abs(increment));
       ASSERT_LE(std::abs(moment - c.b2 * k), c.friction_moment() * (1 + kRounding));
     }
     at = target;

@@ -27,7 +27,7 @@ TEST(Spectrum, BeginsWithTheSumOfItsStiffnessesAndEndsWithItsFrictionMoment) {
   EXPECT_NEAR(cloth.moment(k), (kB2 + 9e-6 + 7e-6 + 3e-6 + 1e-6 + 4e-7) * k, kRounding * kB2 * k);
   const double hb = 3 * 9e-6 + 12 * 7e-6 + 40 * 3e-6 + 95 * 1e-6 + 300 * 4e-7;
   EXPECT_NEAR(cloth.moment(1000), kB2 * 1000 + hb, kRounding * kB2 * 1000);
-  EXPECT_NEAR(cloth.law.used(Vec<double, 1>(1000), cloth.history), 1, kRounding);
+  EXPECT_NEAR(cloth.law.utilisation(Vec<double, 1>(1000), cloth.history), 1, kRounding);
 }
 
 // (Masing 1926): M = Mr + 2 f((K - Kr)/2), whatever the spectrum and the reversal.
@@ -165,7 +165,7 @@ TEST(TurnedSpectra, LoseTheAreaOfTheClosedLoopOfTheirDirection) {
       for (double turn : {-amplitude, amplitude}) cloth.moment(turn);
       EXPECT_NEAR(cloth.dissipated - first, of.own.loop_area(amplitude),
                   kRounding * of.own.loop_area(amplitude));
-      EXPECT_NEAR(cloth.law.used(Vec<double, 1>(2000), cloth.history), 1, kRounding);
+      EXPECT_NEAR(cloth.law.utilisation(Vec<double, 1>(2000), cloth.history), 1, kRounding);
     }
 }
 

@@ -145,12 +145,12 @@ void expect_smooth_joins(const Law& law) {
   for (const double turn : {0.0, 1.0, 2.5, 7.0}) {          // in K0; 0: the virgin curve
     Driven<Law> cloth(law);
     if (turn > 0) cloth.moment(turn * c.k0);
-    const double join = turn > 0 ? turn - 2 : 1, way = turn > 0 ? -1 : 1;
-    const auto at = [&](double x) { return Vec<double, 1>((join + way * x) * c.k0); };
+    const double join = turn > 0 ? turn - 2 : 1, sense = turn > 0 ? -1 : 1;
+    const auto at = [&](double x) { return Vec<double, 1>((join + sense * x) * c.k0); };
     const auto slope = [&](double x) { return law.tangent(at(x), cloth.history)(0, 0); };
     const auto moment = [&](double x) { return law.step(at(x), cloth.history).moment[0]; };
     EXPECT_NEAR(slope(-kStep), slope(kStep), bend) << "join at " << join << " K0";
-    EXPECT_NEAR(moment(kStep) - moment(-kStep), way * c.b2 * 2 * kStep * c.k0, 2 * bend * kStep * c.k0);
+    EXPECT_NEAR(moment(kStep) - moment(-kStep), sense * c.b2 * 2 * kStep * c.k0, 2 * bend * kStep * c.k0);
   }
 }
 

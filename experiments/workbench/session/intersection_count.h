@@ -14,11 +14,11 @@ namespace hysteron::experiments {
 
 // Behind a GPU an instant is counted on a thread of its own while the next steps run, and told with the next
 // one.
-class Crossings : public Observer {
+class IntersectionCount : public Observer {
  public:
   // `tell` gets a warning for each instant that has some, on the caller's thread.
-  Crossings(std::vector<Eigen::Vector3i> face, bool behind_a_gpu,
-            std::function<void(const std::string&)> tell)
+  IntersectionCount(std::vector<Eigen::Vector3i> face, bool behind_a_gpu,
+                    std::function<void(const std::string&)> tell)
       : face_(std::move(face)), behind_a_gpu_(behind_a_gpu), tell_(std::move(tell)) {}
 
   void record(Session& session, const Snapshot& instant) override;
@@ -26,7 +26,7 @@ class Crossings : public Observer {
   void see(double time, const std::vector<Eigen::Vector3d>& x);
   // Pairs of all instants seen; waits for the last of them.
   long pairs();
-  void visit(Archive& archive) override;
+  void serialise(Archive& archive) override;
 
  private:
   struct Found {

@@ -5,7 +5,7 @@
 
 #include "sim/mesh/intersections.h"
 #include "sim/scene/scene_reader.h"
-#include "sim/time/grips.h"
+#include "sim/time/compliant_pins.h"
 #include "tests/sim/contact/two_sheets.h"
 #include "tests/sim/scene/scene_file.h"
 
@@ -16,53 +16,54 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using test::Trial;
 
-constexpr double kGiveOfThickness = 0.5;
+constexpr double kYieldFractionOfThickness = 0.5;
 
 // One vertex whose hand pulls with 2 N beyond 0.1 mm.
-struct OneGrip {
+struct OneCompliantPin {
   Vector3d place{1e-3, 2e-3, 3e-3};
   double strength = 2;
-  Grips<double> grips{&place, &strength, 1e-4};
+  CompliantPins<double> compliant_pins{&place, &strength, 1e-4};
 };
 
-TEST(Grip, PullsByTheDerivativeOfItsEnergyToSecondOrder) {
-  const OneGrip one;
+TEST(CompliantPin, PullsByTheDerivativeOfItsEnergyToSecondOrder) {
+  const OneCompliantPin one;
   const Vector3d d = Vector3d(0.3, -0.5, 0.8).normalized();
   for (double lag : {0.4e-4, 5e-4}) {
     const Vector3d x = one.place + lag * Vector3d(0.6, 0, 0.8);
     const auto error = [&](double h) {
-      const double rise = one.grips.energy(0, x + h * d) - one.grips.energy(0, x - h * d);
-      return std::abs(rise / (2 * h) + one.grips.force(0, x).dot(d));
+      const double rise = one.compliant_pins.energy(0, x + h * d) - one.compliant_pins.energy(0, x - h * d);
+      return std::abs(rise / (2 * h) + one.compliant_pins.force(0, x).dot(d));
     };
-    if (lag > one.grips.give)
+    if (lag > one.compliant_pins.yield_distance)
       EXPECT_GT(std::log(error(4e-5) / error(1e-5)) / std::log(4), 1.8);
     else
       EXPECT_LT(error(1e-5), 1e-12);  // a parabola
   }
 }
 
-TEST(Grip, LosesAShareOfItsStiffnessAlongTheWay) {
-  const OneGrip one;
+TEST(CompliantPin, LosesAShareOfItsStiffnessAlongTheWay) {
+  const OneCompliantPin one;
   const Vector3d n(0.6, 0, 0.8), x = one.place + 5e-4 * n;
-  const Matrix3d far = one.grips.stiffness(0, x, 0), near = one.grips.stiffness(0, x, 0.75);
+  const Matrix3d far = one.compliant_pins.stiffness(0, x, 0), near = one.compliant_pins.stiffness(0, x, 0.75);
   const Vector3d across(0, 1, 0);
   const double h = 1e-8;  // across the way both are the derivative of the force
-  const Vector3d change = (one.grips.force(0, x - h * across) - one.grips.force(0, x + h * across)) / (2 * h);
+  const Vector3d change =
+      (one.compliant_pins.force(0, x - h * across) - one.compliant_pins.force(0, x + h * across)) / (2 * h);
   EXPECT_NEAR((far * across - change).norm(), 0, 1e-6 * change.norm());
   EXPECT_NEAR((near * across - change).norm(), 0, 1e-6 * change.norm());
   EXPECT_NEAR(n.dot(near * n), 0.25 * n.dot(far * n), 1e-12 * n.dot(far * n));
 }
 
-TEST(Grip, LiesBelowTheParabolaOfItsStiffness) {
-  const OneGrip one;
+TEST(CompliantPin, LiesBelowTheParabolaOfItsStiffness) {
+  const OneCompliantPin one;
   std::mt19937 random(1);
   std::normal_distribution<double> normal;
   const auto draw = [&] { return Vector3d(normal(random), normal(random), normal(random)); };
   for (int k = 0; k < 1000; ++k) {
     const Vector3d x = one.place + 3e-4 * draw(), d = 5e-4 * draw();
-    const double bound =
-        one.grips.energy(0, x) - one.grips.force(0, x).dot(d) + d.dot(one.grips.stiffness(0, x, 0) * d) / 2;
-    EXPECT_LE(one.grips.energy(0, x + d), bound + 1e-15);
+    const double bound = one.compliant_pins.energy(0, x) - one.compliant_pins.force(0, x).dot(d) +
+                         d.dot(one.compliant_pins.stiffness(0, x, 0) * d) / 2;
+    EXPECT_LE(one.compliant_pins.energy(0, x + d), bound + 1e-15);
   }
 }
 
@@ -76,43 +77,44 @@ Trial hanging_by(double strength) {
   return Trial(scene);
 }
 
-double weight_of(const Trial& trial) {
+double cloth_weight(const Trial& trial) {
   double sum = 0;
   for (int i = 0; i < trial.cloth.mesh.vertices(); ++i) sum += trial.mass(i) * trial.scene.gravity.norm();
   return sum;
 }
 
-Vector3d sum_of(const std::vector<Vector3d>& forces) {
+Vector3d force_sum(const std::vector<Vector3d>& forces) {
   Vector3d sum = Vector3d::Zero();
   for (const Vector3d& f : forces) sum += f;
   return sum;
 }
 
-TEST(HandsOfLimitedStrength, GiveInProportionToWhatTheyCarry) {
+TEST(PinsOfLimitedStrength, GiveInProportionToWhatTheyCarry) {
   const double kStrength = 2;
   const Trial trial = hanging_by(kStrength);
   const auto simulation = trial.simulation();
   simulation->become_static();
   simulation->advance(60);
-  EXPECT_NEAR(sum_of(simulation->handle_forces()).y(), weight_of(trial), 1e-5 * weight_of(trial));
+  EXPECT_NEAR(force_sum(simulation->handle_forces()).y(), cloth_weight(trial), 1e-5 * cloth_weight(trial));
   const auto x = simulation->positions();
   const auto force = simulation->handle_forces();
-  int hands = 0;
+  int pins = 0;
   for (std::size_t i = 0; i < x.size(); ++i) {
     if (force[i].isZero(0)) continue;
-    ++hands;
-    const double give = kGiveOfThickness * trial.scene.fabric.thickness * force[i].norm() / kStrength;
-    EXPECT_NEAR((x[i] - trial.cloth.start[i]).norm(), give, 1e-9);
+    ++pins;
+    const double yield_distance =
+        kYieldFractionOfThickness * trial.scene.fabric.thickness * force[i].norm() / kStrength;
+    EXPECT_NEAR((x[i] - trial.cloth.start[i]).norm(), yield_distance, 1e-9);
   }
-  EXPECT_EQ(hands, 2);
-  EXPECT_EQ(simulation->counts().slack_hands, 0);
+  EXPECT_EQ(pins, 2);
+  EXPECT_EQ(simulation->counts().saturated_pins, 0);
 }
 
 // Free fall under what the hands do not carry.
-TEST(HandsOfLimitedStrength, LetGoOfWhatIsTooHeavyButPullOn) {
+TEST(PinsOfLimitedStrength, LetGoOfWhatIsTooHeavyButPullOn) {
   Trial trial = hanging_by(1);
-  const double weight = weight_of(trial), kShare = 0.6;
-  for (Pin& pin : trial.scene.pin) pin.strength = kShare * weight / 2;
+  const double weight = cloth_weight(trial), kFraction = 0.6;
+  for (Pin& pin : trial.scene.pin) pin.strength = kFraction * weight / 2;
   const auto simulation = trial.simulation();
   const auto middle = [&] {
     Vector3d sum = Vector3d::Zero();
@@ -128,40 +130,40 @@ TEST(HandsOfLimitedStrength, LetGoOfWhatIsTooHeavyButPullOn) {
   simulation->advance(kSteps);
   const double third = middle();
   const double t = kSteps * trial.scene.step, g = trial.scene.gravity.norm();
-  EXPECT_NEAR((third - 2 * second + first) / (t * t), -(1 - kShare) * g, 0.02 * g);
-  EXPECT_GT(simulation->counts().slack_hands, kSteps);
-  EXPECT_GT(simulation->counts().hand_lag, 0.05);
+  EXPECT_NEAR((third - 2 * second + first) / (t * t), -(1 - kFraction) * g, 0.02 * g);
+  EXPECT_GT(simulation->counts().saturated_pins, kSteps);
+  EXPECT_GT(simulation->counts().pin_lag, 0.05);
   for (const Vector3d& f : simulation->handle_forces())
-    EXPECT_LE(f.norm(), kShare * weight / 2 * (1 + 1e-12));
+    EXPECT_LE(f.norm(), kFraction * weight / 2 * (1 + 1e-12));
 }
 
-TEST(HandsOfLimitedStrength, DoWorkThatTheBalanceCloses) {
+TEST(PinsOfLimitedStrength, DoWorkThatTheBalanceCloses) {
   for (Integrator integrator : {Integrator::implicit, Integrator::bdf2, Integrator::tr_bdf2}) {
     Trial trial = hanging_by(1);
     trial.scene.integrator = integrator;
     trial.scene.law = "prandtl";
     trial.scene.newton_residual = 1e-9;
-    trial.scene.pin[0].strength = 0.3 * weight_of(trial);
+    trial.scene.pin[0].strength = 0.3 * cloth_weight(trial);
     trial.scene.pin[1].motion.keys = {{0, {0, 0, 0}, 0}, {0.2, {0, 0.05, 0}, 0}};
     const auto simulation = trial.after(60);
     const Ledger ledger = simulation->ledger();
-    EXPECT_GT(std::abs(ledger.handle_work), 1e-3 * weight_of(trial) * 0.05);
-    EXPECT_LT(std::abs(ledger.remainder_relative), 1e-9) << name_of(integrator);
+    EXPECT_GT(std::abs(ledger.handle_work), 1e-3 * cloth_weight(trial) * 0.05);
+    EXPECT_LT(std::abs(ledger.remainder_relative), 1e-9) << enum_name(integrator);
   }
 }
 
-// Where a rigid hand gives way (barred_hands_test.cpp).
-TEST(HandsOfLimitedStrength, ThatPushTheClothThroughItselfLagBehind) {
-  constexpr double kGap = 5e-3, kWay = 1e-2, kTime = 0.1, kStrength = 0.5;  // [m], [s], [N]
+// Where a rigid hand gives way (blocked_pins_test.cpp).
+TEST(PinsOfLimitedStrength, ThatPushTheClothThroughItselfLagBehind) {
+  constexpr double kGap = 5e-3, kTravel = 1e-2, kTime = 0.1, kStrength = 0.5;  // [m], [s], [N]
   Trial trial = test::two_sheets(kGap, 60);
-  Pin hand;
-  hand.motion.keys = {{0, {0, 0, 0}, 0}, {kTime, {0, 0, -kWay}, 0}};
-  hand.strength = kStrength;
-  test::hold_upper(trial, hand, 0.7 * test::kUpperSide);
+  Pin moving_pin;
+  moving_pin.motion.keys = {{0, {0, 0, 0}, 0}, {kTime, {0, 0, -kTravel}, 0}};
+  moving_pin.strength = kStrength;
+  test::hold_upper(trial, moving_pin, 0.7 * test::kUpperSide);
   const auto simulation = trial.after(static_cast<int>(std::lround(1.5 * kTime / trial.scene.step)));
   EXPECT_EQ(simulation->counts().unbalanced, 0);
-  EXPECT_GT(simulation->counts().slack_hands, 0);
-  EXPECT_GT(simulation->counts().hand_lag, kWay - kGap);
+  EXPECT_GT(simulation->counts().saturated_pins, 0);
+  EXPECT_GT(simulation->counts().pin_lag, kTravel - kGap);
   const std::vector<Vector3d> force = simulation->handle_forces();
   Vector3d pull = Vector3d::Zero();
   for (int i : trial.cloth.pin_vertices[1]) pull += force[i];
@@ -171,35 +173,35 @@ TEST(HandsOfLimitedStrength, ThatPushTheClothThroughItselfLagBehind) {
 }
 
 // Two sheets, the hands of both told to swap places: the stronger one gets where it wants.
-TEST(HandsOfLimitedStrength, AgainstEachOtherDoNotTear) {
+TEST(PinsOfLimitedStrength, AgainstEachOtherDoNotTear) {
   constexpr double kGap = 4e-3, kTime = 0.1;
   Trial trial = test::two_sheets(kGap, 60);
   const int vertices = trial.cloth.mesh.vertices();
   const int lower = static_cast<int>(trial.cloth.pin_vertices[0].size());
   trial.scene.pin[0].motion.keys = {{0, {0, 0, 0}, 0}, {kTime, {0, 0, kGap}, 0}};
   trial.scene.pin[0].strength = 4;
-  Pin hand;
-  hand.motion.keys = {{0, {0, 0, 0}, 0}, {kTime, {0, 0, -kGap}, 0}};
-  hand.strength = 1;
-  test::hold_upper(trial, hand, 1);  // all of it
+  Pin moving_pin;
+  moving_pin.motion.keys = {{0, {0, 0, 0}, 0}, {kTime, {0, 0, -kGap}, 0}};
+  moving_pin.strength = 1;
+  test::hold_upper(trial, moving_pin, 1);  // all of it
   const auto simulation = trial.after(static_cast<int>(std::lround(1.5 * kTime / trial.scene.step)));
   const auto x = simulation->positions();
   EXPECT_TRUE(intersecting_triangles(trial.cloth.mesh.face, x).empty());
-  const double give = kGiveOfThickness * trial.scene.fabric.thickness;
+  const double yield_distance = kYieldFractionOfThickness * trial.scene.fabric.thickness;
   double below = 0, above = 0;
   for (int i = 0; i < vertices; ++i)
     (i < lower ? below : above) += x[i].z() / (i < lower ? lower : vertices - lower);
-  EXPECT_NEAR(below, kGap, give);
+  EXPECT_NEAR(below, kGap, yield_distance);
   EXPECT_GT(above, kGap);
   EXPECT_EQ(simulation->counts().unbalanced, 0);
 }
 
-TEST(HandsOfLimitedStrength, NeedAnIntegratorThatIsImplicitInAllForces) {
+TEST(PinsOfLimitedStrength, NeedAnIntegratorThatIsImplicitInAllForces) {
   Scene scene = test::hanging_square(100);
   scene.pin[0].strength = 1;
   for (Integrator integrator : {Integrator::semi_implicit, Integrator::explicit_euler}) {
     scene.integrator = integrator;
-    const Failure failure = failure_of([&] { check_scene(scene); });
+    const Failure failure = caught_failure([&] { check_scene(scene); });
     EXPECT_EQ(failure.exit_code, 2);
     EXPECT_NE(failure.message.find("pin[0].strength = 1 N"), std::string::npos) << failure.message;
   }

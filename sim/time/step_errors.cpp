@@ -1,4 +1,4 @@
-#include "sim/time/refusals.h"
+#include "sim/time/step_errors.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -29,7 +29,7 @@ std::string together(const std::vector<std::string>& words) {
 
 // "edge 3-4 and edge 8-9", "vertex 12 and triangle 3-4-5"
 template <class Real>
-std::string names_of(const SelfPair<Real>& pair) {
+std::string pair_text(const SelfPair<Real>& pair) {
   const auto dash = [](int a, int b) { return std::to_string(a) + "-" + std::to_string(b); };
   if (pair.is_edges())
     return "edge " + dash(pair.v[0], pair.v[1]) + " and edge " + dash(pair.v[2], pair.v[3]);
@@ -38,7 +38,7 @@ std::string names_of(const SelfPair<Real>& pair) {
 }
 
 template <class Real, class Device>
-std::vector<Eigen::Vector3d> positions_of(const Body<Real, Device>& body) {
+std::vector<Eigen::Vector3d> host_positions(const Body<Real, Device>& body) {
   std::vector<Eigen::Vector3d> result;
   for (const auto& x : body.x.download()) result.push_back(x.template cast<double>());
   return result;
@@ -54,7 +54,7 @@ std::vector<std::string> pressing(Body<Real, Device>& body, int vertex, const Ei
   for (int o = 0; o < set.count; ++o)
     if (distance_to<double>(set.item[o], x).value < scene.fabric.thickness)
       by.push_back("obstacle[" + std::to_string(set.item[o].index) + "] (" +
-                   name_of(scene.obstacle[set.item[o].index].kind) + ")");
+                   enum_name(scene.obstacle[set.item[o].index].kind) + ")");
   if (body.self_contact && body.self_contact->pairs() > 0 && body.self_contact->forces()[vertex].norm() > 0)
     by.emplace_back("the cloth itself");
   return by;
@@ -79,7 +79,7 @@ void throw_if_arrival(Body<Real, Device>& body, double met, double time) {
   std::vector<Obstacle> fresh = scene.obstacle;
   for (Obstacle& o : fresh)
     if (o.from <= met) o.until = o.from;  // never there
-  const std::vector<Eigen::Vector3d> x = positions_of(body);
+  const std::vector<Eigen::Vector3d> x = host_positions(body);
   const std::vector<char> held = body.cloth.held(scene, time);
   const auto set = obstacles_during<double>(fresh, scene.fabric.friction, time, time);
   const Immersion found = deepest(set, x, held);
@@ -87,9 +87,9 @@ void throw_if_arrival(Body<Real, Device>& body, double met, double time) {
     throw Error::simulation(at_time(time) + "an obstacle appears where the cloth is: " +
                             immersion_text(found, scene.obstacle, x[found.vertex] + body.origin) +
                             others(found));
-  std::vector<char> spared = body.contact->spared(), deep = immersed(set, x);
-  for (int i = 0; i < body.vertices; ++i) spared[i] = spared[i] || (deep[i] && held[i]);
-  body.contact->spare(spared);
+  std::vector<char> exempted = body.contact->exempted(), deep = immersed(set, x);
+  for (int i = 0; i < body.vertices; ++i) exempted[i] = exempted[i] || (deep[i] && held[i]);
+  body.contact->exempt(exempted);
 }
 
 template <class Real, class Device>
@@ -98,7 +98,7 @@ void throw_if_release(Body<Real, Device>& body, const std::vector<char>& held, d
   const std::vector<char> before = body.held.download();
   std::vector<char> unconcerned(body.vertices);
   for (int i = 0; i < body.vertices; ++i) unconcerned[i] = held[i] || !before[i];
-  const std::vector<Eigen::Vector3d> x = positions_of(body);
+  const std::vector<Eigen::Vector3d> x = host_positions(body);
   const auto set = obstacles_during<double>(scene.obstacle, scene.fabric.friction, time, time);
   const Immersion found = deepest(set, x, unconcerned);
   if (found.count == 0) return;
@@ -112,8 +112,8 @@ void throw_if_release(Body<Real, Device>& body, const std::vector<char>& held, d
 template <class Real, class Device>
 void throw_if_crushed(Body<Real, Device>& body, double time) {
   const Scene& scene = body.scene;
-  const std::vector<Eigen::Vector3d> x = positions_of(body);
-  const std::vector<char> held = body.cloth.held(scene, time), spared = body.contact->spared();
+  const std::vector<Eigen::Vector3d> x = host_positions(body);
+  const std::vector<char> held = body.cloth.held(scene, time), exempted = body.contact->exempted();
   const auto set = obstacles_during<double>(scene.obstacle, scene.fabric.friction, time, time);
   const std::vector<Vec3<Real>> layers = body.self_contact
                                              ? body.self_contact->forces()
@@ -122,7 +122,7 @@ void throw_if_crushed(Body<Real, Device>& body, double time) {
   std::vector<char> well(body.vertices);
   for (int i = 0; i < body.vertices; ++i) {
     const Eigen::Vector3d pressure = layers[i].template cast<double>() / body.cloth.mesh.vertex_area[i];
-    well[i] = held[i] ? spared[i] : !is_squeezed(set, shell, x[i], pressure);
+    well[i] = held[i] ? exempted[i] : !is_squeezed(set, shell, x[i], pressure);
   }
   const Immersion found = deepest(set, x, well);
   if (found.count == 0) return;
@@ -141,7 +141,7 @@ void throw_if_unbalanced(Body<Real, Device>& body, ImplicitStep<Real, Device>& s
       "no equilibrium of the step " + at_time(start) + "was found, even in parts of " + number(h) + " s: ";
   if (outcome.blocked) {
     message += "every motion leads the cloth through itself";
-    if (body.self_contact->pairs() > 0) message += ", " + names_of(body.self_contact->blocking_pair());
+    if (body.self_contact->pairs() > 0) message += ", " + pair_text(body.self_contact->blocking_pair());
     throw Error::simulation(message);
   }
   if (!(outcome.load > 0)) {

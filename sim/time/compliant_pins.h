@@ -1,6 +1,6 @@
 // Hands of limited strength: each pulls its vertices towards where it wants them, by a spring that gives way
-// by `give` under the vertex's share of the strength, and beyond that with no more than this share.  The
-// energy of a vertex that lags by r is
+// by `yield_distance` under the vertex's share of the strength, and beyond that with no more than this share.
+// The energy of a vertex that lags by r is
 //
 //   strength r^2/(2 give)  for r <= give,  strength (r - give/2)  beyond,
 //
@@ -15,29 +15,30 @@ namespace hysteron {
 
 // Arrays of vertices; travels with a kernel launch by value.
 template <class Real>
-struct Grips {
+struct CompliantPins {
   const Vec3<Real>* place = nullptr;  // at the end of the stage [m]
   const Real* strength = nullptr;     // each vertex's share [N], 0 where nothing grips it; null: no hand does
-  Real give = 0;                      // [m]
+  Real yield_distance = 0;            // [m]
 
   HYST_HD bool any_at(int i) const { return strength && strength[i] > 0; }
   HYST_HD Real lag(int i, const Vec3<Real>& x) const { return any_at(i) ? (x - place[i]).norm() : Real(0); }
   // On the vertex [N].
   HYST_HD Vec3<Real> force(int i, const Vec3<Real>& x) const {
     if (!any_at(i)) return Vec3<Real>::Zero();
-    const Vec3<Real> way = place[i] - x;
-    const Real r = way.norm();
-    return strength[i] / (r > give ? r : give) * way;
+    const Vec3<Real> displacement = place[i] - x;
+    const Real r = displacement.norm();
+    return strength[i] / (r > yield_distance ? r : yield_distance) * displacement;
   }
   HYST_HD Real energy(int i, const Vec3<Real>& x) const {  // [J]
     if (!any_at(i)) return 0;
     const Real r = (x - place[i]).norm();
-    return strength[i] * (r > give ? r - give / 2 : r * r / (2 * give));
+    return strength[i] * (r > yield_distance ? r - yield_distance / 2 : r * r / (2 * yield_distance));
   }
   // As that of friction that slides (sliding_stop.h) [N/m].
-  HYST_HD Mat3<Real> stiffness(int i, const Vec3<Real>& x, Real share) const {
+  HYST_HD Mat3<Real> stiffness(int i, const Vec3<Real>& x, Real fraction) const {
     if (!any_at(i)) return Mat3<Real>::Zero();
-    return sliding_stiffness<Real>(x - place[i], Vec3<Real>::Zero(), strength[i] / give, give, share);
+    return sliding_stiffness<Real>(x - place[i], Vec3<Real>::Zero(), strength[i] / yield_distance,
+                                   yield_distance, fraction);
   }
 };
 

@@ -1,5 +1,5 @@
 // The triangles that cross, counted at once or behind a GPU's steps.
-#include "experiments/workbench/session/crossings.h"
+#include "experiments/workbench/session/intersection_count.h"
 
 #include <gtest/gtest.h>
 
@@ -34,12 +34,12 @@ class CountOfCrossings : public testing::TestWithParam<bool> {};
 
 TEST_P(CountOfCrossings, IsThatOfAllInstantsAndToldByTheCaller) {
   Told told;
-  Crossings crossings(kTwoTriangles, GetParam(), told.listener());
-  EXPECT_EQ(crossings.pairs(), 0);
+  IntersectionCount intersection_count(kTwoTriangles, GetParam(), told.listener());
+  EXPECT_EQ(intersection_count.pairs(), 0);
   for (int instant = 0; instant < 4; ++instant)
-    crossings.see(0.25 * instant, standing_at(1.25 - 0.5 * instant));
-  EXPECT_EQ(crossings.pairs(), 1);
-  EXPECT_EQ(crossings.pairs(), 1);  // no instant counts twice
+    intersection_count.see(0.25 * instant, standing_at(1.25 - 0.5 * instant));
+  EXPECT_EQ(intersection_count.pairs(), 1);
+  EXPECT_EQ(intersection_count.pairs(), 1);  // no instant counts twice
   ASSERT_EQ(told.lines.size(), 1U);
   EXPECT_EQ(told.lines[0],
             "1 pairs of triangles cross at t = 0.7500 s, the first are 0 and 1 near (0.0000, 0.0000, "
@@ -50,14 +50,14 @@ TEST_P(CountOfCrossings, IsThatOfAllInstantsAndToldByTheCaller) {
 // What was seen before a checkpoint is in it, counted to the end.
 TEST_P(CountOfCrossings, GoesOnFromACheckpoint) {
   Told told;
-  Crossings before(kTwoTriangles, GetParam(), told.listener()),
+  IntersectionCount before(kTwoTriangles, GetParam(), told.listener()),
       after(kTwoTriangles, GetParam(), told.listener());
   before.see(0, standing_at(-0.25));
   Archive out;
-  before.visit(out);
+  before.serialise(out);
   const std::string saved = out.take();
   Archive in(saved);
-  after.visit(in);
+  after.serialise(in);
   after.see(1, standing_at(-0.5));
   EXPECT_EQ(after.pairs(), 2);
 }

@@ -35,7 +35,7 @@ TEST(SteadyMotion, GoesOnInAStraightLineFromWhereTheMotionWas) {
   }
 }
 
-TEST(DrivenHand, MovesWhatItHoldsAtItsVelocityUntilItIsDrivenAgain) {
+TEST(DrivenPin, MovesWhatItHoldsAtItsVelocityUntilItIsDrivenAgain) {
   for (const Integrator integrator : {Integrator::implicit, Integrator::semi_implicit, Integrator::tr_bdf2}) {
     Scene scene = held_at_a_corner();
     scene.integrator = integrator;
@@ -47,13 +47,14 @@ TEST(DrivenHand, MovesWhatItHoldsAtItsVelocityUntilItIsDrivenAgain) {
     simulation->advance(5);
     simulation->drive(0, {0, 0, 0}, 0);
     simulation->advance(5);
-    const Eigen::Vector3d way = simulation->positions()[corner] - start;
-    EXPECT_LT((way - 5 * scene.step * velocity).norm(), kRounding) << name_of(integrator);
-    EXPECT_LT((simulation->hand(0).position - way).norm(), kRounding) << name_of(integrator);
+    const Eigen::Vector3d displacement = simulation->positions()[corner] - start;
+    EXPECT_LT((displacement - 5 * scene.step * velocity).norm(), kRounding) << enum_name(integrator);
+    EXPECT_LT((simulation->pin_displacement(0).position - displacement).norm(), kRounding)
+        << enum_name(integrator);
   }
 }
 
-TEST(DrivenHand, ThatStandsStillChangesNoBit) {
+TEST(DrivenPin, ThatStandsStillChangesNoBit) {
   const test::Trial trial(held_at_a_corner());
   const auto alone = trial.simulation(), driven = trial.simulation();
   driven->drive(0, {0, 0, 0}, 0);
@@ -61,7 +62,7 @@ TEST(DrivenHand, ThatStandsStillChangesNoBit) {
   EXPECT_EQ(driven->state_hash(), alone->state_hash());
 }
 
-TEST(DrivenHand, IsPartOfWhatIsSaved) {
+TEST(DrivenPin, IsPartOfWhatIsSaved) {
   const test::Trial trial(held_at_a_corner());
   const auto first = trial.after(1), second = trial.simulation();
   first->drive(0, {0.1, 0.1, 0}, 45);
@@ -71,7 +72,7 @@ TEST(DrivenHand, IsPartOfWhatIsSaved) {
   EXPECT_EQ(second->state_hash(), first->state_hash());
 }
 
-TEST(DrivenHand, ThatThereIsNotIsRefused) {
+TEST(DrivenPin, ThatThereIsNotIsRefused) {
   const test::Trial trial(held_at_a_corner());
   const auto simulation = trial.simulation();
   EXPECT_EQ(test::refusal([&] {

@@ -1,5 +1,5 @@
 // What a run says first and last: results with their errors, rest, places, time left.
-#include "experiments/workbench/pages/closing_words.h"
+#include "experiments/workbench/pages/closing_summary.h"
 
 #include <nlohmann/json.hpp>
 
@@ -70,7 +70,7 @@ TEST(ResultWords, OfAComparisonHaveALineForEachColumn) {
 TEST(ResultWords, NameWhatASceneAsksFor) {
   Manifest manifest = manifest_with("run", {{"gap_m", 0.0125}, {"gap_m_step_error", 2e-5}, {"fold_deg", 40}});
   EXPECT_EQ(result_words(manifest), "");
-  manifest.asked_metrics = {"fold_deg", "gap_m"};
+  manifest.requested_metrics = {"fold_deg", "gap_m"};
   expect_in(result_words(manifest),
             "  fold                          40 °\n"
             "  gap                           0.01250 m ± 2e-05 step, mesh and draw error unknown\n");
@@ -128,7 +128,7 @@ TEST(ReportOfMotion, SaysAtItsTopThatTheClothDidNotComeToRest) {
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   expect_in(outcome.out, "NOT at rest: fastest vertex ");
   expect_in(outcome.err, "warning: no state of rest was found: ");
-  const std::string page = text_of(folder.path() / "report.html");
+  const std::string page = file_text(folder.path() / "report.html");
   expect_in(page, "NOT at rest: fastest vertex ");
   expect_in(page, "% (not at rest)");
 }

@@ -1,16 +1,16 @@
-#include "sim/time/hands.h"
+#include "sim/time/pins.h"
 
 #include <algorithm>
 
 #include "sim/contact/compression.h"
 #include "sim/scene/motion.h"
 #include "sim/time/body.h"
-#include "sim/time/refusals.h"
+#include "sim/time/step_errors.h"
 
 namespace hysteron {
 
 namespace {
-constexpr double kGive = 0.5;  // of the fabric's thickness: what a hand gives under all its strength
+constexpr double kYieldFraction = 0.5;  // of the fabric's thickness: what a hand gives under all its strength
 constexpr double kStrongest = 10 * kTestPressure;  // of rigid hands that give way [Pa]
 
 // Layers that hands hold can meet where two are rigid and one of them moves.
@@ -35,8 +35,8 @@ void visit_keyframes(Archive& archive, std::vector<Keyframe>& keys) {
 }  // namespace
 
 template <class Real, class Device>
-Hands<Real, Device>::Hands(Device& device, const Scene& scene, const Cloth& cloth, bool with_arcs)
-    : with_arcs_(with_arcs), give_(static_cast<Real>(kGive * scene.fabric.thickness)) {
+Pins<Real, Device>::Pins(Device& device, const Scene& scene, const Cloth& cloth, bool with_arcs)
+    : with_arcs_(with_arcs), yield_distance_(static_cast<Real>(kYieldFraction * scene.fabric.thickness)) {
   for (const Pin& pin : scene.pin) {
     limited_ |= pin.strength > 0;
     moving_ |= !pin.motion.keys.empty() || pin.from > 0 || limited_;
@@ -48,7 +48,7 @@ Hands<Real, Device>::Hands(Device& device, const Scene& scene, const Cloth& clot
 }
 
 template <class Real, class Device>
-void Hands<Real, Device>::set_out(Device& device, const Scene& scene, const Cloth& cloth, double time) {
+void Pins<Real, Device>::set_out(Device& device, const Scene& scene, const Cloth& cloth, double time) {
   const std::vector<Vec3<Real>> start = cast_to<Real>(cloth.start);
   const int vertices = cloth.mesh.vertices();
   if (start_.size() == 0) {
@@ -60,8 +60,8 @@ void Hands<Real, Device>::set_out(Device& device, const Scene& scene, const Clot
     if (with_arcs_) arc_ = Buffer<Vec3<Real>, Device>(device, vertices);
   }
   if (!sweep_ && may_meet(scene)) {
-    way_ = Buffer<Vec3<Real>, Device>(device, vertices);
-    sweep_ = std::make_unique<HandSweep<Real, Device>>(device, cloth.mesh, scene.fabric.thickness);
+    displacement_ = Buffer<Vec3<Real>, Device>(device, vertices);
+    sweep_ = std::make_unique<PinSweep<Real, Device>>(device, cloth.mesh, scene.fabric.thickness);
   }
   if (!limited_ || place_.size() > 0) return;
   place_ = Buffer<Vec3<Real>, Device>(device, start);
@@ -69,8 +69,8 @@ void Hands<Real, Device>::set_out(Device& device, const Scene& scene, const Clot
 }
 
 template <class Real, class Device>
-void Hands<Real, Device>::drive(Body<Real, Device>& body, int pin, double now,
-                                const Eigen::Vector3d& velocity, double spin) {
+void Pins<Real, Device>::drive(Body<Real, Device>& body, int pin, double now, const Eigen::Vector3d& velocity,
+                               double spin) {
   Motion& motion = body.scene.pin[pin].motion;
   motion = steady_from(motion, now, velocity, spin);
   moving_ = true;
@@ -78,13 +78,14 @@ void Hands<Real, Device>::drive(Body<Real, Device>& body, int pin, double now,
 }
 
 template <class Real, class Device>
-std::size_t Hands<Real, Device>::bytes() const {
+std::size_t Pins<Real, Device>::bytes() const {
   return start_.bytes() + home_.bytes() + pin_.bytes() + arc_.bytes() + place_.bytes() + strength_.bytes() +
-         lag_.bytes() + way_.bytes() + (sweep_ ? sweep_->bytes() : 0) + (scratch_ ? scratch_->bytes() : 0);
+         lag_.bytes() + displacement_.bytes() + (sweep_ ? sweep_->bytes() : 0) +
+         (scratch_ ? scratch_->bytes() : 0);
 }
 
 template <class Real, class Device>
-bool Hands<Real, Device>::attach_and_release(Body<Real, Device>& body, double start) {
+bool Pins<Real, Device>::attach_and_release(Body<Real, Device>& body, double start) {
   regain(body);
   if (start < next_) return false;
   const auto next = std::upper_bound(times_.begin(), times_.end(), start);
@@ -102,7 +103,7 @@ bool Hands<Real, Device>::attach_and_release(Body<Real, Device>& body, double st
 
 // A hand's strength is that on all its vertices together, in equal shares.
 template <class Real, class Device>
-void Hands<Real, Device>::share_strength(const Scene& scene, const std::vector<int>& pins) {
+void Pins<Real, Device>::share_strength(const Scene& scene, const std::vector<int>& pins) {
   std::vector<int> count(scene.pin.size());
   for (int p : pins)
     if (p >= 0) ++count[p];
@@ -115,7 +116,7 @@ void Hands<Real, Device>::share_strength(const Scene& scene, const std::vector<i
 // A hand stops what it takes, and leaves what it lets go in motion: the balance counts no kinetic energy of
 // held vertices.
 template <class Real, class Device>
-bool Hands<Real, Device>::book(Body<Real, Device>& body, const std::vector<char>& held) {
+bool Pins<Real, Device>::book(Body<Real, Device>& body, const std::vector<char>& held) {
   const std::vector<char> before = body.held.download();
   if (held == before) return false;
   const std::vector<Vec3<Real>> v = body.v.download();
@@ -129,7 +130,7 @@ bool Hands<Real, Device>::book(Body<Real, Device>& body, const std::vector<char>
 
 // What a hand takes starts where it is.
 template <class Real, class Device>
-void Hands<Real, Device>::take(Body<Real, Device>& body, const std::vector<int>& pins, double time) {
+void Pins<Real, Device>::take(Body<Real, Device>& body, const std::vector<int>& pins, double time) {
   const std::vector<int> before = pin_.download();
   std::vector<Vec3<Real>> start = start_.download();
   const std::vector<Vec3<Real>> x = body.x.download();
@@ -144,8 +145,8 @@ void Hands<Real, Device>::take(Body<Real, Device>& body, const std::vector<int>&
 }
 
 template <class Real, class Device>
-HandPlacements<Real> Hands<Real, Device>::placements(const Scene& scene, double start, double h) const {
-  HandPlacements<Real> result;
+PinPlacements<Real> Pins<Real, Device>::placements(const Scene& scene, double start, double h) const {
+  PinPlacements<Real> result;
   for (std::size_t p = 0; p < scene.pin.size(); ++p) {
     const Motion& motion = scene.pin[p].motion;
     const Placement from = placement(motion, start), at = placement(motion, start + h);
@@ -163,25 +164,25 @@ HandPlacements<Real> Hands<Real, Device>::placements(const Scene& scene, double 
 }
 
 template <class Real, class Device>
-void Hands<Real, Device>::visit(Archive& archive, Body<Real, Device>& body) {
+void Pins<Real, Device>::serialise(Archive& archive, Body<Real, Device>& body) {
   Device& device = *body.device;
   archive(moving_);
   for (Pin& pin : body.scene.pin) visit_keyframes(archive, pin.motion.keys);  // which may have been driven
   if (archive.loads() && moving_) set_out(device, body.scene, body.cloth, 0);
   archive(next_);
-  hysteron::visit(archive, device, start_);
-  hysteron::visit(archive, device, pin_);
+  hysteron::serialise(archive, device, start_);
+  hysteron::serialise(archive, device, pin_);
   archive(work_);
   archive(behind_);
   archive(pulls_);
-  hysteron::visit(archive, device, place_);
-  hysteron::visit(archive, device, strength_);
+  hysteron::serialise(archive, device, place_);
+  hysteron::serialise(archive, device, strength_);
 }
 
 template <class Real, class Device>
-void Hands<Real, Device>::move(Body<Real, Device>& body, double start, Real h) {
+void Pins<Real, Device>::move(Body<Real, Device>& body, double start, Real h) {
   if (!moving_) return;
-  const HandPlacements<Real> placed = placements(body.scene, start, static_cast<double>(h));
+  const PinPlacements<Real> placed = placements(body.scene, start, static_cast<double>(h));
   goes_ = false;
   for (std::size_t p = 0; p < body.scene.pin.size(); ++p)
     goes_ |= !(body.scene.pin[p].strength > 0) &&
@@ -213,21 +214,22 @@ void Hands<Real, Device>::move(Body<Real, Device>& body, double start, Real h) {
 }
 
 template <class Real, class Device>
-bool Hands<Real, Device>::are_barred(Body<Real, Device>& body, Real h) {
-  if (behind_ > give_) return true;
+bool Pins<Real, Device>::are_blocked(Body<Real, Device>& body, Real h) {
+  if (behind_ > yield_distance_) return true;
   if (!sweep_ || !(goes_ || behind_ > 0)) return false;
   const char* held = body.held.data();
   const Vec3<Real>* v = body.v.data();
-  Vec3<Real>* way = way_.data();
+  Vec3<Real>* displacement = displacement_.data();
   for_each(
-      *body.device, "ways of hands", body.vertices,
-      HYST_KERNEL(int i) { way[i] = held[i] ? Vec3<Real>(h * v[i]) : Vec3<Real>(Vec3<Real>::Zero()); });
-  return !sweep_->is_free(body.x.data(), way, held, pin_.data());
+      *body.device, "ways of hands", body.vertices, HYST_KERNEL(int i) {
+        displacement[i] = held[i] ? Vec3<Real>(h * v[i]) : Vec3<Real>(Vec3<Real>::Zero());
+      });
+  return !sweep_->is_free(body.x.data(), displacement, held, pin_.data());
 }
 
 // What gives way starts at rest: the balance counts no kinetic energy of held vertices.
 template <class Real, class Device>
-bool Hands<Real, Device>::give_way(Body<Real, Device>& body, Real h) {
+bool Pins<Real, Device>::yield_to_cloth(Body<Real, Device>& body, Real h) {
   rigid_ = body.held.download();
   const std::vector<Vec3<Real>> x = body.x.download();
   std::vector<Vec3<Real>> v = body.v.download(), place = place_.download();
@@ -252,25 +254,25 @@ bool Hands<Real, Device>::give_way(Body<Real, Device>& body, Real h) {
   body.v.upload(v);
   body.held.upload(held);
   body.self_contact->invalidate_pairs();
-  return gives_way_ = pulls_ = true;
+  return yields_ = pulls_ = true;
 }
 
 // Before another stage: hands are rigid, whether the last one was accepted or not.
 template <class Real, class Device>
-void Hands<Real, Device>::regain(Body<Real, Device>& body) {
+void Pins<Real, Device>::regain(Body<Real, Device>& body) {
   if (!pulls_) return;
-  if (gives_way_) body.held.upload(rigid_);
+  if (yields_) body.held.upload(rigid_);
   const std::vector<char> held = body.held.download();
   std::vector<Real> strength = strength_.download();
   for (int i = 0; i < body.vertices; ++i)
     if (held[i]) strength[i] = 0;
   strength_.upload(strength);
-  gives_way_ = pulls_ = false;
+  yields_ = pulls_ = false;
 }
 
 // The hand stops what it holds again.  Until the next stage its pull is known, as the force on the cloth.
 template <class Real, class Device>
-void Hands<Real, Device>::hold_again(Body<Real, Device>& body) {
+void Pins<Real, Device>::hold_again(Body<Real, Device>& body) {
   const std::vector<char> held = body.held.download();
   const std::vector<Vec3<Real>> x = body.x.download(), v = body.v.download(), place = place_.download();
   const std::vector<Real> mass = body.mass.download();
@@ -280,36 +282,37 @@ void Hands<Real, Device>::hold_again(Body<Real, Device>& body) {
     behind_ = std::max(behind_, (x[i] - place[i]).norm());
   }
   body.held.upload(rigid_);
-  gives_way_ = false;
+  yields_ = false;
 }
 
 template <class Real, class Device>
-Real Hands<Real, Device>::farthest_behind(Body<Real, Device>& body) {
+Real Pins<Real, Device>::farthest_behind(Body<Real, Device>& body) {
   if (!scratch_) {
     scratch_ = std::make_unique<Scratch<Device>>(*body.device);
     lag_ = Buffer<Real, Device>(*body.device, body.vertices);
   }
-  const Grips<Real> grips = this->grips();
+  const CompliantPins<Real> compliant_pins = this->compliant_pins();
   const Vec3<Real>* x = body.x.data();
   Real* lag = lag_.data();
   for_each(
-      *body.device, "lag of hands", body.vertices, HYST_KERNEL(int i) { lag[i] = -grips.lag(i, x[i]); });
+      *body.device, "lag of hands", body.vertices,
+      HYST_KERNEL(int i) { lag[i] = -compliant_pins.lag(i, x[i]); });
   return -smallest(*body.device, *scratch_, lag, body.vertices, Real(0));
 }
 
 template <class Real, class Device>
-void Hands<Real, Device>::end_stage(Body<Real, Device>& body) {
+void Pins<Real, Device>::end_stage(Body<Real, Device>& body) {
   behind_ = 0;
-  if (!limited_ && !gives_way_) return;
+  if (!limited_ && !yields_) return;
   const Real largest = farthest_behind(body);
-  body.counts.hand_lag = std::max(body.counts.hand_lag, static_cast<double>(largest));
-  if (largest > give_) ++body.counts.slack_hands;
-  if (!gives_way_) return;
-  ++body.counts.barred_hands;
+  body.counts.pin_lag = std::max(body.counts.pin_lag, static_cast<double>(largest));
+  if (largest > yield_distance_) ++body.counts.saturated_pins;
+  if (!yields_) return;
+  ++body.counts.blocked_pins;
   hold_again(body);
 }
 
-template class Hands<double, ThisDevice>;
-template class Hands<float, ThisDevice>;
+template class Pins<double, ThisDevice>;
+template class Pins<float, ThisDevice>;
 
 }  // namespace hysteron

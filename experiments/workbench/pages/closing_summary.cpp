@@ -1,4 +1,4 @@
-#include "experiments/workbench/pages/closing_words.h"
+#include "experiments/workbench/pages/closing_summary.h"
 
 #include <fmt/core.h>
 
@@ -26,7 +26,7 @@ std::string row(const std::string& words, const std::string& value) {
 }
 
 // What a comparison's columns were asked for.
-std::string question_of(const Manifest& manifest) {
+std::string comparison_question(const Manifest& manifest) {
   const bool compares = manifest.experiment == "compare" && !manifest.scene.compared.empty();
   return compares ? manifest.scene.compared : manifest.experiment;
 }
@@ -39,9 +39,9 @@ struct Finding {
 // Headlines of the manifest's experiment and what its scene asks for, as far as they are among `metrics`.
 std::vector<Finding> findings_in(const Manifest& manifest, const Metrics& metrics) {
   std::vector<Finding> findings;
-  for (const Headline& headline : headlines_of(question_of(manifest)).all)
+  for (const Headline& headline : experiment_headlines(comparison_question(manifest)).all)
     findings.push_back({headline.words, value_words(headline, metrics)});
-  for (const std::string& name : manifest.asked_metrics)
+  for (const std::string& name : manifest.requested_metrics)
     if (metrics.contains(name))
       findings.push_back({split_unit(name).name, metric_words(metrics, name).text()});
   std::erase_if(findings, [](const Finding& finding) { return finding.value.empty(); });
@@ -52,8 +52,8 @@ std::string one_line(const Manifest& manifest, const Metrics& metrics) {
   std::string text;
   for (const auto& [words, value] : findings_in(manifest, metrics))
     text += (text.empty() ? "" : "; ") + words + " " + value;
-  const std::string unrest = not_at_rest_warning(metrics);
-  return text + (text.empty() || unrest.empty() ? "" : "; ") + unrest;
+  const std::string rest_warning = not_at_rest_warning(metrics);
+  return text + (text.empty() || rest_warning.empty() ? "" : "; ") + rest_warning;
 }
 
 }  // namespace
@@ -76,8 +76,8 @@ std::string result_words(const Manifest& manifest) {
     const std::string line = one_line(manifest, own);
     if (!line.empty()) text += row(name, line);
   }
-  const std::string unrest = not_at_rest_warning(metrics);
-  if (!unrest.empty()) text += "  " + unrest + "\n";
+  const std::string rest_warning = not_at_rest_warning(metrics);
+  if (!rest_warning.empty()) text += "  " + rest_warning + "\n";
   if (metrics["settled"].is(true)) text += "  at rest\n";
   if (!manifest.complete) text += "  INCOMPLETE: the run did not come to its end\n";
   return text;

@@ -11,8 +11,8 @@ namespace {
 using Eigen::Vector3d;
 using test::Trial;
 
-constexpr double kRounding = 1e-15;                       // of positions [m]
-constexpr double kGap = 3e-3, kWay = 6e-3, kTime = 0.05;  // of the sheets, down and in [m], [s]
+constexpr double kRounding = 1e-15;                          // of positions [m]
+constexpr double kGap = 3e-3, kTravel = 6e-3, kTime = 0.05;  // of the sheets, down and in [m], [s]
 
 bool crosses(const Trial& trial, Simulation& simulation) {
   return !intersecting_triangles(trial.cloth.mesh.face, simulation.positions()).empty();
@@ -27,9 +27,9 @@ int steps_in(const Trial& trial, double seconds) {
 Trial led_through(double most_x, Integrator integrator = Integrator::implicit) {
   Trial trial = test::two_sheets(kGap, 60);
   trial.scene.integrator = integrator;
-  Pin hand;
-  hand.motion.keys = {{0, {0, 0, 0}, 0}, {kTime, {0, 0, -kWay}, 0}, {2 * kTime, {0, 0, 0}, 0}};
-  test::hold_upper(trial, hand, most_x);
+  Pin moving_pin;
+  moving_pin.motion.keys = {{0, {0, 0, 0}, 0}, {kTime, {0, 0, -kTravel}, 0}, {2 * kTime, {0, 0, 0}, 0}};
+  test::hold_upper(trial, moving_pin, most_x);
   return trial;
 }
 
@@ -37,22 +37,22 @@ constexpr double kPart = 0.7 * test::kUpperSide, kAll = 2 * test::kUpperSide;
 
 // The lower sheet is lifted by five times the gap in one step.  The upper one presses on it with its inertia
 // alone, a hair of what the hand may pull with.
-TEST(BarredHands, PushAFreeSheetByMoreThanTheGapInOneStep) {
+TEST(BlockedPins, PushAFreeSheetByMoreThanTheGapInOneStep) {
   const double thickness = Fabric{}.thickness, gap = 1.1 * thickness, lift = 5 * gap;
   for (Integrator integrator : {Integrator::implicit, Integrator::bdf2, Integrator::tr_bdf2}) {
     Trial trial = test::two_sheets(gap, 60);
     trial.scene.integrator = integrator;
     trial.scene.pin[0].motion.keys = {{0, {0, 0, 0}, 0}, {trial.scene.step, {0, 0, lift}, 0}};
     const auto simulation = trial.after(1);
-    EXPECT_GT(simulation->counts().barred_hands, 0);
+    EXPECT_GT(simulation->counts().blocked_pins, 0);
     EXPECT_EQ(simulation->counts().retried, 0);
-    EXPECT_EQ(simulation->counts().slack_hands, 0);
+    EXPECT_EQ(simulation->counts().saturated_pins, 0);
     EXPECT_FALSE(crosses(trial, *simulation));
     // Give is in proportion to the pressure: mass per area times the lift over the square of half a step.
     const double pressure = trial.scene.fabric.density * lift / std::pow(trial.scene.step / 2, 2);
-    const double give = thickness / 2 * pressure / (10 * 4903);
-    EXPECT_GT(simulation->counts().hand_lag, 0);
-    EXPECT_LT(simulation->counts().hand_lag, 10 * give) << name_of(integrator);
+    const double yield_distance = thickness / 2 * pressure / (10 * 4903);
+    EXPECT_GT(simulation->counts().pin_lag, 0);
+    EXPECT_LT(simulation->counts().pin_lag, 10 * yield_distance) << enum_name(integrator);
     simulation->advance(1);
     const auto x = simulation->positions();
     for (int i : trial.cloth.pin_vertices[0])
@@ -61,7 +61,7 @@ TEST(BarredHands, PushAFreeSheetByMoreThanTheGapInOneStep) {
 }
 
 // Held layers are in no pair of self-contact; led through each other, they are stopped all the same.
-TEST(BarredHands, OfTwoRigidHandsLeadNothingThroughEachOtherAndReturn) {
+TEST(BlockedPins, OfTwoRigidHandsLeadNothingThroughEachOtherAndReturn) {
   for (double most_x : {kPart, kAll}) {
     const Trial trial = led_through(most_x);
     const auto simulation = trial.simulation();
@@ -69,10 +69,10 @@ TEST(BarredHands, OfTwoRigidHandsLeadNothingThroughEachOtherAndReturn) {
       simulation->advance(steps_in(trial, kTime / 2));
       EXPECT_FALSE(crosses(trial, *simulation)) << k;
     }
-    EXPECT_GT(simulation->counts().barred_hands, 0);
-    EXPECT_GT(simulation->counts().slack_hands, 0);
+    EXPECT_GT(simulation->counts().blocked_pins, 0);
+    EXPECT_GT(simulation->counts().saturated_pins, 0);
     EXPECT_EQ(simulation->counts().unbalanced, 0);
-    EXPECT_NEAR(simulation->counts().hand_lag, kWay - kGap, Fabric{}.thickness);
+    EXPECT_NEAR(simulation->counts().pin_lag, kTravel - kGap, Fabric{}.thickness);
     simulation->advance(steps_in(trial, 1.2 * kTime));
     for (const auto& vertices : trial.cloth.pin_vertices)
       for (int i : vertices)
@@ -81,7 +81,7 @@ TEST(BarredHands, OfTwoRigidHandsLeadNothingThroughEachOtherAndReturn) {
 }
 
 // What no step can reach is not written as its end.
-TEST(BarredHands, AreNotPutWhereTheyCouldNotGo) {
+TEST(BlockedPins, AreNotPutWhereTheyCouldNotGo) {
   const Trial trial = led_through(kAll);
   const auto simulation = trial.after(steps_in(trial, kTime));
   double lowest = kGap, highest = 0;
@@ -93,7 +93,7 @@ TEST(BarredHands, AreNotPutWhereTheyCouldNotGo) {
 }
 
 // Pressed by no more than ten times the pressure of the compression test, on both sheets alike.
-TEST(BarredHands, PressWithTheirPressureOnTheAreaOfWhatTheyHold) {
+TEST(BlockedPins, PressWithTheirPressureOnTheAreaOfWhatTheyHold) {
   const Trial trial = led_through(kAll);
   const auto simulation = trial.after(steps_in(trial, kTime));
   const auto force = simulation->handle_forces();
@@ -107,30 +107,30 @@ TEST(BarredHands, PressWithTheirPressureOnTheAreaOfWhatTheyHold) {
   EXPECT_NEAR(sum.z(), -10 * 4903.325 * area, kOfWeight * 10 * 4903.325 * area);
 }
 
-TEST(BarredHands, DoWorkThatTheBalanceCloses) {
+TEST(BlockedPins, DoWorkThatTheBalanceCloses) {
   for (Integrator integrator : {Integrator::implicit, Integrator::bdf2, Integrator::tr_bdf2}) {
     Trial trial = led_through(kPart, integrator);
     trial.scene.newton_residual = 1e-9;
     const auto simulation = trial.after(steps_in(trial, 2.2 * kTime));
-    EXPECT_GT(simulation->counts().barred_hands, 0);
-    EXPECT_LT(std::abs(simulation->ledger().remainder_relative), 1e-9) << name_of(integrator);
+    EXPECT_GT(simulation->counts().blocked_pins, 0);
+    EXPECT_LT(std::abs(simulation->ledger().remainder_relative), 1e-9) << enum_name(integrator);
   }
 }
 
-TEST(BarredHands, AreRigidWhereNothingIsInTheirWay) {
+TEST(BlockedPins, AreRigidWhereNothingIsInTheirWay) {
   Trial trial = led_through(kPart);
-  trial.scene.pin[1].motion.keys[1].position.z() = 3 * kWay;  // up
+  trial.scene.pin[1].motion.keys[1].position.z() = 3 * kTravel;  // up
   const auto simulation = trial.after(steps_in(trial, kTime));
-  EXPECT_EQ(simulation->counts().barred_hands, 0);
-  EXPECT_EQ(simulation->counts().hand_lag, 0);
+  EXPECT_EQ(simulation->counts().blocked_pins, 0);
+  EXPECT_EQ(simulation->counts().pin_lag, 0);
 }
 
-TEST(BarredHands, GiveWayInSemiImplicitStepsAndInSinglePrecisionToo) {
+TEST(BlockedPins, GiveWayInSemiImplicitStepsAndInSinglePrecisionToo) {
   for (const bool single : {false, true}) {
     Trial trial = led_through(kPart, single ? Integrator::implicit : Integrator::semi_implicit);
     if (single) trial.scene.precision = Precision::fp32;
     const auto simulation = trial.after(steps_in(trial, kTime));
-    EXPECT_GT(simulation->counts().barred_hands, 0);
+    EXPECT_GT(simulation->counts().blocked_pins, 0);
     EXPECT_FALSE(crosses(trial, *simulation));
   }
 }

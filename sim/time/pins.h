@@ -1,9 +1,9 @@
 // Hands: which vertices are held, and how those move.
 //
 // A rigid hand brings its vertices exactly to their place.  Where cloth bars its way, it gives way for the
-// stage: its vertices are free, and it pulls as a hand of limited strength does (grips.h), with ten times the
-// pressure of the compression test (compression.h) on the area of each.  Once all that gave way are within
-// the give of that pull again, hands are rigid again.
+// stage: its vertices are free, and it pulls as a hand of limited strength does (compliant_pins.h), with ten
+// times the pressure of the compression test (compression.h) on the area of each.  Once all that gave way are
+// within the give of that pull again, hands are rigid again.
 #pragma once
 
 #include <memory>
@@ -14,7 +14,7 @@
 #include "sim/device/archive_buffer.h"
 #include "sim/scene/cloth.h"
 #include "sim/time/back_end.h"
-#include "sim/time/grips.h"
+#include "sim/time/compliant_pins.h"
 
 namespace hysteron {
 
@@ -23,7 +23,7 @@ struct Body;
 
 // Travels with a kernel launch by value.
 template <class Real>
-struct HandPlacements {
+struct PinPlacements {
   Mat3<Real> rotation[kMaxMovingPins];
   Vec3<Real> translation[kMaxMovingPins];
   // Share of the way home that is done at the end of the step, and in it.
@@ -33,10 +33,10 @@ struct HandPlacements {
 };
 
 template <class Real, class Device>
-class Hands {
+class Pins {
  public:
   // with_arcs: for integrators that ask for the way along the hands' arcs.
-  Hands(Device& device, const Scene& scene, const Cloth& cloth, bool with_arcs);
+  Pins(Device& device, const Scene& scene, const Cloth& cloth, bool with_arcs);
 
   // Hands take hold and let go where that is due at `start`; Error::simulation where cloth is let go in an
   // obstacle. Says whether any did.  What gave way is held again.
@@ -51,17 +51,17 @@ class Hands {
   // Of a stage: along the arcs as its end sees them, duration times velocity [m]; null if no hand moves.
   const Vec3<Real>* arcs() const { return arc_.data(); }
   // Those of limited strength, and those that give way in this stage.
-  Grips<Real> grips() const { return {place_.data(), strength_.data(), give_}; }
+  CompliantPins<Real> compliant_pins() const { return {place_.data(), strength_.data(), yield_distance_}; }
   // Whether rigid hands cannot go the way of a stage that move() has begun: they are behind already, or would
   // lead what they hold through each other.  Where the cloth itself bars it, the step finds out.
-  bool are_barred(Body<Real, Device>& body, Real h);
+  bool are_blocked(Body<Real, Device>& body, Real h);
   // Rigid hands that move give way for this stage; false where none moves.
-  bool give_way(Body<Real, Device>& body, Real h);
+  bool yield_to_cloth(Body<Real, Device>& body, Real h);
   // Accepts the stage: what gave way is held again.  Notes how far vertices lag behind, and counts stages in
   // which a hand pulls with all its strength.
   void end_stage(Body<Real, Device>& body);
   // What outlives a step; where things were at t = 0 does not change.
-  void visit(Archive& archive, Body<Real, Device>& body);
+  void serialise(Archive& archive, Body<Real, Device>& body);
   double work() const { return work_; }  // done on the cloth by taking hold and letting go [J]
   std::size_t bytes() const;
 
@@ -78,16 +78,16 @@ class Hands {
   void share_strength(const Scene& scene, const std::vector<int>& pins);
   void regain(Body<Real, Device>& body);
   void hold_again(Body<Real, Device>& body);
-  HandPlacements<Real> placements(const Scene& scene, double start, double h) const;
+  PinPlacements<Real> placements(const Scene& scene, double start, double h) const;
 
   const bool with_arcs_;
-  bool moving_ = false;                     // or of limited strength
-  bool limited_ = false;                    // any is of limited strength
-  bool goes_ = false;                       // a rigid one in the stage
-  bool gives_way_ = false, pulls_ = false;  // rigid ones in this stage; in it or in the one accepted last
-  double next_ = 0;                         // when hands take hold or let go next [s]
+  bool moving_ = false;                  // or of limited strength
+  bool limited_ = false;                 // any is of limited strength
+  bool goes_ = false;                    // a rigid one in the stage
+  bool yields_ = false, pulls_ = false;  // rigid ones in this stage; in it or in the one accepted last
+  double next_ = 0;                      // when hands take hold or let go next [s]
   double work_ = 0;
-  Real give_;
+  Real yield_distance_;
   Real behind_ = 0;                   // how far what gave way lagged in the stage accepted last [m]
   std::vector<char> rigid_;           // what would be held if none gave way
   std::vector<double> times_;         // of all that
@@ -97,8 +97,8 @@ class Hands {
   Buffer<int, Device> pin_;
   Buffer<Vec3<Real>, Device> place_;  // of Grips
   Buffer<Real, Device> strength_, lag_;
-  Buffer<Vec3<Real>, Device> way_;  // of held vertices in a stage [m]; where hands might meet
-  std::unique_ptr<HandSweep<Real, Device>> sweep_;
+  Buffer<Vec3<Real>, Device> displacement_;  // of held vertices in a stage [m]; where hands might meet
+  std::unique_ptr<PinSweep<Real, Device>> sweep_;
   std::unique_ptr<Scratch<Device>> scratch_;
 };
 

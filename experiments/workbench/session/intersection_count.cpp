@@ -1,4 +1,4 @@
-#include "experiments/workbench/session/crossings.h"
+#include "experiments/workbench/session/intersection_count.h"
 
 #include <fmt/core.h>
 
@@ -6,7 +6,8 @@
 
 namespace hysteron::experiments {
 
-Crossings::Found Crossings::found_in(double time, const std::vector<Eigen::Vector3d>& x) const {
+IntersectionCount::Found IntersectionCount::found_in(double time,
+                                                     const std::vector<Eigen::Vector3d>& x) const {
   const auto found = intersecting_triangles(face_, x);
   if (found.empty()) return {};
   const auto [a, b] = found.front();
@@ -17,37 +18,37 @@ Crossings::Found Crossings::found_in(double time, const std::vector<Eigen::Vecto
                       found.size(), time, a, b, at.x(), at.y(), at.z())};
 }
 
-void Crossings::record(Session& session, const Snapshot& instant) {
+void IntersectionCount::record(Session& session, const Snapshot& instant) {
   const auto stage = session.run().stage("intersections");
   see(instant.time, instant.x);
 }
 
-void Crossings::finish(Session& session, const std::string&) {
+void IntersectionCount::finish(Session& session, const std::string&) {
   const auto stage = session.run().stage("intersections");
   session.run().metric("intersections", pairs());
 }
 
-void Crossings::see(double time, const std::vector<Eigen::Vector3d>& x) {
+void IntersectionCount::see(double time, const std::vector<Eigen::Vector3d>& x) {
   if (!behind_a_gpu_) return add(found_in(time, x));
   take();
   counting_ = std::async(std::launch::async, [this, time, x] { return found_in(time, x); });
 }
 
-void Crossings::take() {
+void IntersectionCount::take() {
   if (counting_.valid()) add(counting_.get());
 }
 
-void Crossings::add(const Found& found) {
+void IntersectionCount::add(const Found& found) {
   pairs_ += found.pairs;
   if (!found.line.empty()) tell_(found.line);
 }
 
-long Crossings::pairs() {
+long IntersectionCount::pairs() {
   take();
   return pairs_;
 }
 
-void Crossings::visit(Archive& archive) {
+void IntersectionCount::serialise(Archive& archive) {
   take();
   archive(pairs_);
 }

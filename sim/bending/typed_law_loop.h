@@ -74,10 +74,11 @@ class LawLoopOf : public LawLoop<Real, Device> {
     double *lost = dissipated_.data(), *relaxed = relaxed_.data();
     for_each_element<Law>(
         device,
-        {"bending law", op.bytes + step_bytes(op.elements) + bytes_of(history_, dissipated_, dissipated_)},
+        {"bending law", op.bytes + step_bytes(op.elements) + total_bytes(history_, dissipated_, dissipated_)},
         op.elements, HYST_KERNEL(int i) {
           const Vec<Real, D> k = op.template curvature<D>(i, angle_change);
-          const auto step = law_of(law, op.direction, i).step(k, load_history<Law>(history, i, op.elements));
+          const auto step =
+              law_in_direction(law, op.direction, i).step(k, load_history<Law>(history, i, op.elements));
           Vec<Real, D> moment = step.moment;
           if (viscous.viscosity > 0) {
             const Vec<Real, D> rate = op.template curvature<D>(i, viscous.angle_rate);
@@ -103,8 +104,8 @@ class LawLoopOf : public LawLoop<Real, Device> {
         op.elements, HYST_KERNEL(int i) {
           const Vec<Real, D> k = op.template curvature<D>(i, angle_change);
           const auto before = load_history<Law>(history, i, op.elements);
-          const auto& own = law_of(law, op.direction, i);
-          const auto tried = tried_step(own, k, before);
+          const auto& own = law_in_direction(law, op.direction, i);
+          const auto tried = step_and_potential(own, k, before);
           Vec<Real, D> moment = tried.step.moment;
           Real potential = tried.potential;
           if (trial.viscosity > 0) {
@@ -127,7 +128,7 @@ class LawLoopOf : public LawLoop<Real, Device> {
     for_each_element<Law>(
         device, {"bending tangent", op.bytes + history_.bytes() + tangents}, op.elements, HYST_KERNEL(int i) {
           const Vec<Real, D> k = op.template curvature<D>(i, angle_change);
-          const auto& own = law_of(law, op.direction, i);
+          const auto& own = law_in_direction(law, op.direction, i);
           const Tangent<Real, D> t = convex_tangent(own, k, load_history<Law>(history, i, op.elements));
           Real* row = tangent_area + i * (D * (D + 1) / 2);
           for (int a = 0; a < D; ++a)
@@ -145,7 +146,7 @@ class LawLoopOf : public LawLoop<Real, Device> {
           if (!chosen[i]) return;
           const Vec<Real, D> k = op.template curvature<D>(i, angle_change);
           const auto before = load_history<Law>(history, i, op.elements);
-          const auto& own = law_of(law, op.direction, i);
+          const auto& own = law_in_direction(law, op.direction, i);
           const auto after = kind == CommandKind::edit ? edited(own, k, before) : ironed(own, k, before);
           Real stored[2];
           for (int end = 0; end < 2; ++end)
@@ -162,7 +163,7 @@ class LawLoopOf : public LawLoop<Real, Device> {
     for_each_alone(
         device, "bending energy", op.elements, HYST_KERNEL(int i) {
           const Vec<Real, D> k = op.template curvature<D>(i, angle_change);
-          const auto& own = law_of(law, op.direction, i);
+          const auto& own = law_in_direction(law, op.direction, i);
           const auto step = called_step(own, k, load_history<Law>(history, i, op.elements));
           energy[i] = static_cast<double>(op.area[i] * step.stored);
         });
@@ -174,12 +175,12 @@ class LawLoopOf : public LawLoop<Real, Device> {
     for_each_alone(
         device, "residual curvature", op.elements, HYST_KERNEL(int i) {
           const Vec<Real, D> k =
-              law_of(law, op.direction, i).residual(load_history<Law>(history, i, op.elements));
+              law_in_direction(law, op.direction, i).residual(load_history<Law>(history, i, op.elements));
           for (int d = 0; d < D; ++d) curvature[i * D + d] = k[d];
         });
   }
 
-  void slip(Device& device, const OperatorView<Real>& op, const Real* angle_change, Real* share) override {
+  void slip(Device& device, const OperatorView<Real>& op, const Real* angle_change, Real* fraction) override {
     const Law law = law_;
     const Real* history = history_.data();
     const Real b2 = static_cast<Real>(curve_.b2), m0 = static_cast<Real>(curve_.friction_moment());
@@ -187,17 +188,17 @@ class LawLoopOf : public LawLoop<Real, Device> {
         device, "friction state", op.elements, HYST_KERNEL(int i) {
           const Vec<Real, D> k = op.template curvature<D>(i, angle_change);
           const auto memory = load_history<Law>(history, i, op.elements);
-          share[i] = share_used(law_of(law, op.direction, i), k, memory, b2, m0);
+          fraction[i] = friction_utilisation(law_in_direction(law, op.direction, i), k, memory, b2, m0);
         });
   }
 
   double largest_stiffness() const override { return static_cast<double>(law_.largest_stiffness()); }
   bool has_history() const override { return Law::kHistory > 0; }
   std::size_t history_bytes() const override { return history_.bytes(); }
-  void visit(Archive& archive, Device& device) override {
-    hysteron::visit(archive, device, history_);
-    hysteron::visit(archive, device, dissipated_);
-    if (RelaxingLaw<Law>) hysteron::visit(archive, device, relaxed_);
+  void serialise(Archive& archive, Device& device) override {
+    hysteron::serialise(archive, device, history_);
+    hysteron::serialise(archive, device, dissipated_);
+    if (RelaxingLaw<Law>) hysteron::serialise(archive, device, relaxed_);
   }
   const double* dissipated() const override { return dissipated_.data(); }
   const double* relaxed() const override { return relaxed_.data(); }
@@ -213,8 +214,8 @@ class LawLoopOf : public LawLoop<Real, Device> {
 };
 
 template <class Real, class Device, class Law>
-std::unique_ptr<LawLoop<Real, Device>> make_loop_of(Device& device, const Law& law, const VirginCurve& curve,
-                                                    int elements) {
+std::unique_ptr<LawLoop<Real, Device>> make_typed_loop(Device& device, const Law& law,
+                                                       const VirginCurve& curve, int elements) {
   return std::make_unique<LawLoopOf<Real, Device, Law>>(device, law, curve, elements);
 }
 
@@ -226,14 +227,14 @@ std::unique_ptr<LawLoop<Real, Device>> make_group_loop(Device& device, const Law
   std::unique_ptr<LawLoop<Real, Device>> loop;
   visit_group<Group, Real, D, ClothMemory>(choice, [&]<class Law>(const Law& law) {
     if constexpr (LawOfOneDirection<Law> && Device::kGpu) {  // one law to compile: nvcc takes long
-      loop = make_loop_of<Real>(device, Directed<Law>{law}, choice.curve, elements);
+      loop = make_typed_loop<Real>(device, Directed<Law>{law}, choice.curve, elements);
     } else {
       if constexpr (LawOfOneDirection<Law>)
         if (innermost(law).two_spectra) {
-          loop = make_loop_of<Real>(device, Directed<Law>{law}, choice.curve, elements);
+          loop = make_typed_loop<Real>(device, Directed<Law>{law}, choice.curve, elements);
           return;
         }
-      loop = make_loop_of<Real>(device, law, choice.curve, elements);
+      loop = make_typed_loop<Real>(device, law, choice.curve, elements);
     }
   });
   return loop;
