@@ -41,6 +41,14 @@ inline std::string file_text(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
+inline int occurrences(const std::string& text, const std::string& part) {
+  int count = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
+  return count;
+}
+
+inline std::string out_flag(const std::filesystem::path& out) { return " --out " + out.string(); }
+
 inline Setup setup_in(const std::filesystem::path& out) {
   Setup setup{default_scene(), {}};
   setup.options.out = out.string();

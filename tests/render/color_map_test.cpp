@@ -17,14 +17,14 @@ double lightness(const Rgb8& color) {
 }
 
 // An 8-bit step changes L* by up to about half a unit in the dark.
-constexpr double kRounding = 0.6;
+constexpr double kByteRounding = 0.6;
 
 TEST(ColorMap, SequentialLightnessRisesAllTheWay) {
   double before = lightness(map_color8(ColorMap::sequential, 0));
   const double first = before;
   for (int i = 1; i <= 64; ++i) {
     const double here = lightness(map_color8(ColorMap::sequential, static_cast<float>(i) / 64));
-    EXPECT_GT(here, before - kRounding);
+    EXPECT_GT(here, before - kByteRounding);
     if (i % 8 == 0) {
       EXPECT_GT(here, first + i * 0.8) << "equal steps must be seen as steps, at " << i << "/64";
     }
@@ -38,8 +38,8 @@ TEST(ColorMap, DivergingLightnessFallsFromTheMiddleToBothEndsAlike) {
     const float t = static_cast<float>(i) / 64, inner = static_cast<float>(i - 1) / 64;
     const double left = lightness(map_color8(ColorMap::diverging, 0.5f - t));
     const double right = lightness(map_color8(ColorMap::diverging, 0.5f + t));
-    EXPECT_LT(left, lightness(map_color8(ColorMap::diverging, 0.5f - inner)) + kRounding);
-    EXPECT_LT(right, lightness(map_color8(ColorMap::diverging, 0.5f + inner)) + kRounding);
+    EXPECT_LT(left, lightness(map_color8(ColorMap::diverging, 0.5f - inner)) + kByteRounding);
+    EXPECT_LT(right, lightness(map_color8(ColorMap::diverging, 0.5f + inner)) + kByteRounding);
     // Oklab's lightness and L* weigh blue and orange a little differently.
     EXPECT_NEAR(left, right, 8);
   }

@@ -16,7 +16,7 @@
 namespace hysteron::render {
 namespace {
 
-constexpr int kSide = 300;
+constexpr int kObstaclePicture = 300;
 constexpr float kMin = 0.8e-3f;  // [m]
 
 Look red_bodies() {
@@ -46,7 +46,7 @@ int red_rows(const Image& image) {
 class ObstacleTest : public testing::Test {
  protected:
   std::unique_ptr<ClothView> viewed_cloth(const test::Cloth& cloth) {
-    auto view = std::make_unique<ClothView>(*offscreen_, PictureSize{kSide, kSide});
+    auto view = std::make_unique<ClothView>(*offscreen_, PictureSize{kObstaclePicture, kObstaclePicture});
     view->set_cloth(cloth.topology());
     view->set_positions(cloth.positions);
     view->set_look(red_bodies());
@@ -97,7 +97,7 @@ TEST_F(ObstacleTest, AThinPlateIsStillSeen) {
   auto view = viewed_cloth(test::flat_square(4, 0.2f, 0.1f));
   view->add_obstacle(box_mesh({0.02f, 0.02f, kThick / 2}, 0.5e-3f), placed({0, 0, 0}, {0, 0, 1}));
   const Camera camera = Camera::perspective({0, -0.2f, 0}, {0, 0, 0}, 4);
-  const double rows = 0.3 * kThick / camera.metres_per_pixel({0, -0.02f, 0}, kSide);
+  const double rows = 0.3 * kThick / camera.metres_per_pixel({0, -0.02f, 0}, kObstaclePicture);
   EXPECT_NEAR(red_rows(view->draw(camera)), rows, 2);
 }
 
@@ -109,8 +109,8 @@ TEST_F(ObstacleTest, ABodyOnTheGroundKeepsStandingOnIt) {
     view->add_obstacle(cylinder_mesh(0.03f, 0.06f, 1e-3f), placed({0, 0, 0.03f}, {0, 0, 1}));
     view->set_ground(0.0f);
     const Image image = view->draw(camera);
-    int row = kSide - 1;
-    while (row > 0 && !is_red(image.at(kSide / 2, row))) --row;
+    int row = kObstaclePicture - 1;
+    while (row > 0 && !is_red(image.at(kObstaclePicture / 2, row))) --row;
     lowest.push_back(row);
   }
   EXPECT_NEAR(lowest[0], lowest[1], 1);
@@ -185,7 +185,7 @@ TEST_F(ObstacleTest, APlateOfEightCornersIsDarkBelowASheet) {
     view->set_bounds({{-0.15f, -0.15f, -0.01f}, {0.15f, 0.15f, 0.3f}});
     // A point 1 cm before the middle, seen below the sheet's near edge.
     const Image image = view->draw(camera);
-    light.push_back(linear_of_srgb8()[image.at(kSide / 2, kSide / 2 + 3)[0]]);
+    light.push_back(linear_of_srgb8()[image.at(kObstaclePicture / 2, kObstaclePicture / 2 + 3)[0]]);
   }
   EXPECT_LT(light[0], 0.6 * light[1]);
 }

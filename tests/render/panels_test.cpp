@@ -3,8 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 
 #include "render/image.h"
 #include "sim/base/process.h"
@@ -30,11 +28,6 @@ Panels panel_grid(int count) {
   return grid;
 }
 
-std::string file_text(const std::filesystem::path& path) {
-  std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 class PanelsTest : public testing::Test {
  protected:
   void SetUp() override {
@@ -47,7 +40,7 @@ class PanelsTest : public testing::Test {
 TEST_F(PanelsTest, EveryPanelHasItsTitleAndItsTexts) {
   write_panels(folder_.file("p"), panel_grid(5));
   EXPECT_EQ(folder_.names(), (std::vector<std::string>{"p.pdf", "p.png", "p.svg"}));
-  const std::string svg = file_text(folder_.file("p.svg"));
+  const std::string svg = test::file_text(folder_.file("p.svg"));
   for (const char* text : {"panel_0", "panel_4", "B = 1", "lower right", "Loops", "red: a line", "x [m]"})
     EXPECT_NE(svg.find(text), std::string::npos) << text;
 }
@@ -74,8 +67,8 @@ TEST_F(PanelsTest, AxesAreCommonToAllPanels) {
   cut.y.low = -1, cut.y.high = 1;
   write_panels(folder_.file("wide"), wide);
   write_panels(folder_.file("cut"), cut);
-  EXPECT_NE(file_text(folder_.file("wide.svg")).find("10"), std::string::npos);
-  EXPECT_EQ(file_text(folder_.file("cut.svg")).find("> 10<"), std::string::npos);
+  EXPECT_NE(test::file_text(folder_.file("wide.svg")).find("10"), std::string::npos);
+  EXPECT_EQ(test::file_text(folder_.file("cut.svg")).find("> 10<"), std::string::npos);
 }
 
 TEST(Panels, NothingToDrawIsRefused) {

@@ -11,8 +11,8 @@
 namespace hysteron::render {
 namespace {
 
-constexpr int kWidth = 320, kHeight = 180;
-constexpr float kAspect = static_cast<float>(kWidth) / kHeight;
+constexpr int kPictureWidth = 320, kPictureHeight = 180;
+constexpr float kPictureAspect = static_cast<float>(kPictureWidth) / kPictureHeight;
 
 // Drivers round differently along edges and in shadow borders; a change of shading, framing or geometry moves
 // thousands of pixels by tens of steps.
@@ -23,8 +23,9 @@ constexpr double kPixelsOver8TolerancePercent = 1.0;
 constexpr double kPartsMean = 1e-3;  // 8-bit steps
 constexpr double kPartsOver8Percent = 0.01;
 
-Image picture(Offscreen& offscreen, const std::string& look, const PictureSize& size = {kWidth, kHeight}) {
-  return test::draped_view(offscreen, size, look_named(look))->draw(test::draped_camera(kAspect));
+Image picture(Offscreen& offscreen, const std::string& look,
+              const PictureSize& size = {kPictureWidth, kPictureHeight}) {
+  return test::draped_view(offscreen, size, look_named(look))->draw(test::draped_camera(kPictureAspect));
 }
 
 void expect_like_golden(const std::string& name, const Image& actual) {
@@ -55,7 +56,7 @@ class GoldenPicture : public testing::TestWithParam<const char*> {};
 TEST_P(GoldenPicture, LooksAsAccepted) {
   const auto offscreen = Offscreen::create(Renderer::automatic);
   expect_like_golden(std::string("drape-") + GetParam(),
-                     picture(*offscreen, GetParam(), {kWidth, kHeight, 8, 2}));
+                     picture(*offscreen, GetParam(), {kPictureWidth, kPictureHeight, 8, 2}));
 }
 
 INSTANTIATE_TEST_SUITE_P(Looks, GoldenPicture,
@@ -98,7 +99,7 @@ TEST(Picture, EveryRendererTakesEightSamplesOfAnEdge) {
 TEST(Picture, PartsMakeTheWholePicture) {
   const auto offscreen = Offscreen::create(Renderer::automatic);
   for (const char* look : {"cloth", "curvature", "wireframe"}) {
-    PictureSize size{kWidth, kHeight};
+    PictureSize size{kPictureWidth, kPictureHeight};
     const Image whole = picture(*offscreen, look, size);
     size.tile = 100;  // 4 x 2 parts, of which some reach beyond the picture
     const Image parts = picture(*offscreen, look, size);
@@ -121,9 +122,9 @@ TEST_P(SoftwarePicture, AllPathsOfOneMesaAgreeToTheBit) {
       if (offscreen->description().find("llvmpipe") == std::string::npos) continue;
       Look look;
       look.background = background;
-      pictures.emplace_back(
-          offscreen->description(),
-          test::draped_view(*offscreen, {kWidth, kHeight}, look)->draw(test::draped_camera(kAspect)));
+      pictures.emplace_back(offscreen->description(),
+                            test::draped_view(*offscreen, {kPictureWidth, kPictureHeight}, look)
+                                ->draw(test::draped_camera(kPictureAspect)));
     } catch (const Error&) {
       continue;  // a path this machine lacks
     }

@@ -2,9 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <iterator>
-
 #include "render/image.h"
 #include "sim/base/process.h"
 #include "tests/render/test_scene.h"
@@ -23,11 +20,6 @@ PlotPage two_plots() {
   return {"Page", "what it shows", {{rising, "top left"}, {falling, "bottom left"}}, 2, 200, 150};
 }
 
-std::string file_text(const std::filesystem::path& path) {
-  std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 class PlotPageTest : public testing::Test {
  protected:
   void SetUp() override {
@@ -40,7 +32,7 @@ class PlotPageTest : public testing::Test {
 TEST_F(PlotPageTest, EveryPlotHasItsOwnAxesKeyAndMarksOnce) {
   write_plot_page(folder_.file("p"), two_plots());
   EXPECT_EQ(folder_.names(), (std::vector<std::string>{"p.pdf", "p.png", "p.svg"}));
-  const std::string svg = file_text(folder_.file("p.svg"));
+  const std::string svg = test::file_text(folder_.file("p.svg"));
   for (const char* text :
        {"Page", "what it shows", "rising", "falling", "x [m]", "t [s]", "force [N]", "y [mm]", "here"}) {
     const std::size_t at = svg.find(text);

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
-#include <iterator>
 #include <limits>
 #include <optional>
 
@@ -33,11 +32,6 @@ Plot parabola() {
   return plot;
 }
 
-std::string file_text(const std::filesystem::path& path) {
-  std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 bool has_gnuplot() { return run_process({"gnuplot", "--version"}, "").exit_code == 0; }
 
 class PlotTest : public testing::Test {
@@ -62,7 +56,7 @@ TEST_F(PlotTest, WritesPngAndSvgAndNothingElse) {
 
 TEST_F(PlotTest, LabelsAreTextNotMarkup) {
   write_plot(folder_.file("p"), parabola());
-  const std::string svg = file_text(folder_.file("p.svg"));
+  const std::string svg = test::file_text(folder_.file("p.svg"));
   EXPECT_NE(svg.find("mix_up ^this^"), std::string::npos);
   EXPECT_NE(svg.find("curvature [1/m]"), std::string::npos);
 }
@@ -72,7 +66,8 @@ TEST_F(PlotTest, LineEndsAtAGap) {
   plot.series[0].color = "#123456";
   const auto lines = [&] {
     write_plot(folder_.file("p"), plot);
-    const std::string svg = file_text(folder_.file("p.svg")), path = "<path stroke='rgb( 18,  52,  86)'  d='";
+    const std::string svg = test::file_text(folder_.file("p.svg")),
+                      path = "<path stroke='rgb( 18,  52,  86)'  d='";
     std::size_t begun = 0;
     for (std::size_t at = svg.rfind(path); at < svg.size() && svg[at] != '>'; ++at) begun += svg[at] == 'M';
     return begun;
@@ -97,7 +92,7 @@ TEST_F(PlotTest, LinesHaveTheirLabelsAtTheirEndsAndApart) {
   Plot plot = parabola();
   plot.series = {{"low", {0, 1}, {0, 0}}, {"high", {0, 1}, {0, 10}}, {"higher", {0, 1}, {0, 10.1}}};
   write_plot(folder_.file("p"), plot);
-  const std::string svg = file_text(folder_.file("p.svg"));
+  const std::string svg = test::file_text(folder_.file("p.svg"));
   const double low = text_height(svg, "low"), high = text_height(svg, "high"),
                higher = text_height(svg, "higher");
   EXPECT_GT(higher, 0);
@@ -110,7 +105,7 @@ TEST_F(PlotTest, SmallNumbersTakeThePrefixOfTheirUnit) {
   for (double& y : plot.series[0].y) y *= 1e-5;  // 1 mJ/m² at most
   plot.note = "zero throughout: linear";
   write_plot(folder_.file("p"), plot);
-  const std::string svg = file_text(folder_.file("p.svg"));
+  const std::string svg = test::file_text(folder_.file("p.svg"));
   EXPECT_NE(svg.find("energy [mJ/m²]"), std::string::npos);
   EXPECT_NE(svg.find("curvature [1/m]"), std::string::npos) << "of which there are no prefixes";
   EXPECT_NE(svg.find("zero throughout: linear"), std::string::npos);
@@ -133,7 +128,7 @@ TEST(SiPrefix, LeavesOneTo999) {
 TEST_F(PlotTest, PdfsDoNotSayWhenTheyWereWritten) {
   write_plot(folder_.file("p"), parabola());
   if (!std::filesystem::exists(folder_.file("p.pdf"))) GTEST_SKIP() << "this gnuplot writes no PDF";
-  const std::string text = file_text(folder_.file("p.pdf"));
+  const std::string text = test::file_text(folder_.file("p.pdf"));
   EXPECT_EQ(text.substr(0, 5), "%PDF-");
   const std::size_t date = text.find("/CreationDate (D:");
   if (date != std::string::npos) {
@@ -162,7 +157,7 @@ TEST_F(PlotTest, BarsHaveTheirCategoriesBelowAndTheirHeights) {
   plot.y.high = 4;
   plot.series = grouped_bars({""}, {{1, 4}}, plot.bar_width);
   write_plot(folder_.file("p"), plot);
-  const std::string svg = file_text(folder_.file("p.svg"));
+  const std::string svg = test::file_text(folder_.file("p.svg"));
   for (const std::string& name : plot.x.categories) EXPECT_NE(svg.find(name), std::string::npos) << name;
   const Image image = read_png(folder_.file("p.png"));
   std::vector<int> blue(image.width());  // pixels of the bars in each column

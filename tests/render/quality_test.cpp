@@ -12,7 +12,7 @@
 namespace hysteron::render {
 namespace {
 
-constexpr int kSide = 240;
+constexpr int kQualityPicture = 240;
 
 class QualityTest : public testing::Test {
  protected:
@@ -31,7 +31,7 @@ double covered_width(const Image& silhouette, int row) {
 TEST_F(QualityTest, TheScaleBarHoldsInThePlaneThatItNames) {
   constexpr float kLength = 0.2f;
   const test::Cloth cloth = test::flat_square(2, kLength, 0.03f);
-  ClothView view(*offscreen_, {kSide, kSide});
+  ClothView view(*offscreen_, {kQualityPicture, kQualityPicture});
   view.set_look(look_named("silhouette"));
   view.set_cloth(cloth.topology());
   view.set_positions(cloth.positions);
@@ -39,10 +39,10 @@ TEST_F(QualityTest, TheScaleBarHoldsInThePlaneThatItNames) {
   for (const Camera& camera :
        {Camera::top({{-0.15f, -0.15f, 0}, {0.15f, 0.15f, 0.1f}}, 1),
         Camera::perspective({0, 0, 0.8f}, middle, 30), Camera::perspective({0, 0, 0.4f}, middle, 60)}) {
-    const double metres = camera.metres_per_pixel(middle, kSide);
+    const double metres = camera.metres_per_pixel(middle, kQualityPicture);
     constexpr double kEdges = 0.25;  // pixels: two edges of an eighth
-    EXPECT_NEAR(covered_width(view.draw(camera), kSide / 2), kLength / metres, kEdges);
-    Image image(kSide, kSide);
+    EXPECT_NEAR(covered_width(view.draw(camera), kQualityPicture / 2), kLength / metres, kEdges);
+    Image image(kQualityPicture, kQualityPicture);
     EXPECT_NEAR(draw_scale_bar(image, metres, Corner::bottom_left), scale_bar_length(image, metres) / metres,
                 1);
   }
@@ -63,16 +63,16 @@ TEST_F(QualityTest, TheGroundBeforeAWallSeesWhatTheWallLeavesOfTheSky) {
   Look look;
   look.background = Background::white;
   look.room = 19.0f / 9;  // the key light's 1.9 - 0.9 room is 0
-  ClothView view(*offscreen_, {kSide, kSide});
+  ClothView view(*offscreen_, {kQualityPicture, kQualityPicture});
   view.set_look(look);
   view.set_ground(0.0f);
   view.add_obstacle(box_mesh({kHalf, kThick, kHeight / 2}, 0.001f), placed({0, 0, kHeight / 2}, {0, 0, 1}));
   const Camera camera = Camera::top({{-0.25f, -0.25f, 0}, {0.25f, 0.25f, kHeight}}, 1);
-  const double metres = camera.metres_per_pixel({0, 0, 0}, kSide);
+  const double metres = camera.metres_per_pixel({0, 0, 0}, kQualityPicture);
   const Image image = view.draw(camera);
   for (const double distance : {0.02, 0.04, 0.08, 0.15}) {
-    const int row = kSide / 2 + static_cast<int>(std::lround((kThick + distance) / metres));
-    const double seen = linear_of_srgb8()[image.at(kSide / 2, row)[1]];
+    const int row = kQualityPicture / 2 + static_cast<int>(std::lround((kThick + distance) / metres));
+    const double seen = linear_of_srgb8()[image.at(kQualityPicture / 2, row)[1]];
     constexpr double kDirections = 0.05;   // 24 directions stand for the hemisphere
     constexpr double kShadowDepth = 0.62;  // as in fade.glsl
     EXPECT_NEAR(seen, 1 - kShadowDepth * 2 * wall_view(kHeight, kHalf, distance), kDirections)
@@ -89,15 +89,16 @@ TEST_F(QualityTest, FoldsAreDarkInTheirDepth) {
   Look look;
   look.weave = 0;
   look.room = 19.0f / 9;
-  ClothView view(*offscreen_, {kSide, kSide});
+  ClothView view(*offscreen_, {kQualityPicture, kQualityPicture});
   view.set_look(look);
   view.set_cloth(cloth.topology());
   view.set_positions(cloth.positions);
   const Camera camera = Camera::top({{-0.06f, -0.06f, 0}, {0.06f, 0.06f, 0}}, 1);
   const Image image = view.draw(camera);
-  const auto half_pleat = static_cast<int>(0.5 * kPleat / camera.metres_per_pixel({0, 0, 0}, kSide));
-  const double ridge = linear_of_srgb8()[image.at(kSide / 2, kSide / 2)[1]];
-  const double valley = linear_of_srgb8()[image.at(kSide / 2 + half_pleat, kSide / 2)[1]];
+  const auto half_pleat =
+      static_cast<int>(0.5 * kPleat / camera.metres_per_pixel({0, 0, 0}, kQualityPicture));
+  const double ridge = linear_of_srgb8()[image.at(kQualityPicture / 2, kQualityPicture / 2)[1]];
+  const double valley = linear_of_srgb8()[image.at(kQualityPicture / 2 + half_pleat, kQualityPicture / 2)[1]];
   EXPECT_LT(valley, 0.75 * ridge);
 }
 
@@ -207,15 +208,15 @@ TEST_F(QualityTest, TransparentEdgesKeepTheClothsColour) {
   look.background = Background::transparent;
   test::Cloth cloth = test::flat_square(2, 0.2f, 0.0f);
   for (size_t i = 0; i < cloth.positions.size(); i += 3) cloth.positions[i + 1] -= 0.1f * cloth.positions[i];
-  ClothView view(*offscreen_, {kSide, kSide});
+  ClothView view(*offscreen_, {kQualityPicture, kQualityPicture});
   view.set_look(look);
   view.set_cloth(cloth.topology());
   view.set_positions(cloth.positions);
   const Image image = view.draw(Camera::top({{-0.12f, -0.12f, 0}, {0.12f, 0.12f, 0}}, 1));
-  const std::uint8_t* cloth_color = image.at(kSide / 2, kSide / 2);
+  const std::uint8_t* cloth_color = image.at(kQualityPicture / 2, kQualityPicture / 2);
   int partly = 0;
-  for (int y = 0; y < kSide; ++y)
-    for (int x = 0; x < kSide; ++x) {
+  for (int y = 0; y < kQualityPicture; ++y)
+    for (int x = 0; x < kQualityPicture; ++x) {
       const std::uint8_t* p = image.at(x, y);
       if (p[3] < 30 || p[3] == 255) continue;
       ++partly;

@@ -9,7 +9,7 @@
 namespace hysteron::render {
 namespace {
 
-constexpr PictureSize kSquarePicture{200, 200};
+constexpr PictureSize kSharedPicture{200, 200};
 
 // Writes through OpenGL; notes whether its buffer still existed when it was closed.
 class HostPositions : public GlPositions {
@@ -41,7 +41,7 @@ class HostPositions : public GlPositions {
 class SharedPositions : public testing::Test {
  protected:
   std::unique_ptr<ClothView> new_view() {
-    auto view = std::make_unique<ClothView>(*offscreen_, kSquarePicture);
+    auto view = std::make_unique<ClothView>(*offscreen_, kSharedPicture);
     view->set_cloth(cloth_.topology());
     view->set_bounds({{-0.1f, -0.1f, -0.1f}, {0.1f, 0.1f, 0.1f}});
     return view;

@@ -44,6 +44,8 @@ class ScratchFolder {
   std::filesystem::path path_;
 };
 
+std::string file_text(const std::filesystem::path& file);
+
 // The hysteron::Error that `action` throws; a test failure and a run error "nothing was thrown" otherwise.
 Error thrown_error(const std::function<void()>& action);
 

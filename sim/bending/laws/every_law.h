@@ -32,10 +32,18 @@ struct FrictionLaws : LawList<BilinearLaw, WongLaw, PrandtlLaw, DahlLaw> {};
 struct PlasticLaws : LawList<TerzopoulosLaw, ObrienLaw, KimLaw, NarainLaw, GongLaw> {};
 // Laws whose friction can weaken.
 struct FatigueLaws : LawList<BilinearLaw, WongLaw, PrandtlLaw> {};
-// Laws that take what a fabric has beyond b1, b2 and k0, with few or with many stops.
-struct PartsLaws : LawList<PrandtlLaw, ChapmanLaw> {};
-struct ManyLaws : LawList<PrandtlLaw, ChapmanLaw> {};
+// Laws that take what a fabric has beyond b1, b2 and k0, with room for few or for many stops.
+struct PartsLaws : LawList<PrandtlLaw, ChapmanLaw> {
+  static constexpr int kStops = kFewStops;
+};
+struct ManyLaws : LawList<PrandtlLaw> {
+  static constexpr int kStops = kMaxStops;
+};
+struct ManyRelaxingLaws : LawList<ChapmanLaw> {
+  static constexpr int kStops = kMaxStops;
+};
 
-using LawGroups = LawList<MemorylessLaws, FrictionLaws, FatigueLaws, PartsLaws, ManyLaws, PlasticLaws>;
+using LawGroups =
+    LawList<MemorylessLaws, FrictionLaws, FatigueLaws, PartsLaws, ManyLaws, ManyRelaxingLaws, PlasticLaws>;
 
 }  // namespace hysteron

@@ -24,7 +24,7 @@
 //     // Of a law that can weaken, where the fabric's parts decide on its friction: calls visit(law).
 //     template <class Real, int D, class Memory, class Visit>
 //     static void visit_friction(const LawChoice&, const Visit& visit);
-//     // Of a law of PartsLaws and ManyLaws: whether what the fabric has beyond three numbers makes it
+//     // Of a law of a group with kStops: whether what the fabric has beyond three numbers makes it
 //     // another type of law, and that type, with room for N stops.
 //     static bool takes_parts(const LawChoice&);
 //     template <class Real, int D, int N, class Visit>

@@ -106,16 +106,13 @@ bool visit_fatigued_laws(LawList<Laws...>, const LawChoice& c, const Visit& visi
   return ((c.name == Laws::kName && (visit_fatigued<Laws, Real, D, Memory>(c, visit), true)) || ...);
 }
 
-// A group of every_law.h; the laws of FatigueLaws weaken, those of PartsLaws and ManyLaws take a fabric's
-// parts.
+// A group of every_law.h; the laws of FatigueLaws weaken, those of groups with kStops take a fabric's parts.
 template <class Group, class Real, int D, class Memory, class Visit>
 bool visit_group(const LawChoice& c, const Visit& visit) {
   if constexpr (std::is_same_v<Group, FatigueLaws>)
     return visit_fatigued_laws<Real, D, typename Memory::Fatigued>(Group{}, c, visit);
-  else if constexpr (std::is_same_v<Group, PartsLaws>)
-    return visit_laws_with_parts<Real, D, kFewStops>(Group{}, c, visit);
-  else if constexpr (std::is_same_v<Group, ManyLaws>)
-    return visit_laws_with_parts<Real, D, kMaxStops>(Group{}, c, visit);
+  else if constexpr (requires { Group::kStops; })
+    return visit_laws_with_parts<Real, D, Group::kStops>(Group{}, c, visit);
   else
     return visit_laws<Real, D, Memory>(Group{}, c, visit);
 }

@@ -12,7 +12,7 @@ namespace hysteron::experiments {
 namespace {
 namespace fs = std::filesystem;
 
-const char* const kSmall = " --triangles 60 --seconds 0.1 --fps 30 --device cpu --size 160x120 --quiet";
+const char* const kSmallSwing = " --triangles 60 --seconds 0.1 --fps 30 --device cpu --size 160x120 --quiet";
 
 double last_difference(const fs::path& column) {  // [1/m]
   const auto manifest = nlohmann::json::parse(file_text(column / "manifest.json"));
@@ -24,7 +24,7 @@ TEST(Compare, SubtractsTheCurvatureOfAColumn) {
   const fs::path out = folder.path() / "out";
   ASSERT_EQ(program("compare swing --fabrics cotton-broad,feng2022-median --law prandtl --compare.to "
                     "cotton-broad --compare.difference curvature --compare.rows 2 --out " +
-                    out.string() + kSmall)
+                    out.string() + kSmallSwing)
                 .exit_code,
             0);
   EXPECT_TRUE(fs::exists(out / "cotton-broad/mesh/0003.ply"));
@@ -40,7 +40,7 @@ TEST(Compare, SubtractsTheCurvatureOfAColumn) {
 TEST(Difference, OfARunToItselfIsNone) {
   const Folder folder;
   const auto run = [&](const std::string& name, const std::string& more) {
-    return program("swing --out " + (folder.path() / name).string() + kSmall + " " + more);
+    return program("swing --out " + (folder.path() / name).string() + kSmallSwing + " " + more);
   };
   const std::string less = " --look difference --reference " + (folder.path() / "first").string();
   ASSERT_EQ(run("first", "--law linear --export ply").exit_code, 0);

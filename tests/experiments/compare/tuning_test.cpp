@@ -62,7 +62,7 @@ TEST(Tuning, RefusesABracketWithoutARoot) {
   }
 }
 
-const char* const kSmall =
+const char* const kSmallStrip =
     " --triangles 16 --seconds 0.1 --fps 30 --device cpu --no-images --quiet --compare.match fabric";
 
 // Both columns are the same strip but for its viscosity, so that the number found is the second column's.
@@ -72,7 +72,7 @@ TEST(Compare, TunesItsFirstColumnToItsSecond) {
   const Outcome outcome = program(
       "compare swing --laws linear,linear+fabric.damping=2e-3 --compare.tune fabric.damping=1e-3:4e-3 "
       "--compare.tune-metric viscous_J --out " +
-      out.string() + kSmall);
+      out.string() + kSmallStrip);
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const std::string line = outcome.out.substr(0, outcome.out.find('\n'));
   ASSERT_EQ(line.find("fabric.damping="), 0u) << outcome.out;
@@ -88,7 +88,7 @@ TEST(Compare, RefusesToTuneWhatItCannot) {
   const Folder folder;
   const auto refusal = [&](const std::string& options) {
     const Outcome outcome =
-        program("compare swing " + options + " --out " + (folder.path() / "out").string() + kSmall);
+        program("compare swing " + options + " --out " + (folder.path() / "out").string() + kSmallStrip);
     EXPECT_EQ(outcome.exit_code, 2) << options;
     return outcome.err;
   };

@@ -44,11 +44,11 @@ Outline sampled(const Radius& radius) {
 
 // The rim of a draped cloth through `corners` points of the shape, at heights that must not matter, and
 // spokes from its middle to them.
-struct Specimen {
+struct RoundSpecimen {
   ClothMesh mesh;
   std::vector<Eigen::Vector3d> x = {{0.01, -0.02, 0}};
 
-  Specimen(const Radius& radius, int corners) {
+  RoundSpecimen(const Radius& radius, int corners) {
     for (int k = 0; k < corners; ++k) {
       const double angle = 2 * pi * (k + 0.37) / corners, r = radius(angle);
       x.push_back({r * std::cos(angle), r * std::sin(angle), 0.05 * std::sin(7 * k)});
@@ -85,8 +85,8 @@ TEST(DrapeOutline, OfACornerToCornerRimHasTheShapesAreaToSecondOrder) {
                       {"ellipse", ellipse(0.14, 0.1), pi * 0.14 * 0.1},
                       {"star", star(0.12, 0.015, 5), star_area(0.12, 0.015)}};
   for (const auto& shape : shapes) {
-    const double coarse = Specimen(shape.radius, 100).outline().area() / shape.area - 1,
-                 fine = Specimen(shape.radius, 400).outline().area() / shape.area - 1;
+    const double coarse = RoundSpecimen(shape.radius, 100).outline().area() / shape.area - 1,
+                 fine = RoundSpecimen(shape.radius, 400).outline().area() / shape.area - 1;
     EXPECT_GT(std::abs(coarse), 1e-5) << shape.name;
     EXPECT_LT(std::abs(coarse), 1e-2) << shape.name;
     EXPECT_GT(std::log(std::abs(coarse / fine)) / std::log(4), 1.9) << shape.name;
@@ -94,7 +94,7 @@ TEST(DrapeOutline, OfACornerToCornerRimHasTheShapesAreaToSecondOrder) {
 }
 
 TEST(DrapeOutline, IsTheOutermostCrossingWhateverLiesWithin) {
-  Specimen folded(circle(0.12), 400);
+  RoundSpecimen folded(circle(0.12), 400);
   const double alone = folded.outline().area();
   const int first = static_cast<int>(folded.x.size());  // a second rim below the first
   for (int k = 0; k < 400; ++k) folded.x.push_back(0.8 * folded.x[k + 1]);
@@ -107,7 +107,7 @@ TEST(DrapeNodes, AreTheLobesOfAStarAndTheLongEndsOfAnEllipse) {
   EXPECT_EQ(sampled(ellipse(0.14, 0.1)).nodes(kProminence), 2);
   for (int folds = 2; folds <= 12; ++folds) {
     EXPECT_EQ(sampled(star(0.12, 0.015, folds)).nodes(kProminence), folds);
-    EXPECT_EQ(Specimen(star(0.12, 0.015, folds), 720).outline().nodes(kProminence), folds);
+    EXPECT_EQ(RoundSpecimen(star(0.12, 0.015, folds), 720).outline().nodes(kProminence), folds);
   }
 }
 

@@ -14,11 +14,11 @@ namespace {
 using Eigen::Vector3d;
 using Positions = std::vector<Vector3d>;
 
-constexpr MeshFamily kFamilies[] = {MeshFamily::aligned, MeshFamily::unionjack, MeshFamily::equilateral,
-                                    MeshFamily::random};
+constexpr MeshFamily kForceFamilies[] = {MeshFamily::aligned, MeshFamily::unionjack, MeshFamily::equilateral,
+                                         MeshFamily::random};
 // Sums of some hundred forces, each rounded.
-constexpr double kRounding = 1e-12;
-constexpr double kOrderSlack = 0.1;
+constexpr double kForceRounding = 1e-12;
+constexpr double kForceOrderSlack = 0.1;
 
 // Bending of virgin cloth bent to `position` in one step.
 struct Bent {
@@ -87,7 +87,7 @@ struct Case {
 };
 std::vector<Case> cases() {
   std::vector<Case> all;
-  for (MeshFamily family : kFamilies)
+  for (MeshFamily family : kForceFamilies)
     for (const char* element : {"hinge", "shape"})
       for (const char* law : {"linear", "pabst", "prandtl", "wong"}) all.push_back({family, element, law});
   return all;
@@ -103,8 +103,8 @@ TEST_P(CrumpledCloth, KeepsMomentumAndAngularMomentum) {
   const Positions x = crumpled(mesh, 8);
   const Positions f = Bent(mesh, GetParam().element, GetParam().law, x).forces(mesh);
   ASSERT_GT(size(f), 0.01);  // [N]
-  EXPECT_LT(total(f).norm(), kRounding * size(f));
-  EXPECT_LT(torque(x, f).norm(), kRounding * size(f) * 0.1);  // levers are as long as the cloth, 0.1 m
+  EXPECT_LT(total(f).norm(), kForceRounding * size(f));
+  EXPECT_LT(torque(x, f).norm(), kForceRounding * size(f) * 0.1);  // levers are as long as the cloth, 0.1 m
 }
 
 TEST_P(CrumpledCloth, PullsWithMinusTheGradientOfItsIncrementalPotential) {
@@ -135,7 +135,7 @@ TEST_P(CrumpledCloth, PullsWithMinusTheGradientOfItsIncrementalPotential) {
   };
   if (law == "linear") {
     constexpr double kStep = 4e-6;  // [m], a two-thousandth of an edge
-    EXPECT_NEAR(std::log2(error(kStep) / error(kStep / 2)), 2, kOrderSlack);
+    EXPECT_NEAR(std::log2(error(kStep) / error(kStep / 2)), 2, kForceOrderSlack);
   } else {  // kinks at stops' limits lower the order
     constexpr double kNear = 1e-6, kClose = 1e-4;
     EXPECT_LT(error(kNear), kClose * std::abs(exact));
@@ -153,7 +153,7 @@ TEST_P(CrumpledCloth, FeelsTheSameForcesAfterARigidMotion) {
                   g = Bent(mesh, element, law, moved).forces(mesh);
   constexpr double kLever = 1e3;  // rounding of positions of 0.5 m against edges of some mm
   for (std::size_t i = 0; i < f.size(); ++i)
-    EXPECT_LT((turn * f[i] - g[i]).norm(), kLever * kRounding * size(f) / static_cast<double>(f.size()));
+    EXPECT_LT((turn * f[i] - g[i]).norm(), kLever * kForceRounding * size(f) / static_cast<double>(f.size()));
 }
 
 // The chapter's printed force on one hinge.
@@ -189,14 +189,14 @@ TEST(ChapterForce, OnTheWingsIsTheEnergyConsistentOneOverTwiceTheEdge) {
                   printed = hinge.forces(ForceConvention::chapter);
   for (int i = 0; i < 2; ++i) {
     ASSERT_GT(ours[i].norm(), 0);
-    EXPECT_LT((printed[i] - ours[i] / (2 * hinge.edge())).norm(), kRounding * printed[i].norm()) << i;
+    EXPECT_LT((printed[i] - ours[i] / (2 * hinge.edge())).norm(), kForceRounding * printed[i].norm()) << i;
   }
-  EXPECT_LT(total(printed).norm(), kRounding * size(printed));
+  EXPECT_LT(total(printed).norm(), kForceRounding * size(printed));
 }
 
 TEST(ChapterForce, KeepsAngularMomentumOnASymmetricHinge) {
   for (const double theta : {-2.0, 0.5, 2.5})
-    EXPECT_LT(OneHinge(0.5, 0.5, 0.8, 0.8, theta).torque_defect(), kRounding);
+    EXPECT_LT(OneHinge(0.5, 0.5, 0.8, 0.8, theta).torque_defect(), kForceRounding);
 }
 
 // Its forces on the edge share one t between both wings: the finding that made the energy-consistent force
@@ -208,7 +208,7 @@ TEST(ChapterForce, BreaksAngularMomentumOnASkewHinge) {
     for (const double t1 : {0.3, 0.5, 0.7, 0.9})
       for (const double ratio : {0.5, 1.0, 2.0}) {
         const OneHinge hinge(t0, t1, 0.6, 0.6 * ratio, 0.8);
-        EXPECT_LT(torque(hinge.bent, hinge.forces(ForceConvention::energy)).norm(), kRounding);
+        EXPECT_LT(torque(hinge.bent, hinge.forces(ForceConvention::energy)).norm(), kForceRounding);
         worst = std::max(worst, hinge.torque_defect());
       }
   RecordProperty("worst_torque_defect", std::to_string(worst));
@@ -227,13 +227,13 @@ TEST(ImplicitBending, FollowsAHingeBeyondHalfATurnInOneStep) {
   };
   const double of_half = energy_at(0.5) / (0.5 * 0.5);
   for (const double halves : {0.9, 1.2, 1.9, 2.4}) {
-    EXPECT_NEAR(energy_at(halves), of_half * halves * halves, kRounding * of_half) << halves;
+    EXPECT_NEAR(energy_at(halves), of_half * halves * halves, kForceRounding * of_half) << halves;
     bent.bending.linearise();
   }
-  EXPECT_NEAR(energy_at(1.6), of_half * 1.6 * 1.6, kRounding * of_half) << "a trial on the way back";
+  EXPECT_NEAR(energy_at(1.6), of_half * 1.6 * 1.6, kForceRounding * of_half) << "a trial on the way back";
   bent.bending.accept();
   bent.bending.begin_step(StepFormula::statics(1));
-  EXPECT_NEAR(energy_at(1.5), of_half * 1.5 * 1.5, kRounding * of_half) << "the next step";
+  EXPECT_NEAR(energy_at(1.5), of_half * 1.5 * 1.5, kForceRounding * of_half) << "the next step";
 }
 
 // From the step's start alone 1.2 half turns one way are 0.8 the other way.
@@ -245,7 +245,7 @@ TEST(ImplicitBending, TakesTheShorterWayToWhereAStepBegins) {
     bent.bending.evaluate(OneHinge(0.5, 0.5, 0.8, 0.8, halves * M_PI).bent.data());
     return bent.bending.energies()[0];
   };
-  EXPECT_NEAR(energy_at(1.2), energy_at(-0.8), kRounding * energy_at(-0.8));
+  EXPECT_NEAR(energy_at(1.2), energy_at(-0.8), kForceRounding * energy_at(-0.8));
 }
 
 // Of a fabric with these stops on the bias, behind the metric Q = (1, 0.6, 0.6): stiffnesses
@@ -309,14 +309,15 @@ TEST(HingesOfAFabric, FollowTheClosedLoopsOfTheStopsAcrossTheirEdges) {
       area = 0;
       for (int e = 0; e < mesh.interior_edges; ++e) {
         const Vector3d along = mesh.rest[mesh.edge[e].p3] - mesh.rest[mesh.edge[e].p2];
-        const bool across = std::abs(along.x()) < kRounding;
+        const bool across = std::abs(along.x()) < kForceRounding;
         area += across ? op.area[e] : 0;
         const double side = std::copysign(1, curvature[e] * turn);
-        EXPECT_NEAR(found[e] * side, across ? moment : 0, kRounding * fabric.b1 * kFar) << angle << " " << e;
+        EXPECT_NEAR(found[e] * side, across ? moment : 0, kForceRounding * fabric.b1 * kFar)
+            << angle << " " << e;
       }
     }
     const double lost = area * stops.loop_area(kFar);
-    EXPECT_NEAR(bending.dissipated_energy() - before, lost, kRounding * lost) << angle;
+    EXPECT_NEAR(bending.dissipated_energy() - before, lost, kForceRounding * lost) << angle;
   }
 }
 

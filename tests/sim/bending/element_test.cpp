@@ -104,8 +104,8 @@ double reproduction_error(const ClothMesh& mesh) {
   return worst;
 }
 
-class Family : public testing::TestWithParam<MeshFamily> {};
-INSTANTIATE_TEST_SUITE_P(Meshes, Family, testing::ValuesIn(kFamilies), [](const auto& family) {
+class Family : public ::testing::TestWithParam<MeshFamily> {};
+INSTANTIATE_TEST_SUITE_P(Meshes, Family, ::testing::ValuesIn(kFamilies), [](const auto& family) {
   std::string name = to_string(family.param);
   std::erase(name, '-');
   return name;

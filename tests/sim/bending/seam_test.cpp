@@ -11,8 +11,8 @@ using Eigen::MatrixXd;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kRadius = 0.05;     // [m]
-constexpr double kRounding = 1e-10;  // relative; the fit of H amplifies it
+constexpr double kSeamRadius = 0.05;     // [m]
+constexpr double kSeamRounding = 1e-10;  // relative; the fit of H amplifies it
 
 ClothMesh sheet() { return make_rectangle(0.2, 0.1, 160, MeshFamily::random, 1); }
 
@@ -31,7 +31,8 @@ ClothMesh cut_and_sewn(double angle) {
     mesh.panel.push_back(at);
   }
   for (Vector3d& x : mesh.rest)
-    x = {kRadius * std::sin(x.x() / kRadius), x.y(), kRadius * (1 - std::cos(x.x() / kRadius))};
+    x = {kSeamRadius * std::sin(x.x() / kSeamRadius), x.y(),
+         kSeamRadius * (1 - std::cos(x.x() / kSeamRadius))};
   mesh.sewn = true;
   build_topology(mesh, "sewn sheet");
   return mesh;
@@ -62,7 +63,7 @@ TEST(Seams, BendAsTheClothDoesWithinAPanel) {
       ASSERT_EQ(sewn.face, whole.face);
       const MatrixXd a = sizes(make_curvature_operator(element, whole, held), whole.interior_edges),
                      b = sizes(make_curvature_operator(element, sewn, held), whole.interior_edges);
-      EXPECT_LT((a - b).norm(), kRounding * a.norm());
+      EXPECT_LT((a - b).norm(), kSeamRounding * a.norm());
     }
 }
 
@@ -73,7 +74,7 @@ TEST(Seams, LeaveTheHighestFrequencyOfBendingAsItIs) {
     const CurvatureOperator op = make_shape_operator(mesh, held);
     return bending_spectral_radius(mesh, op, 1e-5, mesh.vertex_area, held);
   };
-  EXPECT_NEAR(radius(sewn) / radius(whole), 1, kRounding);
+  EXPECT_NEAR(radius(sewn) / radius(whole), 1, kSeamRounding);
 }
 
 // Pieces of a seam whose sides differ in length meet in their middles, whichever side comes first.

@@ -18,7 +18,7 @@ using test::Trial;
 
 constexpr double kSide = 0.1;     // of the cloth [m]
 constexpr double kClosed = 1e-9;  // of the energy balance
-constexpr double kGravity = 9.81;
+constexpr double kFaceGravity = 9.81;
 constexpr int kDivisions = 20;  // of a triangle's edges: 231 points
 
 using Triangle = Vector3d[3];
@@ -315,7 +315,7 @@ double slid_on_wall(double slope, double friction) {
   scene.cloth.length = 0.04;
   scene.cloth.position = {-0.02, -0.02, scene.fabric.thickness};
   scene.fabric.b1 = scene.fabric.b2 = 1e-2;  // does not bend
-  scene.gravity = {0, kGravity * std::sin(slope), -kGravity * std::cos(slope)};
+  scene.gravity = {0, kFaceGravity * std::sin(slope), -kFaceGravity * std::cos(slope)};
   scene.obstacle = {box({2e-3, 0.2, 0.01}, {0, 0, -0.01})};
   scene.obstacle[0].friction = friction;
   const Trial trial(scene);
@@ -331,7 +331,7 @@ TEST(FaceContact, HoldsBelowTheFrictionAngleAndSlidesByCoulombsLawAboveIt) {
   constexpr double kHeld = 1e-5;                              // [m]: the stops' elastic slip is 5e-6 m
   constexpr double kLanding = 0.05;                           // the first steps build contact and stops up
   EXPECT_LT(std::abs(slid_on_wall(0.25, kFriction)), kHeld);  // tan 0.25 = 0.255
-  const double slope = 0.5, displacement = kGravity * (std::sin(slope) - kFriction * std::cos(slope)) *
+  const double slope = 0.5, displacement = kFaceGravity * (std::sin(slope) - kFriction * std::cos(slope)) *
                                            kSeconds * kSeconds / 2;
   EXPECT_NEAR(slid_on_wall(slope, kFriction) / displacement, 1, kLanding);
 }

@@ -13,7 +13,7 @@ namespace {
 using Eigen::Vector3d;
 using test::Trial;
 
-constexpr double kGravity = 9.81, kFriction = 0.3;
+constexpr double kSlopeGravity = 9.81, kFriction = 0.3;
 constexpr double kBelow = 0.99, kAbove = 1.01;  // tan(slope)/mu
 
 double ramp_angle(double ratio) { return std::atan(ratio * kFriction); }
@@ -35,7 +35,7 @@ double average_speed(Simulation& simulation, const std::vector<int>& vertices) {
 
 // Gravity is tilted instead of the ground: down the slope is x.
 void tilt(Scene& scene, double slope) {
-  scene.gravity = kGravity * Vector3d(std::sin(slope), 0, -std::cos(slope));
+  scene.gravity = kSlopeGravity * Vector3d(std::sin(slope), 0, -std::cos(slope));
   scene.fabric.friction = kFriction;
 }
 
@@ -75,7 +75,7 @@ Slide slide(const Trial& trial, double seconds) {
           (average_speed(*simulation, vertices) - speed) / (half * trial.scene.step)};
 }
 
-double coulomb(double slope) { return kGravity * (std::sin(slope) - kFriction * std::cos(slope)); }
+double coulomb(double slope) { return kSlopeGravity * (std::sin(slope) - kFriction * std::cos(slope)); }
 
 constexpr double kHeld = 1e-10;  // [m] in half a second: what rounding and Newton's tolerance leave
 

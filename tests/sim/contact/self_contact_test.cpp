@@ -22,7 +22,7 @@ using test::Trial;
 using test::two_sheets;
 using test::upper_vertices;
 
-constexpr double kSide = test::kUpperSide;
+constexpr double kLayerSide = test::kUpperSide;
 
 // Forces on the upper sheet as the barrier's energy and friction's have them.
 Vector3d force_on_upper(SelfContact<double, Cpu>& contact, const Trial& trial, const std::vector<Vector3d>& x,
@@ -47,7 +47,7 @@ TEST(SelfContact, OfFlatLayersHasTheBarriersPressureOnAnyMesh) {
       for (int place = 0; place < places; ++place) {
         Trial trial = two_sheets(fraction * thickness, triangles);
         const Eigen::Rotation2Dd turn(0.7 * place);
-        const Eigen::Vector2d middle(0.7 * kSide, 0.7 * kSide);
+        const Eigen::Vector2d middle(0.7 * kLayerSide, 0.7 * kLayerSide);
         for (int i : upper_vertices(trial)) {
           auto&& x = trial.cloth.start[i].head<2>();
           x = middle + turn * (Eigen::Vector2d(x) - middle);
@@ -62,7 +62,7 @@ TEST(SelfContact, OfFlatLayersHasTheBarriersPressureOnAnyMesh) {
         force += force_on_upper(contact, trial, x, x).z() / places;
       }
       // At a fifth of the thickness it is 4.9 kPa.
-      const double expected = 4903.3 * pressure(2 * fraction - 1) / pressure(0.6) * kSide * kSide;
+      const double expected = 4903.3 * pressure(2 * fraction - 1) / pressure(0.6) * kLayerSide * kLayerSide;
       EXPECT_NEAR(force / expected, 1, 0.1) << triangles << " triangles, " << fraction << " of the thickness";
     }
 }

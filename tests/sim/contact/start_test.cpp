@@ -21,7 +21,7 @@ Failure start_failure(const Trial& trial) {
   return caught_failure([&] { trial.simulation(); });
 }
 
-void expect_naming(const Failure& failure, const std::vector<std::string>& parts) {
+void expect_saying(const Failure& failure, const std::vector<std::string>& parts) {
   EXPECT_EQ(failure.message.find('\n'), std::string::npos) << failure.message;
   for (const std::string& part : parts)
     EXPECT_NE(failure.message.find(part), std::string::npos) << failure.message << "\n  lacks " << part;
@@ -35,7 +35,7 @@ TEST(Start, OfClothThickerThanItIsLongIsRefused) {
     scene.fabric.thickness = thickness;
     const Failure failure = start_failure(Trial(scene));
     EXPECT_EQ(failure.exit_code, 2);
-    expect_naming(failure, {"fabric.thickness = ", " mm (default) must be < 282.8 mm, the cloth's diagonal"});
+    expect_saying(failure, {"fabric.thickness = ", " mm (default) must be < 282.8 mm, the cloth's diagonal"});
   }
   scene.fabric.thickness = 0.99 * diagonal;
   EXPECT_EQ(start_failure(Trial(scene)).message, "");
@@ -48,7 +48,7 @@ TEST(Start, ThatPassesThroughItselfIsRefusedWithTheTriangles) {
   const auto pairs = intersecting_triangles(trial.cloth.mesh.face, trial.cloth.start);
   const Failure failure = start_failure(trial);
   EXPECT_EQ(failure.exit_code, 2);
-  expect_naming(failure, {"self-contact: the cloth passes through itself at the start: triangles " +
+  expect_saying(failure, {"self-contact: the cloth passes through itself at the start: triangles " +
                               std::to_string(pairs[0].first) + " and " + std::to_string(pairs[0].second),
                           "(" + std::to_string(pairs.size()) + " pairs in all)"});
   trial.scene.self_contact = false;  // then nothing keeps it apart later either
@@ -74,7 +74,7 @@ TEST(Start, WithLayersNearerThanAnyStepMayBringThemIsRefusedWithTheirDistance) {
   EXPECT_EQ(start_failure(test::two_sheets((1 + kJust) * least, 60)).exit_code, 0);
   const Failure failure = start_failure(test::two_sheets(0.8 * least, 60));
   EXPECT_EQ(failure.exit_code, 2);
-  expect_naming(failure, {"self-contact: the cloth starts too near to itself",
+  expect_saying(failure, {"self-contact: the cloth starts too near to itself",
                           "are " + millimetres(0.8 * least) + " apart", "more than " + millimetres(least),
                           "fabric.thickness = 0.497 mm"});
   EXPECT_EQ(caught_failure([&] { test::two_sheets((1 + kJust) * least, 60).after(2); }).exit_code, 0);
@@ -136,14 +136,14 @@ TEST(Start, OfAThicknessBeyondTheMeshStillKeepsLayersApart) {
   for (int i : test::upper_vertices(trial)) EXPECT_GT(simulation->positions()[i].z(), 0);
 }
 
-struct Solid {
+struct RestingSolid {
   ObstacleKind kind;
   Vector3d center;
   double depth;  // of the cloth's deepest vertex below its surface [m]
 };
 
 // A flat sheet of 0.2 m whose middle vertex is the one at (0.1, 0.1, 0).
-Trial sheet_with(const Solid& solid) {
+Trial sheet_with(const RestingSolid& solid) {
   Scene scene = test::free_square(200);
   scene.mesh = "aligned";
   Obstacle o;
@@ -159,11 +159,11 @@ Trial sheet_with(const Solid& solid) {
 }
 
 TEST(Start, InsideAnObstacleIsRefusedWithObstacleVertexPlaceAndDepth) {
-  for (const Solid& solid : {Solid{ObstacleKind::sphere, {0.1, 0.1, -0.03}, 0.02},
-                             Solid{ObstacleKind::box, {0.1, 0.1, -0.04}, 0.01},
-                             Solid{ObstacleKind::cylinder, {0.1, 0.1, -0.04}, 0.01},
-                             Solid{ObstacleKind::ground, {0, 0, 0.004}, 0.004},
-                             Solid{ObstacleKind::capsule, {0.1, 0.1, -0.09}, 0.01}}) {
+  for (const RestingSolid& solid : {RestingSolid{ObstacleKind::sphere, {0.1, 0.1, -0.03}, 0.02},
+                                    RestingSolid{ObstacleKind::box, {0.1, 0.1, -0.04}, 0.01},
+                                    RestingSolid{ObstacleKind::cylinder, {0.1, 0.1, -0.04}, 0.01},
+                                    RestingSolid{ObstacleKind::ground, {0, 0, 0.004}, 0.004},
+                                    RestingSolid{ObstacleKind::capsule, {0.1, 0.1, -0.09}, 0.01}}) {
     const Trial trial = sheet_with(solid);
     const auto set = obstacles_during<double>(trial.scene.obstacle, 0.3, 0, 0);
     const Immersion found = deepest(set, trial.cloth.start, std::vector<char>(trial.cloth.start.size()));
@@ -172,7 +172,7 @@ TEST(Start, InsideAnObstacleIsRefusedWithObstacleVertexPlaceAndDepth) {
     EXPECT_EQ(failure.exit_code, 2) << enum_name(solid.kind);
     char depth[32];
     std::snprintf(depth, sizeof depth, "%.3g mm", 1e3 * solid.depth);
-    expect_naming(failure, {"at the start " + vertex_text(found.vertex, trial.cloth.start[found.vertex]),
+    expect_saying(failure, {"at the start " + vertex_text(found.vertex, trial.cloth.start[found.vertex]),
                             depth, std::string("inside obstacle[1] (") + enum_name(solid.kind) + ")",
                             "of " + std::to_string(found.count) + " such vertices"});
   }
@@ -184,14 +184,14 @@ TEST(Start, BetweenObstaclesThatOverlapAroundItIsRefused) {
   trial.scene.obstacle[0].center.z() = 0.03;
   const Failure failure = start_failure(trial);
   EXPECT_EQ(failure.exit_code, 2);
-  expect_naming(failure, {"obstacle: at the start vertex ", "20 mm inside obstacle[0] (box)"});
+  expect_saying(failure, {"obstacle: at the start vertex ", "20 mm inside obstacle[0] (box)"});
 }
 
 // A hollow sphere of 5 cm about the middle of the sheet: its corners are 10 sqrt(2) cm away.
 TEST(Start, OutsideAHollowSphereIsRefused) {
   const Failure failure = start_failure(sheet_with({ObstacleKind::hollow, {0.1, 0.1, 0}, 0}));
   EXPECT_EQ(failure.exit_code, 2);
-  expect_naming(failure, {"91.4 mm outside obstacle[1] (hollow)", "vertex 0 at (0, 0, 0) m"});
+  expect_saying(failure, {"91.4 mm outside obstacle[1] (hollow)", "vertex 0 at (0, 0, 0) m"});
 }
 
 TEST(Start, WithinTheShellOfAnObstacleIsFineAndItsSurfaceIsTheLimit) {
@@ -213,7 +213,7 @@ TEST(Start, OfHeldVerticesInsideAnObstacleIsFine) {
   trial.scene.pin[0].until = 0.005;  // let go where the sphere is
   const Failure failure = caught_failure([&] { trial.after(10); });
   EXPECT_EQ(failure.exit_code, 3);
-  expect_naming(failure, {"inside obstacle[1] (sphere)", "at t = 0.005 s a pin releases the cloth"});
+  expect_saying(failure, {"inside obstacle[1] (sphere)", "at t = 0.005 s a pin releases the cloth"});
 }
 
 // What comes later cannot be known at the start.
@@ -227,7 +227,7 @@ TEST(Obstacle, ThatAppearsWhereTheClothIsEndsTheRunWithPlaceAndTime) {
     simulation->advance(20);
     const Failure failure = caught_failure([&] { simulation->advance(1); });
     EXPECT_EQ(failure.exit_code, 3) << integrator;
-    expect_naming(failure, {"at t = 0.02 s", "10 mm inside obstacle[1] (box)", "vertex ", " at ("});
+    expect_saying(failure, {"at t = 0.02 s", "10 mm inside obstacle[1] (box)", "vertex ", " at ("});
   }
 }
 
@@ -236,7 +236,7 @@ TEST(Obstacles, AreAtMostTwelve) {
   trial.scene.obstacle.resize(kMaxObstacles + 1, trial.scene.obstacle[0]);
   const Failure failure = start_failure(trial);
   EXPECT_EQ(failure.exit_code, 2);
-  expect_naming(failure, {"13 obstacles, at most 12"});
+  expect_saying(failure, {"13 obstacles, at most 12"});
 }
 
 }  // namespace

@@ -18,15 +18,15 @@ using Eigen::Vector3d;
 using test::Trial;
 
 constexpr double kStep = 1.0 / 60;
-constexpr double kHalf = 5e-4;  // of a plate of 1 mm [m]
-constexpr double kSide = 0.1;   // of the cloth [m]
-constexpr double kClosed = 1e-9;
+constexpr double kHalf = 5e-4;      // of a plate of 1 mm [m]
+constexpr double kSweptSide = 0.1;  // of the cloth [m]
+constexpr double kSweptClosed = 1e-9;
 
 // A square in the plane z = 0 around the origin, without weight.
 Scene sheet(const std::string& integrator, int triangles = 100) {
   Scene scene = test::free_square(triangles);
-  scene.cloth.length = kSide;
-  scene.cloth.position = {-kSide / 2, -kSide / 2, 0};
+  scene.cloth.length = kSweptSide;
+  scene.cloth.position = {-kSweptSide / 2, -kSweptSide / 2, 0};
   scene.law = "prandtl";
   scene.integrator = value_named<Integrator>(integrator);
   scene.self_contact = scene.integrator == Integrator::semi_implicit;  // else its solve has no line search
@@ -81,7 +81,7 @@ TEST_P(Sweep, PlateOfAMillimetreAtFiveMetresASecondCarriesTheClothBeforeIt) {
   simulation->advance(static_cast<int>(std::lround(kSeconds / kStep)));
   EXPECT_GT(lowest_over(*simulation, kTravel - below + kHalf), 0);
   EXPECT_EQ(simulation->counts().deep, 0);
-  EXPECT_LT(simulation->ledger().remainder_relative, kClosed);
+  EXPECT_LT(simulation->ledger().remainder_relative, kSweptClosed);
   EXPECT_GT(simulation->ledger().obstacle_work, 0);
 }
 
@@ -96,7 +96,7 @@ TEST_P(Sweep, ClothThatFallsAtFiveMetresASecondStaysOnAPlateOfAMillimetre) {
   const auto simulation = trial.after(statics ? 3 : 40);
   EXPECT_GT(lowest_over(*simulation, scene.obstacle[0].center.z() + kHalf), 0);
   EXPECT_EQ(simulation->counts().deep, 0);
-  EXPECT_LT(simulation->ledger().remainder_relative, kClosed);
+  EXPECT_LT(simulation->ledger().remainder_relative, kSweptClosed);
 }
 
 // The blade of a fan: 15 degrees a step at its fastest, and cloth that is 20 cm from the axis.
@@ -113,7 +113,7 @@ TEST_P(SweepInMotion, TurningPlateTakesTheClothAlong) {
   simulation->advance(static_cast<int>(std::lround(kSeconds / kStep)));
   const Eigen::AngleAxisd back(kDegrees * std::numbers::pi / 180, Vector3d::UnitY());
   for (const Vector3d& x : simulation->positions()) EXPECT_GT((back * x - plate.center).z(), kHalf);
-  EXPECT_LT(simulation->ledger().remainder_relative, kClosed);
+  EXPECT_LT(simulation->ledger().remainder_relative, kSweptClosed);
 }
 
 // The plate reaches all three layers in one step, and each may go no farther than the next one: steps in
@@ -123,7 +123,7 @@ TEST(SweepOfLayers, PlateThatPassesThemInOneStepCarriesAllOfThemApart) {
   for (const char* integrator : {"implicit", "tr-bdf2"}) {
     Scene scene = sheet(integrator, 150);
     scene.self_contact = true;
-    scene.cloth.length = kSide / 2;
+    scene.cloth.length = kSweptSide / 2;
     scene.cloth.copies = 3;
     scene.cloth.copy_offset = {0, 0, 5e-3};
     Obstacle plate = plate_at({0, 0, -kTravel / 2});
@@ -135,7 +135,7 @@ TEST(SweepOfLayers, PlateThatPassesThemInOneStepCarriesAllOfThemApart) {
     EXPECT_TRUE(intersecting_triangles(trial.cloth.mesh.face, simulation->positions()).empty()) << integrator;
     EXPECT_EQ(simulation->counts().deep, 0) << integrator;
     EXPECT_EQ(simulation->counts().unbalanced, 0) << integrator;
-    EXPECT_LT(simulation->ledger().remainder_relative, kClosed) << integrator;
+    EXPECT_LT(simulation->ledger().remainder_relative, kSweptClosed) << integrator;
   }
 }
 
@@ -173,7 +173,7 @@ TEST_P(SweepInMotion, CapsuleOfACentimetreTakesTheVerticesInItsPathAlong) {
     ++met;
   }
   EXPECT_EQ(met, 9);
-  EXPECT_LT(simulation->ledger().remainder_relative, kClosed);
+  EXPECT_LT(simulation->ledger().remainder_relative, kSweptClosed);
 }
 
 // Closes from 12 to 6 cm, past a sheet whose corners are 7 cm from its middle, in four steps.
@@ -190,7 +190,7 @@ TEST_P(SweepInMotion, HollowSphereThatClosesKeepsTheClothInside) {
   const auto simulation = trial.after(5);
   for (const Vector3d& x : simulation->positions()) EXPECT_LT(x.norm(), kOpen / 2);
   EXPECT_EQ(simulation->counts().deep, 0);
-  EXPECT_LT(simulation->ledger().remainder_relative, kClosed);
+  EXPECT_LT(simulation->ledger().remainder_relative, kSweptClosed);
 }
 
 // A point on its way to an obstacle stops half of the way to the middle, where the way meets it at all.

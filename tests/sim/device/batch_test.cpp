@@ -15,8 +15,6 @@ namespace {
 
 using test::Trial;
 
-bool gpu_is_missing(std::string& reason) { return gpu_count(reason) == 0; }
-
 TEST(Together, OnACpuEveryJobIsTakenOnce) {
   for (const int count : {0, 1, 7}) {
     std::vector<int> taken(count);
@@ -32,21 +30,21 @@ TEST(Together, OnACpuAJobSharesNoLaunches) {
 
 TEST(Together, OnAGpuAJobKnowsHowManyShareItsLaunches) {
   std::string reason;
-  if (gpu_is_missing(reason)) GTEST_SKIP() << "no GPU: " << reason;
+  if (gpu_count(reason) == 0) GTEST_SKIP() << "no GPU: " << reason;
   run_together(true, 5, [](int) { EXPECT_EQ(jobs_together(), 5); });
   EXPECT_EQ(jobs_together(), 1);
 }
 
 TEST(Together, AskForAGpuWhereThereIsNone) {
   std::string reason;
-  if (!gpu_is_missing(reason)) GTEST_SKIP() << "there is a GPU";
+  if (gpu_count(reason) > 0) GTEST_SKIP() << "there is a GPU";
   EXPECT_THROW(run_together(true, 2, [](int) {}), Error);
 }
 
 // Members whose loops differ in length and in how often they are repeated.
 TEST(Together, LoopsOfABatchGiveWhatTheyGiveAlone) {
   std::string reason;
-  if (gpu_is_missing(reason)) GTEST_SKIP() << "no GPU: " << reason;
+  if (gpu_count(reason) == 0) GTEST_SKIP() << "no GPU: " << reason;
   constexpr int kMembers = 9, kTimes = 3;
   const auto alone = test::gpu_primitives();
   run_together(true, kMembers, [&](int i) {
@@ -102,7 +100,7 @@ INSTANTIATE_TEST_SUITE_P(Cases, BatchOnGpu, testing::ValuesIn(methods()),
 
 TEST_P(BatchOnGpu, EveryClothHasTheBitsThatItHasAlone) {
   std::string reason;
-  if (gpu_is_missing(reason)) GTEST_SKIP() << "no GPU: " << reason;
+  if (gpu_count(reason) == 0) GTEST_SKIP() << "no GPU: " << reason;
   constexpr int kMembers = 5, kSteps = 20;
   std::vector<std::uint64_t> together(kMembers), alone;
   run_together(true, kMembers, [&](int i) { together[i] = hash_after(member_scene(GetParam(), i), kSteps); });
@@ -114,7 +112,7 @@ TEST_P(BatchOnGpu, EveryClothHasTheBitsThatItHasAlone) {
 // Lists of pairs grow, are scanned and sorted, and obstacles ask for the smallest step.
 TEST(BatchOfContact, EveryClothHasTheBitsThatItHasAlone) {
   std::string reason;
-  if (gpu_is_missing(reason)) GTEST_SKIP() << "no GPU: " << reason;
+  if (gpu_count(reason) == 0) GTEST_SKIP() << "no GPU: " << reason;
   constexpr int kMembers = 3, kSteps = 30;
   const auto batch_scene = [](int i) {
     Scene scene = member_scene({"prandtl", "shape", "implicit"}, i);
@@ -134,7 +132,7 @@ TEST(BatchOfContact, EveryClothHasTheBitsThatItHasAlone) {
 
 TEST(Together, AMemberThatFailsLeavesTheOthersTheirStates) {
   std::string reason;
-  if (gpu_is_missing(reason)) GTEST_SKIP() << "no GPU: " << reason;
+  if (gpu_count(reason) == 0) GTEST_SKIP() << "no GPU: " << reason;
   constexpr int kMembers = 4, kFails = 2, kSteps = 10;
   const test::Method method{"prandtl", "shape", "implicit"};
   std::vector<std::uint64_t> together(kMembers);

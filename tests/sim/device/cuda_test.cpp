@@ -12,7 +12,7 @@ namespace {
 
 using test::Trial;
 
-constexpr int kSteps = 50;
+constexpr int kCudaSteps = 50;
 
 // Every part of the simulation at work: moving handle, obstacle with friction, air, damping.
 Scene busy_scene(const std::string& law, const std::string& element, const std::string& integrator) {
@@ -42,12 +42,10 @@ Scene busy_scene(const std::string& law, const std::string& element, const std::
 
 std::unique_ptr<Simulation> run_on(const std::string& device, Scene scene) {
   scene.device = value_named<DeviceChoice>(device);
-  return Trial(scene).after(kSteps);
+  return Trial(scene).after(kCudaSteps);
 }
 
-bool gpu_is_missing(std::string& reason) { return gpu_count(reason) == 0; }
-
-std::vector<test::Method> methods() {
+std::vector<test::Method> cuda_methods() {
   std::vector<test::Method> all;
   for (const LawEntry& law : law_catalogue()) all.push_back({law.name, "shape", "semi-implicit"});
   all.push_back({"prandtl", "hinge", "semi-implicit"});
@@ -60,13 +58,13 @@ std::vector<test::Method> methods() {
 }
 
 class BothDevices : public testing::TestWithParam<test::Method> {};
-INSTANTIATE_TEST_SUITE_P(Cases, BothDevices, testing::ValuesIn(methods()),
+INSTANTIATE_TEST_SUITE_P(Cases, BothDevices, testing::ValuesIn(cuda_methods()),
                          [](const auto& method) { return method.param.name(); });
 
 // Sums run in another order and division and roots round differently; the solver's tolerance hides the rest.
 TEST_P(BothDevices, AgreeOnEveryPosition) {
   std::string reason;
-  if (gpu_is_missing(reason)) GTEST_SKIP() << "no GPU to compare with: " << reason;
+  if (gpu_count(reason) == 0) GTEST_SKIP() << "no GPU to compare with: " << reason;
   // gong's clock starts again by the sign of a motion, however small: rounding decides where cloth rests.
   const double kAgreement = GetParam().law == "gong" ? 1e-7 : 1e-9;  // [m]
   const Scene scene = busy_scene(GetParam().law, GetParam().element, GetParam().integrator);
@@ -82,14 +80,14 @@ TEST_P(BothDevices, AgreeOnEveryPosition) {
 
 TEST_P(BothDevices, GpuGivesTheSameBitsTwice) {
   std::string reason;
-  if (gpu_is_missing(reason)) GTEST_SKIP() << "no GPU: " << reason;
+  if (gpu_count(reason) == 0) GTEST_SKIP() << "no GPU: " << reason;
   const Scene scene = busy_scene(GetParam().law, GetParam().element, GetParam().integrator);
   EXPECT_EQ(run_on("cuda", scene)->state_hash(), run_on("cuda", scene)->state_hash());
 }
 
 TEST(Gpu, TiresAndObeysCommandsAsTheCpuDoes) {
   std::string reason;
-  if (gpu_is_missing(reason)) GTEST_SKIP() << "no GPU: " << reason;
+  if (gpu_count(reason) == 0) GTEST_SKIP() << "no GPU: " << reason;
   Scene scene = busy_scene("prandtl", "shape", "semi-implicit");
   scene.param = {{"fatigue.dc", "1e-3"}};
   Command iron;
@@ -112,7 +110,7 @@ std::vector<test::Method> every_integrator() {
 // Stops along warp and weft, branches and a set, on hinges and faces.
 TEST(Gpu, BendsAFabricOfManyPartsAsTheCpuDoes) {
   std::string reason;
-  if (gpu_is_missing(reason)) GTEST_SKIP() << "no GPU: " << reason;
+  if (gpu_count(reason) == 0) GTEST_SKIP() << "no GPU: " << reason;
   for (const char* element : {"hinge", "shape"}) {
     Scene scene = busy_scene("chapman", element, "semi-implicit");
     scene.fabric.bending = test::all_parts();
@@ -131,7 +129,7 @@ INSTANTIATE_TEST_SUITE_P(Integrators, InPlaneFrictionOnBothDevices, testing::Val
 
 TEST_P(InPlaneFrictionOnBothDevices, LosesTheSameToTheSameCloth) {
   std::string reason;
-  if (gpu_is_missing(reason)) GTEST_SKIP() << "no GPU: " << reason;
+  if (gpu_count(reason) == 0) GTEST_SKIP() << "no GPU: " << reason;
   Scene scene = busy_scene(GetParam().law, GetParam().element, GetParam().integrator);
   scene.fabric.weft = 5e3;  // with means at nodes
   scene.fabric.in_plane = {{{1e-4}, {300}}, {{1e-4, 1e-3}, {200, 80}}, {{5e-4, 3e-3}, {90, 40}}};
@@ -145,7 +143,7 @@ TEST_P(InPlaneFrictionOnBothDevices, LosesTheSameToTheSameCloth) {
 
 TEST(Gpu, InSinglePrecisionStaysNearTheCpusDouble) {
   std::string reason;
-  if (gpu_is_missing(reason)) GTEST_SKIP() << "no GPU: " << reason;
+  if (gpu_count(reason) == 0) GTEST_SKIP() << "no GPU: " << reason;
   constexpr double kNear = 1e-4;  // [m], as on the CPU
   Scene scene = busy_scene("prandtl", "shape", "semi-implicit");
   scene.obstacle.clear();
@@ -188,7 +186,7 @@ INSTANTIATE_TEST_SUITE_P(Integrators, SelfContactOnBothDevices,
 
 TEST_P(SelfContactOnBothDevices, FoldsAlikeAndTwiceTheSame) {
   std::string reason;
-  if (gpu_is_missing(reason)) GTEST_SKIP() << "no GPU: " << reason;
+  if (gpu_count(reason) == 0) GTEST_SKIP() << "no GPU: " << reason;
   constexpr double kAgreement = 1e-6;  // [m]
   const Scene scene = folding_strip(GetParam());
   const auto cpu = run_on("cpu", scene), gpu = run_on("cuda", scene), again = run_on("cuda", scene);
@@ -208,14 +206,14 @@ TEST(Device, ListNamesTheCpuAndTheGpuOrWhyThereIsNone) {
   EXPECT_EQ(list[0].substr(0, 4), "cpu:");
   EXPECT_EQ(list[1].substr(0, 5), "cuda:");
   std::string reason;
-  if (gpu_is_missing(reason)) {
+  if (gpu_count(reason) == 0) {
     EXPECT_NE(list[1].find(reason), std::string::npos) << list[1];
   }
 }
 
 TEST(Device, CudaWithoutAGpuIsTheMachinesFailureInOneLine) {
   std::string reason;
-  if (!gpu_is_missing(reason)) GTEST_SKIP() << "there is a GPU";
+  if (gpu_count(reason) > 0) GTEST_SKIP() << "there is a GPU";
   Trial trial(test::hanging_square());
   trial.scene.device = DeviceChoice::cuda;
   try {

@@ -13,7 +13,7 @@ namespace {
 
 using test::Trial;
 
-constexpr int kSteps = 50;
+constexpr int kDrawnSteps = 50;
 
 Scene hanging(const std::string& device, const std::string& precision) {
   Scene scene = test::hanging_square(1000);
@@ -97,7 +97,7 @@ TEST_P(CudaToOpenGl, GivesThePicturesOfPositionsThatPassTheHost) {
   ASSERT_TRUE(share_with(direct));
   render::Image earlier = direct.draw();
   for (int picture = 0; picture < 3; ++picture) {
-    simulation_->advance(kSteps);
+    simulation_->advance(kDrawnSteps);
     ASSERT_TRUE(write(direct)) << "picture " << picture;
     by_host.set_positions(*simulation_);
     const render::Image image = direct.draw();

@@ -10,7 +10,7 @@
 namespace hysteron {
 namespace {
 
-constexpr int kSteps = 4;
+constexpr int kProfiledSteps = 4;
 constexpr double kVector = 3 * sizeof(double), kBlock = 9 * sizeof(double);
 
 // A square that hangs by two corners.
@@ -38,7 +38,7 @@ Profile kernel_profile(const Scene& scene) {
   simulation->profile();
   const DeviceCounts before = simulation->counts().device;
   const long newton = simulation->counts().newton;
-  simulation->advance(kSteps);
+  simulation->advance(kProfiledSteps);
   return {simulation->kernel_costs(), simulation->counts().device - before,
           simulation->counts().newton - newton, trial.cloth.mesh};
 }
@@ -110,10 +110,10 @@ TEST_P(ProfileOfSteps, EvaluatesThePotentialOncePerTrial) {
   const Profile profile = kernel_profile(hanging("implicit", GetParam()));
   const long evaluated = profile.costs.at("membrane stress, tried").calls,
              tried = profile.costs.at("newton: try").calls;
-  EXPECT_GE(profile.newton, kSteps);
+  EXPECT_GE(profile.newton, kProfiledSteps);
   EXPECT_GE(tried, profile.newton);
-  EXPECT_GE(evaluated, 2 * kSteps + tried);
-  EXPECT_LE(evaluated, 3 * kSteps + tried);  // the first guess is taken up again where it was better
+  EXPECT_GE(evaluated, 2 * kProfiledSteps + tried);
+  EXPECT_LE(evaluated, 3 * kProfiledSteps + tried);  // the first guess is taken up again where it was better
 }
 
 // Without the linear solver's own and the three of each product of bending, Newton's method may launch
@@ -130,7 +130,7 @@ TEST_P(ProfileOfSteps, LaunchesNoMoreThanItsPartsNeed) {
     if (!name.starts_with("solve: ") && !name.starts_with("multigrid: ")) own += cost.calls;
   EXPECT_GT(own, 0);
   EXPECT_LE(own, 6 * calls("membrane stress, tried") + (on_gpu() ? 9 : 7) * profile.newton +
-                     calls("newton: try") + 12 * kSteps);
+                     calls("newton: try") + 12 * kProfiledSteps);
   EXPECT_EQ(profile.work.allocations, 0);
 }
 

@@ -36,11 +36,11 @@ FabLoops recorded(const StopsLaw& law, const std::string& test, unsigned seed, d
   return loops;
 }
 
-FabBendingQuestion question() {
-  FabBendingQuestion question;
-  question.thresholds = kLaw.thresholds;
-  question.density = kDensity;
-  return question;
+FabBendingQuestion bending_question() {
+  FabBendingQuestion bending_question;
+  bending_question.thresholds = kLaw.thresholds;
+  bending_question.density = kDensity;
+  return bending_question;
 }
 
 // Three standard errors of the logarithm, whose prior and likelihood are nearly normal.
@@ -52,7 +52,7 @@ TEST(FabBending, ComesBackFromNoiseWithinThreeStandardErrors) {
   int checks = 0, misses = 0;
   const auto check = [&](bool hit) { ++checks, misses += !hit; };
   for (unsigned seed = 1; seed <= seeds(); ++seed) {
-    const FabBending found = identify_fab_bending({recorded(kLaw, "D1", seed)}, question());
+    const FabBending found = identify_fab_bending({recorded(kLaw, "D1", seed)}, bending_question());
     EXPECT_TRUE(found.converged) << seed;
     check(within(found.law.spring, kLaw.spring, found.spring_error));
     check(within(found.law.friction(), kLaw.friction(), found.friction_error));
@@ -65,7 +65,7 @@ TEST(FabBending, ComesBackFromNoiseWithinThreeStandardErrors) {
 
 // Areas of the cycles that were not fitted, and of the bend to the other side.
 TEST(FabBending, FromOneCyclePredictsTheOthersAndTheBendUp) {
-  const FabBending found = identify_fab_bending({recorded(kLaw, "D1", 7)}, question());
+  const FabBending found = identify_fab_bending({recorded(kLaw, "D1", 7)}, bending_question());
   const double tolerance = 3 * found.friction_error / found.law.friction();  // areas grow with friction
   EXPECT_LT(tolerance, 0.5);
   for (const char* test : {"D1", "U1"}) {
@@ -79,7 +79,7 @@ TEST(FabBending, FromOneCyclePredictsTheOthersAndTheBendUp) {
 }
 
 TEST(FabBending, SaysThatACycleDoesNotTellStopsBeyondIt) {
-  FabBendingQuestion wide = question();
+  FabBendingQuestion wide = bending_question();
   wide.thresholds.push_back(512);
   const FabBending found = identify_fab_bending({recorded(kLaw, "D1", 3)}, wide);
   EXPECT_FALSE(found.determined.back());
@@ -89,13 +89,13 @@ TEST(FabBending, SaysThatACycleDoesNotTellStopsBeyondIt) {
 
 TEST(FabBending, OfOneStopIsTheBestOfTheGrid) {
   const StopsLaw one{3e-6, {16}, {8e-6}};
-  EXPECT_EQ(identify_one_stop({recorded(one, "D1", 5)}, question()).law.thresholds, one.thresholds);
+  EXPECT_EQ(identify_one_stop({recorded(one, "D1", 5)}, bending_question()).law.thresholds, one.thresholds);
 }
 
 // Its loop encloses nothing but noise, from which its rigidity does not follow.
 TEST(FabBending, OfAStripWithoutFrictionFindsItsRigidity) {
   const StopsLaw elastic{6e-6, {}, {}};
-  const FabBending found = identify_fab_bending({recorded(elastic, "D1", 2)}, question());
+  const FabBending found = identify_fab_bending({recorded(elastic, "D1", 2)}, bending_question());
   EXPECT_NEAR(found.law.spring / elastic.spring, 1, 3 * found.spring_error / found.law.spring);
   EXPECT_LT(found.spring_error, 0.2 * found.law.spring);
   EXPECT_LT(found.residual_rms, 1.5);
@@ -103,7 +103,7 @@ TEST(FabBending, OfAStripWithoutFrictionFindsItsRigidity) {
 }
 
 TEST(FabBending, RefusesACycleThatIsNotThere) {
-  FabBendingQuestion beyond = question();
+  FabBendingQuestion beyond = bending_question();
   beyond.cycles = {4};
   EXPECT_NE(test::refusal([&] { identify_fab_bending({recorded(kLaw, "D1", 1)}, beyond); }).find("1 to 3"),
             std::string::npos);

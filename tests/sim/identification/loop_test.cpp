@@ -10,7 +10,7 @@
 namespace hysteron {
 namespace {
 
-constexpr double kNoise = 0.02;
+constexpr double kLoopNoise = 0.02;
 constexpr int kSeeds = 100;
 
 Identification identified(const MomentSeries& series, const std::string& law = "prandtl",
@@ -64,8 +64,8 @@ TEST_P(NoisyLoop, GivesTheFabricBackWithinThreeStandardErrorsThatAreTrue) {
   const LoopCase& loop = GetParam();
   Recovery b1{kCotton.b1, {}, {}}, b2{kCotton.b2, {}, {}}, k0{kCotton.k0, {}, {}};
   for (int seed = 1; seed <= kSeeds; ++seed) {
-    const Identification found =
-        identified(measured(loop.law, kCotton, loop.turns, kNoise, unsigned(seed), loop.per_leg), loop.law);
+    const Identification found = identified(
+        measured(loop.law, kCotton, loop.turns, kLoopNoise, unsigned(seed), loop.per_leg), loop.law);
     ASSERT_TRUE(found.undetermined().empty()) << seed;
     b1.add(found.b1);
     b2.add(found.b2);
@@ -91,7 +91,7 @@ TEST(Loop, OfACycleThatWasRunningBeforeTheFirstRowIsRecognised) {
   std::vector<double> moment = law_moments("prandtl", kCotton, all);
   const std::vector<double> k(all.begin() + 90, all.end());
   moment.erase(moment.begin(), moment.begin() + 90);
-  const Identification found = identified(measured(k, moment, kNoise, 1));
+  const Identification found = identified(measured(k, moment, kLoopNoise, 1));
   EXPECT_LE(std::abs(found.b1.value - kCotton.b1), 3 * found.b1.standard_error);
   EXPECT_LE(std::abs(found.k0.value - kCotton.k0), 3 * found.k0.standard_error);
   EXPECT_NE(found.statements.at(0).find("in the middle of a cycle"), std::string::npos);
@@ -104,7 +104,7 @@ TEST(Loop, WithRippleInItsCurvatureIsNotTakenForManySmallLoops) {
   std::mt19937 random(3);
   std::normal_distribution<double> normal(0, kRippleOfCurvature);
   for (double& x : k) x += normal(random);
-  const MomentSeries series = measured(k, moment, kNoise, 4);
+  const MomentSeries series = measured(k, moment, kLoopNoise, 4);
   EXPECT_EQ(series.reversals, 2);
   const Identification found = identified(series);
   EXPECT_LE(std::abs(found.b1.value - kCotton.b1), 3 * found.b1.standard_error);
@@ -114,7 +114,7 @@ TEST(Loop, WithRippleInItsCurvatureIsNotTakenForManySmallLoops) {
 
 TEST(Loop, WithAShiftedZeroGivesTheShiftBack) {
   const double shift = 2e-4;  // [N]
-  MomentSeries series = measured("prandtl", kCotton, {250, -250, 250}, kNoise, 5);
+  MomentSeries series = measured("prandtl", kCotton, {250, -250, 250}, kLoopNoise, 5);
   for (double& m : series.moment) m += shift;
   const Identification without = identified(series), with = identified(series, "prandtl", true);
   ASSERT_EQ(with.further.at(0).first, "offset_N");
@@ -126,7 +126,7 @@ TEST(Loop, WithAShiftedZeroGivesTheShiftBack) {
 
 // The law is too simple for the data: what is left hangs together, and independent rows are fewer than rows.
 TEST(Loop, ThatALawCannotDescribeHasItsStandardErrorsWidened) {
-  const MomentSeries series = measured("prandtl", kCotton, {250, -250, 250}, kNoise, 6);
+  const MomentSeries series = measured("prandtl", kCotton, {250, -250, 250}, kLoopNoise, 6);
   EXPECT_GT(identified(series, "linear").residual_rms(), 3 * identified(series).residual_rms());
   const auto widened = [](const std::string& text) { return text.find("are widened") != text.npos; };
   const Identification poor = identified(series, "linear"), good = identified(series);
@@ -139,7 +139,7 @@ class GeneratingLaw : public testing::TestWithParam<const char*> {};
 // Minor loops tell these laws apart.
 TEST_P(GeneratingLaw, DescribesItsDataBestOfAll) {
   const std::vector<double> turns = {150, 90, 150, -150, -110, -150, 100};
-  const MomentSeries series = measured(GetParam(), kCotton, turns, kNoise, 7);
+  const MomentSeries series = measured(GetParam(), kCotton, turns, kLoopNoise, 7);
   const double own = identified(series, GetParam()).residual_rms();
   for (const char* law : {"prandtl", "wong", "bilinear", "dahl", "pabst", "obrien", "linear"}) {
     if (std::string(law) == GetParam()) continue;

@@ -13,9 +13,9 @@
 namespace hysteron {
 namespace {
 
-constexpr double kDensity = 0.1238;          // [kg/m^2]
-constexpr double kWeight = kDensity * 9.81;  // [N/m^2]
-constexpr double kEighty = 0.08;             // [m]
+constexpr double kProfileDensity = 0.1238;          // [kg/m^2]
+constexpr double kWeight = kProfileDensity * 9.81;  // [N/m^2]
+constexpr double kEighty = 0.08;                    // [m]
 
 // A strip clamped level, seen at `count` points.
 Profile seen(const VirginCurve& curve, double length, double noise, unsigned seed, int count = 61) {
@@ -56,7 +56,7 @@ TEST(MomentTable, OfALinearStripIsItsRigidity) {
 }
 
 TEST(Profile, OfAnExactStripGivesTheFabricBack) {
-  const Identification found = identify_profile(seen(kCotton, kEighty, 0, 1), kDensity, {});
+  const Identification found = identify_profile(seen(kCotton, kEighty, 0, 1), kProfileDensity, {});
   constexpr double kSegmentsError = 0.003;
   EXPECT_NEAR(found.b1.value / kCotton.b1, 1, kSegmentsError);
   EXPECT_NEAR(found.b2.value / kCotton.b2, 1, kSegmentsError);
@@ -67,7 +67,7 @@ TEST(Profile, OfAnExactStripGivesTheFabricBack) {
 TEST(Profile, WithNoiseGivesTheFabricBackWithinThreeStandardErrors) {
   constexpr double kNoise = 2e-5;  // [m]
   for (unsigned seed = 1; seed <= 5; ++seed) {
-    const Identification found = identify_profile(seen(kCotton, kEighty, kNoise, seed), kDensity, {});
+    const Identification found = identify_profile(seen(kCotton, kEighty, kNoise, seed), kProfileDensity, {});
     ASSERT_TRUE(found.undetermined().empty()) << seed;
     EXPECT_LE(std::abs(found.b1.value - kCotton.b1), 3 * found.b1.standard_error) << seed;
     EXPECT_LE(std::abs(found.b2.value - kCotton.b2), 3 * found.b2.standard_error) << seed;
@@ -77,14 +77,14 @@ TEST(Profile, WithNoiseGivesTheFabricBackWithinThreeStandardErrors) {
 
 // 3 cm of this cloth reach 15/m at the clamp.
 TEST(Profile, OfAShortStripCannotTellB2FromK0) {
-  const Identification found = identify_profile(seen(kCotton, 0.03, 0, 1), kDensity, {});
+  const Identification found = identify_profile(seen(kCotton, 0.03, 0, 1), kProfileDensity, {});
   EXPECT_EQ(found.undetermined(), (std::vector<std::string>{"b2", "k0"}));
   constexpr double kSegmentsError = 0.003;
   EXPECT_NEAR(found.b1.value / kCotton.b1, 1, kSegmentsError);
 }
 
 TEST(Profile, SaysThatLoadingShowsNoFriction) {
-  const Identification found = identify_profile(seen(kCotton, kEighty, 0, 1), kDensity, {});
+  const Identification found = identify_profile(seen(kCotton, kEighty, 0, 1), kProfileDensity, {});
   EXPECT_NE(found.statements.at(0).find("was only loaded"), std::string::npos);
 }
 

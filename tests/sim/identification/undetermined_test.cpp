@@ -10,12 +10,12 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-Identification identified(const MomentSeries& series) { return identify_curve(series, {}); }
+Identification undetermined(const MomentSeries& series) { return identify_curve(series, {}); }
 
 // Within |K| < k0 the law is b1 K + c1 K^2 and Masing's branches of it: b2 and k0 enter in c1 only.
 TEST(Undetermined, AreB2AndK0OfALoopFarBelowTheElasticLimit) {
   for (const double noise : {0.0, 0.02}) {
-    const Identification found = identified(measured("prandtl", kCotton, {5, -5, 5}, noise, 1));
+    const Identification found = undetermined(measured("prandtl", kCotton, {5, -5, 5}, noise, 1));
     EXPECT_EQ(found.undetermined(), (Names{"b2", "k0"})) << noise;
     EXPECT_FALSE(std::isfinite(found.b2.standard_error));
     constexpr double kSolver = 1e-6;
@@ -29,20 +29,20 @@ TEST(Undetermined, AreB2AndK0OfALoopFarBelowTheElasticLimit) {
 }
 
 TEST(Undetermined, AreB2AndK0OfACurveThatNeverSaturates) {
-  const Identification found = identified(measured("prandtl", kCotton, {35}, 0.01, 1));
+  const Identification found = undetermined(measured("prandtl", kCotton, {35}, 0.01, 1));
   EXPECT_EQ(found.undetermined(), (Names{"b2", "k0"}));
   EXPECT_NE(found.statements.back().find("no way back"), std::string::npos);
 }
 
 TEST(Undetermined, IsNothingOfACurveThatSaturates) {
-  const Identification found = identified(measured("prandtl", kCotton, {400}, 0.01, 1));
+  const Identification found = undetermined(measured("prandtl", kCotton, {400}, 0.01, 1));
   EXPECT_EQ(found.undetermined(), Names{});
   EXPECT_LE(std::abs(found.b2.value - kCotton.b2), 3 * found.b2.standard_error);
 }
 
 // 80 rows a leg of 6000/m: two of them lie on the bend that k0 shapes.
 TEST(Undetermined, AreB1AndK0WhereAllRowsSlip) {
-  const Identification found = identified(measured("prandtl", kCotton, {3000, -3000, 3000}, 0.02, 1, 40));
+  const Identification found = undetermined(measured("prandtl", kCotton, {3000, -3000, 3000}, 0.02, 1, 40));
   EXPECT_EQ(found.undetermined(), (Names{"b1", "k0"}));
   EXPECT_EQ(found.k0.value, Assumptions{}.k0);
   ASSERT_EQ(found.further.at(0).first, "HB_N");
@@ -50,7 +50,7 @@ TEST(Undetermined, AreB1AndK0WhereAllRowsSlip) {
 }
 
 TEST(Undetermined, AreB2AndK0OfAStraightLine) {
-  const Identification found = identified(measured("linear", kCotton, {250, -250, 250}, 0.02, 1));
+  const Identification found = undetermined(measured("linear", kCotton, {250, -250, 250}, 0.02, 1));
   EXPECT_EQ(found.undetermined(), (Names{"b2", "k0"}));
   EXPECT_LE(std::abs(found.b1.value - kCotton.b2), 3 * found.b1.standard_error);
 }

@@ -42,7 +42,7 @@ struct Spring : FloatStiffness<Cpu> {
 };
 
 // A random positive matrix on a mesh's edges, softening and the spring, as self-contact has it.
-struct System {
+struct FloatSystem {
   Cpu cpu{1};
   ClothMesh mesh = make_rectangle(0.3, 0.1, 120, MeshFamily::random, 1);
   BlockRows<double, Cpu> rows{cpu, mesh};
@@ -51,7 +51,7 @@ struct System {
   Field rhs;
   FloatSolver<Cpu> solver;
 
-  System()
+  FloatSystem()
       : softening_diagonal(n(), -1),
         held(n(), 0),
         rhs(n()),
@@ -126,7 +126,7 @@ double difference(Field a, const Field& b) {
 }
 
 TEST(FloatSolver, SolvesToItsToleranceWhatADenseSolveDoes) {
-  System system;
+  FloatSystem system;
   const Field exact = system.dense_solution();
   for (const double tolerance : {1e-2, 1e-5})
     EXPECT_LT(difference(system.solution(tolerance), exact), system.condition() * tolerance * norm(exact));
@@ -134,7 +134,7 @@ TEST(FloatSolver, SolvesToItsToleranceWhatADenseSolveDoes) {
 }
 
 TEST(FloatSolver, NeedsNoRightHandSideOfHeldRowsAndLeavesThemAtZero) {
-  System system;
+  FloatSystem system;
   const Field before = system.solution();
   EXPECT_EQ(before[3], Vector3d(0, 0, 0));
   system.rhs[3].setConstant(std::numeric_limits<double>::quiet_NaN());
@@ -143,7 +143,7 @@ TEST(FloatSolver, NeedsNoRightHandSideOfHeldRowsAndLeavesThemAtZero) {
 
 // By powers of two, far beyond what single precision holds: nothing is rounded.
 TEST(FloatSolver, SolvesAlikeHoweverSmallTheForces) {
-  System system;
+  FloatSystem system;
   const Field of_ones = system.solution();
   for (const double size : {0x1p-300, 0x1p300}) {
     for (Vector3d& b : system.rhs) b *= size;
@@ -155,12 +155,12 @@ TEST(FloatSolver, SolvesAlikeHoweverSmallTheForces) {
 }
 
 TEST(FloatSolver, EndsWhereSinglePrecisionDoesWhenAskedForMore) {
-  System system;
+  FloatSystem system;
   EXPECT_EQ(system.solution(1e-15), system.solution(1e-5));
 }
 
 TEST(FloatSolver, AnswersNoForcesWithNoDisplacement) {
-  System system;
+  FloatSystem system;
   for (Vector3d& b : system.rhs) b.setZero();
   EXPECT_EQ(system.solution(), Field(system.n(), Vector3d::Zero()));
 }

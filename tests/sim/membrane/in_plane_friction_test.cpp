@@ -17,9 +17,9 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Positions = std::vector<Vector3d>;
 
-constexpr double kSide = 0.1;        // [m]
-constexpr double kRounding = 1e-12;  // of some hundred operations, relative
-constexpr double kOrderSlack = 0.05;
+constexpr double kSide = 0.1;                // [m]
+constexpr double kFrictionRounding = 1e-12;  // of some hundred operations, relative
+constexpr double kFrictionOrderSlack = 0.05;
 
 Fabric rubbing() {
   Fabric fabric;
@@ -113,7 +113,7 @@ TEST(InPlaneFriction, OfASquareInShearIsTheMasingLoopOfItsStops) {
       const double expected = branch == 0 ? stops.friction_at(increment)
                                           : at_reversal + sign * 2 * stops.friction_at(increment / 2);
       EXPECT_NEAR(square.shear_force(gamma), square.fabric.shear * gamma + expected,
-                  kRounding * stops.friction_moment())
+                  kFrictionRounding * stops.friction_moment())
           << branch << " " << row;
       square.accept(square.sheared(gamma));
       if (row < kRows) continue;
@@ -125,7 +125,7 @@ TEST(InPlaneFriction, OfASquareInShearIsTheMasingLoopOfItsStops) {
   const double loop = square.membrane.friction_loss() - loss_before_last_loop;
   const double area = kSide * kSide * stops.loop_area(kAmplitude);
   EXPECT_GT(area, 1e-4 * kSide * kSide);
-  EXPECT_NEAR(loop, area, kRounding * area);
+  EXPECT_NEAR(loop, area, kFrictionRounding * area);
 }
 
 // Loading, a smaller loop, and on: the force is as if there had been no smaller loop.
@@ -134,7 +134,7 @@ TEST(InPlaneFriction, RemembersWhereItTurnedAfterASmallerLoop) {
   for (double gamma : {0.04, 0.02, 0.04, 0.05}) twice.accept(twice.sheared(gamma));
   once.accept(once.sheared(0.05));
   const double expected = once.shear_force(0.03);
-  EXPECT_NEAR(twice.shear_force(0.03), expected, kRounding * std::abs(expected));
+  EXPECT_NEAR(twice.shear_force(0.03), expected, kFrictionRounding * std::abs(expected));
   EXPECT_GT(twice.membrane.friction_loss(), once.membrane.friction_loss());
 }
 
@@ -155,7 +155,7 @@ TEST(InPlaneFriction, LosesOnAnyWayWhatItsPotentialSaysAndNeverGivesBack) {
     const double now = square.membrane.friction_loss();
     EXPECT_GE(now, lost);
     const double stored = square.membrane.stored_energy(x.data());
-    EXPECT_NEAR(potential, stored + now - lost, kRounding * potential);
+    EXPECT_NEAR(potential, stored + now - lost, kFrictionRounding * potential);
     lost = now;
   }
   EXPECT_GT(lost, 0);
@@ -172,11 +172,11 @@ TEST(InPlaneFriction, TurnsWithTheClothAndLosesNothingByThat) {
         Eigen::AngleAxisd(2.5, Vector3d(1, 2, -1).normalized()).toRotationMatrix();
     const Positions a = still.forces(still.mapped(m)), b = turned.forces(turned.mapped(m, 2.5));
     for (std::size_t i = 0; i < a.size(); ++i)
-      EXPECT_LT((b[i] - rotation * a[i]).norm(), 100 * kRounding * a[i].norm());
+      EXPECT_LT((b[i] - rotation * a[i]).norm(), 100 * kFrictionRounding * a[i].norm());
   }
   EXPECT_GT(still.membrane.friction_loss(), 0);
   EXPECT_NEAR(turned.membrane.friction_loss(), still.membrane.friction_loss(),
-              100 * kRounding * still.membrane.friction_loss());
+              100 * kFrictionRounding * still.membrane.friction_loss());
 }
 
 // From a history in which some stops slip and some hold.
@@ -209,21 +209,21 @@ struct Dragged : Square {
 TEST(InPlaneFriction, ForceIsMinusThePotentialsGradientToSecondOrder) {
   Dragged cloth;
   ASSERT_GT(cloth.forces(cloth.x)[0].norm(), 0.1);
-  EXPECT_NEAR(std::log2(cloth.force_error(2e-4) / cloth.force_error(1e-4)), 2, kOrderSlack);
+  EXPECT_NEAR(std::log2(cloth.force_error(2e-4) / cloth.force_error(1e-4)), 2, kFrictionOrderSlack);
 }
 
 TEST(InPlaneFriction, MatrixIsMinusTheForcesDerivativeToSecondOrderInTension) {
   Dragged cloth;
   ASSERT_GT(cloth.matrix(cloth.x).norm(), 1);
-  EXPECT_NEAR(std::log2(cloth.matrix_error(2e-4) / cloth.matrix_error(1e-4)), 2, kOrderSlack);
+  EXPECT_NEAR(std::log2(cloth.matrix_error(2e-4) / cloth.matrix_error(1e-4)), 2, kFrictionOrderSlack);
 }
 
 TEST(InPlaneFriction, MatrixIsSymmetricAndPositiveSemidefiniteEvenUnderCompression) {
   Dragged cloth;
   for (const Positions& x : {cloth.x, cloth.mapped((Matrix2d() << 0.9, 0.05, -0.02, 0.85).finished())}) {
     const MatrixXd k = cloth.matrix(x);
-    EXPECT_LT((k - k.transpose()).norm(), kRounding * k.norm());
-    EXPECT_GE(Eigen::SelfAdjointEigenSolver<MatrixXd>(k).eigenvalues()[0], -kRounding * k.norm());
+    EXPECT_LT((k - k.transpose()).norm(), kFrictionRounding * k.norm());
+    EXPECT_GE(Eigen::SelfAdjointEigenSolver<MatrixXd>(k).eigenvalues()[0], -kFrictionRounding * k.norm());
   }
 }
 

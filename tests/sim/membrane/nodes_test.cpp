@@ -21,7 +21,7 @@ using Eigen::Vector3d;
 using test::PanelTube;
 using Positions = std::vector<Vector3d>;
 
-constexpr double kRounding = 1e-12;  // of sums of some hundred terms, relative
+constexpr double kNodeRounding = 1e-12;  // of sums of some hundred terms, relative
 
 Fabric stiff_fabric() {
   Fabric fabric;
@@ -95,7 +95,7 @@ TEST(MembraneNodes, AreTheVerticesOfClothWithoutSeams) {
   const ClothMesh mesh = random_square();
   const MembraneNodes nodes = membrane_nodes(mesh);
   ASSERT_EQ(nodes.count(), mesh.vertices());
-  for (int v = 0; v < mesh.vertices(); ++v) EXPECT_NEAR(nodes.area[v], mesh.vertex_area[v], kRounding);
+  for (int v = 0; v < mesh.vertices(); ++v) EXPECT_NEAR(nodes.area[v], mesh.vertex_area[v], kNodeRounding);
   for (int f = 0; f < mesh.faces(); ++f) EXPECT_EQ(nodes.of_face[f], mesh.face[f]);
 }
 
@@ -106,7 +106,7 @@ TEST(MembraneNodes, OfPanelsEndAtTheirSeams) {
   const ClothMesh mesh = read_pattern(file.path(), 0, 1);
   const MembraneNodes nodes = membrane_nodes(mesh);
   EXPECT_EQ(nodes.count(), mesh.vertices() + 2 * (PanelTube::kAlong + 1));
-  EXPECT_NEAR(std::accumulate(nodes.area.begin(), nodes.area.end(), 0.0), PanelTube::area(), kRounding);
+  EXPECT_NEAR(std::accumulate(nodes.area.begin(), nodes.area.end(), 0.0), PanelTube::area(), kNodeRounding);
 }
 
 TEST(MembraneNodes, OfTrianglesThatTouchAtAVertexAreTwo) {
@@ -128,15 +128,15 @@ TEST(MembraneSplit, IsOfTwoPositiveParts) {
     const MembraneSplit split = split_membrane(fabric, MembraneElement::nodal);
     EXPECT_EQ(split.averages, std::max(fabric.warp, fabric.weft) > 1000);
     const auto &a = split.faces, &b = split.nodes;
-    EXPECT_NEAR(a.warp + b.warp, fabric.warp, kRounding * fabric.warp);
-    EXPECT_NEAR(a.weft + b.weft, fabric.weft, kRounding * fabric.weft);
-    EXPECT_NEAR(a.coupling + b.coupling, fabric.coupling, kRounding * std::abs(fabric.coupling));
+    EXPECT_NEAR(a.warp + b.warp, fabric.warp, kNodeRounding * fabric.warp);
+    EXPECT_NEAR(a.weft + b.weft, fabric.weft, kNodeRounding * fabric.weft);
+    EXPECT_NEAR(a.coupling + b.coupling, fabric.coupling, kNodeRounding * std::abs(fabric.coupling));
     EXPECT_EQ(a.shear, fabric.shear);
     EXPECT_EQ(b.shear, 0);
     for (const auto& part : {a, b})
-      EXPECT_GE(part.warp * part.weft * (1 + kRounding), part.coupling * part.coupling);
+      EXPECT_GE(part.warp * part.weft * (1 + kNodeRounding), part.coupling * part.coupling);
     if (split.averages) {
-      EXPECT_LE(std::max(a.warp, a.weft), 1000 * (1 + kRounding));
+      EXPECT_LE(std::max(a.warp, a.weft), 1000 * (1 + kNodeRounding));
     }
   }
 }
@@ -163,14 +163,14 @@ TEST(NodalMembrane, PassesThePatchTest) {
   const MembraneStiffness<double> of{sheet.fabric.warp, sheet.fabric.weft, sheet.fabric.coupling,
                                      sheet.fabric.shear};
   const double area = std::accumulate(mesh.face_area.begin(), mesh.face_area.end(), 0.0);
-  EXPECT_NEAR(sheet.energy(), area * membrane_energy(of, strain), kRounding * sheet.energy());
+  EXPECT_NEAR(sheet.energy(), area * membrane_energy(of, strain), kNodeRounding * sheet.energy());
   const Positions f = sheet.forces();
   const std::vector<char> boundary = on_boundary(mesh);
   double inside = 0, outside = 0;
   for (int i = 0; i < mesh.vertices(); ++i)
     (boundary[i] ? outside : inside) = std::max(boundary[i] ? outside : inside, f[i].norm());
   EXPECT_GT(outside, 0.1);
-  EXPECT_LT(inside, kRounding * outside);
+  EXPECT_LT(inside, kNodeRounding * outside);
 }
 
 // What a sheet stores in its plane when it lies on a cylinder whose axis is at 30 degrees to the warp and its
@@ -223,9 +223,9 @@ TEST(NodalMembrane, LetsNoTriangleStretchFreely) {
   MatrixXd plane(2 * n, 2 * n);
   for (int i = 0; i < 2 * n; ++i)
     for (int j = 0; j < 2 * n; ++j) plane(i, j) = all(3 * (i / 2) + i % 2, 3 * (j / 2) + j % 2);
-  EXPECT_LT((all - all.transpose()).norm(), kRounding * all.norm());
+  EXPECT_LT((all - all.transpose()).norm(), kNodeRounding * all.norm());
   const Eigen::VectorXd values = Eigen::SelfAdjointEigenSolver<MatrixXd>(plane).eigenvalues();
-  EXPECT_NEAR(values[2], 0, kRounding * values[2 * n - 1]);
+  EXPECT_NEAR(values[2], 0, kNodeRounding * values[2 * n - 1]);
   EXPECT_GT(values[3], 0.1 * stiff_fabric().shear);
 }
 

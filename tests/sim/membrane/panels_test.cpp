@@ -27,19 +27,19 @@ double seam_energy(const PanelTube& panels) {
   return sum;
 }
 
-Vector2d moved(const Vector2d& at) { return at + Vector2d(2, -1); }
+Vector2d displaced(const Vector2d& at) { return at + Vector2d(2, -1); }
 Vector2d turned(const Vector2d& at) { return {-at.y(), at.x()}; }
 Vector2d mirrored(const Vector2d& at) { return {at.x(), -at.y()}; }
 
 TEST(SewnMembrane, StoresNothingWherePanelsAreFoldedAndSewnButNotStretched) {
-  for (const auto& second : {moved, turned, mirrored}) EXPECT_EQ(seam_energy({.second = second}), 0);
+  for (const auto& second : {displaced, turned, mirrored}) EXPECT_EQ(seam_energy({.second = second}), 0);
 }
 
 // One panel along warp, the other along weft where its texture is turned: W = C E^2/2, E = (1.1^2 - 1)/2.
 TEST(SewnMembrane, ResistsByTheWarpAndWeftOfEachPanel) {
   const auto longer = [](const Vector3d& x) { return Vector3d(1.1 * x.x(), x.y(), x.z()); };
   const double strain = (1.1 * 1.1 - 1) / 2, of_one = PanelTube::area() / 2 * strain * strain / 2;
-  EXPECT_NEAR(seam_energy({.second = moved, .worn = longer}), 2 * kFabric.warp * of_one, 1e-12);
+  EXPECT_NEAR(seam_energy({.second = displaced, .worn = longer}), 2 * kFabric.warp * of_one, 1e-12);
   EXPECT_NEAR(seam_energy({.second = turned, .worn = longer}), (kFabric.warp + kFabric.weft) * of_one, 1e-12);
 }
 

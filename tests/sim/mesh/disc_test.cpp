@@ -12,9 +12,9 @@ namespace {
 
 using test::kFamilies;
 
-constexpr double kRadius = 0.15;  // [m], Cusick's disc
-constexpr int kSizes[] = {2, 3, 7, 20, 100, 333, 1000, 4608, 20000};
-constexpr double kSumRounding = 1e-12;
+constexpr double kDiscRadius = 0.15;  // [m], Cusick's disc
+constexpr int kDiscSizes[] = {2, 3, 7, 20, 100, 333, 1000, 4608, 20000};
+constexpr double kDiscSumRounding = 1e-12;
 // A unit vector is normalised to 1 ulp or so, then scaled.
 constexpr double kOnCircle = 1e-15;
 // The docstring's promise about the triangle count.
@@ -23,35 +23,35 @@ constexpr double kStatedCount = 8;
 
 class Disc : public testing::TestWithParam<MeshFamily> {
  protected:
-  static ClothMesh disc(int triangles) { return make_disc(kRadius, triangles, GetParam(), 1); }
+  static ClothMesh disc(int triangles) { return make_disc(kDiscRadius, triangles, GetParam(), 1); }
 };
 INSTANTIATE_TEST_SUITE_P(Families, Disc, testing::ValuesIn(kFamilies),
                          [](const auto& family) { return test::enum_name(family.param); });
 
 TEST_P(Disc, HasEulerCharacteristicOfADisc) {
-  for (const int n : kSizes) EXPECT_EQ(test::euler_characteristic(disc(n)), 1) << n;
+  for (const int n : kDiscSizes) EXPECT_EQ(test::euler_characteristic(disc(n)), 1) << n;
 }
 
 TEST_P(Disc, BoundaryVerticesLieOnTheCircleAndAllOthersInside) {
-  for (const int n : kSizes) {
+  for (const int n : kDiscSizes) {
     const ClothMesh mesh = disc(n);
     const std::set<int> boundary = test::boundary_vertices(mesh);
     for (int v = 0; v < mesh.vertices(); ++v) {
       if (boundary.count(v))
-        EXPECT_NEAR(mesh.rest[v].norm() / kRadius, 1, kOnCircle) << n;
+        EXPECT_NEAR(mesh.rest[v].norm() / kDiscRadius, 1, kOnCircle) << n;
       else
-        EXPECT_LT(mesh.rest[v].norm(), kRadius) << n;
+        EXPECT_LT(mesh.rest[v].norm(), kDiscRadius) << n;
       EXPECT_EQ(mesh.rest[v].z(), 0);
     }
   }
 }
 
 TEST_P(Disc, AreaIsThatOfTheRegularPolygonOfItsBoundary) {
-  for (const int n : kSizes) {
+  for (const int n : kDiscSizes) {
     const ClothMesh mesh = disc(n);
     const double b = static_cast<double>(test::boundary_vertices(mesh).size());
-    const double polygon = 0.5 * b * kRadius * kRadius * std::sin(2 * std::numbers::pi / b);
-    EXPECT_NEAR(test::total_area(mesh), polygon, kSumRounding * polygon) << n;
+    const double polygon = 0.5 * b * kDiscRadius * kDiscRadius * std::sin(2 * std::numbers::pi / b);
+    EXPECT_NEAR(test::total_area(mesh), polygon, kDiscSumRounding * polygon) << n;
   }
 }
 

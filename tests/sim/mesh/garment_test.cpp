@@ -8,8 +8,8 @@
 namespace hysteron {
 namespace {
 
-constexpr double kRadius = 0.1;  // [m]
-constexpr double kRounding = 1e-12;
+constexpr double kGarmentRadius = 0.1;  // [m]
+constexpr double kGarmentRounding = 1e-12;
 
 // A flat rectangle as the texture coordinates of one that is rolled about the y axis.
 class Rolled : public testing::Test {
@@ -18,8 +18,8 @@ class Rolled : public testing::Test {
     flat_ = make_grid(0.2, 0.1, 6, 3, MeshFamily::unionjack, 1);
     for (const Eigen::Vector3d& p : flat_.rest) {
       flat_.pattern.emplace_back(p.x(), p.y());
-      rolled_.emplace_back(kRadius * std::sin(p.x() / kRadius), p.y(),
-                           kRadius * (1 - std::cos(p.x() / kRadius)));
+      rolled_.emplace_back(kGarmentRadius * std::sin(p.x() / kGarmentRadius), p.y(),
+                           kGarmentRadius * (1 - std::cos(p.x() / kGarmentRadius)));
     }
     write_obj(file_.path(), flat_, rolled_);
   }
@@ -32,10 +32,11 @@ class Rolled : public testing::Test {
 TEST_F(Rolled, PatternIsTheClothAtRest) {
   const ClothMesh mesh = read_pattern(file_.path(), 0, 1);
   ASSERT_EQ(mesh.face, flat_.face);
-  for (int v = 0; v < mesh.vertices(); ++v) EXPECT_LT((mesh.rest[v] - flat_.rest[v]).norm(), kRounding) << v;
+  for (int v = 0; v < mesh.vertices(); ++v)
+    EXPECT_LT((mesh.rest[v] - flat_.rest[v]).norm(), kGarmentRounding) << v;
   double area = 0;
   for (const double a : mesh.face_area) area += a;
-  EXPECT_NEAR(area, 0.2 * 0.1, kRounding);
+  EXPECT_NEAR(area, 0.2 * 0.1, kGarmentRounding);
 }
 
 TEST_F(Rolled, ClothOfAPatternStartsWhereItsVerticesAre) {
@@ -45,7 +46,7 @@ TEST_F(Rolled, ClothOfAPatternStartsWhereItsVerticesAre) {
   scene.cloth.position = {0, 0, 1};
   const Cloth cloth = make_cloth(scene);
   for (std::size_t v = 0; v < rolled_.size(); ++v) {
-    EXPECT_LT((cloth.start[v] - rolled_[v] - Eigen::Vector3d(0, 0, 1)).norm(), kRounding) << v;
+    EXPECT_LT((cloth.start[v] - rolled_[v] - Eigen::Vector3d(0, 0, 1)).norm(), kGarmentRounding) << v;
     EXPECT_EQ(cloth.mesh.rest[v].z(), 0);
   }
 }
@@ -59,8 +60,8 @@ TEST_F(Rolled, ClothStartsAsAnotherFileOfItsTrianglesHasIt) {
   scene.cloth.start = file_.path();
   const Cloth cloth = make_cloth(scene);
   for (std::size_t v = 0; v < rolled_.size(); ++v) {
-    EXPECT_LT((cloth.start[v] - rolled_[v]).norm(), kRounding) << v;
-    EXPECT_LT((cloth.mesh.rest[v] - flat_.rest[v]).norm(), kRounding) << v;
+    EXPECT_LT((cloth.start[v] - rolled_[v]).norm(), kGarmentRounding) << v;
+    EXPECT_LT((cloth.mesh.rest[v] - flat_.rest[v]).norm(), kGarmentRounding) << v;
   }
 }
 

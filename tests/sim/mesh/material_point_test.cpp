@@ -9,7 +9,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kRounding = 1e-15;
+constexpr double kPointRounding = 1e-15;
 
 TEST(MaterialPoint, LiesWhereItIsAskedForOnEveryFlatMesh) {
   for (const MeshFamily family : {MeshFamily::aligned, MeshFamily::unionjack, MeshFamily::random}) {
@@ -18,7 +18,7 @@ TEST(MaterialPoint, LiesWhereItIsAskedForOnEveryFlatMesh) {
          {Vector2d(0, 0), Vector2d(0.3, 0.2), Vector2d(0.15, 0.1), Vector2d(0.011, 0.173)}) {
       const auto point = material_point(mesh, at);
       ASSERT_TRUE(point);
-      EXPECT_LT((point->among(mesh, mesh.rest) - Vector3d(at.x(), at.y(), 0)).norm(), kRounding);
+      EXPECT_LT((point->among(mesh, mesh.rest) - Vector3d(at.x(), at.y(), 0)).norm(), kPointRounding);
     }
   }
 }
@@ -33,7 +33,7 @@ TEST(MaterialPoint, FollowsAnAffineMotionOfTheCloth) {
   for (const Vector3d& rest : mesh.rest) x.push_back(stretched * rest + moved);
   const Vector3d at(0.031, -0.052, 0);
   const Vector3d found = material_point(mesh, at.head<2>())->among(mesh, x);
-  EXPECT_LT((found - (stretched * at + moved)).norm(), 4 * kRounding);
+  EXPECT_LT((found - (stretched * at + moved)).norm(), 4 * kPointRounding);
 }
 
 TEST(MaterialPoint, IsNoneBesideTheCloth) {

@@ -13,7 +13,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using test::PanelTube;
 
-constexpr double kRounding = 1e-15;
+constexpr double kPanelRounding = 1e-15;
 
 Vector2d moved(const Vector2d& at) { return at + Vector2d(2, -1); }
 Vector2d turned(const Vector2d& at) { return {-at.y(), at.x()}; }
@@ -49,7 +49,7 @@ TEST(Panels, OfTheWornClothWeighWhatTheFlatOnesDo) {
   const ClothMesh mesh = tube({.second = moved, .worn = [](const Vector3d& x) { return 1.25 * x; }});
   double area = 0;
   for (const double a : mesh.vertex_area) area += a;
-  EXPECT_NEAR(area, PanelTube::area(), kRounding);
+  EXPECT_NEAR(area, PanelTube::area(), kPanelRounding);
 }
 
 TEST(Panels, StartWhereTheVerticesAreAndPinsFindThemThere) {
@@ -74,8 +74,8 @@ TEST(Panels, TakeWarpFromTheirTexture) {
   for (const double angle : {0.0, 0.7}) {  // of warp in the texture
     mesh.warp_axis = {std::cos(angle), std::sin(angle), 0};
     for (int f = 0; f < mesh.faces(); ++f) {
-      EXPECT_LT((mesh.face_axes(f)[0] - mesh.warp_axis).norm(), kRounding);
-      EXPECT_LT((mesh.face_axes(f)[1] - Vector3d::UnitZ().cross(mesh.warp_axis)).norm(), kRounding);
+      EXPECT_LT((mesh.face_axes(f)[0] - mesh.warp_axis).norm(), kPanelRounding);
+      EXPECT_LT((mesh.face_axes(f)[1] - Vector3d::UnitZ().cross(mesh.warp_axis)).norm(), kPanelRounding);
     }
   }
 }
@@ -101,7 +101,7 @@ TEST(Panels, TravelAsTextureCoordinates) {
 
 TEST(Panels, InOtherUnitsAreScaled) {
   const PanelTube in_centimetres{.second = moved, .worn = [](const Vector3d& x) { return 0.01 * x; }};
-  EXPECT_NEAR(test::total_area(tube(in_centimetres, 0.01)), 1e-4 * PanelTube::area(), kRounding);
+  EXPECT_NEAR(test::total_area(tube(in_centimetres, 0.01)), 1e-4 * PanelTube::area(), kPanelRounding);
 }
 
 TEST(Panels, OfAnotherSizeThanTheWornClothAreRefusedWithTheScaleThatFits) {

@@ -11,7 +11,7 @@
 namespace hysteron {
 namespace {
 
-constexpr double kSumRounding = 1e-12;
+constexpr double kSubdivisionSumRounding = 1e-12;
 
 TEST(Subdivision, CutsEachTriangleIntoFourEqualOnes) {
   const ClothMesh mesh = make_disc(0.15, 200, MeshFamily::random, 1), fine = subdivided(mesh);
@@ -19,7 +19,7 @@ TEST(Subdivision, CutsEachTriangleIntoFourEqualOnes) {
   EXPECT_EQ(test::euler_characteristic(fine), 1);
   ASSERT_EQ(fine.faces(), 4 * mesh.faces());
   for (int f = 0; f < fine.faces(); ++f)
-    EXPECT_NEAR(fine.face_area[f], mesh.face_area[f / 4] / 4, kSumRounding) << f;
+    EXPECT_NEAR(fine.face_area[f], mesh.face_area[f / 4] / 4, kSubdivisionSumRounding) << f;
 }
 
 TEST(Subdivision, TurnsNoTriangleOver) {

@@ -10,7 +10,7 @@ namespace {
 using test::kFamilies;
 
 // Sums of some thousand rounded areas against one product.
-constexpr double kSumRounding = 1e-12;
+constexpr double kTopologySumRounding = 1e-12;
 
 ClothMesh two_triangles() {
   ClothMesh mesh;
@@ -100,7 +100,7 @@ TEST(Topology, VertexAreasAddUpToTheSheet) {
   const ClothMesh mesh = make_rectangle(0.5, 0.3, 1000, MeshFamily::random, 5);
   double sum = 0;
   for (const double area : mesh.vertex_area) sum += area;
-  EXPECT_NEAR(sum, 0.5 * 0.3, kSumRounding);
+  EXPECT_NEAR(sum, 0.5 * 0.3, kTopologySumRounding);
 }
 
 TEST(Topology, ClosedSurfaceHasNoBoundary) {

@@ -10,7 +10,7 @@
 namespace hysteron {
 namespace {
 
-constexpr double kLength = 0.3, kRadius = 0.05;
+constexpr double kTubeLength = 0.3, kTubeRadius = 0.05;
 
 class Tube : public testing::TestWithParam<MeshFamily> {};
 INSTANTIATE_TEST_SUITE_P(Families, Tube,
@@ -18,19 +18,19 @@ INSTANTIATE_TEST_SUITE_P(Families, Tube,
                          [](const auto& c) { return to_string(c.param); });
 
 TEST_P(Tube, IsOpenAtItsTwoEndsOnly) {
-  const ClothMesh mesh = make_tube(kLength, kRadius, 2000, GetParam(), 1);
+  const ClothMesh mesh = make_tube(kTubeLength, kTubeRadius, 2000, GetParam(), 1);
   // Euler's characteristic of a cylinder is 0; its boundary lies at the ends.
   EXPECT_EQ(mesh.vertices() - static_cast<int>(mesh.edge.size()) + mesh.faces(), 0);
   for (std::size_t e = mesh.interior_edges; e < mesh.edge.size(); ++e) {
     const double x = mesh.rest[mesh.edge[e].p2].x();
-    EXPECT_LT(std::min(std::abs(x), std::abs(x - kLength)), 1e-12);
+    EXPECT_LT(std::min(std::abs(x), std::abs(x - kTubeLength)), 1e-12);
   }
 }
 
 TEST_P(Tube, LiesOnTheCylinderWithItsFrontOutside) {
-  const ClothMesh mesh = make_tube(kLength, kRadius, 2000, GetParam(), 1);
+  const ClothMesh mesh = make_tube(kTubeLength, kTubeRadius, 2000, GetParam(), 1);
   double area = 0;
-  for (const Eigen::Vector3d& x : mesh.rest) EXPECT_NEAR(x.tail<2>().norm(), kRadius, 1e-12);
+  for (const Eigen::Vector3d& x : mesh.rest) EXPECT_NEAR(x.tail<2>().norm(), kTubeRadius, 1e-12);
   for (int f = 0; f < mesh.faces(); ++f) {
     const auto& t = mesh.face[f];
     const Eigen::Vector3d a = mesh.rest[t[0]], b = mesh.rest[t[1]], c = mesh.rest[t[2]];
@@ -38,13 +38,13 @@ TEST_P(Tube, LiesOnTheCylinderWithItsFrontOutside) {
     area += mesh.face_area[f];
   }
   // An inscribed polygon of n sides is shorter than its circle by pi^2/(6 n^2), n about 30 here.
-  EXPECT_NEAR(area / (2 * std::numbers::pi * kRadius * kLength), 1, 5e-3);
+  EXPECT_NEAR(area / (2 * std::numbers::pi * kTubeRadius * kTubeLength), 1, 5e-3);
 }
 
 TEST(TubeSeam, OfRowsThatAreShiftedIsRefused) {
   bool refused = false;
   for (int triangles : {400, 500, 600, 700, 800}) try {
-      make_tube(kLength, kRadius, triangles, MeshFamily::equilateral, 1);
+      make_tube(kTubeLength, kTubeRadius, triangles, MeshFamily::equilateral, 1);
     } catch (const Error& error) {
       refused = true;
       EXPECT_EQ(error.exit_code(), 2);

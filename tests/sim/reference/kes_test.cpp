@@ -11,9 +11,9 @@ namespace {
 
 const VirginCurve kCotton{3.5892339e-5, 1.1571847e-5, 50};
 
-constexpr double kRounding = 1e-9;   // relative: sums of some thousand rows
-constexpr double kPublished = 0.01;  // relative: what a fabric's test must give back
-constexpr double kSampling = 1e-4;   // relative: what halving the steps may change in a reading
+constexpr double kKesRounding = 1e-9;  // relative: sums of some thousand rows
+constexpr double kPublished = 0.01;    // relative: what a fabric's test must give back
+constexpr double kSampling = 1e-4;     // relative: what halving the steps may change in a reading
 
 std::vector<std::string> all_laws() {
   std::vector<std::string> names;
@@ -45,7 +45,7 @@ TEST_P(PublishedPair, ComesBackFromPrandtlAndWong) {
     EXPECT_NEAR(reading.rigidity, b, kPublished * b) << law;
     EXPECT_NEAR(reading.loop_width, width, kPublished * width) << law;
     // With K0 at the window's lower end the test is exact, not only within a percent.
-    EXPECT_NEAR(reading.rigidity, fabric.b2, kRounding * b) << law;
+    EXPECT_NEAR(reading.rigidity, fabric.b2, kKesRounding * b) << law;
     EXPECT_NEAR(reading.residual, width / 2 / b, kPublished * width / 2 / b) << law;
   }
 }
@@ -84,9 +84,9 @@ INSTANTIATE_TEST_SUITE_P(Kes, AnyLaw, testing::ValuesIn(all_laws()), law_name);
 TEST(Kes, ElasticLawsHaveNeitherWidthNorAreaNorResidual) {
   for (const char* law : {"linear", "bridson", "spring", "pabst"}) {
     const KesTest test = test_in_kes({law, kCotton, {}});
-    EXPECT_NEAR(test.reading.loop_width, 0, kRounding * kCotton.friction_moment()) << law;
+    EXPECT_NEAR(test.reading.loop_width, 0, kKesRounding * kCotton.friction_moment()) << law;
     EXPECT_EQ(test.reading.loop_area, 0) << law;
-    EXPECT_NEAR(test.reading.residual, 0, kRounding) << law;
+    EXPECT_NEAR(test.reading.residual, 0, kKesRounding) << law;
     EXPECT_EQ(test.reading.residual_by_formula, 0) << law;
   }
 }
@@ -111,7 +111,7 @@ TEST(Kes, WidthReadOnTheVirginCurveIsSmallerByItsMissingFriction) {
   const double u = p.width_at / kCotton.k0, m0 = kCotton.friction_moment();
   const double positive = m0 * (2 * u - u * u) + m0, negative = 2 * m0;
   const double width = test_in_kes({"prandtl", kCotton, {}}, p).reading.loop_width;
-  EXPECT_NEAR(width, (positive + negative) / 2, kRounding * m0);
+  EXPECT_NEAR(width, (positive + negative) / 2, kKesRounding * m0);
 }
 
 TEST(Kes, ResidualCurvatureByRootIsTheOneByFormulaInAllThreeCases) {
@@ -125,7 +125,7 @@ TEST(Kes, ResidualCurvatureByRootIsTheOneByFormulaInAllThreeCases) {
       const double moment = test.moment[test.walk.start[1] - 1];
       EXPECT_EQ(static_cast<int>(recovery_case(kCotton, moment)), i + 1) << law << " " << p.amplitude;
       EXPECT_NEAR(test.reading.residual, test.reading.residual_by_formula,
-                  root_tolerance(kCotton, p) + kRounding)
+                  root_tolerance(kCotton, p) + kKesRounding)
           << law << " " << p.amplitude;
     }
   }
@@ -147,7 +147,7 @@ TEST(KesWalk, VisitsEveryTurnAtTheTestersRateAndCommandsAtFullAmplitudeOnly) {
     edits += row.edit;
     EXPECT_TRUE(!row.edit || row.curvature == 250) << row.curvature;
   }
-  EXPECT_NEAR(seconds, (250 + 150 + 150) / p.rate, kRounding * seconds);
+  EXPECT_NEAR(seconds, (250 + 150 + 150) / p.rate, kKesRounding * seconds);
   EXPECT_EQ(edits, 2);
   const double turns[] = {0, 250, 100, 250};
   ASSERT_EQ(walk.start.size(), 4u);
@@ -157,7 +157,7 @@ TEST(KesWalk, VisitsEveryTurnAtTheTestersRateAndCommandsAtFullAmplitudeOnly) {
 TEST(KesMinorLoops, OfPrandtlClose) {
   for (const MinorLoop& loop : test_in_kes({"prandtl", kCotton, {}}).minor_loops) {
     EXPECT_EQ(loop.curvature.front(), loop.curvature.back());
-    EXPECT_NEAR(loop.moment.front(), loop.moment.back(), kRounding * kCotton.friction_moment())
+    EXPECT_NEAR(loop.moment.front(), loop.moment.back(), kKesRounding * kCotton.friction_moment())
         << loop.reversal;
     EXPECT_GT(loop.curvature.size(), 2u);
   }
@@ -196,8 +196,8 @@ TEST(Kes, ReadsTheStopsOfAFabricByTheirClosedForms) {
   EXPECT_NEAR(read.loop_width, (up - down + back - lower) / 2, kRows * read.loop_width);
   const double loading = (virgin(150) - virgin(50)) / 100, unloading = 2 * (virgin(200) - virgin(150)) / 100;
   EXPECT_NEAR(read.rigidity, (loading + unloading) / 2, kRows * b2);
-  EXPECT_NEAR(kes_pair(fabric).rigidity, (loading + unloading) / 2, kRounding * b2);
-  EXPECT_NEAR(kes_pair(fabric).loop_width, (up - down + back - lower) / 2, kRounding * read.loop_width);
+  EXPECT_NEAR(kes_pair(fabric).rigidity, (loading + unloading) / 2, kKesRounding * b2);
+  EXPECT_NEAR(kes_pair(fabric).loop_width, (up - down + back - lower) / 2, kKesRounding * read.loop_width);
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 namespace hysteron {
 namespace {
 
-constexpr double kRounding = 1e-12;
+constexpr double kStopsRounding = 1e-12;
 
 struct Driven {
   StopsLaw law;
@@ -39,7 +39,7 @@ TEST(StopsLaw, DissipatesTheClosedFormInACycle) {
       point.go_to(-amplitude);
       point.go_to(amplitude);
       EXPECT_NEAR(point.dissipated - before, law.loop_area(amplitude),
-                  kRounding * (1 + law.loop_area(amplitude)));
+                  kStopsRounding * (1 + law.loop_area(amplitude)));
     }
 }
 
@@ -51,7 +51,7 @@ TEST(StopsLaw, ReturnsByTheVirginCurveDoubled) {
     for (const double change : {-5.0, -60.0, -250.0}) {
       Driven virgin{law};
       const double doubled = 2 * virgin.go_to(change / 2);
-      EXPECT_NEAR(point.go_to(300 + change) - reversal, doubled, kRounding * std::abs(reversal));
+      EXPECT_NEAR(point.go_to(300 + change) - reversal, doubled, kStopsRounding * std::abs(reversal));
     }
   }
 }
@@ -62,8 +62,8 @@ TEST(StopsLaw, StatesItsWidthAsTwiceTheSumOfItsMoments) {
     point.go_to(2000);
     const double down = point.go_to(0);
     point.go_to(-2000);
-    EXPECT_NEAR(point.go_to(0) - down, 2 * law.friction(), kRounding);
-    EXPECT_NEAR(-down, law.friction(), kRounding);
+    EXPECT_NEAR(point.go_to(0) - down, 2 * law.friction(), kStopsRounding);
+    EXPECT_NEAR(-down, law.friction(), kStopsRounding);
   }
 }
 
@@ -85,38 +85,38 @@ TEST(StopsLaw, HasAPotentialWhoseSlopeIsItsResponse) {
 }
 
 const StopsLaw kTension{20, {0.005, 0.03}, {200, 40}};  // [N/m] against strain
-constexpr double kLength = 0.02;
+constexpr double kStripLength = 0.02;
 
 TEST(StretchedStrip, PullsByItsVirginCurve) {
-  StretchedStripTest test(kTension, kLength);
-  test.go_to(kLength * 1.1);
+  StretchedStripTest test(kTension, kStripLength);
+  test.go_to(kStripLength * 1.1);
   EXPECT_NEAR(test.force(), 20 * 0.1 + 200 * 0.005 + 40 * 0.03, 1e-9);
 }
 
 // From y_m = f(A) down to zero by the doubled virgin curve: there it goes slack, and keeps that strain.
 TEST(StretchedStrip, GoesSlackWhereTheMasingBranchMeetsZero) {
-  StretchedStripTest test(kTension, kLength);
-  test.go_to(kLength * 1.1);
-  test.go_to(kLength);
+  StretchedStripTest test(kTension, kStripLength);
+  test.go_to(kStripLength * 1.1);
+  test.go_to(kStripLength);
   EXPECT_TRUE(test.slack());
   // Both stops have turned around: 20 e = 200 * 0.005 + 40 * 0.03.
   const double strain = (200 * 0.005 + 40 * 0.03) / 20;
   ASSERT_GT(strain, 0.1 - 2 * 0.03);  // so that the second has not; then 20 e + 40 (e - 0.1 + 0.03) = 1
   const double partly = (1 + 40 * 0.07) / 60;
   EXPECT_NEAR(test.strain(), partly, 1e-12);
-  test.go_to(kLength * 1.02);
+  test.go_to(kStripLength * 1.02);
   EXPECT_TRUE(test.slack());
   EXPECT_NEAR(test.strain(), partly, 1e-12);
 }
 
 TEST(StretchedStrip, EnclosesWhatItDissipates) {
-  StretchedStripTest test(kTension, kLength);
-  double work = 0, distance = kLength, force = 0;
+  StretchedStripTest test(kTension, kStripLength);
+  double work = 0, distance = kStripLength, force = 0;
   for (const double to : {1.1, 1.0, 1.2, 1.0})
-    for (const double from = distance; distance != kLength * to;) {
-      const double next = std::abs(kLength * to - distance) < 1.5e-7
-                              ? kLength * to
-                              : distance + std::copysign(1e-7, kLength * to - from);
+    for (const double from = distance; distance != kStripLength * to;) {
+      const double next = std::abs(kStripLength * to - distance) < 1.5e-7
+                              ? kStripLength * to
+                              : distance + std::copysign(1e-7, kStripLength * to - from);
       test.go_to(next);
       work += (force + test.force()) / 2 * (next - distance);
       distance = next;

@@ -10,7 +10,7 @@
 namespace hysteron {
 namespace {
 
-constexpr double kRounding = 1e-15;  // [m], of places of 0.1 m
+constexpr double kDrivenRounding = 1e-15;  // [m], of places of 0.1 m
 
 Scene held_at_a_corner() {
   Scene scene = test::free_square(50);
@@ -48,8 +48,8 @@ TEST(DrivenPin, MovesWhatItHoldsAtItsVelocityUntilItIsDrivenAgain) {
     simulation->drive(0, {0, 0, 0}, 0);
     simulation->advance(5);
     const Eigen::Vector3d displacement = simulation->positions()[corner] - start;
-    EXPECT_LT((displacement - 5 * scene.step * velocity).norm(), kRounding) << enum_name(integrator);
-    EXPECT_LT((simulation->pin_displacement(0).position - displacement).norm(), kRounding)
+    EXPECT_LT((displacement - 5 * scene.step * velocity).norm(), kDrivenRounding) << enum_name(integrator);
+    EXPECT_LT((simulation->pin_displacement(0).position - displacement).norm(), kDrivenRounding)
         << enum_name(integrator);
   }
 }

@@ -12,7 +12,7 @@ namespace {
 using Eigen::Vector3d;
 using test::Trial;
 
-constexpr double kRounding = 1e-12;
+constexpr double kMotionRounding = 1e-12;
 // Two correctly solved steps differ by the solver's tolerance, amplified over tens of steps.
 constexpr double kSolved = 1e-9;
 
@@ -41,12 +41,13 @@ double total_mass(const Trial& trial) {
   return sum;
 }
 
-class Integrator : public testing::TestWithParam<const char*> {};
-INSTANTIATE_TEST_SUITE_P(Both, Integrator, testing::Values("semi-implicit", "explicit"), [](const auto& i) {
-  return std::string(i.param) == "explicit" ? "explicit" : "semi_implicit";
-});
+class TwoIntegrators : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Both, TwoIntegrators, testing::Values("semi-implicit", "explicit"),
+                         [](const auto& i) {
+                           return std::string(i.param) == "explicit" ? "explicit" : "semi_implicit";
+                         });
 
-TEST_P(Integrator, FreeFallGainsExactlyTheWeightsMomentum) {
+TEST_P(TwoIntegrators, FreeFallGainsExactlyTheWeightsMomentum) {
   for (const char* law : {"linear", "prandtl", "wong"}) {
     Scene scene = test::free_square();
     scene.integrator = value_named<hysteron::Integrator>(GetParam());
@@ -60,7 +61,7 @@ TEST_P(Integrator, FreeFallGainsExactlyTheWeightsMomentum) {
 }
 
 // v_n = n he g and x_n = x_0 + he sum v_k: the centre falls by g t (t + he)/2.
-TEST_P(Integrator, FlatClothFallsAsAPoint) {
+TEST_P(TwoIntegrators, FlatClothFallsAsAPoint) {
   Scene scene = test::free_square();
   scene.integrator = value_named<hysteron::Integrator>(GetParam());
   const Trial trial(scene);
@@ -69,7 +70,7 @@ TEST_P(Integrator, FlatClothFallsAsAPoint) {
   const Vector3d fall = scene.gravity * t * (t + he) / 2;
   test::Positions expected;
   for (const Vector3d& x : trial.cloth.start) expected.push_back(x + fall);
-  EXPECT_LT(test::farthest(simulation->positions(), expected), 10 * kRounding);
+  EXPECT_LT(test::farthest(simulation->positions(), expected), 10 * kMotionRounding);
 }
 
 TEST(ExplicitIntegrator, KeepsAngularMomentumOfATumblingCloth) {
@@ -82,7 +83,8 @@ TEST(ExplicitIntegrator, KeepsAngularMomentumOfATumblingCloth) {
   const auto simulation = trial.after(50);
   const double scale = 0.2 * momentum_scale(trial, *simulation);  // levers of the cloth's size
   ASSERT_GT(scale, 0);
-  EXPECT_LT(angular_momentum(trial, *simulation).norm(), kRounding * scale * simulation->limits().substeps);
+  EXPECT_LT(angular_momentum(trial, *simulation).norm(),
+            kMotionRounding * scale * simulation->limits().substeps);
 }
 
 // One linearised implicit solve turns with the cloth only to first order of the step.
@@ -102,7 +104,7 @@ TEST(SemiImplicitIntegrator, AngularMomentumErrorShrinksWithTheStep) {
   EXPECT_LT(fine, coarse / 2);
 }
 
-TEST_P(Integrator, StepTurnsWithTheWorld) {
+TEST_P(TwoIntegrators, StepTurnsWithTheWorld) {
   for (const char* law : {"linear", "prandtl", "wong"}) {
     Scene scene = test::hanging_square();
     scene.integrator = value_named<hysteron::Integrator>(GetParam());
@@ -121,7 +123,7 @@ TEST_P(Integrator, StepTurnsWithTheWorld) {
   }
 }
 
-TEST_P(Integrator, PinsStayWhereTheyAreToTheLastBit) {
+TEST_P(TwoIntegrators, PinsStayWhereTheyAreToTheLastBit) {
   Scene scene = test::hanging_square();
   scene.integrator = value_named<hysteron::Integrator>(GetParam());
   const Trial trial(scene);
@@ -135,7 +137,7 @@ TEST_P(Integrator, PinsStayWhereTheyAreToTheLastBit) {
   EXPECT_EQ(pinned, 2);
 }
 
-TEST_P(Integrator, MovingHandleFollowsItsKeyframes) {
+TEST_P(TwoIntegrators, MovingHandleFollowsItsKeyframes) {
   Scene scene = test::hanging_square();
   scene.integrator = value_named<hysteron::Integrator>(GetParam());
   scene.pin[0].motion.keys = {{0, {0, 0, 0}, 0}, {0.02, {0.01, 0, 0.02}, 10}, {0.05, {0.02, 0.01, 0}, -20}};
@@ -150,14 +152,14 @@ TEST_P(Integrator, MovingHandleFollowsItsKeyframes) {
     const Placement expected = placement(scene.pin[0].motion, simulation->time());
     for (std::size_t i = 0; i < x.size(); ++i) {
       if (trial.cloth.pin[i] != 0) continue;
-      EXPECT_LT((x[i] - expected(trial.cloth.start[i])).norm(), 10 * kRounding) << simulation->time();
+      EXPECT_LT((x[i] - expected(trial.cloth.start[i])).norm(), 10 * kMotionRounding) << simulation->time();
       moved = std::max(moved, (x[i] - trial.cloth.start[i]).norm());
     }
   }
   EXPECT_GT(moved, 0.02);
 }
 
-TEST_P(Integrator, ReleasedPinLetsItsVertexFallFromThenOn) {
+TEST_P(TwoIntegrators, ReleasedPinLetsItsVertexFallFromThenOn) {
   Scene scene = test::hanging_square();
   scene.integrator = value_named<hysteron::Integrator>(GetParam());
   for (Pin& pin : scene.pin) pin.until = 0.02;

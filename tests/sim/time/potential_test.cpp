@@ -38,7 +38,7 @@ Positions moved(const Positions& x, double fraction, const Positions& d) {
   return result;
 }
 
-struct Case {
+struct PotentialCase {
   std::string law, element;
   bool stiff = false;  // with strains averaged at nodes
 };
@@ -57,7 +57,7 @@ struct Step {
   IncrementalPotential<double, Cpu> potential;
   Positions reference, predicted;
 
-  static Scene scene(const Case& of, double friction) {
+  static Scene scene(const PotentialCase& of, double friction) {
     Scene s = test::hanging_square(150);
     s.law = of.law;
     s.element = value_named<BendingElement>(of.element);
@@ -79,7 +79,7 @@ struct Step {
     return fabric;
   }
 
-  explicit Step(const Case& of, double friction = 0.3, bool bending_lags = false)
+  explicit Step(const PotentialCase& of, double friction = 0.3, bool bending_lags = false)
       : trial(scene(of, friction)),
         op(make_curvature_operator(value_named<BendingElement>(of.element), trial.cloth.mesh,
                                    trial.cloth.held(trial.scene, 0))),
@@ -147,12 +147,13 @@ struct Step {
   }
 };
 
-class OfACloth : public testing::TestWithParam<Case> {};
+class OfACloth : public testing::TestWithParam<PotentialCase> {};
 INSTANTIATE_TEST_SUITE_P(Laws, OfACloth,
-                         testing::Values(Case{"linear", "hinge"}, Case{"prandtl", "hinge"},
-                                         Case{"prandtl", "shape"}, Case{"wong", "shape"},
-                                         Case{"kim", "shape"}, Case{"terzopoulos", "hinge"},
-                                         Case{"prandtl", "shape", true}, Case{"linear", "hinge", true}),
+                         testing::Values(PotentialCase{"linear", "hinge"}, PotentialCase{"prandtl", "hinge"},
+                                         PotentialCase{"prandtl", "shape"}, PotentialCase{"wong", "shape"},
+                                         PotentialCase{"kim", "shape"}, PotentialCase{"terzopoulos", "hinge"},
+                                         PotentialCase{"prandtl", "shape", true},
+                                         PotentialCase{"linear", "hinge", true}),
                          [](const auto& c) {
                            return c.param.law + "_" + c.param.element + (c.param.stiff ? "_stiff" : "");
                          });

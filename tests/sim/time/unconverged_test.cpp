@@ -9,7 +9,7 @@ namespace {
 using test::Positions;
 using test::Trial;
 
-constexpr double kRounding = 1e-10;
+constexpr double kUnconvergedRounding = 1e-10;
 
 Scene capped(int iterations) {
   Scene scene = test::hanging_square();
@@ -28,7 +28,7 @@ TEST(UnconvergedSteps, CloseTheLedger) {
   EXPECT_EQ(simulation->counts().unbalanced, 20);
   EXPECT_EQ(simulation->counts().retried, 0);
   EXPECT_GT(std::abs(ledger.unbalanced), 1e-9);
-  EXPECT_LT(ledger.remainder_relative, kRounding);
+  EXPECT_LT(ledger.remainder_relative, kUnconvergedRounding);
 }
 
 TEST(UnconvergedSteps, AreNoneWhereTheLimitIsNotReached) {
@@ -71,7 +71,7 @@ TEST(HandsThatBringHome, AreThereInTime) {
   const auto simulation = trial.after(12);
   EXPECT_GT((simulation->positions()[corner] - trial.cloth.start[corner]).norm(), 1e-2);
   simulation->advance(24);
-  EXPECT_LT((simulation->positions()[corner] - trial.cloth.start[corner]).norm(), kRounding);
+  EXPECT_LT((simulation->positions()[corner] - trial.cloth.start[corner]).norm(), kUnconvergedRounding);
   const Ledger ledger = simulation->ledger();
   EXPECT_GT(ledger.handle_work, 0);
   EXPECT_LT(ledger.remainder_relative, 1e-6);

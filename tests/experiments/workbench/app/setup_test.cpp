@@ -7,7 +7,7 @@ namespace {
 
 CommandLine drape_with(std::vector<Flag> flags) { return {"drape", "hysteron drape", std::move(flags), {}}; }
 
-std::string refusal(std::vector<Flag> flags) {
+std::string setup_error(std::vector<Flag> flags) {
   return test::refusal([&] { set_up(drape_with(std::move(flags)), {default_scene(), {}}); });
 }
 
@@ -76,23 +76,24 @@ TEST(Setup, OfExperimentsWithoutASceneLetsFlagsWinOverQuickToo) {
 }
 
 TEST(Setup, RefusesWhatNoPictureSequenceCanHave) {
-  EXPECT_EQ(refusal({{"fps", "0"}}), "fps = 0 1/s must be in (0, 10000] (--fps)");
-  EXPECT_NE(refusal({{"renderer", "vulkan"}}).find("auto | egl | osmesa"), std::string::npos);
-  EXPECT_NE(refusal({{"export", "stl"}}).find("none | ply | obj | vtk | pc2"), std::string::npos);
-  EXPECT_NE(refusal({{"camera.direction", "0 0 0"}}).find("must not be zero"), std::string::npos);
+  EXPECT_EQ(setup_error({{"fps", "0"}}), "fps = 0 1/s must be in (0, 10000] (--fps)");
+  EXPECT_NE(setup_error({{"renderer", "vulkan"}}).find("auto | egl | osmesa"), std::string::npos);
+  EXPECT_NE(setup_error({{"export", "stl"}}).find("none | ply | obj | vtk | pc2"), std::string::npos);
+  EXPECT_NE(setup_error({{"camera.direction", "0 0 0"}}).find("must not be zero"), std::string::npos);
 }
 
 TEST(Setup, SaysWhoseAKeyOfItsFileIs) {
   const Folder folder;
   const std::string file = folder.path() / "scene.toml";
   std::ofstream(file) << "\n[crease]\nhold = 3\n";
-  EXPECT_EQ(refusal({{"scene", file}}),
+  EXPECT_EQ(setup_error({{"scene", file}}),
             "unknown key crease.hold (" + file + ":3); it is an option of crease");
 }
 
 TEST(Setup, ChecksTheSceneAsAWhole) {
-  EXPECT_NE(refusal({{"fabric.b1", "1e-9"}}).find("fabric.b1 = 1e-09 N m (--fabric.b1) must be >= fabric.b2"),
-            std::string::npos);
+  EXPECT_NE(
+      setup_error({{"fabric.b1", "1e-9"}}).find("fabric.b1 = 1e-09 N m (--fabric.b1) must be >= fabric.b2"),
+      std::string::npos);
 }
 
 }  // namespace

@@ -6,13 +6,13 @@
 namespace hysteron::experiments {
 namespace {
 
-using Outcome = TestCase::Outcome;
+using Result = TestCase::Outcome;
 
-const std::vector<TestCase> kCases = {{"a & \"b\"", Outcome::passed, "", 0.25},
-                                      {"c", Outcome::passed, "1 < 2", 1},
-                                      {"d", Outcome::failed, "flip = 0.2 must be <= 0.1\x01", 0},
-                                      {"e", Outcome::broken, "no file", 0},
-                                      {"f", Outcome::skipped, "ran on a GPU", 0}};
+const std::vector<TestCase> kCases = {{"a & \"b\"", Result::passed, "", 0.25},
+                                      {"c", Result::passed, "1 < 2", 1},
+                                      {"d", Result::failed, "flip = 0.2 must be <= 0.1\x01", 0},
+                                      {"e", Result::broken, "no file", 0},
+                                      {"f", Result::skipped, "ran on a GPU", 0}};
 
 TEST(JUnit, HasACaseForEachComparisonAndCountsThem) {
   EXPECT_EQ(junit_text("diff", "x", kCases),

@@ -26,12 +26,6 @@ TEST(Base64, GivesTheVectorsOfRfc4648) {
   EXPECT_EQ(encoded("\xff\xfe\x80 bar"), "//6AIGJhcg==");
 }
 
-int occurrences(const std::string& text, const std::string& part) {
-  int count = 0;
-  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
-  return count;
-}
-
 class Report : public testing::Test {
  protected:
   Report() {

@@ -10,16 +10,16 @@
 namespace hysteron::experiments {
 namespace {
 
-constexpr double kSide = 0.2;
+constexpr double kRidgedSide = 0.2;
 
-ClothMesh sheet() { return make_rectangle(kSide, kSide, 20000, MeshFamily::random, 1); }
+ClothMesh sheet() { return make_rectangle(kRidgedSide, kRidgedSide, 20000, MeshFamily::random, 1); }
 
 // A ridge through the middle whose value falls off to both sides, by half in 4 mm.
 std::vector<float> ridge_across(const ClothMesh& mesh, double angle) {
   const Eigen::Vector2d normal(std::cos(angle), std::sin(angle));
   std::vector<float> value;
   for (const Eigen::Vector3d& x : mesh.rest) {
-    const double away = std::abs((x.head<2>() - Eigen::Vector2d::Constant(kSide / 2)).dot(normal));
+    const double away = std::abs((x.head<2>() - Eigen::Vector2d::Constant(kRidgedSide / 2)).dot(normal));
     value.push_back(static_cast<float>(1 - away / 8e-3));
   }
   return value;
@@ -32,9 +32,9 @@ std::vector<Eigen::Vector2d> flat(const ClothMesh& mesh) { return unrolled(mesh,
 TEST(RidgeLength, OfAStraightRidgeIsItsLengthUpToItsDirection) {
   const ClothMesh mesh = sheet();
   EXPECT_NEAR(
-      ridge_length(mesh, flat(mesh), ridge_across(mesh, 0), 0.5, 1e-3) / (std::numbers::pi / 4 * kSide), 1,
-      0.03);
-  const double diagonal = std::sqrt(2.0) * kSide;
+      ridge_length(mesh, flat(mesh), ridge_across(mesh, 0), 0.5, 1e-3) / (std::numbers::pi / 4 * kRidgedSide),
+      1, 0.03);
+  const double diagonal = std::sqrt(2.0) * kRidgedSide;
   EXPECT_NEAR(ridge_length(mesh, flat(mesh), ridge_across(mesh, std::numbers::pi / 4), 0.5, 1e-3) / diagonal,
               std::numbers::pi / 4 * std::sqrt(2.0), 0.05);
 }

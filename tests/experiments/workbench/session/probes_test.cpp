@@ -17,8 +17,6 @@ const std::string kSwing =
     "swing --triangles 60 --seconds 0.1 --fps 60 --device cpu --threads 1 --quiet --fabric.weft-bending 1 "
     "--fabric.bias-bending 1 --fabric.damping 0 --no-images";
 
-std::string in(const fs::path& out) { return " --out " + out.string(); }
-
 std::vector<double> column(const fs::path& table, const std::string& name) {
   return read_table(table).numbers(name);
 }
@@ -27,8 +25,9 @@ std::vector<double> column(const fs::path& table, const std::string& name) {
 void expect_linear(const std::string& element, const std::vector<std::string>& components) {
   const Folder folder;
   const fs::path out = folder.path() / "out", probes = out / "probes.csv";
-  ASSERT_EQ(program(kSwing + " --law linear --probe 0.024,0.008 --element " + element + in(out)).exit_code,
-            0);
+  ASSERT_EQ(
+      program(kSwing + " --law linear --probe 0.024,0.008 --element " + element + out_flag(out)).exit_code,
+      0);
   const double b2 = Json::parse(file_text(out / "manifest.json"))["scene"]["fabric"]["b2"];
   for (const std::string& component : components) {
     const auto k = column(probes, "probe1_curvature" + component + " [1/m]"),
@@ -53,7 +52,8 @@ TEST(Probes, AtAHingeOfAnElasticLawHaveItsRigidityTimesTheCurvature) { expect_li
 // The strip is held up to 10 mm, and hangs down from there.
 TEST(Probes, StayWhereTheClothIsHeldAndFallWhereItIsFree) {
   const Folder folder;
-  ASSERT_EQ(program(kSwing + " --probe '0.009,0.011;0.08,0.02'" + in(folder.path() / "out")).exit_code, 0);
+  ASSERT_EQ(program(kSwing + " --probe '0.009,0.011;0.08,0.02'" + out_flag(folder.path() / "out")).exit_code,
+            0);
   const fs::path probes = folder.path() / "out/probes.csv";
   for (const double x : column(probes, "probe1_x [m]")) EXPECT_NEAR(x, 0.009, kRounding);
   for (const double y : column(probes, "probe1_y [m]")) EXPECT_NEAR(y, 0.011, kRounding);
@@ -67,8 +67,8 @@ TEST(Probes, StayWhereTheClothIsHeldAndFallWhereItIsFree) {
 TEST(Probes, AreThoseOfTheRunThatIsRunAgain) {
   const Folder folder;
   const fs::path first = folder.path() / "first", again = folder.path() / "again";
-  ASSERT_EQ(program(kSwing + " --probe '0.02,0.01;0.08,0.02'" + in(first)).exit_code, 0);
-  ASSERT_EQ(program("rerun " + first.string() + " --quiet" + in(again)).exit_code, 0);
+  ASSERT_EQ(program(kSwing + " --probe '0.02,0.01;0.08,0.02'" + out_flag(first)).exit_code, 0);
+  ASSERT_EQ(program("rerun " + first.string() + " --quiet" + out_flag(again)).exit_code, 0);
   EXPECT_EQ(file_text(again / "probes.csv"), file_text(first / "probes.csv"));
   const Json files = Json::parse(file_text(again / "manifest.json"))["files"];
   EXPECT_NE(std::find(files.begin(), files.end(), "probes.csv"), files.end());
@@ -77,7 +77,7 @@ TEST(Probes, AreThoseOfTheRunThatIsRunAgain) {
 TEST(Probes, ChangeNothingInTheRun) {
   const Folder folder;
   const auto hash = [&](const std::string& name, const std::string& more) {
-    EXPECT_EQ(program(kSwing + more + in(folder.path() / name)).exit_code, 0);
+    EXPECT_EQ(program(kSwing + more + out_flag(folder.path() / name)).exit_code, 0);
     return Json::parse(file_text(folder.path() / name / "manifest.json"))["state_hash"].get<std::string>();
   };
   EXPECT_EQ(hash("with", " --probe 0.02,0.01"), hash("without", ""));
@@ -87,7 +87,7 @@ TEST(Probes, BesideTheClothAreRefusedWithWhereItLies) {
   const Folder folder;
   const fs::path out = folder.path() / "out";
   const auto refusal = [&](const std::string& experiment, const std::string& more) {
-    const Outcome outcome = program(experiment + " --quick --device cpu" + in(out) + more);
+    const Outcome outcome = program(experiment + " --quick --device cpu" + out_flag(out) + more);
     EXPECT_EQ(outcome.exit_code, 2) << more;
     EXPECT_FALSE(fs::exists(out));
     return outcome.err;

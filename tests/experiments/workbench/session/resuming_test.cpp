@@ -12,11 +12,9 @@ namespace hysteron::experiments {
 namespace {
 namespace fs = std::filesystem;
 
-const std::string kSwing = "swing --quick --no-images --threads 1 --device cpu --fps 240";
-const std::string kCrumple =
+const std::string kResumedSwing = "swing --quick --no-images --threads 1 --device cpu --fps 240";
+const std::string kResumedCrumple =
     "crumple --quick --no-images --threads 1 --device cpu --fps 240 --triangles 100 --seconds 0.3";
-
-std::string in(const fs::path& out) { return " --out " + out.string(); }
 
 Json manifest_in(const fs::path& out) { return Json::parse(file_text(out / "manifest.json")); }
 
@@ -87,7 +85,7 @@ std::size_t interrupt(const std::string& arguments, const fs::path& out, int sig
   std::mt19937 random(7);
   int status = -1;
   for (int k = 0; k < kills && status != 0; ++k) {
-    status = signalled(arguments + " --resume" + in(out), signal,
+    status = signalled(arguments + " --resume" + out_flag(out), signal,
                        std::uniform_int_distribution(5, longest)(random), out.string() + ".err");
     const bool ended = WIFEXITED(status) && WEXITSTATUS(status) == 3, done = status == 0;
     EXPECT_TRUE(WIFSIGNALED(status) || ended || done) << file_text(out.string() + ".err");
@@ -98,7 +96,7 @@ std::size_t interrupt(const std::string& arguments, const fs::path& out, int sig
                 std::string::npos);
     }
   }
-  const Outcome last = program(arguments + " --resume" + in(out));
+  const Outcome last = program(arguments + " --resume" + out_flag(out));
   EXPECT_EQ(last.exit_code, 0) << last.err;
   EXPECT_FALSE(fs::exists(out / "checkpoint"));
   return manifest_in(out).value("resumed_at_s", Json::array()).size();
@@ -117,11 +115,11 @@ TEST_P(ResumingEvery, EndsInTheSameBits) {
   const Folder folder;
   const fs::path parts = folder.path() / "parts";
   const std::string line = std::string(GetParam()) + " --quick --no-images --threads 1 --device cpu";
-  const Outcome whole = program(line + in(folder.path() / "whole"));
+  const Outcome whole = program(line + out_flag(folder.path() / "whole"));
   ASSERT_EQ(whole.exit_code, 0) << whole.err;
   for (int k = 0; k < 2; ++k)
-    ASSERT_EQ(after_a_checkpoint(line + " --checkpoint 1e-6 --resume" + in(parts), parts), 3);
-  const Outcome last = program(line + " --resume" + in(parts));
+    ASSERT_EQ(after_a_checkpoint(line + " --checkpoint 1e-6 --resume" + out_flag(parts), parts), 3);
+  const Outcome last = program(line + " --resume" + out_flag(parts));
   EXPECT_EQ(last.exit_code, 0) << last.err;
   EXPECT_EQ(manifest_in(parts)["resumed_at_s"].size(), 2u);
   expect_same_results(folder.path() / "whole", parts);
@@ -130,8 +128,8 @@ TEST_P(ResumingEvery, EndsInTheSameBits) {
 // Which leaves no time for last words, and half-written files.
 TEST(Resuming, ASwingThatIsKilledEndsInTheSameBits) {
   const Folder folder;
-  ASSERT_EQ(program(kSwing + in(folder.path() / "whole")).exit_code, 0);
-  EXPECT_GT(interrupt(kSwing + " --checkpoint 1e-6", folder.path() / "parts", SIGKILL, 10, 120), 2u);
+  ASSERT_EQ(program(kResumedSwing + out_flag(folder.path() / "whole")).exit_code, 0);
+  EXPECT_GT(interrupt(kResumedSwing + " --checkpoint 1e-6", folder.path() / "parts", SIGKILL, 10, 120), 2u);
   expect_same_results(folder.path() / "whole", folder.path() / "parts");
 }
 
@@ -139,7 +137,7 @@ TEST(Resuming, PicturesAndMeshesGoOnWhereTheyWere) {
   const Folder folder;
   const std::string line =
       "swing --quick --threads 1 --device cpu --fps 60 --size 96x64 --look cloth,curvature --export obj";
-  ASSERT_EQ(program(line + in(folder.path() / "whole")).exit_code, 0);
+  ASSERT_EQ(program(line + out_flag(folder.path() / "whole")).exit_code, 0);
   EXPECT_GT(interrupt(line + " --checkpoint 1e-6", folder.path() / "parts", SIGTERM, 6, 700), 1u);
   expect_same_results(folder.path() / "whole", folder.path() / "parts");
 }
@@ -147,19 +145,19 @@ TEST(Resuming, PicturesAndMeshesGoOnWhereTheyWere) {
 TEST(Resuming, AnAnimationIsThereWhenARunEndsEarlyAndWholeInTheEnd) {
   const Folder folder;
   const fs::path parts = folder.path() / "parts", file = parts / "mesh" / "cloth.pc2";
-  const std::string line = kSwing + " --export pc2";
-  ASSERT_EQ(program(line + in(folder.path() / "whole")).exit_code, 0);
-  ASSERT_EQ(after_a_checkpoint(line + " --checkpoint 1e-6" + in(parts), parts), 3);
+  const std::string line = kResumedSwing + " --export pc2";
+  ASSERT_EQ(program(line + out_flag(folder.path() / "whole")).exit_code, 0);
+  ASSERT_EQ(after_a_checkpoint(line + " --checkpoint 1e-6" + out_flag(parts), parts), 3);
   ASSERT_TRUE(fs::exists(file));
   EXPECT_LT(fs::file_size(file), fs::file_size(folder.path() / "whole" / "mesh" / "cloth.pc2"));
-  ASSERT_EQ(program(line + " --resume" + in(parts)).exit_code, 0);
+  ASSERT_EQ(program(line + " --resume" + out_flag(parts)).exit_code, 0);
   expect_same_results(folder.path() / "whole", parts);
 }
 
 TEST(Resuming, TwoSignalsAtOnceAreOneAndTwoApartEndTheProcess) {
   const Folder folder;
   const fs::path out = folder.path() / "out", err = folder.path() / "err";
-  const std::string line = kSwing + " --triangles 1000 --checkpoint 1000" + in(out);
+  const std::string line = kResumedSwing + " --triangles 1000 --checkpoint 1000" + out_flag(out);
   EXPECT_EQ(
       WEXITSTATUS(std::system(
           ("timeout -s TERM 0.4 " HYSTERON_PROGRAM " " + line + " >/dev/null 2>" + err.string()).c_str())),
@@ -171,7 +169,8 @@ TEST(Resuming, TwoSignalsAtOnceAreOneAndTwoApartEndTheProcess) {
   const pid_t child = fork();
   if (child == 0) {
     execl("/bin/sh", "sh", "-c",
-          ("exec " HYSTERON_PROGRAM " " + slow + " --checkpoint 1000" + in(folder.path() / "slow")).c_str(),
+          ("exec " HYSTERON_PROGRAM " " + slow + " --checkpoint 1000" + out_flag(folder.path() / "slow"))
+              .c_str(),
           nullptr);
     _exit(127);
   }
@@ -188,15 +187,15 @@ TEST(Resuming, TwoSignalsAtOnceAreOneAndTwoApartEndTheProcess) {
 TEST(Resuming, ACompleteRunIsNotRepeatedAndOneWithoutCheckpointBeginsAnew) {
   const Folder folder;
   const fs::path out = folder.path() / "out";
-  const Outcome first = program(kSwing + " --resume" + in(out));
+  const Outcome first = program(kResumedSwing + " --resume" + out_flag(out));
   EXPECT_EQ(first.exit_code, 0);
   EXPECT_NE(first.err.find("no checkpoint in " + out.string() + ": from the start"), std::string::npos);
   const std::string manifest = file_text(out / "manifest.json");
-  const Outcome again = program(kSwing + " --resume --threads 2" + in(out));
+  const Outcome again = program(kResumedSwing + " --resume --threads 2" + out_flag(out));
   EXPECT_EQ(again.exit_code, 0);
   EXPECT_EQ(again.err, out.string() + " is complete\n");
-  EXPECT_EQ(program(kSwing + " --resume --json" + in(out)).out, manifest);
-  const Outcome other = program(kSwing + " --resume --law linear" + in(out));
+  EXPECT_EQ(program(kResumedSwing + " --resume --json" + out_flag(out)).out, manifest);
+  const Outcome other = program(kResumedSwing + " --resume --law linear" + out_flag(out));
   EXPECT_EQ(other.exit_code, 2);
   EXPECT_NE(other.err.find("has a complete run of other values (law"), std::string::npos) << other.err;
   EXPECT_EQ(file_text(out / "manifest.json"), manifest);
@@ -206,18 +205,18 @@ TEST(Resuming, ACompleteRunIsNotRepeatedAndOneWithoutCheckpointBeginsAnew) {
 class RefusedCheckpoint : public testing::Test {
  protected:
   RefusedCheckpoint() {
-    signalled(kLine + in(out_), SIGTERM, 250, folder_.path() / "err");
+    signalled(kLine + out_flag(out_), SIGTERM, 250, folder_.path() / "err");
     good_ = file_text(out_ / "checkpoint");
   }
   void expect_refusal(const std::string& why, const std::string& more = "") {
-    const Outcome outcome = program(kLine + more + " --resume" + in(out_));
+    const Outcome outcome = program(kLine + more + " --resume" + out_flag(out_));
     EXPECT_EQ(outcome.exit_code, 2);
     EXPECT_EQ(outcome.err, "hysteron swing: cannot resume from " + (out_ / "checkpoint").string() + ": " +
                                why + "; without --resume the run begins anew\n");
   }
   void put(const std::string& text) const { std::ofstream(out_ / "checkpoint", std::ios::binary) << text; }
 
-  const std::string kLine = kSwing + " --triangles 1000 --checkpoint 1e-6";
+  const std::string kLine = kResumedSwing + " --triangles 1000 --checkpoint 1e-6";
   const Folder folder_;
   const fs::path out_ = folder_.path() / "out";
   std::string good_;
@@ -250,7 +249,7 @@ TEST_F(RefusedCheckpoint, NamesWhatIsWrong) {
   expect_refusal("it has the format of another version of hysteron");
   put(good_);  // and a file half written beside it is not looked at
   std::ofstream(out_ / "checkpoint.part-1-0") << "half";
-  const Outcome outcome = program(kLine + " --resume" + in(out_));
+  const Outcome outcome = program(kLine + " --resume" + out_flag(out_));
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_FALSE(fs::exists(out_ / "checkpoint.part-1-0"));
 }
@@ -258,7 +257,7 @@ TEST_F(RefusedCheckpoint, NamesWhatIsWrong) {
 TEST(Checkpoints, AreRefusedWhereSeveralRunsAreAskedFor) {
   const Folder folder;
   const Outcome outcome =
-      program(kCrumple + " --law linear,prandtl --checkpoint 1" + in(folder.path() / "out"));
+      program(kResumedCrumple + " --law linear,prandtl --checkpoint 1" + out_flag(folder.path() / "out"));
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_EQ(outcome.err,
             "hysteron crumple: --checkpoint is of single runs: name one law, fabric, integrator\n");
@@ -268,12 +267,12 @@ TEST(Resuming, OfSeveralLawsKeepsThoseThatAreFinished) {
   const Folder folder;
   const fs::path out = folder.path() / "out";
   const std::string line = "crumple --quick --triangles 60 --seconds 0.02 --no-images --law linear,prandtl";
-  ASSERT_EQ(program(line + in(out)).exit_code, 0);
+  ASSERT_EQ(program(line + out_flag(out)).exit_code, 0);
   const auto written = [&](const char* law) { return fs::last_write_time(out / law / "manifest.json"); };
   const auto first = written("linear");
   const auto second = written("prandtl");
   fs::remove(out / "prandtl" / "outcome.json");  // as if it had been interrupted
-  ASSERT_EQ(program(line + " --resume" + in(out)).exit_code, 0);
+  ASSERT_EQ(program(line + " --resume" + out_flag(out)).exit_code, 0);
   EXPECT_EQ(written("linear"), first);
   EXPECT_GT(written("prandtl"), second);
 }
@@ -282,9 +281,10 @@ TEST(Resuming, OfSeveralLawsKeepsThoseThatAreFinished) {
 TEST(Resuming, ARunThatBeginsAnewRemovesTheCheckpoint) {
   const Folder folder;
   const fs::path out = folder.path() / "out";
-  signalled(kSwing + " --triangles 1000 --checkpoint 1e-6" + in(out), SIGKILL, 250, folder.path() / "err");
+  signalled(kResumedSwing + " --triangles 1000 --checkpoint 1e-6" + out_flag(out), SIGKILL, 250,
+            folder.path() / "err");
   ASSERT_TRUE(fs::exists(out / "checkpoint"));
-  EXPECT_EQ(program(kSwing + in(out)).exit_code, 0);
+  EXPECT_EQ(program(kResumedSwing + out_flag(out)).exit_code, 0);
   EXPECT_FALSE(fs::exists(out / "checkpoint"));
 }
 

@@ -1,6 +1,8 @@
 // Closed forms of the laws without memory, and of the bilinear one.
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "sim/bending/laws/bilinear.h"
 #include "sim/bending/laws/bridson.h"
 #include "sim/bending/laws/flexion_spring.h"
@@ -12,7 +14,6 @@ namespace hysteron::testing {
 namespace {
 
 constexpr double kRounding = 1e-15;  // of moments of about 1e-3 N
-constexpr double kPi = 3.14159265358979323846;
 
 TEST(Bridson, IsLinearAtFirstAndVanishesWhenFoldedAllTheWayRound) {
   const VirginCurve c = cotton_broad();
@@ -21,9 +22,9 @@ TEST(Bridson, IsLinearAtFirstAndVanishesWhenFoldedAllTheWayRound) {
   const auto moment = [&](double k) { return law.step(Vec<double, 1>(k), {}).moment[0]; };
   EXPECT_NEAR(moment(1) / c.b2, 1, 2e-6);  // (K h/2)^2/6
   EXPECT_NEAR(moment(100), 2 * c.b2 / h * std::sin(0.25), kRounding);
-  EXPECT_NEAR(moment(kPi / h), 2 * c.b2 / h, kRounding);  // folded flat: the largest moment
-  EXPECT_NEAR(moment(2 * kPi / h), 0, 10 * kRounding);
-  EXPECT_NEAR(law.step(Vec<double, 1>(kPi / h), {}).stored, 4 * c.b2 / (h * h), kRounding);
+  EXPECT_NEAR(moment(std::numbers::pi / h), 2 * c.b2 / h, kRounding);  // folded flat: the largest moment
+  EXPECT_NEAR(moment(2 * std::numbers::pi / h), 0, 10 * kRounding);
+  EXPECT_NEAR(law.step(Vec<double, 1>(std::numbers::pi / h), {}).stored, 4 * c.b2 / (h * h), kRounding);
 }
 
 // A spring of length 2 h between the tips: E = q (2 h cos(theta/2) - 2 h)^2/2, M = dE/dK.

@@ -4,13 +4,14 @@
 // says so.
 #include <Eigen/Eigenvalues>
 
+#include <numbers>
+
 #include "sim/bending/typed_law_loop.h"
 #include "tests/sim/bending/laws/every_law.h"
 
 namespace hysteron::testing {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 const VirginCurve kCloth = cotton_broad();
 
 class EveryLaw : public ::testing::TestWithParam<LawCase> {};
@@ -50,7 +51,8 @@ TEST_P(EveryLaw, RadialTensorLawsFollowTheScalarLawOnACylinderInAnyDirection) {
     GTEST_SKIP() << "tensor_law_test.cpp says how well four directions do";
   constexpr double kRounding = 1e-12;
   for (int direction = 0; direction < 24; ++direction) {
-    const double c = std::cos(kPi * direction / 24), s = std::sin(kPi * direction / 24);
+    const double c = std::cos(std::numbers::pi * direction / 24),
+                 s = std::sin(std::numbers::pi * direction / 24);
     const Vec<double, 3> bend{c * c, s * s, std::sqrt(2) * c * s};
     const auto sheet = any_law(GetParam(), As::kTensor, kSeconds),
                strip = any_law(GetParam(), As::kScalar, kSeconds);

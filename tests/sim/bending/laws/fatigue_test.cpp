@@ -18,12 +18,12 @@ Fatigue<Law> tired(const FatigueChoice& choice) {
   return Fatigue<Law>::make(c, choice, Law::make({c.b1 - c.b2, 0, c.k0}));
 }
 
-using Stops = PrandtlStops<double, 1, 8>;
+using TiringStops = PrandtlStops<double, 1, 8>;
 
 TEST(Fatigue, OfUnlimitedEnergyIsTheLawItself) {
   const VirginCurve c = cotton_broad();
-  Driven<Fatigue<Stops>> tired_cloth(tired<Stops>({1e30, 0, 1}));
-  Driven<Stops> fresh(Stops::make(c));
+  Driven<Fatigue<TiringStops>> tired_cloth(tired<TiringStops>({1e30, 0, 1}));
+  Driven<TiringStops> fresh(TiringStops::make(c));
   for (double k : random_turns(200, 2 * c.k0, 3)) {
     ASSERT_NEAR(tired_cloth.moment(k), fresh.moment(k), 1e-15);
     ASSERT_NEAR(tired_cloth.last.stored, fresh.last.stored, 1e-13);
@@ -34,7 +34,7 @@ TEST(Fatigue, OfUnlimitedEnergyIsTheLawItself) {
 TEST(Fatigue, WeakensExponentiallyWithTheEnergyLost) {
   const VirginCurve c = cotton_broad();
   const double m0 = c.friction_moment(), m_inf = 1e-4, dc = 0.3;
-  Driven<Fatigue<Stops>> cloth(tired<Stops>({dc, m_inf, 0}));
+  Driven<Fatigue<TiringStops>> cloth(tired<TiringStops>({dc, m_inf, 0}));
   constexpr double kTwoRounds = 1e-4;  // (M0 K0/3 / Dc)^2 of the energy that weakening itself releases
   double at = 0;
   for (int cycle = 0; cycle < 4; ++cycle)
@@ -50,12 +50,12 @@ TEST(Fatigue, WeakensExponentiallyWithTheEnergyLost) {
 TEST(Fatigue, SetStaysWithinTheFrictionMomentLostOverTheRigidity) {
   const VirginCurve c = cotton_broad();
   for (double eta : {0.3, 1.0}) {
-    Driven<Fatigue<Stops>> cloth(tired<Stops>({0.05, 1e-4, eta}));
+    Driven<Fatigue<TiringStops>> cloth(tired<TiringStops>({0.05, 1e-4, eta}));
     const double bound = eta * (c.friction_moment() - 1e-4) / c.b2;
     double largest = 0;
     for (double k : random_turns(3000, 4 * c.k0, 4)) {
       cloth.moment(std::abs(k));  // always to one side, as a fold is
-      const double set = std::abs(Fatigue<Stops>::set_curvature(cloth.history)[0]);
+      const double set = std::abs(Fatigue<TiringStops>::set_curvature(cloth.history)[0]);
       ASSERT_LE(set, bound * (1 + 1e-12));
       largest = std::max(largest, set);
     }
@@ -66,14 +66,14 @@ TEST(Fatigue, SetStaysWithinTheFrictionMomentLostOverTheRigidity) {
 // What is lost in a cycle falls with the strength m itself, so that m falls as 1/cycles.
 TEST(Fatigue, EndsAsAnElasticSheetWithAPermanentCrease) {
   const VirginCurve c = cotton_broad();
-  Driven<Fatigue<Stops>> cloth(tired<Stops>({0.05, 0, 1}));
+  Driven<Fatigue<TiringStops>> cloth(tired<TiringStops>({0.05, 0, 1}));
   double strength_after_half = 0;
   constexpr int kCycles = 4000;
   for (int cycle = 0; cycle < kCycles; ++cycle) {  // folded to 200/m and let go
     for (double k : {200., cloth.law.residual(cloth.history)[0]}) cloth.moment(k);
     if (cycle == kCycles / 2) strength_after_half = cloth.law.strength(cloth.history);
   }
-  const double set = Fatigue<Stops>::set_curvature(cloth.history)[0],
+  const double set = Fatigue<TiringStops>::set_curvature(cloth.history)[0],
                left = cloth.law.strength(cloth.history);
   EXPECT_NEAR(strength_after_half / left, 2, 0.1);
   EXPECT_LT(left, 1e-3);
@@ -85,7 +85,7 @@ TEST(Fatigue, EndsAsAnElasticSheetWithAPermanentCrease) {
 TEST(Fatigue, KeepsTheMomentOfAHeldFoldWhileItSets) {
   const VirginCurve c = cotton_broad();
   // eta = 1: what friction loses, the set takes over, as long as friction holds the fold open.
-  Driven<Fatigue<Stops>> cloth(tired<Stops>({0.2, 0, 1}));
+  Driven<Fatigue<TiringStops>> cloth(tired<TiringStops>({0.2, 0, 1}));
   cloth.moment(200);
   const double rest = cloth.law.residual(cloth.history)[0];
   cloth.moment(rest);
@@ -98,13 +98,13 @@ TEST(Fatigue, KeepsTheMomentOfAHeldFoldWhileItSets) {
 }
 
 TEST(Fatigue, IsHealedByIroningButStaysWeak) {
-  Driven<Fatigue<Stops>> cloth(tired<Stops>({0.1, 0, 1}));
+  Driven<Fatigue<TiringStops>> cloth(tired<TiringStops>({0.1, 0, 1}));
   for (int i = 0; i < 20; ++i)
     for (double k : {200., 20.}) cloth.moment(k);
   const double strength = cloth.law.strength(cloth.history);
-  ASSERT_GT(Fatigue<Stops>::set_curvature(cloth.history)[0], 1);
+  ASSERT_GT(Fatigue<TiringStops>::set_curvature(cloth.history)[0], 1);
   const auto flat = ironed(cloth.law, Vec<double, 1>(0.), cloth.history);
-  EXPECT_EQ(Fatigue<Stops>::set_curvature(flat)[0], 0);
+  EXPECT_EQ(Fatigue<TiringStops>::set_curvature(flat)[0], 0);
   EXPECT_EQ(cloth.law.step(Vec<double, 1>(0.), flat).moment[0], 0);
   EXPECT_NEAR(cloth.law.strength(flat), strength, 1e-15);
 }

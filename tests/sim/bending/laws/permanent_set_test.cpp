@@ -10,21 +10,21 @@ namespace hysteron::testing {
 namespace {
 
 constexpr double kB2 = 1e-5, kYield = 150, kHardening = 4e-6;  // [N m], [1/m], [N m]
-constexpr double kRounding = 1e-11;                            // relative
+constexpr double kSetRounding = 1e-11;                         // relative
 
-using Stops = SpectrumStops<double, 1, 8>;
+using SettingStops = SpectrumStops<double, 1, 8>;
 
-Setting<Stops> law(const Spectrum& friction = {}) {
-  return Setting<Stops>::make(Stops::make(kB2, friction, {}), kB2, {kYield, kHardening});
+Setting<SettingStops> setting_law(const Spectrum& friction = {}) {
+  return Setting<SettingStops>::make(SettingStops::make(kB2, friction, {}), kB2, {kYield, kHardening});
 }
-double set_curvature(const Driven<Setting<Stops>>& cloth) {
-  return Setting<Stops>::set_curvature(cloth.history)[0];
+double set_curvature(const Driven<Setting<SettingStops>>& cloth) {
+  return Setting<SettingStops>::set_curvature(cloth.history)[0];
 }
 
 TEST(PermanentSet, IsNoneBelowTheYieldCurvature) {
-  Driven<Setting<Stops>> cloth(law());
+  Driven<Setting<SettingStops>> cloth(setting_law());
   for (double k : {kYield, -kYield, 0.5 * kYield}) {
-    EXPECT_NEAR(cloth.moment(k), kB2 * k, kRounding * kB2 * kYield);
+    EXPECT_NEAR(cloth.moment(k), kB2 * k, kSetRounding * kB2 * kYield);
     EXPECT_EQ(set_curvature(cloth), 0);
   }
   EXPECT_EQ(cloth.dissipated, 0);
@@ -32,27 +32,27 @@ TEST(PermanentSet, IsNoneBelowTheYieldCurvature) {
 
 // b2 (K - K_p) - h K_p = b2 K_y:  K_p = b2 (K - K_y)/(b2 + h), slope b2 h/(b2 + h) beyond.
 TEST(PermanentSet, GrowsWithTheBendAsHardeningHasIt) {
-  Driven<Setting<Stops>> cloth(law());
+  Driven<Setting<SettingStops>> cloth(setting_law());
   for (double k : {200.0, 400.0, 600.0}) {
     const double moment = cloth.moment(k), set = kB2 * (k - kYield) / (kB2 + kHardening);
-    EXPECT_NEAR(set_curvature(cloth), set, kRounding * k);
-    EXPECT_NEAR(moment, kB2 * (k - set), kRounding * kB2 * k);
+    EXPECT_NEAR(set_curvature(cloth), set, kSetRounding * k);
+    EXPECT_NEAR(moment, kB2 * (k - set), kSetRounding * kB2 * k);
     EXPECT_NEAR(cloth.law.tangent(Vec<double, 1>(k + 1), cloth.history)(0, 0),
-                kB2 * kHardening / (kB2 + kHardening), kRounding * kB2);
+                kB2 * kHardening / (kB2 + kHardening), kSetRounding * kB2);
   }
   const double set = set_curvature(cloth);
-  EXPECT_NEAR(cloth.dissipated, kB2 * kYield * set, kRounding * kB2 * kYield * set);
-  EXPECT_NEAR(cloth.law.residual(cloth.history)[0], set, kRounding * set);
+  EXPECT_NEAR(cloth.dissipated, kB2 * kYield * set, kSetRounding * kB2 * kYield * set);
+  EXPECT_NEAR(cloth.law.residual(cloth.history)[0], set, kSetRounding * set);
 }
 
 // Let go, a set that has hardened beyond b2 K_y flows back until it has not: h K_p = b2 K_y.
 TEST(PermanentSet, IsLeftUpToTheYieldMomentOverTheHardening) {
   for (double k : {700.0, 1200.0, 5000.0}) {
-    Driven<Setting<Stops>> cloth(law());
+    Driven<Setting<SettingStops>> cloth(setting_law());
     cloth.moment(k);
     ASSERT_GT(kHardening * set_curvature(cloth), kB2 * kYield);
     const double most = kB2 * kYield / kHardening;
-    EXPECT_NEAR(cloth.law.residual(cloth.history)[0], most, kRounding * most);
+    EXPECT_NEAR(cloth.law.residual(cloth.history)[0], most, kSetRounding * most);
   }
 }
 
@@ -61,18 +61,18 @@ TEST(PermanentSet, IsLeftUpToTheYieldMomentOverTheHardening) {
 TEST(PermanentSet, AndFrictionLeaveTheirResidualCurvaturesSideBySide) {
   const Spectrum friction{{5, 30}, {2e-5, 1e-5}};
   const double hb = friction.friction_moment(), k = 600;
-  Driven<Setting<Stops>> cloth(law(friction));
+  Driven<Setting<SettingStops>> cloth(setting_law(friction));
   cloth.moment(k);
   const double set = (kB2 * (k - kYield) + hb) / (kB2 + kHardening);
-  EXPECT_NEAR(set_curvature(cloth), set, kRounding * k);
-  EXPECT_NEAR(cloth.law.residual(cloth.history)[0], set + hb / kB2, kRounding * k);
+  EXPECT_NEAR(set_curvature(cloth), set, kSetRounding * k);
+  EXPECT_NEAR(cloth.law.residual(cloth.history)[0], set + hb / kB2, kSetRounding * k);
 }
 
 // What a fold that was bent back beyond its yield has left does not depend on its elements' division.
 TEST(PermanentSet, IsTheSameInOneStepAsInManyOfOneDirection) {
   const Spectrum friction{{5, 30}, {2e-5, 1e-5}};
   for (double turn : {700.0, -900.0}) {
-    Driven<Setting<Stops>> one(law(friction)), many(law(friction));
+    Driven<Setting<SettingStops>> one(setting_law(friction)), many(setting_law(friction));
     one.moment(turn);
     for (int i = 1; i <= 1000; ++i) many.moment(turn * i / 1000);
     EXPECT_NEAR(set_curvature(many), set_curvature(one), 1e-9 * std::abs(turn));
@@ -83,9 +83,9 @@ TEST(PermanentSet, IsTheSameInOneStepAsInManyOfOneDirection) {
 // Held for long, branches have let go: their share of the moment sets nothing any more, but it did when the
 // fold was fast.
 TEST(PermanentSet, IsLargerInAFastFoldThanInASlowOne) {
-  using Relaxed = Relaxing<Stops, kMaxBranches>;
+  using Relaxed = Relaxing<SettingStops, kMaxBranches>;
   const auto folded = [](double seconds) {
-    const Relaxed inner = Relaxed::make(Stops::make(kB2, {}, {}), {{1}, {5e-6}});
+    const Relaxed inner = Relaxed::make(SettingStops::make(kB2, {}, {}), {{1}, {5e-6}});
     Driven<Setting<Relaxed>> cloth(Setting<Relaxed>::make(inner, kB2, {kYield, kHardening}));
     cloth.law.law.dt = seconds / 100;
     for (int i = 1; i <= 100; ++i) cloth.moment(300.0 * i / 100);
@@ -103,8 +103,8 @@ TEST(PermanentSet, OfAFabricIsWhatItsWalkReports) {
   LawWalk walk({"prandtl", fabric, {}});
   walk.to({500});
   const double set = kB2 * (500 - kYield) / (kB2 + kHardening);
-  EXPECT_NEAR(walk.permanent_set(), set, kRounding * set);
-  EXPECT_NEAR(walk.residual(), set, kRounding * set);
+  EXPECT_NEAR(walk.permanent_set(), set, kSetRounding * set);
+  EXPECT_NEAR(walk.residual(), set, kSetRounding * set);
 }
 
 }  // namespace

@@ -14,16 +14,16 @@ namespace hysteron::testing {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::infinity();
-constexpr double kRounding = 1e-14;  // of moments of about 1e-3 N
+constexpr double kPlasticRounding = 1e-14;  // of moments of about 1e-3 N
 
 TEST(Obrien, YieldsAtItsThresholdAndUnloadsElastically) {
   const VirginCurve c = cotton_broad();
   Driven<Obrien<double, 1>> cloth(Obrien<double, 1>::make(c, 40, kNone));
-  EXPECT_NEAR(cloth.moment(30), c.b2 * 30, kRounding);
-  EXPECT_NEAR(cloth.moment(100), c.b2 * 40, kRounding);  // K_p = 60
-  EXPECT_NEAR(cloth.moment(60), 0, kRounding);
-  EXPECT_NEAR(cloth.moment(-20), -c.b2 * 40, kRounding);  // K_p = 20
-  EXPECT_NEAR(cloth.dissipated, c.b2 * 40 * (60 + 40), kRounding);
+  EXPECT_NEAR(cloth.moment(30), c.b2 * 30, kPlasticRounding);
+  EXPECT_NEAR(cloth.moment(100), c.b2 * 40, kPlasticRounding);  // K_p = 60
+  EXPECT_NEAR(cloth.moment(60), 0, kPlasticRounding);
+  EXPECT_NEAR(cloth.moment(-20), -c.b2 * 40, kPlasticRounding);  // K_p = 20
+  EXPECT_NEAR(cloth.dissipated, c.b2 * 40 * (60 + 40), kPlasticRounding);
 }
 
 TEST(Obrien, LoopAreaIsThatOfAnElasticPerfectlyPlasticPlate) {
@@ -38,20 +38,20 @@ TEST(Obrien, LoopAreaIsThatOfAnElasticPerfectlyPlasticPlate) {
 TEST(Obrien, IsElasticAgainWhereItsSetIsBounded) {
   const VirginCurve c = cotton_broad();
   Driven<Obrien<double, 1>> cloth(Obrien<double, 1>::make(c, 40, 25));
-  EXPECT_NEAR(cloth.moment(100), c.b2 * (100 - 25), kRounding);
-  EXPECT_NEAR(cloth.dissipated, c.b2 * 40 * 25, kRounding);
-  EXPECT_NEAR(cloth.moment(-100), -c.b2 * (100 - 25), kRounding);
-  EXPECT_NEAR(cloth.dissipated, c.b2 * 40 * (25 + 50), kRounding);
+  EXPECT_NEAR(cloth.moment(100), c.b2 * (100 - 25), kPlasticRounding);
+  EXPECT_NEAR(cloth.dissipated, c.b2 * 40 * 25, kPlasticRounding);
+  EXPECT_NEAR(cloth.moment(-100), -c.b2 * (100 - 25), kPlasticRounding);
+  EXPECT_NEAR(cloth.dissipated, c.b2 * 40 * (25 + 50), kPlasticRounding);
 }
 
 TEST(Narain, WeakensByOneOverOnePlusDamageAfterTheStepThatYields) {
   const VirginCurve c = cotton_broad();
   Driven<Narain<double, 1>> cloth(Narain<double, 1>::make(c, 40, kNone, 2));
-  EXPECT_NEAR(cloth.moment(100), c.b2 * 40, kRounding);
+  EXPECT_NEAR(cloth.moment(100), c.b2 * 40, kPlasticRounding);
   const double softened = c.b2 / (1 + 2 * (100. / 40 - 1));
-  EXPECT_NEAR(cloth.moment(90), softened * 30, kRounding);
-  EXPECT_NEAR(cloth.moment(60), 0, kRounding);
-  EXPECT_NEAR(cloth.dissipated, c.b2 * 40 * 60 + (c.b2 - softened) * 40 * 40 / 2, kRounding);
+  EXPECT_NEAR(cloth.moment(90), softened * 30, kPlasticRounding);
+  EXPECT_NEAR(cloth.moment(60), 0, kPlasticRounding);
+  EXPECT_NEAR(cloth.dissipated, c.b2 * 40 * 60 + (c.b2 - softened) * 40 * 40 / 2, kPlasticRounding);
 }
 
 TEST(Narain, WithoutWeakeningIsObrien) {
@@ -59,8 +59,8 @@ TEST(Narain, WithoutWeakeningIsObrien) {
   Driven<Narain<double, 3>> narain(Narain<double, 3>::make(c, 40, 30, 0));
   Driven<Obrien<double, 3>> obrien(Obrien<double, 3>::make(c, 40, 30));
   for (const auto& k : random_tensors(100, 100, 3))
-    ASSERT_LE((narain.to(k).moment - obrien.to(k).moment).norm(), kRounding);
-  EXPECT_NEAR(narain.dissipated, obrien.dissipated, 100 * kRounding);
+    ASSERT_LE((narain.to(k).moment - obrien.to(k).moment).norm(), kPlasticRounding);
+  EXPECT_NEAR(narain.dissipated, obrien.dissipated, 100 * kPlasticRounding);
 }
 
 TEST(Terzopoulos, CreepsDownToTheFrictionMomentExponentially) {
@@ -75,7 +75,7 @@ TEST(Terzopoulos, CreepsDownToTheFrictionMomentExponentially) {
   }
   law.dt = 1e9;
   Driven<Terzopoulos<double, 1>> slow(law);
-  EXPECT_NEAR(slow.moment(200), m0, kRounding);
+  EXPECT_NEAR(slow.moment(200), m0, kPlasticRounding);
   EXPECT_NEAR(slow.law.residual(slow.history)[0], 200 - m0 / c.b2, 1e-10);
 }
 
@@ -85,9 +85,9 @@ TEST(Kim, CreepsToItsThresholdAndSoftensByTheWayOfItsSet) {
   law.dt = 1;
   Driven<Kim<double, 1>> cloth(law);
   const double held = 200 * std::exp(-0.5);
-  EXPECT_NEAR(cloth.moment(200), c.b2 * held, kRounding);
+  EXPECT_NEAR(cloth.moment(200), c.b2 * held, kPlasticRounding);
   const double softened = c.b2 / (1 + 0.5 * (200 - held) / 40);
-  EXPECT_NEAR(cloth.moment(200), softened * held * std::exp(-0.5), kRounding);
+  EXPECT_NEAR(cloth.moment(200), softened * held * std::exp(-0.5), kPlasticRounding);
   for (int i = 0; i < 60; ++i) cloth.moment(200);
   EXPECT_NEAR(cloth.law.residual(cloth.history)[0], 200 - 40, 1e-10);
 }
@@ -108,7 +108,7 @@ TEST(GrinspunEdit, HasNoMomentWhereItWasEditedAndForgetsNothingElse) {
   const Vec<double, 3> bent(100, -20, 7);
   const auto edited = law.edited(bent, {});
   EXPECT_EQ(law.step(bent, edited).moment.norm(), 0);
-  EXPECT_NEAR((law.step(Vec<double, 3>::Zero(), edited).moment + c.b2 * bent).norm(), 0, kRounding);
+  EXPECT_NEAR((law.step(Vec<double, 3>::Zero(), edited).moment + c.b2 * bent).norm(), 0, kPlasticRounding);
 }
 
 TEST(Dahl, RelaxesExponentiallyToTheFrictionMoment) {
@@ -116,10 +116,10 @@ TEST(Dahl, RelaxesExponentiallyToTheFrictionMoment) {
   const double m0 = c.friction_moment(), l = c.k0 / 2;
   Driven<Dahl<double, 1>> cloth(Dahl<double, 1>::make(c));
   const double f1 = m0 * (1 - std::exp(-60 / l));
-  EXPECT_NEAR(cloth.moment(60), c.b2 * 60 + f1, kRounding);
+  EXPECT_NEAR(cloth.moment(60), c.b2 * 60 + f1, kPlasticRounding);
   const double f2 = -m0 + (f1 + m0) * std::exp(-100 / l);
-  EXPECT_NEAR(cloth.moment(-40), -c.b2 * 40 + f2, kRounding);
-  EXPECT_NEAR(cloth.last.stored, c.b2 * 40 * 40 / 2 + f2 * f2 / (2 * (c.b1 - c.b2)), kRounding);
+  EXPECT_NEAR(cloth.moment(-40), -c.b2 * 40 + f2, kPlasticRounding);
+  EXPECT_NEAR(cloth.last.stored, c.b2 * 40 * 40 / 2 + f2 * f2 / (2 * (c.b1 - c.b2)), kPlasticRounding);
 }
 
 TEST(Dahl, AStepInOnePieceEqualsManySmallOnes) {
@@ -155,9 +155,9 @@ TEST(Gong, HoldsTheFullFrictionMomentOnlyAfterALongHold) {
   auto law = Gong<double>::make(c, 1e6, 30);  // yields nowhere: friction alone
   const double m0 = c.friction_moment();
   law.dt = 0;
-  EXPECT_NEAR((law.step(Vec<double, 1>(100.), {}).moment[0] - c.b2 * 100), m0 / 12, kRounding);
+  EXPECT_NEAR((law.step(Vec<double, 1>(100.), {}).moment[0] - c.b2 * 100), m0 / 12, kPlasticRounding);
   law.dt = 1e9;
-  EXPECT_NEAR((law.step(Vec<double, 1>(100.), {}).moment[0] - c.b2 * 100), m0, kRounding);
+  EXPECT_NEAR((law.step(Vec<double, 1>(100.), {}).moment[0] - c.b2 * 100), m0, kPlasticRounding);
 }
 
 // Below yield the anchor alone keeps a bend.  One that slipped through bending and was let go at once slips
@@ -192,9 +192,9 @@ TEST(Gong, KeepsItsFrictionThroughAReversal) {
   cloth.law.dt = 0;
   const double m0 = c.friction_moment();
   cloth.moment(20);  // 20 < r_inf = 25
-  EXPECT_NEAR(cloth.moment(-20) + c.b2 * 20, -(c.b1 - c.b2) * 20, kRounding);
-  EXPECT_NEAR(cloth.moment(-100) + c.b2 * 100, -m0, kRounding);
-  EXPECT_NEAR(cloth.moment(-101) + c.b2 * 101, -m0 / 12, kRounding) << "after it has slipped";
+  EXPECT_NEAR(cloth.moment(-20) + c.b2 * 20, -(c.b1 - c.b2) * 20, kPlasticRounding);
+  EXPECT_NEAR(cloth.moment(-100) + c.b2 * 100, -m0, kPlasticRounding);
+  EXPECT_NEAR(cloth.moment(-101) + c.b2 * 101, -m0 / 12, kPlasticRounding) << "after it has slipped";
 }
 
 TEST(Gong, HardensIsotropicallyAtFirstContactWithFiveSixthsOfTheExcessKept) {
@@ -202,10 +202,10 @@ TEST(Gong, HardensIsotropicallyAtFirstContactWithFiveSixthsOfTheExcessKept) {
   c.b1 = c.b2;  // plasticity alone
   auto law = Gong<double>::make(c, 40, 30);
   Driven<Gong<double>> cloth(law);
-  EXPECT_NEAR(cloth.moment(100), c.b2 * (40 + 60 * 5. / 6), kRounding);  // k_h = 5 b2
+  EXPECT_NEAR(cloth.moment(100), c.b2 * (40 + 60 * 5. / 6), kPlasticRounding);  // k_h = 5 b2
   EXPECT_NEAR(cloth.law.residual(cloth.history)[0], 10, 1e-9);
-  EXPECT_NEAR(cloth.moment(10 + 89), c.b2 * 89, kRounding);   // below the new threshold of 90
-  EXPECT_NEAR(cloth.moment(10 - 89), -c.b2 * 89, kRounding);  // on both sides
+  EXPECT_NEAR(cloth.moment(10 + 89), c.b2 * 89, kPlasticRounding);   // below the new threshold of 90
+  EXPECT_NEAR(cloth.moment(10 - 89), -c.b2 * 89, kPlasticRounding);  // on both sides
 }
 
 TEST(Gong, SetsMoreTheLongerItIsHeld) {

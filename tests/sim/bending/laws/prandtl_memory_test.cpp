@@ -35,15 +35,15 @@ class ManyStops {
   std::vector<double> slip_;
 };
 
-constexpr int kManyStops = 10000;
+constexpr int kLongStack = 10000;
 // A stop's threshold stands for an interval K0/N: 1/(4 N^2) on the virgin curve, twice that per branch.
-constexpr double kDiscretisation = 40 / (4. * kManyStops * kManyStops);  // up to 20 branches on the stack
+constexpr double kDiscretisation = 40 / (4. * kLongStack * kLongStack);  // up to 20 branches on the stack
 
 TEST(PrandtlStack, EqualsTenThousandStopsOnRandomHistories) {
   const VirginCurve c = cotton_broad();
   const double m0 = c.friction_moment();
   Driven<PrandtlStack<double, 64>> cloth(PrandtlStack<double, 64>::make(c));
-  ManyStops reference(c, kManyStops);
+  ManyStops reference(c, kLongStack);
   for (double k : random_turns(400, 2 * c.k0, 5)) {
     const auto expected = reference.to(k);
     ASSERT_NEAR(cloth.moment(k), expected.moment, kDiscretisation * m0);
@@ -81,7 +81,7 @@ TEST(PrandtlStops, EqualsItsDefinitionOnRandomHistories) {
 TEST(PrandtlStops, ComeWithinTwiceTheirVirginErrorPerBranchOfTenThousand) {
   const VirginCurve c = cotton_broad();
   Driven<PrandtlStops<double, 1, 8>> cloth(PrandtlStops<double, 1, 8>::make(c));
-  ManyStops reference(c, kManyStops);
+  ManyStops reference(c, kLongStack);
   constexpr double kTurnsOfThisHistory = 5;
   const double bound = 2 * kTurnsOfThisHistory * c.friction_moment() / (4 * 8 * 8);
   for (double k : {1.7, -0.4, 0.9, 0.1, 0.7, 1.9})

@@ -12,7 +12,7 @@
 namespace hysteron::testing {
 namespace {
 
-constexpr double kRounding = 1e-11;  // of K0
+constexpr double kResidualRounding = 1e-11;  // of K0
 
 template <class Law>
 double residual_after(const Law& law, double curvature) {
@@ -35,10 +35,10 @@ void expect_three_cases(const Law& law) {
   for (double km : {0.3 * c.k0, 0.7 * c.k0, c.k0})          // case 1, |M| <= Ma
     EXPECT_GT(residual_after(law, km), 0);                  // the chapter's bilinear argument gives 0
   const double km = last + 1.2 * c.k0;                      // case 2: the root is on the quadratic
-  EXPECT_NEAR(residual_after(law, km), root_on_quadratic(c, km, m0), kRounding * c.k0);
+  EXPECT_NEAR(residual_after(law, km), root_on_quadratic(c, km, m0), kResidualRounding * c.k0);
   for (double far : {last + 2 * c.k0, last + 5 * c.k0, 1000.0})  // case 3: M0/b2
-    EXPECT_NEAR(residual_after(law, far), last, kRounding * c.k0);
-  EXPECT_NEAR(residual_after(law, -1000.0), -last, kRounding * c.k0);
+    EXPECT_NEAR(residual_after(law, far), last, kResidualRounding * c.k0);
+  EXPECT_NEAR(residual_after(law, -1000.0), -last, kResidualRounding * c.k0);
 }
 
 TEST(Residual, FollowsTheThreeCasesOfRecovery) {
@@ -51,7 +51,7 @@ TEST(Residual, OfPrandtlInTheFirstCaseIsTheRootOnTheDoubledBranch) {
   const auto law = PrandtlStack<double, 8>::make(c);
   for (double u : {0.1, 0.3, 0.7, 1.0}) {
     const double friction = c.friction_moment() * (2 * u - u * u), km = u * c.k0;
-    EXPECT_NEAR(residual_after(law, km), root_on_quadratic(c, km, friction), kRounding * c.k0);
+    EXPECT_NEAR(residual_after(law, km), root_on_quadratic(c, km, friction), kResidualRounding * c.k0);
   }
 }
 
@@ -87,7 +87,7 @@ TEST(Residual, IsZeroWithoutMemoryAndOnVirginCloth) {
 TEST(Residual, OfStopsInTheThirdCaseIsTheFrictionMomentOverTheRigidity) {
   const VirginCurve c = cotton_broad();
   EXPECT_NEAR(residual_after(PrandtlStops<double, 1, 8>::make(c), 400), c.friction_moment() / c.b2,
-              kRounding * c.k0);
+              kResidualRounding * c.k0);
 }
 
 // Goes there and looks: the moment at the residual curvature must vanish.

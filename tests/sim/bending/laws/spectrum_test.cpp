@@ -9,8 +9,8 @@
 namespace hysteron::testing {
 namespace {
 
-constexpr double kB2 = 1e-5;         // [N m]
-constexpr double kRounding = 1e-13;  // relative
+constexpr double kSpectrumB2 = 1e-5;         // [N m]
+constexpr double kSpectrumRounding = 1e-13;  // relative
 
 // Beyond the tester's amplitude of 250/m as well.
 Spectrum warp() { return {{3, 12, 40, 95, 300}, {9e-6, 7e-6, 3e-6, 1e-6, 4e-7}}; }
@@ -19,32 +19,34 @@ Spectrum weft() { return {{5, 10, 55, 60, 200}, {4e-6, 9e-6, 1e-6, 2e-6, 1e-7}};
 using Strip = SpectrumStops<double, 1, 8>;
 using Sheet = SpectrumStops<double, 3, 8>;
 
-double virgin(double k) { return kB2 * k + warp().friction_at(k); }
+double virgin(double k) { return kSpectrumB2 * k + warp().friction_at(k); }
 
 TEST(Spectrum, BeginsWithTheSumOfItsStiffnessesAndEndsWithItsFrictionMoment) {
-  Driven<Strip> cloth(Strip::make(kB2, warp(), {}));
+  Driven<Strip> cloth(Strip::make(kSpectrumB2, warp(), {}));
   const double k = 2;  // below all thresholds
-  EXPECT_NEAR(cloth.moment(k), (kB2 + 9e-6 + 7e-6 + 3e-6 + 1e-6 + 4e-7) * k, kRounding * kB2 * k);
+  EXPECT_NEAR(cloth.moment(k), (kSpectrumB2 + 9e-6 + 7e-6 + 3e-6 + 1e-6 + 4e-7) * k,
+              kSpectrumRounding * kSpectrumB2 * k);
   const double hb = 3 * 9e-6 + 12 * 7e-6 + 40 * 3e-6 + 95 * 1e-6 + 300 * 4e-7;
-  EXPECT_NEAR(cloth.moment(1000), kB2 * 1000 + hb, kRounding * kB2 * 1000);
-  EXPECT_NEAR(cloth.law.utilisation(Vec<double, 1>(1000), cloth.history), 1, kRounding);
+  EXPECT_NEAR(cloth.moment(1000), kSpectrumB2 * 1000 + hb, kSpectrumRounding * kSpectrumB2 * 1000);
+  EXPECT_NEAR(cloth.law.utilisation(Vec<double, 1>(1000), cloth.history), 1, kSpectrumRounding);
 }
 
 // (Masing 1926): M = Mr + 2 f((K - Kr)/2), whatever the spectrum and the reversal.
 TEST(Spectrum, ReturnsOnItsVirginCurveDoubled) {
   for (double turn : {7.0, 30.0, 80.0, 250.0, 900.0}) {
-    Driven<Strip> cloth(Strip::make(kB2, warp(), {}));
-    EXPECT_NEAR(cloth.moment(turn), virgin(turn), kRounding * virgin(turn));
+    Driven<Strip> cloth(Strip::make(kSpectrumB2, warp(), {}));
+    EXPECT_NEAR(cloth.moment(turn), virgin(turn), kSpectrumRounding * virgin(turn));
     for (int i = 1; i <= 40; ++i) {
       const double k = turn - 2 * turn * i / 40;
-      EXPECT_NEAR(cloth.moment(k), virgin(turn) - 2 * virgin((turn - k) / 2), kRounding * virgin(turn));
+      EXPECT_NEAR(cloth.moment(k), virgin(turn) - 2 * virgin((turn - k) / 2),
+                  kSpectrumRounding * virgin(turn));
     }
   }
 }
 
 TEST(Spectrum, LosesTheAreaOfItsClosedFormInEachCycle) {
   for (double amplitude : {8.0, 50.0, 250.0, 1000.0}) {
-    Driven<Strip> cloth(Strip::make(kB2, warp(), {}));
+    Driven<Strip> cloth(Strip::make(kSpectrumB2, warp(), {}));
     cloth.moment(amplitude);
     const double first = cloth.dissipated;
     for (double turn : {-amplitude, amplitude}) cloth.moment(turn);
@@ -53,21 +55,21 @@ TEST(Spectrum, LosesTheAreaOfItsClosedFormInEachCycle) {
       const double r = warp().thresholds[j];
       if (r < amplitude) area += 4 * warp().stiffnesses[j] * r * (amplitude - r);
     }
-    EXPECT_NEAR(cloth.dissipated - first, area, kRounding * area);
-    EXPECT_NEAR(warp().loop_area(amplitude), area, kRounding * area);
+    EXPECT_NEAR(cloth.dissipated - first, area, kSpectrumRounding * area);
+    EXPECT_NEAR(warp().loop_area(amplitude), area, kSpectrumRounding * area);
   }
 }
 
 TEST(Spectrum, HasTheWidthOfItsClosedFormAtEveryCurvature) {
   const double amplitude = 250;
-  Driven<Strip> down(Strip::make(kB2, warp(), {}));
+  Driven<Strip> down(Strip::make(kSpectrumB2, warp(), {}));
   for (double turn : {amplitude, -amplitude, amplitude}) down.moment(turn);
   Driven<Strip> up = down;
   up.moment(-amplitude);
   for (double k : {200.0, 100.0, 0.0, -60.0}) {
     Driven<Strip> rising = up;
     const double width = rising.moment(k) - down.moment(k);
-    EXPECT_NEAR(width, warp().loop_width(amplitude, k), kRounding * kB2 * amplitude);
+    EXPECT_NEAR(width, warp().loop_width(amplitude, k), kSpectrumRounding * kSpectrumB2 * amplitude);
   }
 }
 
@@ -82,41 +84,43 @@ TEST(Spectrum, OfEvenThresholdsIsTheDefaultLaw) {
   Driven<Sheet> cloth(Sheet::make(c.b2, even, {}));
   for (const auto& k : random_tensors(200, 2 * c.k0, 11)) {
     usual.to(k), cloth.to(k);
-    ASSERT_LE((usual.last.moment - cloth.last.moment).norm(), kRounding * c.b1 * c.k0);
-    ASSERT_NEAR(usual.last.dissipated, cloth.last.dissipated, kRounding * c.b1 * c.k0 * c.k0);
+    ASSERT_LE((usual.last.moment - cloth.last.moment).norm(), kSpectrumRounding * c.b1 * c.k0);
+    ASSERT_NEAR(usual.last.dissipated, cloth.last.dissipated, kSpectrumRounding * c.b1 * c.k0 * c.k0);
   }
 }
 
 // Along warp and along weft each spectrum is exact.
 TEST(TwoSpectra, FollowTheirOwnLoopsAlongWarpAndAlongWeft) {
-  const Sheet law = Sheet::make(kB2, warp(), weft());
+  const Sheet law = Sheet::make(kSpectrumB2, warp(), weft());
   for (int axis : {0, 1}) {
     Driven<Sheet> sheet(law);
-    Driven<Strip> strip(Strip::make(kB2, axis == 0 ? warp() : weft(), {}));
+    Driven<Strip> strip(Strip::make(kSpectrumB2, axis == 0 ? warp() : weft(), {}));
     for (double k : random_turns(200, 400, 5)) {
       const Vec<double, 3> bend = k * Vec<double, 3>::Unit(axis);
       const double m = strip.moment(k);
-      ASSERT_LE((sheet.to(bend).moment - m * Vec<double, 3>::Unit(axis)).norm(), kRounding * kB2 * 400);
-      ASSERT_NEAR(sheet.last.stored, strip.last.stored, kRounding * kB2 * 400 * 400);
-      ASSERT_NEAR(sheet.last.dissipated, strip.last.dissipated, kRounding * kB2 * 400 * 400);
+      ASSERT_LE((sheet.to(bend).moment - m * Vec<double, 3>::Unit(axis)).norm(),
+                kSpectrumRounding * kSpectrumB2 * 400);
+      ASSERT_NEAR(sheet.last.stored, strip.last.stored, kSpectrumRounding * kSpectrumB2 * 400 * 400);
+      ASSERT_NEAR(sheet.last.dissipated, strip.last.dissipated, kSpectrumRounding * kSpectrumB2 * 400 * 400);
     }
   }
 }
 
 TEST(TwoSpectra, ThatAreEqualAreOne) {
-  Driven<Sheet> two(Sheet::make(kB2, warp(), warp())), one(Sheet::make(kB2, warp(), {}));
+  Driven<Sheet> two(Sheet::make(kSpectrumB2, warp(), warp())), one(Sheet::make(kSpectrumB2, warp(), {}));
   for (const auto& k : random_tensors(300, 200, 6)) {
     two.to(k), one.to(k);
-    ASSERT_LE((two.last.moment - one.last.moment).norm(), kRounding * kB2 * 200);
-    ASSERT_NEAR(two.last.dissipated, one.last.dissipated, kRounding * kB2 * 200 * 200);
+    ASSERT_LE((two.last.moment - one.last.moment).norm(), kSpectrumRounding * kSpectrumB2 * 200);
+    ASSERT_NEAR(two.last.dissipated, one.last.dissipated, kSpectrumRounding * kSpectrumB2 * 200 * 200);
   }
 }
 
 // A bend at 45 degrees slips at a moment between those of warp and weft.
 TEST(TwoSpectra, RubBetweenWarpAndWeftOnTheBias) {
-  Driven<Sheet> sheet(Sheet::make(kB2, warp(), weft()));
+  Driven<Sheet> sheet(Sheet::make(kSpectrumB2, warp(), weft()));
   const Vec<double, 3> bias(0.5, 0.5, std::sqrt(0.5));
-  const double friction = (sheet.to(Vec<double, 3>(5000 * bias)).moment - kB2 * 5000 * bias).dot(bias);
+  const double friction =
+      (sheet.to(Vec<double, 3>(5000 * bias)).moment - kSpectrumB2 * 5000 * bias).dot(bias);
   const double of_warp = warp().friction_moment(), of_weft = weft().friction_moment();
   EXPECT_GT(friction, std::min(of_warp, of_weft));
   EXPECT_LT(friction, std::max(of_warp, of_weft));
@@ -138,19 +142,19 @@ Spectrum bias() {
 struct Turned {
   double direction[2];  // of a hinge (CurvatureOperator)
   Spectrum own;
-  Strip law() const { return Directed<Strip>{Strip::make(kB2, warp(), weft())}.of(direction, 0); }
+  Strip law() const { return Directed<Strip>{Strip::make(kSpectrumB2, warp(), weft())}.of(direction, 0); }
 };
 const Turned kTurned[] = {{{1, 0}, warp()}, {{0, 1}, weft()}, {{0.25, 0.25}, bias()}};
 
 TEST(TurnedSpectra, ReturnOnTheVirginCurveOfTheirDirectionDoubled) {
   for (const Turned& of : kTurned) {
-    const auto own = [&](double k) { return kB2 * k + of.own.friction_at(k); };
+    const auto own = [&](double k) { return kSpectrumB2 * k + of.own.friction_at(k); };
     for (double turn : {7.0, 30.0, 250.0, 900.0}) {
       Driven<Strip> cloth(of.law());
-      EXPECT_NEAR(cloth.moment(turn), own(turn), kRounding * own(turn));
+      EXPECT_NEAR(cloth.moment(turn), own(turn), kSpectrumRounding * own(turn));
       for (int i = 1; i <= 40; ++i) {
         const double k = turn - 2 * turn * i / 40;
-        EXPECT_NEAR(cloth.moment(k), own(turn) - 2 * own((turn - k) / 2), kRounding * own(turn));
+        EXPECT_NEAR(cloth.moment(k), own(turn) - 2 * own((turn - k) / 2), kSpectrumRounding * own(turn));
       }
     }
   }
@@ -164,8 +168,8 @@ TEST(TurnedSpectra, LoseTheAreaOfTheClosedLoopOfTheirDirection) {
       const double first = cloth.dissipated;
       for (double turn : {-amplitude, amplitude}) cloth.moment(turn);
       EXPECT_NEAR(cloth.dissipated - first, of.own.loop_area(amplitude),
-                  kRounding * of.own.loop_area(amplitude));
-      EXPECT_NEAR(cloth.law.utilisation(Vec<double, 1>(2000), cloth.history), 1, kRounding);
+                  kSpectrumRounding * of.own.loop_area(amplitude));
+      EXPECT_NEAR(cloth.law.utilisation(Vec<double, 1>(2000), cloth.history), 1, kSpectrumRounding);
     }
 }
 
@@ -179,7 +183,7 @@ TEST(TurnedSpectra, BeginAndSlideAsTheTensorBentInTheirDirection) {
     Driven<Strip> strip(Directed<Strip>{Strip::make(0, warp(), weft())}.of(direction, 0));
     Driven<Sheet> sheet(Sheet::make(0, warp(), weft()));
     EXPECT_NEAR(strip.moment(kSmall), sheet.to(Vec<double, 3>(kSmall * u)).moment.dot(u),
-                kRounding * warp().stiffness() * kSmall);
+                kSpectrumRounding * warp().stiffness() * kSmall);
     EXPECT_NEAR(strip.moment(kFar), sheet.to(Vec<double, 3>(kFar * u)).moment.dot(u),
                 kSlides * warp().friction_moment());
   }
@@ -187,11 +191,11 @@ TEST(TurnedSpectra, BeginAndSlideAsTheTensorBentInTheirDirection) {
 
 // Behind the metric of the curvature these are the same spectrum, whatever the direction.
 TEST(TurnedSpectra, ThatAreEqualAreOne) {
-  const Strip one = Strip::make(kB2, warp(), warp());
+  const Strip one = Strip::make(kSpectrumB2, warp(), warp());
   const double direction[2] = {0.3, 0.5};
   Driven<Strip> turned(Directed<Strip>{one}.of(direction, 0)), plain(one);
   for (double k : random_turns(200, 400, 5))
-    ASSERT_NEAR(turned.moment(k), plain.moment(k), kRounding * kB2 * 400);
+    ASSERT_NEAR(turned.moment(k), plain.moment(k), kSpectrumRounding * kSpectrumB2 * 400);
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 // Laws on the curvature tensor: cylinders follow the scalar law, turning the cloth turns the moment.
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "sim/bending/laws/four_directions.h"
 #include "sim/bending/laws/linear.h"
 #include "sim/bending/laws/pabst.h"
@@ -11,8 +13,6 @@
 
 namespace hysteron::testing {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 // Unit curvature of a cylinder bent in the direction `angle`, as (S_xx, S_yy, sqrt2 S_xy).
 Vec<double, 3> cylinder(double angle) {
@@ -62,8 +62,8 @@ TEST(FourDirections, StandAtTwentyTwoAndAHalfDegreesWithTheirWeights) {
   const double beta = -std::pow(std::sqrt(2) - 1, 2);
   constexpr double kRounding = 1e-15;
   for (int d = 0; d < 4; ++d) {
-    const double angle = kPi * (22.5 + 45 * d) / 180;
-    const Vec<double, 3> w = Law::kScale * (cylinder(angle) + beta * cylinder(angle + kPi / 2));
+    const double angle = std::numbers::pi * (22.5 + 45 * d) / 180;
+    const Vec<double, 3> w = Law::kScale * (cylinder(angle) + beta * cylinder(angle + std::numbers::pi / 2));
     EXPECT_LE((Law::direction(d) - w).norm(), 4 * kRounding);
   }
 }
@@ -87,12 +87,13 @@ double worst_bend_error(const Tensor& tensor, const Scalar& scalar, const Virgin
 template <class Tensor, class Scalar>
 void expect_bends_within_claims(const Tensor& tensor, const Scalar& scalar, const VirginCurve& c) {
   constexpr double kAligned = 0.004;
-  for (double angle : {0.0, kPi / 4, kPi / 2, 3 * kPi / 4})
+  for (double angle : {0.0, std::numbers::pi / 4, std::numbers::pi / 2, 3 * std::numbers::pi / 4})
     EXPECT_LE(worst_bend_error(tensor, scalar, c, angle), kAligned);
   // Only friction is overrated, and by no more than in the direction of one of the four.
   const double excess = Tensor::kWeight * Tensor::kScale / 2 - 1;
   const double bound = excess * c.friction_moment() / (c.friction_moment() + 3 * c.b2 * c.k0);
-  for (int i = 0; i < 48; ++i) EXPECT_LE(worst_bend_error(tensor, scalar, c, kPi * i / 48), bound);
+  for (int i = 0; i < 48; ++i)
+    EXPECT_LE(worst_bend_error(tensor, scalar, c, std::numbers::pi * i / 48), bound);
 }
 
 TEST(FourDirections, FollowTheScalarLawWithinFourPermilleAlignedAndOverrateFrictionInBetween) {
@@ -113,8 +114,9 @@ TEST(FourDirections, SaturateAtAFrictionThatDependsOnTheDirection) {
            c.friction_moment();
   };
   EXPECT_NEAR(friction(0), omega * s * (std::sqrt(2) - 1), kRounding);  // 1.0037
-  EXPECT_NEAR(friction(kPi / 4), omega * s * (std::sqrt(2) - 1), kRounding);
-  EXPECT_NEAR(friction(kPi / 8), omega * s / 2, kRounding);  // 1.2116: no s and omega make both 1
+  EXPECT_NEAR(friction(std::numbers::pi / 4), omega * s * (std::sqrt(2) - 1), kRounding);
+  EXPECT_NEAR(friction(std::numbers::pi / 8), omega * s / 2,
+              kRounding);  // 1.2116: no s and omega make both 1
 }
 
 }  // namespace

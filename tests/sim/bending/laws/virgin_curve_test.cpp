@@ -11,7 +11,7 @@
 namespace hysteron::testing {
 namespace {
 
-constexpr double kRounding = 1e-14;  // of the moment at the end of the sweep: a few roundings per step
+constexpr double kCurveRounding = 1e-14;  // of the moment at the end of the sweep: a few roundings per step
 
 double virgin_moment(const VirginCurve& c, double k) {
   return k <= c.k0 ? c.b1 * k + c.c1() * k * k : c.friction_moment() + c.b2 * k;
@@ -31,32 +31,32 @@ void expect_virgin_curve(const Law& law, double tolerance) {
 TEST(VirginCurve, IsContinuousWithItsSlopeAtTheElasticLimit) {
   const VirginCurve c = cotton_broad();
   EXPECT_NEAR(c.b1 * c.k0 + c.c1() * c.k0 * c.k0, c.elastic_limit_moment(),
-              kRounding * c.elastic_limit_moment());
-  EXPECT_NEAR(c.b1 + 2 * c.c1() * c.k0, c.b2, kRounding * c.b1);
+              kCurveRounding * c.elastic_limit_moment());
+  EXPECT_NEAR(c.b1 + 2 * c.c1() * c.k0, c.b2, kCurveRounding * c.b1);
 }
 
 TEST(VirginCurve, FrictionMomentIsTheSizeOfTheQuadraticTermAtTheElasticLimit) {
   const VirginCurve c = cotton_broad();
   EXPECT_GT(c.b1, c.b2);  // the chapter prints b1 <= b2
   EXPECT_LT(c.c1(), 0);
-  EXPECT_NEAR((c.b2 - c.b1) / (2 * c.c1()), c.k0, kRounding * c.k0);
+  EXPECT_NEAR((c.b2 - c.b1) / (2 * c.c1()), c.k0, kCurveRounding * c.k0);
   EXPECT_NEAR((c.b1 - c.b2) * c.k0 + c.c1() * c.k0 * c.k0, c.friction_moment(),
-              kRounding);  // Wong, under 4.2
-  EXPECT_NEAR(-c.c1() * c.k0 * c.k0, c.friction_moment(), kRounding);
+              kCurveRounding);  // Wong, under 4.2
+  EXPECT_NEAR(-c.c1() * c.k0 * c.k0, c.friction_moment(), kCurveRounding);
 }
 
 TEST(VirginCurve, FollowsFromKesNumbers) {
   constexpr double kGramForceCm2PerCm = 9.80665e-5, kGramForceCmPerCm = 9.80665e-3;  // N m, N
   const double b = 0.118 * kGramForceCm2PerCm, hb = 0.062 * kGramForceCmPerCm, k0 = 50;
   const VirginCurve c{b + 2 * hb / k0, b, k0};
-  EXPECT_NEAR(c.friction_moment(), hb, kRounding);
+  EXPECT_NEAR(c.friction_moment(), hb, kCurveRounding);
   EXPECT_NEAR(c.b2, 1.157e-5, 0.0005e-5);  // cotton broad, rounded in its source
   EXPECT_NEAR(2 * c.friction_moment(), 1.216e-3, 0.0005e-3);
 }
 
 TEST(VirginCurve, IsFollowedByPabstWongAndTheStack) {
   const VirginCurve c = cotton_broad();
-  const double tolerance = kRounding * c.elastic_limit_moment() * 3;
+  const double tolerance = kCurveRounding * c.elastic_limit_moment() * 3;
   expect_virgin_curve(Pabst<double, 1>::make(c), tolerance);
   expect_virgin_curve(Wong<double>::make(c), tolerance);
   expect_virgin_curve(PrandtlStack<double, 8>::make(c), tolerance);
@@ -94,12 +94,12 @@ void expect_doubled_branch(const Law& law, double tolerance) {
     EXPECT_NEAR(cloth.moment(kr - x), mr - (beta1 * x + gamma1 * x * x), tolerance);  // Wong, Eqs. 4.4, 4.5
   }
   EXPECT_NEAR(cloth.moment(kr - 3 * c.k0), c.b2 * (kr - 3 * c.k0) - m0, tolerance);
-  EXPECT_NEAR(beta1, c.b1, kRounding);
+  EXPECT_NEAR(beta1, c.b1, kCurveRounding);
 }
 
 TEST(VirginCurve, IsDoubledAfterAReversalAsTheChapterPrints) {
   const VirginCurve c = cotton_broad();
-  const double tolerance = kRounding * c.b2 * 4 * c.k0;
+  const double tolerance = kCurveRounding * c.b2 * 4 * c.k0;
   expect_doubled_branch(Wong<double>::make(c), tolerance);
   expect_doubled_branch(PrandtlStack<double, 8>::make(c), tolerance);
   // A branch over 2 K0 misses by twice the virgin error.
