@@ -16,10 +16,7 @@ struct ChapmanLaw {
   static std::vector<LawParameter> parameters() { return {law_parameter::stops()}; }
 
   static bool takes_parts(const LawChoice&) { return true; }
-  template <class Real, int D, int N, class Visit>
-  static void visit_parts(const LawChoice& c, const Visit& visit) {
-    visit_measured<Real, D, N>(c, c.curve.parts.branches, visit);
-  }
+  static RelaxingBranches branches(const LawChoice& c) { return c.curve.parts.branches; }
 };
 
 }  // namespace hysteron

@@ -32,15 +32,19 @@ struct FrictionLaws : LawList<BilinearLaw, WongLaw, PrandtlLaw, DahlLaw> {};
 struct PlasticLaws : LawList<TerzopoulosLaw, ObrienLaw, KimLaw, NarainLaw, GongLaw> {};
 // Laws whose friction can weaken.
 struct FatigueLaws : LawList<BilinearLaw, WongLaw, PrandtlLaw> {};
-// Laws that take what a fabric has beyond b1, b2 and k0, with room for few or for many stops.
+// Laws that take what a fabric has beyond b1, b2 and k0: with room for few or for many stops, without or with
+// relaxing branches.
 struct PartsLaws : LawList<PrandtlLaw, ChapmanLaw> {
   static constexpr int kStops = kFewStops;
+  static constexpr bool kWithoutBranches = true, kWithBranches = true;
 };
-struct ManyLaws : LawList<PrandtlLaw> {
+struct ManyLaws : LawList<PrandtlLaw, ChapmanLaw> {
   static constexpr int kStops = kMaxStops;
+  static constexpr bool kWithoutBranches = true, kWithBranches = false;
 };
 struct ManyRelaxingLaws : LawList<ChapmanLaw> {
   static constexpr int kStops = kMaxStops;
+  static constexpr bool kWithoutBranches = false, kWithBranches = true;
 };
 
 using LawGroups =

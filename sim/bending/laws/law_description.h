@@ -25,10 +25,9 @@
 //     template <class Real, int D, class Memory, class Visit>
 //     static void visit_friction(const LawChoice&, const Visit& visit);
 //     // Of a law of a group with kStops: whether what the fabric has beyond three numbers makes it
-//     // another type of law, and that type, with room for N stops.
+//     // another type of law (measured_law.h), and the branches that relax beside its stops.
 //     static bool takes_parts(const LawChoice&);
-//     template <class Real, int D, int N, class Visit>
-//     static void visit_parts(const LawChoice&, const Visit& visit);
+//     static RelaxingBranches branches(const LawChoice&);
 #pragma once
 
 #include <cmath>

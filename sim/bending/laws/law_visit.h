@@ -89,16 +89,15 @@ template <class Real, int D, class Memory, class Visit, class... Laws>
 bool visit_laws(LawList<Laws...>, const LawChoice& c, const Visit& visit) {
   return !c.fatigue.on() && (visit_plain<Laws, Real, D, Memory>(c, visit) || ...);
 }
-// The others, which take parts, where their stops need room for N.
-template <LawDescription Law, class Real, int D, int N, class Visit>
+// The others, which take parts, where the group has room for their stops and branches.
+template <LawDescription Law, class Real, int D, class Group, class Visit>
 bool visit_with_parts(const LawChoice& c, const Visit& visit) {
-  if (c.name != Law::kName || c.fatigue.on() || !takes_parts<Law>(c) || room_for_stops(c) != N) return false;
-  Law::template visit_parts<Real, D, N>(c, visit);
-  return true;
+  return c.name == Law::kName && !c.fatigue.on() && takes_parts<Law>(c) &&
+         visit_measured<Real, D, Group>(c, Law::branches(c), visit);
 }
-template <class Real, int D, int N, class Visit, class... Laws>
+template <class Real, int D, class Group, class Visit, class... Laws>
 bool visit_laws_with_parts(LawList<Laws...>, const LawChoice& c, const Visit& visit) {
-  return (visit_with_parts<Laws, Real, D, N>(c, visit) || ...);
+  return (visit_with_parts<Laws, Real, D, Group>(c, visit) || ...);
 }
 template <class Real, int D, class Memory, class Visit, class... Laws>
 bool visit_fatigued_laws(LawList<Laws...>, const LawChoice& c, const Visit& visit) {
@@ -112,7 +111,7 @@ bool visit_group(const LawChoice& c, const Visit& visit) {
   if constexpr (std::is_same_v<Group, FatigueLaws>)
     return visit_fatigued_laws<Real, D, typename Memory::Fatigued>(Group{}, c, visit);
   else if constexpr (requires { Group::kStops; })
-    return visit_laws_with_parts<Real, D, Group::kStops>(Group{}, c, visit);
+    return visit_laws_with_parts<Real, D, Group>(Group{}, c, visit);
   else
     return visit_laws<Real, D, Memory>(Group{}, c, visit);
 }

@@ -328,27 +328,27 @@ inline int room_for_stops(const LawChoice& c) {
   return measured_stops(c).size() <= kFewStops ? kFewStops : kMaxStops;
 }
 
-// visit(law) with these branches around the stops, none of them if there are none.
-template <class Stops, class Visit>
-void visit_relaxing(const Stops& stops, const RelaxingBranches& branches, const Visit& visit) {
-  if (branches.empty())
-    visit(stops);
-  else
-    visit(Relaxing<Stops, kMaxBranches>::make(stops, branches));
-}
-
-// The same with room for N stops, setting if the fabric does.
-template <class Real, int D, int N, class Visit>
-void visit_measured(const LawChoice& c, const RelaxingBranches& branches, const Visit& visit) {
-  const Spectrum warp = measured_stops(c);
+// visit(law), with these branches around the stops and setting if the fabric does; false where the group
+// (every_law.h) has no room for the stops, or is not for the branches.
+template <class Real, int D, class Group, class Visit>
+bool visit_measured(const LawChoice& c, const RelaxingBranches& branches, const Visit& visit) {
+  if (room_for_stops(c) != Group::kStops) return false;
+  if (branches.empty() ? !Group::kWithoutBranches : !Group::kWithBranches) return false;
   const BendingParts& parts = c.curve.parts;
-  const auto stops = SpectrumStops<Real, D, N>::make(c.curve.b2, warp, parts.weft_stops);
-  visit_relaxing(stops, branches, [&]<class Law>(const Law& law) {
+  const auto stops =
+      SpectrumStops<Real, D, Group::kStops>::make(c.curve.b2, measured_stops(c), parts.weft_stops);
+  const auto setting_or_not = [&]<class Law>(const Law& law) {
     if (parts.set.on())
       visit(Setting<Law>::make(law, c.curve.b2, parts.set));
     else
       visit(law);
-  });
+  };
+  if constexpr (Group::kWithoutBranches)
+    if (branches.empty()) setting_or_not(stops);
+  if constexpr (Group::kWithBranches)
+    if (!branches.empty())
+      setting_or_not(Relaxing<SpectrumStops<Real, D, Group::kStops>, kMaxBranches>::make(stops, branches));
+  return true;
 }
 
 }  // namespace hysteron

@@ -43,10 +43,7 @@ struct PrandtlLaw {
   static bool takes_parts(const LawChoice& c) {
     return !c.curve.parts.stops.empty() || c.curve.parts.set.on();
   }
-  template <class Real, int D, int N, class Visit>
-  static void visit_parts(const LawChoice& c, const Visit& visit) {
-    visit_measured<Real, D, N>(c, {}, visit);
-  }
+  static RelaxingBranches branches(const LawChoice&) { return {}; }
 
   // Friction alone, that weakens: visit(law).
   template <class Real, int D, class Memory, class Visit>

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "sim/bending/laws/chapman.h"
+#include "sim/bending/laws/law_visit.h"
 #include "tests/sim/bending/laws/law_fixtures.h"
 
 namespace hysteron::testing {
@@ -136,10 +137,10 @@ TEST(Chapman, IsFrictionAloneWhereTheFabricHasNoBranches) {
   VirginCurve fabric = cotton_broad();
   fabric.parts.stops = {{5, 20}, {1e-5, 4e-6}};
   const LawChoice choice = choose_law("chapman", fabric, {});
-  ASSERT_EQ(room_for_stops(choice), kFewStops);
-  ChapmanLaw::visit_parts<double, 3, kFewStops>(choice, []<class Of>(const Of&) {
+  const bool found = visit_group<PartsLaws, double, 3, LawMemorySizes>(choice, []<class Of>(const Of&) {
     EXPECT_TRUE((std::is_same_v<Of, SpectrumStops<double, 3, kFewStops>>));
   });
+  EXPECT_TRUE(found);
 }
 
 }  // namespace
