@@ -62,7 +62,7 @@ std::vector<std::string> lost_words(const CommandLine& line, const Setup& setup)
   std::vector<std::string> words;
   const auto defaults = experiment_named(line.experiment).defaults;
   if (!defaults || setup.decided.empty()) return words;
-  const Json default_values = to_json(defaults().scene), requested = Json::parse(setup.requested),
+  const Json default_values = to_json(defaults().scene), requested = to_json(*setup.requested),
              now = to_json(setup.scene);
   for (const DecidedKey& key : setup.decided) {
     if (const std::string place = place_of_tables(setup.scene, key.path); !place.empty())

@@ -27,19 +27,6 @@ Json given_in(const Json& scene, const Json& origin, const std::string& path = "
   return given;
 }
 
-Json patch_between(const Json& from, const Json& to) {
-  Json patch = Json::object();
-  for (const auto& [name, value] : to.items()) {
-    const bool known = from.contains(name);
-    if (known && from[name] == value) continue;
-    patch[name] =
-        known && from[name].is_object() && value.is_object() ? patch_between(from[name], value) : value;
-  }
-  for (const auto& [name, value] : from.items())
-    if (!to.contains(name)) patch[name] = nullptr;
-  return patch;
-}
-
 // The scene that this experiment is to start from.
 Json scene_for(const std::string& experiment, const Manifest& manifest) {
   Json scene = *manifest.keys;
@@ -98,17 +85,24 @@ void apply_scene(Setup& setup, const std::string& experiment, const std::string&
     if (!is_own_table(value)) assign(find_key(extra, path, name), recorded_value(value, path, name), name);
 }
 
-std::string requested_text(const Scene& scene) { return to_json(scene).dump(); }
-
-Json requested_patch(const Json& simulated, const std::string& requested) {
-  return patch_between(simulated, Json::parse(requested));
+Json requested_patch(const Json& simulated, const Json& requested) {
+  Json patch = Json::object();
+  for (const auto& [name, value] : requested.items()) {
+    const bool known = simulated.contains(name);
+    if (known && simulated[name] == value) continue;
+    patch[name] = known && simulated[name].is_object() && value.is_object()
+                      ? requested_patch(simulated[name], value)
+                      : value;
+  }
+  for (const auto& [name, value] : simulated.items())
+    if (!requested.contains(name)) patch[name] = nullptr;
+  return patch;
 }
 
 // What was asked for, since the experiment will change it once more; but the time and the steps that it has
 // set, which it sets only where they are not given, and all hands and obstacles.
 void dump_scene(const Setup& setup) {
-  Scene scene = setup.scene;
-  apply_recorded_scene(scene, Json::parse(setup.requested), setup.options.dump_scene);
+  Scene scene = *setup.requested;
   std::set<std::string> own;
   const auto keep = [&](const char* key, auto Scene::*member) {
     if (scene.*member != setup.scene.*member) own.insert(key);
@@ -122,8 +116,7 @@ void dump_scene(const Setup& setup) {
   scene.pin = setup.scene.pin;
   scene.obstacle = setup.scene.obstacle;
   std::vector<FurtherKey> others;
-  for (const auto& [path, value] : json_leaves(Json::parse(setup.resolved)))
-    others.push_back({path, toml_value(value)});
+  for (const auto& [path, value] : json_leaves(*setup.resolved)) others.push_back({path, toml_value(value)});
   write_text(setup.options.dump_scene, scene_toml(scene, own, others));
 }
 
