@@ -107,11 +107,9 @@ Agreement Repetition::agreement() const {
 
 double round_off_bound(const Manifest& run) {
   const std::string integrator = run.text("integrator");
-  if (integrator.empty() || integrator == "explicit" || !run.keys) return kMinRoundOff;
-  const auto tolerance =
-      run.keys->find(integrator == "semi-implicit" ? "solver-tolerance" : "newton-residual");
-  if (tolerance == run.keys->end() || !tolerance->is_number()) return kMinRoundOff;
-  return std::max(kMinRoundOff, kSolverToleranceFraction * tolerance->get<double>());
+  if (integrator.empty() || integrator == "explicit") return kMinRoundOff;
+  const double tolerance = run.number(integrator == "semi-implicit" ? "solver-tolerance" : "newton-residual");
+  return std::max(kMinRoundOff, kSolverToleranceFraction * tolerance);
 }
 
 double metric_scale(const std::string& name, double number) {
