@@ -32,23 +32,23 @@ bool is_tables(const std::string& key, py::handle value) {
   return items.size() > 0 ? is_mapping(items[0]) : kTables.contains(key);
 }
 
-TomlNode empty_node(TomlNode::Kind kind, const std::string& key) {
-  TomlNode node;
+ValueTree empty_node(ValueTree::Kind kind, const std::string& key) {
+  ValueTree node;
   node.kind = kind;
   node.key = key;
   return node;
 }
 
-TomlNode value_node(const std::string& key, py::handle value) {
-  TomlNode node = empty_node(TomlNode::Kind::value, key);
+ValueTree value_node(const std::string& key, py::handle value) {
+  ValueTree node = empty_node(ValueTree::Kind::value, key);
   node.value = to_value(value, key);
   return node;
 }
 
-TomlNode table_from_python(const py::dict& values);
+ValueTree table_from_python(const py::dict& values);
 
-TomlNode tables_node(const std::string& key, py::handle value) {
-  TomlNode node = empty_node(TomlNode::Kind::array, key);
+ValueTree tables_node(const std::string& key, py::handle value) {
+  ValueTree node = empty_node(ValueTree::Kind::array, key);
   for (py::handle item : py::reinterpret_borrow<py::sequence>(value)) {
     if (!is_mapping(item)) refuse(key, item, "a dict");
     node.children.push_back(table_from_python(py::reinterpret_borrow<py::dict>(item)));
@@ -57,8 +57,8 @@ TomlNode tables_node(const std::string& key, py::handle value) {
 }
 
 // An element of an array of tables: its keys have hyphens where Python has underscores.
-TomlNode table_from_python(const py::dict& values) {
-  TomlNode table;
+ValueTree table_from_python(const py::dict& values) {
+  ValueTree table;
   for (const auto& [name, value] : values) {
     std::string key = py::str(name);
     std::replace(key.begin(), key.end(), '_', '-');
@@ -68,11 +68,11 @@ TomlNode table_from_python(const py::dict& values) {
 }
 
 void flatten(const std::string& prefix, const py::dict& values, const std::vector<std::string>& keys,
-             TomlNode& root) {
+             ValueTree& root) {
   for (const auto& [name, value] : values) {
     const std::string path = prefix + std::string(py::str(name));
     if (prefix == "param.") {
-      TomlNode node = empty_node(TomlNode::Kind::value, path);
+      ValueTree node = empty_node(ValueTree::Kind::value, path);
       node.value = to_text(value, path);
       root.children.push_back(node);
     } else if (is_mapping(value)) {
@@ -127,8 +127,8 @@ std::string to_text(py::handle value, const std::string& key) {
   refuse(key, value, "a number or a text");
 }
 
-TomlNode to_tree(const py::dict& values) {
-  TomlNode root;
+ValueTree to_tree(const py::dict& values) {
+  ValueTree root;
   flatten("", values, paths(scene_keys()), root);
   return root;
 }

@@ -36,27 +36,6 @@ Json scene_for(const std::string& experiment, const Manifest& manifest) {
   return scene;
 }
 
-// Paths of all values in a tree of objects; of a list its own.
-void collect_leaves(const Json& tree, const std::string& path,
-                    std::vector<std::pair<std::string, Json>>& leaves) {
-  for (const auto& [name, value] : tree.items()) {
-    const std::string key = path.empty() ? name : path + "." + name;
-    if (value.is_object())
-      collect_leaves(value, key, leaves);
-    else
-      leaves.emplace_back(key, value);
-  }
-}
-
-std::vector<std::pair<std::string, Json>> json_leaves(const Json& tree) {
-  std::vector<std::pair<std::string, Json>> leaves;
-  collect_leaves(tree, "", leaves);
-  return leaves;
-}
-
-// Of a list of tables, which the experiment reads itself.
-bool is_own_table(const Json& value) { return value.is_array() && !value.empty() && value[0].is_object(); }
-
 // As a file has it; a table in one line.
 std::string toml_value(const Json& value) {
   if (!value.is_structured()) return value.dump();
@@ -65,6 +44,17 @@ std::string toml_value(const Json& value) {
     entries.push_back((value.is_object() ? name + " = " : "") + toml_value(entry));
   const std::string inner = join(entries, ", ");
   return value.is_object() ? "{" + inner + "}" : "[" + inner + "]";
+}
+
+// Keys with the paths of all values in a tree of objects; of a list its own.
+void collect_leaves(const Json& tree, const std::string& path, std::vector<FurtherKey>& leaves) {
+  for (const auto& [name, value] : tree.items()) {
+    const std::string key = path.empty() ? name : path + "." + name;
+    if (value.is_object())
+      collect_leaves(value, key, leaves);
+    else
+      leaves.push_back({key, toml_value(value)});
+  }
 }
 
 }  // namespace
@@ -77,12 +67,11 @@ void apply_scene(Setup& setup, const std::string& experiment, const std::string&
         name + " is of `" + manifest.experiment +
         "` and holds no scene that was simulated: name the manifest of one of its runs (--scene)")
         .with_key("scene", name);
-  apply_recorded_scene(setup.scene, scene_for(experiment, manifest), name);
+  Json tree = scene_for(experiment, manifest);
+  if (manifest.experiment == experiment && manifest.options) tree.merge_patch(*manifest.options);
+  apply_recorded_scene(setup.scene, std::move(tree), name, extra, setup.own_tables);
   find_meshes(setup.scene, manifest.meshes, name);
   setup.recorded_meshes = manifest.meshes;
-  if (manifest.experiment != experiment || !manifest.options) return;
-  for (const auto& [path, value] : json_leaves(*manifest.options))
-    if (!is_own_table(value)) assign(find_key(extra, path, name), recorded_value(value, path, name), name);
 }
 
 Json requested_patch(const Json& simulated, const Json& requested) {
@@ -116,7 +105,7 @@ void dump_scene(const Setup& setup) {
   scene.pin = setup.scene.pin;
   scene.obstacle = setup.scene.obstacle;
   std::vector<FurtherKey> others;
-  for (const auto& [path, value] : json_leaves(*setup.resolved)) others.push_back({path, toml_value(value)});
+  collect_leaves(*setup.resolved, "", others);
   write_text(setup.options.dump_scene, scene_toml(scene, own, others));
 }
 
