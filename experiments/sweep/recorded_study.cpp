@@ -30,8 +30,9 @@ Json study_record(const Study& study) {
 }
 
 ValueTree recorded_study(const Manifest& manifest, const std::string& file) {
-  if (manifest.experiment != "sweep" || !manifest.keys)
-    throw Error::invalid_input(file + " is not the manifest of a sweep").with_key("study", file);
+  for (const char* key : {"experiment", "shared", "axes"})
+    if (manifest.experiment != "sweep" || !manifest.keys || !manifest.keys->contains(key))
+      throw Error::invalid_input(file + " is not the manifest of a sweep").with_key("study", file);
   ValueTree root = json_tree(*manifest.keys, file, Lists::allowed);
   std::erase_if(root.children, [](const ValueTree& node) { return node.key == "study"; });
   for (ValueTree& node : root.children) {

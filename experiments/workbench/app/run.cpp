@@ -238,8 +238,10 @@ void Run::keep() const {
 void Run::finish() {
   note_seconds(manifest_);
   manifest_.complete = true;
-  const std::string text = to_json(manifest_).dump(2) + "\n";
+  const Json json = to_json(manifest_);
+  const std::string text = json.dump(2) + "\n";
   write_text(folder() / "manifest.json", text);
+  manifest_ = parsed_manifest(json);
   finished_ = true;
   if (json_) std::cout << text << std::flush;
 }

@@ -60,7 +60,7 @@ class Run {
   // The file of that name could not be written: what there is of it goes, and it is not listed.
   void forget(const std::string& name);
 
-  // What is known so far; after finish() as it stands on disk.  Its wall_seconds, plots_missing, files and
+  // What is known so far; after finish() as it is read from disk.  Its wall_seconds, plots_missing, files and
   // complete are the run's own.
   Manifest& manifest() { return manifest_; }
   const Manifest& manifest() const { return manifest_; }
