@@ -127,10 +127,8 @@ struct Reader {
   }
 };
 
-void read_parameter(const Reader& reader, const ValueTree& node, const ValueTree* sources,
-                    FabricFile& result) {
-  Scene scene;
-  scene.fabric = std::move(result.fabric);
+void read_parameter(const Reader& reader, const ValueTree& node, const ValueTree* sources, Scene& scene,
+                    std::map<std::string, Range>& ranges) {
   const std::string origin = place(reader.file, node);
   const Keys keys = bind_scene(scene);
   const BoundKey& key = find_key(keys, "fabric." + node.key, origin);
@@ -141,12 +139,11 @@ void read_parameter(const Reader& reader, const ValueTree& node, const ValueTree
   }
   if (const auto range = reader.range(node, number.value)) {
     for (const double end : {range->low, range->high}) assign(key, end, origin + ", range");
-    result.range[node.key] = *range;
+    ranges[node.key] = *range;
   }
   assign(key, number.value, origin);
-  result.fabric = std::move(scene.fabric);
-  result.fabric.provenance[node.key] = number.provenance;
-  result.place[node.key] = origin;
+  scene.fabric.provenance[node.key] = number.provenance;
+  scene.origin["fabric." + node.key] = origin;
 }
 
 // [bending] or [membrane] and the tables in it: the keys fabric.bending.* or fabric.membrane.* as bare
@@ -178,16 +175,11 @@ void note_three_numbers(Fabric& fabric) {
     fabric.k0 = 2 * stops.friction_moment() / stops.stiffness();
 }
 
-void read_parts(const Reader& reader, const ValueTree& table, const ValueTree* sources, FabricFile& result) {
-  Scene scene;
-  scene.fabric = std::move(result.fabric);
+void read_parts(const Reader& reader, const ValueTree& table, const ValueTree* sources, Scene& scene) {
   read_lists(reader, table, table.key, sources, scene);
   check_bending_parts(scene);
   check_in_plane_stops(scene);
   note_three_numbers(scene.fabric);
-  result.fabric = std::move(scene.fabric);
-  for (const auto& [key, place] : scene.origin)
-    result.place[key.substr(std::string("fabric.").size())] = place;
 }
 
 // What the file leaves out keeps the program's default and says so.
@@ -217,35 +209,41 @@ FabricFile read_fabric(const std::string& name_or_file, const std::string& origi
   const ValueTree& parameters = reader.required(root, "parameters");
 
   FabricFile result;
+  Scene scene;
   if (sources) result.short_names = reader.short_names(*sources);
-  result.fabric.name = reader.text(root, "name");
+  scene.fabric.name = reader.text(root, "name");
   result.description = reader.text(root, "description");
-  for (const ValueTree& node : parameters.children) read_parameter(reader, node, sources, result);
+  for (const ValueTree& node : parameters.children)
+    read_parameter(reader, node, sources, scene, result.range);
   for (const char* table : kPartTables)
-    if (const ValueTree* parts = root.find(table)) read_parts(reader, *parts, sources, result);
-  const bool shaped = result.fabric.kes.on();
+    if (const ValueTree* parts = root.find(table)) read_parts(reader, *parts, sources, scene);
+  const bool shaped = scene.fabric.kes.on();
   for (const std::string& name : shaped ? kRequiredOfShaped : kRequired) {
     const bool said =
-        !result.fabric.bending.stops.empty() && std::count(kSaidByStops.begin(), kSaidByStops.end(), name);
+        !scene.fabric.bending.stops.empty() && std::count(kSaidByStops.begin(), kSaidByStops.end(), name);
     if (!said) reader.required(parameters, name);
   }
   if (shaped) {
     for (const char* name : {"b1", "b2", "k0"})
       if (const ValueTree* node = parameters.find(name))
         throw reader.refusal(std::string(name) + " follows from kes-b, kes-2hb and stops-median", *node);
-    if (!result.fabric.bending.stops.empty())
+    if (!scene.fabric.bending.stops.empty())
       throw reader.refusal("bending.stops follow from stops-median", *root.find("bending"));
-    result.fabric.follow_kes();
-    for (const char* name : {"b1", "b2", "k0"}) result.place[name] = result.place.at("kes-b");
+    scene.fabric.follow_kes();
+    for (const char* name : {"b1", "b2", "k0"})
+      scene.origin["fabric." + std::string(name)] = scene.origin.at("fabric.kes-b");
   }
   if (const ValueTree* published = root.find("published")) {
     for (const ValueTree& node : published->children) {
-      result.fabric.published[node.key] = reader.quantity(node, sources);
+      scene.fabric.published[node.key] = reader.quantity(node, sources);
       if (const ValueTree* range = node.find("range"))
         throw reader.refusal(node.key + ": a range belongs to [parameters]", *range);
     }
   }
-  note_defaults(result.fabric);
+  note_defaults(scene.fabric);
+  result.fabric = std::move(scene.fabric);
+  for (const auto& [key, place] : scene.origin)
+    result.place[key.substr(std::string("fabric.").size())] = place;
   return result;
 }
 
