@@ -32,23 +32,14 @@ bool is_tables(const std::string& key, py::handle value) {
   return items.size() > 0 ? is_mapping(items[0]) : kTables.contains(key);
 }
 
-TomlNode empty_node(TomlNode::Kind kind, const std::string& key) {
-  TomlNode node;
-  node.kind = kind;
-  node.key = key;
-  return node;
+ValueTree value_node(const std::string& key, Value value) {
+  return {ValueTree::Kind::value, key, 0, std::move(value), {}};
 }
 
-TomlNode value_node(const std::string& key, py::handle value) {
-  TomlNode node = empty_node(TomlNode::Kind::value, key);
-  node.value = to_value(value, key);
-  return node;
-}
+ValueTree table_from_python(const py::dict& values);
 
-TomlNode table_from_python(const py::dict& values);
-
-TomlNode tables_node(const std::string& key, py::handle value) {
-  TomlNode node = empty_node(TomlNode::Kind::array, key);
+ValueTree tables_node(const std::string& key, py::handle value) {
+  ValueTree node{ValueTree::Kind::array, key, 0, {}, {}};
   for (py::handle item : py::reinterpret_borrow<py::sequence>(value)) {
     if (!is_mapping(item)) refuse(key, item, "a dict");
     node.children.push_back(table_from_python(py::reinterpret_borrow<py::dict>(item)));
@@ -57,30 +48,30 @@ TomlNode tables_node(const std::string& key, py::handle value) {
 }
 
 // An element of an array of tables: its keys have hyphens where Python has underscores.
-TomlNode table_from_python(const py::dict& values) {
-  TomlNode table;
+ValueTree table_from_python(const py::dict& values) {
+  ValueTree table;
   for (const auto& [name, value] : values) {
     std::string key = py::str(name);
     std::replace(key.begin(), key.end(), '_', '-');
-    table.children.push_back(is_tables(key, value) ? tables_node(key, value) : value_node(key, value));
+    table.children.push_back(is_tables(key, value) ? tables_node(key, value)
+                                                   : value_node(key, to_value(value, key)));
   }
   return table;
 }
 
 void flatten(const std::string& prefix, const py::dict& values, const std::vector<std::string>& keys,
-             TomlNode& root) {
+             ValueTree& root) {
   for (const auto& [name, value] : values) {
     const std::string path = prefix + std::string(py::str(name));
     if (prefix == "param.") {
-      TomlNode node = empty_node(TomlNode::Kind::value, path);
-      node.value = to_text(value, path);
-      root.children.push_back(node);
+      root.children.push_back(value_node(path, to_text(value, path)));
     } else if (is_mapping(value)) {
       flatten(path + ".", py::reinterpret_borrow<py::dict>(value), keys, root);
     } else if (is_tables(path, value)) {
       root.children.push_back(tables_node(path, value));
     } else {
-      root.children.push_back(value_node(key_named(path, keys), value));
+      const std::string key = key_named(path, keys);
+      root.children.push_back(value_node(key, to_value(value, key)));
     }
   }
 }
@@ -127,8 +118,8 @@ std::string to_text(py::handle value, const std::string& key) {
   refuse(key, value, "a number or a text");
 }
 
-TomlNode to_tree(const py::dict& values) {
-  TomlNode root;
+ValueTree to_tree(const py::dict& values) {
+  ValueTree root;
   flatten("", values, paths(scene_keys()), root);
   return root;
 }

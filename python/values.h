@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "sim/scene/key_table.h"
-#include "sim/scene/toml_file.h"
+#include "sim/scene/value_tree.h"
 
 namespace hysteron::python {
 
@@ -30,7 +30,7 @@ std::string to_text(py::handle value, const std::string& key);
 
 // A mapping as the tree of a scene file: {"cloth": {"length": 0.1}}, {"cloth.length": 0.1} and
 // {"cloth_length": 0.1} are one; lists of mappings are arrays of tables.
-TomlNode to_tree(const py::dict& values);
+ValueTree to_tree(const py::dict& values);
 
 // Lets other threads of Python run meanwhile.
 template <class Body>

@@ -48,20 +48,18 @@ const KeyRow<CompareChoice> kRows[] = {
 std::string comparison_title(const CommandLine& line, const std::vector<ChildRun>& columns) {
   std::string title = line.positionals[0];
   title[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(title[0])));
-  const auto shared = [&](const auto& read) {
+  const auto shared = [&](const char* key) {
     std::string text;
     for (const ChildRun& c : columns) {
       if (!c.manifest) continue;
-      const std::string own = read(c.manifest->scene);
+      const std::string own = c.manifest->text(key);
       if (!text.empty() && own != text) return std::string();
       text = own;
     }
     return text;
   };
   std::string what;
-  for (const std::string& text : {shared([](const SceneRecord& s) { return s.fabric.name; }),
-                                  shared([](const SceneRecord& s) { return s.law.value_or(""); }),
-                                  shared([](const SceneRecord& s) { return s.integrator; })})
+  for (const std::string& text : {shared("fabric.name"), shared("law"), shared("integrator")})
     if (!text.empty()) what += (what.empty() ? ": " : ", ") + text;
   return title + what;
 }
@@ -165,8 +163,7 @@ int run_compare(const CommandLine& line) {
   check_metrics(plan.columns, split(choice.metrics));
   write_comparison_table(run, plan.varied, plan.columns, split(choice.metrics));
   if (!options.no_images) draw_page(run, line, inner.experiment, choice, options, plan);
-  run.finish();
-  write_report(run.folder());
+  finish_with_report(run);
   return 0;
 }
 

@@ -14,6 +14,7 @@
 #include "sim/base/archive.h"
 #include "sim/base/csv.h"
 #include "sim/base/error.h"
+#include "sim/scene/shown_key.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -72,9 +73,9 @@ std::vector<DecidedKey> decided() {
 // A quick release needs inertia, and steps whose own damping is small beside the fabric's, solved as well as
 // that.
 void let_go_quickly(Scene& scene) {
-  if (!scene.origin.contains("integrator")) scene.integrator = Integrator::bdf2;
-  if (!scene.origin.contains("step")) scene.step = 1.0 / 960;
-  if (!scene.origin.contains("newton-residual")) scene.newton_residual = 1e-6;
+  if (!is_given(scene, "integrator")) scene.integrator = Integrator::bdf2;
+  if (!is_given(scene, "step")) scene.step = 1.0 / 960;
+  if (!is_given(scene, "newton-residual")) scene.newton_residual = 1e-6;
 }
 
 // What is read off the specimen as time goes on.

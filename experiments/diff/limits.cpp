@@ -43,11 +43,11 @@ class LimitsFile {
 
   Limits read() const {
     Limits limits;
-    for (const TomlNode& node : read_toml(file_).children) {
+    for (const ValueTree& node : read_toml(file_).children) {
       if (node.key == "picture")
-        for (const TomlNode& table : tables(node)) limits.pictures.push_back(picture(table));
+        for (const ValueTree& table : tables(node, file_)) limits.pictures.push_back(picture(table));
       else if (node.key == "metric")
-        for (const TomlNode& table : tables(node)) limits.metrics.push_back(metric(table));
+        for (const ValueTree& table : tables(node, file_)) limits.metrics.push_back(metric(table));
       else
         read_limit(node, limits.all);
     }
@@ -55,45 +55,30 @@ class LimitsFile {
   }
 
  private:
-  const std::vector<TomlNode>& tables(const TomlNode& node) const {
-    if (node.kind != TomlNode::Kind::array)
-      throw Error::invalid_input(node.key + " must be an array of tables, [[" + node.key + "]]")
-          .with_origin(place(file_, node));
-    return node.children;
-  }
-
-  void set(const Keys& keys, const TomlNode& node) const {
-    const std::string origin = place(file_, node);
-    const BoundKey& key = find_key(keys, node.key, origin);
-    if (node.kind != TomlNode::Kind::value)
-      throw Error::invalid_input(node.key + " must be one value").with_origin(origin);
-    assign(key, node.value, origin);
-  }
-
-  void read_limit(const TomlNode& node, PictureLimits& limits) const {
-    set(bind_limits(limits.values), node);
+  void read_limit(const ValueTree& node, PictureLimits& limits) const {
+    assign(bind_limits(limits.values), node, file_);
     limits.places[node.key] = place(file_, node);
   }
 
-  std::pair<std::string, PictureLimits> picture(const TomlNode& table) const {
+  std::pair<std::string, PictureLimits> picture(const ValueTree& table) const {
     PictureLimits limits;
-    for (const TomlNode& node : table.children)
+    for (const ValueTree& node : table.children)
       if (node.key != "name") read_limit(node, limits);
     return {limit_name(table), limits};
   }
 
-  std::pair<std::string, double> metric(const TomlNode& table) const {
+  std::pair<std::string, double> metric(const ValueTree& table) const {
     MetricLimit limit;
     const Keys keys = bind(kMetricRows, limit);
-    for (const TomlNode& node : table.children) set(keys, node);
+    for (const ValueTree& node : table.children) assign(keys, node, file_);
     if (!table.find("max-difference"))
       throw Error::invalid_input("the limit of a metric needs max-difference")
           .with_origin(place(file_, table));
     return {limit_name(table), limit.max_difference};
   }
 
-  std::string limit_name(const TomlNode& table) const {
-    const TomlNode* node = table.find("name");
+  std::string limit_name(const ValueTree& table) const {
+    const ValueTree* node = table.find("name");
     const auto* name = node ? std::get_if<std::string>(&node->value) : nullptr;
     if (!name || name->empty())
       throw Error::invalid_input("a limit needs a name, in which * stands for any text")

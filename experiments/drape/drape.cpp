@@ -12,6 +12,7 @@
 #include "sim/base/error.h"
 #include "sim/scene/fabric_reader.h"
 #include "sim/scene/mesh_files.h"
+#include "sim/scene/shown_key.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -65,7 +66,7 @@ std::vector<DecidedKey> decided() {
 
 // The tolerance is one for the default integrator: less accurate ones would creep to keep it.
 void keep_the_step(Scene& scene) {
-  if (scene.integrator != Integrator::tr_bdf2 && !scene.origin.contains("tolerance")) scene.tolerance = 0;
+  if (scene.integrator != Integrator::tr_bdf2 && !is_given(scene, "tolerance")) scene.tolerance = 0;
 }
 
 // Otherwise nothing hangs over it, and no ring is there to be covered.
@@ -189,7 +190,7 @@ int run_drape(const CommandLine& line) {
   DrapeChoice choice;
   Setup setup = set_up_drape(line, choice);
   keep_the_step(setup.scene);
-  if (!setup.scene.origin.contains("seconds")) setup.scene.seconds += choice.released();
+  if (!is_given(setup.scene, "seconds")) setup.scene.seconds += choice.released();
   Cloth cloth = make_cloth(setup.scene);
   const double radius = lay_on_pedestal(setup.scene, choice, cloth).radius;
   Session session(line, setup, std::move(cloth));

@@ -187,7 +187,8 @@ void fold_cloth(const CommandLine& line, Request& request) {
   note(run, cycle_numbers(folding.reading()));
   if (session.pictures()) plot(session, folding);
   session.finish("Folded " + std::to_string(request.choice.cycles) + " times: " + what(fold.scene));
-  if (session.pictures()) write_run_captions(run.folder(), captions_of_cloth(fold.scene, request.choice));
+  if (session.pictures())
+    write_run_captions(run.folder(), run.manifest(), captions_of_cloth(fold.scene, request.choice));
 }
 
 void write_cycles(Run& run, const std::vector<BendingCycle>& all) {

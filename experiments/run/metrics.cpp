@@ -59,54 +59,24 @@ void check_names(const std::vector<MetricRequest>& requests) {
   }
 }
 
-MetricRequest metric_request(const TomlNode& table, const std::string& file) {
+MetricRequest metric_request(const ValueTree& table, const std::string& file) {
   MetricRequest request;
   request.origin = place(file, table);
   Keys keys = bind_metric(request);
   for (BoundKey& key : keys) key.description.path = "metric." + key.description.path;
-  for (const TomlNode& child : table.children) {
-    const std::string origin = place(file, child);
-    const BoundKey& key = find_key(keys, "metric." + child.key, origin);
-    if (child.kind != TomlNode::Kind::value)
-      throw Error::invalid_input("metric." + child.key + " must be one value (" + origin + ")");
-    assign(key, child.value, origin);
-  }
+  for (const ValueTree& child : table.children) assign(keys, child, file, "metric.");
   return request;
 }
 
-std::vector<MetricRequest> in_file(const std::string& scene) {
-  const std::string file = find_asset("scenes", scene, "--scene").string();
-  const TomlNode root = read_toml(file);
-  const TomlNode* tables = root.find("metric");
-  if (!tables) return {};
-  if (tables->kind != TomlNode::Kind::array)
-    throw Error::invalid_input("metric must be an array of tables, [[metric]] (" + place(file, *tables) +
-                               ")");
-  std::vector<MetricRequest> requests;
-  for (const TomlNode& table : tables->children) requests.push_back(metric_request(table, file));
-  return requests;
-}
-
-Value setting_value(const Json& json) {
-  if (json.is_number_integer()) return json.get<std::int64_t>();
-  if (json.is_number()) return json.get<double>();
-  if (json.is_array()) return json.get<std::vector<double>>();
-  return json.get<std::string>();
-}
-
-std::vector<MetricRequest> in_manifest(const std::string& file) {
-  const Json json = read_json(file, "manifest of hysteron");
-  const Json::json_pointer place("/options/metric");
-  if (!json.contains(place)) return {};
-  std::vector<MetricRequest> requests;
-  for (const Json& table : json.at(place)) {
-    MetricRequest& request = requests.emplace_back();
-    request.origin = file;
-    const Keys keys = bind_metric(request);
-    for (const auto& [name, value] : table.items())
-      assign(find_key(keys, name, file), setting_value(value), file);
-  }
-  return requests;
+// [[metric]] of a scene file, or of the manifest of a run that was asked for them.
+ValueTree metric_tables(const std::string& file) {
+  if (file.ends_with(".json"))
+    return json_tree(
+        read_json(file, "manifest of hysteron").value(Json::json_pointer("/options/metric"), Json::array()),
+        file, Lists::refused, "metric");
+  const ValueTree root = read_toml(file);
+  const ValueTree* tables = root.find("metric");
+  return tables ? *tables : ValueTree{ValueTree::Kind::array, "metric", 0, {}, {}};
 }
 
 int nearest_vertex(const ClothMesh& mesh, const Eigen::Vector3d& point) {
@@ -150,7 +120,10 @@ Json to_json(const std::vector<MetricRequest>& requests) {
 
 std::vector<MetricRequest> metrics_in(const std::string& scene) {
   if (scene.empty()) return {};
-  const std::vector<MetricRequest> requests = scene.ends_with(".json") ? in_manifest(scene) : in_file(scene);
+  const std::string file = find_asset("scenes", scene, "--scene").string();
+  const ValueTree metrics = metric_tables(file);
+  std::vector<MetricRequest> requests;
+  for (const ValueTree& table : tables(metrics, file)) requests.push_back(metric_request(table, file));
   check_names(requests);
   return requests;
 }

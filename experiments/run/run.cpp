@@ -83,13 +83,13 @@ int run_scene(const CommandLine& given) {
   Setup setup = set_up_run(line);
   if (last_text(line.flags, "out", "").empty()) setup.options.out = "out/run-" + scene_stem(scene);
   const std::vector<MetricRequest> requests = metrics_in(scene);
-  Json choices = Json::parse(setup.resolved);
+  Json choices = *setup.resolved;
   if (!requests.empty()) choices["metric"] = to_json(requests);
+  setup.resolved = std::make_shared<const Json>(choices);
   for (const MetricRequest& request : requests) setup.requested_metrics.push_back(request.metric());
   if (setup.options.errors && requests.empty())
     throw Error::invalid_input("--errors: " + scene + " has no [[metric]] whose errors could be measured")
         .with_key("errors", "true");
-  setup.resolved = choices.dump();
 
   Session session(line, setup);
   if (session.is_over()) return 0;

@@ -7,41 +7,11 @@
 namespace hysteron::experiments {
 namespace {
 
-TomlNode value_node(const std::string& key, const std::string& text) {
-  return {TomlNode::Kind::value, key, 0, text, {}};
-}
-
-TomlNode list_node(const std::string& key, const Json& texts) {
-  TomlNode list{TomlNode::Kind::array, key, 0, {}, {}};
-  for (const Json& text : texts) list.children.push_back(value_node("", text.get<std::string>()));
-  return list;
-}
-
 // "fabric.k0=12", "param=stack=8".
-TomlNode shared_node(const std::string& flag) {
+ValueTree shared_node(std::string flag) {
+  if (flag.starts_with("param=")) flag[5] = '.';
   const std::size_t end = flag.find('=');
-  const std::string key = flag.substr(0, end), value = flag.substr(end + 1);
-  if (key != "param") return value_node(key, value);
-  const std::size_t inner = value.find('=');
-  return value_node("param." + value.substr(0, inner), value.substr(inner + 1));
-}
-
-TomlNode axis_node(const Json& axis) {
-  TomlNode node;
-  node.children = {value_node("key", axis.at("key")), list_node("values", axis.at("values"))};
-  for (const char* more : {"scale", "sampled"})
-    if (axis.contains(more)) node.children.push_back(value_node(more, axis.at(more)));
-  return node;
-}
-
-TomlNode study_node(const Json& keys) {
-  TomlNode root, scene{TomlNode::Kind::table, "scene", 0, {}, {}},
-      axes{TomlNode::Kind::array, "axis", 0, {}, {}};
-  for (const Json& flag : keys.at("shared")) scene.children.push_back(shared_node(flag));
-  for (const Json& axis : keys.at("axes")) axes.children.push_back(axis_node(axis));
-  root.children = {value_node("experiment", keys.at("experiment")), scene, axes};
-  if (keys.contains("metrics")) root.children.push_back(list_node("metrics", keys.at("metrics")));
-  return root;
+  return {ValueTree::Kind::value, flag.substr(0, end), 0, flag.substr(end + 1), {}};
 }
 
 }  // namespace
@@ -59,12 +29,21 @@ Json study_record(const Study& study) {
   return keys;
 }
 
-TomlNode recorded_study(const Manifest& manifest, const std::string& file) {
-  try {
-    if (manifest.experiment == "sweep" && manifest.keys) return study_node(*manifest.keys);
-  } catch (const Json::exception&) {  // other keys, or others than texts
+ValueTree recorded_study(const Manifest& manifest, const std::string& file) {
+  for (const char* key : {"experiment", "shared", "axes"})
+    if (manifest.experiment != "sweep" || !manifest.keys || !manifest.keys->contains(key))
+      throw Error::invalid_input(file + " is not the manifest of a sweep").with_key("study", file);
+  ValueTree root = json_tree(*manifest.keys, file, Lists::allowed);
+  std::erase_if(root.children, [](const ValueTree& node) { return node.key == "study"; });
+  for (ValueTree& node : root.children) {
+    if (node.key == "axes") node.key = "axis";
+    if (node.key != "shared") continue;
+    node.key = "scene";
+    node.kind = ValueTree::Kind::table;
+    for (ValueTree& flag : node.children)
+      if (const auto* text = std::get_if<std::string>(&flag.value)) flag = shared_node(*text);
   }
-  throw Error::invalid_input(file + " is not the manifest of a sweep").with_key("study", file);
+  return root;
 }
 
 }  // namespace hysteron::experiments

@@ -5,7 +5,7 @@
 
 #include "experiments/sweep/study.h"
 #include "experiments/workbench/app/manifest.h"
-#include "sim/scene/toml_file.h"
+#include "sim/scene/value_tree.h"
 
 namespace hysteron::experiments {
 
@@ -14,6 +14,6 @@ Json study_record(const Study& study);
 
 // Those as a study file would have them, beside what it cannot say: "scale" and "sampled" of an axis whose
 // values stand there.  Throws Error::invalid_input, naming `file`, where the manifest is not of a sweep.
-TomlNode recorded_study(const Manifest& manifest, const std::string& file);
+ValueTree recorded_study(const Manifest& manifest, const std::string& file);
 
 }  // namespace hysteron::experiments

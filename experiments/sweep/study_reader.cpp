@@ -85,18 +85,18 @@ class StudyFile {
     study_.name = name;
   }
 
-  Study read(const TomlNode& root) {
+  Study read(const ValueTree& root) {
     throw_if_unknown(root, {"experiment", "scene", "axis", "sample", "seeds", "metrics", "resources"}, "");
     choose_experiment(root);
-    if (const TomlNode* scene = root.find("scene")) read_scene("", table(*scene));
-    if (const TomlNode* axes = root.find("axis")) read_axes(*axes);
+    if (const ValueTree* scene = root.find("scene")) read_scene("", table(*scene));
+    if (const ValueTree* axes = root.find("axis")) read_axes(*axes);
     if (!recorded_) read_sample(root.find("sample"));
-    if (const TomlNode* seeds = root.find("seeds")) add_seeds(*seeds);
-    if (const TomlNode* metrics = root.find("metrics")) {
+    if (const ValueTree* seeds = root.find("seeds")) add_seeds(*seeds);
+    if (const ValueTree* metrics = root.find("metrics")) {
       study_.metrics = texts(*metrics);
       study_.metrics_place = at(*metrics);
     }
-    if (const TomlNode* resources = root.find("resources")) read_resources(table(*resources));
+    if (const ValueTree* resources = root.find("resources")) read_resources(table(*resources));
     if (study_.axes.empty())
       throw Error::invalid_input("a study needs an [[axis]] or seeds (" + file_ + ")").with_key("axis", "");
     check_number_of_runs();
@@ -105,15 +105,15 @@ class StudyFile {
   }
 
  private:
-  std::string at(const TomlNode& node) const { return place(file_, node); }
+  std::string at(const ValueTree& node) const { return place(file_, node); }
 
-  Error refusal(const TomlNode& node, const std::string& what) const {
+  Error refusal(const ValueTree& node, const std::string& what) const {
     return Error::invalid_input(what).with_origin(at(node));
   }
 
-  void throw_if_unknown(const TomlNode& of, const std::vector<std::string>& known,
+  void throw_if_unknown(const ValueTree& of, const std::vector<std::string>& known,
                         const std::string& prefix) const {
-    for (const TomlNode& child : of.children) {
+    for (const ValueTree& child : of.children) {
       if (std::count(known.begin(), known.end(), child.key)) continue;
       const std::string nearest = nearest_name(child.key, known);
       throw refusal(child, "unknown key " + prefix + child.key + "; " +
@@ -123,22 +123,22 @@ class StudyFile {
     }
   }
 
-  const TomlNode& table(const TomlNode& node) const {
-    if (node.kind != TomlNode::Kind::table)
+  const ValueTree& table(const ValueTree& node) const {
+    if (node.kind != ValueTree::Kind::table)
       throw refusal(node, node.key + " must be a table, [" + node.key + "]");
     return node;
   }
 
-  std::string text(const TomlNode& of, const char* key, const std::string& name) const {
-    const TomlNode* node = of.find(key);
+  std::string text(const ValueTree& of, const char* key, const std::string& name) const {
+    const ValueTree* node = of.find(key);
     const auto* text = node ? std::get_if<std::string>(&node->value) : nullptr;
     if (!text || text->empty()) throw refusal(node ? *node : of, name + " must be a text");
     return *text;
   }
 
   // One value as flags take it; files that stand beside the study are found there.
-  std::string one_value(const TomlNode& node, const std::string& name) const {
-    if (node.kind != TomlNode::Kind::value) throw refusal(node, name + " must be one value");
+  std::string one_value(const ValueTree& node, const std::string& name) const {
+    if (node.kind != ValueTree::Kind::value) throw refusal(node, name + " must be one value");
     const std::string text = flag_text(node.value);
     const fs::path beside = fs::path(file_).parent_path() / text;
     std::error_code ignored;
@@ -146,27 +146,27 @@ class StudyFile {
     return names_a_file && fs::is_regular_file(beside, ignored) ? beside.string() : text;
   }
 
-  std::vector<std::string> texts(const TomlNode& node) const {
+  std::vector<std::string> texts(const ValueTree& node) const {
     std::vector<std::string> values;
     if (const auto* numbers = std::get_if<std::vector<double>>(&node.value);
-        node.kind == TomlNode::Kind::value && numbers) {
+        node.kind == ValueTree::Kind::value && numbers) {
       for (double x : *numbers) values.push_back(flag_text(x));
-    } else if (node.kind == TomlNode::Kind::array) {
-      for (const TomlNode& child : node.children) values.push_back(one_value(child, node.key));
+    } else if (node.kind == ValueTree::Kind::array) {
+      for (const ValueTree& child : node.children) values.push_back(one_value(child, node.key));
     }
     if (values.empty()) throw refusal(node, node.key + " must be a list of numbers or texts");
     return values;
   }
 
-  int integer(const TomlNode& node, const std::string& name, double low, double high) const {
+  int integer(const ValueTree& node, const std::string& name, double low, double high) const {
     const KeyDescription key{name, "integer", "", between(low, high), {}, {}, "", ""};
     int number = 0;
-    assign({key, &number}, node.kind == TomlNode::Kind::value ? node.value : Value(std::string("a table")),
+    assign({key, &number}, node.kind == ValueTree::Kind::value ? node.value : Value(std::string("a table")),
            at(node));
     return number;
   }
 
-  void choose_experiment(const TomlNode& root) {
+  void choose_experiment(const ValueTree& root) {
     study_.experiment = text(root, "experiment", "experiment");
     std::vector<std::string> known;
     for (const Experiment& e : experiments())
@@ -184,7 +184,7 @@ class StudyFile {
   static std::string called_flag(const std::string& key) { return key == "fabric.name" ? "fabric" : key; }
 
   // A key of the experiment by its name in the study, "param.stack" being of key "param".
-  const KeyDescription& known_key(const std::string& key, const TomlNode& node) const {
+  const KeyDescription& known_key(const std::string& key, const ValueTree& node) const {
     if (kSweepFlags.contains(key))
       throw refusal(node, key + " is given to sweep (--" + key + "), not to its runs").with_key(key, "");
     for (const DecidedKey& decided : decided_by(study_.experiment))
@@ -196,7 +196,7 @@ class StudyFile {
   }
 
   void check_value(const std::string& key, const KeyDescription& description, const std::string& value,
-                   const TomlNode& node) const {
+                   const ValueTree& node) const {
     Scratch scratch;
     const std::string text = key.starts_with("param.") ? key.substr(6) + "=" + value : value;
     assign({description, scratch.field(description.type)}, parse_text(description, text), at(node));
@@ -207,10 +207,10 @@ class StudyFile {
       throw refusal(node, "law = " + value + " must be " + join(laws, " | ")).with_key(key, value);
   }
 
-  void read_scene(const std::string& prefix, const TomlNode& of) {
-    for (const TomlNode& child : of.children) {
+  void read_scene(const std::string& prefix, const ValueTree& of) {
+    for (const ValueTree& child : of.children) {
       const std::string key = called_flag(prefix + child.key);
-      if (child.kind == TomlNode::Kind::table) {
+      if (child.kind == ValueTree::Kind::table) {
         read_scene(key + ".", child);
         continue;
       }
@@ -223,9 +223,8 @@ class StudyFile {
     }
   }
 
-  void read_axes(const TomlNode& axes) {
-    if (axes.kind != TomlNode::Kind::array) throw refusal(axes, "axis must be an array of tables, [[axis]]");
-    for (const TomlNode& node : axes.children) {
+  void read_axes(const ValueTree& axes) {
+    for (const ValueTree& node : tables(axes, file_)) {
       table(node);
       if (!recorded_) throw_if_unknown(node, {"key", "values", "linear", "log"}, "axis.");
       read_axis(called_flag(text(node, "key", "axis.key")), node);
@@ -235,13 +234,14 @@ class StudyFile {
     }
   }
 
-  void read_axis(const std::string& key, const TomlNode& node) {
+  void read_axis(const std::string& key, const ValueTree& node) {
     const KeyDescription& description = known_key(key, *node.find("key"));
     if (!set_.insert(key).second)
       throw refusal(node, key + " is set twice: an axis varies what nothing else sets").with_key(key, "");
-    if (!recorded_ && node.children.size() != 2)
+    const ValueTree* recorded = recorded_ ? node.find("values") : nullptr;
+    if (recorded_ ? !recorded : node.children.size() != 2)
       throw refusal(node, "the axis " + key + " must have one of values, linear, log").with_key(key, "");
-    const TomlNode& given = node.children[node.children[0].key == "key" ? 1 : 0];
+    const ValueTree& given = recorded ? *recorded : node.children[node.children[0].key == "key" ? 1 : 0];
     StudyAxis axis{key, description.unit, {}, false, given.key == "log", false};
     if (given.key == "values")
       axis.values = texts(given);
@@ -260,10 +260,10 @@ class StudyFile {
   }
 
   // [from, to, n], or [from, to] where it is sampled: its ends are then checked as its values.
-  void read_range(StudyAxis& axis, const TomlNode& given) {
+  void read_range(StudyAxis& axis, const ValueTree& given) {
     const std::string name = axis.key + ": " + given.key;
     const auto* range = std::get_if<std::vector<double>>(&given.value);
-    if (given.kind != TomlNode::Kind::value || !range || range->size() < 2 || range->size() > 3)
+    if (given.kind != ValueTree::Kind::value || !range || range->size() < 2 || range->size() > 3)
       throw refusal(given, name + " must be [from, to, n], or [from, to] of an axis that [sample] draws");
     const double from = (*range)[0], to = (*range)[1];
     if (!std::isfinite(from) || !std::isfinite(to) || from == to)
@@ -295,7 +295,7 @@ class StudyFile {
     return flag_text(std::min(high, std::floor(*number_in(between_ends(axis, low, high + 1, part)))));
   }
 
-  void read_sample(const TomlNode* node) {
+  void read_sample(const ValueTree* node) {
     const auto is_sampled = [](const StudyAxis& axis) { return axis.sampled; };
     const auto sampled = std::count_if(study_.axes.begin(), study_.axes.end(), is_sampled);
     if (!node && sampled == 0) return;
@@ -312,7 +312,7 @@ class StudyFile {
     if (sampled == 0)
       throw refusal(*node, "[sample] needs an axis with a range without n: linear = [from, to]");
     const int n = integer(*node->find("n"), "sample.n", 1, kMaxValues);
-    const TomlNode* seed = node->find("seed");
+    const ValueTree* seed = node->find("seed");
     draw(static_cast<std::size_t>(sampled), static_cast<std::size_t>(n),
          seed ? integer(*seed, "sample.seed", 0, std::numeric_limits<int>::max()) : 1);
   }
@@ -332,7 +332,7 @@ class StudyFile {
     }
   }
 
-  void add_seeds(const TomlNode& node) {
+  void add_seeds(const ValueTree& node) {
     const int n = integer(node, "seeds", 1, kMaxValues);
     known_key(kSeedKey, node);
     if (set_.contains(kSeedKey))
@@ -342,11 +342,11 @@ class StudyFile {
     study_.axes.push_back(std::move(axis));
   }
 
-  void read_resources(const TomlNode& node) {
+  void read_resources(const ValueTree& node) {
     throw_if_unknown(node, {"runs", "cores", "memory", "gpus", "minutes"}, "resources.");
     JobResources& r = study_.resources;
     const auto read = [&](const char* key, int& number, double low, double high) {
-      if (const TomlNode* given = node.find(key))
+      if (const ValueTree* given = node.find(key))
         number = integer(*given, std::string("resources.") + key, low, high);
     };
     read("runs", study_.runs_a_job, 1, kMaxValues);
@@ -379,11 +379,11 @@ class StudyFile {
 Study read_study(const std::string& name_or_file) {
   if (name_or_file.ends_with(".json")) {
     const Manifest manifest = read_manifest(name_or_file);
-    const TomlNode recorded = recorded_study(manifest, name_or_file);
+    const ValueTree recorded = recorded_study(manifest, name_or_file);
     return StudyFile(name_or_file, manifest.keys->value("study", ""), true).read(recorded);
   }
   const std::string file = find_asset("studies", name_or_file, "sweep").string();
-  return StudyFile(file, asset_name(file), false).read(read_toml(file, TomlLists::allowed));
+  return StudyFile(file, asset_name(file), false).read(read_toml(file, Lists::allowed));
 }
 
 }  // namespace hysteron::experiments

@@ -155,7 +155,6 @@ class Progress {
 void drop_scene(ChildRun& column) {
   if (!column.manifest) return;
   column.manifest->keys.reset();
-  column.manifest->scene = {};
   column.manifest->own.clear();
 }
 
@@ -215,9 +214,7 @@ void write_results(Run& run, const Study& study, const std::vector<ChildRun>& ru
   const bool repeated = std::any_of(study.axes.begin(), study.axes.end(), is_seed);
   if (repeated && !metrics.empty()) table_of_means(study, runs, metrics).write(run.path("means.csv"));
   if (with_plots) plot_study(run, study, runs, metrics);
-  run.path("report.html");
-  run.finish();
-  write_report(run.folder());
+  finish_with_report(run);
 }
 
 // The study cannot be said to be done where runs are missing: exit code 3, with the first reason.

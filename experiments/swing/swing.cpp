@@ -230,7 +230,7 @@ int run_swing(const CommandLine& line) {
     plot_decay(session, amplitudes, decay);
   }
   session.finish("Swing: " + setup.scene.fabric.name + ", law " + setup.scene.law);
-  if (session.pictures()) write_run_captions(run.folder(), plot_captions(setup.scene));
+  if (session.pictures()) write_run_captions(run.folder(), run.manifest(), plot_captions(setup.scene));
   return 0;
 }
 

@@ -106,12 +106,10 @@ Agreement Repetition::agreement() const {
 }
 
 double round_off_bound(const Manifest& run) {
-  const std::string& integrator = run.scene.integrator;
-  if (integrator.empty() || integrator == "explicit" || !run.keys) return kMinRoundOff;
-  const auto tolerance =
-      run.keys->find(integrator == "semi-implicit" ? "solver-tolerance" : "newton-residual");
-  if (tolerance == run.keys->end() || !tolerance->is_number()) return kMinRoundOff;
-  return std::max(kMinRoundOff, kSolverToleranceFraction * tolerance->get<double>());
+  const std::string integrator = run.text("integrator");
+  if (integrator.empty() || integrator == "explicit") return kMinRoundOff;
+  const double tolerance = run.number(integrator == "semi-implicit" ? "solver-tolerance" : "newton-residual");
+  return std::max(kMinRoundOff, kSolverToleranceFraction * tolerance);
 }
 
 double metric_scale(const std::string& name, double number) {
@@ -177,8 +175,7 @@ std::string reasons_between(const Manifest& recorded, const Manifest& now) {
                       now.isa);
   if (recorded.device != now.device)
     reasons.push_back("device " + recorded.device.value_or("none") + ", now " + now.device.value_or("none"));
-  const std::string keys =
-      differing_keys(without_origins(*recorded.keys).dump(), without_origins(*now.keys).dump());
+  const std::string keys = differing_keys(without_origins(*recorded.keys), without_origins(*now.keys));
   if (!keys.empty()) reasons.push_back("keys " + keys);
   for (const std::string& change : changed_meshes(recorded.meshes, now.meshes)) reasons.push_back(change);
   return join(reasons, "; ");

@@ -7,6 +7,7 @@
 #include "sim/contact/obstacle_set.h"
 #include "sim/contact/self_touch.h"
 #include "sim/mesh/intersections.h"
+#include "sim/scene/shown_key.h"
 
 namespace hysteron {
 
@@ -86,10 +87,9 @@ void throw_if_thick(const Scene& scene, const ClothMesh& mesh) {
   for (const Eigen::Vector3d& x : mesh.rest) box.extend(x);
   const double extent = box.diagonal().norm();
   if (scene.fabric.thickness < extent) return;
-  const auto origin = scene.origin.find("fabric.thickness");
   throw Error::invalid_input("self-contact: fabric.thickness = " + millimetres(scene.fabric.thickness) +
-                             " (" + (origin == scene.origin.end() ? "default" : origin->second) +
-                             ") must be < " + millimetres(extent) +
+                             " (" + key_origin(scene, "fabric.thickness") + ") must be < " +
+                             millimetres(extent) +
                              ", the cloth's diagonal: take a thinner fabric or a larger cloth");
 }
 
@@ -97,11 +97,11 @@ void throw_if_immersed(const Scene& scene, const Cloth& cloth) {
   const auto set = obstacles_during<double>(scene.obstacle, scene.fabric.friction, 0, 0);
   const Immersion found = deepest(set, cloth.start, cloth.held(scene, 0));
   if (found.count == 0) return;
-  const auto origin = scene.origin.find("obstacle[" + std::to_string(found.obstacle) + "]");
+  const std::string origin = key_origin(scene, "obstacle[" + std::to_string(found.obstacle) + "]", "");
   throw Error::invalid_input(
       "obstacle: at the start " + immersion_text(found, scene.obstacle, cloth.start[found.vertex]) + ", of " +
       std::to_string(found.count) + " such vertices the deepest: move the cloth or the obstacle" +
-      (origin == scene.origin.end() ? "" : " (" + origin->second + ")"));
+      (origin.empty() ? "" : " (" + origin + ")"));
 }
 
 }  // namespace

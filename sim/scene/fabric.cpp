@@ -20,7 +20,7 @@ struct PairedLists {
 void check_pairs(const Scene& scene, const PairedLists& lists) {
   const std::string table = std::string("fabric.") + lists.table + ".";
   const std::string key = table + lists.first_name;
-  const std::string of = lists.first.empty() && !scene.origin.contains(key) ? table + lists.second_name : key;
+  const std::string of = lists.first.empty() && !is_given(scene, key) ? table + lists.second_name : key;
   const auto refuse = [&](const std::string& what) {
     throw Error::invalid_input(key + " " + what + " (" + key_origin(scene, of) + ")").with_key(key, "");
   };

@@ -24,12 +24,12 @@ constexpr const char* kOptional[] = {"fabric.bending.", "fabric.membrane.", "fab
 struct Reader {
   std::string file;
 
-  Error refusal(const std::string& what, const TomlNode& node) const {
+  Error refusal(const std::string& what, const ValueTree& node) const {
     return Error::invalid_input(what + " (" + place(file, node) + ")");
   }
 
-  void only_known(const TomlNode& table, const std::vector<std::string>& names) const {
-    for (const TomlNode& child : table.children) {
+  void only_known(const ValueTree& table, const std::vector<std::string>& names) const {
+    for (const ValueTree& child : table.children) {
       if (std::count(names.begin(), names.end(), child.key)) continue;
       const std::string nearest = nearest_name(child.key, names);
       throw refusal("unknown key " + child.key + (nearest.empty() ? "" : ", did you mean " + nearest + "?"),
@@ -37,22 +37,22 @@ struct Reader {
     }
   }
 
-  const TomlNode& required(const TomlNode& table, const std::string& name) const {
-    const TomlNode* node = table.find(name);
+  const ValueTree& required(const ValueTree& table, const std::string& name) const {
+    const ValueTree* node = table.find(name);
     if (!node) throw refusal((table.key.empty() ? "the fabric" : table.key) + " needs " + name, table);
     return *node;
   }
 
-  std::string text(const TomlNode& table, const std::string& name) const {
-    const TomlNode& node = required(table, name);
+  std::string text(const ValueTree& table, const std::string& name) const {
+    const ValueTree& node = required(table, name);
     const auto* words = std::get_if<std::string>(&node.value);
-    if (node.kind != TomlNode::Kind::value || !words || words->empty())
+    if (node.kind != ValueTree::Kind::value || !words || words->empty())
       throw refusal(name + " must be a text", node);
     return *words;
   }
 
-  double number(const TomlNode& table, const std::string& name) const {
-    const TomlNode& node = required(table, name);
+  double number(const ValueTree& table, const std::string& name) const {
+    const ValueTree& node = required(table, name);
     const auto* integer = std::get_if<std::int64_t>(&node.value);
     const auto* real = std::get_if<double>(&node.value);
     if (!integer && !real) throw refusal(table.key + "." + name + " must be a number", node);
@@ -62,16 +62,16 @@ struct Reader {
   }
 
   // The text that a name stands for in [sources]; others stand for themselves.
-  std::string source(const TomlNode* sources, const std::string& name) const {
-    const TomlNode* node = sources ? sources->find(name) : nullptr;
+  std::string source(const ValueTree* sources, const std::string& name) const {
+    const ValueTree* node = sources ? sources->find(name) : nullptr;
     if (!node) return name;
-    return node->kind == TomlNode::Kind::table ? text(*node, "text") : text(*sources, name);
+    return node->kind == ValueTree::Kind::table ? text(*node, "text") : text(*sources, name);
   }
 
-  std::map<std::string, std::string> short_names(const TomlNode& sources) const {
+  std::map<std::string, std::string> short_names(const ValueTree& sources) const {
     std::map<std::string, std::string> names;
-    for (const TomlNode& node : sources.children) {
-      if (node.kind != TomlNode::Kind::table) continue;
+    for (const ValueTree& node : sources.children) {
+      if (node.kind != ValueTree::Kind::table) continue;
       only_known(node, {"short", "text"});
       names[text(node, "text")] = text(node, "short");
     }
@@ -79,8 +79,8 @@ struct Reader {
   }
 
   // {value = 1.157e-5, unit = "N m", source = "kes", confidence = "published"}
-  PublishedNumber quantity(const TomlNode& node, const TomlNode* sources) const {
-    if (node.kind != TomlNode::Kind::table) {
+  PublishedNumber quantity(const ValueTree& node, const ValueTree* sources) const {
+    if (node.kind != ValueTree::Kind::table) {
       throw refusal(
           node.key + " must be a table {value, unit, source, confidence}, stderr and range if known", node);
     }
@@ -97,11 +97,11 @@ struct Reader {
   }
 
   // range = [low, high], around the value; none where the number does not state it.
-  std::optional<Range> range(const TomlNode& number, double value) const {
-    const TomlNode* node = number.find("range");
+  std::optional<Range> range(const ValueTree& number, double value) const {
+    const ValueTree* node = number.find("range");
     if (!node) return {};
     const auto* ends = std::get_if<std::vector<double>>(&node->value);
-    if (node->kind != TomlNode::Kind::value || !ends || ends->size() != 2)
+    if (node->kind != ValueTree::Kind::value || !ends || ends->size() != 2)
       throw refusal(number.key + ": range must be [low, high]", *node);
     const Range range = between((*ends)[0], (*ends)[1]);
     if (!range.contains(value))
@@ -112,7 +112,7 @@ struct Reader {
   }
 
   // Of a table of lists, which may leave it out: then the file itself is the source.
-  Provenance provenance(const TomlNode& table, const TomlNode* sources) const {
+  Provenance provenance(const ValueTree& table, const ValueTree* sources) const {
     Provenance from{place(file, table), "given"};
     if (table.find("source")) from.source = text(table, "source");
     from.source = source(sources, from.source);
@@ -120,16 +120,15 @@ struct Reader {
     return from;
   }
 
-  std::string confidence(const TomlNode& table, const TomlNode& of) const {
+  std::string confidence(const ValueTree& table, const ValueTree& of) const {
     const std::string word = text(table, "confidence");
     if (std::count(kConfidences.begin(), kConfidences.end(), word)) return word;
     throw refusal(of.key + ": confidence = " + word + " must be " + join(kConfidences, " | "), of);
   }
 };
 
-void read_parameter(const Reader& reader, const TomlNode& node, const TomlNode* sources, FabricFile& result) {
-  Scene scene;
-  scene.fabric = std::move(result.fabric);
+void read_parameter(const Reader& reader, const ValueTree& node, const ValueTree* sources, Scene& scene,
+                    std::map<std::string, Range>& ranges) {
   const std::string origin = place(reader.file, node);
   const Keys keys = bind_scene(scene);
   const BoundKey& key = find_key(keys, "fabric." + node.key, origin);
@@ -140,23 +139,22 @@ void read_parameter(const Reader& reader, const TomlNode& node, const TomlNode* 
   }
   if (const auto range = reader.range(node, number.value)) {
     for (const double end : {range->low, range->high}) assign(key, end, origin + ", range");
-    result.range[node.key] = *range;
+    ranges[node.key] = *range;
   }
   assign(key, number.value, origin);
-  result.fabric = std::move(scene.fabric);
-  result.fabric.provenance[node.key] = number.provenance;
-  result.place[node.key] = origin;
+  scene.fabric.provenance[node.key] = number.provenance;
+  scene.origin["fabric." + node.key] = origin;
 }
 
 // [bending] or [membrane] and the tables in it: the keys fabric.bending.* or fabric.membrane.* as bare
 // values, each table with a source of its own.
-void read_lists(const Reader& reader, const TomlNode& table, const std::string& path, const TomlNode* sources,
-                Scene& scene) {
+void read_lists(const Reader& reader, const ValueTree& table, const std::string& path,
+                const ValueTree* sources, Scene& scene) {
   const Keys keys = bind_scene(scene);
-  for (const TomlNode& node : table.children) {
+  for (const ValueTree& node : table.children) {
     if (node.key == "source" || node.key == "confidence") continue;
     const std::string name = path + "." + node.key, origin = place(reader.file, node);
-    if (node.kind == TomlNode::Kind::table) {
+    if (node.kind == ValueTree::Kind::table) {
       read_lists(reader, node, name, sources, scene);
       continue;
     }
@@ -177,16 +175,11 @@ void note_three_numbers(Fabric& fabric) {
     fabric.k0 = 2 * stops.friction_moment() / stops.stiffness();
 }
 
-void read_parts(const Reader& reader, const TomlNode& table, const TomlNode* sources, FabricFile& result) {
-  Scene scene;
-  scene.fabric = std::move(result.fabric);
+void read_parts(const Reader& reader, const ValueTree& table, const ValueTree* sources, Scene& scene) {
   read_lists(reader, table, table.key, sources, scene);
   check_bending_parts(scene);
   check_in_plane_stops(scene);
   note_three_numbers(scene.fabric);
-  result.fabric = std::move(scene.fabric);
-  for (const auto& [key, place] : scene.origin)
-    result.place[key.substr(std::string("fabric.").size())] = place;
 }
 
 // What the file leaves out keeps the program's default and says so.
@@ -209,42 +202,48 @@ const std::string& FabricFile::shown(const Provenance& from) const {
 
 FabricFile read_fabric(const std::string& name_or_file, const std::string& origin) {
   const Reader reader{find_asset("fabrics", name_or_file, origin).string()};
-  const TomlNode root = read_toml(reader.file);
+  const ValueTree root = read_toml(reader.file);
   reader.only_known(
       root, {"name", "description", "sources", "parameters", "bending", "membrane", "published", "look"});
-  const TomlNode* sources = root.find("sources");
-  const TomlNode& parameters = reader.required(root, "parameters");
+  const ValueTree* sources = root.find("sources");
+  const ValueTree& parameters = reader.required(root, "parameters");
 
   FabricFile result;
+  Scene scene;
   if (sources) result.short_names = reader.short_names(*sources);
-  result.fabric.name = reader.text(root, "name");
+  scene.fabric.name = reader.text(root, "name");
   result.description = reader.text(root, "description");
-  for (const TomlNode& node : parameters.children) read_parameter(reader, node, sources, result);
+  for (const ValueTree& node : parameters.children)
+    read_parameter(reader, node, sources, scene, result.range);
   for (const char* table : kPartTables)
-    if (const TomlNode* parts = root.find(table)) read_parts(reader, *parts, sources, result);
-  const bool shaped = result.fabric.kes.on();
+    if (const ValueTree* parts = root.find(table)) read_parts(reader, *parts, sources, scene);
+  const bool shaped = scene.fabric.kes.on();
   for (const std::string& name : shaped ? kRequiredOfShaped : kRequired) {
     const bool said =
-        !result.fabric.bending.stops.empty() && std::count(kSaidByStops.begin(), kSaidByStops.end(), name);
+        !scene.fabric.bending.stops.empty() && std::count(kSaidByStops.begin(), kSaidByStops.end(), name);
     if (!said) reader.required(parameters, name);
   }
   if (shaped) {
     for (const char* name : {"b1", "b2", "k0"})
-      if (const TomlNode* node = parameters.find(name))
+      if (const ValueTree* node = parameters.find(name))
         throw reader.refusal(std::string(name) + " follows from kes-b, kes-2hb and stops-median", *node);
-    if (!result.fabric.bending.stops.empty())
+    if (!scene.fabric.bending.stops.empty())
       throw reader.refusal("bending.stops follow from stops-median", *root.find("bending"));
-    result.fabric.follow_kes();
-    for (const char* name : {"b1", "b2", "k0"}) result.place[name] = result.place.at("kes-b");
+    scene.fabric.follow_kes();
+    for (const char* name : {"b1", "b2", "k0"})
+      scene.origin["fabric." + std::string(name)] = scene.origin.at("fabric.kes-b");
   }
-  if (const TomlNode* published = root.find("published")) {
-    for (const TomlNode& node : published->children) {
-      result.fabric.published[node.key] = reader.quantity(node, sources);
-      if (const TomlNode* range = node.find("range"))
+  if (const ValueTree* published = root.find("published")) {
+    for (const ValueTree& node : published->children) {
+      scene.fabric.published[node.key] = reader.quantity(node, sources);
+      if (const ValueTree* range = node.find("range"))
         throw reader.refusal(node.key + ": a range belongs to [parameters]", *range);
     }
   }
-  note_defaults(result.fabric);
+  note_defaults(scene.fabric);
+  result.fabric = std::move(scene.fabric);
+  for (const auto& [key, place] : scene.origin)
+    result.place[key.substr(std::string("fabric.").size())] = place;
   return result;
 }
 

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <vector>
 
 #include "sim/scene/key_table.h"
 #include "sim/scene/scene.h"
@@ -11,11 +12,9 @@ namespace hysteron {
 
 // Sets every key that `tree` holds; others stay as they are.  No file is asked for the fabric: its numbers,
 // their sources and what is published of it are those of `tree`, and so is where each key was set.  `file`
-// names it in messages.  Throws Error::invalid_input for keys that are not known, wrong types and values out
-// of range.
-void apply_recorded_scene(Scene& scene, const nlohmann::ordered_json& tree, const std::string& file);
-
-// A value of a key as assign() takes it.  Throws Error::invalid_input for what is none.
-Value recorded_value(const nlohmann::ordered_json& json, const std::string& path, const std::string& file);
+// names it in messages; `extra` and `left` as in apply_scene_file (scene_reader.h).  Throws
+// Error::invalid_input for keys that are not known, wrong types and values out of range.
+void apply_recorded_scene(Scene& scene, nlohmann::ordered_json tree, const std::string& file,
+                          const Keys& extra = {}, const std::vector<std::string>& left = {});
 
 }  // namespace hysteron

@@ -71,7 +71,7 @@ void check_mesh(const Scene& scene) {
 void check_one_mesh(const Scene& scene) {
   const ClothShape& cloth = scene.cloth;
   const bool of_file = cloth.shape == "file" || cloth.shape == "pattern";
-  if (!of_file || cloth.file.empty() || !scene.origin.count("mesh")) return;
+  if (!of_file || cloth.file.empty() || !is_given(scene, "mesh")) return;
   throw Error::invalid_input("mesh = " + scene.mesh + " (" + key_origin(scene, "mesh") +
                              ") and cloth.file = " + cloth.file + " (" + key_origin(scene, "cloth.file") +
                              ") both define the triangles: leave one out");
@@ -214,8 +214,7 @@ void check_phases(const Scene& scene) {
 
 // Where a key of a table stands, or the table if the key was left out.
 std::string origin_in(const Scene& scene, const std::string& path, const std::string& key) {
-  const std::string full = path + "." + key;
-  return key_origin(scene, scene.origin.count(full) ? full : path);
+  return key_origin(scene, path + "." + key, key_origin(scene, path));
 }
 
 // What falls due when the scene is over is never done.

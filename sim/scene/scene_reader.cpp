@@ -17,15 +17,15 @@ namespace fs = std::filesystem;
 // A value of the file with its full path: [cloth] length is "cloth.length".
 struct Setting {
   std::string path;
-  const TomlNode* node;
+  const ValueTree* node;
 };
 
 // `lists`: what is to be an array of tables, so that a plain table of that name is not taken apart.
-void flatten(const std::string& prefix, const TomlNode& table, const std::vector<std::string>& lists,
+void flatten(const std::string& prefix, const ValueTree& table, const std::vector<std::string>& lists,
              std::vector<Setting>& settings) {
-  for (const TomlNode& child : table.children) {
+  for (const ValueTree& child : table.children) {
     const std::string path = prefix.empty() ? child.key : prefix + "." + child.key;
-    if (child.kind == TomlNode::Kind::table && !std::count(lists.begin(), lists.end(), path)) {
+    if (child.kind == ValueTree::Kind::table && !std::count(lists.begin(), lists.end(), path)) {
       flatten(path, child, lists, settings);
     } else {
       settings.push_back({path == "fabric" ? "fabric.name" : path, &child});
@@ -33,14 +33,21 @@ void flatten(const std::string& prefix, const TomlNode& table, const std::vector
   }
 }
 
-class SceneFile {
+// Sets the keys of a scene, and further ones.
+class SceneKeys {
  public:
-  SceneFile(Scene& scene, std::string file, const Keys& extra, const std::vector<std::string>& left)
-      : scene_(scene), file_(std::move(file)), extra_(extra), left_out_(left), known_(bind_scene(scene)) {
+  SceneKeys(Scene& scene, std::string file, bool recorded, const Keys& extra,
+            const std::vector<std::string>& left)
+      : scene_(scene),
+        file_(std::move(file)),
+        recorded_(recorded),
+        extra_(extra),
+        left_out_(left),
+        known_(bind_scene(scene)) {
     known_.insert(known_.end(), extra.begin(), extra.end());
   }
 
-  void apply(const TomlNode& root) {
+  void apply(const ValueTree& root) {
     std::vector<std::string> lists = {"pin", "obstacle", "command", "phase"};
     lists.insert(lists.end(), left_out_.begin(), left_out_.end());
     std::vector<Setting> settings;
@@ -50,33 +57,49 @@ class SceneFile {
     for (const Setting& setting : settings) apply(setting);
   }
 
+  void apply(std::vector<Flag> flags) {
+    std::stable_partition(flags.begin(), flags.end(), [](const Flag& flag) {
+      return flag.path == "fabric" || flag.path == "fabric.name";
+    });
+    for (const Flag& flag : flags) {
+      const std::string origin = "--" + flag.path;
+      const BoundKey& key = find_key(known_, flag.path == "fabric" ? "fabric.name" : flag.path, origin);
+      set(key, parse_text(key.description, flag.text), origin);
+      if (flag.path == "param") scene_.origin["param." + flag.text.substr(0, flag.text.find('='))] = origin;
+    }
+  }
+
  private:
   void apply(const Setting& setting) {
-    const TomlNode& node = *setting.node;
+    const ValueTree& node = *setting.node;
     const std::string origin = place(file_, node);
     if (setting.path == "pin") return read_tables(node, scene_.pin, bind_pin);
     if (setting.path == "phase") return read_phases(node);
     if (setting.path == "command") return read_tables(node, scene_.command, bind_command);
     if (setting.path == "obstacle") return read_tables(node, scene_.obstacle, bind_obstacle);
     if (setting.path.starts_with("param.")) return set_parameter(setting.path.substr(6), node, origin);
-    if (std::count(left_out_.begin(), left_out_.end(), setting.path)) return throw_if_unless_array(node);
-    if (node.kind == TomlNode::Kind::array && is_table(setting.path))
+    if (std::count(left_out_.begin(), left_out_.end(), setting.path)) return void(tables(node, file_));
+    if (node.kind == ValueTree::Kind::array && is_table(setting.path))
       throw Error::invalid_input(setting.path + " must be one table, [" + setting.path + "] (" + origin +
                                  ")");
     const BoundKey& key = find_key(known_, setting.path, origin);
-    if (node.kind == TomlNode::Kind::array && node.children.empty() && key.description.type == "numbers")
-      return is_extra(setting.path) ? assign(key, Numbers(), origin)
-                                    : set_key(scene_, key, Numbers(), origin);
-    if (node.kind == TomlNode::Kind::array) {
+    if (node.kind == ValueTree::Kind::array && node.children.empty() && key.description.type == "numbers")
+      return set(key, Numbers(), origin);
+    if (node.kind == ValueTree::Kind::array) {
       throw Error::invalid_input(setting.path + " must be one value, not an array of tables (" + origin +
                                  ")");
     }
-    if (is_extra(setting.path)) return assign(key, node.value, origin);
-    set_key(scene_, key, located(setting.path, node.value), origin);
+    set(key, node.value, origin);
+  }
+
+  void set(const BoundKey& key, const Value& value, const std::string& origin) {
+    const std::string& path = key.description.path;
+    if (recorded_ || is_extra(path)) return assign(key, value, origin);
+    set_key(scene_, key, located(path, value), origin);
   }
 
   // The scene lasts as long as its phases, unless it says otherwise.
-  void read_phases(const TomlNode& node) {
+  void read_phases(const ValueTree& node) {
     read_tables(node, scene_.phase, bind_phase);
     scene_.seconds = phases_end(scene_.phase);
   }
@@ -105,7 +128,7 @@ class SceneFile {
     return value;
   }
 
-  void set_parameter(const std::string& name, const TomlNode& node, const std::string& origin) {
+  void set_parameter(const std::string& name, const ValueTree& node, const std::string& origin) {
     std::string text;
     if (const auto* x = std::get_if<std::string>(&node.value)) text = *x;
     if (const auto* x = std::get_if<std::int64_t>(&node.value)) text = std::to_string(*x);
@@ -122,48 +145,42 @@ class SceneFile {
                        [&](const BoundKey& key) { return key.description.path.starts_with(path + "."); });
   }
 
-  void throw_if_unless_array(const TomlNode& node) const {
-    if (node.kind == TomlNode::Kind::array) return;
-    throw Error::invalid_input(node.key + " must be an array of tables, [[" + node.key + "]] (" +
-                               place(file_, node) + ")");
-  }
-
   template <class Item>
-  void read_tables(const TomlNode& node, std::vector<Item>& items, Keys (*bind_one)(Item&)) {
-    throw_if_unless_array(node);
-    items.assign(node.children.size(), Item{});
+  void read_tables(const ValueTree& node, std::vector<Item>& items, Keys (*bind_one)(Item&)) {
+    const std::vector<ValueTree>& all = tables(node, file_);
+    items.assign(all.size(), Item{});
     for (std::size_t i = 0; i < items.size(); ++i) {
       const std::string path = node.key + "[" + std::to_string(i) + "]";
-      scene_.origin[path] = place(file_, node.children[i]);
+      scene_.origin[path] = place(file_, all[i]);
       Motion* motion = nullptr;
       if constexpr (requires { items[i].motion; }) motion = &items[i].motion;
-      read_table(node.children[i], path, bind_one(items[i]), motion);
+      read_table(all[i], path, bind_one(items[i]), motion);
     }
   }
 
-  void read_table(const TomlNode& table, const std::string& path, Keys keys, Motion* motion) {
+  void read_table(const ValueTree& table, const std::string& path, Keys keys, Motion* motion) {
     for (BoundKey& key : keys) key.description.path = path + "." + key.description.path;
-    for (const TomlNode& child : table.children) {
+    for (const ValueTree& child : table.children) {
       const std::string origin = place(file_, child);
-      if (motion && child.key == "keys" && child.kind == TomlNode::Kind::array) {
+      if (motion && child.key == "keys" && child.kind == ValueTree::Kind::array) {
         read_keyframes(child, path, *motion);
         continue;
       }
       const BoundKey& key = find_key(keys, path + "." + child.key, origin);
-      if (child.kind != TomlNode::Kind::value)
+      if (child.kind != ValueTree::Kind::value)
         throw Error::invalid_input(path + "." + child.key + " must be one value (" + origin + ")");
       assign(key, timed(key, child.value, origin), origin);
       scene_.origin[path + "." + child.key] = origin;
     }
   }
 
-  void read_keyframes(const TomlNode& node, const std::string& path, Motion& motion) {
+  void read_keyframes(const ValueTree& node, const std::string& path, Motion& motion) {
     for (std::size_t i = 0; i < node.children.size(); ++i) {
       Keyframe frame;
       Keys keys = bind_keyframe(frame);
       const std::string name = path + ".keys[" + std::to_string(i) + "]";
       for (BoundKey& key : keys) key.description.path = name + "." + key.description.path;
-      for (const TomlNode& child : node.children[i].children) {
+      for (const ValueTree& child : node.children[i].children) {
         const std::string origin = place(file_, child);
         const BoundKey& key = find_key(keys, name + "." + child.key, origin);
         assign(key, timed(key, child.value, origin), origin);
@@ -175,8 +192,9 @@ class SceneFile {
 
   Scene& scene_;
   std::string file_;
+  bool recorded_;
   const Keys& extra_;
-  const std::vector<std::string>& left_out_;
+  const std::vector<std::string> left_out_;
   Keys known_;
 };
 
@@ -197,32 +215,18 @@ void apply_scene_file(Scene& scene, const std::string& name_or_file, const Keys&
   apply_scene_tree(scene, read_toml(file), file, extra, left);
 }
 
-void apply_scene_tree(Scene& scene, const TomlNode& root, const std::string& source, const Keys& extra,
+void apply_scene_tree(Scene& scene, const ValueTree& root, const std::string& source, const Keys& extra,
                       const std::vector<std::string>& left) {
-  SceneFile(scene, source, extra, left).apply(root);
+  SceneKeys(scene, source, false, extra, left).apply(root);
+}
+
+void apply_recorded_tree(Scene& scene, const ValueTree& root, const std::string& source, const Keys& extra,
+                         const std::vector<std::string>& left) {
+  SceneKeys(scene, source, true, extra, left).apply(root);
 }
 
 void apply_flags(Scene& scene, const std::vector<Flag>& flags, const Keys& extra) {
-  Keys known = bind_scene(scene);
-  known.insert(known.end(), extra.begin(), extra.end());
-  const auto names_fabric = [](const Flag& flag) {
-    return flag.path == "fabric" || flag.path == "fabric.name";
-  };
-  std::vector<Flag> ordered = flags;
-  std::stable_partition(ordered.begin(), ordered.end(), names_fabric);
-  for (const Flag& flag : ordered) {
-    const std::string origin = "--" + flag.path;
-    const BoundKey& key = find_key(known, flag.path == "fabric" ? "fabric.name" : flag.path, origin);
-    const Value value = parse_text(key.description, flag.text);
-    const bool is_extra = std::any_of(extra.begin(), extra.end(),
-                                      [&](const BoundKey& k) { return k.description.path == flag.path; });
-    if (is_extra) {
-      assign(key, value, origin);
-    } else {
-      set_key(scene, key, value, origin);
-    }
-    if (flag.path == "param") scene.origin["param." + flag.text.substr(0, flag.text.find('='))] = origin;
-  }
+  SceneKeys(scene, "", false, extra, {}).apply(flags);
 }
 
 double phase_start(const std::vector<Phase>& phases, const std::string& name) {

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "sim/scene/assets.h"
+#include "sim/scene/shown_key.h"
 
 namespace hysteron {
 namespace {
@@ -60,27 +61,24 @@ class TomlWriter {
       if (std::holds_alternative<Parameters*>(key.field)) continue;
       const std::string value =
           path == "fabric.name" ? in_quotes(fabric_to_read(scene_)) : field_text(key.field);
-      line(path, value, key.description.unit, own_.contains(path) ? kOwn : origin(path));
+      line(path, value, key.description.unit, own_.contains(path) ? kOwn : key_origin(scene_, path));
     }
   }
 
   void parameters() {
     for (const auto& [name, value] : scene_.param)
-      line("param." + in_quotes(name), in_quotes(value), "", origin("param." + name));
+      line("param." + in_quotes(name), in_quotes(value), "", key_origin(scene_, "param." + name));
   }
 
   template <class Item>
   void tables(const char* name, std::vector<Item> items, Keys (*bind_one)(Item&)) {
     for (std::size_t i = 0; i < items.size(); ++i) {
       const std::string path = std::string(name) + "[" + std::to_string(i) + "]";
-      const auto found = scene_.origin.find(path);
-      prefix_ = found == scene_.origin.end() ? "# " : "";
-      text_ << "\n"
-            << prefix_ << "[[" << name << "]]  # " << (prefix_.empty() ? found->second.c_str() : kOwn)
-            << "\n";
+      prefix_ = is_given(scene_, path) ? "" : "# ";
+      text_ << "\n" << prefix_ << "[[" << name << "]]  # " << key_origin(scene_, path, kOwn) << "\n";
       for (const BoundKey& key : bind_one(items[i]))
         line(key.description.path, field_text(key.field), key.description.unit,
-             key_place(path + "." + key.description.path));
+             key_origin(scene_, path + "." + key.description.path, ""));
       if constexpr (requires { items[i].motion; }) keyframes(items[i].motion);
     }
     prefix_.clear();
@@ -101,15 +99,6 @@ class TomlWriter {
       text_ << prefix_ << "  {" << join(entries, ", ") << "},\n";
     }
     text_ << prefix_ << "]\n";
-  }
-
-  std::string key_place(const std::string& key) const {
-    const auto found = scene_.origin.find(key);
-    return found == scene_.origin.end() ? "" : found->second;
-  }
-  std::string origin(const std::string& key) const {
-    const std::string place = key_place(key);
-    return place.empty() ? "default" : place;
   }
 
   const Scene& scene_;

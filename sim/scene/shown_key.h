@@ -1,4 +1,4 @@
-// A key in a message: its value and where it was set.
+// What was given, and a key in a message: its value and where it was set.
 #pragma once
 
 #include <string>
@@ -8,10 +8,14 @@
 
 namespace hysteron {
 
-// Where a key was set; the program's defaults and the experiment's have no place.
-inline std::string key_origin(const Scene& scene, const std::string& key) {
-  const auto found = scene.origin.find(key);
-  return found == scene.origin.end() ? "default" : found->second;
+// Whether a file, a flag or a program has set this key or table, "pin[0]"; else it is as the program or the
+// experiment has it by itself.
+inline bool is_given(const Scene& scene, const std::string& key) { return scene.origin.contains(key); }
+
+// Where a key or table was given.
+inline std::string key_origin(const Scene& scene, const std::string& key,
+                              const std::string& otherwise = "default") {
+  return is_given(scene, key) ? scene.origin.at(key) : otherwise;
 }
 
 // "fabric.b1 = 1e-6 N m (--fabric.b1)"

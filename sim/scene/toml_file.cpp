@@ -20,10 +20,10 @@ constexpr std::size_t kMaxTomlBytes = std::size_t{16} << 20;
 // What is read, and what may stand in it.
 struct Source {
   const std::string& file;
-  TomlLists lists;
+  Lists lists;
 };
 
-TomlNode convert(const Source& from, const std::string& key, const toml::node& source);
+ValueTree convert(const Source& from, const std::string& key, const toml::node& source);
 
 int line_number(const toml::node& source) { return static_cast<int>(source.source().begin.line); }
 
@@ -58,16 +58,16 @@ Value convert_value(const std::string& file, const std::string& key, const toml:
                              "); allowed are true, false, numbers, texts, arrays of numbers, tables");
 }
 
-TomlNode convert_array(const Source& from, const std::string& key, const toml::array& source) {
-  TomlNode node{TomlNode::Kind::array, key, line_number(source), {}, {}};
+ValueTree convert_array(const Source& from, const std::string& key, const toml::array& source) {
+  ValueTree node{ValueTree::Kind::array, key, line_number(source), {}, {}};
   if (all_numbers(source) && !source.empty()) {
-    node.kind = TomlNode::Kind::value;
+    node.kind = ValueTree::Kind::value;
     std::vector<double> numbers;
     for (const toml::node& element : source) numbers.push_back(*element.value<double>());
     node.value = numbers;
     return node;
   }
-  const bool list = from.lists == TomlLists::allowed && is_list(source);
+  const bool list = from.lists == Lists::allowed && is_list(source);
   for (const toml::node& element : source) {
     if (!list && !element.is_table()) convert_value(from.file, key, source);
     node.children.push_back(convert(from, "", element));
@@ -75,9 +75,9 @@ TomlNode convert_array(const Source& from, const std::string& key, const toml::a
   return node;
 }
 
-TomlNode convert(const Source& from, const std::string& key, const toml::node& source) {
+ValueTree convert(const Source& from, const std::string& key, const toml::node& source) {
   if (const auto* array = source.as_array()) return convert_array(from, key, *array);
-  TomlNode node{TomlNode::Kind::table, key, line_number(source), {}, {}};
+  ValueTree node{ValueTree::Kind::table, key, line_number(source), {}, {}};
   if (const auto* table = source.as_table()) {
     for (const auto& [name, child] : *table) {
       throw_if_control_characters(std::string(name.str()), from.file, line_number(child));
@@ -85,10 +85,10 @@ TomlNode convert(const Source& from, const std::string& key, const toml::node& s
     }
     // The library sorts by name; messages should come in reading order.
     std::stable_sort(node.children.begin(), node.children.end(),
-                     [](const TomlNode& a, const TomlNode& b) { return a.line < b.line; });
+                     [](const ValueTree& a, const ValueTree& b) { return a.line < b.line; });
     return node;
   }
-  node.kind = TomlNode::Kind::value;
+  node.kind = ValueTree::Kind::value;
   node.value = convert_value(from.file, key, source);
   return node;
 }
@@ -99,14 +99,7 @@ Error malformed(const std::string& why, const std::string& file, int line) {
 
 }  // namespace
 
-const TomlNode* TomlNode::find(const std::string& name) const {
-  for (const TomlNode& child : children) {
-    if (child.key == name) return &child;
-  }
-  return nullptr;
-}
-
-TomlNode read_toml(const std::string& file, TomlLists lists) {
+ValueTree read_toml(const std::string& file, Lists lists) {
   const std::string text = whole_file(file, "cannot read " + file, kMaxTomlBytes);
   if (const std::optional<TomlFault> fault = fault_before_parsing(text))
     throw malformed(fault->what, file, fault->line);
@@ -117,10 +110,6 @@ TomlNode read_toml(const std::string& file, TomlLists lists) {
     std::replace(why.begin(), why.end(), '\n', ' ');
     throw malformed(why, file, static_cast<int>(error.source().begin.line));
   }
-}
-
-std::string place(const std::string& file, const TomlNode& node) {
-  return node.line > 0 ? asset_name(file) + ":" + std::to_string(node.line) : file;
 }
 
 }  // namespace hysteron

@@ -113,7 +113,9 @@ Format manifest() {
 }
 
 // Of the run that a stored one is of.
-experiments::CheckpointOwner owner() { return {"0.1.0", "swing", "cpu", R"({"step":0.01})", "{}", 1}; }
+experiments::CheckpointOwner owner() {
+  return {"0.1.0", "swing", "cpu", {{"step", 0.01}}, experiments::Json::object(), 1};
+}
 
 // As a run begins to read it.
 void read_state(const fs::path& file) {

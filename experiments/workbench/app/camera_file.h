@@ -12,8 +12,8 @@ namespace hysteron::experiments {
 // "1280x720"}; metres, z up.  From the target the eye is `distance` along `direction`; the vertical angle is
 // `fov`.
 std::string camera_text(const render::Camera& camera, const std::string& size);
-// Sets the keys camera.* that the file has; a box that is framed in place of target and distance is left.
-// Throws Error::invalid_input where the file is missing or no such JSON, with what is wrong in it.
+// Sets the keys camera.* that the file has.  Throws Error::invalid_input where the file is missing or no such
+// JSON, with what is wrong in it.
 void read_camera(const std::string& file, Options& options);
 
 }  // namespace hysteron::experiments

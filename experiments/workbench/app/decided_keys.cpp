@@ -17,12 +17,6 @@ Json value_at(const Json& scene, std::string path) {
   return scene.contains(place) ? scene[place] : Json();
 }
 
-// Where the tables of that name stand, "x.toml:3"; "" where they are not of a file.
-std::string place_of_tables(const Scene& scene, const std::string& name) {
-  const auto first = scene.origin.find(name + "[0]");
-  return first == scene.origin.end() ? "" : first->second;
-}
-
 }  // namespace
 
 std::vector<DecidedKey> decided_by(const std::string& experiment) {
@@ -62,13 +56,13 @@ std::vector<std::string> lost_words(const CommandLine& line, const Setup& setup)
   std::vector<std::string> words;
   const auto defaults = experiment_named(line.experiment).defaults;
   if (!defaults || setup.decided.empty()) return words;
-  const Json default_values = to_json(defaults().scene), requested = Json::parse(setup.requested),
+  const Json default_values = to_json(defaults().scene), requested = to_json(*setup.requested),
              now = to_json(setup.scene);
   for (const DecidedKey& key : setup.decided) {
-    if (const std::string place = place_of_tables(setup.scene, key.path); !place.empty())
+    if (const std::string place = key_origin(setup.scene, key.path + "[0]", ""); !place.empty())
       words.push_back("[[" + key.path + "]] (" + place +
                       ") is not used: " + decided_words(line.experiment, key));
-    if (!setup.scene.origin.contains(key.path)) continue;
+    if (!is_given(setup.scene, key.path)) continue;
     const Json value = value_at(requested, key.path);
     if (value == value_at(default_values, key.path) || (!key.unused && value == value_at(now, key.path)))
       continue;

@@ -111,13 +111,13 @@ void limit_memory(double megabytes) {
 }
 
 // Without those that change no file of a run, or whose outcome is in the scene.
-std::string resolved_options(Keys keys) {
+std::shared_ptr<const nlohmann::ordered_json> resolved_options(Keys keys) {
   static const std::set<std::string> kOthers = {"scene",        "camera",      "out",          "quick",
                                                 "explain",      "quiet",       "json",         "errors",
                                                 "errors.draws", "errors.jobs", "errors.batch", "checkpoint",
                                                 "resume",       "dump-scene",  "max-memory"};
   std::erase_if(keys, [](const BoundKey& key) { return kOthers.contains(key.description.path); });
-  return to_json(keys).dump();
+  return std::make_shared<const nlohmann::ordered_json>(to_json(keys));
 }
 
 }  // namespace
@@ -149,7 +149,7 @@ Setup set_up(const CommandLine& line, Setup setup, const Keys& own,
   limit_memory(setup.options.max_memory);
   if (setup.options.errors) check_errors(line.experiment);
   setup.resolved = resolved_options(extra);
-  setup.requested = requested_text(setup.scene);
+  setup.requested = setup.scene;
   if (setup.options.out.empty()) setup.options.out = "out/" + line.experiment;
   return setup;
 }

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <functional>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -77,9 +79,9 @@ std::string whose(const std::string& key);
 struct Setup {
   Scene scene;
   Options options;
-  std::string resolved =
-      "{}";                    // resolved keys of the run and its experiment that decide what it writes, JSON
-  std::string requested = "";  // the scene before the experiment changes it, JSON; empty: it is not changed
+  // Resolved keys of the run and its experiment that decide what it writes; null: none.
+  std::shared_ptr<const nlohmann::ordered_json> resolved = nullptr;
+  std::optional<Scene> requested = {};  // before the experiment changes it; nothing: it is not changed
   std::vector<std::string> own_tables =
       {};  // arrays of tables of a scene file that the experiment reads itself
   std::vector<MeshRecord> recorded_meshes = {};  // of the manifest that the scene is from

@@ -11,8 +11,7 @@ constexpr std::size_t kMaxJsonBytes = std::size_t{256} << 20;
 
 }  // namespace
 
-Json read_json(const std::filesystem::path& file, const std::string& kind) {
-  const std::string text = whole_file(file, "cannot read " + file.string(), kMaxJsonBytes);
+Json json_in(const std::string& text, const std::filesystem::path& file, const std::string& kind) {
   const auto refuse = [&](const std::string& why) {
     throw Error::invalid_input(file.string() + " is no " + kind + ": it " + why);
   };
@@ -23,6 +22,10 @@ Json read_json(const std::filesystem::path& file, const std::string& kind) {
   Json json = Json::parse(text, watch_depth, false);
   if (json.is_discarded()) refuse("was cut off or edited");
   return json;
+}
+
+Json read_json(const std::filesystem::path& file, const std::string& kind) {
+  return json_in(whole_file(file, "cannot read " + file.string(), kMaxJsonBytes), file, kind);
 }
 
 Json json_or_none(const std::filesystem::path& file) {

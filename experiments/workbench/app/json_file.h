@@ -11,6 +11,8 @@ namespace hysteron::experiments {
 // Throws Error::system if the file cannot be read; Error::invalid_input, naming it as no `kind`, if it is no
 // JSON or nests deeper than anything this program writes.
 Json read_json(const std::filesystem::path& file, const std::string& kind = "JSON");
+// The same of the text in that file.
+Json json_in(const std::string& text, const std::filesystem::path& file, const std::string& kind = "JSON");
 // Discarded (Json::is_discarded) where read_json would throw.
 Json json_or_none(const std::filesystem::path& file);
 

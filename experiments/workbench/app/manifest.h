@@ -87,33 +87,12 @@ class Metrics {
   std::vector<Entry> entries_;
 };
 
-// The fabric of a run, as far as pages tell of it.
-struct FabricRecord {
+// A number of a fabric, as its manifest has it.
+struct SourcedNumber {
   std::string name;
-  double b1 = 0, b2 = 0, k0 = 0, density = 0, damping = 0;  // 0 where the manifest does not say
-  struct Number {
-    std::string name;
-    MetricValue value;
-    std::string unit;  // "" for SI
-    std::string confidence, source;
-  };
-  std::vector<Number> numbers;    // those with a source
-  std::vector<Number> published;  // as they stand in print
-};
-
-// What a run was asked for, as far as pages tell of it.
-struct SceneRecord {
-  FabricRecord fabric;
-  std::string shape;                         // of the cloth
-  double length = 0, width = 0, radius = 0;  // [m]
-  std::string mesh, integrator, precision;
-  std::optional<std::string> law, element;                   // as they stand there: "linear,prandtl"
-  std::vector<std::string> laws, elements, fabrics;          // all of them
-  std::vector<std::pair<std::string, std::string>> param{};  // of the law
-  double step = 0;                                           // [s]
-  std::optional<double> seconds;
-  bool self_contact = false;
-  std::string compared;  // the experiment that a comparison's columns ran
+  MetricValue value;
+  std::string unit;  // "" for SI
+  std::string confidence, source;
 };
 
 // The pictures of a run.
@@ -165,8 +144,7 @@ struct Manifest {
   bool dirty = false;
   std::string experiment, command, started;
   std::optional<RunSpec> spec;       // of older programs only the command is known
-  std::shared_ptr<const Json> keys;  // all that the run was asked for, as it is written
-  SceneRecord scene;                 // the same, as it is read
+  std::shared_ptr<const Json> keys;  // all that the run was asked for, resolved
   std::shared_ptr<const Json>
       options;  // resolved keys of a simulated run and its experiment; null: not noted
   std::shared_ptr<const Json> requested;  // merge patch that turns `keys` into the scene before its
@@ -195,6 +173,16 @@ struct Manifest {
   std::vector<std::string> requested_metrics;  // those that its scene file asks for
   std::vector<std::string> files;
   bool complete = false;
+
+  // Of `keys` the text or number at a path, "fabric.b2"; what is neither is its JSON.  "", 0: there is none.
+  std::string text(const std::string& path) const;
+  double number(const std::string& path) const;
+  // "prandtl,linear", or a list of names or of what has one, as experiments over several laws or fabrics have
+  // it; under the key, or else under that with an s.
+  std::vector<std::string> names(const std::string& key) const;
+  std::vector<std::string> law_parameters() const;       // "stops=16"
+  std::vector<SourcedNumber> fabric_numbers() const;     // those with a source
+  std::vector<SourcedNumber> published_numbers() const;  // of the fabric, as they stand in print
 
   double total_seconds() const;               // of wall clock; 0 where it is not known
   std::optional<double> own_seconds() const;  // the same, where they are not those of a batch

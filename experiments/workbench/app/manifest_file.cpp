@@ -1,5 +1,6 @@
 #include "experiments/workbench/app/manifest_file.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "experiments/workbench/app/json_file.h"
@@ -138,9 +139,18 @@ std::optional<T> known_at(const Json& json, const char* key) {
 }
 
 // As it is shown, a list as JSON.
+std::string shown(const Json& value) { return value.is_string() ? value.get<std::string>() : value.dump(); }
 std::string shown_at(const Json& json, const char* key) {
   const Json& value = at(json, key);
-  return value.is_string() ? value.get<std::string>() : value.is_null() ? "–" : value.dump();
+  return value.is_null() ? "–" : shown(value);
+}
+
+// "fabric.b2" in `keys`; null if there is nothing.
+const Json& at_path(const std::shared_ptr<const Json>& keys, std::string path) {
+  static const Json kNothing;
+  std::replace(path.begin(), path.end(), '.', '/');
+  const Json::json_pointer place("/" + path);
+  return keys && keys->contains(place) ? keys->at(place) : kNothing;
 }
 
 std::vector<std::string> texts_at(const Json& json, const char* key) {
@@ -169,61 +179,6 @@ Metrics parsed_metrics(const Json& json) {
   Metrics metrics;
   for (const auto& [name, value] : json.items()) metrics.set(name, metric_value(value));
   return metrics;
-}
-
-// "prandtl,linear", or a list of names or of what has one, as experiments over several laws or fabrics have
-// it; under the key, or else under that with an s.
-std::vector<std::string> names_at(const Json& scene, const std::string& key) {
-  const Json& value = at(scene, scene.contains(key) ? key.c_str() : (key + "s").c_str());
-  if (value.is_string()) return split(value.get<std::string>());
-  std::vector<std::string> names;
-  if (value.is_array())
-    for (const Json& entry : value)
-      names.push_back(entry.is_string() ? entry.get<std::string>() : text_at(entry, "name"));
-  return names;
-}
-
-FabricRecord fabric_record(const Json& json) {
-  FabricRecord fabric{text_at(json, "name"),
-                      number_at(json, "b1"),
-                      number_at(json, "b2"),
-                      number_at(json, "k0"),
-                      number_at(json, "density"),
-                      number_at(json, "damping"),
-                      {},
-                      {}};
-  for (const auto& [name, from] : at(json, "provenance").items())
-    fabric.numbers.push_back({name, metric_value(at(json, name.c_str())), "", shown_at(from, "confidence"),
-                              shown_at(from, "source")});
-  for (const auto& [name, number] : at(json, "published").items())
-    fabric.published.push_back({name, metric_value(at(number, "value")), shown_at(number, "unit"),
-                                shown_at(number, "confidence"), shown_at(number, "source")});
-  return fabric;
-}
-
-SceneRecord scene_record(const Json& json) {
-  SceneRecord scene;
-  scene.fabric = fabric_record(at(json, "fabric"));
-  const Json& cloth = at(json, "cloth");
-  scene.shape = text_at(cloth, "shape");
-  scene.length = number_at(cloth, "length");
-  scene.width = number_at(cloth, "width");
-  scene.radius = number_at(cloth, "radius");
-  scene.mesh = text_at(json, "mesh");
-  scene.integrator = text_at(json, "integrator");
-  scene.precision = text_at(json, "precision");
-  if (json.contains("law")) scene.law = shown_at(json, "law");
-  if (json.contains("element")) scene.element = shown_at(json, "element");
-  scene.laws = names_at(json, "law");
-  scene.elements = names_at(json, "element");
-  scene.fabrics = names_at(json, "fabric");
-  for (const auto& [name, value] : at(json, "param").items())
-    scene.param.emplace_back(name, value.is_string() ? value.get<std::string>() : value.dump());
-  scene.step = number_at(json, "step");
-  scene.seconds = known_at<double>(json, "seconds");
-  scene.self_contact = is_true_at(json, "self-contact");
-  scene.compared = text_at(json, "compared");
-  return scene;
 }
 
 std::optional<RunSpec> recorded_spec(const Json& json) {
@@ -331,7 +286,6 @@ Manifest parsed_manifest(const Json& json) {
   m.command = text_at(json, "command");
   m.spec = recorded_spec(at(json, "spec"));
   m.started = text_at(json, "started");
-  m.scene = scene_record(at(json, "scene"));
   m.keys = std::make_shared<const Json>(at(json, "scene"));
   if (at(json, "options").is_object()) m.options = std::make_shared<const Json>(json["options"]);
   if (at(json, "asked").is_object()) m.requested = std::make_shared<const Json>(json["asked"]);
@@ -344,6 +298,51 @@ Manifest parsed_manifest(const Json& json) {
   m.files = texts_at(json, "files");
   m.complete = is_true_at(json, "complete");
   return m;
+}
+
+std::string Manifest::text(const std::string& path) const {
+  const Json& value = at_path(keys, path);
+  return value.is_null() ? "" : shown(value);
+}
+
+double Manifest::number(const std::string& path) const {
+  const Json& value = at_path(keys, path);
+  return value.is_number() ? value.get<double>() : 0;
+}
+
+std::vector<std::string> Manifest::names(const std::string& key) const {
+  const Json& one = at_path(keys, key);
+  const Json& value = one.is_null() ? at_path(keys, key + "s") : one;
+  if (value.is_string()) return split(value.get<std::string>());
+  std::vector<std::string> names;
+  if (value.is_array())
+    for (const Json& entry : value)
+      names.push_back(entry.is_string() ? entry.get<std::string>() : text_at(entry, "name"));
+  return names;
+}
+
+std::vector<std::string> Manifest::law_parameters() const {
+  std::vector<std::string> parameters;
+  for (const auto& [name, value] : at_path(keys, "param").items())
+    parameters.push_back(name + "=" + shown(value));
+  return parameters;
+}
+
+std::vector<SourcedNumber> Manifest::fabric_numbers() const {
+  std::vector<SourcedNumber> numbers;
+  const Json& fabric = at_path(keys, "fabric");
+  for (const auto& [name, from] : at(fabric, "provenance").items())
+    numbers.push_back({name, metric_value(at(fabric, name.c_str())), "", shown_at(from, "confidence"),
+                       shown_at(from, "source")});
+  return numbers;
+}
+
+std::vector<SourcedNumber> Manifest::published_numbers() const {
+  std::vector<SourcedNumber> numbers;
+  for (const auto& [name, number] : at_path(keys, "fabric.published").items())
+    numbers.push_back({name, metric_value(at(number, "value")), shown_at(number, "unit"),
+                       shown_at(number, "confidence"), shown_at(number, "source")});
+  return numbers;
 }
 
 MetricValue metric_value(const Json& json) {

@@ -98,12 +98,13 @@ std::string program_version() {
 
 Run::Run(const CommandLine& line, const Setup& setup, const std::vector<std::string>& kept)
     : Run(line, setup.options, to_json(setup.scene), kept) {
-  manifest_.options = std::make_shared<const Json>(Json::parse(setup.resolved));
+  manifest_.options = setup.resolved;
   manifest_.requested_metrics = setup.requested_metrics;
   manifest_.meshes = mesh_records(setup.scene);
   for (const std::string& change : changed_meshes(setup.recorded_meshes, manifest_.meshes)) warn(change);
-  if (!setup.requested.empty())
-    manifest_.requested = std::make_shared<const Json>(requested_patch(*manifest_.keys, setup.requested));
+  if (setup.requested)
+    manifest_.requested =
+        std::make_shared<const Json>(requested_patch(*manifest_.keys, to_json(*setup.requested)));
 }
 
 Run::Run(const CommandLine& line, const Options& options, const Json& keys,
@@ -116,13 +117,13 @@ Run::Run(const CommandLine& line, const Options& options, const Json& keys,
   manifest_.files = kept;
   reserve({"report.html"});  // every run ends with it, or `hysteron report` writes it later
   for (const std::string& name : kept) is_new(name);
-  write_manifest(false);
+  keep();
 }
 
 Run::~Run() {
   if (finished_) return;
   try {
-    write_manifest(false);
+    keep();
   } catch (const Error& error) {
     // The exception that ended the run is on its way; this one can only be mentioned.
     reason_of_no_manifest() = error.what();
@@ -137,7 +138,7 @@ fs::path Run::path(const std::string& name) {
   if (std::count(manifest_.files.begin(), manifest_.files.end(), name)) return folder() / name;
   const fs::path file = folder_.place_for(name);
   manifest_.files.push_back(name);
-  if (is_new(name) && !finished_) write_manifest(false);
+  if (is_new(name) && !finished_) keep();
   return file;
 }
 
@@ -216,32 +217,33 @@ void Run::progress(const std::string& line) const {
   if (!quiet_) std::cerr << line << std::endl;
 }
 
-Json Run::to_write(bool complete) const {
-  Manifest all = manifest_;
-  all.wall_seconds = {
+void Run::note_seconds(Manifest& manifest) const {
+  manifest.wall_seconds = {
       {"total", std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count()}};
-  if (!manifest_.batch) add_stages(all);
-  all.complete = complete;
-  return to_json(all);
-}
-
-void Run::add_stages(Manifest& all) const {
+  if (manifest.batch) return;
   std::map<std::string, double> others = seconds_;
   for (const char* stage : kStages) {
-    all.wall_seconds.emplace_back(stage, others[stage]);
+    manifest.wall_seconds.emplace_back(stage, others[stage]);
     others.erase(stage);
   }
-  all.wall_seconds.insert(all.wall_seconds.end(), others.begin(), others.end());
+  manifest.wall_seconds.insert(manifest.wall_seconds.end(), others.begin(), others.end());
 }
 
-void Run::write_manifest(bool complete) const {
-  write_text(folder() / "manifest.json", to_write(complete).dump(2) + "\n");
+void Run::keep() const {
+  Manifest manifest = manifest_;
+  note_seconds(manifest);
+  write_text(folder() / "manifest.json", to_json(manifest).dump(2) + "\n");
 }
 
 void Run::finish() {
-  write_manifest(true);
+  note_seconds(manifest_);
+  manifest_.complete = true;
+  const Json json = to_json(manifest_);
+  const std::string text = json.dump(2) + "\n";
+  write_text(folder() / "manifest.json", text);
+  manifest_ = parsed_manifest(json);
   finished_ = true;
-  if (json_) std::cout << to_write(true).dump(2) << std::endl;
+  if (json_) std::cout << text << std::flush;
 }
 
 }  // namespace hysteron::experiments

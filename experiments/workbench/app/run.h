@@ -60,7 +60,8 @@ class Run {
   // The file of that name could not be written: what there is of it goes, and it is not listed.
   void forget(const std::string& name);
 
-  // What is known so far.  Its wall_seconds, plots_missing, files and complete are the run's own.
+  // What is known so far; after finish() as it is read from disk.  Its wall_seconds, plots_missing, files and
+  // complete are the run's own.
   Manifest& manifest() { return manifest_; }
   const Manifest& manifest() const { return manifest_; }
   // An entry that only this experiment has.
@@ -106,14 +107,12 @@ class Run {
 
   // Writes what is known so far, as of a run that is not complete: work that follows may be interrupted.
   // Throws Error::system.
-  void keep() const { write_manifest(false); }
+  void keep() const;
   // Writes the complete manifest, and prints it on stdout with --json.  Throws Error::system.
   void finish();
 
  private:
-  Json to_write(bool complete) const;
-  void add_stages(Manifest& all) const;
-  void write_manifest(bool complete) const;
+  void note_seconds(Manifest& manifest) const;
   // Whether no file of that name or, of a sequence, of its kind is in the manifest on disk; now it is known.
   bool is_new(const std::filesystem::path& name);
 

@@ -27,19 +27,6 @@ Json given_in(const Json& scene, const Json& origin, const std::string& path = "
   return given;
 }
 
-Json patch_between(const Json& from, const Json& to) {
-  Json patch = Json::object();
-  for (const auto& [name, value] : to.items()) {
-    const bool known = from.contains(name);
-    if (known && from[name] == value) continue;
-    patch[name] =
-        known && from[name].is_object() && value.is_object() ? patch_between(from[name], value) : value;
-  }
-  for (const auto& [name, value] : from.items())
-    if (!to.contains(name)) patch[name] = nullptr;
-  return patch;
-}
-
 // The scene that this experiment is to start from.
 Json scene_for(const std::string& experiment, const Manifest& manifest) {
   Json scene = *manifest.keys;
@@ -49,27 +36,6 @@ Json scene_for(const std::string& experiment, const Manifest& manifest) {
   return scene;
 }
 
-// Paths of all values in a tree of objects; of a list its own.
-void collect_leaves(const Json& tree, const std::string& path,
-                    std::vector<std::pair<std::string, Json>>& leaves) {
-  for (const auto& [name, value] : tree.items()) {
-    const std::string key = path.empty() ? name : path + "." + name;
-    if (value.is_object())
-      collect_leaves(value, key, leaves);
-    else
-      leaves.emplace_back(key, value);
-  }
-}
-
-std::vector<std::pair<std::string, Json>> json_leaves(const Json& tree) {
-  std::vector<std::pair<std::string, Json>> leaves;
-  collect_leaves(tree, "", leaves);
-  return leaves;
-}
-
-// Of a list of tables, which the experiment reads itself.
-bool is_own_table(const Json& value) { return value.is_array() && !value.empty() && value[0].is_object(); }
-
 // As a file has it; a table in one line.
 std::string toml_value(const Json& value) {
   if (!value.is_structured()) return value.dump();
@@ -78,6 +44,17 @@ std::string toml_value(const Json& value) {
     entries.push_back((value.is_object() ? name + " = " : "") + toml_value(entry));
   const std::string inner = join(entries, ", ");
   return value.is_object() ? "{" + inner + "}" : "[" + inner + "]";
+}
+
+// Keys with the paths of all values in a tree of objects; of a list its own.
+void collect_leaves(const Json& tree, const std::string& path, std::vector<FurtherKey>& leaves) {
+  for (const auto& [name, value] : tree.items()) {
+    const std::string key = path.empty() ? name : path + "." + name;
+    if (value.is_object())
+      collect_leaves(value, key, leaves);
+    else
+      leaves.push_back({key, toml_value(value)});
+  }
 }
 
 }  // namespace
@@ -90,25 +67,31 @@ void apply_scene(Setup& setup, const std::string& experiment, const std::string&
         name + " is of `" + manifest.experiment +
         "` and holds no scene that was simulated: name the manifest of one of its runs (--scene)")
         .with_key("scene", name);
-  apply_recorded_scene(setup.scene, scene_for(experiment, manifest), name);
+  Json tree = scene_for(experiment, manifest);
+  if (manifest.experiment == experiment && manifest.options) tree.merge_patch(*manifest.options);
+  apply_recorded_scene(setup.scene, std::move(tree), name, extra, setup.own_tables);
   find_meshes(setup.scene, manifest.meshes, name);
   setup.recorded_meshes = manifest.meshes;
-  if (manifest.experiment != experiment || !manifest.options) return;
-  for (const auto& [path, value] : json_leaves(*manifest.options))
-    if (!is_own_table(value)) assign(find_key(extra, path, name), recorded_value(value, path, name), name);
 }
 
-std::string requested_text(const Scene& scene) { return to_json(scene).dump(); }
-
-Json requested_patch(const Json& simulated, const std::string& requested) {
-  return patch_between(simulated, Json::parse(requested));
+Json requested_patch(const Json& simulated, const Json& requested) {
+  Json patch = Json::object();
+  for (const auto& [name, value] : requested.items()) {
+    const bool known = simulated.contains(name);
+    if (known && simulated[name] == value) continue;
+    patch[name] = known && simulated[name].is_object() && value.is_object()
+                      ? requested_patch(simulated[name], value)
+                      : value;
+  }
+  for (const auto& [name, value] : simulated.items())
+    if (!requested.contains(name)) patch[name] = nullptr;
+  return patch;
 }
 
 // What was asked for, since the experiment will change it once more; but the time and the steps that it has
 // set, which it sets only where they are not given, and all hands and obstacles.
 void dump_scene(const Setup& setup) {
-  Scene scene = setup.scene;
-  apply_recorded_scene(scene, Json::parse(setup.requested), setup.options.dump_scene);
+  Scene scene = *setup.requested;
   std::set<std::string> own;
   const auto keep = [&](const char* key, auto Scene::*member) {
     if (scene.*member != setup.scene.*member) own.insert(key);
@@ -122,8 +105,7 @@ void dump_scene(const Setup& setup) {
   scene.pin = setup.scene.pin;
   scene.obstacle = setup.scene.obstacle;
   std::vector<FurtherKey> others;
-  for (const auto& [path, value] : json_leaves(Json::parse(setup.resolved)))
-    others.push_back({path, toml_value(value)});
+  collect_leaves(*setup.resolved, "", others);
   write_text(setup.options.dump_scene, scene_toml(scene, own, others));
 }
 

@@ -13,10 +13,8 @@ namespace hysteron::experiments {
 // Error::invalid_input, Error::system.
 void apply_scene(Setup& setup, const std::string& experiment, const std::string& name, const Keys& extra);
 
-// The scene as it was asked for, in JSON: what Setup::asked holds.
-std::string requested_text(const Scene& scene);
-// The merge patch that turns the scene as it was simulated into that.
-Json requested_patch(const Json& simulated, const std::string& requested);
+// The merge patch that turns the scene as it was simulated into the one that was asked for.
+Json requested_patch(const Json& simulated, const Json& requested);
 
 // Writes the scene of a set-up, with the keys of the run and its experiment, as the TOML file that
 // `--dump-scene` names.  Throws Error::system.

@@ -46,9 +46,7 @@ std::string with_unit(double value, const std::string& unit) {
 }
 
 // The law of a column, or "" where its manifest is missing.
-std::string column_law(const ChildRun& column) {
-  return column.manifest ? column.manifest->scene.law.value_or("") : "";
-}
+std::string column_law(const ChildRun& column) { return column.manifest ? column.manifest->text("law") : ""; }
 
 bool differ_in_laws(const std::vector<ChildRun>& columns) {
   std::set<std::string> laws;

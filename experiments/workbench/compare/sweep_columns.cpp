@@ -156,8 +156,8 @@ std::string run_outcome(const ChildRun& column) {
 std::string progress_in(const fs::path& folder) {
   const std::string row = last_row(folder / "metrics.csv.part");
   const std::optional<Manifest> manifest = manifest_or_none(folder / "manifest.json");
-  if (row.empty() || !manifest || !manifest->scene.seconds) return "";
-  return fmt::format("{:.2f}/{:.4g} s", std::strtod(row.c_str(), nullptr), *manifest->scene.seconds);
+  if (row.empty() || !manifest) return "";
+  return fmt::format("{:.2f}/{:.4g} s", std::strtod(row.c_str(), nullptr), manifest->number("seconds"));
 }
 
 int processes_at_once(const std::vector<ChildRun>& columns, const SweepJobs& jobs) {

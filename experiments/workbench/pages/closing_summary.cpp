@@ -27,8 +27,8 @@ std::string row(const std::string& words, const std::string& value) {
 
 // What a comparison's columns were asked for.
 std::string comparison_question(const Manifest& manifest) {
-  const bool compares = manifest.experiment == "compare" && !manifest.scene.compared.empty();
-  return compares ? manifest.scene.compared : manifest.experiment;
+  const std::string compared = manifest.experiment == "compare" ? manifest.text("compared") : "";
+  return compared.empty() ? manifest.experiment : compared;
 }
 
 // A result that was asked for: "recovery angle", "86.0 degree".
@@ -85,7 +85,7 @@ std::string result_words(const Manifest& manifest) {
 
 std::string closing_summary(const std::filesystem::path& folder) {
   const Manifest manifest = read_manifest(folder / "manifest.json");
-  const std::string& fabric = manifest.scene.fabric.name;
+  const std::string fabric = manifest.text("fabric.name");
   std::string text = manifest.experiment;
   if (!fabric.empty()) text += ": " + fabric;
   if (manifest.law) text += (fabric.empty() ? ": law " : ", law ") + *manifest.law;

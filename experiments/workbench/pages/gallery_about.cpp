@@ -19,9 +19,9 @@ std::string named_or_counted(const std::vector<std::string>& names, const std::s
 }
 
 // Of one fabric or several.
-std::string fabric_names(const SceneRecord& scene) {
-  if (!scene.fabric.name.empty()) return scene.fabric.name;
-  const std::string several = named_or_counted(scene.fabrics, "fabric");
+std::string fabric_names(const Manifest& manifest) {
+  if (const std::string name = manifest.text("fabric.name"); !name.empty()) return name;
+  const std::string several = named_or_counted(manifest.names("fabric"), "fabric");
   return several.starts_with("fabric ") ? several.substr(7) : several;
 }
 
@@ -47,12 +47,12 @@ std::string seconds_text(double seconds) {
   return seconds < 100 ? fmt::format("{:.3g} s", seconds) : fmt::format("{:.0f} s", seconds);
 }
 
-std::string scene_subject(const SceneRecord& scene) {
-  return joined({fabric_names(scene), named_or_counted(scene.laws, "law")}, ", ");
+std::string scene_subject(const Manifest& manifest) {
+  return joined({fabric_names(manifest), named_or_counted(manifest.names("law"), "law")}, ", ");
 }
 
 std::string about_html(const Manifest& m) {
-  std::vector<std::string> facts = {scene_subject(m.scene), named_or_counted(m.scene.elements, "element")};
+  std::vector<std::string> facts = {scene_subject(m), named_or_counted(m.names("element"), "element")};
   if (m.triangles) facts.push_back(std::to_string(*m.triangles) + " triangles");
   facts.push_back(m.precision.value_or(""));
   if (m.seconds_simulated) facts.push_back(seconds_text(*m.seconds_simulated) + " simulated");

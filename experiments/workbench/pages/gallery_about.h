@@ -20,7 +20,7 @@ std::string seconds_text(double seconds);
 
 // Fabric and law, "cotton-broad, law prandtl", "cotton-broad, 14 laws"; what the manifest does not say is
 // left out.
-std::string scene_subject(const SceneRecord& scene);
+std::string scene_subject(const Manifest& manifest);
 
 // The same and more, as a paragraph of HTML: mesh, precision, times, device, date, program.
 std::string about_html(const Manifest& manifest);

@@ -65,7 +65,7 @@ std::string first_sentences(const std::string& caption) {
 
 // ": cotton-broad, law prandtl, 0 to 3.67 s"
 std::string subject_words(const Manifest& manifest) {
-  std::string words = scene_subject(manifest.scene);
+  std::string words = scene_subject(manifest);
   if (const auto& seconds = manifest.seconds_simulated)
     words += (words.empty() ? "" : ", ") + ("0 to " + seconds_text(*seconds));
   return words.empty() ? "" : ": " + words;

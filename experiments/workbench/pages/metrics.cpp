@@ -59,7 +59,7 @@ Card metric_card(const Metrics& metrics, const Headline& headline) {
 // Of laws or fabrics the first headline that they have, a card each.
 std::vector<Card> column_cards(const Manifest& manifest) {
   constexpr std::size_t kMax = 8;  // more are a table
-  const std::string& compared = manifest.scene.compared;
+  const std::string compared = manifest.text("compared");
   const auto columns = columns_in(manifest.metrics);
   for (const Headline& headline :
        experiment_headlines(compared.empty() ? manifest.experiment : compared).all) {

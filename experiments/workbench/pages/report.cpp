@@ -20,14 +20,14 @@ using Rows = std::vector<std::vector<std::string>>;
 constexpr int kMaxFrames = 24;  // more would make a page of many megabytes
 
 std::string report_title(const Manifest& manifest, const std::string& between) {
-  const std::string& fabric = manifest.scene.fabric.name;
+  const std::string fabric = manifest.text("fabric.name");
   return manifest.experiment + (fabric.empty() ? "" : between + fabric);
 }
 
 std::string law_and_program(const Manifest& manifest) {
   std::string about;
-  if (manifest.scene.law) about += "law " + *manifest.scene.law + " · ";
-  if (manifest.scene.element) about += "element " + *manifest.scene.element + " · ";
+  for (const char* key : {"law", "element"})
+    if (const std::string name = manifest.text(key); !name.empty()) about += key + (" " + name) + " · ";
   return about + manifest.started + " · " + program_description(manifest);
 }
 
@@ -37,13 +37,13 @@ std::string energy_table(const Manifest& manifest) {
   return rows.empty() ? "" : html_table({"term", "J"}, rows, {1});
 }
 
-std::string fabric_table(const FabricRecord& fabric) {
+std::string fabric_table(const Manifest& manifest) {
   Rows rows;
-  for (const FabricRecord::Number& number : fabric.numbers)
+  for (const SourcedNumber& number : manifest.fabric_numbers())
     rows.push_back({number.name, shown(number.value), number.confidence, number.source});
   std::string tables = html_table({"SI", "value", "", "source"}, rows, {1});
   rows.clear();
-  for (const FabricRecord::Number& number : fabric.published)
+  for (const SourcedNumber& number : manifest.published_numbers())
     rows.push_back({number.name, shown(number.value) + " " + number.unit, number.confidence, number.source});
   if (!rows.empty()) tables += html_table({"as published", "value", "", "source"}, rows, {1});
   return tables;
@@ -140,7 +140,10 @@ Manifest manifest_in(const fs::path& folder) {
 }  // namespace
 
 std::string report_page(const fs::path& folder, PageForm form) {
-  const Manifest manifest = manifest_in(folder);
+  return report_page(folder, manifest_in(folder), form);
+}
+
+std::string report_page(const fs::path& folder, const Manifest& manifest, PageForm form) {
   const Metrics& metrics = manifest.metrics;
   const bool study = manifest.experiment == "sweep";
   if (study) form = PageForm::self_contained;  // plots and tables only, made to be sent
@@ -154,7 +157,7 @@ std::string report_page(const fs::path& folder, PageForm form) {
       {"Runs", study ? study_runs(folder) : ""},
       {"Sequence", player(folder, "", kMaxFrames, form)},
       {"Study", study ? study_keys(manifest) : ""},
-      {"Fabric", study ? "" : fabric_table(manifest.scene.fabric)}};
+      {"Fabric", study ? "" : fabric_table(manifest)}};
   std::string all = answer(folder, manifest, form);
   for (const auto& [title, html] : sections) all += html_section(title, html);
   all += numerics_html(folder, manifest);
@@ -177,9 +180,9 @@ fs::path write_report(const fs::path& folder, PageForm form) {
 }
 
 void finish_with_report(Run& run) {
-  run.path("report.html");
+  const fs::path page = run.path("report.html");
   run.finish();
-  write_report(run.folder());
+  write_text(page, report_page(run.folder(), run.manifest()));
 }
 
 }  // namespace hysteron::experiments

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "experiments/workbench/app/manifest_file.h"
 #include "experiments/workbench/pages/manifest.h"
 #include "sim/base/atomic_file.h"
 #include "sim/scene/key_table.h"
@@ -44,37 +43,37 @@ std::string grouped(long count) {
 }
 
 std::string cloth_words(const Manifest& manifest) {
-  const SceneRecord& scene = manifest.scene;
-  const double length = 1e3 * scene.length, width = 1e3 * scene.width, radius = 1e3 * scene.radius;
-  std::string words = scene.shape;
-  if (scene.shape == "strip") words += fmt::format(" of {:.4g} by {:.4g} mm", length, width);
-  if (scene.shape == "square") words += fmt::format(" of {:.4g} mm", length);
-  if (scene.shape == "disc") words += fmt::format(" of {:.4g} mm radius", radius);
-  if (scene.shape == "tube") words += fmt::format(" of {:.4g} mm and {:.4g} mm radius", length, radius);
-  words += ", mesh " + scene.mesh;
+  const auto millimetres = [&](const char* key) { return 1e3 * manifest.number(key); };
+  const double length = millimetres("cloth.length"), radius = millimetres("cloth.radius");
+  const std::string shape = manifest.text("cloth.shape");
+  std::string words = shape;
+  if (shape == "strip") words += fmt::format(" of {:.4g} by {:.4g} mm", length, millimetres("cloth.width"));
+  if (shape == "square") words += fmt::format(" of {:.4g} mm", length);
+  if (shape == "disc") words += fmt::format(" of {:.4g} mm radius", radius);
+  if (shape == "tube") words += fmt::format(" of {:.4g} mm and {:.4g} mm radius", length, radius);
+  words += ", mesh " + manifest.text("mesh");
   return words + (manifest.triangles ? ", " + grouped(*manifest.triangles) + " triangles" : "");
 }
 
 std::string fabric_words(const Manifest& manifest) {
-  const FabricRecord& f = manifest.scene.fabric;
-  return fmt::format("{} (b1 {:.4g} N m, b2 {:.4g} N m, k0 {:.4g} 1/m, {:.4g} g/m²)", f.name, f.b1, f.b2,
-                     f.k0, 1e3 * f.density);
+  return fmt::format("{} (b1 {:.4g} N m, b2 {:.4g} N m, k0 {:.4g} 1/m, {:.4g} g/m²)",
+                     manifest.text("fabric.name"), manifest.number("fabric.b1"), manifest.number("fabric.b2"),
+                     manifest.number("fabric.k0"), 1e3 * manifest.number("fabric.density"));
 }
 
 std::string damping_words(const Manifest& manifest) {
-  return fmt::format("{:.4g} s", manifest.scene.fabric.damping);
+  return fmt::format("{:.4g} s", manifest.number("fabric.damping"));
 }
 
 std::string law_words(const Manifest& manifest) {
-  std::vector<std::string> parameters;
-  for (const auto& [key, value] : manifest.scene.param) parameters.push_back(key + "=" + value);
-  return manifest.scene.law.value_or("") + (parameters.empty() ? "" : " (" + join(parameters, ", ") + ")");
+  const std::vector<std::string> parameters = manifest.law_parameters();
+  return manifest.text("law") + (parameters.empty() ? "" : " (" + join(parameters, ", ") + ")");
 }
 
 std::string solver_words(const Manifest& manifest) {
-  const SceneRecord& scene = manifest.scene;
-  return fmt::format("{}, step {:.4g} ms, element {}, {} precision{}", scene.integrator, 1e3 * scene.step,
-                     scene.element.value_or(""), scene.precision, scene.self_contact ? ", self-contact" : "");
+  return fmt::format("{}, step {:.4g} ms, element {}, {} precision{}", manifest.text("integrator"),
+                     1e3 * manifest.number("step"), manifest.text("element"), manifest.text("precision"),
+                     manifest.text("self-contact") == "true" ? ", self-contact" : "");
 }
 
 std::string device_words(const Manifest& manifest) { return manifest.device.value_or("not known"); }
@@ -113,8 +112,8 @@ void write_captions(const std::filesystem::path& path, const std::string& headin
   file.commit();
 }
 
-void write_run_captions(const std::filesystem::path& folder, std::vector<FigureCaption> figures) {
-  const Manifest manifest = read_manifest(folder / "manifest.json");
+void write_run_captions(const std::filesystem::path& folder, const Manifest& manifest,
+                        std::vector<FigureCaption> figures) {
   std::erase_if(figures, [&](const FigureCaption& f) { return !std::filesystem::exists(folder / f.file); });
   if (figures.empty()) return;  // without gnuplot
   for (std::size_t i = 1; i < figures.size(); ++i)

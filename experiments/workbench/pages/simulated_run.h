@@ -40,9 +40,9 @@ void write_captions(const std::filesystem::path& path, const std::string& headin
                     const std::string& introduction, const std::vector<FigureCaption>& figures);
 
 // README.md of a finished run's folder: those of the figures that are there with their captions and, below
-// the first, the run's facts and its command from manifest.json.  Throws Error::system if one cannot be read
-// or written.
-void write_run_captions(const std::filesystem::path& folder, std::vector<FigureCaption> figures);
+// the first, the run's facts and its command.  Throws Error::system if it cannot be written.
+void write_run_captions(const std::filesystem::path& folder, const Manifest& manifest,
+                        std::vector<FigureCaption> figures);
 
 // "Written by `COMMAND`, hysteron 0.1.0, commit 0123456789ab."; the manifest is of any run of that program;
 // without one only the command.

@@ -17,8 +17,8 @@ const std::vector<std::string> kKeys = {"colour", "back", "weave", "threads", "s
 
 class Table {
  public:
-  Table(const std::string& file, const TomlNode& table) : file_(file), table_(table) {
-    for (const TomlNode& node : table.children)
+  Table(const std::string& file, const ValueTree& table) : file_(file), table_(table) {
+    for (const ValueTree& node : table.children)
       if (!std::count(kKeys.begin(), kKeys.end(), node.key))
         throw refusal(node, "is unknown; allowed: " + join(kKeys, ", "));
   }
@@ -31,7 +31,7 @@ class Table {
   }
 
   double number(const char* key, double low, double high) const {
-    const TomlNode& node = at(key);
+    const ValueTree& node = at(key);
     const auto* integer = std::get_if<std::int64_t>(&node.value);
     const auto* real = std::get_if<double>(&node.value);
     const double x = integer ? static_cast<double>(*integer) : real ? *real : low - 1;
@@ -39,7 +39,7 @@ class Table {
   }
 
   std::vector<double> numbers(const char* key, std::size_t count, double low, double high) const {
-    const TomlNode& node = at(key);
+    const ValueTree& node = at(key);
     const auto* list = std::get_if<std::vector<double>>(&node.value);
     if (list && list->size() == count &&
         std::all_of(list->begin(), list->end(), [&](double x) { return x >= low && x <= high; }))
@@ -55,11 +55,11 @@ class Table {
     return color;
   }
 
-  Error refusal(const TomlNode& node, const std::string& what) const {
+  Error refusal(const ValueTree& node, const std::string& what) const {
     return Error::invalid_input("look." + node.key + " " + what + " (" + place(file_, node) + ")");
   }
-  const TomlNode& at(const char* key) const {
-    const TomlNode* node = table_.find(key);
+  const ValueTree& at(const char* key) const {
+    const ValueTree* node = table_.find(key);
     if (!node)
       throw Error::invalid_input("look needs " + std::string(key) + " (" + place(file_, table_) + ")");
     return *node;
@@ -71,7 +71,7 @@ class Table {
   }
 
   const std::string& file_;
-  const TomlNode& table_;
+  const ValueTree& table_;
 };
 
 render::Rgb8 lighter(render::Rgb8 color) {
@@ -92,8 +92,8 @@ render::Weave fabric_weave(const Table& table) {
 render::Look dressed(render::Look look, const std::string& fabric) {
   if (look.show != render::Show::cloth || look.weave == 0) return look;
   const std::string file = find_asset("fabrics", fabric, "the look of pictures").string();
-  const TomlNode root = read_toml(file);
-  const TomlNode* const node = root.find("look");
+  const ValueTree root = read_toml(file);
+  const ValueTree* const node = root.find("look");
   if (!node) return look;
   const Table table(file, *node);
   look.front = table.colour("colour");

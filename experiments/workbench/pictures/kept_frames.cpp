@@ -41,16 +41,6 @@ std::map<std::string, double> storage_quanta(const Setup& setup) {
   return quanta;
 }
 
-void assign_all(const Keys& keys, const Json& tree, const std::string& above, const std::string& file) {
-  for (const auto& [name, value] : tree.items()) {
-    const std::string path = above.empty() ? name : above + "." + name;
-    if (value.is_object())
-      assign_all(keys, value, path, file);
-    else
-      assign(find_key(keys, path, file), recorded_value(value, path, file), file);
-  }
-}
-
 void append(const fs::path& file, std::ios::openmode mode, const std::string& text) {
   std::ofstream stream(file, mode | std::ios::binary);
   stream.write(text.data(), static_cast<std::streamsize>(text.size()));
@@ -109,8 +99,9 @@ void write_records(const fs::path& file, const std::vector<KeptRecord>& records)
 
 Setup kept_setup(const KeptCloth& cloth, const std::string& file) {
   Setup setup{default_scene(), {}};
-  apply_recorded_scene(setup.scene, cloth.setup.at("scene"), file);
-  assign_all(bind_options(setup.options), cloth.setup.at("options"), "", file);
+  Json keys = cloth.setup.at("scene");
+  keys.merge_patch(cloth.setup.at("options"));
+  apply_recorded_scene(setup.scene, std::move(keys), file, bind_options(setup.options));
   return setup;
 }
 

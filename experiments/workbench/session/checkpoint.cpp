@@ -1,8 +1,6 @@
 // Magic with the format's number, size and hash of the rest, owner, state.
 #include "experiments/workbench/session/checkpoint.h"
 
-#include <nlohmann/json.hpp>
-
 #include "sim/base/archive.h"
 #include "sim/base/atomic_file.h"
 #include "sim/base/fnv1a.h"
@@ -22,8 +20,12 @@ constexpr const char* kAnew = "; without --resume the run begins anew";
 }
 
 void serialise(Archive& archive, CheckpointOwner& owner) {
-  for (std::string* text : {&owner.program, &owner.experiment, &owner.device, &owner.scene, &owner.resolved})
-    archive(*text);
+  for (std::string* text : {&owner.program, &owner.experiment, &owner.device}) archive(*text);
+  for (nlohmann::ordered_json* keys : {&owner.scene, &owner.resolved}) {
+    std::string text = keys->dump();
+    archive(text);
+    *keys = nlohmann::ordered_json::parse(text, nullptr, false);
+  }
   archive(owner.cloth);
 }
 
@@ -57,8 +59,7 @@ CheckpointOwner owner_in(Archive& archive, const fs::path& file) {
   } catch (const Error&) {
     refuse(file, "it is damaged");
   }
-  for (const std::string& keys : {owner.scene, owner.resolved})
-    if (!nlohmann::json::parse(keys, nullptr, false).is_object()) refuse(file, "it is damaged");
+  if (!owner.scene.is_object() || !owner.resolved.is_object()) refuse(file, "it is damaged");
   return owner;
 }
 
@@ -79,11 +80,9 @@ void throw_if_another(const fs::path& file, const CheckpointOwner& there, const 
 
 }  // namespace
 
-std::string differing_keys(const std::string& json, const std::string& other) {
+std::string differing_keys(const nlohmann::ordered_json& keys, const nlohmann::ordered_json& others) {
   constexpr int kShown = 6;
-  using nlohmann::json_pointer;
-  const auto a = nlohmann::ordered_json::parse(json).flatten(),
-             b = nlohmann::ordered_json::parse(other).flatten();
+  const auto a = keys.flatten(), b = others.flatten();
   std::string names;
   int count = 0;
   const auto add = [&](const std::string& pointer) {

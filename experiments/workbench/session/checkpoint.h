@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 
@@ -12,13 +13,13 @@ namespace hysteron::experiments {
 // What must be the same where a run goes on.
 struct CheckpointOwner {
   std::string program, experiment, device;
-  std::string scene;        // resolved, JSON
-  std::string resolved;     // keys of the run and the experiment that decide what is written, JSON
-  std::uint64_t cloth = 0;  // hash of triangles and start: meshes may come from files
+  nlohmann::ordered_json scene;     // resolved
+  nlohmann::ordered_json resolved;  // keys of the run and the experiment that decide what is written
+  std::uint64_t cloth = 0;          // hash of triangles and start: meshes may come from files
 };
 
 // "step, fabric.b2": paths of the keys whose values differ; at most a few of them, and how many more.
-std::string differing_keys(const std::string& json, const std::string& other);
+std::string differing_keys(const nlohmann::ordered_json& keys, const nlohmann::ordered_json& others);
 
 // Replaces the file atomically.  Throws Error::system.
 void write_checkpoint(const std::filesystem::path& file, CheckpointOwner owner, const std::string& state);

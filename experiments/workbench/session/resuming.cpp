@@ -19,10 +19,10 @@ namespace fs = std::filesystem;
 constexpr const char* kFile = "checkpoint";
 
 // Without what no result depends on: threads, and where values come from.
-std::string comparable(Json scene) {
+Json comparable(Json scene) {
   for (const char* key : {"threads", "origin"}) scene.erase(key);
   if (scene.contains("fabric") && scene["fabric"].is_object()) scene["fabric"].erase("provenance");
-  return scene.dump();
+  return scene;
 }
 
 std::uint64_t cloth_hash(const Cloth& cloth) {
@@ -38,8 +38,12 @@ std::uint64_t cloth_hash(const Cloth& cloth) {
 
 CheckpointOwner checkpoint_owner(const CommandLine& line, const Setup& setup, const Cloth& cloth,
                                  const Simulation& simulation) {
-  return {program_version(), line.experiment,  simulation.device(), comparable(to_json(setup.scene)),
-          setup.resolved,    cloth_hash(cloth)};
+  return {program_version(),
+          line.experiment,
+          simulation.device(),
+          comparable(to_json(setup.scene)),
+          setup.resolved ? *setup.resolved : Json::object(),
+          cloth_hash(cloth)};
 }
 
 }  // namespace

@@ -210,8 +210,7 @@ bool Session::simulate(const RunPlan& plan) {
 
 void Session::finish(const std::string& title) {
   for (const auto& observer : observers_) observer->finish(*this, title);
-  run_->finish();
-  write_report(run_->folder());
+  finish_with_report(*run_);
 }
 
 void Session::serialise(Archive& archive) {

@@ -274,9 +274,8 @@ TEST_F(Recorded, RunIsHeldToLimitsFromAFile) {
 
 Manifest with_steps(const std::string& integrator, double newton_residual) {
   Manifest run;
-  run.scene.integrator = integrator;
-  run.keys = std::make_shared<const nlohmann::ordered_json>(
-      nlohmann::ordered_json{{"newton-residual", newton_residual}, {"solver-tolerance", 1e-4}});
+  run.keys = std::make_shared<const nlohmann::ordered_json>(nlohmann::ordered_json{
+      {"integrator", integrator}, {"newton-residual", newton_residual}, {"solver-tolerance", 1e-4}});
   return run;
 }
 

@@ -65,11 +65,11 @@ TEST(RecordedScene, RefusesInOneLineThatNamesTheKey) {
   for (const auto& [tree, words] : std::vector<std::pair<const char*, const char*>>{
            {R"({"fabric": {"b3": 1.0}})", "fabric.b3"},
            {R"({"step": -1.0})", "step = -1 s must be"},
-           {R"({"pin": {}})", "scene.pin must be a list"},
+           {R"({"pin": {}})", "pin must be an array of tables, [[pin]]"},
            {R"({"pin": [{"low": 3}]})", "pin[0].low"},
-           {R"({"param": {"stops": 3}})", "scene.param.stops must be a text"},
+           {R"({"param": {"stops": [3]}})", "param.stops must be a text or a number"},
            {R"({"fabric": {"published": {"B": 3}}})", "scene.fabric.published.B"},
-           {R"({"seconds": null})", "scene.seconds is no value"}}) {
+           {R"({"seconds": null})", "seconds is no value"}}) {
     Scene scene = default_scene();
     const Failure failure =
         caught_failure([&, text = tree] { apply_recorded_scene(scene, Json::parse(text), "manifest.json"); });

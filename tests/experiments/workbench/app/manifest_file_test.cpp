@@ -157,10 +157,10 @@ TEST(ManifestFile, OfARunThatHasJustBegunHoldsNullsWhereNothingIsKnown) {
 
 TEST(ManifestFile, IsReadAsItWasWritten) {
   Manifest read = parsed_manifest(Json::parse(kWhole));
-  EXPECT_EQ(read.scene.fabric.name, "wool");
-  EXPECT_EQ(read.scene.fabric.b1, 2e-5);
-  EXPECT_EQ(read.scene.laws, std::vector<std::string>{"prandtl"});
-  EXPECT_EQ(read.scene.seconds, 4.0);
+  EXPECT_EQ(read.text("fabric.name"), "wool");
+  EXPECT_EQ(read.number("fabric.b1"), 2e-5);
+  EXPECT_EQ(read.names("law"), std::vector<std::string>{"prandtl"});
+  EXPECT_EQ(read.number("seconds"), 4.0);
   EXPECT_EQ(read.total_seconds(), 1.5);
   EXPECT_EQ(read.metrics["turns"], MetricValue(3));
   EXPECT_FALSE(read.metrics["loss_J"].is_known());
@@ -174,7 +174,7 @@ TEST(ManifestFile, OfAnOlderProgramIsReadAsFarAsItGoes) {
       R"({"hysteron":{"version":1,"commit":"c"},"scene":{"laws":["linear",{"name":"dahl"}]},"steps":"many"})"));
   EXPECT_EQ(old.version, "1");
   EXPECT_EQ(old.experiment, "run");
-  EXPECT_EQ(old.scene.laws, (std::vector<std::string>{"linear", "dahl"}));
+  EXPECT_EQ(old.names("law"), (std::vector<std::string>{"linear", "dahl"}));
   EXPECT_FALSE(old.steps || old.frames || old.complete);
   EXPECT_TRUE(old.metrics.empty());
 }

@@ -61,7 +61,7 @@ TEST(ResultWords, OfAComparisonHaveALineForEachColumn) {
   Manifest manifest = manifest_with("compare", {{"linear.drape_coefficient_percent", 72.2},
                                                 {"linear.settled", false},
                                                 {"prandtl.drape_coefficient_percent", 86.0}});
-  manifest.scene.compared = "drape";
+  manifest.keys = std::make_shared<const Json>(Json{{"compared", "drape"}});
   const std::string words = result_words(manifest);
   expect_in(words, "  linear                        drape coefficient 72.2 % (not at rest); NOT at rest\n");
   expect_in(words, "  prandtl                       drape coefficient 86.0 %\n");

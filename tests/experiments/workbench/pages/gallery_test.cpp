@@ -107,7 +107,7 @@ TEST_F(Gallery, SaysWhichRunsAreIncomplete) {
 
 TEST(GalleryAbout, NamesFewLawsAndCountsMany) {
   const auto subject = [](const char* scene) {
-    return scene_subject(parsed_manifest({{"scene", Json::parse(scene)}}).scene);
+    return scene_subject(parsed_manifest({{"scene", Json::parse(scene)}}));
   };
   EXPECT_EQ(subject(R"({"fabric": {"name": "wool"}, "law": "prandtl"})"), "wool, law prandtl");
   EXPECT_EQ(subject(R"({"fabric": {"name": "wool"}, "law": "dahl,wong"})"), "wool, laws dahl, wong");
