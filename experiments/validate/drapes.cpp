@@ -20,10 +20,7 @@ std::vector<Manifest> run_manifests(const std::string& experiment, const std::ve
   if (flags.options.no_images) line.flags.push_back({"no-images", "true"});
   std::vector<ChildRun> columns;
   for (const Variant& one : runs) columns.push_back(child_run(one.name, line, one.flags, run.folder()));
-  // A drape leaves most of a GPU idle; those that draw pictures cannot share its launches.
-  constexpr int kTogether = 8;
-  const bool gpu = flags.device != "cpu";
-  run_columns(run, columns, {.gpu = gpu, .batch = gpu && flags.options.no_images ? kTogether : 1});
+  run_columns(run, columns, {.gpu = flags.device != "cpu"});
   std::vector<Manifest> manifests;
   for (ChildRun& column : columns) {
     if (!column.stopped.empty()) throw Error::simulation(column.name + ": " + column.stopped);
