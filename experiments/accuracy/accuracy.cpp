@@ -180,7 +180,7 @@ void write_cheapest(Run& run, const std::vector<Solution>& solutions) {
 // Errors below this are at the end of the digits; on a logarithmic scale they would stretch it.
 constexpr double kMinDrawn = 1e-6;
 
-render::Plot plot_of(const Solution& solution) {
+render::Plot solution_plot(const Solution& solution) {
   render::Plot plot{solution.problem.title, {"computing [s]", true}, {solution.problem.error, true}};
   for (const auto& [setting, found] : solution.solved) {
     if (!found.failed.empty() || !solution.comparable(setting)) continue;
@@ -228,7 +228,7 @@ void write_accuracy_metrics(Run& run, const std::vector<Solution>& solutions) {
 // plot_PROBLEM: error against seconds, the front marked.
 void draw_accuracy(Run& run, const std::vector<Solution>& solutions) {
   for (const Solution& solution : solutions) {
-    const render::Plot plot = plot_of(solution);
+    const render::Plot plot = solution_plot(solution);
     if (plot.series.back().x.empty()) continue;
     run.plot("plot_" + solution.problem.name, plot);
   }

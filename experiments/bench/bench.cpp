@@ -151,7 +151,7 @@ void bench_kernels(const Request& request) {
   for (const auto& [key, value] : profile.step) run.metric(key, value);
   run.manifest().device = simulation->device();
   run.manifest().state_hash = fmt::format("{:016x}", simulation->state_hash());
-  table_of(profile.kernels).write(run.path("table.csv"));
+  metrics_table(profile.kernels).write(run.path("table.csv"));
   run.finish();
   if (request.json()) {
     Json all = to_json(profile.step);

@@ -161,8 +161,8 @@ class TimesBySize {
 using render::Series;
 
 // Rows of one integrator; x: triangles.
-Series curve_of(const std::vector<Metrics>& rows, const Metrics& like, const char* key, std::string label,
-                Series::Style style) {
+Series size_curve(const std::vector<Metrics>& rows, const Metrics& like, const char* key, std::string label,
+                  Series::Style style) {
   Series curve{std::move(label), {}, {}, style};
   for (const Metrics& row : rows) {
     if (row["integrator"] != like["integrator"]) continue;
@@ -180,16 +180,16 @@ std::vector<const Metrics*> curves_in(const std::vector<Metrics>& rows) {
   return first;
 }
 
-render::Plot plot_of(const SizeTable& table) {
+render::Plot size_plot(const SizeTable& table) {
   render::Plot plot{"Time of a step; dashed: its bytes at the bandwidth of a copy",
                     {"triangles", true},
                     {"time per step [ms]", true}};
   const std::vector<const Metrics*> curves = curves_in(table.rows);
   for (std::size_t k = 0; k < curves.size(); ++k) {
     const Metrics& like = *curves[k];
-    Series measured =
-        curve_of(table.rows, like, "ms_per_step", like["integrator"].text(), Series::Style::line_and_points);
-    Series floor = curve_of(table.rows, like, "floor_ms_per_step", "", Series::Style::dashed);
+    Series measured = size_curve(table.rows, like, "ms_per_step", like["integrator"].text(),
+                                 Series::Style::line_and_points);
+    Series floor = size_curve(table.rows, like, "floor_ms_per_step", "", Series::Style::dashed);
     measured.color = floor.color = render::hex(render::method_color(k));
     plot.series.push_back(std::move(measured));
     plot.series.push_back(std::move(floor));
@@ -197,7 +197,7 @@ render::Plot plot_of(const SizeTable& table) {
   return plot;
 }
 
-FigureCaption caption_of(const SizeTable& table) {
+FigureCaption size_caption(const SizeTable& table) {
   const Metrics& row = table.rows.front();
   return {
       "plot_sizes.png", "Time of a step by size",
@@ -218,14 +218,14 @@ SizeTable times_by_size(const Scene& scene, const SizeChoice& choice,
 }
 
 void write_sizes(Run& run, const SizeTable& table, bool pictures) {
-  table_of(table.rows).write(run.path("table.csv"));
+  metrics_table(table.rows).write(run.path("table.csv"));
   if (table.device.empty()) return;
   run.manifest().device = table.device;
   run.metric("copy_bandwidth_GB_per_s", 1e-9 * table.copy_bandwidth);
   if (!pictures) return;
-  run.plot("plot_sizes", plot_of(table));
+  run.plot("plot_sizes", size_plot(table));
   write_captions(run.path("README.md"), "Time of a step by size",
-                 "What the figure of this folder shows; numbers in table.csv.", {caption_of(table)});
+                 "What the figure of this folder shows; numbers in table.csv.", {size_caption(table)});
 }
 
 }  // namespace hysteron::experiments

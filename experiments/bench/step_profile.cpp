@@ -55,7 +55,7 @@ void set(Metrics& row, const StepCost& cost) {
   row.set("solver_iterations_per_step", cost.solver_iterations);
 }
 
-Table table_of(const std::vector<Metrics>& rows) {
+Table metrics_table(const std::vector<Metrics>& rows) {
   Table table;
   for (const auto& [key, value] : rows.front()) table.head.push_back(key);
   for (const Metrics& row : rows) {

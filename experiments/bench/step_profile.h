@@ -36,7 +36,7 @@ StepCost cost_of_steps(Simulation& simulation, int batches, int steps, int parts
 void set(Metrics& row, const StepCost& cost);
 
 // Rows of the keys that the first has.
-Table table_of(const std::vector<Metrics>& rows);
+Table metrics_table(const std::vector<Metrics>& rows);
 
 // Loops by their names, of so many steps.  From then on the simulation is profiled, and slower for it.
 KernelCosts loops_of_steps(Simulation& simulation, int steps);

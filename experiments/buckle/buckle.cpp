@@ -102,7 +102,7 @@ void picture(Session& session, const BucklingStrip& strip, double reference) {
 }
 
 // Gamma to the power in which the last of the plot is a straight line, and Gamma over the deflection.
-std::vector<Column> columns_of(const Southwell& found, int power) {
+std::vector<Column> southwell_columns(const Southwell& found, int power) {
   std::vector<Column> columns = {{"gamma [1]", found.gamma},
                                  {"deflection [1]", found.deflection},
                                  {power == 1 ? "load [1]" : "load squared [1]", {}},
@@ -168,7 +168,7 @@ int run_buckle(const CommandLine& line) {
   session.reserve({"southwell.csv"}, {"plot_southwell", "plot_deflection"});
 
   const Southwell found = measure(measured, kind, length, session);
-  const std::vector<Column> columns = columns_of(found, power_of_load(kind));
+  const std::vector<Column> columns = southwell_columns(found, power_of_load(kind));
   Table(columns).write(session.run().path("southwell.csv"));
   picture(session, pictured, reference);
   Run& run = session.run();

@@ -115,7 +115,7 @@ Table table_at(const fs::path& path, const std::string& file) {
   return table;
 }
 
-std::size_t place_of(const Table& table, const std::string& column) {
+std::size_t place_in_head(const Table& table, const std::string& column) {
   if (const auto place = table.find(column)) return *place;
   throw Error::invalid_input(table.file + " has no column " + column + hint(column, table.head));
 }
@@ -130,7 +130,7 @@ Table rows_at(const Table& table, const std::string& row) {
   for (std::string part; std::getline(parts, part, '&');) {
     const std::size_t equals = part.find('=');
     if (equals == part.npos) throw Error::invalid_input("\"" + part + "\" must be column=value");
-    const std::string& column = table.head[place_of(table, part.substr(0, equals))];
+    const std::string& column = table.head[place_in_head(table, part.substr(0, equals))];
     found = found.where(column, part.substr(equals + 1));
   }
   return found;
@@ -138,7 +138,7 @@ Table rows_at(const Table& table, const std::string& row) {
 
 Found table_cell(const Table& table, const std::string& row, const std::string& column) {
   const Table fitting = rows_at(table, row);
-  const std::size_t at = place_of(table, column);
+  const std::size_t at = place_in_head(table, column);
   if (fitting.rows.size() > 1) throw Error::invalid_input(table.file + " has several rows " + row);
   if (fitting.rows.empty()) throw Error::invalid_input(table.file + " has no row " + row);
   const std::vector<std::string>& found = fitting.rows[0];
@@ -222,7 +222,7 @@ bool names_a_file(const std::string& word) { return word.ends_with(".csv") || wo
 std::vector<std::string> values_of_column(const std::string& target, const std::string& column,
                                           const fs::path& folder) {
   const Table table = table_at(folder / target, target);
-  return table.values(table.head[place_of(table, column)]);
+  return table.values(table.head[place_in_head(table, column)]);
 }
 
 std::string number_from(const NumberSource& source, const fs::path& folder) {

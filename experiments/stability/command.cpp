@@ -71,7 +71,7 @@ std::vector<SweepCell> tried(const F& flags, const std::vector<Sweep>& sweeps, R
 }
 
 // cells.csv: a row for each cell; what was not measured of those that were refused is empty.
-Table table_of(const std::vector<SweepCell>& cells) {
+Table cell_table(const std::vector<SweepCell>& cells) {
   Table table(
       "sweep,integrator,variant,x,y,law,element,precision,step [s],outcome,energy growth,"
       "ledger remainder,largest stretch,seconds asked [s],seconds simulated [s],steps,substeps per step,"
@@ -193,7 +193,7 @@ int run_stability(const CommandLine& line) {
   if (!sweeps.empty()) run.reserve({"cells.csv"});
   if (with_limit) run.reserve({"limit.csv"});
   if (!sweeps.empty()) {
-    const Table cells = table_of(tried(flags, sweeps, run));
+    const Table cells = cell_table(tried(flags, sweeps, run));
     cells.write(run.path("cells.csv"));
     count(run, cells, !flags.options.json);
     if (!flags.options.no_images) draw_maps(run, sweeps, cells);

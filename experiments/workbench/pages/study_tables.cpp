@@ -11,7 +11,7 @@ namespace hysteron::experiments {
 namespace {
 namespace fs = std::filesystem;
 
-Table table_of(const fs::path& file) { return is_there(file) ? read_table(file) : Table{}; }
+Table table_if_there(const fs::path& file) { return is_there(file) ? read_table(file) : Table{}; }
 
 // Columns that say the same in every row stand above the table.
 std::string shown_table(Table table) {
@@ -48,22 +48,22 @@ std::string study_keys(const Manifest& manifest) {
 }
 
 std::string study_means(const fs::path& folder) {
-  const Table means = table_of(folder / "means.csv");
+  const Table means = table_if_there(folder / "means.csv");
   return means.rows.empty() ? "" : shown_table(means);
 }
 
 std::string study_failures(const fs::path& folder) {
-  Table table = table_of(folder / "table.csv").only({"run", "exit_code", "stopped"});
+  Table table = table_if_there(folder / "table.csv").only({"run", "exit_code", "stopped"});
   std::erase_if(table.rows, [](const auto& row) { return row.back().empty(); });
   return table.rows.empty() ? "" : text_table_html(table);
 }
 
 std::string study_runs(const fs::path& folder) {
-  Table table = table_of(folder / "table.csv");
+  Table table = table_if_there(folder / "table.csv");
   if (table.rows.empty()) return "";
   constexpr std::string_view kMean = "_mean";
   std::vector<std::string> columns = {"run"};
-  for (const std::string& name : table_of(folder / "means.csv").head)
+  for (const std::string& name : table_if_there(folder / "means.csv").head)
     if (name.ends_with(kMean)) columns.push_back(name.substr(0, name.size() - kMean.size()));
   columns.insert(columns.end(), {"wall_s", "state_hash"});
   constexpr std::size_t kWithoutMeans = 3;
