@@ -14,7 +14,7 @@ namespace hysteron::experiments {
 namespace {
 namespace fs = std::filesystem;
 
-const std::string kSmall = " --device cpu --threads 1 --size 320x180 --fps 20 --quiet ";
+const std::string kSmall = " --device cpu --threads 1 --size 240x135 --fps 10 --quiet ";
 
 struct Case {
   const char* name;
@@ -53,7 +53,7 @@ INSTANTIATE_TEST_SUITE_P(Experiments, PicturesOf,
 // The file that a run writes makes another run's pictures the same to the bit.
 TEST(CameraFile, GivesTheSamePicturesAgain) {
   const Folder folder;
-  const std::string line = "swing --triangles 60 --seconds 0.1" + kSmall, a = (folder.path() / "a").string(),
+  const std::string line = "swing --triangles 60 --seconds 0.2" + kSmall, a = (folder.path() / "a").string(),
                     b = (folder.path() / "b").string();
   ASSERT_EQ(program(line + "--out " + a + " --camera.direction 1,-1,0.3").exit_code, 0);
   ASSERT_EQ(program(line + "--out " + b + " --camera " + a + "/camera.json").exit_code, 0);
