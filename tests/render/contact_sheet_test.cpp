@@ -10,7 +10,7 @@
 namespace hysteron::render {
 namespace {
 
-using test::ScratchFolder;
+using test::Folder;
 using test::thrown_error;
 
 Rgb8 cell_color(int i) { return {static_cast<std::uint8_t>(20 + 30 * i), 0, 0}; }

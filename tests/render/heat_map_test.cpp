@@ -12,7 +12,7 @@
 namespace hysteron::render {
 namespace {
 
-using test::ScratchFolder;
+using test::Folder;
 using test::thrown_error;
 
 // Two maps of 3 x 2 cells: all of the first kind, and one of the second kind in the lower left corner.
@@ -49,7 +49,7 @@ class HeatMapTest : public testing::Test {
     if (run_process({"gnuplot", "--version"}, "").exit_code != 0)
       GTEST_SKIP() << "gnuplot is not installed (gnuplot-nox)";
   }
-  ScratchFolder folder_;
+  Folder folder_;
 };
 
 TEST_F(HeatMapTest, EveryCellHasTheColourOfItsKindAtItsPlace) {
@@ -79,7 +79,7 @@ TEST_F(HeatMapTest, TextsAxesAndLegendAreDrawnAsTheyAre) {
 }
 
 TEST(HeatMap, WhatDoesNotFitItsAxesIsRefused) {
-  const ScratchFolder folder;
+  const Folder folder;
   HeatMaps page = two_maps();
   page.maps[1].rows[1].pop_back();
   EXPECT_EQ(thrown_error([&] { write_heat_maps(folder.file("m"), page); }).exit_code(), 2);

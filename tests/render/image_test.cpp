@@ -12,7 +12,7 @@
 namespace hysteron::render {
 namespace {
 
-using test::ScratchFolder;
+using test::Folder;
 using test::thrown_error;
 
 Image gradient(int width, int height, int channels) {
@@ -23,7 +23,7 @@ Image gradient(int width, int height, int channels) {
 }
 
 TEST(Png, KeepsEveryByteInBothFormatsAndEfforts) {
-  const ScratchFolder folder;
+  const Folder folder;
   for (const int channels : {3, 4})
     for (const PngEffort effort : {PngEffort::fast, PngEffort::best}) {
       const Image image = gradient(61, 37, channels);
@@ -34,7 +34,7 @@ TEST(Png, KeepsEveryByteInBothFormatsAndEfforts) {
 }
 
 TEST(Png, AMissingFolderIsTheMachinesFailure) {
-  const ScratchFolder folder;
+  const Folder folder;
   const Error error = thrown_error([&] { write_png(folder.file("none/a.png"), Image(2, 2)); });
   EXPECT_EQ(error.exit_code(), 1);
   EXPECT_NE(std::string(error.what()).find("none/a.png"), std::string::npos);
@@ -42,7 +42,7 @@ TEST(Png, AMissingFolderIsTheMachinesFailure) {
 }
 
 TEST(Png, AFullDiskLeavesTheOldPictureAndNoHalfOne) {
-  const ScratchFolder folder;
+  const Folder folder;
   const Image old = gradient(8, 8, 3);
   write_png(folder.file("a.png"), old);
   const Image large = gradient(400, 300, 3);
@@ -57,7 +57,7 @@ TEST(Png, AFullDiskLeavesTheOldPictureAndNoHalfOne) {
 }
 
 TEST(Png, WhatIsNoPictureIsRefused) {
-  const ScratchFolder folder;
+  const Folder folder;
   std::ofstream(folder.file("text.png")) << "no picture";
   std::ofstream(folder.file("empty.png"));
   for (const char* name : {"text.png", "empty.png", "missing.png"}) {
@@ -68,7 +68,7 @@ TEST(Png, WhatIsNoPictureIsRefused) {
 }
 
 TEST(Png, ATruncatedPictureIsRefused) {
-  const ScratchFolder folder;
+  const Folder folder;
   const auto whole = encode_png(gradient(60, 60, 3));
   std::ofstream(folder.file("half.png"), std::ios::binary)
       .write(reinterpret_cast<const char*>(whole.data()), static_cast<std::streamsize>(whole.size() / 2));
@@ -105,7 +105,7 @@ TEST(Png, AHeaderThatCannotBeTrueIsRefusedBeforeAnythingIsAllocated) {
 
 // A bit in the header's size, in the compressed rows.
 TEST(Png, AWrongBitIsFound) {
-  const ScratchFolder folder;
+  const Folder folder;
   const auto whole = encode_png(gradient(60, 60, 3));
   for (const size_t at : {size_t{19}, whole.size() / 2}) {
     auto wrong = whole;

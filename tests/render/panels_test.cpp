@@ -11,7 +11,7 @@
 namespace hysteron::render {
 namespace {
 
-using test::ScratchFolder;
+using test::Folder;
 using test::thrown_error;
 
 constexpr int kLeft = 90, kColumn = 172;  // [pixels] where the first panel begins, and every next one
@@ -34,13 +34,13 @@ class PanelsTest : public testing::Test {
     if (run_process({"gnuplot", "--version"}, "").exit_code != 0)
       GTEST_SKIP() << "gnuplot is not installed (gnuplot-nox)";
   }
-  ScratchFolder folder_;
+  Folder folder_;
 };
 
 TEST_F(PanelsTest, EveryPanelHasItsTitleAndItsTexts) {
   write_panels(folder_.file("p"), panel_grid(5));
   EXPECT_EQ(folder_.names(), (std::vector<std::string>{"p.pdf", "p.png", "p.svg"}));
-  const std::string svg = test::file_text(folder_.file("p.svg"));
+  const std::string svg = test::file_content(folder_.file("p.svg"));
   for (const char* text : {"panel_0", "panel_4", "B = 1", "lower right", "Loops", "red: a line", "x [m]"})
     EXPECT_NE(svg.find(text), std::string::npos) << text;
 }
@@ -67,12 +67,12 @@ TEST_F(PanelsTest, AxesAreCommonToAllPanels) {
   cut.y.low = -1, cut.y.high = 1;
   write_panels(folder_.file("wide"), wide);
   write_panels(folder_.file("cut"), cut);
-  EXPECT_NE(test::file_text(folder_.file("wide.svg")).find("10"), std::string::npos);
-  EXPECT_EQ(test::file_text(folder_.file("cut.svg")).find("> 10<"), std::string::npos);
+  EXPECT_NE(test::file_content(folder_.file("wide.svg")).find("10"), std::string::npos);
+  EXPECT_EQ(test::file_content(folder_.file("cut.svg")).find("> 10<"), std::string::npos);
 }
 
 TEST(Panels, NothingToDrawIsRefused) {
-  const ScratchFolder folder;
+  const Folder folder;
   EXPECT_EQ(thrown_error([&] { write_panels(folder.file("p"), panel_grid(0)); }).exit_code(), 2);
   Panels uneven = panel_grid(2);
   uneven.panels[1].series[0].x.pop_back();

@@ -9,7 +9,7 @@
 namespace hysteron::render {
 namespace {
 
-using test::ScratchFolder;
+using test::Folder;
 using test::thrown_error;
 
 PlotPage two_plots() {
@@ -26,13 +26,13 @@ class PlotPageTest : public testing::Test {
     if (run_process({"gnuplot", "--version"}, "").exit_code != 0)
       GTEST_SKIP() << "gnuplot is not installed (gnuplot-nox)";
   }
-  ScratchFolder folder_;
+  Folder folder_;
 };
 
 TEST_F(PlotPageTest, EveryPlotHasItsOwnAxesKeyAndMarksOnce) {
   write_plot_page(folder_.file("p"), two_plots());
   EXPECT_EQ(folder_.names(), (std::vector<std::string>{"p.pdf", "p.png", "p.svg"}));
-  const std::string svg = test::file_text(folder_.file("p.svg"));
+  const std::string svg = test::file_content(folder_.file("p.svg"));
   for (const char* text :
        {"Page", "what it shows", "rising", "falling", "x [m]", "t [s]", "force [N]", "y [mm]", "here"}) {
     const std::size_t at = svg.find(text);

@@ -16,7 +16,7 @@
 namespace hysteron::render {
 namespace {
 
-using test::ScratchFolder;
+using test::Folder;
 using test::thrown_error;
 
 Plot parabola() {
@@ -39,7 +39,7 @@ class PlotTest : public testing::Test {
   void SetUp() override {
     if (!has_gnuplot()) GTEST_SKIP() << "gnuplot is not installed (gnuplot-nox)";
   }
-  ScratchFolder folder_;
+  Folder folder_;
 };
 
 TEST_F(PlotTest, WritesPngAndSvgAndNothingElse) {
@@ -56,7 +56,7 @@ TEST_F(PlotTest, WritesPngAndSvgAndNothingElse) {
 
 TEST_F(PlotTest, LabelsAreTextNotMarkup) {
   write_plot(folder_.file("p"), parabola());
-  const std::string svg = test::file_text(folder_.file("p.svg"));
+  const std::string svg = test::file_content(folder_.file("p.svg"));
   EXPECT_NE(svg.find("mix_up ^this^"), std::string::npos);
   EXPECT_NE(svg.find("curvature [1/m]"), std::string::npos);
 }
@@ -66,7 +66,7 @@ TEST_F(PlotTest, LineEndsAtAGap) {
   plot.series[0].color = "#123456";
   const auto lines = [&] {
     write_plot(folder_.file("p"), plot);
-    const std::string svg = test::file_text(folder_.file("p.svg")),
+    const std::string svg = test::file_content(folder_.file("p.svg")),
                       path = "<path stroke='rgb( 18,  52,  86)'  d='";
     std::size_t begun = 0;
     for (std::size_t at = svg.rfind(path); at < svg.size() && svg[at] != '>'; ++at) begun += svg[at] == 'M';
@@ -92,7 +92,7 @@ TEST_F(PlotTest, LinesHaveTheirLabelsAtTheirEndsAndApart) {
   Plot plot = parabola();
   plot.series = {{"low", {0, 1}, {0, 0}}, {"high", {0, 1}, {0, 10}}, {"higher", {0, 1}, {0, 10.1}}};
   write_plot(folder_.file("p"), plot);
-  const std::string svg = test::file_text(folder_.file("p.svg"));
+  const std::string svg = test::file_content(folder_.file("p.svg"));
   const double low = text_height(svg, "low"), high = text_height(svg, "high"),
                higher = text_height(svg, "higher");
   EXPECT_GT(higher, 0);
@@ -105,7 +105,7 @@ TEST_F(PlotTest, SmallNumbersTakeThePrefixOfTheirUnit) {
   for (double& y : plot.series[0].y) y *= 1e-5;  // 1 mJ/m² at most
   plot.note = "zero throughout: linear";
   write_plot(folder_.file("p"), plot);
-  const std::string svg = test::file_text(folder_.file("p.svg"));
+  const std::string svg = test::file_content(folder_.file("p.svg"));
   EXPECT_NE(svg.find("energy [mJ/m²]"), std::string::npos);
   EXPECT_NE(svg.find("curvature [1/m]"), std::string::npos) << "of which there are no prefixes";
   EXPECT_NE(svg.find("zero throughout: linear"), std::string::npos);
@@ -128,7 +128,7 @@ TEST(SiPrefix, LeavesOneTo999) {
 TEST_F(PlotTest, PdfsDoNotSayWhenTheyWereWritten) {
   write_plot(folder_.file("p"), parabola());
   if (!std::filesystem::exists(folder_.file("p.pdf"))) GTEST_SKIP() << "this gnuplot writes no PDF";
-  const std::string text = test::file_text(folder_.file("p.pdf"));
+  const std::string text = test::file_content(folder_.file("p.pdf"));
   EXPECT_EQ(text.substr(0, 5), "%PDF-");
   const std::size_t date = text.find("/CreationDate (D:");
   if (date != std::string::npos) {
@@ -157,7 +157,7 @@ TEST_F(PlotTest, BarsHaveTheirCategoriesBelowAndTheirHeights) {
   plot.y.high = 4;
   plot.series = grouped_bars({""}, {{1, 4}}, plot.bar_width);
   write_plot(folder_.file("p"), plot);
-  const std::string svg = test::file_text(folder_.file("p.svg"));
+  const std::string svg = test::file_content(folder_.file("p.svg"));
   for (const std::string& name : plot.x.categories) EXPECT_NE(svg.find(name), std::string::npos) << name;
   const Image image = read_png(folder_.file("p.png"));
   std::vector<int> blue(image.width());  // pixels of the bars in each column
@@ -199,7 +199,7 @@ class Setting {
 // A configuration that lists no folder of fonts and includes no other one, so that nothing of this machine or
 // user is found.  gnuplot then draws a picture without a letter and ends well.
 TEST_F(PlotTest, WithoutFontsIsRefused) {
-  const ScratchFolder own;
+  const Folder own;
   std::ofstream(own.file("fonts.conf"))
       << "<fontconfig><cachedir>" << own.file("cache") << "</cachedir></fontconfig>\n";
   const Setting file("FONTCONFIG_FILE", own.file("fonts.conf"));
@@ -210,7 +210,7 @@ TEST_F(PlotTest, WithoutFontsIsRefused) {
 }
 
 TEST(Plot, MissingGnuplotNamesThePackage) {
-  const ScratchFolder folder;
+  const Folder folder;
   const std::string before = std::getenv("PATH");
   setenv("PATH", folder.file("empty").c_str(), 1);
   const Error error = thrown_error([&] { write_plot(folder.file("p"), parabola()); });
@@ -221,7 +221,7 @@ TEST(Plot, MissingGnuplotNamesThePackage) {
 }
 
 TEST(Plot, NothingToDrawIsRefused) {
-  const ScratchFolder folder;
+  const Folder folder;
   EXPECT_EQ(thrown_error([&] { write_plot(folder.file("p"), Plot{}); }).exit_code(), 2);
   Plot uneven = parabola();
   uneven.series[0].x.pop_back();
@@ -229,7 +229,7 @@ TEST(Plot, NothingToDrawIsRefused) {
 }
 
 TEST(SeriesFromCsv, ReadsColumnsByNameWithOrWithoutUnit) {
-  const ScratchFolder folder;
+  const Folder folder;
   std::ofstream(folder.file("m.csv")) << "time [s],angle [degree],count\n0,10,1\n0.5,,2\r\n1,-3e1,3\n";
   const Series series = series_from_csv(folder.file("m.csv"), "time", "angle [degree]", "angle");
   EXPECT_EQ(series.x, (std::vector<double>{0, 0.5, 1}));
@@ -240,7 +240,7 @@ TEST(SeriesFromCsv, ReadsColumnsByNameWithOrWithoutUnit) {
 }
 
 TEST(SeriesFromCsv, BadFilesAreRefusedWithTheirPlace) {
-  const ScratchFolder folder;
+  const Folder folder;
   std::ofstream(folder.file("m.csv")) << "t,y\n0,1\n1,oops\n";
   EXPECT_EQ(thrown_error([&] { series_from_csv(folder.file("none.csv"), "t", "y", ""); }).exit_code(), 2);
   EXPECT_NE(std::string(thrown_error([&] { series_from_csv(folder.file("m.csv"), "t", "z", ""); }).what())

@@ -9,12 +9,12 @@
 namespace hysteron::render {
 namespace {
 
-using test::ScratchFolder;
+using test::Folder;
 
 std::string frame(int i) { return "frame" + std::to_string(i) + ".png"; }
 
 TEST(PngWriter, WritesEveryPictureThatItWasGiven) {
-  const ScratchFolder folder;
+  const Folder folder;
   PngWriter writer(2, 3);
   for (int i = 0; i < 20; ++i)
     writer.write(folder.file(frame(i)), Image(40, 30, Rgb8{static_cast<std::uint8_t>(i), 0, 0}));
@@ -25,7 +25,7 @@ TEST(PngWriter, WritesEveryPictureThatItWasGiven) {
 }
 
 TEST(PngWriter, FinishReportsTheFirstErrorAndKeepsTheOtherPictures) {
-  const ScratchFolder folder;
+  const Folder folder;
   PngWriter writer(1, 8);
   writer.write(folder.file("good.png"), Image(4, 4));
   writer.write(folder.file("none/bad.png"), Image(4, 4));
@@ -36,7 +36,7 @@ TEST(PngWriter, FinishReportsTheFirstErrorAndKeepsTheOtherPictures) {
 }
 
 TEST(PngWriter, WriteStopsARunAfterAnError) {
-  const ScratchFolder folder;
+  const Folder folder;
   PngWriter writer(1, 2);
   const Error error = test::thrown_error([&] {
     for (int i = 0; i < 1000; ++i) writer.write(folder.file("none/bad.png"), Image(4, 4));

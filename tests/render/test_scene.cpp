@@ -1,12 +1,9 @@
 #include "tests/render/test_scene.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <numbers>
 
 namespace hysteron::render::test {
@@ -84,30 +81,6 @@ std::unique_ptr<ClothView> draped_view(Offscreen& offscreen, const PictureSize& 
 
 Camera draped_camera(float aspect) {
   return Camera::framing({{-0.13f, -0.13f, 0}, {0.13f, 0.13f, 0.12f}}, {0.35f, -1, 0.5f}, 24, aspect);
-}
-
-ScratchFolder::ScratchFolder() {
-  std::string name = (std::filesystem::temp_directory_path() / "hysteron-render-XXXXXX").string();
-  if (!::mkdtemp(name.data())) throw Error::system("making the folder " + name + " for a test");
-  path_ = name;
-}
-
-ScratchFolder::~ScratchFolder() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path_, ignored);
-}
-
-std::vector<std::string> ScratchFolder::names() const {
-  std::vector<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(path_))
-    names.push_back(entry.path().filename());
-  std::sort(names.begin(), names.end());
-  return names;
-}
-
-std::string file_text(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  return {std::istreambuf_iterator<char>(stream), {}};
 }
 
 Error thrown_error(const std::function<void()>& action) {

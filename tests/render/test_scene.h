@@ -1,7 +1,6 @@
-// Small things that the render tests share: a folded cloth on a pedestal, scratch folders, expected errors.
+// Small things that the render tests share: a folded cloth on a pedestal, folders, expected errors.
 #pragma once
 
-#include <filesystem>
 #include <functional>
 #include <memory>
 #include <string>
@@ -9,6 +8,7 @@
 
 #include "render/cloth_view.h"
 #include "sim/base/error.h"
+#include "tests/sim/base/folder.h"
 
 namespace hysteron::render::test {
 
@@ -29,22 +29,8 @@ Cloth draped_disc(int rings, int sectors);
 std::unique_ptr<ClothView> draped_view(Offscreen& offscreen, const PictureSize& size, const Look& look);
 Camera draped_camera(float aspect);
 
-// An empty folder that is removed with its content.
-class ScratchFolder {
- public:
-  ScratchFolder();
-  ~ScratchFolder();
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-
-  std::filesystem::path file(const std::string& name) const { return path_ / name; }
-  std::vector<std::string> names() const;  // of what it holds, sorted
-
- private:
-  std::filesystem::path path_;
-};
-
-std::string file_text(const std::filesystem::path& file);
+using hysteron::test::file_content;
+using hysteron::test::Folder;  // removed with its content
 
 // The hysteron::Error that `action` throws; a test failure and a run error "nothing was thrown" otherwise.
 Error thrown_error(const std::function<void()>& action);

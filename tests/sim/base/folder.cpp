@@ -14,8 +14,8 @@ Folder::Folder() {
   const auto* test = testing::UnitTest::GetInstance()->current_test_info();
   std::string name = std::string(test->test_suite_name()) + "." + test->name();
   std::replace(name.begin(), name.end(), '/', '_');
-  path_ = testing::TempDir() + "hysteron-" + name + "-" + std::to_string(getpid());
-  std::filesystem::create_directories(path_);
+  path_ = testing::TempDir() + "hysteron-" + name + "-XXXXXX";
+  if (!::mkdtemp(path_.data())) throw Error::system("making the folder " + path_ + " for a test");
 }
 
 Folder::~Folder() { std::filesystem::remove_all(path_); }
