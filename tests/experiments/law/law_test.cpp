@@ -8,6 +8,7 @@
 
 #include "sim/base/csv.h"
 #include "sim/base/error.h"
+#include "tests/sim/base/folder.h"
 #include "tests/sim/base/refusal.h"
 
 namespace hysteron::experiments {
@@ -16,12 +17,9 @@ namespace {
 class LawCommand : public ::testing::Test {
  protected:
   void SetUp() override {
-    folder_ = std::filesystem::path(::testing::TempDir()) / "hysteron_law_test";
-    std::filesystem::create_directories(folder_);
-    options_ = {"wong", {4e-5, 1e-5, 50}, {}, folder_ / "k.csv", folder_ / "m.csv"};
+    options_ = {"wong", {4e-5, 1e-5, 50}, {}, folder_.file("k.csv"), folder_.file("m.csv")};
     write("curvature [1/m],time [s]\n50,0\n100,1\n");
   }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
 
   void write(const std::string& text) { std::ofstream(options_.in) << text; }
   std::string refusal() {
@@ -29,7 +27,7 @@ class LawCommand : public ::testing::Test {
     EXPECT_FALSE(std::filesystem::exists(options_.out));
     return message;
   }
-  std::filesystem::path folder_;
+  const test::Folder folder_;
   LawOptions options_;
 };
 

@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
 
 #include "sim/base/error.h"
+#include "tests/sim/base/folder.h"
 #include "tests/sim/base/refusal.h"
 
 namespace hysteron::experiments {
@@ -14,21 +14,11 @@ namespace {
 
 class Csv : public ::testing::Test {
  protected:
-  void SetUp() override {
-    folder_ = std::filesystem::path(::testing::TempDir()) / "hysteron_csv_test";
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
-  std::filesystem::path file(const std::string& text) {
-    const std::filesystem::path path = folder_ / "in.csv";
-    std::ofstream(path, std::ios::binary) << text;
-    return path;
-  }
+  std::string file(const std::string& text) { return folder_.write("in.csv", text); }
   std::string refusal(const std::string& text) {
     return test::refusal([&] { read_csv(file(text), {"curvature [1/m]"}, {"time [s]"}, "law"); });
   }
-  std::filesystem::path folder_;
+  const test::Folder folder_;
 };
 
 TEST_F(Csv, FindsColumnsByNameInAnyOrderAndIgnoresOthers) {
@@ -76,7 +66,7 @@ TEST_F(Csv, RefusesDecimalCommasBetweenCommas) {
 }
 
 TEST_F(Csv, RefusesAFileThatIsNotThereAsAFailureOfTheMachine) {
-  for (const std::filesystem::path& path : {folder_ / "missing.csv", folder_}) {
+  for (const std::string& path : {folder_.file("missing.csv"), folder_.file("")}) {
     try {
       read_csv(path, {"curvature [1/m]"}, {}, "law");
       ADD_FAILURE() << path << " was read";
@@ -89,7 +79,7 @@ TEST_F(Csv, RefusesAFileThatIsNotThereAsAFailureOfTheMachine) {
 TEST_F(Csv, NamesTheReaderTheFileAndTheLineOfARow) {
   const Table table = read_csv(file("curvature [1/m]\n1\n\n2\n"), {"curvature [1/m]"}, {}, "law");
   const Error error = table.refusal(1, "too sharp");
-  EXPECT_EQ(error.what(), "law: " + (folder_ / "in.csv").string() + ":4: too sharp");
+  EXPECT_EQ(error.what(), "law: " + folder_.file("in.csv") + ":4: too sharp");
   EXPECT_EQ(error.experiment(), "law");
 }
 
@@ -97,8 +87,8 @@ TEST_F(Csv, WritesWordsAndNumbersAndReadsThemBack) {
   Table written("name,count,size [m],known");
   written.row({"a, \"b\"", 12, 1. / 3, true});
   written.row({"", std::size_t{0}, NAN, false});
-  written.write(folder_ / "words.csv");
-  const Table table = read_table(folder_ / "words.csv");
+  written.write(folder_.file("words.csv"));
+  const Table table = read_table(folder_.file("words.csv"));
   EXPECT_EQ(table.head, (std::vector<std::string>{"name", "count", "size [m]", "known"}));
   EXPECT_EQ(table.rows,
             (std::vector<std::vector<std::string>>{{"a, \"b\"", "12", "0.333333", "1"}, {"", "0", "", "0"}}));
@@ -123,8 +113,9 @@ TEST_F(Csv, AlignsCellsInTheirWidths) {
 
 TEST_F(Csv, ReadsBackTheSameDoublesThatWereWritten) {
   const std::vector<double> values = {1. / 3, -2e-300, 6.02214076e23, 0};
-  Table(std::vector<Column>{{"curvature [1/m]", values}}).write(folder_ / "out.csv");
-  EXPECT_EQ(read_csv(folder_ / "out.csv", {"curvature [1/m]"}, {}, "law").numbers("curvature [1/m]"), values);
+  Table(std::vector<Column>{{"curvature [1/m]", values}}).write(folder_.file("out.csv"));
+  EXPECT_EQ(read_csv(folder_.file("out.csv"), {"curvature [1/m]"}, {}, "law").numbers("curvature [1/m]"),
+            values);
 }
 
 }  // namespace
