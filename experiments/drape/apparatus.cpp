@@ -1,5 +1,9 @@
 #include "experiments/drape/apparatus.h"
 
+#include <algorithm>
+#include <cmath>
+
+#include "sim/base/error.h"
 #include "sim/contact/compression.h"
 
 namespace hysteron::experiments {
@@ -64,6 +68,17 @@ void add_apparatus(Scene& scene, const DrapeChoice& choice, const Specimen& spec
   }
   plate.until = choice.lowered();
   scene.obstacle.push_back(plate);
+}
+
+void seed_folds(std::vector<Eigen::Vector3d>& start, const DrapeChoice& choice, double radius) {
+  if (choice.folds == 0) return;
+  if (choice.release != "dropped")
+    throw Error::invalid_input("drape.folds needs drape.release = dropped: a plate would press them flat")
+        .with_key("drape.folds", std::to_string(choice.folds));
+  for (Eigen::Vector3d& x : start) {
+    const double outside = std::max(0.0, (x.head<2>().norm() - choice.disc) / (radius - choice.disc));
+    x.z() += kFoldSeed * outside * outside * std::cos(choice.folds * std::atan2(x.y(), x.x()));
+  }
 }
 
 }  // namespace hysteron::experiments

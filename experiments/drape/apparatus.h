@@ -11,6 +11,7 @@ struct DrapeChoice {
   std::string release = "lowered";   // lowered: a plate under the ring sinks; dropped: it is gone at once;
                                      // relifted: lowered, lifted flat again, lowered a second time; shaken:
                                      // lowered, then pedestal and disc go up and down
+  int folds = 0;                     // dropped: of the flat ring, which begin the folds; 0: none
   double disc = 0.09;                // pedestal's radius [m]
   double lowering = 3;               // time in which the plate sinks [s]
   int shakes = 3;                    // of these strokes:
@@ -36,5 +37,10 @@ inline constexpr double kPedestalHeight = 0.14;  // [m]
 // Pedestal, the upper disc that holds the specimen (not shown), and the plate that lets the ring down; the
 // specimen is laid on the pedestal, middle on middle.
 void add_apparatus(Scene& scene, const DrapeChoice& choice, const Specimen& specimen);
+
+// Raises the ring in as many waves as the choice has folds, highest at the rim by `kFoldSeed`: equilibria
+// under different methods are then compared with the same folds.
+inline constexpr double kFoldSeed = 5e-4;  // [m]: six of them strain the rim by 2e-4 at most
+void seed_folds(std::vector<Eigen::Vector3d>& start, const DrapeChoice& choice, double radius);
 
 }  // namespace hysteron::experiments

@@ -1,16 +1,15 @@
-// A folder of its own for each test, and what a run in it needs.
+// What a run in a folder of its own needs.
 #pragma once
 
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
 
 #include "experiments/workbench/app/run.h"
 #include "gtest/gtest.h"
+#include "tests/sim/base/folder.h"
 #include "tests/sim/base/small_disk.h"
 
 namespace hysteron::experiments {
@@ -18,28 +17,8 @@ namespace hysteron::experiments {
 // In a test body `Run` is testing::Test::Run.
 using ExperimentRun = Run;
 
-class Folder {
- public:
-  Folder() {
-    static int count = 0;
-    path_ = std::filesystem::path(testing::TempDir()) /
-            ("hysteron-run-" + std::to_string(getpid()) + "-" + std::to_string(count++));
-    std::filesystem::create_directories(path_);
-  }
-  ~Folder() { std::filesystem::remove_all(path_); }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
-
-inline std::string file_text(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
+using test::file_content;
+using test::Folder;
 
 inline int occurrences(const std::string& text, const std::string& part) {
   int count = 0;

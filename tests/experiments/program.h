@@ -28,7 +28,7 @@ inline Outcome program(const std::string& arguments) {
   const Folder folder;
   const std::string out = folder.path() / "out", err = folder.path() / "err";
   const int status = std::system((HYSTERON_PROGRAM " " + arguments + " >" + out + " 2>" + err).c_str());
-  return {WEXITSTATUS(status), file_text(out), file_text(err)};
+  return {WEXITSTATUS(status), file_content(out), file_content(err)};
 }
 
 }  // namespace hysteron::experiments

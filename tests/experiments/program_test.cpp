@@ -69,8 +69,8 @@ TEST(Program, NeedsNoHomeAndNoPlaceForTemporaryFiles) {
   const std::string line = "env -u HOME TMPDIR=/nonexistent " HYSTERON_PROGRAM
                            " swing --quick --triangles 40 --seconds 0.02 --no-images --quiet --out " +
                            out + " >/dev/null 2>" + err;
-  EXPECT_EQ(std::system(line.c_str()), 0) << file_text(err);
-  EXPECT_EQ(without_warnings(file_text(err)), "");
+  EXPECT_EQ(std::system(line.c_str()), 0) << file_content(err);
+  EXPECT_EQ(without_warnings(file_content(err)), "");
 }
 
 // What was cut out of long sources: authors who are two, sentences without their ends, "assumed: assumed".
@@ -100,7 +100,7 @@ TEST(Program, ListsDevicesWithWhatFailsWhenTheyAreOpened) {
     const fs::path out = folder.path() / "out";
     std::system((environment + " " HYSTERON_PROGRAM " list devices --json >" + out.string() + " 2>/dev/null")
                     .c_str());
-    const auto lists = nlohmann::json::parse(file_text(out));
+    const auto lists = nlohmann::json::parse(file_content(out));
     for (const auto& device : lists.at("devices"))
       if (device.contains("renderer")) list.push_back(device);
     return list;
@@ -177,9 +177,9 @@ keys = [{time = 0.1}, {time = 0.4, position = [0, 0, -0.012]}]
   EXPECT_EQ(outcome.exit_code, 3) << outcome.err;
   EXPECT_NE(outcome.err.find("hysteron swing: at t = 0.3"), std::string::npos) << outcome.err;
   EXPECT_NE(outcome.err.find("the cloth is crushed: vertex "), std::string::npos) << outcome.err;
-  const Json manifest = Json::parse(file_text(out / "manifest.json"));
+  const Json manifest = Json::parse(file_content(out / "manifest.json"));
   EXPECT_EQ(manifest["complete"], false);
-  const std::string table = file_text(out / "metrics.csv");
+  const std::string table = file_content(out / "metrics.csv");
   EXPECT_GT(std::count(table.begin(), table.end(), '\n'), 15);  // moments before 0.3 s
 }
 
@@ -192,7 +192,7 @@ TEST(Program, WritesNoMomentsOntoItsCurvatures) {
     const Outcome outcome = program("law --in " + in + " --out " + out);
     EXPECT_EQ(outcome.exit_code, 2);
     EXPECT_EQ(outcome.err, "hysteron law: --out " + out + " is the input: give another file\n");
-    EXPECT_EQ(file_text(in), "curvature [1/m]\n50\n");
+    EXPECT_EQ(file_content(in), "curvature [1/m]\n50\n");
   }
 }
 
@@ -222,7 +222,7 @@ TEST(Program, MeasuresASwingByTheStripThatItReads) {
         "swing --quiet --no-images --device cpu --threads 1 --seconds 1 --cloth.shape file --cloth.file " +
         file + " --out " + out.string() + flags);
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-    return Json::parse(file_text(out / "manifest.json"))["metrics"]["turns"].get<int>();
+    return Json::parse(file_content(out / "manifest.json"))["metrics"]["turns"].get<int>();
   };
   const int expected = turns("");
   EXPECT_GT(expected, 0);
@@ -238,7 +238,7 @@ TEST(Program, EndsADrapeAtRest) {
         release + " --out " + (folder.path() / release).string());
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_NE(outcome.out.find("at rest"), std::string::npos) << outcome.out;
-    const Json manifest = Json::parse(file_text(folder.path() / release / "manifest.json"));
+    const Json manifest = Json::parse(file_content(folder.path() / release / "manifest.json"));
     EXPECT_TRUE(manifest["metrics"]["settled"].get<bool>()) << release;
     EXPECT_TRUE(manifest["metrics"]["rest_shift_percent"].is_number()) << release;
     EXPECT_EQ(manifest["energy"]["kinetic"], 0) << release;

@@ -103,11 +103,11 @@ TEST(AccuracyCommand, WritesTablesOrdersAndTheCheapest) {
   CommandLine line{"accuracy", "hysteron accuracy", {{"problem", "bend"}, {"out", out.string()}}, {}};
   for (const char* bare : {"quick", "quiet", "no-images"}) line.flags.push_back({bare, "true"});
   EXPECT_EQ(experiment_named("accuracy").run(line), 0);
-  const std::string table = file_text(out / "table.csv");
+  const std::string table = file_content(out / "table.csv");
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'),
             1 + static_cast<long>(bend_problem(kQuick).settings.size()));
-  EXPECT_NE(file_text(out / "cheapest.csv").find("bend,"), std::string::npos);
-  EXPECT_NE(file_text(out / "orders.csv").find("problem,in,group"), std::string::npos);
+  EXPECT_NE(file_content(out / "cheapest.csv").find("bend,"), std::string::npos);
+  EXPECT_NE(file_content(out / "orders.csv").find("problem,in,group"), std::string::npos);
 }
 
 }  // namespace

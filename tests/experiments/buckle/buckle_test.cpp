@@ -163,7 +163,7 @@ nlohmann::json recorded_metrics(const std::vector<Flag>& flags) {
   line.flags.push_back({"out", (folder.path() / "run").string()});
   EXPECT_EQ(experiment_named("buckle").run(line), 0);
   EXPECT_TRUE(std::filesystem::exists(folder.path() / "run" / "southwell.csv"));
-  return nlohmann::json::parse(file_text(folder.path() / "run" / "manifest.json"))["metrics"];
+  return nlohmann::json::parse(file_content(folder.path() / "run" / "manifest.json"))["metrics"];
 }
 
 TEST(Buckle, WritesTheThresholdBesideTheReference) {

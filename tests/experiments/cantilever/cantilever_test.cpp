@@ -16,7 +16,7 @@ nlohmann::json recorded_metrics(const Words& flags) {
   for (const char* on : {"no-images", "quiet"}) line.flags.push_back({on, "true"});
   line.flags.push_back({"out", (folder.path() / "run").string()});
   EXPECT_EQ(experiment_named("cantilever").run(line), 0);
-  return nlohmann::json::parse(file_text(folder.path() / "run" / "manifest.json"))["metrics"];
+  return nlohmann::json::parse(file_content(folder.path() / "run" / "manifest.json"))["metrics"];
 }
 
 constexpr double kDropOfTen = 0.7001997;  // over the length, heaviness 10: the elastica by shooting

@@ -70,7 +70,7 @@ TEST(Compare, SetsLawsSideBySideAndKeepsWhatIsFinished) {
        {"sheet.png", "table.csv", "plot_tip_height.png", "report.html", "linear/manifest.json",
         "prandtl/frames/0003.png", "prandtl/frames-silhouette/0003.png"})
     EXPECT_TRUE(fs::exists(fs::path(out) / name)) << name;
-  const auto metrics = nlohmann::json::parse(file_text(fs::path(out) / "manifest.json"))["metrics"];
+  const auto metrics = nlohmann::json::parse(file_content(fs::path(out) / "manifest.json"))["metrics"];
   EXPECT_EQ(metrics["linear.bending_friction_J"].get<double>(), 0);
   EXPECT_GT(metrics["prandtl.bending_friction_J"].get<double>(), 0);
 
@@ -155,9 +155,9 @@ TEST(ComparisonTable, HasAColumnForEveryMetricOfAnyRow) {
   columns[1].manifest.emplace().metrics = {{"turns", 2}, {"loss_J", 0.5}, {"set_m", NAN}};
   write_comparison_table(run, "law", columns);
   run.finish();
-  EXPECT_EQ(file_text(folder.path() / "table.csv"),
+  EXPECT_EQ(file_content(folder.path() / "table.csv"),
             "law,turns,loss_J,set_m,stopped\nlinear,3,,,\nprandtl,2,0.5,,\"at 1 s, crushed\"\n");
-  const auto metrics = Json::parse(file_text(folder.path() / "manifest.json"))["metrics"];
+  const auto metrics = Json::parse(file_content(folder.path() / "manifest.json"))["metrics"];
   EXPECT_EQ(metrics, Json({{"linear.turns", 3}, {"prandtl.turns", 2}, {"prandtl.loss_J", 0.5}}));
 }
 
@@ -196,16 +196,16 @@ TEST(Compare, CaptionsItsFiguresFromTheManifests) {
                     " --triangles 60 --fps 30 --device cpu --size 160x120 --compare.rows 2 --quiet")
                 .exit_code,
             0);
-  const std::string captions = file_text(fs::path(out) / "README.md");
+  const std::string captions = file_content(fs::path(out) / "README.md");
   for (const char* part :
        {"(sheet.png)", "(plot_decay.png)", "Columns: linear, prandtl.", "in look cloth",
         "Cloth: strip of 90 by 30 mm", "cotton-broad", "Solver: bdf2", "hysteron compare swing --laws"})
     EXPECT_NE(captions.find(part), std::string::npos) << part;
-  EXPECT_EQ(file_text(fs::path(out) / "table.csv").substr(0, 4), "law,");
+  EXPECT_EQ(file_content(fs::path(out) / "table.csv").substr(0, 4), "law,");
   EXPECT_TRUE(fs::exists(fs::path(out) / "plot_decay.svg"));
-  EXPECT_GT(file_text(fs::path(out) / "linear/turns.csv").size(), 40u);
+  EXPECT_GT(file_content(fs::path(out) / "linear/turns.csv").size(), 40u);
   ASSERT_EQ(program("report " + folder.path().string()).exit_code, 0);
-  EXPECT_NE(file_text(folder.path() / "index.html").find("Columns: linear, prandtl."), std::string::npos);
+  EXPECT_NE(file_content(folder.path() / "index.html").find("Columns: linear, prandtl."), std::string::npos);
 }
 
 std::string compare_refusal(const std::string& more) {
@@ -227,14 +227,14 @@ TEST(Compare, ShowsTheInstantsAndTheMetricsThatItIsAskedForInTheirOrder) {
                     out.string() + kSmall)
                 .exit_code,
             0);
-  const std::string table = file_text(out / "table.csv");
+  const std::string table = file_content(out / "table.csv");
   EXPECT_EQ(table.substr(0, table.find('\n')),
             "law,max_stretch_percent,decay_shape,bending_friction_J,stopped");
-  const Json metrics = Json::parse(file_text(out / "manifest.json"))["metrics"];
+  const Json metrics = Json::parse(file_content(out / "manifest.json"))["metrics"];
   EXPECT_EQ(metrics.size(), 6u) << metrics;
   EXPECT_EQ(metrics["linear.decay_shape"], "unknown");
   // Pictures are 1/30 s apart: the one at 0.033 s is the nearest to 0.035 s.
-  const std::string captions = file_text(out / "README.md");
+  const std::string captions = file_content(out / "README.md");
   for (const char* part : {"Rows: t = 0.100 s; t = 0.033 s (", "behind the names: max stretch [%]",
                            "; bending friction [J]", "(plot_bending_friction_J.png)"})
     EXPECT_NE(captions.find(part), std::string::npos) << part << captions;
@@ -268,8 +268,8 @@ from = 0.04
 )";
   const Outcome outcome =
       program("compare swing --scene " + scene.string() + " --laws linear --out " + out.string() + kSmall);
-  EXPECT_NE(file_text(out / "table.csv").find("an obstacle appears where the cloth is"), std::string::npos)
-      << outcome.out << outcome.err << file_text(out / "table.csv");
+  EXPECT_NE(file_content(out / "table.csv").find("an obstacle appears where the cloth is"), std::string::npos)
+      << outcome.out << outcome.err << file_content(out / "table.csv");
   EXPECT_NE(outcome.err.find("warning: linear: "), std::string::npos) << "though it is quiet";
 }
 
@@ -286,9 +286,9 @@ TEST(Compare, SetsFabricsOfASceneSideBySide) {
                                     "--out " +
                                     out.string());
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-    const auto column = nlohmann::json::parse(file_text(out / "wool-tropical/manifest.json"));
+    const auto column = nlohmann::json::parse(file_content(out / "wool-tropical/manifest.json"));
     EXPECT_EQ(column["law"], *law ? "dahl" : "prandtl");
-    const auto page = nlohmann::json::parse(file_text(out / "manifest.json"))["scene"]["columns"];
+    const auto page = nlohmann::json::parse(file_content(out / "manifest.json"))["scene"]["columns"];
     ASSERT_EQ(page.size(), 2u);
     for (const auto& one : page) EXPECT_EQ(one["stiffness_times"], 1) << "of one law nothing is matched";
   }
@@ -302,7 +302,7 @@ TEST(Compare, MatchesLawsByTheirWorkUnlessToldOtherwise) {
                     line = "compare swing --laws linear,prandtl --out " + out + kSmall;
   const auto times = [&] {
     return nlohmann::json::parse(
-               file_text(fs::path(out) / "manifest.json"))["scene"]["columns"][0]["stiffness_times"]
+               file_content(fs::path(out) / "manifest.json"))["scene"]["columns"][0]["stiffness_times"]
         .get<double>();
   };
   ASSERT_EQ(program(line).exit_code, 0);

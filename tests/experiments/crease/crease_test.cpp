@@ -61,7 +61,7 @@ TEST(CreaseSpecimen, KnowsWhatTheLawAloneKeeps) {
 }
 
 nlohmann::json metrics_in(const std::filesystem::path& out) {
-  return nlohmann::json::parse(file_text(out / "manifest.json"))["metrics"];
+  return nlohmann::json::parse(file_content(out / "manifest.json"))["metrics"];
 }
 
 // Both laws by one command.
@@ -73,7 +73,7 @@ TEST(Crease, OpensWithoutAnIntersectionAndKeepsWhatTheLawKeeps) {
       "--crease.force 5 --no-images --quiet --out " +
       out.string());
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  const std::string table = file_text(out / "table.csv");
+  const std::string table = file_content(out / "table.csv");
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 3);
   const auto elastic = metrics_in(out / "linear"), hysteretic = metrics_in(out / "prandtl");
   EXPECT_EQ(elastic["intersections"], 0);

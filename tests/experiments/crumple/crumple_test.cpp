@@ -23,7 +23,7 @@ TEST(Crumple, LeavesWrinklesInClothThatRubsAndNoneInElasticCloth) {
               " --law linear,prandtl --triangles 300 --no-images --quiet --out " + out.string());
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const auto law_manifest = [&](const char* law) {
-    return nlohmann::json::parse(file_text(out / law / "manifest.json"));
+    return nlohmann::json::parse(file_content(out / law / "manifest.json"));
   };
   const auto elastic = law_manifest("linear"), hysteretic = law_manifest("prandtl");
   for (const auto& manifest : {elastic, hysteretic}) {
@@ -35,7 +35,7 @@ TEST(Crumple, LeavesWrinklesInClothThatRubsAndNoneInElasticCloth) {
   EXPECT_LT(elastic["metrics"]["residual_curvature_rms_per_m"], 1e-9);
   EXPECT_GT(hysteretic["metrics"]["residual_curvature_rms_per_m"], 5);
   EXPECT_GT(hysteretic["metrics"]["ridge_length_m"], 0.05);
-  EXPECT_NE(file_text(out / "table.csv").find("prandtl,"), std::string::npos);
+  EXPECT_NE(file_content(out / "table.csv").find("prandtl,"), std::string::npos);
 }
 
 // The right end of a strip is led over the left one, which is held, and 2 cm beyond it.
@@ -68,7 +68,7 @@ TEST(Crumple, ComesToItsEndWhereRigidPinsPullClothThroughClothAndTellsHowFarThey
   const Outcome outcome = program("crumple --scene " + (folder.path() / "led.toml").string() +
                                   " --threads 1 --no-images --out " + out.string());
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  const auto metrics = nlohmann::json::parse(file_text(out / "manifest.json"))["metrics"];
+  const auto metrics = nlohmann::json::parse(file_content(out / "manifest.json"))["metrics"];
   EXPECT_GT(metrics["barred_hand_steps_count"], 0);
   EXPECT_NEAR(metrics["hand_lag_m"].get<double>(), 0.02, 3 * Fabric{}.thickness);
   EXPECT_EQ(metrics["intersections"], 0);
@@ -136,7 +136,7 @@ TEST_P(CrumpledScene, BeginsInBalanceAndFreeOfCrossingsUnderLawsWithAndWithoutMe
       " --law linear,prandtl --triangles 300 --seconds 0.06 --no-images --quiet --out " + out.string());
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   for (const char* law : {"linear", "prandtl"}) {
-    const auto metrics = nlohmann::json::parse(file_text(out / law / "manifest.json"))["metrics"];
+    const auto metrics = nlohmann::json::parse(file_content(out / law / "manifest.json"))["metrics"];
     EXPECT_EQ(metrics["intersections"], 0) << law;
     EXPECT_EQ(metrics["unbalanced_steps_count"], 0) << law;
     EXPECT_EQ(metrics.value("deep_contact_steps_count", 0), 0) << law;

@@ -129,7 +129,7 @@ TEST_F(Diff, RefusesWhatItCannotCompareInOneLine) {
   const fs::path root = folder_.path();
   render::write_png(root / "small.png", ramp(30, 20));
   std::ofstream(root / "text.png") << "no picture";
-  std::ofstream(root / "cut.png", std::ios::binary) << file_text(a_).substr(0, 300);
+  std::ofstream(root / "cut.png", std::ios::binary) << file_content(a_).substr(0, 300);
   fs::create_directories(root / "empty");
   const auto refused = [&](const std::string& arguments, const std::vector<std::string>& parts) {
     const Outcome outcome = program("diff " + arguments);
@@ -156,7 +156,7 @@ TEST_F(Diff, OfAPictureThatCannotBeReadIsAnErrorOfItsTestCase) {
   const std::string xml = folder_.path() / "tests.xml";
   for (const std::string& other : {folder_.path().string() + "/nowhere.png", xml}) {
     EXPECT_EQ(program("diff " + a_ + " " + other + " --junit " + xml).exit_code, 2);
-    EXPECT_NE(file_text(xml).find("failures=\"0\" errors=\"1\""), std::string::npos) << file_text(xml);
+    EXPECT_NE(file_content(xml).find("failures=\"0\" errors=\"1\""), std::string::npos) << file_content(xml);
   }
 }
 
@@ -182,12 +182,12 @@ TEST_F(Diff, ComparesWhatShowsThrough) {
 
 TEST_F(Diff, WritesOntoNeitherPicture) {
   for (const std::string& picture : {a_, b_}) {
-    const std::string before = file_text(picture);
+    const std::string before = file_content(picture);
     const Outcome outcome =
         diff("--out " + folder_.path().string() + "/./" + fs::path(picture).filename().string());
     EXPECT_EQ(outcome.exit_code, 2);
     EXPECT_NE(outcome.err.find("which is compared: give another name"), std::string::npos) << outcome.err;
-    EXPECT_EQ(file_text(picture), before);
+    EXPECT_EQ(file_content(picture), before);
   }
 }
 
@@ -244,7 +244,7 @@ TEST_F(DiffOfFolders, HasAnErrorOfItsOwnForEachPictureThatCannotBeCompared) {
   render::write_png(a_ / "frames/0001.png", ramp());
   render::write_png(b_ / "frames/0002.png", ramp());
   for (const fs::path& side : {a_, b_}) {
-    std::ofstream(side / "cut.png", std::ios::binary) << file_text(a_ / "sheet.png").substr(0, 300);
+    std::ofstream(side / "cut.png", std::ios::binary) << file_content(a_ / "sheet.png").substr(0, 300);
     render::write_png(side / "small.png", side == a_ ? ramp() : ramp(30, 20));
   }
   const fs::path xml = folder_.path() / "tests.xml";
@@ -254,7 +254,7 @@ TEST_F(DiffOfFolders, HasAnErrorOfItsOwnForEachPictureThatCannotBeCompared) {
                                                         {"frames/0002.png", "missing in"},
                                                         {"cut.png", "a broken PNG picture"},
                                                         {"small.png", "30 x 20"}};
-  const std::string csv = file_text(out_ / "diff.csv"), tests = file_text(xml);
+  const std::string csv = file_content(out_ / "diff.csv"), tests = file_content(xml);
   for (const auto& [name, reason] : kCases) {
     const auto printed_line = [&](const std::string& text) {
       const std::size_t at = text.find(name);
@@ -284,7 +284,7 @@ TEST_F(DiffOfFolders, WithNothingToCompareHasNoWorst) {
 TEST_F(DiffOfFolders, WritesHeatMapsAndATable) {
   EXPECT_EQ(diff("--max-flip 0.001 --out " + out_.string()).exit_code, 4);
   EXPECT_EQ(render::read_png(out_ / "heat/frames/0000.png"), render::heat_map(ramp(), marked(8, 20)));
-  const std::string csv = file_text(out_ / "diff.csv");
+  const std::string csv = file_content(out_ / "diff.csv");
   EXPECT_EQ(csv.substr(0, csv.find('\n')),
             "picture,mean_abs [steps],rmse [steps],psnr [dB],ssim,flip,pixels_over_8 [%],error");
   EXPECT_NE(csv.find("\nsheet.png,0,0,,1,0,0,\n"), std::string::npos) << csv;
@@ -296,9 +296,9 @@ TEST_F(DiffOfFolders, RefusesToWriteWhereItReads) {
   EXPECT_NE(outcome.err.find("must not be in"), std::string::npos) << outcome.err;
   EXPECT_FALSE(fs::exists(b_ / "difference"));
   fs::rename(b_, folder_.path() / "heat");
-  const std::string heat = folder_.path() / "heat", before = file_text(heat + "/sheet.png");
+  const std::string heat = folder_.path() / "heat", before = file_content(heat + "/sheet.png");
   EXPECT_EQ(program("diff " + a_.string() + " " + heat + " --out " + folder_.path().string()).exit_code, 2);
-  EXPECT_EQ(file_text(heat + "/sheet.png"), before);
+  EXPECT_EQ(file_content(heat + "/sheet.png"), before);
 }
 
 // 64 of 64 x 48 pixels by 20 steps: mean_abs = 0.417.
@@ -329,7 +329,7 @@ TEST_F(DiffOfFolders, TakesLimitsOfSomePicturesFromAFile) {
 TEST_F(DiffOfFolders, WritesATestCaseForEachPicture) {
   const std::string file = folder_.path() / "new" / "tests.xml";
   EXPECT_EQ(diff("--max-mean 0.1 --junit " + file).exit_code, 4);
-  const std::string xml = file_text(file);
+  const std::string xml = file_content(file);
   for (const char* part :
        {"tests=\"2\" failures=\"1\"", "<testcase name=\"sheet.png\" classname=\"hysteron.diff\"",
         "<failure message=\"mean_abs = 0.416667 must be &lt;= 0.1 (--max-mean)\""})

@@ -18,6 +18,19 @@ Scene with_apparatus(const DrapeChoice& choice) {
   return scene;
 }
 
+// Metrics of a drape of 300 triangles, unless flags say otherwise; its files lie in out/.
+Metrics quick_drape(const Folder& folder, const std::vector<Flag>& flags) {
+  CommandLine line{
+      "drape",
+      "hysteron drape",
+      {{"triangles", "300"}, {"threads", "1"}, {"device", "cpu"}, {"out", (folder.path() / "out").string()}},
+      {}};
+  for (const char* bare : {"quick", "quiet", "no-images"}) line.flags.push_back({bare, "true"});
+  line.flags.insert(line.flags.end(), flags.begin(), flags.end());
+  EXPECT_EQ(experiment_named("drape").run(line), 0);
+  return read_manifest(folder.path() / "out/manifest.json").metrics;
+}
+
 // Three times up and down once the plate has gone, then at rest; the disc goes with the pedestal, so that the
 // specimen stays pressed as it was.
 TEST(ShakenDrape, GoesUpAndDownAndStops) {
@@ -58,23 +71,13 @@ TEST(LoweredDrape, DoesNotShake) {
 TEST(ShakenDrape, OfStiffPaperStaysFlat) {
   constexpr double kSag = 0.1, kShaken = 0.5;  // of the coefficient, at rest and in motion [%]
   const Folder folder;
-  CommandLine line{"drape",
-                   "hysteron drape",
-                   {{"drape.standard", "jis"},
-                    {"drape.wait", "0"},
-                    {"law", "linear"},
-                    {"fabric.b1", "5e-3"},
-                    {"fabric.b2", "5e-3"},
-                    {"fabric.density", "0.2"},
-                    {"fabric.thickness", "2.5e-4"},
-                    {"triangles", "300"},
-                    {"threads", "1"},
-                    {"device", "cpu"},
-                    {"out", (folder.path() / "out").string()}},
-                   {}};
-  for (const char* bare : {"quick", "quiet", "no-images"}) line.flags.push_back({bare, "true"});
-  ASSERT_EQ(experiment_named("drape").run(line), 0);
-  const Metrics metrics = read_manifest(folder.path() / "out/manifest.json").metrics;
+  const Metrics metrics = quick_drape(folder, {{"drape.standard", "jis"},
+                                               {"drape.wait", "0"},
+                                               {"law", "linear"},
+                                               {"fabric.b1", "5e-3"},
+                                               {"fabric.b2", "5e-3"},
+                                               {"fabric.density", "0.2"},
+                                               {"fabric.thickness", "2.5e-4"}});
   const Table series =
       read_csv(folder.path() / "out/metrics.csv", {"time [s]", "drape_coefficient [%]"}, {}, "test");
   ASSERT_EQ(series.numbers("time [s]").front(), 0);
@@ -84,6 +87,30 @@ TEST(ShakenDrape, OfStiffPaperStaysFlat) {
   for (const double percent : percents) EXPECT_NEAR(percent, flat, kShaken) << "while it shakes";
   EXPECT_EQ(metrics.number("node_count"), 0);
   EXPECT_TRUE(metrics["settled"].is(true));
+}
+
+// The same folds under every method are what makes equilibria comparable.
+TEST(DroppedDrape, HangsInTheFoldsThatWereSeeded) {
+  for (const char* folds : {"4", "6"}) {
+    const Folder folder;
+    EXPECT_EQ(
+        quick_drape(folder, {{"drape.release", "dropped"}, {"drape.folds", folds}, {"triangles", "600"}})
+            .number("node_count"),
+        std::stoi(folds));
+  }
+}
+
+TEST(SeededFolds, RaiseTheRimAloneAndNeedARingThatNothingCarries) {
+  DrapeChoice choice;
+  choice.folds = 4;
+  std::vector<Eigen::Vector3d> start{{0.15, 0, 0}, {0, -0.15, 0}, {0.12, 0, 0}, {0.05, 0.05, 0}};
+  EXPECT_THROW(seed_folds(start, choice, 0.15), Error);
+  choice.release = "dropped";
+  seed_folds(start, choice, 0.15);
+  EXPECT_NEAR(start[0].z(), kFoldSeed, 1e-12);
+  EXPECT_NEAR(start[1].z(), kFoldSeed, 1e-12);
+  EXPECT_NEAR(start[2].z(), kFoldSeed / 4, 1e-12);
+  EXPECT_EQ(start[3].z(), 0);
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ class FabCommand : public testing::Test {
     return experiment_named("fab").run({"fab", "hysteron fab", flags, {}});
   }
   nlohmann::json metrics(const std::string& out = "out") const {
-    return nlohmann::json::parse(file_text(folder_.path() / out / "manifest.json")).at("metrics");
+    return nlohmann::json::parse(file_content(folder_.path() / out / "manifest.json")).at("metrics");
   }
   Folder folder_;
 };

@@ -108,7 +108,7 @@ TEST(FiguresCommand, WritesCurvesAndCaptionsWithoutPicturesToo) {
                  {}}),
             0);
   testing::internal::GetCapturedStdout();
-  const std::string captions = file_text(folder.path() / "README.md");
+  const std::string captions = file_content(folder.path() / "README.md");
   for (const Figure& figure : cotton_figures()) {
     EXPECT_TRUE(std::filesystem::exists(folder.path() / (figure.name + ".csv"))) << figure.name;
     EXPECT_NE(captions.find(figure.name + ".png"), std::string::npos) << figure.name;

@@ -149,7 +149,7 @@ CommandLine fold_line(const std::filesystem::path& out, std::vector<Flag> flags)
 }
 
 nlohmann::json recorded_metrics(const std::filesystem::path& run) {
-  return nlohmann::json::parse(file_text(run / "manifest.json"))["metrics"];
+  return nlohmann::json::parse(file_content(run / "manifest.json"))["metrics"];
 }
 
 // An elastic law, and a hysteretic one without and with fatigue, by one command.
@@ -161,7 +161,7 @@ TEST(Fold, RepeatsWithoutFatigueAndWeakensAndSetsWithIt) {
       "--quiet --out " +
       out.string());
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  const std::string table = file_text(out / "table.csv");
+  const std::string table = file_content(out / "table.csv");
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 4);
   const auto elastic = recorded_metrics(out / "linear"), sound = recorded_metrics(out / "prandtl"),
              tired = recorded_metrics(out / "prandtl-fatigue");

@@ -17,7 +17,7 @@ class KesInPlane : public testing::Test {
     const int exit_code = experiment_named("kes").run({"kes", "hysteron kes", flags, {}});
     printed_ = testing::internal::GetCapturedStdout();
     EXPECT_EQ(exit_code, 0);
-    return Json::parse(file_text(folder_.path() / "manifest.json"))["metrics"];
+    return Json::parse(file_content(folder_.path() / "manifest.json"))["metrics"];
   }
   Folder folder_;
   std::string printed_;

@@ -209,7 +209,7 @@ class KesStripCommand : public testing::Test {
 
 TEST_F(KesStripCommand, PutsTheStripBesideTheLaw) {
   ASSERT_EQ(run({{"on", "strip"}, {"mesh", "aligned,random"}, {"triangles", "100"}}), 0);
-  const Json metrics = Json::parse(file_text(folder_.path() / "manifest.json"))["metrics"];
+  const Json metrics = Json::parse(file_content(folder_.path() / "manifest.json"))["metrics"];
   for (const char* key : {"B_N_m", "aligned.strip_B_N_m", "random.strip_2HB_N", "random.strip_solve_s",
                           "aligned.strip_loop_area_difference_percent"})
     EXPECT_TRUE(metrics[key].is_number()) << key;

@@ -34,28 +34,28 @@ TEST_F(OneMore, IsRunWithErrorsShownAndVerified) {
   const std::string words = said("still --errors" + small_ + in("still") + " --errors.draws 1");
   EXPECT_TRUE(has(words, "stillness")) << words;
   const auto metrics =
-      nlohmann::json::parse(file_text(folder_.path() / "still" / "manifest.json"))["metrics"];
+      nlohmann::json::parse(file_content(folder_.path() / "still" / "manifest.json"))["metrics"];
   const double step = metrics["stillness_m"];
   EXPECT_GT(step, 0);
   EXPECT_DOUBLE_EQ(metrics["stillness_m_step_error"], step / 2);
   const std::string verdict = said("verify " + in("still") + " --out " + in("again"));
   EXPECT_TRUE(has(verdict, "4 of 4 runs repeated: 4 the same")) << verdict;
   said("report " + folder_.path().string());
-  const std::string page = file_text(folder_.path() / "index.html");
+  const std::string page = file_content(folder_.path() / "index.html");
   EXPECT_TRUE(has(page, "cloth that nothing moves")) << "its question";
   EXPECT_TRUE(has(page, "stillness")) << "its headline";
 }
 
 TEST_F(OneMore, IsComparedByItsName) {
   said("compare still --laws linear,prandtl" + small_ + in("laws"));
-  EXPECT_TRUE(has(file_text(folder_.path() / "laws" / "table.csv"), "stillness_m"));
+  EXPECT_TRUE(has(file_content(folder_.path() / "laws" / "table.csv"), "stillness_m"));
 }
 
 TEST_F(OneMore, IsSweptWithItsHeadlines) {
   std::ofstream(in("study.toml")) << "experiment = \"still\"\n[scene]\nno-images = true\n"
                                      "[[axis]]\nkey = \"seed\"\nvalues = [1, 2]\n";
   said("sweep " + in("study.toml") + " --quiet --no-images --out " + in("sweep"));
-  EXPECT_TRUE(has(file_text(folder_.path() / "sweep" / "means.csv"), "stillness_m_mean"));
+  EXPECT_TRUE(has(file_content(folder_.path() / "sweep" / "means.csv"), "stillness_m_mean"));
 }
 
 }  // namespace

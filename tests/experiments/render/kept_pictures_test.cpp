@@ -33,20 +33,20 @@ TEST(KeptPictures, ARunsFolderIsDrawnAgainToTheByte) {
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   for (const char* name :
        {"sheet.png", "frames/0002.png", "frames-cloth/0003.png", "frames.hyg", "sheet.hyg"})
-    EXPECT_EQ(file_text(swing.again / name), file_text(swing.run / name)) << name;
+    EXPECT_EQ(file_content(swing.again / name), file_content(swing.run / name)) << name;
 }
 
 TEST(KeptPictures, ARecordedFolderGivesItsSheet) {
   const Recorded swing("swing");
   ASSERT_EQ(swing.drawn(swing.kept).exit_code, 0);
-  EXPECT_EQ(file_text(swing.again / "sheet.png"), file_text(swing.run / "sheet.png"));
+  EXPECT_EQ(file_content(swing.again / "sheet.png"), file_content(swing.run / "sheet.png"));
 }
 
 TEST(KeptPictures, AComparisonsFolderGivesItsSheet) {
   const Recorded page("compare swing --laws linear,prandtl");
   const Outcome outcome = page.drawn(page.kept);
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_EQ(file_text(page.again / "sheet.png"), file_text(page.run / "sheet.png"));
+  EXPECT_EQ(file_content(page.again / "sheet.png"), file_content(page.run / "sheet.png"));
 }
 
 TEST(KeptPictures, FlagsWinOverWhatTheRunWasDrawnWith) {
@@ -54,7 +54,7 @@ TEST(KeptPictures, FlagsWinOverWhatTheRunWasDrawnWith) {
   ASSERT_EQ(swing.drawn(swing.kept, " --look curvature --size 160x120").exit_code, 0);
   const render::Image image = render::read_png(swing.again / "frames/0003.png");
   EXPECT_EQ(image.width(), 160);
-  const Json manifest = Json::parse(file_text(swing.again / "manifest.json"));
+  const Json manifest = Json::parse(file_content(swing.again / "manifest.json"));
   EXPECT_EQ(manifest.at("frames").at("looks").begin().key(), "curvature");
 }
 

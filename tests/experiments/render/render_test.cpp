@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 using FlagList = std::vector<Flag>;
 
-Json folder_manifest(const fs::path& folder) { return Json::parse(file_text(folder / "manifest.json")); }
+Json folder_manifest(const fs::path& folder) { return Json::parse(file_content(folder / "manifest.json")); }
 
 int rendered(const fs::path& out, const std::vector<std::string>& names, FlagList flags) {
   flags.push_back({"out", out.string()});

@@ -35,14 +35,14 @@ TEST(ReportOfDocumentation, WritesTheTablesBetweenTheirCommentsAndChecksThem) {
   EXPECT_EQ(stale.err, "hysteron report: " + page.string() +
                            ":3: these tables are not what --help says now; write it again: hysteron report " +
                            folder.path().string() + "\n");
-  EXPECT_EQ(file_text(page), kEmpty) << "--check writes nothing";
+  EXPECT_EQ(file_content(page), kEmpty) << "--check writes nothing";
   const Outcome written = program("report " + folder.path().string());
   EXPECT_EQ(written.exit_code, 0) << written.err;
   EXPECT_EQ(written.out, page.string() + "\n");
-  EXPECT_EQ(file_text(page),
+  EXPECT_EQ(file_content(page),
             "# Keys\n\n<!-- keys:begin -->\n" + key_tables() + "<!-- keys:end -->\n\nAfter them.\n");
   EXPECT_EQ(program("report --check " + folder.path().string()).exit_code, 0);
-  EXPECT_EQ(file_text(folder.path() / "laws.md"), "# Laws\n");
+  EXPECT_EQ(file_content(folder.path() / "laws.md"), "# Laws\n");
 }
 
 TEST(ReportOfDocumentation, HasTheExitCodesOfHelp) {
@@ -50,7 +50,7 @@ TEST(ReportOfDocumentation, HasTheExitCodesOfHelp) {
   const fs::path page = folder.path() / "start.md";
   std::ofstream(page) << "<!-- exit-codes:begin -->\n<!-- exit-codes:end -->\n";
   ASSERT_EQ(program("report " + folder.path().string()).exit_code, 0);
-  const std::string table = file_text(page);
+  const std::string table = file_content(page);
   for (const Experiment& experiment : experiments())
     if (*experiment.differs) {
       EXPECT_NE(table.find("`" + std::string(experiment.name) + "`: " + experiment.differs),

@@ -81,11 +81,11 @@ TEST_F(LinkedNumbers, AreWrittenIntoTheBracketsAndCheckedByReport) {
                           ":1: \"1\" must be \"12,345\"\n1: \"90°\" must be \"127.8° ± 0.1 ± 2e-7\"\n");
   const Outcome outcome = program("report " + docs());
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_EQ(file_text(page()),
+  EXPECT_EQ(file_content(page()),
             "It opens to [127.8° ± 0.1 ± 2e-7][crease-angle]\n(the [run][run]; `[7][code]`).\n\n"
             "```\na[1][2]\n```\n" +
                 foot);
-  EXPECT_EQ(file_text(root_.path() / "README.md"),
+  EXPECT_EQ(file_content(root_.path() / "README.md"),
             "Again [12,345][steps].\n\n[steps]: results/crease/manifest.json \"/steps ,\"\n");
   EXPECT_EQ(faults(), "");
   write_page("It opens to [127.8° ±\n  0.1 ± 2e-7][crease-angle] (the [run][run]).\n" + foot);

@@ -15,7 +15,7 @@ class TableBlocks : public RecordedResults {
     const Outcome outcome = program("report " + docs());
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_EQ(faults(), "");
-    const std::string text = file_text(page());
+    const std::string text = file_content(page());
     EXPECT_TRUE(text.starts_with(open) && text.ends_with(close)) << text;
     return text.substr(open.size(), text.size() - open.size() - close.size());
   }

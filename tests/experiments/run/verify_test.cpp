@@ -19,7 +19,7 @@ class Recorded : public testing::Test {
   fs::path run() const { return folder_.path() / "runs" / "one"; }
   fs::path manifest() const { return run() / "manifest.json"; }
   std::string in(const std::string& name) const { return (folder_.path() / name).string(); }
-  static Json json_in(const fs::path& folder) { return Json::parse(file_text(folder / "manifest.json")); }
+  static Json json_in(const fs::path& folder) { return Json::parse(file_content(folder / "manifest.json")); }
   void edit(const std::function<void(Json&)>& change) {
     Json json = json_in(run());
     change(json);
@@ -75,7 +75,7 @@ TEST_F(Recorded, RunWithAnotherStateIsRepeatedWithAWarningThoughItIsQuiet) {
   EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
   const Json warnings = json_in(in("again"))["warnings"];
   EXPECT_NE(warnings.back().get<std::string>().find(words), std::string::npos) << warnings;
-  EXPECT_NE(file_text(fs::path(in("again")) / "report.html").find(words), std::string::npos);
+  EXPECT_NE(file_content(fs::path(in("again")) / "report.html").find(words), std::string::npos);
 }
 
 TEST_F(Recorded, FolderOfRunsIsWrittenAsAWorkflow) {
@@ -94,7 +94,7 @@ TEST_F(Recorded, FolderOfRunsIsWrittenAsAWorkflow) {
         program("rerun " + in("runs") + " --out " + in("again") + " --snakemake " + in("flow") + more);
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_NE(outcome.out.find("left out: stopped is not complete"), std::string::npos) << outcome.out;
-    return Json::parse(file_text(folder_.path() / "flow" / "config.json"));
+    return Json::parse(file_content(folder_.path() / "flow" / "config.json"));
   };
   const Json jobs = config("")["jobs"];
   ASSERT_EQ(jobs.size(), 2u);
@@ -134,7 +134,7 @@ class RecordedMesh : public testing::Test {
   Outcome record() const {
     return run("run " + (project_ / "mine.toml").string() + " --out " + (project_ / "run").string());
   }
-  static Json json_in(const fs::path& folder) { return Json::parse(file_text(folder / "manifest.json")); }
+  static Json json_in(const fs::path& folder) { return Json::parse(file_content(folder / "manifest.json")); }
 
   Folder folder_;
   const fs::path project_ = folder_.path() / "project", mesh_ = project_ / "meshes" / "c.obj";
@@ -265,9 +265,9 @@ TEST_F(Recorded, RunIsHeldToLimitsFromAFile) {
                    " --out " + in("check"));
   };
   EXPECT_EQ(verified("0.5").exit_code, 0);
-  EXPECT_NE(file_text(in("tests.xml")).find("tests=\"1\" failures=\"0\" errors=\"0\""), std::string::npos);
+  EXPECT_NE(file_content(in("tests.xml")).find("tests=\"1\" failures=\"0\" errors=\"0\""), std::string::npos);
   EXPECT_EQ(verified("0.3").exit_code, 4);
-  const std::string xml = file_text(in("tests.xml"));
+  const std::string xml = file_content(in("tests.xml"));
   EXPECT_NE(xml.find("<testcase name=\"one\" classname=\"hysteron.verify\""), std::string::npos) << xml;
   EXPECT_NE(xml.find("<failure message=\"same state; "), std::string::npos) << xml;
 }

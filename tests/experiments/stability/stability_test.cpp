@@ -189,9 +189,9 @@ class StabilityCommand : public testing::Test {
     printed_ = testing::internal::GetCapturedStdout();
     return exit_code;
   }
-  Json manifest() const { return Json::parse(file_text(folder_.path() / "manifest.json")); }
+  Json manifest() const { return Json::parse(file_content(folder_.path() / "manifest.json")); }
   std::vector<std::string> lines(const char* file) const {
-    std::istringstream stream(file_text(folder_.path() / file));
+    std::istringstream stream(file_content(folder_.path() / file));
     std::vector<std::string> all;
     for (std::string line; std::getline(stream, line);) all.push_back(line);
     return all;

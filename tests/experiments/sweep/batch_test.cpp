@@ -81,10 +81,10 @@ TEST_F(SweepInABatch, FindsTheTableOfRunsByThemselves) {
   EXPECT_EQ(table("alone").rows.size(), 6u);
   expect_same("alone", "together");
   for (const char* file : {"metrics.csv", "turns.csv"})
-    EXPECT_EQ(file_text(law_folder("alone", "prandtl") / file),
-              file_text(law_folder("together", "prandtl") / file));
+    EXPECT_EQ(file_content(law_folder("alone", "prandtl") / file),
+              file_content(law_folder("together", "prandtl") / file));
   ASSERT_EQ(run("together", "--batch 4 --resume").exit_code, 0);
-  EXPECT_EQ(Json::parse(file_text(folder_.path() / "together/manifest.json"))["metrics"]["kept_count"], 6);
+  EXPECT_EQ(Json::parse(file_content(folder_.path() / "together/manifest.json"))["metrics"]["kept_count"], 6);
   expect_same("alone", "together");
 }
 
@@ -115,7 +115,7 @@ TEST_F(SweepInABatch, GoesOnFromWhereItWasKilled) {
   const Outcome last = run("parts", "--batch 3 --resume");
   ASSERT_EQ(last.exit_code, 0) << last.err;
   expect_same("whole", "parts");
-  const Json resumed = Json::parse(file_text(law_folder("parts", "linear") / "manifest.json"));
+  const Json resumed = Json::parse(file_content(law_folder("parts", "linear") / "manifest.json"));
   EXPECT_EQ(resumed.value("resumed_at_s", Json::array()).size(), 1u);
 }
 
@@ -144,7 +144,7 @@ TEST_F(SweepInABatch, OnAGpuEveryRunHasTheBitsThatItHasAlone) {
     EXPECT_EQ(alone.rows[r].back(), together.rows[r].back()) << r;
   }
   const fs::path run = folder_.path() / "together/runs/law=prandtl,b2=1e-06";
-  const Json manifest = Json::parse(file_text(run / "manifest.json"));
+  const Json manifest = Json::parse(file_content(run / "manifest.json"));
   EXPECT_EQ(manifest["batch"], 3) << "of six runs in two jobs";
   EXPECT_EQ(manifest["wall_seconds"].size(), 1u) << "stages are of all of them";
   EXPECT_FALSE(manifest.contains("device_per_step"));
@@ -212,7 +212,7 @@ TEST_F(Batch, ASignalEndsAllItsRunsAtCheckpointsOfTheirOwn) {
   int status = 0;
   ASSERT_EQ(waitpid(child, &status, 0), child);
   EXPECT_EQ(WEXITSTATUS(status), 0);
-  for (const Json& report : reports_in(file_text(out), 3)) {
+  for (const Json& report : reports_in(file_content(out), 3)) {
     EXPECT_EQ(report["exit_code"], 3) << report;
     EXPECT_EQ(report["error"].get<std::string>().find("hysteron swing: SIGTERM at t = "), 0u) << report;
   }

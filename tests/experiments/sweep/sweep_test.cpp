@@ -25,7 +25,7 @@ class Sweep : public testing::Test {
   }
   Table table(const std::string& out = "out") const { return read_table(folder_.path() / out / "table.csv"); }
   nlohmann::json manifest(const fs::path& in) const {
-    return nlohmann::json::parse(file_text(folder_.path() / in / "manifest.json"));
+    return nlohmann::json::parse(file_content(folder_.path() / in / "manifest.json"));
   }
   // Runs that are repeated take another time.
   static Table without_time(Table table) {
@@ -101,7 +101,7 @@ TEST_F(Sweep, ListsRunsThatFailGoesOnAndExitsWithThree) {
     EXPECT_EQ(found.rows[r].back().empty(), !fails);
     EXPECT_EQ(found.rows[r][found.rows[r].size() - 2], fails ? "2" : "0");
   }
-  EXPECT_NE(file_text(folder_.path() / "out/report.html").find("Not complete"), std::string::npos);
+  EXPECT_NE(file_content(folder_.path() / "out/report.html").find("Not complete"), std::string::npos);
 }
 
 // Which metrics there are is known once a run has ended.
@@ -150,7 +150,7 @@ TEST_F(Sweep, WritesAWorkflowOfAJobForEachRun) {
   const fs::path flow = folder_.path() / "flow";
   ASSERT_EQ(run("--snakemake " + flow.string()).exit_code, 0);
   EXPECT_FALSE(fs::exists(folder_.path() / "out"));
-  const auto config = nlohmann::json::parse(file_text(flow / "config.json"));
+  const auto config = nlohmann::json::parse(file_content(flow / "config.json"));
   EXPECT_EQ(config["jobs"].size(), 4u);
   EXPECT_EQ(config["jobs"]["3"]["words"][1], study_.string());
   EXPECT_EQ(config["jobs"]["3"]["words"].back(), "3/4");

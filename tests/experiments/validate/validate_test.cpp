@@ -21,23 +21,23 @@ TEST(Validate, SetsDrapesAndBendingLengthsBesideWhatIsPublished) {
                     out.string())
                 .exit_code,
             0);
-  const auto metrics = nlohmann::json::parse(file_text(out / "manifest.json"))["metrics"];
+  const auto metrics = nlohmann::json::parse(file_content(out / "manifest.json"))["metrics"];
   // What the drape of its own folder found, and nothing else: which of several ways so coarse a disc buckles
   // (three meshes: 45, 60 and 75 %) is chance.  Closed forms are in outline_test.cpp, a fine drape among the
   // golden ones.
   const auto drape =
-      nlohmann::json::parse(file_text(out / "wool-tropical-linear-shaken" / "manifest.json"))["metrics"];
+      nlohmann::json::parse(file_content(out / "wool-tropical-linear-shaken" / "manifest.json"))["metrics"];
   EXPECT_EQ(drape["published_drape_coefficient_percent"], 49.8);
   EXPECT_EQ(metrics["wool-tropical-linear-shaken.drape_coefficient_percent"],
             drape["drape_coefficient_percent"]);
   // (b2/(sigma g))^(1/3), which half the overhang is to 0.02 % (ASTM D1388).
   const double bending = std::cbrt(read_fabric("wool-tropical", "test").fabric.b2 / (0.1629 * 9.81));
   EXPECT_NEAR(metrics["cantilever-wool-tropical-linear.bending_length_m"].get<double>() / bending, 1, 5e-3);
-  EXPECT_NE(file_text(out / "drape.csv").find("wool-tropical,linear,jis,shaken"), std::string::npos);
-  EXPECT_NE(file_text(out / "drape.csv").find("49.8"), std::string::npos) << "published";
+  EXPECT_NE(file_content(out / "drape.csv").find("wool-tropical,linear,jis,shaken"), std::string::npos);
+  EXPECT_NE(file_content(out / "drape.csv").find("49.8"), std::string::npos) << "published";
   // B and 2HB of ten fabrics come back as they went in.
   EXPECT_LT(metrics["kes_pairs_largest_error_percent"], 1);
-  const std::string table = file_text(out / "predictions.csv");
+  const std::string table = file_content(out / "predictions.csv");
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 1 + 2 * 10);
 }
 
@@ -111,17 +111,17 @@ TEST(Validate, SaysWhetherTheMeasuredDrapeLiesAmongTheDrawn) {
                     out.string())
                 .exit_code,
             0);
-  const auto metrics = nlohmann::json::parse(file_text(out / "manifest.json"))["metrics"];
+  const auto metrics = nlohmann::json::parse(file_content(out / "manifest.json"))["metrics"];
   const double low = metrics["polyester-faille.spread_low_percent"],
                high = metrics["polyester-faille.spread_high_percent"];
   EXPECT_LT(low, high);  // two samples differ
   EXPECT_EQ(metrics["polyester-faille.spread_has_measured"].get<bool>(), low <= 28.3 && 28.3 <= high);
   double sum = 0;
   for (const char* draw : {"1", "2"})
-    sum +=
-        nlohmann::json::parse(file_text(out / (std::string("polyester-faille-prandtl-shaken-draw-") + draw) /
-                                        "manifest.json"))["metrics"]["drape_coefficient_percent"]
-            .get<double>();
+    sum += nlohmann::json::parse(
+               file_content(out / (std::string("polyester-faille-prandtl-shaken-draw-") + draw) /
+                            "manifest.json"))["metrics"]["drape_coefficient_percent"]
+               .get<double>();
   EXPECT_NEAR(metrics["polyester-faille-prandtl.drape_coefficient_percent_mean"].get<double>(), sum / 2,
               1e-9);
 }

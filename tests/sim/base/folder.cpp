@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <fstream>
 #include <sstream>
 
@@ -33,7 +32,7 @@ std::vector<std::string> Folder::names() const {
   return found;
 }
 
-std::string file_content(const std::string& file) {
+std::string file_content(const std::filesystem::path& file) {
   std::ostringstream text;
   text << std::ifstream(file, std::ios::binary).rdbuf();
   return text.str();

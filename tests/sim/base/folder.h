@@ -1,6 +1,7 @@
 // A folder of its own for each test, and the error that a call throws.
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
@@ -16,6 +17,7 @@ class Folder {
   ~Folder();
   Folder(const Folder&) = delete;
   Folder& operator=(const Folder&) = delete;
+  std::filesystem::path path() const { return path_; }
   std::string file(const std::string& name) const { return path_ + "/" + name; }
   std::string write(const std::string& name, const std::string& content) const;  // returns the file's path
   std::vector<std::string> names() const;
@@ -24,7 +26,7 @@ class Folder {
   std::string path_;
 };
 
-std::string file_content(const std::string& file);
+std::string file_content(const std::filesystem::path& file);
 
 // The Error that the call throws; fails the test if there is none.
 Error thrown_error(const std::function<void()>& call);

@@ -86,7 +86,7 @@ TEST(DecidedKeys, AreAllThatAnExperimentChangesButWhatItMakesFit) {
                 (folder.path() / "run").string());
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     std::vector<std::string> changed;
-    changed_in(Json::parse(file_text(folder.path() / "run" / "manifest.json"))["asked"], "", changed);
+    changed_in(Json::parse(file_content(folder.path() / "run" / "manifest.json"))["asked"], "", changed);
     for (const std::string& path : changed) {
       const std::vector<DecidedKey> decided = decided_by(name);
       const bool known = std::any_of(decided.begin(), decided.end(),
@@ -125,7 +125,7 @@ TEST_F(Strips, WarnOfWhatAFileAsksForAndDoesNotGet) {
         "seconds = 9.0 (" + scene.string() + ":1) is not used: cantilever sets seconds itself",
         "[[pin]] (" + scene.string() + ":5) is not used: cantilever sets pin itself"}) {
     EXPECT_NE(outcome.err.find("warning: " + words), std::string::npos) << outcome.err;
-    EXPECT_NE(file_text(folder_.path() / "run/report.html").find("Warning: " + words), std::string::npos)
+    EXPECT_NE(file_content(folder_.path() / "run/report.html").find("Warning: " + words), std::string::npos)
         << words;
   }
   EXPECT_EQ(outcome.err.find("cloth.width"), std::string::npos) << outcome.err;

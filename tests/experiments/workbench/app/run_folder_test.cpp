@@ -69,7 +69,7 @@ TEST(RunFolder, LosesWhatAKilledRunHasLeftAndNothingElse) {
   for (const std::string& name : others) write(out / name);
   ExperimentRun run(drape_line(), setup_in(out));
   for (const std::string& name : left) EXPECT_FALSE(fs::exists(out / name)) << name;
-  for (const std::string& name : others) EXPECT_EQ(file_text(out / name), "mine") << name;
+  for (const std::string& name : others) EXPECT_EQ(file_content(out / name), "mine") << name;
 }
 
 TEST(RunFolder, LeavesNoEmptyFoldersOfAnEarlierRun) {
@@ -90,7 +90,7 @@ TEST(RunFolder, KeepsAFileThatNoRunHasWritten) {
   ExperimentRun run(drape_line(), setup_in(folder.path()));
   EXPECT_EQ(refusal([&] { run.path("README.md"); }),
             file.string() + " is not of an earlier run and is not replaced: give another folder (--out)");
-  EXPECT_EQ(file_text(file), "mine");
+  EXPECT_EQ(file_content(file), "mine");
 }
 
 TEST(RunFolder, IsRefusedAtTheStartWhereAPageThatNoRunHasWrittenStands) {
@@ -99,7 +99,7 @@ TEST(RunFolder, IsRefusedAtTheStartWhereAPageThatNoRunHasWrittenStands) {
   write(page);
   EXPECT_EQ(refused_run(folder.path()),
             page.string() + " is not of an earlier run and is not replaced: give another folder (--out)");
-  EXPECT_EQ(file_text(page), "mine");
+  EXPECT_EQ(file_content(page), "mine");
   EXPECT_FALSE(fs::exists(folder.path() / "manifest.json"));
 }
 
@@ -114,7 +114,7 @@ TEST(RunFolder, IsReservedBeforeFilesAreWritten) {
     });
     EXPECT_NE(message.find(folder.path() / name), std::string::npos) << message;
     EXPECT_EQ(refusal([&] { run.reserve({"sheet.png", "plot_tip", "frames/0000.ply"}); }), "(accepted)");
-    EXPECT_EQ(file_text(folder.path() / name), "mine");
+    EXPECT_EQ(file_content(folder.path() / name), "mine");
   }
 }
 
@@ -124,7 +124,7 @@ TEST(RunFolder, KeepsAManifestThatIsNoRuns) {
     const fs::path manifest = folder.path() / "manifest.json";
     write(manifest, text);
     EXPECT_NE(refused_run(folder.path()).find("manifest.json is not of a run"), std::string::npos);
-    EXPECT_EQ(file_text(manifest), text);
+    EXPECT_EQ(file_content(manifest), text);
   }
 }
 
@@ -139,7 +139,7 @@ TEST(RunFolder, IsNotLeftThroughALink) {
   fs::remove(folder.path() / "frames");
   fs::create_directory_symlink(outside.path(), folder.path() / "frames");
   ExperimentRun run(drape_line(), setup_in(folder.path()));
-  EXPECT_EQ(file_text(outside.path() / "0000.png"), "mine");
+  EXPECT_EQ(file_content(outside.path() / "0000.png"), "mine");
   EXPECT_NE(refusal([&] { run.path("frames/0000.png"); }).find("would be written outside"),
             std::string::npos);
   EXPECT_NE(refusal([&] { run.path("../0000.png"); }).find("would be written outside"), std::string::npos);
@@ -159,7 +159,7 @@ TEST(RunFolder, IsNotWhereTheRunReads) {
             "--loop " + loops.string() + " is of the run in " + folder.path().string() +
                 ", which this one would replace: give another folder (--out)");
   EXPECT_NE(refused_run(folder.path(), render).find("is of the run in"), std::string::npos);
-  EXPECT_EQ(file_text(loops), "mine");
+  EXPECT_EQ(file_content(loops), "mine");
 }
 
 }  // namespace

@@ -10,7 +10,7 @@ namespace hysteron::experiments {
 namespace {
 namespace fs = std::filesystem;
 
-Json folder_manifest(const fs::path& folder) { return Json::parse(file_text(folder / "manifest.json")); }
+Json folder_manifest(const fs::path& folder) { return Json::parse(file_content(folder / "manifest.json")); }
 
 std::vector<std::string> names_in(const fs::path& folder) {
   std::vector<std::string> names;

@@ -201,7 +201,7 @@ TEST(MetricTable, ShowsErrorsInTheHeadlinesCell) {
 
 const std::string kSmall = " --triangles 60 --seconds 0.05 --fps 30 --device cpu --no-images --quiet";
 
-Json manifest_in(const fs::path& folder) { return Json::parse(file_text(folder / "manifest.json")); }
+Json manifest_in(const fs::path& folder) { return Json::parse(file_content(folder / "manifest.json")); }
 
 double friction_in(const fs::path& folder) {
   return manifest_in(folder)["metrics"]["bending_friction_J"].get<double>();
@@ -246,7 +246,7 @@ TEST(SwingWithErrors, FindsWhatSeparateRunsFind) {
   ASSERT_EQ(table.rows.size(), 4);
   EXPECT_EQ(table.head.front(), "repeat");
   EXPECT_EQ(table.rows[0][1], "triangles=240");
-  EXPECT_NE(file_text("run/report.html").find(" step ± "), std::string::npos);
+  EXPECT_NE(file_content("run/report.html").find(" step ± "), std::string::npos);
 }
 
 TEST(SwingWithErrors, PassesFlagsOnButThoseThatItChanges) {
@@ -287,7 +287,7 @@ TEST(SwingWithErrors, SaysWhichRepeatFailed) {
   const auto complete = std::find(table.head.begin(), table.head.end(), "complete") - table.head.begin();
   EXPECT_EQ(table.rows[0][complete], "0");
   EXPECT_EQ(table.rows[1][complete], "1");
-  EXPECT_NE(file_text(folder.path() / "run/report.html").find("Errors that are not known: mesh"),
+  EXPECT_NE(file_content(folder.path() / "run/report.html").find("Errors that are not known: mesh"),
             std::string::npos);
   EXPECT_NE(outcome.err.find("mesh error unknown"), std::string::npos) << outcome.err;
 }
@@ -316,7 +316,7 @@ TEST(Compare, GivesEachColumnItsErrors) {
   const Json metrics = manifest_in(out)["metrics"];
   EXPECT_EQ(metrics["linear.bending_friction_J_step_error"], 0);
   EXPECT_GT(metrics["prandtl.bending_friction_J_step_error"].get<double>(), 0);
-  EXPECT_NE(file_text(fs::path(out) / "report.html").find(" step ± "), std::string::npos);
+  EXPECT_NE(file_content(fs::path(out) / "report.html").find(" step ± "), std::string::npos);
 }
 
 TEST(RequestForErrors, IsRefusedWhereThereIsNone) {

@@ -128,7 +128,7 @@ TEST(ReportOfMotion, SaysAtItsTopThatTheClothDidNotComeToRest) {
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   expect_in(outcome.out, "NOT at rest: fastest vertex ");
   expect_in(outcome.err, "warning: no state of rest was found: ");
-  const std::string page = file_text(folder.path() / "report.html");
+  const std::string page = file_content(folder.path() / "report.html");
   expect_in(page, "NOT at rest: fastest vertex ");
   expect_in(page, "% (not at rest)");
 }

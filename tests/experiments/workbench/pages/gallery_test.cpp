@@ -204,7 +204,7 @@ TEST_F(Gallery, NamesABrokenPicture) {
 }
 
 TEST_F(Gallery, NamesABrokenManifest) {
-  const std::string whole = file_text(results_ / "a-kes/manifest.json");
+  const std::string whole = file_content(results_ / "a-kes/manifest.json");
   write_text(results_ / "a-kes/manifest.json", whole.substr(0, whole.size() / 2));
   EXPECT_NE(refusal().find("results/a-kes/manifest.json is no manifest"), std::string::npos) << refusal();
   write_text(results_ / "a-kes/manifest.json",
@@ -215,7 +215,7 @@ TEST_F(Gallery, NamesABrokenManifest) {
 // A manifest that lacks a key, or has one of another type, is named with the key and in words.
 TEST_F(Gallery, SaysWhatIsWrongWithAManifest) {
   const fs::path file = results_ / "a-kes/manifest.json";
-  const Json whole = Json::parse(file_text(file));
+  const Json whole = Json::parse(file_content(file));
   const auto says = [&](const char* path, const Json& value, const std::string& problem) {
     Json changed = whole;
     changed[Json::json_pointer(path)] = value;
@@ -287,7 +287,7 @@ std::pair<int, std::string> outcome(const std::string& arguments, const fs::path
   const fs::path err = folder / "err";
   const int status =
       std::system((HYSTERON_PROGRAM " " + arguments + " >/dev/null 2>" + err.string()).c_str());
-  return {WEXITSTATUS(status), file_text(err)};
+  return {WEXITSTATUS(status), file_content(err)};
 }
 
 TEST_F(Gallery, OfTheProgramSaysHowToRefreshAStalePage) {

@@ -92,7 +92,7 @@ class PageForms : public testing::Test {
 };
 
 TEST_F(PageForms, ByDefaultEveryPictureOfARunIsAFileThatExists) {
-  const std::string html = file_text(write_report(run_));
+  const std::string html = file_content(write_report(run_));
   expect_all_there(html, run_);
   EXPECT_EQ(attribute_values(html, "src"),
             (std::vector<std::string>{"sheet.png", "plot_energy.svg", "frames/0000.png", "frames/0001.png"}));
@@ -102,7 +102,7 @@ TEST_F(PageForms, ASelfContainedPageRefersToNoFile) {
   const std::string gallery = gallery_page(results_, PageForm::self_contained);
   expect_alone(gallery);
   EXPECT_EQ(attribute_values(gallery, "src").size(), attribute_values(gallery_page(results_), "src").size());
-  const std::string report = file_text(write_report(run_, PageForm::self_contained));
+  const std::string report = file_content(write_report(run_, PageForm::self_contained));
   expect_alone(report);
   EXPECT_EQ(attribute_values(report, "src").size(), 4u);
 }
@@ -121,10 +121,10 @@ TEST_F(PageForms, OfTheProgramAreLinkedUnlessAskedForAlone) {
   const Outcome alone = program("report " + results + " --self-contained");
   EXPECT_EQ(alone.exit_code, 0) << alone.err;
   EXPECT_EQ(alone.out, page + "\n");
-  expect_alone(file_text(page));
+  expect_alone(file_content(page));
   EXPECT_EQ(program("report --check " + results).exit_code, 4) << "the default form is compared";
   EXPECT_EQ(program("report " + results).exit_code, 0);
-  expect_all_there(file_text(page), results_);
+  expect_all_there(file_content(page), results_);
   EXPECT_EQ(program("report --check " + results).exit_code, 0);
   const Outcome both = program("report --check --self-contained " + results);
   EXPECT_EQ(both.exit_code, 2);
@@ -151,14 +151,14 @@ TEST(DrawingSize, IsKnownWhereTheFirstTagSaysIt) {
 TEST(Results, PageIsBelow300KilobytesAndItsPicturesExist) {
   const fs::path results = HYSTERON_RESULTS;
   EXPECT_LT(fs::file_size(results / "index.html"), 300000u);
-  expect_all_there(file_text(results / "index.html"), results);
+  expect_all_there(file_content(results / "index.html"), results);
 }
 
 TEST(Results, NameNoFolderOfTheMachineThatMadeThem) {
   const std::regex absolute(R"(["\s=]/\w+/)");
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(HYSTERON_RESULTS)) {
     if (entry.path().extension() != ".json") continue;
-    const std::string text = file_text(entry.path());
+    const std::string text = file_content(entry.path());
     std::smatch found;
     EXPECT_FALSE(std::regex_search(text, found, absolute)) << entry.path() << ":" << found.str();
   }

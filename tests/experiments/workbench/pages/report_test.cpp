@@ -45,7 +45,7 @@ class Report : public testing::Test {
     render::write_png(run.path("plot_energy.png"), render::Image(64, 32, render::Rgb8{10, 10, 200}));
     run.finish();
   }
-  std::string html() const { return file_text(write_report(folder_.path())); }
+  std::string html() const { return file_content(write_report(folder_.path())); }
   Folder folder_;
 };
 
@@ -109,7 +109,7 @@ TEST(ReportOfSeveralLaws, HasARowForEachAndAColumnForEachMetric) {
   for (const char* law : {"wong", "pabst"}) run.metric(std::string(law) + ".2HB_N", law[0] == 'w' ? 0.5 : 0);
   run.metric("recovery_cases", 3);
   run.finish();
-  const std::string page = file_text(write_report(folder.path()));
+  const std::string page = file_content(write_report(folder.path()));
   EXPECT_EQ(occurrences(page, "2HB [N]"), 1);
   EXPECT_LT(page.find("<td>wong"), page.find("<td>pabst"));
   EXPECT_EQ(occurrences(page, "recovery cases"), 1);
@@ -121,7 +121,7 @@ TEST(ReportOfSeveralLaws, OpensWithWhatEachAnswers) {
   run.metric("linear.recovery_angle_deg", 180.0);
   run.metric("prandtl.recovery_angle_deg", 116.04);
   run.finish();
-  const std::string page = file_text(write_report(folder.path()));
+  const std::string page = file_content(write_report(folder.path()));
   EXPECT_EQ(occurrences(page, "<b>116.0 <small>degree</small></b><span>prandtl: recovery angle</span>"), 1);
   EXPECT_LT(page.find("linear: recovery angle"), page.find("prandtl: recovery angle"));
 }

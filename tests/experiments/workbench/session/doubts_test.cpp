@@ -78,7 +78,7 @@ TEST(End, WithClothTornApartIsSaidWithQuietToo) {
       program("run " + scene.path() + " --no-images --quiet --out " + folder.path().string());
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_NE(outcome.err.find("warning: the cloth was stretched by up to "), std::string::npos) << outcome.err;
-  EXPECT_NE(file_text(folder.path() / "manifest.json").find("\"the cloth was stretched by up to "),
+  EXPECT_NE(file_content(folder.path() / "manifest.json").find("\"the cloth was stretched by up to "),
             std::string::npos);
 }
 

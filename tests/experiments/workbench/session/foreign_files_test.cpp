@@ -17,7 +17,7 @@ TEST_P(ForeignFiles, AreRefusedBeforeTheSimulation) {
       std::string(GetParam()) + " --size 64x48 --threads 1 --device cpu --quiet --out ";
   const Folder first;
   ASSERT_EQ(program(command + (first.path() / "out").string()).exit_code, 0);
-  const auto manifest = nlohmann::json::parse(file_text(first.path() / "out" / "manifest.json"));
+  const auto manifest = nlohmann::json::parse(file_content(first.path() / "out" / "manifest.json"));
   ASSERT_GT(manifest["files"].size(), 3u);
   for (const std::string name : manifest["files"]) {
     const Folder folder;
@@ -28,7 +28,7 @@ TEST_P(ForeignFiles, AreRefusedBeforeTheSimulation) {
     EXPECT_EQ(outcome.exit_code, 2) << name;
     EXPECT_NE(outcome.err.find(foreign.string() + " is not of an earlier run"), std::string::npos)
         << outcome.err;
-    EXPECT_EQ(file_text(foreign), "mine");
+    EXPECT_EQ(file_content(foreign), "mine");
     EXPECT_EQ(fs::exists(folder.path() / "metrics.csv"), name == "metrics.csv") << name;
   }
 }

@@ -27,7 +27,7 @@ TEST(Record, CanBeWatchedWhileItGrows) {
   const Folder folder;
   Record record(folder.path() / "metrics.csv", {"time [s]"});
   record.row({1});
-  EXPECT_EQ(file_text(folder.path() / "metrics.csv.part"), "time [s]\n1\n");
+  EXPECT_EQ(file_content(folder.path() / "metrics.csv.part"), "time [s]\n1\n");
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "metrics.csv"));
 }
 
@@ -39,7 +39,7 @@ TEST(Record, KeepsItsRowsWhenTheRunEndsEarly) {
     throw Error::simulation("no convergence");
   } catch (const Error&) {
   }
-  EXPECT_EQ(file_text(folder.path() / "metrics.csv"), "time [s]\n1\n");
+  EXPECT_EQ(file_content(folder.path() / "metrics.csv"), "time [s]\n1\n");
 }
 
 TEST(Record, NeverTakesItsNameOnAFullDisk) {

@@ -16,7 +16,7 @@ const std::string kResumedSwing = "swing --quick --no-images --threads 1 --devic
 const std::string kResumedCrumple =
     "crumple --quick --no-images --threads 1 --device cpu --fps 240 --triangles 100 --seconds 0.3";
 
-Json manifest_in(const fs::path& out) { return Json::parse(file_text(out / "manifest.json")); }
+Json manifest_in(const fs::path& out) { return Json::parse(file_content(out / "manifest.json")); }
 
 // Starts the program, which gets a signal after some milliseconds.  Its wait status.
 int signalled(const std::string& arguments, int signal, int milliseconds, const fs::path& err) {
@@ -61,7 +61,7 @@ std::map<std::string, std::string> results_in(const fs::path& out) {
   for (const auto& entry : fs::recursive_directory_iterator(out)) {
     const std::string name = fs::relative(entry.path(), out).string();
     if (entry.is_regular_file() && name != "manifest.json" && name != "report.html" && name != "README.md")
-      files[name] = file_text(entry.path());
+      files[name] = file_content(entry.path());
   }
   return files;
 }
@@ -88,11 +88,11 @@ std::size_t interrupt(const std::string& arguments, const fs::path& out, int sig
     status = signalled(arguments + " --resume" + out_flag(out), signal,
                        std::uniform_int_distribution(5, longest)(random), out.string() + ".err");
     const bool ended = WIFEXITED(status) && WEXITSTATUS(status) == 3, done = status == 0;
-    EXPECT_TRUE(WIFSIGNALED(status) || ended || done) << file_text(out.string() + ".err");
+    EXPECT_TRUE(WIFSIGNALED(status) || ended || done) << file_content(out.string() + ".err");
     if (ended) {
       EXPECT_EQ(manifest_in(out)["complete"], false);
       EXPECT_TRUE(fs::exists(out / "checkpoint"));
-      EXPECT_NE(file_text(out.string() + ".err").find("the same command with --resume goes on"),
+      EXPECT_NE(file_content(out.string() + ".err").find("the same command with --resume goes on"),
                 std::string::npos);
     }
   }
@@ -162,7 +162,7 @@ TEST(Resuming, TwoSignalsAtOnceAreOneAndTwoApartEndTheProcess) {
       WEXITSTATUS(std::system(
           ("timeout -s TERM 0.4 " HYSTERON_PROGRAM " " + line + " >/dev/null 2>" + err.string()).c_str())),
       124);  // of `timeout`, which signals the process and its group
-  EXPECT_TRUE(fs::exists(out / "checkpoint")) << file_text(err);
+  EXPECT_TRUE(fs::exists(out / "checkpoint")) << file_content(err);
   EXPECT_EQ(manifest_in(out)["complete"], false);
   // Seconds before the next instant.
   const std::string slow = "swing --no-images --quiet --threads 1 --device cpu --triangles 6000 --fps 1";
@@ -190,7 +190,7 @@ TEST(Resuming, ACompleteRunIsNotRepeatedAndOneWithoutCheckpointBeginsAnew) {
   const Outcome first = program(kResumedSwing + " --resume" + out_flag(out));
   EXPECT_EQ(first.exit_code, 0);
   EXPECT_NE(first.err.find("no checkpoint in " + out.string() + ": from the start"), std::string::npos);
-  const std::string manifest = file_text(out / "manifest.json");
+  const std::string manifest = file_content(out / "manifest.json");
   const Outcome again = program(kResumedSwing + " --resume --threads 2" + out_flag(out));
   EXPECT_EQ(again.exit_code, 0);
   EXPECT_EQ(again.err, out.string() + " is complete\n");
@@ -198,7 +198,7 @@ TEST(Resuming, ACompleteRunIsNotRepeatedAndOneWithoutCheckpointBeginsAnew) {
   const Outcome other = program(kResumedSwing + " --resume --law linear" + out_flag(out));
   EXPECT_EQ(other.exit_code, 2);
   EXPECT_NE(other.err.find("has a complete run of other values (law"), std::string::npos) << other.err;
-  EXPECT_EQ(file_text(out / "manifest.json"), manifest);
+  EXPECT_EQ(file_content(out / "manifest.json"), manifest);
 }
 
 // One folder with a checkpoint for all of them: a refusal changes nothing in it.
@@ -206,7 +206,7 @@ class RefusedCheckpoint : public testing::Test {
  protected:
   RefusedCheckpoint() {
     signalled(kLine + out_flag(out_), SIGTERM, 250, folder_.path() / "err");
-    good_ = file_text(out_ / "checkpoint");
+    good_ = file_content(out_ / "checkpoint");
   }
   void expect_refusal(const std::string& why, const std::string& more = "") {
     const Outcome outcome = program(kLine + more + " --resume" + out_flag(out_));
@@ -223,7 +223,7 @@ class RefusedCheckpoint : public testing::Test {
 };
 
 TEST_F(RefusedCheckpoint, NamesWhatIsWrong) {
-  ASSERT_GT(good_.size(), 100000u) << file_text(folder_.path() / "err");
+  ASSERT_GT(good_.size(), 100000u) << file_content(folder_.path() / "err");
   expect_refusal("other values of fabric.density", " --fabric.density 0.2");
   expect_refusal("other values of fps", " --fps 60");
   put("");
