@@ -3,6 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <fstream>
+
 #include "render/image.h"
 #include "tests/experiments/program.h"
 

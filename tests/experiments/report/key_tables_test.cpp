@@ -1,4 +1,6 @@
 // The tables of keys in documentation.
+#include <fstream>
+
 #include "experiments/report/key_tables.h"
 
 #include "sim/base/error.h"

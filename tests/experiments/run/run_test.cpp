@@ -1,4 +1,5 @@
 #include <cmath>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "experiments/workbench/pictures/drawing.h"

@@ -1,5 +1,7 @@
 #include <nlohmann/json.hpp>
 
+#include <fstream>
+
 #include "experiments/verify/repetition.h"
 #include "sim/mesh/cloth_mesh.h"
 #include "tests/experiments/program.h"

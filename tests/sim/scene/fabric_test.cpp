@@ -1,5 +1,6 @@
 #include <cmath>
 #include <cstdlib>
+#include <fstream>
 
 #include "sim/scene/assets.h"
 #include "sim/scene/fabric_reader.h"

@@ -2,6 +2,7 @@
 #include "experiments/workbench/app/decided_keys.h"
 
 #include <algorithm>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "experiments/workbench/app/command_line.h"

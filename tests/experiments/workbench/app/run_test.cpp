@@ -1,5 +1,6 @@
 #include "experiments/workbench/app/run.h"
 
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
 

@@ -1,3 +1,5 @@
+#include <fstream>
+
 #include "sim/base/error.h"
 #include "tests/experiments/folder.h"
 #include "tests/sim/base/refusal.h"

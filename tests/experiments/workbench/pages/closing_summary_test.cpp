@@ -1,4 +1,6 @@
 // What a run says first and last: results with their errors, rest, places, time left.
+#include <fstream>
+
 #include "experiments/workbench/pages/closing_summary.h"
 
 #include <nlohmann/json.hpp>

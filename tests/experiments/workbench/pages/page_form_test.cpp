@@ -1,5 +1,6 @@
 // Pages that link their pictures, and pages that hold them.
 #include <algorithm>
+#include <fstream>
 #include <regex>
 
 #include "experiments/workbench/app/run.h"

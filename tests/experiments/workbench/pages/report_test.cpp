@@ -1,3 +1,5 @@
+#include <fstream>
+
 #include "experiments/workbench/pages/report.h"
 
 #include <nlohmann/json.hpp>

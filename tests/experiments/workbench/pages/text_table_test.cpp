@@ -1,3 +1,5 @@
+#include <fstream>
+
 #include "experiments/workbench/pages/text_table.h"
 
 #include "sim/base/csv.h"

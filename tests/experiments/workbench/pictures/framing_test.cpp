@@ -1,6 +1,7 @@
 // What pictures frame: none shows its cloth cut off, or none of it.
 #include <array>
 #include <cmath>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "experiments/workbench/app/camera_file.h"

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
 
 #include "experiments/workbench/pictures/subject.h"
 #include "tests/experiments/folder.h"

@@ -3,6 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <fstream>
+
 #include "tests/experiments/program.h"
 
 namespace hysteron::experiments {

@@ -1,6 +1,7 @@
 // Runs that are ended at any moment and go on (--checkpoint, --resume): what they write in the end is what
 // one that was left alone writes.
 #include <csignal>
+#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <random>
