@@ -40,7 +40,8 @@ void add_apparatus(Scene& scene, const DrapeChoice& choice, const Specimen& spec
 
 // Raises the ring in as many waves as the choice has folds, highest at the rim by `kFoldSeed`: equilibria
 // under different methods are then compared with the same folds.
-inline constexpr double kFoldSeed = 5e-4;  // [m]: six of them strain the rim by 2e-4 at most
+inline constexpr double kFoldSeed =
+    2e-3;  // [m]: six of them strain the rim by 0.2 % at most; half a millimetre lets folds merge
 void seed_folds(std::vector<Eigen::Vector3d>& start, const DrapeChoice& choice, double radius);
 
 }  // namespace hysteron::experiments

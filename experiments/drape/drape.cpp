@@ -22,7 +22,7 @@ using D = DrapeChoice;
 const KeyRow<DrapeChoice> kRows[] = {
     {"drape.standard", at<&D::standard>, "", any(), "iso9073 | jis", "sizes and release of a standard: a specimen of 30 cm on a disc of 18 cm, lowered; or of 25.4 cm on 12.7 cm, shaken three times and read after a minute; cloth.radius and other drape keys that are given win"},
     {"drape.release", at<&D::release>, "", any(), "lowered | dropped | relifted | shaken", "how the overhanging ring is released: a plate below it sinks; all at once; the plate sinks, lifts it flat again and sinks a second time; or it sinks, and pedestal and disc shake the specimen"},
-    {"drape.folds", at<&D::folds>, "", between(0, 100), "", "dropped: so many waves, half a millimetre high, raise the ring at the start and become its folds, the same under every method; 0: folds form by themselves"},
+    {"drape.folds", at<&D::folds>, "", between(0, 100), "", "dropped: so many waves, 2 mm high, raise the ring at the start and become its folds, the same under every method; 0: folds form by themselves"},
     {"drape.disc", at<&D::disc>, "m", positive(), "", "radius of the pedestal"},
     {"drape.lowering", at<&D::lowering>, "s", positive(), "", "time in which the plate sinks"},
     {"drape.shakes", at<&D::shakes>, "", between(1, 100), "", "shaken: how often it goes up and down"},
