@@ -13,7 +13,7 @@
 namespace hysteron::python {
 namespace {
 
-constexpr const char* kOrigin = "Fabric";  // of messages
+constexpr const char* kOfFabrics = "Fabric";  // of messages
 constexpr const char* kPrefix = "fabric.";
 
 // The key fabric.* of that attribute; null if there is none.
@@ -38,7 +38,7 @@ py::dict provenance_dict(const Provenance& from) {
 }  // namespace
 
 FabricValue::FabricValue(const std::string& name_or_file, const py::dict& keys) {
-  set_key(scene_, "fabric", name_or_file, kOrigin);
+  set_key(scene_, "fabric", name_or_file, kOfFabrics);
   for (const auto& [name, value] : keys) set(py::str(name), value);
   checked();
 }
@@ -63,8 +63,8 @@ void FabricValue::set(const std::string& name, py::handle value) {
   }
   const Keys keys = bind_scene(scene_);
   const BoundKey* key = find(keys, name);
-  if (!key) find_key(keys, kPrefix + name, kOrigin);  // refuses it, with the nearest name
-  set_key(scene_, *key, to_value(value, key->description.path), kOrigin);
+  if (!key) find_key(keys, kPrefix + name, kOfFabrics);  // refuses it, with the nearest name
+  set_key(scene_, *key, to_value(value, key->description.path), kOfFabrics);
 }
 
 py::list FabricValue::names() {

@@ -11,7 +11,7 @@
 namespace hysteron::python {
 namespace {
 
-py::array_t<std::uint8_t> numpy_array(const render::Image& image) {
+py::array_t<std::uint8_t> image_array(const render::Image& image) {
   return py::array_t<std::uint8_t>(
       {static_cast<py::ssize_t>(image.height()), static_cast<py::ssize_t>(image.width()),
        static_cast<py::ssize_t>(image.channels())},
@@ -47,7 +47,7 @@ py::dict diff(py::object a, py::object b, double pixels_per_degree, const std::s
   py::dict result;
   for (const experiments::Measure& measure : experiments::all_measures())
     result[measure.name] = found.measures.*measure.value;
-  result["heat"] = numpy_array(found.heat);
+  result["heat"] = image_array(found.heat);
   return result;
 }
 
@@ -89,7 +89,7 @@ py::array_t<std::uint8_t> render_simulation(SimulationValue& sim, std::pair<int,
   choice.caption = caption;
   set_options(choice.options, options);
   check_options(choice.options);
-  return numpy_array(sim.picture(choice));
+  return image_array(sim.picture(choice));
 }
 
 }  // namespace

@@ -13,20 +13,20 @@
 namespace hysteron::python {
 namespace {
 
-constexpr const char* kOrigin = "Scene";  // of messages
+constexpr const char* kOfScenes = "Scene";  // of messages
 
 // Takes a fabric that is an object out of the values.
 void take_fabric(Scene& scene, py::dict& values) {
   if (!values.contains("fabric") || !py::isinstance<FabricValue>(values["fabric"])) return;
   scene.fabric = fabric_from_python(values["fabric"]);
-  scene.origin["fabric.name"] = kOrigin;
+  scene.origin["fabric.name"] = kOfScenes;
   PyDict_DelItemString(values.ptr(), "fabric");
 }
 
 void apply(Scene& scene, const py::dict& given) {
   py::dict values = given.attr("copy")();
   take_fabric(scene, values);
-  apply_scene_tree(scene, to_tree(values), kOrigin);
+  apply_scene_tree(scene, to_tree(values), kOfScenes);
 }
 
 Scene make_scene(py::object source, const py::kwargs& keys) {
@@ -44,7 +44,7 @@ py::object get(const Scene& scene, const std::string& name) {
   Scene copy = scene;
   const Keys keys = bind_scene(copy);
   const std::string path = key_named(name, paths(scene_keys()));
-  return to_python(find_key(keys, path == "fabric" ? "fabric.name" : path, kOrigin).field);
+  return to_python(find_key(keys, path == "fabric" ? "fabric.name" : path, kOfScenes).field);
 }
 
 void set(Scene& scene, const std::string& name, py::object value) {

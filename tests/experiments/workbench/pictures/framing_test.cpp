@@ -45,8 +45,8 @@ TEST_P(PicturesOf, TheirClothIsWholeAndNotSmall) {
 
 INSTANTIATE_TEST_SUITE_P(Experiments, PicturesOf,
                          testing::Values(Case{"swing", "swing --triangles 60 --seconds 0.3"},
-                                         Case{"crease", "crease --quick --triangles 200"},
-                                         Case{"rod", "crease --quick --crease.fold rod --triangles 200"},
+                                         Case{"crease", "crease --quick --triangles 100"},
+                                         Case{"rod", "crease --quick --crease.fold rod --triangles 100"},
                                          Case{"fold", "fold --quick --triangles 100 --fold.cycles 1"},
                                          Case{"drape", "drape --quick --triangles 200"}),
                          [](const testing::TestParamInfo<Case>& one) { return std::string(one.param.name); });

@@ -139,7 +139,7 @@ TEST(Resuming, PicturesAndMeshesGoOnWhereTheyWere) {
   const std::string line =
       "swing --quick --threads 1 --device cpu --fps 60 --size 96x64 --look cloth,curvature --export obj";
   ASSERT_EQ(program(line + out_flag(folder.path() / "whole")).exit_code, 0);
-  EXPECT_GT(interrupt(line + " --checkpoint 1e-6", folder.path() / "parts", SIGTERM, 6, 700), 1u);
+  EXPECT_GT(interrupt(line + " --checkpoint 1e-6", folder.path() / "parts", SIGTERM, 3, 700), 1u);
   expect_same_results(folder.path() / "whole", folder.path() / "parts");
 }
 
