@@ -10,7 +10,6 @@
 #include "experiments/workbench/pages/report.h"
 #include "sim/base/error.h"
 #include "sim/identification/curve.h"
-#include "sim/identification/profile.h"
 #include "sim/identification/published.h"
 #include "sim/identification/stops.h"
 
@@ -18,7 +17,7 @@ namespace hysteron::experiments {
 namespace {
 
 struct FitFlags {
-  std::string loop, profile, virgin_file;
+  std::string loop, virgin_file;
   VirginNumbers virgin;
   KesNumbers kes;
   std::string law = "prandtl";
@@ -49,7 +48,6 @@ const KeyRow<FitFlags> kRows[] = {
     {"stops", at<&F::stops>, "", between(1, kMaxFittedStops), "", "instead of a law: this many friction elements with free thresholds"},
     {"offset", at<&F::offset>, "", any(), "", "find the zero of the measured moments, too"},
     {"ripple", at<&F::ripple>, "", between(0, 0.5), "", "curvature that comes back by less than this share of its range is noise"},
-    {"profile", at<&F::profile>, "", any(), "", "sagging cantilever: CSV with `x [m]`, `y [m]`, from the clamp; needs fabric.density"},
     {"fab", at<&F::fab, &FabFlags::file>, "", any(), "", "loops of a FAB tester, strips buckled between clamps: CSV with direction, test, branch, clamp_distance_m, force_N, gauge_length_m, width_m; needs fabric.density"},
     {"fab.directions", at<&F::fab, &FabFlags::directions>, "", any(), "", "of these loops, separated by commas: the first is warp, the second weft; none: all"},
     {"fab.tests", at<&F::fab, &FabFlags::tests>, "", any(), "", "that are fitted, separated by commas; others are predicted. U1 D1 bend, S1 stretches"},
@@ -75,7 +73,7 @@ const KeyRow<FitFlags> kRows[] = {
     {"assume.ratio", at<&F::assume, &Assumptions::ratio>, "", between(0.01, 0.99), "", "b2/b1 where the data leave b2 and k0 open"},
     {"assume.k0", at<&F::assume, &Assumptions::k0>, "1/m", positive(), "", "k0 where the data leave only that open"},
     {"name", at<&F::name>, "", any(), "", "of the fabric"},
-    {"fabric.density", at<&F::density>, "kg/m^2", positive(), "", "for fabric.toml, and the weight of a profile"},
+    {"fabric.density", at<&F::density>, "kg/m^2", positive(), "", "for fabric.toml, and the weight of a strip"},
     {"fabric.thickness", at<&F::thickness>, "m", positive(), "", "for fabric.toml"},
 };
 // clang-format on
@@ -170,16 +168,6 @@ Answer from_kes(const FitFlags& flags) {
   return {{identify_kes(flags.kes, flags.assume)}, {}, "B and 2HB of KES-FB2"};
 }
 
-Answer from_profile(const FitFlags& flags) {
-  if (std::isnan(flags.density))
-    throw Error::invalid_input(
-        "a profile needs --fabric.density: the moments are those of the strip's weight")
-        .with_key("fabric.density", "");
-  return {{identify_profile(read_profile(flags.profile, "fit"), flags.density, flags.assume)},
-          {},
-          file_name(flags.profile)};
-}
-
 void throw_if_without_loop(const FitFlags& flags) {
   if (!flags.loop.empty()) return;
   if (flags.law != "prandtl" || !flags.param.empty() || flags.stops > 0 || flags.offset)
@@ -203,17 +191,14 @@ Answer identify(const FitFlags& flags) {
   };
   const bool virgin = flags.virgin.b1.given() || flags.virgin.c1.given() || !flags.virgin_file.empty();
   const bool kes = flags.kes.b.given() || flags.kes.two_hb.given();
-  const Source sources[] = {{!flags.loop.empty(), from_loop},
-                            {virgin, from_virgin},
-                            {kes, from_kes},
-                            {!flags.profile.empty(), from_profile}};
+  const Source sources[] = {{!flags.loop.empty(), from_loop}, {virgin, from_virgin}, {kes, from_kes}};
   check_units(flags);
   const auto requested = std::count_if(std::begin(sources), std::end(sources),
                                        [](const Source& source) { return source.requested; });
   if (requested != 1) {
     throw Error::invalid_input(
         "needs one of --loop FILE.csv, --virgin.b1 with --virgin.c1, --kes.b with --kes.2hb, "
-        "--profile FILE.csv, --fab FILE.csv, --decay FILE.csv" +
+        "--fab FILE.csv, --decay FILE.csv" +
         std::string(requested > 1 ? ", not several" : ""));
   }
   throw_if_without_loop(flags);
@@ -301,7 +286,7 @@ int run_fit(const CommandLine& line) {
 
 Experiment fit() {
   return {.name = "fit",
-          .question = "identify a fabric from a measured loop, virgin curve, KES pair or profile",
+          .question = "identify a fabric from a measured loop, virgin curve, KES pair or free vibration",
           .run = run_fit,
           .own_keys = own_key_descriptions<bind_flags>};
 }

@@ -131,7 +131,6 @@ TEST_F(Fit, RefusesRequestsThatMakeNoSense) {
   says({{"kes.b", "1e-5"}}, "needs both --kes.b and --kes.2hb");
   says({{"virgin.b1", "1e-5"}}, "needs both --virgin.b1 and --virgin.c1");
   says({{"kes.b", "1e-5"}, {"kes.2hb", "1e-3"}, {"law", "wong"}}, "go with --loop");
-  says({{"profile", "p.csv"}}, "needs --fabric.density");
   says({{"loop", file}, {"law", "wongg"}}, "wongg");
   says({{"loop", file}, {"stops", "99"}}, "stops = 99");
   says({{"loop", file}, {"stops", "0"}}, "stops = 0 must be in [1, ");
