@@ -10,20 +10,17 @@
 #include "experiments/workbench/pages/report.h"
 #include "sim/base/error.h"
 #include "sim/identification/curve.h"
-#include "sim/identification/profile.h"
 #include "sim/identification/published.h"
-#include "sim/identification/stops.h"
 
 namespace hysteron::experiments {
 namespace {
 
 struct FitFlags {
-  std::string loop, profile, virgin_file;
+  std::string loop, virgin_file;
   VirginNumbers virgin;
   KesNumbers kes;
   std::string law = "prandtl";
   Parameters param;
-  int stops = 0;
   bool offset = false;
   double ripple = 0.05;
   Assumptions assume;
@@ -46,10 +43,8 @@ const KeyRow<FitFlags> kRows[] = {
     {"loop", at<&F::loop>, "", any(), "", "measured curve: CSV with `curvature [1/m]`, `moment [N]`, optional `time [s]`"},
     {"law", at<&F::law>, "", any(), "", "of the loop: a name, names separated by commas, or all, to compare"},
     {"param", at<&F::param>, "", any(), "", "parameters of that law"},
-    {"stops", at<&F::stops>, "", between(1, kMaxFittedStops), "", "instead of a law: this many friction elements with free thresholds"},
     {"offset", at<&F::offset>, "", any(), "", "find the zero of the measured moments, too"},
     {"ripple", at<&F::ripple>, "", between(0, 0.5), "", "curvature that comes back by less than this share of its range is noise"},
-    {"profile", at<&F::profile>, "", any(), "", "sagging cantilever: CSV with `x [m]`, `y [m]`, from the clamp; needs fabric.density"},
     {"fab", at<&F::fab, &FabFlags::file>, "", any(), "", "loops of a FAB tester, strips buckled between clamps: CSV with direction, test, branch, clamp_distance_m, force_N, gauge_length_m, width_m; needs fabric.density"},
     {"fab.directions", at<&F::fab, &FabFlags::directions>, "", any(), "", "of these loops, separated by commas: the first is warp, the second weft; none: all"},
     {"fab.tests", at<&F::fab, &FabFlags::tests>, "", any(), "", "that are fitted, separated by commas; others are predicted. U1 D1 bend, S1 stretches"},
@@ -75,7 +70,7 @@ const KeyRow<FitFlags> kRows[] = {
     {"assume.ratio", at<&F::assume, &Assumptions::ratio>, "", between(0.01, 0.99), "", "b2/b1 where the data leave b2 and k0 open"},
     {"assume.k0", at<&F::assume, &Assumptions::k0>, "1/m", positive(), "", "k0 where the data leave only that open"},
     {"name", at<&F::name>, "", any(), "", "of the fabric"},
-    {"fabric.density", at<&F::density>, "kg/m^2", positive(), "", "for fabric.toml, and the weight of a profile"},
+    {"fabric.density", at<&F::density>, "kg/m^2", positive(), "", "for fabric.toml, and the weight of a strip"},
     {"fabric.thickness", at<&F::thickness>, "m", positive(), "", "for fabric.toml"},
 };
 // clang-format on
@@ -102,7 +97,6 @@ std::vector<std::string> requested_laws(const std::string& text) {
 // What a fit is from, one of the ways in.
 struct Answer {
   std::vector<Identification> fits;  // the best first
-  std::vector<Stop> stops;
   std::string from;
 };
 
@@ -130,13 +124,7 @@ void rank(std::vector<Identification>& fits) {
 Answer from_loop(const FitFlags& flags) {
   const MomentSeries series = flags.units == "kes" ? read_kes_series(flags.loop, flags.ripple, "fit")
                                                    : read_series(flags.loop, flags.ripple, "fit");
-  Answer answer{{}, {}, series.name};
-  if (flags.stops > 0) {
-    StopsIdentification found = identify_stops(series, flags.stops, flags.assume);
-    answer.fits = {std::move(found.fabric)};
-    answer.stops = std::move(found.stops);
-    return answer;
-  }
+  Answer answer{{}, series.name};
   for (const std::string& law : requested_laws(flags.law)) {
     CurveQuestion question;
     question.law.name = law;
@@ -155,36 +143,24 @@ Answer from_virgin(const FitFlags& flags) {
       throw Error::invalid_input("takes virgin.file or virgin.b1 with virgin.c1, not both")
           .with_key("virgin.file", flags.virgin_file);
     return {{identify_virgin(read_virgin(flags.virgin_file, "fit"), flags.assume)},
-            {},
             file_name(flags.virgin_file)};
   }
   if (!flags.virgin.b1.given() || !flags.virgin.c1.given())
     throw Error::invalid_input("a virgin curve needs both --virgin.b1 and --virgin.c1")
         .with_key("virgin.b1", "");
-  return {{identify_virgin(flags.virgin, flags.assume)}, {}, "b1 and c1 of its virgin curve"};
+  return {{identify_virgin(flags.virgin, flags.assume)}, "b1 and c1 of its virgin curve"};
 }
 
 Answer from_kes(const FitFlags& flags) {
   if (!flags.kes.b.given() || !flags.kes.two_hb.given())
     throw Error::invalid_input("KES-FB2 needs both --kes.b and --kes.2hb").with_key("kes.b", "");
-  return {{identify_kes(flags.kes, flags.assume)}, {}, "B and 2HB of KES-FB2"};
-}
-
-Answer from_profile(const FitFlags& flags) {
-  if (std::isnan(flags.density))
-    throw Error::invalid_input(
-        "a profile needs --fabric.density: the moments are those of the strip's weight")
-        .with_key("fabric.density", "");
-  return {{identify_profile(read_profile(flags.profile, "fit"), flags.density, flags.assume)},
-          {},
-          file_name(flags.profile)};
+  return {{identify_kes(flags.kes, flags.assume)}, "B and 2HB of KES-FB2"};
 }
 
 void throw_if_without_loop(const FitFlags& flags) {
   if (!flags.loop.empty()) return;
-  if (flags.law != "prandtl" || !flags.param.empty() || flags.stops > 0 || flags.offset)
-    throw Error::invalid_input(
-        "--law, --param, --stops and --offset go with --loop: only a loop tells laws apart")
+  if (flags.law != "prandtl" || !flags.param.empty() || flags.offset)
+    throw Error::invalid_input("--law, --param and --offset go with --loop: only a loop tells laws apart")
         .with_key("loop", "");
 }
 
@@ -203,17 +179,14 @@ Answer identify(const FitFlags& flags) {
   };
   const bool virgin = flags.virgin.b1.given() || flags.virgin.c1.given() || !flags.virgin_file.empty();
   const bool kes = flags.kes.b.given() || flags.kes.two_hb.given();
-  const Source sources[] = {{!flags.loop.empty(), from_loop},
-                            {virgin, from_virgin},
-                            {kes, from_kes},
-                            {!flags.profile.empty(), from_profile}};
+  const Source sources[] = {{!flags.loop.empty(), from_loop}, {virgin, from_virgin}, {kes, from_kes}};
   check_units(flags);
   const auto requested = std::count_if(std::begin(sources), std::end(sources),
                                        [](const Source& source) { return source.requested; });
   if (requested != 1) {
     throw Error::invalid_input(
         "needs one of --loop FILE.csv, --virgin.b1 with --virgin.c1, --kes.b with --kes.2hb, "
-        "--profile FILE.csv, --fab FILE.csv, --decay FILE.csv" +
+        "--fab FILE.csv, --decay FILE.csv" +
         std::string(requested > 1 ? ", not several" : ""));
   }
   throw_if_without_loop(flags);
@@ -288,7 +261,6 @@ int run_fit(const CommandLine& line) {
   Run run(line, flags.options, resolved(keys));
   const FabricNotes notes{flags.name, answer.from, if_given(flags.density), if_given(flags.thickness)};
   report_fits(run, answer.fits, notes);
-  if (!answer.stops.empty()) report_stops(run, answer.stops);
   const Identification& best = answer.fits[0];
   if (const double fraction = best.residual_rms() / best.largest_moment(); !(fraction <= kMisses))
     run.warn(best.law + " does not describe these data: it misses them by " + rounded(100 * fraction) +
@@ -301,7 +273,7 @@ int run_fit(const CommandLine& line) {
 
 Experiment fit() {
   return {.name = "fit",
-          .question = "identify a fabric from a measured loop, virgin curve, KES pair or profile",
+          .question = "identify a fabric from a measured loop, virgin curve, KES pair or free vibration",
           .run = run_fit,
           .own_keys = own_key_descriptions<bind_flags>};
 }

@@ -83,20 +83,6 @@ void report_fits(Run& run, const std::vector<Identification>& fits, const Fabric
   draw_fits(run, fits, notes.name + ": " + notes.from);
 }
 
-void report_stops(Run& run, const std::vector<Stop>& stops) {
-  Column threshold{"threshold [1/m]", {}}, stiffness{"stiffness [N m]", {}};
-  for (std::size_t j = 0; j < stops.size(); ++j) {
-    const std::string name = "stop" + std::to_string(j + 1);
-    threshold.values.push_back(stops[j].threshold);
-    stiffness.values.push_back(stops[j].stiffness);
-    run.metric(name + "_threshold_per_m", stops[j].threshold);
-    run.metric(name + "_threshold_per_m_stderr", stops[j].threshold_error);
-    run.metric(name + "_stiffness_N_m", stops[j].stiffness);
-    run.metric(name + "_stiffness_N_m_stderr", stops[j].stiffness_error);
-  }
-  Table({threshold, stiffness}).write(run.path("stops.csv"));
-}
-
 std::string summary(const std::vector<Identification>& fits) {
   std::string text;
   for (const Identification& fit : fits) {

@@ -6,7 +6,6 @@
 
 #include "experiments/workbench/app/run.h"
 #include "sim/identification/fabric_file.h"
-#include "sim/identification/stops.h"
 
 namespace hysteron::experiments {
 
@@ -16,9 +15,6 @@ void report_fits(Run& run, const std::vector<Identification>& fits, const Fabric
 
 // plot_fit and plot_residual; a panel for each of several laws.
 void draw_fits(Run& run, const std::vector<Identification>& fits, const std::string& title);
-
-// stops.csv, and the metrics of the elements.
-void report_stops(Run& run, const std::vector<Stop>& stops);
 
 // What a reader is told: a line per law if there are several; of the best, numbers with standard errors, what
 // is undetermined, statements.

@@ -1,5 +1,5 @@
-// `hysteron kes`: the KES-FB2 pure bending test of laws, alone or on strips of cloth, on fabrics of the
-// assets; with --test the tests of KES-FB1 (in_plane.h).
+// `hysteron kes`: the KES-FB2 pure bending test of laws, alone or on strips of cloth; with --test the tests
+// of KES-FB1 (in_plane.h).
 #include <algorithm>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -12,7 +12,6 @@
 #include "experiments/workbench/pages/report.h"
 #include "sim/base/error.h"
 #include "sim/reference/kes.h"
-#include "sim/scene/assets.h"
 #include "sim/scene/keys.h"
 
 namespace hysteron::experiments {
@@ -24,7 +23,6 @@ struct KesFlags {
   Parameters param;
   KesProtocol protocol;
   std::string on = "law";
-  std::string mesh = "aligned";
   StripShape strip;
   Options options;
 };
@@ -48,7 +46,7 @@ const KeyRow<KesFlags> kRows[] = {
     {"renderer", at<&K::options, &Options::renderer>, "", any(), "auto | egl | osmesa", "how pictures of strips are drawn"},
 };
 const KeyRow<KesFlags> kStripRows[] = {
-    {"mesh", at<&K::mesh>, "", any(), "", "of strips, several separated by commas: aligned, aligned-45, flipped, unionjack, equilateral, random; or all"},
+    {"mesh", at<&K::strip, &S::mesh>, "", any(), "", "of strips: aligned, aligned-45, flipped, unionjack, equilateral, random"},
     {"element", at<&K::strip, &S::element>, "", any(), "", "bending element of strips"},
     {"triangles", at<&K::strip, &S::triangles>, "", between(20, 1e6), "", "about how many a strip has; their size times the amplitude must stay small"},
     {"cloth.width", at<&K::strip, &S::width>, "m", positive(), "", "of strips; 1 cm is between the clamps"},
@@ -68,15 +66,6 @@ std::vector<std::string> chosen_laws(const std::string& list, bool on_strip) {
   std::vector<std::string> every = law_names();
   if (on_strip) std::erase(every, "grinspun-edit");
   return listed(list, every);
-}
-
-std::vector<Fabric> chosen_fabrics(const std::vector<Flag>& flags) {
-  const std::string list = last_text(flags, "fabric", Fabric{}.name);
-  std::vector<Fabric> fabrics;
-  for (const std::string& name : listed(list, list_assets("fabrics")))
-    fabrics.push_back(resolved_fabric(name, flags));
-  if (fabrics.empty()) throw Error::invalid_input("--fabric names none").with_key("fabric", list);
-  return fabrics;
 }
 
 // With several laws each takes the parameters that it has; one that no law has is refused.
@@ -106,16 +95,12 @@ void throw_if_strip_keys(const CommandLine& line) {
             .with_key(flag.path, flag.text);
 }
 
-// Where no equilibrium is found, the test of other strips goes on.
-StripResult strip_tested(const Fabric& fabric, const KesFlags& flags, const LawRequest& law,
-                         const std::string& mesh, bool several_meshes) {
-  StripShape shape = flags.strip;
-  shape.mesh = mesh;
-  const ClampedStrip strip = clamped_strip(shape, law, fabric, flags.protocol);
+// Where no equilibrium is found, the test of other laws goes on.
+StripResult strip_tested(const Fabric& fabric, const KesFlags& flags, const LawRequest& law) {
+  const ClampedStrip strip = clamped_strip(flags.strip, law, fabric, flags.protocol);
   StripResult result;
-  result.mesh = mesh;
-  result.element = enum_name(shape.element);
-  result.prefix = several_meshes ? mesh + "." : "";
+  result.mesh = flags.strip.mesh;
+  result.element = enum_name(flags.strip.element);
   result.triangles = strip.cloth.mesh.faces();
   result.spacing = strip.spacing;
   result.walk = strip.walk;
@@ -130,61 +115,44 @@ StripResult strip_tested(const Fabric& fabric, const KesFlags& flags, const LawR
     result.failure = error.what();
   }
   if (!flags.options.quiet && result.failure.empty())
-    std::cerr << fabric.name << ", " << law.name << ", strip " << mesh << ": tested" << std::endl;
+    std::cerr << fabric.name << ", " << law.name << ", strip " << result.mesh << ": tested" << std::endl;
   return result;
 }
 
-// The others of them are missing in the tables.
-void warn_of_failures(const std::vector<KesFabric>& fabrics, Run& run) {
-  for (const KesFabric& fabric : fabrics)
-    for (const KesResult& result : fabric.results)
-      for (const StripResult& strip : result.strips)
-        if (!strip.failure.empty())
-          run.warn(fabric.fabric.name + ", " + result.law + ", strip " + strip.mesh + ": " + strip.failure);
+// Their strips are missing in the tables.
+void warn_of_failures(const KesTests& tests, Run& run) {
+  for (const KesResult& result : tests.results)
+    if (result.strip && !result.strip->failure.empty())
+      run.warn(tests.fabric.name + ", " + result.law + ", strip " + result.strip->mesh + ": " +
+               result.strip->failure);
 }
 
 // Not a single strip could be tested.
-void throw_if_failures(const std::vector<KesFabric>& fabrics) {
-  std::string failure;
-  for (const KesFabric& fabric : fabrics)
-    for (const KesResult& result : fabric.results)
-      for (const StripResult& strip : result.strips) {
-        if (strip.failure.empty()) return;
-        failure = strip.failure;
-      }
-  if (!failure.empty()) throw Error::simulation(failure);
+void throw_if_all_failed(const KesTests& tests) {
+  for (const KesResult& result : tests.results)
+    if (!result.strip || result.strip->failure.empty()) return;
+  throw Error::simulation(tests.results.back().strip->failure);
 }
 
-KesFabric tested(const Fabric& fabric, const KesFlags& flags, const std::vector<std::string>& laws,
-                 bool several_fabrics) {
+KesTests tested(const Fabric& fabric, const KesFlags& flags, const std::vector<std::string>& laws) {
   const VirginCurve curve = fabric.virgin_curve();
-  KesFabric result{fabric, test_in_kes({"prandtl", curve, {}}, flags.protocol), {}};
+  KesTests tests{fabric, test_in_kes({"prandtl", curve, {}}, flags.protocol), {}};
   for (const std::string& law : laws) {
-    const std::string name = several_fabrics ? fabric.name + "." + law : laws.size() > 1 ? law : "";
     const LawRequest request{law, curve, accepted_parameters(law, laws, flags.param)};
-    result.results.push_back({law, name, test_in_kes(request, flags.protocol)});
-    if (flags.on == "law") continue;
-    const std::vector<std::string> meshes = listed(flags.mesh, strip_meshes());
-    for (const std::string& mesh : meshes)
-      result.results.back().strips.push_back(strip_tested(fabric, flags, request, mesh, meshes.size() > 1));
+    tests.results.push_back({law, laws.size() > 1 ? law : "", test_in_kes(request, flags.protocol)});
+    if (flags.on == "strip") tests.results.back().strip = strip_tested(fabric, flags, request);
   }
-  return result;
+  return tests;
 }
 
-// The manifest's `scene`: all keys resolved, and the fabrics with their sources.
-Json resolved(KesFlags& flags, const std::vector<std::string>& laws, const std::vector<Fabric>& fabrics) {
+// The manifest's `scene`: all keys resolved, and the fabric with its sources.
+Json resolved(KesFlags& flags, const std::vector<std::string>& laws, const Fabric& fabric) {
   Json keys = to_json(bind(kRows, flags));
   if (flags.on == "strip") keys.update(to_json(bind(kStripRows, flags)), true);
   keys["law"] = join(laws, ",");
-  for (const Fabric& fabric : fabrics) {
-    Scene scene;
-    scene.fabric = fabric;
-    const Json numbers = to_json(scene)["fabric"];
-    if (fabrics.size() == 1)
-      keys["fabric"] = numbers;
-    else
-      keys["fabrics"].push_back(numbers);
-  }
+  Scene scene;
+  scene.fabric = fabric;
+  keys["fabric"] = to_json(scene)["fabric"];
   return keys;
 }
 
@@ -201,19 +169,27 @@ int run_kes(const CommandLine& line) {
   check_protocol(flags.protocol);
   const std::vector<std::string> laws = chosen_laws(flags.law, flags.on == "strip");
   if (laws.empty()) throw Error::invalid_input("--law names none").with_key("law", flags.law);
-  const std::vector<Fabric> fabrics = chosen_fabrics(line.flags);
-  std::vector<KesFabric> results;
-  for (const Fabric& fabric : fabrics) results.push_back(tested(fabric, flags, laws, fabrics.size() > 1));
-  throw_if_failures(results);
+  const Fabric fabric = resolved_fabric(last_text(line.flags, "fabric", Fabric{}.name), line.flags);
+  const KesTests tests = tested(fabric, flags, laws);
+  throw_if_all_failed(tests);
 
-  Run run(line, flags.options, resolved(flags, laws, fabrics));
-  warn_of_failures(results, run);
-  write_metrics(run, results);
-  write_tables(run, results, flags.protocol);
-  if (!flags.options.no_images) write_plots(run, results, flags.protocol);
+  Run run(line, flags.options, resolved(flags, laws, fabric));
+  warn_of_failures(tests, run);
+  write_metrics(run, tests);
+  write_tables(run, tests, flags.protocol);
+  if (!flags.options.no_images) write_plots(run, tests, flags.protocol);
   finish_with_report(run);
-  if (!flags.options.json) print_table(results);
   return 0;
+}
+
+// A number that a tester reads.
+Headline reading(const char* metric, const char* words, const char* unit, double scale = 1) {
+  return {metric, words, unit, "{:.4g}", scale, kNoErrors};
+}
+
+// By how much the strip's is larger than the law's.
+Headline strip_apart(const char* metric, const char* words) {
+  return {metric, words, "%", "{:+.2f}", 1, kNoErrors};
 }
 
 }  // namespace
@@ -223,7 +199,19 @@ Experiment kes() {
       .name = "kes",
       .question = "virtual KES tests: bending (B, 2HB, residual curvature), shear (G, 2HG), tension (WT, RT)",
       .run = run_kes,
-      .own_keys = own_key_descriptions<option_keys, fabric_keys, in_plane_keys>};
+      .own_keys = own_key_descriptions<option_keys, fabric_keys, in_plane_keys>,
+      .headlines = {
+          .all = {reading("B_N_m", "B", "µN m", 1e6), reading("2HB_N", "2HB", "mN", 1e3),
+                  reading("residual_curvature_per_m", "residual curvature", "1/m"),
+                  reading("loop_area_J_per_m2", "area of the loop", "J/m²"),
+                  strip_apart("strip_B_difference_percent", "strip's B over the law's"),
+                  strip_apart("strip_2HB_difference_percent", "strip's 2HB over the law's"),
+                  reading("G_N_per_m", "G", "N/m"), reading("2HG_N_per_m", "2HG", "N/m"),
+                  reading("2HG5_N_per_m", "2HG5", "N/m"),
+                  strip_apart("strip_G_N_per_m_difference_percent", "strip's G over the law's"),
+                  reading("LT", "LT", ""), reading("WT_J_per_m2", "WT", "J/m²"),
+                  reading("RT_percent", "RT", "%"), reading("EMT_percent", "EMT", "%"),
+                  strip_apart("strip_WT_J_per_m2_difference_percent", "strip's WT over the law's")}}};
 }
 
 }  // namespace hysteron::experiments

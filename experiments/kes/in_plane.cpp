@@ -6,7 +6,6 @@
 #include "experiments/kes/in_plane_output.h"
 #include "experiments/workbench/pages/report.h"
 #include "sim/base/error.h"
-#include "sim/scene/assets.h"
 #include "sim/scene/keys.h"
 
 namespace hysteron::experiments {
@@ -71,17 +70,11 @@ InPlaneResult tested(const Fabric& fabric, InPlaneTest test, const InPlaneFlags&
   return result;
 }
 
-Json resolved(InPlaneFlags& flags, const std::vector<InPlaneResult>& results) {
+Json resolved(InPlaneFlags& flags, const Fabric& fabric) {
   Json keys = to_json(option_keys(flags));
-  for (const InPlaneResult& result : results) {
-    Scene scene;
-    scene.fabric = result.fabric;
-    const Json numbers = to_json(scene)["fabric"];
-    if (results.size() == 1)
-      keys["fabric"] = numbers;
-    else
-      keys["fabrics"].push_back(numbers);
-  }
+  Scene scene;
+  scene.fabric = fabric;
+  keys["fabric"] = to_json(scene)["fabric"];
   return keys;
 }
 
@@ -103,20 +96,13 @@ int run_in_plane(const CommandLine& line) {
   set_keys(line, option_keys(flags),
            [&] { flags.specimen.triangles = std::min(flags.specimen.triangles, kQuickTriangles); });
   const auto test = value_named<InPlaneTest>(flags.test);
-  const std::string list = last_text(line.flags, "fabric", Fabric{}.name);
-  const std::vector<std::string> fabrics = listed(list, list_assets("fabrics"));
-  if (fabrics.empty()) throw Error::invalid_input("--fabric names none").with_key("fabric", list);
-  std::vector<InPlaneResult> results;
-  for (const std::string& name : fabrics) {
-    results.push_back(tested(resolved_fabric(name, line.flags), test, flags));
-    if (fabrics.size() > 1) results.back().prefix = results.back().fabric.name + ".";
-  }
-  Run run(line, flags.options, resolved(flags, results));
-  write_in_plane_metrics(run, results);
-  write_in_plane_tables(run, results, test);
-  if (!flags.options.no_images) write_in_plane_plots(run, results, test);
+  const Fabric fabric = resolved_fabric(last_text(line.flags, "fabric", Fabric{}.name), line.flags);
+  const InPlaneResult result = tested(fabric, test, flags);
+  Run run(line, flags.options, resolved(flags, fabric));
+  write_in_plane_metrics(run, result);
+  write_in_plane_tables(run, result, test);
+  if (!flags.options.no_images) write_in_plane_plot(run, result, test);
   finish_with_report(run);
-  if (!flags.options.json) print_in_plane(results);
   return 0;
 }
 

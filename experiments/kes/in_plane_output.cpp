@@ -1,10 +1,7 @@
 #include "experiments/kes/in_plane_output.h"
 
-#include <fmt/core.h>
-
 #include <cmath>
 
-#include "experiments/kes/strip_output.h"
 #include "render/plot.h"
 #include "sim/base/csv.h"
 
@@ -53,12 +50,6 @@ ClothDifference cloth_difference(const InPlaneResult& result, std::size_t i) {
   return {difference(cloth, law), difference(result.coarse.numbers[i].value, cloth)};
 }
 
-std::string percent(double value) { return std::isfinite(value) ? fmt::format("{:+.2f} %", value) : "-"; }
-
-std::string ending(const std::vector<InPlaneResult>& results, const InPlaneResult& result) {
-  return results.size() > 1 ? "_" + result.fabric.name : "";
-}
-
 const char* strain_axis_label(InPlaneTest test) {
   return test == InPlaneTest::shear ? "angle [degree]" : "extension [percent]";
 }
@@ -93,85 +84,52 @@ InPlaneLoop in_plane_loop(const TensionTest& test) {
   return loop;
 }
 
-void write_in_plane_metrics(Run& run, const std::vector<InPlaneResult>& results) {
-  for (const InPlaneResult& result : results) {
-    for (const InPlaneNumber& n : result.law.numbers) {
-      run.metric(result.prefix + n.key, n.value);
-      const double printed = published(result.fabric, n.key);
-      if (!std::isnan(printed))
-        run.metric(result.prefix + "published_" + n.key + "_difference_percent",
-                   difference(n.value, printed));
-    }
-    for (std::size_t i = 0; i < result.cloth.numbers.size(); ++i) {
-      const InPlaneNumber& n = result.cloth.numbers[i];
-      const std::string name = result.prefix + "strip_" + n.key;
-      run.metric(name, n.value);
-      const ClothDifference apart = cloth_difference(result, i);
-      run.metric(name + "_difference_percent", apart.law);
-      run.metric(name + "_mesh_error_percent", std::abs(apart.mesh));
-    }
-    if (result.cloth.numbers.empty()) continue;
-    if (result.tension > 0) run.metric(result.prefix + "strip_tension_N_per_m", result.tension);
-    run.metric(result.prefix + "strip_triangles_count", result.triangles);
-    run.metric(result.prefix + "strip_solve_s", result.seconds);
+void write_in_plane_metrics(Run& run, const InPlaneResult& result) {
+  for (const InPlaneNumber& n : result.law.numbers) {
+    run.metric(n.key, n.value);
+    const double printed = published(result.fabric, n.key);
+    if (!std::isnan(printed))
+      run.metric(std::string("published_") + n.key + "_difference_percent", difference(n.value, printed));
   }
+  for (std::size_t i = 0; i < result.cloth.numbers.size(); ++i) {
+    const InPlaneNumber& n = result.cloth.numbers[i];
+    const std::string name = std::string("strip_") + n.key;
+    run.metric(name, n.value);
+    const ClothDifference apart = cloth_difference(result, i);
+    run.metric(name + "_difference_percent", apart.law);
+    run.metric(name + "_mesh_error_percent", std::abs(apart.mesh));
+  }
+  if (result.cloth.numbers.empty()) return;
+  if (result.tension > 0) run.metric("strip_tension_N_per_m", result.tension);
+  run.metric("strip_triangles_count", result.triangles);
+  run.metric("strip_solve_s", result.seconds);
 }
 
-void write_in_plane_tables(Run& run, const std::vector<InPlaneResult>& results, InPlaneTest test) {
+void write_in_plane_tables(Run& run, const InPlaneResult& result, InPlaneTest test) {
+  const auto write = [&](const std::string& name, const InPlaneLoop& loop) {
+    Table({{strain_axis_label(test), loop.x}, {"force per width [N/m]", loop.force}}).write(run.path(name));
+  };
+  write("loops.csv", result.law);
+  const bool cloth = !result.cloth.numbers.empty();
+  if (cloth) write("strip.csv", result.cloth);
   Table table("fabric,number,published,law,strip,strip of a quarter of the triangles");
-  for (const InPlaneResult& result : results) {
-    const auto write = [&](const std::string& name, const InPlaneLoop& loop) {
-      Table({{strain_axis_label(test), loop.x}, {"force per width [N/m]", loop.force}})
-          .write(run.path(name + ending(results, result) + ".csv"));
-    };
-    write("loops", result.law);
-    const bool cloth = !result.cloth.numbers.empty();
-    if (cloth) write("strip", result.cloth);
-    for (std::size_t i = 0; i < result.law.numbers.size(); ++i) {
-      const InPlaneNumber& n = result.law.numbers[i];
-      table.row({result.fabric.name, n.label, published(result.fabric, n.key), n.value,
-                 cloth ? result.cloth.numbers[i].value : NAN, cloth ? result.coarse.numbers[i].value : NAN});
-    }
+  for (std::size_t i = 0; i < result.law.numbers.size(); ++i) {
+    const InPlaneNumber& n = result.law.numbers[i];
+    table.row({result.fabric.name, n.label, published(result.fabric, n.key), n.value,
+               cloth ? result.cloth.numbers[i].value : NAN, cloth ? result.coarse.numbers[i].value : NAN});
   }
   table.write(run.path("table.csv"));
 }
 
-void write_in_plane_plots(Run& run, const std::vector<InPlaneResult>& results, InPlaneTest test) {
-  for (const InPlaneResult& result : results) {
-    render::Plot plot{.title = "KES-FB1 " + enum_name(test) + " of " + result.fabric.name,
-                      .x = {strain_axis_label(test)},
-                      .y = {"force per width [N/m]"}};
-    plot.axes_at_zero = plot.key_inside = true;
-    plot.series.push_back(series(result.law, "law alone", kLawColor, 6));
-    if (!result.cloth.numbers.empty())
-      plot.series.push_back(series(result.cloth, "specimen of cloth", kClothColor, 1.6));
-    run.plot("plot_loops" + ending(results, result), plot);
-  }
-}
-
-void print_in_plane(const std::vector<InPlaneResult>& results) {
-  for (const InPlaneResult& result : results) {
-    std::vector<std::string> labels, printed, law, cloth, apart, mesh;
-    for (std::size_t i = 0; i < result.law.numbers.size(); ++i) {
-      const InPlaneNumber& n = result.law.numbers[i];
-      labels.push_back(n.label);
-      printed.push_back(four_digits(published(result.fabric, n.key)));
-      law.push_back(four_digits(n.value));
-      if (result.cloth.numbers.empty()) continue;
-      cloth.push_back(four_digits(result.cloth.numbers[i].value));
-      apart.push_back(percent(cloth_difference(result, i).law));
-      mesh.push_back(percent(cloth_difference(result, i).mesh));
-    }
-    print_row(result.fabric.name, labels);
-    print_row("published", printed);
-    print_row("law", law);
-    if (!cloth.empty()) {
-      print_row("specimen of cloth", cloth);
-      print_row("  against the law", apart);
-      print_row("  1/4 the triangles", mesh);
-    }
-    fmt::print("\n");
-  }
+void write_in_plane_plot(Run& run, const InPlaneResult& result, InPlaneTest test) {
+  render::Plot plot{.title = "KES-FB1 " + enum_name(test) + " of " + result.fabric.name,
+                    .x = {strain_axis_label(test)},
+                    .y = {"force per width [N/m]"}};
+  plot.axes_at_zero = plot.key_inside = true;
+  plot.series.push_back(series(result.law, "law alone", kLawColor, 6));
+  if (!result.cloth.numbers.empty())
+    plot.series.push_back(series(result.cloth, "specimen of cloth", kClothColor, 1.6));
+  run.plot("plot_loops", plot);
 }
 
 }  // namespace hysteron::experiments

@@ -1,4 +1,4 @@
-// Tables and plots of the KES-FB1 tests of several fabrics.
+// Tables and plots of the KES-FB1 tests.
 #pragma once
 
 #include <string>
@@ -15,7 +15,7 @@ constexpr auto names(InPlaneTest) { return std::array{"shear", "tension"}; }
 // A number that the tester reads.
 struct InPlaneNumber {
   const char* key;    // of the metric, with its unit
-  const char* label;  // in tables, with its unit
+  const char* label;  // in table.csv, with its unit
   double value;
 };
 
@@ -29,7 +29,6 @@ InPlaneLoop in_plane_loop(const TensionTest& test);
 
 struct InPlaneResult {
   Fabric fabric;
-  std::string prefix;  // of its metrics: "" | fabric. where there are several
   InPlaneLoop law;
   // Of the specimen of cloth and of one of a quarter of the triangles; without numbers where none was asked
   // for.
@@ -41,11 +40,10 @@ struct InPlaneResult {
 
 // Numbers of the law; strip_* of the specimen, by how much they differ from the law's, and how much they
 // change from a quarter of the triangles on.
-void write_in_plane_metrics(Run& run, const std::vector<InPlaneResult>& results);
-// loops_FABRIC.csv and plot_loops_FABRIC, without the name of a single fabric; table.csv.
-void write_in_plane_tables(Run& run, const std::vector<InPlaneResult>& results, InPlaneTest test);
-void write_in_plane_plots(Run& run, const std::vector<InPlaneResult>& results, InPlaneTest test);
-// Beside what the fabric's file says was published, on stdout.
-void print_in_plane(const std::vector<InPlaneResult>& results);
+void write_in_plane_metrics(Run& run, const InPlaneResult& result);
+// loops.csv, strip.csv, and table.csv: beside what the fabric's file says was published.
+void write_in_plane_tables(Run& run, const InPlaneResult& result, InPlaneTest test);
+// plot_loops.
+void write_in_plane_plot(Run& run, const InPlaneResult& result, InPlaneTest test);
 
 }  // namespace hysteron::experiments

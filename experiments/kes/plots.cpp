@@ -60,40 +60,40 @@ std::vector<std::string> readings(const KesReading& r) {
           fmt::format("residual {:.4g} /m", r.residual), fmt::format("area {:.3g} J/m²", r.loop_area)};
 }
 
-render::Panels empty_grid(const KesFabric& fabric, const KesProtocol& p, const std::string& what) {
+render::Panels empty_grid(const KesTests& tests, const KesProtocol& p, const std::string& what) {
   render::Panels grid{
-      .title = what + " of " + fabric.fabric.name, .subtitle = "", .x = {}, .y = {}, .panels = {}};
-  const double moment = kMilli * kHeadroom * largest_moment(fabric.reference);
+      .title = what + " of " + tests.fabric.name, .subtitle = "", .x = {}, .y = {}, .panels = {}};
+  const double moment = kMilli * kHeadroom * largest_moment(tests.reference);
   grid.x = {"curvature [1/m]", false, -1.08 * p.amplitude, 1.08 * p.amplitude};
   grid.y = {"moment per width [mN]", false, -moment, moment};
-  grid.columns = fabric.results.size() > 4 ? (fabric.results.size() + 2) / 3 : fabric.results.size();
+  grid.columns = tests.results.size() > 4 ? (tests.results.size() + 2) / 3 : tests.results.size();
   return grid;
 }
 
-render::Panels loops(const KesFabric& fabric, const KesProtocol& p) {
-  render::Panels grid = empty_grid(fabric, p, "KES-FB2 pure bending");
+render::Panels loops(const KesTests& tests, const KesProtocol& p) {
+  render::Panels grid = empty_grid(tests, p, "KES-FB2 pure bending");
   grid.subtitle = "from rest, then " + std::to_string(p.cycles) + " cycles" +
                   fmt::format(" to ±{:.4g}/m", p.amplitude) + fmt::format(" at {:.4g}/(m s);", p.rate) +
                   fmt::format(" B from {:.4g}", p.slope_from) + fmt::format(" to {:.4g}/m,", p.slope_to) +
                   fmt::format(" 2HB at {:.4g}/m.", p.width_at) + "  Blue: the law, grey: prandtl";
-  for (const KesResult& result : fabric.results) {
+  for (const KesResult& result : tests.results) {
     render::Panel panel{result.law, {}, readings(result.test.reading), remarks(result, grid.y.high)};
-    panel.series = {whole_walk(fabric.reference, p.steps, kReferenceColor, 5),
+    panel.series = {whole_walk(tests.reference, p.steps, kReferenceColor, 5),
                     whole_walk(result.test, p.steps, kLawColor, 1.8)};
     grid.panels.push_back(panel);
   }
   return grid;
 }
 
-render::Panels minor_loops(const KesFabric& fabric, const KesProtocol& p, MinorLoop::Family family) {
+render::Panels minor_loops(const KesTests& tests, const KesProtocol& p, MinorLoop::Family family) {
   const bool amplitudes = family == MinorLoop::Family::amplitude;
   render::Panels grid =
-      empty_grid(fabric, p, amplitudes ? "Settled loops of several amplitudes" : "Partial reversals");
+      empty_grid(tests, p, amplitudes ? "Settled loops of several amplitudes" : "Partial reversals");
   grid.subtitle =
       (amplitudes ? "last of " + std::to_string(p.cycles) + " cycles from rest."
                   : fmt::format("from {:.4g}/m part of the way back, and to it again.", p.amplitude)) +
       std::string("  Grey: the law's loop of the full amplitude");
-  for (const KesResult& result : fabric.results) {
+  for (const KesResult& result : tests.results) {
     render::Panel panel{result.law, {whole_walk(result.test, p.steps, kReferenceColor, 4)}, {}, {}};
     panel.remarks = remarks(result, grid.y.high);
     int color = 0;
@@ -109,20 +109,18 @@ render::Panels minor_loops(const KesFabric& fabric, const KesProtocol& p, MinorL
 
 }  // namespace
 
-void write_plots(Run& run, const std::vector<KesFabric>& fabrics, const KesProtocol& p) {
+void write_plots(Run& run, const KesTests& tests, const KesProtocol& p) {
   const auto write = [&](const std::string& name, const render::Panels& grid) {
     run.plot(name, [&](const std::filesystem::path& base) { render::write_panels(base, grid); });
   };
-  for (const KesFabric& fabric : fabrics) {
-    for (const KesResult& result : fabric.results)
-      write_strip_figures(run, result.name.empty() ? "" : "_" + result.name, {fabric.fabric.name, result.law},
-                          result.strips);
-    const std::string ending = fabrics.size() > 1 ? "_" + fabric.fabric.name : "";
-    write("plot_loops" + ending, loops(fabric, p));
-    if (!p.minor_loops) continue;
-    write("plot_amplitudes" + ending, minor_loops(fabric, p, MinorLoop::Family::amplitude));
-    write("plot_minor_loops" + ending, minor_loops(fabric, p, MinorLoop::Family::partial_reversal));
-  }
+  for (const KesResult& result : tests.results)
+    if (result.strip && result.strip->failure.empty())
+      write_strip_figures(run, result.name.empty() ? "" : "_" + result.name, {tests.fabric.name, result.law},
+                          *result.strip);
+  write("plot_loops", loops(tests, p));
+  if (!p.minor_loops) return;
+  write("plot_amplitudes", minor_loops(tests, p, MinorLoop::Family::amplitude));
+  write("plot_minor_loops", minor_loops(tests, p, MinorLoop::Family::partial_reversal));
 }
 
 }  // namespace hysteron::experiments

@@ -1,7 +1,5 @@
 #include "experiments/kes/strip_output.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -17,8 +15,6 @@ double largest(const std::vector<double>& values) {
   for (double value : values) result = std::max(result, std::abs(value));
   return result;
 }
-
-std::string percent(double value) { return std::isfinite(value) ? fmt::format("{:+.2f} %", value) : "-"; }
 
 // Mean curvature between the clamps over that of the gauge, at the amplitude, minus 1 [percent].
 double bend_between(const StripResult& strip) {
@@ -51,14 +47,6 @@ void write_strip_readings(Run& run, const std::string& p, const StripResult& str
 
 }  // namespace
 
-std::string four_digits(double value) { return std::isfinite(value) ? fmt::format("{:.4g}", value) : "-"; }
-
-void print_row(const std::string& name, const std::vector<std::string>& cells) {
-  std::vector<std::string> row = {name};
-  row.insert(row.end(), cells.begin(), cells.end());
-  fmt::print("{}\n", aligned(row, {-19, 13}));
-}
-
 StripDifference difference(const StripTest& strip, double amplitude) {
   const double moment = largest(strip.law_moment);
   const auto difference_percent = [](double a, double b, double scale) {
@@ -71,46 +59,22 @@ StripDifference difference(const StripTest& strip, double amplitude) {
           difference_percent(own.loop_area, law.loop_area, 4 * moment * amplitude)};
 }
 
-void write_strip_metrics(Run& run, const std::string& prefix, double amplitude,
-                         const std::vector<StripResult>& strips) {
-  for (const StripResult& strip : strips) {
-    const std::string p = prefix + strip.prefix;
-    if (!strip.renderer.empty()) run.manifest().renderer = strip.renderer;
-    if (strip.failure.empty())
-      write_strip_readings(run, p, strip, difference(strip.test, amplitude));
-    else
-      run.metric(p + "strip_failure", strip.failure);
-  }
+void write_strip_metrics(Run& run, const std::string& prefix, double amplitude, const StripResult& strip) {
+  if (!strip.renderer.empty()) run.manifest().renderer = strip.renderer;
+  if (strip.failure.empty())
+    write_strip_readings(run, prefix, strip, difference(strip.test, amplitude));
+  else
+    run.metric(prefix + "strip_failure", strip.failure);
 }
 
-void write_strip_table(Run& run, const std::string& ending, const std::vector<StripResult>& strips) {
-  std::vector<Column> columns;
-  for (const StripResult& strip : strips) {
-    if (!strip.failure.empty()) continue;
-    if (columns.empty()) {
-      columns = {{"curvature [1/m]", {}}, {"law moment [N]", strip.test.law_moment}};
-      for (const LawRow& row : strip.walk.rows) columns[0].values.push_back(row.curvature);
-    }
-    columns.push_back({strip.mesh + " moment [N]", strip.test.moment});
-    if (!strip.test.free_curvature.empty())
-      columns.push_back({strip.mesh + " free curvature [1/m]", strip.test.free_curvature});
-  }
-  if (!columns.empty()) Table(columns).write(run.path("strip" + ending + ".csv"));
-}
-
-void print_strips(double amplitude, const std::vector<StripResult>& strips) {
-  for (const StripResult& strip : strips) {
-    if (!strip.failure.empty()) {
-      fmt::print("  {}: {}\n", strip.mesh, strip.failure);
-      continue;
-    }
-    const KesReading& r = strip.test.reading;
-    print_row("  strip " + strip.mesh, {four_digits(r.rigidity), four_digits(r.loop_width),
-                                        four_digits(r.residual), "", four_digits(r.loop_area)});
-    const StripDifference d = difference(strip.test, amplitude);
-    print_row("    against the law",
-              {percent(d.rigidity), percent(d.loop_width), percent(d.residual), "", percent(d.loop_area)});
-  }
+void write_strip_table(Run& run, const std::string& ending, const StripResult& strip) {
+  std::vector<Column> columns = {{"curvature [1/m]", {}},
+                                 {"law moment [N]", strip.test.law_moment},
+                                 {strip.mesh + " moment [N]", strip.test.moment}};
+  for (const LawRow& row : strip.walk.rows) columns[0].values.push_back(row.curvature);
+  if (!strip.test.free_curvature.empty())
+    columns.push_back({strip.mesh + " free curvature [1/m]", strip.test.free_curvature});
+  Table(columns).write(run.path("strip" + ending + ".csv"));
 }
 
 }  // namespace hysteron::experiments

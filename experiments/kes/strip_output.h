@@ -21,7 +21,6 @@ struct StripPicture {
 
 struct StripResult {
   std::string mesh, element;
-  std::string prefix;  // of its metrics: "" | mesh. where there are several
   int triangles = 0;
   double spacing = 0;  // of columns [m]
   KesWalk walk;
@@ -43,18 +42,13 @@ struct StripDifference {
 };
 StripDifference difference(const StripTest& strip, double amplitude);
 
-// PREFIX strip_B_N_m, strip_2HB_N ... and their differences; `amplitude` as in the protocol.
-void write_strip_metrics(Run& run, const std::string& prefix, double amplitude,
-                         const std::vector<StripResult>& strips);
-// strip ENDING.csv: the law and every mesh, an equilibrium per row.
-void write_strip_table(Run& run, const std::string& ending, const std::vector<StripResult>& strips);
-// A number in the tables on stdout, "-" where it is not known; a row of them.
-std::string four_digits(double value);
-void print_row(const std::string& name, const std::vector<std::string>& cells);
-// A line per mesh, in the columns of the law's table, and its differences.
-void print_strips(double amplitude, const std::vector<StripResult>& strips);
-// plot_strip ENDING: loops and differences; strip ENDING.png: the same with pictures of the strips.
+// PREFIX strip_B_N_m, strip_2HB_N ... and their differences, or strip_failure; `amplitude` as in the
+// protocol.
+void write_strip_metrics(Run& run, const std::string& prefix, double amplitude, const StripResult& strip);
+// Of a strip that was tested.  strip ENDING.csv: the law and the strip, an equilibrium per row.
+void write_strip_table(Run& run, const std::string& ending, const StripResult& strip);
+// plot_strip ENDING: loops and differences; strip ENDING.png: the same with pictures of the strip.
 void write_strip_figures(Run& run, const std::string& ending, const StripTitle& title,
-                         const std::vector<StripResult>& strips);
+                         const StripResult& strip);
 
 }  // namespace hysteron::experiments

@@ -5,6 +5,9 @@
 
 #include "experiments/validate/budget.h"
 #include "experiments/validate/folds.h"
+#include "experiments/workbench/app/manifest_file.h"
+#include "sim/base/csv.h"
+#include "sim/base/error.h"
 #include "sim/identification/decay_shape.h"
 
 namespace hysteron::experiments {

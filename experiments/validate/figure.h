@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/validate/drapes.h"
+#include "experiments/workbench/app/run.h"
 #include "render/plot_page.h"
 
 namespace hysteron::experiments {
@@ -25,7 +25,7 @@ std::vector<PredictedDrape> read_drapes(const std::filesystem::path& means,
 // Error::invalid_input where one of their files is missing or another than it was.
 render::PlotPage validation_page(const std::filesystem::path& recorded);
 
-// plot_validation; plot_folds and plot_budget_<fabric>, as the parts `draws` and `budget` draw them.
+// plot_validation; plot_folds, and plot_budget_<fabric> as the part `budget` draws it.
 void draw_recorded(const std::filesystem::path& recorded, Run& run);
 
 }  // namespace hysteron::experiments

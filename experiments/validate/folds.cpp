@@ -44,13 +44,6 @@ FoldRange real_folds(double coefficient) {
           static_cast<double>(std::max(low.most, high.most))};
 }
 
-std::vector<CountedDrape> counted(const std::vector<Drape>& drapes) {
-  std::vector<CountedDrape> all;
-  for (const Drape& drape : drapes)
-    all.push_back({drape.fabric, drape.law, drape.coefficient(), drape.number("node_count")});
-  return all;
-}
-
 std::vector<CountedDrape> read_counted(const std::filesystem::path& csv) {
   const Table table = read_table(csv);
   std::vector<CountedDrape> all;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/validate/drapes.h"
+#include "experiments/workbench/app/run.h"
 #include "render/plot.h"
 
 namespace hysteron::experiments {
@@ -24,7 +24,6 @@ struct CountedDrape {
   std::string fabric, law;
   double coefficient, folds;  // [%]
 };
-std::vector<CountedDrape> counted(const std::vector<Drape>& drapes);
 // Of a study's table.csv; those that have no coefficient are left out.  Throws as read_table() and
 // Table::at() do.
 std::vector<CountedDrape> read_counted(const std::filesystem::path& csv);

@@ -1,12 +1,11 @@
 #include "experiments/validate/spread.h"
 
-#include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <set>
 
 #include "experiments/validate/drapes.h"
-#include "experiments/validate/folds.h"
 #include "render/plot.h"
 #include "sim/base/comma_list.h"
 #include "sim/base/csv.h"
@@ -16,7 +15,25 @@
 namespace hysteron::experiments {
 namespace {
 
-constexpr const char* kDrapeFittedOn = "B, 2HB, density, thickness; the rest assumed";
+// Where one more drape lies with 95 %, beside what was measured.
+struct Prediction {
+  std::string question;  // "drape of wool-tropical"
+  std::string unit;
+  double predicted, measured, low, high;
+
+  bool contains_measured() const { return low <= measured && measured <= high; }
+};
+
+void write_predictions(Run& run, const std::vector<Prediction>& predictions) {
+  Table table(
+      "predicted quantity,fitted on,predicted,low,high,measured,unit,error,error [%],measured is between");
+  for (const Prediction& p : predictions) {
+    const double error = p.predicted - p.measured;
+    table.row({p.question, "B, 2HB, density, thickness; the rest assumed", p.predicted, p.low, p.high,
+               p.measured, p.unit, error, 100 * error / p.measured, p.contains_measured() ? "yes" : "no"});
+  }
+  table.write(run.path("predictions.csv"));
+}
 
 // 0 to count - 1 in an order by chance (Fisher & Yates).
 std::vector<int> shuffled(int count, Uniform& uniform) {
@@ -39,28 +56,12 @@ double reach(std::size_t n) {
 }
 
 // What drapes of one fabric say together: the mean, and where one more would lie.
-Prediction together(const std::vector<double>& values, const std::string& question, const std::string& unit,
-                    double measured) {
-  Prediction p{question, kDrapeFittedOn, unit, mean_value(values), measured};
-  const double half = reach(values.size()) * sample_deviation(values);
-  p.low = p.predicted - half, p.high = p.predicted + half;
-  return p;
-}
-
-std::vector<double> drape_metrics(const std::vector<Drape>& drapes, const std::string& metric) {
-  std::vector<double> numbers;
-  for (const Drape& drape : drapes) numbers.push_back(drape.number(metric));
-  return numbers;
-}
-
-Prediction summary(const std::vector<Drape>& drapes, const std::string& question) {
-  return together(drape_metrics(drapes, "drape_coefficient_percent"), question, "%",
-                  drapes.front().published());
-}
-
-Prediction folds(const std::vector<Drape>& drapes, const std::string& question) {
-  return together(drape_metrics(drapes, "node_count"), question, "folds",
-                  drapes.front().number("published_node_count"));
+Prediction together(const std::vector<Drape>& drapes, const std::string& metric, const std::string& question,
+                    const std::string& unit) {
+  std::vector<double> values;
+  for (const Drape& drape : drapes) values.push_back(drape.number(metric));
+  const double mean = mean_value(values), half = reach(values.size()) * sample_deviation(values);
+  return {question, unit, mean, drapes.front().number("published_" + metric), mean - half, mean + half};
 }
 
 using DrapesOf = std::vector<std::pair<std::string, std::vector<Drape>>>;
@@ -150,7 +151,7 @@ std::vector<Sample> fabric_samples(const FabricFile& file, int count, unsigned s
   return samples;
 }
 
-std::vector<Prediction> predict_spread(const ValidateFlags& flags, Run& run) {
+void predict_spread(const ValidateFlags& flags, Run& run) {
   DrapesOf all;
   std::set<std::string> keys;
   std::vector<Prediction> predictions;
@@ -170,50 +171,17 @@ std::vector<Prediction> predict_spread(const ValidateFlags& flags, Run& run) {
     run_drapes(drapes, flags, run);
     write_spread(run, all, keys);  // a run that is cut short keeps what it has found
     const std::string with = fabric + " with uncertain numbers in their ranges";
-    const Prediction p = summary(drapes, "drape of " + with), n = folds(drapes, "folds of " + with);
+    const Prediction p = together(drapes, "drape_coefficient_percent", "drape of " + with, "%"),
+                     n = together(drapes, "node_count", "folds of " + with, "folds");
     run.metric(fabric + ".spread_low_percent", p.low);
     run.metric(fabric + ".spread_high_percent", p.high);
     run.metric(fabric + ".spread_has_measured", p.contains_measured());
     run.metric(fabric + ".spread_folds_low", n.low);
     run.metric(fabric + ".spread_folds_high", n.high);
     predictions.insert(predictions.end(), {p, n});
+    write_predictions(run, predictions);
   }
   if (!flags.options.no_images) draw_spread(run, all);
-  return predictions;
-}
-
-std::vector<Prediction> predict_draws(const ValidateFlags& flags, Run& run) {
-  Table table(
-      "fabric,law,release,meshes,mean drape coefficient [%],standard deviation [%],mean nodes,published "
-      "drape coefficient [%],published nodes");
-  std::vector<Prediction> predictions;
-  std::vector<Drape> all;
-  for (const std::string& fabric : split(flags.fabrics))
-    for (const std::string& law : split(flags.laws)) {
-      std::vector<Drape> drapes;
-      for (int draw = 1; draw <= flags.draws; ++draw) {
-        Drape drape = nominal_drape(fabric, flags);
-        drape.law = law;
-        drape.varied = "draw-" + std::to_string(draw);
-        drape.further = {{"seed", std::to_string(draw)}, {"no-images", "true"}};
-        drapes.push_back(std::move(drape));
-      }
-      run_drapes(drapes, flags, run);
-      const std::string key = fabric + "-" + law;
-      const std::string what = fabric + ", " + law + ", " + drapes.front().release + ", on several meshes";
-      const Prediction p = summary(drapes, "drape of " + what), n = folds(drapes, "folds of " + what);
-      const double spread = sample_deviation(drape_metrics(drapes, "drape_coefficient_percent"));
-      table.row({fabric, law, drapes.front().release, flags.draws, p.predicted, spread, n.predicted,
-                 p.measured, n.measured});
-      run.metric(key + ".drape_coefficient_percent_mean", p.predicted);
-      run.metric(key + ".drape_coefficient_percent_spread", spread);
-      run.metric(key + ".node_count_mean", n.predicted);
-      predictions.insert(predictions.end(), {p, n});
-      all.insert(all.end(), drapes.begin(), drapes.end());
-    }
-  table.write(run.path("draws.csv"));
-  compare_folds(run, counted(all), !flags.options.no_images);
-  return predictions;
 }
 
 }  // namespace hysteron::experiments

@@ -1,12 +1,12 @@
-// How much of a drape is known: with the fabric's uncertain numbers anywhere in their ranges, and on several
-// meshes.
+// How much of a drape is known, with the fabric's uncertain numbers anywhere in their ranges.
 #pragma once
 
 #include <map>
 #include <string>
 #include <vector>
 
-#include "experiments/validate/predictions.h"
+#include "experiments/validate/validate.h"
+#include "experiments/workbench/app/run.h"
 #include "sim/scene/fabric_reader.h"
 
 namespace hysteron::experiments {
@@ -31,11 +31,8 @@ double sample_deviation(const std::vector<double>& values);
 // As a drape is told of it, with all bits.
 std::vector<Flag> drape_flags(const Sample& sample);
 
-// The first law, on the fabric's tester, for each fabric with `samples` draws of its uncertain numbers, each
-// on another mesh: spread.csv, plot_spread.
-std::vector<Prediction> predict_spread(const ValidateFlags& flags, Run& run);
-
-// Every law for each fabric, on its tester, on `draws` meshes: draws.csv.
-std::vector<Prediction> predict_draws(const ValidateFlags& flags, Run& run);
+// Each fabric on its tester with `samples` draws of its uncertain numbers, each on another mesh: spread.csv,
+// plot_spread, and beside what was measured predictions.csv.
+void predict_spread(const ValidateFlags& flags, Run& run);
 
 }  // namespace hysteron::experiments

@@ -8,16 +8,15 @@
 namespace hysteron::experiments {
 
 struct ValidateFlags {
-  std::string parts = "pairs,drapes,lengths,spread,draws";
+  std::string parts = "spread";
   std::string fabrics = "cotton-broad,wool-tropical,polyester-tropical,polyester-faille";
-  std::string laws = "prandtl,linear", device = "cpu";
+  std::string law = "prandtl", device = "cpu";
   std::string standard = "published";  // whose apparatus drapes are made on
-  std::string loops;                   // folder of a `fit --fab`; empty: none
   std::string recorded = "results";    // folder of results that are drawn
   double triangles = 6000, step = 1.0 / 120, tolerance = 1e-5;
   double seconds = 0;  // longest of a drape; 0: as the drape has it
   int samples = 8;     // of each fabric's uncertain numbers
-  int draws = 3;       // meshes for the statistics of a drape
+  int draws = 3;       // meshes for the mean of a drape in a budget
   unsigned seed = 1;   // of the samples
   Options options;
 };

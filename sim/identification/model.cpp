@@ -1,8 +1,11 @@
 #include "sim/identification/model.h"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
+#include "sim/base/error.h"
+#include "sim/identification/identification.h"
 #include "sim/identification/least_squares.h"
 
 namespace hysteron {
@@ -11,41 +14,82 @@ namespace {
 constexpr int kScanned = 36;                       // k0 a factor of 1.26 apart,
 constexpr double kScanLow = 1e-2, kScanHigh = 30;  // over the largest curvature
 constexpr double kLargestRigidity = 1e4;
-constexpr double kWide = 100;          // of nuisance: no bound
-constexpr double kFarthestFactor = 9;  // logarithm
+constexpr double kWide = 100;               // of nuisance: no bound
+constexpr double kFarthestFactor = 9;       // logarithm
+constexpr double kSmallestRigidity = 1e-6;  // over the measurement's slope: no logarithm of zero
+constexpr double kUsualK0 = 50;             // [1/m]
+constexpr double kSameModel = 1e-8;         // of the largest moment: the law is linear in b2 and g
+
+// Least squares whose first two coefficients are >= 0, by trying which of them is zero.
+Eigen::VectorXd nonnegative_solution(const Eigen::MatrixXd& columns, const Eigen::VectorXd& values) {
+  Eigen::VectorXd best = Eigen::VectorXd::Zero(columns.cols());
+  double least = INFINITY;
+  for (const auto& [first, second] : {std::pair{1, 1}, {1, 0}, {0, 1}}) {
+    Eigen::MatrixXd used = columns;
+    used.col(0) *= first;
+    used.col(1) *= second;
+    Eigen::VectorXd solution = used.completeOrthogonalDecomposition().solve(values);
+    solution[0] *= first;
+    solution[1] *= second;
+    const double sum = (columns * solution - values).squaredNorm();
+    if (solution[0] < 0 || solution[1] < 0 || sum >= least) continue;
+    best = solution;
+    least = sum;
+  }
+  return best;
+}
 
 }  // namespace
 
-Eigen::VectorXd CurveModel::parameters(const CurvePoint& point) const {
-  Eigen::VectorXd result(3 + point.nuisance.size());
-  result[0] = std::log(point.b2 / slope_);
-  result[1] = std::log(point.g / slope_);
-  result[2] = std::log(point.k0 / curvature_);
-  result.tail(point.nuisance.size()) = point.nuisance;
-  return result;
+MomentModel::MomentModel(const MomentSeries& series, const LawRequest& law, bool offset, bool cycling)
+    : law_(law),
+      rows_(law_rows(series, cycling)),
+      moment_(Eigen::Map<const Eigen::VectorXd>(series.moment.data(), series.rows())),
+      offset_(offset),
+      largest_(series.largest_moment()),
+      curvature_(series.largest_curvature()),
+      slope_(largest_ / curvature_) {
+  LawRequest request = law_;  // an unknown law or parameter is told here, and is no matter of the numbers
+  request.curve = {slope_, slope_ / 2, std::min(kUsualK0, curvature_)};
+  run_law(request, {LawRow{}});
 }
 
-CurvePoint CurveModel::point(const Eigen::VectorXd& parameters) const {
-  return {std::exp(parameters[0]) * slope_, std::exp(parameters[1]) * slope_,
-          std::exp(parameters[2]) * curvature_, parameters.tail(parameters.size() - 3), 0};
+Eigen::VectorXd MomentModel::moments(const CurvePoint& point) const {
+  LawRequest request = law_;
+  request.curve = point.curve();
+  std::vector<double> all(rows_.size(), kNone);
+  try {
+    all = run_law(request, rows_).moment;
+  } catch (const Error&) {
+    // The law has bounds on its numbers: there it describes nothing.
+  }
+  const Eigen::Map<const Eigen::VectorXd> moments(all.data(), static_cast<int>(all.size()));
+  return moments.tail(moment_.size()).array() + (offset_ ? point.nuisance[0] * largest_ : 0);
 }
 
-Eigen::VectorXd CurveModel::low(int size) const {
-  Eigen::VectorXd result = Eigen::VectorXd::Constant(size, -kWide);
-  result[0] = result[1] = std::log(kSmallestRigidity);
-  result[2] = std::log(kScanLow / 2);
-  return result;
+Eigen::VectorXd MomentModel::residuals(const CurvePoint& point) const {
+  return (moments(point) - moment_) / largest_;
 }
 
-Eigen::VectorXd CurveModel::high(int size) const {
-  Eigen::VectorXd result = Eigen::VectorXd::Constant(size, kWide);
-  result[0] = result[1] = std::log(kLargestRigidity);
-  result[2] = std::log(kScanHigh * 2);
-  return result;
+CurvePoint MomentModel::best_at(double k0, int& iterations) const {
+  const Eigen::VectorXd zero = no_offset(), elastic = moments({slope_, 0, k0, zero, 0});
+  Eigen::MatrixXd columns(moment_.size(), offset_ ? 3 : 2);
+  columns.col(0) = elastic / largest_;
+  columns.col(1) = (moments({slope_, slope_, k0, zero, 0}) - elastic) / largest_;
+  if (offset_) columns.col(2).setOnes();
+  if (!columns.allFinite()) return {slope_, slope_, k0, zero, INFINITY};
+  Eigen::VectorXd best = nonnegative_solution(columns, moment_ / largest_);
+  best.head<2>() = best.head<2>().cwiseMax(kSmallestRigidity);
+  CurvePoint point{best[0] * slope_, best[1] * slope_, k0, best.tail(best.size() - 2), 0};
+  point.sum = residuals(point).squaredNorm();
+  const double foreseen = (columns * best - moment_ / largest_).squaredNorm();
+  if (std::abs(point.sum - foreseen) <= kSameModel * static_cast<double>(moment_.size())) return point;
+  const CurvePoint other = searched_at(k0, iterations);
+  return other.sum < point.sum ? other : point;
 }
 
-CurvePoint CurveModel::best_at(double k0, int& iterations) const {
-  const CurvePoint begin = start();
+CurvePoint MomentModel::searched_at(double k0, int& iterations) const {
+  const CurvePoint begin{slope_ / 2, slope_ / 2, k0, no_offset(), 0};
   const auto numbers = [&](const Eigen::VectorXd& factor) {
     return CurvePoint{begin.b2 * factor[0], begin.g * factor[1], k0, {}, 0};
   };
@@ -54,7 +98,35 @@ CurvePoint CurveModel::best_at(double k0, int& iterations) const {
   return tied.best;
 }
 
-std::vector<CurvePoint> CurveModel::scan(int& iterations) const {
+Eigen::VectorXd MomentModel::parameters(const CurvePoint& point) const {
+  Eigen::VectorXd result(3 + point.nuisance.size());
+  result[0] = std::log(point.b2 / slope_);
+  result[1] = std::log(point.g / slope_);
+  result[2] = std::log(point.k0 / curvature_);
+  result.tail(point.nuisance.size()) = point.nuisance;
+  return result;
+}
+
+CurvePoint MomentModel::point(const Eigen::VectorXd& parameters) const {
+  return {std::exp(parameters[0]) * slope_, std::exp(parameters[1]) * slope_,
+          std::exp(parameters[2]) * curvature_, parameters.tail(parameters.size() - 3), 0};
+}
+
+Eigen::VectorXd MomentModel::low(int size) const {
+  Eigen::VectorXd result = Eigen::VectorXd::Constant(size, -kWide);
+  result[0] = result[1] = std::log(kSmallestRigidity);
+  result[2] = std::log(kScanLow / 2);
+  return result;
+}
+
+Eigen::VectorXd MomentModel::high(int size) const {
+  Eigen::VectorXd result = Eigen::VectorXd::Constant(size, kWide);
+  result[0] = result[1] = std::log(kLargestRigidity);
+  result[2] = std::log(kScanHigh * 2);
+  return result;
+}
+
+std::vector<CurvePoint> MomentModel::scan(int& iterations) const {
   std::vector<CurvePoint> points;
   for (int i = 0; i < kScanned; ++i) {
     const double fraction = static_cast<double>(i) / (kScanned - 1);
@@ -63,7 +135,7 @@ std::vector<CurvePoint> CurveModel::scan(int& iterations) const {
   return points;
 }
 
-Tied fit_tied(const CurveModel& model, const FromFactors& numbers, int factors, const CurvePoint& start) {
+Tied fit_tied(const MomentModel& model, const FromFactors& numbers, int factors, const CurvePoint& start) {
   const int others = static_cast<int>(start.nuisance.size());
   const auto point = [&](const Eigen::VectorXd& p) {
     CurvePoint result = numbers(p.head(factors).array().exp());

@@ -1,36 +1,39 @@
-// What is measured as a function of a fabric's three numbers, and its least squares.
+// A measured series of moments as a function of a fabric's three numbers, and its least squares.
 #pragma once
 
 #include <Eigen/Core>
 #include <functional>
 #include <vector>
 
-#include "sim/bending/laws/law.h"
+#include "sim/identification/series.h"
 
 namespace hysteron {
 
-// b2, g = b1 - b2, k0, and what else a measurement leaves open (the instrument's zero, the place of a strip).
+// b2, g = b1 - b2, k0, and the instrument's zero where it is sought, too.
 struct CurvePoint {
   double b2 = 0, g = 0;      // [N m], >= 0
   double k0 = 0;             // [1/m]
-  Eigen::VectorXd nuisance;  // of order one
+  Eigen::VectorXd nuisance;  // none, or the zero over the largest moment
   double sum = 0;            // of squared residuals
 
   VirginCurve curve() const { return {b2 + g, b2, k0}; }
 };
 
-class CurveModel {
+// A law's moments along a measured series.
+class MomentModel {
  public:
-  // Scales of the measurement: largest curvature [1/m], moment over curvature [N m].
-  CurveModel(double curvature, double slope) : curvature_(curvature), slope_(slope) {}
-  virtual ~CurveModel() = default;
+  // `law`: its curve is ignored.  `offset`: the instrument's zero is sought.  `cycling`: as law_rows().
+  // Throws Error::invalid_input as run_law() does.
+  MomentModel(const MomentSeries& series, const LawRequest& law, bool offset, bool cycling);
 
-  // Model minus measurement, scaled so that kBestAccuracy is what no measurement undercuts.
-  virtual Eigen::VectorXd residuals(const CurvePoint& point) const = 0;
-  // Where to begin: any b2, g and nuisance that are not absurd.
-  virtual CurvePoint start() const = 0;
-  // Best b2, g and nuisance at one k0.
-  virtual CurvePoint best_at(double k0, int& iterations) const;
+  // Moments of the law at the series' rows [N], the offset added; not a number where the law does not take
+  // the numbers.
+  Eigen::VectorXd moments(const CurvePoint& point) const;
+  // Model minus measurement over the largest moment.
+  Eigen::VectorXd residuals(const CurvePoint& point) const;
+  // Best b2, g and nuisance at one k0.  Solved at once for laws whose moment is linear in b2 and g: all whose
+  // friction is a fixed shape.
+  CurvePoint best_at(double k0, int& iterations) const;
 
   // Parameters of the whole fit: logarithms of b2, g, k0 over their scales, then the nuisance.
   Eigen::VectorXd parameters(const CurvePoint& point) const;
@@ -43,8 +46,17 @@ class CurveModel {
 
   double largest_curvature() const { return curvature_; }
 
- protected:
-  double curvature_, slope_;
+ private:
+  Eigen::VectorXd no_offset() const { return Eigen::VectorXd::Zero(offset_ ? 1 : 0); }
+  // The same by iterations, from an elastic and a frictional part of half the slope each.
+  CurvePoint searched_at(double k0, int& iterations) const;
+
+  LawRequest law_;
+  std::vector<LawRow> rows_;
+  Eigen::VectorXd moment_;  // measured [N]
+  bool offset_;
+  double largest_;            // moment [N]
+  double curvature_, slope_;  // scales: largest curvature [1/m], moment over curvature [N m]
 };
 
 // A fit in which the three numbers follow from fewer factors, and the nuisance is free.
@@ -57,8 +69,6 @@ struct Tied {
 // The numbers (not the nuisance) at factors on a starting point, all 1 there.
 using FromFactors = std::function<CurvePoint(const Eigen::VectorXd&)>;
 
-Tied fit_tied(const CurveModel& model, const FromFactors& numbers, int factors, const CurvePoint& start);
-
-inline constexpr double kSmallestRigidity = 1e-6;  // over the measurement's slope: no logarithm of zero
+Tied fit_tied(const MomentModel& model, const FromFactors& numbers, int factors, const CurvePoint& start);
 
 }  // namespace hysteron

@@ -79,7 +79,7 @@ void assume(Estimate& estimate, double value, const std::string& source) {
 }
 
 // b2 and k0 are open, the slope and the bend of the curve (b1 and c1) are not: b2 = ratio b1.
-bool assume_ratio(const CurveModel& model, const Assumptions& assumptions, Solution& solution,
+bool assume_ratio(const MomentModel& model, const Assumptions& assumptions, Solution& solution,
                   Identification& result) {
   const CurvePoint& best = solution.best;
   const double ratio = assumptions.ratio, b1 = best.b2 + best.g;
@@ -108,7 +108,7 @@ bool assume_ratio(const CurveModel& model, const Assumptions& assumptions, Solut
 }
 
 // b2 is fixed and the way to it is not: k0 as for fabrics from KES.
-bool assume_k0(const CurveModel& model, const Assumptions& assumptions, Solution& solution,
+bool assume_k0(const MomentModel& model, const Assumptions& assumptions, Solution& solution,
                Identification& result) {
   const CurvePoint start = model.best_at(assumptions.k0, result.iterations);
   const auto numbers = [&](const Eigen::VectorXd& factor) {
@@ -139,7 +139,7 @@ bool assume_k0(const CurveModel& model, const Assumptions& assumptions, Solution
 }
 
 // No bend and no loop beyond the noise: b1 is the slope, and nothing is seen of what comes beyond.
-bool is_straight(const CurveModel& model, const Assumptions& assumptions, Solution& solution,
+bool is_straight(const MomentModel& model, const Assumptions& assumptions, Solution& solution,
                  Identification& result) {
   const double b1 = solution.best.b2 + solution.best.g;
   const auto numbers = [&](const Eigen::VectorXd& factor) {
@@ -181,7 +181,7 @@ double Solution::rise_with_offset() const {
   return std::pow(beside.dot(residuals), 2) / (beside.squaredNorm() * std::max(variance, 1e-300));
 }
 
-Solution solve(const CurveModel& model) {
+Solution solve(const MomentModel& model) {
   Solution solution;
   const std::vector<CurvePoint> scan = model.scan(solution.iterations);
   const CurvePoint start = *std::min_element(
@@ -206,7 +206,7 @@ Solution solve(const CurveModel& model) {
   return solution;
 }
 
-void identify(const CurveModel& model, const Assumptions& assumptions, const std::string& source,
+void identify(const MomentModel& model, const Assumptions& assumptions, const std::string& source,
               Solution& solution, Identification& result) {
   take(solution, source, result);
   if (!result.k0.determined && is_straight(model, assumptions, solution, result)) return;

@@ -1,4 +1,4 @@
-// b1, b2 and k0 of any measurement, what it leaves open, and what is assumed then.
+// b1, b2 and k0 of a measured series, what it leaves open, and what is assumed then.
 #pragma once
 
 #include "sim/identification/identification.h"
@@ -17,9 +17,9 @@ struct Interval {
 struct Solution {
   CurvePoint best;
   CurvePoint used;        // best, or best under an assumption
-  Covariance covariance;  // of CurveModel::parameters() at the best
+  Covariance covariance;  // of MomentModel::parameters() at the best
   Eigen::VectorXd residuals;
-  Eigen::MatrixXd jacobian;  // by CurveModel::parameters()
+  Eigen::MatrixXd jacobian;  // by MomentModel::parameters()
   int iterations = 0;
   Interval b1, b2, k0;     // what the scan allows (95 %)
   bool k0_open = false;    // up to its end
@@ -34,13 +34,13 @@ struct Solution {
 
 // Least squares: a scan over k0 (on which alone the shape depends, so that it finds the best valley and shows
 // which k0 the data exclude), then all parameters together.
-Solution solve(const CurveModel& model);
+Solution solve(const MomentModel& model);
 
 // Numbers with standard errors into `result`.  A number is undetermined if the scan's interval or the
 // standard error's (from the singular values of the scaled Jacobian) is wider than kWidestFactor; where an
 // assumption then describes the data as well, it is taken, and Solution::used with it. `source` is noted for
 // what is fitted.
-void identify(const CurveModel& model, const Assumptions& assumptions, const std::string& source,
+void identify(const MomentModel& model, const Assumptions& assumptions, const std::string& source,
               Solution& solution, Identification& result);
 
 }  // namespace hysteron

@@ -112,14 +112,6 @@ TEST_F(Fit, ComparesLawsOnTheSameDataTheBestFirst) {
       read_csv(out() / "fit.csv", {"curvature [1/m]", "model_prandtl [N]", "residual_linear [N]"}, {}, "t"));
 }
 
-TEST_F(Fit, OfFrictionElementsListsThemWithTheIterationsItTook) {
-  ASSERT_EQ(fit({{"loop", loop("prandtl", {250, -250, 250})}, {"stops", "2"}}), 0);
-  const Table stops = read_csv(out() / "stops.csv", {"threshold [1/m]", "stiffness [N m]"}, {}, "test");
-  EXPECT_EQ(stops.rows.size(), 2u);
-  EXPECT_GT(metrics().at("iterations").get<int>(), 0);
-  EXPECT_TRUE(metrics().at("stop1_threshold_per_m_stderr").is_number());
-}
-
 TEST_F(Fit, RefusesRequestsThatMakeNoSense) {
   const std::string file = loop("prandtl", {250, -250, 250});
   const auto says = [&](const std::vector<Flag>& flags, const char* part) {
@@ -131,10 +123,7 @@ TEST_F(Fit, RefusesRequestsThatMakeNoSense) {
   says({{"kes.b", "1e-5"}}, "needs both --kes.b and --kes.2hb");
   says({{"virgin.b1", "1e-5"}}, "needs both --virgin.b1 and --virgin.c1");
   says({{"kes.b", "1e-5"}, {"kes.2hb", "1e-3"}, {"law", "wong"}}, "go with --loop");
-  says({{"profile", "p.csv"}}, "needs --fabric.density");
   says({{"loop", file}, {"law", "wongg"}}, "wongg");
-  says({{"loop", file}, {"stops", "99"}}, "stops = 99");
-  says({{"loop", file}, {"stops", "0"}}, "stops = 0 must be in [1, ");
   says({{"kes.b", "0"}, {"kes.2hb", "1e-3"}}, "must be > 0");
 }
 

@@ -5,9 +5,11 @@
 
 #include <cmath>
 #include <random>
+#include <utility>
 
 #include "sim/bending/laws/law_run.h"
 #include "sim/reference/kes.h"
+#include "sim/scene/fabric_reader.h"
 
 namespace hysteron {
 namespace {
@@ -48,6 +50,21 @@ TEST(FrictionShape, IsReadByTheTesterAsItWasMade) {
     EXPECT_NEAR(closed.loop_width / (2 * hb), 1, 1e-12);
   }
   EXPECT_GT(made, 40);
+}
+
+// Matsudaira, Masuda, Wada, Yokura 2015, quoted second-hand (assets/fabrics), and the denims A to F of Kumari
+// & Khurana 2016, Table 5: B [gf cm^2/cm], 2HB [gf cm/cm].
+TEST(FrictionShape, GivesTenPublishedPairsBack) {
+  constexpr std::pair<double, double> kPairs[] = {
+      {0.118, 0.124}, {0.067, 0.033}, {0.077, 0.029}, {0.019, 0.007}, {0.172, 0.139},
+      {0.144, 0.142}, {0.227, 0.105}, {0.147, 0.141}, {0.207, 0.214}, {0.148, 0.159}};
+  for (const auto& [printed_b, printed_width] : kPairs) {
+    const double b = printed_b * kGramForceSquareCentimetrePerCentimetre,
+                 width = printed_width * kGramForceCentimetrePerCentimetre;
+    const KesReading reading = read(stops_request(friction_from_kes({b, width}, {17, 2})));
+    EXPECT_NEAR(reading.rigidity / b, 1, 5e-3) << printed_b;
+    EXPECT_NEAR(reading.loop_width / width, 1, 5e-3) << printed_b;
+  }
 }
 
 TEST(FrictionShape, HasHalfOfItsMomentBelowTheMedianAndItsSpread) {
