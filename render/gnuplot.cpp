@@ -62,7 +62,7 @@ std::string output_commands(const char* terminal, int width, int height, const s
 std::string numbers_of_short(const char* name, const Axis& axis) {
   const bool few = axis.high < 5 * axis.low;
   const std::vector<double> digits =
-      few ? std::vector<double>{1, 1.5, 2, 3, 4, 5, 6, 7, 8, 9} : std::vector<double>{1, 2, 5};
+      few ? std::vector<double>{1, 1.5, 2, 3, 4, 5, 6, 8} : std::vector<double>{1, 2, 5};
   std::string ticks;
   for (int power = static_cast<int>(std::floor(std::log10(axis.low))); power <= std::log10(axis.high);
        ++power)
