@@ -1,6 +1,5 @@
 #include "experiments/workbench/app/manifest_file.h"
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "experiments/workbench/app/json_file.h"
@@ -146,11 +145,9 @@ std::string shown_at(const Json& json, const char* key) {
 }
 
 // "fabric.b2" in `keys`; null if there is nothing.
-const Json& at_path(const std::shared_ptr<const Json>& keys, std::string path) {
+const Json& at_path(const std::shared_ptr<const Json>& keys, const std::string& path) {
   static const Json kNothing;
-  std::replace(path.begin(), path.end(), '.', '/');
-  const Json::json_pointer place("/" + path);
-  return keys && keys->contains(place) ? keys->at(place) : kNothing;
+  return keys ? json_at(*keys, path) : kNothing;
 }
 
 std::vector<std::string> texts_at(const Json& json, const char* key) {
