@@ -61,7 +61,7 @@ std::map<std::string, std::string> results_in(const fs::path& out) {
   std::map<std::string, std::string> files;
   for (const auto& entry : fs::recursive_directory_iterator(out)) {
     const std::string name = fs::relative(entry.path(), out).string();
-    if (entry.is_regular_file() && name != "manifest.json" && name != "report.html" && name != "README.md")
+    if (entry.is_regular_file() && name != "manifest.json" && name != "report.html")
       files[name] = file_content(entry.path());
   }
   return files;
