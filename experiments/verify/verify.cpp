@@ -7,7 +7,7 @@
 #include <set>
 
 #include "experiments/verify/repetition.h"
-#include "experiments/workbench/app/exit_codes.h"
+#include "experiments/workbench/app/ending.h"
 #include "experiments/workbench/app/manifest_file.h"
 #include "experiments/workbench/app/recorded_command.h"
 #include "experiments/workbench/app/run.h"
@@ -124,8 +124,7 @@ struct RepeatedRun {
   double seconds = 0;
 };
 
-Line compared(const RepeatedRun& run, const ChildRun& now, const VerifyChoice& choice,
-              const Limits& limits) {
+Line compared(const RepeatedRun& run, const ChildRun& now, const VerifyChoice& choice, const Limits& limits) {
   if (!now.stopped.empty()) return {Outcome::failed, "could not be repeated: " + now.stopped};
   const Manifest& before = run.recorded.manifest;
   Repetition repetition = compare_runs(before, now.manifest.value(), limits, choice.exact);
@@ -199,9 +198,8 @@ int run_verify(const CommandLine& line) {
     run_columns(
         columns, {.threads = choice.threads, .gpu = choice.device != "cpu", .tolerates_failures = true},
         [&](const ChildRun& column) {
-          RepeatedRun& run = *std::find_if(runs.begin(), runs.end(), [&](const RepeatedRun& other) {
-            return other.name == column.name;
-          });
+          RepeatedRun& run = *std::find_if(
+              runs.begin(), runs.end(), [&](const RepeatedRun& other) { return other.name == column.name; });
           run.said = compared(run, column, choice, limits);
           run.seconds = column.seconds;
           say();

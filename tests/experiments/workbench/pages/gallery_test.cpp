@@ -6,7 +6,6 @@
 
 #include "experiments/workbench/app/manifest_file.h"
 #include "experiments/workbench/app/run.h"
-#include "experiments/workbench/pages/check.h"
 #include "experiments/workbench/pages/gallery_about.h"
 #include "experiments/workbench/pages/gallery_folders.h"
 #include "experiments/workbench/pages/report.h"
