@@ -5,7 +5,7 @@
 #   experiments/figures.sh drape crease     only these: laws crumple swing drape crease fold
 #   experiments/figures.sh --out DIR ...    other options, KEY=VALUE in one word, go to every run (--device=cuda,
 #                                           --fabric=wool-tropical)
-# Each figure is a PNG, plots an SVG as well; captions stand in README.md beside them and on the page.
+# Each figure is a PNG, plots an SVG as well; captions of the laws stand in README.md beside them and on the page.
 set -euo pipefail
 source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/setup.sh"
 

@@ -5,7 +5,6 @@
 
 #include "experiments/workbench/app/command_line.h"
 #include "experiments/workbench/app/ending.h"
-#include "experiments/workbench/app/exit_codes.h"
 #include "experiments/workbench/app/gpu_choice.h"
 #include "experiments/workbench/app/run.h"
 #include "experiments/workbench/pages/closing_summary.h"

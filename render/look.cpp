@@ -13,6 +13,13 @@ void shade_backdrop(Look& look) { look.backdrop_top = look.backdrop_bottom = {22
 
 }  // namespace
 
+const std::vector<std::string>& look_names() {
+  static const std::vector<std::string> kNames = {"cloth",     "grid",       "clay",     "curvature",
+                                                  "residual",  "difference", "friction", "height",
+                                                  "wireframe", "silhouette"};
+  return kNames;
+}
+
 Look look_named(std::string_view name) {
   Look look;
   look.backdrop_top = look.backdrop_bottom = {255, 255, 255};
@@ -27,10 +34,10 @@ Look look_named(std::string_view name) {
     look.show = Show::wireframe;
     look.front = {206, 214, 224};
     look.back = {216, 210, 204};
-  } else if (name == "curvature") {
+  } else if (name == "curvature" || name == "residual" || name == "difference") {
     look.show = Show::curvature;
     shade_backdrop(look);
-  } else if (name == "friction") {
+  } else if (name == "friction" || name == "height") {
     look.show = Show::friction;
     look.map = ColorMap::sequential;
     look.value_low = 0;
@@ -39,20 +46,11 @@ Look look_named(std::string_view name) {
     look.show = Show::silhouette;
     look.backdrop_top = look.backdrop_bottom = {255, 255, 255};
   } else {
-    throw Error::invalid_input(
-        "look = \"" + std::string(name) +
-        "\" is unknown; allowed: cloth, grid, clay, curvature, friction, wireframe, silhouette");
+    std::string all;
+    for (const std::string& known : look_names()) all += (all.empty() ? "" : ", ") + known;
+    throw Error::invalid_input("look = \"" + std::string(name) + "\" is unknown; allowed: " + all);
   }
   return look;
-}
-
-Weave weave_named(std::string_view name) {
-  if (name == "plain") return Weave::plain;
-  if (name == "twill") return Weave::twill;
-  if (name == "satin") return Weave::satin;
-  if (name == "knit") return Weave::knit;
-  throw Error::invalid_input("weave = \"" + std::string(name) +
-                             "\" is unknown; allowed: plain, twill, satin, knit");
 }
 
 Background background_named(std::string_view name) {

@@ -3,8 +3,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <optional>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "render/color_map.h"
 #include "render/image.h"
@@ -31,6 +34,7 @@ enum class Weave {
   satin,  // warp over four, under one
   knit,   // wales of loops along the warp
 };
+constexpr std::array<const char*, 4> names(Weave) { return {"plain", "twill", "satin", "knit"}; }
 
 struct Look {
   Show show = Show::cloth;
@@ -60,12 +64,11 @@ struct Look {
   float obstacle_inset = 0.8e-3f;
 };
 
-// "cloth", "grid" (with a printed grid of 1 cm), "clay" (smooth and grey: shape alone), "curvature",
-// "friction", "wireframe" or "silhouette" with the colour map and colours that suit it; Error::invalid_input
-// for anything else.
+// All that there are; "grid" is the cloth with a printed grid of 1 cm, "clay" is smooth and grey: shape
+// alone.
+const std::vector<std::string>& look_names();
+// One of these with the colour map and colours that suit it; Error::invalid_input for anything else.
 Look look_named(std::string_view name);
-// "plain", "twill", "satin" or "knit"; Error::invalid_input for anything else.
-Weave weave_named(std::string_view name);
 // "studio", "white" or "transparent"; Error::invalid_input for anything else.
 Background background_named(std::string_view name);
 

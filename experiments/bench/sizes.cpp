@@ -7,7 +7,7 @@
 #include <map>
 
 #include "experiments/bench/step_profile.h"
-#include "experiments/workbench/pages/simulated_run.h"
+#include "experiments/workbench/pages/captions.h"
 #include "render/color_map.h"
 #include "render/plot.h"
 #include "sim/base/error.h"

@@ -12,7 +12,6 @@
 #include "experiments/compare/tuning.h"
 #include "experiments/workbench/app/command_line.h"
 #include "experiments/workbench/compare/comparison.h"
-#include "experiments/workbench/compare/comparison_captions.h"
 #include "experiments/workbench/compare/comparison_page.h"
 #include "experiments/workbench/pages/report.h"
 #include "experiments/workbench/pictures/kept_geometry.h"
@@ -81,7 +80,7 @@ std::vector<std::string> comparison_notes(const CompareChoice& choice, const Pla
 void claim_files(Run& run, bool with_images) {
   for (const char* name : {"table.csv", "report.html"}) run.path(name);
   if (!with_images) return;
-  for (const char* name : {"sheet.png", "README.md", kKeptSheet}) run.path(name);
+  for (const char* name : {"sheet.png", kKeptSheet}) run.path(name);
 }
 
 std::vector<KeyDescription> own_keys() {
@@ -125,7 +124,6 @@ void draw_page(Run& run, const CommandLine& line, const std::string& experiment,
   const auto stage = run.stage("render");
   draw_comparison_page(run, page, plan.columns);
   plot_comparison(run, page, plan.columns);
-  write_comparison_captions(run, page, experiment, line.command, plan.columns);
 }
 
 int run_compare(const CommandLine& line) {

@@ -8,7 +8,6 @@
 
 #include "experiments/workbench/app/scene_source.h"
 #include "experiments/workbench/compare/matching.h"
-#include "experiments/workbench/compare/shared_framing.h"
 #include "experiments/workbench/session/session.h"
 #include "sim/base/error.h"
 

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/diff/diff.h"
-#include "experiments/workbench/app/exit_codes.h"
+#include "experiments/workbench/app/ending.h"
 #include "experiments/workbench/app/experiment.h"
 #include "experiments/workbench/pages/junit.h"
 #include "sim/base/csv.h"

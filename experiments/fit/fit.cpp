@@ -242,10 +242,7 @@ int run_fit(const CommandLine& line) {
   FitFlags flags;
   flags.options.out = "out/" + line.experiment;
   const Keys keys = bind_flags(flags);
-  for (const Flag& flag : line.flags) {
-    const BoundKey& key = find_key(keys, flag.path, "--" + flag.path);
-    assign(key, parse_text(key.description, flag.text), "--" + flag.path);
-  }
+  for (const Flag& flag : line.flags) assign_text(keys, flag.path, flag.text, "--" + flag.path);
   if (flags.name.empty())
     throw Error::invalid_input("name = \"\" must be the fabric's (--name)").with_key("name", "");
   if (!flags.fab.file.empty()) {

@@ -12,7 +12,6 @@
 #include "experiments/specimens/clamped_mesh.h"
 #include "experiments/workbench/compare/variant_page.h"
 #include "experiments/workbench/pages/report.h"
-#include "experiments/workbench/pages/simulated_run.h"
 #include "experiments/workbench/session/probes.h"
 #include "sim/base/csv.h"
 #include "sim/base/error.h"
@@ -144,25 +143,6 @@ RunPlan run_plan(const Fold& fold, FlexingMachine& folding) {
   return plan;
 }
 
-// Of the figures over cycles, which both the cloth and the law alone have.
-FigureCaption width_caption(const Scene& scene) {
-  return {
-      "plot_2HB.png", "2HB, " + what(scene),
-      "Width of the material's moment-curvature loop over cycles on a logarithmic scale: what fatigue, or "
-      "slip, leaves of the friction in bending."};
-}
-
-std::vector<FigureCaption> captions_of_cloth(const Scene& scene, const FoldChoice& choice) {
-  const std::string name = what(scene), cycles = std::to_string(choice.cycles);
-  return {
-      {"plot_recovery.png", "Recovery angle over " + cycles + " folds, " + name,
-       "A strip flexed between two clamps (De Mattia, ISO 7854): the angle between its limbs once it is let "
-       "go after a cycle, 180 degrees if it comes back flat; cycles on a logarithmic scale."},
-      width_caption(scene),
-      {"plot_loop.png", "Loops of the crown, " + name,
-       "Moment of the law against the curvature of the strip's most bent place in single cycles."}};
-}
-
 void plot(Session& session, const FlexingMachine& folding) {
   const std::string name = what(session.scene());
   for (const TablePlot& plot : fold_plots(false, name)) draw(session.run(), plot, "");
@@ -180,15 +160,12 @@ void fold_cloth(const CommandLine& line, Request& request) {
   Run& run = session.run();
   run.note("fold", request.keys["fold"]);
   session.reserve({}, {"plot_recovery", "plot_2HB", "plot_loop"});
-  if (!request.setup.options.no_images) run.path("README.md");
   FlexingMachine folding(fold, session);
   session.simulate(run_plan(fold, folding));
   folding.finish();
   note(run, cycle_numbers(folding.reading()));
   if (session.pictures()) plot(session, folding);
   session.finish("Folded " + std::to_string(request.choice.cycles) + " times: " + what(fold.scene));
-  if (session.pictures())
-    write_run_captions(run.folder(), run.manifest(), captions_of_cloth(fold.scene, request.choice));
 }
 
 void write_cycles(Run& run, const std::vector<BendingCycle>& all) {

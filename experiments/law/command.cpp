@@ -51,10 +51,7 @@ void drop_stops_unless_asked_for(const CommandLine& line, LawFlags& flags) {
 int run_law(const CommandLine& line) {
   LawFlags flags;
   const Keys keys = bind(kRows, flags);
-  const auto apply = [&](const Flag& flag) {
-    const BoundKey& key = find_key(keys, flag.path, "--" + flag.path);
-    assign(key, parse_text(key.description, flag.text), "--" + flag.path);
-  };
+  const auto apply = [&](const Flag& flag) { assign_text(keys, flag.path, flag.text, "--" + flag.path); };
   for (const Flag& flag : line.flags) {
     if (flag.path == "fabric") apply(flag);
   }

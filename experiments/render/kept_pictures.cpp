@@ -25,8 +25,7 @@ void apply_flags(const CommandLine& line, Options& options) {
     if (path.starts_with("render.") || path == "fps")
       throw Error::invalid_input(flag.path + " is of mesh files, not of kept geometry (--" + flag.path + ")")
           .with_key(flag.path, flag.text);
-    const BoundKey& key = find_key(keys, path, "--" + flag.path);
-    assign(key, parse_text(key.description, flag.text), "--" + flag.path);
+    assign_text(keys, path, flag.text, "--" + flag.path);
   }
   if (options.out.empty()) options.out = kOut;
 }

@@ -1,7 +1,7 @@
 #include "experiments/report/key_tables.h"
 
 #include "experiments/run/metrics.h"
-#include "experiments/workbench/app/exit_codes.h"
+#include "experiments/workbench/app/ending.h"
 #include "experiments/workbench/app/experiment.h"
 #include "sim/scene/keys.h"
 #include "sim/scene/scene_reader.h"

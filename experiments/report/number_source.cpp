@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "experiments/workbench/app/json_file.h"
-#include "experiments/workbench/pages/simulated_run.h"
+#include "experiments/workbench/pages/gallery_about.h"
 #include "experiments/workbench/pages/text_table.h"
 #include "sim/base/error.h"
 #include "sim/base/number_in.h"

@@ -4,11 +4,10 @@
 #include <iostream>
 
 #include "experiments/report/documentation.h"
-#include "experiments/workbench/app/exit_codes.h"
+#include "experiments/workbench/app/ending.h"
 #include "experiments/workbench/app/experiment.h"
 #include "experiments/workbench/app/manifest_file.h"
 #include "experiments/workbench/app/run_folder.h"
-#include "experiments/workbench/pages/check.h"
 #include "experiments/workbench/pages/gallery.h"
 #include "experiments/workbench/pages/report.h"
 #include "sim/base/atomic_file.h"

@@ -7,7 +7,6 @@
 
 #include "experiments/specimens/clamped_mesh.h"
 #include "experiments/workbench/app/decided_keys.h"
-#include "experiments/workbench/pages/simulated_run.h"
 #include "experiments/workbench/session/probes.h"
 #include "experiments/workbench/session/record.h"
 #include "experiments/workbench/session/session.h"
@@ -51,11 +50,6 @@ constexpr const char* kDecayCaption =
     "the shape that describes it best. Saturated friction in bending makes a line, friction that has not "
     "saturated a "
     "hyperbola, viscosity an exponential.";
-constexpr const char* kDecayLogCaption =
-    "The same on a logarithmic scale, where exponential decay is a straight line, hyperbolic decay becomes "
-    "flatter, "
-    "linear decay steeper, and a plateau is level.";
-
 // turns.csv: a row for each amplitude.
 void write_turns(Run& run, const std::vector<Amplitude>& amplitudes) {
   Record file(run.path("turns.csv"), {"turn", "time [s]", "amplitude [mm]"});
@@ -133,17 +127,6 @@ void plot(Session& session) {
   session.plot("plot_energy", energy);
 }
 
-std::vector<FigureCaption> plot_captions(const Scene& scene) {
-  const std::string what = ", " + scene.fabric.name + ", law " + scene.law;
-  return {
-      {"plot_decay.png", "Amplitude against time" + what, kDecayCaption},
-      {"plot_decay_log.png", "Amplitude against time, logarithmic" + what, kDecayLogCaption},
-      {"plot_tip.png", "Height of the free end" + what,
-       "Over the clamp, against time: a strip held out straight, clamped at one end and let go."},
-      {"plot_energy.png", "Where the energy went" + what,
-       "Kinetic and bending energy, and what friction in bending, viscosity and the integrator have taken."}};
-}
-
 void limit_to_quick(Setup& setup) {
   setup.scene.triangles = std::min(setup.scene.triangles, 300);
   setup.scene.seconds = std::min(setup.scene.seconds, 0.4);
@@ -186,7 +169,6 @@ int run_swing(const CommandLine& line) {
   session.reserve({"turns.csv"}, {"plot_decay", "plot_decay_log", "plot_tip", "plot_energy"});
   const Eigen::Vector2d sides = sheet_sides(setup.scene, session.cloth().mesh);
   const float length = static_cast<float>(sides.x()), width = static_cast<float>(sides.y());
-  if (!setup.options.no_images) session.run().path("README.md");
 
   int tip = 0;
   const auto& rest = session.cloth().mesh.rest;
@@ -230,7 +212,6 @@ int run_swing(const CommandLine& line) {
     plot_decay(session, amplitudes, decay);
   }
   session.finish("Swing: " + setup.scene.fabric.name + ", law " + setup.scene.law);
-  if (session.pictures()) write_run_captions(run.folder(), run.manifest(), plot_captions(setup.scene));
   return 0;
 }
 

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/diff/diff.h"
-#include "experiments/workbench/session/checkpoint.h"
+#include "experiments/workbench/app/json_file.h"
 #include "sim/base/error.h"
 
 namespace hysteron::experiments {

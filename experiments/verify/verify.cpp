@@ -7,7 +7,7 @@
 #include <set>
 
 #include "experiments/verify/repetition.h"
-#include "experiments/workbench/app/exit_codes.h"
+#include "experiments/workbench/app/ending.h"
 #include "experiments/workbench/app/manifest_file.h"
 #include "experiments/workbench/app/recorded_command.h"
 #include "experiments/workbench/app/run.h"
@@ -116,7 +116,7 @@ Outcome verified_outcome(Agreement agreement) {
 }
 
 // A folder's run, and what has come of its repetition.
-struct ErrorRunResult {
+struct RepeatedRun {
   std::string name;
   RecordedRun recorded;
   std::vector<std::string> pictures;
@@ -124,8 +124,7 @@ struct ErrorRunResult {
   double seconds = 0;
 };
 
-Line compared(const ErrorRunResult& run, const ChildRun& now, const VerifyChoice& choice,
-              const Limits& limits) {
+Line compared(const RepeatedRun& run, const ChildRun& now, const VerifyChoice& choice, const Limits& limits) {
   if (!now.stopped.empty()) return {Outcome::failed, "could not be repeated: " + now.stopped};
   const Manifest& before = run.recorded.manifest;
   Repetition repetition = compare_runs(before, now.manifest.value(), limits, choice.exact);
@@ -137,10 +136,10 @@ Line compared(const ErrorRunResult& run, const ChildRun& now, const VerifyChoice
 }
 
 // The runs that are repeated as columns below OUT; of the others it is said why they are not.
-std::vector<ChildRun> repeated_columns(std::vector<ErrorRunResult>& runs, const VerifyChoice& choice,
+std::vector<ChildRun> repeated_columns(std::vector<RepeatedRun>& runs, const VerifyChoice& choice,
                                        const Options& options) {
   std::vector<ChildRun> columns;
-  for (ErrorRunResult& run : runs) {
+  for (RepeatedRun& run : runs) {
     const fs::path folder = run.recorded.file.parent_path();
     if (const std::string why = why_skipped(run.recorded.manifest, folder, choice); !why.empty()) {
       run.said = {Outcome::skipped, "skipped: " + why};
@@ -179,7 +178,7 @@ int run_verify(const CommandLine& line) {
   set_keys(line, bind_verify(choice, options), [&] { choice.at_most = kQuickSeconds; });
   const fs::path root = line.positionals.front();
   const Limits limits = read_limits(choice.limits);
-  std::vector<ErrorRunResult> runs;
+  std::vector<RepeatedRun> runs;
   for (const fs::path& folder : folders_below(root))
     runs.push_back({fs::relative(folder, root).string(), recorded_run(folder.string()), {}});
   int count[5] = {};
@@ -199,9 +198,8 @@ int run_verify(const CommandLine& line) {
     run_columns(
         columns, {.threads = choice.threads, .gpu = choice.device != "cpu", .tolerates_failures = true},
         [&](const ChildRun& column) {
-          ErrorRunResult& run = *std::find_if(runs.begin(), runs.end(), [&](const ErrorRunResult& other) {
-            return other.name == column.name;
-          });
+          RepeatedRun& run = *std::find_if(
+              runs.begin(), runs.end(), [&](const RepeatedRun& other) { return other.name == column.name; });
           run.said = compared(run, column, choice, limits);
           run.seconds = column.seconds;
           say();

@@ -1,23 +1,12 @@
 #include "experiments/workbench/app/decided_keys.h"
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "experiments/workbench/app/manifest.h"
+#include "experiments/workbench/app/json_file.h"
 #include "sim/base/error.h"
 #include "sim/scene/shown_key.h"
 
 namespace hysteron::experiments {
-namespace {
-
-// Of a scene as JSON; null where there is no such key.
-Json value_at(const Json& scene, std::string path) {
-  std::replace(path.begin(), path.end(), '.', '/');
-  const Json::json_pointer place("/" + path);
-  return scene.contains(place) ? scene[place] : Json();
-}
-
-}  // namespace
 
 std::vector<DecidedKey> decided_by(const std::string& experiment) {
   const auto decided = experiment_named(experiment).decided;
@@ -63,8 +52,8 @@ std::vector<std::string> lost_words(const CommandLine& line, const Setup& setup)
       words.push_back("[[" + key.path + "]] (" + place +
                       ") is not used: " + decided_words(line.experiment, key));
     if (!is_given(setup.scene, key.path)) continue;
-    const Json value = value_at(requested, key.path);
-    if (value == value_at(default_values, key.path) || (!key.unused && value == value_at(now, key.path)))
+    const Json& value = json_at(requested, key.path);
+    if (value == json_at(default_values, key.path) || (!key.unused && value == json_at(now, key.path)))
       continue;
     words.push_back(key.path + " = " + value.dump() + " (" + key_origin(setup.scene, key.path) +
                     ") is not used: " + decided_words(line.experiment, key));

@@ -1,10 +1,25 @@
-// How a command line ends, in whatever way.
+// How a command line ends, in whatever way, and what its exit code says.
 #pragma once
 
 #include <functional>
 #include <string>
 
 namespace hysteron::experiments {
+
+inline constexpr int kMachineFailed = 1;
+inline constexpr int kCouldNotGoOn = 3;  // those below it: sim/base/error.h
+inline constexpr int kDiffers = 4;
+
+struct ExitCode {
+  int code;
+  const char* meaning;
+};
+// Those that every subcommand has.
+inline constexpr ExitCode kExitCodes[] = {
+    {0, "done"},
+    {kMachineFailed, "the machine failed (file, disk, GPU, renderer)"},
+    {2, "the request is wrong"},
+    {kCouldNotGoOn, "the run could not go on; what was written so far is kept and marked incomplete"}};
 
 struct Ending {
   int exit_code = 0;

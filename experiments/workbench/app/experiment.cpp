@@ -170,14 +170,17 @@ std::vector<std::string> law_names() {
   return names;
 }
 
+void assign_text(const Keys& keys, const std::string& path, const std::string& text,
+                 const std::string& origin) {
+  const BoundKey& key = find_key(keys, path, origin);
+  assign(key, parse_text(key.description, text), origin);
+}
+
 void set_keys(const CommandLine& line, const Keys& keys, const std::function<void()>& quick) {
   const auto apply = [&] {
-    for (const Flag& flag : line.flags) {
-      if (flag.path == "fabric" || flag.path.starts_with("fabric.")) continue;
-      const std::string origin = "--" + flag.path;
-      const BoundKey& key = find_key(keys, flag.path, origin);
-      assign(key, parse_text(key.description, flag.text), origin);
-    }
+    for (const Flag& flag : line.flags)
+      if (flag.path != "fabric" && !flag.path.starts_with("fabric."))
+        assign_text(keys, flag.path, flag.text, "--" + flag.path);
   };
   apply();
   if (!quick || !*std::get<bool*>(find_key(keys, "quick", "--quick").field)) return;

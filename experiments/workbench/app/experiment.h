@@ -119,6 +119,9 @@ std::vector<KeyDescription> own_key_descriptions() {
   return keys;
 }
 
+// Sets the key of that path from a flag's text.  Throws what find_key and assign throw.
+void assign_text(const Keys& keys, const std::string& path, const std::string& text,
+                 const std::string& origin);
 // For experiments without a scene.  Sets `keys` from the flags, which win over `quick`: what --quick, one of
 // the keys, makes of the struct that they are bound to.  Those of a fabric are left to resolved_fabric().
 // Throws Error::invalid_input.

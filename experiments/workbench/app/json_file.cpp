@@ -1,5 +1,7 @@
 #include "experiments/workbench/app/json_file.h"
 
+#include <algorithm>
+
 #include "sim/base/error.h"
 #include "sim/base/whole_file.h"
 
@@ -34,6 +36,33 @@ Json json_or_none(const std::filesystem::path& file) {
   } catch (const Error&) {
     return Json(Json::value_t::discarded);
   }
+}
+
+const Json& json_at(const Json& json, std::string path) {
+  static const Json kNothing;
+  std::replace(path.begin(), path.end(), '.', '/');
+  const Json::json_pointer place("/" + path);
+  return json.contains(place) ? json.at(place) : kNothing;
+}
+
+std::string differing_keys(const Json& keys, const Json& others) {
+  constexpr int kShown = 6;
+  const auto a = keys.flatten(), b = others.flatten();
+  std::string names;
+  int count = 0;
+  const auto add = [&](const std::string& pointer) {
+    if (pointer.empty()) return;  // an empty object becomes one entry without a name
+    if (++count > kShown) return;
+    std::string path = pointer.substr(1);
+    std::replace(path.begin(), path.end(), '/', '.');
+    names += (names.empty() ? "" : ", ") + path;
+  };
+  for (const auto& [key, value] : a.items())
+    if (!b.contains(key) || b[key] != value) add(key);
+  for (const auto& [key, value] : b.items())
+    if (!a.contains(key)) add(key);
+  if (count > kShown) names += " and " + std::to_string(count - kShown) + " more";
+  return names;
 }
 
 }  // namespace hysteron::experiments

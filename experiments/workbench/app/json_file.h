@@ -16,4 +16,9 @@ Json json_in(const std::string& text, const std::filesystem::path& file, const s
 // Discarded (Json::is_discarded) where read_json would throw.
 Json json_or_none(const std::filesystem::path& file);
 
+// What stands at a path of keys, "fabric.b2"; null where nothing does.
+const Json& json_at(const Json& json, std::string path);
+// "step, fabric.b2": paths whose values differ; at most a few of them, and how many more.
+std::string differing_keys(const Json& keys, const Json& others);
+
 }  // namespace hysteron::experiments

@@ -28,8 +28,6 @@ bool has_manifest(const std::filesystem::path& folder);
 Manifest read_manifest(const std::filesystem::path& file);
 // The same of JSON that is_manifest() and stood in that file.
 Manifest checked_manifest(const Json& json, const std::filesystem::path& file);
-// Whether its keys are of the types that they have.  Throws Error::invalid_input, naming file and key.
-void check_manifest(const Json& manifest, const std::filesystem::path& file);
 // Nothing where there is none, or no JSON; nothing else is checked.
 std::optional<Manifest> manifest_or_none(const std::filesystem::path& file);
 

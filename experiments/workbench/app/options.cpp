@@ -6,6 +6,7 @@
 #include <charconv>
 #include <utility>
 
+#include "render/look.h"
 #include "sim/base/comma_list.h"
 #include "sim/base/error.h"
 
@@ -56,9 +57,6 @@ const KeyRow<Options> kRows[] = {
 constexpr int kSmallestSide = 16;    // [pixels] captions need some room
 constexpr int kLargestSide = 16384;  // [pixels] of textures in OpenGL drivers
 
-const std::vector<std::string> kLooks = {"cloth",      "grid",     "clay",   "curvature", "residual",
-                                         "difference", "friction", "height", "wireframe", "silhouette"};
-
 // {0, 0} if the text is no WIDTHxHEIGHT.
 std::pair<int, int> sides(const std::string& size) {
   int width = 0, height = 0;
@@ -71,9 +69,10 @@ std::pair<int, int> sides(const std::string& size) {
 }
 
 void check_look(const std::string& look) {
-  if (std::find(kLooks.begin(), kLooks.end(), look) != kLooks.end()) return;
-  const std::string nearest = nearest_name(look, kLooks);
-  throw Error::invalid_input("look = " + look + " must be " + join(kLooks, " | ") +
+  const std::vector<std::string>& known = render::look_names();
+  if (std::count(known.begin(), known.end(), look)) return;
+  const std::string nearest = nearest_name(look, known);
+  throw Error::invalid_input("look = " + look + " must be " + join(known, " | ") +
                              (nearest.empty() ? "" : "; did you mean " + nearest + "?") + " (--look)")
       .with_key("look", look);
 }

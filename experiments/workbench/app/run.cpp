@@ -1,6 +1,7 @@
 #include "experiments/workbench/app/run.h"
 
 #include <algorithm>
+#include <cmath>
 #include <ctime>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -46,17 +47,22 @@ constexpr const char* kIsa =
     "others";
 #endif
 
+Manifest this_program() {
+  Manifest manifest;
+  manifest.version = kVersion;
+  manifest.commit = kGitCommit;
+  manifest.isa = kIsa;
+  manifest.dirty = kGitDirty;
+  return manifest;
+}
+
 // What is known at the start.
 Manifest first_entries(const CommandLine& line, const Json& scene) {
   const auto text = [&](const char* key) {
     return scene.contains(key) && scene[key].is_string() ? std::optional(scene[key].get<std::string>())
                                                          : std::nullopt;
   };
-  Manifest manifest;
-  manifest.version = kVersion;
-  manifest.commit = kGitCommit;
-  manifest.isa = kIsa;
-  manifest.dirty = kGitDirty;
+  Manifest manifest = this_program();
   manifest.experiment = line.experiment;
   manifest.command = line.command;
   manifest.spec = RunSpec{line.positionals};
@@ -67,6 +73,18 @@ Manifest first_entries(const CommandLine& line, const Json& scene) {
   manifest.element = text("element");
   manifest.law = text("law");
   if (jobs_together() > 1) manifest.batch = jobs_together();
+  return manifest;
+}
+
+// All that --resume asks a run for that is interrupted as soon as it has begun.
+Manifest first_entries(const CommandLine& line, const Setup& setup) {
+  Manifest manifest = first_entries(line, to_json(setup.scene));
+  manifest.options = setup.resolved;
+  manifest.requested_metrics = setup.requested_metrics;
+  manifest.meshes = mesh_records(setup.scene);
+  if (setup.requested)
+    manifest.requested =
+        std::make_shared<const Json>(requested_patch(*manifest.keys, to_json(*setup.requested)));
   return manifest;
 }
 
@@ -92,27 +110,27 @@ void remember_first(const fs::path& folder, bool json) {
 
 }  // namespace
 
-std::string program_version() {
-  return std::string(kVersion) + " (commit " + kGitCommit + (kGitDirty ? ", modified)" : ")");
+std::string program_version(const Manifest& m) {
+  return m.version + " (commit " + m.commit + (m.dirty ? ", modified)" : ")");
 }
 
+std::string program_version() { return program_version(this_program()); }
+
 Run::Run(const CommandLine& line, const Setup& setup, const std::vector<std::string>& kept)
-    : Run(line, setup.options, to_json(setup.scene), kept) {
-  manifest_.options = setup.resolved;
-  manifest_.requested_metrics = setup.requested_metrics;
-  manifest_.meshes = mesh_records(setup.scene);
+    : Run(first_entries(line, setup), line, setup.options, kept) {
   for (const std::string& change : changed_meshes(setup.recorded_meshes, manifest_.meshes)) warn(change);
-  if (setup.requested)
-    manifest_.requested =
-        std::make_shared<const Json>(requested_patch(*manifest_.keys, to_json(*setup.requested)));
 }
 
 Run::Run(const CommandLine& line, const Options& options, const Json& keys,
          const std::vector<std::string>& kept)
+    : Run(first_entries(line, keys), line, options, kept) {}
+
+Run::Run(Manifest first, const CommandLine& line, const Options& options,
+         const std::vector<std::string>& kept)
     : folder_(options.out.empty() ? "out/" + line.experiment : options.out, line, kept),
       json_(options.json),
       quiet_(options.quiet),
-      manifest_(first_entries(line, keys)) {
+      manifest_(std::move(first)) {
   remember_first(folder(), json_);
   manifest_.files = kept;
   reserve({"report.html"});  // every run ends with it, or `hysteron report` writes it later
@@ -244,6 +262,18 @@ void Run::finish() {
   manifest_ = parsed_manifest(json);
   finished_ = true;
   if (json_) std::cout << text << std::flush;
+}
+
+std::string time_left(long done, long all, double seconds, bool at_most) {
+  constexpr long kFewSteps = 5;  // the first are slower: buffers, threads, shaders
+  if (done < kFewSteps || done >= all) return "";
+  const long left =
+      std::lround(std::ceil(seconds * static_cast<double>(all - done) / static_cast<double>(done)));
+  const long minutes = (left + 30) / 60;
+  std::string text = std::to_string(left) + " s";
+  if (left >= 90) text = std::to_string(minutes) + " min";
+  if (minutes >= 60) text = std::to_string(minutes / 60) + " h " + std::to_string(minutes % 60) + " min";
+  return std::string(at_most ? "  at most " : "  ") + text + " left";
 }
 
 }  // namespace hysteron::experiments

@@ -22,8 +22,9 @@ struct Plot;
 
 namespace hysteron::experiments {
 
-// "0.1.0 (commit 1f3a..., modified)"
+// "0.1.0 (commit 1f3a..., modified)", of this program, and of the one that wrote a manifest.
 std::string program_version();
+std::string program_version(const Manifest& manifest);
 
 // Keeps what a run is and has found, and writes it as OUT/manifest.json: at the start (so that an unwritable
 // folder is known before any simulation), and at the end.  A run that is destroyed without finish(), because
@@ -112,6 +113,7 @@ class Run {
   void finish();
 
  private:
+  Run(Manifest first, const CommandLine& line, const Options& options, const std::vector<std::string>& kept);
   void note_seconds(Manifest& manifest) const;
   // Whether no file of that name or, of a sequence, of its kind is in the manifest on disk; now it is known.
   bool is_new(const std::filesystem::path& name);
@@ -124,5 +126,9 @@ class Run {
       known_;  // files and, by folder and ending, sequences, in the manifest on disk
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
+
+// "  12 s left", "  3 min left", "  1 h 5 min left", by the `seconds` that `done` of `all` steps have taken;
+// "" before a few steps and after the last.  `at_most`: the run may end earlier, at rest.
+std::string time_left(long done, long all, double seconds, bool at_most);
 
 }  // namespace hysteron::experiments

@@ -7,7 +7,7 @@
 #include <set>
 #include <utility>
 
-#include "experiments/workbench/app/exit_codes.h"
+#include "experiments/workbench/app/ending.h"
 #include "experiments/workbench/app/gpu_choice.h"
 #include "experiments/workbench/app/json_file.h"
 #include "experiments/workbench/app/manifest_file.h"

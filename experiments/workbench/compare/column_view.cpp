@@ -68,28 +68,18 @@ std::vector<std::string> head_numbers(const ChildRun& column, const std::vector<
 }  // namespace
 
 const std::vector<ShownNumber>& shown_numbers() {
-  static const std::vector<ShownNumber> kAll = {
-      {"drape_coefficient_percent", "DC",
-       "share of the ring outside the pedestal that the cloth's shadow covers (BS 5058)"},
-      {"node_count", "folds", "folds of the outline"},
-      {"recovery_angle_deg", "", "angle between the limbs after release; 180 degrees is flat"},
-      {"2HB_N", "2HB", "width of the last moment-curvature loop"},
-      {"set_curvature_per_m", "κ", "curvature that is left without moment"},
-      {"decay_shape", "",
-       "how amplitudes fall in time: along a line (saturated friction), along two (friction that saturates "
-       "early and "
-       "what is left below, as of cloth), exponentially (viscosity), hyperbolically (friction whose loops "
-       "grow as A^3), "
-       "or not (plateau: a turn takes less than 1 %)"},
-      {"turns", "turns", "how often the free end turned"},
-      {"decay_step_fraction", "step at",
-       "amplitude at which the second of two lines begins, over the first amplitude"},
-      {"bending_friction_J", "", "energy that friction in bending has taken"},
-      {"residual_curvature_rms_per_m", "κ",
-       "root mean square of the curvature that is left if the cloth is let go"},
-      {"ridge_length_m", "ridges", "length of the ridges, sharper than a threshold, that are left"},
-      {"max_stretch_percent", "stretch", "largest stretch of an edge"},
-  };
+  static const std::vector<ShownNumber> kAll = {{"drape_coefficient_percent", "DC"},
+                                                {"node_count", "folds"},
+                                                {"recovery_angle_deg", ""},
+                                                {"2HB_N", "2HB"},
+                                                {"set_curvature_per_m", "κ"},
+                                                {"decay_shape", ""},
+                                                {"turns", "turns"},
+                                                {"decay_step_fraction", "step at"},
+                                                {"bending_friction_J", ""},
+                                                {"residual_curvature_rms_per_m", "κ"},
+                                                {"ridge_length_m", "ridges"},
+                                                {"max_stretch_percent", "stretch"}};
   return kAll;
 }
 

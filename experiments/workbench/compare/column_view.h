@@ -17,7 +17,6 @@ namespace hysteron::experiments {
 struct ShownNumber {
   const char* metric;
   const char* symbol;  // before the number in a picture's line; "" where the unit says enough
-  const char* meaning;
 };
 const std::vector<ShownNumber>& shown_numbers();
 

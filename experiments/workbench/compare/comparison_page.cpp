@@ -61,7 +61,6 @@ std::vector<double> shown_times(const ComparisonPage& page, const std::vector<Ch
 
 struct InstantText {
   std::string time, phase;
-  std::string text() const { return "t = " + time + (phase.empty() ? "" : ", " + phase); }
 };
 
 // Times of one's own may be milliseconds apart.
@@ -76,9 +75,9 @@ InstantText instant_text(const ComparisonPage& page, const std::vector<ChildRun>
 }
 
 // One sheet of columns; its rows are added one by one.
-class Table {
+class PageTable {
  public:
-  Table(const ComparisonPage& page, const std::vector<ChildRun>& columns)
+  PageTable(const ComparisonPage& page, const std::vector<ChildRun>& columns)
       : page_(page), columns_(columns), loops_(columns) {
     sheet_.columns = column_heads(columns, page.metrics);
     sheet_.scale_note = "at the cloth's middle";
@@ -218,9 +217,9 @@ std::vector<render::ColorBar> look_color_bars(const ComparisonPage& page,
   return bars;
 }
 
-Table columns_table(const ComparisonPage& page, const std::vector<ChildRun>& columns,
-                    const std::vector<double>& times) {
-  Table table(page, columns);
+PageTable columns_table(const ComparisonPage& page, const std::vector<ChildRun>& columns,
+                        const std::vector<double>& times) {
+  PageTable table(page, columns);
   std::vector<Crop> crops;
   for (double time : times) crops.push_back(table.crop_at(time));
   const double onion = std::min(page.onion, times.back());
@@ -261,7 +260,7 @@ std::vector<render::Image> film_strips(const ComparisonPage& page, const std::ve
       for (const Frames::Instant& instant : instants(c)) crop.include(instant);
   std::vector<render::Image> strips;
   for (double time : times) {
-    Table table(page, columns);
+    PageTable table(page, columns);
     table.add_row(time, crop);
     strips.push_back(render::draw_comparison(table.sheet()));
   }
@@ -310,12 +309,6 @@ std::vector<std::vector<int>> shown_frames(const ComparisonPage& page, const std
 }
 
 }  // namespace
-
-std::vector<std::string> shown_instants(const ComparisonPage& page, const std::vector<ChildRun>& columns) {
-  std::vector<std::string> texts;
-  for (double time : shown_times(page, columns)) texts.push_back(instant_text(page, columns, time).text());
-  return texts;
-}
 
 void draw_comparison_page(Run& run, const ComparisonPage& page, const std::vector<ChildRun>& columns) {
   const std::vector<double> times = shown_times(page, columns);

@@ -28,9 +28,6 @@ struct ComparisonPage {
 // asked for.
 void draw_comparison_page(Run& run, const ComparisonPage& page, const std::vector<ChildRun>& columns);
 
-// "t = 0.50 s, hang" of each of the page's rows.
-std::vector<std::string> shown_instants(const ComparisonPage& page, const std::vector<ChildRun>& columns);
-
 // Each of the experiment's own columns of metrics.csv against time, a line a column of the page; the curves
 // that its manifest's `curves` name; and bars of the page's metrics, or of what the experiment is asked for.
 void plot_comparison(Run& run, const ComparisonPage& page, const std::vector<ChildRun>& columns);

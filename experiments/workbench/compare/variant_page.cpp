@@ -3,7 +3,6 @@
 #include "experiments/workbench/compare/column_view.h"
 #include "experiments/workbench/compare/comparison.h"
 #include "experiments/workbench/compare/comparison_page.h"
-#include "experiments/workbench/compare/shared_framing.h"
 #include "experiments/workbench/pages/report.h"
 #include "experiments/workbench/pictures/kept_geometry.h"
 #include "sim/base/error.h"

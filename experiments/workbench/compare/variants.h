@@ -32,4 +32,12 @@ CommandLine with_variant(CommandLine line, const Variant& variant);
 CommandLine without_lists(const CommandLine& line);
 bool lists_fabrics(const CommandLine& line);
 
+// The flag --camera.box of what the cloth of any variant passes through; none where the experiment frames all
+// alike, the line draws no pictures, or says itself what they frame.
+std::vector<Flag> shared_framing(const CommandLine& line, const std::vector<Variant>& variants);
+
+// Flags of columns whose pictures are cells of a page: without letters and, where they show cloth and the
+// line does not say otherwise, on white.
+std::vector<Flag> for_sheets(const CommandLine& line);
+
 }  // namespace hysteron::experiments

@@ -1,13 +1,18 @@
 #include "experiments/workbench/pages/gallery.h"
 
+#include <algorithm>
+#include <optional>
 #include <set>
 #include <thread>
 
 #include "experiments/workbench/app/experiment.h"
+#include "experiments/workbench/app/manifest_file.h"
 #include "experiments/workbench/pages/gallery_about.h"
 #include "experiments/workbench/pages/gallery_exhibit.h"
 #include "experiments/workbench/pages/pictures.h"
+#include "experiments/workbench/pages/report.h"
 #include "sim/base/atomic_file.h"
+#include "sim/base/error.h"
 #include "sim/base/parallel.h"
 #include "sim/base/whole_file.h"
 
@@ -88,6 +93,24 @@ std::vector<std::string> all_html(const std::vector<ExhibitGroup>& groups, PageF
   return html;
 }
 
+std::optional<std::string> page_text(const fs::path& file) {
+  if (!is_there(file)) return std::nullopt;
+  return whole_file(file, "cannot read " + file.string());
+}
+
+// Folders below this one with a report.html, by name.
+std::vector<fs::path> reports_below(const fs::path& folder) {
+  std::vector<fs::path> found;
+  std::error_code failure;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder, failure)) {
+    if (entry.path().filename() == "report.html" && entry.path().parent_path() != folder)
+      found.push_back(entry.path().parent_path());
+  }
+  if (failure) throw Error::system("cannot read the folder " + folder.string() + ": " + failure.message());
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
 }  // namespace
 
 std::string gallery_page(const std::filesystem::path& folder, PageForm form) {
@@ -114,6 +137,21 @@ std::string gallery_page(const std::filesystem::path& folder, PageForm form) {
 std::filesystem::path write_gallery(const std::filesystem::path& folder, PageForm form) {
   write_text(folder / "index.html", gallery_page(folder, form));
   return folder / "index.html";
+}
+
+std::vector<StalePage> stale_pages(const fs::path& folder) {
+  std::vector<StalePage> stale;
+  const auto check = [&](const fs::path& of, const char* name, const std::string& page) {
+    const std::optional<std::string> written = page_text(of / name);
+    if (!written || *written != page) stale.push_back({of / name, of, !written});
+  };
+  if (has_manifest(folder)) {
+    check(folder, "report.html", report_page(folder));
+  } else {
+    check(folder, "index.html", gallery_page(folder));
+  }
+  for (const fs::path& run : reports_below(folder)) check(run, "report.html", report_page(run));
+  return stale;
 }
 
 }  // namespace hysteron::experiments

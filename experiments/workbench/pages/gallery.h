@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "experiments/workbench/pages/page.h"
 
@@ -17,5 +18,17 @@ std::string gallery_page(const std::filesystem::path& folder, PageForm form = Pa
 
 // Writes it as FOLDER/index.html and returns that path.  Throws Error::system if it cannot be written.
 std::filesystem::path write_gallery(const std::filesystem::path& folder, PageForm form = PageForm::linked);
+
+// A page that is missing or stale.
+struct StalePage {
+  std::filesystem::path page;
+  std::filesystem::path folder;  // `hysteron report FOLDER` writes it
+  bool missing = false;
+};
+
+// Makes the page of `folder`, and that of every run below it that has a report.html, again, and compares:
+// linked pages, whose bytes are the same on every machine.
+// Throws what making them throws.
+std::vector<StalePage> stale_pages(const std::filesystem::path& folder);
 
 }  // namespace hysteron::experiments

@@ -43,12 +43,22 @@ std::string counted(std::size_t count, const std::string& thing) {
   return std::to_string(count) + " " + thing + (count == 1 ? "" : "s");
 }
 
+std::string grouped(long count) {
+  std::string text = std::to_string(count);
+  for (int at = static_cast<int>(text.size()) - 3; at > (count < 0); at -= 3) text.insert(at, 1, ',');
+  return text;
+}
+
 std::string seconds_text(double seconds) {
   return seconds < 100 ? fmt::format("{:.3g} s", seconds) : fmt::format("{:.0f} s", seconds);
 }
 
 std::string scene_subject(const Manifest& manifest) {
-  return joined({fabric_names(manifest), named_or_counted(manifest.names("law"), "law")}, ", ");
+  std::vector<std::string> columns = manifest.names("column");
+  if (columns.empty()) columns = manifest.names("variant");
+  return joined({fabric_names(manifest), named_or_counted(manifest.names("law"), "law"),
+                 named_or_counted(columns, "column")},
+                ", ");
 }
 
 std::string about_html(const Manifest& m) {

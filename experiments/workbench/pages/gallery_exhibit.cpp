@@ -29,10 +29,20 @@ std::string stem_words(std::string stem) {
       {"residual", "residual curvature, drawn in colours"},
       {"raking", "in raking light, as wrinkles are photographed"}};
   if (const auto known = kWords.find(stem); known != kWords.end()) return known->second;
-  if (stem.starts_with("plot_")) stem.replace(0, 5, "plot: ");
+  if (stem.starts_with("plot_")) stem = "plot: " + split_unit(stem.substr(5)).text();
   std::replace(stem.begin(), stem.end(), '_', ' ');
   std::replace(stem.begin(), stem.end(), '-', ' ');
   return stem;
+}
+
+// What the run, or one of its columns, says of a plot; "" if nothing.
+std::string curve_caption(const Exhibit& exhibit, const std::string& plot) {
+  if (exhibit.manifest)
+    for (const Curve& curve : exhibit.manifest->curves)
+      if (curve.plot == plot) return ". " + curve.caption;
+  for (const Exhibit& part : exhibit.parts)
+    if (const std::string caption = curve_caption(part, plot); !caption.empty()) return caption;
+  return "";
 }
 
 // Captions that the run wrote into FOLDER/README.md: "![title](NAME.png)", and after it "**title** text".
@@ -98,7 +108,8 @@ std::vector<Picture> exhibit_pictures(const Exhibit& exhibit, const std::string&
     const std::string name = file.filename().string(), written = captions[name];
     std::string caption = written;
     if (written.empty()) {
-      caption = first_upper(prefix + stem_words(file.stem().string()));
+      const std::string stem = file.stem().string();
+      caption = first_upper(prefix + stem_words(stem)) + curve_caption(exhibit, stem);
       if (file.stem() == "sheet" && exhibit.manifest) caption += subject_words(*exhibit.manifest);
     }
     pictures.push_back({file, exhibit.name + "/" + name, caption});

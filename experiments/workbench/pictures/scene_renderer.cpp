@@ -14,11 +14,6 @@ namespace {
 
 constexpr double kCurvatureRange = 2;  // colours span this many K0 on either side
 
-render::Look base_look(const std::string& name) {
-  const bool of_curvature = name == "residual" || name == "difference";
-  return render::look_named(of_curvature ? "curvature" : name == "height" ? "friction" : name);
-}
-
 // [1/m].  What stays and what differs is half of what bends.
 double curvature_range(const Scene& scene, const Options& options, const std::string& look) {
   const double range = options.curvature_range > 0 ? options.curvature_range
@@ -78,10 +73,10 @@ Eigen::Matrix4f placed_at(const Obstacle& o, double time) {
   return motion * render::placed(o.center.cast<float>(), o.axis.normalized().cast<float>());
 }
 
-render::ColorMap look_color_map(const std::string& look) { return base_look(look).map; }
+render::ColorMap look_color_map(const std::string& look) { return render::look_named(look).map; }
 
 render::Look scene_look(const Scene& scene, const Options& options, const std::string& name) {
-  render::Look look = base_look(name);
+  render::Look look = render::look_named(name);
   if (look.show == render::Show::curvature) {
     look.value_high = static_cast<float>(curvature_range(scene, options, name));
     look.value_low = -look.value_high;

@@ -1,18 +1,25 @@
 #include "experiments/workbench/pictures/subject.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
+#include <cmath>
+#include <filesystem>
 #include <functional>
 #include <limits>
 #include <optional>
 
+#include "experiments/workbench/app/json_file.h"
+#include "experiments/workbench/app/manifest_file.h"
 #include "experiments/workbench/pictures/drawing.h"
-#include "experiments/workbench/pictures/reference_run.h"
 #include "experiments/workbench/pictures/ridge_metrics.h"
 #include "sim/base/error.h"
 #include "sim/bending/vertex_curvature.h"
+#include "sim/mesh/surface.h"
 
 namespace hysteron::experiments {
 namespace {
+namespace fs = std::filesystem;
 
 constexpr double kStepsAnEdge = 256;  // quanta in the mean edge: normals turn by 0.2 degrees at most
 
@@ -49,6 +56,49 @@ std::vector<float> heights(const std::vector<float>& xyz) {
   const float least = *low, span = std::max(*high - least, std::numeric_limits<float>::min());
   for (float& z : height) z = (z - least) / span;
   return height;
+}
+
+// Another run of the same cloth, whose curvature this one's is compared with.
+class ReferenceRun {
+ public:
+  // `folder`: of a run with pictures and `--export ply`.  Throws Error::invalid_input if it is none.
+  explicit ReferenceRun(fs::path folder);
+
+  // One a vertex [1/m], at that run's instant nearest to `time` [s]: its last one where it ended before.
+  // Throws Error::invalid_input if its triangles are not those of `mesh`.
+  std::vector<float> curvature(const ClothMesh& mesh, double time) const;
+
+ private:
+  fs::path folder_;
+  std::vector<double> time_;  // of each instant [s]
+};
+
+ReferenceRun::ReferenceRun(fs::path folder) : folder_(std::move(folder)) {
+  const fs::path file = folder_ / "manifest.json";
+  const Json json = json_or_none(file);
+  if (json.is_object())
+    if (const Manifest manifest = checked_manifest(json, file); manifest.frames)
+      for (const Frames::Instant& instant : manifest.frames->instants) time_.push_back(instant.time);
+  std::error_code ignored;
+  if (time_.empty() || !fs::exists(folder_ / "mesh" / "0000.ply", ignored))
+    throw Error::invalid_input("reference = " + folder_.string() +
+                               " must be the folder of a run with pictures and --export ply (--reference)")
+        .with_key("reference", folder_.string());
+}
+
+std::vector<float> ReferenceRun::curvature(const ClothMesh& mesh, double time) const {
+  const auto nearest = std::min_element(time_.begin(), time_.end(), [&](double a, double b) {
+    return std::abs(a - time) < std::abs(b - time);
+  });
+  const std::string name = fmt::format("{:04}.ply", nearest - time_.begin());
+  const Surface surface = read_surface((folder_ / "mesh" / name).string());
+  if (surface.face != mesh.face || surface.curvature.size() != mesh.rest.size())
+    throw Error::invalid_input("reference = " + folder_.string() + " has other triangles than this cloth (" +
+                               std::to_string(surface.face.size()) + " and " +
+                               std::to_string(mesh.face.size()) +
+                               "): run it with the same mesh (--reference)")
+        .with_key("reference", folder_.string());
+  return {surface.curvature.begin(), surface.curvature.end()};
 }
 
 class SimulatedSubject : public Subject {

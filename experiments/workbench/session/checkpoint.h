@@ -4,22 +4,16 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 
 namespace hysteron::experiments {
 
-// What must be the same where a run goes on.
+// What must be the same where a run goes on, beside what the manifest in its folder says of it.
 struct CheckpointOwner {
-  std::string program, experiment, device;
-  nlohmann::ordered_json scene;     // resolved
-  nlohmann::ordered_json resolved;  // keys of the run and the experiment that decide what is written
-  std::uint64_t cloth = 0;          // hash of triangles and start: meshes may come from files
+  std::string device;
+  std::uint64_t cloth = 0;  // hash of triangles and start: meshes may come from files
 };
-
-// "step, fabric.b2": paths of the keys whose values differ; at most a few of them, and how many more.
-std::string differing_keys(const nlohmann::ordered_json& keys, const nlohmann::ordered_json& others);
 
 // Replaces the file atomically.  Throws Error::system.
 void write_checkpoint(const std::filesystem::path& file, CheckpointOwner owner, const std::string& state);
@@ -28,5 +22,8 @@ void write_checkpoint(const std::filesystem::path& file, CheckpointOwner owner, 
 // a file that is not one of this program's, is cut off or damaged, or whose owner is another: what differs is
 // named.
 std::optional<std::string> read_checkpoint(const std::filesystem::path& file, const CheckpointOwner& owner);
+
+// Throws Error::invalid_input: "cannot resume from OUT/checkpoint: WHY; without --resume ...".
+[[noreturn]] void refuse_checkpoint(const std::filesystem::path& file, const std::string& why);
 
 }  // namespace hysteron::experiments

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiments/workbench/app/ending.h"
 #include "experiments/workbench/session/session.h"
 #include "sim/base/error.h"
 
@@ -13,7 +14,6 @@ namespace {
 
 constexpr int kMaxSteps = 20;
 constexpr double kStill = 0.01;  // of the thickness
-constexpr int kCannotGoOn = 3;   // exit code of Error::simulation
 
 Rest step_to_rest(Simulation& simulation, double still) {
   simulation.become_static();
@@ -50,7 +50,7 @@ Rest seek_rest(Simulation& simulation, double thickness) {
   try {
     rest = step_to_rest(simulation, kStill * thickness);
   } catch (const Error& error) {
-    if (error.exit_code() != kCannotGoOn) throw;
+    if (error.exit_code() != kCouldNotGoOn) throw;
     rest.failure = error.what();
   }
   if (!rest.failure.empty()) simulation.load(in_motion);

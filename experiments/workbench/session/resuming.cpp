@@ -5,7 +5,9 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "experiments/workbench/app/json_file.h"
 #include "experiments/workbench/app/manifest_file.h"
+#include "experiments/workbench/pages/gallery_about.h"
 #include "experiments/workbench/session/checkpoint.h"
 #include "experiments/workbench/session/interrupts.h"
 #include "sim/base/fnv1a.h"
@@ -20,6 +22,7 @@ constexpr const char* kFile = "checkpoint";
 
 // Without what no result depends on: threads, and where values come from.
 Json comparable(Json scene) {
+  if (!scene.is_object()) return Json::object();
   for (const char* key : {"threads", "origin"}) scene.erase(key);
   if (scene.contains("fabric") && scene["fabric"].is_object()) scene["fabric"].erase("provenance");
   return scene;
@@ -36,14 +39,28 @@ std::uint64_t cloth_hash(const Cloth& cloth) {
   return fnv1a(cloth.pin.data(), cloth.pin.size() * sizeof cloth.pin[0], hash);
 }
 
-CheckpointOwner checkpoint_owner(const CommandLine& line, const Setup& setup, const Cloth& cloth,
-                                 const Simulation& simulation) {
-  return {program_version(),
-          line.experiment,
-          simulation.device(),
-          comparable(to_json(setup.scene)),
-          setup.resolved ? *setup.resolved : Json::object(),
-          cloth_hash(cloth)};
+CheckpointOwner checkpoint_owner(const Cloth& cloth, const Simulation& simulation) {
+  return {simulation.device(), cloth_hash(cloth)};
+}
+
+std::string other_values(const Manifest& before, const Setup& setup) {
+  return differing_keys(comparable(*before.keys), comparable(to_json(setup.scene)));
+}
+
+// The run that left the checkpoint is this one, by its manifest.
+void throw_if_another(const fs::path& file, const std::optional<Manifest>& before, const CommandLine& line,
+                      const Setup& setup) {
+  if (!before) refuse_checkpoint(file, "there is no manifest.json beside it");
+  const auto compare = [&](const char* what, const std::string& there, const std::string& here) {
+    if (there != here) refuse_checkpoint(file, fmt::format("its {} is {}, not {}", what, there, here));
+  };
+  compare("program", program_version(*before), program_version());
+  compare("experiment", before->experiment, line.experiment);
+  const Json none = Json::object();
+  const std::string options =
+      differing_keys(before->options ? *before->options : none, setup.resolved ? *setup.resolved : none);
+  const std::string keys = joined({other_values(*before, setup), options}, ", ");
+  if (!keys.empty()) refuse_checkpoint(file, "other values of " + keys);
 }
 
 }  // namespace
@@ -55,11 +72,13 @@ Checkpoints::Checkpoints(const CommandLine& line, const Setup& setup, const Clot
   const fs::path folder = options.out;
   const std::optional<Manifest> before = manifest_or_none(folder / "manifest.json");
   if (!before || !before->complete) {
-    state_ = read_checkpoint(folder / kFile, checkpoint_owner(line, setup, cloth, simulation)).value_or("");
+    const auto state = read_checkpoint(folder / kFile, checkpoint_owner(cloth, simulation));
+    if (!state) return;
+    throw_if_another(folder / kFile, before, line, setup);
+    state_ = *state;
     return;
   }
-  const std::string keys = differing_keys(comparable(before->keys ? *before->keys : Json::object()),
-                                          comparable(to_json(setup.scene)));
+  const std::string keys = other_values(*before, setup);
   if (before->experiment != line.experiment || !keys.empty())
     throw Error::invalid_input(folder.string() + " has a complete run of other values" +
                                (keys.empty() ? "" : " (" + keys + ")") + ": give another folder (--out)")
@@ -105,9 +124,7 @@ void Checkpoints::take(Session& session) {
   const fs::path file = session.run().path(kFile);
   Archive archive;
   session.serialise(archive);
-  write_checkpoint(file,
-                   checkpoint_owner(session.line(), session.setup(), session.cloth(), session.simulation()),
-                   archive.take());
+  write_checkpoint(file, checkpoint_owner(session.cloth(), session.simulation()), archive.take());
   taken_ = Clock::now();
 }
 

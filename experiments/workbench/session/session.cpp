@@ -9,9 +9,8 @@
 
 #include "experiments/workbench/app/decided_keys.h"
 #include "experiments/workbench/app/scene_source.h"
-#include "experiments/workbench/app/time_left.h"
+#include "experiments/workbench/pages/gallery_about.h"
 #include "experiments/workbench/pages/report.h"
-#include "experiments/workbench/pages/simulated_run.h"
 #include "experiments/workbench/pictures/framing.h"
 #include "experiments/workbench/session/doubts.h"
 #include "experiments/workbench/session/interrupts.h"

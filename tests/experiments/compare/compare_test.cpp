@@ -5,11 +5,10 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "experiments/workbench/app/manifest_file.h"
 #include "experiments/workbench/compare/comparison.h"
 #include "experiments/workbench/compare/matching.h"
 #include "experiments/workbench/compare/variants.h"
-#include "experiments/workbench/pages/simulated_run.h"
+#include "experiments/workbench/pictures/kept_geometry.h"
 #include "render/color_map.h"
 #include "render/comparison_sheet.h"
 #include "sim/base/error.h"
@@ -161,51 +160,16 @@ TEST(ComparisonTable, HasAColumnForEveryMetricOfAnyRow) {
   EXPECT_EQ(metrics, Json({{"linear.turns", 3}, {"prandtl.turns", 2}, {"prandtl.loss_J", 0.5}}));
 }
 
-Manifest manifest_with(const std::string& law, double damping) {
-  return parsed_manifest({{"hysteron", {{"version", "1"}, {"commit", "0123456789abcdef"}}},
-                          {"device", "one core"},
-                          {"triangles", 12345},
-                          {"scene",
-                           {{"cloth", {{"shape", "strip"}, {"length", 0.09}, {"width", 0.03}}},
-                            {"mesh", "unionjack"},
-                            {"fabric", {{"name", "wool"}, {"b1", 2e-5}, {"damping", damping}}},
-                            {"law", law},
-                            {"integrator", "bdf2"},
-                            {"step", 0.004}}}});
-}
-
-// What runs share is said once; what one of them has of its own, with its name.
-TEST(Captions, SayOfRunsWhatTheirManifestsSay) {
-  const Manifest a = manifest_with("linear", 1e-5), b = manifest_with("linear", 5e-3),
-                 c = manifest_with("dahl", 1e-5);
-  const std::string text = run_facts({"a", "b", "c"}, {&a, &b, &c});
-  for (const char* part : {"Cloth: strip of 90 by 30 mm, mesh unionjack, 12,345 triangles.",
-                           "Fabric: wool (b1 2e-05 N m", "Damping of bending: 1e-05 s; b: 0.005 s.",
-                           "Law: linear; c: dahl.", "Solver: bdf2, step 4 ms", "Device: one core."})
-    EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
-  EXPECT_EQ(run_facts({"linear", "dahl"}, {&a, &c}).find("Law:"), std::string::npos) << "their names say it";
-  EXPECT_EQ(origin_words("hysteron x", &a), "Written by `hysteron x`, hysteron 1, commit 0123456789ab.");
-  EXPECT_EQ(grouped(999), "999");
-  EXPECT_EQ(grouped(1234567), "1,234,567");
-}
-
-TEST(Compare, CaptionsItsFiguresFromTheManifests) {
+TEST(Compare, PlotsItsColumnsWhichStandBesideIt) {
   const Folder folder;
   const std::string out = (folder.path() / "out").string();
   ASSERT_EQ(program("compare swing --laws linear,prandtl --seconds 1 --out " + out +
                     " --triangles 60 --fps 30 --device cpu --size 160x120 --compare.rows 2 --quiet")
                 .exit_code,
             0);
-  const std::string captions = file_content(fs::path(out) / "README.md");
-  for (const char* part :
-       {"(sheet.png)", "(plot_decay.png)", "Columns: linear, prandtl.", "in look cloth",
-        "Cloth: strip of 90 by 30 mm", "cotton-broad", "Solver: bdf2", "hysteron compare swing --laws"})
-    EXPECT_NE(captions.find(part), std::string::npos) << part;
   EXPECT_EQ(file_content(fs::path(out) / "table.csv").substr(0, 4), "law,");
   EXPECT_TRUE(fs::exists(fs::path(out) / "plot_decay.svg"));
   EXPECT_GT(file_content(fs::path(out) / "linear/turns.csv").size(), 40u);
-  ASSERT_EQ(program("report " + folder.path().string()).exit_code, 0);
-  EXPECT_NE(file_content(folder.path() / "index.html").find("Columns: linear, prandtl."), std::string::npos);
 }
 
 std::string compare_refusal(const std::string& more) {
@@ -234,11 +198,13 @@ TEST(Compare, ShowsTheInstantsAndTheMetricsThatItIsAskedForInTheirOrder) {
   EXPECT_EQ(metrics.size(), 6u) << metrics;
   EXPECT_EQ(metrics["linear.decay_shape"], "unknown");
   // Pictures are 1/30 s apart: the one at 0.033 s is the nearest to 0.035 s.
-  const std::string captions = file_content(out / "README.md");
-  for (const char* part : {"Rows: t = 0.100 s; t = 0.033 s (", "behind the names: max stretch [%]",
-                           "; bending friction [J]", "(plot_bending_friction_J.png)"})
-    EXPECT_NE(captions.find(part), std::string::npos) << part << captions;
-  EXPECT_LT(captions.find("max stretch [%]"), captions.find("decay shape"));
+  std::vector<double> times;
+  for (const KeptState& instant : read_kept(out / "sheet.hyg").cloths.at(0).instants)
+    times.push_back(instant.time);
+  ASSERT_EQ(times.size(), 3u) << "the first is kept beside the rows'";
+  EXPECT_NEAR(times[1], 1 / 30.0, 1e-3);
+  EXPECT_NEAR(times[2], 0.1, 1e-3);
+  EXPECT_TRUE(fs::exists(out / "plot_bending_friction_J.png"));
 }
 
 TEST(Compare, RefusesInstantsAfterTheEndOfTheRunBeforeItBegins) {

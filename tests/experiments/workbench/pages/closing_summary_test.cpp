@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "experiments/workbench/app/time_left.h"
+#include "experiments/workbench/app/run.h"
 #include "experiments/workbench/compare/sweep_columns.h"
 #include "gtest/gtest.h"
 #include "tests/experiments/folder.h"

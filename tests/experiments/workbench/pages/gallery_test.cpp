@@ -6,7 +6,6 @@
 
 #include "experiments/workbench/app/manifest_file.h"
 #include "experiments/workbench/app/run.h"
-#include "experiments/workbench/pages/check.h"
 #include "experiments/workbench/pages/gallery_about.h"
 #include "experiments/workbench/pages/gallery_folders.h"
 #include "experiments/workbench/pages/report.h"
@@ -166,6 +165,11 @@ TEST_F(Gallery, PassesOverOtherSequences) {
   EXPECT_EQ(occurrences(page(), "<figure>"), before);
 }
 
+TEST(Grouped, AreThousands) {
+  EXPECT_EQ(grouped(999), "999");
+  EXPECT_EQ(grouped(-1234567), "-1,234,567");
+}
+
 TEST_F(Gallery, TakesCaptionsThatTheRunWrote) {
   write_text(results_ / "z-drape/README.md",
              "# Drape\n\n![The sheet](sheet.png)\n\n**The sheet.** Let down by `a plate`.\n");
@@ -225,7 +229,7 @@ TEST_F(Gallery, SaysWhatIsWrongWithAManifest) {
     EXPECT_EQ(refusal(), file.string() + " is no manifest of hysteron: " + problem);
   };
   says("/metrics", "many", "metrics is a text, must be an object");
-  says("/wall_seconds", nullptr, "wall_seconds is null, must be an object");
+  says("/wall_seconds", 7, "wall_seconds is a number, must be an object");
   says("/wall_seconds/total", "long", "wall_seconds.total is a text, must be a number");
   says("/seconds_simulated", Json::array(), "seconds_simulated is a list, must be a number");
   says("/complete", 1, "complete is a number, must be true or false");

@@ -66,12 +66,15 @@ TEST_F(FabricFileLook, ABackThatIsNotNamedIsThePalerFront) {
 }
 
 TEST_F(FabricFileLook, WhatIsWrongIsNamedWithItsLine) {
-  EXPECT_NE(refusal("color = [1, 2, 3]\n").find("look.color is unknown"), std::string::npos);
+  EXPECT_NE(refusal("color = [1, 2, 3]\n").find("unknown key look.color"), std::string::npos);
   EXPECT_NE(refusal("colour = [1, 2, 300]\n").find(":4)"), std::string::npos);
-  EXPECT_NE(refusal("colour = [1, 2, 3]\nweave = \"felt\"\n").find("allowed: plain, twill, satin, knit"),
+  EXPECT_NE(refusal("colour = [1, 2, 3]\nweave = \"felt\"\n").find("must be plain | twill | satin | knit"),
             std::string::npos);
   EXPECT_NE(refusal("colour = [1, 2, 3]\nweave = \"knit\"\nthreads = [0, 1]\n").find("look.threads"),
             std::string::npos);
+  EXPECT_NE(
+      refusal("colour = [1, 2, 3]\nweave = \"knit\"\nsheen = 0\nsource = \"x\"\n").find("look needs threads"),
+      std::string::npos);
 }
 
 }  // namespace

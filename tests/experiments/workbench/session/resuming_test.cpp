@@ -61,7 +61,7 @@ std::map<std::string, std::string> results_in(const fs::path& out) {
   std::map<std::string, std::string> files;
   for (const auto& entry : fs::recursive_directory_iterator(out)) {
     const std::string name = fs::relative(entry.path(), out).string();
-    if (entry.is_regular_file() && name != "manifest.json" && name != "report.html" && name != "README.md")
+    if (entry.is_regular_file() && name != "manifest.json" && name != "report.html")
       files[name] = file_content(entry.path());
   }
   return files;
@@ -245,11 +245,15 @@ TEST_F(RefusedCheckpoint, NamesWhatIsWrong) {
     flipped[at] ^= 16;
   }
   std::string future = good_;
-  future[std::string("hysteron checkpoint ").size()] = '2';
+  future[std::string("hysteron checkpoint ").size()] = '3';
   put(future);
   expect_refusal("it has the format of another version of hysteron");
-  put(good_);  // and a file half written beside it is not looked at
-  std::ofstream(out_ / "checkpoint.part-1-0") << "half";
+  const std::string manifest = file_content(out_ / "manifest.json");
+  put(good_);
+  fs::remove(out_ / "manifest.json");
+  expect_refusal("there is no manifest.json beside it");
+  std::ofstream(out_ / "manifest.json") << manifest;
+  std::ofstream(out_ / "checkpoint.part-1-0") << "half";  // a file half written beside it is not looked at
   const Outcome outcome = program(kLine + " --resume" + out_flag(out_));
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_FALSE(fs::exists(out_ / "checkpoint.part-1-0"));
