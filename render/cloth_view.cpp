@@ -61,15 +61,6 @@ float pictured_ground(float height, const Look& look) {
   return has_thickness(look.show) ? height + 0.5f * look.thickness : height;
 }
 
-// Of the plane that lies nearest to the points.
-Eigen::Vector3f plane_normal(std::span<const float> xyz) {
-  const auto count = static_cast<Eigen::Index>(xyz.size() / 3);
-  const Eigen::Map<const Eigen::Matrix3Xf> points(xyz.data(), 3, count);
-  const Eigen::Matrix3Xf from_middle = points.colwise() - points.rowwise().mean();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> axes(from_middle * from_middle.transpose());
-  return axes.eigenvectors().col(0);
-}
-
 Box mesh_box(const TriangleMesh& mesh) {
   if (mesh.positions.empty()) throw Error::invalid_input("drawing an obstacle: it has no triangles");
   Box box{mesh.positions.front(), mesh.positions.front()};
@@ -127,6 +118,14 @@ void place(Image& picture, const Image& part, int left, int top) {
 }
 
 }  // namespace
+
+Eigen::Vector3f plane_normal(std::span<const float> xyz) {
+  const auto count = static_cast<Eigen::Index>(xyz.size() / 3);
+  const Eigen::Map<const Eigen::Matrix3Xf> points(xyz.data(), 3, count);
+  const Eigen::Matrix3Xf from_middle = points.colwise() - points.rowwise().mean();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> axes(from_middle * from_middle.transpose());
+  return axes.eigenvectors().col(0);
+}
 
 ClothView::ClothView(Offscreen& offscreen, const PictureSize& size)
     : offscreen_(offscreen),
@@ -268,24 +267,23 @@ void ClothView::prepare(const Camera& camera) {
   if (cloth_) cloth_->update_normals();
   if (look_.show == Show::silhouette) return;
   if (is_figure()) {
-    figure_light_->aim(bounds(), to_light(camera), look_.room);
+    figure_light_->aim(bounds(), key_direction(look_, camera, cloth_normal_), look_.room);
     if (ground_height_) ground_->place(bounds(), pictured_ground(*ground_height_, look_));
     return;
   }
-  shadows_.aim(bounds(), to_light(camera), look_.room);
+  shadows_.aim(bounds(), key_direction(look_, camera, cloth_normal_), look_.room);
   shadows_.draw([this](const Program& program) { draw_casters(program); });
   if (cloth_) cloth_->update_sky(shadows_);
   update_body_sky();
   if (ground_height_) ground_->update(shadows_, bounds(), pictured_ground(*ground_height_, look_));
 }
 
-Eigen::Vector3f key_beside(const Camera& camera) { return camera.beside(kKeyAzimuth, kKeyElevation); }
-
-Eigen::Vector3f ClothView::to_light(const Camera& camera) const {
-  if (look_.to_light) return *look_.to_light;
-  if (!look_.raking) return key_beside(camera);
+Eigen::Vector3f key_direction(const Look& look, const Camera& camera,
+                              const std::optional<Eigen::Vector3f>& cloth_normal) {
+  if (look.to_light) return *look.to_light;
+  if (!look.raking) return camera.beside(kKeyAzimuth, kKeyElevation);
   const Eigen::Vector3f side = camera.beside(kKeyAzimuth, 0), eye = -camera.forward();
-  Eigen::Vector3f normal = cloth_normal_.value_or(eye);
+  Eigen::Vector3f normal = cloth_normal.value_or(eye);
   if (normal.dot(eye) < 0) normal = -normal;
   Eigen::Vector3f along = side - side.dot(normal) * normal;
   if (along.norm() < kMinAlong) along = Eigen::Vector3f::UnitZ() - normal.z() * normal;

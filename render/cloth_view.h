@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -40,8 +41,13 @@ struct PictureSize {
   int figure_passes = 0;
 };
 
-// Direction to the key light of looks that name none: from the left of the picture.
-Eigen::Vector3f key_beside(const Camera& camera);
+// Of the plane that lies nearest to the points, given as x, y, z each.
+Eigen::Vector3f plane_normal(std::span<const float> xyz);
+
+// Direction to a look's key light, of any length: the look's own, else from the left of the picture, raking
+// along the cloth whose plane has that normal (none: that of the picture).
+Eigen::Vector3f key_direction(const Look& look, const Camera& camera,
+                              const std::optional<Eigen::Vector3f>& cloth_normal);
 
 class ClothView {
  public:
@@ -111,7 +117,6 @@ class ClothView {
   Box bounds() const;
   void prepare(const Camera& camera);
   bool is_figure() const { return figure_light_.has_value(); }
-  Eigen::Vector3f to_light(const Camera& camera) const;
   void update_body_sky() const;  // light of the room on the obstacles
   Image draw_part(const Camera& camera, int left, int top);
   View camera_view(const Camera& camera, int left, int top, const Shift& shift) const;

@@ -44,6 +44,11 @@ Eigen::Matrix4f light_matrix(const Eigen::Vector3f& to_light, const Box& box, in
 
 }  // namespace
 
+StudioLight studio_light(float room) {
+  return {kKey, room * kSky, room * kFloor, kKeyRadius,
+          1 / (kOpenLight * (kMinExposed + (1 - kMinExposed) * room))};
+}
+
 FigureLight::FigureLight(const GlFunctions& gl, int passes)
     : gl_(&gl),
       passes_(passes),
@@ -118,7 +123,7 @@ void FigureLight::bind(const Program& program) const {
   program.set("room_map", kRoomUnit);
   const auto passes = static_cast<float>(passes_);  // each draws the whole light of its directions
   program.set("open_ground", open_);
-  program.set("exposure", 1 / (kOpenLight * (kMinExposed + (1 - kMinExposed) * room_)));
+  program.set("exposure", studio_light(room_).exposure);
   for (int k = 0; k < kPassLights; ++k) {
     const std::string index = "[" + std::to_string(k) + "]";
     program.set(("light_matrix" + index).c_str(), matrices_[k]);

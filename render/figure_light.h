@@ -19,6 +19,16 @@ namespace hysteron::render {
 inline constexpr int kPassKeys = 4, kPassSkies = 6, kPassFloors = 2;
 inline constexpr int kPassLights = kPassKeys + kPassSkies + kPassFloors;
 
+// What a figure is lit by, for a path tracer: light on a surface that faces the key light, a disc; of the sky
+// on one that faces up; of the floor, a grey table without shadows, on one that faces down.
+struct StudioLight {
+  Eigen::Vector3f key, sky, floor;
+  float key_radius;  // over its distance
+  float exposure;    // the brightness of a white surface over the light on it
+};
+// `room`: brightness of sky and floor (Look).
+StudioLight studio_light(float room);
+
 class FigureLight {
  public:
   // `passes`: of the picture; 16 of them have 64 directions of the key, 96 of the sky, 32 of the floor.

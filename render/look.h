@@ -46,7 +46,7 @@ struct Look {
   Rgb8 backdrop_bottom{246, 246, 245};
   ColorMap map = ColorMap::diverging;
   float value_low = -1, value_high = 1;  // ends of the colour map, in the value's unit
-  // Key light's direction, any length; none: from the left of the picture (key_beside()).
+  // Key light's direction, any length; none: from the left of the picture (key_direction()).
   std::optional<Eigen::Vector3f> to_light;
   bool raking = false;  // without to_light: the key light almost lies in the cloth's own plane
   float room = 1;       // brightness of the room around; less of it leaves the key light to model the shape

@@ -5,6 +5,7 @@
 #include "experiments/workbench/pictures/drawing.h"
 #include "experiments/workbench/pictures/ridge_metrics.h"
 #include "experiments/workbench/pictures/scene_renderer.h"
+#include "render/cloth_view.h"
 #include "render/inset.h"
 #include "sim/base/atomic_file.h"
 #include "sim/bending/vertex_curvature.h"
@@ -82,7 +83,7 @@ void MeshExport::begin(Session& session) {
 }
 
 // Bodies keep their shape: they are written with the first scene.
-void MeshExport::write_scene(Session& session, std::size_t number, double time) {
+void MeshExport::write_scene(Session& session, std::size_t number, const Snapshot& instant) {
   Run& run = session.run();
   const std::vector<Obstacle>& obstacles = session.scene().obstacle;
   std::vector<std::string> bodies;
@@ -91,8 +92,11 @@ void MeshExport::write_scene(Session& session, std::size_t number, double time) 
     bodies.push_back(body ? body_file(i) : "");
     if (body && number == 0) write_body(run.path("mesh/" + bodies[i]).string(), *body, view_->look, side_);
   }
+  MitsubaView view = *view_;
+  view.look.to_light =
+      render::key_direction(view.look, view.camera, render::plane_normal(flat_points(instant.x)));
   write_text(run.path(scene_file(number)),
-             mitsuba_scene(*view_, session.scene(), time, mesh_name(number, "ply"), bodies));
+             mitsuba_scene(view, session.scene(), instant.time, mesh_name(number, "ply"), bodies));
 }
 
 void MeshExport::record(Session& session, const Snapshot& instant) {
@@ -112,7 +116,7 @@ void MeshExport::record(Session& session, const Snapshot& instant) {
   const std::string file = run.path(mesh_file(number, format)).string();
   if (format == "obj") return write_obj(file, mesh, x);
   if (view_ && number == 0) side_ = render::long_side(flat_triangles(mesh.face), flat_points(mesh.rest), 3);
-  if (view_) write_scene(session, number, instant.time);
+  if (view_) write_scene(session, number, instant);
   if (format == "ply" || format == "mitsuba") {
     const std::vector<float> k = vertex_curvature(mesh, simulation.curvature(), simulation.dimension());
     return write_ply(file, mesh, x, {k.begin(), k.end()});

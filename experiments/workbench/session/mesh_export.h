@@ -21,7 +21,7 @@ class MeshExport : public Observer {
   void serialise(Archive& archive) override { archive(times_); }
 
  private:
-  void write_scene(Session& session, std::size_t number, double time);
+  void write_scene(Session& session, std::size_t number, const Snapshot& instant);
 
   std::optional<MitsubaView> view_;  // of format mitsuba
   float side_ = 0;                   // of the cloth's triangles [m]

@@ -8,6 +8,7 @@
 #include "experiments/workbench/pictures/drawing.h"
 #include "experiments/workbench/pictures/scene_renderer.h"
 #include "render/cloth_view.h"
+#include "render/figure_light.h"
 #include "render/inset.h"
 #include "render/srgb.h"
 #include "sim/base/atomic_file.h"
@@ -15,12 +16,10 @@
 namespace hysteron::experiments {
 namespace {
 
-constexpr int kSamples = 256, kDepth = 8;     // paths a pixel, reflections
-constexpr double kKeyRadius = 0.15;           // of the key light over its distance
-constexpr double kFar = 40;                   // that distance, in radii of what is lit
-constexpr double kExposure = 1.0 / 3;         // open ground is as bright as its colour
-const Eigen::Vector3d kKey{4.1, 4.0, 3.87};   // light on a surface that faces the key light
-const Eigen::Vector3d kSky{0.96, 1.0, 1.06};  // of the sky on one that faces up
+constexpr int kSamples = 256, kDepth = 8;  // paths a pixel, reflections
+constexpr double kFar = 40;                // distance of the key light in radii of what is lit
+constexpr double kBell = 0.42;             // standard deviation of a pixel's Gaussian, as in exposure.cpp
+constexpr double kThrough = 0.10;          // of the light on cloth, as in figure_cloth.frag
 
 std::string numbers(const Eigen::Vector3d& v) {
   return fmt::format("{:.9g}, {:.9g}, {:.9g}", v.x(), v.y(), v.z());
@@ -30,10 +29,25 @@ std::string rgb(const char* name, const Eigen::Vector3d& color) {
   return fmt::format("<rgb name=\"{}\" value=\"{}\"/>", name, numbers(color));
 }
 
+Eigen::Vector3d linear(const render::Rgb8& color) {
+  Eigen::Vector3d light;
+  for (int k = 0; k < 3; ++k) light[k] = render::linear_of_srgb8()[color[static_cast<std::size_t>(k)]];
+  return light;
+}
+
 std::string diffuse(const render::Rgb8& color) {
-  Eigen::Vector3d linear;
-  for (int k = 0; k < 3; ++k) linear[k] = render::linear_of_srgb8()[color[static_cast<std::size_t>(k)]];
-  return "<bsdf type=\"diffuse\">" + rgb("reflectance", linear) + "</bsdf>";
+  return "<bsdf type=\"diffuse\">" + rgb("reflectance", linear(color)) + "</bsdf>";
+}
+
+// A sheet with a colour on either side that passes a share of its light on.  Mitsuba's one material that does
+// is Disney's for thin surfaces, which without a step of the refractive index shines at no angle.
+std::string cloth_material(const render::Look& look) {
+  return fmt::format(
+      "<bsdf type=\"blendbsdf\"><float name=\"weight\" value=\"{}\"/><bsdf type=\"twosided\">{}{}</bsdf>"
+      "<bsdf type=\"principledthin\">{}<float name=\"roughness\" value=\"1\"/>"
+      "<float name=\"diff_trans\" value=\"2\"/><float name=\"eta\" value=\"1.001\"/></bsdf></bsdf>",
+      kThrough, diffuse(look.front), diffuse(look.back),
+      rgb("base_color", 0.5 * (linear(look.front) + linear(look.back))));
 }
 
 std::string looking(const Eigen::Vector3d& from, const Eigen::Vector3d& to, const Eigen::Vector3d& up) {
@@ -65,42 +79,56 @@ std::string sensor(const MitsubaView& view) {
       "    <sampler type=\"multijitter\"><integer name=\"sample_count\" value=\"$spp\"/></sampler>\n"
       "    <film type=\"hdrfilm\"><integer name=\"width\" value=\"{}\"/><integer name=\"height\" "
       "value=\"{}\"/>"
-      "<string name=\"pixel_format\" value=\"rgba\"/><rfilter type=\"gaussian\"/></film>\n  </sensor>\n",
+      "<string name=\"pixel_format\" value=\"rgba\"/><rfilter type=\"gaussian\"><float name=\"stddev\" "
+      "value=\"{}\"/></rfilter></film>\n  "
+      "</sensor>\n",
       flat ? "orthographic" : "perspective", angle, lens, looking(eye, eye + forward, up), view.width,
-      view.height);
+      view.height, kBell);
 }
 
 Eigen::Vector3d key_light_direction(const MitsubaView& view) {
-  return view.look.to_light.value_or(render::key_beside(view.camera)).normalized().cast<double>();
+  return render::key_direction(view.look, view.camera, {}).normalized().cast<double>();
 }
 
 // Radiance of a disc that throws the key light's irradiance, and of a sky that throws its own; a diffuse
-// surface is as bright as its colour under light of kExposure's inverse.
+// surface is as bright as its colour under light of the exposure's inverse.
 std::string lights(const MitsubaView& view) {
+  const render::StudioLight studio = render::studio_light(view.look.room);
   const Eigen::Vector3d to_light = key_light_direction(view), middle = view.bounds.center().cast<double>();
-  const double distance = kFar * view.bounds.radius(), room = view.look.room;
-  const Eigen::Vector3d key = kExposure / (kKeyRadius * kKeyRadius) * kKey, sky = room * kExposure * kSky,
+  const double distance = kFar * view.bounds.radius(), slope = studio.key_radius;
+  const double disc = slope * slope / (1 + slope * slope);  // its share of what a hemisphere would throw
+  const Eigen::Vector3d key = studio.exposure / disc * studio.key.cast<double>(),
+                        sky = studio.exposure * studio.sky.cast<double>(),
                         side = Eigen::Vector3d::UnitX().cross(to_light).normalized();
-  const double radius = kKeyRadius * distance;
   return fmt::format(
              "  <shape type=\"disk\">\n    <transform name=\"to_world\"><scale "
              "value=\"{:.9g}\"/>{}</transform>\n"
              "    <emitter type=\"area\">{}</emitter>\n  </shape>\n",
-             radius, looking(middle + distance * to_light, middle, side), rgb("radiance", key)) +
+             slope * distance, looking(middle + distance * to_light, middle, side), rgb("radiance", key)) +
          "  <emitter type=\"constant\">" + rgb("radiance", sky) + "</emitter>\n";
 }
 
-// A page: white under the whole sky and key light.
-std::string ground(const MitsubaView& view) {
-  if (!view.floor) return "";
-  const double facing = std::max(0.0, key_light_direction(view).z());
-  const Eigen::Array3d open = kExposure * (facing * kKey + view.look.room * kSky).array();
-  const Eigen::Vector3d middle(view.bounds.center().x(), view.bounds.center().y(), *view.floor);
+std::string level(double height, const MitsubaView& view, const std::string& material) {
+  const Eigen::Vector3d middle(view.bounds.center().x(), view.bounds.center().y(), height);
   return fmt::format(
       "  <shape type=\"rectangle\">\n    <transform name=\"to_world\"><scale value=\"{:.9g}\"/><translate "
       "value=\"{}\"/></transform>\n    {}\n  </shape>\n",
-      kFar * view.bounds.radius(), numbers(middle),
-      "<bsdf type=\"diffuse\">" + rgb("reflectance", (1 / open).min(1.0)) + "</bsdf>");
+      kFar * view.bounds.radius(), numbers(middle), material);
+}
+
+// The grey table that lights a figure from below, where pictures draw it; without a ground the studio's
+// floor, which is too deep to be shaded.
+std::string ground(const MitsubaView& view) {
+  const render::StudioLight studio = render::studio_light(view.look.room);
+  const Eigen::Vector3d floor = studio.floor.cast<double>();
+  if (!view.floor)
+    return level(view.bounds.low.z() - view.bounds.radius(), view,
+                 "<emitter type=\"area\">" + rgb("radiance", studio.exposure * floor) + "</emitter>");
+  const double facing = std::max(0.0, key_light_direction(view).z());
+  const Eigen::Vector3d open = facing * studio.key.cast<double>() + studio.sky.cast<double>();
+  return level(
+      *view.floor + 0.5f * view.look.thickness, view,
+      "<bsdf type=\"diffuse\">" + rgb("reflectance", floor.cwiseQuotient(open).cwiseMin(1)) + "</bsdf>");
 }
 
 void shrink(render::TriangleMesh& mesh, const render::Look& look, float side) {
@@ -123,12 +151,9 @@ MitsubaView mitsuba_view(const Setup& setup, const render::Box& bounds, std::opt
   for (const Obstacle& o : setup.scene.obstacle)
     if (o.kind == ObstacleKind::ground && !floor) floor = static_cast<float>(o.center.z());
   const Options& options = setup.options;
-  return {framed_camera(options, bounds),
-          scene_look(setup.scene, options, "cloth"),
-          options.width(),
-          options.height(),
-          bounds,
-          floor};
+  render::Look look = scene_look(setup.scene, options, options.looks().front());
+  if (look.show != render::Show::cloth) look = scene_look(setup.scene, options, "cloth");
+  return {framed_camera(options, bounds), look, options.width(), options.height(), bounds, floor};
 }
 
 std::string mitsuba_scene(const MitsubaView& view, const Scene& scene, double time, const std::string& cloth,
@@ -139,8 +164,7 @@ std::string mitsuba_scene(const MitsubaView& view, const Scene& scene, double ti
       "<boolean name=\"hide_emitters\" value=\"true\"/></integrator>\n",
       kSamples, kDepth);
   xml += sensor(view) + lights(view) + ground(view);
-  xml += surface(cloth, "",
-                 "<bsdf type=\"twosided\">" + diffuse(view.look.front) + diffuse(view.look.back) + "</bsdf>");
+  xml += surface(cloth, "", cloth_material(view.look));
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const Obstacle& o = scene.obstacle[i];
     if (bodies[i].empty() || time < o.from || time >= o.until) continue;

@@ -26,8 +26,9 @@ struct MitsubaView {
 MitsubaView mitsuba_view(const Setup& setup, const render::Box& bounds, std::optional<float> floor);
 
 // XML of a scene: the cloth in the file `cloth`, diffuse on both sides, and `bodies`, a file for each visible
-// obstacle and "" for others, where they are at `time` [s]; key light, sky and ground of a figure.  The sky
-// is as bright from below where there is no ground; where no surface is, the picture is transparent.
+// obstacle and "" for others, where they are at `time` [s]; key light, sky and floor of a figure.  The ground
+// is the grey floor by whose light cloth is drawn, not the page; where no surface is, the picture is
+// transparent.
 std::string mitsuba_scene(const MitsubaView& view, const Scene& scene, double time, const std::string& cloth,
                           const std::vector<std::string>& bodies);
 

@@ -9,6 +9,8 @@
 #include <sstream>
 #include <vector>
 
+#include "render/cloth_view.h"
+#include "render/srgb.h"
 #include "sim/scene/scene_reader.h"
 #include "tests/experiments/folder.h"
 
@@ -98,8 +100,41 @@ TEST(MitsubaScene, BodiesAreWhereTheyAreAtThatTime) {
 
 TEST(MitsubaScene, GroundIsThereWhereItIsPictured) {
   const auto setup = setup_with_a_ball();
-  EXPECT_NE(exported_xml(setup, 0.0f).find("type=\"rectangle\""), std::string::npos);
-  EXPECT_EQ(exported_xml(setup, {}).find("type=\"rectangle\""), std::string::npos);
+  const std::string there = exported_xml(setup, 0.0f), none = exported_xml(setup, {});
+  EXPECT_EQ(occurrences(there, "<emitter type=\"area\">"), 1) << "the key light";
+  EXPECT_EQ(occurrences(none, "<emitter type=\"area\">"), 2) << "and the studio's floor";
+  EXPECT_NEAR(numbers_after(there, "\"rectangle\"", "translate value").at(2),
+              0.5 * setup.scene.fabric.thickness, 1e-7);
+}
+
+// The floor of a figure: 0.9 of what 4 sin 30 + 1 of key light and sky leave on it.
+TEST(MitsubaScene, TheGroundThrowsBackWhatAFiguresFloorDoes) {
+  for (const double albedo :
+       numbers_after(exported_xml(setup_with_a_ball(), 0.0f), "\"rectangle\"", "reflectance\" value"))
+    EXPECT_NEAR(albedo, 0.30, 0.01);
+}
+
+TEST(MitsubaScene, ClothHasTheColourOfThePicturesLook) {
+  auto setup = setup_with_a_ball();
+  const auto red = [&](const char* look) {
+    setup.options.look = look;
+    return numbers_after(exported_xml(setup, {}), "\"twosided\"", "reflectance\" value").at(0);
+  };
+  EXPECT_NEAR(red("clay"), render::linear_of_srgb8()[render::look_named("clay").front[0]], 1e-6);
+  EXPECT_EQ(red("curvature"), red("cloth")) << "a look that shows a value has no colour of its own";
+}
+
+TEST(MitsubaScene, RakingLightIsThatOfThePictures) {
+  auto setup = setup_with_a_ball();
+  setup.options.light = "raking";
+  const MitsubaView view = mitsuba_view(setup, {{-0.2f, -0.1f, 0}, {0.2f, 0.1f, 0.3f}}, {});
+  const std::vector<double> origin = numbers_after(exported_xml(setup, {}), "\"disk\"", "origin"),
+                            target = numbers_after(exported_xml(setup, {}), "\"disk\"", "target");
+  ASSERT_EQ(origin.size(), 3u);
+  const Eigen::Vector3d to_light(origin[0] - target[0], origin[1] - target[1], origin[2] - target[2]);
+  const Eigen::Vector3f expected = render::key_direction(view.look, view.camera, {});
+  EXPECT_NEAR(to_light.normalized().dot(expected.normalized().cast<double>()), 1, 1e-6);
+  EXPECT_LT(std::abs(to_light.normalized().z()), 0.4) << "almost in the plane of the picture";
 }
 
 }  // namespace
