@@ -1,5 +1,6 @@
 // Runs that are ended at any moment and go on (--checkpoint, --resume): what they write in the end is what
 // one that was left alone writes.
+#include <chrono>
 #include <csignal>
 #include <fstream>
 #include <map>
@@ -81,13 +82,22 @@ void expect_same_results(const fs::path& a, const fs::path& b) {
   EXPECT_EQ(first["complete"], true);
 }
 
-// Kills the run again and again and lets it go on; how often it went on from a checkpoint.
-std::size_t interrupt(const std::string& arguments, const fs::path& out, int signal, int kills, int longest) {
+// Runs the program into this folder; how long that took [ms].
+int time_of_whole(const std::string& arguments, const fs::path& out) {
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_EQ(program(arguments + out_flag(out)).exit_code, 0);
+  const auto taken = std::chrono::steady_clock::now() - start;
+  return static_cast<int>(std::chrono::duration_cast<std::chrono::milliseconds>(taken).count());
+}
+
+// Kills the run again and again, each time within a sixth to a third of what the whole takes [ms], and lets
+// it go on; how often it went on from a checkpoint.
+std::size_t interrupt(const std::string& arguments, const fs::path& out, int signal, int kills, int whole) {
   std::mt19937 random(7);
   int status = -1;
   for (int k = 0; k < kills && status != 0; ++k) {
     status = signalled(arguments + " --resume" + out_flag(out), signal,
-                       std::uniform_int_distribution(5, longest)(random), out.string() + ".err");
+                       std::uniform_int_distribution(whole / 6, whole / 3)(random), out.string() + ".err");
     const bool ended = WIFEXITED(status) && WEXITSTATUS(status) == 3, done = status == 0;
     EXPECT_TRUE(WIFSIGNALED(status) || ended || done) << file_content(out.string() + ".err");
     if (ended) {
@@ -129,8 +139,8 @@ TEST_P(ResumingEvery, EndsInTheSameBits) {
 // Which leaves no time for last words, and half-written files.
 TEST(Resuming, ASwingThatIsKilledEndsInTheSameBits) {
   const Folder folder;
-  ASSERT_EQ(program(kResumedSwing + out_flag(folder.path() / "whole")).exit_code, 0);
-  EXPECT_GT(interrupt(kResumedSwing + " --checkpoint 1e-6", folder.path() / "parts", SIGKILL, 10, 120), 2u);
+  const int whole = time_of_whole(kResumedSwing + " --checkpoint 1e-6", folder.path() / "whole");
+  EXPECT_GT(interrupt(kResumedSwing + " --checkpoint 1e-6", folder.path() / "parts", SIGKILL, 10, whole), 2u);
   expect_same_results(folder.path() / "whole", folder.path() / "parts");
 }
 
@@ -138,8 +148,8 @@ TEST(Resuming, PicturesAndMeshesGoOnWhereTheyWere) {
   const Folder folder;
   const std::string line =
       "swing --quick --threads 1 --device cpu --fps 60 --size 96x64 --look cloth,curvature --export obj";
-  ASSERT_EQ(program(line + out_flag(folder.path() / "whole")).exit_code, 0);
-  EXPECT_GT(interrupt(line + " --checkpoint 1e-6", folder.path() / "parts", SIGTERM, 3, 700), 1u);
+  const int whole = time_of_whole(line + " --checkpoint 1e-6", folder.path() / "whole");
+  EXPECT_GT(interrupt(line + " --checkpoint 1e-6", folder.path() / "parts", SIGTERM, 3, whole), 1u);
   expect_same_results(folder.path() / "whole", folder.path() / "parts");
 }
 
