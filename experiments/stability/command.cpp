@@ -13,6 +13,7 @@
 #include "experiments/workbench/pages/report.h"
 #include "sim/base/comma_list.h"
 #include "sim/base/csv.h"
+#include "sim/base/parallel.h"
 #include "sim/scene/scene_reader.h"
 
 namespace hysteron::experiments {
@@ -104,29 +105,27 @@ Table cell_table(const std::vector<SweepCell>& cells) {
   return table;
 }
 
-// cells, ended, retried, refused, diverged of all and of each integrator, also on stdout; diverged_default.
+// cells, ended, retried, refused, diverged of all and of each integrator, these also on stdout;
+// diverged_default.
 void count(Run& run, const Table& cells, bool print) {
-  const std::vector<int> widths = {-14, 9};
-  const auto outcomes = names(Outcome{});
-  const auto occurrences = [&](const Table& rows, const std::string& prefix) {
-    std::vector<std::string> counts = {prefix.substr(0, prefix.find('.'))};
+  std::vector<std::vector<std::string>> lines = {{"integrator"}};
+  const auto add = [&](const Table& rows, const std::string& prefix) {
     run.metric(prefix + "cells", rows.rows.size());
-    for (const char* outcome : outcomes) {
+    for (const char* outcome : names(Outcome{})) {
       const std::size_t n = rows.where("outcome", outcome).rows.size();
-      counts.push_back(std::to_string(n));
+      lines.back().push_back(lines.size() > 1 ? std::to_string(n) : outcome);
       run.metric(prefix + outcome, n);
     }
-    return counts;
   };
-  std::vector<std::string> head = {"integrator"};
-  head.insert(head.end(), outcomes.begin(), outcomes.end());
-  std::string printed = aligned(head, widths) + "\n";
-  occurrences(cells, "");
-  for (const std::string& integrator : cells.values("integrator"))
-    printed += aligned(occurrences(cells.where("integrator", integrator), integrator + "."), widths) + "\n";
+  add(cells, "");
+  for (const std::string& integrator : cells.values("integrator")) {
+    lines.push_back({integrator});
+    add(cells.where("integrator", integrator), integrator + ".");
+  }
   const Table usual = cells.where("integrator", enum_name(default_scene().integrator));
   run.metric("diverged_default", usual.where("outcome", "diverged").rows.size());
-  if (print) fmt::print("{}", printed);
+  for (const auto& line : lines)
+    if (print) fmt::print("{}\n", aligned(line, {-14, 9}));
 }
 
 // Apart for colour-blind eyes and in grey (Okabe & Ito 2008, lightened so that numbers can be read on them).
@@ -157,16 +156,20 @@ void draw_maps(Run& run, const std::vector<Sweep>& sweeps, const Table& cells) {
 }
 
 // limit.csv, limit_smallest_ratio and limit_largest_ratio.
-void write_limits(Run& run, const std::vector<MeasuredLimit>& limits) {
+void measure_limits(const F& flags, Run& run) {
+  const std::vector<LimitCase> cases = limit_cases(flags.options.quick);
+  std::vector<MeasuredLimit> limits(cases.size());
+  in_parallel(cases.size(), thread_choice(flags), [&](std::size_t i) {
+    limits[i] = measure_limit(cases[i], static_cast<int>(flags.limit_steps));
+  });
   Table table(
       "mesh,element,edge,law,damping [s],largest amplitude [m],bound [s],measured [s],measured/bound");
   double least = kMaxRatio, most = 0, least_resonant = kMaxRatio;
   for (const MeasuredLimit& limit : limits) {
     const LimitCase& of = limit.of;
-    table.row({of.mesh, enum_name(of.element), of.held ? "held" : "free", of.condition.law,
-               of.condition.damping, of.condition.amplitudes.back(), limit.bound, limit.measured,
-               limit.ratio()});
-    if (of.condition.resonates() && of.condition.damping == 0) {
+    table.row({of.mesh, enum_name(of.element), of.held ? "held" : "free", of.law, of.damping, of.amplitude,
+               limit.bound, limit.measured, limit.ratio()});
+    if (of.resonates() && of.damping == 0) {
       least_resonant = std::min(least_resonant, limit.ratio());
       continue;
     }
@@ -184,10 +187,9 @@ int run_stability(const CommandLine& line) {
     flags.effort.work = std::min(flags.effort.work, kQuickWork);
     flags.limit_steps = std::min(flags.limit_steps, kQuickLimitSteps);
   });
-  std::vector<std::string> names = flags.sweep == "all" ? sweep_names() : split(flags.sweep);
-  if (flags.sweep == "all") names.push_back(kLimitSweep);
-  const bool with_limit = std::erase(names, kLimitSweep) > 0;
-  const std::vector<Sweep> sweeps = make_sweeps(names, sweep_choice(flags));
+  std::vector<std::string> names = split(flags.sweep);
+  const bool with_limit = std::erase(names, kLimitSweep) > 0 || flags.sweep == "all";
+  const std::vector<Sweep> sweeps = named_sweeps(names, sweep_choice(flags));
 
   Run run(line, flags.options, to_json(bind(kRows, flags)));
   if (!sweeps.empty()) run.reserve({"cells.csv"});
@@ -198,11 +200,7 @@ int run_stability(const CommandLine& line) {
     count(run, cells, !flags.options.json);
     if (!flags.options.no_images) draw_maps(run, sweeps, cells);
   }
-  if (with_limit) {
-    const std::vector<MeasuredLimit> limits = measure_limits(
-        limit_cases(flags.options.quick), static_cast<int>(flags.limit_steps), thread_choice(flags));
-    write_limits(run, limits);
-  }
+  if (with_limit) measure_limits(flags, run);
   finish_with_report(run);
   return 0;
 }

@@ -1,15 +1,25 @@
-// Sweeps of named cases: meshes that no builder makes on purpose, and scenes that ask too much.
-#include <algorithm>
+// Sweeps of named cases: meshes that no builder makes on purpose, and scenes that ask too much of bending, of
+// the membrane and of contact.
 #include <cmath>
+#include <numbers>
 
 #include "experiments/specimens/clamped_mesh.h"
 #include "experiments/stability/stability.h"
 #include "experiments/workbench/app/experiment.h"
-#include "sim/base/error.h"
 #include "sim/scene/scene_reader.h"
 
 namespace hysteron::experiments {
 namespace {
+
+constexpr double kSide = 0.2;                              // of squares [m]
+constexpr double kHappens = 0.3;                           // [s] in which the scenes' motions are over
+constexpr double kShortStep = 1e-3, kLongStep = 1.0 / 60;  // [s]
+
+// A row of a map.
+struct NamedAttempt {
+  std::string name;
+  Attempt attempt;
+};
 
 // ---- meshes ----
 
@@ -58,217 +68,263 @@ ClothMesh one_triangle() {
   return mesh;
 }
 
-// The cloth's left end is held, the rest swings down.
-Attempt cantilever(std::function<ClothMesh()> mesh) {
-  Attempt attempt{default_scene("cotton-broad-k50"), std::move(mesh), 0.3};
-  attempt.scene.pin = {held_between(0, 1e-6)};
-  return attempt;
-}
-
-const NamedAttempt kMeshes[] = {
-    {"aspect 1", [] { return cantilever([] { return stretched_cells(1); }); }},
-    {"aspect 10", [] { return cantilever([] { return stretched_cells(10); }); }},
-    {"aspect 100", [] { return cantilever([] { return stretched_cells(100); }); }},
-    {"aspect 1000", [] { return cantilever([] { return stretched_cells(1000); }); }},
-    {"slivers 1:1000", [] { return cantilever(slivers); }},
-    {"sizes 1:100", [] { return cantilever(mixed_sizes); }},
-};
-
 // ---- scenes ----
 
-constexpr double kHappens = 0.3;  // [s] in which the scenes' motions are over
-
-Attempt square(double height) {
-  Attempt attempt{default_scene("cotton-broad-k50"), {}, kHappens};
-  attempt.scene.cloth.length = 0.2;
-  attempt.scene.cloth.position.z() = height;
-  attempt.scene.triangles = 160;
-  return attempt;
+Scene scene_of(const std::string& shape, double length, int triangles) {
+  Scene scene = default_scene("cotton-broad-k50");
+  scene.seconds = kHappens;
+  scene.cloth.shape = shape;
+  scene.cloth.length = length;
+  scene.triangles = triangles;
+  return scene;
 }
 
-// A strip of 10 cm x 3 cm between two clamps of 4 cm; the right one turns about the middle by `degrees`.
-Attempt folded(double degrees) {
-  Attempt attempt{default_scene("cotton-broad-k50"), {}, kHappens};
-  Scene& scene = attempt.scene;
-  scene.cloth.shape = "strip";
-  scene.cloth.length = 0.1;
+// The left edge of a square is held, the rest swings down.
+Scene hanging(void (*change)(Scene&)) {
+  Scene scene = scene_of("square", kSide, 160);
+  scene.pin = {held_between(0, 1e-6)};
+  change(scene);
+  return scene;
+}
+
+void leave(Scene&) {}
+
+void hold_along_x(Scene& scene) { scene.pin[0].high.y() = 0; }
+
+void soften_to_coulomb(Scene& scene) {
+  constexpr double kCurvature = 0.1;  // [1/m]
+  Fabric& f = scene.fabric;
+  f.b1 = f.b2 + (f.b1 - f.b2) * f.k0 / kCurvature;
+  f.k0 = kCurvature;
+}
+
+// A strip of 10 cm x 3 cm, held up to `near` and from `far` on [m], where a hand moves it.
+Scene clamped(double near, double far, const std::vector<Keyframe>& keys) {
+  Scene scene = scene_of("strip", 0.1, 160);
   scene.cloth.width = 0.03;
-  scene.triangles = 160;
-  scene.pin = {held_between(0, 0.04), held_between(0.06, 0.1)};
-  Motion& motion = scene.pin[1].motion;
-  motion.axis = {0, -1, 0};
-  motion.center = {0.05, 0, 0};
-  motion.keys = {{0, {0, 0, 0}, 0}, {0.8 * kHappens, {0, 0, 0}, degrees}};
-  return attempt;
+  scene.pin = {held_between(0, near), held_between(far, 0.1)};
+  scene.pin[1].motion = {keys, {0, -1, 0}, {0.05, 0, 0}};
+  return scene;
 }
 
-// The same strip bent to 100 k0: over the 2 cm between the clamps 180 degrees are pi/0.02 m.
-Attempt bent_far() {
-  Attempt attempt = folded(180);
-  Fabric& f = attempt.scene.fabric;
+// Between two clamps of 4 cm; the right one turns about the middle by `degrees`.
+Scene folded(double degrees) {
+  return clamped(0.04, 0.06, {{0, {0, 0, 0}, 0}, {0.8 * kHappens, {0, 0, 0}, degrees}});
+}
+
+// The same bent to 100 k0: over the 2 cm between the clamps 180 degrees are pi/0.02 m.
+Scene bent_far() {
+  Scene scene = folded(180);
+  Fabric& f = scene.fabric;
   const double friction = (f.b1 - f.b2) * f.k0;
-  f.k0 = 3.14159265358979323846 / 0.02 / 100;
+  f.k0 = std::numbers::pi / 0.02 / 100;
   f.b1 = f.b2 + friction / f.k0;
-  return attempt;
+  return scene;
 }
 
-// The same strip bent slowly to 90 degrees in steps of +15 and -10.
-Attempt rippled() {
-  Attempt attempt = folded(0);
-  auto& keys = attempt.scene.pin[1].motion.keys;
-  keys.clear();
-  for (int k = 0; k <= 34; ++k) {
-    const double angle = k / 2 * 5 + (k % 2 ? 15 : 0);
-    keys.push_back({kHappens * k / 35, {0, 0, 0}, angle});
-  }
-  return attempt;
+// The same bent slowly to 90 degrees in steps of +15 and -10.
+Scene rippled() {
+  std::vector<Keyframe> keys;
+  for (int k = 0; k <= 34; ++k)
+    keys.push_back({kHappens * k / 35, {0, 0, 0}, k / 2 * 5.0 + (k % 2 ? 15 : 0)});
+  return clamped(0.04, 0.06, keys);
 }
 
-// The right clamp moves by `metres` along the strip, in kHappens/2.
-Attempt pulled(double metres) {
-  Attempt attempt = folded(0);
-  attempt.scene.pin[1].motion.keys = {{0, {0, 0, 0}, 0}, {kHappens / 2, {metres, 0, 0}, 0}};
-  return attempt;
+// Its right clamp moves by `metres` along the strip, in kHappens/2.
+Scene pulled(double metres) {
+  return clamped(0.04, 0.06, {{0, {0, 0, 0}, 0}, {kHappens / 2, {metres, 0, 0}, 0}});
 }
 
-// A ball of 3 cm comes up through a square held at its corners, at 100 m/s where it meets the cloth.
-Attempt hit() {
-  Attempt attempt = square(0);
-  attempt.scene.pin = {held_between(0, 1e-6), held_between(0.2 - 1e-6, 0.2)};
-  Obstacle ball = solid(ObstacleKind::sphere, {0.1, 0.1, -0.531});
-  ball.radius = 0.03;
-  // The middle of a smooth motion from rest to rest is 3/2 as fast as the mean.
-  ball.motion.keys = {{0, {0, 0, 0}, 0}, {0.015, {0, 0, 1}, 0}};
-  attempt.scene.obstacle = {ball};
-  attempt.most_seconds = 0.05;
-  return attempt;
+Obstacle solid(ObstacleKind kind, const Eigen::Vector3d& center, double radius = 0) {
+  Obstacle obstacle;
+  obstacle.kind = kind;
+  obstacle.center = center;
+  if (radius > 0) obstacle.radius = radius;
+  return obstacle;
 }
 
-// The same in steps in which the ball moves 1 mm.
-Attempt hit_in_small_steps() {
-  Attempt attempt = hit();
-  attempt.scene.step = 1e-5;
-  return attempt;
+// A ball of 3 cm comes up through a square held at its corners, at 100 m/s where it meets the cloth: the
+// middle of a smooth motion from rest to rest is 3/2 as fast as the mean.  In steps of 10 µs it moves 1 mm.
+Scene hit(double step) {
+  Scene scene = scene_of("square", kSide, 160);
+  scene.step = step;
+  scene.seconds = 0.05;
+  scene.pin = {held_between(0, 1e-6), held_between(kSide - 1e-6, kSide)};
+  scene.obstacle = {solid(ObstacleKind::sphere, {0.1, 0.1, -0.531}, 0.03)};
+  scene.obstacle[0].motion.keys = {{0, {0, 0, 0}, 0}, {0.015, {0, 0, 1}, 0}};
+  return scene;
 }
 
-Attempt dropped_on_edge() {
-  Attempt attempt = square(0.02);
-  Obstacle box = solid(ObstacleKind::box, {0.1, 0.1, -0.05});
-  box.size = {0.03, 0.2, 0.05};
+// A wall whose upper edges are sharp.
+Obstacle sharp_wall(double x, double y) {
+  Obstacle box = solid(ObstacleKind::box, {x, y, -0.05});
+  box.size = {0.03, kSide, 0.05};
   box.rim = 1e-4;
-  attempt.scene.obstacle = {box};
-  return attempt;
+  return box;
 }
 
-Attempt hanging() {
-  Attempt attempt = square(0);
-  attempt.scene.pin = {held_between(0, 1e-6)};
-  return attempt;
+Scene dropped_on_edge() {
+  Scene scene = scene_of("square", kSide, 160);
+  scene.cloth.position.z() = 0.02;
+  scene.obstacle = {sharp_wall(0.1, 0.1)};
+  return scene;
 }
 
-template <class Change>
-Attempt hanging_with(const Change& change) {
-  Attempt attempt = hanging();
-  change(attempt.scene);
-  return attempt;
+std::vector<NamedAttempt> extreme_meshes() {
+  const Scene scene = hanging(leave);
+  return {{"aspect 1", {scene, stretched_cells(1)}},     {"aspect 10", {scene, stretched_cells(10)}},
+          {"aspect 100", {scene, stretched_cells(100)}}, {"aspect 1000", {scene, stretched_cells(1000)}},
+          {"slivers 1:1000", {scene, slivers()}},        {"sizes 1:100", {scene, mixed_sizes()}}};
 }
 
-const NamedAttempt kScenes[] = {
-    {"one triangle",
-     [] {
-       Attempt attempt{default_scene("cotton-broad-k50"), one_triangle, kHappens};
-       attempt.scene.pin = {held_between(0, 1e-6)};
-       attempt.scene.pin[0].high.y() = 0;
-       return attempt;
-     }},
-    {"pressed to 1/10", [] { return pulled(-0.018); }},
-    {"stretched to 3x", [] { return pulled(0.04); }},
-    {"ripples on a bend", rippled},
-    {"M0 = 1e4 b2 k0",
-     [] { return hanging_with([](Scene& scene) { scene.fabric.b2 = scene.fabric.b1 / 2e4; }); }},
-    {"k0 = 1e6/m (elastic)", [] { return hanging_with([](Scene& scene) { scene.fabric.k0 = 1e6; }); }},
-    {"k0 = 0.1/m (Coulomb)",
-     [] {
-       return hanging_with([](Scene& scene) {
-         Fabric& f = scene.fabric;
-         f.b1 = f.b2 + (f.b1 - f.b2) * f.k0 / 0.1;
-         f.k0 = 0.1;
-       });
-     }},
-    {"k0 = 0", [] { return hanging_with([](Scene& scene) { scene.fabric.k0 = 0; }); }},
-    {"no bending", [] { return hanging_with([](Scene& scene) { scene.fabric.b1 = scene.fabric.b2 = 0; }); }},
-    {"bending 1e-12 N m",
-     [] { return hanging_with([](Scene& scene) { scene.fabric.b1 = scene.fabric.b2 = 1e-12; }); }},
-    {"no damping", [] { return hanging_with([](Scene& scene) { scene.fabric.damping = 0; }); }},
-    {"gravity x 100", [] { return hanging_with([](Scene& scene) { scene.gravity *= 100; }); }},
-    {"fall onto an edge", dropped_on_edge},
-    {"the same, steps of 10 µs", hit_in_small_steps},
-    {"hit at 100 m/s", hit},
-    {"bent to 100 k0", bent_far},
-    {"folded by 330°", [] { return folded(330); }},
-    {"folded by 180°", [] { return folded(180); }},
-};
+std::vector<NamedAttempt> extreme_scenes() {
+  return {
+      {"one triangle", {hanging(hold_along_x), one_triangle()}},
+      {"pressed to 1/10", {pulled(-0.018)}},
+      {"stretched to 3x", {pulled(0.04)}},
+      {"ripples on a bend", {rippled()}},
+      {"M0 = 1e4 b2 k0", {hanging([](Scene& scene) { scene.fabric.b2 = scene.fabric.b1 / 2e4; })}},
+      {"k0 = 1e6/m (elastic)", {hanging([](Scene& scene) { scene.fabric.k0 = 1e6; })}},
+      {"k0 = 0.1/m (Coulomb)", {hanging(soften_to_coulomb)}},
+      {"k0 = 0", {hanging([](Scene& scene) { scene.fabric.k0 = 0; })}},
+      {"no bending", {hanging([](Scene& scene) { scene.fabric.b1 = scene.fabric.b2 = 0; })}},
+      {"bending 1e-12 N m", {hanging([](Scene& scene) { scene.fabric.b1 = scene.fabric.b2 = 1e-12; })}},
+      {"no damping", {hanging([](Scene& scene) { scene.fabric.damping = 0; })}},
+      {"gravity x 100", {hanging([](Scene& scene) { scene.gravity *= 100; })}},
+      {"fall onto an edge", {dropped_on_edge()}},
+      {"the same, steps of 10 µs", {hit(1e-5)}},
+      {"hit at 100 m/s", {hit(kShortStep)}},
+      {"bent to 100 k0", {bent_far()}},
+      {"folded by 330°", {folded(330)}},
+      {"folded by 180°", {folded(180)}},
+  };
+}
 
-constexpr double kShortStep = 1e-3, kLongStep = 1.0 / 60;  // [s]
+// ---- contact ----
+
+// Newton's criteria are those of the crumpling scenes, without their limit of iterations.
+Scene with_self_contact(Scene scene) {
+  scene.self_contact = true;
+  scene.newton_residual = 1e-3;
+  scene.newton_velocity = 1e-4;
+  return scene;
+}
+
+Scene closing_sphere(double friction) {
+  Scene scene = with_self_contact(scene_of("square", kSide, 300));
+  scene.fabric.friction = friction;
+  scene.cloth.position = {-kSide / 2, 0, -kSide / 2};
+  scene.cloth.rotation = {90, 0, 0};
+  scene.obstacle = {solid(ObstacleKind::hollow, {0, 0, 0}, 0.15)};
+  scene.obstacle[0].motion.keys = {{0, {0, 0, 0}, 0}, {0.8 * kHappens, {0, 0, 0}, 0, 0.3}};
+  return scene;
+}
+
+// Six layers under a plate that stops at this many thicknesses a layer.
+Scene pressed(double thicknesses) {
+  constexpr double kHeight = 0.026;  // of the plate's lower side at the start [m]
+  Scene scene = with_self_contact(scene_of("strip", kSide, 400));
+  scene.cloth.start = "pleats";
+  scene.cloth.pleats = 6;
+  scene.cloth.width = 0.03;
+  scene.cloth.radius = 2e-3;
+  scene.cloth.position = {-0.015, -0.015, 2e-3};
+  Obstacle plate = solid(ObstacleKind::box, {0, 0, kHeight + 0.005});
+  plate.size = {0.06, 0.04, 0.005};
+  const double end = 6 * thicknesses * scene.fabric.thickness;
+  plate.motion.keys = {{0, {0, 0, 0}, 0}, {0.8 * kHappens, {0, 0, end - kHeight}, 0}};
+  scene.obstacle = {solid(ObstacleKind::ground, {0, 0, 0}), plate};
+  return scene;
+}
+
+// Sheets one above the other, the lowest 1 cm above z = 0.
+Scene sheets(int copies, const Obstacle& obstacle) {
+  Scene scene = with_self_contact(scene_of("square", kSide, 100 * copies));
+  scene.cloth.copies = copies;
+  scene.cloth.copy_offset = {0, 0, 0.01};
+  scene.cloth.position = {-kSide / 2, -kSide / 2, 0.01};
+  scene.obstacle = {obstacle};
+  return scene;
+}
+
+// A ball that comes up at 1 m/s.
+Obstacle slow_ball() {
+  Obstacle ball = solid(ObstacleKind::sphere, {0, 0, -0.06}, 0.03);
+  ball.motion.keys = {{0, {0, 0, 0}, 0}, {0.15, {0, 0, 0.1}, 0}};
+  return ball;
+}
+
+// The right clamp of a strip is led over the left one and through it, by a hand of this strength.
+Scene led_through_itself(double strength) {
+  Scene scene = with_self_contact(clamped(0.02, 0.08,
+                                          {{0, {0, 0, 0}, 0},
+                                           {0.1, {-0.04, 0, 0.04}, 0},
+                                           {0.15, {-0.08, 0, 0.02}, 0},
+                                           {0.25, {-0.08, 0, -0.02}, 0}}));
+  scene.pin[1].strength = strength;
+  return scene;
+}
+
+std::vector<NamedAttempt> contact_scenes() {
+  return {
+      {"through itself, hand of 1 N", {led_through_itself(1)}},
+      {"four sheets hit at 1 m/s", {sheets(4, slow_ball())}},
+      {"three sheets onto an edge", {sheets(3, sharp_wall(0, 0))}},
+      {"six layers to 1.2 thicknesses", {pressed(1.2)}},
+      {"sphere, friction 1", {closing_sphere(1)}},
+      {"sphere, friction 0.3", {closing_sphere(0.3)}},
+      {"sphere, no friction", {closing_sphere(0)}},
+  };
+}
+
+// ---- sweeps ----
+
+// Rows under some laws; `set` makes the variant of a scene.
+Sweep sweep_of(const std::string& name, const std::string& title, const std::string& label,
+               const std::vector<NamedAttempt>& rows, const std::vector<std::string>& laws,
+               const std::vector<std::string>& variants, void (*set)(Scene&, int variant)) {
+  Sweep sweep{name, title, {"law", laws}, {label, {}}, variants, {}};
+  for (const NamedAttempt& row : rows) sweep.y.ticks.push_back(row.name);
+  sweep.at = [rows, laws, set](int variant, int column, int row) {
+    Attempt attempt = rows[row].attempt;
+    attempt.scene.law = laws[column];
+    set(attempt.scene, variant);
+    return attempt;
+  };
+  return sweep;
+}
+
+void set_element(Scene& scene, int variant) {
+  scene.element = variant == 0 ? BendingElement::shape : BendingElement::hinge;
+  scene.step = kShortStep;
+}
+
+void set_step(Scene& scene, int variant) {
+  if (scene.step >= kShortStep) scene.step = variant == 0 ? kShortStep : kLongStep;
+}
+
+void set_step_of_floats(Scene& scene, int variant) {
+  scene.precision = Precision::fp32;
+  set_step(scene, variant);
+}
+
+void set_step_of_contact(Scene& scene, int variant) { scene.step = variant == 0 ? 1.0 / 240 : kLongStep; }
 
 }  // namespace
 
-Sweep mesh_sweep(const SweepChoice& choice) {
-  return named_sweep("mesh", "Mesh quality: a strip or square held at one end; steps of 1 ms", "mesh",
-                     kMeshes, choice.few_laws(), {"shape", "hinge"}, [](Scene& scene, int variant) {
-                       scene.element = variant == 0 ? BendingElement::shape : BendingElement::hinge;
-                       scene.step = kShortStep;
-                     });
-}
-
-Sweep scene_sweep(const SweepChoice& choice, Precision precision) {
-  const bool all = precision == Precision::fp64 && choice.laws.empty() && !choice.quick;
-  return named_sweep(precision == Precision::fp64 ? "scenes" : "scenes-" + enum_name(precision),
-                     "Scenes that ask too much, in " + enum_name(precision) + " precision", "scene", kScenes,
-                     all ? law_names() : choice.few_laws(), {"step 1 ms", "step 1/60 s"},
-                     [precision](Scene& scene, int variant) {
-                       scene.precision = precision;
-                       if (scene.step >= kShortStep) scene.step = variant == 0 ? kShortStep : kLongStep;
-                     });
-}
-
-namespace {
-
-struct NamedSweep {
-  const char* name;
-  Sweep (*make)(const SweepChoice&);
-};
-
-const NamedSweep kSweeps[] = {
-    {"bending-step", bending_sweep},
-    {"membrane-step", membrane_sweep},
-    {"density-step", density_sweep},
-    {"friction-step", friction_sweep},
-    {"mesh", mesh_sweep},
-    {"contact", contact_sweep},
-    {"scenes", [](const SweepChoice& choice) { return scene_sweep(choice, Precision::fp64); }},
-    {"scenes-float", [](const SweepChoice& choice) { return scene_sweep(choice, Precision::fp32); }},
-};
-
-}  // namespace
-
-std::vector<std::string> sweep_names() {
-  std::vector<std::string> names;
-  for (const NamedSweep& sweep : kSweeps) names.push_back(sweep.name);
-  return names;
-}
-
-std::vector<Sweep> make_sweeps(const std::vector<std::string>& names, const SweepChoice& choice) {
-  std::vector<Sweep> sweeps;
-  for (const std::string& name : names) {
-    const auto found = std::find_if(std::begin(kSweeps), std::end(kSweeps),
-                                    [&](const NamedSweep& sweep) { return name == sweep.name; });
-    if (found == std::end(kSweeps))
-      throw Error::invalid_input("--sweep " + name + " must be of " + join(sweep_names(), ", "))
-          .with_key("sweep", name);
-    sweeps.push_back(found->make(choice));
-  }
-  return sweeps;
+std::vector<Sweep> scene_sweeps(const SweepChoice& choice) {
+  const std::vector<std::string> few = choice.few_laws(), steps = {"step 1 ms", "step 1/60 s"};
+  const bool all = choice.laws.empty() && !choice.quick;
+  return {
+      sweep_of("mesh", "Mesh quality: a strip or square held at one end; steps of 1 ms", "mesh",
+               extreme_meshes(), few, {"shape", "hinge"}, set_element),
+      sweep_of("contact", "Layers, solids and hands", "scene", contact_scenes(), few,
+               {"step 1/240 s", "step 1/60 s"}, set_step_of_contact),
+      sweep_of("scenes", "Scenes that ask too much, in double precision", "scene", extreme_scenes(),
+               all ? law_names() : few, steps, set_step),
+      sweep_of("scenes-float", "Scenes that ask too much, in float precision", "scene", extreme_scenes(), few,
+               steps, set_step_of_floats),
+  };
 }
 
 }  // namespace hysteron::experiments

@@ -1,5 +1,6 @@
 #include "experiments/stability/stability.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -9,6 +10,7 @@
 #include "sim/base/parallel.h"
 #include "sim/mesh/intersections.h"
 #include "sim/scene/scene_reader.h"
+#include "sim/time/simulation.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -17,16 +19,13 @@ namespace {
 // away within a few more.
 constexpr int kLooks = 400;
 
-double cloth_mass(const Scene& scene, const ClothMesh& mesh) {
+// m g L [J]
+double weight_energy(const Scene& scene, const ClothMesh& mesh) {
   double area = 0;
-  for (double a : mesh.vertex_area) area += a;
-  return scene.fabric.density * area;
-}
-
-double diagonal(const ClothMesh& mesh) {
-  Eigen::Vector3d low = mesh.rest.front(), high = low;
-  for (const auto& x : mesh.rest) low = low.cwiseMin(x), high = high.cwiseMax(x);
-  return (high - low).norm();
+  for (const double a : mesh.vertex_area) area += a;
+  Eigen::AlignedBox3d box;
+  for (const auto& x : mesh.rest) box.extend(x);
+  return scene.fabric.density * area * scene.gravity.norm() * box.diagonal().norm();
 }
 
 long planned_steps(const Simulation& simulation, const Scene& scene, const CellEffort& effort) {
@@ -35,40 +34,26 @@ long planned_steps(const Simulation& simulation, const Scene& scene, const CellE
   return std::max(1L, std::lround(std::min(scene.seconds / scene.step, std::floor(effort.work / work))));
 }
 
-// The measures of one run as it goes on.
-class Watch {
- public:
-  Watch(const Scene& scene, const Cloth& cloth, Finding& finding)
-      : weight_(cloth_mass(scene, cloth.mesh) * scene.gravity.norm() * diagonal(cloth.mesh)),
-        finding_(finding) {}
-
-  // False if the run has diverged.
-  bool look(Simulation& simulation) {
-    const Ledger l = simulation.ledger();
-    const double stretch = simulation.largest_stretch();
-    const double now = l.kinetic + l.gravitational + l.membrane + l.bending + l.contact;
-    work_ = std::max(work_, std::abs(l.handle_work) + std::abs(l.obstacle_work));
-    const double scale = l.initial + work_ + weight_;
-    const double excess = now - l.initial - l.handle_work - l.obstacle_work;
-    const double growth = scale > 0 ? 1 + excess / scale : 1;
-    finding_.remainder = scale > 0 ? l.remainder / scale : 0;
-    if (!std::isfinite(growth) || !std::isfinite(stretch)) return broken(growth, "is not finite");
-    finding_.energy_growth = std::max(finding_.energy_growth, growth);
-    finding_.largest_stretch = std::max(finding_.largest_stretch, stretch);
-    return growth <= kLargestGrowth || broken(growth, "is more than was put in");
+// Energy and stretch as they are now; `most_work` is what hands and obstacles have done so far [J].
+void look(Simulation& simulation, double weight, double& most_work, Finding& finding) {
+  const Ledger l = simulation.ledger();
+  const double stretch = simulation.largest_stretch();
+  const double now = l.kinetic + l.gravitational + l.membrane + l.bending + l.contact;
+  most_work = std::max(most_work, std::abs(l.handle_work) + std::abs(l.obstacle_work));
+  const double scale = l.initial + most_work + weight;
+  const double excess = now - l.initial - l.handle_work - l.obstacle_work;
+  const double growth = scale > 0 ? 1 + excess / scale : 1;
+  finding.remainder = scale > 0 ? l.remainder / scale : 0;
+  const bool finite = std::isfinite(growth) && std::isfinite(stretch);
+  if (finite) finding.largest_stretch = std::max(finding.largest_stretch, stretch);
+  if (finite && growth <= kLargestGrowth) {
+    finding.energy_growth = std::max(finding.energy_growth, growth);
+    return;
   }
-
- private:
-  bool broken(double growth, const char* what) {
-    finding_.outcome = Outcome::diverged;
-    finding_.energy_growth = growth;
-    finding_.message = std::string("the energy ") + what;
-    return false;
-  }
-
-  double weight_, work_ = 0;  // m g L, and the most work done so far [J]
-  Finding& finding_;
-};
+  finding.outcome = Outcome::diverged;
+  finding.energy_growth = growth;
+  finding.message = finite ? "the energy is more than was put in" : "the energy is not finite";
+}
 
 void search_intersections(Simulation& simulation, const Cloth& cloth, Finding& finding) {
   const std::size_t crossing = intersecting_triangles(cloth.mesh.face, simulation.positions()).size();
@@ -81,20 +66,27 @@ void simulate(const Scene& scene, const Cloth& cloth, const CellEffort& effort, 
   const auto simulation = make_simulation(scene, cloth);
   finding.substeps = simulation->limits().substeps;
   const long steps = planned_steps(*simulation, scene, effort);
-  Watch watch(scene, cloth, finding);
+  const double weight = weight_energy(scene, cloth.mesh);
+  double most_work = 0;
   finding.outcome = Outcome::ended;
-  for (int look = 1; look <= kLooks && finding.outcome == Outcome::ended; ++look) {
-    const long until = steps * look / kLooks;
+  for (int n = 1; n <= kLooks && finding.outcome == Outcome::ended; ++n) {
+    const long until = steps * n / kLooks;
     if (until == finding.steps) continue;
     finding.steps = until;  // also where advance() breaks off on the way
     simulation->advance(static_cast<int>(until - simulation->steps()));
     finding.seconds_simulated = simulation->time();
-    watch.look(*simulation);
+    look(*simulation, weight, most_work, finding);
   }
   finding.retried_steps = simulation->counts().retried;
   if (finding.outcome == Outcome::ended && scene.self_contact)
     search_intersections(*simulation, cloth, finding);
   if (finding.outcome == Outcome::ended && finding.retried_steps > 0) finding.outcome = Outcome::retried;
+}
+
+std::string names_of(const std::vector<Sweep>& sweeps) {
+  std::vector<std::string> names;
+  for (const Sweep& sweep : sweeps) names.push_back(sweep.name);
+  return join(names, ", ");
 }
 
 }  // namespace
@@ -109,10 +101,10 @@ Finding find_out(const Attempt& attempt, const CellEffort& effort) {
   Finding finding;
   const auto start = std::chrono::steady_clock::now();
   Scene scene = attempt.scene;
-  scene.seconds = finding.requested_seconds = std::min(effort.seconds, attempt.most_seconds);
+  scene.seconds = finding.requested_seconds = std::min(effort.seconds, scene.seconds);
   try {
     check_scene(scene);
-    simulate(scene, attempt.mesh ? place_cloth(scene, attempt.mesh()) : make_cloth(scene), effort, finding);
+    simulate(scene, attempt.mesh ? place_cloth(scene, *attempt.mesh) : make_cloth(scene), effort, finding);
   } catch (const Error& error) {
     if (error.exit_code() == 1) throw;
     finding.outcome = error.exit_code() == 2 ? Outcome::refused : Outcome::diverged;
@@ -120,6 +112,20 @@ Finding find_out(const Attempt& attempt, const CellEffort& effort) {
   }
   finding.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return finding;
+}
+
+std::vector<Sweep> named_sweeps(const std::vector<std::string>& names, const SweepChoice& choice) {
+  std::vector<Sweep> all = number_sweeps(choice), sweeps;
+  for (Sweep& sweep : scene_sweeps(choice)) all.push_back(std::move(sweep));
+  if (names == std::vector<std::string>{"all"}) return all;
+  for (const std::string& name : names) {
+    const auto found =
+        std::find_if(all.begin(), all.end(), [&](const Sweep& sweep) { return name == sweep.name; });
+    if (found == all.end())
+      throw Error::invalid_input("--sweep " + name + " must be of " + names_of(all)).with_key("sweep", name);
+    sweeps.push_back(*found);
+  }
+  return sweeps;
 }
 
 std::vector<SweepCell> untried_cells(const std::vector<Sweep>& sweeps, const SweepChoice& choice) {

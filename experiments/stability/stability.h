@@ -3,13 +3,13 @@
 
 #include <array>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "render/heat_map.h"
 #include "sim/mesh/cloth_mesh.h"
 #include "sim/scene/scene.h"
-#include "sim/time/simulation.h"
 
 namespace hysteron::experiments {
 
@@ -21,11 +21,10 @@ enum class Outcome {
 };
 constexpr std::array<const char*, 4> names(Outcome) { return {"ended", "retried", "refused", "diverged"}; }
 
-// What is tried.
+// What is tried; scene.seconds is when all that is asked has happened.
 struct Attempt {
   Scene scene;
-  std::function<ClothMesh()> mesh = {};  // null: the scene's own
-  double most_seconds = 1e30;            // of simulated time: when all that is asked has happened
+  std::optional<ClothMesh> mesh = {};  // none: the scene's own
 };
 
 // How long: `seconds` of simulated time, but no more steps than the work allows, and at least one.  An
@@ -53,24 +52,11 @@ struct Finding {
 
 // Beyond this energy growth a run counts as diverged.  Explicit bending conserves a neighbouring energy, from
 // which the true one departs by up to 1/(1 - 0.75^2) - 1 in the least stable mode alone
-// (sim/solve/simulation.cpp) and by much less where all modes share it.
+// (sim/time/simulation.cpp) and by much less where all modes share it.
 inline constexpr double kLargestGrowth = 1.1;
 
 // Tries it.  What the program refuses or breaks off is a finding; Error::system is thrown.
 Finding find_out(const Attempt& attempt, const CellEffort& effort);
-
-// A row of a map of named attempts.
-struct NamedAttempt {
-  const char* name;
-  Attempt (*make)();
-};
-
-inline Obstacle solid(ObstacleKind kind, const Eigen::Vector3d& center) {
-  Obstacle obstacle;
-  obstacle.kind = kind;
-  obstacle.center = center;
-  return obstacle;
-}
 
 // One map for each variant and integrator.
 struct Sweep {
@@ -81,23 +67,6 @@ struct Sweep {
   std::function<Attempt(int variant, int column, int row)> at;
 };
 
-// Of named attempts, a row each, under some laws; `set` makes the variant.
-template <std::size_t count>
-Sweep named_sweep(const std::string& name, const std::string& title, const std::string& label,
-                  const NamedAttempt (&rows)[count], const std::vector<std::string>& laws,
-                  const std::vector<std::string>& variants,
-                  const std::function<void(Scene&, int variant)>& set) {
-  Sweep sweep{name, title, {"law", laws}, {label, {}}, variants, {}};
-  for (const NamedAttempt& row : rows) sweep.y.ticks.push_back(row.name);
-  sweep.at = [&rows, laws, set](int variant, int column, int row) {
-    Attempt attempt = rows[row].make();
-    attempt.scene.law = laws[column];
-    set(attempt.scene, variant);
-    return attempt;
-  };
-  return sweep;
-}
-
 // What the sweeps cover.
 struct SweepChoice {
   std::vector<std::string> integrators = {"semi-implicit", "implicit", "bdf2", "tr-bdf2", "explicit"};
@@ -107,19 +76,10 @@ struct SweepChoice {
 
   std::vector<std::string> few_laws() const;  // those named, or those of maps
 };
-std::vector<std::string> sweep_names();
-// Those named, in this order; Error::invalid_input for an unknown name.
-std::vector<Sweep> make_sweeps(const std::vector<std::string>& names, const SweepChoice& choice);
-
-// Parts of make_sweeps(): of numbers (maps.cpp), of scenes and meshes (scenes.cpp), and of contact
-// (contact_scenes.cpp).
-Sweep bending_sweep(const SweepChoice& choice);
-Sweep membrane_sweep(const SweepChoice& choice);
-Sweep density_sweep(const SweepChoice& choice);
-Sweep friction_sweep(const SweepChoice& choice);
-Sweep mesh_sweep(const SweepChoice& choice);
-Sweep contact_sweep(const SweepChoice& choice);
-Sweep scene_sweep(const SweepChoice& choice, Precision precision);
+std::vector<Sweep> number_sweeps(const SweepChoice& choice);  // maps.cpp
+std::vector<Sweep> scene_sweeps(const SweepChoice& choice);   // scenes.cpp
+// Of both those named, in this order, or "all"; Error::invalid_input for an unknown name.
+std::vector<Sweep> named_sweeps(const std::vector<std::string>& names, const SweepChoice& choice);
 
 // A cell of a map with what was found in it.
 struct SweepCell {

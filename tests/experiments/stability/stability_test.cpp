@@ -78,7 +78,7 @@ TEST(Attempt, IsCutShortWhenItsWorkIsDone) {
 
 TEST(Sweeps, CoverWhatTheProgramPromises) {
   const SweepChoice all;
-  const std::vector<Sweep> sweeps = make_sweeps(sweep_names(), all);
+  const std::vector<Sweep> sweeps = named_sweeps({"all"}, all);
   const std::vector<SweepCell> cells = untried_cells(sweeps, all);
   EXPECT_GE(cells.size(), 600u);
   double softest = 1, stiffest = 0, shortest = 1, longest = 0;
@@ -96,7 +96,7 @@ TEST(Sweeps, CoverWhatTheProgramPromises) {
 }
 
 TEST(Sweeps, HaveMeshesOfTheQualityThatTheyName) {
-  const Sweep sweep = make_sweeps({"mesh"}, {}).front();
+  const Sweep sweep = named_sweeps({"mesh"}, {}).front();
   const auto flattest = [](const ClothMesh& mesh) {  // smallest height over longest edge
     double least = 1;
     for (int f = 0; f < mesh.faces(); ++f) {
@@ -109,7 +109,7 @@ TEST(Sweeps, HaveMeshesOfTheQualityThatTheyName) {
     return least;
   };
   for (std::size_t row = 0; row < sweep.y.ticks.size(); ++row) {
-    const ClothMesh mesh = sweep.at(0, 0, static_cast<int>(row)).mesh();
+    const ClothMesh mesh = *sweep.at(0, 0, static_cast<int>(row)).mesh;
     const auto [small, large] = std::minmax_element(mesh.face_area.begin(), mesh.face_area.end());
     const std::string& name = sweep.y.ticks[row];
     if (name == "aspect 1000") {
@@ -135,7 +135,7 @@ INSTANTIATE_TEST_SUITE_P(EveryLaw, ClosingSphere, testing::ValuesIn(law_names())
 TEST_P(ClosingSphere, CrushesASheetWithoutACrossingAndWithBoundedEnergy) {
   SweepChoice choice;
   choice.laws = {GetParam()};
-  const Sweep sweep = contact_sweep(choice);
+  const Sweep sweep = named_sweeps({"contact"}, choice).front();
   const auto row = std::find(sweep.y.ticks.begin(), sweep.y.ticks.end(), "sphere, friction 0.3");
   ASSERT_NE(row, sweep.y.ticks.end());
   Attempt attempt = sweep.at(0, 0, static_cast<int>(row - sweep.y.ticks.begin()));
@@ -146,12 +146,12 @@ TEST_P(ClosingSphere, CrushesASheetWithoutACrossingAndWithBoundedEnergy) {
   const Finding f = find_out(attempt, {});
   EXPECT_TRUE(f.outcome == Outcome::ended || f.outcome == Outcome::retried) << f.message;
   EXPECT_LE(f.energy_growth, kLargestGrowth);
-  EXPECT_NEAR(f.seconds_simulated, attempt.most_seconds, attempt.scene.step);
+  EXPECT_NEAR(f.seconds_simulated, attempt.scene.seconds, attempt.scene.step);
 }
 
 TEST(Cells, AreTriedAllOnceByAnyNumberOfThreads) {
   const SweepChoice quick{{"semi-implicit"}, {"linear"}, DeviceChoice::cpu, true};
-  const std::vector<Sweep> sweeps = make_sweeps({"density-step"}, quick);
+  const std::vector<Sweep> sweeps = named_sweeps({"density-step"}, quick);
   std::vector<SweepCell> one = untried_cells(sweeps, quick), three = one;
   std::size_t calls = 0;
   try_all(one, {0.1, 50}, 1, [&](std::size_t) { ++calls; });
@@ -173,7 +173,7 @@ INSTANTIATE_TEST_SUITE_P(Bending, ExplicitLimit, testing::ValuesIn(limit_cases(t
 // Linear waves without damping: the limit is 2/omega, of which the program keeps 0.75.
 TEST_P(ExplicitLimit, LiesAboveTheBoundByItsMargin) {
   const MeasuredLimit limit = measure_limit(GetParam(), kLimitSteps);
-  constexpr double kMargin = 0.75;      // sim/solve/simulation.cpp
+  constexpr double kMargin = 0.75;      // sim/time/simulation.cpp
   constexpr double kResolution = 0.02;  // of the search, and of the power iteration behind the bound
   EXPECT_NEAR(limit.ratio(), 1 / kMargin, kResolution / kMargin);
 }
