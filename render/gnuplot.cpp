@@ -83,12 +83,13 @@ std::string category_commands(const char* name, const std::vector<std::string>& 
 // Of gnuplot, by without_letters().
 constexpr int kNoLetters = 9;
 
-// Ends gnuplot where a character of the picture before is less than a pixel high: without any font, gnuplot
-// draws on and leaves every letter out.  What fontconfig says does not tell: it goes on without its
-// configuration, and may find fonts all the same.
+// Ends gnuplot where a character of the picture before is less than a pixel high or wide: without any font,
+// gnuplot draws on and leaves every letter out.  What fontconfig says does not tell: it goes on without its
+// configuration, and may find fonts all the same.  Of gnuplot 6 the height is then any number.
 std::string without_letters(int width) {
-  return "if (exists('GPVAL_TERM_VCHAR') && GPVAL_TERM_VCHAR * " + std::to_string(width) +
-         " < GPVAL_TERM_XSIZE) exit status " + std::to_string(kNoLetters) + "\n";
+  const std::string pixel = " * " + std::to_string(width) + " < GPVAL_TERM_XSIZE";
+  return "if (exists('GPVAL_TERM_VCHAR') && (GPVAL_TERM_VCHAR" + pixel + " || GPVAL_TERM_HCHAR" + pixel +
+         ")) exit status " + std::to_string(kNoLetters) + "\n";
 }
 
 bool has_content(const std::string& file) {
@@ -175,7 +176,8 @@ std::string pdf_commands(int width, int height, const std::filesystem::path& fil
          single_quoted(file.string()) + "\n";
 }
 
-// The time at which it was written would make two files of the same plot differ: the same in all of them.
+// The time at which it was written would make two files of the same plot differ: the same in all of them, but
+// where cairo packs it with other objects (1.18).
 void forget_when(const std::filesystem::path& pdf) {
   constexpr std::string_view kKey = "/CreationDate (D:";
   std::ifstream in(pdf, std::ios::binary);
