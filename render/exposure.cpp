@@ -10,8 +10,6 @@
 namespace hysteron::render {
 namespace {
 
-constexpr double kBell = 0.42;  // standard deviation [pixels]: edges neither stairs nor blurred
-
 // Sum of two numbers from 0 to 255, less 255, by the place alone: integer mixing as in weave.glsl.
 int triangular_noise(int x, int y, int channel) {
   std::uint32_t h = static_cast<std::uint32_t>(x) * 0x9e3779b9u +

@@ -26,6 +26,8 @@ class Exposure {
   std::vector<float> sum_;  // linear light, 4 a pixel, rows from the top
 };
 
+inline constexpr double kBell = 0.42;  // standard deviation [pixels]: edges neither stairs nor blurred
+
 // Offset of a pass's samples in pixels.
 struct Shift {
   double x, y;

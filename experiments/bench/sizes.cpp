@@ -7,7 +7,7 @@
 #include <map>
 
 #include "experiments/bench/step_profile.h"
-#include "experiments/workbench/pages/captions.h"
+#include "experiments/workbench/pages/gallery_exhibit.h"
 #include "render/color_map.h"
 #include "render/plot.h"
 #include "sim/base/error.h"

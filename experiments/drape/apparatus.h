@@ -38,10 +38,10 @@ inline constexpr double kPedestalHeight = 0.14;  // [m]
 // specimen is laid on the pedestal, middle on middle.
 void add_apparatus(Scene& scene, const DrapeChoice& choice, const Specimen& specimen);
 
+// Six folds of this height [m] strain the rim by 0.2 % at most; of half a millimetre, folds merge.
+inline constexpr double kFoldSeed = 2e-3;
 // Raises the ring in as many waves as the choice has folds, highest at the rim by `kFoldSeed`: equilibria
 // under different methods are then compared with the same folds.
-inline constexpr double kFoldSeed =
-    2e-3;  // [m]: six of them strain the rim by 0.2 % at most; half a millimetre lets folds merge
 void seed_folds(std::vector<Eigen::Vector3d>& start, const DrapeChoice& choice, double radius);
 
 }  // namespace hysteron::experiments

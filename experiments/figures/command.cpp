@@ -7,7 +7,7 @@
 #include "experiments/figures/figures.h"
 #include "experiments/workbench/app/experiment.h"
 #include "experiments/workbench/app/run.h"
-#include "experiments/workbench/pages/captions.h"
+#include "experiments/workbench/pages/gallery_exhibit.h"
 #include "sim/base/atomic_file.h"
 
 namespace hysteron::experiments {

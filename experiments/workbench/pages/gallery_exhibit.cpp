@@ -9,6 +9,7 @@
 #include "experiments/workbench/pages/manifest.h"
 #include "experiments/workbench/pages/metrics.h"
 #include "experiments/workbench/pages/pictures.h"
+#include "sim/base/atomic_file.h"
 #include "sim/base/whole_file.h"
 
 namespace hysteron::experiments {
@@ -45,7 +46,7 @@ std::string curve_caption(const Exhibit& exhibit, const std::string& plot) {
   return "";
 }
 
-// Captions that the run wrote into FOLDER/README.md: "![title](NAME.png)", and after it "**title** text".
+// What write_captions() left in FOLDER/README.md: "![title](NAME.png)", and after it "**title** text".
 std::map<std::string, std::string> written_captions(const fs::path& folder) {
   std::map<std::string, std::string> captions;
   const fs::path readme = folder / "README.md";
@@ -199,6 +200,16 @@ std::string exhibit_links(const Exhibit& exhibit, PageForm form) {
 }
 
 }  // namespace
+
+void write_captions(const std::filesystem::path& path, const std::string& heading,
+                    const std::string& introduction, const std::vector<FigureCaption>& figures) {
+  AtomicFile file(path.string());
+  file.stream() << "# " << heading << "\n\n" << introduction << "\n";
+  for (const FigureCaption& figure : figures)
+    file.stream() << "\n![" << figure.title << "](" << figure.file << ")\n\n**" << figure.title << ".** "
+                  << figure.text << "\n";
+  file.commit();
+}
 
 std::string page_anchor(const Exhibit& exhibit) {
   std::string anchor = exhibit.name;

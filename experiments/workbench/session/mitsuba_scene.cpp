@@ -8,6 +8,7 @@
 #include "experiments/workbench/pictures/drawing.h"
 #include "experiments/workbench/pictures/scene_renderer.h"
 #include "render/cloth_view.h"
+#include "render/exposure.h"
 #include "render/figure_light.h"
 #include "render/inset.h"
 #include "render/srgb.h"
@@ -18,7 +19,6 @@ namespace {
 
 constexpr int kSamples = 256, kDepth = 8;  // paths a pixel, reflections
 constexpr double kFar = 40;                // distance of the key light in radii of what is lit
-constexpr double kBell = 0.42;             // standard deviation of a pixel's Gaussian, as in exposure.cpp
 constexpr double kThrough = 0.10;          // of the light on cloth, as in figure_cloth.frag
 
 std::string numbers(const Eigen::Vector3d& v) {
@@ -83,7 +83,7 @@ std::string sensor(const MitsubaView& view) {
       "value=\"{}\"/></rfilter></film>\n  "
       "</sensor>\n",
       flat ? "orthographic" : "perspective", angle, lens, looking(eye, eye + forward, up), view.width,
-      view.height, kBell);
+      view.height, render::kBell);
 }
 
 Eigen::Vector3d key_light_direction(const MitsubaView& view) {
