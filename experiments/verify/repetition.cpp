@@ -86,8 +86,11 @@ std::string without_threads(const std::string& device) {
   return device.starts_with("cpu") ? device.substr(0, device.rfind(", ")) : device;
 }
 
+// Programs that did not note their compiler have recorded results with this one.
+std::string compiler_of(const Manifest& run) { return run.compiler.empty() ? "g++ 12" : run.compiler; }
+
 bool share_bits(const Manifest& recorded, const Manifest& now) {
-  return !recorded.isa.empty() && recorded.isa == now.isa &&
+  return !recorded.isa.empty() && recorded.isa == now.isa && compiler_of(recorded) == compiler_of(now) &&
          without_threads(recorded.device.value_or("")) == without_threads(now.device.value_or(""));
 }
 
@@ -173,6 +176,8 @@ std::string reasons_between(const Manifest& recorded, const Manifest& now) {
   if (recorded.isa != now.isa)
     reasons.push_back("instructions " + (recorded.isa.empty() ? "not noted" : recorded.isa) + ", now " +
                       now.isa);
+  if (compiler_of(recorded) != compiler_of(now))
+    reasons.push_back("compiler " + compiler_of(recorded) + ", now " + compiler_of(now));
   if (recorded.device != now.device)
     reasons.push_back("device " + recorded.device.value_or("none") + ", now " + now.device.value_or("none"));
   const std::string keys = differing_keys(without_origins(*recorded.keys), without_origins(*now.keys));

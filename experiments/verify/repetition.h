@@ -45,7 +45,8 @@ double metric_scale(const std::string& name, double number);
 // of them, then with round-off; counts, texts and truths exactly.  How often a solver iterated, and what it
 // left over, says nothing of the cloth and is only counted.  Durations are not compared.
 //
-// The same bits are due where the same instructions ran on the same device, and where `exact` asks for them.
+// The same bits are due where one compiler's same instructions ran on the same device, and where `exact` asks
+// for them.
 Repetition compare_runs(const Manifest& recorded, const Manifest& now, const Limits& limits, bool exact);
 // Pictures that both folders have.  Plots are none: they belong to gnuplot's version.
 void compare_pictures(const std::vector<std::string>& names, const std::filesystem::path& recorded,

@@ -83,6 +83,13 @@ HYST_HD Lowest<Real> lowest(const SlopeAt& slope_at) {
           low.inner + fraction * (high.inner - low.inner)};
 }
 
+// The slopes of nested minima ask for it in a dozen places: called there, since a GPU's compiler would take
+// longest for its copies.
+template <class Real>
+HYST_HD HYST_CALLED Distance<Real> distance_at(const Shape<Real>& shape, const Vec3<Real>& p) {
+  return signed_distance(shape, p);
+}
+
 // Corners p and the point in the solid's frame; `centring` is c [m].
 template <class Real>
 HYST_HD HYST_NOINLINE FacePoint<Real> face_point(const Shape<Real>& shape, const Vec3<Real> (&p)[3],
@@ -92,7 +99,7 @@ HYST_HD HYST_NOINLINE FacePoint<Real> face_point(const Shape<Real>& shape, const
     const Real remainder = 1 - a;
     const Lowest<Real> across = lowest<Real>([&](Real t) {
       const Vec3<Real> at = a * p0 + remainder * ((1 - t) * p1 + t * p2);
-      const Vec3<Real> n = signed_distance(shape, at).normal;
+      const Vec3<Real> n = distance_at(shape, at).normal;
       return Incline<Real>{n.dot(p2 - p1) + 2 * centring * remainder * (2 * t - 1), n, t};
     });
     const Real t = across.at;
@@ -104,8 +111,7 @@ HYST_HD HYST_NOINLINE FacePoint<Real> face_point(const Shape<Real>& shape, const
   FacePoint<Real> point;
   point.weight = {found.at, remainder * (1 - found.inner), remainder * found.inner};
   const Vec3<Real> at = point.weight[0] * p0 + point.weight[1] * p1 + point.weight[2] * p2;
-  point.distance =
-      signed_distance(shape, at).value + centring * (point.weight.squaredNorm() - Real(1) / Real(3));
+  point.distance = distance_at(shape, at).value + centring * (point.weight.squaredNorm() - Real(1) / Real(3));
   point.normal = found.normal;
   return point;
 }

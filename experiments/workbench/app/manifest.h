@@ -140,7 +140,8 @@ struct RunSpec {
 
 struct Manifest {
   std::string version, commit;
-  std::string isa;  // that the program was built for, "x86-64-v3"; "": not noted
+  std::string isa;       // that the program was built for, "x86-64-v3"; "": not noted
+  std::string compiler;  // with its major version, "g++ 12"; "": not noted
   bool dirty = false;
   std::string experiment, command, started;
   std::optional<RunSpec> spec;       // of older programs only the command is known

@@ -319,6 +319,7 @@ Json to_json(const Manifest& m) {
   Json json;
   json["hysteron"] = {{"version", m.version}, {"commit", m.commit}, {"dirty", m.dirty}};
   if (!m.isa.empty()) json["hysteron"]["instructions"] = m.isa;
+  if (!m.compiler.empty()) json["hysteron"]["compiler"] = m.compiler;
   json["experiment"] = m.experiment;
   json["command"] = m.command;
   if (m.spec) json["spec"] = {{"names", m.spec->positionals}, {"flags", m.spec->flags}};
@@ -341,6 +342,7 @@ Manifest parsed_manifest(const Json& json) {
   m.version = shown_at(program, "version");
   m.commit = shown_at(program, "commit");
   m.isa = text_at(program, "instructions");
+  m.compiler = text_at(program, "compiler");
   m.dirty = is_true_at(program, "dirty");
   m.experiment = json.contains("experiment") ? text_at(json, "experiment") : "run";
   m.command = text_at(json, "command");

@@ -47,11 +47,23 @@ constexpr const char* kIsa =
     "others";
 #endif
 
+// Compilers vectorise differently, and the last bits with them.
+std::string compiler_name() {
+#if defined(__clang__)
+  return "clang++ " + std::to_string(__clang_major__);
+#elif defined(__GNUC__)
+  return "g++ " + std::to_string(__GNUC__);
+#else
+  return "others";
+#endif
+}
+
 Manifest this_program() {
   Manifest manifest;
   manifest.version = kVersion;
   manifest.commit = kGitCommit;
   manifest.isa = kIsa;
+  manifest.compiler = compiler_name();
   manifest.dirty = kGitDirty;
   return manifest;
 }

@@ -240,6 +240,14 @@ TEST_F(Recorded, RunWithOtherBitsDiffersOnlyWhereTheyAreDue) {
   EXPECT_EQ(program(verify).exit_code, 0) << "older programs did not note them";
 }
 
+TEST_F(Recorded, RunOfAnotherCompilerMayHaveOtherBits) {
+  record(kDrape);
+  edit([](Json& json) { json["state_hash"] = "0123456789abcdef", json["hysteron"]["compiler"] = "cc 1"; });
+  const Outcome other = program("verify " + in("runs") + " --out " + in("check"));
+  EXPECT_EQ(other.exit_code, 0) << other.out;
+  EXPECT_NE(other.out.find("compiler cc 1, now "), std::string::npos) << other.out;
+}
+
 // A mathematical library without fused multiplication stands for that of another processor.
 TEST_F(Recorded, RunOnAnotherProcessorIsTheSameWithinRoundOff) {
   for (const std::string& command : {kCrease, std::string("swing --quick --no-images")}) {
