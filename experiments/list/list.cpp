@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <iostream>
 
+#include "experiments/list/key_tables.h"
 #include "experiments/list/list_json.h"
 #include "experiments/list/tried_devices.h"
 #include "experiments/workbench/app/experiment.h"
@@ -134,6 +135,15 @@ const KeyRow<ListFlags> kRows[] = {
 };
 // clang-format on
 
+void list_named_fabrics(const std::vector<std::string>& names, bool as_json) {
+  nlohmann::ordered_json fabrics = nlohmann::ordered_json::array();
+  for (const std::string& name : names) {
+    const FabricFile file = read_fabric(name, "list fabrics");
+    as_json ? fabrics.push_back(fabric_json(file)) : list_numbers(file);
+  }
+  if (as_json) std::cout << nlohmann::ordered_json{{"fabrics", fabrics}}.dump(2) << "\n";
+}
+
 int run_list(const CommandLine& line) {
   ListFlags flags;
   set_keys(line, bind(kRows, flags));
@@ -145,19 +155,19 @@ int run_list(const CommandLine& line) {
     return std::any_of(parts.begin(), parts.end(), [&](const auto& part) { return part.first == name; });
   };
   const std::vector<std::string>& names = line.positionals;
+  if (names == std::vector<std::string>{"keys"} && !flags.json) {
+    std::cout << key_tables();
+    return 0;
+  }
   if (names.size() > 1 && names.front() == "fabrics" &&
       std::none_of(names.begin() + 1, names.end(), is_part)) {
-    nlohmann::ordered_json fabrics = nlohmann::ordered_json::array();
-    for (auto name = names.begin() + 1; name != names.end(); ++name) {
-      const FabricFile file = read_fabric(*name, "list fabrics");
-      flags.json ? fabrics.push_back(fabric_json(file)) : list_numbers(file);
-    }
-    if (flags.json) std::cout << nlohmann::ordered_json{{"fabrics", fabrics}}.dump(2) << "\n";
+    list_named_fabrics({names.begin() + 1, names.end()}, flags.json);
     return 0;
   }
   for (const std::string& name : names)
     if (!is_part(name))
-      throw Error::invalid_input("\"" + name + "\" must be fabrics | laws | scenes | devices");
+      throw Error::invalid_input(
+          "\"" + name + "\" must be fabrics | laws | scenes | devices, or keys alone, without --json");
   if (flags.json) {
     nlohmann::ordered_json lists;
     for (const auto& [name, print] : parts)
@@ -176,10 +186,10 @@ int run_list(const CommandLine& line) {
 
 Experiment list() {
   return {.name = "list",
-          .question = "what there is: fabrics, laws, scenes, devices",
+          .question = "what there is: fabrics, laws, scenes, devices; keys of scene files, in Markdown",
           .run = run_list,
           .own_keys = own_key_descriptions<kRows>,
-          .positionals = "fabrics [NAME|FILE]...|laws|scenes|devices"};
+          .positionals = "fabrics [NAME|FILE]...|laws|scenes|devices|keys"};
 }
 
 }  // namespace hysteron::experiments

@@ -1,16 +1,13 @@
-// `hysteron report`: a run's folder, or a folder of runs, as one page; what documentation takes from runs and
-// from the tables of keys.
+// `hysteron report`: a run's folder, or a folder of runs, as one page.
 #include <algorithm>
 #include <iostream>
 
-#include "experiments/report/documentation.h"
 #include "experiments/workbench/app/ending.h"
 #include "experiments/workbench/app/experiment.h"
 #include "experiments/workbench/app/manifest_file.h"
 #include "experiments/workbench/app/run_folder.h"
 #include "experiments/workbench/pages/gallery.h"
 #include "experiments/workbench/pages/report.h"
-#include "sim/base/atomic_file.h"
 #include "sim/base/error.h"
 
 namespace hysteron::experiments {
@@ -23,7 +20,7 @@ struct ReportFlags {
 
 // clang-format off
 const KeyRow<ReportFlags> kRows[] = {
-    {"check", at<&ReportFlags::check>, "", any(), "", "write nothing; exit 4 if DIR's page or a report.html below it is missing or stale, or if a number, a table or a link of documentation is wrong"},
+    {"check", at<&ReportFlags::check>, "", any(), "", "write nothing; exit 4 if DIR's page or a report.html below it is missing or stale"},
     {"self-contained", at<&ReportFlags::self_contained>, "", any(), "", "embed pictures instead of linking them: a page that can be sent alone"},
 };
 // clang-format on
@@ -37,62 +34,23 @@ fs::path named_folder(const std::string& name) {
   return folder;
 }
 
-std::ostream& report_error() { return std::cerr << "hysteron report: "; }
-
-bool are_pages_stale(const fs::path& folder) {
+int check(const fs::path& folder) {
   const std::vector<StalePage> stale = stale_pages(folder);
   for (const StalePage& page : stale) {
-    report_error() << page.page.string()
-                   << (page.missing ? " is missing; write it"
-                                    : " is not what its folder says now; write it again")
-                   << ": hysteron report " << page.folder.string() << std::endl;
+    std::cerr << "hysteron report: " << page.page.string()
+              << (page.missing ? " is missing; write it" : " is not what its folder says now; write it again")
+              << ": hysteron report " << page.folder.string() << std::endl;
   }
-  return !stale.empty();
+  return stale.empty() ? 0 : kDiffers;
 }
 
-// Whether there are any; those that writing the page again does not mend are told always.
-bool tell_faults(const Page& page, const fs::path& folder, bool all) {
-  bool any = false;
-  for (const Fault& fault : page.faults) {
-    if (fault.mended && !all) continue;
-    report_error() << page.file.string() << ":" << fault.line << ": " << fault.what
-                   << (fault.mended ? "; write it again: hysteron report " + folder.string() : "")
-                   << std::endl;
-    any = true;
-  }
-  return any;
-}
-
-int check(const fs::path& folder) {
-  bool stale = false;
-  if (!is_documentation(folder)) return are_pages_stale(folder) ? kDiffers : 0;
-  for (const Page& page : documentation(folder)) stale = tell_faults(page, folder, true) || stale;
-  return stale ? kDiffers : 0;
-}
-
-int write_documentation(const fs::path& folder) {
-  bool wrong = false;
-  for (const Page& page : documentation(folder)) {
-    wrong = tell_faults(page, folder, false) || wrong;
-    if (std::none_of(page.faults.begin(), page.faults.end(), [](const Fault& f) { return f.mended; }))
-      continue;
-    AtomicFile file(page.file.string());
-    file.stream() << page.text;
-    file.commit();
-    std::cout << page.file.string() << std::endl;
-  }
-  return wrong ? kDiffers : 0;
-}
-
-int write(const fs::path& folder, PageForm form) {
+void write(const fs::path& folder, PageForm form) {
   if (has_manifest(folder)) {
     const FolderLock still(folder);  // a run that is not over writes this page itself
     std::cout << write_report(folder, form).string() << std::endl;
-    return 0;
+  } else {
+    std::cout << write_gallery(folder, form).string() << std::endl;
   }
-  if (is_documentation(folder)) return write_documentation(folder);
-  std::cout << write_gallery(folder, form).string() << std::endl;
-  return 0;
 }
 
 int run_report(const CommandLine& line) {
@@ -107,7 +65,10 @@ int run_report(const CommandLine& line) {
   int exit_code = 0;
   for (const std::string& name : line.positionals) {
     const fs::path folder = named_folder(name);
-    exit_code = std::max(exit_code, flags.check ? check(folder) : write(folder, form));
+    if (flags.check)
+      exit_code = std::max(exit_code, check(folder));
+    else
+      write(folder, form);
   }
   return exit_code;
 }
@@ -117,9 +78,7 @@ int run_report(const CommandLine& line) {
 Experiment report() {
   return {
       .name = "report",
-      .question =
-          "write a run's folder as one page, report.html; a folder of runs as a gallery, index.html; in a "
-          "folder of documentation the numbers and tables that it takes from runs, and its tables of keys",
+      .question = "write a run's folder as one page, report.html; a folder of runs as a gallery, index.html",
       .run = run_report,
       .own_keys = own_key_descriptions<kRows>,
       .positionals = "DIR",

@@ -3,13 +3,11 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <array>
 #include <cstring>
 
 #include "sim/linear/cholesky_solver.h"
-#include "sim/mesh/builders.h"
-#include "tests/sim/linear/random_rows.h"
+#include "tests/sim/linear/random_system.h"
 
 namespace hysteron {
 namespace {
@@ -45,36 +43,19 @@ struct Springs : ElementStiffness {
   }
 };
 
-// A random positive matrix on a mesh's edges, with springs between far vertices.
-struct System {
-  Cpu cpu{1};
-  ClothMesh mesh = make_rectangle(0.3, 0.1, 120, MeshFamily::random, 1);
-  BlockRows<double, Cpu> rows{cpu, mesh};
+// With springs between far vertices.
+struct System : test::RandomSystem {
   Springs* springs = nullptr;  // of the solver
-  std::vector<char> held;
-  std::vector<double> softening, softening_diagonal;
-  std::vector<Vec3<double>> slot, rhs, x;
+  std::vector<Vec3<double>> slot, x;
   std::vector<int> start, item;
   std::unique_ptr<CholeskySolver<double>> solver;
 
-  System() : held(mesh.vertices(), 0), rhs(mesh.vertices()), x(mesh.vertices()) {
-    const BlockRowsView<double> view = rows.view();
-    test::fill_at_random(rows, 12, rhs);
-    softening.assign(view.row_ptr[view.rows], 0);
-    softening_diagonal.assign(view.rows, 0);
+  System() : RandomSystem(12), x(n()) {
     auto made = std::make_unique<Springs>();
     springs = made.get();
     solver = std::make_unique<CholeskySolver<double>>(cpu, rows, nullptr, std::move(made));
   }
 
-  int n() const { return mesh.vertices(); }
-
-  LinearSystem<double, Cpu> linear() {
-    LinearSystem<double, Cpu> system{rows.view()};
-    system.softening = {softening.data(), softening_diagonal.data()};
-    system.self_contact = [this](const Vec3<double>* p) { return spring_forces(p); };
-    return system;
-  }
   GatheredForces<double> spring_forces(const Vec3<double>* p) {
     MatrixXd stiffness = MatrixXd::Zero(3 * n(), 3 * n());
     springs->add_to(stiffness);
@@ -93,36 +74,18 @@ struct System {
   }
 
   MatrixXd dense() {
-    MatrixXd a = MatrixXd::Zero(3 * n(), 3 * n());
-    const BlockRowsView<double> view = rows.view();
-    for (int i = 0; i < n(); ++i) {
-      a.block<3, 3>(3 * i, 3 * i) = view.diagonal[i] + softening_diagonal[i] * Matrix3d::Identity();
-      for (int j = view.row_ptr[i]; j < view.row_ptr[i + 1]; ++j)
-        a.block<3, 3>(3 * i, 3 * view.col[j]) = view.off_diagonal[j] + softening[j] * Matrix3d::Identity();
-    }
+    MatrixXd a = RandomSystem::dense();
     springs->add_to(a);
     return a;
   }
-  // The solution with held rows at zero.
-  VectorXd dense_solution() {
-    MatrixXd a = dense();
-    VectorXd b(3 * n());
-    for (int i = 0; i < n(); ++i) {
-      b.segment<3>(3 * i) = held[i] ? Vector3d(0, 0, 0) : rhs[i];
-      if (!held[i]) continue;
-      a.middleRows<3>(3 * i).setZero();
-      a.block<3, 3>(3 * i, 3 * i).setIdentity();
-    }
-    return a.partialPivLu().solve(b);
-  }
   double error() {
-    const VectorXd exact = dense_solution();
-    double sum = 0;
-    for (int i = 0; i < n(); ++i) sum += (x[i] - exact.segment<3>(3 * i)).squaredNorm();
-    return std::sqrt(sum) / exact.norm();
+    const test::Field exact = solution_of(dense());
+    return test::difference(x, exact) / test::norm(exact);
   }
   PcgOutcome solve(double tolerance = 1e-12) {
-    return solver->solve(linear(), held.data(), rhs.data(), x.data(), tolerance);
+    LinearSystem<double, Cpu> system = linear();
+    system.self_contact = [this](const Vec3<double>* p) { return spring_forces(p); };
+    return solver->solve(system, held.data(), rhs.data(), x.data(), tolerance);
   }
 };
 

@@ -4,12 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/LU>
-#include <cmath>
 #include <limits>
 
-#include "sim/mesh/builders.h"
-#include "tests/sim/linear/random_rows.h"
+#include "tests/sim/linear/random_system.h"
 
 namespace hysteron {
 namespace {
@@ -19,6 +16,8 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 using Field = std::vector<Vector3d>;
+using test::difference;
+using test::norm;
 
 // A spring between the first vertex and the last.
 struct Spring : FloatStiffness<Cpu> {
@@ -41,51 +40,30 @@ struct Spring : FloatStiffness<Cpu> {
   std::size_t bytes() const override { return 0; }
 };
 
-// A random positive matrix on a mesh's edges, softening and the spring, as self-contact has it.
-struct FloatSystem {
-  Cpu cpu{1};
-  ClothMesh mesh = make_rectangle(0.3, 0.1, 120, MeshFamily::random, 1);
-  BlockRows<double, Cpu> rows{cpu, mesh};
-  std::vector<double> softening, softening_diagonal;
-  std::vector<char> held;
-  Field rhs;
+// Softening and the spring, as self-contact has it.
+struct FloatSystem : test::RandomSystem {
   FloatSolver<Cpu> solver;
 
   FloatSystem()
-      : softening_diagonal(n(), -1),
-        held(n(), 0),
-        rhs(n()),
+      : RandomSystem(14),
         solver(cpu, rows, std::make_unique<BlockJacobiSolver<float, Cpu>>(cpu, n()), nullptr,
                std::make_unique<Spring>(n())) {
-    const BlockRowsView<double> view = rows.view();
-    softening.assign(view.row_ptr[view.rows], 0.1);
-    test::fill_at_random(rows, 14, rhs);
+    softening.assign(softening.size(), 0.1);
+    softening_diagonal.assign(n(), -1);
     held[3] = held[17] = 1;
   }
 
-  int n() const { return mesh.vertices(); }
-
-  // The product of double precision only says that there is one.
-  LinearSystem<double, Cpu> linear() {
-    LinearSystem<double, Cpu> system{rows.view()};
-    system.softening = {softening.data(), softening_diagonal.data()};
-    system.self_contact = [](const Vector3d*) { return GatheredForces<double>{}; };
-    return system;
-  }
   Field solution(double tolerance = FloatSolver<Cpu>::kTightest) {
+    LinearSystem<double, Cpu> system = linear();
+    // The product of double precision only says that there is one.
+    system.self_contact = [](const Vector3d*) { return GatheredForces<double>{}; };
     Field x(n(), Vector3d::Constant(7));
-    EXPECT_TRUE(solver.solve(linear(), held.data(), rhs.data(), x.data(), tolerance).converged);
+    EXPECT_TRUE(solver.solve(system, held.data(), rhs.data(), x.data(), tolerance).converged);
     return x;
   }
 
   MatrixXd dense() {
-    MatrixXd a = MatrixXd::Zero(3 * n(), 3 * n());
-    const BlockRowsView<double> view = rows.view();
-    for (int i = 0; i < n(); ++i) {
-      a.block<3, 3>(3 * i, 3 * i) = view.diagonal[i] + softening_diagonal[i] * Matrix3d::Identity();
-      for (int j = view.row_ptr[i]; j < view.row_ptr[i + 1]; ++j)
-        a.block<3, 3>(3 * i, 3 * view.col[j]) = view.off_diagonal[j] + softening[j] * Matrix3d::Identity();
-    }
+    MatrixXd a = RandomSystem::dense();
     const int ends[2] = {0, n() - 1};
     for (int i : ends)
       for (int j : ends)
@@ -97,37 +75,11 @@ struct FloatSystem {
     EXPECT_GT(eigenvalues[0], 0);
     return eigenvalues[eigenvalues.size() - 1] / eigenvalues[0];
   }
-  // With held rows at zero.
-  Field dense_solution() {
-    MatrixXd a = dense();
-    VectorXd b(3 * n());
-    for (int i = 0; i < n(); ++i) {
-      b.segment<3>(3 * i) = held[i] ? Vector3d(0, 0, 0) : rhs[i];
-      if (!held[i]) continue;
-      a.middleRows<3>(3 * i).setZero();
-      a.block<3, 3>(3 * i, 3 * i).setIdentity();
-    }
-    const VectorXd x = a.partialPivLu().solve(b);
-    Field result;
-    for (int i = 0; i < n(); ++i) result.emplace_back(x.segment<3>(3 * i));
-    return result;
-  }
 };
-
-double norm(const Field& v) {
-  double sum = 0;
-  for (const Vector3d& x : v) sum += x.squaredNorm();
-  return std::sqrt(sum);
-}
-
-double difference(Field a, const Field& b) {
-  for (std::size_t i = 0; i < a.size(); ++i) a[i] -= b[i];
-  return norm(a);
-}
 
 TEST(FloatSolver, SolvesToItsToleranceWhatADenseSolveDoes) {
   FloatSystem system;
-  const Field exact = system.dense_solution();
+  const Field exact = system.solution_of(system.dense());
   for (const double tolerance : {1e-2, 1e-5})
     EXPECT_LT(difference(system.solution(tolerance), exact), system.condition() * tolerance * norm(exact));
   EXPECT_GT(difference(system.solution(1e-2), exact), difference(system.solution(1e-5), exact));

@@ -1,8 +1,6 @@
-#include "experiments/report/key_tables.h"
+#include "experiments/list/key_tables.h"
 
 #include "experiments/run/metrics.h"
-#include "experiments/workbench/app/ending.h"
-#include "experiments/workbench/app/experiment.h"
 #include "sim/scene/keys.h"
 #include "sim/scene/scene_reader.h"
 
@@ -51,42 +49,7 @@ std::string section(const std::string& title, const Keys& keys) {
   return "\n### " + title + "\n" + keys_table(keys);
 }
 
-// What stands between the two comments of a name.
-struct Marked {
-  std::string name;
-  std::string (*text)();
-};
-const Marked kMarked[] = {{"keys", key_tables}, {"exit-codes", exit_code_table}};
-
-// What is there becomes what should be.
-void write_between(Page& page, const Marked& marked) {
-  const std::string begin = "<!-- " + marked.name + ":begin -->", end = "<!-- " + marked.name + ":end -->";
-  const std::size_t at = page.text.find(begin), first = at + begin.size();
-  if (at == page.text.npos) return;
-  const int line = line_at(page.text, at);
-  const std::size_t last = page.text.find(end, first);
-  if (last == page.text.npos) {
-    page.faults.push_back({line, begin + " needs " + end + " below it"});
-    return;
-  }
-  const std::string tables = "\n" + marked.text();
-  if (page.text.compare(first, last - first, tables) == 0) return;
-  page.faults.push_back({line, "these tables are not what --help says now", true});
-  page.text.replace(first, last - first, tables);
-}
-
 }  // namespace
-
-std::string exit_code_table() {
-  std::string table = "\n| code | meaning |\n|---|---|\n", differs;
-  for (const ExitCode& exit : kExitCodes)
-    table += "| " + std::to_string(exit.code) + " | " + cell(exit.meaning) + " |\n";
-  for (const Experiment& experiment : experiments())
-    if (*experiment.differs)
-      differs +=
-          std::string(differs.empty() ? "" : "; ") + "`" + experiment.name + "`: " + experiment.differs;
-  return table + "| " + std::to_string(kDiffers) + " | " + cell(differs) + " |\n\n";
-}
 
 std::string key_tables() {
   Scene scene = default_scene();
@@ -101,10 +64,6 @@ std::string key_tables() {
          section("`keys` of a pin or an obstacle", bind_keyframe(keyframe)) +
          section("`[[command]]`", bind_command(command)) + section("`[[phase]]`", bind_phase(phase)) +
          section("`[[metric]]`", bind_metric(metric)) + "\n";
-}
-
-void write_keys(Page& page) {
-  for (const Marked& marked : kMarked) write_between(page, marked);
 }
 
 }  // namespace hysteron::experiments
