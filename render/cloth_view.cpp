@@ -147,7 +147,8 @@ ClothView::ClothView(Offscreen& offscreen, const PictureSize& size)
                         {.vertex = "sky.vert", .fragment = "", .defines = "", .captured = {"vertex_sky"}}),
       color_map_(gl_),
       no_arrays_(gl_),
-      seen_(gl_) {
+      alone_samples_(gl_),
+      seen_samples_(gl_) {
   set_look(look_);
 }
 
@@ -249,7 +250,7 @@ Box ClothView::bounds() const {
 
 Image ClothView::draw(const Camera& camera) {
   prepare(camera);
-  shows_cloth_ = false;
+  cloth_alone_ = cloth_seen_ = 0;
   Image image(size_.width, size_.height, is_transparent() ? 4 : 3);
   for (int top = 0; top < size_.height; top += part_height_)
     for (int left = 0; left < size_.width; left += part_width_)
@@ -314,9 +315,12 @@ Image ClothView::draw_part(const Camera& camera, int left, int top) {
     const View view =
         camera_view(camera, left, top,
                     is_figure() ? bell_shift(pass, passes) : pass_shift(pass, passes, target_.samples()));
-    draw_scene(view);
-    shows_cloth_ = shows_cloth_ || is_cloth_seen(view);
+    const bool counts = cloth_ && (pass == 0 || cloth_seen_ == 0);
+    draw_scene(view, counts);
     exposure.add(target_.finish());
+    if (!counts) continue;
+    cloth_alone_ += counted(alone_samples_);
+    cloth_seen_ += counted(seen_samples_);
   }
   return exposure.image(is_transparent(), left, top);
 }
@@ -375,26 +379,35 @@ void ClothView::draw_casters(const Program& program) const {
 }
 
 // From front to back, as far as that is known: hidden pixels cost a software renderer most.
-void ClothView::draw_scene(const View& view) const {
+void ClothView::draw_scene(const View& view, bool counts) const {
   if (cloth_) draw_cloth(view);
+  if (counts) count_cloth(view, alone_samples_);
   if (look_.show != Show::silhouette) {
     draw_obstacles(view);
     if (ground_height_) draw_ground(view);
   }
+  if (counts) count_cloth(view, seen_samples_);
   if (!is_transparent()) draw_backdrop(view);
 }
 
 // Drawn once more, without colours, the cloth passes the test of depth where nothing stands before it.
-bool ClothView::is_cloth_seen(const View& view) const {
-  if (!cloth_) return false;
+void ClothView::count_cloth(const View& view, const GlQuery& samples) const {
   gl_.ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-  gl_.BeginQuery(GL_ANY_SAMPLES_PASSED, seen_.name());
+  gl_.BeginQuery(GL_SAMPLES_PASSED, samples.name());
   draw_cloth(view);
-  gl_.EndQuery(GL_ANY_SAMPLES_PASSED);
+  gl_.EndQuery(GL_SAMPLES_PASSED);
   gl_.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-  GLuint seen = 0;
-  gl_.GetQueryObjectuiv(seen_.name(), GL_QUERY_RESULT, &seen);
-  return seen != 0;
+}
+
+std::uint64_t ClothView::counted(const GlQuery& samples) const {
+  GLuint count = 0;
+  gl_.GetQueryObjectuiv(samples.name(), GL_QUERY_RESULT, &count);
+  return count;
+}
+
+double ClothView::hidden_share() const {
+  if (cloth_alone_ == 0) return 0;
+  return 1 - static_cast<double>(cloth_seen_) / static_cast<double>(cloth_alone_);
 }
 
 bool ClothView::is_transparent() const {

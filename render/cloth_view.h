@@ -5,6 +5,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -89,7 +90,9 @@ class ClothView {
   // RGB; RGBA, colours not multiplied by alpha, if the look's background is transparent.
   Image draw(const Camera& camera);
   // Whether the last picture shows some of the cloth: neither beside the picture nor behind obstacles.
-  bool shows_cloth() const { return shows_cloth_; }
+  bool shows_cloth() const { return cloth_seen_ > 0; }
+  // Share of the cloth in the last picture that obstacles hide.
+  double hidden_share() const;
 
  private:
   struct Obstacle {
@@ -121,8 +124,10 @@ class ClothView {
   Image draw_part(const Camera& camera, int left, int top);
   View camera_view(const Camera& camera, int left, int top, const Shift& shift) const;
   void draw_casters(const Program& program) const;
-  void draw_scene(const View& view) const;
-  bool is_cloth_seen(const View& view) const;
+  // `counts`: samples of the cloth, too.
+  void draw_scene(const View& view, bool counts) const;
+  void count_cloth(const View& view, const GlQuery& samples) const;
+  std::uint64_t counted(const GlQuery& samples) const;
   bool is_transparent() const;
   void draw_backdrop(const View& view) const;
   void draw_ground(const View& view) const;
@@ -143,8 +148,8 @@ class ClothView {
   std::optional<Program> cloth_program_, rim_program_;
   GlTexture color_map_;
   GlVertexArray no_arrays_;
-  GlQuery seen_;
-  bool shows_cloth_ = false;
+  GlQuery alone_samples_, seen_samples_;            // of the cloth, before and after obstacles are drawn
+  std::uint64_t cloth_alone_ = 0, cloth_seen_ = 0;  // in the last picture
   std::optional<Ground> ground_;
   std::optional<ClothSurface> cloth_;
   std::unique_ptr<GlPositions> shared_positions_;  // of cloth_: below it, so that it is closed first

@@ -4,9 +4,18 @@
 #include <cmath>
 #include <cstdint>
 
+#include "render/flip.h"
 #include "sim/base/error.h"
 
 namespace hysteron::render {
+namespace {
+
+Image front_page_copy(const Image& cell) {
+  constexpr int kSmaller = 3;
+  return shrink(cell, std::max(1, cell.width() / kSmaller), std::max(1, cell.height() / kSmaller));
+}
+
+}  // namespace
 
 Image contact_sheet(const std::vector<SheetEntry>& entries, const SheetLayout& layout) {
   if (entries.empty()) throw Error::invalid_input("contact sheet: there are no pictures");
@@ -67,6 +76,23 @@ std::vector<int> spread_by_displacement(const std::vector<double>& moved, int co
   }
   indices.push_back(last);
   return indices;
+}
+
+bool look_alike(const Image& a, const Image& b) {
+  constexpr double kAlike = 0.02;  // FLIP
+  return flip(front_page_copy(a), front_page_copy(b)) < kAlike;
+}
+
+std::vector<std::size_t> distinct(std::size_t count,
+                                  const std::function<bool(std::size_t, std::size_t)>& are_alike) {
+  std::vector<std::size_t> kept;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto is_alike = [&](std::size_t other) { return are_alike(i, other); };
+    if (i + 1 == count && kept.size() > 1)
+      kept.erase(std::remove_if(kept.begin() + 1, kept.end(), is_alike), kept.end());
+    if (std::none_of(kept.begin(), kept.end(), is_alike)) kept.push_back(i);
+  }
+  return kept;
 }
 
 }  // namespace hysteron::render

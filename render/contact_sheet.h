@@ -1,6 +1,8 @@
 // Many pictures on one page: a sequence at a glance.
 #pragma once
 
+#include <cstddef>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -39,5 +41,14 @@ std::vector<int> spread(int total, int count);
 // `count` indices spread evenly over the way that is covered, which `moved` tells from the entry before to
 // each: the first and the last are among them, and of what stands still one alone.
 std::vector<int> spread_by_displacement(const std::vector<double>& moved, int count);
+
+// Whether two pictures of one size cannot be told apart where a front page shows them, a third as large (a
+// FLIP below 0.02): one of them is enough on a sheet.
+bool look_alike(const Image& a, const Image& b);
+
+// Of so many, those that are like none that is kept before them; the last takes the place of those like it,
+// but for the first.
+std::vector<std::size_t> distinct(std::size_t count,
+                                  const std::function<bool(std::size_t, std::size_t)>& are_alike);
 
 }  // namespace hysteron::render

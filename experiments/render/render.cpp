@@ -317,13 +317,33 @@ class FramesAndSheet {
     return pictures_.picture(frame, what);
   }
 
+  // Instants that look like one before in every sequence are left out; cells stand sequence by sequence.
+  void drop_repeated_instants() {
+    const std::size_t count = columns_.front().shown.size();
+    const auto are_alike = [&](std::size_t a, std::size_t b) {
+      Crop both;
+      for (std::size_t first = 0; first < cells_.size(); first += count)
+        for (const std::size_t i : {first + a, first + b}) both.include(cells_[i].shown);
+      for (std::size_t first = 0; first < cells_.size(); first += count)
+        if (!render::look_alike(both.of(cells_[first + a].image), both.of(cells_[first + b].image)))
+          return false;
+      return true;
+    };
+    std::vector<Cell> kept;
+    const std::vector<std::size_t> instants = render::distinct(count, are_alike);
+    for (std::size_t first = 0; first < cells_.size(); first += count)
+      for (const std::size_t i : instants) kept.push_back(std::move(cells_[first + i]));
+    cells_ = std::move(kept);
+  }
+
   // The cells stand sequence by sequence.  Of several each has a column, of one each instant has.
   void write_sheet() {
+    drop_repeated_instants();
     render::ComparisonSheet sheet;
     sheet.title = flags_.title.empty() ? joined_names(columns_) : flags_.title;
     sheet.scale_note = "in the middle";
     sheet.in_sequence = alone();
-    const std::size_t rows = alone() ? 1 : columns_.front().shown.size();
+    const std::size_t rows = alone() ? 1 : cells_.size() / columns_.size();
     const std::size_t wide = alone() ? cells_.size() : columns_.size();
     std::vector<Crop> crops(rows);
     for (std::size_t c = 0; c < wide; ++c)

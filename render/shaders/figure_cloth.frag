@@ -66,8 +66,8 @@ void main() {
 #ifdef FIELD
   float t = clamp((field - value_range.x) / (value_range.y - value_range.x), 0.0, 1.0);
   vec3 shown = texture(color_map, vec2((t * 255.0 + 0.5) / 256.0, 0.5)).rgb;
-  // Colours must stay readable against the colour bar: the light only models the shape.
-  color = vec4(shown * mix(0.8, 1.0, min(exposure * dot(light.reflected, vec3(0.3333)), 1.0)), 1);
+  // Colours stay within a Delta E of 5 of the colour bar's: the light only models the shape.
+  color = vec4(shown * mix(0.88, 1.0, min(exposure * dot(light.reflected, vec3(0.3333)), 1.0)), 1);
 #else
   vec3 albedo = (gl_FrontFacing ? front_albedo : back_albedo) * weave.shade;
   albedo = mix(albedo, vec3(0.03, 0.035, 0.05), 0.85 * printed(thread));

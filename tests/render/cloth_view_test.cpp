@@ -77,6 +77,19 @@ TEST_F(ClothViewTest, ClothIsShownUnlessItIsBesideThePictureOrBehindAnObstacle) 
   EXPECT_TRUE(view->shows_cloth());
 }
 
+// A board half way to the eye ends in the middle of the picture; it is drawn smaller by 0.8 mm.
+TEST_F(ClothViewTest, ABoardBeforeHalfOfTheClothHidesHalfOfIt) {
+  auto view = viewed_cloth(test::flat_square(8, 0.02f, 0.0f), Look{});
+  const Camera camera = Camera::perspective({0, -0.6f, 0.25f}, {0, 0, 0}, 30);
+  const int board =
+      view->add_obstacle(box_mesh({0.1f, 0.01f, 0.1f}, 0.001f), placed({-0.1f, -0.3f, 0.125f}, {0, 0, 1}));
+  view->draw(camera);
+  EXPECT_NEAR(view->hidden_share(), 0.5, 0.1);
+  view->show_obstacle(board, false);
+  view->draw(camera);
+  EXPECT_EQ(view->hidden_share(), 0);
+}
+
 // Closed convex cloth lit from above must not speckle itself: neighbouring pixels of a flat sheet are equal.
 TEST_F(ClothViewTest, AFlatSheetDoesNotShadeItself) {
   Look look;

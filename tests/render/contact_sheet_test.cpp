@@ -102,5 +102,24 @@ TEST(Spread, KeepsFirstAndLast) {
   EXPECT_TRUE(spread(0, 4).empty());
 }
 
+TEST(Distinct, LeavesOutWhatWasThereBeforeAndEndsWithTheLast) {
+  const std::vector<int> shown = {1, 1, 2, 3, 2, 3};
+  EXPECT_EQ(distinct(shown.size(), [&](std::size_t a, std::size_t b) { return shown[a] == shown[b]; }),
+            (std::vector<std::size_t>{0, 2, 5}));
+  EXPECT_EQ(distinct(3, [](std::size_t, std::size_t) { return true; }), (std::vector<std::size_t>{0}))
+      << "where nothing moves";
+  EXPECT_TRUE(distinct(0, [](std::size_t, std::size_t) { return true; }).empty());
+}
+
+// A grey page, and a square on it of one pixel of what a front page shows, or of thirty a side.
+TEST(LookAlike, IsWhatAFrontPageCannotTellApart) {
+  const Image page(300, 300, Rgb8{200, 200, 200});
+  Image dotted = page, marked = page;
+  paste(dotted, Image(3, 3, Rgb8{120, 120, 120}), 150, 150);
+  paste(marked, Image(90, 90, Rgb8{120, 120, 120}), 150, 150);
+  EXPECT_TRUE(look_alike(page, dotted));
+  EXPECT_FALSE(look_alike(page, marked));
+}
+
 }  // namespace
 }  // namespace hysteron::render

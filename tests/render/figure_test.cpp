@@ -2,12 +2,12 @@
 // as thick as the cloth.
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
-#include "render/compare.h"
 #include "render/srgb.h"
+#include "tests/render/lab.h"
 #include "tests/render/test_scene.h"
 
 namespace hysteron::render {
@@ -16,12 +16,7 @@ namespace {
 constexpr int kWidth = 320, kHeight = 180, kPasses = 16;
 constexpr float kAspect = static_cast<float>(kWidth) / kHeight;
 
-// CIE 1976 lightness of a pixel.
-double lightness(const std::uint8_t* rgb) {
-  const auto& linear = linear_of_srgb8();
-  const double y = 0.2126 * linear[rgb[0]] + 0.7152 * linear[rgb[1]] + 0.0722 * linear[rgb[2]];
-  return y > 216.0 / 24389 ? 116 * std::cbrt(y) - 16 : y * 24389 / 27;
-}
+using test::lightness;
 
 // The q-th share of the values from below.
 double quantile(std::vector<double> values, double q) {
@@ -33,12 +28,12 @@ double quantile(std::vector<double> values, double q) {
 class FigureTest : public testing::Test {
  protected:
   Image figure(const Look& look, int passes = kPasses) {
-    return test::draped_view(*offscreen_, {.width = width_, .height = height_, .figure_passes = passes}, look)
+    return test::draped_view(*offscreen_, {.width = kWidth, .height = kHeight, .figure_passes = passes}, look)
         ->draw(test::draped_camera(kAspect));
   }
   // Where the cloth is wholly in a pixel.
   Image silhouette() {
-    return test::draped_view(*offscreen_, {width_, height_}, look_named("silhouette"))
+    return test::draped_view(*offscreen_, {kWidth, kHeight}, look_named("silhouette"))
         ->draw(test::draped_camera(kAspect));
   }
   std::vector<double> on_cloth(const Image& image) {
@@ -50,7 +45,6 @@ class FigureTest : public testing::Test {
     return values;
   }
 
-  int width_ = kWidth, height_ = kHeight;
   std::unique_ptr<Offscreen> offscreen_ = Offscreen::create(Renderer::automatic);
 };
 
@@ -152,43 +146,7 @@ TEST_F(FigureTest, AnEdgeIsAsThickAsTheCloth) {
   }
 }
 
-// Against four times the passes: edges are smooth, and sixteen passes have directions enough.
-TEST_F(FigureTest, SixteenPassesAreEnough) {
-  width_ = 160, height_ = 90;
-  const Image image = figure({}), fine = figure({}, 4 * kPasses), where = silhouette();
-  double at_edges = 0, all = 0;
-  int edges = 0;
-  for (int y = 0; y < height_; ++y)
-    for (int x = 0; x < width_; ++x) {
-      const double difference = lightness(image.at(x, y)) - lightness(fine.at(x, y));
-      all += difference;
-      if (where.at(x, y)[1] == 0 || where.at(x, y)[1] == 255) continue;
-      at_edges += std::abs(difference);
-      ++edges;
-    }
-  ASSERT_GT(edges, 100);
-  EXPECT_LE(at_edges / edges, 1.5);
-  EXPECT_LE(std::abs(all / (width_ * height_)), 0.3);
-}
-
 TEST_F(FigureTest, TheSameCallsGiveTheSameBits) { EXPECT_EQ(figure({}, 4), figure({}, 4)); }
-
-TEST_F(FigureTest, FieldsKeepTheColoursOfTheBar) {
-  Look look = look_named("curvature");
-  look.value_low = -2;
-  look.value_high = 2;
-  test::Cloth cloth = test::flat_square(4, 0.2f, 0.0f);
-  ClothView view(*offscreen_, {.width = 100, .height = 100, .figure_passes = kPasses});
-  view.set_cloth(cloth.topology());
-  view.set_positions(cloth.positions);
-  view.set_look(look);
-  for (const float value : {-2.0f, 0.0f, 2.0f}) {
-    view.set_values(std::vector<float>(cloth.values.size(), value));
-    const Image image = view.draw(Camera::top({{-0.05f, -0.05f, 0}, {0.05f, 0.05f, 0}}, 1));
-    const Rgb8 expected = map_color8(look.map, (value + 2) / 4);
-    EXPECT_NEAR(lightness(image.at(50, 50)), lightness(expected.data()), 5) << value;
-  }
-}
 
 // All of Mesa's software paths run one rasteriser, so between them not a bit may differ.
 TEST(Figure, AllPathsOfOneMesaAgreeToTheBit) {

@@ -91,6 +91,17 @@ class PageTable {
       if (has_frames(c)) crop.include(instants(c)[frame_at(c, time)]);
     return crop;
   }
+  // Whether every column looks the same at both times.
+  bool look_alike(double a, double b) const {
+    Crop both;
+    for (const ChildRun& c : columns_)
+      for (const double time : {a, b})
+        if (has_frames(c)) both.include(instants(c)[frame_at(c, time)]);
+    return std::all_of(columns_.begin(), columns_.end(), [&](const ChildRun& c) {
+      return !has_frames(c) || frame_at(c, a) == frame_at(c, b) ||
+             render::look_alike(both.of(picture_at(c, a)), both.of(picture_at(c, b)));
+    });
+  }
   Crop crop_until(double end) const {
     Crop crop;
     for (const ChildRun& c : columns_)
@@ -130,14 +141,17 @@ class PageTable {
     return 0;
   }
 
+  render::Image picture_at(const ChildRun& column, double time) const {
+    return render::read_png(page_.picture.empty() ? picture_file(column, page_.look, frame_at(column, time))
+                                                  : column.folder / page_.picture);
+  }
+
   render::ComparisonCell cell(std::size_t c, double time, const Crop& crop) const {
     const ChildRun& column = columns_[c];
     if (!has_frames(column)) return {};
     const std::size_t frame = frame_at(column, time);
     const bool over = time - second(column, frame) > 1e-9;
-    const auto file =
-        page_.picture.empty() ? picture_file(column, page_.look, frame) : column.folder / page_.picture;
-    return {crop.of(render::read_png(file)),
+    return {crop.of(picture_at(column, time)),
             over ? fmt::format("{} {:.2f} s", column.stopped.empty() ? "at rest since" : "stopped at",
                                second(column, frame))
                  : "",
@@ -240,12 +254,24 @@ PageTable columns_table(const ComparisonPage& page, const std::vector<ChildRun>&
   return table;
 }
 
+// Rows that show something new; all of those that are asked for.
+std::vector<double> telling_times(const ComparisonPage& page, const std::vector<ChildRun>& columns,
+                                  const std::vector<double>& times) {
+  if (!page.times.empty()) return times;
+  const PageTable table(page, columns);
+  std::vector<double> telling;
+  for (const std::size_t i : render::distinct(
+           times.size(), [&](std::size_t a, std::size_t b) { return table.look_alike(times[a], times[b]); }))
+    telling.push_back(times[i]);
+  return telling;
+}
+
 // A page of many columns is twice as high as wide at most: the first of its instants go, unless they are
 // asked for.
 render::Image page_sheet(const ComparisonPage& page, const std::vector<ChildRun>& columns,
-                         std::vector<double> times) {
+                         const std::vector<double>& shown) {
   render::Image sheet;
-  for (;; times.erase(times.begin())) {
+  for (std::vector<double> times = telling_times(page, columns, shown);; times.erase(times.begin())) {
     sheet = render::draw_comparison(columns_table(page, columns, times).sheet());
     if (times.size() == 1 || !page.times.empty() || sheet.height() <= 2 * sheet.width()) return sheet;
   }

@@ -9,7 +9,6 @@
 #include "experiments/workbench/app/camera_file.h"
 #include "experiments/workbench/app/law_family.h"
 #include "experiments/workbench/pictures/drawing.h"
-#include "render/flip.h"
 #include "sim/base/archive.h"
 #include "sim/base/atomic_file.h"
 #include "sim/base/error.h"
@@ -21,7 +20,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr int kSheetCells = 8;             // pictures on the contact sheet, at most
-constexpr double kAlike = 0.02;            // FLIP of two of them that show the same
 constexpr double kCellPixels = 560 * 420;  // drawn for each of them
 constexpr float kSheetRoom = 0.06f;        // around what is shown there, of either side
 constexpr int kSkins = 14;                 // of a motion in one picture
@@ -41,10 +39,14 @@ float picture_aspect(const Options& options) {
   return static_cast<float>(options.width()) / static_cast<float>(options.height());
 }
 
-// As a front page shows a cell: what cannot be told apart there need not be shown twice.
-render::Image small_copy(const render::Image& cell) {
-  constexpr int kSmaller = 3;
-  return render::shrink(cell, std::max(1, cell.width() / kSmaller), std::max(1, cell.height() / kSmaller));
+// Those that look different, in their order.
+std::vector<render::SheetEntry> distinct_cells(const std::vector<render::SheetEntry>& cells) {
+  std::vector<render::SheetEntry> kept;
+  for (std::size_t i : render::distinct(cells.size(), [&](std::size_t a, std::size_t b) {
+         return render::look_alike(cells[a].image, cells[b].image);
+       }))
+    kept.push_back(cells[i]);
+  return kept;
 }
 
 std::vector<double> instant_times(const std::vector<KeptInstant>& instants) {
@@ -303,17 +305,11 @@ std::vector<render::SheetEntry> Pictures::sheet_cells(const std::vector<KeptInst
       cells.push_back({render::onion_skin(skins),
                        fmt::format("0–{:.2f} s, over each other", motion.back().time),
                        {motion.back().loop, {}, color_of_law(scene_.law), {}}});
-    for (const KeptInstant& instant : instants) {
-      render::Image image = sheet_picture(studio, instant, view);
-      const render::Image small = small_copy(image);
-      const auto is_alike = [&](const render::SheetEntry& other) {
-        return render::flip(small, small_copy(other.image)) < kAlike;
-      };
-      if (&instant == &instants.back() && cells.size() > 1)
-        cells.erase(std::remove_if(cells.begin() + 1, cells.end(), is_alike), cells.end());
-      if (std::any_of(cells.begin(), cells.end(), is_alike)) continue;
-      cells.push_back({std::move(image), instant.caption, {instant.loop, {}, color_of_law(scene_.law), {}}});
-    }
+    for (const KeptInstant& instant : instants)
+      cells.push_back({sheet_picture(studio, instant, view),
+                       instant.caption,
+                       {instant.loop, {}, color_of_law(scene_.law), {}}});
+    cells = distinct_cells(cells);
     for (const FurtherView& view_from : further_) cells.push_back(further_cell(studio, view_from, view));
     return cells;
   });

@@ -1,7 +1,5 @@
 #include "experiments/workbench/pictures/scene_renderer.h"
 
-#include <cstdlib>
-
 #include "experiments/workbench/pictures/drawing.h"
 #include "experiments/workbench/pictures/fabric_look.h"
 #include "render/shapes.h"
@@ -21,20 +19,8 @@ double curvature_range(const Scene& scene, const Options& options, const std::st
   return look == "curvature" ? range : range / 2;
 }
 
-// An obstacle hides much of the cloth when so much of what is dark without it looks different with it.
-constexpr double kMuch = 0.2;
-constexpr int kGhost = 90;  // of 256: how solid it is then
-
-double hidden_share(const render::Image& bare, const render::Image& whole) {
-  constexpr int kDark = 200, kDifferent = 20;  // 8-bit steps of green
-  long dark = 0, hidden = 0;
-  for (std::size_t i = 1; i < bare.pixels().size(); i += static_cast<std::size_t>(bare.channels())) {
-    if (bare.pixels()[i] > kDark) continue;
-    ++dark;
-    hidden += std::abs(bare.pixels()[i] - whole.pixels()[i]) > kDifferent;
-  }
-  return dark == 0 ? 0 : static_cast<double>(hidden) / static_cast<double>(dark);
-}
+constexpr double kMuch = 0.2;  // of the cloth that is hidden: obstacles let it shine through
+constexpr int kGhost = 90;     // of 256: how solid they are then
 
 render::Image between(render::Image bare, const render::Image& whole, int fraction) {
   for (std::size_t i = 0; i < bare.pixels().size(); ++i)
@@ -127,18 +113,14 @@ void SceneRenderer::take_size(const render::PictureSize& size) {
   view_->set_bounds(bounds_);
 }
 
-bool SceneRenderer::place_obstacles(double time, bool visible) {
-  bool may_hide = false;  // what stands below all cloth does not
+void SceneRenderer::place_obstacles(double time, bool visible) {
   for (std::size_t i = 0; i < body_.size(); ++i) {
     if (body_[i] < 0) continue;
     const Obstacle& o = scenery_[i];
     const bool there = o.from <= time && time < o.until;
-    const Eigen::Matrix4f placement = placed_at(o, time);
-    view_->move_obstacle(body_[i], placement);
+    view_->move_obstacle(body_[i], placed_at(o, time));
     view_->show_obstacle(body_[i], visible && there);
-    may_hide |= there && placement(2, 3) > bounds_.low.z();
   }
-  return may_hide;
 }
 
 render::Image SceneRenderer::draw(const render::Look& look, const render::Camera& camera,
@@ -152,11 +134,9 @@ render::Image SceneRenderer::draw(const render::Look& look, const render::Camera
 render::Image SceneRenderer::draw_with_ghosts(const render::Look& look, const render::Camera& camera,
                                               const Shown& shown) {
   render::Image whole = draw(look, camera, shown);
-  const bool cloth_is_seen = view_->shows_cloth();
-  if (look.show == render::Show::silhouette || !place_obstacles(shown.time, false)) return whole;
-  const render::Image bare = view_->draw(camera);
-  if (cloth_is_seen && hidden_share(bare, whole) <= kMuch) return whole;
-  return between(bare, whole, kGhost);
+  if (view_->hidden_share() <= kMuch) return whole;
+  place_obstacles(shown.time, false);
+  return between(view_->draw(camera), whole, kGhost);
 }
 
 render::Image SceneRenderer::silhouette(const DrawnMesh& mesh, const std::vector<float>& xyz,

@@ -56,7 +56,7 @@ class SceneRenderer {
                            int pixels);
 
  private:
-  bool place_obstacles(double time, bool visible);  // whether any may hide cloth
+  void place_obstacles(double time, bool visible);
 
   const DrawnMesh& mesh_;
   render::Box bounds_;

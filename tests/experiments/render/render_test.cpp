@@ -177,6 +177,26 @@ TEST(RenderedFiles, OfSeveralFoldersStandInColumnsEachInItsUnitAxesAndRate) {
   EXPECT_EQ(manifest["scene"]["render"]["up"], "z,y");
 }
 
+// Three files of which two show the same make the sheet of two, whether an instant is a cell or a row.
+TEST(RenderedFiles, AnInstantThatLooksLikeOneBeforeIsNotOnTheSheet) {
+  const auto sheet = [](const std::vector<double>& instants, const std::string& fps, int columns) {
+    const Folder folder;
+    std::vector<std::string> sequences;
+    for (int c = 0; c < columns; ++c) {
+      sequences.push_back((folder.path() / std::to_string(c)).string());
+      for (std::size_t k = 0; k < instants.size(); ++k)
+        write(fs::path(sequences.back()) / (std::to_string(k) + ".obj"), swaying(instants[k], metres));
+    }
+    EXPECT_EQ(rendered(folder.path() / "out", sequences, {{"fps", fps}, {"render.title", "a title"}}), 0);
+    return render::read_png(folder.path() / "out/sheet.png");
+  };
+  for (const int columns : {1, 2}) {
+    const render::Image two = sheet({0, 0.2}, "1", columns);
+    EXPECT_EQ(sheet({0, 0, 0.2}, "2", columns), two) << columns;
+    EXPECT_NE(sheet({0, 0.1, 0.2}, "2", columns), two) << columns;
+  }
+}
+
 TEST(RenderedFiles, OfAHundredThousandTrianglesAreDrawn) {
   const Folder folder;
   const ClothMesh mesh = make_rectangle(1, 1, 100000, MeshFamily::unionjack, 1);
