@@ -208,13 +208,14 @@ void SelfContact<Real, Device>::evaluate(const Vec3<Real>* x, const Vec3<Real>* 
   clock_.end(Stage::contact);
 }
 
-// Numbers the pairs that press or rub; returns how many they are.
+// Numbers the stiffnesses of the pairs that press or rub; returns how many they are.
 template <class Real, class Device>
 int SelfContact<Real, Device>::find_pressing(const Vec3<Real>* x) {
   const int count = pairs_.count();
   const SelfPair<Real>* pairs = pairs_.pairs();
   const PairFriction<Real>* friction = friction_.data();
   const char* near = near_.data();
+  const bool stiffens_parallel = stiffens_parallel_;
   int* presses = presses_.reserve(count);
   for_each(
       device_, "self-contact: pressing", count, HYST_KERNEL(int p) {
@@ -222,7 +223,10 @@ int SelfContact<Real, Device>::find_pressing(const Vec3<Real>* x) {
         if (!near[p]) return;
         Vec3<Real> at[4];
         pairs[p].gather(x, at);
-        presses[p] = friction[p].limit > 0 || pair_distance(at, pairs[p].is_edges()) < pairs[p].shell;
+        const bool touches = pair_distance(at, pairs[p].is_edges()) < pairs[p].shell;
+        presses[p] = touches && stiffens_parallel && are_fading(pairs[p], at) ? 2
+                     : touches || friction[p].limit > 0                       ? 1
+                                                                              : 0;
       });
   return exclusive_scan(device_, pairs_.scratch(), presses, count, pressing_.reserve(count + 1));
 }
@@ -233,6 +237,7 @@ void SelfContact<Real, Device>::linearise(const Vec3<Real>* x, const Vec3<Real>*
   clock_.begin(Stage::contact);
   pressing_count_ = find_pressing(x);
   const std::size_t entries = 4 * static_cast<std::size_t>(pressing_count_);
+  slot_.reserve(entries);  // there may be more stiffnesses than pairs
   const SelfContactModel<Real> model = model_;
   const SelfPair<Real>* pairs = pairs_.pairs();
   const PairFriction<Real>* friction = friction_.data();
@@ -245,7 +250,9 @@ void SelfContact<Real, Device>::linearise(const Vec3<Real>* x, const Vec3<Real>*
         const SelfTouch<Real> touch = self_touch(pairs[p], model, x);
         const PairFriction<Real> f = friction[p];
         PairStiffness<Real>& s = stiffness[number[p]];
-        for (int k = 0; k < 4; ++k) key[4 * number[p] + k] = s.v[k] = pairs[p].v[k];
+        for (int k = 0; k < 4; ++k) s.v[k] = pairs[p].v[k];
+        for (int k = 0; k < 4 * presses[p]; ++k) key[4 * number[p] + k] = s.v[k % 4];
+        if (presses[p] == 2) stiffness[number[p] + 1] = turning_stiffness(pairs[p], touch);
         s.block.setZero();
         s.weight = f.weight;
         if (touch.touches) {

@@ -9,7 +9,9 @@
 // Friction: a Prandtl stop per pair as against obstacles (contact.h), which slides after an elastic slip of
 // 1 % of the thickness; its force limit is that of the last iterate that lag() saw.  A pair that begins to
 // bear takes over the stretch of its neighbours' stops.
-// Stiffness is Gauss-Newton's: positive semidefinite, without the second derivatives of distances.
+// Stiffness is Gauss-Newton's: positive semidefinite, without the second derivatives of distances.  Nor has
+// it what the fade of parallel edges (barrier.h) resists their turning by, unless stiffen_parallel_edges()
+// asks for that: where pressure holds such edges, full steps then turn them several times too far.
 #pragma once
 
 #include <span>
@@ -82,6 +84,9 @@ class SelfContact {
   void evaluate(const Vec3<Real>* x, const Vec3<Real>* before, Vec3<Real>* gradient);
   const double* energies() const { return energy_.data(); }  // of pairs() pairs [J]
   int pairs() const { return pairs_.count(); }
+  // Whether the next linearise() has the stiffness against the turning of nearly parallel edges.
+  void stiffen_parallel_edges(bool on) { stiffens_parallel_ = on; }
+  bool stiffens_parallel_edges() const { return stiffens_parallel_; }
   // sliding_fraction: sliding_stop.h.
   void linearise(const Vec3<Real>* x, const Vec3<Real>* before, Real sliding_fraction);
   GatheredForces<Real> apply_stiffness(const Vec3<Real>* p);  // to be gathered
@@ -129,15 +134,15 @@ class SelfContact {
   Real thickness_, least_reach_, most_reach_, max_displacement_;
   SelfContactModel<Real> model_;
   SelfPairs<Real, Device> pairs_;
-  bool ready_ = false, pending_ = false;
+  bool ready_ = false, pending_ = false, stiffens_parallel_ = false;
   Real reach_ = 0;
   double stored_ = 0, loss_ = 0;  // of friction [J]
   Buffer<Vec3<Real>, Device> center_;
   GrowingBuffer<Real, Device> step_length_;
   GrowingBuffer<char, Device> near_;  // of pairs: it may touch on the path of the last prepare(), or rubs
   GrowingBuffer<PairFriction<Real>, Device> friction_, old_friction_;
-  // Of the pairs that press or rub where linearise() was called last: their numbers among all follow from
-  // `pressing_`, a running count.
+  // Stiffnesses of the pairs that press or rub where linearise() was called last, one for each or two: their
+  // numbers among all follow from `pressing_`, a running count.
   int pressing_count_ = 0;
   GrowingBuffer<int, Device> presses_, pressing_;
   GrowingBuffer<PairStiffness<Real>, Device> stiffness_;

@@ -66,6 +66,26 @@ HYST_HD HYST_NOINLINE SelfTouch<Real> self_touch(const SelfPair<Real>& pair,
   return touch;
 }
 
+// Whether a pair at x are edges so nearly parallel that their energy fades.
+template <class Real>
+HYST_HD bool are_fading(const SelfPair<Real>& pair, const Vec3<Real> (&x)[4]) {
+  return (x[1] - x[0]).cross(x[3] - x[2]).squaredNorm() < pair.parallel;
+}
+
+// Of edges a and b that fade, what resists their turning against each other.  With c = |a x b|^2 it is 2
+// dE/dc J'J, the positive part of the fade's second derivative, where J is that of a x b; as b is nearly k a,
+// J (da, db) = a x (db - k da).
+template <class Real>
+HYST_HD PairStiffness<Real> turning_stiffness(const SelfPair<Real>& pair, const SelfTouch<Real>& touch) {
+  const Vec3<Real>& a = touch.first;
+  const Real ratio = a.dot(touch.second) / a.squaredNorm();
+  PairStiffness<Real> s;
+  for (int k = 0; k < 4; ++k) s.v[k] = pair.v[k];
+  s.weight << ratio, -ratio, -1, 1;
+  s.block = 2 * touch.fade_slope * (a.squaredNorm() * Mat3<Real>::Identity() - a * a.transpose());
+  return s;
+}
+
 // Gradient of the barrier's energy by the pair's vertex k.
 template <class Real>
 HYST_HD Vec3<Real> barrier_gradient(const SelfTouch<Real>& touch, int k) {

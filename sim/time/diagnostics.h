@@ -19,9 +19,10 @@ struct StepLimits {
 // Counts since the start, which steps keep anyway.
 struct Diagnostics {
   long steps = 0;
-  long parts = 0;       // into which steps were divided, by retries or a tolerance
-  long stages = 0;      // accepted in motion: one a part, two of tr-bdf2
-  long retried = 0;     // steps that were taken again in smaller parts
+  long parts = 0;   // into which steps were divided, by retries or a tolerance
+  long stages = 0;  // accepted in motion: one a part, two of tr-bdf2
+  // Steps that were taken again in smaller parts, or at the smallest with more of contact's stiffness.
+  long retried = 0;
   long unbalanced = 0;  // parts taken before Newton's method had converged
   // Parts taken with a vertex deeper than the cloth's thickness in an obstacle: after a hard blow, or with
   // steps that are taken unbalanced (newton-iterations), of cloth that is crushed.

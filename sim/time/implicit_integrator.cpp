@@ -133,10 +133,24 @@ void ImplicitIntegrator<Real, Device>::finish(double start, double h, int halvin
 template <class Real, class Device>
 void ImplicitIntegrator<Real, Device>::take_halves(double start, double h, int halvings,
                                                    const NewtonOutcome& outcome) {
-  if (halvings == kMaxHalvings) throw_if_unbalanced(body_, solver_, start, h, outcome);
+  const bool is_shortest = halvings == kMaxHalvings;
+  if (is_shortest && (outcome.blocked || !stiffen_parallel_edges()))
+    throw_if_unbalanced(body_, solver_, start, h, outcome);
   ++body_.counts.retried;
+  if (is_shortest) return take_interval(start, h, halvings);
   take_interval(start, h / 2, halvings + 1);
   take_interval(start + h / 2, h / 2, halvings + 1);
+  if (halvings == 0 && body_.self_contact) body_.self_contact->stiffen_parallel_edges(false);
+}
+
+// For the rest of the step; whether that is new.  Layers that pressure holds edge along edge may leave
+// Newton's method without equilibrium in the shortest part of a step: each of its directions turns them too
+// far.
+template <class Real, class Device>
+bool ImplicitIntegrator<Real, Device>::stiffen_parallel_edges() {
+  if (!body_.self_contact || body_.self_contact->stiffens_parallel_edges()) return false;
+  body_.self_contact->stiffen_parallel_edges(true);
+  return true;
 }
 
 // Parts whose estimated error stays below the tolerance; one that does not is taken again, shorter.

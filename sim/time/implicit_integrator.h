@@ -33,6 +33,7 @@ class ImplicitIntegrator : public TimeIntegrator<Real, Device> {
   void take_adaptive_step(double start);
   void finish(double start, double h, int halvings);
   void take_halves(double start, double h, int halvings, const NewtonOutcome& outcome);
+  bool stiffen_parallel_edges();
   double first_stage(double h) const { return solver_.has_two_stages() ? kTrapezoidalFraction * h : h; }
   NewtonOutcome attempt(double start, double h, bool is_first_stage, bool is_last_resort);
   NewtonOutcome solve(double start, double h, bool is_first_stage);

@@ -86,6 +86,21 @@ TEST(Crease, OpensWithoutAnIntersectionAndKeepsWhatTheLawKeeps) {
   EXPECT_LT(elastic["energy_remainder_relative"], 1e-4);
 }
 
+// Under this force edges of the fold are pressed along each other: their full steps turn them too far, and
+// the shortest parts of a step need the stiffness against that.
+TEST(Crease, FindsTheEquilibriumOfAFoldThatIsPressedEdgeAlongEdge) {
+  const Folder folder;
+  const auto out = folder.path() / "run";
+  const Outcome outcome = program(
+      "crease --law prandtl --triangles 200 --crease.hold 0.05 --crease.recovery 0.3 --crease.force 4.98 "
+      "--no-images --quiet --out " +
+      out.string());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto metrics = metrics_in(out);
+  EXPECT_EQ(metrics["intersections"], 0);
+  EXPECT_LT(metrics["energy_remainder_relative"], 1e-4);
+}
+
 CommandLine soft_fold(const char* fold, const std::filesystem::path& out) {
   CommandLine line{"crease",
                    "hysteron crease",

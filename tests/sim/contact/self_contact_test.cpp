@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
 #include <numbers>
 #include <numeric>
 #include <random>
@@ -194,6 +196,32 @@ TEST(SelfContact, GradientIsTheEnergys) {
       x[i][c] = at;
       EXPECT_NEAR((high - low) / (2 * kTiny), gradient[i][c], 1e-5 * largest) << i;
     }
+}
+
+// Two edges of 1 mm, a small angle from parallel and 0.7 mm apart: turning one about the normal changes
+// nothing but the fade, and next to parallel the second derivative of its energy is all positive.
+TEST(SelfContact, EdgesThatFadeResistTurningAsTheirEnergySays) {
+  constexpr double kSide = 1e-3, kAngle = 1e-3, kTurn = 1e-5;
+  SelfPair<double> pair{{0, 1, 2, 3}, 0, 1e-3, 1e-7, 1e-3 * std::pow(kSide, 4)};
+  const SelfContactModel<double> model{1e6, 0, 0};
+  const auto turned = [&](double angle) {
+    const Vector3d half(kSide / 2 * std::cos(angle), kSide / 2 * std::sin(angle), 0), up(0, 0, 0.7e-3);
+    return std::array{Vector3d(-kSide / 2, 0, 0), Vector3d(kSide / 2, 0, 0), Vector3d(up - half),
+                      Vector3d(up + half)};
+  };
+  const auto touch = [&](double angle) { return self_touch(pair, model, turned(angle).data()); };
+  const double curved =
+      touch(kAngle + kTurn).energy - 2 * touch(kAngle).energy + touch(kAngle - kTurn).energy;
+  const auto x = turned(kAngle), ahead = turned(kAngle + kTurn), behind = turned(kAngle - kTurn);
+  ASSERT_TRUE(are_fading(pair, {x[0], x[1], x[2], x[3]}));
+  const PairStiffness<double> stiffness = turning_stiffness(pair, touch(kAngle));
+  std::array<Vector3d, 4> displacement, force;
+  for (int k = 0; k < 4; ++k) displacement[k] = (ahead[k] - behind[k]) / 2;
+  stiffness.times(displacement.data(), force.data());
+  double work = 0;
+  for (int k = 0; k < 4; ++k) work += force[k].dot(displacement[k]);
+  constexpr double kNearParallel = 0.01;  // of the stiffness, at that angle
+  EXPECT_NEAR(work / curved, 1, kNearParallel);
 }
 
 class SelfContactOf : public ::testing::TestWithParam<const char*> {};
