@@ -369,11 +369,7 @@ void ClothView::place_cloth(const Program& program) {
 }
 
 void ClothView::draw_casters(const Program& program) const {
-  for (const Obstacle& obstacle : obstacles_) {
-    if (!obstacle.visible) continue;
-    place_body(program, obstacle);
-    obstacle.mesh.draw();
-  }
+  draw_bodies(program);
   place_cloth(program);
   if (cloth_) cloth_->draw();
 }
@@ -459,11 +455,20 @@ void ClothView::draw_ground(const View& view) const {
 void ClothView::draw_obstacles(const View& view) const {
   begin_lit(matte_program_, view);
   matte_program_.set("albedo", linear(look_.obstacle));
+  draw_bodies(matte_program_);
+}
+
+// Bodies are closed: their far sides are never seen, and where no graphics hardware draws, they would cost
+// most.
+void ClothView::draw_bodies(const Program& program) const {
+  gl_.Enable(GL_CULL_FACE);
+  gl_.CullFace(GL_BACK);
   for (const Obstacle& obstacle : obstacles_) {
     if (!obstacle.visible) continue;
-    place_body(matte_program_, obstacle);
+    place_body(program, obstacle);
     obstacle.mesh.draw();
   }
+  gl_.Disable(GL_CULL_FACE);
 }
 
 void ClothView::begin_cloth(const Program& program, const View& view) const {

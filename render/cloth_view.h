@@ -74,7 +74,7 @@ class ClothView {
   // (then `reason` says why): set_positions() is the way then.
   bool write_positions(std::string& reason);
 
-  // Returns the obstacle's number.
+  // Of a closed mesh whose triangles face outward; returns the obstacle's number.
   int add_obstacle(const TriangleMesh& mesh, const Eigen::Matrix4f& placement);
   void move_obstacle(int obstacle, const Eigen::Matrix4f& placement);
   void show_obstacle(int obstacle, bool visible);
@@ -124,6 +124,7 @@ class ClothView {
   Image draw_part(const Camera& camera, int left, int top);
   View camera_view(const Camera& camera, int left, int top, const Shift& shift) const;
   void draw_casters(const Program& program) const;
+  void draw_bodies(const Program& program) const;
   // `counts`: samples of the cloth, too.
   void draw_scene(const View& view, bool counts) const;
   void count_cloth(const View& view, const GlQuery& samples) const;

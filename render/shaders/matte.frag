@@ -11,6 +11,6 @@ void main() {
   vec3 normal = normalize(world_normal);
   float facing = max(dot(normal, to_light), 0.0);
   vec3 light = room_light(normal, sky.x, sky.z);
-  light += key_light() * facing * key_reaching(world, normal, to_light);
+  if (facing > 0.0) light += key_light() * facing * key_reaching(world, normal, to_light);
   color = vec4(albedo * light, 1);
 }
