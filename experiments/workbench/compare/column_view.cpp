@@ -39,8 +39,9 @@ std::string with_unit(double value, const std::string& unit) {
   constexpr double kNothing = 1e-9;
   if (std::abs(value) < kNothing) value = 0;
   if (unit == "°") return fmt::format("{:.0f}°", value);
-  if (unit == "%") return fmt::format("{:.3g} %", value);
-  if (unit == "1/m") return fmt::format("{:.3g} /m", value);
+  const std::string plain = std::abs(value) < 999.5 ? fmt::format("{:.3g}", value) : three_digits(value);
+  if (unit == "%") return plain + " %";
+  if (unit == "1/m") return plain + " /m";
   const auto [prefix, factor] = unit.empty() ? render::SiPrefix{} : render::si_prefix(2 * value);
   return three_digits(value / factor) + (unit.empty() ? "" : " " + std::string(prefix) + unit);
 }
