@@ -20,20 +20,27 @@ nlohmann::json recorded_metrics(const Words& flags) {
 }
 
 constexpr double kDropOfTen = 0.7001997;  // over the length, heaviness 10: the elastica by shooting
-constexpr double kWithin = 5e-3;          // 32 cells along; aligned-45, whose cells are the longest, 0.45 %
+constexpr double kWithin = 5e-3;          // of 256 triangles at most 0.22 %, of aligned-45 on 512 0.49 %
 
-class OnAMesh : public testing::TestWithParam<const char*> {};
+struct Meshed {
+  const char *mesh, *triangles;
+};
+
+class OnAMesh : public testing::TestWithParam<Meshed> {};
+// The cells of aligned-45 are the longest, so that it takes more of them.
 INSTANTIATE_TEST_SUITE_P(Meshes, OnAMesh,
-                         testing::Values("aligned", "aligned-45", "flipped", "unionjack", "equilateral",
-                                         "random"),
-                         [](const auto& mesh) {
-                           std::string name = mesh.param;
+                         testing::Values(Meshed{"aligned", "256"}, Meshed{"aligned-45", "512"},
+                                         Meshed{"flipped", "256"}, Meshed{"unionjack", "256"},
+                                         Meshed{"equilateral", "256"}, Meshed{"random", "256"}),
+                         [](const auto& of) {
+                           std::string name = of.param.mesh;
                            std::erase(name, '-');
                            return name;
                          });
 
 TEST_P(OnAMesh, DropsAsTheElastica) {
-  const auto metrics = recorded_metrics({{"gamma", "10"}, {"mesh", GetParam()}, {"triangles", "512"}});
+  const auto metrics =
+      recorded_metrics({{"gamma", "10"}, {"mesh", GetParam().mesh}, {"triangles", GetParam().triangles}});
   EXPECT_NEAR(metrics["tip_drop_over_length"].get<double>() / kDropOfTen, 1, kWithin);
   EXPECT_LT(std::abs(metrics["error_percent"].get<double>()), 100 * kWithin);
   EXPECT_NEAR(metrics["bending_length_m"].get<double>() / (0.1 / std::cbrt(10)), 1, kWithin);
@@ -45,7 +52,7 @@ TEST(Cantilever, ShowsAWrongRigidity) {
   const double density = 10 * kB / (kGravity * kLength * kLength * kLength);
   const std::string b = std::to_string(1e6 * 1.05 * kB) + "e-6";
   const auto metrics = recorded_metrics({{"law", "linear"},
-                                         {"triangles", "512"},
+                                         {"triangles", "256"},
                                          {"fabric.b1", b},
                                          {"fabric.b2", b},
                                          {"fabric.density", std::to_string(density)}});
@@ -68,7 +75,7 @@ TEST(Cantilever, FollowsTheElasticaWithFrictionAndKeepsItsDroop) {
 TEST(Cantilever, ShowsAWrongRigidityInItsDroopAsWell) {
   const auto metrics_with = [](double wrong) {
     return recorded_metrics({{"law", "prandtl"},
-                             {"triangles", "512"},
+                             {"triangles", "256"},
                              {"fabric.b1", std::to_string(36 * wrong) + "e-6"},
                              {"fabric.b2", std::to_string(12 * wrong) + "e-6"},
                              {"fabric.density", "0.0122"}});
@@ -84,7 +91,7 @@ TEST(Cantilever, ComparesWithTheElasticaOfItsOwnDirection) {
   for (const char* law : {"linear", "prandtl"}) {
     const auto metrics = recorded_metrics({{"law", law},
                                            {"gamma", "5"},
-                                           {"triangles", "256"},
+                                           {"triangles", "128"},
                                            {"fabric.weft-bending", "0.5"},
                                            {"fabric.bias-bending", "0.7"},
                                            {"cloth.warp-angle", "90"}});
@@ -103,7 +110,7 @@ TEST(Cantilever, ComparesWithTheElasticaOfItsOwnDirection) {
 TEST(Cantilever, OnTheBiasFollowsAFreeStrip) {
   const auto metrics = recorded_metrics({{"law", "linear"},
                                          {"gamma", "1"},
-                                         {"triangles", "512"},
+                                         {"triangles", "256"},
                                          {"cloth.width", "0.01"},
                                          {"fabric.weft-bending", "0.5"},
                                          {"fabric.bias-bending", "0.7"},

@@ -12,7 +12,8 @@ namespace hysteron::experiments {
 namespace {
 namespace fs = std::filesystem;
 
-const char* const kSmallSwing = " --triangles 60 --seconds 0.1 --fps 30 --device cpu --size 160x120 --quiet";
+const char* const kSmallSwing =
+    " --triangles 60 --seconds 0.1 --fps 30 --device cpu --size 160x120 --quality draft --quiet";
 
 double last_difference(const fs::path& column) {  // [1/m]
   const auto manifest = nlohmann::json::parse(file_content(column / "manifest.json"));

@@ -1,11 +1,11 @@
 // The bending elements as linear maps from small deflections to curvature, on every mesh family.
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <numbers>
 
 #include "sim/bending/angle.h"
 #include "sim/bending/curvature_operator.h"
+#include "tests/sim/linear/dense.h"
 
 namespace hysteron {
 namespace {
@@ -216,9 +216,7 @@ TEST_P(Family, ShapeHasNoNullModesBesideTheRigidOnes) {
   constexpr int kRigid = 3;  // one translation, two small rotations
   for (const int triangles : {40, 120}) {
     const ClothMesh mesh = make_rectangle(1, 1, triangles, GetParam(), 2);
-    const VectorXd free =
-        Eigen::SelfAdjointEigenSolver<MatrixXd>(stiffness(mesh, make_shape_operator(mesh, none_held(mesh))))
-            .eigenvalues();
+    const VectorXd free = test::eigenvalues(stiffness(mesh, make_shape_operator(mesh, none_held(mesh))));
     const double largest = free[free.size() - 1];
     EXPECT_LT(free[kRigid - 1], kZero * largest);
     EXPECT_GT(free[kRigid], 1e3 * kZero * largest) << triangles << " " << free.head(8).transpose() / largest;
@@ -242,8 +240,7 @@ TEST_P(Family, ShapeSupportedPlateVibratesAtItsLowestFrequency) {
     for (int j = 0; j < n; ++j)
       scaled(i, j) =
           k(inner[i], inner[j]) / std::sqrt(mesh.vertex_area[inner[i]] * mesh.vertex_area[inner[j]]);
-  const double omega =
-      std::sqrt(Eigen::SelfAdjointEigenSolver<MatrixXd>(scaled, Eigen::EigenvaluesOnly).eigenvalues()[0]);
+  const double omega = std::sqrt(test::eigenvalues(scaled)[0]);
   EXPECT_NEAR(omega / kNavier, 1, kCoarse);
 }
 

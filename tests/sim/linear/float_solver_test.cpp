@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <limits>
 
+#include "tests/sim/linear/dense.h"
 #include "tests/sim/linear/random_system.h"
 
 namespace hysteron {
@@ -71,7 +71,7 @@ struct FloatSystem : test::RandomSystem {
     return a;
   }
   double condition() {
-    const VectorXd eigenvalues = Eigen::SelfAdjointEigenSolver<MatrixXd>(dense()).eigenvalues();
+    const VectorXd eigenvalues = test::eigenvalues(dense());
     EXPECT_GT(eigenvalues[0], 0);
     return eigenvalues[eigenvalues.size() - 1] / eigenvalues[0];
   }

@@ -1,13 +1,13 @@
 // Strains averaged at nodes.
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <numbers>
 #include <numeric>
 #include <random>
 
 #include "sim/membrane/membrane.h"
 #include "sim/mesh/garment.h"
+#include "tests/sim/linear/dense.h"
 #include "tests/sim/mesh/panel_tube.h"
 #include "tests/sim/scene/scene_file.h"
 
@@ -195,7 +195,7 @@ double energy_on_a_cylinder(Sheet& sheet, double curvature) {
     const MatrixXd stiffness = slides.transpose() * sheet.matrix() * slides;
     Eigen::VectorXd force(3 * n);
     for (int i = 0; i < n; ++i) force.segment<3>(3 * i) = sheet.forces()[i];
-    q += (stiffness + MatrixXd::Identity(2 * n, 2 * n)).ldlt().solve(slides.transpose() * force);
+    q += test::solution(stiffness + MatrixXd::Identity(2 * n, 2 * n), slides.transpose() * force);
   }
 }
 
@@ -224,7 +224,7 @@ TEST(NodalMembrane, LetsNoTriangleStretchFreely) {
   for (int i = 0; i < 2 * n; ++i)
     for (int j = 0; j < 2 * n; ++j) plane(i, j) = all(3 * (i / 2) + i % 2, 3 * (j / 2) + j % 2);
   EXPECT_LT((all - all.transpose()).norm(), kNodeRounding * all.norm());
-  const Eigen::VectorXd values = Eigen::SelfAdjointEigenSolver<MatrixXd>(plane).eigenvalues();
+  const Eigen::VectorXd values = test::eigenvalues(plane);
   EXPECT_NEAR(values[2], 0, kNodeRounding * values[2 * n - 1]);
   EXPECT_GT(values[3], 0.1 * stiff_fabric().shear);
 }
@@ -239,7 +239,7 @@ TEST(NodalMembrane, HasTheSpectralRadiusOfItsMatrix) {
   const int n = mesh.vertices();
   const std::vector<double> mass(n, 2.0);
   const std::vector<char> held(n, 0);
-  const double largest = Eigen::SelfAdjointEigenSolver<MatrixXd>(sheet.matrix()).eigenvalues()[3 * n - 1] / 2;
+  const double largest = test::eigenvalues(sheet.matrix())[3 * n - 1] / 2;
   const double radius = membrane_spectral_radius(mesh, fabric, MembraneElement::nodal, mass, held);
   constexpr double kPowerIteration = 0.05;
   EXPECT_NEAR(radius, largest, kPowerIteration * largest);
