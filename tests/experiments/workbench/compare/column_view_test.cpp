@@ -14,7 +14,7 @@ namespace {
 TEST(ShortNumber, HasThreeDigitsAndAPrefix) {
   EXPECT_EQ(short_number("recovery_angle_deg", 116.2), "116°");
   EXPECT_EQ(short_number("residual_curvature_rms_per_m", 30.98), "κ 31 /m");
-  EXPECT_EQ(short_number("residual_curvature_rms_per_m", 2173), "κ 2173 /m");
+  EXPECT_EQ(short_number("residual_curvature_rms_per_m", 2173.0), "κ 2173 /m");
   EXPECT_EQ(short_number("bending_friction_J", 0.0009377), "0.94 mJ");
   EXPECT_EQ(short_number("2HB_N", 8.4e-5), "2HB 84.0 µN");
   EXPECT_EQ(short_number("residual_curvature_rms_per_m", 1e-12), "κ 0 /m");
