@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "experiments/workbench/app/run.h"
@@ -25,6 +26,12 @@ inline int occurrences(const std::string& text, const std::string& part) {
   for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
   return count;
 }
+
+// What a run has noted in its folder.
+inline Json manifest_in(const std::filesystem::path& run) {
+  return Json::parse(file_content(run / "manifest.json"));
+}
+inline Json metrics_of(const std::filesystem::path& run) { return manifest_in(run)["metrics"]; }
 
 inline std::string out_flag(const std::filesystem::path& out) { return " --out " + out.string(); }
 

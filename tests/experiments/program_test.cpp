@@ -178,7 +178,7 @@ keys = [{time = 0.1}, {time = 0.4, position = [0, 0, -0.012]}]
   EXPECT_EQ(outcome.exit_code, 3) << outcome.err;
   EXPECT_NE(outcome.err.find("hysteron swing: at t = 0.3"), std::string::npos) << outcome.err;
   EXPECT_NE(outcome.err.find("the cloth is crushed: vertex "), std::string::npos) << outcome.err;
-  const Json manifest = Json::parse(file_content(out / "manifest.json"));
+  const Json manifest = manifest_in(out);
   EXPECT_EQ(manifest["complete"], false);
   const std::string table = file_content(out / "metrics.csv");
   EXPECT_GT(std::count(table.begin(), table.end(), '\n'), 15);  // moments before 0.3 s
@@ -223,7 +223,7 @@ TEST(Program, MeasuresASwingByTheStripThatItReads) {
         "swing --quiet --no-images --device cpu --threads 1 --seconds 1 --cloth.shape file --cloth.file " +
         file + " --out " + out.string() + flags);
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-    return Json::parse(file_content(out / "manifest.json"))["metrics"]["turns"].get<int>();
+    return metrics_of(out)["turns"].get<int>();
   };
   const int expected = turns("");
   EXPECT_GT(expected, 0);
@@ -239,7 +239,7 @@ TEST(Program, EndsADrapeAtRest) {
         release + " --out " + (folder.path() / release).string());
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_NE(outcome.out.find("at rest"), std::string::npos) << outcome.out;
-    const Json manifest = Json::parse(file_content(folder.path() / release / "manifest.json"));
+    const Json manifest = manifest_in(folder.path() / release);
     EXPECT_TRUE(manifest["metrics"]["settled"].get<bool>()) << release;
     EXPECT_TRUE(manifest["metrics"]["rest_shift_percent"].is_number()) << release;
     EXPECT_EQ(manifest["energy"]["kinetic"], 0) << release;

@@ -156,14 +156,14 @@ TEST(Buckling, ShowsARigidityFivePercentOff) {
   EXPECT_GT(threshold_ratio(buckling_scene("unionjack", Buckling::edge), Buckling::edge, 1.05), 1 + kTarget);
 }
 
-nlohmann::json recorded_metrics(const std::vector<Flag>& flags) {
+Json recorded_metrics(const std::vector<Flag>& flags) {
   const Folder folder;
   CommandLine line{"buckle", "hysteron buckle", flags, {}};
   for (const char* on : {"no-images", "quiet", "quick"}) line.flags.push_back({on, "true"});
   line.flags.push_back({"out", (folder.path() / "run").string()});
   EXPECT_EQ(experiment_named("buckle").run(line), 0);
   EXPECT_TRUE(std::filesystem::exists(folder.path() / "run" / "southwell.csv"));
-  return nlohmann::json::parse(file_content(folder.path() / "run" / "manifest.json"))["metrics"];
+  return metrics_of(folder.path() / "run");
 }
 
 TEST(Buckle, WritesTheThresholdBesideTheReference) {

@@ -10,13 +10,13 @@ namespace {
 
 using Words = std::vector<Flag>;
 
-nlohmann::json recorded_metrics(const Words& flags) {
+Json recorded_metrics(const Words& flags) {
   const Folder folder;
   CommandLine line{"cantilever", "hysteron cantilever", flags, {}};
   for (const char* on : {"no-images", "quiet"}) line.flags.push_back({on, "true"});
   line.flags.push_back({"out", (folder.path() / "run").string()});
   EXPECT_EQ(experiment_named("cantilever").run(line), 0);
-  return nlohmann::json::parse(file_content(folder.path() / "run" / "manifest.json"))["metrics"];
+  return metrics_of(folder.path() / "run");
 }
 
 constexpr double kDropOfTen = 0.7001997;  // over the length, heaviness 10: the elastica by shooting

@@ -69,7 +69,7 @@ TEST(Compare, SetsLawsSideBySide) {
        {"sheet.png", "table.csv", "plot_tip_height.png", "report.html", "linear/manifest.json",
         "prandtl/frames/0003.png", "prandtl/frames-silhouette/0003.png"})
     EXPECT_TRUE(fs::exists(fs::path(out) / name)) << name;
-  const auto metrics = nlohmann::json::parse(file_content(fs::path(out) / "manifest.json"))["metrics"];
+  const auto metrics = metrics_of(out);
   EXPECT_EQ(metrics["linear.bending_friction_J"].get<double>(), 0);
   EXPECT_GT(metrics["prandtl.bending_friction_J"].get<double>(), 0);
 }
@@ -162,7 +162,7 @@ TEST(ComparisonTable, HasAColumnForEveryMetricOfAnyRow) {
   run.finish();
   EXPECT_EQ(file_content(folder.path() / "table.csv"),
             "law,turns,loss_J,set_m,stopped\nlinear,3,,,\nprandtl,2,0.5,,\"at 1 s, crushed\"\n");
-  const auto metrics = Json::parse(file_content(folder.path() / "manifest.json"))["metrics"];
+  const auto metrics = metrics_of(folder.path());
   EXPECT_EQ(metrics, Json({{"linear.turns", 3}, {"prandtl.turns", 2}, {"prandtl.loss_J", 0.5}}));
 }
 
@@ -199,7 +199,7 @@ TEST(Compare, ShowsTheInstantsAndTheMetricsThatItIsAskedForInTheirOrder) {
   const std::string table = file_content(out / "table.csv");
   EXPECT_EQ(table.substr(0, table.find('\n')),
             "law,max_stretch_percent,decay_shape,bending_friction_J,stopped");
-  const Json metrics = Json::parse(file_content(out / "manifest.json"))["metrics"];
+  const Json metrics = metrics_of(out);
   EXPECT_EQ(metrics.size(), 6u) << metrics;
   EXPECT_EQ(metrics["linear.decay_shape"], "unknown");
   // Pictures are 1/30 s apart: the one at 0.033 s is the nearest to 0.035 s.
@@ -257,9 +257,9 @@ TEST(Compare, SetsFabricsOfASceneSideBySide) {
                                     "--out " +
                                     out.string());
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-    const auto column = nlohmann::json::parse(file_content(out / "wool-tropical/manifest.json"));
+    const auto column = manifest_in(out / "wool-tropical");
     EXPECT_EQ(column["law"], *law ? "dahl" : "prandtl");
-    const auto page = nlohmann::json::parse(file_content(out / "manifest.json"))["scene"]["columns"];
+    const auto page = manifest_in(out)["scene"]["columns"];
     ASSERT_EQ(page.size(), 2u);
     for (const auto& one : page) EXPECT_EQ(one["stiffness_times"], 1) << "of one law nothing is matched";
   }
@@ -271,11 +271,7 @@ TEST(Compare, MatchesLawsByTheirWorkUnlessToldOtherwise) {
   const Folder folder;
   const std::string out = (folder.path() / "out").string(),
                     line = "compare swing --laws linear,prandtl --no-images --out " + out + kSmall;
-  const auto times = [&] {
-    return nlohmann::json::parse(
-               file_content(fs::path(out) / "manifest.json"))["scene"]["columns"][0]["stiffness_times"]
-        .get<double>();
-  };
+  const auto times = [&] { return manifest_in(out)["scene"]["columns"][0]["stiffness_times"].get<double>(); };
   ASSERT_EQ(program(line).exit_code, 0);
   EXPECT_GT(times(), 1.2);
   ASSERT_EQ(program(line + " --compare.match fabric").exit_code, 0);

@@ -16,7 +16,7 @@ const char* const kSmallSwing =
     " --triangles 60 --seconds 0.1 --fps 30 --device cpu --size 160x120 --quality draft --quiet";
 
 double last_difference(const fs::path& column) {  // [1/m]
-  const auto manifest = nlohmann::json::parse(file_content(column / "manifest.json"));
+  const auto manifest = manifest_in(column);
   return manifest["frames"]["moments"].back()["difference_rms_per_m"].get<double>();
 }
 
@@ -32,8 +32,7 @@ TEST(Compare, SubtractsTheCurvatureOfAColumn) {
   EXPECT_TRUE(fs::exists(out / "feng2022-median/frames-difference/0003.png"));
   EXPECT_GT(last_difference(out / "feng2022-median"), 1);
   // Colours mean the same in every column: the larger k0 of the two counts, as half of 2 k0.
-  const auto looks =
-      nlohmann::json::parse(file_content(out / "feng2022-median/manifest.json"))["frames"]["looks"];
+  const auto looks = manifest_in(out / "feng2022-median")["frames"]["looks"];
   EXPECT_NEAR(looks["difference"]["high"].get<double>(), 98.43617921, 1e-4);
 }
 

@@ -76,7 +76,7 @@ TEST(Compare, TunesItsFirstColumnToItsSecond) {
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const std::string line = outcome.out.substr(0, outcome.out.find('\n'));
   ASSERT_EQ(line.find("fabric.damping="), 0u) << outcome.out;
-  const Json scene = Json::parse(file_content(out / "manifest.json"))["scene"];
+  const Json scene = manifest_in(out)["scene"];
   const double found = scene["tuned"]["value"].get<double>();
   const double bracket = std::log(4.0) / 512, four_digits = 5e-4;  // relative, after nine halvings
   EXPECT_NEAR(found / 2e-3, 1, bracket + four_digits);

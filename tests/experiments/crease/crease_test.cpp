@@ -60,10 +60,6 @@ TEST(CreaseSpecimen, KnowsWhatTheLawAloneKeeps) {
   EXPECT_NEAR(crease.opening_of_law(largest), 180, 1e-9);
 }
 
-nlohmann::json metrics_in(const std::filesystem::path& out) {
-  return nlohmann::json::parse(file_content(out / "manifest.json"))["metrics"];
-}
-
 // Both laws by one command.
 TEST(Crease, OpensWithoutAnIntersectionAndKeepsWhatTheLawKeeps) {
   const Folder folder;
@@ -75,7 +71,7 @@ TEST(Crease, OpensWithoutAnIntersectionAndKeepsWhatTheLawKeeps) {
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const std::string table = file_content(out / "table.csv");
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 3);
-  const auto elastic = metrics_in(out / "linear"), hysteretic = metrics_in(out / "prandtl");
+  const auto elastic = metrics_of(out / "linear"), hysteretic = metrics_of(out / "prandtl");
   EXPECT_EQ(elastic["intersections"], 0);
   EXPECT_EQ(hysteretic["intersections"], 0);
   EXPECT_GT(elastic["recovery_angle_deg"], 178);
@@ -96,7 +92,7 @@ TEST(Crease, FindsTheEquilibriumOfAFoldThatIsPressedEdgeAlongEdge) {
       "--no-images --quiet --out " +
       out.string());
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  const auto metrics = metrics_in(out);
+  const auto metrics = metrics_of(out);
   EXPECT_EQ(metrics["intersections"], 0);
   EXPECT_LT(metrics["energy_remainder_relative"], 1e-4);
 }
@@ -118,7 +114,7 @@ CommandLine soft_fold(const char* fold, const std::filesystem::path& out) {
 void expect_opening(const char* fold, double tolerance, double least, double most) {
   const Folder folder;
   EXPECT_EQ(experiment_named("crease").run(soft_fold(fold, folder.path())), 0);
-  const auto metrics = metrics_in(folder.path());
+  const auto metrics = metrics_of(folder.path());
   EXPECT_EQ(metrics["intersections"], 0);
   const double opening = metrics["recovery_angle_deg"];
   EXPECT_NEAR(opening, metrics["law_recovery_angle_deg"].get<double>(), tolerance);
@@ -136,7 +132,7 @@ TEST(SoftFold, LetGoSlowlyKeepsTheSameWithHalfTheStep) {
     CommandLine line = soft_fold("rod", folder.path());
     line.flags.push_back({"step", step});
     EXPECT_EQ(experiment_named("crease").run(line), 0);
-    const auto metrics = metrics_in(folder.path());
+    const auto metrics = metrics_of(folder.path());
     return std::pair<double, double>(metrics["recovery_angle_deg"], metrics["residual_curvature_per_m"]);
   };
   const auto [angle, residual] = kept("0.016666666666666666");
@@ -238,12 +234,12 @@ TEST(CreaseInTime, RecoversOverMinutesWithARelaxingBranchOnly) {
   const auto recovered = [](std::vector<Flag> further) {
     const Folder folder;
     EXPECT_EQ(experiment_named("crease").run(pressed_by_standard(folder.path(), std::move(further))), 0);
-    return metrics_in(folder.path());
+    return metrics_of(folder.path());
   };
   const auto friction = recovered({}),
              relaxing = recovered({{"fabric.bending.branches.times", "30"},
                                    {"fabric.bending.branches.stiffnesses", "1.2e-5"}});
-  const auto angle = [](const nlohmann::json& m, const char* key) { return m[key].get<double>(); };
+  const auto angle = [](const Json& m, const char* key) { return m[key].get<double>(); };
   constexpr double kAtRest = 0.05;  // degrees
   EXPECT_NEAR(angle(friction, "recovery_angle_deg"), angle(friction, "release_angle_deg"), kAtRest);
   EXPECT_LT(angle(relaxing, "release_angle_deg"), angle(friction, "release_angle_deg") - 10);

@@ -24,9 +24,7 @@ TEST(Crumple, LeavesWrinklesInClothThatRubsAndNoneInElasticCloth) {
       program("crumple --scene " + scene_named("tube") +
               " --law linear,prandtl --triangles 300 --no-images --quiet --out " + out.string());
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  const auto law_manifest = [&](const char* law) {
-    return nlohmann::json::parse(file_content(out / law / "manifest.json"));
-  };
+  const auto law_manifest = [&](const char* law) { return manifest_in(out / law); };
   const auto elastic = law_manifest("linear"), hysteretic = law_manifest("prandtl");
   for (const auto& manifest : {elastic, hysteretic}) {
     EXPECT_EQ(manifest["metrics"]["intersections"], 0);
@@ -70,7 +68,7 @@ TEST(Crumple, ComesToItsEndWhereRigidPinsPullClothThroughClothAndTellsHowFarThey
   const Outcome outcome = program("crumple --scene " + (folder.path() / "led.toml").string() +
                                   " --threads 1 --no-images --out " + out.string());
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  const auto metrics = nlohmann::json::parse(file_content(out / "manifest.json"))["metrics"];
+  const auto metrics = metrics_of(out);
   EXPECT_GT(metrics["barred_hand_steps_count"], 0);
   EXPECT_NEAR(metrics["hand_lag_m"].get<double>(), 0.02, 3 * Fabric{}.thickness);
   EXPECT_EQ(metrics["intersections"], 0);
@@ -138,7 +136,7 @@ TEST_P(CrumpledScene, BeginsInBalanceAndFreeOfCrossingsUnderLawsWithAndWithoutMe
       " --law linear,prandtl --triangles 300 --seconds 0.06 --no-images --quiet --out " + out.string());
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   for (const char* law : {"linear", "prandtl"}) {
-    const auto metrics = nlohmann::json::parse(file_content(out / law / "manifest.json"))["metrics"];
+    const auto metrics = metrics_of(out / law);
     EXPECT_EQ(metrics["intersections"], 0) << law;
     EXPECT_EQ(metrics["unbalanced_steps_count"], 0) << law;
     EXPECT_EQ(metrics.value("deep_contact_steps_count", 0), 0) << law;

@@ -67,7 +67,7 @@ TEST_F(Draped, CoefficientRefersToTheFileThatIsRead) {
   const Outcome outcome =
       drape("--cloth.shape file --cloth.file " + file() + " --seconds 0.01 --drape.release dropped");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  const Json manifest = Json::parse(file_content(folder_.path() / "out" / "manifest.json"));
+  const Json manifest = manifest_in(folder_.path() / "out");
   EXPECT_NEAR(manifest["specimen_radius_m"].get<double>(), kRadius, 1e-12);
   // It lies flat at first: the polygon of its rim, less the pedestal, over the ring.
   const int rim = 2 * disc.vertices() - disc.faces() - 2;
@@ -100,7 +100,7 @@ TEST_F(Draped, CoefficientThatNoShadowHasIsNoResult) {
       "semi-implicit");
   EXPECT_EQ(outcome.exit_code, 3);
   EXPECT_NE(outcome.err.find("% of the ring, which must be 0 to 101"), std::string::npos) << outcome.err;
-  const Json manifest = Json::parse(file_content(folder_.path() / "out" / "manifest.json"));
+  const Json manifest = manifest_in(folder_.path() / "out");
   EXPECT_EQ(manifest["complete"], false);
   EXPECT_FALSE(manifest["metrics"].contains("drape_coefficient_percent"));
 }

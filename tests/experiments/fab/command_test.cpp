@@ -27,9 +27,7 @@ class FabCommand : public testing::Test {
     } const captured;
     return experiment_named("fab").run({"fab", "hysteron fab", flags, {}});
   }
-  nlohmann::json metrics(const std::string& out = "out") const {
-    return nlohmann::json::parse(file_content(folder_.path() / out / "manifest.json")).at("metrics");
-  }
+  Json metrics(const std::string& out = "out") const { return metrics_of(folder_.path() / out); }
   Folder folder_;
 };
 

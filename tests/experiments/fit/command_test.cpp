@@ -47,7 +47,7 @@ class Fit : public testing::Test {
     return file.string();
   }
   fs::path out() const { return folder_.path() / "out"; }
-  Json metrics() const { return Json::parse(file_content(out() / "manifest.json")).at("metrics"); }
+  Json metrics() const { return metrics_of(out()); }
 
   Folder folder_;
   std::string said_, warned_;
@@ -86,7 +86,7 @@ TEST_F(Fit, WritesAFabricThatIsReadBackWithItsStandardErrors) {
 TEST_F(Fit, SaysAloudWhoseDensityAndThicknessItFillsIn) {
   ASSERT_EQ(fit({{"kes.b", "1.157e-5"}, {"kes.2hb", "1.216e-3"}, {"fabric.density", "0.2"}}), 0);
   const std::string file = file_content(out() / "fabric.toml");
-  const std::string kept = Json::parse(file_content(out() / "manifest.json")).at("warnings").dump();
+  const std::string kept = manifest_in(out()).at("warnings").dump();
   for (const std::string& text : {warned_, file, kept}) {
     EXPECT_NE(text.find("thickness was not given: fabric.toml holds that of another fabric, cotton-broad"),
               std::string::npos)
@@ -141,8 +141,7 @@ TEST_F(Fit, WarnsOfALawThatDoesNotDescribeTheData) {
   EXPECT_NE(warned_.find("warning: linear does not describe these data: it misses them by "),
             std::string::npos)
       << warned_;
-  EXPECT_NE(Json::parse(file_content(out() / "manifest.json")).at("warnings").dump().find("linear does not"),
-            std::string::npos);
+  EXPECT_NE(manifest_in(out()).at("warnings").dump().find("linear does not"), std::string::npos);
 }
 
 // The loops of a known law, as `fab` writes them, in the columns that are read.

@@ -148,10 +148,6 @@ CommandLine fold_line(const std::filesystem::path& out, std::vector<Flag> flags)
   return line;
 }
 
-nlohmann::json recorded_metrics(const std::filesystem::path& run) {
-  return nlohmann::json::parse(file_content(run / "manifest.json"))["metrics"];
-}
-
 // An elastic law, and a hysteretic one without and with fatigue, by one command.
 TEST(Fold, RepeatsWithoutFatigueAndWeakensAndSetsWithIt) {
   const Folder folder;
@@ -163,8 +159,8 @@ TEST(Fold, RepeatsWithoutFatigueAndWeakensAndSetsWithIt) {
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const std::string table = file_content(out / "table.csv");
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 4);
-  const auto elastic = recorded_metrics(out / "linear"), sound = recorded_metrics(out / "prandtl"),
-             tired = recorded_metrics(out / "prandtl-fatigue");
+  const auto elastic = metrics_of(out / "linear"), sound = metrics_of(out / "prandtl"),
+             tired = metrics_of(out / "prandtl-fatigue");
   for (const auto& run : {elastic, sound, tired}) {
     EXPECT_EQ(run["intersections"], 0);
     EXPECT_LT(run["energy_remainder_relative"], 1e-6);
@@ -216,7 +212,7 @@ TEST(Fold, OfTheLawAloneWritesItsCyclesAndMetrics) {
       experiment_named("fold").run(fold_line(out, {{"fold.law-alone", "true"}, {"fold.cycles", "1000"}})), 0);
   const Table cycles = read_csv(out / "cycles.csv", {"cycle", "2HB [N]"}, {}, "test");
   EXPECT_EQ(cycles.numbers("cycle").back(), 1000);
-  EXPECT_EQ(recorded_metrics(out)["2HB_N"].get<double>(), cycles.numbers("2HB [N]").back());
+  EXPECT_EQ(metrics_of(out)["2HB_N"].get<double>(), cycles.numbers("2HB [N]").back());
 }
 
 TEST(Fold, RefusesWhatCannotBeFolded) {

@@ -24,7 +24,7 @@ class KesCommand : public testing::Test {
     flags.push_back({"no-images", "true"});
     flags.push_back({"quick", "true"});
     EXPECT_EQ(experiment_named("kes").run({"kes", "hysteron kes", flags, {}}), 0);
-    return Json::parse(file_content(folder_.path() / "manifest.json"));
+    return manifest_in(folder_.path());
   }
   Folder folder_;
 };

@@ -15,7 +15,7 @@ class KesInPlane : public testing::Test {
   Json metrics(std::vector<Flag> flags) {
     flags.insert(flags.end(), {{"out", folder_.path().string()}, {"no-images", "true"}, {"quick", "true"}});
     EXPECT_EQ(experiment_named("kes").run({"kes", "hysteron kes", flags, {}}), 0);
-    return Json::parse(file_content(folder_.path() / "manifest.json"))["metrics"];
+    return metrics_of(folder_.path());
   }
   Folder folder_;
 };

@@ -206,7 +206,7 @@ class KesStripCommand : public testing::Test {
 
 TEST_F(KesStripCommand, PutsTheStripBesideTheLaw) {
   ASSERT_EQ(run({{"on", "strip"}, {"mesh", "random"}, {"triangles", "100"}}), 0);
-  const Json metrics = Json::parse(file_content(folder_.path() / "manifest.json"))["metrics"];
+  const Json metrics = metrics_of(folder_.path());
   for (const char* key :
        {"B_N_m", "strip_B_N_m", "strip_2HB_N", "strip_solve_s", "strip_loop_area_difference_percent"})
     EXPECT_TRUE(metrics[key].is_number()) << key;

@@ -33,8 +33,7 @@ TEST_F(OneMore, IsListedAndHelped) {
 TEST_F(OneMore, IsRunWithErrorsShownAndVerified) {
   const std::string words = said("still --errors" + small_ + in("still") + " --errors.draws 1");
   EXPECT_TRUE(has(words, "stillness")) << words;
-  const auto metrics =
-      nlohmann::json::parse(file_content(folder_.path() / "still" / "manifest.json"))["metrics"];
+  const auto metrics = metrics_of(folder_.path() / "still");
   const double step = metrics["stillness_m"];
   EXPECT_GT(step, 0);
   EXPECT_DOUBLE_EQ(metrics["stillness_m_step_error"], step / 2);

@@ -44,7 +44,7 @@ TEST(KeptPictures, ARecordedFolderGivesItsSheetOrWhatFlagsAskFor) {
   ASSERT_EQ(swing.drawn(swing.kept, " --look curvature --size 160x120").exit_code, 0);
   const render::Image image = render::read_png(swing.again / "frames/0003.png");
   EXPECT_EQ(image.width(), 160);
-  const Json manifest = Json::parse(file_content(swing.again / "manifest.json"));
+  const Json manifest = manifest_in(swing.again);
   EXPECT_EQ(manifest.at("frames").at("looks").begin().key(), "curvature");
 
   const Outcome outcome = swing.drawn(swing.kept, " --look friction");

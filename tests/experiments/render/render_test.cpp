@@ -20,8 +20,6 @@ namespace fs = std::filesystem;
 
 using FlagList = std::vector<Flag>;
 
-Json folder_manifest(const fs::path& folder) { return Json::parse(file_content(folder / "manifest.json")); }
-
 int rendered(const fs::path& out, const std::vector<std::string>& names, FlagList flags) {
   flags.push_back({"out", out.string()});
   flags.push_back({"quiet", "true"});
@@ -56,12 +54,12 @@ struct Twins {
     flags.insert(flags.end(), common.begin(), common.end());
     experiment_named("swing").run({"swing", "hysteron swing", flags, {}});
     // Of swing's own: its strip is 90 x 30 mm.
-    flags = {{"camera.direction", "0.2 -1 0.3"},
-             {"camera.fov", "24"},
-             {"render.low", "-0.063 0 -0.09"},
-             {"render.high", "0.09 0.03 0.0135"},
-             {"render.title",
-              folder_manifest(run)["scene"]["fabric"]["name"].get<std::string>() + ", law prandtl"}};
+    flags = {
+        {"camera.direction", "0.2 -1 0.3"},
+        {"camera.fov", "24"},
+        {"render.low", "-0.063 0 -0.09"},
+        {"render.high", "0.09 0.03 0.0135"},
+        {"render.title", manifest_in(run)["scene"]["fabric"]["name"].get<std::string>() + ", law prandtl"}};
     flags.insert(flags.end(), common.begin(), common.end());
     flags.insert(flags.end(), further.begin(), further.end());
     rendered(files, {run.string()}, flags);
@@ -142,7 +140,7 @@ TEST(RenderedFiles, CurvatureOfLooseTrianglesIsDoubted) {
                                  "v 0 0 0\nv 0.1 0 0\nv 0 0.1 0\nv 0.1 0 0\nv 0.1 0.1 0\nv 0 0.1 0\n"
                                  "f 1 2 3\nf 4 5 6\n");
   ASSERT_EQ(rendered(folder.path() / "out", {soup}, {{"look", "curvature"}}), 0);
-  const Json warnings = folder_manifest(folder.path() / "out")["warnings"];
+  const Json warnings = manifest_in(folder.path() / "out")["warnings"];
   ASSERT_EQ(warnings.size(), 2u);
   EXPECT_EQ(warnings[0], "mesh " + soup + ": 2 triangles in 2 parts that share no edge, with 0 hinges");
 }
@@ -169,7 +167,7 @@ TEST(RenderedFiles, OfSeveralFoldersStandInColumnsEachInItsUnitAxesAndRate) {
   EXPECT_LE(difference("ours/0001.png", "theirs/0002.png"), kPixels);
   EXPECT_LE(difference("ours/0002.png", "theirs/0004.png"), kPixels);
   EXPECT_GT(difference("ours/0002.png", "theirs/0002.png"), 1) << "other times look different";
-  const Json manifest = folder_manifest(out);
+  const Json manifest = manifest_in(out);
   EXPECT_EQ(manifest["complete"], true);
   EXPECT_EQ(manifest["metrics"]["ours.frames_count"], 3);
   EXPECT_EQ(manifest["metrics"]["theirs.triangles_count"], 32);  // of the last frame
@@ -206,7 +204,7 @@ TEST(RenderedFiles, OfAHundredThousandTrianglesAreDrawn) {
   EXPECT_EQ(
       rendered(folder.path() / "out", {(folder.path() / "large.ply").string()}, {{"look", "curvature"}}), 0);
   // Of z = a sin(qx) along its length: a q^2/sqrt(2) if it were shallow; the arc of a steep one bends less.
-  const double rms = folder_manifest(folder.path() / "out")["metrics"]["large.curvature_rms_per_m"];
+  const double rms = manifest_in(folder.path() / "out")["metrics"]["large.curvature_rms_per_m"];
   EXPECT_GT(rms, 3);
   EXPECT_LT(rms, 0.05 * std::pow(2 * std::numbers::pi / 0.5, 2) / std::sqrt(2));
 }

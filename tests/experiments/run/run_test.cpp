@@ -9,15 +9,13 @@
 namespace hysteron::experiments {
 namespace {
 
-using Json = nlohmann::json;
-
 class Scenes : public testing::Test {
  protected:
   // Metrics of a run of this scene.
   Json recorded_metrics(const std::string& scene, const std::string& flags = "--no-images") {
     const Outcome outcome = run(scene, flags);
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-    return Json::parse(file_content(out() / "manifest.json"))["metrics"];
+    return metrics_of(out());
   }
   Outcome run(const std::string& scene, const std::string& flags) {
     std::ofstream(folder_.path() / "mine.toml") << scene;
@@ -117,7 +115,7 @@ name = "swing"
 seconds = 0.05
 )";
   recorded_metrics(kSquare + phases, "--fps 20 --size 160x120");
-  const Json manifest = Json::parse(file_content(out() / "manifest.json"));
+  const Json manifest = manifest_in(out());
   ASSERT_EQ(manifest["frames"]["moments"].size(), 3u);
   EXPECT_EQ(manifest["frames"]["moments"][0]["phase"], "hang");
   EXPECT_EQ(manifest["frames"]["moments"][2]["phase"], "swing");
@@ -130,7 +128,7 @@ TEST_F(Scenes, FailWhereAPictureShowsNoCloth) {
   EXPECT_EQ(outcome.exit_code, 3);
   EXPECT_NE(outcome.err.find("frames/0000.png shows no cloth at t = 0.000 s"), std::string::npos)
       << outcome.err;
-  EXPECT_EQ(Json::parse(file_content(out() / "manifest.json"))["complete"], false);
+  EXPECT_EQ(manifest_in(out())["complete"], false);
 }
 
 // A quarter of the square is framed from above.
@@ -140,7 +138,7 @@ TEST_F(Scenes, WarnWhereTheBorderOfThePicturesCutsOffCloth) {
   EXPECT_EQ(outcome.exit_code, 0);
   const std::string warning = "from t = 0.000 s on (frames/0000.png) the cloth is cut off at the border";
   EXPECT_NE(outcome.err.find("warning: " + warning), std::string::npos) << outcome.err;
-  const Json warnings = Json::parse(file_content(out() / "manifest.json"))["warnings"];
+  const Json warnings = manifest_in(out())["warnings"];
   EXPECT_EQ(std::count_if(warnings.begin(), warnings.end(),
                           [&](const Json& text) { return text.get<std::string>().starts_with(warning); }),
             1);
@@ -153,8 +151,8 @@ TEST_F(Scenes, AreComparedInOneFrame) {
               " --laws linear,prandtl --quiet --threads 1 --device cpu --size 160x120 --fps 10 --out " +
               out().string());
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  const Json linear = Json::parse(file_content(out() / "linear/manifest.json"));
-  const Json prandtl = Json::parse(file_content(out() / "prandtl/manifest.json"));
+  const Json linear = manifest_in(out() / "linear");
+  const Json prandtl = manifest_in(out() / "prandtl");
   EXPECT_NE(outcome.out.find("linear                        side "), std::string::npos) << outcome.out;
   EXPECT_EQ(linear["experiment"], "run");
   EXPECT_EQ(linear["options"]["camera"]["box"].size(), 6u);
@@ -178,7 +176,7 @@ TEST_F(Scenes, WarnOfPlotsAndFilmsThatCannotBeMade) {
   const std::string film = "compare.video: there is no film.mp4: ffmpeg is not installed";
   EXPECT_NE(outcome.err.find("warning: " + film + "\n"), std::string::npos) << outcome.err;
   EXPECT_NE(outcome.err.find("warning: the plot plot_side is missing: "), std::string::npos) << outcome.err;
-  const Json warnings = Json::parse(file_content(out() / "manifest.json"))["warnings"];
+  const Json warnings = manifest_in(out())["warnings"];
   EXPECT_NE(std::find(warnings.begin(), warnings.end(), film), warnings.end()) << warnings;
   EXPECT_TRUE(std::filesystem::exists(out() / "sheet.png"));
 }
@@ -187,7 +185,7 @@ TEST_F(Scenes, WarnOfPlotsAndFilmsThatCannotBeMade) {
 TEST_F(Scenes, SayAtTheEndWhatTheyWereAskedFor) {
   const Outcome outcome = run(kSquare + "[[metric]]\nname = \"side\"\nto = [0.2, 0, 0]\n", "--no-images");
   EXPECT_NE(outcome.out.find("  side                          0.2 m\n"), std::string::npos) << outcome.out;
-  EXPECT_EQ(Json::parse(file_content(out() / "manifest.json"))["asked_metrics"], Json({"side_m"}));
+  EXPECT_EQ(manifest_in(out())["asked_metrics"], Json({"side_m"}));
 }
 
 const std::string kCornerHeight = R"([[metric]]

@@ -21,9 +21,8 @@ class Recorded : public testing::Test {
   fs::path run() const { return folder_.path() / "runs" / "one"; }
   fs::path manifest() const { return run() / "manifest.json"; }
   std::string in(const std::string& name) const { return (folder_.path() / name).string(); }
-  static Json json_in(const fs::path& folder) { return Json::parse(file_content(folder / "manifest.json")); }
   void edit(const std::function<void(Json&)>& change) {
-    Json json = json_in(run());
+    Json json = manifest_in(run());
     change(json);
     std::ofstream(manifest()) << json.dump(2);
   }
@@ -45,7 +44,7 @@ TEST_F(Recorded, RunIsRepeatedToTheBit) {
     record(command);
     const Outcome outcome = program("rerun " + run().string() + " --quiet --out " + in("again"));
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-    const Json before = json_in(run()), again = json_in(in("again"));
+    const Json before = manifest_in(run()), again = manifest_in(in("again"));
     EXPECT_EQ(before["state_hash"], again["state_hash"]) << command;
     EXPECT_EQ(before["scene"], again["scene"]) << command;
     EXPECT_EQ(before["options"], again["options"]) << command;
@@ -55,16 +54,16 @@ TEST_F(Recorded, RunIsRepeatedToTheBit) {
 // Whose text is read only where an older program has noted nothing else.
 TEST_F(Recorded, RunIsRepeatedFromItsFlagsNotFromItsCommand) {
   record("fold --fold.law-alone --fold.cycles 3 --no-images");
-  const Json before = json_in(run());
+  const Json before = manifest_in(run());
   const std::string again = "rerun " + run().string() + " --quiet --out " + in("again");
   edit([](Json& json) { json["command"] = "another program"; });
   ASSERT_EQ(program(again).exit_code, 0);
-  EXPECT_EQ(json_in(in("again"))["metrics"], before["metrics"]);
+  EXPECT_EQ(manifest_in(in("again"))["metrics"], before["metrics"]);
   edit([](Json& json) { json.erase("spec"); });
   EXPECT_EQ(program(again).exit_code, 2);
   edit([&](Json& json) { json["command"] = before["command"]; });
   ASSERT_EQ(program(again).exit_code, 0);
-  EXPECT_EQ(json_in(in("again"))["metrics"], before["metrics"]);
+  EXPECT_EQ(manifest_in(in("again"))["metrics"], before["metrics"]);
 }
 
 TEST_F(Recorded, RunWithAnotherStateIsRepeatedWithAWarningThoughItIsQuiet) {
@@ -75,7 +74,7 @@ TEST_F(Recorded, RunWithAnotherStateIsRepeatedWithAWarningThoughItIsQuiet) {
   const std::string words = " differs from the recorded 0123456789abcdef";
   EXPECT_NE(outcome.err.find("warning: state "), std::string::npos) << outcome.err;
   EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
-  const Json warnings = json_in(in("again"))["warnings"];
+  const Json warnings = manifest_in(in("again"))["warnings"];
   EXPECT_NE(warnings.back().get<std::string>().find(words), std::string::npos) << warnings;
   EXPECT_NE(file_content(fs::path(in("again")) / "report.html").find(words), std::string::npos);
 }
@@ -83,7 +82,7 @@ TEST_F(Recorded, RunWithAnotherStateIsRepeatedWithAWarningThoughItIsQuiet) {
 TEST_F(Recorded, FolderOfRunsIsWrittenAsAWorkflow) {
   record(kDrape);
   fs::create_directories(folder_.path() / "runs" / "other");
-  Json other = json_in(run());
+  Json other = manifest_in(run());
   other["device"] = "cuda: a GPU";
   other["bytes_device"] = 2'000'000'000;
   other["wall_seconds"]["total"] = 3600;
@@ -116,8 +115,8 @@ TEST_F(Recorded, SceneNeedsItsFileNoMore) {
   record("run " + in("mine.toml") + " --no-images");
   fs::remove(in("mine.toml"));
   ASSERT_EQ(program("rerun " + manifest().string() + " --quiet --out " + in("again")).exit_code, 0);
-  EXPECT_EQ(json_in(run())["state_hash"], json_in(in("again"))["state_hash"]);
-  EXPECT_EQ(json_in(run())["metrics"]["edge_m"], json_in(in("again"))["metrics"]["edge_m"]);
+  EXPECT_EQ(manifest_in(run())["state_hash"], manifest_in(in("again"))["state_hash"]);
+  EXPECT_EQ(manifest_in(run())["metrics"]["edge_m"], manifest_in(in("again"))["metrics"]["edge_m"]);
 }
 
 // A scene beside a mesh, named from its own folder, and its run beside both.
@@ -136,7 +135,6 @@ class RecordedMesh : public testing::Test {
   Outcome record() const {
     return run("run " + (project_ / "mine.toml").string() + " --out " + (project_ / "run").string());
   }
-  static Json json_in(const fs::path& folder) { return Json::parse(file_content(folder / "manifest.json")); }
 
   Folder folder_;
   const fs::path project_ = folder_.path() / "project", mesh_ = project_ / "meshes" / "c.obj";
@@ -144,7 +142,7 @@ class RecordedMesh : public testing::Test {
 
 TEST_F(RecordedMesh, IsFoundFromElsewhereAndWhereAllHasMoved) {
   ASSERT_EQ(record().exit_code, 0);
-  const Json before = json_in(project_ / "run");
+  const Json before = manifest_in(project_ / "run");
   EXPECT_EQ(before["scene"]["cloth"]["file"], mesh_.string());
   EXPECT_EQ(before["meshes"]["cloth.file"]["file"], mesh_.string());
   const fs::path moved = folder_.path() / "elsewhere";
@@ -152,7 +150,7 @@ TEST_F(RecordedMesh, IsFoundFromElsewhereAndWhereAllHasMoved) {
   const Outcome again = run("rerun " + (moved / "run").string() + " --out " + (moved / "again").string());
   ASSERT_EQ(again.exit_code, 0) << again.err;
   EXPECT_EQ(without_warnings(again.err), "");
-  const Json now = json_in(moved / "again");
+  const Json now = manifest_in(moved / "again");
   EXPECT_EQ(now["state_hash"], before["state_hash"]);
   EXPECT_EQ(now["meshes"]["cloth.file"]["hash"], before["meshes"]["cloth.file"]["hash"]);
   EXPECT_EQ(now["scene"]["cloth"]["file"], (moved / "meshes" / "c.obj").string());
@@ -166,7 +164,7 @@ TEST_F(RecordedMesh, ThatHasChangedIsNamed) {
   ASSERT_EQ(again.exit_code, 0) << again.err;
   const std::string words = "mesh " + mesh_.string() + " (cloth.file) has changed since it was recorded";
   EXPECT_NE(again.err.find("warning: " + words), std::string::npos) << again.err;
-  EXPECT_EQ(json_in(out)["warnings"][0].get<std::string>().substr(0, words.size()), words);
+  EXPECT_EQ(manifest_in(out)["warnings"][0].get<std::string>().substr(0, words.size()), words);
   const Outcome verified = program("verify " + (project_ / "run").string());
   EXPECT_EQ(verified.exit_code, 0) << verified.out << verified.err;  // the same cloth
 }
@@ -176,7 +174,7 @@ TEST_F(Recorded, ManifestIsASceneOfItsExperiment) {
   const std::string again =
       "drape --quiet --no-images --scene " + manifest().string() + " --out " + in("again");
   ASSERT_EQ(program(again).exit_code, 0);
-  EXPECT_EQ(json_in(run())["state_hash"], json_in(in("again"))["state_hash"]);
+  EXPECT_EQ(manifest_in(run())["state_hash"], manifest_in(in("again"))["state_hash"]);
 }
 
 // Without what it was asked for, as older programs left it, the keys that were given are known.
@@ -184,7 +182,7 @@ TEST_F(Recorded, ManifestOfAnOlderProgramIsRepeatedByItsCommand) {
   record(kCrease);
   edit([](Json& json) { json.erase("options"), json.erase("asked"); });
   ASSERT_EQ(program("rerun " + run().string() + " --quiet --out " + in("again")).exit_code, 0);
-  EXPECT_EQ(json_in(run())["state_hash"], json_in(in("again"))["state_hash"]);
+  EXPECT_EQ(manifest_in(run())["state_hash"], manifest_in(in("again"))["state_hash"]);
 }
 
 TEST_F(Recorded, SceneIsDumpedAsAFileOfTheSameRun) {
@@ -196,7 +194,7 @@ TEST_F(Recorded, SceneIsDumpedAsAFileOfTheSameRun) {
   const std::string again = "crease --quiet --scene " + in("dump.toml") + " --out " + in("again");
   const Outcome outcome = program(again);
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_EQ(json_in(run())["state_hash"], json_in(in("again"))["state_hash"]);
+  EXPECT_EQ(manifest_in(run())["state_hash"], manifest_in(in("again"))["state_hash"]);
 }
 
 TEST_F(Recorded, RunIsVerified) {

@@ -189,7 +189,7 @@ class StabilityCommand : public testing::Test {
     printed_ = testing::internal::GetCapturedStdout();
     return exit_code;
   }
-  Json manifest() const { return Json::parse(file_content(folder_.path() / "manifest.json")); }
+  Json manifest() const { return manifest_in(folder_.path()); }
   std::vector<std::string> lines(const char* file) const {
     std::istringstream stream(file_content(folder_.path() / file));
     std::vector<std::string> all;

@@ -17,7 +17,6 @@
 namespace hysteron::experiments {
 namespace {
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
 
 constexpr const char* kSwing = "swing --quick --no-images --triangles 60 --seconds 0.05 --threads 1 --quiet";
 
@@ -84,7 +83,7 @@ TEST_F(SweepInABatch, FindsTheTableOfRunsByThemselves) {
     EXPECT_EQ(file_content(law_folder("alone", "prandtl") / file),
               file_content(law_folder("together", "prandtl") / file));
   ASSERT_EQ(run("together", "--batch 4 --resume").exit_code, 0);
-  EXPECT_EQ(Json::parse(file_content(folder_.path() / "together/manifest.json"))["metrics"]["kept_count"], 6);
+  EXPECT_EQ(metrics_of(folder_.path() / "together")["kept_count"], 6);
   expect_same("alone", "together");
 }
 
@@ -115,7 +114,7 @@ TEST_F(SweepInABatch, GoesOnFromWhereItWasKilled) {
   const Outcome last = run("parts", "--batch 3 --resume");
   ASSERT_EQ(last.exit_code, 0) << last.err;
   expect_same("whole", "parts");
-  const Json resumed = Json::parse(file_content(law_folder("parts", "linear") / "manifest.json"));
+  const Json resumed = manifest_in(law_folder("parts", "linear"));
   EXPECT_EQ(resumed.value("resumed_at_s", Json::array()).size(), 1u);
 }
 
@@ -144,7 +143,7 @@ TEST_F(SweepInABatch, OnAGpuEveryRunHasTheBitsThatItHasAlone) {
     EXPECT_EQ(alone.rows[r].back(), together.rows[r].back()) << r;
   }
   const fs::path run = folder_.path() / "together/runs/law=prandtl,b2=1e-06";
-  const Json manifest = Json::parse(file_content(run / "manifest.json"));
+  const Json manifest = manifest_in(run);
   EXPECT_EQ(manifest["batch"], 3) << "of six runs in two jobs";
   EXPECT_EQ(manifest["wall_seconds"].size(), 1u) << "stages are of all of them";
   EXPECT_FALSE(manifest.contains("device_per_step"));

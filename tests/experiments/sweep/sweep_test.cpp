@@ -24,9 +24,7 @@ class Sweep : public testing::Test {
                    (folder_.path() / out).string() + " " + options);
   }
   Table table(const std::string& out = "out") const { return read_table(folder_.path() / out / "table.csv"); }
-  nlohmann::json manifest(const fs::path& in) const {
-    return nlohmann::json::parse(file_content(folder_.path() / in / "manifest.json"));
-  }
+  Json manifest(const fs::path& in) const { return manifest_in(folder_.path() / in); }
   // Runs that are repeated take another time.
   static Table without_time(Table table) {
     const auto at = std::find(table.head.begin(), table.head.end(), "wall_s") - table.head.begin();
@@ -193,10 +191,10 @@ n = 3
 
 TEST_F(Sweep, IsNotReadFromTheManifestOfAnotherRun) {
   ASSERT_EQ(run("").exit_code, 0);
-  nlohmann::json other = manifest("out");
+  Json other = manifest("out");
   study_ = folder_.path() / "other.json";
   for (const char* keys : {R"({"law": "prandtl"})", R"({"shared": [1], "axes": [{"key": 2}]})"}) {
-    other["scene"] = nlohmann::json::parse(keys);
+    other["scene"] = Json::parse(keys);
     write(other.dump());
     const Outcome outcome = run("", "again");
     EXPECT_EQ(outcome.exit_code, 2) << outcome.err;

@@ -95,8 +95,7 @@ double recorded_drape(const std::filesystem::path& out, int trial, int draw) {
   for (const auto& entry : std::filesystem::directory_iterator(out))
     if (entry.path().filename().string().ends_with("-budget-" + std::to_string(trial) + "-" +
                                                    std::to_string(draw)))
-      return nlohmann::json::parse(
-          file_content(entry.path() / "manifest.json"))["metrics"]["drape_coefficient_percent"];
+      return metrics_of(entry.path())["drape_coefficient_percent"];
   return NAN;
 }
 
@@ -128,7 +127,7 @@ TEST(Budget, RowsAreMeansOfTheirDrapesAndChangesFromTheFirst) {
   // A drape falls as its weight grows, by more than meshes differ.
   EXPECT_GT(rows[1].change, 2 * (rows[1].error + rows[0].error)) << "a fifteenth of the weight";
   EXPECT_LT(rows[2].change, -2 * (rows[2].error + rows[0].error)) << "four times the weight";
-  const auto metrics = nlohmann::json::parse(file_content(out / "manifest.json"))["metrics"];
+  const auto metrics = metrics_of(out);
   EXPECT_NEAR(metrics["one-unknown.density=0.6.change_percent"].get<double>(), rows[2].change, kDigits);
 }
 

@@ -67,7 +67,7 @@ TEST(Validate, SaysWhetherTheMeasuredDrapeLiesAmongTheDrawn) {
                     out.string())
                 .exit_code,
             0);
-  const auto metrics = nlohmann::json::parse(file_content(out / "manifest.json"))["metrics"];
+  const auto metrics = metrics_of(out);
   const double low = metrics["polyester-faille.spread_low_percent"],
                high = metrics["polyester-faille.spread_high_percent"];
   EXPECT_LT(low, high);  // two samples differ
@@ -77,11 +77,10 @@ TEST(Validate, SaysWhetherTheMeasuredDrapeLiesAmongTheDrawn) {
   EXPECT_EQ(table.number(0, "measured"), 28.3);
   EXPECT_EQ(table.number(1, "measured"), 7);
   double sum = 0;
-  for (const char* sample : {"1", "2"})
-    sum += nlohmann::json::parse(
-               file_content(out / (std::string("polyester-faille-prandtl-shaken-sample-") + sample) /
-                            "manifest.json"))["metrics"]["drape_coefficient_percent"]
-               .get<double>();
+  for (const char* sample : {"1", "2"}) {
+    const auto drape = out / (std::string("polyester-faille-prandtl-shaken-sample-") + sample);
+    sum += metrics_of(drape)["drape_coefficient_percent"].get<double>();
+  }
   constexpr double kDigits = 1e-4;  // of six in the table [%]
   EXPECT_NEAR(table.number(0, "predicted"), sum / 2, kDigits);
 }

@@ -24,7 +24,7 @@ TEST(SpringBackExample, FindsTheResidualCurvatureOfTheClosedForm) {
   const VirginCurve curve = read_fabric(Fabric{}.name, "test").fabric.virgin_curve();
   const double moment = curve.friction_moment() + curve.b2 * 150;  // beyond K0, on the straight line
   const double residual = residual_by_formula(choose_law("bilinear", curve, {}), 150, moment);
-  const auto metrics = nlohmann::json::parse(file_content(out / "manifest.json"))["metrics"];
+  const auto metrics = metrics_of(out);
   EXPECT_GT(residual, 0);
   EXPECT_NEAR(metrics["residual_curvature_per_m"], residual, kRounding * 150);
   EXPECT_NEAR(metrics["recovered_percent"], 100 * (1 - residual / 150), kRounding * 100);

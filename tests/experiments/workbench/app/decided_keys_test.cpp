@@ -87,7 +87,7 @@ TEST(DecidedKeys, AreAllThatAnExperimentChangesButWhatItMakesFit) {
                 (folder.path() / "run").string());
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     std::vector<std::string> changed;
-    changed_in(Json::parse(file_content(folder.path() / "run" / "manifest.json"))["asked"], "", changed);
+    changed_in(manifest_in(folder.path() / "run")["asked"], "", changed);
     for (const std::string& path : changed) {
       const std::vector<DecidedKey> decided = decided_by(name);
       const bool known = std::any_of(decided.begin(), decided.end(),

@@ -11,8 +11,6 @@ namespace hysteron::experiments {
 namespace {
 namespace fs = std::filesystem;
 
-Json folder_manifest(const fs::path& folder) { return Json::parse(file_content(folder / "manifest.json")); }
-
 std::vector<std::string> names_in(const fs::path& folder) {
   std::vector<std::string> names;
   for (const auto& entry : fs::directory_iterator(folder)) names.push_back(entry.path().filename().string());
@@ -32,7 +30,7 @@ TEST(Manifest, ReportsWhatTheRunFound) {
   { const ExperimentRun::Stage stage = run.stage("io"); }
   run.path("frames/0000.png");
   run.finish();
-  const Json manifest = folder_manifest(folder.path());
+  const Json manifest = manifest_in(folder.path());
   EXPECT_EQ(manifest["device"], "cpu");
   EXPECT_EQ(manifest["triangles"], 4608);
   EXPECT_EQ(manifest["metrics"].dump(), R"({"node_count":5,"drape_coefficient_percent":49.8})");
@@ -49,7 +47,7 @@ TEST(Manifest, OfAnExperimentWithoutASceneHoldsItsOwnKeysAsTheScene) {
   const Json keys = {{"law", "wong"}, {"fabric", {{"name", "mine"}}}};
   ExperimentRun run({"kes", "hysteron kes --law wong", {}, {}}, setup_in(folder.path()).options, keys);
   run.finish();
-  const Json manifest = folder_manifest(folder.path());
+  const Json manifest = manifest_in(folder.path());
   EXPECT_EQ(manifest["scene"], keys);
   EXPECT_EQ(manifest["law"], "wong");
   for (const char* key : {"element", "precision", "triangles"}) {
@@ -63,7 +61,7 @@ TEST(Run, GoesOnWithoutAPlotThatFailsAndSaysSo) {
   run.plot("plot_a", [](const fs::path&) { throw Error::system("no gnuplot"); });
   run.plot("plot_b", [](const fs::path& base) { EXPECT_EQ(base.filename(), "plot_b"); });
   run.finish();
-  const Json manifest = folder_manifest(folder.path());
+  const Json manifest = manifest_in(folder.path());
   EXPECT_EQ(manifest["plots_missing"], Json::array({"plot_a: no gnuplot"}));
   EXPECT_EQ(manifest["warnings"], Json::array({"the plot plot_a is missing: no gnuplot"}));
   EXPECT_EQ(manifest["files"], Json::array({"plot_b.png", "plot_b.svg"}));
@@ -97,7 +95,7 @@ TEST(Manifest, OfARunThatCouldNotGoOnIsKeptAndIncomplete) {
     throw Error::simulation("no convergence");
   } catch (const Error&) {
   }
-  const Json manifest = folder_manifest(folder.path());
+  const Json manifest = manifest_in(folder.path());
   EXPECT_EQ(manifest["complete"], false);
   EXPECT_EQ(manifest["metrics"]["steps_done"], 7);
 }

@@ -202,8 +202,6 @@ TEST(MetricTable, ShowsErrorsInTheHeadlinesCell) {
 
 const std::string kSmall = " --triangles 60 --seconds 0.05 --fps 30 --device cpu --no-images --quiet";
 
-Json manifest_in(const fs::path& folder) { return Json::parse(file_content(folder / "manifest.json")); }
-
 double friction_in(const fs::path& folder) {
   return manifest_in(folder)["metrics"]["bending_friction_J"].get<double>();
 }

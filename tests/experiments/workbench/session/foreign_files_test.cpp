@@ -19,7 +19,7 @@ TEST_P(ForeignFiles, AreRefusedBeforeTheSimulation) {
       std::string(GetParam()) + " --size 64x48 --threads 1 --device cpu --quiet --out ";
   const Folder first;
   ASSERT_EQ(program(command + (first.path() / "out").string()).exit_code, 0);
-  const auto manifest = nlohmann::json::parse(file_content(first.path() / "out" / "manifest.json"));
+  const auto manifest = manifest_in(first.path() / "out");
   ASSERT_GT(manifest["files"].size(), 3u);
   for (const std::string name : manifest["files"]) {
     const Folder folder;

@@ -28,7 +28,7 @@ void expect_linear(const std::string& element, const std::vector<std::string>& c
   ASSERT_EQ(
       program(kSwing + " --law linear --probe 0.024,0.008 --element " + element + out_flag(out)).exit_code,
       0);
-  const double b2 = Json::parse(file_content(out / "manifest.json"))["scene"]["fabric"]["b2"];
+  const double b2 = manifest_in(out)["scene"]["fabric"]["b2"];
   for (const std::string& component : components) {
     const auto k = column(probes, "probe1_curvature" + component + " [1/m]"),
                m = column(probes, "probe1_moment" + component + " [N]"),
@@ -70,7 +70,7 @@ TEST(Probes, AreThoseOfTheRunThatIsRunAgain) {
   ASSERT_EQ(program(kSwing + " --probe '0.02,0.01;0.08,0.02'" + out_flag(first)).exit_code, 0);
   ASSERT_EQ(program("rerun " + first.string() + " --quiet" + out_flag(again)).exit_code, 0);
   EXPECT_EQ(file_content(again / "probes.csv"), file_content(first / "probes.csv"));
-  const Json files = Json::parse(file_content(again / "manifest.json"))["files"];
+  const Json files = manifest_in(again)["files"];
   EXPECT_NE(std::find(files.begin(), files.end(), "probes.csv"), files.end());
 }
 
@@ -78,7 +78,7 @@ TEST(Probes, ChangeNothingInTheRun) {
   const Folder folder;
   const auto hash = [&](const std::string& name, const std::string& more) {
     EXPECT_EQ(program(kSwing + more + out_flag(folder.path() / name)).exit_code, 0);
-    return Json::parse(file_content(folder.path() / name / "manifest.json"))["state_hash"].get<std::string>();
+    return manifest_in(folder.path() / name)["state_hash"].get<std::string>();
   };
   EXPECT_EQ(hash("with", " --probe 0.02,0.01"), hash("without", ""));
 }

@@ -18,8 +18,6 @@ const std::string kResumedSwing = "swing --quick --no-images --threads 1 --devic
 const std::string kResumedCrumple =
     "crumple --quick --no-images --threads 1 --device cpu --fps 240 --triangles 100 --seconds 0.3";
 
-Json manifest_in(const fs::path& out) { return Json::parse(file_content(out / "manifest.json")); }
-
 // Starts the program, which gets a signal after some milliseconds.  Its wait status.
 int signalled(const std::string& arguments, int signal, int milliseconds, const fs::path& err) {
   const pid_t child = fork();
