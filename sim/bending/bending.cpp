@@ -177,7 +177,7 @@ double Bending<Real, Device>::taken_by_commands() {
 
 template <class Real, class Device>
 double Bending<Real, Device>::stored_energy() {
-  law_->stored(device_, view(), angle_.data(), energy_.data());
+  law_->measure(device_, view(), angle_.data(), LawMeasure::stored_energy, energy_.data());
   const std::vector<double> energy = energy_.download();
   return std::accumulate(energy.begin(), energy.end(), 0.0);
 }
@@ -207,10 +207,10 @@ double Bending<Real, Device>::viscous_loss() {
 }
 
 template <class Real, class Device>
-std::vector<double> Bending<Real, Device>::geometric(const std::vector<Real>& curvature) const {
-  std::vector<double> result(curvature.begin(), curvature.end());
-  for (std::size_t i = 0; i < metric_.size(); ++i) result[i] = metric_[i] > 0 ? result[i] / metric_[i] : 0;
-  return result;
+std::vector<double> Bending<Real, Device>::geometric(std::vector<double> curvature) const {
+  for (std::size_t i = 0; i < metric_.size(); ++i)
+    curvature[i] = metric_[i] > 0 ? curvature[i] / metric_[i] : 0;
+  return curvature;
 }
 
 template <class Real, class Device>
@@ -230,7 +230,8 @@ std::vector<double> Bending<Real, Device>::curvature() {
           for (int c = 0; c < 3; ++c) k[3 * i + c] = s[c];
         });
   }
-  return geometric(result.download());
+  const std::vector<Real> values = result.download();
+  return geometric({values.begin(), values.end()});
 }
 
 template <class Real, class Device>
@@ -245,18 +246,20 @@ std::vector<double> Bending<Real, Device>::moment() {
 }
 
 template <class Real, class Device>
+std::vector<double> Bending<Real, Device>::measured(LawMeasure what, int numbers) {
+  Buffer<double, Device> result(device_, static_cast<std::size_t>(elements_) * numbers);
+  law_->measure(device_, view(), angle_.data(), what, result.data());
+  return result.download();
+}
+
+template <class Real, class Device>
 std::vector<double> Bending<Real, Device>::residual_curvature() {
-  Buffer<Real, Device> result(device_, static_cast<std::size_t>(elements_) * dimension_);
-  law_->residual(device_, view(), result.data());
-  return geometric(result.download());
+  return geometric(measured(LawMeasure::residual_curvature, dimension_));
 }
 
 template <class Real, class Device>
 std::vector<double> Bending<Real, Device>::slip() {
-  Buffer<Real, Device> result(device_, elements_);
-  law_->slip(device_, view(), angle_.data(), result.data());
-  const std::vector<Real> values = result.download();
-  return {values.begin(), values.end()};
+  return measured(LawMeasure::slip, 1);
 }
 
 template <class Real, class Device>

@@ -113,8 +113,9 @@ class Bending {
     return total_bytes(area_, row_start_, row_hinge_, coefficient_, direction_);
   }
   std::size_t column_bytes() const { return total_bytes(column_start_, column_element_, transposed_); }
-  std::vector<double> geometric(const std::vector<Real>& curvature) const;  // without the metric
-  double sum_over_elements(const double* on_device);                        // in their order; 0 of null
+  std::vector<double> measured(LawMeasure what, int numbers);          // numbers of each element
+  std::vector<double> geometric(std::vector<double> curvature) const;  // without the metric
+  double sum_over_elements(const double* on_device);                   // in their order; 0 of null
 
   Device& device_;
   int dimension_, elements_, hinges_;

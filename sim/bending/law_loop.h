@@ -35,6 +35,13 @@ struct OperatorView {
   }
 };
 
+// One loop for all of them: each would take nvcc as long as a step of the law.
+enum class LawMeasure {
+  stored_energy,       // recoverable [J]
+  residual_curvature,  // with zero moment on the recovery branch [1/m]
+  slip  // how far friction or plasticity is used, 0 (not) to 1 (slides, yields); 0 for laws without history
+};
+
 template <class Real, class Device>
 class LawLoop {
  public:
@@ -66,15 +73,10 @@ class LawLoop {
   // away (it may give some) to taken[i] [J].  Laws without history ignore it.
   virtual void command(Device& device, const OperatorView<Real>& op, const Real* angle_change,
                        CommandKind kind, const char* chosen, double* taken) = 0;
-  // Recoverable energy of each element at the accepted state [J] (a measurement; changes nothing).
-  virtual void stored(Device& device, const OperatorView<Real>& op, const Real* angle_change,
-                      double* energy) = 0;
-  // D curvature components of each element: with zero moment on the recovery branch [1/m].
-  virtual void residual(Device& device, const OperatorView<Real>& op, Real* curvature) = 0;
-  // How far friction or plasticity is used, 0 (not) to 1 (slides, yields), for each element; 0 for laws
-  // without history.
-  virtual void slip(Device& device, const OperatorView<Real>& op, const Real* angle_change,
-                    Real* fraction) = 0;
+  // What the law says of each element at the accepted state, which it does not change; D numbers of a
+  // curvature.
+  virtual void measure(Device& device, const OperatorView<Real>& op, const Real* angle_change,
+                       LawMeasure what, double* result) = 0;
   virtual double largest_stiffness() const = 0;  // bound on dM/dK [N m]
   virtual bool has_history() const = 0;
   virtual std::size_t history_bytes() const = 0;

@@ -156,39 +156,25 @@ class LawLoopOf : public LawLoop<Real, Device> {
         });
   }
 
-  void stored(Device& device, const OperatorView<Real>& op, const Real* angle_change,
-              double* energy) override {
-    const Law law = law_;
-    const Real* history = history_.data();
-    for_each_alone(
-        device, "bending energy", op.elements, HYST_KERNEL(int i) {
-          const Vec<Real, D> k = op.template curvature<D>(i, angle_change);
-          const auto& own = law_in_direction(law, op.direction, i);
-          const auto step = called_step(own, k, load_history<Law>(history, i, op.elements));
-          energy[i] = static_cast<double>(op.area[i] * step.stored);
-        });
-  }
-
-  void residual(Device& device, const OperatorView<Real>& op, Real* curvature) override {
-    const Law law = law_;
-    const Real* history = history_.data();
-    for_each_alone(
-        device, "residual curvature", op.elements, HYST_KERNEL(int i) {
-          const Vec<Real, D> k =
-              law_in_direction(law, op.direction, i).residual(load_history<Law>(history, i, op.elements));
-          for (int d = 0; d < D; ++d) curvature[i * D + d] = k[d];
-        });
-  }
-
-  void slip(Device& device, const OperatorView<Real>& op, const Real* angle_change, Real* fraction) override {
+  void measure(Device& device, const OperatorView<Real>& op, const Real* angle_change, LawMeasure what,
+               double* result) override {
     const Law law = law_;
     const Real* history = history_.data();
     const Real b2 = static_cast<Real>(curve_.b2), m0 = static_cast<Real>(curve_.friction_moment());
     for_each_alone(
-        device, "friction state", op.elements, HYST_KERNEL(int i) {
-          const Vec<Real, D> k = op.template curvature<D>(i, angle_change);
+        device, "bending measured", op.elements, HYST_KERNEL(int i) {
           const auto memory = load_history<Law>(history, i, op.elements);
-          fraction[i] = friction_utilisation(law_in_direction(law, op.direction, i), k, memory, b2, m0);
+          const auto& own = law_in_direction(law, op.direction, i);
+          if (what == LawMeasure::residual_curvature) {
+            const Vec<Real, D> k = own.residual(memory);
+            for (int d = 0; d < D; ++d) result[i * D + d] = static_cast<double>(k[d]);
+            return;
+          }
+          const Vec<Real, D> k = op.template curvature<D>(i, angle_change);
+          const Real value = what == LawMeasure::stored_energy
+                                 ? op.area[i] * called_step(own, k, memory).stored
+                                 : friction_utilisation(own, k, memory, b2, m0);
+          result[i] = static_cast<double>(value);
         });
   }
 

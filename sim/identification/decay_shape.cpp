@@ -1,6 +1,5 @@
 #include "sim/identification/decay_shape.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
@@ -37,7 +36,7 @@ DecayFit judged(DecayFit fit, int numbers, const Series& series) {
 DecayFit line(const Series& series) {
   Eigen::MatrixXd by(series.size(), 2);
   by << Eigen::VectorXd::Ones(series.size()), -series.time;
-  const Eigen::Vector2d found = by.colPivHouseholderQr().solve(series.amplitude);
+  const Eigen::Vector2d found = linear_least_squares(by, series.amplitude);
   return judged({DecayShape::linear, found[0], found[1]}, 2, series);
 }
 
@@ -51,7 +50,7 @@ DecayFit two_lines(const Series& series) {
     Eigen::MatrixXd by(series.size(), 3);
     by << Eigen::VectorXd::Ones(series.size()), -series.time.cwiseMin(step),
         -(series.time.array() - step).max(0).matrix();
-    const Eigen::Vector3d found = by.colPivHouseholderQr().solve(series.amplitude);
+    const Eigen::Vector3d found = linear_least_squares(by, series.amplitude);
     if (!(found[1] > found[2])) continue;
     const DecayFit fit = judged({DecayShape::two_step, found[0], found[1], step, found[2]}, 4, series);
     if (fit.rms < best.rms) best = fit;

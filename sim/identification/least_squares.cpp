@@ -3,6 +3,7 @@
 
 #include <ceres/ceres.h>
 #include <glog/logging.h>
+#include <Eigen/QR>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cassert>
@@ -95,6 +96,10 @@ LeastSquares minimize(const Residuals& residuals, const Eigen::VectorXd& start, 
   result.residuals = residuals(result.parameters);
   result.jacobian = numerical_jacobian(residuals, result.parameters);
   return result;
+}
+
+Eigen::VectorXd linear_least_squares(const Eigen::MatrixXd& a, const Eigen::VectorXd& b) {
+  return a.completeOrthogonalDecomposition().solve(b);
 }
 
 namespace {

@@ -1,4 +1,5 @@
-// Nonlinear least squares with bounds, by Ceres (Agarwal, Mierle and the Ceres Solver team).
+// Nonlinear least squares with bounds, by Ceres (Agarwal, Mierle and the Ceres Solver team); linear, by
+// Eigen.
 #pragma once
 
 #include <Eigen/Core>
@@ -21,6 +22,9 @@ using Residuals = std::function<Eigen::VectorXd(const Eigen::VectorXd&)>;
 // Least sum of squares from `start` within [low, high] (all of one length, at least one parameter).
 LeastSquares minimize(const Residuals& residuals, const Eigen::VectorXd& start, const Eigen::VectorXd& low,
                       const Eigen::VectorXd& high);
+
+// The shortest x with the least |a x - b|; of as many numbers as a has columns.
+Eigen::VectorXd linear_least_squares(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
 
 // How well residuals fix parameters: covariance from the singular values of the scaled Jacobian.
 

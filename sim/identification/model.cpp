@@ -1,6 +1,5 @@
 #include "sim/identification/model.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
@@ -28,7 +27,7 @@ Eigen::VectorXd nonnegative_solution(const Eigen::MatrixXd& columns, const Eigen
     Eigen::MatrixXd used = columns;
     used.col(0) *= first;
     used.col(1) *= second;
-    Eigen::VectorXd solution = used.completeOrthogonalDecomposition().solve(values);
+    Eigen::VectorXd solution = linear_least_squares(used, values);
     solution[0] *= first;
     solution[1] *= second;
     const double sum = (columns * solution - values).squaredNorm();

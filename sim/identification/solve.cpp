@@ -1,6 +1,5 @@
 #include "sim/identification/solve.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
@@ -176,7 +175,7 @@ double Solution::fall(double sum) const { return (sum - best.sum) / noise; }
 
 double Solution::rise_with_offset() const {
   const Eigen::VectorXd ones = Eigen::VectorXd::Ones(residuals.size());
-  const Eigen::VectorXd beside = ones - jacobian * jacobian.completeOrthogonalDecomposition().solve(ones);
+  const Eigen::VectorXd beside = ones - jacobian * linear_least_squares(jacobian, ones);
   const double variance = residuals.squaredNorm() / static_cast<double>(residuals.size());
   return std::pow(beside.dot(residuals), 2) / (beside.squaredNorm() * std::max(variance, 1e-300));
 }
