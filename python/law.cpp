@@ -111,27 +111,23 @@ py::array LawState::tangent(const Numbers& curvature, double dt) const {
   return tangent;
 }
 
+py::array LawState::measured(LawMeasure what, const double* curvature, int numbers) const {
+  py::array_t<double> values = make_array(numbers);
+  double* to = values.mutable_data();
+  unlocked([&] { loop_->measure(*cpu_, view(), curvature, what, to); });
+  return values;
+}
+
 py::array LawState::stored(const Numbers& curvature) const {
-  const double* k = checked(curvature);
-  py::array_t<double> energy = make_array(1);
-  double* to = energy.mutable_data();
-  unlocked([&] { loop_->stored(*cpu_, view(), k, to); });
-  return energy;
+  return measured(LawMeasure::stored_energy, checked(curvature), 1);
 }
 
 py::array LawState::friction_share(const Numbers& curvature) const {
-  const double* k = checked(curvature);
-  py::array_t<double> fraction = make_array(1);
-  double* to = fraction.mutable_data();
-  unlocked([&] { loop_->slip(*cpu_, view(), k, to); });
-  return fraction;
+  return measured(LawMeasure::slip, checked(curvature), 1);
 }
 
 py::array LawState::residual() const {
-  py::array_t<double> curvature = make_array(dimension_);
-  double* to = curvature.mutable_data();
-  unlocked([&] { loop_->residual(*cpu_, view(), to); });
-  return curvature;
+  return measured(LawMeasure::residual_curvature, nullptr, dimension_);
 }
 
 py::array LawState::dissipated() const {

@@ -31,6 +31,7 @@ class LawState {
  private:
   const double* checked(const Numbers& curvature) const;
   py::array_t<double> make_array(int columns, int of_each = 1) const;
+  py::array measured(LawMeasure what, const double* curvature, int numbers) const;
   OperatorView<double> view() const;
   void tangents(const double* k, double dt, double* to) const;
 
