@@ -126,9 +126,7 @@ py::array LawState::friction_share(const Numbers& curvature) const {
   return measured(LawMeasure::slip, checked(curvature), 1);
 }
 
-py::array LawState::residual() const {
-  return measured(LawMeasure::residual_curvature, nullptr, dimension_);
-}
+py::array LawState::residual() const { return measured(LawMeasure::residual_curvature, nullptr, dimension_); }
 
 py::array LawState::dissipated() const {
   const double* lost = loop_->dissipated();
