@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <cstring>
 #include <memory>
 #include <string>
@@ -24,6 +25,17 @@ inline constexpr int kSerialLoop = 2048;
 // Elements per partial sum.  Fixed, so that the order of additions does not depend on the number of threads.
 inline constexpr int kSumBlock = 256;
 
+// Cores that others take meanwhile, as a renderer without graphics hardware does: threads that wait for one
+// that has no core would spin in vain.  No result depends on the number of threads.
+inline std::atomic<int> lent_cores = 0;
+class LentCore {
+ public:
+  LentCore() { ++lent_cores; }
+  ~LentCore() { --lent_cores; }
+  LentCore(const LentCore&) = delete;
+  LentCore& operator=(const LentCore&) = delete;
+};
+
 struct Cpu {
   static constexpr bool kGpu = false;
   int threads = 1;
@@ -32,6 +44,7 @@ struct Cpu {
   std::unique_ptr<KernelProfile<Cpu>> profile = {};
 
   explicit Cpu(int thread_count);
+  int threads_left() const { return std::max(1, threads - lent_cores.load(std::memory_order_relaxed)); }
   std::string description() const;
   int cuda_device() const { return -1; }
   void synchronize() const {}
@@ -54,7 +67,7 @@ void for_each(Cpu& cpu, const Kernel& kernel, int n, const Body& body) {
   if (n == 0) return;
   ++device_counts.loops;
   const Profiled<Cpu> profiled(cpu, kernel);
-  const int threads = cpu.threads;
+  const int threads = cpu.threads_left();
   if (n < kSerialLoop || threads == 1) return run_serially(0, n, body);
 #pragma omp parallel for schedule(static) num_threads(threads)
   for (int t = 0; t < threads; ++t)
@@ -85,7 +98,7 @@ template <int K, class Body, class Finish>
 void for_each_sum(Cpu& cpu, const Kernel& kernel, int n, const Body& body, const Finish& finish) {
   ++device_counts.loops;
   const Profiled<Cpu> profiled(cpu, kernel);
-  const int blocks = (n + kSumBlock - 1) / kSumBlock, threads = cpu.threads;
+  const int blocks = (n + kSumBlock - 1) / kSumBlock, threads = cpu.threads_left();
   if (static_cast<int>(cpu.partial.size()) < blocks * K) cpu.partial.resize(blocks * K);
   double* partial = cpu.partial.data();
   if (n < kSerialLoop || threads == 1) {

@@ -4,6 +4,7 @@
 #include "experiments/workbench/pictures/fabric_look.h"
 #include "render/shapes.h"
 #include "sim/base/error.h"
+#include "sim/device/cpu.h"
 #include "sim/scene/motion.h"
 #include "sim/scene/scene_text.h"
 
@@ -125,6 +126,8 @@ void SceneRenderer::place_obstacles(double time, bool visible) {
 
 render::Image SceneRenderer::draw(const render::Look& look, const render::Camera& camera,
                                   const Shown& shown) {
+  std::optional<LentCore> core;
+  if (!offscreen_->egl_device_is_hardware()) core.emplace();
   if (!shown.values.empty()) view_->set_values(shown.values);
   view_->set_look(look);
   place_obstacles(shown.time, true);
