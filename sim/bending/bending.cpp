@@ -171,15 +171,13 @@ void Bending<Real, Device>::command(CommandKind kind, const std::vector<char>& c
 
 template <class Real, class Device>
 double Bending<Real, Device>::taken_by_commands() {
-  const std::vector<double> energy = taken_.download();
-  return std::accumulate(energy.begin(), energy.end(), 0.0);
+  return sum_over_elements(taken_.data());
 }
 
 template <class Real, class Device>
 double Bending<Real, Device>::stored_energy() {
   law_->measure(device_, view(), angle_.data(), LawMeasure::stored_energy, energy_.data());
-  const std::vector<double> energy = energy_.download();
-  return std::accumulate(energy.begin(), energy.end(), 0.0);
+  return sum_over_elements(energy_.data());
 }
 
 template <class Real, class Device>
@@ -202,8 +200,7 @@ double Bending<Real, Device>::relaxed_energy() {
 
 template <class Real, class Device>
 double Bending<Real, Device>::viscous_loss() {
-  const std::vector<double> energy = viscous_.download();
-  return std::accumulate(energy.begin(), energy.end(), 0.0);
+  return sum_over_elements(viscous_.data());
 }
 
 template <class Real, class Device>
