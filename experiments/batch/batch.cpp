@@ -17,6 +17,7 @@
 #include "experiments/workbench/app/command_line.h"
 #include "experiments/workbench/app/ending.h"
 #include "experiments/workbench/app/gpu_choice.h"
+#include "experiments/workbench/app/json_file.h"
 #include "experiments/workbench/app/manifest.h"
 #include "experiments/workbench/session/interrupts.h"
 #include "sim/base/error.h"
@@ -88,7 +89,7 @@ Member parsed(std::vector<std::string> words) {
 std::vector<Member> members_in(std::istream& lines) {
   std::vector<Member> members;
   for (std::string line; std::getline(lines, line);) {
-    const Json words = Json::parse(line, nullptr, false);
+    const Json words = parsed_json(line);
     const auto is_text = [](const Json& word) { return word.is_string(); };
     if (!words.is_array() || !std::all_of(words.begin(), words.end(), is_text))
       throw Error::invalid_input("line " + std::to_string(members.size() + 1) +

@@ -4,7 +4,7 @@
 
 namespace hysteron {
 
-Cpu::Cpu(int thread_count) : threads(thread_count > 0 ? thread_count : omp_get_num_procs()) {}
+Cpu::Cpu(int thread_count) : threads(thread_count > 0 ? thread_count : omp_get_max_threads()) {}
 
 void KernelProfile<Cpu>::end(const Kernel& kernel) {
   KernelCost& cost = costs_[kernel.name];

@@ -89,7 +89,7 @@ const KeyRow<Scene> kSceneRows[] = {
     {"linear-precision", at<&S::linear_precision>, "", any(), "", "implicit, bdf2, tr-bdf2, quasi-static, with precision = double: of conjugate gradients; state, forces and energies stay double"},
     {"device", at<&S::device>, "", any(), "", "where the simulation runs; as a flag also cuda:N, GPU N of several"},
     {"precision", at<&S::precision>, "", any(), "", "of the simulation"},
-    {"threads", at<&S::threads>, "", between(0, 1024), "", "CPU threads; 0: all cores"},
+    {"threads", at<&S::threads>, "", between(0, 1024), "", "CPU threads; 0: OMP_NUM_THREADS, else all cores"},
     {"seconds", at<&S::seconds>, "s", at_least(0), "", "simulated time"},
     {"gravity", at<&S::gravity>, "m/s^2", between(-1e4, 1e4), "", "acceleration"},
     {"air-drag", at<&S::air_drag>, "kg/(m^2 s)", at_least(0), "", "linear drag per area"},

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "experiments/workbench/app/json_file.h"
 #include "experiments/workbench/app/run.h"
 #include "gtest/gtest.h"
 #include "tests/sim/base/folder.h"
@@ -28,9 +29,7 @@ inline int occurrences(const std::string& text, const std::string& part) {
 }
 
 // What a run has noted in its folder.
-inline Json manifest_in(const std::filesystem::path& run) {
-  return Json::parse(file_content(run / "manifest.json"));
-}
+inline Json manifest_in(const std::filesystem::path& run) { return read_json(run / "manifest.json"); }
 inline Json metrics_of(const std::filesystem::path& run) { return manifest_in(run)["metrics"]; }
 
 inline std::string out_flag(const std::filesystem::path& out) { return " --out " + out.string(); }

@@ -38,6 +38,8 @@ Json json_or_none(const std::filesystem::path& file) {
   }
 }
 
+Json parsed_json(std::string_view text) { return Json::parse(text, nullptr, false); }
+
 const Json& json_at(const Json& json, std::string path) {
   static const Json kNothing;
   std::replace(path.begin(), path.end(), '.', '/');

@@ -3,6 +3,8 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
 
 #include "experiments/workbench/app/manifest.h"
 
@@ -15,6 +17,8 @@ Json read_json(const std::filesystem::path& file, const std::string& kind = "JSO
 Json json_in(const std::string& text, const std::filesystem::path& file, const std::string& kind = "JSON");
 // Discarded (Json::is_discarded) where read_json would throw.
 Json json_or_none(const std::filesystem::path& file);
+// Discarded where the text is no JSON.  Here and not where it is read: its parser takes a second to compile.
+Json parsed_json(std::string_view text);
 
 // What stands at a path of keys, "fabric.b2"; null where nothing does.
 const Json& json_at(const Json& json, std::string path);

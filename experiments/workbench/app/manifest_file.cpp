@@ -20,11 +20,6 @@ Json to_json(const MetricValue& value) {
       value.variant());
 }
 
-template <class T>
-Json to_json(const std::optional<T>& known) {
-  return known ? Json(*known) : Json();
-}
-
 // An object with these entries, null without any.
 template <class T>
 Json to_json(const std::vector<std::pair<std::string, T>>& entries) {
@@ -72,40 +67,86 @@ Json to_json(const Curve& curve) {
           {"caption", curve.caption}};
 }
 
-// What every manifest has behind its scene, in this order.
-template <class M, class Visit>
-void visit_results(M& m, const Visit& visit) {
-  visit("device", m.device);
-  visit("renderer", m.renderer);
-  visit("positions", m.positions);
-  visit("precision", m.precision);
-  visit("element", m.element);
-  visit("law", m.law);
-  visit("triangles", m.triangles);
-  visit("hinges", m.hinges);
-  visit("steps", m.steps);
-  visit("seconds_simulated", m.seconds_simulated);
-  visit("wall_seconds", m.wall_seconds);
-  visit("bytes_device", m.bytes_device);
-  visit("energy", m.energy);
-  visit("state_hash", m.state_hash);
+Json to_json(const std::vector<Curve>& curves) {
+  Json list;
+  for (const Curve& curve : curves) list.push_back(to_json(curve));
+  return list;
 }
 
-// Entries that only some runs have.
-void add_what_some_have(const Manifest& m, Json& json) {
-  if (m.batch) json["batch"] = *m.batch;
-  if (m.substeps) json["substeps"] = *m.substeps;
-  if (m.linear_solver) json["linear_solver"] = *m.linear_solver;
-  for (const auto& [key, value] : m.own) json[key] = *value;
-  if (!m.statements.empty()) json["statements"] = to_json(m.statements);
-  if (m.series) json["series"] = *m.series;
-  if (m.frames) json["frames"] = to_json(*m.frames);
-  for (const Curve& curve : m.curves) json["curves"].push_back(to_json(curve));
-  if (!m.film_missing.empty()) json["film_missing"] = m.film_missing;
-  if (!m.warnings.empty()) json["warnings"] = m.warnings;
-  if (!m.plots_missing.empty()) json["plots_missing"] = m.plots_missing;
-  if (!m.errors_missing.empty()) json["errors_missing"] = m.errors_missing;
-  if (!m.requested_metrics.empty()) json["asked_metrics"] = m.requested_metrics;
+Json to_json(const std::vector<std::string>& texts) { return texts; }
+Json to_json(const std::string& text) { return text; }
+Json to_json(bool truth) { return truth; }
+Json to_json(const std::shared_ptr<const Json>& keys) { return *keys; }
+Json to_json(const RunSpec& spec) { return {{"names", spec.positionals}, {"flags", spec.flags}}; }
+
+template <class T>
+Json to_json(const std::optional<T>& known) {
+  if constexpr (std::is_arithmetic_v<T>)
+    return known ? Json(*known) : Json();
+  else
+    return known ? to_json(*known) : Json();
+}
+
+template <class T>
+bool is_there(const T& value) {
+  if constexpr (requires { value.empty(); })
+    return !value.empty();
+  else
+    return static_cast<bool>(value);
+}
+
+enum class Where { always, if_there };  // a field stands in the file
+
+// The fields of a manifest, and what stands under its "hysteron", in the order in which they are written.
+template <class M, class Visit>
+void visit_program(M& m, const Visit& visit) {
+  visit("version", m.version, Where::always);
+  visit("commit", m.commit, Where::always);
+  visit("dirty", m.dirty, Where::always);
+  visit("instructions", m.isa, Where::if_there);
+  visit("compiler", m.compiler, Where::if_there);
+}
+
+template <class M, class Visit, class VisitOwn>
+void visit_fields(M& m, const Visit& visit, const VisitOwn& visit_own) {
+  visit("experiment", m.experiment, Where::always);
+  visit("command", m.command, Where::always);
+  visit("spec", m.spec, Where::if_there);
+  visit("started", m.started, Where::always);
+  visit("scene", m.keys, Where::always);
+  visit("options", m.options, Where::if_there);
+  visit("asked", m.requested, Where::if_there);
+  visit("meshes", m.meshes, Where::if_there);
+  visit("device", m.device, Where::always);
+  visit("renderer", m.renderer, Where::always);
+  visit("positions", m.positions, Where::always);
+  visit("precision", m.precision, Where::always);
+  visit("element", m.element, Where::always);
+  visit("law", m.law, Where::always);
+  visit("triangles", m.triangles, Where::always);
+  visit("hinges", m.hinges, Where::always);
+  visit("steps", m.steps, Where::always);
+  visit("seconds_simulated", m.seconds_simulated, Where::always);
+  visit("wall_seconds", m.wall_seconds, Where::always);
+  visit("bytes_device", m.bytes_device, Where::always);
+  visit("energy", m.energy, Where::always);
+  visit("state_hash", m.state_hash, Where::always);
+  visit("batch", m.batch, Where::if_there);
+  visit("substeps", m.substeps, Where::if_there);
+  visit("linear_solver", m.linear_solver, Where::if_there);
+  visit_own(m.own);
+  visit("statements", m.statements, Where::if_there);
+  visit("series", m.series, Where::if_there);
+  visit("frames", m.frames, Where::if_there);
+  visit("curves", m.curves, Where::if_there);
+  visit("film_missing", m.film_missing, Where::if_there);
+  visit("warnings", m.warnings, Where::if_there);
+  visit("plots_missing", m.plots_missing, Where::if_there);
+  visit("errors_missing", m.errors_missing, Where::if_there);
+  visit("asked_metrics", m.requested_metrics, Where::if_there);
+  visit("metrics", m.metrics, Where::always);
+  visit("files", m.files, Where::always);
+  visit("complete", m.complete, Where::always);
 }
 
 // Null if there is nothing.
@@ -129,12 +170,15 @@ double number_at(const Json& json, const char* key) {
 bool is_true_at(const Json& json, const char* key) { return at(json, key) == Json(true); }
 
 template <class T>
-std::optional<T> known_at(const Json& json, const char* key) {
-  const Json& value = at(json, key);
+std::optional<T> known_in(const Json& value) {
   const bool fits = std::is_same_v<T, std::string> ? value.is_string()
                     : std::is_integral_v<T>        ? value.is_number_integer()
                                                    : value.is_number();
   return fits ? std::optional<T>(value.get<T>()) : std::nullopt;
+}
+template <class T>
+std::optional<T> known_at(const Json& json, const char* key) {
+  return known_in<T>(at(json, key));
 }
 
 // As it is shown, a list as JSON.
@@ -150,42 +194,13 @@ const Json& at_path(const std::shared_ptr<const Json>& keys, const std::string& 
   return keys ? json_at(*keys, path) : kNothing;
 }
 
-std::vector<std::string> texts_at(const Json& json, const char* key) {
+std::vector<std::string> texts_in(const Json& list) {
   std::vector<std::string> texts;
-  for (const Json& text : at(json, key))
+  for (const Json& text : list)
     if (text.is_string()) texts.push_back(text.get<std::string>());
   return texts;
 }
-
-std::vector<std::pair<std::string, double>> numbers_at(const Json& json, const char* key) {
-  std::vector<std::pair<std::string, double>> numbers;
-  for (const auto& [name, number] : at(json, key).items())
-    if (number.is_number()) numbers.emplace_back(name, number.get<double>());
-  return numbers;
-}
-
-template <class T>
-void take(const Json& json, const char* key, std::optional<T>& value) {
-  value = known_at<T>(json, key);
-}
-void take(const Json& json, const char* key, std::vector<std::pair<std::string, double>>& numbers) {
-  numbers = numbers_at(json, key);
-}
-
-Metrics parsed_metrics(const Json& json) {
-  Metrics metrics;
-  for (const auto& [name, value] : json.items()) metrics.set(name, metric_value(value));
-  return metrics;
-}
-
-std::optional<RunSpec> recorded_spec(const Json& json) {
-  if (!json.is_object()) return {};
-  RunSpec spec{texts_at(json, "names")};
-  for (const Json& flag : at(json, "flags"))
-    if (flag.is_array() && flag.size() == 2 && flag[0].is_string() && flag[1].is_string())
-      spec.flags.emplace_back(flag[0], flag[1]);
-  return spec;
-}
+std::vector<std::string> texts_at(const Json& json, const char* key) { return texts_in(at(json, key)); }
 
 std::array<double, 4> cloth_box(const Json& instant) {
   const Json& box = at(instant, "cloth");
@@ -196,43 +211,70 @@ std::array<double, 4> cloth_box(const Json& instant) {
   return cloth;
 }
 
-std::optional<Frames> recorded_frames(const Json& json) {
-  if (!json.is_object()) return {};
-  Frames frames;
-  for (const auto& [name, bar] : at(json, "looks").items()) {
-    frames.looks.push_back({name});
-    if (bar.is_object())
-      frames.looks.back().bar = {text_at(bar, "label"), text_at(bar, "unit"), number_at(bar, "low"),
-                                 number_at(bar, "high")};
-  }
-  frames.metres_per_pixel = number_at(json, "m_per_pixel");
-  for (const Json& instant : at(json, "moments"))
-    frames.instants.push_back({number_at(instant, "s"), text_at(instant, "phase"),
-                               known_at<double>(instant, "difference_rms_per_m"), cloth_box(instant),
-                               known_at<double>(instant, "moved_m").value_or(0)});
-  return frames;
+// take(): the member, where a value is of its kind; else it stays as it is.
+void take(const Json& json, bool& truth) { truth = json == Json(true); }
+void take(const Json& json, std::string& text) {
+  if (!json.is_null()) text = shown(json);
+}
+void take(const Json& json, std::vector<std::string>& texts) { texts = texts_in(json); }
+void take(const Json& json, std::shared_ptr<const Json>& keys) {
+  if (json.is_object()) keys = std::make_shared<const Json>(json);
+}
+void take(const Json& json, std::vector<std::pair<std::string, double>>& numbers) {
+  for (const auto& [name, number] : json.items())
+    if (number.is_number()) numbers.emplace_back(name, number.get<double>());
+}
+void take(const Json& json, Metrics& metrics) {
+  for (const auto& [name, value] : json.items()) metrics.set(name, metric_value(value));
+}
+template <class T>
+void take(const Json& json, std::optional<T>& value) {
+  value = known_in<T>(json);
+}
+void take(const Json& json, std::optional<std::vector<std::string>>& texts) {
+  if (json.is_array()) texts = texts_in(json);
 }
 
-// Entries that only some runs have.
-void take_what_some_have(const Json& json, Manifest& m) {
-  m.batch = known_at<int>(json, "batch");
-  m.substeps = known_at<int>(json, "substeps");
-  m.linear_solver = known_at<std::string>(json, "linear_solver");
-  if (at(json, "series").is_array()) m.series = texts_at(json, "series");
-  const Json& statements = at(json, "statements");
-  if (statements.is_array()) m.statements = {{"", texts_at(json, "statements")}};
-  if (statements.is_object())
-    for (const auto& [law, sentences] : statements.items())
-      m.statements.push_back({law, texts_at(statements, law.c_str())});
-  m.frames = recorded_frames(at(json, "frames"));
-  for (const Json& curve : at(json, "curves"))
-    m.curves.push_back({text_at(curve, "plot"), text_at(curve, "file"), text_at(curve, "x"),
-                        text_at(curve, "y"), is_true_at(curve, "logarithmic"), text_at(curve, "caption")});
-  m.film_missing = text_at(json, "film_missing");
-  m.warnings = texts_at(json, "warnings");
-  m.plots_missing = texts_at(json, "plots_missing");
-  m.errors_missing = texts_at(json, "errors_missing");
-  m.requested_metrics = texts_at(json, "asked_metrics");
+void take(const Json& json, std::optional<RunSpec>& spec) {
+  if (!json.is_object()) return;
+  spec = RunSpec{texts_at(json, "names")};
+  for (const Json& flag : at(json, "flags"))
+    if (flag.is_array() && flag.size() == 2 && flag[0].is_string() && flag[1].is_string())
+      spec->flags.emplace_back(flag[0], flag[1]);
+}
+
+void take(const Json& json, std::vector<MeshRecord>& meshes) {
+  if (!json.is_object()) return;
+  for (const auto& [key, mesh] : json.items())
+    meshes.push_back({key, text_at(mesh, "file"), text_at(mesh, "hash")});
+}
+
+void take(const Json& json, std::vector<Statements>& statements) {
+  if (json.is_array()) statements = {{"", texts_in(json)}};
+  if (json.is_object())
+    for (const auto& [law, sentences] : json.items()) statements.push_back({law, texts_in(sentences)});
+}
+
+void take(const Json& json, std::optional<Frames>& frames) {
+  if (!json.is_object()) return;
+  frames.emplace();
+  for (const auto& [name, bar] : at(json, "looks").items()) {
+    frames->looks.push_back({name});
+    if (bar.is_object())
+      frames->looks.back().bar = {text_at(bar, "label"), text_at(bar, "unit"), number_at(bar, "low"),
+                                  number_at(bar, "high")};
+  }
+  frames->metres_per_pixel = number_at(json, "m_per_pixel");
+  for (const Json& instant : at(json, "moments"))
+    frames->instants.push_back({number_at(instant, "s"), text_at(instant, "phase"),
+                                known_at<double>(instant, "difference_rms_per_m"), cloth_box(instant),
+                                known_at<double>(instant, "moved_m").value_or(0)});
+}
+
+void take(const Json& json, std::vector<Curve>& curves) {
+  for (const Json& curve : json)
+    curves.push_back({text_at(curve, "plot"), text_at(curve, "file"), text_at(curve, "x"),
+                      text_at(curve, "y"), is_true_at(curve, "logarithmic"), text_at(curve, "caption")});
 }
 
 // The first key without which a JSON is no manifest; "" if it has all.
@@ -316,49 +358,29 @@ Json to_json(const Metrics& metrics) {
 }
 
 Json to_json(const Manifest& m) {
+  const auto writes_to = [](Json& json) {
+    return [&json](const char* key, const auto& value, Where where) {
+      if (where == Where::always || is_there(value)) json[key] = to_json(value);
+    };
+  };
   Json json;
-  json["hysteron"] = {{"version", m.version}, {"commit", m.commit}, {"dirty", m.dirty}};
-  if (!m.isa.empty()) json["hysteron"]["instructions"] = m.isa;
-  if (!m.compiler.empty()) json["hysteron"]["compiler"] = m.compiler;
-  json["experiment"] = m.experiment;
-  json["command"] = m.command;
-  if (m.spec) json["spec"] = {{"names", m.spec->positionals}, {"flags", m.spec->flags}};
-  json["started"] = m.started;
-  json["scene"] = *m.keys;
-  if (m.options) json["options"] = *m.options;
-  if (m.requested) json["asked"] = *m.requested;
-  if (!m.meshes.empty()) json["meshes"] = to_json(m.meshes);
-  visit_results(m, [&](const char* key, const auto& value) { json[key] = to_json(value); });
-  add_what_some_have(m, json);
-  json["metrics"] = to_json(m.metrics);
-  json["files"] = m.files;
-  json["complete"] = m.complete;
+  visit_program(m, writes_to(json["hysteron"]));
+  visit_fields(m, writes_to(json), [&](const auto& own) {
+    for (const auto& [key, value] : own) json[key] = *value;
+  });
   return json;
 }
 
 Manifest parsed_manifest(const Json& json) {
   Manifest m;
-  const Json& program = at(json, "hysteron");
-  m.version = shown_at(program, "version");
-  m.commit = shown_at(program, "commit");
-  m.isa = text_at(program, "instructions");
-  m.compiler = text_at(program, "compiler");
-  m.dirty = is_true_at(program, "dirty");
-  m.experiment = json.contains("experiment") ? text_at(json, "experiment") : "run";
-  m.command = text_at(json, "command");
-  m.spec = recorded_spec(at(json, "spec"));
-  m.started = text_at(json, "started");
-  m.keys = std::make_shared<const Json>(at(json, "scene"));
-  if (at(json, "options").is_object()) m.options = std::make_shared<const Json>(json["options"]);
-  if (at(json, "asked").is_object()) m.requested = std::make_shared<const Json>(json["asked"]);
-  if (at(json, "meshes").is_object())
-    for (const auto& [key, mesh] : json["meshes"].items())
-      m.meshes.push_back({key, text_at(mesh, "file"), text_at(mesh, "hash")});
-  visit_results(m, [&](const char* key, auto& value) { take(json, key, value); });
-  take_what_some_have(json, m);
-  m.metrics = parsed_metrics(at(json, "metrics"));
-  m.files = texts_at(json, "files");
-  m.complete = is_true_at(json, "complete");
+  m.version = m.commit = "–";
+  m.experiment = "run";  // of the first programs
+  m.keys = std::make_shared<const Json>();
+  const auto reads_from = [](const Json& object) {
+    return [&object](const char* key, auto& value, Where) { take(at(object, key), value); };
+  };
+  visit_program(m, reads_from(at(json, "hysteron")));
+  visit_fields(m, reads_from(json), [](const auto&) {});
   return m;
 }
 

@@ -117,7 +117,7 @@ class Batch {
 
  private:
   void hear(const std::string& line) {
-    const Json said = Json::parse(line, nullptr, false);
+    const Json said = parsed_json(line);
     if (said.is_object()) end(chunk_.at(said.at("run")), said.at("exit_code"), said.at("error"));
   }
   void end(std::size_t i, int exit_code, const std::string& error) {

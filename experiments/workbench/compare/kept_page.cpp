@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "experiments/workbench/app/json_file.h"
 #include "experiments/workbench/app/manifest_file.h"
 #include "experiments/workbench/pictures/kept_frames.h"
 #include "sim/base/whole_file.h"
@@ -18,7 +19,7 @@ Json page_manifest(const Manifest& manifest) {
 }
 
 KeptRecord with_column(KeptRecord record, const ChildRun& column, std::size_t mesh) {
-  Json setup = Json::parse(inflated(record.blocks.at(0), record.head.at("setup_bytes")));
+  Json setup = parsed_json(inflated(record.blocks.at(0), record.head.at("setup_bytes")));
   setup["manifest"] = page_manifest(*column.manifest);
   setup["stopped"] = column.stopped;
   std::error_code ignored;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiments/workbench/app/json_file.h"
 #include "sim/base/error.h"
 #include "sim/base/whole_file.h"
 
@@ -31,7 +32,7 @@ std::vector<float> all_values(const std::vector<int>& steps, double quantum) {
 std::optional<KeptRecord> next_record(std::string_view& text) {
   const std::size_t end = text.substr(0, kMaxHead).find('\n');
   if (end == text.npos) return {};
-  KeptRecord record{Json::parse(text.substr(0, end), nullptr, false), {}};
+  KeptRecord record{parsed_json(text.substr(0, end)), {}};
   if (!record.head.is_object()) throw Error::invalid_input("a record is no JSON");
   std::size_t at = end + 1;
   for (const Json& size : record.head.value("bytes", Json::array())) {
@@ -65,7 +66,8 @@ KeptCloth kept_cloth(const KeptRecord& record, std::size_t meshes) {
   cloth.name = record.head.at("name");
   cloth.mesh = record.head.at("mesh");
   if (cloth.mesh >= meshes) throw Error::invalid_input("a record names a mesh that is not there");
-  cloth.setup = Json::parse(inflated(block(record, 0), record.head.at("setup_bytes")));
+  cloth.setup = parsed_json(inflated(block(record, 0), record.head.at("setup_bytes")));
+  if (!cloth.setup.is_object()) throw Error::invalid_input("a record's setup is no JSON");
   const auto corners = record.head.at("bounds").get<std::vector<float>>();
   if (corners.size() != 6) throw Error::invalid_input("bounds have other than six numbers");
   cloth.bounds = render::bounding_box(corners);

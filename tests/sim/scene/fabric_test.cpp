@@ -2,6 +2,7 @@
 #include <cstdlib>
 #include <fstream>
 
+#include "sim/base/whole_file.h"
 #include "sim/scene/assets.h"
 #include "sim/scene/fabric_reader.h"
 #include "sim/scene/keys.h"
@@ -23,10 +24,14 @@ class KesFabric : public ShippedFabric {};
 class DrapedFabric : public ShippedFabric {};
 class FabricMeasuredInThreeDirections : public ShippedFabric {};
 
+// By the text of their files, since every process of these tests makes the lists below.
 std::vector<std::string> fabrics_that_publish(const std::string& number) {
   std::vector<std::string> names;
-  for (const std::string& name : list_assets("fabrics"))
-    if (read_fabric(name, "test").fabric.published.count(number)) names.push_back(name);
+  for (const std::string& name : list_assets("fabrics")) {
+    const std::filesystem::path file = find_asset("fabrics", name, "test");
+    if (whole_file(file, "cannot read " + file.string()).find("\n" + number + " = {") != std::string::npos)
+      names.push_back(name);
+  }
   return names;
 }
 
