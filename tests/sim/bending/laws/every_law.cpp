@@ -105,8 +105,8 @@ class AnyLawOf : public AnyLaw {
 // The sizes of the memory of `prandtl` that law_cases() choose: each is a type of its own to compile.
 struct TestedMemory {
   using Stops = Sizes<8>;
-  using Depths = Sizes<16>;
-  using Fatigued = TestedMemory;
+  using Depths = Sizes<4, 8, 16>;
+  using Fatigued = FatiguedClothMemory;
 };
 
 template <class Real, int D>
