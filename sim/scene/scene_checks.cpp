@@ -67,10 +67,15 @@ void check_mesh(const Scene& scene) {
                              (nearest.empty() ? "" : "; did you mean " + nearest + "?"));
 }
 
-// The triangles of a file are its own.
+// The triangles of a file are its own; a file that no shape asks for would be left unread without a word.
 void check_one_mesh(const Scene& scene) {
   const ClothShape& cloth = scene.cloth;
   const bool of_file = cloth.shape == "file" || cloth.shape == "pattern";
+  if (!of_file && !cloth.file.empty() && !is_given(scene, "cloth.shape"))
+    throw Error::invalid_input(shown(scene, "cloth.file", cloth.file, "") +
+                               " is not read by a cloth of shape " + cloth.shape +
+                               ": give cloth.shape = file, or pattern")
+        .with_key("cloth.file", cloth.file);
   if (!of_file || cloth.file.empty() || !is_given(scene, "mesh")) return;
   throw Error::invalid_input("mesh = " + scene.mesh + " (" + key_origin(scene, "mesh") +
                              ") and cloth.file = " + cloth.file + " (" + key_origin(scene, "cloth.file") +

@@ -93,6 +93,16 @@ TEST(BuiltCloth, HasNoUnitOfAFile) {
             "are metres");
 }
 
+TEST(BuiltCloth, LeavesNoFileUnread) {
+  Scene scene = default_scene();
+  set_key(scene, "cloth.file", "disc.obj", "--cloth.file");
+  EXPECT_EQ(caught_failure([&] { check_scene(scene); }).message,
+            "cloth.file = disc.obj (--cloth.file) is not read by a cloth of shape " + scene.cloth.shape +
+                ": give cloth.shape = file, or pattern");
+  set_key(scene, "cloth.shape", "disc", "--cloth.shape");
+  EXPECT_NO_THROW(check_scene(scene));
+}
+
 // A start in a file of its own.
 class StartFile : public DiscFile {
  protected:
