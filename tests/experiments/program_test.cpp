@@ -101,7 +101,7 @@ TEST(Program, ListsDevicesWithWhatFailsWhenTheyAreOpened) {
     const fs::path out = folder.path() / "out";
     std::system((environment + " " HYSTERON_PROGRAM " list devices --json >" + out.string() + " 2>/dev/null")
                     .c_str());
-    const auto lists = parsed_json(file_content(out));
+    const auto lists = read_json(out);
     for (const auto& device : lists.at("devices"))
       if (device.contains("renderer")) list.push_back(device);
     return list;
@@ -133,10 +133,11 @@ TEST(Program, ListsEveryNumberOfAFabricWithHowItIsKnown) {
 TEST(Program, ListsAsJsonWhatItListsAsText) {
   const Outcome outcome = program("list --json");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  const auto lists = parsed_json(outcome.out);
+  const auto lists = json_in(outcome.out, "stdout");
   for (const char* list : {"fabrics", "laws", "scenes", "devices"})
     EXPECT_FALSE(lists.at(list).empty()) << list;
-  const auto wool = parsed_json(program("list fabrics wool-tropical-k50 --json").out).at("fabrics").at(0);
+  const auto wool =
+      json_in(program("list fabrics wool-tropical-k50 --json").out, "stdout").at("fabrics").at(0);
   EXPECT_EQ(wool.at("numbers").at("k0").at("range"), nlohmann::json({12.5, 50}));
   EXPECT_EQ(wool.at("numbers").at("b2").at("known"), "published");
   EXPECT_EQ(wool.at("published").at("drape-coefficient").at("value"), 49.8);

@@ -117,11 +117,11 @@ TEST_F(Diff, WritesAHeatMapOfStepsOrOfFlip) {
 }
 
 TEST_F(Diff, PrintsOneJsonObject) {
-  const Json json = parsed_json(diff("--json --max-mean 0.1").out);
+  const Json json = json_in(diff("--json --max-mean 0.1").out, "stdout");
   EXPECT_EQ(json["a"], a_);
   EXPECT_DOUBLE_EQ(json["mean_abs"], 20 * 64.0 / (64 * 48));
   EXPECT_EQ(json["broken"].size(), 1u);
-  const Json equal = parsed_json(program("diff --json " + a_ + " " + a_).out);
+  const Json equal = json_in(program("diff --json " + a_ + " " + a_).out, "stdout");
   EXPECT_TRUE(equal["psnr_db"].is_null());
   EXPECT_EQ(equal["ssim"], 1);
 }
@@ -269,7 +269,7 @@ TEST_F(DiffOfFolders, HasAnErrorOfItsOwnForEachPictureThatCannotBeCompared) {
   EXPECT_NE(tests.find("tests=\"6\" failures=\"1\" errors=\"4\""), std::string::npos) << tests;
   EXPECT_NE(csv.find("\nsheet.png,0,0,,1,0,0,\n"), std::string::npos) << csv;
   EXPECT_TRUE(fs::exists(out_ / "heat/frames/0000.png"));
-  const Json json = parsed_json(diff("--json").out);
+  const Json json = json_in(diff("--json").out, "stdout");
   EXPECT_EQ(json["pictures"].size(), 6u);
   EXPECT_EQ(json["worst"]["flip"], json["pictures"][1]["flip"]) << "of those that were compared";
 }
@@ -279,7 +279,7 @@ TEST_F(DiffOfFolders, WithNothingToCompareHasNoWorst) {
   fs::create_directories(empty);
   const Outcome outcome = program("diff --json " + a_.string() + " " + empty.string());
   EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_FALSE(parsed_json(outcome.out).contains("worst"));
+  EXPECT_FALSE(json_in(outcome.out, "stdout").contains("worst"));
 }
 
 TEST_F(DiffOfFolders, WritesHeatMapsAndATable) {

@@ -95,7 +95,7 @@ TEST_F(Recorded, FolderOfRunsIsWrittenAsAWorkflow) {
         program("rerun " + in("runs") + " --out " + in("again") + " --snakemake " + in("flow") + more);
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_NE(outcome.out.find("left out: stopped is not complete"), std::string::npos) << outcome.out;
-    return parsed_json(file_content(folder_.path() / "flow" / "config.json"));
+    return read_json(folder_.path() / "flow" / "config.json");
   };
   const Json jobs = config("")["jobs"];
   ASSERT_EQ(jobs.size(), 2u);

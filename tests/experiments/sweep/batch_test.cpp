@@ -170,7 +170,7 @@ class Batch : public testing::Test {
     std::vector<Json> reports(runs);
     std::istringstream lines(text);
     for (std::string line; std::getline(lines, line);) {
-      const Json report = parsed_json(line);
+      const Json report = json_in(line, "stdout");
       reports.at(report.at("run")) = report;
     }
     return reports;

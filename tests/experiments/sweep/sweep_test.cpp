@@ -148,7 +148,7 @@ TEST_F(Sweep, WritesAWorkflowOfAJobForEachRun) {
   const fs::path flow = folder_.path() / "flow";
   ASSERT_EQ(run("--snakemake " + flow.string()).exit_code, 0);
   EXPECT_FALSE(fs::exists(folder_.path() / "out"));
-  const auto config = parsed_json(file_content(flow / "config.json"));
+  const auto config = read_json(flow / "config.json");
   EXPECT_EQ(config["jobs"].size(), 4u);
   EXPECT_EQ(config["jobs"]["3"]["words"][1], study_.string());
   EXPECT_EQ(config["jobs"]["3"]["words"].back(), "3/4");
@@ -194,7 +194,7 @@ TEST_F(Sweep, IsNotReadFromTheManifestOfAnotherRun) {
   Json other = manifest("out");
   study_ = folder_.path() / "other.json";
   for (const char* keys : {R"({"law": "prandtl"})", R"({"shared": [1], "axes": [{"key": 2}]})"}) {
-    other["scene"] = parsed_json(keys);
+    other["scene"] = json_in(keys, "keys");
     write(other.dump());
     const Outcome outcome = run("", "again");
     EXPECT_EQ(outcome.exit_code, 2) << outcome.err;

@@ -18,8 +18,9 @@ Manifest whole_manifest() {
   m.experiment = "swing";
   m.command = "hysteron swing --quick";
   m.started = "2026-01-02T03:04:05Z";
-  m.keys = std::make_shared<const Json>(parsed_json(
-      R"({"law":"prandtl","fabric":{"name":"wool","b1":2e-05},"gravity":[0.0,0.0,-9.81],"seconds":4.0})"));
+  m.keys = std::make_shared<const Json>(json_in(
+      R"({"law":"prandtl","fabric":{"name":"wool","b1":2e-05},"gravity":[0.0,0.0,-9.81],"seconds":4.0})",
+      "keys"));
   m.device = "cpu: CPU, 2 threads";
   m.law = "prandtl";
   m.triangles = 96;
@@ -156,7 +157,7 @@ TEST(ManifestFile, OfARunThatHasJustBegunHoldsNullsWhereNothingIsKnown) {
 }
 
 TEST(ManifestFile, IsReadAsItWasWritten) {
-  Manifest read = parsed_manifest(parsed_json(kWhole));
+  Manifest read = parsed_manifest(json_in(kWhole, "manifest.json"));
   EXPECT_EQ(read.text("fabric.name"), "wool");
   EXPECT_EQ(read.number("fabric.b1"), 2e-5);
   EXPECT_EQ(read.names("law"), std::vector<std::string>{"prandtl"});
@@ -170,8 +171,9 @@ TEST(ManifestFile, IsReadAsItWasWritten) {
 }
 
 TEST(ManifestFile, OfAnOlderProgramIsReadAsFarAsItGoes) {
-  const Manifest old = parsed_manifest(parsed_json(
-      R"({"hysteron":{"version":1,"commit":"c"},"scene":{"laws":["linear",{"name":"dahl"}]},"steps":"many"})"));
+  const Manifest old = parsed_manifest(json_in(
+      R"({"hysteron":{"version":1,"commit":"c"},"scene":{"laws":["linear",{"name":"dahl"}]},"steps":"many"})",
+      "manifest.json"));
   EXPECT_EQ(old.version, "1");
   EXPECT_EQ(old.experiment, "run");
   EXPECT_EQ(old.names("law"), (std::vector<std::string>{"linear", "dahl"}));

@@ -158,7 +158,7 @@ TEST(Run, PrintsItsManifestWhenAsked) {
   ExperimentRun run(drape_line(), setup);
   run.metric("node_count", 5);
   run.finish();
-  const Json printed = parsed_json(testing::internal::GetCapturedStdout());
+  const Json printed = json_in(testing::internal::GetCapturedStdout(), "stdout");
   EXPECT_EQ(printed["metrics"]["node_count"], 5);
   EXPECT_EQ(printed["complete"], true);
 }

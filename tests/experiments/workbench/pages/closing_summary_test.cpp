@@ -102,7 +102,7 @@ TEST(LastWords, LeaveStdoutToTheManifestWithJson) {
   const Outcome outcome =
       program("swing --quick --no-images --seconds 0.05 --triangles 60 --json --out " + out);
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_EQ(parsed_json(outcome.out).at("experiment"), "swing");
+  EXPECT_EQ(json_in(outcome.out, "stdout").at("experiment"), "swing");
   expect_in(outcome.err, "cotton-broad, law prandtl, ");
 }
 

@@ -108,7 +108,7 @@ TEST_F(Gallery, SaysWhichRunsAreIncomplete) {
 
 TEST(GalleryAbout, NamesFewLawsAndCountsMany) {
   const auto subject = [](const char* scene) {
-    return scene_subject(parsed_manifest({{"scene", parsed_json(scene)}}));
+    return scene_subject(parsed_manifest({{"scene", json_in(scene, "scene")}}));
   };
   EXPECT_EQ(subject(R"({"fabric": {"name": "wool"}, "law": "prandtl"})"), "wool, law prandtl");
   EXPECT_EQ(subject(R"({"fabric": {"name": "wool"}, "law": "dahl,wong"})"), "wool, laws dahl, wong");
@@ -221,7 +221,7 @@ TEST_F(Gallery, NamesABrokenManifest) {
 // A manifest that lacks a key, or has one of another type, is named with the key and in words.
 TEST_F(Gallery, SaysWhatIsWrongWithAManifest) {
   const fs::path file = results_ / "a-kes/manifest.json";
-  const Json whole = parsed_json(file_content(file));
+  const Json whole = read_json(file);
   const auto says = [&](const char* path, const Json& value, const std::string& problem) {
     Json changed = whole;
     changed[Json::json_pointer(path)] = value;
