@@ -24,7 +24,7 @@ constexpr float kKeyAzimuth = 100, kKeyElevation = 30;
 constexpr float kRaking = 0.2f;    // elevation of a raking light above the cloth's plane [rad]
 constexpr float kMinAlong = 0.2f;  // of a light's direction that must lie in that plane
 // Longest side of an obstacle's triangles over its diagonal: their corners carry the room's soft shadows.
-constexpr float kSkySpacing = 1.0f / 16;
+constexpr float kSkySpacing = 1.0f / 12;
 constexpr float kBodySkyBlur = 3.2f, kBodySkyLift = 2.4f;  // texels: neighbouring directions blend
 constexpr int kLargestSide = 65536;                        // [pixels] of a picture; a mistake beyond
 
@@ -139,6 +139,10 @@ ClothView::ClothView(Offscreen& offscreen, const PictureSize& size)
       figure_light_(size.figure_passes > 0
                         ? std::optional<FigureLight>(std::in_place, gl_, size.figure_passes)
                         : std::nullopt),
+      lit_pixels_(size.figure_passes == 0
+                      ? std::optional<LitPixels>(std::in_place, gl_, part_width_ * size.supersample,
+                                                 part_height_ * size.supersample)
+                      : std::nullopt),
       backdrop_program_(gl_, {.vertex = "backdrop.vert", .fragment = "backdrop.frag", .defines = ""}),
       matte_program_(gl_, {.vertex = "surface.vert",
                            .fragment = is_figure() ? "figure_matte.frag" : "matte.frag",
@@ -150,6 +154,19 @@ ClothView::ClothView(Offscreen& offscreen, const PictureSize& size)
       alone_samples_(gl_),
       seen_samples_(gl_) {
   set_look(look_);
+}
+
+void ClothView::resize(int width, int height, int samples) {
+  offscreen_.make_current();
+  size_.width = width;
+  size_.height = height;
+  size_.samples = samples;
+  size_ = checked(offscreen_, size_);
+  part_width_ = part_side(width, size_.tile);
+  part_height_ = part_side(height, size_.tile);
+  const int across = part_width_ * size_.supersample, up = part_height_ * size_.supersample;
+  target_ = FrameTarget(gl_, across, up, target_.samples());
+  if (lit_pixels_) lit_pixels_.emplace(gl_, across, up);
 }
 
 // The members' names must be deleted in their own context.
@@ -196,11 +213,13 @@ bool ClothView::write_positions(std::string& reason) {
   return false;
 }
 
-int ClothView::add_obstacle(const TriangleMesh& mesh, const Eigen::Matrix4f& placement) {
+int ClothView::add_obstacle(const TriangleMesh& mesh, const Eigen::Matrix4f& placement,
+                            const TriangleMesh* caster) {
   offscreen_.make_current();
   const Box box = mesh_box(mesh);
   const TriangleMesh fine = refined(mesh, 2 * kSkySpacing * box.radius());
-  obstacles_.push_back({StaticMesh(gl_, fine), box, BodyMeasure(mesh), placement, true});
+  obstacles_.push_back({StaticMesh(gl_, fine), StaticMesh(gl_, caster ? *caster : mesh), box,
+                        BodyMeasure(mesh), placement, true});
   return static_cast<int>(obstacles_.size()) - 1;
 }
 
@@ -226,11 +245,12 @@ void ClothView::set_bounds(const Box& bounds) { given_bounds_ = bounds; }
 
 void ClothView::set_look(const Look& look) {
   offscreen_.make_current();
-  if (!cloth_program_ || look.show != look_.show) {
+  if (!cloth_programs_ || look.show != look_.show) {
     ProgramFiles files = cloth_files(look.show, is_figure());
-    cloth_program_.emplace(gl_, files);
-    files.geometry = "rim.geom";
-    if (has_thickness(look.show)) rim_program_.emplace(gl_, files);
+    const bool has_rim = has_thickness(look.show);
+    cloth_programs_.emplace(gl_, files, has_rim);
+    files.fragment = "silhouette.frag";
+    count_programs_.emplace(gl_, files, has_rim);
   }
   look_ = look;
   upload_color_map(gl_, color_map_, look.map);
@@ -267,6 +287,7 @@ void ClothView::prepare(const Camera& camera) {
                     // taken it away
   if (cloth_) cloth_->update_normals();
   if (look_.show == Show::silhouette) return;
+  if (ground_height_) ground_->be_layer(is_transparent());
   if (is_figure()) {
     figure_light_->aim(bounds(), key_direction(look_, camera, cloth_normal_), look_.room);
     if (ground_height_) ground_->place(bounds(), pictured_ground(*ground_height_, look_));
@@ -311,13 +332,20 @@ Image ClothView::draw_part(const Camera& camera, int left, int top) {
       is_figure() ? figure_light_->passes() : (size_.samples + target_.samples() - 1) / target_.samples();
   for (int pass = 0; pass < passes; ++pass) {
     if (lit) figure_light_->draw(pass, [this](const Program& program) { draw_casters(program); });
-    target_.begin();
-    const View view =
+    View view =
         camera_view(camera, left, top,
                     is_figure() ? bell_shift(pass, passes) : pass_shift(pass, passes, target_.samples()));
+    view.first = pass == 0;
+    if (lit_pixels_ && cloth_ && view.first && look_.show != Show::silhouette) {
+      lit_pixels_->begin_cloth();
+      draw_cloth(view, *count_programs_);
+    }
+    target_.begin();
     const bool counts = cloth_ && (pass == 0 || cloth_seen_ == 0);
     draw_scene(view, counts);
-    exposure.add(target_.finish());
+    std::vector<float>& drawn = target_.finish();
+    if (lit_pixels_ && passes > 1) view.first ? lit_pixels_->take_first(drawn) : lit_pixels_->complete(drawn);
+    exposure.add(drawn);
     if (!counts) continue;
     cloth_alone_ += counted(alone_samples_);
     cloth_seen_ += counted(seen_samples_);
@@ -369,14 +397,14 @@ void ClothView::place_cloth(const Program& program) {
 }
 
 void ClothView::draw_casters(const Program& program) const {
-  draw_bodies(program);
+  draw_bodies(program, &Obstacle::caster);
   place_cloth(program);
   if (cloth_) cloth_->draw();
 }
 
 // From front to back, as far as that is known: hidden pixels cost a software renderer most.
 void ClothView::draw_scene(const View& view, bool counts) const {
-  if (cloth_) draw_cloth(view);
+  if (cloth_) draw_cloth(view, *cloth_programs_);
   if (counts) count_cloth(view, alone_samples_);
   if (look_.show != Show::silhouette) {
     draw_obstacles(view);
@@ -386,11 +414,12 @@ void ClothView::draw_scene(const View& view, bool counts) const {
   if (!is_transparent()) draw_backdrop(view);
 }
 
-// Drawn once more, without colours, the cloth passes the test of depth where nothing stands before it.
+// Drawn once more, without light or colours, the cloth passes the test of depth where nothing stands before
+// it.
 void ClothView::count_cloth(const View& view, const GlQuery& samples) const {
   gl_.ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
   gl_.BeginQuery(GL_SAMPLES_PASSED, samples.name());
-  draw_cloth(view);
+  draw_cloth(view, *count_programs_);
   gl_.EndQuery(GL_SAMPLES_PASSED);
   gl_.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
 }
@@ -434,6 +463,7 @@ void ClothView::begin_lit(const Program& program, const View& view) const {
     figure_light_->bind(program);
   else
     shadows_.bind(program);
+  if (lit_pixels_) lit_pixels_->bind(program, view.first);
 }
 
 void ClothView::draw_backdrop(const View& view) const {
@@ -448,25 +478,24 @@ void ClothView::draw_ground(const View& view) const {
   program.set("view_projection", view.view_projection);
   if (is_figure()) figure_light_->bind(program);
   set_backdrop(program, view);
-  program.set("alone", is_transparent() ? 1.0f : 0.0f);
   ground_->draw();
 }
 
 void ClothView::draw_obstacles(const View& view) const {
   begin_lit(matte_program_, view);
   matte_program_.set("albedo", linear(look_.obstacle));
-  draw_bodies(matte_program_);
+  draw_bodies(matte_program_, &Obstacle::mesh);
 }
 
 // Bodies are closed: their far sides are never seen, and where no graphics hardware draws, they would cost
 // most.
-void ClothView::draw_bodies(const Program& program) const {
+void ClothView::draw_bodies(const Program& program, StaticMesh Obstacle::*mesh) const {
   gl_.Enable(GL_CULL_FACE);
   gl_.CullFace(GL_BACK);
   for (const Obstacle& obstacle : obstacles_) {
     if (!obstacle.visible) continue;
     place_body(program, obstacle);
-    obstacle.mesh.draw();
+    (obstacle.*mesh).draw();
   }
   gl_.Disable(GL_CULL_FACE);
 }
@@ -493,17 +522,17 @@ void ClothView::begin_cloth(const Program& program, const View& view) const {
 }
 
 // A sheet's two sides and its rim; where it has no thickness, its middle.
-void ClothView::draw_cloth(const View& view) const {
-  begin_cloth(*cloth_program_, view);
+void ClothView::draw_cloth(const View& view, const ClothPrograms& programs) const {
+  begin_cloth(programs.sides, view);
   if (!has_thickness(look_.show)) return cloth_->draw();
   gl_.Enable(GL_CULL_FACE);
   for (const float side : {1.0f, -1.0f}) {
-    cloth_program_->set("side", side);
+    programs.sides.set("side", side);
     gl_.CullFace(side > 0 ? GL_BACK : GL_FRONT);
     cloth_->draw();
   }
   gl_.Disable(GL_CULL_FACE);
-  begin_cloth(*rim_program_, view);
+  begin_cloth(*programs.rim, view);
   cloth_->draw_boundary();
 }
 

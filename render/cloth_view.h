@@ -20,6 +20,7 @@
 #include "render/ground.h"
 #include "render/image.h"
 #include "render/inset.h"
+#include "render/lit_pixels.h"
 #include "render/look.h"
 #include "render/offscreen.h"
 #include "render/shadow_maps.h"
@@ -58,6 +59,9 @@ class ClothView {
   ClothView(const ClothView&) = delete;
   ClothView& operator=(const ClothView&) = delete;
 
+  bool is_figure() const { return figure_light_.has_value(); }
+  // Pictures to come are that large [pixels], with so many samples a pixel.
+  void resize(int width, int height, int samples);
   // Replaces the cloth; positions are zero until set.
   void set_cloth(const ClothTopology& topology);
   // x, y, z each [m].
@@ -74,8 +78,10 @@ class ClothView {
   // (then `reason` says why): set_positions() is the way then.
   bool write_positions(std::string& reason);
 
-  // Of a closed mesh whose triangles face outward; returns the obstacle's number.
-  int add_obstacle(const TriangleMesh& mesh, const Eigen::Matrix4f& placement);
+  // Of a closed mesh whose triangles face outward; returns the obstacle's number.  `caster`: the same surface
+  // in fewer triangles, for its shadows.
+  int add_obstacle(const TriangleMesh& mesh, const Eigen::Matrix4f& placement,
+                   const TriangleMesh* caster = nullptr);
   void move_obstacle(int obstacle, const Eigen::Matrix4f& placement);
   void show_obstacle(int obstacle, bool visible);
   // Height of a ground that catches shadows [m]; none by default.
@@ -96,11 +102,21 @@ class ClothView {
 
  private:
   struct Obstacle {
-    StaticMesh mesh;
-    Box box;  // of the mesh, before it is placed
+    StaticMesh mesh, caster;  // what is seen, fine enough for the room's light, and what hides light
+    Box box;                  // of the mesh, before it is placed
     BodyMeasure measure;
     Eigen::Matrix4f placement;
     bool visible;
+  };
+
+  // What draws a sheet's two sides, and, where it has thickness, its rim.
+  struct ClothPrograms {
+    ClothPrograms(const GlFunctions& gl, ProgramFiles files, bool has_rim) : sides(gl, files) {
+      files.geometry = "rim.geom";
+      if (has_rim) rim.emplace(gl, files);
+    }
+    Program sides;
+    std::optional<Program> rim;
   };
 
   // What one pass over one part of the picture sees.
@@ -110,6 +126,7 @@ class ClothView {
     bool orthographic;
     Eigen::Vector2f origin;  // lower left corner of the part in the picture [drawn pixels]
     float pixel;             // metres across a drawn one, where clip space's w is 1
+    bool first = true;       // of a picture's passes
   };
 
   Obstacle& obstacle(int number);
@@ -119,12 +136,11 @@ class ClothView {
   static void place_cloth(const Program& program);
   Box bounds() const;
   void prepare(const Camera& camera);
-  bool is_figure() const { return figure_light_.has_value(); }
   void update_body_sky() const;  // light of the room on the obstacles
   Image draw_part(const Camera& camera, int left, int top);
   View camera_view(const Camera& camera, int left, int top, const Shift& shift) const;
   void draw_casters(const Program& program) const;
-  void draw_bodies(const Program& program) const;
+  void draw_bodies(const Program& program, StaticMesh Obstacle::*mesh) const;
   // `counts`: samples of the cloth, too.
   void draw_scene(const View& view, bool counts) const;
   void count_cloth(const View& view, const GlQuery& samples) const;
@@ -133,7 +149,7 @@ class ClothView {
   void draw_backdrop(const View& view) const;
   void draw_ground(const View& view) const;
   void draw_obstacles(const View& view) const;
-  void draw_cloth(const View& view) const;
+  void draw_cloth(const View& view, const ClothPrograms& programs) const;
   void begin_cloth(const Program& program, const View& view) const;
   void begin_lit(const Program& program, const View& view) const;
   void set_backdrop(const Program& program, const View& view) const;
@@ -145,8 +161,9 @@ class ClothView {
   FrameTarget target_;
   ShadowMaps shadows_;
   std::optional<FigureLight> figure_light_;
+  std::optional<LitPixels> lit_pixels_;  // but of a figure, whose pixels have one sample
   Program backdrop_program_, matte_program_, body_sky_program_;
-  std::optional<Program> cloth_program_, rim_program_;
+  std::optional<ClothPrograms> cloth_programs_, count_programs_;
   GlTexture color_map_;
   GlVertexArray no_arrays_;
   GlQuery alone_samples_, seen_samples_;            // of the cloth, before and after obstacles are drawn

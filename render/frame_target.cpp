@@ -68,16 +68,16 @@ void FrameTarget::begin() const {
   gl_->Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 }
 
-std::vector<float> FrameTarget::finish() const {
+std::vector<float>& FrameTarget::finish() {
   gl_->BindFramebuffer(GL_READ_FRAMEBUFFER, multisampled_.name());
   gl_->BindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved_.name());
   gl_->BlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
   gl_->BindFramebuffer(GL_READ_FRAMEBUFFER, resolved_.name());
-  std::vector<float> rgba(static_cast<size_t>(width_) * height_ * 4);
+  rgba_.resize(static_cast<size_t>(width_) * height_ * 4);
   gl_->PixelStorei(GL_PACK_ALIGNMENT, 1);
-  gl_->ReadPixels(0, 0, width_, height_, GL_RGBA, GL_FLOAT, rgba.data());
+  gl_->ReadPixels(0, 0, width_, height_, GL_RGBA, GL_FLOAT, rgba_.data());
   check_gl(*gl_, "drawing a picture");
-  return rgba;
+  return rgba_;
 }
 
 }  // namespace hysteron::render

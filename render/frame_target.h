@@ -19,14 +19,15 @@ class FrameTarget {
 
   // Binds the framebuffer, clears it to transparent and its depth to far.
   void begin() const;
-  // The mean of each pixel's samples: RGBA in linear light, rows from the bottom.
-  std::vector<float> finish() const;
+  // The mean of each pixel's samples: RGBA in linear light, rows from the bottom; until the next picture.
+  std::vector<float>& finish();
 
  private:
   const GlFunctions* gl_;
   int width_, height_, samples_;
   GlRenderbuffer color_, depth_, resolved_color_;
   GlFramebuffer multisampled_, resolved_;
+  std::vector<float> rgba_;
 };
 
 }  // namespace hysteron::render

@@ -1,6 +1,7 @@
 #include "render/ground.h"
 
 #include <algorithm>
+#include <string>
 
 #include "render/shadow_maps.h"
 
@@ -38,13 +39,11 @@ GlFramebuffer texture_target(const GlFunctions& gl, const GlTexture& texture) {
 
 Ground::Ground(const GlFunctions& gl, bool figure)
     : gl_(&gl),
+      is_figure_(figure),
       sky_program_(gl,
                    {.vertex = "backdrop.vert", .fragment = "ground_sky.frag", .defines = "#define GROUND\n"}),
       light_program_(
           gl, {.vertex = "backdrop.vert", .fragment = "ground_light.frag", .defines = "#define GROUND\n"}),
-      program_(gl, {.vertex = "ground.vert",
-                    .fragment = figure ? "figure_ground.frag" : "ground.frag",
-                    .defines = figure ? "#define FIGURE\n" : ""}),
       mesh_(gl, ground_square()),
       no_arrays_(gl),
       sky_(light_texture(gl, kSkySide)),
@@ -52,6 +51,16 @@ Ground::Ground(const GlFunctions& gl, bool figure)
       sky_target_(texture_target(gl, sky_)),
       light_target_(texture_target(gl, light_)) {
   check_gl(gl, "making the ground");
+}
+
+void Ground::be_layer(bool layer) {
+  if (program_ && layer == is_layer_) return;
+  is_layer_ = layer;
+  const std::string defines =
+      std::string(is_figure_ ? "#define FIGURE\n" : "") + (layer ? "#define LAYER\n" : "");
+  program_.emplace(*gl_, ProgramFiles{.vertex = "ground.vert",
+                                      .fragment = is_figure_ ? "figure_ground.frag" : "ground.frag",
+                                      .defines = defines});
 }
 
 void Ground::place(const Box& box, float height) {
@@ -93,12 +102,12 @@ void Ground::fill(const Program& program, const GlFramebuffer& target, int side)
 }
 
 const Program& Ground::begin() const {
-  program_.use();
-  program_.set("model", placement_);
-  program_.set("ground_light", kLightUnit);
+  program_->use();
+  program_->set("model", placement_);
+  program_->set("ground_light", kLightUnit);
   gl_->ActiveTexture(GL_TEXTURE0 + kLightUnit);
   gl_->BindTexture(GL_TEXTURE_2D, light_.name());
-  return program_;
+  return *program_;
 }
 
 void Ground::draw() const { mesh_.draw(); }

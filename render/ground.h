@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 
 #include "render/camera.h"
 #include "render/gl/handles.h"
@@ -16,6 +17,8 @@ class Ground {
   // `figure`: lit per pixel by the light of a figure (figure_light.h), else by a texture that lies on it.
   Ground(const GlFunctions& gl, bool figure);
 
+  // Whether its shadow is a layer without a backdrop; to be said before it is drawn.
+  void be_layer(bool layer);
   // Where a figure's ground lies: below and around `box`, at `height` [m].
   void place(const Box& box, float height);
 
@@ -30,7 +33,9 @@ class Ground {
   void fill(const Program& program, const GlFramebuffer& target, int side) const;
 
   const GlFunctions* gl_;
-  Program sky_program_, light_program_, program_;
+  bool is_figure_, is_layer_ = false;
+  Program sky_program_, light_program_;
+  std::optional<Program> program_;
   StaticMesh mesh_;
   GlVertexArray no_arrays_;
   GlTexture sky_, light_;

@@ -135,7 +135,7 @@ void no_flush(png_structp) {}
 void choose_effort(png_structp png, PngEffort effort) {
   const bool fast = effort == PngEffort::fast;
   png_set_filter(png, PNG_FILTER_TYPE_BASE, fast ? PNG_FILTER_UP : PNG_ALL_FILTERS);
-  png_set_compression_level(png, fast ? 1 : 6);
+  png_set_compression_level(png, fast ? 1 : 5);
   if (fast) png_set_compression_strategy(png, Z_RLE);  // as quick, and dithered colours repeat nowhere else
 }
 

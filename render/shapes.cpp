@@ -16,9 +16,6 @@ namespace hysteron::render {
 namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
-constexpr int kSectors = 96;  // around an axis: a 45 mm radius then deviates by 0.024 mm
-constexpr int kBands = 12;    // along a side, for the soft shadows' gradient
-constexpr int kRimBands = 4;
 
 void require_positive(const char* what, float length) {
   if (!(length > 0) || !std::isfinite(length))
@@ -58,38 +55,41 @@ void add_quads(TriangleMesh& mesh, std::uint32_t first, int rows, int columns) {
 }
 
 // Outline from the top of the axis to its bottom, turned about z.
-TriangleMesh turned(const std::vector<OutlinePoint>& outline, float roundness) {
+TriangleMesh turned(const std::vector<OutlinePoint>& outline, float roundness, int sectors) {
   TriangleMesh mesh;
   mesh.roundness = roundness;
   mesh.centred = true;
   for (const OutlinePoint& point : outline)
-    for (int j = 0; j <= kSectors; ++j) {
-      const float angle = 2 * kPi * static_cast<float>(j % kSectors) / kSectors;
+    for (int j = 0; j <= sectors; ++j) {
+      const float angle = 2 * kPi * static_cast<float>(j % sectors) / static_cast<float>(sectors);
       const float c = std::cos(angle), s = std::sin(angle);
       mesh.positions.emplace_back(point.distance * c, point.distance * s, point.z);
       mesh.normals.emplace_back(point.normal_distance * c, point.normal_distance * s, point.normal_z);
     }
-  add_quads(mesh, 0, static_cast<int>(outline.size()), kSectors + 1);
+  add_quads(mesh, 0, static_cast<int>(outline.size()), sectors + 1);
   return mesh;
 }
 
 // One face of the rounded box: a grid on the cube's face, pushed from the inner box outward by the rim.
-void add_box_face(TriangleMesh& mesh, const Eigen::Vector3f& half, float rim, int axis, float sign) {
+void add_box_face(TriangleMesh& mesh, const Eigen::Vector3f& half, float rim, const ShapeDetail& detail,
+                  int axis, float sign) {
   const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-  constexpr int kSide = kBands + 2 * kRimBands + 1;
+  const int rim_bands = detail.rim_bands, side = detail.bands + 2 * rim_bands + 1;
   const auto place = [&](int i, float half_edge) {
     const float inner = half_edge - rim;
-    if (i <= kRimBands) return -inner - rim * std::tan(kPi / 4 * (1 - static_cast<float>(i) / kRimBands));
-    if (i >= kSide - 1 - kRimBands)
-      return inner + rim * std::tan(kPi / 4 * (1 - static_cast<float>(kSide - 1 - i) / kRimBands));
-    return -inner + 2 * inner * static_cast<float>(i - kRimBands) / kBands;
+    const auto bent = [&](int k) {
+      return rim * std::tan(kPi / 4 * (1 - static_cast<float>(k) / rim_bands));
+    };
+    if (i <= rim_bands) return -inner - bent(i);
+    if (i >= side - 1 - rim_bands) return inner + bent(side - 1 - i);
+    return -inner + 2 * inner * static_cast<float>(i - rim_bands) / static_cast<float>(detail.bands);
   };
   const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-  for (int i = 0; i < kSide; ++i)
-    for (int j = 0; j < kSide; ++j) {
+  for (int i = 0; i < side; ++i)
+    for (int j = 0; j < side; ++j) {
       Eigen::Vector3f point;
       point[axis] = sign * half[axis];
-      point[u] = place(sign > 0 ? i : kSide - 1 - i, half[u]);
+      point[u] = place(sign > 0 ? i : side - 1 - i, half[u]);
       point[v] = place(j, half[v]);
       const Eigen::Vector3f reach = half.array() - rim;
       const Eigen::Vector3f inner = point.cwiseMax(-reach).cwiseMin(reach);
@@ -97,53 +97,53 @@ void add_box_face(TriangleMesh& mesh, const Eigen::Vector3f& half, float rim, in
       mesh.positions.push_back(inner + rim * normal);
       mesh.normals.push_back(normal);
     }
-  add_quads(mesh, first, kSide, kSide);
+  add_quads(mesh, first, side, side);
 }
 
 }  // namespace
 
-TriangleMesh sphere_mesh(float radius) {
+TriangleMesh sphere_mesh(float radius, const ShapeDetail& detail) {
   require_positive("sphere radius", radius);
   std::vector<OutlinePoint> outline;
-  add_arc(outline, {0, 0}, radius, kPi / 2, -kPi / 2, kSectors / 2);
-  return turned(outline, radius);
+  add_arc(outline, {0, 0}, radius, kPi / 2, -kPi / 2, detail.sectors / 2);
+  return turned(outline, radius, detail.sectors);
 }
 
-TriangleMesh cylinder_mesh(float radius, float height, float rim) {
+TriangleMesh cylinder_mesh(float radius, float height, float rim, const ShapeDetail& detail) {
   require_positive("cylinder radius", radius);
   require_positive("cylinder height", height);
   const float round = std::clamp(rim, 1e-4f * radius, std::min(radius, height / 2));
   const float inner = radius - round, half = height / 2;
   std::vector<OutlinePoint> outline;
-  add_line(outline, {0, half}, {inner, half}, kBands);
-  add_arc(outline, {inner, half - round}, round, kPi / 2, 0, kRimBands);
-  add_line(outline, {radius, half - round}, {radius, round - half}, kBands);
-  add_arc(outline, {inner, round - half}, round, 0, -kPi / 2, kRimBands);
-  add_line(outline, {inner, -half}, {0, -half}, 4);
-  return turned(outline, round);
+  add_line(outline, {0, half}, {inner, half}, detail.bands);
+  add_arc(outline, {inner, half - round}, round, kPi / 2, 0, detail.rim_bands);
+  add_line(outline, {radius, half - round}, {radius, round - half}, detail.bands);
+  add_arc(outline, {inner, round - half}, round, 0, -kPi / 2, detail.rim_bands);
+  add_line(outline, {inner, -half}, {0, -half}, detail.bands);
+  return turned(outline, round, detail.sectors);
 }
 
-TriangleMesh capsule_mesh(float radius, float height) {
+TriangleMesh capsule_mesh(float radius, float height, const ShapeDetail& detail) {
   require_positive("capsule radius", radius);
   require_positive("capsule height", height);
   std::vector<OutlinePoint> outline;
-  add_arc(outline, {0, height / 2}, radius, kPi / 2, 0, kSectors / 4);
-  add_line(outline, {radius, height / 2}, {radius, -height / 2}, kBands);
-  add_arc(outline, {0, -height / 2}, radius, 0, -kPi / 2, kSectors / 4);
-  return turned(outline, radius);
+  add_arc(outline, {0, height / 2}, radius, kPi / 2, 0, detail.sectors / 4);
+  add_line(outline, {radius, height / 2}, {radius, -height / 2}, detail.bands);
+  add_arc(outline, {0, -height / 2}, radius, 0, -kPi / 2, detail.sectors / 4);
+  return turned(outline, radius, detail.sectors);
 }
 
-TriangleMesh torus_mesh(float radius, float height) {
+TriangleMesh torus_mesh(float radius, float height, const ShapeDetail& detail) {
   require_positive("torus radius", radius);
   require_positive("torus height", height);
   std::vector<OutlinePoint> outline;
-  add_arc(outline, {radius, 0}, height / 2, kPi, -kPi, kSectors / 2);
-  TriangleMesh mesh = turned(outline, height / 2);
+  add_arc(outline, {radius, 0}, height / 2, kPi, -kPi, detail.sectors / 2);
+  TriangleMesh mesh = turned(outline, height / 2, detail.sectors);
   mesh.centred = false;
   return mesh;
 }
 
-TriangleMesh box_mesh(const Eigen::Vector3f& half_edges, float rim) {
+TriangleMesh box_mesh(const Eigen::Vector3f& half_edges, float rim, const ShapeDetail& detail) {
   for (int axis = 0; axis < 3; ++axis) require_positive("box half edge", half_edges[axis]);
   const float least = half_edges.minCoeff();
   const float round = std::clamp(rim, 1e-3f * least, least);
@@ -151,7 +151,7 @@ TriangleMesh box_mesh(const Eigen::Vector3f& half_edges, float rim) {
   mesh.roundness = round;
   mesh.centred = true;
   for (int axis = 0; axis < 3; ++axis)
-    for (const float sign : {-1.0f, 1.0f}) add_box_face(mesh, half_edges, round, axis, sign);
+    for (const float sign : {-1.0f, 1.0f}) add_box_face(mesh, half_edges, round, detail, axis, sign);
   return mesh;
 }
 

@@ -151,11 +151,9 @@ void draw_all(Session& session, const RidgeMetrics& wrinkles) {
   const std::string caption =
       scene.fabric.name + ", law " + scene.law + ": " + fold_caption(wrinkles.curvature, wrinkles.residual);
   for (const char* look : {"curvature", "residual"})
-    render::write_png(session.run().path(std::string(look) + ".png"),
-                      pictures.picture(look, pictures.camera(), caption), render::PngEffort::best);
+    pictures.picture_file(session.run().path(std::string(look) + ".png"), look, caption);
   pictures.set_light("raking");
-  render::write_png(session.run().path("raking.png"), pictures.picture("cloth", pictures.camera(), caption),
-                    render::PngEffort::best);
+  pictures.picture_file(session.run().path("raking.png"), "cloth", caption);
   for (const TablePlot& plot : ridge_plots(scene.fabric.name)) draw(session.run(), plot, scene.law);
 }
 

@@ -35,7 +35,7 @@ const KeyRow<DrapeChoice> kRows[] = {
 
 constexpr int kDirections = 3600;     // rays of the outline
 constexpr double kProminence = 2e-3;  // a fold stands out by more than this in the outline [m]
-constexpr int kShadowPixels = 1500;
+constexpr int kShadowPixels = 1000;
 constexpr double kQuickLowering = 0.6;  // of the plate with --quick, and at least that of free motion [s]
 
 Setup defaults() {
@@ -111,7 +111,7 @@ double shadow_coefficient(Session& session, const DrapeChoice& choice, double ra
                   session.scene().law, found, rest_warning.empty() ? "" : "\n" + rest_warning);
   render::draw_caption(shadow, text, render::Corner::top_left);
   render::draw_scale_bar(shadow, metres, render::Corner::bottom_left);
-  render::write_png(session.run().path("shadow.png"), shadow, render::PngEffort::best);
+  session.pictures()->write(session.run().path("shadow.png"), std::move(shadow));
   return found;
 }
 
@@ -163,8 +163,7 @@ void draw_maps(Session& session) {
   Pictures& pictures = *session.pictures();
   const std::string what = session.scene().fabric.name + ", law " + session.scene().law;
   for (const char* look : {"curvature", "friction"})
-    render::write_png(session.run().path(std::string(look) + ".png"),
-                      pictures.picture(look, pictures.camera(), what), render::PngEffort::best);
+    pictures.picture_file(session.run().path(std::string(look) + ".png"), look, what);
 }
 
 void limit_to_quick(Setup& setup) {
@@ -243,14 +242,14 @@ int run_drape(const CommandLine& line) {
     if (name == "node-count") run.metric("published_node_count", number.value);
   }
   if (session.pictures()) {
+    plot_outline(session, choice, radius, outline);
+    plot_series(session);
     const double shadow = shadow_coefficient(session, choice, radius);
     // By less than its pixels; then the picture alone says so.
     run.metric("shadow_drape_coefficient_percent",
                is_drape_coefficient(shadow) ? MetricValue(shadow) : MetricValue());
     draw_maps(session);
     session.pictures()->also_from({0, -0.02f, 1}, "from above, at the end");
-    plot_outline(session, choice, radius, outline);
-    plot_series(session);
   }
   session.finish("Drape: " + setup.scene.fabric.name + ", law " + setup.scene.law);
   return 0;

@@ -111,7 +111,7 @@ render::Panels minor_loops(const KesTests& tests, const KesProtocol& p, MinorLoo
 
 void write_plots(Run& run, const KesTests& tests, const KesProtocol& p) {
   const auto write = [&](const std::string& name, const render::Panels& grid) {
-    run.plot(name, [&](const std::filesystem::path& base) { render::write_panels(base, grid); });
+    run.plot(name, [grid](const std::filesystem::path& base) { render::write_panels(base, grid); });
   };
   for (const KesResult& result : tests.results)
     if (result.strip && result.strip->failure.empty())

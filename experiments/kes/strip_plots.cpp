@@ -74,17 +74,15 @@ render::Image page(const render::Image& loop, const render::Image& difference,
 
 void write_strip_figures(Run& run, const std::string& ending, const StripTitle& title,
                          const StripResult& strip) {
-  render::Image loop, difference;
-  const auto draw = [&](const std::string& name, const render::Plot& plot, render::Image& image) {
-    run.plot(name + ending, [&](const std::filesystem::path& base) {
-      render::write_plot(base, plot);
-      image = render::read_png(base.string() + ".png");
-    });
-  };
-  draw("plot_strip", loops(title, strip), loop);
-  draw("plot_strip_difference", differences(strip), difference);
-  if (loop.empty() || difference.empty() || strip.pictures.empty()) return;
-  write_png(run.path("strip" + ending + ".png"), page(loop, difference, strip.pictures),
+  const std::string loop = "plot_strip" + ending, difference = "plot_strip_difference" + ending;
+  run.plot(loop, loops(title, strip));
+  run.plot(difference, differences(strip));
+  run.finish_plots();
+  const std::filesystem::path loop_file = run.folder() / (loop + ".png"),
+                              difference_file = run.folder() / (difference + ".png");
+  if (!exists(loop_file) || !exists(difference_file) || strip.pictures.empty()) return;
+  write_png(run.path("strip" + ending + ".png"),
+            page(render::read_png(loop_file), render::read_png(difference_file), strip.pictures),
             render::PngEffort::best);
 }
 

@@ -156,7 +156,7 @@ class StudyPlots {
     if (page.panels.empty()) return;
     if (page.panels.size() == 1) return draw_one(name, page);
     page.columns = static_cast<int>(std::min<std::size_t>(page.panels.size(), 3));
-    run_.plot(name, [&](const std::filesystem::path& base) { render::write_panels(base, page); });
+    run_.plot(name, [page](const std::filesystem::path& base) { render::write_panels(base, page); });
   }
 
   static std::size_t group_index(const Groups& groups, const std::string& name) {
@@ -239,7 +239,7 @@ class StudyPlots {
       std::reverse(page.y.ticks.begin(), page.y.ticks.end());
       for (render::HeatMap& map : page.maps) std::reverse(map.rows.begin(), map.rows.end());
     }
-    run_.plot(name, [&](const std::filesystem::path& base) { render::write_heat_maps(base, page); });
+    run_.plot(name, [page](const std::filesystem::path& base) { render::write_heat_maps(base, page); });
   }
 
   // Cells whose kinds are places in `means`, by equal parts of the range of all; light colours, so that

@@ -9,6 +9,7 @@ uniform vec2 value_range;
 out vec4 color;
 
 #include "light.glsl"
+#include "needed.glsl"
 #include "grid.glsl"
 #include "weave.glsl"
 #include "threads.glsl"
@@ -24,11 +25,12 @@ void main() {
   vec3 outward = normalize(world_normal);
   vec3 normal = gl_FrontFacing ? outward : -outward;
   vec2 seen = gl_FrontFacing ? sky.xz : sky.yw;
-  Weave weave = weave_at(thread);
+  bool needed = is_needed();
+  Weave weave = weave_at(thread, needed);
   vec3 fine = with_threads(normal, weave.tilt);
 
   float facing = dot(normal, to_light);
-  float reaching = key_reaching(world, normal, to_light);
+  float reaching = key_reaching(world, normal, to_light, needed);
   float direct = max(dot(fine, to_light), 0.0) * smoothstep(0.0, 0.12, facing);
   float through = kThrough * max(-facing, 0.0);
   vec3 light = room_light(fine, seen.x, seen.y) + key_light() * reaching * (direct + through);

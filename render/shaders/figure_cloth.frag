@@ -59,7 +59,7 @@ void main() {
   vec3 view = toward_eye(world);
   vec3 normal = normalize(world_normal);
   if (!gl_FrontFacing) normal = -normal;
-  Weave weave = weave_at(thread);
+  Weave weave = weave_at(thread, true);
   vec3 fine = with_threads(normal, weave.tilt);
   Light light = light_at(world, normal, fine, view);
 

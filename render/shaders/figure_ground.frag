@@ -1,11 +1,10 @@
 // The ground of a figure is the page: white but for the shadow on it, which fades toward the picture's border.
 in vec3 place;
 uniform vec3 open_ground;  // light where nothing is hidden
-uniform float alone;  // 1: no backdrop, the shadow is a layer of its own
 out vec4 color;
 
 #include "figure_light.glsl"
-#include "shadow_layer.glsl"
+#include "shadow_layer.glsl"  // LAYER: there is no backdrop
 #include "fade.glsl"
 
 void main() {
@@ -15,5 +14,9 @@ void main() {
     if (facing > 0.0) hidden += (1.0 - open_to(k, place, up, facing)) * facing * light_weight[k];
   }
   vec3 light = max(1.0 - kShadowDepth * fade() * hidden / open_ground, 0.0);
-  color = alone > 0.5 ? shadow_layer(light) : vec4(light, 1);
+#ifdef LAYER
+  color = shadow_layer(light);
+#else
+  color = vec4(light, 1);
+#endif
 }

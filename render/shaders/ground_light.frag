@@ -15,6 +15,6 @@ void main() {
   float facing = max(to_light.z, 0.0);
   vec3 up = vec3(0, 0, 1);
   vec3 open = key_light() * facing + room * kSkyLight;
-  vec3 light = key_light() * facing * key_reaching(world, up, to_light) + room_light(up, seen, 0.0);
+  vec3 light = key_light() * facing * key_reaching(world, up, to_light, true) + room_light(up, seen, 0.0);
   color = vec4(light / open, 1);
 }

@@ -6,11 +6,12 @@ uniform vec3 albedo;
 out vec4 color;
 
 #include "light.glsl"
+#include "needed.glsl"
 
 void main() {
   vec3 normal = normalize(world_normal);
   float facing = max(dot(normal, to_light), 0.0);
   vec3 light = room_light(normal, sky.x, sky.z);
-  if (facing > 0.0) light += key_light() * facing * key_reaching(world, normal, to_light);
+  light += key_light() * facing * key_reaching(world, normal, to_light, facing > 0.0 && is_needed());
   color = vec4(albedo * light, 1);
 }

@@ -7,6 +7,7 @@ in Surface {
 #include "surface.glsl"
 } end[];
 
+invariant gl_Position;
 out Surface {
 #include "surface.glsl"
 };

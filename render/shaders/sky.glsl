@@ -19,10 +19,13 @@ float sky_open(int k, vec3 point) {
   vec2 tiles = vec2(kSkyColumns, kSkyLights / kSkyColumns);
   vec2 texel = tiles / vec2(textureSize(sky_map, 0));
   vec2 corner = vec2(k % kSkyColumns, k / kSkyColumns);
-  // Bilinear lookups on a disc; clamped so that they stay in this direction's tile, whose border is empty.
-  float open = 0.0;
+  // Bilinear lookups on a disc; clamped so that they stay in this direction's tile, whose border is empty: a disc
+  // beside the tile is open.
+  vec2 beside = abs(p.xy - 0.5) - 0.5 - sky_blur * texel;
+  int taps = max(beside.x, beside.y) > 0.0 ? 0 : kSkyTaps;
+  float open = taps > 0 ? 0.0 : float(kSkyTaps);
   vec2 spoke = vec2(0.6, 0.8) * sky_blur * texel;
-  for (int i = 0; i < kSkyTaps; ++i) {
+  for (int i = 0; i < taps; ++i) {
     vec2 inside = clamp(p.xy + sqrt((float(i) + 0.5) / float(kSkyTaps)) * spoke, texel, 1.0 - texel);
     open += texture(sky_map, vec3((corner + inside) / tiles, min(p.z, 1.0)));
     spoke = kGoldenTurn * spoke;

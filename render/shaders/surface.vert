@@ -10,6 +10,7 @@ uniform float inset;  // along its normals
 
 uniform float side;   // of a sheet that is drawn: 1 its front, -1 its back, 0 its middle
 
+invariant gl_Position;  // the same in every program: the cloth is drawn again to count what is seen of it
 out Surface {
 #include "surface.glsl"
 };

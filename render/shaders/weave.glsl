@@ -69,7 +69,7 @@ void add_loops(vec2 p, vec2 across, inout Weave weave) {
   weave.shade += near * 0.5 * (cos(1.5707963 * off) - kMeanLoop);
 }
 
-Weave weave_at(vec2 coordinates) {
+Weave weave_at(vec2 coordinates, bool needed) {
   Weave result = Weave(1.0, vec2(0));
   vec2 p = coordinates / max(thread_spacing, vec2(1e-6));
   vec2 across = fwidth(p) / shown;
@@ -82,7 +82,7 @@ Weave weave_at(vec2 coordinates) {
   // Uneven yarn: single threads, then bundles of three and nine.  The finest are skipped, not faded to nothing, where
   // a pixel covers more of them: noise is what a software renderer spends most on here.
   float thinnest = min(across.x, across.y);
-  int first = thinnest < 0.75 ? 0 : thinnest < 2.25 ? 1 : thinnest < 6.75 ? 2 : 3;
+  int first = !needed ? 3 : thinnest < 0.75 ? 0 : thinnest < 2.25 ? 1 : thinnest < 6.75 ? 2 : 3;
   float scale = pow(3.0, float(first)), strength = kUneven * pow(0.5, float(first)) * weave_strength;
   for (int octave = first; octave < 3; ++octave) {
     vec2 q = p / scale, w = across / scale;

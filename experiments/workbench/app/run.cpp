@@ -153,6 +153,7 @@ Run::Run(Manifest first, const CommandLine& line, const Options& options,
 Run::~Run() {
   if (finished_) return;
   try {
+    finish_plots();
     keep();
   } catch (const Error& error) {
     // The exception that ended the run is on its way; this one can only be mentioned.
@@ -219,21 +220,32 @@ void Run::serialise(Archive& archive) {
 
 void Run::add_seconds(const std::string& stage, double seconds) { seconds_[stage] += seconds; }
 
-void Run::plot(const std::string& name, const std::function<void(const fs::path&)>& draw) {
-  const Stage stage(*this, "render");
+void Run::plot(const std::string& name, std::function<void(const fs::path&)> draw) {
   for (const char* ending : kPlotEndings) path(name + ending);
-  try {
-    draw(folder() / name);
-    if (!fs::exists(folder() / (name + ".pdf"))) forget(name + ".pdf");  // this gnuplot writes none
-  } catch (const Error& error) {
-    for (const char* ending : kPlotEndings) forget(name + ending);
-    manifest_.plots_missing.push_back(name + ": " + error.what());
-    warn("the plot " + name + " is missing: " + error.what());
-  }
+  plots_.push_back(
+      {name, std::async(std::launch::async, [this, draw = std::move(draw), base = folder() / name] {
+         const std::scoped_lock one_at_a_time(plotting_);
+         draw(base);
+       })});
 }
 
 void Run::plot(const std::string& name, const render::Plot& plot) {
-  this->plot(name, [&](const fs::path& base) { render::write_plot(base, plot); });
+  this->plot(name, [plot](const fs::path& base) { render::write_plot(base, plot); });
+}
+
+void Run::finish_plots() {
+  const Stage stage(*this, "render");
+  for (PendingPlot& plot : std::exchange(plots_, {})) {
+    try {
+      plot.drawn.get();
+      if (!fs::exists(folder() / (plot.name + ".pdf")))
+        forget(plot.name + ".pdf");  // this gnuplot writes none
+    } catch (const Error& error) {
+      for (const char* ending : kPlotEndings) forget(plot.name + ending);
+      manifest_.plots_missing.push_back(plot.name + ": " + error.what());
+      warn("the plot " + plot.name + " is missing: " + error.what());
+    }
+  }
 }
 
 void Run::warn(const std::string& text) {
@@ -266,6 +278,7 @@ void Run::keep() const {
 }
 
 void Run::finish() {
+  finish_plots();
   note_seconds(manifest_);
   manifest_.complete = true;
   const Json json = to_json(manifest_);

@@ -4,7 +4,9 @@
 #include <chrono>
 #include <filesystem>
 #include <functional>
+#include <future>
 #include <map>
+#include <mutex>
 #include <set>
 #include <string>
 #include <vector>
@@ -92,10 +94,13 @@ class Run {
   };
   [[nodiscard]] Stage stage(const std::string& name) { return {*this, name}; }
 
-  // Has `draw` write NAME.png and NAME.svg from the path without ending that it is given.  Where that fails,
-  // as without gnuplot, the run goes on, and the manifest's `plots_missing` says why.
-  void plot(const std::string& name, const std::function<void(const std::filesystem::path& base)>& draw);
+  // Has `draw` write NAME.png and NAME.svg from the path without ending that it is given, one after the other
+  // beside what the run does next.  Where that fails, as without gnuplot, the run goes on, and the manifest's
+  // `plots_missing` says why.
+  void plot(const std::string& name, std::function<void(const std::filesystem::path& base)> draw);
   void plot(const std::string& name, const render::Plot& plot);
+  // Waits for them.
+  void finish_plots();
 
   // Says "warning: TEXT" on stderr, with --quiet too, and keeps the text in the manifest's `warnings`; once.
   void warn(const std::string& text);
@@ -118,6 +123,11 @@ class Run {
   // Whether no file of that name or, of a sequence, of its kind is in the manifest on disk; now it is known.
   bool is_new(const std::filesystem::path& name);
 
+  struct PendingPlot {
+    std::string name;
+    std::future<void> drawn;
+  };
+
   RunFolder folder_;
   bool json_, quiet_, finished_ = false;
   Manifest manifest_;
@@ -125,6 +135,8 @@ class Run {
   std::set<std::filesystem::path>
       known_;  // files and, by folder and ending, sequences, in the manifest on disk
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  std::mutex plotting_;
+  std::vector<PendingPlot> plots_;
 };
 
 // "  12 s left", "  3 min left", "  1 h 5 min left", by the `seconds` that `done` of `all` steps have taken;

@@ -132,14 +132,27 @@ render::Image Pictures::picture(const std::string& look, const render::Camera& c
                                 const std::string& text) {
   take_positions(rounded(subject_->positions(), subject_->mesh().quantum));
   const SceneRenderer::Shown shown{subject_->time(), subject_->values(look)};
-  return scene_renderer_.run([&](SceneRenderer& studio) {
-    const Stopwatch watch(render_seconds_);
-    render::Image image = studio.draw(scene_look(scene_, options_, look), camera, shown);
-    if (!studio.view().shows_cloth()) throw no_cloth_in("the picture of look " + look, shown.time);
-    if (!options_.plain)
-      letter(image, camera, bounds_.center(), captioned(text), value_color_bar(scene_, options_, look));
-    return image;
-  });
+  return scene_renderer_.run(
+      [&](SceneRenderer& studio) { return single(studio, look, camera, text, shown); });
+}
+
+void Pictures::picture_file(const std::filesystem::path& file, const std::string& look,
+                            const std::string& text) {
+  take_positions(rounded(subject_->positions(), subject_->mesh().quantum));
+  scene_renderer_.post(
+      [=, this, shown = SceneRenderer::Shown{subject_->time(), subject_->values(look)}](
+          SceneRenderer& studio) { write(file, single(studio, look, camera(), text, shown)); });
+}
+
+// On the studio's thread.
+render::Image Pictures::single(SceneRenderer& studio, const std::string& look, const render::Camera& camera,
+                               const std::string& text, const SceneRenderer::Shown& shown) {
+  const Stopwatch watch(render_seconds_);
+  render::Image image = studio.draw(scene_look(scene_, options_, look), camera, shown);
+  if (!studio.view().shows_cloth()) throw no_cloth_in("the picture of look " + look, shown.time);
+  if (!options_.plain)
+    letter(image, camera, bounds_.center(), captioned(text), value_color_bar(scene_, options_, look));
+  return image;
 }
 
 // What a page that compares runs has to know of their pictures.
@@ -225,8 +238,7 @@ render::Image Pictures::silhouette(double half_width, int pixels, double& metres
   const render::Camera camera = render::Camera::top(box, 1);
   metres_per_pixel = camera.metres_per_pixel(box.center(), pixels);
   const std::vector<float> xyz = subject_->positions();
-  return scene_renderer_.run(
-      [&](SceneRenderer& studio) { return studio.silhouette(subject_->mesh(), xyz, camera, pixels); });
+  return scene_renderer_.run([&](SceneRenderer& studio) { return studio.silhouette(xyz, camera, pixels); });
 }
 
 void Pictures::serialise(Archive& archive, Run& run) {
@@ -348,7 +360,7 @@ void Pictures::write_sheet(Run& run, const std::string& title) {
                                                          cells.front().image.height());
   if (const auto bar = value_color_bar(scene_, options_, options_.looks().front()))
     layout.bars.push_back(*bar);
-  render::write_png(run.path("sheet.png"), render::contact_sheet(cells, layout), render::PngEffort::best);
+  write(run.path("sheet.png"), render::contact_sheet(cells, layout));
   keep_sheet(run, instants, skins, title);
 }
 
@@ -402,8 +414,8 @@ void Pictures::keep_sheet(Run& run, const std::vector<KeptInstant>& cells,
 
 void Pictures::finish(Run& run, const std::string& title) {
   scene_renderer_.wait();
-  writer_.finish();
   write_sheet(run, title);
+  writer_.finish();
   write_text(run.path("camera.json"), camera_text(camera(), options_.size));
   run.manifest().renderer = renderer();
   run.manifest().positions = positions_route();

@@ -53,6 +53,12 @@ class Pictures {
   // Draws the present state in a look of its own, with caption and colour bar.  Error::simulation where it
   // shows no cloth.
   render::Image picture(const std::string& look, const render::Camera& camera, const std::string& caption);
+  // The same by the sequence's camera into a file, as frame() does: it returns, and throws, likewise.
+  void picture_file(const std::filesystem::path& file, const std::string& look, const std::string& caption);
+  // Has a picture written beside what follows.
+  void write(const std::filesystem::path& file, render::Image image) {
+    writer_.write(file, std::move(image), render::PngEffort::best);
+  }
   // The last instant from there too, as a further cell of the contact sheet; `words` say from where.
   void also_from(const Eigen::Vector3f& direction, const std::string& words) {
     further_.push_back({direction, words});
@@ -94,6 +100,8 @@ class Pictures {
                   std::optional<double> difference);
   void watch_border(Run& run, const std::filesystem::path& file, const std::vector<float>& xyz);
   void fill(SceneRenderer& studio, const Order& order);
+  render::Image single(SceneRenderer& studio, const std::string& look, const render::Camera& camera,
+                       const std::string& caption, const SceneRenderer::Shown& shown);
   SheetView sheet_view(const std::vector<KeptInstant>& instants) const;
   render::Look sheet_look() const;
   render::Image sheet_picture(SceneRenderer& studio, const KeptInstant& instant, const SheetView& view) const;

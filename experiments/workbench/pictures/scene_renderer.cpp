@@ -11,6 +11,7 @@
 namespace hysteron::experiments {
 namespace {
 
+constexpr int kShadowSamples = 4;      // of a pixel
 constexpr double kCurvatureRange = 2;  // colours span this many K0 on either side
 
 // [1/m].  What stays and what differs is half of what bends.
@@ -32,22 +33,22 @@ render::Image between(render::Image bare, const render::Image& whole, int fracti
 
 }  // namespace
 
-std::optional<render::TriangleMesh> obstacle_mesh(const Obstacle& o) {
+std::optional<render::TriangleMesh> obstacle_mesh(const Obstacle& o, const render::ShapeDetail& detail) {
   const auto f = [](double x) { return static_cast<float>(x); };
   switch (o.kind) {
     case ObstacleKind::ground:
     case ObstacleKind::hollow:
       return {};
     case ObstacleKind::sphere:
-      return render::sphere_mesh(f(o.radius));
+      return render::sphere_mesh(f(o.radius), detail);
     case ObstacleKind::capsule:
-      return render::capsule_mesh(f(o.radius), f(o.height));
+      return render::capsule_mesh(f(o.radius), f(o.height), detail);
     case ObstacleKind::torus:
-      return render::torus_mesh(f(o.radius), f(o.height));
+      return render::torus_mesh(f(o.radius), f(o.height), detail);
     case ObstacleKind::box:
-      return render::box_mesh(o.size.cast<float>(), f(o.rim));
+      return render::box_mesh(o.size.cast<float>(), f(o.rim), detail);
     case ObstacleKind::cylinder:
-      return render::cylinder_mesh(f(o.radius), f(o.height), f(o.rim));
+      return render::cylinder_mesh(f(o.radius), f(o.height), f(o.rim), detail);
   }
   return {};
 }
@@ -101,13 +102,19 @@ SceneRenderer::SceneRenderer(const Scene& scene, const Options& options, const D
 }
 
 void SceneRenderer::take_size(const render::PictureSize& size) {
+  size_ = size;
+  if (view_ && !view_->is_figure() && size.figure_passes == 0) {
+    view_->share_positions({});
+    view_->resize(size.width, size.height, size.samples);
+    return;
+  }
   view_.reset();
   view_ = std::make_unique<render::ClothView>(*offscreen_, size);
   view_->set_cloth({mesh_.vertices, mesh_.triangles, mesh_.pattern});
   body_.clear();
   for (const Obstacle& o : scenery_) {
-    const auto body = obstacle_mesh(o);
-    body_.push_back(body && o.visible ? view_->add_obstacle(*body, placed_at(o, 0)) : -1);
+    const auto body = obstacle_mesh(o), caster = obstacle_mesh(o, render::kCaster);
+    body_.push_back(body && o.visible ? view_->add_obstacle(*body, placed_at(o, 0), &*caster) : -1);
     if (o.kind == ObstacleKind::ground && !floor_) floor_ = static_cast<float>(o.center.z());
   }
   view_->set_ground(floor_);
@@ -142,14 +149,15 @@ render::Image SceneRenderer::draw_with_ghosts(const render::Look& look, const re
   return between(view_->draw(camera), whole, kGhost);
 }
 
-render::Image SceneRenderer::silhouette(const DrawnMesh& mesh, const std::vector<float>& xyz,
-                                        const render::Camera& camera, int pixels) {
-  render::ClothView view(*offscreen_, {pixels, pixels});
-  view.set_cloth({mesh.vertices, mesh.triangles, {}});
-  view.set_look(render::look_named("silhouette"));
-  view.set_positions(xyz);
-  render::Image image = view.draw(camera);
-  if (!view.shows_cloth()) throw Error::simulation("the silhouette from above shows no cloth");
+render::Image SceneRenderer::silhouette(const std::vector<float>& xyz, const render::Camera& camera,
+                                        int pixels) {
+  const render::PictureSize size = size_;
+  take_size({pixels, pixels, kShadowSamples});
+  view_->set_look(render::look_named("silhouette"));
+  view_->set_positions(xyz);
+  render::Image image = view_->draw(camera);
+  if (!view_->shows_cloth()) throw Error::simulation("the silhouette from above shows no cloth");
+  take_size(size);
   return image;
 }
 

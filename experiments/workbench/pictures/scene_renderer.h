@@ -17,7 +17,8 @@
 namespace hysteron::experiments {
 
 // An obstacle's surface before it is placed; none of what is drawn otherwise, or not at all.
-std::optional<render::TriangleMesh> obstacle_mesh(const Obstacle& obstacle);
+std::optional<render::TriangleMesh> obstacle_mesh(const Obstacle& obstacle,
+                                                  const render::ShapeDetail& detail = render::kSeen);
 // Where it is at `time` [s].
 Eigen::Matrix4f placed_at(const Obstacle& obstacle, double time);
 
@@ -51,9 +52,9 @@ class SceneRenderer {
   render::Image draw(const render::Look& look, const render::Camera& camera, const Shown& shown);
   // The same, but obstacles that hide much of what is behind them let it shine through.
   render::Image draw_with_ghosts(const render::Look& look, const render::Camera& camera, const Shown& shown);
-  // The cloth alone from straight above, black on white; `xyz` of its vertices [m].
-  render::Image silhouette(const DrawnMesh& mesh, const std::vector<float>& xyz, const render::Camera& camera,
-                           int pixels);
+  // The cloth alone from straight above, black on white; `xyz` of its vertices [m].  Positions have to be set
+  // anew.
+  render::Image silhouette(const std::vector<float>& xyz, const render::Camera& camera, int pixels);
 
  private:
   void place_obstacles(double time, bool visible);
@@ -64,6 +65,7 @@ class SceneRenderer {
   std::vector<Obstacle> scenery_;
   std::unique_ptr<render::Offscreen> offscreen_;
   std::unique_ptr<render::ClothView> view_;
+  render::PictureSize size_;
   std::vector<int> body_;  // the view's number of each obstacle, -1 = not a body
 };
 

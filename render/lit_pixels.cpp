@@ -1,0 +1,79 @@
+#include "render/lit_pixels.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/shadow_maps.h"
+
+namespace hysteron::render {
+namespace {
+
+constexpr int kClothDepthUnit = 10, kUnevenUnit = 11;
+// What neighbours differ by at least, in linear light: three steps of 256 in the middle tones.
+constexpr float kContrast = 0.05f, kDark = 0.001f;
+
+bool differ(const float* a, const float* b) {
+  float excess = 0;
+  for (int c = 0; c < 4; ++c)
+    excess = std::max(excess, std::abs(a[c] - b[c]) - kContrast * std::max(a[c], b[c]));
+  return excess > kDark;
+}
+
+void take_as_it_is(const GlFunctions& gl, const GlTexture& texture) {
+  gl.BindTexture(GL_TEXTURE_2D, texture.name());
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+}
+
+}  // namespace
+
+LitPixels::LitPixels(const GlFunctions& gl, int width, int height)
+    : gl_(&gl),
+      width_(width),
+      height_(height),
+      depth_(filtered_texture(gl, GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, width, height)),
+      uneven_(gl),
+      depth_target_(depth_target(gl, depth_)),
+      is_uneven_(static_cast<size_t>(width) * height) {
+  take_as_it_is(gl, depth_);
+  take_as_it_is(gl, uneven_);
+}
+
+void LitPixels::begin_cloth() const {
+  gl_->BindFramebuffer(GL_FRAMEBUFFER, depth_target_.name());
+  gl_->Viewport(0, 0, width_, height_);
+  gl_->Clear(GL_DEPTH_BUFFER_BIT);
+}
+
+void LitPixels::bind(const Program& program, bool first_pass) const {
+  gl_->ActiveTexture(GL_TEXTURE0 + kClothDepthUnit);
+  gl_->BindTexture(GL_TEXTURE_2D, depth_.name());
+  gl_->ActiveTexture(GL_TEXTURE0 + kUnevenUnit);
+  gl_->BindTexture(GL_TEXTURE_2D, uneven_.name());
+  program.set("cloth_depth", kClothDepthUnit);
+  program.set("uneven", kUnevenUnit);
+  program.set("first_pass", first_pass ? 1.0f : 0.0f);
+}
+
+void LitPixels::take_first(const std::vector<float>& rgba) {
+  first_ = rgba;
+  std::fill(is_uneven_.begin(), is_uneven_.end(), std::uint8_t{0});
+  const auto compare = [&](size_t a, size_t b) {
+    if (differ(&rgba[4 * a], &rgba[4 * b])) is_uneven_[a] = is_uneven_[b] = 255;
+  };
+  const auto width = static_cast<size_t>(width_), pixels = width * height_;
+  for (size_t i = 0; i < pixels; ++i) {
+    if ((i + 1) % width != 0) compare(i, i + 1);
+    if (i + width < pixels) compare(i, i + width);
+  }
+  gl_->BindTexture(GL_TEXTURE_2D, uneven_.name());
+  gl_->PixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  gl_->TexImage2D(GL_TEXTURE_2D, 0, GL_R8, width_, height_, 0, GL_RED, GL_UNSIGNED_BYTE, is_uneven_.data());
+}
+
+void LitPixels::complete(std::vector<float>& rgba) const {
+  for (size_t i = 0; i < is_uneven_.size(); ++i)
+    if (!is_uneven_[i]) std::copy_n(&first_[4 * i], 4, &rgba[4 * i]);
+}
+
+}  // namespace hysteron::render
