@@ -18,6 +18,7 @@ namespace {
 constexpr int kSamplesAtOnce = 4;
 constexpr int kFigureSamples = 1;  // a figure has passes enough
 constexpr int kColorMapUnit = 2;
+constexpr Rgb8 kPageWhite{255, 255, 255};
 constexpr float kMinThickness = 1.2f;  // of cloth as it is drawn [pixels]
 // Of the key light beside the camera [degree].
 constexpr float kKeyAzimuth = 100, kKeyElevation = 30;
@@ -283,8 +284,8 @@ void ClothView::prepare(const Camera& camera) {
   offscreen_.make_current();
   gl_.Enable(GL_DEPTH_TEST);
   gl_.DepthFunc(GL_LEQUAL);
-  target_.begin();  // even passes that draw no pixels need a whole framebuffer, and another view may have
-                    // taken it away
+  target_.begin(0);  // even passes that draw no pixels need a whole framebuffer, and another view may have
+                     // taken it away
   if (cloth_) cloth_->update_normals();
   if (look_.show == Show::silhouette) return;
   if (ground_height_) ground_->be_layer(is_transparent());
@@ -340,7 +341,7 @@ Image ClothView::draw_part(const Camera& camera, int left, int top) {
       lit_pixels_->begin_cloth();
       draw_cloth(view, *count_programs_);
     }
-    target_.begin();
+    target_.begin(is_transparent() ? 0 : 1);
     const bool counts = cloth_ && (pass == 0 || cloth_seen_ == 0);
     draw_scene(view, counts);
     std::vector<float>& drawn = target_.finish();
@@ -411,7 +412,7 @@ void ClothView::draw_scene(const View& view, bool counts) const {
     if (ground_height_) draw_ground(view);
   }
   if (counts) count_cloth(view, seen_samples_);
-  if (!is_transparent()) draw_backdrop(view);
+  if (has_backdrop()) draw_backdrop(view);
 }
 
 // Drawn once more, without light or colours, the cloth passes the test of depth where nothing stands before
@@ -439,11 +440,14 @@ bool ClothView::is_transparent() const {
   return look_.background == Background::transparent && look_.show != Show::silhouette;
 }
 
+bool ClothView::has_backdrop() const {
+  return look_.background == Background::studio && !is_figure() &&
+         (look_.backdrop_top != kPageWhite || look_.backdrop_bottom != kPageWhite);
+}
+
 void ClothView::set_backdrop(const Program& program, const View& view) const {
-  const bool studio = look_.background == Background::studio && !is_figure();
-  const Rgb8 white{255, 255, 255};
-  program.set("backdrop_top", linear(studio ? look_.backdrop_top : white));
-  program.set("backdrop_bottom", linear(studio ? look_.backdrop_bottom : white));
+  program.set("backdrop_top", linear(has_backdrop() ? look_.backdrop_top : kPageWhite));
+  program.set("backdrop_bottom", linear(has_backdrop() ? look_.backdrop_bottom : kPageWhite));
   const Eigen::Vector2i drawn = size_.supersample * Eigen::Vector2i(size_.width, size_.height);
   program.set("picture_size", Eigen::Vector2f(drawn.cast<float>()));
   program.set("origin", view.origin);

@@ -146,6 +146,7 @@ class ClothView {
   void count_cloth(const View& view, const GlQuery& samples) const;
   std::uint64_t counted(const GlQuery& samples) const;
   bool is_transparent() const;
+  bool has_backdrop() const;  // that is not as white as the page
   void draw_backdrop(const View& view) const;
   void draw_ground(const View& view) const;
   void draw_obstacles(const View& view) const;

@@ -78,10 +78,14 @@ std::vector<int> spread_by_displacement(const std::vector<double>& moved, int co
   return indices;
 }
 
-bool look_alike(const Image& a, const Image& b) {
+SeenPicture on_front_page(const Image& picture) { return seen_picture(front_page_copy(picture)); }
+
+bool look_alike(const SeenPicture& a, const SeenPicture& b) {
   constexpr double kAlike = 0.02;  // FLIP
-  return flip(front_page_copy(a), front_page_copy(b)) < kAlike;
+  return flip(a, b) < kAlike;
 }
+
+bool look_alike(const Image& a, const Image& b) { return look_alike(on_front_page(a), on_front_page(b)); }
 
 std::vector<std::size_t> distinct(std::size_t count,
                                   const std::function<bool(std::size_t, std::size_t)>& are_alike) {

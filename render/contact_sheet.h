@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "render/comparison_sheet.h"
+#include "render/flip.h"
 #include "render/image.h"
 
 namespace hysteron::render {
@@ -45,6 +46,9 @@ std::vector<int> spread_by_displacement(const std::vector<double>& moved, int co
 // Whether two pictures of one size cannot be told apart where a front page shows them, a third as large (a
 // FLIP below 0.02): one of them is enough on a sheet.
 bool look_alike(const Image& a, const Image& b);
+// The same of pictures that are compared with several.
+SeenPicture on_front_page(const Image& picture);
+bool look_alike(const SeenPicture& a, const SeenPicture& b);
 
 // Of so many, those that are like none that is kept before them; the last takes the place of those like it,
 // but for the first.

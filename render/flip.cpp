@@ -202,26 +202,32 @@ void require_ppd(double ppd) {
 
 }  // namespace
 
+SeenPicture seen_picture(const Image& image, double pixels_per_degree) {
+  require_ppd(pixels_per_degree);
+  const Opponent opponent = opponent_colors(image);
+  auto [edges, points] = luminance_features(opponent[0], feature_kernels(pixels_per_degree));
+  return {perceived(opponent, pixels_per_degree), std::move(edges), std::move(points)};
+}
+
 Plane flip_map(const Image& a, const Image& b, double pixels_per_degree) {
   require_same_size(a, b);
-  require_ppd(pixels_per_degree);
-  const Opponent opponent_a = opponent_colors(a), opponent_b = opponent_colors(b);
-  const Opponent color_a = perceived(opponent_a, pixels_per_degree),
-                 color_b = perceived(opponent_b, pixels_per_degree);
-  const FeatureKernels kernels = feature_kernels(pixels_per_degree);
-  const Features features_a = luminance_features(opponent_a[0], kernels),
-                 features_b = luminance_features(opponent_b[0], kernels);
+  return flip_map(seen_picture(a, pixels_per_degree), seen_picture(b, pixels_per_degree));
+}
+
+Plane flip_map(const SeenPicture& a, const SeenPicture& b) {
+  if (a.edges.width != b.edges.width || a.edges.height != b.edges.height)
+    throw Error::invalid_input("FLIP: the two pictures differ in size");
   const double largest = largest_color_difference();
-  Plane result(a.width(), a.height());
+  Plane result(a.edges.width, a.edges.height);
 #pragma omp parallel for schedule(static) if (result.height > kSerialRows)
   for (size_t i = 0; i < result.values.size(); ++i) {
     const auto color = [i](const Opponent& planes) {
       return Eigen::Vector3d(planes[0].values[i], planes[1].values[i], planes[2].values[i]);
     };
     const double color_error =
-        redistributed(std::pow(hyab(color(color_a), color(color_b)), kColorExponent), largest);
-    const double feature = std::max(std::abs(features_a.edges.values[i] - features_b.edges.values[i]),
-                                    std::abs(features_a.points.values[i] - features_b.points.values[i]));
+        redistributed(std::pow(hyab(color(a.color), color(b.color)), kColorExponent), largest);
+    const double feature = std::max(std::abs(a.edges.values[i] - b.edges.values[i]),
+                                    std::abs(a.points.values[i] - b.points.values[i]));
     const double feature_error = std::pow(feature / std::numbers::sqrt2, kFeatureExponent);
     result.values[i] = std::pow(color_error, 1 - feature_error);
   }

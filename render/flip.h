@@ -1,6 +1,7 @@
 // How visible the difference of two pictures is that are shown in turn at one place.
 #pragma once
 
+#include <array>
 #include <numbers>
 
 #include "render/image.h"
@@ -19,10 +20,19 @@ inline constexpr double kPixelsPerDegree = 3840 * std::numbers::pi / 180;
 // not in [1, 1000].  Alpha is ignored.
 Plane flip_map(const Image& a, const Image& b, double pixels_per_degree = kPixelsPerDegree);
 
+// What an eye sees of one picture in it, for pictures that are compared with several.
+struct SeenPicture {
+  std::array<Plane, 3> color;  // Hunt-adjusted L*, a*, b*
+  Plane edges, points;         // how much of them there is
+};
+SeenPicture seen_picture(const Image& image, double pixels_per_degree = kPixelsPerDegree);
+Plane flip_map(const SeenPicture& a, const SeenPicture& b);
+
 // Its mean, by which whole pictures are compared.
 inline double flip(const Image& a, const Image& b, double pixels_per_degree = kPixelsPerDegree) {
   return mean(flip_map(a, b, pixels_per_degree));
 }
+inline double flip(const SeenPicture& a, const SeenPicture& b) { return mean(flip_map(a, b)); }
 
 // Errors as colours: dark for 0, up to pale yellow for 1.
 Image heat_map(const Plane& errors);

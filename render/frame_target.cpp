@@ -60,11 +60,11 @@ FrameTarget::FrameTarget(const GlFunctions& gl, int width, int height, int sampl
   check_gl(gl, "making the framebuffer");
 }
 
-void FrameTarget::begin() const {
+void FrameTarget::begin(float light) const {
   gl_->BindFramebuffer(GL_FRAMEBUFFER, multisampled_.name());
   gl_->Viewport(0, 0, width_, height_);
   gl_->DepthMask(GL_TRUE);
-  gl_->ClearColor(0, 0, 0, 0);
+  gl_->ClearColor(light, light, light, light);
   gl_->Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 }
 

@@ -17,8 +17,8 @@ class FrameTarget {
   int height() const { return height_; }
   int samples() const { return samples_; }  // a pixel
 
-  // Binds the framebuffer, clears it to transparent and its depth to far.
-  void begin() const;
+  // Binds the framebuffer, clears it to this light, 0 transparent and 1 white, and its depth to far.
+  void begin(float light) const;
   // The mean of each pixel's samples: RGBA in linear light, rows from the bottom; until the next picture.
   std::vector<float>& finish();
 

@@ -8,7 +8,7 @@
 namespace hysteron::render {
 namespace {
 
-constexpr int kSkySide = 128;       // texels of the sky light's texture
+constexpr int kSkySide = 64;        // texels of the sky light's texture
 constexpr int kSide = 224;          // texels of the light texture: its shadows are soft
 constexpr float kFigureReach = 12;  // beyond it lies no shadow that can be seen
 constexpr float kReach = 2.6f;      // half side of the patch in radii of the scene

@@ -41,10 +41,11 @@ float picture_aspect(const Options& options) {
 
 // Those that look different, in their order.
 std::vector<render::SheetEntry> distinct_cells(const std::vector<render::SheetEntry>& cells) {
+  std::vector<render::SeenPicture> seen;
+  for (const render::SheetEntry& cell : cells) seen.push_back(render::on_front_page(cell.image));
   std::vector<render::SheetEntry> kept;
-  for (std::size_t i : render::distinct(cells.size(), [&](std::size_t a, std::size_t b) {
-         return render::look_alike(cells[a].image, cells[b].image);
-       }))
+  for (std::size_t i : render::distinct(
+           cells.size(), [&](std::size_t a, std::size_t b) { return render::look_alike(seen[a], seen[b]); }))
     kept.push_back(cells[i]);
   return kept;
 }
