@@ -157,17 +157,15 @@ ClothView::ClothView(Offscreen& offscreen, const PictureSize& size)
   set_look(look_);
 }
 
-void ClothView::resize(int width, int height, int samples) {
-  offscreen_.make_current();
-  size_.width = width;
-  size_.height = height;
-  size_.samples = samples;
-  size_ = checked(offscreen_, size_);
-  part_width_ = part_side(width, size_.tile);
-  part_height_ = part_side(height, size_.tile);
+void ClothView::resize(const PictureSize& size) {
+  if (is_figure() || size.figure_passes > 0)
+    throw Error::invalid_input("resizing a view: it and what it becomes must not be figures");
+  size_ = checked(offscreen_, size);
+  part_width_ = part_side(size.width, size_.tile);
+  part_height_ = part_side(size.height, size_.tile);
   const int across = part_width_ * size_.supersample, up = part_height_ * size_.supersample;
-  target_ = FrameTarget(gl_, across, up, target_.samples());
-  if (lit_pixels_) lit_pixels_.emplace(gl_, across, up);
+  target_ = FrameTarget(gl_, across, up, std::min(size.samples, kSamplesAtOnce));
+  lit_pixels_.emplace(gl_, across, up);
 }
 
 // The members' names must be deleted in their own context.
@@ -284,8 +282,8 @@ void ClothView::prepare(const Camera& camera) {
   offscreen_.make_current();
   gl_.Enable(GL_DEPTH_TEST);
   gl_.DepthFunc(GL_LEQUAL);
-  target_.begin(0);  // even passes that draw no pixels need a whole framebuffer, and another view may have
-                     // taken it away
+  // Even passes that draw no pixels need a whole framebuffer, and another view may have taken it away.
+  target_.bind();
   if (cloth_) cloth_->update_normals();
   if (look_.show == Show::silhouette) return;
   if (ground_height_) ground_->be_layer(is_transparent());
@@ -341,7 +339,8 @@ Image ClothView::draw_part(const Camera& camera, int left, int top) {
       lit_pixels_->begin_cloth();
       draw_cloth(view, *count_programs_);
     }
-    target_.begin(is_transparent() ? 0 : 1);
+    target_.begin(is_transparent() ? 0 : 1,
+                  lit_pixels_ && !view.first ? lit_pixels_->uneven_area() : target_.whole());
     const bool counts = cloth_ && (pass == 0 || cloth_seen_ == 0);
     draw_scene(view, counts);
     std::vector<float>& drawn = target_.finish();

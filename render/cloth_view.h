@@ -60,8 +60,8 @@ class ClothView {
   ClothView& operator=(const ClothView&) = delete;
 
   bool is_figure() const { return figure_light_.has_value(); }
-  // Pictures to come are that large [pixels], with so many samples a pixel.
-  void resize(int width, int height, int samples);
+  // Pictures to come have that size; neither they nor those before are figures.
+  void resize(const PictureSize& size);
   // Replaces the cloth; positions are zero until set.
   void set_cloth(const ClothTopology& topology);
   // x, y, z each [m].

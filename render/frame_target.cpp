@@ -60,22 +60,31 @@ FrameTarget::FrameTarget(const GlFunctions& gl, int width, int height, int sampl
   check_gl(gl, "making the framebuffer");
 }
 
-void FrameTarget::begin(float light) const {
+void FrameTarget::begin(float light, const Area& area) {
+  area_ = area;
   gl_->BindFramebuffer(GL_FRAMEBUFFER, multisampled_.name());
   gl_->Viewport(0, 0, width_, height_);
+  gl_->Enable(GL_SCISSOR_TEST);
+  gl_->Scissor(area.left, area.bottom, area.width, area.height);
   gl_->DepthMask(GL_TRUE);
   gl_->ClearColor(light, light, light, light);
   gl_->Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 }
 
 std::vector<float>& FrameTarget::finish() {
+  const auto [left, bottom, width, height] = area_;
+  gl_->Disable(GL_SCISSOR_TEST);
   gl_->BindFramebuffer(GL_READ_FRAMEBUFFER, multisampled_.name());
   gl_->BindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved_.name());
-  gl_->BlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  gl_->BlitFramebuffer(left, bottom, left + width, bottom + height, left, bottom, left + width,
+                       bottom + height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
   gl_->BindFramebuffer(GL_READ_FRAMEBUFFER, resolved_.name());
   rgba_.resize(static_cast<size_t>(width_) * height_ * 4);
   gl_->PixelStorei(GL_PACK_ALIGNMENT, 1);
-  gl_->ReadPixels(0, 0, width_, height_, GL_RGBA, GL_FLOAT, rgba_.data());
+  gl_->PixelStorei(GL_PACK_ROW_LENGTH, width_);
+  gl_->ReadPixels(left, bottom, width, height, GL_RGBA, GL_FLOAT,
+                  &rgba_[4 * (static_cast<size_t>(bottom) * width_ + left)]);
+  gl_->PixelStorei(GL_PACK_ROW_LENGTH, 0);
   check_gl(*gl_, "drawing a picture");
   return rgba_;
 }

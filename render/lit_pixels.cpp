@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "render/shadow_maps.h"
 
@@ -17,6 +18,24 @@ bool differ(const float* a, const float* b) {
   for (int c = 0; c < 4; ++c)
     excess = std::max(excess, std::abs(a[c] - b[c]) - kContrast * std::max(a[c], b[c]));
   return excess > kDark;
+}
+
+// The least one that holds every pixel that is set; one pixel where none is.
+Area area_of(const std::vector<std::uint8_t>& pixels, int width, int height) {
+  int left = width, right = 0, bottom = height, top = 0;
+  for (int y = 0; y < height; ++y) {
+    const auto row = pixels.begin() + static_cast<std::ptrdiff_t>(y) * width, end = row + width;
+    const auto first = std::find(row, end, 255);
+    if (first == end) continue;
+    left = std::min(left, static_cast<int>(first - row));
+    right = std::max(right, width - static_cast<int>(std::find(std::make_reverse_iterator(end),
+                                                               std::make_reverse_iterator(row), 255) -
+                                                     std::make_reverse_iterator(end)));
+    bottom = std::min(bottom, y);
+    top = y + 1;
+  }
+  if (top == 0) return {0, 0, 1, 1};
+  return {left, bottom, right - left, top - bottom};
 }
 
 void take_as_it_is(const GlFunctions& gl, const GlTexture& texture) {
@@ -66,6 +85,7 @@ void LitPixels::take_first(const std::vector<float>& rgba) {
     if ((i + 1) % width != 0) compare(i, i + 1);
     if (i + width < pixels) compare(i, i + width);
   }
+  uneven_area_ = area_of(is_uneven_, width_, height_);
   gl_->BindTexture(GL_TEXTURE_2D, uneven_.name());
   gl_->PixelStorei(GL_UNPACK_ALIGNMENT, 1);
   gl_->TexImage2D(GL_TEXTURE_2D, 0, GL_R8, width_, height_, 0, GL_RED, GL_UNSIGNED_BYTE, is_uneven_.data());

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "render/frame_target.h"
 #include "render/gl/handles.h"
 #include "render/gl/program.h"
 
@@ -22,6 +23,8 @@ class LitPixels {
   void bind(const Program& program, bool first_pass) const;
   // Takes the first pass: RGBA rows from the bottom, linear light.
   void take_first(const std::vector<float>& rgba);
+  // All that further passes have to draw lies within.
+  const Area& uneven_area() const { return uneven_area_; }
   // Gives a further pass the first one's colours where it was not needed.
   void complete(std::vector<float>& rgba) const;
 
@@ -32,6 +35,7 @@ class LitPixels {
   GlFramebuffer depth_target_;
   std::vector<float> first_;
   std::vector<std::uint8_t> is_uneven_;  // 255: it is
+  Area uneven_area_;
 };
 
 }  // namespace hysteron::render

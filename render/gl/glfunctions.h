@@ -80,6 +80,7 @@ namespace hysteron::render {
   X(PFNGLRENDERBUFFERSTORAGEPROC, RenderbufferStorage)                       \
   X(PFNGLRENDERBUFFERSTORAGEMULTISAMPLEPROC, RenderbufferStorageMultisample) \
   X(PFNGLSAMPLERPARAMETERIPROC, SamplerParameteri)                           \
+  X(PFNGLSCISSORPROC, Scissor)                                               \
   X(PFNGLSHADERSOURCEPROC, ShaderSource)                                     \
   X(PFNGLTEXBUFFERPROC, TexBuffer)                                           \
   X(PFNGLTEXIMAGE2DPROC, TexImage2D)                                         \

@@ -23,6 +23,9 @@ TEST(LitPixels, FurtherPassesCountWhereTheFirstDiffersFromANeighbour) {
   const auto offscreen = Offscreen::create(Renderer::automatic);
   LitPixels lit(offscreen->gl(), 6, 2);
   lit.take_first(two_rows({0.2f, 0.2f, 0.205f, 0.5f, 0.5f, 0.5f}));
+  EXPECT_EQ(lit.uneven_area().left, 2);
+  EXPECT_EQ(lit.uneven_area().width, 2);
+  EXPECT_EQ(lit.uneven_area().height, 2);
   Pixels further = two_rows({0.9f, 0.9f, 0.9f, 0.9f, 0.9f, 0.9f});
   lit.complete(further);
   EXPECT_EQ(further, two_rows({0.2f, 0.2f, 0.9f, 0.9f, 0.5f, 0.5f}));

@@ -11,8 +11,8 @@
 namespace hysteron::experiments {
 namespace {
 
-constexpr int kShadowSamples = 4;      // of a pixel
-constexpr double kCurvatureRange = 2;  // colours span this many K0 on either side
+constexpr int kShadowSamples = 4, kShadowTile = 512;  // of and by pixels
+constexpr double kCurvatureRange = 2;                 // colours span this many K0 on either side
 
 // [1/m].  What stays and what differs is half of what bends.
 double curvature_range(const Scene& scene, const Options& options, const std::string& look) {
@@ -105,7 +105,7 @@ void SceneRenderer::take_size(const render::PictureSize& size) {
   size_ = size;
   if (view_ && !view_->is_figure() && size.figure_passes == 0) {
     view_->share_positions({});
-    view_->resize(size.width, size.height, size.samples);
+    view_->resize(size);
     return;
   }
   view_.reset();
@@ -152,7 +152,7 @@ render::Image SceneRenderer::draw_with_ghosts(const render::Look& look, const re
 render::Image SceneRenderer::silhouette(const std::vector<float>& xyz, const render::Camera& camera,
                                         int pixels) {
   const render::PictureSize size = size_;
-  take_size({pixels, pixels, kShadowSamples});
+  take_size({.width = pixels, .height = pixels, .samples = kShadowSamples, .tile = kShadowTile});
   view_->set_look(render::look_named("silhouette"));
   view_->set_positions(xyz);
   render::Image image = view_->draw(camera);
