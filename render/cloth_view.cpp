@@ -174,6 +174,8 @@ ClothView::~ClothView() { offscreen_.make_current(); }
 void ClothView::set_cloth(const ClothTopology& topology) {
   offscreen_.make_current();
   shared_positions_.reset();
+  positions_.clear();
+  lighting_.clear();
   cloth_.emplace(gl_, topology);
   position_bounds_.reset();
   triangles_.assign(topology.triangles.begin(), topology.triangles.end());
@@ -182,8 +184,11 @@ void ClothView::set_cloth(const ClothTopology& topology) {
 
 void ClothView::set_positions(std::span<const float> xyz) {
   if (!cloth_) throw Error::invalid_input("drawing a cloth: positions were given before its triangles");
+  if (std::ranges::equal(xyz, positions_)) return;
   offscreen_.make_current();
   cloth_->set_positions(xyz);
+  positions_.assign(xyz.begin(), xyz.end());
+  lighting_.clear();
   if (!triangles_.empty()) cloth_side_ = long_side(std::exchange(triangles_, {}), xyz, 3);
   if (!given_bounds_ || is_figure()) position_bounds_ = bounding_box(xyz);
   if (is_figure()) cloth_normal_ = plane_normal(xyz);
@@ -205,6 +210,8 @@ void ClothView::share_positions(std::unique_ptr<GlPositions> positions) {
 bool ClothView::write_positions(std::string& reason) {
   if (!shared_positions_) return false;
   offscreen_.make_current();
+  positions_.clear();
+  lighting_.clear();
   position_bounds_.reset();
   cloth_normal_.reset();
   if (shared_positions_->write(reason)) return true;
@@ -292,11 +299,28 @@ void ClothView::prepare(const Camera& camera) {
     if (ground_height_) ground_->place(bounds(), pictured_ground(*ground_height_, look_));
     return;
   }
+  const std::vector<float> lighting = what_lights(camera);
+  if (lighting == lighting_) return;
+  lighting_ = lighting;
   shadows_.aim(bounds(), key_direction(look_, camera, cloth_normal_), look_.room);
   shadows_.draw([this](const Program& program) { draw_casters(program); });
   if (cloth_) cloth_->update_sky(shadows_);
   update_body_sky();
   if (ground_height_) ground_->update(shadows_, bounds(), pictured_ground(*ground_height_, look_));
+}
+
+// All that shadows and the room's light depend on, but for the cloth's positions.
+std::vector<float> ClothView::what_lights(const Camera& camera) const {
+  const Box box = bounds();
+  const Eigen::Vector3f key = key_direction(look_, camera, cloth_normal_);
+  std::vector<float> all = {look_.room, look_.obstacle_inset, ground_height_.has_value() ? 1.0f : 0.0f,
+                            pictured_ground(ground_height_.value_or(0), look_)};
+  for (const Eigen::Vector3f& v : {box.low, box.high, key}) all.insert(all.end(), v.begin(), v.end());
+  for (const Obstacle& obstacle : obstacles_) {
+    all.push_back(obstacle.visible ? 1 : 0);
+    all.insert(all.end(), obstacle.placement.data(), obstacle.placement.data() + obstacle.placement.size());
+  }
+  return all;
 }
 
 Eigen::Vector3f key_direction(const Look& look, const Camera& camera,

@@ -136,6 +136,7 @@ class ClothView {
   static void place_cloth(const Program& program);
   Box bounds() const;
   void prepare(const Camera& camera);
+  std::vector<float> what_lights(const Camera& camera) const;
   void update_body_sky() const;  // light of the room on the obstacles
   Image draw_part(const Camera& camera, int left, int top);
   View camera_view(const Camera& camera, int left, int top, const Shift& shift) const;
@@ -173,8 +174,10 @@ class ClothView {
   std::optional<ClothSurface> cloth_;
   std::unique_ptr<GlPositions> shared_positions_;  // of cloth_: below it, so that it is closed first
   std::vector<Obstacle> obstacles_;
-  std::vector<int> triangles_;  // of the cloth, until positions tell its sides
-  float cloth_side_ = 0;        // long_side() of the cloth [m]
+  std::vector<float> positions_;  // of the cloth, where they were given
+  std::vector<float> lighting_;   // what_lights() the textures as they are; empty: unknown
+  std::vector<int> triangles_;    // of the cloth, until positions tell its sides
+  float cloth_side_ = 0;          // long_side() of the cloth [m]
   std::optional<float> ground_height_;
   std::optional<Box> given_bounds_, position_bounds_;
   std::optional<Eigen::Vector3f> cloth_normal_;  // of its own plane, of a figure whose positions are known
