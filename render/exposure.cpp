@@ -23,10 +23,11 @@ int triangular_noise(int x, int y, int channel) {
   return static_cast<int>(h & 255) + static_cast<int>(h >> 8 & 255) - 255;
 }
 
-std::uint8_t rounded(float light, int noise) {
+std::uint8_t rounded(float light, int x, int y, int channel) {
   const int encoded = srgb16_of_linear(light);  // in 256ths of a step
   if (encoded == 0 || encoded == 255 * 256) return static_cast<std::uint8_t>(encoded / 256);
-  return static_cast<std::uint8_t>(std::clamp((encoded + 128 + noise) >> 8, 0, 255));
+  return static_cast<std::uint8_t>(
+      std::clamp((encoded + 128 + triangular_noise(x, y, channel)) >> 8, 0, 255));
 }
 
 }  // namespace
@@ -76,7 +77,7 @@ Image Exposure::image(bool alpha, int left, int top) const {
     for (int x = 0; x < width_; ++x, from += 4) {
       std::uint8_t* to = result.at(x, y);
       const float fraction = alpha ? std::max(from[3], 1e-6f) : 1 / weight;  // what colours are multiplied by
-      for (int c = 0; c < 3; ++c) to[c] = rounded(from[c] / fraction, triangular_noise(left + x, top + y, c));
+      for (int c = 0; c < 3; ++c) to[c] = rounded(from[c] / fraction, left + x, top + y, c);
       if (alpha) to[3] = static_cast<std::uint8_t>(255 * std::min(weight * from[3], 1.0f) + 0.5f);
     }
   return result;

@@ -1,7 +1,7 @@
 #include "render/lit_pixels.h"
 
+#include <Eigen/Core>
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 
 #include "render/shadow_maps.h"
@@ -14,10 +14,8 @@ constexpr int kClothDepthUnit = 10, kUnevenUnit = 11;
 constexpr float kContrast = 0.05f, kDark = 0.001f;
 
 bool differ(const float* a, const float* b) {
-  float excess = 0;
-  for (int c = 0; c < 4; ++c)
-    excess = std::max(excess, std::abs(a[c] - b[c]) - kContrast * std::max(a[c], b[c]));
-  return excess > kDark;
+  const Eigen::Map<const Eigen::Array4f> p(a), q(b);
+  return ((p - q).abs() - kContrast * p.max(q)).maxCoeff() > kDark;
 }
 
 // The least one that holds every pixel that is set; one pixel where none is.
@@ -80,11 +78,12 @@ void LitPixels::take_first(const std::vector<float>& rgba) {
   const auto compare = [&](size_t a, size_t b) {
     if (differ(&rgba[4 * a], &rgba[4 * b])) is_uneven_[a] = is_uneven_[b] = 255;
   };
-  const auto width = static_cast<size_t>(width_), pixels = width * height_;
-  for (size_t i = 0; i < pixels; ++i) {
-    if ((i + 1) % width != 0) compare(i, i + 1);
-    if (i + width < pixels) compare(i, i + width);
-  }
+  size_t i = 0;
+  for (int y = 0; y < height_; ++y)
+    for (int x = 0; x < width_; ++x, ++i) {
+      if (x + 1 < width_) compare(i, i + 1);
+      if (y + 1 < height_) compare(i, i + width_);
+    }
   uneven_area_ = area_of(is_uneven_, width_, height_);
   gl_->BindTexture(GL_TEXTURE_2D, uneven_.name());
   gl_->PixelStorei(GL_UNPACK_ALIGNMENT, 1);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "render/comparison_sheet.h"
 #include "tests/render/lab.h"
@@ -140,6 +141,40 @@ TEST_F(FidelityTest, FieldsKeepTheColoursOfTheBar) {
         EXPECT_LE(most, 5) << value << ", " << passes << " passes, raking " << raking;
       }
     }
+}
+
+// Of the lightness in a window of 21 pixels, the median over those that lie wholly on the cloth, which is
+// blue.
+double local_deviation(const Image& sheet, int left, int width) {
+  constexpr int kSide = 21;
+  std::vector<double> deviations;
+  for (int y = 0; y + kSide <= sheet.height(); ++y)
+    for (int x = left; x + kSide <= left + width; ++x) {
+      double sum = 0, squares = 0;
+      int on_cloth = 0;
+      for (; on_cloth < kSide * kSide; ++on_cloth) {
+        const std::uint8_t* p = sheet.at(x + on_cloth % kSide, y + on_cloth / kSide);
+        if (p[2] < p[0] + 19) break;
+        const double light = lightness(p);
+        sum += light;
+        squares += light * light;
+      }
+      if (on_cloth < kSide * kSide) continue;
+      const double mean = sum / on_cloth;
+      deviations.push_back(std::sqrt(std::max(squares / on_cloth - mean * mean, 0.0)));
+    }
+  std::nth_element(deviations.begin(), deviations.begin() + static_cast<long>(deviations.size() / 2),
+                   deviations.end());
+  return deviations.at(deviations.size() / 2);
+}
+
+// As wide as the README shows it: wrinkles that hysteresis keeps are seen at first sight.
+TEST(RecordedPicture, TheFirstShowsWhatPrandtlKeepsAndLinearForgets) {
+  const Image recorded =
+      read_png(std::filesystem::path(HYSTERON_TEST_FOLDER) / "../../results/crumple-table-h100/sheet.png");
+  const Image sheet = shrink(recorded, 838, 838 * recorded.height() / recorded.width());
+  const int cell = sheet.width() / 4;  // linear, narain, prandtl, prandtl with set
+  EXPECT_GE(local_deviation(sheet, 2 * cell, cell), local_deviation(sheet, 0, cell) + 2.5);
 }
 
 }  // namespace
