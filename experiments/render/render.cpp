@@ -30,7 +30,7 @@ struct RenderFlags {
   std::string fps, unit = "metre", up = "z";  // one for all sequences, or one for each, separated by commas
   std::string title, ground = "none", body, curvature = "geometry", fabric;
   double range = 100;  // [1/m] 2 k0 of the shipped fabrics, as in the pictures of their runs
-  Eigen::Vector3d low{0, 0, 0}, high{0, 0, 0};
+  Eigen::Vector3d low{0, 0, 0}, high{0, 0, 0}, also{0, 0, 0};
   Options options;
 };
 
@@ -46,6 +46,7 @@ const KeyRow<F> kRows[] = {
     {"render.ground", at<&F::ground>, "", any(), "", "height of a visible ground [m], or none"},
     {"render.body", at<&F::body>, "", any(), "", "a mesh that does not move, drawn matte as obstacles are; in the unit and axes of the first sequence"},
     {"render.fabric", at<&F::fabric>, "", any(), "", "a fabric of assets/fabrics or a file, whose colours and weave the cloth has"},
+    {"render.also", at<&F::also>, "", any(), "", "a further row of the sheet has each sequence's last frame from this direction, which points to the eye; 0,0,0: none"},
     {"render.low", at<&F::low>, "m", any(), "", "with render.high: corners of what is framed; else the box of all frames"},
     {"render.high", at<&F::high>, "m", any(), "", "see render.low"},
 };
@@ -255,6 +256,11 @@ void note_sequences(const std::vector<Column>& columns, Run& run) {
   run.note("sequences", notes);
 }
 
+std::string direction_words(const Eigen::Vector3d& direction) {
+  constexpr double kSteep = 0.9;  // sine of the elevation
+  return direction.normalized().z() > kSteep ? "from above" : "from elsewhere";
+}
+
 class FramesAndSheet {
  public:
   FramesAndSheet(const F& flags, const std::vector<Column>& columns, const render::Box& bounds, Run& run)
@@ -290,6 +296,10 @@ class FramesAndSheet {
     run_.metric(column.name() + ".frames_count", column.files().size());
     run_.metric(column.name() + ".triangles_count", frame.face.size());
     if (const auto rms = pictures_.curvature_rms()) run_.metric(column.name() + ".curvature_rms_per_m", *rms);
+    if (flags_.also.isZero()) return;
+    pictures_.look_from(flags_.also);
+    add_cell(picture(frame, column.name()), frame, direction_words(flags_.also));
+    pictures_.look_from(flags_.options.camera_direction);
   }
 
   Surface read(const Column& column, std::size_t k) {
@@ -301,15 +311,18 @@ class FramesAndSheet {
     const std::string when = column.instant(k), file = column.files()[k].string();
     run_.progress(file + ": " + std::to_string(frame.face.size()) + " triangles" + after(", ", when));
     render::Image image = picture(frame, "mesh " + file);
-    for (auto n = std::count(column.shown.begin(), column.shown.end(), static_cast<int>(k)); n > 0; --n) {
-      const float aspect = static_cast<float>(image.width()) / static_cast<float>(image.height());
-      const render::Window at = pictures_.camera().image_window(flat_points(frame.vertex), aspect);
-      cells_.push_back({image, when, {}});
-      cells_.back().shown.cloth = {at.left, 1 - at.top, at.right, 1 - at.bottom};
-    }
+    for (auto n = std::count(column.shown.begin(), column.shown.end(), static_cast<int>(k)); n > 0; --n)
+      add_cell(image, frame, when);
     pictures_.letter_picture(image, label(column) + after("\n", when));
     const std::string folder = alone() ? "frames" : column.name();
     writer_.write(run_.path(fmt::format("{}/{:04}.png", folder, k)), std::move(image));
+  }
+
+  void add_cell(const render::Image& image, const Surface& frame, const std::string& when) {
+    const float aspect = static_cast<float>(image.width()) / static_cast<float>(image.height());
+    const render::Window at = pictures_.camera().image_window(flat_points(frame.vertex), aspect);
+    cells_.push_back({image, when, {}, pictures_.metres_per_pixel()});
+    cells_.back().shown.cloth = {at.left, 1 - at.top, at.right, 1 - at.bottom};
   }
 
   render::Image picture(const Surface& frame, const std::string& what) {
@@ -319,7 +332,7 @@ class FramesAndSheet {
 
   // Instants that look like one before in every sequence are left out; cells stand sequence by sequence.
   void drop_repeated_instants() {
-    const std::size_t count = columns_.front().shown.size();
+    const std::size_t count = cells_.size() / columns_.size();
     const auto are_alike = [&](std::size_t a, std::size_t b) {
       Crop both;
       for (std::size_t first = 0; first < cells_.size(); first += count)
@@ -349,7 +362,7 @@ class FramesAndSheet {
     for (std::size_t c = 0; c < wide; ++c)
       for (std::size_t r = 0; r < rows; ++r) crops[r].include(cells_[c * rows + r].shown);
     for (std::size_t r = 0; r < rows; ++r)
-      sheet.rows.push_back({alone() ? "" : cells_[r].when, "", pictures_.metres_per_pixel()});
+      sheet.rows.push_back({alone() ? "" : cells_[r].when, "", cells_[r].metres_per_pixel});
     for (std::size_t c = 0; c < wide; ++c) {
       sheet.columns.push_back({.name = alone() ? cells_[c].when : columns_[c].name(), .numbers = {}});
       for (std::size_t r = 0; r < rows; ++r)
@@ -364,6 +377,7 @@ class FramesAndSheet {
     render::Image image;
     std::string when;
     Frames::Instant shown;  // where the cloth is
+    double metres_per_pixel;
   };
 
   const F& flags_;

@@ -37,6 +37,8 @@ class MeshPictures {
   render::Image picture(const Surface& frame, const std::string& what);
   // Caption, scale and colour bar.
   void letter_picture(render::Image& image, const std::string& caption) const;
+  // Pictures to come are seen from there; it points to the eye.
+  void look_from(const Eigen::Vector3d& direction) { options_.camera_direction = direction; }
   render::Camera camera() const { return framed_camera(options_, choice_.bounds); }
   double metres_per_pixel() const;
   std::optional<render::ColorBar> color_bar() const;  // of looks that show a value

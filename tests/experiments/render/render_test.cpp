@@ -195,6 +195,25 @@ TEST(RenderedFiles, AnInstantThatLooksLikeOneBeforeIsNotOnTheSheet) {
   }
 }
 
+// The last frame from there stands below, and the frames' own pictures are as without it.
+TEST(RenderedFiles, AFurtherDirectionIsAFurtherRowOfTheSheet) {
+  const Folder folder;
+  std::vector<std::string> sequences;
+  for (const double time : {0.0, 0.2}) {
+    sequences.push_back((folder.path() / std::to_string(sequences.size())).string());
+    write(fs::path(sequences.back()) / "0.obj", swaying(time, metres));
+  }
+  EXPECT_EQ(rendered(folder.path() / "one", sequences, {}), 0);
+  EXPECT_EQ(rendered(folder.path() / "two", sequences, {{"render.also", "0 -0.02 1"}}), 0);
+  const auto picture = [&](const char* out, const char* file) {
+    return render::read_png(folder.path() / out / file);
+  };
+  for (const char* frame : {"0/0000.png", "1/0000.png"})
+    EXPECT_EQ(picture("one", frame), picture("two", frame)) << frame;
+  EXPECT_EQ(picture("two", "sheet.png").width(), picture("one", "sheet.png").width());
+  EXPECT_GT(picture("two", "sheet.png").height(), picture("one", "sheet.png").height());
+}
+
 TEST(RenderedFiles, OfAHundredThousandTrianglesAreDrawn) {
   const Folder folder;
   const ClothMesh mesh = make_rectangle(1, 1, 100000, MeshFamily::unionjack, 1);
