@@ -42,4 +42,10 @@ render::Rgb8 color_of_law(const std::string& law) {
   return kGrey;
 }
 
+render::Rgb8 color_in_family(const std::string& family, int member, int members) {
+  for (std::size_t f = 0; f < families().size(); ++f)
+    if (families()[f].name == family) return render::family_color(static_cast<int>(f), member, members);
+  return kGrey;
+}
+
 }  // namespace hysteron::experiments

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "experiments/workbench/app/law_family.h"
@@ -52,7 +53,7 @@ std::string column_law(const ChildRun& column) { return column.manifest ? column
 bool differ_in_laws(const std::vector<ChildRun>& columns) {
   std::set<std::string> laws;
   for (const ChildRun& column : columns) laws.insert(column_law(column));
-  return laws.size() > 1 && laws.size() == columns.size() && !laws.contains("");
+  return laws.size() > 1 && !laws.contains("");
 }
 
 std::vector<std::string> head_numbers(const ChildRun& column, const std::vector<std::string>& metrics,
@@ -116,14 +117,30 @@ std::vector<std::string> column_families(const std::vector<ChildRun>& columns) {
   return families;
 }
 
+// Of columns that differ in their laws: the laws' own, but where one of these is there twice.
+std::vector<render::Rgb8> law_colors(const std::vector<ChildRun>& columns) {
+  const std::vector<std::string> families = column_families(columns);
+  std::set<std::string> laws;
+  for (const ChildRun& column : columns) laws.insert(column_law(column));
+  std::map<std::string, int> so_far;
+  std::vector<render::Rgb8> colors;
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    const auto members = static_cast<int>(std::count(families.begin(), families.end(), families[c]));
+    colors.push_back(laws.size() == columns.size()
+                         ? color_of_law(column_law(columns[c]))
+                         : color_in_family(families[c], so_far[families[c]]++, members));
+  }
+  return colors;
+}
+
 std::vector<render::Rgb8> column_colors(const std::vector<ChildRun>& columns) {
+  if (differ_in_laws(columns)) return law_colors(columns);
   constexpr int kHues = 4;
   const int count = static_cast<int>(columns.size()), shades = (count + kHues - 1) / kHues;
   std::vector<render::Rgb8> colors;
   for (int c = 0; c < count; ++c)
-    colors.push_back(differ_in_laws(columns) ? color_of_law(column_law(columns[static_cast<std::size_t>(c)]))
-                     : count <= render::kMethodColors ? render::method_color(static_cast<std::size_t>(c))
-                                                      : render::family_color(c / shades, c % shades, shades));
+    colors.push_back(count <= render::kMethodColors ? render::method_color(static_cast<std::size_t>(c))
+                                                    : render::family_color(c / shades, c % shades, shades));
   return colors;
 }
 

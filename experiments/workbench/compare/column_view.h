@@ -29,7 +29,7 @@ std::string short_number(const std::string& metric, const MetricValue& value);
 
 // "elastic", "plastic", "hysteretic", "relaxing" where columns differ in their laws; else "" of all.
 std::vector<std::string> column_families(const std::vector<ChildRun>& columns);
-// One for each column, of a family shades of one hue; they do not come again below 12 columns.
+// One for each column, of a family of laws shades of one hue; they do not come again below 12 columns.
 std::vector<render::Rgb8> column_colors(const std::vector<ChildRun>& columns);
 
 // The columns with names, numbers, families and colours, still without cells.

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "experiments/workbench/app/law_family.h"
@@ -31,6 +33,25 @@ TEST(LawFamily, EveryLawHasAFamilyAndAColorOfItsOwn) {
     EXPECT_TRUE(colors.insert(color_of_law(law.name)).second) << law.name;
   }
   EXPECT_EQ(family_of_law("prandle"), "");
+}
+
+ChildRun of_law(const std::string& law) {
+  ChildRun run;
+  run.manifest.emplace().keys = std::make_shared<const Json>(Json{{"law", law}});
+  return run;
+}
+
+TEST(ColumnColors, AreTheLawsOwnOrShadesOfTheirFamilies) {
+  const std::vector<ChildRun> once = {of_law("linear"), of_law("prandtl")},
+                              twice = {of_law("linear"), of_law("prandtl"), of_law("prandtl")},
+                              alone = {of_law("prandtl"), of_law("prandtl")};
+  EXPECT_EQ(column_colors(once), (std::vector{color_of_law("linear"), color_of_law("prandtl")}));
+  EXPECT_EQ(column_families(twice), (std::vector<std::string>{"elastic", "hysteretic", "hysteretic"}));
+  EXPECT_EQ(column_colors(twice),
+            (std::vector{color_in_family("elastic", 0, 1), color_in_family("hysteretic", 0, 2),
+                         color_in_family("hysteretic", 1, 2)}));
+  EXPECT_NE(color_in_family("hysteretic", 0, 2), color_in_family("hysteretic", 1, 2));
+  EXPECT_EQ(column_families(alone), std::vector<std::string>(2)) << "of one law";
 }
 
 // White of 200 x 100 with cloth in a quarter of its width: what is left has it in the middle, and some room.
