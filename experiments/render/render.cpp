@@ -10,6 +10,7 @@
 
 #include "experiments/render/kept_pictures.h"
 #include "experiments/workbench/app/experiment.h"
+#include "experiments/workbench/app/manifest_file.h"
 #include "experiments/workbench/app/run.h"
 #include "experiments/workbench/compare/column_view.h"
 #include "experiments/workbench/pages/report.h"
@@ -395,8 +396,28 @@ void check_look(const std::string& look) {
   if (!std::count(kLooks.begin(), kLooks.end(), look)) throw refusal("look", look, join(kLooks, " | "));
 }
 
-int run_render(const CommandLine& line) {
-  if (const auto kept = kept_geometry_file(line); !kept.empty()) return draw_kept(line, kept), 0;
+// A folder that holds what its sheet was drawn from, meshes in a folder a column, is drawn from them again.
+CommandLine from_within(CommandLine line) {
+  namespace fs = std::filesystem;
+  if (line.positionals.size() != 1) return line;
+  const fs::path folder = line.positionals[0];
+  const std::optional<Manifest> recorded = manifest_or_none(folder / "manifest.json");
+  if (!recorded || recorded->experiment != "render" || !recorded->spec) return line;
+  std::vector<std::string> columns;
+  for (const std::string& name : recorded->spec->positionals)
+    if (const fs::path column = folder / fs::path(name).filename(); fs::is_directory(column / "mesh"))
+      columns.push_back(column.string());
+  if (columns.empty() || columns.size() != recorded->spec->positionals.size()) return line;
+  line.positionals = columns;
+  for (const auto& [path, text] : recorded->spec->flags)
+    if (path != "out" && path != "quiet" && path != "json" && last_text(line.flags, path, "").empty())
+      line.flags.push_back({path, text});
+  return line;
+}
+
+int run_render(const CommandLine& asked) {
+  if (const auto kept = kept_geometry_file(asked); !kept.empty()) return draw_kept(asked, kept), 0;
+  const CommandLine line = from_within(asked);
   F flags;
   flags.options.out = "out/render";
   const Keys keys = option_keys(flags);

@@ -214,6 +214,27 @@ TEST(RenderedFiles, AFurtherDirectionIsAFurtherRowOfTheSheet) {
   EXPECT_GT(picture("two", "sheet.png").height(), picture("one", "sheet.png").height());
 }
 
+// As a recorded folder has them: its sheet is drawn again from the meshes within, and flags win.
+TEST(RenderedFiles, WithinTheFolderOfTheirSheetAreDrawnAgain) {
+  const Folder folder;
+  const fs::path recorded = folder.path() / "recorded";
+  std::vector<std::string> sequences;
+  for (const double time : {0.0, 0.2}) {
+    sequences.push_back((recorded / std::to_string(sequences.size())).string());
+    write(fs::path(sequences.back()) / "mesh/0.obj", swaying(time, metres));
+  }
+  const fs::path first = folder.path() / "first", again = folder.path() / "again",
+                 other = folder.path() / "other";
+  ASSERT_EQ(
+      rendered(first, sequences, {{"render.title", "a title"}, {"look", "curvature"}, {"size", "200x150"}}),
+      0);
+  fs::copy_file(first / "manifest.json", recorded / "manifest.json");
+  ASSERT_EQ(rendered(again, {recorded.string()}, {{"size", "200x150"}}), 0);
+  EXPECT_EQ(render::read_png(again / "sheet.png"), render::read_png(first / "sheet.png"));
+  ASSERT_EQ(rendered(other, {recorded.string()}, {{"look", "clay"}, {"size", "200x150"}}), 0);
+  EXPECT_NE(render::read_png(other / "sheet.png"), render::read_png(first / "sheet.png"));
+}
+
 TEST(RenderedFiles, OfAHundredThousandTrianglesAreDrawn) {
   const Folder folder;
   const ClothMesh mesh = make_rectangle(1, 1, 100000, MeshFamily::unionjack, 1);
