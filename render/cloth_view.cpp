@@ -83,8 +83,7 @@ void upload_color_map(const GlFunctions& gl, const GlTexture& texture, ColorMap 
     const Rgb8 color = map_color8(map, static_cast<float>(i) / 255);
     pixels.insert(pixels.end(), {color[0], color[1], color[2], 255});
   }
-  gl.ActiveTexture(GL_TEXTURE0 + kColorMapUnit);
-  gl.BindTexture(GL_TEXTURE_2D, texture.name());
+  bind_texture(gl, kColorMapUnit, texture);
   gl.TexImage2D(GL_TEXTURE_2D, 0, GL_SRGB8_ALPHA8, 256, 1, 0, GL_RGBA, GL_UNSIGNED_BYTE, pixels.data());
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
@@ -544,8 +543,7 @@ void ClothView::begin_cloth(const Program& program, const View& view) const {
   program.set("corner_index", kIndexUnit);
   program.set("sheet_half", 0.5f * look_.thickness);
   program.set("least_half", 0.5f * kMinThickness * view.pixel);
-  gl_.ActiveTexture(GL_TEXTURE0 + kColorMapUnit);
-  gl_.BindTexture(GL_TEXTURE_2D, color_map_.name());
+  bind_texture(gl_, kColorMapUnit, color_map_);
 }
 
 // A sheet's two sides and its rim; where it has no thickness, its middle.

@@ -115,10 +115,8 @@ void FigureLight::draw(int pass, const std::function<void(const Program&)>& draw
 }
 
 void FigureLight::bind(const Program& program) const {
-  gl_->ActiveTexture(GL_TEXTURE0 + kKeyUnit);
-  gl_->BindTexture(GL_TEXTURE_2D, key_map_.name());
-  gl_->ActiveTexture(GL_TEXTURE0 + kRoomUnit);
-  gl_->BindTexture(GL_TEXTURE_2D, room_map_.name());
+  bind_texture(*gl_, kKeyUnit, key_map_);
+  bind_texture(*gl_, kRoomUnit, room_map_);
   program.set("key_map", kKeyUnit);
   program.set("room_map", kRoomUnit);
   const auto passes = static_cast<float>(passes_);  // each draws the whole light of its directions

@@ -86,8 +86,7 @@ void Ground::update(const ShadowMaps& shadows, const Box& box, float height) {
   light_program_.use();
   shadows.bind(light_program_, kSkyBlur);
   light_program_.set("ground_sky", kSkyTextureUnit);
-  gl_->ActiveTexture(GL_TEXTURE0 + kSkyTextureUnit);
-  gl_->BindTexture(GL_TEXTURE_2D, sky_.name());
+  bind_texture(*gl_, kSkyTextureUnit, sky_);
   fill(light_program_, light_target_, kSide);
   gl_->Enable(GL_DEPTH_TEST);
 }
@@ -105,8 +104,7 @@ const Program& Ground::begin() const {
   program_->use();
   program_->set("model", placement_);
   program_->set("ground_light", kLightUnit);
-  gl_->ActiveTexture(GL_TEXTURE0 + kLightUnit);
-  gl_->BindTexture(GL_TEXTURE_2D, light_.name());
+  bind_texture(*gl_, kLightUnit, light_);
   return *program_;
 }
 

@@ -63,10 +63,8 @@ void LitPixels::begin_cloth() const {
 }
 
 void LitPixels::bind(const Program& program, bool first_pass) const {
-  gl_->ActiveTexture(GL_TEXTURE0 + kClothDepthUnit);
-  gl_->BindTexture(GL_TEXTURE_2D, depth_.name());
-  gl_->ActiveTexture(GL_TEXTURE0 + kUnevenUnit);
-  gl_->BindTexture(GL_TEXTURE_2D, uneven_.name());
+  bind_texture(*gl_, kClothDepthUnit, depth_);
+  bind_texture(*gl_, kUnevenUnit, uneven_);
   program.set("cloth_depth", kClothDepthUnit);
   program.set("uneven", kUnevenUnit);
   program.set("first_pass", first_pass ? 1.0f : 0.0f);

@@ -122,18 +122,15 @@ void ShadowMaps::draw(const std::function<void(const Program&)>& draw_casters) c
 }
 
 void ShadowMaps::bind(const Program& program, float sky_blur, float sky_lift) const {
-  gl_->ActiveTexture(GL_TEXTURE0 + kKeyUnit);
-  gl_->BindTexture(GL_TEXTURE_2D, key_map_.name());
-  gl_->ActiveTexture(GL_TEXTURE0 + kSkyUnit);
-  gl_->BindTexture(GL_TEXTURE_2D, sky_map_.name());
+  bind_texture(*gl_, kKeyUnit, key_map_);
+  bind_texture(*gl_, kSkyUnit, sky_map_);
   program.set("key_map", kKeyUnit);
   program.set("sky_map", kSkyUnit);
   program.set("to_light", to_light_);
   program.set("room", room_);
   program.set("key_matrix", key_matrix_);
   program.set("key_texel", 2 * kBorder * radius_ / kKeySide);
-  gl_->ActiveTexture(GL_TEXTURE0 + kDepthUnit);
-  gl_->BindTexture(GL_TEXTURE_2D, key_map_.name());
+  bind_texture(*gl_, kDepthUnit, key_map_);
   gl_->BindSampler(kDepthUnit, depth_sampler_.name());
   program.set("key_depth", kDepthUnit);
   program.set("sky_blur", sky_blur);

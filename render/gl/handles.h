@@ -52,6 +52,12 @@ HYSTERON_GL_HANDLE(GlQuery, GenQueries, DeleteQueries)
 HYSTERON_GL_HANDLE(GlRenderbuffer, GenRenderbuffers, DeleteRenderbuffers)
 #undef HYSTERON_GL_HANDLE
 
+// Of two dimensions, to be read through that texture unit.
+inline void bind_texture(const GlFunctions& gl, int unit, const GlTexture& texture) {
+  gl.ActiveTexture(static_cast<GLenum>(GL_TEXTURE0 + unit));
+  gl.BindTexture(GL_TEXTURE_2D, texture.name());
+}
+
 struct GlProgramKind {
   static GLuint make(const GlFunctions& gl) { return gl.CreateProgram(); }
   static void destroy(const GlFunctions& gl, GLuint name) { gl.DeleteProgram(name); }
