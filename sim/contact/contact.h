@@ -14,9 +14,6 @@
 #include <optional>
 
 #include "sim/contact/face_contact.h"
-#include "sim/device/algorithms.h"
-#include "sim/linear/block_rows.h"
-#include "sim/mesh/cloth_mesh.h"
 
 namespace hysteron {
 
@@ -42,9 +39,9 @@ class Contact {
                      Real sliding_fraction);
 
   // Free vertices, and triangles of free vertices beside sharp obstacles, do not pass through a solid that
-  // has another side, nor it through them (sweep.h, face_sweep.cpp).  clip_to_obstacles() ends each path of
-  // a step from `start` to `end` where it meets an obstacle that bars it, reaches() says whether none is
-  // barred, and feasible_step() how long a step along `direction` from x may be, up to `max_step`.
+  // has another side, nor it through them (sweep.h).  clip_to_obstacles() ends each path of a step from
+  // `start` to `end` where it meets an obstacle that blocks it, path_is_clear() says whether none is blocked,
+  // and feasible_step() how long a step along `direction` from x may be, up to `max_step`.
   void clip_to_obstacles(const Vec3<Real>* start, Vec3<Real>* end, const char* held);
   bool path_is_clear(const Vec3<Real>* start, const Vec3<Real>* end, const char* held);
   double feasible_step(const Vec3<Real>* x, const Vec3<Real>* direction, const char* held, double max_step);
@@ -64,23 +61,19 @@ class Contact {
   std::size_t bytes() const;
 
  private:
-  VertexContact<Real> view() const { return {model_, set_, area_.data()}; }
+  VertexPoints<Real> points() const { return {model_, set_, area_.data(), exempt_.data()}; }
 
   Device& device_;
   std::vector<Obstacle> obstacle_;
   double fabric_friction_;
   ContactModel<Real> model_;
-  int vertices_;
   ObstacleSet<Real> set_;
   double moved_from_ = 0, moved_to_ = 0;  // for which it is [s]
   Buffer<Real, Device> area_;
-  FrictionStops<Real, Device> stops_;
   Buffer<char, Device> exempt_;
-  Buffer<double, Device> energy_, inside_;
-  Buffer<LaggedFriction<Real>, Device> lagged_;     // of implicit steps; empty before the first
+  Buffer<double, Device> energy_;
+  PointContact<Real, Device, VertexPoints<Real>> vertices_;
   std::optional<FaceContact<Real, Device>> faces_;  // where an obstacle is sharper than the mesh
-  GrowingBuffer<Real, Device> fraction_;            // of their ways that vertices may go; empty where all may
-  Scratch<Device> scratch_;
 };
 
 }  // namespace hysteron

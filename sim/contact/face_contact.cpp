@@ -1,125 +1,138 @@
 #include "sim/contact/face_contact.h"
 
+#include "sim/contact/sweep.h"
+
 namespace hysteron {
 
 template <class Real, class Device>
 FaceContact<Real, Device>::FaceContact(Device& device, const ClothMesh& mesh, const Scene& scene,
                                        const ContactModel<Real>& model)
-    : device_(device),
+    : PointContact<Real, Device, FacePoints<Real>>(device, mesh.faces(),
+                                                   scene.integrator == Integrator::quasi_static),
+      device_(device),
       model_(model),
       vertices_(mesh.vertices()),
-      faces_(mesh.faces()),
       sharp_(static_cast<Real>(sharp_radius(scene, mesh))),
       corner_(device, mesh.face),
       vertex_start_(device, mesh.vertex_faces.start),
       vertex_item_(device, mesh.vertex_faces.item),
       area_(device, std::vector<Real>(mesh.face_area.begin(), mesh.face_area.end())),
-      stops_(device, faces_, scene.integrator == Integrator::quasi_static ? 3 * faces_ : 0),
-      inside_(device, 1),
-      lagged_(device, faces_),
-      stiffness_(device, faces_),
-      force_(device, 3 * static_cast<std::size_t>(faces_)),
-      fraction_(device),
-      scratch_(device) {}
+      stiffness_(device, mesh.faces()),
+      force_(device, 3 * static_cast<std::size_t>(mesh.faces())) {}
 
 template <class Real, class Device>
-void FaceContact<Real, Device>::add(const ObstacleSet<Real>& set, const Vec3<Real>* x,
-                                    const Vec3<Real>* before, Real step, Vec3<Real>* rhs,
-                                    const BlockRowsView<Real>* matrix) {
-  lag(set, x);
-  evaluate(set, x, before, step, rhs, nullptr);
-  if (matrix) add_stiffness(set, x, before, step * step, *matrix, Real(0));
+void FaceContact<Real, Device>::add_forces(const FacePoints<Real>& faces, const Vec3<Real>* x,
+                                           const Vec3<Real>* before, Real factor, Vec3<Real>* target,
+                                           double* energy) {
+  this->evaluate(faces, x, before, force_.data(), energy);
+  const GatheredForces<Real> forces{vertex_start_.data(), vertex_item_.data(), force_.data()};
+  for_each(
+      device_, "contact: gathered forces", vertices_,
+      HYST_KERNEL(int i) { target[i] += factor * forces.at(i); });
+}
+
+// One obstacle after the other, so that a face has one point at a time.
+template <class Real, class Device>
+void FaceContact<Real, Device>::add_stiffness(const FacePoints<Real>& faces, const Vec3<Real>* x,
+                                              const Vec3<Real>* before, Real factor,
+                                              BlockRowsView<Real> matrix, Real sliding_fraction) {
+  const FaceFriction<Real>* lagged = this->lagged();
+  FaceStiffness<Real>* stiffness = stiffness_.data();
+  for (int o = 0; o < faces.set.count; ++o) {
+    if (!faces.feels(o)) continue;
+    for_each(
+        device_, "contact: stiffness of triangles", this->count(), HYST_KERNEL(int f) {
+          const FaceTouch<Real> t = faces.touch(f, o, x);
+          const FaceFriction<Real> friction = lagged[f];
+          const bool rubs = friction.limit > 0 && friction.index == faces.set.item[o].index;
+          FaceStiffness<Real>& s = stiffness[f];
+          s.acts = t.bears() || rubs;
+          if (!s.acts) return;
+          s.block.setZero();
+          s.weight = friction.weight;
+          if (t.bears()) {
+            s.weight = t.weight;
+            s.block = t.stiffness * t.direction * t.direction.transpose();
+          }
+          if (rubs)
+            s.block += friction.stiffness_at(lagged_slip<Real>(faces, f, friction, x, before),
+                                             faces.model.stop_stiffness(friction.limit, faces.area[f]),
+                                             sliding_fraction);
+        });
+    gather_stiffness(factor, matrix);
+  }
 }
 
 template <class Real, class Device>
-void FaceContact<Real, Device>::lag(const ObstacleSet<Real>& set, const Vec3<Real>* x) {
-  const FaceView<Real> faces = view(set);
-  const StopView<Real> stops = stops_.view();
-  FaceFriction<Real>* lagged = lagged_.data();
+void FaceContact<Real, Device>::gather_stiffness(Real factor, BlockRowsView<Real> matrix) {
+  const int *start = vertex_start_.data(), *item = vertex_item_.data();
+  const Eigen::Vector3i* corner = corner_.data();
+  const FaceStiffness<Real>* stiffness = stiffness_.data();
   for_each(
-      device_, "face contact: lagged friction", faces_, HYST_KERNEL(int f) {
-        Vec3<Real> at[3];
-        faces.place(f, x, at);
-        lagged[f] = faces.friction(f, at, stops);
-      });
-}
-
-template <class Real, class Device>
-void FaceContact<Real, Device>::evaluate(const ObstacleSet<Real>& set, const Vec3<Real>* x,
-                                         const Vec3<Real>* before, Real factor, Vec3<Real>* target,
-                                         double* energy) {
-  const FaceView<Real> faces = view(set);
-  const FaceFriction<Real>* lagged = lagged_.data();
-  Vec3<Real>* force = force_.data();
-  for_each(
-      device_, "face contact", faces_, HYST_KERNEL(int f) {
-        Vec3<Real> at[3];
-        faces.place(f, x, at);
-        double sum = faces.press(f, at, 0, force + 3 * f);
-        const FaceFriction<Real> friction = lagged[f];
-        if (friction.limit > 0) {
-          Vec3<Real> back;
-          sum += friction.energy_at(faces.slip(f, friction, x, before),
-                                    faces.stop_stiffness(f, friction.limit), back);
-          for (int k = 0; k < 3; ++k) force[3 * f + k] -= friction.weight[k] * back;
+      device_, "contact: matrix of triangles", vertices_, HYST_KERNEL(int v) {
+        for (int j = start[v]; j < start[v + 1]; ++j) {
+          const int f = item[j] / 3, c = item[j] % 3;
+          const FaceStiffness<Real>& s = stiffness[f];
+          if (!s.acts) continue;
+          const Real own = factor * s.weight[c];
+          matrix.diagonal[v] += own * s.weight[c] * s.block;
+          for (int k = 1; k < 3; ++k) {
+            const int other = (c + k) % 3;
+            int at = matrix.row_ptr[v];
+            while (matrix.col[at] != corner[f][other]) ++at;
+            matrix.off_diagonal[at] += own * s.weight[other] * s.block;
+          }
         }
-        if (energy) energy[f] = sum;
       });
-  const GatheredForces<Real> forces{vertex_start_.data(), vertex_item_.data(), force};
-  for_each(
-      device_, "face contact: forces", vertices_, HYST_KERNEL(int i) { target[i] += factor * forces.at(i); });
 }
 
-// As Contact::commit(), with the friction of the positions that are accepted.
+// Corners go the least fraction of those of their triangles; where some then go farther than others and a
+// triangle is blocked again, the same once more, and at last they stay beside the obstacle.
 template <class Real, class Device>
-int FaceContact<Real, Device>::commit(const ObstacleSet<Real>& set, const Vec3<Real>* x,
-                                      const Vec3<Real>* before, const char* held) {
-  lag(set, x);
-  const FaceView<Real> faces = view(set);
-  const StopView<Real> stops = stops_.view();
-  const FaceFriction<Real>* lagged = lagged_.data();
-  double* inside = inside_.data();
-  for_each_sum<1>(
-      device_, "face contact: history", faces_,
-      HYST_KERNEL(int f, Sums<1>& sums) {
-        const FaceFriction<Real> friction = lagged[f];
-        const Eigen::Vector3i face = faces.corner[f];
-        Vec3<Real> at[3], pressed[3];
-        faces.place(f, x, at);
-        for (int k = 0; stops.force && k < 3; ++k)
-          stops.work_before(f, 3 * f + k, surface_motion(faces.set, stops.touching[f] - 1, at[k]));
-        stops.touch(f, friction.index);
-        if (friction.index < 0) return;
-        if (friction.inside && !held[face[0]] && !held[face[1]] && !held[face[2]]) sums.term[0] += 1;
-        faces.press(f, at, 0, pressed);
-        const Real k_t = faces.stop_stiffness(f, friction.limit);
-        const Vec3<Real> stretched =
-            stops.accept(f, slip_within<Real>(faces.slip(f, friction, x, before), friction.limit, k_t));
-        for (int k = 0; k < 3; ++k)
-          stops.work_after(f, 3 * f + k, pressed[k] - k_t * friction.weight[k] * stretched,
-                           surface_motion(faces.set, friction.index, at[k]));
-      },
-      HYST_KERNEL(const Sums<1>& total) { *inside = total.term[0]; });
-  return static_cast<int>(inside_.download()[0]);
+void FaceContact<Real, Device>::clip_to_obstacles(const FacePoints<Real>& faces, const Vec3<Real>* start,
+                                                  Vec3<Real>* end, const char* held, Real rest_distance) {
+  constexpr int kRounds = 8, kShortened = 4;
+  for (int o = 0; o < faces.set.count; ++o) {
+    if (!faces.feels(o)) continue;
+    for (int round = 0; round < kRounds; ++round)
+      if (end_before(faces, o, start, end, held, rest_distance, round >= kShortened) == 1) break;
+  }
 }
 
+// The least fraction of its displacement that a corner has kept.
 template <class Real, class Device>
-void FaceContact<Real, Device>::store_energies(const ObstacleSet<Real>& set, const Vec3<Real>* x,
-                                               double* energy) {
-  const FaceView<Real> faces = view(set);
-  const double* stored = stops_.stored.data();
+Real FaceContact<Real, Device>::end_before(const FacePoints<Real>& faces, int o, const Vec3<Real>* start,
+                                           Vec3<Real>* end, const char* held, Real rest_distance, bool stay) {
+  Real* fraction = this->fractions();
   for_each(
-      device_, "face contact: energy", faces_, HYST_KERNEL(int f) {
-        Vec3<Real> at[3], force[3];
-        faces.place(f, x, at);
-        energy[f] = faces.press(f, at, stored[f], force);
+      device_, "contact: guess of triangles", this->count(), HYST_KERNEL(int f) {
+        fraction[f] = 1;
+        if (is_held(faces, f, held)) return;
+        const Obstacle3<Real>& obstacle = faces.set.item[o];
+        const Real own =
+            clipped_fraction(path_beside(obstacle, faces, f, start, end), obstacle, rest_distance);
+        fraction[f] = stay && own < 1 ? Real(0) : own;
       });
+  const Real least = this->least_fraction();
+  if (!(least < 1)) return 1;
+  const Obstacle3<Real> obstacle = faces.set.item[o];
+  const int *first = vertex_start_.data(), *item = vertex_item_.data();
+  for_each(
+      device_, "contact: guess of corners", vertices_, HYST_KERNEL(int i) {
+        Real own = 1;
+        for (int j = first[i]; j < first[i + 1]; ++j)
+          own = fraction[item[j] / 3] < own ? fraction[item[j] / 3] : own;
+        if (!(own < 1)) return;
+        const Vec3<Real> from = carried(obstacle, start[i]);
+        end[i] = from + own * (end[i] - from);
+      });
+  return least;
 }
 
 template <class Real, class Device>
 std::size_t FaceContact<Real, Device>::bytes() const {
-  return total_bytes(corner_, vertex_start_, vertex_item_, area_, stops_, inside_, lagged_, stiffness_,
-                     force_, fraction_, scratch_);
+  return PointContact<Real, Device, FacePoints<Real>>::bytes() +
+         total_bytes(corner_, vertex_start_, vertex_item_, area_, stiffness_, force_);
 }
 
 template class FaceContact<double, ThisDevice>;

@@ -17,6 +17,7 @@ struct LaggedFriction {
   Vec3<Real> start;  // slip from before, less the obstacle's motion over the step [m]
   Real limit;        // mu f_n [N]; 0: no contact
 
+  HYST_HD Real weight_of(int) const { return 1; }  // of a vertex in itself
   // Energy of the stop at a stretch e in the tangent plane [J], and its gradient [N].
   HYST_HD double energy_at(const Vec3<Real>& e, Real k, Vec3<Real>& gradient) const {
     const Real length = e.norm(), most = limit / k;
@@ -29,7 +30,7 @@ struct LaggedFriction {
   }
 };
 
-// Trial slip, the share of it that friction can hold, and the stiffness of the stop [N/m].
+// Trial slip, the fraction of it that friction can hold, and the stiffness of the stop [N/m].
 template <class Real>
 struct Slip {
   Vec3<Real> trial;
@@ -50,9 +51,11 @@ struct StopView {
   double *stored, *loss, *work;  // of a stop, lost in it, and done by its moving obstacle [J]
   Vec3<Real>* force;  // of contact at the positions accepted last [N]; null but in quasi-static scenes
 
+  // Whether the stop that presses against an obstacle, -1: none, is that of the step before.
+  HYST_HD bool goes_on(int i, int obstacle) const { return touching[i] == obstacle + 1; }
   // The obstacle that presses most, -1: none.  What the stop had stored against another one is lost.
   HYST_HD void touch(int i, int obstacle) const {
-    if (touching[i] != 0 && touching[i] != obstacle + 1) {
+    if (touching[i] != 0 && !goes_on(i, obstacle)) {
       loss[i] += stored[i];
       stored[i] = 0;
       slip[i].setZero();

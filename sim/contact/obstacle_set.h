@@ -45,6 +45,20 @@ HYST_HD inline Distance<Real> distance_to(const Obstacle3<Real>& obstacle, const
   return signed_distance<Real>(obstacle.shape, obstacle.rotation.transpose() * (x - obstacle.center));
 }
 
+// Way of a point of an obstacle at x over the step [m].
+template <class Real>
+HYST_HD Vec3<Real> motion_over_step(const Obstacle3<Real>& obstacle, const Vec3<Real>& x) {
+  return x - (obstacle.back_rotation * x + obstacle.back_translation);
+}
+
+// That of the scene's obstacle `index`; zero where it is not there.
+template <class Real>
+HYST_HD Vec3<Real> surface_motion(const ObstacleSet<Real>& set, int index, const Vec3<Real>& x) {
+  for (int o = 0; o < set.count; ++o)
+    if (set.item[o].index == index) return motion_over_step(set.item[o], x);
+  return Vec3<Real>::Zero();
+}
+
 // Least radius of curvature of a box, sphere or capsule while its motion scales it [m].  Infinite for what is
 // flat or not convex, and for cylinders, which act on vertices alone (docs/contact.md#sharp-obstacles).
 double sharpest_radius(const Obstacle& obstacle);

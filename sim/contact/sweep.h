@@ -1,6 +1,7 @@
-// What a vertex may do beside a solid: not go through it.  A segment of its path is followed by the signed
-// distance, which never exceeds the way to the surface (sphere tracing, Hart 1996, "conservative advancement"
-// of a point).
+// What a vertex or a triangle may do beside a solid: not go through it.  A segment of its path is followed by
+// the signed distance, which never exceeds the way to the surface (sphere tracing, Hart 1996, "conservative
+// advancement" of a point).  No point of a triangle goes farther than the corner that goes farthest, so that
+// its least distance can be followed as a vertex's is.
 //
 // Solids give way by design, so that a vertex may be a little inside; past the middle of the thinnest part
 // the shell would push it out on the other side.  A segment therefore leads at most half of what is left to
@@ -8,11 +9,11 @@
 // be had the obstacle carried it along, and is straight in the obstacle's frame.
 #pragma once
 
-#include "sim/contact/obstacle_set.h"
+#include "sim/contact/contact_points.h"
 
 namespace hysteron {
 
-inline constexpr int kMaxAdvances = 100;  // then the rest of the segment counts as barred
+inline constexpr int kMaxAdvances = 100;  // then the rest of the segment counts as blocked
 inline constexpr double kTouching =
     0.02;  // of the distance at the start, or of the thinnest part: this near the path ends
 
@@ -23,21 +24,75 @@ HYST_HD Vec3<Real> carried(const Obstacle3<Real>& obstacle, const Vec3<Real>& x)
   return obstacle.back_rotation.transpose() * (x - obstacle.back_translation) / scale2;
 }
 
-// Share of a path of this length on which what moves along it, at `distance` from the surface at first, stays
-// above `depth` below it; distance_at(share) from there on.
-template <class Real, class DistanceAt>
-HYST_HD Real fraction_above(Real length, Real distance, Real depth, Real thinnest,
-                            const DistanceAt& distance_at) {
-  const Real first = distance + depth;
+// Distance of a vertex, and of a triangle's nearest point, in the solid's frame.
+template <class Real>
+HYST_HD Real least_distance(const Shape<Real>& shape, const Vec3<Real> (&p)[1]) {
+  return signed_distance(shape, p[0]).value;
+}
+template <class Real>
+HYST_HD Real least_distance(const Shape<Real>& shape, const Vec3<Real> (&p)[3]) {
+  return face_point<Real>(shape, p, Real(0)).distance;
+}
+
+// Of the corners of a contact point.
+template <class Real, int kCorners>
+struct Path {
+  Vec3<Real> from[kCorners], displacement[kCorners];
+
+  HYST_HD Real length() const {
+    Real longest = 0;
+    for (const Vec3<Real>& w : displacement) longest = w.norm() > longest ? w.norm() : longest;
+    return longest;
+  }
+  HYST_HD void place(const Obstacle3<Real>& obstacle, Real fraction, Vec3<Real> (&p)[kCorners]) const {
+    for (int k = 0; k < kCorners; ++k)
+      p[k] = obstacle.rotation.transpose() * (from[k] + fraction * displacement[k] - obstacle.center);
+  }
+  HYST_HD Real distance_at(const Obstacle3<Real>& obstacle, Real fraction) const {
+    Vec3<Real> p[kCorners];
+    place(obstacle, fraction, p);
+    return least_distance(obstacle.shape, p);
+  }
+  // Whether that can be told without the triangle's nearest point.
+  HYST_HD bool stays_away(const Obstacle3<Real>& obstacle) const {
+    if constexpr (kCorners == 1) {
+      return false;
+    } else {
+      Vec3<Real> p[kCorners];
+      place(obstacle, Real(0), p);
+      return least_possible(obstacle.shape, p) > length();
+    }
+  }
+};
+
+// The path beside the obstacle; of one at rest `start` itself is where it begins.
+template <class Real, class Points>
+HYST_HD Path<Real, Points::kCorners> path_beside(const Obstacle3<Real>& obstacle, const Points& points,
+                                                 int point, const Vec3<Real>* start, const Vec3<Real>* end) {
+  Path<Real, Points::kCorners> path;
+  for (int k = 0; k < Points::kCorners; ++k) {
+    const int v = points.vertex(point, k);
+    path.from[k] = carried(obstacle, start[v]);
+    path.displacement[k] = end[v] - path.from[k];
+  }
+  return path;
+}
+
+// Fraction of a path on which what moves along it stays above `depth` below the surface, `distance` from
+// which it starts.
+template <class Real, int kCorners>
+HYST_HD Real fraction_above(const Path<Real, kCorners>& path, const Obstacle3<Real>& obstacle, Real distance,
+                            Real depth) {
+  const Real length = path.length(), first = distance + depth;
   if (!(length > first)) return 1;
   if (!(first > 0)) return 0;
-  const Real near = static_cast<Real>(kTouching) * (first < thinnest ? first : thinnest);
+  const Real near = static_cast<Real>(kTouching) * (first < obstacle.thinnest ? first : obstacle.thinnest);
   Real gone = 0, free = first;
   for (int k = 0; k < kMaxAdvances; ++k) {
     const Real safe = static_cast<Real>(1 - kTouching) * free, next = gone + (safe > near ? safe : near);
     const bool at_end = !(next < length);
     const Real reached = at_end ? length : next;
-    free = distance_at(reached / length) + depth;
+    free = path.distance_at(obstacle, reached / length) + depth;
     if (!(free > 0)) break;
     if (at_end) return 1;
     gone = reached;
@@ -46,50 +101,47 @@ HYST_HD Real fraction_above(Real length, Real distance, Real depth, Real thinnes
   return gone / length;
 }
 
-// Of a point that starts at `from` and goes `displacement`.
-template <class Real>
-HYST_HD Real fraction_above(const Obstacle3<Real>& obstacle, const Vec3<Real>& from,
-                            const Vec3<Real>& displacement, Real distance, Real depth) {
-  return fraction_above<Real>(displacement.norm(), distance, depth, obstacle.thinnest, [&](Real fraction) {
-    return distance_to<Real>(obstacle, from + fraction * displacement).value;
-  });
-}
-
-// Share of `displacement` from `from` on which a point does not go through the obstacle.  One that is past
-// the middle already may go anywhere.
-template <class Real>
-HYST_HD Real free_fraction(const Obstacle3<Real>& obstacle, const Vec3<Real>& from,
-                           const Vec3<Real>& displacement) {
-  const Real distance = distance_to(obstacle, from).value, deep = distance < 0 ? -distance : Real(0);
+// Fraction of a path on which nothing goes through the obstacle.  What is past the middle already may go
+// anywhere.
+template <class Real, int kCorners>
+HYST_HD HYST_NOINLINE Real free_fraction(const Path<Real, kCorners>& path, const Obstacle3<Real>& obstacle) {
+  if (path.stays_away(obstacle)) return 1;
+  const Real distance = path.distance_at(obstacle, Real(0)), deep = distance < 0 ? -distance : Real(0);
   if (!(deep < obstacle.thinnest)) return 1;
-  return fraction_above(obstacle, from, displacement, distance, (deep + obstacle.thinnest) / 2);
+  return fraction_above(path, obstacle, distance, (deep + obstacle.thinnest) / 2);
 }
 
-// Whether a vertex that was at `start` can be at `end` without having gone through an obstacle.
-template <class Real>
-HYST_HD bool path_is_clear(const ObstacleSet<Real>& set, const Vec3<Real>& start, const Vec3<Real>& end) {
-  for (int o = 0; o < set.count; ++o) {
-    if (!set.item[o].is_thin()) continue;
-    const Vec3<Real> from = carried(set.item[o], start);
-    if (free_fraction<Real>(set.item[o], from, end - from) < 1) return false;
+// That on which it does not come within `rest_distance`, where the obstacle blocks the path; 1 where it does
+// not.
+template <class Real, int kCorners>
+HYST_HD Real clipped_fraction(const Path<Real, kCorners>& path, const Obstacle3<Real>& obstacle,
+                              Real rest_distance) {
+  if (!(free_fraction(path, obstacle) < 1)) return 1;
+  return fraction_above(path, obstacle, path.distance_at(obstacle, Real(0)), -rest_distance);
+}
+
+// Whether a contact point that was at `start` can be at `end` without having gone through an obstacle.
+template <class Real, class Points>
+HYST_HD bool path_is_clear(const Points& points, int point, const Vec3<Real>* start, const Vec3<Real>* end) {
+  for (int o = 0; o < points.set.count; ++o) {
+    if (!points.may_be_blocked_by(o)) continue;
+    const Obstacle3<Real>& obstacle = points.set.item[o];
+    if (free_fraction(path_beside(obstacle, points, point, start, end), obstacle) < 1) return false;
   }
   return true;
 }
 
-// `end`, or where the path there comes within `rest_distance` of an obstacle that bars it.
+// Ends a vertex's path where it comes within `rest_distance` of an obstacle that blocks it.
 template <class Real>
-HYST_HD Vec3<Real> kept_out(const ObstacleSet<Real>& set, const Vec3<Real>& start, Vec3<Real> end,
-                            Real rest_distance) {
-  for (int o = 0; o < set.count; ++o) {
-    const Obstacle3<Real>& obstacle = set.item[o];
-    if (!obstacle.is_thin()) continue;
-    const Vec3<Real> from = carried(obstacle, start), displacement = end - from;
-    if (free_fraction(obstacle, from, displacement) < 1)
-      end = from +
-            fraction_above(obstacle, from, displacement, distance_to(obstacle, from).value, -rest_distance) *
-                displacement;
+HYST_HD void clip_path(const VertexPoints<Real>& vertices, int i, const Vec3<Real>* start, Vec3<Real>* end,
+                       Real rest_distance) {
+  for (int o = 0; o < vertices.set.count; ++o) {
+    if (!vertices.may_be_blocked_by(o)) continue;
+    const Obstacle3<Real>& obstacle = vertices.set.item[o];
+    const Path<Real, 1> path = path_beside<Real>(obstacle, vertices, i, start, end);
+    const Real own = clipped_fraction(path, obstacle, rest_distance);
+    if (own < 1) end[i] = path.from[0] + own * path.displacement[0];
   }
-  return end;
 }
 
 }  // namespace hysteron

@@ -193,20 +193,26 @@ TEST_P(SweepInMotion, HollowSphereThatClosesKeepsTheClothInside) {
   EXPECT_LT(simulation->ledger().remainder_relative, kSweptClosed);
 }
 
+// Of a vertex that goes `displacement` from `from`, beside an obstacle.
+double free_fraction_of(const Obstacle3<double>& obstacle, const Vector3d& from,
+                        const Vector3d& displacement) {
+  return free_fraction(Path<double, 1>{{from}, {displacement}}, obstacle);
+}
+
 // A point on its way to an obstacle stops half of the way to the middle, where the way meets it at all.
 TEST(FreeFraction, EndsHalfwayToTheMiddleOfTheThinnestPart) {
   const auto set = obstacles_during<double>({plate_at({0, 0, 0})}, 0.3, 0, 0);
   const Obstacle3<double>& plate = set.item[0];
   const Vector3d from(0.1, 0, 0.02), through(0, 0, -0.1);
-  const double fraction = free_fraction<double>(plate, from, through);
+  const double fraction = free_fraction_of(plate, from, through);
   EXPECT_NEAR(from.z() - fraction * 0.1, kHalf / 2, kTouching * kHalf);
-  EXPECT_EQ(free_fraction<double>(plate, from, Vector3d(0.1, 0.1, 0)), 1);
-  EXPECT_EQ(free_fraction<double>(plate, from, Vector3d(0, 0, 0.1)), 1);
-  EXPECT_EQ(free_fraction<double>(plate, Vector3d(0.6, 0, 0.02), through), 1);  // beside it
+  EXPECT_EQ(free_fraction_of(plate, from, Vector3d(0.1, 0.1, 0)), 1);
+  EXPECT_EQ(free_fraction_of(plate, from, Vector3d(0, 0, 0.1)), 1);
+  EXPECT_EQ(free_fraction_of(plate, Vector3d(0.6, 0, 0.02), through), 1);  // beside it
   // From half the depth a quarter of it is left, and the way out is free.
   const Vector3d inside(0, 0, kHalf / 2);
-  EXPECT_NEAR(inside.z() - free_fraction<double>(plate, inside, through) * 0.1, kHalf / 4, kTouching * kHalf);
-  EXPECT_EQ(free_fraction<double>(plate, inside, Vector3d(0, 0, 0.1)), 1);
+  EXPECT_NEAR(inside.z() - free_fraction_of(plate, inside, through) * 0.1, kHalf / 4, kTouching * kHalf);
+  EXPECT_EQ(free_fraction_of(plate, inside, Vector3d(0, 0, 0.1)), 1);
 }
 
 // Of every kind that has another side, at rest and in motion: no point of a free path is past the middle, and
@@ -228,25 +234,27 @@ TEST(FreeFraction, LeadsNoPathPastTheMiddleOfAnySolid) {
     o.motion.keys = {{0, {0, 0, 0}, 0}, {1, {0.01, -0.02, 0.01}, 40}};
     const auto set = obstacles_during<double>({o}, 0.3, 0.3, 0.7);
     const Obstacle3<double>& item = set.item[0];
+    const VertexPoints<double> vertex{{}, set, nullptr, nullptr};
     for (int k = 0; k < 2000; ++k) {
       const Vector3d start = point(), from = carried<double>(item, start), end = point(),
                      displacement = end - from;
       if (distance_to<double>(item, from).value < 0) continue;
-      const double fraction = free_fraction<double>(item, from, displacement);
+      const double fraction = free_fraction_of(item, from, displacement);
       constexpr int kSamples = 200;
       for (int j = 0; j <= kSamples; ++j)
         ASSERT_GT(distance_to<double>(item, from + fraction * j / kSamples * displacement).value,
                   -0.51 * item.thinnest)
             << enum_name(kind);
-      EXPECT_EQ(fraction == 1, path_is_clear<double>(set, start, end)) << enum_name(kind);
-      const Vector3d kept = kept_out<double>(set, start, end, 0.0);
+      EXPECT_EQ(fraction == 1, path_is_clear<double>(vertex, 0, &start, &end)) << enum_name(kind);
+      Vector3d kept = end;
+      clip_path<double>(vertex, 0, &start, &kept, 0.0);
       if (fraction == 1) {
         EXPECT_EQ(kept, end) << enum_name(kind);
         continue;
       }
       ++blocked;
       EXPECT_GE(distance_to<double>(item, kept).value, 0) << enum_name(kind);
-      EXPECT_TRUE(path_is_clear<double>(set, start, kept)) << enum_name(kind);
+      EXPECT_TRUE(path_is_clear<double>(vertex, 0, &start, &kept)) << enum_name(kind);
     }
   }
   EXPECT_GT(blocked, 100);

@@ -1,0 +1,51 @@
+// Contact of vertices, or of triangles, with obstacles: what both do alike (contact_points.h).
+#pragma once
+
+#include "sim/contact/contact_points.h"
+#include "sim/device/algorithms.h"
+
+namespace hysteron {
+
+template <class Real, class Device, class Points>
+class PointContact {
+ public:
+  // `quasi_static`: obstacles' work is that of the mean of the forces before and after a step.
+  PointContact(Device& device, int points, bool quasi_static)
+      : device_(device),
+        count_(points),
+        stops_(device, points, quasi_static ? Points::kCorners * points : 0),
+        inside_(device, 1),
+        fraction_(device),
+        scratch_(device) {}
+
+  // As in Contact.  evaluate() gives what it finds to `target` (give() of the points), its energy per point
+  // to `energy` unless that is null; store_energies() has those of the stops, too.
+  void lag(const Points& points, const Vec3<Real>* x);
+  void evaluate(const Points& points, const Vec3<Real>* x, const Vec3<Real>* before, Vec3<Real>* target,
+                double* energy);
+  void store_energies(const Points& points, const Vec3<Real>* x, double* energy);
+  int commit(const Points& points, const Vec3<Real>* x, const Vec3<Real>* before, const char* held);
+  // Points with a held corner go where that leads them.
+  bool path_is_clear(const Points& points, const Vec3<Real>* start, const Vec3<Real>* end, const char* held);
+  double feasible_step(const Points& points, const Vec3<Real>* x, const Vec3<Real>* direction,
+                       const char* held, double max_step);
+
+  int count() const { return count_; }
+  FrictionStops<Real, Device>& stops() { return stops_; }
+  const FrictionStops<Real, Device>& stops() const { return stops_; }
+  const typename Points::Friction* lagged() const { return lagged_.data(); }
+  Real* fractions() { return fraction_.reserve(count_); }  // of their paths, room for one each
+  Real least_fraction() { return smallest(device_, scratch_, fraction_.data(), count_, Real(1)); }
+  std::size_t bytes() const { return total_bytes(stops_, lagged_, inside_, fraction_, scratch_); }
+
+ private:
+  Device& device_;
+  int count_;
+  FrictionStops<Real, Device> stops_;
+  Buffer<typename Points::Friction, Device> lagged_;  // empty before the first lag()
+  Buffer<double, Device> inside_;
+  GrowingBuffer<Real, Device> fraction_;  // empty where no obstacle has another side
+  Scratch<Device> scratch_;
+};
+
+}  // namespace hysteron
