@@ -53,6 +53,14 @@ class Buffer {
   std::size_t size_ = 0;
 };
 
+// What the device's array holds from `data` on.
+template <class T, class Device>
+std::vector<T> downloaded(Device& device, const T* data, std::size_t size) {
+  std::vector<T> values(size);
+  if (size) device_download(device, values.data(), data, size * sizeof(T));
+  return values;
+}
+
 // Of arrays that a loop reads or writes whole.
 template <class... Buffers>
 std::size_t total_bytes(const Buffers&... buffer) {

@@ -5,30 +5,14 @@
 #include <string>
 
 #include "sim/base/error.h"
-#include "sim/time/make_linear_solver.h"
 #include "sim/time/step_errors.h"
 #include "sim/time/time_integrator.h"
 
 namespace hysteron {
 
-namespace {
-
-// What a solve works on.
-template <class Real, class Device>
-VertexState<Real> vertex_state(Body<Real, Device>& body) {
-  return {body.x.data(),    body.v.data(),    body.held.data(),
-          body.mass.data(), body.pins.arcs(), body.pins.compliant_pins()};
-}
-
-}  // namespace
-
 template <class Real, class Device>
 ImplicitIntegrator<Real, Device>::ImplicitIntegrator(Body<Real, Device>& body)
-    : body_(body),
-      solver_(*body.device, body.scene, body.mass, body.matrix, body.membrane, body.bending,
-              body.contact ? &*body.contact : nullptr, body.self_contact ? &*body.self_contact : nullptr,
-              make_linear_solver(body)),
-      tolerance_(body.scene.tolerance) {}
+    : body_(body), solver_(body), tolerance_(body.scene.tolerance) {}
 
 template <class Real, class Device>
 void ImplicitIntegrator<Real, Device>::step(double start) {
@@ -43,13 +27,8 @@ void ImplicitIntegrator<Real, Device>::step_by(double start, double h) {
 }
 
 template <class Real, class Device>
-std::vector<Vec3<Real>> ImplicitIntegrator<Real, Device>::handle_forces() {
-  return solver_.handle_forces(vertex_state(body_));
-}
-
-template <class Real, class Device>
 void ImplicitIntegrator<Real, Device>::become_static() {
-  solver_.become_static(body_.scene);
+  solver_.become_static();
   tolerance_ = 0;  // of steps in time
 }
 
@@ -83,7 +62,7 @@ NewtonOutcome ImplicitIntegrator<Real, Device>::attempt(double start, double h, 
 template <class Real, class Device>
 NewtonOutcome ImplicitIntegrator<Real, Device>::solve(double start, double h, bool is_first_stage) {
   body_.clock.begin(Stage::solve);
-  const NewtonOutcome outcome = solver_.solve(vertex_state(body_), h, load_share(start + h), is_first_stage);
+  const NewtonOutcome outcome = solver_.solve(h, load_share(start + h), is_first_stage);
   body_.clock.end(Stage::solve);
   body_.counts.newton += outcome.iterations;
   body_.counts.linear += outcome.linear_iterations;
@@ -104,7 +83,7 @@ void ImplicitIntegrator<Real, Device>::accept(double end) {
     counts.largest_velocity = std::max(counts.largest_velocity, last_outcome_.velocity);
   }
   body_.clock.begin(Stage::history);
-  solver_.accept(vertex_state(body_), body_.ledger.data());
+  solver_.accept();
   body_.clock.end(Stage::history);
   body_.forces_discontinuous = false;
   body_.end_stage(end);
@@ -161,7 +140,7 @@ void ImplicitIntegrator<Real, Device>::take_adaptive_step(double start) {
   for (double now = start; end - now > least / 2;) {
     const double h = equal_part(end - now, part_);
     const NewtonOutcome outcome = attempt(now, first_stage(h), solver_.has_two_stages(), false);
-    const double error = outcome.converged ? solver_.local_error(vertex_state(body_)) : 1e30;
+    const double error = outcome.converged ? solver_.local_error() : 1e30;
     const double wanted = next_part(h, std::pow(tolerance_ / error, 1 / solver_.error_order()));
     if (outcome.converged && error <= tolerance_) {
       finish(now, h, 0);

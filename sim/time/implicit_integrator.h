@@ -16,7 +16,7 @@ class ImplicitIntegrator : public TimeIntegrator<Real, Device> {
   void step(double start) override;
   void step_by(double start, double h) override;
   void become_static() override;
-  std::vector<Vec3<Real>> handle_forces() override;
+  std::vector<Vec3<Real>> handle_forces() override { return solver_.handle_forces(); }
   void serialise(Archive& archive) override {
     archive(part_);
     archive(tolerance_);

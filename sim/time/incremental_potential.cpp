@@ -129,8 +129,7 @@ std::string IncrementalPotential<Real, Device>::not_finite(const Vec3<Real>* x) 
   if (std::isfinite(evaluate(x, nullptr).energy)) return "";
   const Energies of = energies();
   for (int l = 0; l < 4; ++l) {
-    std::vector<double> energy(of.count[l]);
-    device_download(device_, energy.data(), of.list[l], energy.size() * sizeof(double));
+    const std::vector<double> energy = downloaded(device_, of.list[l], of.count[l]);
     const auto bad = std::find_if(energy.begin(), energy.end(), [](double e) { return !std::isfinite(e); });
     if (bad != energy.end())
       return std::string("the energy of ") + kPart[l] + " (element " + std::to_string(bad - energy.begin()) +

@@ -145,14 +145,14 @@ void throw_if_unbalanced(Body<Real, Device>& body, ImplicitStep<Real, Device>& s
     throw Error::simulation(message);
   }
   if (!(outcome.load > 0)) {
-    const std::string part = step.not_finite(body.x.data());
+    const std::string part = step.not_finite();
     throw Error::simulation(message + (part.empty()
                                            ? "nothing holds the cloth back, or an obstacle bars its way"
                                            : part + " is not finite"));
   }
   message += "an unbalanced force of " + number(outcome.residual) +
              " N remains (weight, pins and inertia: " + number(outcome.load) + " N)";
-  const Unbalanced worst = step.most_unbalanced(body.held.data());
+  const Unbalanced worst = step.most_unbalanced();
   if (worst.vertex < 0) throw Error::simulation(message);
   const std::vector<std::string> by = pressing(body, worst.vertex, worst.position, start + h);
   throw Error::simulation(message + ", most of it, " + number(worst.force) + " N, at " +
