@@ -57,6 +57,9 @@ struct Body {
   // Commands that are due in a step, on the state accepted last.
   void carry_out_commands(double start, double end);
 
+  Vec3<Real> gravity() const { return scene.gravity.template cast<Real>(); }              // [m/s^2]
+  Real drag() const { return static_cast<Real>(scene.air_drag / scene.fabric.density); }  // over mass [1/s]
+
   // All that outlives a step; the rest follows from the scene, or is made anew in every step.
   void serialise(Archive& archive);
 

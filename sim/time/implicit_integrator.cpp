@@ -12,7 +12,7 @@ namespace hysteron {
 
 template <class Real, class Device>
 ImplicitIntegrator<Real, Device>::ImplicitIntegrator(Body<Real, Device>& body)
-    : body_(body), solver_(body), tolerance_(body.scene.tolerance) {}
+    : TimeIntegrator<Real, Device>(body), solver_(body), tolerance_(body.scene.tolerance) {}
 
 template <class Real, class Device>
 void ImplicitIntegrator<Real, Device>::step(double start) {
@@ -22,7 +22,7 @@ void ImplicitIntegrator<Real, Device>::step(double start) {
 template <class Real, class Device>
 void ImplicitIntegrator<Real, Device>::step_by(double start, double h) {
   if (body_.scene.integrator != Integrator::quasi_static && !solver_.is_static())
-    throw_if_long_step(body_.scene);
+    TimeIntegrator<Real, Device>::step_by(start, h);
   take_interval(start, h, 0);
 }
 
@@ -170,11 +170,6 @@ void LaggedBending<Real, Device>::step(double start) {
     body.clock.end(Stage::bending);
     this->take_interval(from, static_cast<double>(h), 0);
   }
-}
-
-template <class Real, class Device>
-void LaggedBending<Real, Device>::become_static() {
-  throw_if_statics(this->body_.scene);
 }
 
 template class ImplicitIntegrator<double, ThisDevice>;

@@ -25,9 +25,9 @@ class ImplicitIntegrator : public TimeIntegrator<Real, Device> {
   std::size_t bytes() const override { return solver_.bytes(); }
 
  protected:
+  using TimeIntegrator<Real, Device>::body_;
   // From start to start + h, in halves if it does not converge.
   void take_interval(double start, double h, int halvings);
-  Body<Real, Device>& body_;
 
  private:
   void take_adaptive_step(double start);
@@ -53,7 +53,7 @@ class LaggedBending : public ImplicitIntegrator<Real, Device> {
   LaggedBending(Body<Real, Device>& body, const StepLimits& limits)
       : ImplicitIntegrator<Real, Device>(body), stages_(limits.substeps) {}
   void step(double start) override;
-  void become_static() override;
+  void become_static() override { TimeIntegrator<Real, Device>::become_static(); }
 
  private:
   int stages_;

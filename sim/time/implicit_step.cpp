@@ -61,8 +61,6 @@ ImplicitStep<Real, Device>::ImplicitStep(Body<Real, Device>& body)
       two_stage_(body.scene.integrator == Integrator::tr_bdf2),
       static_(body.scene.integrator == Integrator::quasi_static),
       bending_lags_(body.scene.integrator == Integrator::semi_implicit),
-      gravity_(body.scene.gravity.template cast<Real>()),
-      drag_(static_cast<Real>(body.scene.air_drag / body.scene.fabric.density)),
       total_mass_(buffer_sum(body.mass)),
       potential_(*body.device, body.matrix, body.membrane, body.bending,
                  body.contact ? &*body.contact : nullptr, body.self_contact ? &*body.self_contact : nullptr,
@@ -133,7 +131,7 @@ NewtonOutcome ImplicitStep<Real, Device>::solve(double h, double fraction, bool 
   fraction_ = static_cast<Real>(fraction);
   place();
   potential_.begin({formula_, rate_formula(h), body_.x.data(), x_before_.data(), reference_.data(),
-                    predicted_.data(), body_.held.data(), gravity_, drag_, fraction_,
+                    predicted_.data(), body_.held.data(), body_.gravity(), body_.drag(), fraction_,
                     body_.pins.compliant_pins()});
   // The better of two beginnings: at constant velocity, and with the acceleration of the step before.
   const PotentialValue steady = potential_of_guess(false);
@@ -319,8 +317,8 @@ void ImplicitStep<Real, Device>::accept() {
 template <class Real, class Device>
 void ImplicitStep<Real, Device>::book() {
   const Real rate = static_cast<Real>(1 / formula_.beta_dt);  // 0 in statics
-  const Real inertia = rate * rate, drag = drag_ * rate;
-  const Vec3<Real> g = gravity_, carried = (1 - fraction_) * gravity_;
+  const Real inertia = rate * rate, drag = body_.drag() * rate;
+  const Vec3<Real> g = body_.gravity(), carried = (1 - fraction_) * g;
   const GatheredForces<Real> bending = body_.bending.forces();
   const Vec3<Real>*x = body_.x.data(), *v = body_.v.data(), *end = end_.data(),
         *reference = reference_.data();

@@ -90,9 +90,7 @@ class ImplicitStep {
   bool two_step_, two_stage_, static_, bending_lags_;
   bool knows_acceleration_ = false;  // at the state accepted last
   bool evaluated_ = false;           // the potential was last, at the end of the solve
-  Vec3<Real> gravity_;
-  Real drag_;          // over mass [1/s]
-  Real fraction_ = 1;  // of the weight
+  Real fraction_ = 1;                // of the weight
   double total_mass_;
   IncrementalPotential<Real, Device> potential_;
   std::unique_ptr<LinearSolver<Real, Device>> solver_;

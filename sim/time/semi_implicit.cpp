@@ -55,7 +55,10 @@ double largest_coordinate(const std::vector<Eigen::Vector3d>& x) {
 
 template <class Real, class Device>
 SemiImplicit<Real, Device>::SemiImplicit(Body<Real, Device>& body, const StepLimits& limits)
-    : body_(body), limits_(limits), solve_(body), impulse_(*body.device, body.vertices) {}
+    : TimeIntegrator<Real, Device>(body),
+      limits_(limits),
+      solve_(body),
+      impulse_(*body.device, body.vertices) {}
 
 template <class Real, class Device>
 void SemiImplicit<Real, Device>::step(double start) {
@@ -95,8 +98,8 @@ void SemiImplicit<Real, Device>::gather_impulses(Real h) {
   body_.clock.begin(Stage::bending);
   body_.bending.commit(body_.x.data(), body_.v.data(), h);
   const GatheredForces<Real> bending = body_.bending.forces();
-  const Vec3<Real> g = body_.scene.gravity.template cast<Real>();
-  const Real drag = static_cast<Real>(body_.scene.air_drag / body_.scene.fabric.density);
+  const Vec3<Real> g = body_.gravity();
+  const Real drag = body_.drag();
   const Real* mass = body_.mass.data();
   const Vec3<Real>* v = body_.v.data();
   Vec3<Real>*x = body_.x.data(), *impulse = impulse_.data();
@@ -124,8 +127,8 @@ void ChapterSteps<Real, Device>::substep(Real dt) {
   body_.clock.begin(Stage::bending);
   body_.bending.commit(body_.x.data(), body_.v.data(), dt);
   const GatheredForces<Real> bending = body_.bending.forces();
-  const Vec3<Real> g = body_.scene.gravity.template cast<Real>();
-  const Real drag = static_cast<Real>(body_.scene.air_drag / body_.scene.fabric.density);
+  const Vec3<Real> g = body_.gravity();
+  const Real drag = body_.drag();
   const Real* mass = body_.mass.data();
   const char* held = body_.held.data();
   Vec3<Real>*x = body_.x.data(), *v = body_.v.data();
@@ -255,7 +258,7 @@ void LinearisedSolve<Real, Device>::book(Real h, const Vec3<Real>* explicit_impu
         *last = correction_.data();
   const BlockRowsView<Real> matrix = body_.matrix.view();
   const GatheredForces<Real> bending = body_.bending.forces();
-  const Vec3<Real> g = body_.scene.gravity.template cast<Real>();
+  const Vec3<Real> g = body_.gravity();
   const bool handles = body_.pins.any_moves();
   VertexLedger* ledger = body_.ledger.data();
   const std::size_t explicit_bytes = explicit_impulse ? body_.bending.force_bytes() + rhs_.bytes() : 0;
@@ -310,7 +313,7 @@ template class ChapterSteps<float, ThisDevice>;
 
 template <class Real, class Device>
 ExplicitEuler<Real, Device>::ExplicitEuler(Body<Real, Device>& body, const StepLimits& limits)
-    : body_(body), substeps_(limits.substeps), force_(*body.device, body.vertices) {}
+    : TimeIntegrator<Real, Device>(body), substeps_(limits.substeps), force_(*body.device, body.vertices) {}
 
 template <class Real, class Device>
 void ExplicitEuler<Real, Device>::step(double start) {
@@ -331,8 +334,8 @@ void ExplicitEuler<Real, Device>::substep(Real dt) {
       *body_.device, {"explicit forces", body_.membrane.force_bytes() + force_.bytes()}, body_.vertices,
       HYST_KERNEL(int i) { force[i] = membrane.at(i); });
   if (body_.contact) body_.contact->add(body_.x.data(), body_.before.data(), 1, force, nullptr);
-  const Vec3<Real> g = body_.scene.gravity.template cast<Real>();
-  const Real drag = static_cast<Real>(body_.scene.air_drag / body_.scene.fabric.density);
+  const Vec3<Real> g = body_.gravity();
+  const Real drag = body_.drag();
   const Real* mass = body_.mass.data();
   const char* held = body_.held.data();
   Vec3<Real>*x = body_.x.data(), *v = body_.v.data();

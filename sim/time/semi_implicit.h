@@ -40,8 +40,6 @@ class SemiImplicit : public TimeIntegrator<Real, Device> {
  public:
   SemiImplicit(Body<Real, Device>& body, const StepLimits& limits);
   void step(double start) override;
-  void step_by(double, double) override { throw_if_long_step(body_.scene); }
-  void become_static() override { throw_if_statics(body_.scene); }
   void serialise(Archive& archive) override {
     archive(part_);
     solve_.serialise(archive);
@@ -52,10 +50,10 @@ class SemiImplicit : public TimeIntegrator<Real, Device> {
   void gather_impulses(Real h);  // public because nvcc allows no device lambda in a private member function
 
  private:
+  using TimeIntegrator<Real, Device>::body_;
   void stage(double start, Real h);
   void take_adaptive_step(double start);
 
-  Body<Real, Device>& body_;
   StepLimits limits_;
   double part_ = 0;  // of adaptive steps: the coming one [s]
   LinearisedSolve<Real, Device> solve_;
@@ -67,17 +65,15 @@ template <class Real, class Device>
 class ChapterSteps : public TimeIntegrator<Real, Device> {
  public:
   ChapterSteps(Body<Real, Device>& body, const StepLimits& limits)
-      : body_(body), substeps_(limits.substeps), solve_(body) {}
+      : TimeIntegrator<Real, Device>(body), substeps_(limits.substeps), solve_(body) {}
   void step(double start) override;
-  void step_by(double, double) override { throw_if_long_step(body_.scene); }
-  void become_static() override { throw_if_statics(body_.scene); }
   void serialise(Archive& archive) override { solve_.serialise(archive); }
   std::size_t bytes() const override { return solve_.bytes(); }
 
   void substep(Real dt);  // public because nvcc allows no device lambda in a private member function
 
  private:
-  Body<Real, Device>& body_;
+  using TimeIntegrator<Real, Device>::body_;
   int substeps_;
   LinearisedSolve<Real, Device> solve_;
 };
@@ -88,15 +84,13 @@ class ExplicitEuler : public TimeIntegrator<Real, Device> {
  public:
   ExplicitEuler(Body<Real, Device>& body, const StepLimits& limits);
   void step(double start) override;
-  void step_by(double, double) override { throw_if_long_step(body_.scene); }
-  void become_static() override { throw_if_statics(body_.scene); }
   void serialise(Archive&) override {}  // forces are those of each substep's start
   std::size_t bytes() const override { return force_.bytes(); }
 
   void substep(Real dt);  // public because nvcc allows no device lambda in a private member function
 
  private:
-  Body<Real, Device>& body_;
+  using TimeIntegrator<Real, Device>::body_;
   int substeps_;
   Buffer<Vec3<Real>, Device> force_;  // of membrane and contact [N]
 };
