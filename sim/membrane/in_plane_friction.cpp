@@ -100,8 +100,7 @@ double InPlaneFriction<Strains, Device>::loss() const {
 template <class Strains, class Device>
 void InPlaneFriction<Strains, Device>::serialise(Archive& archive) {
   if (!any()) return;
-  hysteron::serialise(archive, device_, slip_);
-  hysteron::serialise(archive, device_, lost_);
+  hysteron::serialise(archive, device_, slip_, lost_);
 }
 
 template class InPlaneFriction<FaceStrains<double>, ThisDevice>;

@@ -18,8 +18,7 @@ class ImplicitIntegrator : public TimeIntegrator<Real, Device> {
   void become_static() override;
   std::vector<Vec3<Real>> handle_forces() override { return solver_.handle_forces(); }
   void serialise(Archive& archive) override {
-    archive(part_);
-    archive(tolerance_);
+    archive(part_, tolerance_);
     solver_.serialise(archive);
   }
   std::size_t bytes() const override { return solver_.bytes(); }

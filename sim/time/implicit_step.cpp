@@ -100,11 +100,8 @@ std::size_t ImplicitStep<Real, Device>::bytes() const {
 
 template <class Real, class Device>
 void ImplicitStep<Real, Device>::serialise(Archive& archive) {
-  archive(knows_acceleration_);
-  archive(last_h_);
-  hysteron::serialise(archive, *body_.device, acceleration_);
-  hysteron::serialise(archive, *body_.device, x_before_);
-  hysteron::serialise(archive, *body_.device, v_before_);
+  archive(knows_acceleration_, last_h_);
+  hysteron::serialise(archive, *body_.device, acceleration_, x_before_, v_before_);
   archive(knows_forces_);
   hysteron::serialise(archive, *body_.device, forces_);
   potential_.serialise(archive);

@@ -28,7 +28,7 @@ bool may_meet(const Scene& scene) {
 void visit_keyframes(Archive& archive, std::vector<Keyframe>& keys) {
   keys.resize(archive.size(keys.size()));
   for (Keyframe& key : keys) {
-    for (double* number : {&key.time, &key.angle, &key.scale}) archive(*number);
+    archive(key.time, key.angle, key.scale);
     archive.bytes(key.position.data(), sizeof key.position);
   }
 }
@@ -170,13 +170,9 @@ void Pins<Real, Device>::serialise(Archive& archive, Body<Real, Device>& body) {
   for (Pin& pin : body.scene.pin) visit_keyframes(archive, pin.motion.keys);  // which may have been driven
   if (archive.loads() && moving_) set_out(device, body.scene, body.cloth, 0);
   archive(next_);
-  hysteron::serialise(archive, device, start_);
-  hysteron::serialise(archive, device, pin_);
-  archive(work_);
-  archive(behind_);
-  archive(pulls_);
-  hysteron::serialise(archive, device, place_);
-  hysteron::serialise(archive, device, strength_);
+  hysteron::serialise(archive, device, start_, pin_);
+  archive(work_, behind_, pulls_);
+  hysteron::serialise(archive, device, place_, strength_);
 }
 
 template <class Real, class Device>
