@@ -16,10 +16,10 @@
 
 namespace hysteron {
 
-template <class Real>
-std::vector<Vec3<Real>> cast_to(const std::vector<Eigen::Vector3d>& values) {
-  std::vector<Vec3<Real>> result;
-  for (const auto& v : values) result.push_back(v.cast<Real>());
+template <class To, class From>
+std::vector<Vec3<To>> cast_to(const std::vector<Vec3<From>>& values) {
+  std::vector<Vec3<To>> result;
+  for (const auto& v : values) result.push_back(v.template cast<To>());
   return result;
 }
 

@@ -14,17 +14,6 @@
 
 namespace hysteron {
 
-namespace {
-
-template <class Real>
-std::vector<Eigen::Vector3d> in_doubles(const std::vector<Vec3<Real>>& values) {
-  std::vector<Eigen::Vector3d> result;
-  for (const auto& value : values) result.push_back(value.template cast<double>());
-  return result;
-}
-
-}  // namespace
-
 template <class Real, class Device>
 std::unique_ptr<TimeIntegrator<Real, Device>> make_integrator(Body<Real, Device>& body,
                                                               const StepLimits& limits) {
@@ -140,7 +129,7 @@ Simulation::InPlace Stepper<Real, Device>::in_place(const Buffer<Vec3<Real>, Dev
 
 template <class Real, class Device>
 std::vector<Eigen::Vector3d> Stepper<Real, Device>::positions() {
-  std::vector<Eigen::Vector3d> x = in_doubles(body_.x.download());
+  std::vector<Eigen::Vector3d> x = cast_to<double>(body_.x.download());
   if (is_shifted())
     for (Eigen::Vector3d& p : x) p += body_.origin;
   return x;
@@ -148,12 +137,12 @@ std::vector<Eigen::Vector3d> Stepper<Real, Device>::positions() {
 
 template <class Real, class Device>
 std::vector<Eigen::Vector3d> Stepper<Real, Device>::velocities() {
-  return in_doubles(body_.v.download());
+  return cast_to<double>(body_.v.download());
 }
 
 template <class Real, class Device>
 std::vector<Eigen::Vector3d> Stepper<Real, Device>::handle_forces() {
-  return in_doubles(integrator_->handle_forces());
+  return cast_to<double>(integrator_->handle_forces());
 }
 
 template <class Real, class Device>
