@@ -1,6 +1,7 @@
 // Memory that lives on one device.  Zero-initialised; moved, never copied by accident.
 #pragma once
 
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -40,6 +41,11 @@ class Buffer {
     std::vector<T> values(size_);
     if (size_) device_download(*device_, values.data(), data_, bytes());
     return values;
+  }
+  // Of all elements, added up by the host in their order.
+  double sum() const {
+    const std::vector<T> values = download();
+    return std::accumulate(values.begin(), values.end(), 0.0);
   }
 
  private:

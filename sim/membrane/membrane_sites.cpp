@@ -1,7 +1,6 @@
 #include "sim/membrane/membrane_sites.h"
 
 #include <cmath>
-#include <numeric>
 
 namespace hysteron {
 
@@ -162,12 +161,6 @@ void MembraneSites<Strains, Device>::find_stored(const Vec3<Real>* x, double* en
 }
 
 template <class Strains, class Device>
-double MembraneSites<Strains, Device>::viscous_loss() const {
-  const std::vector<double> values = viscous_.download();
-  return std::accumulate(values.begin(), values.end(), 0.0);
-}
-
-template <class Strains, class Device>
 void MembraneSites<Strains, Device>::add_friction(double* energy) {
   const StrainStops<Real> stops = this->stops();
   const Strains of = strains_;
@@ -213,12 +206,6 @@ void MembraneSites<Strains, Device>::commit_friction(const Vec3<Real>* x, bool i
         if (!is_start) lost[i] += static_cast<double>(of.area(i) * stops.reply(i, strain).lost);
         stops.accept(i, strain);
       });
-}
-
-template <class Strains, class Device>
-double MembraneSites<Strains, Device>::friction_loss() const {
-  const std::vector<double> values = lost_.download();
-  return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
 template class MembraneSites<FaceStrains<double>, ThisDevice>;

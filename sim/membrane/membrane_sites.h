@@ -47,13 +47,13 @@ class MembraneSites {
   void add_viscous_loss();                                    // of the step that evaluate() saw last
   void add_viscous_loss(const Vec3<Real>* velocity, Real step);
   void find_stored(const Vec3<Real>* position, double* energy);  // [J]
-  double viscous_loss() const;                                   // since the start [J]
+  double viscous_loss() const { return viscous_.sum(); }         // since the start [J]
 
   bool has_friction() const { return slip_.size() > 0; }
   // Accepts positions.  What the stops lose on the way counts unless `is_start`: cloth starts with stops that
   // its start shape has dragged along.
   void commit_friction(const Vec3<Real>* position, bool is_start);
-  double friction_loss() const;  // since the start [J]
+  double friction_loss() const { return lost_.sum(); }  // since the start [J]
 
   void serialise(Archive& archive) {
     hysteron::serialise(archive, device_, viscous_);

@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "sim/linear/levels_in_one_launch.h"
 #include "sim/time/make_linear_solver.h"
@@ -19,12 +18,6 @@
 namespace hysteron {
 
 namespace {
-
-template <class Real, class Device>
-double buffer_sum(const Buffer<Real, Device>& values) {
-  const std::vector<Real> host = values.download();
-  return std::accumulate(host.begin(), host.end(), 0.0);
-}
 
 template <class Real>
 NewtonLimits newton_limits(const Scene& scene, bool statics) {
@@ -61,7 +54,7 @@ ImplicitStep<Real, Device>::ImplicitStep(Body<Real, Device>& body)
       two_stage_(body.scene.integrator == Integrator::tr_bdf2),
       static_(body.scene.integrator == Integrator::quasi_static),
       bending_lags_(body.scene.integrator == Integrator::semi_implicit),
-      total_mass_(buffer_sum(body.mass)),
+      total_mass_(body.mass.sum()),
       potential_(*body.device, body.matrix, body.membrane, body.bending,
                  body.contact ? &*body.contact : nullptr, body.self_contact ? &*body.self_contact : nullptr,
                  body.mass, bending_lags_, body.scene.tuning),
