@@ -11,11 +11,15 @@
 namespace hysteron {
 
 template <class Real, class Device>
-ImplicitIntegrator<Real, Device>::ImplicitIntegrator(Body<Real, Device>& body)
-    : TimeIntegrator<Real, Device>(body), solver_(body), tolerance_(body.scene.tolerance) {}
+ImplicitIntegrator<Real, Device>::ImplicitIntegrator(Body<Real, Device>& body, const StepLimits& limits)
+    : TimeIntegrator<Real, Device>(body),
+      solver_(body),
+      substeps_(limits.substeps),
+      tolerance_(body.scene.tolerance) {}
 
 template <class Real, class Device>
 void ImplicitIntegrator<Real, Device>::step(double start) {
+  if (bending_lags()) return take_lagged_step(start);
   tolerance_ > 0 ? take_adaptive_step(start) : take_interval(start, body_.scene.step, 0);
 }
 
@@ -28,6 +32,7 @@ void ImplicitIntegrator<Real, Device>::step_by(double start, double h) {
 
 template <class Real, class Device>
 void ImplicitIntegrator<Real, Device>::become_static() {
+  if (bending_lags()) return TimeIntegrator<Real, Device>::become_static();
   solver_.become_static();
   tolerance_ = 0;  // of steps in time
 }
@@ -156,25 +161,23 @@ void ImplicitIntegrator<Real, Device>::take_adaptive_step(double start) {
   }
 }
 
-// Bending's force is that at the start of a stage, also where the stage is then taken in parts.
+// Bending is explicit with its substeps, the rest solved to the end: layers are kept apart by the line
+// search. Bending's force is that at the start of a stage, also where the stage is then taken in parts.
 template <class Real, class Device>
-void LaggedBending<Real, Device>::step(double start) {
-  Body<Real, Device>& body = this->body_;
-  const double whole = body.scene.step;
-  for (int k = 0; k < stages_; ++k) {
-    const double from = start + whole * k / stages_;
-    const Real h = static_cast<Real>(whole / stages_);
-    body.apply_due_events(from, h);
-    body.clock.begin(Stage::bending);
-    body.bending.commit(body.x.data(), body.v.data(), h);
-    body.clock.end(Stage::bending);
-    this->take_interval(from, static_cast<double>(h), 0);
+void ImplicitIntegrator<Real, Device>::take_lagged_step(double start) {
+  const double whole = body_.scene.step;
+  for (int k = 0; k < substeps_; ++k) {
+    const double from = start + whole * k / substeps_;
+    const Real h = static_cast<Real>(whole / substeps_);
+    body_.apply_due_events(from, h);
+    body_.clock.begin(Stage::bending);
+    body_.bending.commit(body_.x.data(), body_.v.data(), h);
+    body_.clock.end(Stage::bending);
+    take_interval(from, static_cast<double>(h), 0);
   }
 }
 
 template class ImplicitIntegrator<double, ThisDevice>;
 template class ImplicitIntegrator<float, ThisDevice>;
-template class LaggedBending<double, ThisDevice>;
-template class LaggedBending<float, ThisDevice>;
 
 }  // namespace hysteron

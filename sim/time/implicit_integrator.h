@@ -12,7 +12,7 @@ namespace hysteron {
 template <class Real, class Device>
 class ImplicitIntegrator : public TimeIntegrator<Real, Device> {
  public:
-  explicit ImplicitIntegrator(Body<Real, Device>& body);
+  ImplicitIntegrator(Body<Real, Device>& body, const StepLimits& limits);
   void step(double start) override;
   void step_by(double start, double h) override;
   void become_static() override;
@@ -23,12 +23,12 @@ class ImplicitIntegrator : public TimeIntegrator<Real, Device> {
   }
   std::size_t bytes() const override { return solver_.bytes(); }
 
- protected:
+ private:
   using TimeIntegrator<Real, Device>::body_;
+  bool bending_lags() const { return body_.scene.integrator == Integrator::semi_implicit; }
+  void take_lagged_step(double start);
   // From start to start + h, in halves if it does not converge.
   void take_interval(double start, double h, int halvings);
-
- private:
   void take_adaptive_step(double start);
   void finish(double start, double h, int halvings);
   void take_halves(double start, double h, int halvings, const NewtonOutcome& outcome);
@@ -40,22 +40,10 @@ class ImplicitIntegrator : public TimeIntegrator<Real, Device> {
   double load_share(double time) const;
 
   ImplicitStep<Real, Device> solver_;
+  int substeps_;                // of bending that lags
   double tolerance_;            // 0: steps as given
   NewtonOutcome last_outcome_;  // of the attempt last made
   double part_ = 0;             // of adaptive steps: the coming one [s]
-};
-
-// Bending explicit with its substeps, the rest solved to the end: layers are kept apart by the line search.
-template <class Real, class Device>
-class LaggedBending : public ImplicitIntegrator<Real, Device> {
- public:
-  LaggedBending(Body<Real, Device>& body, const StepLimits& limits)
-      : ImplicitIntegrator<Real, Device>(body), stages_(limits.substeps) {}
-  void step(double start) override;
-  void become_static() override { TimeIntegrator<Real, Device>::become_static(); }
-
- private:
-  int stages_;
 };
 
 }  // namespace hysteron

@@ -21,15 +21,13 @@ std::unique_ptr<TimeIntegrator<Real, Device>> make_integrator(Body<Real, Device>
     case Integrator::explicit_euler:
       return std::make_unique<ExplicitEuler<Real, Device>>(body, limits);
     case Integrator::semi_implicit:
-      if (body.self_contact) return std::make_unique<LaggedBending<Real, Device>>(body, limits);
-      if (body.scene.implicit_every == ImplicitEvery::step)
-        return std::make_unique<ChapterSteps<Real, Device>>(body, limits);
+      if (body.self_contact) return std::make_unique<ImplicitIntegrator<Real, Device>>(body, limits);
       return std::make_unique<SemiImplicit<Real, Device>>(body, limits);
     case Integrator::implicit:
     case Integrator::bdf2:
     case Integrator::tr_bdf2:
     case Integrator::quasi_static:
-      return std::make_unique<ImplicitIntegrator<Real, Device>>(body);
+      return std::make_unique<ImplicitIntegrator<Real, Device>>(body, limits);
   }
   __builtin_unreachable();
 }
