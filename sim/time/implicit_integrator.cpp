@@ -74,14 +74,14 @@ NewtonOutcome ImplicitIntegrator<Real, Device>::solve(double start, double h, bo
   body_.counts.unbalanced += outcome.unbalanced;
   body_.counts.time_steps += outcome.time_steps;
   last_outcome_ = outcome;
-  body_.counts.last_residual = outcome.load > 0 ? outcome.residual / outcome.load : 0;
   return outcome;
 }
 
 template <class Real, class Device>
 void ImplicitIntegrator<Real, Device>::accept(double end) {
   Diagnostics& counts = body_.counts;
-  counts.largest_residual = std::max(counts.largest_residual, counts.last_residual);
+  if (last_outcome_.load > 0)
+    counts.largest_residual = std::max(counts.largest_residual, last_outcome_.residual / last_outcome_.load);
   if (!solver_.is_static()) {
     ++counts.stages;
     counts.velocities += last_outcome_.velocity;

@@ -115,33 +115,26 @@ void check(const Scene& scene, const Cloth& cloth) {
   check_start(scene, cloth);
 }
 
-// What a device is told beside scene and cloth.
-struct Plan {
-  CurvatureOperator op;
-  StepLimits limits;
-};
-
-Plan plan(const Scene& scene, const Cloth& cloth) {
-  Plan result;
-  result.op = make_curvature_operator(scene.element, cloth.mesh, cloth.held_throughout(scene));
+CurvatureOperator bending_operator(const Scene& scene, const Cloth& cloth) {
+  CurvatureOperator op = make_curvature_operator(scene.element, cloth.mesh, cloth.held_throughout(scene));
   if (!scene.fabric.bends_alike())
-    stiffen(result.op, cloth.mesh, scene.fabric.weft_bending, scene.fabric.bias_bending);
+    stiffen(op, cloth.mesh, scene.fabric.weft_bending, scene.fabric.bias_bending);
   if (scene.element == BendingElement::hinge && !scene.fabric.bending.weft_stops.empty())
-    set_directions(result.op, cloth.mesh, scene.fabric.weft_bending, scene.fabric.bias_bending);
-  result.limits = choose_substeps(scene, cloth, result.op);
-  return result;
+    set_directions(op, cloth.mesh, scene.fabric.weft_bending, scene.fabric.bias_bending);
+  return op;
 }
 
 }  // namespace
 
 std::unique_ptr<Simulation> make_simulation(const Scene& scene, const Cloth& cloth) {
   check(scene, cloth);
-  const Plan planned = plan(scene, cloth);
-  const MethodChoice method = choose_method(scene, cloth, planned.op, usable_gpus(scene));
+  const CurvatureOperator op = bending_operator(scene, cloth);
+  const StepLimits limits = choose_substeps(scene, cloth, op);
+  const MethodChoice method = choose_method(scene, cloth, op, usable_gpus(scene));
   Scene chosen = scene;
   if (method.linear_solver != Preconditioning::automatic) chosen.linear_solver = method.linear_solver;
-  auto simulation = method.gpu ? make_gpu_simulation(chosen, cloth, planned.op, planned.limits)
-                               : make_cpu_simulation(chosen, cloth, planned.op, planned.limits);
+  auto simulation = method.gpu ? make_gpu_simulation(chosen, cloth, op, limits)
+                               : make_cpu_simulation(chosen, cloth, op, limits);
   simulation->method = method;
   return simulation;
 }
