@@ -79,9 +79,8 @@ void Pins<Real, Device>::drive(Body<Real, Device>& body, int pin, double now, co
 
 template <class Real, class Device>
 std::size_t Pins<Real, Device>::bytes() const {
-  return start_.bytes() + home_.bytes() + pin_.bytes() + arc_.bytes() + place_.bytes() + strength_.bytes() +
-         lag_.bytes() + displacement_.bytes() + (sweep_ ? sweep_->bytes() : 0) +
-         (scratch_ ? scratch_->bytes() : 0);
+  return total_bytes(start_, home_, pin_, arc_, place_, strength_, lag_, displacement_) +
+         (sweep_ ? sweep_->bytes() : 0) + (scratch_ ? scratch_->bytes() : 0);
 }
 
 template <class Real, class Device>

@@ -52,13 +52,6 @@ std::string others(const Immersion& found) {
 }  // namespace
 
 template <class Real, class Device>
-void throw_if_divergence(Body<Real, Device>& body, double time) {
-  if (body.is_finite()) return;
-  throw Error::simulation("the simulation diverged before t = " + std::to_string(time) +
-                          " s: take a smaller step (step = " + std::to_string(body.scene.step) + " s)");
-}
-
-template <class Real, class Device>
 void throw_if_arrival(Body<Real, Device>& body, double met, double time) {
   const Scene& scene = body.scene;
   std::vector<Obstacle> fresh = scene.obstacle;
@@ -145,8 +138,6 @@ void throw_if_unbalanced(Body<Real, Device>& body, ImplicitStep<Real, Device>& s
                           (by.empty() ? "" : ", pressed by " + together(by)));
 }
 
-template void throw_if_divergence(Body<double, ThisDevice>&, double);
-template void throw_if_divergence(Body<float, ThisDevice>&, double);
 template void throw_if_arrival(Body<double, ThisDevice>&, double, double);
 template void throw_if_arrival(Body<float, ThisDevice>&, double, double);
 template void throw_if_release(Body<double, ThisDevice>&, const std::vector<char>&, double);

@@ -10,9 +10,19 @@
 #include "sim/scene/motion.h"
 #include "sim/time/implicit_integrator.h"
 #include "sim/time/semi_implicit.h"
-#include "sim/time/step_errors.h"
 
 namespace hysteron {
+
+namespace {
+
+template <class Real, class Device>
+void throw_if_divergence(Body<Real, Device>& body, double time) {
+  if (body.is_finite()) return;
+  throw Error::simulation("the simulation diverged before t = " + std::to_string(time) +
+                          " s: take a smaller step (step = " + std::to_string(body.scene.step) + " s)");
+}
+
+}  // namespace
 
 template <class Real, class Device>
 std::unique_ptr<TimeIntegrator<Real, Device>> make_integrator(Body<Real, Device>& body,
