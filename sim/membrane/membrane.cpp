@@ -142,11 +142,6 @@ void Membrane<Real, Device>::add_nodes(bool tension_is_apart) {
 }
 
 template <class Real, class Device>
-MembraneForceView<Real> Membrane<Real, Device>::forces() const {
-  return {vertex_start_.data(), vertex_item_.data(), rest_.data(), deformation_.data(), faces_.stress()};
-}
-
-template <class Real, class Device>
 double Membrane<Real, Device>::largest_stretch(const Vec3<Real>* x) {
   const int sites = nodes_ ? nodes_->sites.count() : faces_.count();
   if (nodes_)

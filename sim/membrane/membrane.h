@@ -68,7 +68,9 @@ class Membrane {
   // Strains and stresses (elastic, of friction, and viscous of `velocity`) at `position`; forces() then
   // gathers them.
   void update(const Vec3<Real>* position, const Vec3<Real>* velocity);
-  MembraneForceView<Real> forces() const;
+  MembraneForceView<Real> forces() const {
+    return {vertex_start_.data(), vertex_item_.data(), rest_.data(), deformation_.data(), faces_.stress()};
+  }
   // matrix = factor * Gauss-Newton stiffness + geometric * stiffness of the tension at the last update, to
   // which callers add mass and contact.  What compression adds is negative semidefinite and apart in
   // `softening`, unless that is null.

@@ -1,7 +1,5 @@
 #include "sim/membrane/membrane_sites.h"
 
-#include <cmath>
-
 namespace hysteron {
 
 namespace {
@@ -83,11 +81,6 @@ void MembraneSites<Strains, Device>::begin_step(const StepFormula& formula, cons
         reference[i] = last;
         if (extrapolation > 0) reference[i] += extrapolation * (last - of.at(i, before));
       });
-}
-
-template <class Strains, class Device>
-typename Strains::Real MembraneSites<Strains, Device>::viscous_factor() const {
-  return std::isfinite(formula_.beta_dt) ? damping_ / static_cast<Real>(formula_.beta_dt) : Real(0);
 }
 
 template <class Strains, class Device>

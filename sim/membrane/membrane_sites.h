@@ -7,6 +7,8 @@
 // A fabric without stops has no memory here, and its cloth no loop for friction.
 #pragma once
 
+#include <cmath>
+
 #include "sim/base/step_formula.h"
 #include "sim/device/archive_buffer.h"
 #include "sim/membrane/in_plane_friction.h"
@@ -43,8 +45,10 @@ class MembraneSites {
   void update(const Vec3<Real>* position, const Vec3<Real>* velocity);
   void begin_step(const StepFormula& formula, const Vec3<Real>* now, const Vec3<Real>* before);
   void evaluate(const Vec3<Real>* position, double* energy);  // sets a site's energy [J]
-  Real viscous_factor() const;                                // viscous over elastic stiffness of a step
-  void add_viscous_loss();                                    // of the step that evaluate() saw last
+  Real viscous_factor() const {                               // viscous over elastic stiffness of a step
+    return std::isfinite(formula_.beta_dt) ? damping_ / static_cast<Real>(formula_.beta_dt) : Real(0);
+  }
+  void add_viscous_loss();  // of the step that evaluate() saw last
   void add_viscous_loss(const Vec3<Real>* velocity, Real step);
   void find_stored(const Vec3<Real>* position, double* energy);  // [J]
   double viscous_loss() const { return viscous_.sum(); }         // since the start [J]

@@ -137,11 +137,6 @@ bool Body<Real, Device>::is_finite() {
 }
 
 template <class Real, class Device>
-std::size_t Body<Real, Device>::state_bytes() const {
-  return x.bytes() + v.bytes() + mass.bytes() + held.bytes();
-}
-
-template <class Real, class Device>
 Ledger Body<Real, Device>::energies() {
   Ledger sum;
   const auto at = x.download(), moving = v.download();

@@ -17,26 +17,6 @@ ImplicitIntegrator<Real, Device>::ImplicitIntegrator(Body<Real, Device>& body, c
       substeps_(limits.substeps),
       tolerance_(body.scene.tolerance) {}
 
-template <class Real, class Device>
-void ImplicitIntegrator<Real, Device>::step(double start) {
-  if (bending_lags()) return take_lagged_step(start);
-  tolerance_ > 0 ? take_adaptive_step(start) : take_interval(start, body_.scene.step, 0);
-}
-
-template <class Real, class Device>
-void ImplicitIntegrator<Real, Device>::step_by(double start, double h) {
-  if (body_.scene.integrator != Integrator::quasi_static && !solver_.is_static())
-    TimeIntegrator<Real, Device>::step_by(start, h);
-  take_interval(start, h, 0);
-}
-
-template <class Real, class Device>
-void ImplicitIntegrator<Real, Device>::become_static() {
-  if (bending_lags()) return TimeIntegrator<Real, Device>::become_static();
-  solver_.become_static();
-  tolerance_ = 0;  // of steps in time
-}
-
 // Statics let the weight grow over the scene's `ramp` and fall over its `unload`: the cloth passes through
 // states of equilibrium.
 template <class Real, class Device>

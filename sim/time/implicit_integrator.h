@@ -13,9 +13,20 @@ template <class Real, class Device>
 class ImplicitIntegrator : public TimeIntegrator<Real, Device> {
  public:
   ImplicitIntegrator(Body<Real, Device>& body, const StepLimits& limits);
-  void step(double start) override;
-  void step_by(double start, double h) override;
-  void become_static() override;
+  void step(double start) override {
+    if (bending_lags()) return take_lagged_step(start);
+    tolerance_ > 0 ? take_adaptive_step(start) : take_interval(start, body_.scene.step, 0);
+  }
+  void step_by(double start, double h) override {
+    if (body_.scene.integrator != Integrator::quasi_static && !solver_.is_static())
+      TimeIntegrator<Real, Device>::step_by(start, h);
+    take_interval(start, h, 0);
+  }
+  void become_static() override {
+    if (bending_lags()) return TimeIntegrator<Real, Device>::become_static();
+    solver_.become_static();
+    tolerance_ = 0;  // of steps in time
+  }
   std::vector<Vec3<Real>> handle_forces() override { return solver_.handle_forces(); }
   void serialise(Archive& archive) override {
     archive(part_, tolerance_);

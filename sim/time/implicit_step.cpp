@@ -86,35 +86,6 @@ void ImplicitStep<Real, Device>::become_static() {
 }
 
 template <class Real, class Device>
-std::size_t ImplicitStep<Real, Device>::bytes() const {
-  return potential_.bytes() + solver_->bytes() + newton_.bytes() + 5 * end_.bytes() + 2 * x_before_.bytes() +
-         displacement_.bytes() + forces_.bytes();
-}
-
-template <class Real, class Device>
-void ImplicitStep<Real, Device>::serialise(Archive& archive) {
-  archive(knows_acceleration_, last_h_);
-  hysteron::serialise(archive, *body_.device, acceleration_, x_before_, v_before_);
-  archive(knows_forces_);
-  hysteron::serialise(archive, *body_.device, forces_);
-  potential_.serialise(archive);
-  solver_->serialise(archive);
-}
-
-template <class Real, class Device>
-StepFormula ImplicitStep<Real, Device>::rate_formula(double h) const {
-  if (static_) return StepFormula::statics(h);
-  const bool two_steps = two_step_ && last_h_ > 0 && h <= kMaxGrowth * last_h_;
-  return two_steps ? StepFormula::bdf2(h, last_h_) : StepFormula::backward_euler(h);
-}
-
-template <class Real, class Device>
-StepFormula ImplicitStep<Real, Device>::step_formula(double h, bool is_first_stage) const {
-  if (static_ || !is_first_stage) return rate_formula(h);
-  return knows_acceleration_ ? StepFormula::trapezoidal(h) : StepFormula::backward_euler(h);
-}
-
-template <class Real, class Device>
 NewtonOutcome ImplicitStep<Real, Device>::solve(double h, double fraction, bool is_first_stage) {
   formula_ = step_formula(h, is_first_stage);
   solver_->begin();

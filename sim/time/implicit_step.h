@@ -62,14 +62,24 @@ class ImplicitStep {
   double local_error();
   double error_order() const { return formula_.extrapolation > 0 || formula_.carried > 0 ? 3 : 2; }
   // What outlives a step: motion before it, and the forces that handle_forces() tells of.
-  void serialise(Archive& archive);
+  void serialise(Archive& archive) {
+    archive(knows_acceleration_, last_h_);
+    hysteron::serialise(archive, *body_.device, acceleration_, x_before_, v_before_);
+    archive(knows_forces_);
+    hysteron::serialise(archive, *body_.device, forces_);
+    potential_.serialise(archive);
+    solver_->serialise(archive);
+  }
   // Forces of the handles on held vertices, of the step accepted last; zero on free ones [N].
   std::vector<Vec3<Real>> handle_forces() const;
   // Where solve() has ended without success.
   Unbalanced most_unbalanced();
   // Which part of the potential is not finite at the start, in a user's words; "" if none.
   std::string not_finite() { return potential_.not_finite(body_.x.data()); }
-  std::size_t bytes() const;
+  std::size_t bytes() const {
+    return potential_.bytes() + solver_->bytes() + newton_.bytes() + 5 * end_.bytes() +
+           2 * x_before_.bytes() + displacement_.bytes() + forces_.bytes();
+  }
 
   // The parts; public because nvcc allows no device lambda in a private member function.
   void place();
@@ -81,8 +91,15 @@ class ImplicitStep {
 
  private:
   static constexpr double kMaxGrowth = 2.4;  // of a step over the one before; bdf2 is stable below 1 + sqrt2
-  StepFormula step_formula(double h, bool is_first_stage) const;
-  StepFormula rate_formula(double h) const;
+  StepFormula step_formula(double h, bool is_first_stage) const {
+    if (static_ || !is_first_stage) return rate_formula(h);
+    return knows_acceleration_ ? StepFormula::trapezoidal(h) : StepFormula::backward_euler(h);
+  }
+  StepFormula rate_formula(double h) const {
+    if (static_) return StepFormula::statics(h);
+    const bool two_steps = two_step_ && last_h_ > 0 && h <= kMaxGrowth * last_h_;
+    return two_steps ? StepFormula::bdf2(h, last_h_) : StepFormula::backward_euler(h);
+  }
   PotentialValue potential_of_guess(bool accelerated);
   std::size_t vectors(int count) const { return count * end_.bytes(); }
 

@@ -78,12 +78,6 @@ void Pins<Real, Device>::drive(Body<Real, Device>& body, int pin, double now, co
 }
 
 template <class Real, class Device>
-std::size_t Pins<Real, Device>::bytes() const {
-  return total_bytes(start_, home_, pin_, arc_, place_, strength_, lag_, displacement_) +
-         (sweep_ ? sweep_->bytes() : 0) + (scratch_ ? scratch_->bytes() : 0);
-}
-
-template <class Real, class Device>
 bool Pins<Real, Device>::attach_and_release(Body<Real, Device>& body, double start) {
   regain(body);
   if (start < next_) return false;

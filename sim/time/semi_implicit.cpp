@@ -66,13 +66,6 @@ SemiImplicit<Real, Device>::SemiImplicit(Body<Real, Device>& body, const StepLim
       size_(*body.device, 1) {}
 
 template <class Real, class Device>
-void SemiImplicit<Real, Device>::serialise(Archive& archive) {
-  archive(part_);
-  pcg_.serialise(archive);
-  hysteron::serialise(archive, *body_.device, change_);  // from which the next solve starts
-}
-
-template <class Real, class Device>
 void SemiImplicit<Real, Device>::step(double start) {
   if (body_.scene.implicit_every == ImplicitEvery::step) return take_chapter_step(start);
   if (body_.scene.tolerance > 0) return take_adaptive_step(start);

@@ -13,7 +13,11 @@ class SemiImplicit : public TimeIntegrator<Real, Device> {
  public:
   SemiImplicit(Body<Real, Device>& body, const StepLimits& limits);
   void step(double start) override;
-  void serialise(Archive& archive) override;
+  void serialise(Archive& archive) override {
+    archive(part_);
+    pcg_.serialise(archive);
+    hysteron::serialise(archive, *body_.device, change_);  // from which the next solve starts
+  }
   std::size_t bytes() const override {
     return pcg_.bytes() + total_bytes(change_, correction_, rhs_, impulse_);
   }

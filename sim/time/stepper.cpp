@@ -7,7 +7,6 @@
 
 #include "sim/base/fnv1a.h"
 #include "sim/device/share_positions.h"
-#include "sim/scene/motion.h"
 #include "sim/time/implicit_integrator.h"
 #include "sim/time/semi_implicit.h"
 
@@ -74,34 +73,6 @@ void Stepper<Real, Device>::advance_by(double seconds) {
 }
 
 template <class Real, class Device>
-void Stepper<Real, Device>::serialise(Archive& archive) {
-  archive(extra_time_);
-  body_.serialise(archive);
-  integrator_->serialise(archive);
-}
-
-template <class Real, class Device>
-Diagnostics Stepper<Real, Device>::counts() const {
-  Diagnostics counts = body_.counts;
-  counts.bytes = body_.device->bytes;
-  return counts;
-}
-
-template <class Real, class Device>
-std::string Stepper<Real, Device>::save() {
-  Archive archive;
-  serialise(archive);
-  return archive.take();
-}
-
-template <class Real, class Device>
-void Stepper<Real, Device>::load(std::string_view state) {
-  Archive archive(state);
-  serialise(archive);
-  if (!archive.at_end()) throw Error::invalid_input("the state is of another simulation");
-}
-
-template <class Real, class Device>
 const Pin& Stepper<Real, Device>::pin(int number) const {
   const std::vector<Pin>& pins = body_.scene.pin;
   if (number >= 0 && number < static_cast<int>(pins.size())) return pins[number];
@@ -111,17 +82,6 @@ const Pin& Stepper<Real, Device>::pin(int number) const {
       (pins.empty() ? ": the scene has none"
                     : " must be in [0, " + std::to_string(pins.size() - 1) + "], a pin of the scene"))
       .with_key("pin", text);
-}
-
-template <class Real, class Device>
-void Stepper<Real, Device>::drive(int number, const Eigen::Vector3d& velocity, double spin) {
-  pin(number);
-  body_.pins.drive(body_, number, time(), velocity, spin);
-}
-
-template <class Real, class Device>
-Keyframe Stepper<Real, Device>::pin_displacement(int number) const {
-  return state_at(pin(number).motion, time());
 }
 
 template <class Real, class Device>
@@ -141,16 +101,6 @@ std::vector<Eigen::Vector3d> Stepper<Real, Device>::positions() {
   if (is_shifted())
     for (Eigen::Vector3d& p : x) p += body_.origin;
   return x;
-}
-
-template <class Real, class Device>
-std::vector<Eigen::Vector3d> Stepper<Real, Device>::velocities() {
-  return cast_to<double>(body_.v.download());
-}
-
-template <class Real, class Device>
-std::vector<Eigen::Vector3d> Stepper<Real, Device>::handle_forces() {
-  return cast_to<double>(integrator_->handle_forces());
 }
 
 template <class Real, class Device>
@@ -199,16 +149,6 @@ double Stepper<Real, Device>::copy_bandwidth() {
     best = std::min(best, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   }
   return 2.0 * kDoubles * sizeof(double) / best;
-}
-
-template <class Real, class Device>
-void Stepper<Real, Device>::profile() {
-  body_.device->profile = std::make_unique<KernelProfile<Device>>(*body_.device);
-}
-
-template <class Real, class Device>
-KernelCosts Stepper<Real, Device>::kernel_costs() {
-  return body_.device->profile ? body_.device->profile->costs() : KernelCosts{};
 }
 
 template <class Real, class Device>
