@@ -62,8 +62,13 @@ class Archive {
   }
   template <class A, class B>
   void operator()(std::pair<A, B>& pair) {
-    (*this)(pair.first);
-    (*this)(pair.second);
+    (*this)(pair.first, pair.second);
+  }
+  // Several, one after the other.
+  template <class First, class... Others>
+  requires(sizeof...(Others) > 0) void operator()(First& first, Others&... others) {
+    (*this)(first);
+    ((*this)(others), ...);
   }
 
  private:

@@ -1,6 +1,6 @@
 #include "sim/base/csv.h"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -297,9 +297,7 @@ std::string csv_row(const std::vector<std::string>& fields) {
 }
 
 std::string exact_csv_row(const std::vector<double>& numbers) {
-  std::string row;
-  for (std::size_t i = 0; i < numbers.size(); ++i) row += (i ? "," : "") + exact_field(numbers[i]);
-  return row + "\n";
+  return fmt::format("{:.17g}\n", fmt::join(numbers, ","));
 }
 
 std::string aligned(const std::vector<std::string>& cells, const std::vector<int>& widths) {

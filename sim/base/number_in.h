@@ -25,5 +25,10 @@ inline std::string number_text(double x) {
   char text[32];
   return {text, std::to_chars(text, text + sizeof text, x).ptr};
 }
+// Of so many significant digits, as printf's %g writes it.
+inline std::string number_text(double x, int digits) {
+  char text[32];
+  return {text, std::to_chars(text, text + sizeof text, x, std::chars_format::general, digits).ptr};
+}
 
 }  // namespace hysteron

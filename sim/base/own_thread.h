@@ -5,6 +5,7 @@
 #include <condition_variable>
 #include <exception>
 #include <functional>
+#include <future>
 #include <memory>
 #include <mutex>
 #include <thread>
@@ -46,15 +47,10 @@ class OwnThread {
   // The same with `job`, and its result.
   template <class Body>
   auto run(const Body& body) -> std::invoke_result_t<Body, Owned&> {
-    if constexpr (std::is_void_v<std::invoke_result_t<Body, Owned&>>) {
-      post([&body](Owned& owned) { body(owned); });
-      wait();
-    } else {
-      std::invoke_result_t<Body, Owned&> result{};
-      post([&](Owned& owned) { result = body(owned); });
-      wait();
-      return result;
-    }
+    std::packaged_task<std::invoke_result_t<Body, Owned&>(Owned&)> task(std::cref(body));
+    post([&task](Owned& owned) { task(owned); });
+    wait();
+    return task.get_future().get();
   }
 
  private:

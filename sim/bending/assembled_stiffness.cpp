@@ -9,13 +9,6 @@ namespace hysteron {
 
 namespace {
 
-template <class T, class Device>
-std::vector<T> downloaded(Device& device, const T* from, std::size_t count) {
-  std::vector<T> values(count);
-  if (count > 0) device_download(device, values.data(), from, count * sizeof(T));
-  return values;
-}
-
 template <class Real, class Device>
 Adjacency vertices_of_elements(Device& device, const BendingFactors<Real>& factors) {
   const auto start = downloaded(device, factors.start, factors.elements + 1);

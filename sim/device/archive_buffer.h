@@ -25,4 +25,10 @@ void serialise(Archive& archive, Device& device, Buffer<T, Device>& buffer) {
   serialise(archive, device, buffer.data(), size);
 }
 
+// Several, one after the other.
+template <class Device, class... T>
+requires(sizeof...(T) > 1) void serialise(Archive& archive, Device& device, Buffer<T, Device>&... buffers) {
+  (serialise(archive, device, buffers), ...);
+}
+
 }  // namespace hysteron

@@ -1,6 +1,7 @@
 // Memory that lives on one device.  Zero-initialised; moved, never copied by accident.
 #pragma once
 
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -41,6 +42,11 @@ class Buffer {
     if (size_) device_download(*device_, values.data(), data_, bytes());
     return values;
   }
+  // Of all elements, added up by the host in their order.
+  double sum() const {
+    const std::vector<T> values = download();
+    return std::accumulate(values.begin(), values.end(), 0.0);
+  }
 
  private:
   void swap(Buffer& other) {
@@ -52,6 +58,14 @@ class Buffer {
   T* data_ = nullptr;
   std::size_t size_ = 0;
 };
+
+// What the device's array holds from `data` on.
+template <class T, class Device>
+std::vector<T> downloaded(Device& device, const T* data, std::size_t size) {
+  std::vector<T> values(size);
+  if (size) device_download(device, values.data(), data, size * sizeof(T));
+  return values;
+}
 
 // Of arrays that a loop reads or writes whole.
 template <class... Buffers>

@@ -36,16 +36,16 @@ Cuda::Cuda(int device) : index(device), batch(CudaBatch::current()), graphs(may_
 }
 
 Cuda::~Cuda() {
-  free(partial);
-  free(arrived);
-  free_host(staging);
+  release(partial, cudaFree);
+  release(arrived, cudaFree);
+  release(staging, cudaFreeHost);
   if (!batch) cudaStreamDestroy(stream);
 }
 
 void Cuda::reserve_partial(int numbers, const char* name) {
   if (partial_size >= numbers) return;
   ++device_counts.allocations;
-  if (partial) free(partial);
+  if (partial) release(partial, cudaFree);
   check_cuda(cudaMalloc(&partial, sizeof(double) * numbers), name);
   partial_size = numbers;
 }

@@ -43,18 +43,12 @@ struct Cuda {
   Cuda& operator=(const Cuda&) = delete;
   std::string description() const;
   int cuda_device() const { return index; }
-  // Memory that loops which have been ordered may use still.
-  void free(void* memory) const {
+  // Releases, by cudaFree or cudaFreeHost, memory that loops which have been ordered may use still.
+  void release(void* memory, CudaBatch::Release by) const {
     if (batch)
-      batch->free_later(memory);
+      batch->release_later(memory, by);
     else
-      cudaFree(memory);
-  }
-  void free_host(void* memory) const {
-    if (batch)
-      batch->free_host_later(memory);
-    else
-      cudaFreeHost(memory);
+      by(memory);
   }
   // Scratch of sums for so many numbers at least.
   void reserve_partial(int numbers, const char* name);
@@ -257,7 +251,7 @@ inline void* device_allocate(Cuda& cuda, std::size_t bytes) {
 }
 inline void device_free(Cuda& cuda, void* memory, std::size_t bytes) {
   cuda.bytes -= bytes;
-  cuda.free(memory);
+  cuda.release(memory, cudaFree);
 }
 
 struct CopyLoop {
@@ -306,6 +300,6 @@ inline void* host_allocate(Cuda&, std::size_t bytes) {
   check_cuda(cudaHostAlloc(&memory, bytes, cudaHostAllocDefault), "allocate on the host");
   return memory;
 }
-inline void host_free(Cuda& cuda, void* memory) { cuda.free_host(memory); }
+inline void host_free(Cuda& cuda, void* memory) { cuda.release(memory, cudaFreeHost); }
 
 }  // namespace hysteron

@@ -157,8 +157,7 @@ void CudaBatch::launch_repeatedly(const Group& group, std::size_t first) {
 }
 
 void CudaBatch::collect_garbage() {
-  for (const Garbage& garbage : garbage_)
-    garbage.of_host ? cudaFreeHost(garbage.memory) : cudaFree(garbage.memory);
+  for (const Garbage& garbage : garbage_) garbage.release(garbage.memory);
   garbage_.clear();
 }
 

@@ -35,6 +35,8 @@ class CudaBatch {
  public:
   // Launches one kernel for so many members, with so many blocks each.
   using Launch = void (*)(const BatchedLoop*, unsigned blocks, unsigned members, cudaStream_t);
+  // cudaFree or cudaFreeHost.
+  using Release = cudaError_t (*)(void*);
 
   CudaBatch(int device, int members);
   ~CudaBatch();
@@ -81,8 +83,7 @@ class CudaBatch {
     return static_cast<const char*>(place.device);
   }
   // Loops that have been ordered may use it still.
-  void free_later(void* memory) { garbage_.push_back({memory, false}); }
-  void free_host_later(void* memory) { garbage_.push_back({memory, true}); }
+  void release_later(void* memory, Release by) { garbage_.push_back({memory, by}); }
 
  private:
   static constexpr std::size_t kAlignment = 16, kArena = std::size_t(1) << 16;
@@ -118,7 +119,7 @@ class CudaBatch {
   };
   struct Garbage {
     void* memory;
-    bool of_host;
+    Release release;
   };
 
   Member& member() { return member_[fibers_.current()]; }

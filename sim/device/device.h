@@ -1,7 +1,7 @@
 // What numerical code includes: for_each, for_each_sum, Buffer, and the device that this compilation is for.
 //
 // Every numerical source of sim/ is compiled twice when CUDA is built: by the C++ compiler for the CPU and by
-// nvcc for the GPU.  It ends with HYSTERON_INSTANTIATE lines that name ThisDevice.
+// nvcc for the GPU.  It ends with instantiations that name ThisDevice.
 #pragma once
 
 #include "sim/device/buffer.h"

@@ -3,6 +3,8 @@
 // loop would.
 #pragma once
 
+#include <type_traits>
+
 #include "sim/device/device.h"
 
 namespace hysteron {
@@ -67,19 +69,7 @@ using Warp = LanesOfWarp<32>;
 using NineLanes = LanesOfWarp<9>;
 
 template <class Device>
-struct LanesOf;
-template <>
-struct LanesOf<Cpu> {
-  using Type = SingleLane;
-};
-#ifdef __CUDACC__
-template <>
-struct LanesOf<Cuda> {
-  using Type = Warp;
-};
-#endif
-template <class Device>
-using LanesOn = typename LanesOf<Device>::Type;
+using LanesOn = std::conditional_t<Device::kGpu, Warp, SingleLane>;
 
 // Runs body(i, lanes) for i in [0, rows).  On a GPU nothing runs once *stop, in its memory, is not 0; null:
 // whatever happens.

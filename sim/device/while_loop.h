@@ -121,15 +121,14 @@ class WhileLoop<Cuda> {
 #endif
   }
 
+#if CUDART_VERSION >= 12040
+  static cudaError_t add_node(cudaGraph_t graph, cudaGraphNodeParams& node) {
+    cudaGraphNode_t added;
 #if CUDART_VERSION >= 13000
-  static cudaError_t add_node(cudaGraph_t graph, cudaGraphNodeParams& node) {
-    cudaGraphNode_t added;
     return cudaGraphAddNode(&added, graph, nullptr, nullptr, 0, &node);
-  }
-#elif CUDART_VERSION >= 12040
-  static cudaError_t add_node(cudaGraph_t graph, cudaGraphNodeParams& node) {
-    cudaGraphNode_t added;
+#else
     return cudaGraphAddNode(&added, graph, nullptr, 0, &node);
+#endif
   }
 #endif
 

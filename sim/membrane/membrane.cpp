@@ -1,7 +1,5 @@
 #include "sim/membrane/membrane.h"
 
-#include <numeric>
-
 namespace hysteron {
 
 namespace {
@@ -102,9 +100,7 @@ Membrane<Real, Device>::Membrane(Device& device, const ClothMesh& mesh, const Fa
              !split.averages,
              {total_bytes(rest_, corner_, deformation_) + vertices_ * sizeof(Vec3<Real>),
               vertices_ * sizeof(Vec3<Real>)}) {
-  if (split.averages) {
-    nodes_.emplace(device, mesh, fabric, split, membrane_nodes(mesh), face_strains(), rows);
-  }
+  if (split.averages) nodes_.emplace(device, mesh, fabric, split, membrane_nodes(mesh), face_strains(), rows);
   energy_ = Buffer<double, Device>(device, faces_.count() + (nodes_ ? nodes_->sites.count() : 0));
 }
 
@@ -143,60 +139,6 @@ void Membrane<Real, Device>::add_nodes(bool tension_is_apart) {
         stress[f] = all;
         tension[f] = tensile_part(apart ? pulls : all);
       });
-}
-
-template <class Real, class Device>
-MembraneForceView<Real> Membrane<Real, Device>::forces() const {
-  return {vertex_start_.data(), vertex_item_.data(), rest_.data(), deformation_.data(), faces_.stress()};
-}
-
-template <class Real, class Device>
-void Membrane<Real, Device>::begin_step(const StepFormula& formula, const Vec3<Real>* now,
-                                        const Vec3<Real>* before) {
-  faces_.begin_step(formula, now, before);
-  if (nodes_) nodes_->sites.begin_step(formula, now, before);
-}
-
-template <class Real, class Device>
-double Membrane<Real, Device>::stored_energy(const Vec3<Real>* x) {
-  faces_.find_stored(x, energy_.data());
-  if (nodes_) nodes_->sites.find_stored(x, energy_.data() + faces_.count());
-  const std::vector<double> values = energy_.download();
-  return std::accumulate(values.begin(), values.end(), 0.0);
-}
-
-template <class Real, class Device>
-void Membrane<Real, Device>::add_viscous_loss(const Vec3<Real>* v, Real step) {
-  faces_.add_viscous_loss(v, step);
-  if (nodes_) nodes_->sites.add_viscous_loss(v, step);
-}
-
-template <class Real, class Device>
-void Membrane<Real, Device>::add_viscous_loss() {
-  faces_.add_viscous_loss();
-  if (nodes_) nodes_->sites.add_viscous_loss();
-}
-
-template <class Real, class Device>
-double Membrane<Real, Device>::viscous_loss() const {
-  return faces_.viscous_loss() + (nodes_ ? nodes_->sites.viscous_loss() : 0);
-}
-
-template <class Real, class Device>
-void Membrane<Real, Device>::accept(const Vec3<Real>* x, bool is_start) {
-  faces_.commit_friction(x, is_start);
-  if (nodes_) nodes_->sites.commit_friction(x, is_start);
-}
-
-template <class Real, class Device>
-double Membrane<Real, Device>::friction_loss() const {
-  return faces_.friction_loss() + (nodes_ ? nodes_->sites.friction_loss() : 0);
-}
-
-template <class Real, class Device>
-void Membrane<Real, Device>::serialise(Archive& archive) {
-  faces_.serialise(archive);
-  if (nodes_) nodes_->sites.serialise(archive);
 }
 
 template <class Real, class Device>

@@ -68,7 +68,9 @@ class Membrane {
   // Strains and stresses (elastic, of friction, and viscous of `velocity`) at `position`; forces() then
   // gathers them.
   void update(const Vec3<Real>* position, const Vec3<Real>* velocity);
-  MembraneForceView<Real> forces() const;
+  MembraneForceView<Real> forces() const {
+    return {vertex_start_.data(), vertex_item_.data(), rest_.data(), deformation_.data(), faces_.stress()};
+  }
   // matrix = factor * Gauss-Newton stiffness + geometric * stiffness of the tension at the last update, to
   // which callers add mass and contact.  What compression adds is negative semidefinite and apart in
   // `softening`, unless that is null.
@@ -87,26 +89,41 @@ class Membrane {
   // Implicit steps.  begin_step() fixes what strain rates are measured from: (1 + e) E(now) - e E(before),
   // e the extrapolation (`before` may be null if e = 0).  evaluate() sets forces(), energies() of elastic,
   // frictional and viscous stress, and what assemble() needs, at `position`.
-  void begin_step(const StepFormula& formula, const Vec3<Real>* now, const Vec3<Real>* before);
+  void begin_step(const StepFormula& formula, const Vec3<Real>* now, const Vec3<Real>* before) {
+    each([&](auto& sites, double*) { sites.begin_step(formula, now, before); });
+  }
   void evaluate(const Vec3<Real>* position);
   const double* energies() const { return energy_.data(); }  // of triangles, then of nodes [J]
   int energies_count() const { return static_cast<int>(energy_.size()); }
   // Viscous over elastic stiffness of a step: the factor of assemble() is 1 + this.
   Real viscous_factor() const { return faces_.viscous_factor(); }
-  void add_viscous_loss();  // of the step that evaluate() saw last
+  void add_viscous_loss() {  // of the step that evaluate() saw last
+    each([](auto& sites, double*) { sites.add_viscous_loss(); });
+  }
 
   // Friction in the plane: accepts positions, of the start without a loss.  Nothing without stops.
   bool has_friction() const { return faces_.has_friction() || (nodes_ && nodes_->sites.has_friction()); }
   void start_friction(const Vec3<Real>* position) { accept(position, true); }
   void commit_friction(const Vec3<Real>* position) { accept(position, false); }
-  double friction_loss() const;  // since the start [J]
+  double friction_loss() const {  // since the start [J]
+    return faces_.friction_loss() + (nodes_ ? nodes_->sites.friction_loss() : 0);
+  }
 
   // What outlives a step: losses, and what friction remembers; stresses follow from positions.
-  void serialise(Archive& archive);
+  void serialise(Archive& archive) {
+    each([&](auto& sites, double*) { sites.serialise(archive); });
+  }
 
-  double stored_energy(const Vec3<Real>* position);              // [J]
-  void add_viscous_loss(const Vec3<Real>* velocity, Real step);  // of the last update's geometry
-  double viscous_loss() const;                                   // since the start [J]
+  double stored_energy(const Vec3<Real>* position) {  // [J]
+    each([&](auto& sites, double* energy) { sites.find_stored(position, energy); });
+    return energy_.sum();
+  }
+  void add_viscous_loss(const Vec3<Real>* velocity, Real step) {  // of the last update's geometry
+    each([&](auto& sites, double*) { sites.add_viscous_loss(velocity, step); });
+  }
+  double viscous_loss() const {  // since the start [J]
+    return faces_.viscous_loss() + (nodes_ ? nodes_->sites.viscous_loss() : 0);
+  }
   // Largest principal stretch minus 1, of a triangle or of the means at a node.
   double largest_stretch(const Vec3<Real>* position);
   std::size_t force_bytes() const {  // of forces()
@@ -140,7 +157,15 @@ class Membrane {
             rest_.data()};
   }
   int all_blocks() const { return static_cast<int>(block_sum_.size()) + vertices_; }
-  void accept(const Vec3<Real>* position, bool is_start);
+  void accept(const Vec3<Real>* position, bool is_start) {
+    each([&](auto& sites, double*) { sites.commit_friction(position, is_start); });
+  }
+  // visit(sites, their energies), of triangles and then of nodes.
+  template <class Visit>
+  void each(const Visit& visit) {
+    visit(faces_, energy_.data());
+    if (nodes_) visit(nodes_->sites, energy_.data() + faces_.count());
+  }
 
   Device& device_;
   int vertices_;

@@ -27,6 +27,14 @@ struct StiffnessWithStops {
   }
 };
 
+template <class Real, class Sites, class Gather>
+void with_stiffness(const Sites& faces, Real fraction, const Gather& gather) {
+  if (faces.has_friction())
+    gather(StiffnessWithStops<Real>{faces.stiffness(), fraction, faces.friction_tangents()});
+  else
+    gather(ElasticStiffness<Real>{faces.stiffness()});
+}
+
 }  // namespace
 
 template <class Real, class Device>
@@ -45,22 +53,14 @@ void Membrane<Real, Device>::assemble(Real factor, Real geometric, BlockRowsView
 
 template <class Real, class Device>
 void Membrane<Real, Device>::assemble_blocks(Real factor, Real geometric, BlockRowsView<Real> matrix) {
-  if (faces_.has_friction())
-    gather_blocks(
-        StiffnessWithStops<Real>{faces_.stiffness(), geometric / factor, faces_.friction_tangents()}, factor,
-        geometric, matrix);
-  else
-    gather_blocks(ElasticStiffness<Real>{faces_.stiffness()}, factor, geometric, matrix);
+  with_stiffness(faces_, geometric / factor,
+                 [&](const auto& stiffness) { gather_blocks(stiffness, factor, geometric, matrix); });
 }
 
 template <class Real, class Device>
 void Membrane<Real, Device>::assemble_columns(Real factor, Real geometric, BlockRowsView<Real> matrix) {
-  if (faces_.has_friction())
-    gather_columns(
-        StiffnessWithStops<Real>{faces_.stiffness(), geometric / factor, faces_.friction_tangents()}, factor,
-        geometric, matrix);
-  else
-    gather_columns(ElasticStiffness<Real>{faces_.stiffness()}, factor, geometric, matrix);
+  with_stiffness(faces_, geometric / factor,
+                 [&](const auto& stiffness) { gather_columns(stiffness, factor, geometric, matrix); });
 }
 
 // A CPU computes what the entries of a block have in common once.

@@ -1,9 +1,24 @@
 #include "sim/membrane/membrane_sites.h"
 
-#include <cmath>
-#include <numeric>
-
 namespace hysteron {
+
+namespace {
+
+template <class Real>
+std::vector<StrainStop<Real>> all_stops(const InPlaneStops& stops) {
+  std::vector<StrainStop<Real>> all;
+  for (const Spectrum* of : {&stops.warp, &stops.weft, &stops.shear})
+    for (std::size_t j = 0; j < of->size(); ++j)
+      all.push_back({static_cast<Real>(of->thresholds[j]), static_cast<Real>(of->stiffnesses[j])});
+  return all;
+}
+
+template <class Real>
+HYST_HD MembraneStress<Real> stress_sum(const MembraneStress<Real>& a, const Vec3<Real>& b) {
+  return {a.s11 + b[0], a.s22 + b[1], a.s12 + b[2]};
+}
+
+}  // namespace
 
 template <class Strains, class Device>
 MembraneSites<Strains, Device>::MembraneSites(Device& device, const Strains& strains, int sites,
@@ -20,14 +35,19 @@ MembraneSites<Strains, Device>::MembraneSites(Device& device, const Strains& str
       stress_(device, sites),
       tension_(device, sites),
       viscous_(device, damping > 0 ? sites : 0),
-      friction_(device, stops, sites) {}
+      end_{static_cast<int>(stops.warp.size()), static_cast<int>(stops.warp.size() + stops.weft.size()),
+           static_cast<int>(stops.warp.size() + stops.weft.size() + stops.shear.size())},
+      stop_(device, all_stops<Real>(stops)),
+      slip_(device, static_cast<std::size_t>(sites) * end_[2]),
+      tangent_(device, has_friction() ? sites : 0),
+      lost_(device, has_friction() ? sites : 0) {}
 
 template <class Strains, class Device>
 void MembraneSites<Strains, Device>::update(const Vec3<Real>* x, const Vec3<Real>* v) {
   const MembraneStiffness<Real> c = stiffness_;
   const Real damping = damping_;
   const Strains of = strains_;
-  const bool projects = is_last_ && !friction_.any();
+  const bool projects = is_last_ && !has_friction();
   MembraneStress<Real>*stress = stress_.data(), *tension = tension_.data();
   for_each(
       device_,
@@ -40,7 +60,7 @@ void MembraneSites<Strains, Device>::update(const Vec3<Real>* x, const Vec3<Real
         if (damping > 0) strain += damping * of.rate(i, v);
         stress[i] = membrane_stress(c, strain);
       });
-  if (friction_.any()) friction_.add(strains_, stresses());
+  if (has_friction()) add_friction(nullptr);
 }
 
 template <class Strains, class Device>
@@ -61,11 +81,6 @@ void MembraneSites<Strains, Device>::begin_step(const StepFormula& formula, cons
         reference[i] = last;
         if (extrapolation > 0) reference[i] += extrapolation * (last - of.at(i, before));
       });
-}
-
-template <class Strains, class Device>
-typename Strains::Real MembraneSites<Strains, Device>::viscous_factor() const {
-  return std::isfinite(formula_.beta_dt) ? damping_ / static_cast<Real>(formula_.beta_dt) : Real(0);
 }
 
 template <class Strains, class Device>
@@ -93,7 +108,7 @@ void MembraneSites<Strains, Device>::evaluate(const Vec3<Real>* x, double* energ
         tension[i] = projects ? tensile_part(all) : all;
         energy[i] = static_cast<double>(of.area(i) * potential);
       });
-  if (friction_.any()) friction_.add_to_trial(strains_, stresses(), energy);
+  if (has_friction()) add_friction(energy);
 }
 
 template <class Strains, class Device>
@@ -135,18 +150,55 @@ void MembraneSites<Strains, Device>::find_stored(const Vec3<Real>* x, double* en
   for_each(
       device_, "membrane energy", sites_,
       HYST_KERNEL(int i) { energy[i] = static_cast<double>(of.area(i) * membrane_energy(c, of.at(i, x))); });
-  if (friction_.any()) friction_.add_stored(strains_, x, energy);
+  if (has_friction()) add_stored_friction(x, energy);
 }
 
 template <class Strains, class Device>
-double MembraneSites<Strains, Device>::viscous_loss() const {
-  const std::vector<double> values = viscous_.download();
-  return std::accumulate(values.begin(), values.end(), 0.0);
+void MembraneSites<Strains, Device>::add_friction(double* energy) {
+  const StrainStops<Real> stops = this->stops();
+  const Strains of = strains_;
+  const bool projects = is_last_;
+  MembraneStress<Real>*stress = stress_.data(), *tension = tension_.data();
+  Vec3<Real>* tangent = tangent_.data();
+  for_each(
+      device_, {energy ? "membrane friction, tried" : "membrane friction", total_bytes(slip_, tangent_)},
+      sites_, HYST_KERNEL(int i) {
+        const StopsReply<Real> now = stops.reply(i, of.evaluated(i));
+        const MembraneStress<Real> all = stress_sum(stress[i], now.stress);
+        stress[i] = all;
+        if (energy) {
+          if (projects) tension[i] = tensile_part(all);
+          energy[i] += static_cast<double>(of.area(i) * (now.stored + now.lost));
+        } else {
+          const MembraneStress<Real> pulls = stress_sum(tension[i], now.stress);
+          tension[i] = projects ? tensile_part(pulls) : pulls;
+        }
+        tangent[i] = now.tangent;
+      });
+}
+
+template <class Strains, class Device>
+void MembraneSites<Strains, Device>::add_stored_friction(const Vec3<Real>* x, double* energy) {
+  const StrainStops<Real> stops = this->stops();
+  const Strains of = strains_;
+  for_each(
+      device_, "membrane friction energy", sites_, HYST_KERNEL(int i) {
+        energy[i] += static_cast<double>(of.area(i) * stops.reply(i, of.at(i, x)).stored);
+      });
 }
 
 template <class Strains, class Device>
 void MembraneSites<Strains, Device>::commit_friction(const Vec3<Real>* x, bool is_start) {
-  if (friction_.any()) friction_.commit(strains_, x, is_start);
+  if (!has_friction()) return;
+  const StrainStops<Real> stops = this->stops();
+  const Strains of = strains_;
+  double* lost = lost_.data();
+  for_each(
+      device_, {"membrane history", total_bytes(slip_, lost_)}, sites_, HYST_KERNEL(int i) {
+        const Vec3<Real> strain = of.at(i, x);
+        if (!is_start) lost[i] += static_cast<double>(of.area(i) * stops.reply(i, strain).lost);
+        stops.accept(i, strain);
+      });
 }
 
 template class MembraneSites<FaceStrains<double>, ThisDevice>;

@@ -3,10 +3,17 @@
 //
 // In an implicit step viscosity is the potential damping/beta_dt * W(E - E_ref), whose stress is damping * C
 // dE/dt with dE/dt = (E - E_ref)/beta_dt, so that a step is a minimum problem and rotations cost nothing.
+//
+// A fabric without stops has no memory here, and its cloth no loop for friction.
 #pragma once
 
+#include <cmath>
+
 #include "sim/base/step_formula.h"
+#include "sim/device/archive_buffer.h"
 #include "sim/membrane/in_plane_friction.h"
+#include "sim/membrane/strains.h"
+#include "sim/scene/scene.h"
 
 namespace hysteron {
 
@@ -32,34 +39,44 @@ class MembraneSites {
   // Of elasticity and friction after update(), of the whole stress after evaluate(); its tensile part if
   // `is_last`.
   MembraneStress<Real>* tension() { return tension_.data(); }
-  const Vec3<Real>* friction_tangents() const { return friction_.tangents(); }
+  // Of stops where update() or evaluate() was called last, by site [N/m].
+  const Vec3<Real>* friction_tangents() const { return tangent_.data(); }
 
   void update(const Vec3<Real>* position, const Vec3<Real>* velocity);
   void begin_step(const StepFormula& formula, const Vec3<Real>* now, const Vec3<Real>* before);
   void evaluate(const Vec3<Real>* position, double* energy);  // sets a site's energy [J]
-  Real viscous_factor() const;                                // viscous over elastic stiffness of a step
-  void add_viscous_loss();                                    // of the step that evaluate() saw last
+  Real viscous_factor() const {                               // viscous over elastic stiffness of a step
+    return std::isfinite(formula_.beta_dt) ? damping_ / static_cast<Real>(formula_.beta_dt) : Real(0);
+  }
+  void add_viscous_loss();  // of the step that evaluate() saw last
   void add_viscous_loss(const Vec3<Real>* velocity, Real step);
   void find_stored(const Vec3<Real>* position, double* energy);  // [J]
-  double viscous_loss() const;                                   // since the start [J]
+  double viscous_loss() const { return viscous_.sum(); }         // since the start [J]
 
-  bool has_friction() const { return friction_.any(); }
+  bool has_friction() const { return slip_.size() > 0; }
+  // Accepts positions.  What the stops lose on the way counts unless `is_start`: cloth starts with stops that
+  // its start shape has dragged along.
   void commit_friction(const Vec3<Real>* position, bool is_start);
-  double friction_loss() const { return friction_.loss(); }  // since the start [J]
+  double friction_loss() const { return lost_.sum(); }  // since the start [J]
 
   void serialise(Archive& archive) {
     hysteron::serialise(archive, device_, viscous_);
-    friction_.serialise(archive);
+    if (has_friction()) hysteron::serialise(archive, device_, slip_, lost_);
   }
   std::size_t stress_bytes() const { return total_bytes(stress_); }
   std::size_t tension_bytes() const { return total_bytes(tension_); }
-  std::size_t bytes() const {
-    return total_bytes(stress_, tension_, viscous_, reference_) + friction_.bytes();
-  }
-  std::size_t history_bytes() const { return friction_.history_bytes(); }
+  std::size_t bytes() const { return total_bytes(stress_, tension_, viscous_, reference_, stop_, tangent_); }
+  std::size_t history_bytes() const { return total_bytes(slip_, lost_); }
+
+  // Parts of update(), evaluate() and find_stored(); public because nvcc allows no device lambda in a private
+  // member function.  Friction is added to stresses that are elastic and viscous, and to tension, which is
+  // elastic; in a step that is tried, with its potential in `energy`, tension becomes that of the whole
+  // stress.
+  void add_friction(double* energy);
+  void add_stored_friction(const Vec3<Real>* position, double* energy);
 
  private:
-  SiteStresses<Real> stresses() { return {stress_.data(), tension_.data(), is_last_}; }
+  StrainStops<Real> stops() { return {stop_.data(), {0, end_[0], end_[1], end_[2]}, slip_.data(), sites_}; }
 
   Device& device_;
   Strains strains_;
@@ -70,7 +87,11 @@ class MembraneSites {
   Bytes bytes_;
   Buffer<MembraneStress<Real>, Device> stress_, tension_;
   Buffer<double, Device> viscous_;  // lost, by site [J]
-  InPlaneFriction<Strains, Device> friction_;
+  int end_[3];                      // of the stops of each component
+  Buffer<StrainStop<Real>, Device> stop_;
+  Buffer<Real, Device> slip_;             // StrainStops::slip
+  Buffer<Vec3<Real>, Device> tangent_;    // by component
+  Buffer<double, Device> lost_;           // by site [J]
   StepFormula formula_;                   // of implicit steps
   Buffer<Vec3<Real>, Device> reference_;  // strain from which rates are measured; empty without damping
 };

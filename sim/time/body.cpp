@@ -113,16 +113,9 @@ void Body<Real, Device>::carry_out_commands(double start, double end) {
 
 template <class Real, class Device>
 void Body<Real, Device>::serialise(Archive& archive) {
-  hysteron::serialise(archive, *device, x);
-  hysteron::serialise(archive, *device, v);
-  hysteron::serialise(archive, *device, held);
-  hysteron::serialise(archive, *device, ledger);
+  hysteron::serialise(archive, *device, x, v, held, ledger);
   hysteron::serialise(archive, clock);
-  archive(counts);
-  archive(forces_discontinuous);
-  archive(initial_);
-  archive(next_obstacle_);
-  archive(met_);
+  archive(counts, forces_discontinuous, initial_, next_obstacle_, met_);
   pins.serialise(archive, *this);
   membrane.serialise(archive);
   bending.serialise(archive);
@@ -141,11 +134,6 @@ bool Body<Real, Device>::is_finite() {
       },
       HYST_KERNEL(const Sums<1>& total) { *size = total.term[0]; });
   return std::isfinite(size_.download()[0]);
-}
-
-template <class Real, class Device>
-std::size_t Body<Real, Device>::state_bytes() const {
-  return x.bytes() + v.bytes() + mass.bytes() + held.bytes();
 }
 
 template <class Real, class Device>

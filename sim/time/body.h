@@ -16,10 +16,10 @@
 
 namespace hysteron {
 
-template <class Real>
-std::vector<Vec3<Real>> cast_to(const std::vector<Eigen::Vector3d>& values) {
-  std::vector<Vec3<Real>> result;
-  for (const auto& v : values) result.push_back(v.cast<Real>());
+template <class To, class From>
+std::vector<Vec3<To>> cast_to(const std::vector<Vec3<From>>& values) {
+  std::vector<Vec3<To>> result;
+  for (const auto& v : values) result.push_back(v.template cast<To>());
   return result;
 }
 
@@ -57,12 +57,15 @@ struct Body {
   // Commands that are due in a step, on the state accepted last.
   void carry_out_commands(double start, double end);
 
+  Vec3<Real> gravity() const { return scene.gravity.template cast<Real>(); }              // [m/s^2]
+  Real drag() const { return static_cast<Real>(scene.air_drag / scene.fabric.density); }  // over mass [1/s]
+
   // All that outlives a step; the rest follows from the scene, or is made anew in every step.
   void serialise(Archive& archive);
 
   Ledger energies();  // at this moment
   Ledger balance();   // since the start
-  std::size_t state_bytes() const;
+  std::size_t state_bytes() const { return x.bytes() + v.bytes() + mass.bytes() + held.bytes(); }
   bool is_finite();
 
  private:

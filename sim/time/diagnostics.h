@@ -34,7 +34,6 @@ struct Diagnostics {
   double pin_lag = 0;
   long newton = 0, linear = 0;  // iterations of all implicit solves
   double time_steps = 0;        // sum over Newton's iterations, 1 for a full step
-  double last_residual = 0;     // unbalanced force over load where Newton's method ended last
   // What Newton's method has left at the ends of stages: the largest unbalanced force over load, and the
   // velocity that it would give free masses within the stage, the largest and the sum, each a root mean
   // square over the cloth [m/s].

@@ -5,53 +5,17 @@
 #include <string>
 
 #include "sim/base/error.h"
-#include "sim/time/make_linear_solver.h"
 #include "sim/time/step_errors.h"
 #include "sim/time/time_integrator.h"
 
 namespace hysteron {
 
-namespace {
-
-// What a solve works on.
 template <class Real, class Device>
-VertexState<Real> vertex_state(Body<Real, Device>& body) {
-  return {body.x.data(),    body.v.data(),    body.held.data(),
-          body.mass.data(), body.pins.arcs(), body.pins.compliant_pins()};
-}
-
-}  // namespace
-
-template <class Real, class Device>
-ImplicitIntegrator<Real, Device>::ImplicitIntegrator(Body<Real, Device>& body)
-    : body_(body),
-      solver_(*body.device, body.scene, body.mass, body.matrix, body.membrane, body.bending,
-              body.contact ? &*body.contact : nullptr, body.self_contact ? &*body.self_contact : nullptr,
-              make_linear_solver(body)),
+ImplicitIntegrator<Real, Device>::ImplicitIntegrator(Body<Real, Device>& body, const StepLimits& limits)
+    : TimeIntegrator<Real, Device>(body),
+      solver_(body),
+      substeps_(limits.substeps),
       tolerance_(body.scene.tolerance) {}
-
-template <class Real, class Device>
-void ImplicitIntegrator<Real, Device>::step(double start) {
-  tolerance_ > 0 ? take_adaptive_step(start) : take_interval(start, body_.scene.step, 0);
-}
-
-template <class Real, class Device>
-void ImplicitIntegrator<Real, Device>::step_by(double start, double h) {
-  if (body_.scene.integrator != Integrator::quasi_static && !solver_.is_static())
-    throw_if_long_step(body_.scene);
-  take_interval(start, h, 0);
-}
-
-template <class Real, class Device>
-std::vector<Vec3<Real>> ImplicitIntegrator<Real, Device>::handle_forces() {
-  return solver_.handle_forces(vertex_state(body_));
-}
-
-template <class Real, class Device>
-void ImplicitIntegrator<Real, Device>::become_static() {
-  solver_.become_static(body_.scene);
-  tolerance_ = 0;  // of steps in time
-}
 
 // Statics let the weight grow over the scene's `ramp` and fall over its `unload`: the cloth passes through
 // states of equilibrium.
@@ -83,28 +47,28 @@ NewtonOutcome ImplicitIntegrator<Real, Device>::attempt(double start, double h, 
 template <class Real, class Device>
 NewtonOutcome ImplicitIntegrator<Real, Device>::solve(double start, double h, bool is_first_stage) {
   body_.clock.begin(Stage::solve);
-  const NewtonOutcome outcome = solver_.solve(vertex_state(body_), h, load_share(start + h), is_first_stage);
+  const NewtonOutcome outcome = solver_.solve(h, load_share(start + h), is_first_stage);
   body_.clock.end(Stage::solve);
   body_.counts.newton += outcome.iterations;
   body_.counts.linear += outcome.linear_iterations;
   body_.counts.unbalanced += outcome.unbalanced;
   body_.counts.time_steps += outcome.time_steps;
   last_outcome_ = outcome;
-  body_.counts.last_residual = outcome.load > 0 ? outcome.residual / outcome.load : 0;
   return outcome;
 }
 
 template <class Real, class Device>
 void ImplicitIntegrator<Real, Device>::accept(double end) {
   Diagnostics& counts = body_.counts;
-  counts.largest_residual = std::max(counts.largest_residual, counts.last_residual);
+  if (last_outcome_.load > 0)
+    counts.largest_residual = std::max(counts.largest_residual, last_outcome_.residual / last_outcome_.load);
   if (!solver_.is_static()) {
     ++counts.stages;
     counts.velocities += last_outcome_.velocity;
     counts.largest_velocity = std::max(counts.largest_velocity, last_outcome_.velocity);
   }
   body_.clock.begin(Stage::history);
-  solver_.accept(vertex_state(body_), body_.ledger.data());
+  solver_.accept();
   body_.clock.end(Stage::history);
   body_.forces_discontinuous = false;
   body_.end_stage(end);
@@ -161,7 +125,7 @@ void ImplicitIntegrator<Real, Device>::take_adaptive_step(double start) {
   for (double now = start; end - now > least / 2;) {
     const double h = equal_part(end - now, part_);
     const NewtonOutcome outcome = attempt(now, first_stage(h), solver_.has_two_stages(), false);
-    const double error = outcome.converged ? solver_.local_error(vertex_state(body_)) : 1e30;
+    const double error = outcome.converged ? solver_.local_error() : 1e30;
     const double wanted = next_part(h, std::pow(tolerance_ / error, 1 / solver_.error_order()));
     if (outcome.converged && error <= tolerance_) {
       finish(now, h, 0);
@@ -177,30 +141,23 @@ void ImplicitIntegrator<Real, Device>::take_adaptive_step(double start) {
   }
 }
 
-// Bending's force is that at the start of a stage, also where the stage is then taken in parts.
+// Bending is explicit with its substeps, the rest solved to the end: layers are kept apart by the line
+// search. Bending's force is that at the start of a stage, also where the stage is then taken in parts.
 template <class Real, class Device>
-void LaggedBending<Real, Device>::step(double start) {
-  Body<Real, Device>& body = this->body_;
-  const double whole = body.scene.step;
-  for (int k = 0; k < stages_; ++k) {
-    const double from = start + whole * k / stages_;
-    const Real h = static_cast<Real>(whole / stages_);
-    body.apply_due_events(from, h);
-    body.clock.begin(Stage::bending);
-    body.bending.commit(body.x.data(), body.v.data(), h);
-    body.clock.end(Stage::bending);
-    this->take_interval(from, static_cast<double>(h), 0);
+void ImplicitIntegrator<Real, Device>::take_lagged_step(double start) {
+  const double whole = body_.scene.step;
+  for (int k = 0; k < substeps_; ++k) {
+    const double from = start + whole * k / substeps_;
+    const Real h = static_cast<Real>(whole / substeps_);
+    body_.apply_due_events(from, h);
+    body_.clock.begin(Stage::bending);
+    body_.bending.commit(body_.x.data(), body_.v.data(), h);
+    body_.clock.end(Stage::bending);
+    take_interval(from, static_cast<double>(h), 0);
   }
-}
-
-template <class Real, class Device>
-void LaggedBending<Real, Device>::become_static() {
-  throw_if_statics(this->body_.scene);
 }
 
 template class ImplicitIntegrator<double, ThisDevice>;
 template class ImplicitIntegrator<float, ThisDevice>;
-template class LaggedBending<double, ThisDevice>;
-template class LaggedBending<float, ThisDevice>;
 
 }  // namespace hysteron

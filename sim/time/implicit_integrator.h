@@ -12,24 +12,34 @@ namespace hysteron {
 template <class Real, class Device>
 class ImplicitIntegrator : public TimeIntegrator<Real, Device> {
  public:
-  explicit ImplicitIntegrator(Body<Real, Device>& body);
-  void step(double start) override;
-  void step_by(double start, double h) override;
-  void become_static() override;
-  std::vector<Vec3<Real>> handle_forces() override;
+  ImplicitIntegrator(Body<Real, Device>& body, const StepLimits& limits);
+  void step(double start) override {
+    if (bending_lags()) return take_lagged_step(start);
+    tolerance_ > 0 ? take_adaptive_step(start) : take_interval(start, body_.scene.step, 0);
+  }
+  void step_by(double start, double h) override {
+    if (body_.scene.integrator != Integrator::quasi_static && !solver_.is_static())
+      TimeIntegrator<Real, Device>::step_by(start, h);
+    take_interval(start, h, 0);
+  }
+  void become_static() override {
+    if (bending_lags()) return TimeIntegrator<Real, Device>::become_static();
+    solver_.become_static();
+    tolerance_ = 0;  // of steps in time
+  }
+  std::vector<Vec3<Real>> handle_forces() override { return solver_.handle_forces(); }
   void serialise(Archive& archive) override {
-    archive(part_);
-    archive(tolerance_);
+    archive(part_, tolerance_);
     solver_.serialise(archive);
   }
   std::size_t bytes() const override { return solver_.bytes(); }
 
- protected:
+ private:
+  using TimeIntegrator<Real, Device>::body_;
+  bool bending_lags() const { return body_.scene.integrator == Integrator::semi_implicit; }
+  void take_lagged_step(double start);
   // From start to start + h, in halves if it does not converge.
   void take_interval(double start, double h, int halvings);
-  Body<Real, Device>& body_;
-
- private:
   void take_adaptive_step(double start);
   void finish(double start, double h, int halvings);
   void take_halves(double start, double h, int halvings, const NewtonOutcome& outcome);
@@ -41,22 +51,10 @@ class ImplicitIntegrator : public TimeIntegrator<Real, Device> {
   double load_share(double time) const;
 
   ImplicitStep<Real, Device> solver_;
+  int substeps_;                // of bending that lags
   double tolerance_;            // 0: steps as given
   NewtonOutcome last_outcome_;  // of the attempt last made
   double part_ = 0;             // of adaptive steps: the coming one [s]
-};
-
-// Bending explicit with its substeps, the rest solved to the end: layers are kept apart by the line search.
-template <class Real, class Device>
-class LaggedBending : public ImplicitIntegrator<Real, Device> {
- public:
-  LaggedBending(Body<Real, Device>& body, const StepLimits& limits)
-      : ImplicitIntegrator<Real, Device>(body), stages_(limits.substeps) {}
-  void step(double start) override;
-  void become_static() override;
-
- private:
-  int stages_;
 };
 
 }  // namespace hysteron

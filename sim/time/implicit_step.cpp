@@ -11,19 +11,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "sim/linear/levels_in_one_launch.h"
+#include "sim/time/make_linear_solver.h"
 
 namespace hysteron {
 
 namespace {
-
-template <class Real, class Device>
-double buffer_sum(const Buffer<Real, Device>& values) {
-  const std::vector<Real> host = values.download();
-  return std::accumulate(host.begin(), host.end(), 0.0);
-}
 
 template <class Real>
 NewtonLimits newton_limits(const Scene& scene, bool statics) {
@@ -54,141 +48,97 @@ NewtonLimits newton_limits(const Scene& scene, bool statics) {
 }  // namespace
 
 template <class Real, class Device>
-ImplicitStep<Real, Device>::ImplicitStep(Device& device, const Scene& scene, const Buffer<Real, Device>& mass,
-                                         BlockRows<Real, Device>& matrix, Membrane<Real, Device>& membrane,
-                                         Bending<Real, Device>& bending, Contact<Real, Device>* contact,
-                                         SelfContact<Real, Device>* self_contact,
-                                         std::unique_ptr<LinearSolver<Real, Device>> solver)
-    : device_(device),
-      two_step_(scene.integrator == Integrator::bdf2 || scene.integrator == Integrator::tr_bdf2),
-      two_stage_(scene.integrator == Integrator::tr_bdf2),
-      static_(scene.integrator == Integrator::quasi_static),
-      bending_lags_(scene.integrator == Integrator::semi_implicit),
-      gravity_(scene.gravity.cast<Real>()),
-      drag_(static_cast<Real>(scene.air_drag / scene.fabric.density)),
-      vertices_(static_cast<int>(mass.size())),
-      total_mass_(buffer_sum(mass)),
-      membrane_(membrane),
-      bending_(bending),
-      potential_(device, matrix, membrane, bending, contact, self_contact, mass, bending_lags_, scene.tuning),
-      solver_(std::move(solver)),
-      newton_(device, vertices_, potential_, *solver_, newton_limits<Real>(scene, static_)),
-      size_(device, 1),
-      end_(device, vertices_),
-      reference_(device, vertices_),
-      drift_(device, vertices_),
-      predicted_(device, vertices_),
-      acceleration_(device, vertices_),
-      x_before_(device, two_step_ ? vertices_ : 0),
-      v_before_(device, two_step_ ? vertices_ : 0),
-      displacement_(device, self_contact ? vertices_ : 0),
-      forces_(device, static_ ? vertices_ : 0) {
+ImplicitStep<Real, Device>::ImplicitStep(Body<Real, Device>& body)
+    : body_(body),
+      two_step_(body.scene.integrator == Integrator::bdf2 || body.scene.integrator == Integrator::tr_bdf2),
+      two_stage_(body.scene.integrator == Integrator::tr_bdf2),
+      static_(body.scene.integrator == Integrator::quasi_static),
+      bending_lags_(body.scene.integrator == Integrator::semi_implicit),
+      total_mass_(body.mass.sum()),
+      potential_(*body.device, body.matrix, body.membrane, body.bending,
+                 body.contact ? &*body.contact : nullptr, body.self_contact ? &*body.self_contact : nullptr,
+                 body.mass, bending_lags_, body.scene.tuning),
+      solver_(make_linear_solver(body)),
+      newton_(*body.device, body.vertices, potential_, *solver_, newton_limits<Real>(body.scene, static_)),
+      size_(*body.device, 1),
+      end_(*body.device, body.vertices),
+      reference_(*body.device, body.vertices),
+      drift_(*body.device, body.vertices),
+      predicted_(*body.device, body.vertices),
+      acceleration_(*body.device, body.vertices),
+      x_before_(*body.device, two_step_ ? body.vertices : 0),
+      v_before_(*body.device, two_step_ ? body.vertices : 0),
+      displacement_(*body.device, body.self_contact ? body.vertices : 0),
+      forces_(*body.device, static_ ? body.vertices : 0) {
   // Solves in one launch take the whole matrix; those with self-contact, in loops of their own, gain by it
   // where a GPU waits for loops rather than for memory.  On a CPU they wait for nothing.
   constexpr int kMaxWithSelfContact = 32768;
-  const int most = self_contact ? kMaxWithSelfContact : kMaxRowsInOneLaunch;  // vertices
-  if (Device::kGpu && !bending_lags_ && vertices_ <= most) potential_.assemble();
+  const int most = body.self_contact ? kMaxWithSelfContact : kMaxRowsInOneLaunch;  // vertices
+  if (Device::kGpu && !bending_lags_ && body.vertices <= most) potential_.assemble();
 }
 
 template <class Real, class Device>
-void ImplicitStep<Real, Device>::become_static(const Scene& scene) {
+void ImplicitStep<Real, Device>::become_static() {
   static_ = true;
   two_step_ = two_stage_ = false;
-  newton_.set_limits(newton_limits<Real>(scene, true));
+  newton_.set_limits(newton_limits<Real>(body_.scene, true));
   last_h_ = 0;  // velocities that were are no guess
 }
 
 template <class Real, class Device>
-std::size_t ImplicitStep<Real, Device>::bytes() const {
-  return potential_.bytes() + solver_->bytes() + newton_.bytes() + 5 * end_.bytes() + 2 * x_before_.bytes() +
-         displacement_.bytes() + forces_.bytes();
-}
-
-template <class Real, class Device>
-void ImplicitStep<Real, Device>::serialise(Archive& archive) {
-  archive(knows_acceleration_);
-  archive(last_h_);
-  hysteron::serialise(archive, device_, acceleration_);
-  hysteron::serialise(archive, device_, x_before_);
-  hysteron::serialise(archive, device_, v_before_);
-  archive(knows_forces_);
-  hysteron::serialise(archive, device_, forces_);
-  potential_.serialise(archive);
-  solver_->serialise(archive);
-}
-
-template <class Real, class Device>
-StepFormula ImplicitStep<Real, Device>::rate_formula(double h) const {
-  if (static_) return StepFormula::statics(h);
-  const bool two_steps = two_step_ && last_h_ > 0 && h <= kMaxGrowth * last_h_;
-  return two_steps ? StepFormula::bdf2(h, last_h_) : StepFormula::backward_euler(h);
-}
-
-template <class Real, class Device>
-StepFormula ImplicitStep<Real, Device>::step_formula(double h, bool is_first_stage) const {
-  if (static_ || !is_first_stage) return rate_formula(h);
-  return knows_acceleration_ ? StepFormula::trapezoidal(h) : StepFormula::backward_euler(h);
-}
-
-template <class Real, class Device>
-NewtonOutcome ImplicitStep<Real, Device>::solve(const VertexState<Real>& state, double h, double fraction,
-                                                bool is_first_stage) {
+NewtonOutcome ImplicitStep<Real, Device>::solve(double h, double fraction, bool is_first_stage) {
   formula_ = step_formula(h, is_first_stage);
   solver_->begin();
   fraction_ = static_cast<Real>(fraction);
-  place(state);
-  potential_.begin({formula_, rate_formula(h), state.x, x_before_.data(), reference_.data(),
-                    predicted_.data(), state.held, gravity_, drag_, fraction_, state.compliant_pins});
+  place();
+  potential_.begin({formula_, rate_formula(h), body_.x.data(), x_before_.data(), reference_.data(),
+                    predicted_.data(), body_.held.data(), body_.gravity(), body_.drag(), fraction_,
+                    body_.pins.compliant_pins()});
   // The better of two beginnings: at constant velocity, and with the acceleration of the step before.
-  const PotentialValue steady = potential_of_guess(state, false);
+  const PotentialValue steady = potential_of_guess(false);
   PotentialValue begun = steady;
   if (last_h_ > 0) {
-    begun = potential_of_guess(state, true);
-    if (!(begun.energy < steady.energy)) begun = potential_of_guess(state, false);
+    begun = potential_of_guess(true);
+    if (!(begun.energy < steady.energy)) begun = potential_of_guess(false);
   }
   if (!std::isfinite(begun.energy)) {  // the handles' motion is not free, or the state not finite
     NewtonOutcome outcome;
-    outcome.blocked = potential_.has_self_contact() && !keep_apart(state);
+    outcome.blocked = potential_.has_self_contact() && !keep_apart();
     return outcome;
   }
   const double beta_dt = static_ ? 1.0 : formula_.beta_dt;
-  const NewtonOutcome outcome = newton_.minimise(end_, begun, state.held, state.mass, total_mass_, beta_dt);
+  const NewtonOutcome outcome =
+      newton_.minimise(end_, begun, body_.held.data(), body_.mass.data(), total_mass_, beta_dt);
   evaluated_ = outcome.evaluated;
   return outcome;
 }
 
 template <class Real, class Device>
-std::vector<Vec3<Real>> ImplicitStep<Real, Device>::handle_forces(const VertexState<Real>& state) const {
-  std::vector<Vec3<Real>> force(vertices_);
-  device_download(device_, force.data(), potential_.gradient(), force.size() * sizeof(Vec3<Real>));
-  std::vector<char> mask(vertices_);
-  device_download(device_, mask.data(), state.held, mask.size());
-  for (int i = 0; i < vertices_; ++i)
-    if (!mask[i]) force[i].setZero();
-  if (!state.compliant_pins.strength) return force;
-  std::vector<Vec3<Real>> place(vertices_);
-  std::vector<Real> strength(vertices_);
-  device_download(device_, place.data(), state.compliant_pins.place, place.size() * sizeof(Vec3<Real>));
-  device_download(device_, strength.data(), state.compliant_pins.strength, strength.size() * sizeof(Real));
-  const CompliantPins<Real> compliant_pins{place.data(), strength.data(),
-                                           state.compliant_pins.yield_distance};
-  std::vector<Vec3<Real>> x(vertices_);
-  device_download(device_, x.data(), state.x, x.size() * sizeof(Vec3<Real>));
-  for (int i = 0; i < vertices_; ++i) force[i] += compliant_pins.force(i, x[i]);
+std::vector<Vec3<Real>> ImplicitStep<Real, Device>::handle_forces() const {
+  std::vector<Vec3<Real>> force = downloaded(*body_.device, potential_.gradient(), body_.vertices);
+  const std::vector<char> held = body_.held.download();
+  for (int i = 0; i < body_.vertices; ++i)
+    if (!held[i]) force[i].setZero();
+  CompliantPins<Real> pins = body_.pins.compliant_pins();
+  if (!pins.strength) return force;
+  const std::vector<Vec3<Real>> place = downloaded(*body_.device, pins.place, body_.vertices);
+  const std::vector<Real> strength = downloaded(*body_.device, pins.strength, body_.vertices);
+  pins.place = place.data();
+  pins.strength = strength.data();
+  const std::vector<Vec3<Real>> x = body_.x.download();
+  for (int i = 0; i < body_.vertices; ++i) force[i] += pins.force(i, x[i]);
   return force;
 }
 
 template <class Real, class Device>
-Unbalanced ImplicitStep<Real, Device>::most_unbalanced(const char* held) {
+Unbalanced ImplicitStep<Real, Device>::most_unbalanced() {
   potential_.evaluate(end_.data(), nullptr);  // the last trial of a line search may have been another
-  std::vector<Vec3<Real>> gradient(vertices_);
-  device_download(device_, gradient.data(), potential_.gradient(), gradient.size() * sizeof(Vec3<Real>));
-  std::vector<char> mask(vertices_);
-  device_download(device_, mask.data(), held, mask.size());
+  const std::vector<Vec3<Real>> gradient = downloaded(*body_.device, potential_.gradient(), body_.vertices);
+  const std::vector<char> held = body_.held.download();
   Unbalanced result;
-  for (int i = 0; i < vertices_; ++i) {
+  for (int i = 0; i < body_.vertices; ++i) {
     const double force = static_cast<double>(gradient[i].norm());
-    if (mask[i] || !(force > result.force)) continue;
+    if (held[i] || !(force > result.force)) continue;
     result.vertex = i;
     result.force = force;
   }
@@ -197,11 +147,10 @@ Unbalanced ImplicitStep<Real, Device>::most_unbalanced(const char* held) {
 }
 
 template <class Real, class Device>
-PotentialValue ImplicitStep<Real, Device>::potential_of_guess(const VertexState<Real>& state,
-                                                              bool accelerated) {
-  guess(state, accelerated);
+PotentialValue ImplicitStep<Real, Device>::potential_of_guess(bool accelerated) {
+  guess(accelerated);
   potential_.clip_to_obstacles(end_.data());
-  const bool apart = !potential_.has_self_contact() || keep_apart(state);
+  const bool apart = !potential_.has_self_contact() || keep_apart();
   if (!apart || !potential_.path_is_clear(end_.data()))
     return {.energy = std::numeric_limits<double>::infinity()};
   potential_.update_friction_limits(end_.data());
@@ -210,16 +159,16 @@ PotentialValue ImplicitStep<Real, Device>::potential_of_guess(const VertexState<
 
 // What the formula starts from.
 template <class Real, class Device>
-void ImplicitStep<Real, Device>::place(const VertexState<Real>& state) {
+void ImplicitStep<Real, Device>::place() {
   const Real beta_dt = static_ ? Real(0) : static_cast<Real>(formula_.beta_dt);
   const Real extrapolation = static_cast<Real>(formula_.extrapolation),
              carried = static_cast<Real>(formula_.carried);
-  const Vec3<Real>*x = state.x, *v = state.v, *x0 = x_before_.data(), *v0 = v_before_.data();
+  const Vec3<Real>*x = body_.x.data(), *v = body_.v.data(), *x0 = x_before_.data(), *v0 = v_before_.data();
   const Vec3<Real>* a = acceleration_.data();
   Vec3<Real>*reference = reference_.data(), *drift = drift_.data(), *predicted = predicted_.data();
   for_each(
-      device_, {"implicit start", vectors(5 + (extrapolation > 0 ? 2 : 0) + (carried > 0 ? 1 : 0))},
-      vertices_, HYST_KERNEL(int i) {
+      *body_.device, {"implicit start", vectors(5 + (extrapolation > 0 ? 2 : 0) + (carried > 0 ? 1 : 0))},
+      body_.vertices, HYST_KERNEL(int i) {
         reference[i] = x[i];
         drift[i] = v[i];
         if (extrapolation > 0) {
@@ -235,16 +184,17 @@ void ImplicitStep<Real, Device>::place(const VertexState<Real>& state) {
 }
 
 template <class Real, class Device>
-void ImplicitStep<Real, Device>::guess(const VertexState<Real>& state, bool accelerated) {
+void ImplicitStep<Real, Device>::guess(bool accelerated) {
   const Real h = static_cast<Real>(formula_.dt);
   // Of the acceleration in the guess [s^2]; in statics, which keep a velocity in its place, [s].
   const double full_weight = static_ ? formula_.dt : formula_.beta_dt * formula_.beta_dt;
   const Real weight = accelerated ? static_cast<Real>(full_weight) : Real(0);
-  const Vec3<Real>*x = state.x, *v = state.v, *predicted = predicted_.data(), *a = acceleration_.data();
-  const char* held = state.held;
+  const Vec3<Real>*x = body_.x.data(), *v = body_.v.data(), *predicted = predicted_.data(),
+        *a = acceleration_.data();
+  const char* held = body_.held.data();
   Vec3<Real>* end = end_.data();
   for_each(
-      device_, {"implicit guess", vectors(accelerated ? 3 : 2)}, vertices_, HYST_KERNEL(int i) {
+      *body_.device, {"implicit guess", vectors(accelerated ? 3 : 2)}, body_.vertices, HYST_KERNEL(int i) {
         end[i] = held[i] ? Vec3<Real>(x[i] + h * v[i]) : Vec3<Real>(predicted[i] + weight * a[i]);
       });
 }
@@ -252,13 +202,13 @@ void ImplicitStep<Real, Device>::guess(const VertexState<Real>& state, bool acce
 // Shortens the guess until the cloth does not pass through itself on the path there; held vertices have to go
 // all of theirs.
 template <class Real, class Device>
-bool ImplicitStep<Real, Device>::keep_apart(const VertexState<Real>& state) {
+bool ImplicitStep<Real, Device>::keep_apart() {
   constexpr int kMaxShortenings = 12;
   constexpr double kWithin = 0.99, kFastest = 0.1;
   double shorter = 1;
   for (int k = 0; k < kMaxShortenings; ++k) {
-    shorten_guess(state, static_cast<Real>(shorter));
-    const double feasible = potential_.collision_free_step(state.x, displacement_.data(), 1);
+    shorten_guess(static_cast<Real>(shorter));
+    const double feasible = potential_.collision_free_step(body_.x.data(), displacement_.data(), 1);
     if (feasible >= 1) {
       potential_.accept_iterate(end_.data());
       return true;
@@ -270,12 +220,12 @@ bool ImplicitStep<Real, Device>::keep_apart(const VertexState<Real>& state) {
 
 // The displacement to the guess, of free vertices times `step_length`; the guess moves there.
 template <class Real, class Device>
-void ImplicitStep<Real, Device>::shorten_guess(const VertexState<Real>& state, Real step_length) {
-  const Vec3<Real>* x = state.x;
-  const char* held = state.held;
+void ImplicitStep<Real, Device>::shorten_guess(Real step_length) {
+  const Vec3<Real>* x = body_.x.data();
+  const char* held = body_.held.data();
   Vec3<Real>*end = end_.data(), *displacement = displacement_.data();
   for_each(
-      device_, {"implicit: displacement", vectors(4)}, vertices_, HYST_KERNEL(int i) {
+      *body_.device, {"implicit: displacement", vectors(4)}, body_.vertices, HYST_KERNEL(int i) {
         displacement[i] = held[i] ? Vec3<Real>(end[i] - x[i]) : Vec3<Real>(step_length * (end[i] - x[i]));
         end[i] = x[i] + displacement[i];
       });
@@ -286,7 +236,7 @@ void ImplicitStep<Real, Device>::shorten_guess(const VertexState<Real>& state, R
 // tr-bdf2's is (sqrt 2 - 1)/2 - 1/6 of h^3 x^(3); its trapezoidal stage misses the extrapolation by gamma^3/4
 // of that.
 template <class Real, class Device>
-double ImplicitStep<Real, Device>::local_error(const VertexState<Real>& state) {
+double ImplicitStep<Real, Device>::local_error() {
   const double w = last_h_ > 0 ? formula_.dt / last_h_ : 1;
   const double of_bdf2 = (1 + w) * (1 + w) / (6 * w * (1 + 2 * w)), of_extrapolation = 1.0 / 6 + 1 / (4 * w);
   const double of_step = (std::sqrt(2.0) - 1) / 2 - 1.0 / 6, of_stage = std::pow(kTrapezoidalFraction, 3) / 4;
@@ -295,12 +245,12 @@ double ImplicitStep<Real, Device>::local_error(const VertexState<Real>& state) {
                           : second             ? of_bdf2 / (of_bdf2 + of_extrapolation)
                                                : 0.5;
   const Real h = static_cast<Real>(formula_.dt), curved = second ? h * h / 2 : Real(0);
-  const Vec3<Real>*x = state.x, *v = state.v, *a = acceleration_.data(), *end = end_.data();
-  const char* held = state.held;
-  const Real* mass = state.mass;
+  const Vec3<Real>*x = body_.x.data(), *v = body_.v.data(), *a = acceleration_.data(), *end = end_.data();
+  const char* held = body_.held.data();
+  const Real* mass = body_.mass.data();
   double* size = size_.data();
   for_each_sum<1>(
-      device_, {"implicit error", vectors(second ? 4 : 3) + vertices_ * sizeof(Real)}, vertices_,
+      *body_.device, {"implicit error", vectors(second ? 4 : 3) + body_.mass.bytes()}, body_.vertices,
       HYST_KERNEL(int i, Sums<1>& sums) {
         if (held[i]) return;
         const Vec3<Real> miss = end[i] - x[i] - h * v[i] - curved * a[i];
@@ -311,14 +261,14 @@ double ImplicitStep<Real, Device>::local_error(const VertexState<Real>& state) {
 }
 
 template <class Real, class Device>
-void ImplicitStep<Real, Device>::accept(const VertexState<Real>& state, VertexLedger* ledger) {
+void ImplicitStep<Real, Device>::accept() {
   // The last trial of a line search may have been another.
   if (!evaluated_) potential_.evaluate(end_.data(), nullptr);
-  if (!bending_lags_) bending_.accept();
-  book(state, ledger);
-  membrane_.add_viscous_loss();
-  membrane_.commit_friction(end_.data());
-  move_on(state);
+  if (!bending_lags_) body_.bending.accept();
+  book();
+  body_.membrane.add_viscous_loss();
+  body_.membrane.commit_friction(end_.data());
+  move_on();
   last_h_ = formula_.dt;
   knows_acceleration_ = true;
 }
@@ -326,24 +276,26 @@ void ImplicitStep<Real, Device>::accept(const VertexState<Real>& state, VertexLe
 // Work of the forces over the way to the end of the step.  Membrane and contact: what is left of the
 // gradient.
 template <class Real, class Device>
-void ImplicitStep<Real, Device>::book(const VertexState<Real>& state, VertexLedger* ledger) {
+void ImplicitStep<Real, Device>::book() {
   const Real rate = static_cast<Real>(1 / formula_.beta_dt);  // 0 in statics
-  const Real inertia = rate * rate, drag = drag_ * rate;
-  const Vec3<Real> g = gravity_, carried = (1 - fraction_) * gravity_;
-  const GatheredForces<Real> bending = bending_.forces();
-  const Vec3<Real>*x = state.x, *v = state.v, *end = end_.data(), *reference = reference_.data();
+  const Real inertia = rate * rate, drag = body_.drag() * rate;
+  const Vec3<Real> g = body_.gravity(), carried = (1 - fraction_) * g;
+  const GatheredForces<Real> bending = body_.bending.forces();
+  const Vec3<Real>*x = body_.x.data(), *v = body_.v.data(), *end = end_.data(),
+        *reference = reference_.data();
   const Vec3<Real>*predicted = predicted_.data(), *drift = drift_.data(), *gradient = potential_.gradient();
-  const char* held = state.held;
-  const Real* mass = state.mass;
-  const Vec3<Real>* handle_displacement = state.handle_displacement;
-  const CompliantPins<Real> compliant_pins = state.compliant_pins;
+  const char* held = body_.held.data();
+  const Real* mass = body_.mass.data();
+  VertexLedger* ledger = body_.ledger.data();
+  const Vec3<Real>* handle_displacement = body_.pins.arcs();
+  const CompliantPins<Real> compliant_pins = body_.pins.compliant_pins();
   const bool knows_forces = knows_forces_, along_arc = handle_displacement && !knows_forces;
   knows_forces_ = forces_.size() > 0;
   VertexForces<Real>* kept = knows_forces_ ? forces_.data() : nullptr;
   const std::size_t bytes =
-      bending_.force_bytes() + vectors(7) + vertices_ * (sizeof(Real) + 2 * sizeof(VertexLedger));
+      body_.bending.force_bytes() + vectors(7) + total_bytes(body_.mass, body_.ledger, body_.ledger);
   for_each(
-      device_, {"implicit ledger", bytes}, vertices_, HYST_KERNEL(int i) {
+      *body_.device, {"implicit ledger", bytes}, body_.vertices, HYST_KERNEL(int i) {
         const Vec3<Real> d = end[i] - x[i], weight = mass[i] * g;
         const Vec3<Real> arc_displacement = held[i] && along_arc ? handle_displacement[i] : d;
         const Vec3<Real> air = -mass[i] * drag * (end[i] - reference[i]);
@@ -374,15 +326,15 @@ void ImplicitStep<Real, Device>::book(const VertexState<Real>& state, VertexLedg
 }
 
 template <class Real, class Device>
-void ImplicitStep<Real, Device>::move_on(const VertexState<Real>& state) {
+void ImplicitStep<Real, Device>::move_on() {
   const Real rate = static_cast<Real>(1 / formula_.beta_dt), h = static_cast<Real>(formula_.dt);
   const bool two_step = two_step_, statics = static_, at_end = two_stage_;
-  Vec3<Real>*x = state.x, *v = state.v, *x0 = x_before_.data(), *v0 = v_before_.data();
+  Vec3<Real>*x = body_.x.data(), *v = body_.v.data(), *x0 = x_before_.data(), *v0 = v_before_.data();
   const Vec3<Real>*end = end_.data(), *reference = reference_.data(), *drift = drift_.data();
   Vec3<Real>* acceleration = acceleration_.data();
-  const char* held = state.held;
+  const char* held = body_.held.data();
   for_each(
-      device_, {"implicit end", vectors(two_step ? 8 : 6)}, vertices_, HYST_KERNEL(int i) {
+      *body_.device, {"implicit end", vectors(two_step ? 8 : 6)}, body_.vertices, HYST_KERNEL(int i) {
         const Vec3<Real> moved = held[i] ? v[i] : Vec3<Real>(rate * (end[i] - reference[i]));
         if (two_step) {
           x0[i] = x[i];

@@ -13,23 +13,10 @@
 
 #include <memory>
 
-#include "sim/scene/scene.h"
-#include "sim/time/ledger.h"
+#include "sim/time/body.h"
 #include "sim/time/newton.h"
 
 namespace hysteron {
-
-// State of the cloth's vertices on the device, owned by the stepper.
-template <class Real>
-struct VertexState {
-  Vec3<Real>*x, *v;  // v of held vertices: that of the coming step
-  const char* held;
-  const Real* mass;
-  // Of moving handles: the displacement along their arcs as the end of the step sees it, duration times
-  // velocity; null if none moves [m].
-  const Vec3<Real>* handle_displacement;
-  CompliantPins<Real> compliant_pins = {};
-};
 
 // What acts on a vertex beside its weight and air [N].
 template <class Real>
@@ -56,63 +43,72 @@ inline constexpr double kTrapezoidalFraction = 0.58578643762690495;  // of a ste
 template <class Real, class Device>
 class ImplicitStep {
  public:
-  ImplicitStep(Device& device, const Scene& scene, const Buffer<Real, Device>& mass,
-               BlockRows<Real, Device>& matrix, Membrane<Real, Device>& membrane,
-               Bending<Real, Device>& bending, Contact<Real, Device>* contact,
-               SelfContact<Real, Device>* self_contact, std::unique_ptr<LinearSolver<Real, Device>> solver);
+  explicit ImplicitStep(Body<Real, Device>& body);
 
   // Looks for the positions after h [s]; changes nothing that lasts.  `fraction` of the weight acts at the
   // end. The first stage of tr-bdf2 is its trapezoidal one.
-  NewtonOutcome solve(const VertexState<Real>& state, double h, double fraction, bool is_first_stage = false);
+  NewtonOutcome solve(double h, double fraction, bool is_first_stage);
   bool is_static() const { return static_; }
   bool has_two_stages() const { return two_stage_; }  // tr-bdf2
   // Forces have forces_discontinuous: the acceleration that was is not the one to go on with.
   void forget_acceleration() { knows_acceleration_ = false; }
   // Steps are equilibria from now on.
-  void become_static(const Scene& scene);
+  void become_static();
   // Takes what solve() has found: positions, velocities, history of bending and membrane, losses.  Contact's
   // history is the caller's.
-  void accept(const VertexState<Real>& state, VertexLedger* ledger);
+  void accept();
   // Estimated error of the positions that solve() has found, by the difference from an extrapolation: root
   // mean square by mass [m].  It is of the order error_order() in the step.
-  double local_error(const VertexState<Real>& state);
+  double local_error();
   double error_order() const { return formula_.extrapolation > 0 || formula_.carried > 0 ? 3 : 2; }
   // What outlives a step: motion before it, and the forces that handle_forces() tells of.
-  void serialise(Archive& archive);
+  void serialise(Archive& archive) {
+    archive(knows_acceleration_, last_h_);
+    hysteron::serialise(archive, *body_.device, acceleration_, x_before_, v_before_);
+    archive(knows_forces_);
+    hysteron::serialise(archive, *body_.device, forces_);
+    potential_.serialise(archive);
+    solver_->serialise(archive);
+  }
   // Forces of the handles on held vertices, of the step accepted last; zero on free ones [N].
-  std::vector<Vec3<Real>> handle_forces(const VertexState<Real>& state) const;
+  std::vector<Vec3<Real>> handle_forces() const;
   // Where solve() has ended without success.
-  Unbalanced most_unbalanced(const char* held);
-  // Which part of the potential is not finite at x, in a user's words; "" if none.
-  std::string not_finite(const Vec3<Real>* x) { return potential_.not_finite(x); }
-  std::size_t bytes() const;
+  Unbalanced most_unbalanced();
+  // Which part of the potential is not finite at the start, in a user's words; "" if none.
+  std::string not_finite() { return potential_.not_finite(body_.x.data()); }
+  std::size_t bytes() const {
+    return potential_.bytes() + solver_->bytes() + newton_.bytes() + 5 * end_.bytes() +
+           2 * x_before_.bytes() + displacement_.bytes() + forces_.bytes();
+  }
 
   // The parts; public because nvcc allows no device lambda in a private member function.
-  void place(const VertexState<Real>& state);
-  void guess(const VertexState<Real>& state, bool accelerated);
-  bool keep_apart(const VertexState<Real>& state);
-  void shorten_guess(const VertexState<Real>& state, Real step_length);
-  void book(const VertexState<Real>& state, VertexLedger* ledger);
-  void move_on(const VertexState<Real>& state);
+  void place();
+  void guess(bool accelerated);
+  bool keep_apart();
+  void shorten_guess(Real step_length);
+  void book();
+  void move_on();
 
  private:
   static constexpr double kMaxGrowth = 2.4;  // of a step over the one before; bdf2 is stable below 1 + sqrt2
-  StepFormula step_formula(double h, bool is_first_stage) const;
-  StepFormula rate_formula(double h) const;
-  PotentialValue potential_of_guess(const VertexState<Real>& state, bool accelerated);
+  StepFormula step_formula(double h, bool is_first_stage) const {
+    if (static_ || !is_first_stage) return rate_formula(h);
+    return knows_acceleration_ ? StepFormula::trapezoidal(h) : StepFormula::backward_euler(h);
+  }
+  StepFormula rate_formula(double h) const {
+    if (static_) return StepFormula::statics(h);
+    const bool two_steps = two_step_ && last_h_ > 0 && h <= kMaxGrowth * last_h_;
+    return two_steps ? StepFormula::bdf2(h, last_h_) : StepFormula::backward_euler(h);
+  }
+  PotentialValue potential_of_guess(bool accelerated);
   std::size_t vectors(int count) const { return count * end_.bytes(); }
 
-  Device& device_;
+  Body<Real, Device>& body_;
   bool two_step_, two_stage_, static_, bending_lags_;
   bool knows_acceleration_ = false;  // at the state accepted last
   bool evaluated_ = false;           // the potential was last, at the end of the solve
-  Vec3<Real> gravity_;
-  Real drag_;          // over mass [1/s]
-  Real fraction_ = 1;  // of the weight
-  int vertices_;
+  Real fraction_ = 1;                // of the weight
   double total_mass_;
-  Membrane<Real, Device>& membrane_;
-  Bending<Real, Device>& bending_;
   IncrementalPotential<Real, Device> potential_;
   std::unique_ptr<LinearSolver<Real, Device>> solver_;
   Newton<Real, Device> newton_;

@@ -29,62 +29,6 @@ IncrementalPotential<Real, Device>::IncrementalPotential(
       totals_(device) {}
 
 template <class Real, class Device>
-void IncrementalPotential<Real, Device>::begin(const StepStart<Real>& start) {
-  start_ = start;
-  membrane_.begin_step(start.rates, start.now, start.before);
-  if (!bending_lags_) bending_.begin_step(start.rates);
-}
-
-template <class Real, class Device>
-double IncrementalPotential<Real, Device>::collision_free_step(const Vec3<Real>* x,
-                                                               const Vec3<Real>* direction, double max_step) {
-  return self_contact_ ? self_contact_->prepare(x, direction, start_.held, max_step) : max_step;
-}
-
-template <class Real, class Device>
-double IncrementalPotential<Real, Device>::feasible_step(const Vec3<Real>* x, const Vec3<Real>* direction,
-                                                         double max_step) {
-  const double outside = contact_ ? contact_->feasible_step(x, direction, start_.held, max_step) : max_step;
-  return collision_free_step(x, direction, outside);
-}
-
-template <class Real, class Device>
-void IncrementalPotential<Real, Device>::clip_to_obstacles(Vec3<Real>* end) {
-  if (contact_) contact_->clip_to_obstacles(start_.now, end, start_.held);
-}
-
-template <class Real, class Device>
-bool IncrementalPotential<Real, Device>::path_is_clear(const Vec3<Real>* end) {
-  return !contact_ || contact_->path_is_clear(start_.now, end, start_.held);
-}
-
-template <class Real, class Device>
-void IncrementalPotential<Real, Device>::accept_iterate(const Vec3<Real>* x) {
-  if (self_contact_) self_contact_->accept_iterate(x);
-}
-
-template <class Real, class Device>
-void IncrementalPotential<Real, Device>::update_friction_limits(const Vec3<Real>* x) {
-  if (contact_) contact_->lag(x);
-  if (self_contact_) self_contact_->lag(x);
-}
-
-template <class Real, class Device>
-PotentialValue IncrementalPotential<Real, Device>::evaluate(const Vec3<Real>* x,
-                                                            const Vec3<Real>* direction) {
-  membrane_.evaluate(x);
-  if (!bending_lags_) bending_.evaluate(x);
-  return balance(x, direction);
-}
-
-// Membrane and bending stand as they are.
-template <class Real, class Device>
-PotentialValue IncrementalPotential<Real, Device>::renew_friction(const Vec3<Real>* x) {
-  update_friction_limits(x);
-  return balance(x, nullptr);
-}
-
-template <class Real, class Device>
 PotentialValue IncrementalPotential<Real, Device>::balance(const Vec3<Real>* x, const Vec3<Real>* direction) {
   compute_gradient(x);
   if (contact_) contact_->evaluate(x, start_.now, gradient_.data());
@@ -129,8 +73,7 @@ std::string IncrementalPotential<Real, Device>::not_finite(const Vec3<Real>* x) 
   if (std::isfinite(evaluate(x, nullptr).energy)) return "";
   const Energies of = energies();
   for (int l = 0; l < 4; ++l) {
-    std::vector<double> energy(of.count[l]);
-    device_download(device_, energy.data(), of.list[l], energy.size() * sizeof(double));
+    const std::vector<double> energy = downloaded(device_, of.list[l], of.count[l]);
     const auto bad = std::find_if(energy.begin(), energy.end(), [](double e) { return !std::isfinite(e); });
     if (bad != energy.end())
       return std::string("the energy of ") + kPart[l] + " (element " + std::to_string(bad - energy.begin()) +

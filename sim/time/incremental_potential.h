@@ -57,23 +57,49 @@ class IncrementalPotential {
                        SelfContact<Real, Device>* self_contact, const Buffer<Real, Device>& mass,
                        bool bending_lags, const SolverTuning& tuning = {});
 
-  void begin(const StepStart<Real>& start);
+  void begin(const StepStart<Real>& start) {
+    start_ = start;
+    membrane_.begin_step(start.rates, start.now, start.before);
+    if (!bending_lags_) bending_.begin_step(start.rates);
+  }
   // Largest step length along `direction` from x, up to `max_step`, on which the cloth does not pass through
   // itself; feasible_step() also counts obstacles.  evaluate() then serves points up to there;
   // accept_iterate() tells which of them was taken.
-  double collision_free_step(const Vec3<Real>* x, const Vec3<Real>* direction, double max_step);
-  double feasible_step(const Vec3<Real>* x, const Vec3<Real>* direction, double max_step);
-  void accept_iterate(const Vec3<Real>* x);
+  double collision_free_step(const Vec3<Real>* x, const Vec3<Real>* direction, double max_step) {
+    return self_contact_ ? self_contact_->prepare(x, direction, start_.held, max_step) : max_step;
+  }
+  double feasible_step(const Vec3<Real>* x, const Vec3<Real>* direction, double max_step) {
+    const double outside = contact_ ? contact_->feasible_step(x, direction, start_.held, max_step) : max_step;
+    return collision_free_step(x, direction, outside);
+  }
+  void accept_iterate(const Vec3<Real>* x) {
+    if (self_contact_) self_contact_->accept_iterate(x);
+  }
   // Ends the paths of free vertices to `end` before the obstacles that bar them; whether none does.
-  void clip_to_obstacles(Vec3<Real>* end);
-  bool path_is_clear(const Vec3<Real>* end);
+  void clip_to_obstacles(Vec3<Real>* end) {
+    if (contact_) contact_->clip_to_obstacles(start_.now, end, start_.held);
+  }
+  bool path_is_clear(const Vec3<Real>* end) {
+    return !contact_ || contact_->path_is_clear(start_.now, end, start_.held);
+  }
   bool has_self_contact() const { return self_contact_ != nullptr; }
   // Limits of friction from the contact at x; Phi changes with them.
-  void update_friction_limits(const Vec3<Real>* x);
+  void update_friction_limits(const Vec3<Real>* x) {
+    if (contact_) contact_->lag(x);
+    if (self_contact_) self_contact_->lag(x);
+  }
   // Phi and its gradient; the direction may be null.  The host waits for the device.
-  PotentialValue evaluate(const Vec3<Real>* x, const Vec3<Real>* direction);
+  PotentialValue evaluate(const Vec3<Real>* x, const Vec3<Real>* direction) {
+    membrane_.evaluate(x);
+    if (!bending_lags_) bending_.evaluate(x);
+    return balance(x, direction);
+  }
   // Both at x, where evaluate() was called last, with limits of friction from there.
-  PotentialValue renew_friction(const Vec3<Real>* x);
+  PotentialValue renew_friction(const Vec3<Real>* x) {
+    // Membrane and bending stand as they are.
+    update_friction_limits(x);
+    return balance(x, nullptr);
+  }
   // The Hessian where evaluate() was called last, and what descends from there, with `shift` times the masses
   // added [1/s^2].  It is positive semidefinite unless it is `full`, for near the minimum: then with what
   // compression takes away, and with friction that slides more easily (sliding_stop.h).  Bending's part is

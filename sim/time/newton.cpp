@@ -161,12 +161,6 @@ double Newton<Real, Device>::search(Buffer<Vec3<Real>, Device>& x, PotentialValu
 }
 
 template <class Real, class Device>
-typename Newton<Real, Device>::Trial Newton<Real, Device>::try_step(const Vec3<Real>* x, double step_length) {
-  place_trial(x, static_cast<Real>(step_length));
-  return {step_length, potential_.evaluate(trial_.data(), direction_.data())};
-}
-
-template <class Real, class Device>
 void Newton<Real, Device>::measure_correction(const LinearSystem<Real, Device>& system, const Vec3<Real>* x,
                                               const Real* mass, const char* held, bool with_forces) {
   const Vec3<Real>*d = direction_.data(), *gradient = potential_.gradient();

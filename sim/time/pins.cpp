@@ -28,7 +28,7 @@ bool may_meet(const Scene& scene) {
 void visit_keyframes(Archive& archive, std::vector<Keyframe>& keys) {
   keys.resize(archive.size(keys.size()));
   for (Keyframe& key : keys) {
-    for (double* number : {&key.time, &key.angle, &key.scale}) archive(*number);
+    archive(key.time, key.angle, key.scale);
     archive.bytes(key.position.data(), sizeof key.position);
   }
 }
@@ -75,13 +75,6 @@ void Pins<Real, Device>::drive(Body<Real, Device>& body, int pin, double now, co
   motion = steady_from(motion, now, velocity, spin);
   moving_ = true;
   set_out(*body.device, body.scene, body.cloth, now);
-}
-
-template <class Real, class Device>
-std::size_t Pins<Real, Device>::bytes() const {
-  return start_.bytes() + home_.bytes() + pin_.bytes() + arc_.bytes() + place_.bytes() + strength_.bytes() +
-         lag_.bytes() + displacement_.bytes() + (sweep_ ? sweep_->bytes() : 0) +
-         (scratch_ ? scratch_->bytes() : 0);
 }
 
 template <class Real, class Device>
@@ -170,13 +163,9 @@ void Pins<Real, Device>::serialise(Archive& archive, Body<Real, Device>& body) {
   for (Pin& pin : body.scene.pin) visit_keyframes(archive, pin.motion.keys);  // which may have been driven
   if (archive.loads() && moving_) set_out(device, body.scene, body.cloth, 0);
   archive(next_);
-  hysteron::serialise(archive, device, start_);
-  hysteron::serialise(archive, device, pin_);
-  archive(work_);
-  archive(behind_);
-  archive(pulls_);
-  hysteron::serialise(archive, device, place_);
-  hysteron::serialise(archive, device, strength_);
+  hysteron::serialise(archive, device, start_, pin_);
+  archive(work_, behind_, pulls_);
+  hysteron::serialise(archive, device, place_, strength_);
 }
 
 template <class Real, class Device>

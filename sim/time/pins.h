@@ -63,7 +63,10 @@ class Pins {
   // What outlives a step; where things were at t = 0 does not change.
   void serialise(Archive& archive, Body<Real, Device>& body);
   double work() const { return work_; }  // done on the cloth by taking hold and letting go [J]
-  std::size_t bytes() const;
+  std::size_t bytes() const {
+    return total_bytes(start_, home_, pin_, arc_, place_, strength_, lag_, displacement_) +
+           (sweep_ ? sweep_->bytes() : 0) + (scratch_ ? scratch_->bytes() : 0);
+  }
 
   // Parts; public because nvcc allows no device lambda in a private member function.
   Real farthest_behind(Body<Real, Device>& body);

@@ -55,10 +55,19 @@ double largest_coordinate(const std::vector<Eigen::Vector3d>& x) {
 
 template <class Real, class Device>
 SemiImplicit<Real, Device>::SemiImplicit(Body<Real, Device>& body, const StepLimits& limits)
-    : body_(body), limits_(limits), solve_(body), impulse_(*body.device, body.vertices) {}
+    : TimeIntegrator<Real, Device>(body),
+      limits_(limits),
+      blur_(rounding_allowance<Real>(largest_coordinate(body.cloth.start))),
+      pcg_(*body.device, body.vertices),
+      change_(*body.device, body.vertices),
+      correction_(*body.device, body.vertices),
+      rhs_(*body.device, body.vertices),
+      impulse_(*body.device, body.scene.implicit_every == ImplicitEvery::substep ? body.vertices : 0),
+      size_(*body.device, 1) {}
 
 template <class Real, class Device>
 void SemiImplicit<Real, Device>::step(double start) {
+  if (body_.scene.implicit_every == ImplicitEvery::step) return take_chapter_step(start);
   if (body_.scene.tolerance > 0) return take_adaptive_step(start);
   const double whole = body_.scene.step;
   const int stages = limits_.substeps;
@@ -69,7 +78,7 @@ template <class Real, class Device>
 void SemiImplicit<Real, Device>::stage(double start, Real h) {
   body_.begin_stage(start, h);
   gather_impulses(h);
-  solve_.solve(h, impulse_.data());
+  solve(h, impulse_.data());
   body_.end_stage(start + static_cast<double>(h));
 }
 
@@ -85,7 +94,7 @@ void SemiImplicit<Real, Device>::take_adaptive_step(double start) {
     ++body_.counts.parts;
     now += h;
     // x_n + h v_n misses by h dv, of which half is the error of a first-order step.
-    const double error = h * solve_.change_size() / 2;
+    const double error = h * change_size() / 2;
     part_ = std::max(least, next_part(h, std::sqrt(scene.tolerance / error)));
   }
 }
@@ -95,8 +104,8 @@ void SemiImplicit<Real, Device>::gather_impulses(Real h) {
   body_.clock.begin(Stage::bending);
   body_.bending.commit(body_.x.data(), body_.v.data(), h);
   const GatheredForces<Real> bending = body_.bending.forces();
-  const Vec3<Real> g = body_.scene.gravity.template cast<Real>();
-  const Real drag = static_cast<Real>(body_.scene.air_drag / body_.scene.fabric.density);
+  const Vec3<Real> g = body_.gravity();
+  const Real drag = body_.drag();
   const Real* mass = body_.mass.data();
   const Vec3<Real>* v = body_.v.data();
   Vec3<Real>*x = body_.x.data(), *impulse = impulse_.data();
@@ -111,21 +120,21 @@ void SemiImplicit<Real, Device>::gather_impulses(Real h) {
 }
 
 template <class Real, class Device>
-void ChapterSteps<Real, Device>::step(double start) {
+void SemiImplicit<Real, Device>::take_chapter_step(double start) {
   const Real h = static_cast<Real>(body_.scene.step);
   body_.begin_stage(start, h);
-  for (int k = 0; k < substeps_; ++k) substep(h / substeps_);
-  solve_.solve(h, nullptr);
+  for (int k = 0; k < limits_.substeps; ++k) substep(h / limits_.substeps);
+  solve(h, nullptr);
   body_.end_stage(start + static_cast<double>(h));
 }
 
 template <class Real, class Device>
-void ChapterSteps<Real, Device>::substep(Real dt) {
+void SemiImplicit<Real, Device>::substep(Real dt) {
   body_.clock.begin(Stage::bending);
   body_.bending.commit(body_.x.data(), body_.v.data(), dt);
   const GatheredForces<Real> bending = body_.bending.forces();
-  const Vec3<Real> g = body_.scene.gravity.template cast<Real>();
-  const Real drag = static_cast<Real>(body_.scene.air_drag / body_.scene.fabric.density);
+  const Vec3<Real> g = body_.gravity();
+  const Real drag = body_.drag();
   const Real* mass = body_.mass.data();
   const char* held = body_.held.data();
   Vec3<Real>*x = body_.x.data(), *v = body_.v.data();
@@ -161,23 +170,7 @@ void ChapterSteps<Real, Device>::substep(Real dt) {
 }
 
 template <class Real, class Device>
-LinearisedSolve<Real, Device>::LinearisedSolve(Body<Real, Device>& body)
-    : body_(body),
-      blur_(rounding_allowance<Real>(largest_coordinate(body.cloth.start))),
-      pcg_(*body.device, body.vertices),
-      change_(*body.device, body.vertices),
-      correction_(*body.device, body.vertices),
-      rhs_(*body.device, body.vertices),
-      size_(*body.device, 1) {}
-
-template <class Real, class Device>
-void LinearisedSolve<Real, Device>::serialise(Archive& archive) {
-  pcg_.serialise(archive);
-  hysteron::serialise(archive, *body_.device, change_);
-}
-
-template <class Real, class Device>
-void LinearisedSolve<Real, Device>::solve(Real h, const Vec3<Real>* impulse) {
+void SemiImplicit<Real, Device>::solve(Real h, const Vec3<Real>* impulse) {
   constexpr int kNewtonWithObstacles = 2;
   const int newton = body_.contact ? kNewtonWithObstacles : 1;
   const double blur = blur_ / static_cast<double>(h + body_.membrane.damping());  // [m/s]
@@ -202,7 +195,7 @@ void LinearisedSolve<Real, Device>::solve(Real h, const Vec3<Real>* impulse) {
 
 // rhs = explicit impulse + h (f_m + f_d + f_c) - M dv, matrix = M + h^2 K + h D at the present iterate.
 template <class Real, class Device>
-void LinearisedSolve<Real, Device>::assemble(Real h, const Vec3<Real>* impulse, bool first) {
+void SemiImplicit<Real, Device>::assemble(Real h, const Vec3<Real>* impulse, bool first) {
   body_.clock.begin(Stage::membrane);
   body_.membrane.update(body_.x.data(), body_.v.data());
   const BlockRowsView<Real> matrix = body_.matrix.view();
@@ -230,7 +223,7 @@ void LinearisedSolve<Real, Device>::assemble(Real h, const Vec3<Real>* impulse, 
 }
 
 template <class Real, class Device>
-void LinearisedSolve<Real, Device>::correct(Real h, bool first) {
+void SemiImplicit<Real, Device>::correct(Real h, bool first) {
   const Vec3<Real>* dv = correction_.data();
   Vec3<Real>*x = body_.x.data(), *v = body_.v.data(), *total = change_.data();
   const char* held = body_.held.data();
@@ -248,14 +241,14 @@ void LinearisedSolve<Real, Device>::correct(Real h, bool first) {
 // The impulse on a held vertex is that of the last linear system: rhs - matrix dv, without the mass because
 // its own dv is 0.
 template <class Real, class Device>
-void LinearisedSolve<Real, Device>::book(Real h, const Vec3<Real>* explicit_impulse) {
+void SemiImplicit<Real, Device>::book(Real h, const Vec3<Real>* explicit_impulse) {
   const Real* mass = body_.mass.data();
   const char* held = body_.held.data();
   const Vec3<Real>*v = body_.v.data(), *total = change_.data(), *rhs = rhs_.data(),
         *last = correction_.data();
   const BlockRowsView<Real> matrix = body_.matrix.view();
   const GatheredForces<Real> bending = body_.bending.forces();
-  const Vec3<Real> g = body_.scene.gravity.template cast<Real>();
+  const Vec3<Real> g = body_.gravity();
   const bool handles = body_.pins.any_moves();
   VertexLedger* ledger = body_.ledger.data();
   const std::size_t explicit_bytes = explicit_impulse ? body_.bending.force_bytes() + rhs_.bytes() : 0;
@@ -286,7 +279,7 @@ void LinearisedSolve<Real, Device>::book(Real h, const Vec3<Real>* explicit_impu
 }
 
 template <class Real, class Device>
-double LinearisedSolve<Real, Device>::change_size() {
+double SemiImplicit<Real, Device>::change_size() {
   const Real* mass = body_.mass.data();
   const char* held = body_.held.data();
   const Vec3<Real>* dv = change_.data();
@@ -301,16 +294,12 @@ double LinearisedSolve<Real, Device>::change_size() {
   return std::sqrt(size_.download()[0]);
 }
 
-template class LinearisedSolve<double, ThisDevice>;
-template class LinearisedSolve<float, ThisDevice>;
 template class SemiImplicit<double, ThisDevice>;
 template class SemiImplicit<float, ThisDevice>;
-template class ChapterSteps<double, ThisDevice>;
-template class ChapterSteps<float, ThisDevice>;
 
 template <class Real, class Device>
 ExplicitEuler<Real, Device>::ExplicitEuler(Body<Real, Device>& body, const StepLimits& limits)
-    : body_(body), substeps_(limits.substeps), force_(*body.device, body.vertices) {}
+    : TimeIntegrator<Real, Device>(body), substeps_(limits.substeps), force_(*body.device, body.vertices) {}
 
 template <class Real, class Device>
 void ExplicitEuler<Real, Device>::step(double start) {
@@ -331,8 +320,8 @@ void ExplicitEuler<Real, Device>::substep(Real dt) {
       *body_.device, {"explicit forces", body_.membrane.force_bytes() + force_.bytes()}, body_.vertices,
       HYST_KERNEL(int i) { force[i] = membrane.at(i); });
   if (body_.contact) body_.contact->add(body_.x.data(), body_.before.data(), 1, force, nullptr);
-  const Vec3<Real> g = body_.scene.gravity.template cast<Real>();
-  const Real drag = static_cast<Real>(body_.scene.air_drag / body_.scene.fabric.density);
+  const Vec3<Real> g = body_.gravity();
+  const Real drag = body_.drag();
   const Real* mass = body_.mass.data();
   const char* held = body_.held.data();
   Vec3<Real>*x = body_.x.data(), *v = body_.v.data();

@@ -2,9 +2,9 @@
 #include "sim/time/simulation.h"
 
 #include <cmath>
-#include <cstdio>
 
 #include "sim/base/error.h"
+#include "sim/base/number_in.h"
 #include "sim/bending/bending.h"
 #include "sim/contact/compression.h"
 #include "sim/contact/obstacle_set.h"
@@ -43,12 +43,6 @@ double stable_step(double lambda, double nu) {
   return kStabilityMargin * 4 / (nu + std::sqrt(nu * nu + 4 * lambda));
 }
 
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", value);
-  return text;
-}
-
 // Largest stable steps of what the integrator takes explicitly.
 StepLimits stable_steps(const Scene& scene, const Cloth& cloth, const CurvatureOperator& op) {
   const std::vector<char> held = cloth.held_throughout(scene);
@@ -77,15 +71,16 @@ StepLimits choose_substeps(const Scene& scene, const Cloth& cloth, const Curvatu
       scene.integrator == Integrator::explicit_euler ? limits.membrane_step : limits.bending_step;
   const double least = std::ceil(scene.step / largest);
   if (least > kMaxSubsteps)
-    throw Error::invalid_input("step = " + number(scene.step) + " s would take " + number(least) +
-                               " explicit substeps of at most " + number(largest) +
-                               " s: coarsen the mesh or soften b1");
+    throw Error::invalid_input("step = " + number_text(scene.step, 4) + " s would take " +
+                               number_text(least, 4) + " explicit substeps of at most " +
+                               number_text(largest, 4) + " s: coarsen the mesh or soften b1");
   limits.substeps = std::max(1, static_cast<int>(least));
   if (scene.substeps > 0) {
     if (scene.substeps < limits.substeps)
-      throw Error::invalid_input("substeps = " + std::to_string(scene.substeps) + " is unstable: step = " +
-                                 number(scene.step) + " s needs at least " + std::to_string(limits.substeps) +
-                                 " substeps of at most " + number(largest) + " s");
+      throw Error::invalid_input("substeps = " + std::to_string(scene.substeps) +
+                                 " is unstable: step = " + number_text(scene.step, 4) + " s needs at least " +
+                                 std::to_string(limits.substeps) + " substeps of at most " +
+                                 number_text(largest, 4) + " s");
     limits.substeps = scene.substeps;
   }
   limits.substep = scene.step / limits.substeps;
@@ -120,33 +115,26 @@ void check(const Scene& scene, const Cloth& cloth) {
   check_start(scene, cloth);
 }
 
-// What a device is told beside scene and cloth.
-struct Plan {
-  CurvatureOperator op;
-  StepLimits limits;
-};
-
-Plan plan(const Scene& scene, const Cloth& cloth) {
-  Plan result;
-  result.op = make_curvature_operator(scene.element, cloth.mesh, cloth.held_throughout(scene));
+CurvatureOperator bending_operator(const Scene& scene, const Cloth& cloth) {
+  CurvatureOperator op = make_curvature_operator(scene.element, cloth.mesh, cloth.held_throughout(scene));
   if (!scene.fabric.bends_alike())
-    stiffen(result.op, cloth.mesh, scene.fabric.weft_bending, scene.fabric.bias_bending);
+    stiffen(op, cloth.mesh, scene.fabric.weft_bending, scene.fabric.bias_bending);
   if (scene.element == BendingElement::hinge && !scene.fabric.bending.weft_stops.empty())
-    set_directions(result.op, cloth.mesh, scene.fabric.weft_bending, scene.fabric.bias_bending);
-  result.limits = choose_substeps(scene, cloth, result.op);
-  return result;
+    set_directions(op, cloth.mesh, scene.fabric.weft_bending, scene.fabric.bias_bending);
+  return op;
 }
 
 }  // namespace
 
 std::unique_ptr<Simulation> make_simulation(const Scene& scene, const Cloth& cloth) {
   check(scene, cloth);
-  const Plan planned = plan(scene, cloth);
-  const MethodChoice method = choose_method(scene, cloth, planned.op, usable_gpus(scene));
+  const CurvatureOperator op = bending_operator(scene, cloth);
+  const StepLimits limits = choose_substeps(scene, cloth, op);
+  const MethodChoice method = choose_method(scene, cloth, op, usable_gpus(scene));
   Scene chosen = scene;
   if (method.linear_solver != Preconditioning::automatic) chosen.linear_solver = method.linear_solver;
-  auto simulation = method.gpu ? make_gpu_simulation(chosen, cloth, planned.op, planned.limits)
-                               : make_cpu_simulation(chosen, cloth, planned.op, planned.limits);
+  auto simulation = method.gpu ? make_gpu_simulation(chosen, cloth, op, limits)
+                               : make_cpu_simulation(chosen, cloth, op, limits);
   simulation->method = method;
   return simulation;
 }

@@ -1,10 +1,8 @@
 #include "sim/time/step_errors.h"
 
-#include <algorithm>
-#include <cstdio>
-
 #include "sim/base/enum_names.h"
 #include "sim/base/error.h"
+#include "sim/base/number_in.h"
 #include "sim/contact/obstacle_set.h"
 #include "sim/contact/start_checks.h"
 
@@ -12,13 +10,7 @@ namespace hysteron {
 
 namespace {
 
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", value);
-  return text;
-}
-
-std::string at_time(double time) { return "at t = " + number(time) + " s "; }
+std::string at_time(double time) { return "at t = " + number_text(time, 6) + " s "; }
 
 // "obstacle[1] (box) and the cloth itself"
 std::string together(const std::vector<std::string>& words) {
@@ -35,13 +27,6 @@ std::string pair_text(const SelfPair<Real>& pair) {
     return "edge " + dash(pair.v[0], pair.v[1]) + " and edge " + dash(pair.v[2], pair.v[3]);
   return "vertex " + std::to_string(pair.v[0]) + " and triangle " + dash(pair.v[1], pair.v[2]) + "-" +
          std::to_string(pair.v[3]);
-}
-
-template <class Real, class Device>
-std::vector<Eigen::Vector3d> host_positions(const Body<Real, Device>& body) {
-  std::vector<Eigen::Vector3d> result;
-  for (const auto& x : body.x.download()) result.push_back(x.template cast<double>());
-  return result;
 }
 
 // What a vertex at x touches.
@@ -67,19 +52,12 @@ std::string others(const Immersion& found) {
 }  // namespace
 
 template <class Real, class Device>
-void throw_if_divergence(Body<Real, Device>& body, double time) {
-  if (body.is_finite()) return;
-  throw Error::simulation("the simulation diverged before t = " + std::to_string(time) +
-                          " s: take a smaller step (step = " + std::to_string(body.scene.step) + " s)");
-}
-
-template <class Real, class Device>
 void throw_if_arrival(Body<Real, Device>& body, double met, double time) {
   const Scene& scene = body.scene;
   std::vector<Obstacle> fresh = scene.obstacle;
   for (Obstacle& o : fresh)
     if (o.from <= met) o.until = o.from;  // never there
-  const std::vector<Eigen::Vector3d> x = host_positions(body);
+  const std::vector<Eigen::Vector3d> x = cast_to<double>(body.x.download());
   const std::vector<char> held = body.cloth.held(scene, time);
   const auto set = obstacles_during<double>(fresh, scene.fabric.friction, time, time);
   const Immersion found = deepest(set, x, held);
@@ -98,7 +76,7 @@ void throw_if_release(Body<Real, Device>& body, const std::vector<char>& held, d
   const std::vector<char> before = body.held.download();
   std::vector<char> unconcerned(body.vertices);
   for (int i = 0; i < body.vertices; ++i) unconcerned[i] = held[i] || !before[i];
-  const std::vector<Eigen::Vector3d> x = host_positions(body);
+  const std::vector<Eigen::Vector3d> x = cast_to<double>(body.x.download());
   const auto set = obstacles_during<double>(scene.obstacle, scene.fabric.friction, time, time);
   const Immersion found = deepest(set, x, unconcerned);
   if (found.count == 0) return;
@@ -112,7 +90,7 @@ void throw_if_release(Body<Real, Device>& body, const std::vector<char>& held, d
 template <class Real, class Device>
 void throw_if_crushed(Body<Real, Device>& body, double time) {
   const Scene& scene = body.scene;
-  const std::vector<Eigen::Vector3d> x = host_positions(body);
+  const std::vector<Eigen::Vector3d> x = cast_to<double>(body.x.download());
   const std::vector<char> held = body.cloth.held(scene, time), exempted = body.contact->exempted();
   const auto set = obstacles_during<double>(scene.obstacle, scene.fabric.friction, time, time);
   const std::vector<Vec3<Real>> layers = body.self_contact
@@ -131,37 +109,35 @@ void throw_if_crushed(Body<Real, Device>& body, double time) {
       at_time(time) +
       "the cloth is crushed: " + immersion_text(found, scene.obstacle, x[found.vertex] + body.origin) +
       (held[found.vertex] ? ", held by a pin" : ", pressed by " + together(by)) +
-      ": leave it more room, or raise contact-stiffness = " + number(shell.stiffest()) + " N/m^3");
+      ": leave it more room, or raise contact-stiffness = " + number_text(shell.stiffest(), 6) + " N/m^3");
 }
 
 template <class Real, class Device>
 void throw_if_unbalanced(Body<Real, Device>& body, ImplicitStep<Real, Device>& step, double start, double h,
                          const NewtonOutcome& outcome) {
-  std::string message =
-      "no equilibrium of the step " + at_time(start) + "was found, even in parts of " + number(h) + " s: ";
+  std::string message = "no equilibrium of the step " + at_time(start) + "was found, even in parts of " +
+                        number_text(h, 6) + " s: ";
   if (outcome.blocked) {
     message += "every motion leads the cloth through itself";
     if (body.self_contact->pairs() > 0) message += ", " + pair_text(body.self_contact->blocking_pair());
     throw Error::simulation(message);
   }
   if (!(outcome.load > 0)) {
-    const std::string part = step.not_finite(body.x.data());
+    const std::string part = step.not_finite();
     throw Error::simulation(message + (part.empty()
                                            ? "nothing holds the cloth back, or an obstacle bars its way"
                                            : part + " is not finite"));
   }
-  message += "an unbalanced force of " + number(outcome.residual) +
-             " N remains (weight, pins and inertia: " + number(outcome.load) + " N)";
-  const Unbalanced worst = step.most_unbalanced(body.held.data());
+  message += "an unbalanced force of " + number_text(outcome.residual, 6) +
+             " N remains (weight, pins and inertia: " + number_text(outcome.load, 6) + " N)";
+  const Unbalanced worst = step.most_unbalanced();
   if (worst.vertex < 0) throw Error::simulation(message);
   const std::vector<std::string> by = pressing(body, worst.vertex, worst.position, start + h);
-  throw Error::simulation(message + ", most of it, " + number(worst.force) + " N, at " +
+  throw Error::simulation(message + ", most of it, " + number_text(worst.force, 6) + " N, at " +
                           vertex_text(worst.vertex, worst.position + body.origin) +
                           (by.empty() ? "" : ", pressed by " + together(by)));
 }
 
-template void throw_if_divergence(Body<double, ThisDevice>&, double);
-template void throw_if_divergence(Body<float, ThisDevice>&, double);
 template void throw_if_arrival(Body<double, ThisDevice>&, double, double);
 template void throw_if_arrival(Body<float, ThisDevice>&, double, double);
 template void throw_if_release(Body<double, ThisDevice>&, const std::vector<char>&, double);

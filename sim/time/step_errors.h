@@ -8,9 +8,6 @@
 
 namespace hysteron {
 
-// A position or velocity is no longer finite.
-template <class Real, class Device>
-void throw_if_divergence(Body<Real, Device>& body, double time);
 // An obstacle that has come since `met` is where the cloth is.  What hands hold may be inside it: contact is
 // told.
 template <class Real, class Device>

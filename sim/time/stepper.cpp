@@ -7,20 +7,18 @@
 
 #include "sim/base/fnv1a.h"
 #include "sim/device/share_positions.h"
-#include "sim/scene/motion.h"
 #include "sim/time/implicit_integrator.h"
 #include "sim/time/semi_implicit.h"
-#include "sim/time/step_errors.h"
 
 namespace hysteron {
 
 namespace {
 
-template <class Real>
-std::vector<Eigen::Vector3d> in_doubles(const std::vector<Vec3<Real>>& values) {
-  std::vector<Eigen::Vector3d> result;
-  for (const auto& value : values) result.push_back(value.template cast<double>());
-  return result;
+template <class Real, class Device>
+void throw_if_divergence(Body<Real, Device>& body, double time) {
+  if (body.is_finite()) return;
+  throw Error::simulation("the simulation diverged before t = " + std::to_string(time) +
+                          " s: take a smaller step (step = " + std::to_string(body.scene.step) + " s)");
 }
 
 }  // namespace
@@ -32,15 +30,13 @@ std::unique_ptr<TimeIntegrator<Real, Device>> make_integrator(Body<Real, Device>
     case Integrator::explicit_euler:
       return std::make_unique<ExplicitEuler<Real, Device>>(body, limits);
     case Integrator::semi_implicit:
-      if (body.self_contact) return std::make_unique<LaggedBending<Real, Device>>(body, limits);
-      if (body.scene.implicit_every == ImplicitEvery::step)
-        return std::make_unique<ChapterSteps<Real, Device>>(body, limits);
+      if (body.self_contact) return std::make_unique<ImplicitIntegrator<Real, Device>>(body, limits);
       return std::make_unique<SemiImplicit<Real, Device>>(body, limits);
     case Integrator::implicit:
     case Integrator::bdf2:
     case Integrator::tr_bdf2:
     case Integrator::quasi_static:
-      return std::make_unique<ImplicitIntegrator<Real, Device>>(body);
+      return std::make_unique<ImplicitIntegrator<Real, Device>>(body, limits);
   }
   __builtin_unreachable();
 }
@@ -77,34 +73,6 @@ void Stepper<Real, Device>::advance_by(double seconds) {
 }
 
 template <class Real, class Device>
-void Stepper<Real, Device>::serialise(Archive& archive) {
-  archive(extra_time_);
-  body_.serialise(archive);
-  integrator_->serialise(archive);
-}
-
-template <class Real, class Device>
-Diagnostics Stepper<Real, Device>::counts() const {
-  Diagnostics counts = body_.counts;
-  counts.bytes = body_.device->bytes;
-  return counts;
-}
-
-template <class Real, class Device>
-std::string Stepper<Real, Device>::save() {
-  Archive archive;
-  serialise(archive);
-  return archive.take();
-}
-
-template <class Real, class Device>
-void Stepper<Real, Device>::load(std::string_view state) {
-  Archive archive(state);
-  serialise(archive);
-  if (!archive.at_end()) throw Error::invalid_input("the state is of another simulation");
-}
-
-template <class Real, class Device>
 const Pin& Stepper<Real, Device>::pin(int number) const {
   const std::vector<Pin>& pins = body_.scene.pin;
   if (number >= 0 && number < static_cast<int>(pins.size())) return pins[number];
@@ -114,17 +82,6 @@ const Pin& Stepper<Real, Device>::pin(int number) const {
       (pins.empty() ? ": the scene has none"
                     : " must be in [0, " + std::to_string(pins.size() - 1) + "], a pin of the scene"))
       .with_key("pin", text);
-}
-
-template <class Real, class Device>
-void Stepper<Real, Device>::drive(int number, const Eigen::Vector3d& velocity, double spin) {
-  pin(number);
-  body_.pins.drive(body_, number, time(), velocity, spin);
-}
-
-template <class Real, class Device>
-Keyframe Stepper<Real, Device>::pin_displacement(int number) const {
-  return state_at(pin(number).motion, time());
 }
 
 template <class Real, class Device>
@@ -140,20 +97,10 @@ Simulation::InPlace Stepper<Real, Device>::in_place(const Buffer<Vec3<Real>, Dev
 
 template <class Real, class Device>
 std::vector<Eigen::Vector3d> Stepper<Real, Device>::positions() {
-  std::vector<Eigen::Vector3d> x = in_doubles(body_.x.download());
+  std::vector<Eigen::Vector3d> x = cast_to<double>(body_.x.download());
   if (is_shifted())
     for (Eigen::Vector3d& p : x) p += body_.origin;
   return x;
-}
-
-template <class Real, class Device>
-std::vector<Eigen::Vector3d> Stepper<Real, Device>::velocities() {
-  return in_doubles(body_.v.download());
-}
-
-template <class Real, class Device>
-std::vector<Eigen::Vector3d> Stepper<Real, Device>::handle_forces() {
-  return in_doubles(integrator_->handle_forces());
 }
 
 template <class Real, class Device>
@@ -202,16 +149,6 @@ double Stepper<Real, Device>::copy_bandwidth() {
     best = std::min(best, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   }
   return 2.0 * kDoubles * sizeof(double) / best;
-}
-
-template <class Real, class Device>
-void Stepper<Real, Device>::profile() {
-  body_.device->profile = std::make_unique<KernelProfile<Device>>(*body_.device);
-}
-
-template <class Real, class Device>
-KernelCosts Stepper<Real, Device>::kernel_costs() {
-  return body_.device->profile ? body_.device->profile->costs() : KernelCosts{};
 }
 
 template <class Real, class Device>

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "sim/base/error.h"
@@ -15,27 +16,30 @@ namespace hysteron {
 template <class Real, class Device>
 class TimeIntegrator {
  public:
+  explicit TimeIntegrator(Body<Real, Device>& body) : body_(body) {}
   virtual ~TimeIntegrator() = default;
   virtual void step(double start) = 0;  // of the scene's length
   // Of a length of its own [s]; Error::invalid_input where steps do not lead from equilibrium to equilibrium.
-  virtual void step_by(double start, double h) = 0;
+  virtual void step_by(double /*start*/, double /*h*/) {
+    refuse("has steps of one length only: use quasi-static");
+  }
   // Steps are equilibria from now on; Error::invalid_input where there is no equilibrium solve.
-  virtual void become_static() = 0;
+  virtual void become_static() {
+    refuse("has no equilibrium solve: use implicit | bdf2 | tr-bdf2 | quasi-static");
+  }
   // Of the step accepted last, on each vertex [N]; empty where they are not known.
   virtual std::vector<Vec3<Real>> handle_forces() { return {}; }
   virtual void serialise(Archive& archive) = 0;  // what outlives a step, without the body
   virtual std::size_t bytes() const = 0;
+
+ protected:
+  Body<Real, Device>& body_;
+
+ private:
+  [[noreturn]] void refuse(const std::string& why) const {
+    throw Error::invalid_input("integrator = " + enum_name(body_.scene.integrator) + " " + why);
+  }
 };
-
-[[noreturn]] inline void throw_if_statics(const Scene& scene) {
-  throw Error::invalid_input("integrator = " + enum_name(scene.integrator) +
-                             " has no equilibrium solve: use implicit | bdf2 | tr-bdf2 | quasi-static");
-}
-
-[[noreturn]] inline void throw_if_long_step(const Scene& scene) {
-  throw Error::invalid_input("integrator = " + enum_name(scene.integrator) +
-                             " has steps of one length only: use quasi-static");
-}
 
 // The one that the body's scene names.
 template <class Real, class Device>
