@@ -118,6 +118,16 @@ std::string to_text(py::handle value, const std::string& key) {
   refuse(key, value, "a number or a text");
 }
 
+LawParameters law_parameters(const std::string& law, const py::dict& given) {
+  const std::vector<std::string> known = law_parameter_names(law);
+  LawParameters parameters;
+  for (const auto& [key, value] : given) {
+    const std::string parameter = key_named(py::str(key), known);
+    parameters[parameter] = to_text(value, parameter);
+  }
+  return parameters;
+}
+
 ValueTree to_tree(const py::dict& values) {
   ValueTree root;
   flatten("", values, paths(scene_keys()), root);

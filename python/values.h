@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/bending/laws/law_parameters.h"
 #include "sim/scene/key_table.h"
 #include "sim/scene/value_tree.h"
 
@@ -27,6 +28,9 @@ std::vector<std::string> paths(const std::vector<KeyDescription>& keys);
 Value to_value(py::handle value, const std::string& key);
 // As a file would spell it; for parameters of laws.
 std::string to_text(py::handle value, const std::string& key);
+
+// Arguments beyond those that a function names, as parameters of that law.
+LawParameters law_parameters(const std::string& law, const py::dict& given);
 
 // A mapping as the tree of a scene file: {"cloth": {"length": 0.1}}, {"cloth.length": 0.1} and
 // {"cloth_length": 0.1} are one; lists of mappings are arrays of tables.
