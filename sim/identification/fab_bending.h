@@ -90,7 +90,6 @@ struct FabForm {
   // with 95 % (Wilks 1938).  Rows that depend on each other count as n (1 - r)/(1 + r), r that of the best.
   double misfit(const FabBending& best) const;
 };
-inline constexpr double kLikelihoodFall = 3.84;  // twice that of its logarithm, 95 % (Wilks 1938)
 // Friction that saturates at k0 of a grid [1/m]; without those for which no equilibrium is found.
 std::vector<FabForm> even_forms(const std::vector<FabLoops>& loops, const FabBendingQuestion& question);
 std::vector<FabForm> even_form_fits(const std::function<FabBending(const FrictionForm&)>& identify);
