@@ -6,9 +6,6 @@
 
 #include "sim/base/csv.h"
 #include "sim/base/error.h"
-#include "sim/identification/fab_cycles.h"
-#include "sim/identification/least_squares.h"
-#include "sim/reference/fab_test.h"
 
 namespace hysteron {
 namespace {
@@ -163,12 +160,8 @@ FabBending identify_decay(const DecaySeries& series, const DecayQuestion& questi
   found.form = best.parameters.head(n);
   found.first = series.amplitude[0] * std::exp(best.parameters[n]);
   found.form_errors = c.diagonal().head(n).cwiseMax(0).cwiseSqrt();
-  found.spring_error = 0;
-  found.determined = {true};
-  for (int j = 0; j < found.law.stops(); ++j) {
-    found.stiffness_errors.push_back(of_stops[j] * found.law.stiffnesses[j]);
-    found.determined.push_back(is_determined(of_stops[j]));
-  }
+  found.set_errors(0, of_stops);
+  found.spring_error = 0;  // whatever the sign of what is left of the rigidity
   found.friction_error = of_stops[found.law.stops()] * found.law.friction();
   found.rows = model.rows();
   found.residual_rms = std::sqrt(left.squaredNorm() / model.rows());
