@@ -58,10 +58,6 @@ struct Fatigue {
     return b2 * Tangent<Real, D>::Identity() +
            strength(before) * law.tangent(curvature, history_of<Law>(before));
   }
-  // Strength and set act from the next step on.
-  HYST_HD Real potential(const Vec<Real, D>& curvature, const Memory& before) const {
-    return trial_potential(step_potential(law, curvature, history_of<Law>(before)), curvature, before);
-  }
   HYST_HD Vec<Real, D> residual(const Memory& history) const {
     return zero_moment(*this, history, load_set<Real, D>(history, kSet));
   }
@@ -113,6 +109,7 @@ struct Fatigue {
     store_set<Real, D>(curvature - left, result.history, kSet);
     return result;
   }
+  // Strength and set act from the next step on.
   HYST_HD Real trial_potential(Real sound, const Vec<Real, D>& curvature, const Memory& before) const {
     return b2 * (curvature - load_set<Real, D>(before, kSet)).squaredNorm() / 2 + strength(before) * sound;
   }

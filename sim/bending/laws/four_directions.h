@@ -73,12 +73,6 @@ struct FourDirections {
     return result;
   }
 
-  HYST_HD Real potential(const Vec<Real, 3>& curvature, const History<Real, kHistory>& before) const {
-    Real sum = 0;
-    for (int d = 0; d < kDirections; ++d)
-      sum += step_potential(law, Vec<Real, 1>(direction(d).dot(curvature)), part(before, d));
-    return kWeight / kDirections * sum;
-  }
   HYST_HD Vec<Real, 3> residual(const History<Real, kHistory>& history) const {
     return zero_moment(*this, history, Vec<Real, 3>(Vec<Real, 3>::Zero()));
   }

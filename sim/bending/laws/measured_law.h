@@ -69,9 +69,6 @@ struct Setting {
     const Tangent<Real, D> product = stiff * soft;
     return stiff - (product + product.transpose()) / 2;
   }
-  HYST_HD Real potential(const Vec<Real, D>& curvature, const Memory& before) const {
-    return trial_potential(flow(curvature, before), curvature, before);
-  }
   HYST_HD Vec<Real, D> residual(const Memory& history) const {
     Setting at_once = *this;
     if constexpr (TimedLaw<Law>) at_once.law.dt = 0;
@@ -247,6 +244,7 @@ struct Relaxing {
     for (int i = 0; i < B; ++i) stiff += c[i] * Relaxation<Real>::over(dt / tau[i]).stiff;
     return law.tangent(curvature, history_of<Law>(before)) + stiff * Tangent<Real, D>::Identity();
   }
+  // Alone, as a law that sets around this one asks for it.
   HYST_HD Real potential(const Vec<Real, D>& curvature, const Memory& before) const {
     return potential_around(step_potential(law, curvature, history_of<Law>(before)), curvature, before);
   }
