@@ -117,11 +117,11 @@ class BendingModel {
       row.weight = one.width / question.noise *
                    (is_settling(one, row.branch, row.index, question.settling) ? question.trust : 1);
     }
-    prior_friction = friction / static_cast<double>(loops.size() * question.cycles.size());
+    prior_friction_ = friction / static_cast<double>(loops.size() * question.cycles.size());
   }
 
   StopsLaw law(const VectorXd& p) const {
-    const Spectrum stops = form_.stops(p.segment(1, numbers_), prior_friction);
+    const Spectrum stops = form_.stops(p.segment(1, numbers_), prior_friction_);
     return {std::exp(p[0]) * prior_spring(), stops.thresholds, stops.stiffnesses};
   }
 
@@ -153,9 +153,7 @@ class BendingModel {
   const FrictionForm& form() const { return form_; }
   int parameters() const { return 1 + numbers_ + static_cast<int>(loops_.size()); }
   int size() const { return rows() + 1 + numbers_; }
-  double prior_spring() const { return prior_friction / kFrictionOverSpring; }
-
-  double prior_friction = 0;  // [N]
+  double prior_spring() const { return prior_friction_ / kFrictionOverSpring; }
 
  private:
   const std::vector<FabLoops>& loops_;
@@ -163,6 +161,7 @@ class BendingModel {
   FrictionForm form_;
   int numbers_;  // of friction
   std::vector<FabRow> rows_;
+  double prior_friction_ = 0;  // [N]
 };
 
 void set_bending_errors(const BendingModel& model, const LeastSquares& best, FabBending& found) {
@@ -212,8 +211,6 @@ FabBending identify_fab_bending(const std::vector<FabLoops>& loops, const FabBen
   found.residual_rms = std::sqrt(best.residuals.head(model.rows()).squaredNorm() / model.rows());
   const VectorXd left = best.residuals.head(model.rows());
   found.correlation = left.head(model.rows() - 1).dot(left.tail(model.rows() - 1)) / left.squaredNorm();
-  found.prior_friction = model.prior_friction;
-  found.prior_spring = model.prior_spring();
   set_bending_errors(model, best, found);
   return found;
 }

@@ -56,13 +56,12 @@ struct FabBendingQuestion {
 };
 
 struct FabBending : FabStops {
-  double friction_error = kNone;                // of law.friction() [N]
-  double first = kNone;                         // of a decay: its first amplitude [m]
-  Eigen::VectorXd form, form_errors;            // parameters of the friction's form and standard errors
-  std::vector<double> zero_errors;              // standard errors [N/m]
-  double residual_rms = 0;                      // over the noise, unreliable rows weighted
-  double correlation = 0;                       // of what is left in neighbouring rows
-  double prior_friction = 0, prior_spring = 0;  // that the prior is centred on [N], [N m]
+  double friction_error = kNone;      // of law.friction() [N]
+  double first = kNone;               // of a decay: its first amplitude [m]
+  Eigen::VectorXd form, form_errors;  // parameters of the friction's form and standard errors
+  std::vector<double> zero_errors;    // standard errors [N/m]
+  double residual_rms = 0;            // over the noise, unreliable rows weighted
+  double correlation = 0;             // of what is left in neighbouring rows
 
   bool is_shaped() const { return form.size() == 3 && law.stops() == kShapedStops; }
   std::vector<std::string> undetermined() const;  // "b2", "stop 128/m", ...; of a shape "median", "spread"

@@ -129,8 +129,7 @@ void check_magnitudes(const MomentSeries& series) {
 class CurveFile {
  public:
   CurveFile(const std::filesystem::path& file, const CurveUnits& units, const std::string& reader)
-      : file_(file),
-        name_(file.filename().string()),
+      : name_(file.filename().string()),
         units_(units),
         reader_(reader),
         table_(read_tester_table(
@@ -215,7 +214,6 @@ class CurveFile {
     return seconds;
   }
 
-  std::filesystem::path file_;
   std::string name_;
   CurveUnits units_;
   std::string reader_;

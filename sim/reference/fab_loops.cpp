@@ -166,11 +166,6 @@ void check_clamp_path(const FabLoops& loops, const std::string& file, const std:
   checks.start();
 }
 
-void check_fab_forces(const FabLoops& loops, const std::string& file, const std::string& reader) {
-  const Checks checks(loops, file, reader);
-  for (int cycle = 0; cycle < loops.cycles(); ++cycle) checks.forces(cycle);
-}
-
 namespace {
 
 namespace fs = std::filesystem;
@@ -301,7 +296,8 @@ std::vector<FabLoops> read_fab(const fs::path& file, TesterUnits units, const st
   }
   for (const FabLoops& loops : all) {
     check_clamp_path(loops, file.filename().string(), reader);
-    check_fab_forces(loops, file.filename().string(), reader);
+    const Checks checks(loops, file.filename().string(), reader);
+    for (int cycle = 0; cycle < loops.cycles(); ++cycle) checks.forces(cycle);
   }
   return all;
 }
