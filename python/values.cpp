@@ -11,12 +11,6 @@
 namespace hysteron::python {
 namespace {
 
-std::string plain(std::string path) {
-  std::replace_if(
-      path.begin(), path.end(), [](char c) { return c == '.' || c == '-'; }, '_');
-  return path;
-}
-
 [[noreturn]] void refuse(const std::string& key, py::handle value, const std::string& allowed) {
   const std::string text = py::repr(value);
   throw Error::invalid_input(key + " = " + text + " must be " + allowed).with_key(key, text);
@@ -89,6 +83,12 @@ Value numbers_from_python(py::handle value, const std::string& key) {
 
 }  // namespace
 
+std::string python_name(std::string key) {
+  std::replace_if(
+      key.begin(), key.end(), [](char c) { return c == '.' || c == '-'; }, '_');
+  return key;
+}
+
 std::vector<std::string> paths(const std::vector<KeyDescription>& keys) {
   std::vector<std::string> result;
   for (const KeyDescription& key : keys) result.push_back(key.path);
@@ -96,8 +96,9 @@ std::vector<std::string> paths(const std::vector<KeyDescription>& keys) {
 }
 
 std::string key_named(const std::string& name, const std::vector<std::string>& keys) {
-  const auto found =
-      std::find_if(keys.begin(), keys.end(), [&](const auto& key) { return plain(key) == plain(name); });
+  const auto found = std::find_if(keys.begin(), keys.end(), [&](const std::string& key) {
+    return python_name(key) == python_name(name);
+  });
   return found == keys.end() ? name : *found;
 }
 

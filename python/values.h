@@ -18,8 +18,9 @@ namespace py = pybind11;
 // Numbers in one run of memory, converted where they are not.
 using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
-// A name of Python's as one of these keys: "self_contact" is "self-contact" and "fabric_b2" "fabric.b2".  As
-// it stands where it is none, for the reader to refuse.
+// A key as Python names it, with underscores: "self_contact" of "self-contact", "fabric_b2" of "fabric.b2".
+std::string python_name(std::string key);
+// A name of Python's as one of these keys; as it stands where it is none, for the reader to refuse.
 std::string key_named(const std::string& name, const std::vector<std::string>& keys);
 std::vector<std::string> paths(const std::vector<KeyDescription>& keys);
 
