@@ -81,6 +81,15 @@ Value numbers_from_python(py::handle value, const std::string& key) {
   return std::vector<double>(numbers.data(), numbers.data() + numbers.size());
 }
 
+struct ToPython {
+  py::object operator()(const NamedValue& named) const { return py::str(named.name()); }
+  py::object operator()(const Eigen::Vector3d* v) const { return py::make_tuple(v->x(), v->y(), v->z()); }
+  template <class Held>
+  py::object operator()(const Held* value) const {
+    return py::cast(*value);
+  }
+};
+
 }  // namespace
 
 std::string python_name(std::string key) {
@@ -135,20 +144,7 @@ ValueTree to_tree(const py::dict& values) {
   return root;
 }
 
-py::object to_python(const Field& field) {
-  struct Visitor {
-    py::object operator()(const Parameters* parameters) const { return py::cast(*parameters); }
-    py::object operator()(const NamedValue& named) const { return py::str(named.name()); }
-    py::object operator()(const Eigen::Vector3d* v) const { return py::make_tuple(v->x(), v->y(), v->z()); }
-    py::object operator()(const std::vector<double>* list) const { return py::cast(*list); }
-    py::object operator()(const bool* flag) const { return py::bool_(*flag); }
-    py::object operator()(const int* number) const { return py::int_(*number); }
-    py::object operator()(const unsigned* number) const { return py::int_(*number); }
-    py::object operator()(const double* number) const { return py::float_(*number); }
-    py::object operator()(const std::string* text) const { return py::str(*text); }
-  };
-  return std::visit(Visitor{}, field);
-}
+py::object to_python(const Field& field) { return std::visit(ToPython{}, field); }
 
 py::object from_json(const std::string& text) { return py::module_::import("json").attr("loads")(text); }
 
