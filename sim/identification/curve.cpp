@@ -76,8 +76,9 @@ Solution solve(const MomentModel& model) {
     throw Error::simulation("no b1, b2 and k0 were found with which the law says anything of these data");
   const Eigen::VectorXd first = model.parameters(start);
   const int size = static_cast<int>(first.size());
-  const LeastSquares fit = minimize([&](const Eigen::VectorXd& p) { return model.residuals(model.point(p)); },
-                                    first, model.low(size), model.high(size));
+  const auto [low, high] = MomentModel::bounds(size);
+  const LeastSquares fit =
+      minimize([&](const Eigen::VectorXd& p) { return model.residuals(model.point(p)); }, first, low, high);
   solution.iterations += fit.iterations;
   solution.best = model.point(fit.parameters);
   solution.best.sum = fit.residuals.squaredNorm();
