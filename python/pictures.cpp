@@ -107,12 +107,12 @@ std::vector<float> shown_values(const std::string& look, const Cloth& cloth, Sim
 
 SimulationValue::Studio& SimulationValue::studio(const PictureChoice& choice, const render::Box& bounds,
                                                  int cuda_device) {
-  const std::string wanted = choice.options.size + " " + choice.options.renderer;
-  if (studio_ && made_for_ == wanted) return *studio_;
+  const experiments::Options& wanted = choice.options;
+  if (studio_ && made_for_.size == wanted.size && made_for_.renderer == wanted.renderer) return *studio_;
   studio_.reset();
   mesh_ = experiments::drawn_mesh(cloth_.mesh, scene_.cloth);
-  studio_ = std::make_unique<Studio>([&, options = choice.options] {
-    return std::make_unique<experiments::SceneRenderer>(scene_, options, mesh_, bounds, std::nullopt,
+  studio_ = std::make_unique<Studio>([&] {
+    return std::make_unique<experiments::SceneRenderer>(scene_, wanted, mesh_, bounds, std::nullopt,
                                                         cuda_device);
   });
   made_for_ = wanted;

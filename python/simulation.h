@@ -60,7 +60,7 @@ class SimulationValue {
   bool in_use_ = false;          // by a thread without the interpreter's lock, which guards it
   experiments::DrawnMesh mesh_;  // of the studio
   std::unique_ptr<Studio> studio_;
-  std::string made_for_;  // size and renderer, which a studio has for good
+  experiments::Options made_for_;  // whose size and renderer a studio has for good
 };
 
 }  // namespace hysteron::python
