@@ -18,12 +18,9 @@ constexpr const char* kPrefix = "fabric.";
 
 // The key fabric.* of that attribute; null if there is none.
 const BoundKey* find(const Keys& keys, const std::string& name) {
-  const auto key_path = [](const BoundKey& key) { return key.description.path; };
-  std::vector<std::string> all;
-  std::transform(keys.begin(), keys.end(), std::back_inserter(all), key_path);
-  const std::string path = key_named(kPrefix + name, all);
-  const auto found =
-      std::find_if(keys.begin(), keys.end(), [&](const auto& k) { return key_path(k) == path; });
+  const auto found = std::find_if(keys.begin(), keys.end(), [&](const BoundKey& key) {
+    return python_name(key.description.path) == python_name(kPrefix + name);
+  });
   return found == keys.end() ? nullptr : &*found;
 }
 
@@ -71,10 +68,7 @@ py::list FabricValue::names() {
   py::list names;
   for (const KeyDescription& key : scene_keys()) {
     if (!key.path.starts_with(kPrefix)) continue;
-    std::string name = key.path.substr(std::string(kPrefix).size());
-    std::replace_if(
-        name.begin(), name.end(), [](char c) { return c == '.' || c == '-'; }, '_');
-    names.append(name);
+    names.append(python_name(key.path.substr(std::string(kPrefix).size())));
   }
   return names;
 }

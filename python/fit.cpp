@@ -57,11 +57,7 @@ Identification fit(const Numbers& curvature, const Numbers& moment, const std::o
   CurveQuestion question;
   question.law.name = law;
   question.offset = offset;
-  const std::vector<std::string> known = law_parameter_names(law);
-  for (const auto& [key, value] : parameters) {
-    const std::string parameter = key_named(py::str(key), known);
-    question.law.parameters[parameter] = to_text(value, parameter);
-  }
+  question.law.parameters = law_parameters(law, parameters);
   Identification found;
   unlocked([&] { found = identify_curve(series, question); });
   return found;

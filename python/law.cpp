@@ -1,76 +1,101 @@
-#include "python/law.h"
-
+// A moment-curvature law on many elements at once: the loop that cloths run, on the CPU.
 #include <pybind11/stl.h>
+
+#include <memory>
 
 #include "python/fabric.h"
 #include "python/module.h"
 #include "sim/base/archive.h"
 #include "sim/base/error.h"
+#include "sim/bending/law_loop.h"
+#include "sim/device/device.h"
 
 namespace hysteron::python {
 namespace {
 
 using Loop = LawLoop<double, Cpu>;
 
-std::string shape_text(py::array array) { return py::str(array.attr("shape")); }
+struct Law {
+  LawChoice choice;
+  int dimension;
+};
 
-// A trial that builds up no rate.
-Loop::Trial steady_trial(double dt) { return {dt, dt, 0, nullptr}; }
-
-}  // namespace
-
-LawState::LawState(const LawChoice& choice, int dimension, int elements, int threads)
-    : choice_(choice),
-      dimension_(dimension),
-      elements_(elements),
-      cpu_(std::make_unique<Cpu>(threads)),
-      loop_(make_law_loop<double>(*cpu_, choice, dimension, elements)),
-      area_(elements, 1),
-      coefficient_(static_cast<std::size_t>(elements) * dimension * dimension),
-      start_(elements + 1),
-      hinge_(static_cast<std::size_t>(elements) * dimension) {
-  for (int i = 0; i <= elements; ++i) start_[i] = i * dimension;
-  for (int h = 0; h < elements * dimension; ++h) {
-    hinge_[h] = h;
-    coefficient_[static_cast<std::size_t>(h) * dimension + h % dimension] = 1;
+// Elements of one law with their histories.
+struct LawState {
+  LawState(const Law& of, int count, int threads)
+      : law(of),
+        elements(count),
+        cpu(std::make_unique<Cpu>(threads)),
+        loop(make_law_loop<double>(*cpu, of.choice, of.dimension, count)),
+        area(count, 1),
+        coefficient(static_cast<std::size_t>(count) * of.dimension * of.dimension),
+        start(count + 1),
+        hinge(static_cast<std::size_t>(count) * of.dimension) {
+    const int d = of.dimension;
+    for (int i = 0; i <= count; ++i) start[i] = i * d;
+    for (int h = 0; h < count * d; ++h) {
+      hinge[h] = h;
+      coefficient[static_cast<std::size_t>(h) * d + h % d] = 1;
+    }
   }
+
+  OperatorView<double> view() const {
+    return {elements, area.data(), start.data(), hinge.data(), coefficient.data()};
+  }
+
+  Law law;
+  int elements;
+  std::unique_ptr<Cpu> cpu;
+  std::unique_ptr<Loop> loop;
+  // The operator that makes curvatures of themselves: an element of unit area for each, with hinges of its
+  // own.
+  std::vector<double> area, coefficient;
+  std::vector<int> start, hinge;
+};
+
+LawState at_rest(const Law& law, int elements, int threads) {
+  if (elements < 1)
+    throw Error::invalid_input("elements = " + std::to_string(elements) + " must be >= 1")
+        .with_key("elements", std::to_string(elements));
+  return {law, elements, threads};
 }
 
-LawState LawState::copy() const {
-  LawState copy(choice_, dimension_, elements_, cpu_->threads);
+LawState copied(const LawState& state) {
+  LawState copy(state.law, state.elements, state.cpu->threads);
   Archive saved;
-  loop_->serialise(saved, *cpu_);
+  state.loop->serialise(saved, *state.cpu);
   const std::string bytes = saved.take();
   Archive loaded(bytes);
-  copy.loop_->serialise(loaded, *copy.cpu_);
+  copy.loop->serialise(loaded, *copy.cpu);
   return copy;
 }
 
-OperatorView<double> LawState::view() const {
-  return {elements_, area_.data(), start_.data(), hinge_.data(), coefficient_.data()};
-}
-
-const double* LawState::checked(const Numbers& curvature) const {
-  const bool fits = dimension_ == 1 ? curvature.ndim() == 1 && curvature.shape(0) == elements_
-                                    : curvature.ndim() == 2 && curvature.shape(0) == elements_ &&
-                                          curvature.shape(1) == dimension_;
+// K: `dimension` numbers an element [1/m]; results of the same shape.  What follows is called with the
+// interpreter's lock held.
+const double* checked(const LawState& state, const Numbers& curvature) {
+  const int d = state.law.dimension;
+  const bool fits =
+      d == 1 ? curvature.ndim() == 1 && curvature.shape(0) == state.elements
+             : curvature.ndim() == 2 && curvature.shape(0) == state.elements && curvature.shape(1) == d;
   if (fits) return curvature.data();
-  const std::string shape = shape_text(curvature), n = std::to_string(elements_);
-  throw Error::invalid_input(
-      "curvature has shape " + shape + ", must be " +
-      (dimension_ == 1 ? "(" + n + ",)" : "(" + n + ", " + std::to_string(dimension_) + ")"))
+  const std::string shape = py::str(curvature.attr("shape")), n = std::to_string(state.elements);
+  throw Error::invalid_input("curvature has shape " + shape + ", must be " +
+                             (d == 1 ? "(" + n + ",)" : "(" + n + ", " + std::to_string(d) + ")"))
       .with_key("curvature", shape);
 }
 
-py::array_t<double> LawState::make_array(int columns, int of_each) const {
-  std::vector<py::ssize_t> shape = {elements_};
+py::array_t<double> make_array(const LawState& state, int columns, int of_each = 1) {
+  std::vector<py::ssize_t> shape = {state.elements};
   for (int i = 0; i < of_each && columns > 1; ++i) shape.push_back(columns);
   return py::array_t<double>(shape);
 }
 
-py::array LawState::step(const Numbers& curvature, double dt, py::object out) {
-  const double* k = checked(curvature);
-  py::array_t<double> moment = make_array(dimension_);
+// A trial that builds up no rate.
+Loop::Trial steady_trial(double dt) { return {dt, dt, 0, nullptr}; }
+
+py::array step(const Law&, LawState& state, const Numbers& curvature, double dt, py::object out) {
+  const double* k = checked(state, curvature);
+  py::array_t<double> moment = make_array(state, state.law.dimension);
   if (!out.is_none()) {
     using Doubles = py::array_t<double, py::array::c_style>;
     if (!Doubles::check_(out) || py::reinterpret_borrow<py::array>(out).size() != moment.size())
@@ -79,84 +104,66 @@ py::array LawState::step(const Numbers& curvature, double dt, py::object out) {
     moment = py::reinterpret_borrow<py::array_t<double>>(out);
   }
   double* m = moment.mutable_data();
-  unlocked([&] { loop_->commit(*cpu_, view(), k, dt, {0, nullptr, nullptr}, m); });
+  unlocked([&] { state.loop->commit(*state.cpu, state.view(), k, dt, {0, nullptr, nullptr}, m); });
   return moment;
 }
 
-py::array LawState::trial(const Numbers& curvature, double dt) const {
-  const double* k = checked(curvature);
-  py::array_t<double> moment = make_array(dimension_);
+py::array trial(const Law&, const LawState& state, const Numbers& curvature, double dt) {
+  const double* k = checked(state, curvature);
+  py::array_t<double> moment = make_array(state, state.law.dimension);
   double* m = moment.mutable_data();
-  std::vector<double> energy(elements_);
-  unlocked([&] { loop_->trial(*cpu_, view(), k, steady_trial(dt), m, energy.data()); });
+  std::vector<double> energy(state.elements);
+  unlocked([&] { state.loop->trial(*state.cpu, state.view(), k, steady_trial(dt), m, energy.data()); });
   return moment;
 }
 
 // Rows of lower triangles as whole matrices.
-void LawState::tangents(const double* k, double dt, double* to) const {
-  const int d = dimension_;
-  std::vector<double> lower(static_cast<std::size_t>(elements_) * d * (d + 1) / 2);
-  loop_->tangents(*cpu_, view(), k, steady_trial(dt), lower.data());
-  const double* row = lower.data();
-  for (int i = 0; i < elements_; ++i, to += d * d)
-    for (int a = 0; a < d; ++a)
-      for (int b = 0; b <= a; ++b) to[a * d + b] = to[b * d + a] = *row++;
-}
-
-py::array LawState::tangent(const Numbers& curvature, double dt) const {
-  const double* k = checked(curvature);
-  py::array_t<double> tangent = make_array(dimension_, 2);
+py::array tangent(const Law&, const LawState& state, const Numbers& curvature, double dt) {
+  const int d = state.law.dimension;
+  const double* k = checked(state, curvature);
+  py::array_t<double> tangent = make_array(state, d, 2);
   double* to = tangent.mutable_data();
-  unlocked([&] { tangents(k, dt, to); });
+  unlocked([&] {
+    std::vector<double> lower(static_cast<std::size_t>(state.elements) * d * (d + 1) / 2);
+    state.loop->tangents(*state.cpu, state.view(), k, steady_trial(dt), lower.data());
+    const double* row = lower.data();
+    for (int i = 0; i < state.elements; ++i, to += d * d)
+      for (int a = 0; a < d; ++a)
+        for (int b = 0; b <= a; ++b) to[a * d + b] = to[b * d + a] = *row++;
+  });
   return tangent;
 }
 
-py::array LawState::measured(LawMeasure what, const double* curvature, int numbers) const {
-  py::array_t<double> values = make_array(numbers);
+py::array measured(const LawState& state, LawMeasure what, const double* curvature, int numbers) {
+  py::array_t<double> values = make_array(state, numbers);
   double* to = values.mutable_data();
-  unlocked([&] { loop_->measure(*cpu_, view(), curvature, what, to); });
+  unlocked([&] { state.loop->measure(*state.cpu, state.view(), curvature, what, to); });
   return values;
 }
 
-py::array LawState::stored(const Numbers& curvature) const {
-  return measured(LawMeasure::stored_energy, checked(curvature), 1);
+py::array stored(const Law&, const LawState& state, const Numbers& curvature) {
+  return measured(state, LawMeasure::stored_energy, checked(state, curvature), 1);
 }
 
-py::array LawState::friction_share(const Numbers& curvature) const {
-  return measured(LawMeasure::slip, checked(curvature), 1);
+py::array friction_share(const Law&, const LawState& state, const Numbers& curvature) {
+  return measured(state, LawMeasure::slip, checked(state, curvature), 1);
 }
 
-py::array LawState::residual() const { return measured(LawMeasure::residual_curvature, nullptr, dimension_); }
-
-py::array LawState::dissipated() const {
-  const double* lost = loop_->dissipated();
-  return numpy_array(lost ? std::vector<double>(lost, lost + elements_) : std::vector<double>(elements_), 1);
+py::array residual(const Law&, const LawState& state) {
+  return measured(state, LawMeasure::residual_curvature, nullptr, state.law.dimension);
 }
 
-namespace {
-
-struct Law {
-  LawChoice choice;
-  int dimension;
-
-  LawState rest(int elements, int threads) const {
-    if (elements < 1)
-      throw Error::invalid_input("elements = " + std::to_string(elements) + " must be >= 1")
-          .with_key("elements", std::to_string(elements));
-    return {choice, dimension, elements, threads};
-  }
-};
+py::array dissipated(const Law&, const LawState& state) {
+  const double* lost = state.loop->dissipated();
+  const auto n = static_cast<std::size_t>(state.elements);
+  return numpy_array(lost ? std::vector<double>(lost, lost + n) : std::vector<double>(n), 1);
+}
 
 Law make_law(const std::string& name, py::object fabric, int dimension, const py::kwargs& parameters) {
   if (dimension != 1 && dimension != 3)
     throw Error::invalid_input("dimension = " + std::to_string(dimension) + " must be 1 or 3")
         .with_key("dimension", std::to_string(dimension));
-  const std::vector<std::string> known = law_parameter_names(name);
-  LawParameters texts;
-  for (const auto& [key, value] : parameters) {
-    const std::string parameter = key_named(py::str(key), known);
-    texts[parameter] = to_text(value, parameter);
-  }
+  const LawParameters texts = law_parameters(name, parameters);
   return {choose_law(name, fabric_from_python(fabric).virgin_curve(), texts), dimension};
 }
 
@@ -169,9 +176,11 @@ py::dict laws() {
 void bind_state(py::module_& module) {
   py::class_<LawState>(module, "LawState",
                        R"(The histories of n elements under one law; made by Law.rest().)")
-      .def("__len__", &LawState::elements)
-      .def("copy", &LawState::copy, "Elements with the same histories that go on by themselves.")
-      .def_property_readonly("history_bytes", &LawState::history_bytes, "Memory of all histories [bytes].");
+      .def("__len__", [](const LawState& state) { return state.elements; })
+      .def("copy", &copied, "Elements with the same histories that go on by themselves.")
+      .def_property_readonly(
+          "history_bytes", [](const LawState& state) { return state.loop->history_bytes(); },
+          "Memory of all histories [bytes].");
 }
 
 }  // namespace
@@ -195,47 +204,30 @@ Histories live in the state, so that a law can have many.  All calls release the
           "name", [](const Law& law) { return law.choice.name; }, "One of laws().")
       .def_readonly("dimension", &Law::dimension, "Components of a curvature: 1 or 3.")
       .def(
-          "largest_stiffness", [](const Law& law) { return law.rest(1, 1).largest_stiffness(); },
+          "largest_stiffness", [](const Law& law) { return at_rest(law, 1, 1).loop->largest_stiffness(); },
           "Bound on the eigenvalues of dM/dK [N m].")
-      .def("rest", &Law::rest, py::arg("elements"), py::arg("threads") = 1,
+      .def("rest", &at_rest, py::arg("elements"), py::arg("threads") = 1,
            "Virgin elements, flat and without history.  threads: of the loops; 0: all cores.")
       .def(
-          "step",
-          [](const Law&, LawState& state, const Numbers& k, double dt, py::object out) {
-            return state.step(k, dt, out);
-          },
-          py::arg("state"), py::arg("curvature"), py::arg("dt") = 1.0, py::arg("out") = py::none(),
+          "step", &step, py::arg("state"), py::arg("curvature"), py::arg("dt") = 1.0,
+          py::arg("out") = py::none(),
           R"(Takes all elements to their curvature [1/m] in dt [s] and returns their moments [N], of its shape.
 
 The histories go on.  dt matters to laws that creep or relax.  out: where moments are written, instead of a
 new array.)")
-      .def(
-          "trial",
-          [](const Law&, const LawState& state, const Numbers& k, double dt) { return state.trial(k, dt); },
-          py::arg("state"), py::arg("curvature"), py::arg("dt") = 1.0,
-          "Moments [N] of a step that is not taken: the histories stay.")
-      .def(
-          "tangent",
-          [](const Law&, const LawState& state, const Numbers& k, double dt) { return state.tangent(k, dt); },
-          py::arg("state"), py::arg("curvature"), py::arg("dt") = 1.0,
-          R"(dM/dK of a step to these curvatures that is not taken [N m], shape (n,) or (n, 3, 3).
+      .def("trial", &trial, py::arg("state"), py::arg("curvature"), py::arg("dt") = 1.0,
+           "Moments [N] of a step that is not taken: the histories stay.")
+      .def("tangent", &tangent, py::arg("state"), py::arg("curvature"), py::arg("dt") = 1.0,
+           R"(dM/dK of a step to these curvatures that is not taken [N m], shape (n,) or (n, 3, 3).
 
 As Newton's method uses it: what is negative of it, where a moment falls with curvature, is left out.)")
-      .def(
-          "stored", [](const Law&, const LawState& state, const Numbers& k) { return state.stored(k); },
-          py::arg("state"), py::arg("curvature"),
-          "Recoverable energy at these curvatures, those of the last step [J/m^2], shape (n,).")
-      .def(
-          "dissipated", [](const Law&, const LawState& state) { return state.dissipated(); },
-          py::arg("state"), "Lost since rest [J/m^2], shape (n,).")
-      .def(
-          "residual", [](const Law&, const LawState& state) { return state.residual(); }, py::arg("state"),
-          "Curvature that each element keeps when it is let go now [1/m].")
-      .def(
-          "friction_share",
-          [](const Law&, const LawState& state, const Numbers& k) { return state.friction_share(k); },
-          py::arg("state"), py::arg("curvature"),
-          "How far friction is used at these curvatures, 0 (not) to 1 (slides), shape (n,).");
+      .def("stored", &stored, py::arg("state"), py::arg("curvature"),
+           "Recoverable energy at these curvatures, those of the last step [J/m^2], shape (n,).")
+      .def("dissipated", &dissipated, py::arg("state"), "Lost since rest [J/m^2], shape (n,).")
+      .def("residual", &residual, py::arg("state"),
+           "Curvature that each element keeps when it is let go now [1/m].")
+      .def("friction_share", &friction_share, py::arg("state"), py::arg("curvature"),
+           "How far friction is used at these curvatures, 0 (not) to 1 (slides), shape (n,).");
   module.def("laws", &laws, "What each law is, by its name.");
   module.def("law_parameters", &law_parameter_names, py::arg("law"),
              "Names of the parameters that a law takes.");

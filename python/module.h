@@ -7,7 +7,6 @@ namespace hysteron::python {
 
 namespace py = pybind11;
 
-void bind_errors();
 void bind_fabric(py::module_& module);
 void bind_law(py::module_& module);
 void bind_scene(py::module_& module);

@@ -4,9 +4,11 @@
 #include <algorithm>
 
 #include "experiments/diff/diff.h"
+#include "experiments/workbench/pictures/drawing.h"
 #include "python/module.h"
 #include "python/simulation.h"
 #include "sim/base/error.h"
+#include "sim/bending/vertex_curvature.h"
 
 namespace hysteron::python {
 namespace {
@@ -92,7 +94,55 @@ py::array_t<std::uint8_t> render_simulation(SimulationValue& sim, std::pair<int,
   return image_array(sim.picture(choice));
 }
 
+// One number a vertex, in looks that show one.
+std::vector<float> shown_values(const std::string& look, const Cloth& cloth, Simulation& simulation) {
+  const int d = simulation.dimension();
+  if (look == "curvature") return vertex_curvature(cloth.mesh, simulation.curvature(), d);
+  if (look == "residual") return vertex_curvature(cloth.mesh, simulation.residual_curvature(), d);
+  if (look == "friction") return vertex_average(cloth.mesh, simulation.friction_share(), d);
+  return {};
+}
+
 }  // namespace
+
+SimulationValue::Studio& SimulationValue::studio(const PictureChoice& choice, const render::Box& bounds,
+                                                 int cuda_device) {
+  const experiments::Options& wanted = choice.options;
+  if (studio_ && made_for_.size == wanted.size && made_for_.renderer == wanted.renderer) return *studio_;
+  studio_.reset();
+  mesh_ = experiments::drawn_mesh(cloth_.mesh, scene_.cloth);
+  studio_ = std::make_unique<Studio>([&] {
+    return std::make_unique<experiments::SceneRenderer>(scene_, wanted, mesh_, bounds, std::nullopt,
+                                                        cuda_device);
+  });
+  made_for_ = wanted;
+  return *studio_;
+}
+
+render::Image SimulationValue::drawn(const PictureChoice& choice, Simulation& simulation) {
+  const std::string& look = choice.options.look;
+  const std::vector<float> xyz = experiments::flat_points(simulation.positions());
+  const render::Box bounds = choice.bounds.value_or(render::bounding_box(xyz));
+  const render::Camera camera = experiments::framed_camera(choice.options, bounds);
+  const experiments::SceneRenderer::Shown shown{simulation.time(), shown_values(look, cloth_, simulation)};
+  return studio(choice, bounds, simulation.cuda_device()).run([&](experiments::SceneRenderer& renderer) {
+    renderer.view().set_bounds(bounds);
+    renderer.view().set_positions(xyz);
+    render::Image image = renderer.draw(experiments::scene_look(scene_, choice.options, look), camera, shown);
+    if (!renderer.view().shows_cloth())
+      throw Error::simulation("the picture shows no cloth: bounds must frame where it is");
+    if (!choice.caption.empty())
+      experiments::letter(image, camera, bounds.center(), choice.caption,
+                          experiments::value_color_bar(scene_, choice.options, look));
+    return image;
+  });
+}
+
+render::Image SimulationValue::picture(const PictureChoice& choice) {
+  render::Image image;
+  alone([&](Simulation& simulation) { image = drawn(choice, simulation); });
+  return image;
+}
 
 void bind_pictures(py::module_& module) {
   module.def("render", &render_simulation, py::arg("simulation"), py::arg("size") = std::make_pair(640, 480),

@@ -1,5 +1,3 @@
-#include "python/scene.h"
-
 #include <pybind11/stl.h>
 
 #include <algorithm>
@@ -72,12 +70,6 @@ py::list keys() {
 }
 
 }  // namespace
-
-const Scene& checked(const Scene& scene) {
-  check_scene(scene);
-  check_duration(scene);
-  return scene;
-}
 
 void bind_scene(py::module_& module) {
   py::class_<Scene>(module, "Scene", R"(What is simulated: cloth, fabric, law, pins, obstacles, method.

@@ -6,13 +6,14 @@
 #include <cstdio>
 
 #include "python/module.h"
-#include "python/scene.h"
 #include "sim/base/error.h"
 #include "sim/scene/scene_reader.h"
 
 namespace hysteron::python {
 
-SimulationValue::SimulationValue(const Scene& scene) : scene_(python::checked(scene)) {
+SimulationValue::SimulationValue(const Scene& scene) : scene_(scene) {
+  check_scene(scene_);
+  check_duration(scene_);
   unlocked([&] {
     cloth_ = make_cloth(scene_);
     simulation_ = make_simulation(scene_, cloth_);
@@ -26,17 +27,6 @@ Simulation& SimulationValue::at_rest() const {
   return *simulation_;
 }
 
-template <class Body>
-void SimulationValue::alone(const Body& body) {
-  Simulation& simulation = at_rest();
-  struct Use {
-    bool& flag;
-    explicit Use(bool& in_use) : flag(in_use) { flag = true; }
-    ~Use() { flag = false; }
-  } const use(in_use_);
-  unlocked([&] { body(simulation); });
-}
-
 void SimulationValue::advance(int steps) {
   if (steps < 0) {
     const std::string text = std::to_string(steps);
@@ -46,12 +36,6 @@ void SimulationValue::advance(int steps) {
     alone([](Simulation& simulation) { simulation.advance(1); });
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
   }
-}
-
-render::Image SimulationValue::picture(const PictureChoice& choice) {
-  render::Image image;
-  alone([&](Simulation& simulation) { image = studio_.picture(scene_, cloth_, simulation, choice); });
-  return image;
 }
 
 namespace {
@@ -79,22 +63,24 @@ py::array_t<int> triangles(const S& self) {
   return result;
 }
 
-py::dict ledger(const S& self) {
-  py::dict rows;
-  for (const auto& [name, joules] : self.at_rest().ledger().rows()) rows[py::str(name)] = joules;
-  return rows;
-}
-
-py::dict stage_seconds(const S& self) {
-  py::dict stages;
-  for (const auto& [name, seconds] : self.at_rest().stage_seconds()) stages[py::str(name)] = seconds;
-  return stages;
+// In the order of the rows.
+template <class Rows>
+py::dict dict_of(const Rows& rows) {
+  py::dict result;
+  for (const auto& [name, number] : rows) result[py::str(name)] = number;
+  return result;
 }
 
 std::string state_hash(const S& self) {
   char text[17];
   std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(self.at_rest().state_hash()));
   return text;
+}
+
+// What elements have, as many numbers as their curvature.
+py::array of_elements(const S& self, std::vector<double> (Simulation::*measured)()) {
+  Simulation& simulation = self.at_rest();
+  return numpy_array((simulation.*measured)(), simulation.dimension());
 }
 
 py::tuple pin_displacement(const S& self, int pin) {
@@ -133,19 +119,15 @@ Of cloth that starts far from the origin, which is simulated relative to its sta
           },
           "Velocities of the vertices [m/s], shape (n, 3); a view as `positions`.")
       .def_property_readonly(
-          "curvature",
-          [](const S& self) { return numpy_array(self.at_rest().curvature(), self.at_rest().dimension()); },
+          "curvature", [](const S& self) { return of_elements(self, &Simulation::curvature); },
           "Curvature of the elements [1/m], (hinges,) or (faces, 3): (Sxx, Syy, sqrt(2) Sxy) along warp, "
           "weft.")
       .def_property_readonly(
-          "moment",
-          [](const S& self) { return numpy_array(self.at_rest().moment(), self.at_rest().dimension()); },
+          "moment", [](const S& self) { return of_elements(self, &Simulation::moment); },
           "Moment of the elements [N], viscosity included, as `curvature`.")
       .def_property_readonly(
           "residual_curvature",
-          [](const S& self) {
-            return numpy_array(self.at_rest().residual_curvature(), self.at_rest().dimension());
-          },
+          [](const S& self) { return of_elements(self, &Simulation::residual_curvature); },
           "Curvature that each element would keep if it were let go now [1/m].")
       .def_property_readonly(
           "friction_share", [](const S& self) { return numpy_array(self.at_rest().friction_share(), 1); },
@@ -154,7 +136,9 @@ Of cloth that starts far from the origin, which is simulated relative to its sta
           "handle_forces", [](const S& self) { return numpy_array(self.at_rest().handle_forces()); },
           "Forces of the hands on the vertices at the end of the last step [N], (n, 3); implicit "
           "integrators.")
-      .def_property_readonly("ledger", &ledger, "Where the energy went since the start [J], by term.")
+      .def_property_readonly(
+          "ledger", [](const S& self) { return dict_of(self.at_rest().ledger().rows()); },
+          "Where the energy went since the start [J], by term.")
       .def_property_readonly("state_hash", &state_hash,
                              "Of positions and velocities, bit for bit, as manifests have it.")
       .def_property_readonly(
@@ -183,7 +167,9 @@ void bind_cloth(py::class_<S>& simulation) {
           "steps", [](const S& self) { return self.at_rest().steps(); }, "Taken since the start.")
       .def_property_readonly(
           "step_seconds", [](const S& self) { return self.scene().step; }, "Length of a step [s].")
-      .def_property_readonly("stage_seconds", &stage_seconds, "Wall time of each stage of the steps [s].");
+      .def_property_readonly(
+          "stage_seconds", [](const S& self) { return dict_of(self.at_rest().stage_seconds()); },
+          "Wall time of each stage of the steps [s].");
 }
 
 void bind_control(py::class_<S>& simulation) {

@@ -11,12 +11,6 @@
 namespace hysteron::python {
 namespace {
 
-std::string plain(std::string path) {
-  std::replace_if(
-      path.begin(), path.end(), [](char c) { return c == '.' || c == '-'; }, '_');
-  return path;
-}
-
 [[noreturn]] void refuse(const std::string& key, py::handle value, const std::string& allowed) {
   const std::string text = py::repr(value);
   throw Error::invalid_input(key + " = " + text + " must be " + allowed).with_key(key, text);
@@ -87,7 +81,22 @@ Value numbers_from_python(py::handle value, const std::string& key) {
   return std::vector<double>(numbers.data(), numbers.data() + numbers.size());
 }
 
+struct ToPython {
+  py::object operator()(const NamedValue& named) const { return py::str(named.name()); }
+  py::object operator()(const Eigen::Vector3d* v) const { return py::make_tuple(v->x(), v->y(), v->z()); }
+  template <class Held>
+  py::object operator()(const Held* value) const {
+    return py::cast(*value);
+  }
+};
+
 }  // namespace
+
+std::string python_name(std::string key) {
+  std::replace_if(
+      key.begin(), key.end(), [](char c) { return c == '.' || c == '-'; }, '_');
+  return key;
+}
 
 std::vector<std::string> paths(const std::vector<KeyDescription>& keys) {
   std::vector<std::string> result;
@@ -96,8 +105,9 @@ std::vector<std::string> paths(const std::vector<KeyDescription>& keys) {
 }
 
 std::string key_named(const std::string& name, const std::vector<std::string>& keys) {
-  const auto found =
-      std::find_if(keys.begin(), keys.end(), [&](const auto& key) { return plain(key) == plain(name); });
+  const auto found = std::find_if(keys.begin(), keys.end(), [&](const std::string& key) {
+    return python_name(key) == python_name(name);
+  });
   return found == keys.end() ? name : *found;
 }
 
@@ -118,26 +128,23 @@ std::string to_text(py::handle value, const std::string& key) {
   refuse(key, value, "a number or a text");
 }
 
+LawParameters law_parameters(const std::string& law, const py::dict& given) {
+  const std::vector<std::string> known = law_parameter_names(law);
+  LawParameters parameters;
+  for (const auto& [key, value] : given) {
+    const std::string parameter = key_named(py::str(key), known);
+    parameters[parameter] = to_text(value, parameter);
+  }
+  return parameters;
+}
+
 ValueTree to_tree(const py::dict& values) {
   ValueTree root;
   flatten("", values, paths(scene_keys()), root);
   return root;
 }
 
-py::object to_python(const Field& field) {
-  struct Visitor {
-    py::object operator()(const Parameters* parameters) const { return py::cast(*parameters); }
-    py::object operator()(const NamedValue& named) const { return py::str(named.name()); }
-    py::object operator()(const Eigen::Vector3d* v) const { return py::make_tuple(v->x(), v->y(), v->z()); }
-    py::object operator()(const std::vector<double>* list) const { return py::cast(*list); }
-    py::object operator()(const bool* flag) const { return py::bool_(*flag); }
-    py::object operator()(const int* number) const { return py::int_(*number); }
-    py::object operator()(const unsigned* number) const { return py::int_(*number); }
-    py::object operator()(const double* number) const { return py::float_(*number); }
-    py::object operator()(const std::string* text) const { return py::str(*text); }
-  };
-  return std::visit(Visitor{}, field);
-}
+py::object to_python(const Field& field) { return std::visit(ToPython{}, field); }
 
 py::object from_json(const std::string& text) { return py::module_::import("json").attr("loads")(text); }
 

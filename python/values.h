@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/bending/laws/law_parameters.h"
 #include "sim/scene/key_table.h"
 #include "sim/scene/value_tree.h"
 
@@ -17,8 +18,9 @@ namespace py = pybind11;
 // Numbers in one run of memory, converted where they are not.
 using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
-// A name of Python's as one of these keys: "self_contact" is "self-contact" and "fabric_b2" "fabric.b2".  As
-// it stands where it is none, for the reader to refuse.
+// A key as Python names it, with underscores: "self_contact" of "self-contact", "fabric_b2" of "fabric.b2".
+std::string python_name(std::string key);
+// A name of Python's as one of these keys; as it stands where it is none, for the reader to refuse.
 std::string key_named(const std::string& name, const std::vector<std::string>& keys);
 std::vector<std::string> paths(const std::vector<KeyDescription>& keys);
 
@@ -27,6 +29,9 @@ std::vector<std::string> paths(const std::vector<KeyDescription>& keys);
 Value to_value(py::handle value, const std::string& key);
 // As a file would spell it; for parameters of laws.
 std::string to_text(py::handle value, const std::string& key);
+
+// Arguments beyond those that a function names, as parameters of that law.
+LawParameters law_parameters(const std::string& law, const py::dict& given);
 
 // A mapping as the tree of a scene file: {"cloth": {"length": 0.1}}, {"cloth.length": 0.1} and
 // {"cloth_length": 0.1} are one; lists of mappings are arrays of tables.

@@ -66,10 +66,10 @@ double line_departure(const std::vector<Amplitude>& amplitudes, const Decay& dec
        i < amplitudes.size() && amplitudes[i].value >= kFifth * amplitudes[decay.first].value; ++i)
     large.push_back(amplitudes[i]);
   if (large.size() < 3) return NAN;
-  const auto [first, rate] = line_through(large);
+  const DecayFit line = line_through(large);
   double farthest = 0;
   for (const Amplitude& a : large)
-    farthest = std::max(farthest, std::abs(a.value - first + rate * (a.time - large[0].time)));
+    farthest = std::max(farthest, std::abs(a.value - line.first + line.rate * (a.time - large[0].time)));
   return farthest / large[0].value;
 }
 

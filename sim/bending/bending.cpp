@@ -3,6 +3,7 @@
 #include <numeric>
 
 #include "sim/bending/stiffness_product.h"
+#include "sim/linear/compressed_rows.h"
 
 namespace hysteron {
 
@@ -24,16 +25,10 @@ std::vector<Eigen::Vector4i> hinge_corners(const ClothMesh& mesh) {
 
 Adjacency vertex_hinges(const ClothMesh& mesh) {
   const std::vector<Eigen::Vector4i> corners = hinge_corners(mesh);
-  Adjacency a;
-  a.start.assign(mesh.vertices() + 1, 0);
-  for (const auto& c : corners)
-    for (int k = 0; k < 4; ++k) ++a.start[c[k] + 1];
-  std::partial_sum(a.start.begin(), a.start.end(), a.start.begin());
-  a.item.resize(4 * corners.size());
-  std::vector<int> next(a.start.begin(), a.start.end() - 1);
+  std::vector<std::vector<int>> items(mesh.vertices());
   for (std::size_t h = 0; h < corners.size(); ++h)
-    for (int k = 0; k < 4; ++k) a.item[next[corners[h][k]]++] = static_cast<int>(4 * h + k);
-  return a;
+    for (int k = 0; k < 4; ++k) items[corners[h][k]].push_back(static_cast<int>(4 * h + k));
+  return compressed(items);
 }
 
 // The chapter's printed distribution (Wong, Leach, Zambetta 2013, 4.3.1), kept as printed: a factor 1/2, no
@@ -92,11 +87,6 @@ OperatorView<Real> Bending<Real, Device>::view() const {
   const std::size_t bytes = element_bytes() + total_bytes(angle_);
   return {elements_,         area_.data(), row_start_.data(), row_hinge_.data(), coefficient_.data(),
           direction_.data(), bytes};
-}
-
-template <class Real, class Device>
-GatheredForces<Real> Bending<Real, Device>::forces() const {
-  return {vertex_start_.data(), vertex_item_.data(), force_.data()};
 }
 
 template <class Real, class Device>
@@ -170,11 +160,6 @@ void Bending<Real, Device>::command(CommandKind kind, const std::vector<char>& c
 }
 
 template <class Real, class Device>
-double Bending<Real, Device>::taken_by_commands() {
-  return sum_over_elements(taken_.data());
-}
-
-template <class Real, class Device>
 double Bending<Real, Device>::stored_energy() {
   law_->measure(device_, view(), angle_.data(), LawMeasure::stored_energy, energy_.data());
   return sum_over_elements(energy_.data());
@@ -186,21 +171,6 @@ double Bending<Real, Device>::sum_over_elements(const double* on_device) {
   std::vector<double> energy(elements_);
   device_download(device_, energy.data(), on_device, energy.size() * sizeof(double));
   return std::accumulate(energy.begin(), energy.end(), 0.0);
-}
-
-template <class Real, class Device>
-double Bending<Real, Device>::dissipated_energy() {
-  return sum_over_elements(law_->dissipated());
-}
-
-template <class Real, class Device>
-double Bending<Real, Device>::relaxed_energy() {
-  return sum_over_elements(law_->relaxed());
-}
-
-template <class Real, class Device>
-double Bending<Real, Device>::viscous_loss() {
-  return sum_over_elements(viscous_.data());
 }
 
 template <class Real, class Device>
@@ -247,16 +217,6 @@ std::vector<double> Bending<Real, Device>::measured(LawMeasure what, int numbers
   Buffer<double, Device> result(device_, static_cast<std::size_t>(elements_) * numbers);
   law_->measure(device_, view(), angle_.data(), what, result.data());
   return result.download();
-}
-
-template <class Real, class Device>
-std::vector<double> Bending<Real, Device>::residual_curvature() {
-  return geometric(measured(LawMeasure::residual_curvature, dimension_));
-}
-
-template <class Real, class Device>
-std::vector<double> Bending<Real, Device>::slip() {
-  return measured(LawMeasure::slip, 1);
 }
 
 template <class Real, class Device>

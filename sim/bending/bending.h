@@ -33,7 +33,7 @@ class Bending {
   // Accepts the positions: angles continued, history committed, hinge forces ready in forces().  `velocity`
   // acts through the viscosity alone, whose loss is that over the coming dt [s].
   void commit(const Vec3<Real>* position, const Vec3<Real>* velocity, Real dt);
-  GatheredForces<Real> forces() const;
+  GatheredForces<Real> forces() const { return {vertex_start_.data(), vertex_item_.data(), force_.data()}; }
 
   // Implicit steps (bending_implicit.cpp).  begin_step() says how rates are formed, as
   // (angle - reference)/beta_dt with the reference (1 + e) times the accepted angle minus e times the one
@@ -72,15 +72,20 @@ class Bending {
   void command(CommandKind kind, const std::vector<char>& chosen);
 
   // Measurements of the last accepted state; they change nothing.
-  double stored_energy();                    // [J]
-  double dissipated_energy();                // by the law, since the start [J]
-  double relaxed_energy();                   // what of it relaxing branches have lost [J]
-  double viscous_loss();                     // since the start [J]
-  double taken_by_commands();                // recoverable energy, since the start [J]
-  std::vector<double> curvature();           // D per element [1/m]
-  std::vector<double> moment();              // D per element, with viscosity [N]
-  std::vector<double> residual_curvature();  // D per element [1/m]
-  std::vector<double> slip();                // per element, 0..1
+  double stored_energy();  // [J]
+  // Since the start [J]: by the law, what of it relaxing branches have lost, by viscosity, and what
+  // recoverable energy commands have taken.
+  double dissipated_energy() { return sum_over_elements(law_->dissipated()); }
+  double relaxed_energy() { return sum_over_elements(law_->relaxed()); }
+  double viscous_loss() { return sum_over_elements(viscous_.data()); }
+  double taken_by_commands() { return sum_over_elements(taken_.data()); }
+  // D per element: [1/m], [N] with viscosity, [1/m]; and 0..1 per element.
+  std::vector<double> curvature();
+  std::vector<double> moment();
+  std::vector<double> residual_curvature() {
+    return geometric(measured(LawMeasure::residual_curvature, dimension_));
+  }
+  std::vector<double> slip() { return measured(LawMeasure::slip, 1); }
   int dimension() const { return dimension_; }
   int elements() const { return elements_; }
   const LawLoop<Real, Device>& law() const { return *law_; }

@@ -141,13 +141,7 @@ void set_directions(CurvatureOperator& op, const ClothMesh& mesh, double weft, d
 
 CurvatureOperator make_curvature_operator(BendingElement element, const ClothMesh& mesh,
                                           const std::vector<char>& held) {
-  switch (element) {
-    case BendingElement::hinge:
-      return make_hinge_operator(mesh);
-    case BendingElement::shape:
-      return make_shape_operator(mesh, held);
-  }
-  __builtin_unreachable();
+  return element == BendingElement::hinge ? make_hinge_operator(mesh) : make_shape_operator(mesh, held);
 }
 
 namespace {

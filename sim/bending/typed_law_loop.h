@@ -199,29 +199,19 @@ class LawLoopOf : public LawLoop<Real, Device> {
   Buffer<double, Device> dissipated_, relaxed_;
 };
 
-template <class Real, class Device, class Law>
-std::unique_ptr<LawLoop<Real, Device>> make_typed_loop(Device& device, const Law& law,
-                                                       const VirginCurve& curve, int elements) {
-  return std::make_unique<LawLoopOf<Real, Device, Law>>(device, law, curve, elements);
-}
-
 // Loops of a group of laws.  law_loops.cpp.in instantiates them, a file for each group, dimension and
 // precision: they are the slowest to compile.
 template <class Group, class Real, class Device, int D>
 std::unique_ptr<LawLoop<Real, Device>> make_group_loop(Device& device, const LawChoice& choice,
                                                        int elements) {
   std::unique_ptr<LawLoop<Real, Device>> loop;
+  const auto make = [&]<class Law>(const Law& law) {
+    loop = std::make_unique<LawLoopOf<Real, Device, Law>>(device, law, choice.curve, elements);
+  };
   visit_group<Group, Real, D, ClothMemory>(choice, [&]<class Law>(const Law& law) {
-    if constexpr (LawOfOneDirection<Law> && Device::kGpu) {  // one law to compile: nvcc takes long
-      loop = make_typed_loop<Real>(device, Directed<Law>{law}, choice.curve, elements);
-    } else {
-      if constexpr (LawOfOneDirection<Law>)
-        if (innermost(law).two_spectra) {
-          loop = make_typed_loop<Real>(device, Directed<Law>{law}, choice.curve, elements);
-          return;
-        }
-      loop = make_typed_loop<Real>(device, law, choice.curve, elements);
-    }
+    if constexpr (LawOfOneDirection<Law>)
+      if (Device::kGpu || innermost(law).two_spectra) return make(Directed<Law>{law});
+    if constexpr (!(LawOfOneDirection<Law> && Device::kGpu)) make(law);  // one to compile: nvcc takes long
   });
   return loop;
 }

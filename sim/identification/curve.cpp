@@ -1,11 +1,241 @@
 #include "sim/identification/curve.h"
 
+#include <algorithm>
 #include <cmath>
 
-#include "sim/identification/solve.h"
+#include "sim/base/error.h"
+#include "sim/identification/least_squares.h"
+#include "sim/identification/model.h"
+#include "sim/scene/key_table.h"
 
 namespace hysteron {
 namespace {
+
+struct Interval {
+  double low = kInfinity, high = 0;
+  void include(double x) {
+    low = std::min(low, x);
+    high = std::max(high, x);
+  }
+  bool narrow() const { return high <= kWidestFactor * low; }
+};
+
+struct Solution {
+  CurvePoint best;
+  CurvePoint used;        // best, or best under an assumption
+  Covariance covariance;  // of MomentModel::parameters() at the best
+  Eigen::VectorXd residuals;
+  Eigen::MatrixXd jacobian;  // by MomentModel::parameters()
+  int iterations = 0;
+  Interval b1, b2, k0;     // what the scan allows (95 %)
+  bool k0_open = false;    // up to its end
+  Eigen::Vector3d errors;  // standard errors of the logarithms of b1, b2, k0, with their floor
+  double noise = 0;        // variance of a residual, at least that of kBestAccuracy
+
+  // Twice the logarithm of the likelihood ratio between the best and another sum of squares.
+  double fall(double sum) const { return (sum - best.sum) / noise; }
+  // By how much it would rise with a constant added to all residuals (score test; Rao 1948).
+  double rise_with_offset() const {
+    const Eigen::VectorXd ones = Eigen::VectorXd::Ones(residuals.size());
+    const Eigen::VectorXd beside = ones - jacobian * linear_least_squares(jacobian, ones);
+    const double variance = residuals.squaredNorm() / static_cast<double>(residuals.size());
+    return std::pow(beside.dot(residuals), 2) / (beside.squaredNorm() * std::max(variance, 1e-300));
+  }
+};
+
+// Standard errors of the logarithms of b1, b2, k0.
+Eigen::Vector3d relative_errors(const CurvePoint& point, const Eigen::MatrixXd& covariance) {
+  const double b1 = point.b2 + point.g;
+  Eigen::MatrixXd to_named = Eigen::MatrixXd::Zero(3, covariance.cols());
+  to_named.row(0).head<2>() << point.b2 / b1, point.g / b1;
+  to_named(1, 0) = 1;
+  to_named(2, 2) = 1;
+  return (to_named * covariance * to_named.transpose()).diagonal().cwiseMax(0).cwiseSqrt();
+}
+
+void find_intervals(const std::vector<CurvePoint>& scan, Solution& solution) {
+  const auto include = [&](const CurvePoint& point) {
+    solution.b1.include(point.b2 + point.g);
+    solution.b2.include(point.b2);
+    solution.k0.include(point.k0);
+  };
+  solution.errors = relative_errors(solution.best, solution.covariance.with_floor);
+  include(solution.best);
+  for (const CurvePoint& point : scan) {
+    if (solution.fall(point.sum) <= kLikelihoodFall) include(point);
+  }
+  solution.k0_open = solution.fall(scan.back().sum) <= kLikelihoodFall;
+}
+
+Solution solve(const MomentModel& model) {
+  Solution solution;
+  const std::vector<CurvePoint> scan = model.scan(solution.iterations);
+  const CurvePoint start = *std::min_element(
+      scan.begin(), scan.end(), [](const CurvePoint& a, const CurvePoint& b) { return a.sum < b.sum; });
+  if (!std::isfinite(start.sum))
+    throw Error::simulation("no b1, b2 and k0 were found with which the law says anything of these data");
+  const Eigen::VectorXd first = model.parameters(start);
+  const int size = static_cast<int>(first.size());
+  const auto [low, high] = MomentModel::bounds(size);
+  const LeastSquares fit =
+      minimize([&](const Eigen::VectorXd& p) { return model.residuals(model.point(p)); }, first, low, high);
+  solution.iterations += fit.iterations;
+  solution.best = model.point(fit.parameters);
+  solution.best.sum = fit.residuals.squaredNorm();
+  solution.used = solution.best;
+  solution.residuals = fit.residuals;
+  solution.jacobian = fit.jacobian;
+  solution.covariance = covariance(fit.jacobian, fit.residuals);
+  const auto freedom = std::max<double>(1, static_cast<double>(fit.residuals.size() - size));
+  const double widening = solution.covariance.widening;
+  solution.noise = widening * widening * std::max(solution.best.sum / freedom, kBestAccuracy * kBestAccuracy);
+  find_intervals(scan, solution);
+  return solution;
+}
+
+void take(const Solution& solution, const std::string& source, Identification& result) {
+  const Eigen::Vector3d error = relative_errors(solution.best, solution.covariance.matrix);
+  const auto estimate = [&](double value, int i, bool narrow) {
+    Estimate e{value, error[i] * value, narrow && is_determined(solution.errors[i]), source};
+    if (!e.determined) e.standard_error = kNone;
+    return e;
+  };
+  result.b1 = estimate(solution.best.b2 + solution.best.g, 0, solution.b1.narrow());
+  result.b2 = estimate(solution.best.b2, 1, solution.b2.narrow());
+  result.k0 = estimate(solution.best.k0, 2, solution.k0.narrow() && !solution.k0_open);
+  result.iterations = solution.iterations;
+}
+
+std::string range_text(const Interval& interval, bool open, const char* unit) {
+  if (open) return "values above " + rounded(interval.low) + " " + unit;
+  return "values from " + rounded(interval.low) + " to " + rounded(interval.high) + " " + unit;
+}
+
+void say_undetermined(const Solution& solution, Identification& result) {
+  const auto say = [&](const char* name, const Estimate& estimate, const Interval& interval, bool open,
+                       const char* unit) {
+    if (estimate.determined) return;
+    const bool local =
+        interval.narrow() && !open;  // other numbers can take its place, at the best fit already
+    result.statements.push_back(
+        std::string(name) + " is not determined: " +
+        (local ? "its standard error is of its own size"
+               : range_text(interval, open, unit) + " describe the data as well (95 %)"));
+  };
+  say("b1", result.b1, solution.b1, false, "N m");
+  say("b2", result.b2, solution.b2, false, "N m");
+  say("k0", result.k0, solution.k0, solution.k0_open, "1/m");
+}
+
+void assume(Estimate& estimate, double value, const std::string& source) {
+  estimate.value = value;
+  estimate.source = source;
+  estimate.confidence = "assumed";
+}
+
+// b2 and k0 are open, the slope and the bend of the curve (b1 and c1) are not: b2 = ratio b1.
+bool assume_ratio(const MomentModel& model, const Assumptions& assumptions, Solution& solution,
+                  Identification& result) {
+  const CurvePoint& best = solution.best;
+  const double ratio = assumptions.ratio, b1 = best.b2 + best.g;
+  const double k0 = std::max((1 - ratio) * b1 * best.k0 / best.g, model.largest_curvature());
+  const auto numbers = [&](const Eigen::VectorXd& factor) {
+    const double stiffness = b1 * factor[0];
+    return CurvePoint{ratio * stiffness, (1 - ratio) * stiffness, k0 * factor[1], {}, 0};
+  };
+  const Tied tied = fit_tied(model, numbers, 2, best);
+  result.iterations += tied.iterations;
+  if (solution.fall(tied.best.sum) > kLikelihoodFall) return false;
+  solution.used = tied.best;
+  const double value = tied.best.b2 + tied.best.g;
+  result.b1.value = value;
+  const Eigen::MatrixXd c = covariance(tied.jacobian, tied.residuals).matrix;
+  result.b1.standard_error = value * std::sqrt(c(0, 0));
+  assume(result.b2, tied.best.b2, assumptions.ratio_source());
+  assume(result.k0, tied.best.k0,
+         "follows from the curve's bend and the ratio b2/b1, which is " + assumptions.ratio_source());
+  const double c1 = tied.best.curve().c1();
+  result.further.emplace_back("c1_N_m2", c1);
+  result.further.emplace_back("c1_N_m2_stderr", -c1 * std::sqrt(c(0, 0) + c(1, 1) - 2 * c(0, 1)));
+  result.statements.push_back("the data fix b1 and the bend c1 = (b2 - b1)/(2 k0) = " + rounded(c1) +
+                              " N m^2; " + assumptions.ratio_source());
+  return true;
+}
+
+// b2 is fixed and the way to it is not: k0 as for fabrics from KES.
+bool assume_k0(const MomentModel& model, const Assumptions& assumptions, Solution& solution,
+               Identification& result) {
+  const CurvePoint start = model.best_at(assumptions.k0, result.iterations);
+  const auto numbers = [&](const Eigen::VectorXd& factor) {
+    return CurvePoint{start.b2 * factor[0], start.g * factor[1], assumptions.k0, {}, 0};
+  };
+  const Tied tied = fit_tied(model, numbers, 2, start);
+  result.iterations += tied.iterations;
+  if (solution.fall(tied.best.sum) > kLikelihoodFall) return false;
+  solution.used = tied.best;
+  const double b2 = tied.best.b2, b1 = b2 + tied.best.g;
+  const Eigen::MatrixXd c = covariance(tied.jacobian, tied.residuals).matrix;
+  const Eigen::Vector2d weight(b2 / b1, tied.best.g / b1);
+  result.b2.value = b2;
+  result.b2.standard_error = b2 * std::sqrt(c(0, 0));
+  assume(result.k0, assumptions.k0, assumptions.k0_source());
+  if (result.b1.determined) {
+    result.b1.value = b1;
+    result.b1.standard_error = b1 * std::sqrt(weight.dot(c.topLeftCorner<2, 2>() * weight));
+  } else {
+    assume(result.b1, b1, "follows from b2, the friction moment and k0, which is " + assumptions.k0_source());
+  }
+  const double hb = tied.best.curve().friction_moment();
+  result.further.emplace_back("HB_N", hb);
+  result.further.emplace_back("HB_N_stderr", hb * std::sqrt(c(1, 1)));
+  result.statements.push_back("the data fix b2 and the friction moment HB = (b1 - b2) k0/2 = " + rounded(hb) +
+                              " N; " + assumptions.k0_source());
+  return true;
+}
+
+// No bend and no loop beyond the noise: b1 is the slope, and nothing is seen of what comes beyond.
+bool is_straight(const MomentModel& model, const Assumptions& assumptions, Solution& solution,
+                 Identification& result) {
+  const double b1 = solution.best.b2 + solution.best.g;
+  const auto numbers = [&](const Eigen::VectorXd& factor) {
+    return CurvePoint{b1 * factor[0], 0, assumptions.k0, {}, 0};
+  };
+  const Tied line = fit_tied(model, numbers, 1, solution.best);
+  if (solution.fall(line.best.sum) > kLikelihoodFall) return false;
+  solution.used = line.best;
+  const Covariance c = covariance(line.jacobian, line.residuals);
+  result.b1.value = line.best.b2;
+  result.b1.determined = is_determined(std::sqrt(c.with_floor(0, 0)));
+  result.b1.standard_error = result.b1.determined ? line.best.b2 * std::sqrt(c.matrix(0, 0)) : kNone;
+  result.b2 = {line.best.b2, kNone, false, "b2 = b1: the data show no bend", "assumed"};
+  result.k0 = {assumptions.k0, kNone, false, assumptions.k0_source(), "assumed"};
+  const std::string range = " up to " + rounded(model.largest_curvature()) + " 1/m; b2 = b1 is taken";
+  result.statements.push_back(solution.covariance.widening > 1
+                                  ? "the law describes these data no better with friction than without it" +
+                                        range
+                                  : "within its noise the curve is a straight line without a loop: it fixes "
+                                    "b1 and shows neither a bend nor "
+                                    "friction" +
+                                        range);
+  return true;
+}
+
+// Numbers with standard errors into `result`.  A number is undetermined if the scan's interval or the
+// standard error's (from the singular values of the scaled Jacobian) is wider than kWidestFactor; where an
+// assumption then describes the data as well, it is taken, and Solution::used with it. `source` is noted for
+// what is fitted.
+void identify(const MomentModel& model, const Assumptions& assumptions, const std::string& source,
+              Solution& solution, Identification& result) {
+  take(solution, source, result);
+  if (!result.k0.determined && is_straight(model, assumptions, solution, result)) return;
+  say_undetermined(solution, result);
+  if (result.k0.determined || (!result.b2.determined && !result.b1.determined)) return;
+  const bool by_k0 = result.b2.determined;
+  if ((by_k0 ? assume_k0 : assume_ratio)(model, assumptions, solution, result)) return;
+  result.statements.push_back("the usual assumption (" +
+                              (by_k0 ? assumptions.k0_source() : assumptions.ratio_source()) +
+                              ") contradicts the data; the best fit stands");
+}
 
 // A cycle before the first row is believed when it lowers the residual to this share.
 constexpr double kClearlyBetter = 0.95;

@@ -6,9 +6,6 @@
 
 #include "sim/base/csv.h"
 #include "sim/base/error.h"
-#include "sim/identification/fab_cycles.h"
-#include "sim/identification/least_squares.h"
-#include "sim/reference/fab_test.h"
 
 namespace hysteron {
 namespace {
@@ -72,13 +69,13 @@ class DecayModel {
     double fall = 0;
     for (std::size_t i = 1; i < series.amplitude.size(); ++i)
       fall = std::max(fall, stiffness(i - 1) * (series.amplitude[i - 1] - series.amplitude[i]));
-    prior_friction = std::max(fall, question.noise * stiffness(0)) / (2 * mode_.curvature.dot(mode_.weight));
+    prior_friction_ = std::max(fall, question.noise * stiffness(0)) / (2 * mode_.curvature.dot(mode_.weight));
   }
 
   int numbers() const { return static_cast<int>(form_.spreads.size()); }
   int rows() const { return static_cast<int>(series_.amplitude.size()); }
   const FrictionForm& form() const { return form_; }
-  Spectrum stops(const VectorXd& p) const { return form_.stops(p.head(numbers()), prior_friction); }
+  Spectrum stops(const VectorXd& p) const { return form_.stops(p.head(numbers()), prior_friction_); }
 
   std::vector<double> amplitudes(const Spectrum& stops, double first) const {
     std::vector<double> all = {first};
@@ -103,8 +100,6 @@ class DecayModel {
     return result;
   }
 
-  double prior_friction = 0;  // [N]
-
  private:
   // K of the turn after amplitude i [N/m^2 m].
   double stiffness(std::size_t i) const {
@@ -122,6 +117,7 @@ class DecayModel {
   const DecayQuestion& question_;
   FrictionForm form_;
   Mode mode_;
+  double prior_friction_ = 0;  // [N]
 };
 
 }  // namespace
@@ -163,17 +159,12 @@ FabBending identify_decay(const DecaySeries& series, const DecayQuestion& questi
   found.form = best.parameters.head(n);
   found.first = series.amplitude[0] * std::exp(best.parameters[n]);
   found.form_errors = c.diagonal().head(n).cwiseMax(0).cwiseSqrt();
-  found.spring_error = 0;
-  found.determined = {true};
-  for (int j = 0; j < found.law.stops(); ++j) {
-    found.stiffness_errors.push_back(of_stops[j] * found.law.stiffnesses[j]);
-    found.determined.push_back(is_determined(of_stops[j]));
-  }
+  found.set_errors(0, of_stops);
+  found.spring_error = 0;  // whatever the sign of what is left of the rigidity
   found.friction_error = of_stops[found.law.stops()] * found.law.friction();
   found.rows = model.rows();
   found.residual_rms = std::sqrt(left.squaredNorm() / model.rows());
   found.correlation = left.head(left.size() - 1).dot(left.tail(left.size() - 1)) / left.squaredNorm();
-  found.prior_friction = model.prior_friction;
   found.iterations = best.iterations;
   found.converged = best.converged;
   return found;

@@ -157,27 +157,7 @@ std::vector<Amplitude> turning_amplitudes(const std::vector<TurningPoint>& turns
   return result;
 }
 
-DecayLine line_through(const std::vector<Amplitude>& amplitudes) {
-  const DecayFit fit = line(series_from(amplitudes, 0));
-  return {fit.first, fit.rate};
-}
-
-std::string enum_name(DecayShape shape) {
-  switch (shape) {
-    case DecayShape::linear:
-      return "linear";
-    case DecayShape::two_step:
-      return "two-step";
-    case DecayShape::exponential:
-      return "exponential";
-    case DecayShape::hyperbolic:
-      return "hyperbolic";
-    case DecayShape::plateau:
-      return "plateau";
-    default:
-      return "unknown";
-  }
-}
+DecayFit line_through(const std::vector<Amplitude>& amplitudes) { return line(series_from(amplitudes, 0)); }
 
 double DecayFit::at(double t) const {
   switch (shape) {

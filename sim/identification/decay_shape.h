@@ -15,8 +15,10 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <string>
+#include <array>
 #include <vector>
+
+#include "sim/base/enum_names.h"
 
 namespace hysteron {
 
@@ -43,13 +45,6 @@ struct Amplitude {
 // Of every turning point between two others.
 std::vector<Amplitude> turning_amplitudes(const std::vector<TurningPoint>& turns);
 
-// The line nearest to amplitudes, two at least: its value at the first one's time [m], and how fast it falls
-// [m/s].
-struct DecayLine {
-  double first, rate;
-};
-DecayLine line_through(const std::vector<Amplitude>& amplitudes);
-
 enum class DecayShape {
   linear,
   two_step,
@@ -58,7 +53,9 @@ enum class DecayShape {
   plateau,  // a turn takes less than kPlateau: nothing brakes
   unknown,  // too few amplitudes, they fall by less than kMinFall, or two shapes describe them alike
 };
-std::string enum_name(DecayShape shape);
+constexpr std::array<const char*, 6> names(DecayShape) {
+  return {"linear", "two-step", "exponential", "hyperbolic", "plateau", "unknown"};
+}
 
 constexpr double kPlateau = 0.01;          // of the amplitude, in a turn
 constexpr std::size_t kMinAmplitudes = 6;  // two lines of three each
@@ -81,6 +78,9 @@ struct DecayFit {
 
   double at(double t) const;
 };
+
+// The line nearest to amplitudes, two at least.
+DecayFit line_through(const std::vector<Amplitude>& amplitudes);
 
 struct Decay {
   DecayShape shape = DecayShape::unknown;

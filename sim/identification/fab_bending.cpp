@@ -5,8 +5,6 @@
 #include <optional>
 
 #include "sim/base/error.h"
-#include "sim/identification/fab_cycles.h"
-#include "sim/identification/least_squares.h"
 #include "sim/reference/buckled_strip.h"
 #include "sim/scene/key_table.h"
 
@@ -119,29 +117,22 @@ class BendingModel {
       row.weight = one.width / question.noise *
                    (is_settling(one, row.branch, row.index, question.settling) ? question.trust : 1);
     }
-    prior_friction = friction / static_cast<double>(loops.size() * question.cycles.size());
+    prior_friction_ = friction / static_cast<double>(loops.size() * question.cycles.size());
   }
 
   StopsLaw law(const VectorXd& p) const {
-    const Spectrum stops = form_.stops(p.segment(1, numbers_), prior_friction);
+    const Spectrum stops = form_.stops(p.segment(1, numbers_), prior_friction_);
     return {std::exp(p[0]) * prior_spring(), stops.thresholds, stops.stiffnesses};
   }
 
   // Rows, then the distances of logarithms from their priors; not a number where no equilibrium is found.
   VectorXd residuals(const VectorXd& p) const {
-    const int last = *std::max_element(question_.cycles.begin(), question_.cycles.end());
-    std::vector<BranchForces> force;
+    VectorXd result(size());
     try {
-      for (const FabLoops& loops : loops_)
-        force.push_back(run_fab(loops, {law(p), {}, question_.density}, 2 * last).force);
+      result.head(rows()) = row_residuals(loops_, question_.cycles, rows_, {law(p), {}, question_.density},
+                                          p.tail(loops_.size()));
     } catch (const Error&) {
       return VectorXd::Constant(size(), kNone);
-    }
-    VectorXd result(size());
-    for (int i = 0; i < rows(); ++i) {
-      const FabRow& row = rows_[i];
-      result[i] =
-          row.weight * (force[row.loops][row.branch][row.index] + p[1 + numbers_ + row.loops] - row.force);
     }
     result[rows()] = p[0] / kSpringSpread;
     for (int j = 0; j < numbers_; ++j) result[rows() + 1 + j] = p[1 + j] / form_.spreads[j];
@@ -162,9 +153,7 @@ class BendingModel {
   const FrictionForm& form() const { return form_; }
   int parameters() const { return 1 + numbers_ + static_cast<int>(loops_.size()); }
   int size() const { return rows() + 1 + numbers_; }
-  double prior_spring() const { return prior_friction / kFrictionOverSpring; }
-
-  double prior_friction = 0;  // [N]
+  double prior_spring() const { return prior_friction_ / kFrictionOverSpring; }
 
  private:
   const std::vector<FabLoops>& loops_;
@@ -172,6 +161,7 @@ class BendingModel {
   FrictionForm form_;
   int numbers_;  // of friction
   std::vector<FabRow> rows_;
+  double prior_friction_ = 0;  // [N]
 };
 
 void set_bending_errors(const BendingModel& model, const LeastSquares& best, FabBending& found) {
@@ -179,13 +169,8 @@ void set_bending_errors(const BendingModel& model, const LeastSquares& best, Fab
   const Eigen::MatrixXd c = posterior(best, model.rows());
   const VectorXd error = c.diagonal().cwiseMax(0).cwiseSqrt();
   const VectorXd of_stops = stop_errors(model.form(), best.parameters.segment(1, n), c.block(1, 1, n, n));
-  found.spring_error = error[0] * found.law.spring;
+  found.set_errors(error[0], of_stops);
   found.form_errors = error.segment(1, model.numbers());
-  found.determined = {is_determined(error[0])};
-  for (int j = 0; j < found.law.stops(); ++j) {
-    found.stiffness_errors.push_back(of_stops[j] * found.law.stiffnesses[j]);
-    found.determined.push_back(is_determined(of_stops[j]));
-  }
   const VectorXd zeros = error.tail(error.size() - 1 - model.numbers());
   found.zero_errors.assign(zeros.begin(), zeros.end());
   found.friction_error = of_stops[found.law.stops()] * found.law.friction();
@@ -220,19 +205,12 @@ FabBending identify_fab_bending(const std::vector<FabLoops>& loops, const FabBen
                             "work suggests, b2 = " + rounded(model.prior_spring()) +
                             " N m: check gauge, width, density and the units of forces");
   FabBending found;
-  found.direction = loops[0].direction;
+  found.take(best, loops, model.rows());
   found.law = model.law(best.parameters);
-  const VectorXd zeros = best.parameters.tail(loops.size());
-  found.zero.assign(zeros.begin(), zeros.end());
   found.form = best.parameters.segment(1, model.numbers());
-  found.rows = model.rows();
   found.residual_rms = std::sqrt(best.residuals.head(model.rows()).squaredNorm() / model.rows());
   const VectorXd left = best.residuals.head(model.rows());
   found.correlation = left.head(model.rows() - 1).dot(left.tail(model.rows() - 1)) / left.squaredNorm();
-  found.prior_friction = model.prior_friction;
-  found.prior_spring = model.prior_spring();
-  found.iterations = best.iterations;
-  found.converged = best.converged;
   set_bending_errors(model, best, found);
   return found;
 }

@@ -14,8 +14,7 @@
 #include <vector>
 
 #include "sim/bending/laws/friction_shape.h"
-#include "sim/identification/identification.h"
-#include "sim/reference/fab_test.h"
+#include "sim/identification/fab_cycles.h"
 
 namespace hysteron {
 
@@ -56,23 +55,13 @@ struct FabBendingQuestion {
   double trust = 0.3;      // ... and their weight there
 };
 
-struct FabBending {
-  std::string direction;
-  StopsLaw law;
-  // Standard errors: of stiffnesses, whose logarithms are sought, that of the logarithm times the value [N
-  // m].
-  double spring_error = kNone;
-  std::vector<double> stiffness_errors;
-  std::vector<bool> determined;                 // of the spring, then of each stop
-  double friction_error = kNone;                // of law.friction() [N]
-  double first = kNone;                         // of a decay: its first amplitude [m]
-  Eigen::VectorXd form, form_errors;            // parameters of the friction's form and standard errors
-  std::vector<double> zero, zero_errors;        // of force, by fitted loops [N/m]
-  double residual_rms = 0;                      // over the noise, unreliable rows weighted
-  double correlation = 0;                       // of what is left in neighbouring rows
-  double prior_friction = 0, prior_spring = 0;  // that the prior is centred on [N], [N m]
-  int rows = 0, iterations = 0;
-  bool converged = false;
+struct FabBending : FabStops {
+  double friction_error = kNone;      // of law.friction() [N]
+  double first = kNone;               // of a decay: its first amplitude [m]
+  Eigen::VectorXd form, form_errors;  // parameters of the friction's form and standard errors
+  std::vector<double> zero_errors;    // standard errors [N/m]
+  double residual_rms = 0;            // over the noise, unreliable rows weighted
+  double correlation = 0;             // of what is left in neighbouring rows
 
   bool is_shaped() const { return form.size() == 3 && law.stops() == kShapedStops; }
   std::vector<std::string> undetermined() const;  // "b2", "stop 128/m", ...; of a shape "median", "spread"
@@ -90,7 +79,6 @@ struct FabForm {
   // with 95 % (Wilks 1938).  Rows that depend on each other count as n (1 - r)/(1 + r), r that of the best.
   double misfit(const FabBending& best) const;
 };
-inline constexpr double kLikelihoodFall = 3.84;  // twice that of its logarithm, 95 % (Wilks 1938)
 // Friction that saturates at k0 of a grid [1/m]; without those for which no equilibrium is found.
 std::vector<FabForm> even_forms(const std::vector<FabLoops>& loops, const FabBendingQuestion& question);
 std::vector<FabForm> even_form_fits(const std::function<FabBending(const FrictionForm&)>& identify);

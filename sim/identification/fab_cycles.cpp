@@ -26,6 +26,38 @@ std::vector<FabRow> branch_rows(const std::vector<FabLoops>& loops, const std::v
   return rows;
 }
 
+Eigen::VectorXd row_residuals(const std::vector<FabLoops>& loops, const std::vector<int>& cycles,
+                              const std::vector<FabRow>& rows, const FabStrip& strip,
+                              const Eigen::VectorXd& zeros) {
+  const int last = *std::max_element(cycles.begin(), cycles.end());
+  std::vector<BranchForces> force;
+  for (const FabLoops& one : loops) force.push_back(run_fab(one, strip, 2 * last).force);
+  Eigen::VectorXd result(rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const FabRow& row = rows[i];
+    result[i] = row.weight * (force[row.loops][row.branch][row.index] + zeros[row.loops] - row.force);
+  }
+  return result;
+}
+
+void FabStops::take(const LeastSquares& best, const std::vector<FabLoops>& loops, int fitted_rows) {
+  direction = loops[0].direction;
+  const Eigen::VectorXd zeros = best.parameters.tail(loops.size());
+  zero.assign(zeros.begin(), zeros.end());
+  rows = fitted_rows;
+  iterations = best.iterations;
+  converged = best.converged;
+}
+
+void FabStops::set_errors(double of_spring, const Eigen::VectorXd& of_stops) {
+  spring_error = of_spring * law.spring;
+  determined = {is_determined(of_spring)};
+  for (int j = 0; j < law.stops(); ++j) {
+    stiffness_errors.push_back(of_stops[j] * law.stiffnesses[j]);
+    determined.push_back(is_determined(of_stops[j]));
+  }
+}
+
 Eigen::MatrixXd posterior(const LeastSquares& best, int rows) {
   const auto parameters = best.jacobian.cols();
   const double free = std::max<double>(1, rows - static_cast<double>(parameters));

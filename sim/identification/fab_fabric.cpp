@@ -29,20 +29,19 @@ std::string verdict(double relative_error, bool determined) {
                                : fmt::format("not determined, known within a factor of {:.1f}", factor);
 }
 
-// A comment on each stop: value, standard error, and what decided about it.
-std::string stop_notes(const StopsLaw& law, const std::vector<double>& errors,
-                       const std::vector<bool>& determined, const char* threshold_unit, const char* unit) {
+// The stops with a comment on each: value, standard error, and what decided about it.
+std::string stops_table(const std::string& name, const FabStops& found, const char* threshold_unit,
+                        const char* unit, const std::string& from) {
+  const StopsLaw& law = found.law;
   std::string text;
-  for (int j = 0; j < law.stops(); ++j)
+  for (int j = 0; j < law.stops(); ++j) {
+    const double error = found.stiffness_errors[j], stiffness = law.stiffnesses[j];
     text += fmt::format("#   {}{}: {:.3g} +- {:.2g} {}, {}\n", number_text(law.thresholds[j]), threshold_unit,
-                        law.stiffnesses[j], errors[j], unit,
-                        verdict(errors[j] / law.stiffnesses[j], determined[j + 1]));
-  return text;
-}
-
-std::string table(const std::string& name, const StopsLaw& law, const std::string& from) {
-  return "[" + name + "]\nthresholds = " + list(law.thresholds) + "\nstiffnesses = " + list(law.stiffnesses) +
-         "\nsource = \"" + from + "\"\nconfidence = \"fitted\"\n";
+                        stiffness, error, unit, verdict(error / stiffness, found.determined[j + 1]));
+  }
+  return text + "[" + name + "]\nthresholds = " + list(law.thresholds) +
+         "\nstiffnesses = " + list(law.stiffnesses) + "\nsource = \"" + from +
+         "\"\nconfidence = \"fitted\"\n";
 }
 
 // "; friction slips about 18.9/m, ..."
@@ -62,8 +61,7 @@ std::string bending_tables(const FabIdentification& found) {
     text += "\n# Bends along " + b.direction + ", identified from " + found.from +
             (b.is_shaped() ? shape_words(b)
                            : "; thresholds [1/m] are a grid that was given, stiffnesses [N m]:\n") +
-            stop_notes(b.law, b.stiffness_errors, b.determined, "/m", "N m") +
-            table(i == 0 ? "bending.stops" : "bending.stops.weft", b.law, found.from);
+            stops_table(i == 0 ? "bending.stops" : "bending.stops.weft", b, "/m", "N m", found.from);
   }
   return text;
 }
@@ -74,15 +72,12 @@ std::string tension_tables(const FabIdentification& found) {
     const FabTension& t = found.tension[i];
     text += "\n# Stretch along " + t.direction + ", identified from " + found.from +
             "; thresholds (strain) are a grid that was given, stiffnesses [N/m]:\n" +
-            stop_notes(t.law, t.stiffness_errors, t.determined, "", "N/m") +
-            table(i == 0 ? "membrane.stops.warp" : "membrane.stops.weft", t.law, found.from);
+            stops_table(i == 0 ? "membrane.stops.warp" : "membrane.stops.weft", t, "", "N/m", found.from);
   }
   return text;
 }
 
-Estimate derived(double value, double error, const std::string& source) {
-  return {value, error, true, source, "derived"};
-}
+Estimate derived(double value, const std::string& source) { return {value, kNone, true, source, "derived"}; }
 
 // b1, b2 and k0 with the same first slope, last slope and friction moment, for laws that know no stops.
 Identification three_numbers(const FabIdentification& found) {
@@ -92,8 +87,8 @@ Identification three_numbers(const FabIdentification& found) {
   numbers.b2 = {b.law.spring, b.spring_error, static_cast<bool>(b.determined[0]),
                 "elasticity beside the stops, identified from " + found.from};
   const double b1 = b.law.initial_stiffness();
-  numbers.b1 = derived(b1, kNone, "b2 and the sum of the stops' stiffnesses");
-  numbers.k0 = derived(2 * b.law.friction() / (b1 - b.law.spring), kNone,
+  numbers.b1 = derived(b1, "b2 and the sum of the stops' stiffnesses");
+  numbers.k0 = derived(2 * b.law.friction() / (b1 - b.law.spring),
                        "2 HB/(b1 - b2) of the stops, so that M0 is their friction moment");
   for (const FabBending& one : found.bending) {
     std::vector<std::string> open = one.undetermined();
@@ -107,27 +102,19 @@ Identification three_numbers(const FabIdentification& found) {
 }
 
 // In [parameters], behind what write_fabric() knows.
-std::string ratio_line(const char* name, double ratio, const std::string& source) {
-  return fmt::format("{} = {{value = {}, source = \"{}\", confidence = \"derived\"}}\n", name,
-                     number_text(ratio), source);
-}
-
-std::string stiffness_line(const char* name, double value, const std::string& source) {
-  return fmt::format("{} = {{value = {}, unit = \"N/m\", source = \"{}\", confidence = \"fitted\"}}\n", name,
-                     number_text(value), source);
-}
-
 std::string further_parameters(const FabIdentification& found) {
   std::string text;
   if (found.bending.size() > 1) {
     const double ratio = found.bending[1].law.spring / found.bending[0].law.spring;
-    text += ratio_line("weft-bending", ratio, "b2 along the second direction over the first") +
-            ratio_line("bias-bending", (1 + ratio) / 2, "the mean of both directions, not measured");
+    text += fabric_entry("weft-bending", "", derived(ratio, "b2 along the second direction over the first")) +
+            fabric_entry("bias-bending", "",
+                         derived((1 + ratio) / 2, "the mean of both directions, not measured"));
   }
   const char* const kNames[] = {"warp", "weft"};
   for (std::size_t i = 0; i < std::min<std::size_t>(2, found.tension.size()); ++i)
-    text += stiffness_line(kNames[i], found.tension[i].law.spring,
-                           "stretch beside its stops, identified from " + found.from);
+    text += fabric_entry(kNames[i], "N/m",
+                         {found.tension[i].law.spring, kNone, true,
+                          "stretch beside its stops, identified from " + found.from});
   return text;
 }
 

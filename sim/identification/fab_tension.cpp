@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/identification/fab_cycles.h"
-#include "sim/identification/least_squares.h"
 #include "sim/scene/key_table.h"
 
 namespace hysteron {
@@ -44,15 +42,9 @@ class TensionModel {
   }
 
   VectorXd residuals(const VectorXd& p) const {
-    const int last = *std::max_element(question_.cycles.begin(), question_.cycles.end());
-    std::vector<BranchForces> force;
-    for (const FabLoops& loops : loops_) force.push_back(run_fab(loops, {{}, law(p), 0}, 2 * last).force);
     VectorXd result(rows() + 1 + stops_);
-    for (int i = 0; i < rows(); ++i) {
-      const FabRow& row = rows_[i];
-      const double model = force[row.loops][row.branch][row.index] + p[1 + stops_ + row.loops];
-      result[i] = row.weight * (model - row.force);
-    }
+    result.head(rows()) =
+        row_residuals(loops_, question_.cycles, rows_, {{}, law(p), 0}, p.tail(loops_.size()));
     result.tail(1 + stops_) = p.head(1 + stops_) / kTensionSpread;
     return result;
   }
@@ -88,16 +80,6 @@ class TensionModel {
   double largest_strain_ = 0;
 };
 
-void set_tension_errors(const TensionModel& model, const LeastSquares& best, FabTension& found) {
-  const VectorXd error = posterior(best, model.rows()).diagonal().cwiseMax(0).cwiseSqrt();
-  found.spring_error = error[0] * found.law.spring;
-  found.determined = {is_determined(error[0])};
-  for (int j = 0; j < found.law.stops(); ++j) {
-    found.stiffness_errors.push_back(error[1 + j] * found.law.stiffnesses[j]);
-    found.determined.push_back(is_determined(error[1 + j]));
-  }
-}
-
 }  // namespace
 
 std::vector<std::string> FabTension::undetermined() const {
@@ -118,16 +100,12 @@ FabTension identify_fab_tension(const std::vector<FabLoops>& loops, const FabTen
   const LeastSquares best =
       minimize([&](const VectorXd& p) { return model.residuals(p); }, model.start(), low, high);
   FabTension found;
-  found.direction = loops[0].direction;
+  found.take(best, loops, model.rows());
   found.law = model.law(best.parameters);
-  const VectorXd zeros = best.parameters.tail(count);
-  found.zero.assign(zeros.begin(), zeros.end());
-  found.rows = model.rows();
   found.largest_force = model.largest_force;
   found.residual_rms = model.rms(best.residuals);
-  found.iterations = best.iterations;
-  found.converged = best.converged;
-  set_tension_errors(model, best, found);
+  const VectorXd error = posterior(best, model.rows()).diagonal().cwiseMax(0).cwiseSqrt();
+  found.set_errors(error[0], error.tail(error.size() - 1));
   return found;
 }
 

@@ -5,8 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/identification/identification.h"
-#include "sim/reference/fab_test.h"
+#include "sim/identification/fab_cycles.h"
 
 namespace hysteron {
 
@@ -17,17 +16,9 @@ struct FabTensionQuestion {
   double fraction = 0.01;  // that no such law describes to less
 };
 
-struct FabTension {
-  std::string direction;
-  StopsLaw law;  // [N/m] against strain
-  double spring_error = kNone;
-  std::vector<double> stiffness_errors;
-  std::vector<bool> determined;  // of the spring, then of each stop
-  std::vector<double> zero;      // of force, by fitted loops [N/m]
-  double residual_rms = 0;       // [N/m]
-  double largest_force = 0;      // of the fitted rows, over the zero [N/m]
-  int rows = 0, iterations = 0;
-  bool converged = false;
+struct FabTension : FabStops {  // [N/m] against strain
+  double residual_rms = 0;      // [N/m]
+  double largest_force = 0;     // of the fitted rows, over the zero [N/m]
 
   std::vector<std::string> undetermined() const;  // "warp spring", "stop 0.08"
 };

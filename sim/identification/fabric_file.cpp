@@ -22,22 +22,16 @@ std::string quoted(const std::string& text) {
   return result + '"';
 }
 
-std::string entry(const std::string& name, double value, const std::string& unit, const Estimate& from) {
-  std::string text = name + " = {value = " + number_text(value) + ", unit = " + quoted(unit);
-  if (std::isfinite(from.standard_error)) text += ", stderr = " + number_text(from.standard_error);
-  return text + ", source = " + quoted(from.source) + ", confidence = " + quoted(from.confidence) + "}\n";
-}
-
 std::string borrowed_from(const Fabric& fabric) {
   return "not measured, not this fabric's: that of " + fabric.name + ", the program's default";
 }
 
 std::string given_or_default(const std::string& name, const std::optional<double>& given, double otherwise,
                              const std::string& unit) {
-  const Estimate from{0, kNone, true,
-                      given ? "given by hand to the fit, --fabric." + name : borrowed_from(Fabric()),
-                      given ? "given" : "assumed"};
-  return entry(name, given.value_or(otherwise), unit, from);
+  return fabric_entry(name, unit,
+                      {given.value_or(otherwise), kNone, true,
+                       given ? "given by hand to the fit, --fabric." + name : borrowed_from(Fabric()),
+                       given ? "given" : "assumed"});
 }
 
 // What a scene would refuse of the fabric, before it has its name.
@@ -68,6 +62,13 @@ std::vector<std::string> borrowed_warnings(const FabricNotes& notes) {
   return lines;
 }
 
+std::string fabric_entry(const std::string& name, const std::string& unit, const Estimate& from) {
+  std::string text = name + " = {value = " + number_text(from.value);
+  if (!unit.empty()) text += ", unit = " + quoted(unit);
+  if (std::isfinite(from.standard_error)) text += ", stderr = " + number_text(from.standard_error);
+  return text + ", source = " + quoted(from.source) + ", confidence = " + quoted(from.confidence) + "}\n";
+}
+
 std::string fabric_text(const Identification& found, const FabricNotes& notes) {
   const std::vector<std::string> open = found.undetermined();
   std::string text = "# Written by hysteron fit.  The data " +
@@ -77,8 +78,8 @@ std::string fabric_text(const Identification& found, const FabricNotes& notes) {
   for (const std::string& warning : borrowed_warnings(notes)) text += "# - warning: " + warning + "\n";
   text +=
       "name = " + quoted(notes.name) + "\ndescription = " + quoted("identified from " + notes.from) + "\n";
-  text += "\n[parameters]\n" + entry("b1", found.b1.value, "N m", found.b1) +
-          entry("b2", found.b2.value, "N m", found.b2) + entry("k0", found.k0.value, "1/m", found.k0);
+  text += "\n[parameters]\n" + fabric_entry("b1", "N m", found.b1) + fabric_entry("b2", "N m", found.b2) +
+          fabric_entry("k0", "1/m", found.k0);
   const Fabric default_fabric;
   text += given_or_default("density", notes.density, default_fabric.density, "kg/m^2") +
           given_or_default("thickness", notes.thickness, default_fabric.thickness, "m");

@@ -42,6 +42,10 @@ std::string rounded(double x);
 // A quantity whose 95 % interval spans more than this factor is called undetermined.
 inline constexpr double kWidestFactor = 3;
 
+// Twice the logarithm of the likelihood may fall by this much within a 95 % interval (Wilks 1938); what
+// lowers it more contradicts the data.
+inline constexpr double kLikelihoodFall = 3.84;
+
 // What stands in where the data cannot decide.
 struct Assumptions {
   double ratio = 0.5;  // b2/b1: the four fabrics of assets/fabrics with KES pairs have 0.32 to 0.58

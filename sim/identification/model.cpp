@@ -111,18 +111,11 @@ CurvePoint MomentModel::point(const Eigen::VectorXd& parameters) const {
           std::exp(parameters[2]) * curvature_, parameters.tail(parameters.size() - 3), 0};
 }
 
-Eigen::VectorXd MomentModel::low(int size) const {
-  Eigen::VectorXd result = Eigen::VectorXd::Constant(size, -kWide);
-  result[0] = result[1] = std::log(kSmallestRigidity);
-  result[2] = std::log(kScanLow / 2);
-  return result;
-}
-
-Eigen::VectorXd MomentModel::high(int size) const {
-  Eigen::VectorXd result = Eigen::VectorXd::Constant(size, kWide);
-  result[0] = result[1] = std::log(kLargestRigidity);
-  result[2] = std::log(kScanHigh * 2);
-  return result;
+std::pair<Eigen::VectorXd, Eigen::VectorXd> MomentModel::bounds(int size) {
+  Eigen::VectorXd low = Eigen::VectorXd::Constant(size, -kWide), high = -low;
+  low.head<3>() << std::log(kSmallestRigidity), std::log(kSmallestRigidity), std::log(kScanLow / 2);
+  high.head<3>() << std::log(kLargestRigidity), std::log(kLargestRigidity), std::log(kScanHigh * 2);
+  return {low, high};
 }
 
 std::vector<CurvePoint> MomentModel::scan(int& iterations) const {

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include "sim/identification/series.h"
@@ -38,8 +39,8 @@ class MomentModel {
   // Parameters of the whole fit: logarithms of b2, g, k0 over their scales, then the nuisance.
   Eigen::VectorXd parameters(const CurvePoint& point) const;
   CurvePoint point(const Eigen::VectorXd& parameters) const;
-  Eigen::VectorXd low(int size) const;
-  Eigen::VectorXd high(int size) const;
+  // Bounds of so many of them, low and high.
+  static std::pair<Eigen::VectorXd, Eigen::VectorXd> bounds(int size);
 
   // Best at each of many k0, in rising order.
   std::vector<CurvePoint> scan(int& iterations) const;

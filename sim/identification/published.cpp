@@ -4,6 +4,7 @@
 
 #include "sim/base/csv.h"
 #include "sim/base/error.h"
+#include "sim/bending/laws/friction_shape.h"
 #include "sim/identification/least_squares.h"
 #include "sim/identification/series.h"
 #include "sim/scene/fabric_reader.h"
@@ -14,8 +15,7 @@ namespace {
 
 constexpr const char* kB1 = "b1 [N m]";
 constexpr const char* kC1 = "c1 [N m2]";
-constexpr double kWindowLow = 50, kWindowHigh = 150;   // [1/m] of KES-FB2's straight line
-constexpr double kEndOfTest = 250;                     // [1/m]
+constexpr KesWindow kWindow;                           // of KES-FB2's straight line
 constexpr double kLargestHbOverB = 1000;               // [1/m] residual curvature M0/b2 of a radius of 1 mm
 constexpr double kSmallestK0 = 0.1, kLargestK0 = 1e5;  // [1/m] bends of a radius of 10 m and of 10 um
 constexpr int kDrawn = 41;                             // points of a curve that stands for the numbers
@@ -54,9 +54,10 @@ Estimate given(const Measured& number, const std::string& source) {
   return {number.value, number.standard_error, true, source + ", given to the fit", "given"};
 }
 
-void say_no_errors(const Identification& result, std::vector<std::string>& statements) {
+void say_no_errors(Identification& result) {
   if (std::isfinite(result.b1.standard_error) || std::isfinite(result.b2.standard_error)) return;
-  statements.emplace_back("the numbers come without errors, so that their standard errors are not known");
+  result.statements.emplace_back(
+      "the numbers come without errors, so that their standard errors are not known");
 }
 
 void say_friction(Identification& result) {
@@ -117,7 +118,7 @@ Identification identify_virgin(const VirginNumbers& numbers, const Assumptions& 
       "below b1 goes with a k0 = (b2 - b1)/(2 c1) up to " +
       rounded(-b1 / (2 * c1)) + " 1/m; " + assumptions.ratio_source());
   say_friction(result);
-  say_no_errors(result, result.statements);
+  say_no_errors(result);
   return result;
 }
 
@@ -152,7 +153,7 @@ void draw_kes(const KesNumbers& numbers, Identification& result) {
   for (int i = 0; i < 2 * kDrawn; ++i) {
     const bool back = i >= kDrawn;
     const int at = back ? 2 * kDrawn - 1 - i : i;
-    const double k = kWindowLow + (kWindowHigh - kWindowLow) * at / (kDrawn - 1);
+    const double k = kWindow.slope_from + (kWindow.slope_to - kWindow.slope_from) * at / (kDrawn - 1);
     result.curvature.push_back(k);
     result.moment.push_back(numbers.b.value * k + (back ? -1 : 1) * numbers.two_hb.value / 2);
   }
@@ -162,7 +163,7 @@ void draw_kes(const KesNumbers& numbers, Identification& result) {
 void follow_kes(Identification& result) {
   std::vector<LawRow> rows;
   for (double k : result.curvature) {
-    if (static_cast<int>(rows.size()) == kDrawn) rows.push_back({kEndOfTest});
+    if (static_cast<int>(rows.size()) == kDrawn) rows.push_back({kWindow.amplitude});
     rows.push_back({k});
   }
   result.model = run_law({result.law, result.curve(), {}}, rows).moment;
@@ -208,13 +209,13 @@ Identification identify_kes(const KesNumbers& numbers, const Assumptions& assump
         "to "
         "about 50/m goes with b1 = B + 2HB/k0; " +
         assumptions.k0_source());
-  } else if (k0 > kWindowLow) {
+  } else if (k0 > kWindow.slope_from) {
     result.statements.push_back(
         "k0 = " + number_text(k0) +
         "/m lies in the window of KES-FB2, whose branches are then no straight lines: "
         "the law's B and 2HB differ from those given (see the residuals)");
   }
-  say_no_errors(result, result.statements);
+  say_no_errors(result);
   return result;
 }
 

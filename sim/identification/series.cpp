@@ -129,8 +129,7 @@ void check_magnitudes(const MomentSeries& series) {
 class CurveFile {
  public:
   CurveFile(const std::filesystem::path& file, const CurveUnits& units, const std::string& reader)
-      : file_(file),
-        name_(file.filename().string()),
+      : name_(file.filename().string()),
         units_(units),
         reader_(reader),
         table_(read_tester_table(
@@ -207,15 +206,12 @@ class CurveFile {
     for (std::size_t i = 0; i < time.size(); ++i) {
       seconds.push_back(i == 0 ? 0 : time[i] - time[i - 1]);
       if (seconds.back() >= 0) continue;
-      throw Error::invalid_input(
-          name_ + ":" + std::to_string(table_.lines[i]) + ": time = " + number_text(time[i]) +
-          " s must be >= " + number_text(time[i - 1]) + " s, the time of the row before")
-          .with_experiment(reader_);
+      throw table_.refusal(i, "time = " + number_text(time[i]) + " s must be >= " + number_text(time[i - 1]) +
+                                  " s, the time of the row before");
     }
     return seconds;
   }
 
-  std::filesystem::path file_;
   std::string name_;
   CurveUnits units_;
   std::string reader_;

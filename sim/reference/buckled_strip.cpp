@@ -120,7 +120,7 @@ bool BuckledStripTest::solve(double distance, double weight) {
   at.force = force_;
   assemble(at, distance, weight);
   double penalty = 0;
-  for (int iteration = 0; iteration < kMaxIterations; ++iteration, ++iterations_) {
+  for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
     if (at.norm <= kConverged) {
       angle_ = at.angle;
       force_ = at.force;

@@ -46,7 +46,6 @@ class BuckledStripTest {
   double peak_curvature() const;                     // largest |K| now [1/m]
   double bend() const;                               // int |K| ds
   std::vector<Eigen::Vector2d> line() const;         // of the whole strip, buckled upwards [m]
-  int iterations() const { return iterations_; }     // of Newton's method so far
 
  private:
   struct Trial;
@@ -63,7 +62,6 @@ class BuckledStripTest {
   Eigen::VectorXd angle_;    // at the nodes between clamp and middle
   Eigen::MatrixXd anchors_;  // of the stops: a column for each element [1/m]
   double distance_ = 0, force_ = 0, dissipated_ = 0;
-  int iterations_ = 0;
 };
 
 }  // namespace hysteron

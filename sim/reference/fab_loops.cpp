@@ -166,11 +166,6 @@ void check_clamp_path(const FabLoops& loops, const std::string& file, const std:
   checks.start();
 }
 
-void check_fab_forces(const FabLoops& loops, const std::string& file, const std::string& reader) {
-  const Checks checks(loops, file, reader);
-  for (int cycle = 0; cycle < loops.cycles(); ++cycle) checks.forces(cycle);
-}
-
 namespace {
 
 namespace fs = std::filesystem;
@@ -202,8 +197,7 @@ std::string unit_sentence(const UnitNames& units) {
 }
 
 // A length or a force; where it is there in other units, these are named.
-std::size_t column_index(const Table& table, const std::string& quantity, const char* ending,
-                         const fs::path& file, const std::string& reader) {
+std::size_t column_index(const Table& table, const std::string& quantity, const char* ending) {
   for (const std::string& column : table.head) {
     const std::optional<std::string> unit = column_unit(column, quantity);
     if (!unit || *unit == ending + 1) continue;
@@ -211,24 +205,22 @@ std::size_t column_index(const Table& table, const std::string& quantity, const 
       return *unit == units.length + 1 || *unit == units.force + 1;
     };
     const std::string read = unit_sentence(kSi) + ", " + unit_sentence(kFab);
-    const std::string what = file.filename().string() + ": " + quantity;
+    std::string what = " is in " + *unit;
     if (unit->empty())
-      throw Error::invalid_input(what + " names no unit: it must be " + quantity + ending + " (" + read + ")")
-          .with_experiment(reader);
-    if (!has_units(kSi) && !has_units(kFab))
-      throw Error::invalid_input(what + " is in " + *unit + ": convert its numbers (" + read + ")")
-          .with_experiment(reader);
-    throw Error::invalid_input(what + " is in " + *unit + ": give --units " +
-                               (has_units(kSi) ? kSi : kFab).flag + ", which reads it (" + read + ")")
-        .with_experiment(reader);
+      what = " names no unit: it must be " + quantity + ending;
+    else if (!has_units(kSi) && !has_units(kFab))
+      what += ": convert its numbers";
+    else
+      what += std::string(": give --units ") + (has_units(kSi) ? kSi : kFab).flag + ", which reads it";
+    throw Error::invalid_input(table.file + ": " + quantity + what + " (" + read + ")")
+        .with_experiment(table.reader);
   }
   return table.at(quantity + ending);
 }
 
-Columns loop_columns(const Table& table, const UnitNames& unit, const fs::path& file,
-                     const std::string& reader) {
+Columns loop_columns(const Table& table, const UnitNames& unit) {
   const auto in = [&](const std::string& quantity, const char* ending) {
-    return column_index(table, quantity, ending, file, reader);
+    return column_index(table, quantity, ending);
   };
   return {table.at("direction"),   table.at("test"),
           table.at("branch"),      in("clamp_distance", unit.length),
@@ -268,29 +260,29 @@ std::vector<FabLoops> read_fab(const fs::path& file, TesterUnits units, const st
   const Table table = read_tester_table(
       file, [&](const std::string& field) { return column_unit(field, distance).has_value(); },
       "a column " + distance + unit.length, reader);
-  const Columns c = loop_columns(table, unit, file, reader);
+  const Columns c = loop_columns(table, unit);
   std::vector<FabLoops> all;
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
     const auto number = [&](std::size_t column) { return table.finite(row, column); };
     const auto& words = table.rows[row];
-    const std::string where = file.filename().string() + ":" + std::to_string(table.lines[row]);
     if (words[c.direction].empty() || words[c.test].empty())
-      throw Error::invalid_input(where + " names no direction or no test").with_experiment(reader);
+      throw Error::invalid_input(table.file + ":" + std::to_string(table.lines[row]) +
+                                 " names no direction or no test")
+          .with_experiment(reader);
     FabLoops& loops = loops_entry(all, words[c.direction], words[c.test]);
     const double branch = number(c.branch);
     const std::size_t next = loops.branches.size();
     if (branch == static_cast<double>(next)) loops.branches.emplace_back();
     if (loops.branches.empty() || branch + 1 != static_cast<double>(loops.branches.size()))
-      throw Error::invalid_input(where + ": branch " + words[c.branch] + " must be " +
-                                 (next > 0 ? std::to_string(next - 1) + " or " : "") + std::to_string(next) +
-                                 ": the rows of a test stand in the order of its branches, 0, 1, 2 ...")
-          .with_experiment(reader);
+      throw table.refusal(row, "branch " + words[c.branch] + " must be " +
+                                   (next > 0 ? std::to_string(next - 1) + " or " : "") +
+                                   std::to_string(next) +
+                                   ": the rows of a test stand in the order of its branches, 0, 1, 2 ...");
     const auto same = [&](double& of_test, std::size_t column) {
       const double here = unit.metre * number(column);
       if (of_test != 0 && here != of_test)
-        throw Error::invalid_input(where + ": " + table.head[column] + " = " + words[column] +
-                                   " differs from that of the rows before, and one test has one strip")
-            .with_experiment(reader);
+        throw table.refusal(row, table.head[column] + " = " + words[column] +
+                                     " differs from that of the rows before, and one test has one strip");
       of_test = here;
     };
     same(loops.gauge, c.gauge);
@@ -300,8 +292,9 @@ std::vector<FabLoops> read_fab(const fs::path& file, TesterUnits units, const st
     loops.branches.back().force.push_back(unit.newton * number(c.force) / loops.width);
   }
   for (const FabLoops& loops : all) {
-    check_clamp_path(loops, file.filename().string(), reader);
-    check_fab_forces(loops, file.filename().string(), reader);
+    check_clamp_path(loops, table.file, reader);
+    const Checks checks(loops, table.file, reader);
+    for (int cycle = 0; cycle < loops.cycles(); ++cycle) checks.forces(cycle);
   }
   return all;
 }

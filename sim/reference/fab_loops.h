@@ -33,7 +33,8 @@ enum class TesterUnits { si, fab };
 // as endings: _m and _N (si), or _cm and _gf (fab: the tester's own; lines before the head, semicolons and
 // decimal commas are read, too).  Force is of the whole width.  Throws Error::system, Error::invalid_input
 // with file and line: other units than said, a column or a number that is missing, branches out of order,
-// another gauge or width within a test; and as check_clamp_path() and check_fab_forces().
+// another gauge or width within a test; as check_clamp_path(); and of forces that do not vary, do not rise as
+// the clamps part (tension > 0), or by which a cycle gives back work.  The zero of force does not matter.
 std::vector<FabLoops> read_fab(const std::filesystem::path& file, TesterUnits units,
                                const std::string& reader);
 
@@ -62,9 +63,5 @@ inline constexpr double kLargestStart = 0.25;
 // beginning near the gauge, rows in order, branches that go out and back, each from where the last ended.
 // Throws Error::invalid_input: "fit: loops.csv: L D1: ...".
 void check_clamp_path(const FabLoops& loops, const std::string& file, const std::string& reader);
-
-// Forces on that way: they vary, rise as the clamps part (tension > 0), and over a cycle the strip takes
-// work. The zero of force does not matter.  Throws as check_clamp_path().
-void check_fab_forces(const FabLoops& loops, const std::string& file, const std::string& reader);
 
 }  // namespace hysteron

@@ -14,7 +14,6 @@
 #include <cmath>
 
 #include "sim/bending/laws/law_description.h"
-#include "sim/bending/laws/plastic_return.h"
 #include "sim/bending/laws/zero_moment.h"
 
 namespace hysteron {

@@ -17,7 +17,6 @@
 
 #include "sim/bending/laws/law_parameters.h"
 #include "sim/bending/laws/law_potential.h"
-#include "sim/bending/laws/plastic_return.h"
 #include "sim/bending/laws/zero_moment.h"
 
 namespace hysteron {
@@ -46,28 +45,25 @@ struct Fatigue {
   }
 
   HYST_HD LawStep<Real, D, kHistory> step(const Vec<Real, D>& curvature, const Memory& before) const {
-    return weakened_step(law.step(curvature, part(before)), curvature, before);
+    return weakened_step(law.step(curvature, history_of<Law>(before)), curvature, before);
   }
   HYST_HD StepAndPotential<Fatigue> step_and_potential(const Vec<Real, D>& curvature,
                                                        const Memory& before) const {
-    const auto sound = hysteron::step_and_potential(law, curvature, part(before));
+    const auto sound = hysteron::step_and_potential(law, curvature, history_of<Law>(before));
     return {weakened_step(sound.step, curvature, before),
             trial_potential(sound.potential, curvature, before)};
   }
 
   HYST_HD Tangent<Real, D> tangent(const Vec<Real, D>& curvature, const Memory& before) const {
-    return b2 * Tangent<Real, D>::Identity() + strength(before) * law.tangent(curvature, part(before));
-  }
-  // Strength and set act from the next step on.
-  HYST_HD Real potential(const Vec<Real, D>& curvature, const Memory& before) const {
-    return trial_potential(step_potential(law, curvature, part(before)), curvature, before);
+    return b2 * Tangent<Real, D>::Identity() +
+           strength(before) * law.tangent(curvature, history_of<Law>(before));
   }
   HYST_HD Vec<Real, D> residual(const Memory& history) const {
     return zero_moment(*this, history, load_set<Real, D>(history, kSet));
   }
   // |F|/M0 of the law at full strength.
   HYST_HD Real utilisation(const Vec<Real, D>& curvature, const Memory& history) const {
-    return m0 > 0 ? called_step(law, curvature, part(history)).moment.norm() / m0 : Real(0);
+    return m0 > 0 ? called_step(law, curvature, history_of<Law>(history)).moment.norm() / m0 : Real(0);
   }
   HYST_HD Real largest_stiffness() const { return b2 + law.largest_stiffness(); }
 
@@ -78,9 +74,8 @@ struct Fatigue {
     return after;
   }
 
-  HYST_HD static Vec<Real, D> set_curvature(const Memory& m) {
-    return load_set<Real, D>(m, kSet);
-  }                                                                                // K_p [1/m]
+  // K_p [1/m]
+  HYST_HD static Vec<Real, D> set_curvature(const Memory& m) { return load_set<Real, D>(m, kSet); }
   HYST_HD Real strength(const Memory& m) const { return strength_at(m[kSpent]); }  // M0(D)/M0
 
  private:
@@ -91,11 +86,6 @@ struct Fatigue {
     Real released;     // energy that friction and elasticity lose by it [J/m^2]
   };
 
-  HYST_HD static History<Real, Law::kHistory> part(const Memory& whole) {
-    History<Real, Law::kHistory> result;
-    for (int i = 0; i < Law::kHistory; ++i) result[i] = whole[i];
-    return result;
-  }
   // With the step, with the potential of the law at full strength.
   HYST_HD LawStep<Real, D, kHistory> weakened_step(const LawStep<Real, D, Law::kHistory>& sound,
                                                    const Vec<Real, D>& curvature,
@@ -106,7 +96,7 @@ struct Fatigue {
     LawStep<Real, D, kHistory> result;
     result.moment = b2 * elastic + m * sound.moment;
     result.history = before;
-    for (int i = 0; i < Law::kHistory; ++i) result.history[i] = sound.history[i];
+    put_history(sound.history, result.history);
 
     // D counts what weakening itself releases; the release depends on the weakening: two rounds.
     Weakening after = weakened(m, strength_at(spent), sound.moment, sound.stored, elastic);
@@ -119,6 +109,7 @@ struct Fatigue {
     store_set<Real, D>(curvature - left, result.history, kSet);
     return result;
   }
+  // Strength and set act from the next step on.
   HYST_HD Real trial_potential(Real sound, const Vec<Real, D>& curvature, const Memory& before) const {
     return b2 * (curvature - load_set<Real, D>(before, kSet)).squaredNorm() / 2 + strength(before) * sound;
   }

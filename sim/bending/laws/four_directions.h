@@ -73,22 +73,13 @@ struct FourDirections {
     return result;
   }
 
-  HYST_HD Real potential(const Vec<Real, 3>& curvature, const History<Real, kHistory>& before) const {
-    Real sum = 0;
-    for (int d = 0; d < kDirections; ++d)
-      sum += step_potential(law, Vec<Real, 1>(direction(d).dot(curvature)), part(before, d));
-    return kWeight / kDirections * sum;
-  }
   HYST_HD Vec<Real, 3> residual(const History<Real, kHistory>& history) const {
     return zero_moment(*this, history, Vec<Real, 3>(Vec<Real, 3>::Zero()));
   }
   HYST_HD History<Real, kHistory> ironed(const History<Real, kHistory>& before) const requires
       LawWithIroning<ScalarLaw> {
     History<Real, kHistory> after;
-    for (int d = 0; d < kDirections; ++d) {
-      const History<Real, kScalarHistory> one = law.ironed(part(before, d));
-      for (int i = 0; i < kScalarHistory; ++i) after[d * kScalarHistory + i] = one[i];
-    }
+    for (int d = 0; d < kDirections; ++d) put_history(law.ironed(part(before, d)), after, d * kScalarHistory);
     return after;
   }
   // The direction where it is used most.
@@ -120,14 +111,10 @@ struct FourDirections {
     sum.moment += kWeight / kDirections * one.moment[0] * direction(d);
     sum.stored += kWeight / kDirections * one.stored;
     sum.dissipated += kWeight / kDirections * one.dissipated;
-    if constexpr (kScalarHistory > 0)
-      for (int i = 0; i < kScalarHistory; ++i) sum.history[d * kScalarHistory + i] = one.history[i];
+    put_history(one.history, sum.history, d * kScalarHistory);
   }
   HYST_HD static History<Real, kScalarHistory> part(const History<Real, kHistory>& whole, int d) {
-    History<Real, kScalarHistory> result;
-    if constexpr (kScalarHistory > 0)
-      for (int i = 0; i < kScalarHistory; ++i) result[i] = whole[d * kScalarHistory + i];
-    return result;
+    return history_of<ScalarLaw>(whole, d * kScalarHistory);
   }
 };
 

@@ -35,14 +35,10 @@ struct GrinspunEdit {
   // History after the command at this curvature.
   HYST_HD Memory edited(const Vec<Real, D>& curvature, const Memory&) const {
     Memory after;
-    for (int c = 0; c < D; ++c) after[c] = curvature[c];
+    store_set<Real, D>(curvature, after);
     return after;
   }
-  HYST_HD Vec<Real, D> residual(const Memory& history) const {
-    Vec<Real, D> rest;
-    for (int c = 0; c < D; ++c) rest[c] = history[c];
-    return rest;
-  }
+  HYST_HD Vec<Real, D> residual(const Memory& history) const { return load_set<Real, D>(history); }
   HYST_HD Real utilisation(const Vec<Real, D>&, const Memory&) const { return 0; }
   HYST_HD Real largest_stiffness() const { return b2; }
 };

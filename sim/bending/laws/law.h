@@ -44,6 +44,32 @@ using CurvatureOf = Vec<typename Law::Scalar, Law::kDimension>;
 template <class Law>
 using HistoryOf = History<typename Law::Scalar, Law::kHistory>;
 
+// D numbers of a history, from `first` on, as a vector, and back.
+template <class Real, int D, int N>
+HYST_HD Vec<Real, D> load_set(const History<Real, N>& history, int first = 0) {
+  Vec<Real, D> set;
+  for (int c = 0; c < D; ++c) set[c] = history[first + c];
+  return set;
+}
+template <class Real, int D, int N>
+HYST_HD void store_set(const Vec<Real, D>& set, History<Real, N>& history, int first = 0) {
+  for (int c = 0; c < D; ++c) history[first + c] = set[c];
+}
+
+// The history of a law within that of a law around it, from `first` on, and back.
+template <class Law, class Real, int N>
+HYST_HD History<Real, Law::kHistory> history_of(const History<Real, N>& whole, int first = 0) {
+  History<Real, Law::kHistory> part;
+  if constexpr (Law::kHistory > 0)
+    for (int i = 0; i < Law::kHistory; ++i) part[i] = whole[first + i];
+  return part;
+}
+template <class Real, int n, int N>
+HYST_HD void put_history(const History<Real, n>& part, History<Real, N>& whole, int first = 0) {
+  if constexpr (n > 0)
+    for (int i = 0; i < n; ++i) whole[first + i] = part[i];
+}
+
 // kDimension is D, kHistory the Reals remembered for each element (0 if none), Scalar the Real.
 template <class Law>
 concept MomentCurvatureLaw = (Law::kDimension == 1 || Law::kDimension == 3) && Law::kHistory >= 0 &&

@@ -6,18 +6,6 @@
 
 namespace hysteron {
 
-// W up to a constant of the history [J/m^2].  Where all that is lost is lost on the way to K, it is what is
-// stored and what is lost; laws that creep or weaken at the end of their step say it themselves.
-template <class Law, class Real, int D, int N>
-HYST_HD Real step_potential(const Law& law, const Vec<Real, D>& curvature, const History<Real, N>& before) {
-  if constexpr (LawWithPotential<Law>) {
-    return law.potential(curvature, before);
-  } else {
-    const LawStep<Real, D, N> step = law.step(curvature, before);
-    return step.stored + step.dissipated;
-  }
-}
-
 template <class Law>
 struct StepAndPotential {
   LawStep<typename Law::Scalar, Law::kDimension, Law::kHistory> step;
@@ -27,6 +15,20 @@ template <class Law>
 concept LawWithTriedStep = requires(const Law& law, const CurvatureOf<Law>& k, const HistoryOf<Law>& h) {
   { law.step_and_potential(k, h) } -> std::same_as<StepAndPotential<Law>>;
 };
+
+// W up to a constant of the history [J/m^2].  Where all that is lost is lost on the way to K, it is what is
+// stored and what is lost; laws that creep or weaken at the end of their step say it themselves.
+template <class Law, class Real, int D, int N>
+HYST_HD Real step_potential(const Law& law, const Vec<Real, D>& curvature, const History<Real, N>& before) {
+  if constexpr (LawWithPotential<Law>) {
+    return law.potential(curvature, before);
+  } else if constexpr (LawWithTriedStep<Law>) {
+    return law.step_and_potential(curvature, before).potential;
+  } else {
+    const LawStep<Real, D, N> step = law.step(curvature, before);
+    return step.stored + step.dissipated;
+  }
+}
 
 // A step and its potential at once: laws around other laws have them made once for both.
 template <class Law>

@@ -78,42 +78,32 @@ bool takes_parts(const LawChoice& c) {
     return false;
 }
 
-// The law named by c, if it is in the list, does not weaken and takes three numbers alone.
-template <LawDescription Law, class Real, int D, class Memory, class Visit>
-bool visit_plain(const LawChoice& c, const Visit& visit) {
-  if (c.name != Law::kName || takes_parts<Law>(c)) return false;
-  visit_in_dimension<Law, Real, D, Memory>(c, visit);
-  return true;
-}
-template <class Real, int D, class Memory, class Visit, class... Laws>
-bool visit_laws(LawList<Laws...>, const LawChoice& c, const Visit& visit) {
-  return !c.fatigue.on() && (visit_plain<Laws, Real, D, Memory>(c, visit) || ...);
-}
-// The others, which take parts, where the group has room for their stops and branches.
-template <LawDescription Law, class Real, int D, class Group, class Visit>
-bool visit_with_parts(const LawChoice& c, const Visit& visit) {
-  return c.name == Law::kName && !c.fatigue.on() && takes_parts<Law>(c) &&
-         visit_measured<Real, D, Group>(c, Law::branches(c), visit);
-}
-template <class Real, int D, class Group, class Visit, class... Laws>
-bool visit_laws_with_parts(LawList<Laws...>, const LawChoice& c, const Visit& visit) {
-  return (visit_with_parts<Laws, Real, D, Group>(c, visit) || ...);
-}
-template <class Real, int D, class Memory, class Visit, class... Laws>
-bool visit_fatigued_laws(LawList<Laws...>, const LawChoice& c, const Visit& visit) {
-  if (!c.fatigue.on()) return false;
-  return ((c.name == Laws::kName && (visit_fatigued<Laws, Real, D, Memory>(c, visit), true)) || ...);
+// The law if c names it and it belongs to the group (every_law.h): the laws of FatigueLaws weaken, those of
+// groups with kStops take a fabric's parts, where the group has room for their stops and branches, and those
+// of the others take three numbers alone.
+template <LawDescription Law, class Group, class Real, int D, class Memory, class Visit>
+bool visit_in_group(const LawChoice& c, const Visit& visit) {
+  constexpr bool kWeakens = std::is_same_v<Group, FatigueLaws>;
+  if (c.name != Law::kName || c.fatigue.on() != kWeakens) return false;
+  if constexpr (kWeakens) {
+    visit_fatigued<Law, Real, D, typename Memory::Fatigued>(c, visit);
+    return true;
+  } else if constexpr (requires { Group::kStops; }) {
+    return takes_parts<Law>(c) && visit_measured<Real, D, Group>(c, Law::branches(c), visit);
+  } else {
+    if (takes_parts<Law>(c)) return false;
+    visit_in_dimension<Law, Real, D, Memory>(c, visit);
+    return true;
+  }
 }
 
-// A group of every_law.h; the laws of FatigueLaws weaken, those of groups with kStops take a fabric's parts.
+template <class Group, class Real, int D, class Memory, class Visit, class... Laws>
+bool visit_laws(LawList<Laws...>, const LawChoice& c, const Visit& visit) {
+  return (visit_in_group<Laws, Group, Real, D, Memory>(c, visit) || ...);
+}
 template <class Group, class Real, int D, class Memory, class Visit>
 bool visit_group(const LawChoice& c, const Visit& visit) {
-  if constexpr (std::is_same_v<Group, FatigueLaws>)
-    return visit_fatigued_laws<Real, D, typename Memory::Fatigued>(Group{}, c, visit);
-  else if constexpr (requires { Group::kStops; })
-    return visit_laws_with_parts<Real, D, Group>(Group{}, c, visit);
-  else
-    return visit_laws<Real, D, Memory>(Group{}, c, visit);
+  return visit_laws<Group, Real, D, Memory>(Group{}, c, visit);
 }
 
 // Every group.

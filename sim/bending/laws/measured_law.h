@@ -9,7 +9,6 @@
 
 #include "sim/bending/laws/law_parameters.h"
 #include "sim/bending/laws/law_potential.h"
-#include "sim/bending/laws/plastic_return.h"
 #include "sim/bending/laws/spectrum_stops.h"
 #include "sim/bending/laws/zero_moment.h"
 
@@ -47,29 +46,28 @@ struct Setting {
 
   HYST_HD LawStep<Real, D, kHistory> step(const Vec<Real, D>& curvature, const Memory& before) const {
     const Vec<Real, D> moved = flow(curvature, before);
-    return step_around(law.step(Vec<Real, D>(curvature - (set_curvature(before) + moved)), part(before)),
-                       moved, before);
+    return step_around(
+        law.step(Vec<Real, D>(curvature - (set_curvature(before) + moved)), history_of<Law>(before)), moved,
+        before);
   }
   HYST_HD StepAndPotential<Setting> step_and_potential(const Vec<Real, D>& curvature,
                                                        const Memory& before) const {
     const Vec<Real, D> moved = flow(curvature, before), set = set_curvature(before) + moved;
-    const auto inner = hysteron::step_and_potential(law, Vec<Real, D>(curvature - set), part(before));
+    const auto inner =
+        hysteron::step_and_potential(law, Vec<Real, D>(curvature - set), history_of<Law>(before));
     return {step_around(inner.step, moved, before), with_flow_cost(moved, set, inner.potential)};
   }
 
   HYST_HD Tangent<Real, D> tangent(const Vec<Real, D>& curvature, const Memory& before) const {
     const Vec<Real, D> moved = flow(curvature, before);
     const Tangent<Real, D> stiff =
-        law.tangent(Vec<Real, D>(curvature - set_curvature(before) - moved), part(before));
+        law.tangent(Vec<Real, D>(curvature - set_curvature(before) - moved), history_of<Law>(before));
     if (!(moved.norm() > 0)) return stiff;
     const Tangent<Real, D> sum = stiff + flow_stiffness(moved);
     Tangent<Real, D> soft;
     for (int c = 0; c < D; ++c) soft.col(c) = solve_definite<Real, D>(sum, Vec<Real, D>(stiff.col(c)));
     const Tangent<Real, D> product = stiff * soft;
     return stiff - (product + product.transpose()) / 2;
-  }
-  HYST_HD Real potential(const Vec<Real, D>& curvature, const Memory& before) const {
-    return trial_potential(flow(curvature, before), curvature, before);
   }
   HYST_HD Vec<Real, D> residual(const Memory& history) const {
     Setting at_once = *this;
@@ -78,7 +76,7 @@ struct Setting {
   }
   HYST_HD Real utilisation(const Vec<Real, D>& curvature,
                            const Memory& history) const requires LawWithUse<Law> {
-    return law.utilisation(Vec<Real, D>(curvature - set_curvature(history)), part(history));
+    return law.utilisation(Vec<Real, D>(curvature - set_curvature(history)), history_of<Law>(history));
   }
   HYST_HD Real largest_stiffness() const { return law.largest_stiffness(); }
 
@@ -88,12 +86,6 @@ struct Setting {
 
  private:
   static constexpr Real kPrecision = Real(sizeof(Real) == 8 ? 1e-13 : 2e-6);  // of the moments in balance
-
-  HYST_HD static History<Real, Law::kHistory> part(const Memory& whole) {
-    History<Real, Law::kHistory> result;
-    for (int i = 0; i < Law::kHistory; ++i) result[i] = whole[i];
-    return result;
-  }
 
   HYST_HD Tangent<Real, D> flow_stiffness(const Vec<Real, D>& moved) const {
     const Real size = moved.norm();
@@ -105,7 +97,7 @@ struct Setting {
                                                  const Vec<Real, D>& moved, const Memory& before) const {
     const Vec<Real, D> set = set_curvature(before) + moved;
     LawStep<Real, D, kHistory> result;
-    for (int i = 0; i < Law::kHistory; ++i) result.history[i] = inner.history[i];
+    put_history(inner.history, result.history);
     store_set<Real, D>(set, result.history, Law::kHistory);
     result.moment = inner.moment;
     result.stored = inner.stored + hardening * set.squaredNorm() / 2;
@@ -120,7 +112,8 @@ struct Setting {
   HYST_HD Real trial_potential(const Vec<Real, D>& moved, const Vec<Real, D>& curvature,
                                const Memory& before) const {
     const Vec<Real, D> set = set_curvature(before) + moved;
-    return with_flow_cost(moved, set, step_potential(law, Vec<Real, D>(curvature - set), part(before)));
+    return with_flow_cost(moved, set,
+                          step_potential(law, Vec<Real, D>(curvature - set), history_of<Law>(before)));
   }
 
   // d of the step, by damped Newton steps on its potential.  From the length that the law's largest stiffness
@@ -132,7 +125,7 @@ struct Setting {
     constexpr int kMaxSteps = 40, kMaxHalvings = 20;
     constexpr Real kEnoughDescent = Real(1e-4);  // Armijo's fraction of the predicted decrease
     const Vec<Real, D> old = set_curvature(before);
-    const auto past = part(before);
+    const auto past = history_of<Law>(before);
     Vec<Real, D> moved = Vec<Real, D>::Zero(), next = moved, newton = moved;
     Real fraction = 1, precise = 0, half_slope = 0, descent = 0;
     int halvings = 0;
@@ -238,21 +231,22 @@ struct Relaxing {
   }
 
   HYST_HD LawStep<Real, D, kHistory> step(const Vec<Real, D>& curvature, const Memory& before) const {
-    return step_around(law.step(curvature, part(before)), curvature, before);
+    return step_around(law.step(curvature, history_of<Law>(before)), curvature, before);
   }
   HYST_HD StepAndPotential<Relaxing> step_and_potential(const Vec<Real, D>& curvature,
                                                         const Memory& before) const {
-    const auto inner = hysteron::step_and_potential(law, curvature, part(before));
+    const auto inner = hysteron::step_and_potential(law, curvature, history_of<Law>(before));
     return {step_around(inner.step, curvature, before), potential_around(inner.potential, curvature, before)};
   }
 
   HYST_HD Tangent<Real, D> tangent(const Vec<Real, D>& curvature, const Memory& before) const {
     Real stiff = 0;
     for (int i = 0; i < B; ++i) stiff += c[i] * Relaxation<Real>::over(dt / tau[i]).stiff;
-    return law.tangent(curvature, part(before)) + stiff * Tangent<Real, D>::Identity();
+    return law.tangent(curvature, history_of<Law>(before)) + stiff * Tangent<Real, D>::Identity();
   }
+  // Alone, as a law that sets around this one asks for it.
   HYST_HD Real potential(const Vec<Real, D>& curvature, const Memory& before) const {
-    return potential_around(step_potential(law, curvature, part(before)), curvature, before);
+    return potential_around(step_potential(law, curvature, history_of<Law>(before)), curvature, before);
   }
   // At once, as springs.
   HYST_HD Vec<Real, D> residual(const Memory& history) const {
@@ -262,7 +256,7 @@ struct Relaxing {
   }
   HYST_HD Real utilisation(const Vec<Real, D>& curvature,
                            const Memory& history) const requires LawWithUse<Law> {
-    return law.utilisation(curvature, part(history));
+    return law.utilisation(curvature, history_of<Law>(history));
   }
   HYST_HD Real largest_stiffness() const {
     Real sum = law.largest_stiffness();
@@ -273,16 +267,11 @@ struct Relaxing {
  private:
   static constexpr int kCurvature = Law::kHistory, kBranch = kCurvature + D;
 
-  HYST_HD static History<Real, Law::kHistory> part(const Memory& whole) {
-    History<Real, Law::kHistory> result;
-    for (int i = 0; i < Law::kHistory; ++i) result[i] = whole[i];
-    return result;
-  }
   // With what the law itself makes of the step.
   HYST_HD LawStep<Real, D, kHistory> step_around(const LawStep<Real, D, Law::kHistory>& inner,
                                                  const Vec<Real, D>& curvature, const Memory& before) const {
     LawStep<Real, D, kHistory> result;
-    for (int i = 0; i < Law::kHistory; ++i) result.history[i] = inner.history[i];
+    put_history(inner.history, result.history);
     store_set<Real, D>(curvature, result.history, kCurvature);
     result.moment = inner.moment;
     result.stored = inner.stored;

@@ -31,7 +31,7 @@ struct Narain {
   }
 
   HYST_HD LawStep<Real, D, kHistory> step(const Vec<Real, D>& curvature, const Memory& before) const {
-    const auto sound = plastic.step(curvature, set_curvature(before));
+    const auto sound = plastic.step(curvature, history_of<Obrien<Real, D>>(before));
     const Vec<Real, D> set = load_set<Real, D>(sound.history);
     const Real stiff = stiffness(before[D]);
     LawStep<Real, D, kHistory> result;
@@ -45,21 +45,16 @@ struct Narain {
     return result;
   }
   HYST_HD Tangent<Real, D> tangent(const Vec<Real, D>& curvature, const Memory& before) const {
-    return stiffness(before[D]) * plastic.tangent(curvature, set_curvature(before));
+    return stiffness(before[D]) * plastic.tangent(curvature, history_of<Obrien<Real, D>>(before));
   }
   HYST_HD Vec<Real, D> residual(const Memory& history) const { return load_set<Real, D>(history); }
   HYST_HD Real utilisation(const Vec<Real, D>& curvature, const Memory& history) const {  // |e|/y
-    return plastic.utilisation(curvature, set_curvature(history));
+    return plastic.utilisation(curvature, history_of<Obrien<Real, D>>(history));
   }
   HYST_HD Real largest_stiffness() const { return plastic.b2; }
 
  private:
   HYST_HD Real stiffness(Real damage) const { return 1 / (1 + weakening * damage); }
-  HYST_HD static History<Real, D> set_curvature(const Memory& m) {
-    History<Real, D> set;
-    for (int c = 0; c < D; ++c) set[c] = m[c];
-    return set;
-  }
 };
 
 struct NarainLaw {

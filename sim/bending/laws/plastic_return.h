@@ -59,16 +59,4 @@ HYST_HD PlasticFlow<Real, D> plastic_flow(const Vec<Real, D>& trial, Real n, con
           fraction * one + (slope - fraction) * along * along.transpose()};
 }
 
-// The first D numbers of a history as a vector, and back.
-template <class Real, int D, int N>
-HYST_HD Vec<Real, D> load_set(const History<Real, N>& history, int first = 0) {
-  Vec<Real, D> set;
-  for (int c = 0; c < D; ++c) set[c] = history[first + c];
-  return set;
-}
-template <class Real, int D, int N>
-HYST_HD void store_set(const Vec<Real, D>& set, History<Real, N>& history, int first = 0) {
-  for (int c = 0; c < D; ++c) history[first + c] = set[c];
-}
-
 }  // namespace hysteron

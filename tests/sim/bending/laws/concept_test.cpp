@@ -35,7 +35,7 @@ static_assert(!MomentCurvatureLaw<OfTwoDimensions>);
 // What a law has beyond the contract, and the laws made of others pass on.
 static_assert(LawWithConvexTangent<Bridson<double, 3>> && !LawWithPotential<Bridson<double, 3>>);
 static_assert(LawWithPotential<Kim<float, 3>> && TimedLaw<Kim<float, 3>> && LawWithUse<Kim<float, 3>>);
-static_assert(LawWithPotential<Fatigue<PrandtlStops<double, 1, 8>>>);
+static_assert(LawWithTriedStep<Fatigue<PrandtlStops<double, 1, 8>>>);
 static_assert(WeakeningLaw<Fatigue<PrandtlStops<double, 1, 8>>> && !WeakeningLaw<Narain<double, 3>>);
 static_assert(EditableLaw<GrinspunEdit<double, 3>> && !EditableLaw<Linear<double, 3>>);
 static_assert(LawWithUse<FourDirections<Gong<double>>> && !LawWithUse<FourDirections<Wong<double>>>);

@@ -114,7 +114,7 @@ std::unique_ptr<AnyLaw> make_any_law(const LawChoice& choice) {
   std::unique_ptr<AnyLaw> made;
   const auto make = [&]<class Law>(const Law& law) { made = std::make_unique<AnyLawOf<Law>>(law); };
   const bool found = visit_groups<Real, D, TestedMemory>(LawGroups{}, choice, make) ||
-                     visit_laws<Real, D, TestedMemory>(ExampleLaws{}, choice, make);
+                     visit_group<ExampleLaws, Real, D, TestedMemory>(choice, make);
   if (!found) throw Error::invalid_input("no law is made for " + choice.name);
   return made;
 }
