@@ -221,19 +221,13 @@ ClothMesh make_tube(double length, double radius, int triangles, MeshFamily fami
   const double around = 2 * std::numbers::pi * radius;
   const ClothMesh flat = make_rectangle(length, around, triangles, family, seed);
   ClothMesh tube;
-  std::vector<Eigen::Vector3d> rolled;
+  tube.face = flat.face;
   for (const Eigen::Vector3d& x : flat.rest) {
     const double angle = x.y() / radius;
-    rolled.push_back({x.x(), -radius * std::sin(angle), -radius * std::cos(angle)});
+    tube.rest.push_back({x.x(), -radius * std::sin(angle), -radius * std::cos(angle)});
   }
   constexpr double kSeam = 1e-6;  // of the radius: far below any edge, far above rounding
-  const std::vector<int> kept = nearby_representatives(rolled, kSeam * radius);
-  std::vector<int> number(rolled.size());
-  for (std::size_t i = 0; i < rolled.size(); ++i) {
-    number[i] = kept[i] < static_cast<int>(i) ? number[kept[i]] : static_cast<int>(tube.rest.size());
-    if (kept[i] == static_cast<int>(i)) tube.rest.push_back(rolled[i]);
-  }
-  for (const Eigen::Vector3i& t : flat.face) tube.face.push_back({number[t[0]], number[t[1]], number[t[2]]});
+  weld_vertices(tube, kSeam * radius);
   build_topology(tube, "tube mesh");
   if (!is_closed(tube, length))
     throw Error::invalid_input(
