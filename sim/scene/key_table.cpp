@@ -73,11 +73,6 @@ void check_number(const KeyDescription& key, double x, const std::string& shown,
 void check_choice(const KeyDescription& key, const std::string& name, const std::string& origin) {
   if (key.choices.empty()) return;
   if (std::count(key.choices.begin(), key.choices.end(), name)) return;
-  if (std::count(key.announced.begin(), key.announced.end(), name)) {
-    throw Error::invalid_input(key.path + " = " + name + " is not built yet (" + origin +
-                               "); built: " + join(key.choices, " | "))
-        .with_key(key.path, name);
-  }
   const std::string nearest = nearest_name(name, key.choices);
   throw refusal(key, name, join(key.choices, " | "),
                 origin + (nearest.empty() ? "" : "; did you mean " + nearest + "?"));
@@ -158,11 +153,8 @@ std::vector<double> parse_components(std::string text) {
 
 void split_choices(const char* text, KeyDescription& key) {
   std::istringstream words(text);
-  for (std::string word; words >> word;) {
-    if (word == "|") continue;
-    const bool announced = word.front() == '(';
-    (announced ? key.announced : key.choices).push_back(announced ? word.substr(1, word.size() - 2) : word);
-  }
+  for (std::string word; words >> word;)
+    if (word != "|") key.choices.push_back(word);
 }
 
 // Numbers with four digits; "" for what is not set.
@@ -195,7 +187,7 @@ std::string Range::text() const {
 
 KeyDescription describe(const char* path, const Field& field, const char* unit, Range range,
                         const char* choices, const char* doc) {
-  KeyDescription key{path, type_name(field), unit, range, {}, {}, doc, described_default(field)};
+  KeyDescription key{path, type_name(field), unit, range, {}, doc, described_default(field)};
   split_choices(choices, key);
   if (const auto* named = std::get_if<NamedValue>(&field)) key.choices = named->names;
   return key;
