@@ -73,9 +73,7 @@ void check_number(const KeyDescription& key, double x, const std::string& shown,
 void check_choice(const KeyDescription& key, const std::string& name, const std::string& origin) {
   if (key.choices.empty()) return;
   if (std::count(key.choices.begin(), key.choices.end(), name)) return;
-  const std::string nearest = nearest_name(name, key.choices);
-  throw refusal(key, name, join(key.choices, " | "),
-                origin + (nearest.empty() ? "" : "; did you mean " + nearest + "?"));
+  throw refusal(key, name, join(key.choices, " | "), origin + suggestion(name, key.choices));
 }
 
 double as_number(const KeyDescription& key, const Value& value, const std::string& origin) {
@@ -246,9 +244,7 @@ const BoundKey& find_key(const Keys& keys, const std::string& path, const std::s
     if (key.description.path == path) return key;
     names.push_back(key.description.path);
   }
-  const std::string nearest = nearest_name(path, names);
-  throw Error::invalid_input("unknown key " + path + " (" + origin + ")" +
-                             (nearest.empty() ? "" : "; did you mean " + nearest + "?"))
+  throw Error::invalid_input("unknown key " + path + " (" + origin + ")" + suggestion(path, names))
       .with_key(path, "");
 }
 
@@ -285,6 +281,11 @@ std::string nearest_name(const std::string& name, const std::vector<std::string>
     if (edits.back() < fewest) fewest = edits.back(), nearest = candidate;
   }
   return nearest;
+}
+
+std::string suggestion(const std::string& name, const std::vector<std::string>& candidates) {
+  const std::string nearest = nearest_name(name, candidates);
+  return nearest.empty() ? "" : "; did you mean " + nearest + "?";
 }
 
 std::string join(const std::vector<std::string>& words, const std::string& separator) {

@@ -132,6 +132,8 @@ nlohmann::ordered_json to_json(const Keys& keys);
 // The candidate with the fewest edits from `name`, or "" if none is near (a third of the letters, at least
 // two).
 std::string nearest_name(const std::string& name, const std::vector<std::string>& candidates);
+// "; did you mean NAME?" with it, for the end of a message; "" likewise.
+std::string suggestion(const std::string& name, const std::vector<std::string>& candidates);
 
 std::string join(const std::vector<std::string>& words, const std::string& separator);
 

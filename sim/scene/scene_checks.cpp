@@ -14,9 +14,6 @@
 namespace hysteron {
 namespace {
 
-const std::vector<std::string> kMeshFamilies = {"aligned",   "aligned-45",  "flipped",
-                                                "unionjack", "equilateral", "random"};
-
 void check_fabric(const Scene& scene) {
   const Fabric& f = scene.fabric;
   if (f.kes.on() && !(f.b2 > 0)) {
@@ -60,11 +57,11 @@ void check_mesh(const Scene& scene) {
     throw Error::invalid_input("cloth.shape = " + shape + " (" + key_origin(scene, "cloth.shape") +
                                ") needs cloth.file, an OBJ");
   }
-  if (names_an_obj(scene.mesh) || std::count(kMeshFamilies.begin(), kMeshFamilies.end(), scene.mesh)) return;
-  const std::string nearest = nearest_name(scene.mesh, kMeshFamilies);
-  throw Error::invalid_input("mesh = " + scene.mesh + " (" + key_origin(scene, "mesh") + ") must be " +
-                             join(kMeshFamilies, " | ") + " | FILE.obj" +
-                             (nearest.empty() ? "" : "; did you mean " + nearest + "?"));
+  const auto all = names(MeshFamily{});
+  const std::vector<std::string> families(all.begin(), all.end());
+  if (names_an_obj(scene.mesh) || std::count(families.begin(), families.end(), scene.mesh)) return;
+  throw Error::invalid_input(shown(scene, "mesh", scene.mesh, "") + " must be " + join(families, " | ") +
+                             " | FILE.obj" + suggestion(scene.mesh, families));
 }
 
 // The triangles of a file are its own; a file that no shape asks for would be left unread without a word.
