@@ -43,9 +43,8 @@ void apply_flags(Scene& scene, const std::vector<Flag>& flags, const Keys& extra
 // What no single key can tell: b1 >= b2, k0 > 0 or b1 = b2, coupling^2 < warp*weft, `chapter` on hinges only,
 // pins, obstacles and their motions, the law's parameters, the mesh's name.  Throws Error::invalid_input.
 void check_scene(const Scene& scene);
-// The part of it that asks whether the lists of fabric.bending.* fit together.
-void check_bending_parts(const Scene& scene);
-void check_in_plane_stops(const Scene& scene);  // the same of fabric.membrane.*
+// The part of it that asks whether the lists of fabric.bending.* and fabric.membrane.* fit together.
+void check_fabric_lists(const Scene& scene);
 // That there is a step in it at all, and that commands are due before its end: of a scene that is about to
 // run, since experiments say how long they last.  Throws Error::invalid_input.
 void check_duration(const Scene& scene);
