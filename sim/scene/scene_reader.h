@@ -29,13 +29,10 @@ Scene default_scene(const std::string& fabric = "cotton-broad");
 // unreadable.
 void apply_scene_file(Scene& scene, const std::string& name_or_file, const Keys& extra = {},
                       const std::vector<std::string>& left = {});
-// The same from a tree that another program has made; `source` stands for the file in messages.
+// The same from a tree that another program has made; `source` stands for the file in messages.  What a run
+// has recorded is taken as it stands: no file is asked for the fabric, none is looked for beside the source.
 void apply_scene_tree(Scene& scene, const ValueTree& root, const std::string& source, const Keys& extra = {},
-                      const std::vector<std::string>& left = {});
-// The same from what a run has recorded, which is taken as it stands: no file is asked for the fabric, none
-// is looked for beside the source.
-void apply_recorded_tree(Scene& scene, const ValueTree& root, const std::string& source, const Keys& extra,
-                         const std::vector<std::string>& left);
+                      const std::vector<std::string>& left = {}, bool recorded = false);
 
 // Applies flags; a fabric is loaded first.  `extra` as above.
 void apply_flags(Scene& scene, const std::vector<Flag>& flags, const Keys& extra = {});
