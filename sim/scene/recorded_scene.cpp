@@ -1,5 +1,4 @@
-#include "sim/scene/recorded_scene.h"
-
+// A scene back from what a run has recorded.
 #include <nlohmann/json.hpp>
 
 #include "sim/base/error.h"

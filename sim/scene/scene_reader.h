@@ -34,6 +34,14 @@ void apply_scene_file(Scene& scene, const std::string& name_or_file, const Keys&
 void apply_scene_tree(Scene& scene, const ValueTree& root, const std::string& source, const Keys& extra = {},
                       const std::vector<std::string>& left = {}, bool recorded = false);
 
+// A scene back from what to_json(scene) (keys.h) has written into a manifest.
+// Sets every key that `tree` holds; others stay as they are.  No file is asked for the fabric: its numbers,
+// their sources and what is published of it are those of `tree`, and so is where each key was set.  `file`
+// names it in messages; `extra` and `left` as in apply_scene_file.  Throws
+// Error::invalid_input for keys that are not known, wrong types and values out of range.
+void apply_recorded_scene(Scene& scene, nlohmann::ordered_json tree, const std::string& file,
+                          const Keys& extra = {}, const std::vector<std::string>& left = {});
+
 // Applies flags; a fabric is loaded first.  `extra` as above.
 void apply_flags(Scene& scene, const std::vector<Flag>& flags, const Keys& extra = {});
 
