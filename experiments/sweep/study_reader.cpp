@@ -159,7 +159,7 @@ class StudyFile {
   }
 
   int integer(const ValueTree& node, const std::string& name, double low, double high) const {
-    const KeyDescription key{name, "integer", "", between(low, high), {}, {}, "", ""};
+    const KeyDescription key{name, "integer", "", between(low, high), {}, "", ""};
     int number = 0;
     assign({key, &number}, node.kind == ValueTree::Kind::value ? node.value : Value(std::string("a table")),
            at(node));

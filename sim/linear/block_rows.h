@@ -1,7 +1,6 @@
 // The implicit solve's matrix: 3x3 blocks, one row per vertex, the diagonal kept apart.
 #pragma once
 
-#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -10,16 +9,6 @@
 #include "sim/mesh/cloth_mesh.h"
 
 namespace hysteron {
-
-// Vertices that share a triangle, row by row.
-inline Adjacency neighbours_in(const ClothMesh& mesh) {
-  std::vector<std::vector<int>> neighbours(mesh.vertices());
-  for (const auto& f : mesh.face)
-    for (int k = 0; k < 3; ++k)
-      for (int l = 0; l < 3; ++l)
-        if (k != l) neighbours[f[k]].push_back(f[l]);
-  return compressed(neighbours);
-}
 
 // A number for every block of a BlockRowsView: that multiple of the identity.
 template <class Real>
@@ -58,27 +47,21 @@ class BlockRows {
   // One off-diagonal block for each pair of vertices that share a triangle.
   BlockRows(Device& device, const ClothMesh& mesh) : BlockRows(device, neighbours_in(mesh)) {}
   // Off-diagonal blocks of each row, columns ascending.
-  BlockRows(Device& device, Adjacency pattern) {
-    row_ptr_host_ = std::move(pattern.start);
-    col_host_ = std::move(pattern.item);
-    row_ptr_ = Buffer<int, Device>(device, row_ptr_host_);
-    col_ = Buffer<int, Device>(device, col_host_);
-    off_diagonal_ = Buffer<Mat3<Real>, Device>(device, col_host_.size());
-    diagonal_ = Buffer<Mat3<Real>, Device>(device, row_ptr_host_.size() - 1);
-  }
+  BlockRows(Device& device, Adjacency pattern)
+      : pattern_(std::move(pattern)),
+        row_ptr_(device, pattern_.start),
+        col_(device, pattern_.item),
+        off_diagonal_(device, pattern_.item.size()),
+        diagonal_(device, pattern_.start.size() - 1) {}
 
   BlockRowsView<Real> view() {
     return {static_cast<int>(diagonal_.size()), row_ptr_.data(), col_.data(), off_diagonal_.data(),
             diagonal_.data()};
   }
   // Position of block (row, column) among the off-diagonal blocks.
-  int slot(int row, int column) const {
-    const auto first = col_host_.begin() + row_ptr_host_[row],
-               last = col_host_.begin() + row_ptr_host_[row + 1];
-    return static_cast<int>(std::lower_bound(first, last, column) - col_host_.begin());
-  }
-  const std::vector<int>& row_ptr() const { return row_ptr_host_; }
-  const std::vector<int>& col() const { return col_host_; }
+  int slot(int row, int column) const { return slot_in_row(pattern_, row, column); }
+  const std::vector<int>& row_ptr() const { return pattern_.start; }
+  const std::vector<int>& col() const { return pattern_.item; }
   std::vector<Mat3<Real>> off_diagonal() const { return off_diagonal_.download(); }
   std::vector<Mat3<Real>> diagonal() const { return diagonal_.download(); }
   std::size_t bytes() const {
@@ -86,7 +69,7 @@ class BlockRows {
   }
 
  private:
-  std::vector<int> row_ptr_host_, col_host_;
+  Adjacency pattern_;
   Buffer<int, Device> row_ptr_, col_;
   Buffer<Mat3<Real>, Device> off_diagonal_, diagonal_;
 };

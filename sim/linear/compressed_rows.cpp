@@ -16,17 +16,27 @@ Adjacency compressed(std::vector<std::vector<int>>& rows) {
   return result;
 }
 
+Adjacency neighbours_in(const ClothMesh& mesh) {
+  std::vector<std::vector<int>> neighbours(mesh.vertices());
+  for (const auto& f : mesh.face)
+    for (int k = 0; k < 3; ++k)
+      for (int l = 0; l < 3; ++l)
+        if (k != l) neighbours[f[k]].push_back(f[l]);
+  return compressed(neighbours);
+}
+
+int slot_in_row(const Adjacency& rows, int row, int item) {
+  const auto first = rows.item.begin() + rows.start[row], last = rows.item.begin() + rows.start[row + 1];
+  return static_cast<int>(std::lower_bound(first, last, item) - rows.item.begin());
+}
+
 std::vector<UpperBlock> upper_blocks(const Adjacency& pattern) {
   std::vector<UpperBlock> result;
   for (int i = 0; i + 1 < static_cast<int>(pattern.start.size()); ++i) {
     result.push_back({i, i, -1, -1});
     for (int j = pattern.start[i]; j < pattern.start[i + 1]; ++j) {
       const int column = pattern.item[j];
-      if (column < i) continue;
-      const auto first = pattern.item.begin() + pattern.start[column],
-                 last = pattern.item.begin() + pattern.start[column + 1];
-      result.push_back(
-          {i, column, j, static_cast<int>(std::lower_bound(first, last, i) - pattern.item.begin())});
+      if (column > i) result.push_back({i, column, j, slot_in_row(pattern, column, i)});
     }
   }
   return result;

@@ -8,6 +8,10 @@ namespace hysteron {
 
 // Rows of items, which it sorts, each item once.
 Adjacency compressed(std::vector<std::vector<int>>& rows);
+// Vertices that share a triangle, row by row.
+Adjacency neighbours_in(const ClothMesh& mesh);
+// Where an item of such a row stands among all items.
+int slot_in_row(const Adjacency& rows, int row, int item);
 
 // The blocks of a symmetric matrix on and above its diagonal.
 

@@ -32,9 +32,8 @@ SymmetricBlocks::SymmetricBlocks(Couplings couplings)
 }
 
 int SymmetricBlocks::slot(int i, int j) const {
-  const auto first = couplings_.item.begin() + couplings_.start[i],
-             last = couplings_.item.begin() + couplings_.start[i + 1], at = std::lower_bound(first, last, j);
-  return at != last && *at == j ? static_cast<int>(at - couplings_.item.begin()) : -1;
+  const int slot = slot_in_row(couplings_, i, j);
+  return slot < couplings_.start[i + 1] && couplings_.item[slot] == j ? slot : -1;
 }
 
 bool SymmetricBlocks::couples(std::span<const int> nodes) const {

@@ -61,15 +61,11 @@ Surface mesh_surface(const ClothMesh& mesh) {
   Surface s;
   s.position = mesh.rest;
   s.normal.assign(mesh.vertices(), Vector3d::Zero());
-  std::vector<std::vector<int>> neighbours(mesh.vertices());
   for (const auto& f : mesh.face) {
     const Vector3d n = (mesh.rest[f[1]] - mesh.rest[f[0]]).cross(mesh.rest[f[2]] - mesh.rest[f[0]]);
-    for (int k = 0; k < 3; ++k) {
-      s.normal[f[k]] += n;
-      for (int l = 1; l < 3; ++l) neighbours[f[k]].push_back(f[(k + l) % 3]);
-    }
+    for (int k = 0; k < 3; ++k) s.normal[f[k]] += n;
   }
-  s.neighbour = compressed(neighbours);
+  s.neighbour = neighbours_in(mesh);
   s.rank = boundary_ranks(mesh);
   return s;
 }
@@ -320,19 +316,13 @@ std::vector<Coefficient> coarse_gradient(const ClothMesh& mesh, const Edge& e, c
   return coarse;
 }
 
-int slot(const Adjacency& pattern, int row, int column) {
-  const auto first = pattern.item.begin() + pattern.start[row],
-             last = pattern.item.begin() + pattern.start[row + 1];
-  return static_cast<int>(std::lower_bound(first, last, column) - pattern.item.begin());
-}
-
 void add(const std::vector<Coefficient>& a, const std::vector<Coefficient>& b, double factor,
          RestLevel& level) {
   for (const Coefficient& row : a)
     for (const Coefficient& column : b) {
       double& entry = row.node == column.node
                           ? level.plate_diagonal[row.node]
-                          : level.plate_off_diagonal[slot(level.pattern, row.node, column.node)];
+                          : level.plate_off_diagonal[slot_in_row(level.pattern, row.node, column.node)];
       entry += factor * row.value * column.value;
     }
 }

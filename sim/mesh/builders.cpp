@@ -14,11 +14,6 @@ namespace hysteron {
 
 namespace {
 
-constexpr std::pair<MeshFamily, const char*> kFamilies[] = {
-    {MeshFamily::aligned, "aligned"},         {MeshFamily::aligned45, "aligned-45"},
-    {MeshFamily::flipped, "flipped"},         {MeshFamily::unionjack, "unionjack"},
-    {MeshFamily::equilateral, "equilateral"}, {MeshFamily::random, "random"}};
-
 struct Flat {
   std::vector<Eigen::Vector2d> points;
   std::vector<Eigen::Vector3i> triangles;
@@ -125,9 +120,10 @@ void check_size(double length, double width) {
 
 MeshFamily mesh_family(const std::string& name) {
   std::string allowed;
-  for (const auto& [family, text] : kFamilies) {
-    if (name == text) return family;
-    allowed += std::string(allowed.empty() ? "" : ", ") + text;
+  for (std::size_t i = 0; i < names(MeshFamily{}).size(); ++i) {
+    const char* const text = names(MeshFamily{})[i];
+    if (name == text) return static_cast<MeshFamily>(i);
+    allowed += (i ? ", " : "") + std::string(text);
   }
   throw Error::invalid_input("mesh family \"" + name + "\" is unknown; allowed: " + allowed);
 }
@@ -135,13 +131,6 @@ MeshFamily mesh_family(const std::string& name) {
 double row_height(MeshFamily family) {
   if (family == MeshFamily::aligned45) return 0.5;
   return family == MeshFamily::equilateral ? std::sqrt(0.75) : 1;
-}
-
-std::string to_string(MeshFamily family) {
-  for (const auto& [known, text] : kFamilies)
-    if (known == family) return text;
-  throw Error::invalid_input("mesh family number " + std::to_string(static_cast<int>(family)) +
-                             " is unknown");
 }
 
 void check_length(const std::string& what, const std::string& name, double value) {
@@ -221,23 +210,17 @@ ClothMesh make_tube(double length, double radius, int triangles, MeshFamily fami
   const double around = 2 * std::numbers::pi * radius;
   const ClothMesh flat = make_rectangle(length, around, triangles, family, seed);
   ClothMesh tube;
-  std::vector<Eigen::Vector3d> rolled;
+  tube.face = flat.face;
   for (const Eigen::Vector3d& x : flat.rest) {
     const double angle = x.y() / radius;
-    rolled.push_back({x.x(), -radius * std::sin(angle), -radius * std::cos(angle)});
+    tube.rest.push_back({x.x(), -radius * std::sin(angle), -radius * std::cos(angle)});
   }
   constexpr double kSeam = 1e-6;  // of the radius: far below any edge, far above rounding
-  const std::vector<int> kept = nearby_representatives(rolled, kSeam * radius);
-  std::vector<int> number(rolled.size());
-  for (std::size_t i = 0; i < rolled.size(); ++i) {
-    number[i] = kept[i] < static_cast<int>(i) ? number[kept[i]] : static_cast<int>(tube.rest.size());
-    if (kept[i] == static_cast<int>(i)) tube.rest.push_back(rolled[i]);
-  }
-  for (const Eigen::Vector3i& t : flat.face) tube.face.push_back({number[t[0]], number[t[1]], number[t[2]]});
+  weld_vertices(tube, kSeam * radius);
   build_topology(tube, "tube mesh");
   if (!is_closed(tube, length))
     throw Error::invalid_input(
-        "tube mesh: the two sides of the seam do not meet with mesh = " + to_string(family) + " and " +
+        "tube mesh: the two sides of the seam do not meet with mesh = " + enum_name(family) + " and " +
         std::to_string(triangles) + " triangles; take mesh = unionjack");
   return tube;
 }

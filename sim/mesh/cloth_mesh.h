@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/base/enum_names.h"
 #include "sim/mesh/length_unit.h"
 
 namespace hysteron {
@@ -85,8 +86,10 @@ void build_topology(ClothMesh& mesh, const std::string& what);
 //   other diagonal; unionjack: alternating diagonals; equilateral: rows of equilateral triangles; random:
 //   jittered points, Delaunay triangulated.
 enum class MeshFamily { aligned, aligned45, flipped, unionjack, equilateral, random };
+constexpr std::array<const char*, 6> names(MeshFamily) {
+  return {"aligned", "aligned-45", "flipped", "unionjack", "equilateral", "random"};
+}
 MeshFamily mesh_family(const std::string& name);  // Error::invalid_input for an unknown name
-std::string to_string(MeshFamily family);
 
 // Rectangle [0, length] x [0, width] in z = 0 with about `triangles` triangles; warp along x.
 // For structured families the cells are as square as the counts allow (equilateral: rows parallel to the

@@ -45,10 +45,8 @@ fs::path find_asset(const std::string& kind, const std::string& name, const std:
   if (hyphenated != name && fs::is_regular_file(folder / (hyphenated + ".toml"), ignored))
     return folder / (hyphenated + ".toml");
   const std::vector<std::string> names = list_assets(kind);
-  const std::string nearest = nearest_name(name, names);
-  const std::string hint = nearest.empty() ? "" : "; did you mean " + nearest + "?";
   throw Error::invalid_input("no file and none of the " + kind + " is called \"" + name + "\" (" + origin +
-                             "); there are: " + join(names, ", ") + hint);
+                             "); there are: " + join(names, ", ") + suggestion(name, names));
 }
 
 std::string asset_name(const fs::path& file) {

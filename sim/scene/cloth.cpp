@@ -9,7 +9,6 @@
 #include "sim/mesh/builders.h"
 #include "sim/mesh/file_ending.h"
 #include "sim/mesh/garment.h"
-#include "sim/scene/plausible.h"
 #include "sim/scene/shown_key.h"
 #include "sim/scene/start_shape.h"
 

@@ -34,6 +34,14 @@ Cloth make_cloth(const Scene& scene);
 // The same with a mesh of the caller's in place of the scene's.
 Cloth place_cloth(const Scene& scene, ClothMesh mesh);
 
+// Whether a cloth can be what was meant: the commonest mistake of a mesh is its unit of length.
+
+// A sentence for each: size, weight or edges that no cloth of that fabric has, with the units in which it
+// would be one; a start that stretches it; a start whose history no file holds.  `start` [m] is where the
+// vertices of the mesh start.
+std::vector<std::string> cloth_doubts(const Scene& scene, const ClothMesh& mesh,
+                                      const std::vector<Eigen::Vector3d>& start);
+
 // Where the coordinates of a simulation begin.  Far from the world's origin the rounding of a position, above
 // all in single precision, is that of the distance and not of the cloth: there positions are relative to
 // where the cloth starts.

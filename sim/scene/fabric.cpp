@@ -66,7 +66,7 @@ VirginCurve Fabric::virgin_curve() const {
   return curve;
 }
 
-void check_bending_parts(const Scene& scene) {
+void check_fabric_lists(const Scene& scene) {
   const BendingParts& b = scene.fabric.bending;
   check_stops(scene, "bending.stops", b.stops);
   check_stops(scene, "bending.stops.weft", b.weft_stops);
@@ -81,9 +81,6 @@ void check_bending_parts(const Scene& scene) {
     throw Error::invalid_input(shown(scene, "fabric.bending.set.yield", b.set.yield, "1/m") + " and " +
                                shown(scene, "fabric.bending.set.hardening", b.set.hardening, "N m") +
                                " must both be > 0, or both 0: no set");
-}
-
-void check_in_plane_stops(const Scene& scene) {
   const InPlaneStops& p = scene.fabric.in_plane;
   check_stops(scene, "membrane.stops.warp", p.warp);
   check_stops(scene, "membrane.stops.weft", p.weft);

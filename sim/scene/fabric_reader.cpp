@@ -177,8 +177,7 @@ void note_three_numbers(Fabric& fabric) {
 
 void read_parts(const Reader& reader, const ValueTree& table, const ValueTree* sources, Scene& scene) {
   read_lists(reader, table, table.key, sources, scene);
-  check_bending_parts(scene);
-  check_in_plane_stops(scene);
+  check_fabric_lists(scene);
   note_three_numbers(scene.fabric);
 }
 

@@ -1,7 +1,6 @@
 #include "sim/scene/key_table.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -74,14 +73,7 @@ void check_number(const KeyDescription& key, double x, const std::string& shown,
 void check_choice(const KeyDescription& key, const std::string& name, const std::string& origin) {
   if (key.choices.empty()) return;
   if (std::count(key.choices.begin(), key.choices.end(), name)) return;
-  if (std::count(key.announced.begin(), key.announced.end(), name)) {
-    throw Error::invalid_input(key.path + " = " + name + " is not built yet (" + origin +
-                               "); built: " + join(key.choices, " | "))
-        .with_key(key.path, name);
-  }
-  const std::string nearest = nearest_name(name, key.choices);
-  throw refusal(key, name, join(key.choices, " | "),
-                origin + (nearest.empty() ? "" : "; did you mean " + nearest + "?"));
+  throw refusal(key, name, join(key.choices, " | "), origin + suggestion(name, key.choices));
 }
 
 double as_number(const KeyDescription& key, const Value& value, const std::string& origin) {
@@ -137,12 +129,10 @@ void assign_numbers(const KeyDescription& key, Numbers& target, const Value& val
   target = *numbers;
 }
 
-// The whole text as a number; false if anything is left over.
+// A plus sign may stand before it.
 template <class Number>
-bool parse(std::string_view text, Number& number) {
-  if (text.starts_with('+')) text.remove_prefix(1);
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  return error == std::errc() && end == text.data() + text.size();
+std::optional<Number> signed_number(std::string_view text) {
+  return number_in<Number>(text.substr(text.starts_with('+') ? 1 : 0));
 }
 
 std::vector<double> parse_components(std::string text) {
@@ -152,20 +142,17 @@ std::vector<double> parse_components(std::string text) {
   std::istringstream words(text);
   std::vector<double> components;
   for (std::string word; words >> word;) {
-    double x = 0;
-    if (!parse(word, x)) return {};
-    components.push_back(x);
+    const auto x = signed_number<double>(word);
+    if (!x) return {};
+    components.push_back(*x);
   }
   return components;
 }
 
 void split_choices(const char* text, KeyDescription& key) {
   std::istringstream words(text);
-  for (std::string word; words >> word;) {
-    if (word == "|") continue;
-    const bool announced = word.front() == '(';
-    (announced ? key.announced : key.choices).push_back(announced ? word.substr(1, word.size() - 2) : word);
-  }
+  for (std::string word; words >> word;)
+    if (word != "|") key.choices.push_back(word);
 }
 
 // Numbers with four digits; "" for what is not set.
@@ -198,7 +185,7 @@ std::string Range::text() const {
 
 KeyDescription describe(const char* path, const Field& field, const char* unit, Range range,
                         const char* choices, const char* doc) {
-  KeyDescription key{path, type_name(field), unit, range, {}, {}, doc, described_default(field)};
+  KeyDescription key{path, type_name(field), unit, range, {}, doc, described_default(field)};
   split_choices(choices, key);
   if (const auto* named = std::get_if<NamedValue>(&field)) key.choices = named->names;
   return key;
@@ -240,11 +227,11 @@ void assign(const BoundKey& key, const Value& value, const std::string& origin) 
 }
 
 Value parse_text(const KeyDescription& key, const std::string& text) {
-  std::int64_t integer = 0;
-  double number = 0;
+  const auto integer = signed_number<std::int64_t>(text);
+  const auto number = signed_number<double>(text);
   if (key.type == "flag" && (text == "true" || text == "false")) return text == "true";
-  if (key.type == "integer" && parse(text, integer)) return integer;
-  if ((key.type == "integer" || key.type == "number") && parse(text, number)) return number;
+  if (key.type == "integer" && integer) return *integer;
+  if ((key.type == "integer" || key.type == "number") && number) return *number;
   if (key.type == "vector" && parse_components(text).size() == 3) return parse_components(text);
   if (key.type == "numbers" && (text == "[]" || !parse_components(text).empty()))
     return parse_components(text);
@@ -257,9 +244,7 @@ const BoundKey& find_key(const Keys& keys, const std::string& path, const std::s
     if (key.description.path == path) return key;
     names.push_back(key.description.path);
   }
-  const std::string nearest = nearest_name(path, names);
-  throw Error::invalid_input("unknown key " + path + " (" + origin + ")" +
-                             (nearest.empty() ? "" : "; did you mean " + nearest + "?"))
+  throw Error::invalid_input("unknown key " + path + " (" + origin + ")" + suggestion(path, names))
       .with_key(path, "");
 }
 
@@ -296,6 +281,11 @@ std::string nearest_name(const std::string& name, const std::vector<std::string>
     if (edits.back() < fewest) fewest = edits.back(), nearest = candidate;
   }
   return nearest;
+}
+
+std::string suggestion(const std::string& name, const std::vector<std::string>& candidates) {
+  const std::string nearest = nearest_name(name, candidates);
+  return nearest.empty() ? "" : "; did you mean " + nearest + "?";
 }
 
 std::string join(const std::vector<std::string>& words, const std::string& separator) {

@@ -63,14 +63,13 @@ using Field = std::variant<bool*, int*, unsigned*, double*, Eigen::Vector3d*, st
                            NamedValue, Numbers*>;
 
 struct KeyDescription {
-  std::string path;                    // "fabric.b2"
-  std::string type;                    // flag | integer | number | vector | text | name=value | numbers
-  std::string unit;                    // "N m", "" for plain numbers and texts
-  Range range;                         // of numbers
-  std::vector<std::string> choices;    // of texts; empty: any text
-  std::vector<std::string> announced;  // texts that are part of the interface and not built yet
-  std::string doc;                     // one line
-  std::string default_text;            // the value when it was described, four digits; "": none, or a flag
+  std::string path;                  // "fabric.b2"
+  std::string type;                  // flag | integer | number | vector | text | name=value | numbers
+  std::string unit;                  // "N m", "" for plain numbers and texts
+  Range range;                       // of numbers
+  std::vector<std::string> choices;  // of texts; empty: any text
+  std::string doc;                   // one line
+  std::string default_text;          // the value when it was described, four digits; "": none, or a flag
 };
 
 struct BoundKey {
@@ -79,8 +78,7 @@ struct BoundKey {
 };
 using Keys = std::vector<BoundKey>;
 
-// One line of a table.  Choices are written "sphere | box | (cone)"; those in parentheses are announced.
-// Those of an enumeration are its names.
+// One line of a table.  Choices are written "sphere | box"; those of an enumeration are its names.
 template <class Owner>
 struct KeyRow {
   const char* path;
@@ -134,6 +132,8 @@ nlohmann::ordered_json to_json(const Keys& keys);
 // The candidate with the fewest edits from `name`, or "" if none is near (a third of the letters, at least
 // two).
 std::string nearest_name(const std::string& name, const std::vector<std::string>& candidates);
+// "; did you mean NAME?" with it, for the end of a message; "" likewise.
+std::string suggestion(const std::string& name, const std::vector<std::string>& candidates);
 
 std::string join(const std::vector<std::string>& words, const std::string& separator);
 

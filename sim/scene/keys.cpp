@@ -147,10 +147,16 @@ const KeyRow<Keyframe> kKeyframeRows[] = {
 };
 // clang-format on
 
-Json motion_json(const Motion& motion) {
-  Json keys = Json::array();
-  for (Keyframe key : motion.keys) keys.push_back(to_json(bind_keyframe(key)));
-  return keys;
+// An array of tables, with the keyframes of those that move.
+template <class Item>
+Json tables_json(std::vector<Item> items, Keys (*bind_one)(Item&)) {
+  Json tables = Json::array();
+  for (Item& item : items) {
+    tables.push_back(to_json(bind_one(item)));
+    if constexpr (requires { item.motion; })
+      tables.back()["keys"] = tables_json(item.motion.keys, bind_keyframe);
+  }
+  return tables;
 }
 
 Json provenance_json(const Fabric& fabric) {
@@ -260,20 +266,10 @@ Json to_json(const Scene& scene) {
   Json tree = to_json(bind_scene(copy));
   tree["fabric"]["provenance"] = provenance_json(scene.fabric);
   tree["fabric"]["published"] = published_json(scene.fabric);
-  tree["pin"] = Json::array();
-  for (Pin& pin : copy.pin) {
-    tree["pin"].push_back(to_json(bind_pin(pin)));
-    tree["pin"].back()["keys"] = motion_json(pin.motion);
-  }
-  tree["obstacle"] = Json::array();
-  for (Obstacle& obstacle : copy.obstacle) {
-    tree["obstacle"].push_back(to_json(bind_obstacle(obstacle)));
-    tree["obstacle"].back()["keys"] = motion_json(obstacle.motion);
-  }
-  tree["command"] = Json::array();
-  for (Command& command : copy.command) tree["command"].push_back(to_json(bind_command(command)));
-  tree["phase"] = Json::array();
-  for (Phase& phase : copy.phase) tree["phase"].push_back(to_json(bind_phase(phase)));
+  tree["pin"] = tables_json(scene.pin, bind_pin);
+  tree["obstacle"] = tables_json(scene.obstacle, bind_obstacle);
+  tree["command"] = tables_json(scene.command, bind_command);
+  tree["phase"] = tables_json(scene.phase, bind_phase);
   tree["origin"] = scene.origin;
   return tree;
 }

@@ -1,11 +1,11 @@
-#include "sim/scene/plausible.h"
-
+// Whether a cloth can be what was meant.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <numeric>
 
 #include "sim/mesh/file_ending.h"
+#include "sim/scene/cloth.h"
 #include "sim/scene/mesh_files.h"
 #include "sim/scene/shown_key.h"
 

@@ -1,5 +1,4 @@
-#include "sim/scene/recorded_scene.h"
-
+// A scene back from what a run has recorded.
 #include <nlohmann/json.hpp>
 
 #include "sim/base/error.h"
@@ -75,7 +74,7 @@ void apply_recorded_scene(Scene& scene, Json tree, const std::string& file, cons
     if (const Json printed = taken(tree["fabric"], "published"); !printed.is_null())
       read_published(printed, file, scene.fabric);
   }
-  apply_recorded_tree(scene, json_tree(tree, file), file, extra, left);
+  apply_scene_tree(scene, json_tree(tree, file), file, extra, left, true);
   if (!origin.is_null()) scene.origin = texts(origin, "origin", file);
 }
 

@@ -14,57 +14,55 @@
 namespace hysteron {
 namespace {
 
-const std::vector<std::string> kMeshFamilies = {"aligned",   "aligned-45",  "flipped",
-                                                "unionjack", "equilateral", "random"};
+// What is wrong, and where that key or table was set.
+Error key_refusal(const Scene& scene, const std::string& key, const std::string& what) {
+  return Error::invalid_input(what).with_origin(key_origin(scene, key));
+}
+
+// "pin[0]"
+std::string path_in(const std::string& list, std::size_t i) { return list + "[" + std::to_string(i) + "]"; }
+
+template <class Item>
+void check_each(const Scene& scene, const std::vector<Item>& items, const std::string& list,
+                void (*check)(const Scene&, const Item&, const std::string& path)) {
+  for (std::size_t i = 0; i < items.size(); ++i) check(scene, items[i], path_in(list, i));
+}
 
 void check_fabric(const Scene& scene) {
   const Fabric& f = scene.fabric;
-  if (f.kes.on() && !(f.b2 > 0)) {
-    throw Error::invalid_input(shown(scene, "fabric.stops-median", f.kes.shape.median, "1/m") + " and " +
-                               shown(scene, "fabric.stops-spread", f.kes.shape.spread, "") +
-                               " make friction of " +
-                               shown(scene, "fabric.kes-2hb", f.kes.read.loop_width, "N") + " steeper than " +
-                               shown(scene, "fabric.kes-b", f.kes.read.rigidity, "N m") +
-                               " where the tester reads: no elasticity is left beside it")
-        .with_key("fabric.stops-median", number_text(f.kes.shape.median));
-  }
-  if (f.b1 < f.b2) {
-    throw Error::invalid_input(shown(scene, "fabric.b1", f.b1, "N m") +
-                               " must be >= " + shown(scene, "fabric.b2", f.b2, "N m"))
-        .with_key("fabric.b1", number_text(f.b1));
-  }
-  if (f.k0 == 0 && f.b1 > f.b2) {
-    throw Error::invalid_input(shown(scene, "fabric.k0", f.k0, "1/m") +
-                               " must be > 0 while fabric.b1 > fabric.b2")
-        .with_key("fabric.k0", "0");
-  }
-  if (4 * f.bias_bending < 1 + f.weft_bending) {
-    throw Error::invalid_input(shown(scene, "fabric.bias-bending", f.bias_bending, "") + " must be >= " +
-                               number_text((1 + f.weft_bending) / 4) + ", (1 + fabric.weft-bending)/4")
-        .with_key("fabric.bias-bending", number_text(f.bias_bending));
-  }
-  if (f.coupling * f.coupling >= f.warp * f.weft) {
-    throw Error::invalid_input(shown(scene, "fabric.coupling", f.coupling, "N/m") + " must be within +-" +
-                               number_text(std::sqrt(f.warp * f.weft)) +
-                               " N/m, sqrt(fabric.warp * fabric.weft)")
-        .with_key("fabric.coupling", number_text(f.coupling));
-  }
-  check_bending_parts(scene);
-  check_in_plane_stops(scene);
+  const auto refuse = [&](const std::string& key, double value, const std::string& unit,
+                          const std::string& what) {
+    throw Error::invalid_input(shown(scene, key, value, unit) + " " + what).with_key(key, number_text(value));
+  };
+  if (f.kes.on() && !(f.b2 > 0))
+    refuse("fabric.stops-median", f.kes.shape.median, "1/m",
+           "and " + shown(scene, "fabric.stops-spread", f.kes.shape.spread, "") + " make friction of " +
+               shown(scene, "fabric.kes-2hb", f.kes.read.loop_width, "N") + " steeper than " +
+               shown(scene, "fabric.kes-b", f.kes.read.rigidity, "N m") +
+               " where the tester reads: no elasticity is left beside it");
+  if (f.b1 < f.b2) refuse("fabric.b1", f.b1, "N m", "must be >= " + shown(scene, "fabric.b2", f.b2, "N m"));
+  if (f.k0 == 0 && f.b1 > f.b2) refuse("fabric.k0", f.k0, "1/m", "must be > 0 while fabric.b1 > fabric.b2");
+  if (4 * f.bias_bending < 1 + f.weft_bending)
+    refuse("fabric.bias-bending", f.bias_bending, "",
+           "must be >= " + number_text((1 + f.weft_bending) / 4) + ", (1 + fabric.weft-bending)/4");
+  if (f.coupling * f.coupling >= f.warp * f.weft)
+    refuse("fabric.coupling", f.coupling, "N/m",
+           "must be within +-" + number_text(std::sqrt(f.warp * f.weft)) +
+               " N/m, sqrt(fabric.warp * fabric.weft)");
+  check_fabric_lists(scene);
 }
 
 void check_mesh(const Scene& scene) {
   const std::string& shape = scene.cloth.shape;
   const bool given = shape == "file" && names_an_obj(scene.mesh);
   if ((shape == "file" || shape == "pattern") && scene.cloth.file.empty() && !given) {
-    throw Error::invalid_input("cloth.shape = " + shape + " (" + key_origin(scene, "cloth.shape") +
-                               ") needs cloth.file, an OBJ");
+    throw Error::invalid_input(shown(scene, "cloth.shape", shape, "") + " needs cloth.file, an OBJ");
   }
-  if (names_an_obj(scene.mesh) || std::count(kMeshFamilies.begin(), kMeshFamilies.end(), scene.mesh)) return;
-  const std::string nearest = nearest_name(scene.mesh, kMeshFamilies);
-  throw Error::invalid_input("mesh = " + scene.mesh + " (" + key_origin(scene, "mesh") + ") must be " +
-                             join(kMeshFamilies, " | ") + " | FILE.obj" +
-                             (nearest.empty() ? "" : "; did you mean " + nearest + "?"));
+  const auto all = names(MeshFamily{});
+  const std::vector<std::string> families(all.begin(), all.end());
+  if (names_an_obj(scene.mesh) || std::count(families.begin(), families.end(), scene.mesh)) return;
+  throw Error::invalid_input(shown(scene, "mesh", scene.mesh, "") + " must be " + join(families, " | ") +
+                             " | FILE.obj" + suggestion(scene.mesh, families));
 }
 
 // The triangles of a file are its own; a file that no shape asks for would be left unread without a word.
@@ -77,9 +75,9 @@ void check_one_mesh(const Scene& scene) {
                                ": give cloth.shape = file, or pattern")
         .with_key("cloth.file", cloth.file);
   if (!of_file || cloth.file.empty() || !is_given(scene, "mesh")) return;
-  throw Error::invalid_input("mesh = " + scene.mesh + " (" + key_origin(scene, "mesh") +
-                             ") and cloth.file = " + cloth.file + " (" + key_origin(scene, "cloth.file") +
-                             ") both define the triangles: leave one out");
+  throw Error::invalid_input(shown(scene, "mesh", scene.mesh, "") + " and " +
+                             shown(scene, "cloth.file", cloth.file, "") +
+                             " both define the triangles: leave one out");
 }
 
 // Lengths of keys are metres.
@@ -92,40 +90,37 @@ void check_unit(const Scene& scene) {
 }
 
 void check_method(const Scene& scene) {
-  if (scene.force == ForceConvention::chapter && scene.element != BendingElement::hinge) {
-    throw Error::invalid_input("force = chapter (" + key_origin(scene, "force") +
-                               ") needs element = hinge, not " + enum_name(scene.element) + " (" +
-                               key_origin(scene, "element") + ")");
-  }
+  if (scene.force == ForceConvention::chapter && scene.element != BendingElement::hinge)
+    throw key_refusal(
+        scene, "element",
+        shown(scene, "force", "chapter", "") + " needs element = hinge, not " + enum_name(scene.element));
 }
 
 void check_motion(const Scene& scene, const std::string& path, const Motion& motion) {
   for (std::size_t i = 0; i < motion.keys.size(); ++i) {
-    const std::string key = path + ".keys[" + std::to_string(i) + "]";
-    if (i > 0 && motion.keys[i].time <= motion.keys[i - 1].time) {
-      throw Error::invalid_input(key + ".time = " + number_text(motion.keys[i].time) + " s must be > " +
-                                 number_text(motion.keys[i - 1].time) + " s, the key before (" +
-                                 key_origin(scene, key) + ")");
-    }
-    if (motion.keys[i].angle != 0 && motion.axis.isZero(0)) {
-      throw Error::invalid_input(key + ".angle = " + number_text(motion.keys[i].angle) +
-                                 " degree needs an axis that is not zero (" + key_origin(scene, key) + ")");
-    }
+    const std::string key = path_in(path + ".keys", i);
+    if (i > 0 && motion.keys[i].time <= motion.keys[i - 1].time)
+      throw key_refusal(scene, key,
+                        key + ".time = " + number_text(motion.keys[i].time) + " s must be > " +
+                            number_text(motion.keys[i - 1].time) + " s, the key before");
+    if (motion.keys[i].angle != 0 && motion.axis.isZero(0))
+      throw key_refusal(
+          scene, key,
+          key + ".angle = " + number_text(motion.keys[i].angle) + " degree needs an axis that is not zero");
   }
 }
 
 void check_times(const Scene& scene, double from, double until, const std::string& path) {
   if (from >= until)
-    throw Error::invalid_input(path + ".from = " + number_text(from) + " s must be < " + path +
-                               ".until = " + number_text(until) + " s (" + key_origin(scene, path) + ")");
+    throw key_refusal(scene, path,
+                      path + ".from = " + number_text(from) + " s must be < " + path +
+                          ".until = " + number_text(until) + " s");
 }
 
 void check_pin(const Scene& scene, const Pin& pin, const std::string& path) {
   check_times(scene, pin.from, pin.until, path);
-  if (pin.select == "box" && (pin.low.array() > pin.high.array()).any()) {
-    throw Error::invalid_input(path + ".low must be <= " + path + ".high in x, y and z [m] (" +
-                               key_origin(scene, path) + ")");
-  }
+  if (pin.select == "box" && (pin.low.array() > pin.high.array()).any())
+    throw key_refusal(scene, path, path + ".low must be <= " + path + ".high in x, y and z [m]");
   if (pin.strength > 0 && !scene.is_implicit())
     throw Error::invalid_input(
         path + ".strength = " + number_text(pin.strength) + " N (" + key_origin(scene, path) +
@@ -133,8 +128,7 @@ void check_pin(const Scene& scene, const Pin& pin, const std::string& path) {
   check_motion(scene, path, pin.motion);
   for (std::size_t i = 0; i < pin.motion.keys.size(); ++i)
     if (pin.motion.keys[i].scale != 1)
-      throw Error::invalid_input(path + ".keys[" + std::to_string(i) + "].scale is for obstacles (" +
-                                 key_origin(scene, path) + ")");
+      throw key_refusal(scene, path, path_in(path + ".keys", i) + ".scale is for obstacles");
 }
 
 // How far its middle comes in any one step [m].
@@ -166,20 +160,18 @@ void check_stride(const Scene& scene, const Obstacle& solid, const std::string& 
 void check_obstacle(const Scene& scene, const Obstacle& solid, const std::string& path) {
   check_times(scene, solid.from, solid.until, path);
   const ObstacleForm form = obstacle_form(solid);
-  if (form.has_axis && solid.axis.isZero(0)) {
-    throw Error::invalid_input(path + ".axis = [0, 0, 0] must not be zero (" + key_origin(scene, path) + ")");
-  }
-  if (solid.kind == ObstacleKind::torus && solid.radius <= solid.height / 2) {
-    throw Error::invalid_input(path + ".radius = " + number_text(solid.radius) + " m must be > " +
-                               number_text(solid.height / 2) + " m, half of " + path +
-                               ".height: a torus needs a hole (" + key_origin(scene, path) + ")");
-  }
+  if (form.has_axis && solid.axis.isZero(0))
+    throw key_refusal(scene, path, path + ".axis = [0, 0, 0] must not be zero");
+  if (solid.kind == ObstacleKind::torus && solid.radius <= solid.height / 2)
+    throw key_refusal(scene, path,
+                      path + ".radius = " + number_text(solid.radius) + " m must be > " +
+                          number_text(solid.height / 2) + " m, half of " + path +
+                          ".height: a torus needs a hole");
   const double room = form.has_rim ? form.half_thickness : kInfinity;
-  if (solid.rim > room) {
-    throw Error::invalid_input(path + ".rim = " + number_text(solid.rim) + " m must be in [0, " +
-                               number_text(room) + "], half of the thinnest part (" +
-                               key_origin(scene, path) + ")");
-  }
+  if (solid.rim > room)
+    throw key_refusal(scene, path,
+                      path + ".rim = " + number_text(solid.rim) + " m must be in [0, " + number_text(room) +
+                          "], half of the thinnest part");
   check_motion(scene, path, solid.motion);
   check_stride(scene, solid, path);
 }
@@ -205,7 +197,7 @@ void check_parameters(const Scene& scene) {
 // Otherwise a time that names the phase could mean either.
 void check_phases(const Scene& scene) {
   const auto table = [&](std::size_t i) {
-    const std::string path = "phase[" + std::to_string(i) + "]";
+    const std::string path = path_in("phase", i);
     return path + " (" + key_origin(scene, path) + ")";
   };
   for (std::size_t i = 0; i < scene.phase.size(); ++i) {
@@ -231,51 +223,46 @@ void check_due(const Scene& scene, const Command& command, const std::string& pa
 }
 
 void check_command(const Scene& scene, const Command& command, const std::string& path) {
-  const auto place = [&](const std::string& key) { return origin_in(scene, path, key); };
   if ((command.low.array() > command.high.array()).any())
-    throw Error::invalid_input(path + ".low must be <= " + path + ".high in x, y and z [m] (" + place("low") +
-                               ")");
-  if (command.kind == CommandKind::edit && scene.law != "grinspun-edit") {
-    throw Error::invalid_input(path + ".kind = edit needs law = grinspun-edit, not " + scene.law + " (" +
-                               place("kind") + ")");
-  }
+    throw Error::invalid_input(path + ".low must be <= " + path + ".high in x, y and z [m]")
+        .with_origin(origin_in(scene, path, "low"));
+  if (command.kind == CommandKind::edit && scene.law != "grinspun-edit")
+    throw Error::invalid_input(path + ".kind = edit needs law = grinspun-edit, not " + scene.law)
+        .with_origin(origin_in(scene, path, "kind"));
 }
 
 }  // namespace
 
 void check_steps(const Scene& scene) {
   if (scene.self_contact && scene.integrator == Integrator::explicit_euler)
-    throw Error::invalid_input(
+    throw key_refusal(
+        scene, "integrator",
         "self-contact (" + key_origin(scene, "self-contact") +
-        ") needs integrator = implicit | bdf2 | tr-bdf2 | quasi-static | semi-implicit, not explicit (" +
-        key_origin(scene, "integrator") + ")");
+            ") needs integrator = implicit | bdf2 | tr-bdf2 | quasi-static | semi-implicit, not explicit");
   if (scene.self_contact && scene.integrator == Integrator::semi_implicit &&
       scene.implicit_every == ImplicitEvery::step)
-    throw Error::invalid_input("self-contact (" + key_origin(scene, "self-contact") +
-                               ") needs implicit-every = substep, not step (" +
-                               key_origin(scene, "implicit-every") + ")");
+    throw key_refusal(
+        scene, "implicit-every",
+        "self-contact (" + key_origin(scene, "self-contact") + ") needs implicit-every = substep, not step");
   if (!(scene.tolerance > 0)) return;
+  const std::string tolerance = shown(scene, "tolerance", scene.tolerance, "m");
   if (scene.integrator == Integrator::explicit_euler || scene.integrator == Integrator::quasi_static)
-    throw Error::invalid_input(shown(scene, "tolerance", scene.tolerance, "m") +
-                               " needs integrator = bdf2 | tr-bdf2 | implicit | semi-implicit, not " +
-                               enum_name(scene.integrator) + " (" + key_origin(scene, "integrator") + ")");
+    throw key_refusal(scene, "integrator",
+                      tolerance + " needs integrator = bdf2 | tr-bdf2 | implicit | semi-implicit, not " +
+                          enum_name(scene.integrator));
   if (scene.integrator == Integrator::semi_implicit && scene.self_contact)
-    throw Error::invalid_input(
-        shown(scene, "tolerance", scene.tolerance, "m") +
-        " with self-contact needs integrator = bdf2 | tr-bdf2 | implicit, not semi-implicit (" +
-        key_origin(scene, "integrator") + ")");
+    throw key_refusal(
+        scene, "integrator",
+        tolerance + " with self-contact needs integrator = bdf2 | tr-bdf2 | implicit, not semi-implicit");
   if (scene.integrator == Integrator::semi_implicit && scene.implicit_every == ImplicitEvery::step)
-    throw Error::invalid_input(shown(scene, "tolerance", scene.tolerance, "m") +
-                               " needs implicit-every = substep (" + key_origin(scene, "implicit-every") +
-                               ")");
+    throw key_refusal(scene, "implicit-every", tolerance + " needs implicit-every = substep");
 }
 
 void check_duration(const Scene& scene) {
   if (scene.seconds > 0 && scene.step > scene.seconds)
     throw Error::invalid_input(shown(scene, "step", scene.step, "s") +
                                " must be <= " + shown(scene, "seconds", scene.seconds, "s"));
-  for (std::size_t i = 0; i < scene.command.size(); ++i)
-    check_due(scene, scene.command[i], "command[" + std::to_string(i) + "]");
+  check_each(scene, scene.command, "command", check_due);
 }
 
 void check_scene(const Scene& scene) {
@@ -288,15 +275,9 @@ void check_scene(const Scene& scene) {
   check_method(scene);
   check_steps(scene);
   check_parameters(scene);
-  for (std::size_t i = 0; i < scene.pin.size(); ++i) {
-    check_pin(scene, scene.pin[i], "pin[" + std::to_string(i) + "]");
-  }
-  for (std::size_t i = 0; i < scene.command.size(); ++i) {
-    check_command(scene, scene.command[i], "command[" + std::to_string(i) + "]");
-  }
-  for (std::size_t i = 0; i < scene.obstacle.size(); ++i) {
-    check_obstacle(scene, scene.obstacle[i], "obstacle[" + std::to_string(i) + "]");
-  }
+  check_each(scene, scene.pin, "pin", check_pin);
+  check_each(scene, scene.command, "command", check_command);
+  check_each(scene, scene.obstacle, "obstacle", check_obstacle);
 }
 
 }  // namespace hysteron

@@ -216,13 +216,8 @@ void apply_scene_file(Scene& scene, const std::string& name_or_file, const Keys&
 }
 
 void apply_scene_tree(Scene& scene, const ValueTree& root, const std::string& source, const Keys& extra,
-                      const std::vector<std::string>& left) {
-  SceneKeys(scene, source, false, extra, left).apply(root);
-}
-
-void apply_recorded_tree(Scene& scene, const ValueTree& root, const std::string& source, const Keys& extra,
-                         const std::vector<std::string>& left) {
-  SceneKeys(scene, source, true, extra, left).apply(root);
+                      const std::vector<std::string>& left, bool recorded) {
+  SceneKeys(scene, source, recorded, extra, left).apply(root);
 }
 
 void apply_flags(Scene& scene, const std::vector<Flag>& flags, const Keys& extra) {

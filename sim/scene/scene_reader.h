@@ -29,13 +29,18 @@ Scene default_scene(const std::string& fabric = "cotton-broad");
 // unreadable.
 void apply_scene_file(Scene& scene, const std::string& name_or_file, const Keys& extra = {},
                       const std::vector<std::string>& left = {});
-// The same from a tree that another program has made; `source` stands for the file in messages.
+// The same from a tree that another program has made; `source` stands for the file in messages.  What a run
+// has recorded is taken as it stands: no file is asked for the fabric, none is looked for beside the source.
 void apply_scene_tree(Scene& scene, const ValueTree& root, const std::string& source, const Keys& extra = {},
-                      const std::vector<std::string>& left = {});
-// The same from what a run has recorded, which is taken as it stands: no file is asked for the fabric, none
-// is looked for beside the source.
-void apply_recorded_tree(Scene& scene, const ValueTree& root, const std::string& source, const Keys& extra,
-                         const std::vector<std::string>& left);
+                      const std::vector<std::string>& left = {}, bool recorded = false);
+
+// A scene back from what to_json(scene) (keys.h) has written into a manifest.
+// Sets every key that `tree` holds; others stay as they are.  No file is asked for the fabric: its numbers,
+// their sources and what is published of it are those of `tree`, and so is where each key was set.  `file`
+// names it in messages; `extra` and `left` as in apply_scene_file.  Throws
+// Error::invalid_input for keys that are not known, wrong types and values out of range.
+void apply_recorded_scene(Scene& scene, nlohmann::ordered_json tree, const std::string& file,
+                          const Keys& extra = {}, const std::vector<std::string>& left = {});
 
 // Applies flags; a fabric is loaded first.  `extra` as above.
 void apply_flags(Scene& scene, const std::vector<Flag>& flags, const Keys& extra = {});
@@ -43,9 +48,8 @@ void apply_flags(Scene& scene, const std::vector<Flag>& flags, const Keys& extra
 // What no single key can tell: b1 >= b2, k0 > 0 or b1 = b2, coupling^2 < warp*weft, `chapter` on hinges only,
 // pins, obstacles and their motions, the law's parameters, the mesh's name.  Throws Error::invalid_input.
 void check_scene(const Scene& scene);
-// The part of it that asks whether the lists of fabric.bending.* fit together.
-void check_bending_parts(const Scene& scene);
-void check_in_plane_stops(const Scene& scene);  // the same of fabric.membrane.*
+// The part of it that asks whether the lists of fabric.bending.* and fabric.membrane.* fit together.
+void check_fabric_lists(const Scene& scene);
 // That there is a step in it at all, and that commands are due before its end: of a scene that is about to
 // run, since experiments say how long they last.  Throws Error::invalid_input.
 void check_duration(const Scene& scene);

@@ -146,9 +146,8 @@ void check_start_name(const Scene& scene) {
   static const std::vector<std::string> kNames = {"rest", "knot", "pleats"};
   const std::string& start = scene.cloth.start;
   if (std::count(kNames.begin(), kNames.end(), start)) return;
-  const std::string nearest = nearest_name(start, kNames);
   throw Error::invalid_input(shown(scene, "cloth.start", start, "") + " must be " + join(kNames, " | ") +
-                             " | FILE.obj" + (nearest.empty() ? "" : "; did you mean " + nearest + "?"))
+                             " | FILE.obj" + suggestion(start, kNames))
       .with_key("cloth.start", start);
 }
 

@@ -10,7 +10,6 @@
 #include "sim/base/error.h"
 #include "sim/base/whole_file.h"
 #include "sim/scene/assets.h"
-#include "sim/scene/toml_text.h"
 
 namespace hysteron {
 namespace {

@@ -1,9 +1,10 @@
-#include "sim/scene/toml_text.h"
-
+// What must be known of a TOML text before it is parsed.
 #include <algorithm>
 #include <cctype>
 #include <utility>
 #include <vector>
+
+#include "sim/scene/toml_file.h"
 
 namespace hysteron {
 namespace {

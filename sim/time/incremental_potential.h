@@ -20,7 +20,7 @@
 #include "sim/device/host_result.h"
 #include "sim/linear/pcg.h"
 #include "sim/membrane/membrane.h"
-#include "sim/scene/solver_tuning.h"
+#include "sim/scene/scene.h"
 #include "sim/time/compliant_pins.h"
 
 namespace hysteron {

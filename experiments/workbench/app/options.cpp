@@ -71,9 +71,8 @@ std::pair<int, int> sides(const std::string& size) {
 void check_look(const std::string& look) {
   const std::vector<std::string>& known = render::look_names();
   if (std::count(known.begin(), known.end(), look)) return;
-  const std::string nearest = nearest_name(look, known);
-  throw Error::invalid_input("look = " + look + " must be " + join(known, " | ") +
-                             (nearest.empty() ? "" : "; did you mean " + nearest + "?") + " (--look)")
+  throw Error::invalid_input("look = " + look + " must be " + join(known, " | ") + suggestion(look, known) +
+                             " (--look)")
       .with_key("look", look);
 }
 

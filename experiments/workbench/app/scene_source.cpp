@@ -8,7 +8,7 @@
 #include "experiments/workbench/app/manifest_file.h"
 #include "sim/base/atomic_file.h"
 #include "sim/base/error.h"
-#include "sim/scene/recorded_scene.h"
+#include "sim/scene/scene_reader.h"
 #include "sim/scene/scene_text.h"
 
 namespace hysteron::experiments {

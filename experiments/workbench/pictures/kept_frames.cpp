@@ -7,7 +7,7 @@
 #include "sim/base/atomic_file.h"
 #include "sim/base/error.h"
 #include "sim/scene/keys.h"
-#include "sim/scene/recorded_scene.h"
+#include "sim/scene/scene_reader.h"
 
 namespace hysteron::experiments {
 namespace {

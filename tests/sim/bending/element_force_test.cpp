@@ -95,7 +95,7 @@ std::vector<Case> cases() {
 
 class CrumpledCloth : public ::testing::TestWithParam<Case> {};
 INSTANTIATE_TEST_SUITE_P(Cases, CrumpledCloth, ::testing::ValuesIn(cases()), [](const auto& c) {
-  return to_string(c.param.family) + "_" + c.param.element + "_" + c.param.law;
+  return enum_name(c.param.family) + "_" + c.param.element + "_" + c.param.law;
 });
 
 TEST_P(CrumpledCloth, KeepsMomentumAndAngularMomentum) {

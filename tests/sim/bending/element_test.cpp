@@ -106,7 +106,7 @@ double reproduction_error(const ClothMesh& mesh) {
 
 class Family : public ::testing::TestWithParam<MeshFamily> {};
 INSTANTIATE_TEST_SUITE_P(Meshes, Family, ::testing::ValuesIn(kFamilies), [](const auto& family) {
-  std::string name = to_string(family.param);
+  std::string name = enum_name(family.param);
   std::erase(name, '-');
   return name;
 });

@@ -240,7 +240,7 @@ INSTANTIATE_TEST_SUITE_P(Sheets, Saving,
                                          Sheet{MeshFamily::aligned, true, 7},
                                          Sheet{MeshFamily::unionjack, false, 3}),
                          [](const auto& sheet) {
-                           return to_string(sheet.param.family) + (sheet.param.flat ? "_flat" : "_folded");
+                           return enum_name(sheet.param.family) + (sheet.param.flat ? "_flat" : "_folded");
                          });
 
 // Block-Jacobi's iterations grow with the vertices along a side: by two for four times the triangles.

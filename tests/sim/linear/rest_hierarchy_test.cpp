@@ -32,7 +32,7 @@ class EveryFamily : public testing::TestWithParam<MeshFamily> {};
 INSTANTIATE_TEST_SUITE_P(Meshes, EveryFamily,
                          testing::Values(MeshFamily::aligned, MeshFamily::flipped, MeshFamily::unionjack,
                                          MeshFamily::equilateral, MeshFamily::random),
-                         [](const auto& family) { return to_string(family.param); });
+                         [](const auto& family) { return enum_name(family.param); });
 
 TEST_P(EveryFamily, LevelsShrinkToSomeDozenNodes) {
   const ClothMesh mesh = make_rectangle(0.5, 0.3, 20000, GetParam(), 1);

@@ -95,7 +95,7 @@ TEST(LatticeDisc, MostTrianglesBelongToTheFamilysLattice) {
     const double median = areas[areas.size() / 2];
     int alike = 0;
     for (const double area : mesh.face_area) alike += std::abs(area - median) < 1e-9 * median;
-    EXPECT_GT(alike, 0.95 * mesh.faces()) << to_string(family);
+    EXPECT_GT(alike, 0.95 * mesh.faces()) << enum_name(family);
   }
 }
 

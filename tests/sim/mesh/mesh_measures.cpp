@@ -14,7 +14,7 @@
 namespace hysteron::test {
 
 std::string enum_name(MeshFamily family) {
-  std::string name = to_string(family);
+  std::string name = hysteron::enum_name(family);
   std::erase(name, '-');
   return name;
 }

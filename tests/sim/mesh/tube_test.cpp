@@ -15,7 +15,7 @@ constexpr double kTubeLength = 0.3, kTubeRadius = 0.05;
 class Tube : public testing::TestWithParam<MeshFamily> {};
 INSTANTIATE_TEST_SUITE_P(Families, Tube,
                          testing::Values(MeshFamily::aligned, MeshFamily::unionjack, MeshFamily::random),
-                         [](const auto& c) { return to_string(c.param); });
+                         [](const auto& c) { return enum_name(c.param); });
 
 TEST_P(Tube, IsOpenAtItsTwoEndsOnly) {
   const ClothMesh mesh = make_tube(kTubeLength, kTubeRadius, 2000, GetParam(), 1);

@@ -1,6 +1,4 @@
 // Units of meshes, and cloths that no unit was meant for.
-#include "sim/scene/plausible.h"
-
 #include "sim/scene/cloth.h"
 #include "sim/scene/scene_reader.h"
 #include "tests/sim/scene/scene_file.h"

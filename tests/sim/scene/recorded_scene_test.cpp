@@ -1,5 +1,3 @@
-#include "sim/scene/recorded_scene.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,6 +1,4 @@
 // What is found in a TOML file before its parser, which would not survive it.
-#include "sim/scene/toml_text.h"
-
 #include <array>
 #include <random>
 
