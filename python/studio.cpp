@@ -22,7 +22,7 @@ std::vector<float> shown_values(const std::string& look, const Cloth& cloth, Sim
 
 Studio::Room& Studio::room(const Scene& scene, const Cloth& cloth, const PictureChoice& choice,
                            const render::Box& bounds, int cuda_device) {
-  const std::string wanted = choice.options.size + " " + choice.options.renderer;
+  const std::string wanted = choice.options.size + " " + enum_name(choice.options.renderer);
   if (room_ && made_for_ == wanted) return *room_;
   room_.reset();
   mesh_ = pictures::drawn_mesh(cloth.mesh, scene.cloth);

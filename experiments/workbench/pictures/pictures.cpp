@@ -126,7 +126,7 @@ std::string Pictures::caption(double time) const {
 
 // A figure, whose background is transparent, has a caption of its own.
 std::string Pictures::captioned(const std::string& text) const {
-  return options_.background == "transparent" ? "" : text;
+  return options_.background == render::Background::transparent ? "" : text;
 }
 
 render::Image Pictures::picture(const std::string& look, const render::Camera& camera,
@@ -289,7 +289,8 @@ SheetView Pictures::sheet_view(const std::vector<KeptInstant>& instants) const {
 render::Look Pictures::sheet_look() const {
   Options options = options_;
   const std::string look = options.looks().front();
-  if (look == "cloth" && options.background == "studio") options.background = "white";
+  using render::Background;
+  if (look == "cloth" && options.background == Background::studio) options.background = Background::white;
   return scene_look(scene_, options, look);
 }
 
