@@ -357,12 +357,11 @@ void Pictures::write_sheet(Run& run, const std::string& title) {
   render::LoopFrame frame;
   for (const render::SheetEntry& cell : cells) frame.include(cell.loop.path);
   for (render::SheetEntry& cell : cells) cell.loop.frame = frame;
-  render::SheetLayout layout{.title = title, .scale_note = "at the cloth's middle"};
-  layout.metres_per_pixel = view.camera.metres_per_pixel(render::bounding_box(instants.back().xyz).center(),
-                                                         cells.front().image.height());
-  if (const auto bar = value_color_bar(scene_, options_, options_.looks().front()))
-    layout.bars.push_back(*bar);
-  write(run.path("sheet.png"), render::contact_sheet(cells, layout));
+  render::ComparisonSheet page{.title = title, .scale_note = "at the cloth's middle"};
+  const double metres_per_pixel = view.camera.metres_per_pixel(
+      render::bounding_box(instants.back().xyz).center(), cells.front().image.height());
+  if (const auto bar = value_color_bar(scene_, options_, options_.looks().front())) page.bars.push_back(*bar);
+  write(run.path("sheet.png"), render::contact_sheet(cells, page, metres_per_pixel));
   keep_sheet(run, instants, skins, title);
 }
 
