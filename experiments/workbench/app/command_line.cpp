@@ -73,10 +73,9 @@ std::string quoted(const std::string& word) {
   return text + "'";
 }
 
-std::string shell_command(int count, const char* const* words) {
-  std::vector<std::string> all(words, words + count);
-  all[0] = std::filesystem::path(words[0]).filename().string();
-  return shell_text(all);
+std::string shell_command(std::vector<std::string> words) {
+  words[0] = std::filesystem::path(words[0]).filename().string();
+  return shell_text(words);
 }
 
 // Of an option that wants a value CLI11 takes any next word for it, an option as well, and so it does for one
@@ -109,6 +108,14 @@ std::vector<std::string> with_their_values(const std::vector<std::string>& words
   }
   all.insert(all.end(), words.begin() + static_cast<std::ptrdiff_t>(i), words.end());
   return all;
+}
+
+// Of the subcommand that the words begin with, the value that each option is given.
+std::vector<std::string> checked(const std::vector<std::string>& words,
+                                 const std::vector<Command>& commands) {
+  for (const Command& command : commands)
+    if (!words.empty() && words.front() == command.experiment->name) return with_their_values(words, command);
+  return words;
 }
 
 // CLI11 leaves what it does not know, and the "--" behind which nothing is a flag; say which flag that is,
@@ -177,42 +184,15 @@ std::string option_name(const KeyDescription& key) {
   return key.path == "fabric.name" ? "--fabric" : "--" + key.path;
 }
 
-std::string option_help(const KeyDescription& key) {
-  std::string text = key.doc;
-  if (!key.choices.empty()) text += ": " + join(key.choices, " | ");
-  if (!key.unit.empty()) text += " [" + key.unit + "]";
-  if (key.range.text() != "finite") text += ", " + key.range.text();
-  if (!key.default_text.empty()) text += ", default " + key.default_text;
-  return text;
-}
-
 std::string shell_text(const std::vector<std::string>& words) {
   std::string text;
   for (const std::string& word : words) text += (text.empty() ? "" : " ") + quoted(word);
   return text;
 }
 
-namespace {
-
-void parse(CLI::App& program, const std::vector<std::string>& words) {
-  std::vector<const char*> all = {"hysteron"};
-  for (const std::string& word : words) all.push_back(word.c_str());
-  program.parse(static_cast<int>(all.size()), all.data());
-}
-
-// Of the subcommand that the words begin with, the value that each option is given.
-std::vector<std::string> checked(const std::vector<std::string>& words,
-                                 const std::vector<Command>& commands) {
-  for (const Command& command : commands)
-    if (!words.empty() && words.front() == command.experiment->name) return with_their_values(words, command);
-  return words;
-}
-
-}  // namespace
-
-std::optional<CommandLine> parse_command_line(int count, const char* const* words,
+std::optional<CommandLine> parse_command_line(const std::vector<std::string>& words,
                                               const std::vector<Experiment>& known) {
-  const std::vector<std::string> given(words + 1, words + count);
+  const std::vector<std::string> given(words.begin() + 1, words.end());
   if (const auto help = help_asked(given, known, terminal_width())) return std::cout << *help, std::nullopt;
   CLI::App program("", "hysteron");
   program.set_help_flag();
@@ -228,7 +208,9 @@ std::optional<CommandLine> parse_command_line(int count, const char* const* word
     return nullptr;
   };
   try {
-    parse(program, checked(given, commands));
+    std::vector<std::string> all = checked(given, commands);
+    std::reverse(all.begin(), all.end());  // as CLI11 takes words
+    program.parse(std::move(all));
   } catch (const CLI::Success& requested) {
     program.exit(requested);
     return std::nullopt;
@@ -238,7 +220,7 @@ std::optional<CommandLine> parse_command_line(int count, const char* const* word
   }
   if (!program.remaining().empty()) throw_if_stray_word(program.remaining().front(), known);
   if (!chosen()) throw Error::invalid_input("needs a subcommand; see hysteron --help");
-  return taken_apart(*chosen(), shell_command(count, words));
+  return taken_apart(*chosen(), shell_command(words));
 }
 
 }  // namespace hysteron::experiments

@@ -122,6 +122,16 @@ std::string entries(const std::vector<std::pair<std::string, std::string>>& all,
   return text;
 }
 
+// "radius of the pedestal [m], > 0, default 0.09"
+std::string option_help(const KeyDescription& key) {
+  std::string text = key.doc;
+  if (!key.choices.empty()) text += ": " + join(key.choices, " | ");
+  if (!key.unit.empty()) text += " [" + key.unit + "]";
+  if (key.range.text() != "finite") text += ", " + key.range.text();
+  if (!key.default_text.empty()) text += ", default " + key.default_text;
+  return text;
+}
+
 std::string options_text(const std::vector<KeyDescription>& keys, int width) {
   std::vector<std::pair<std::string, std::string>> all;
   for (const KeyDescription& key : keys)

@@ -32,12 +32,10 @@ CommandLine recorded_line(const RecordedRun& run) {
     return line;
   }
   const std::vector<std::string> words = command_words(run.manifest.command);
-  std::vector<const char*> pointers;
-  for (const std::string& word : words) pointers.push_back(word.c_str());
   if (words.size() < 2)
     throw Error::invalid_input(run.file.string() + " holds no command that could be repeated")
         .with_key("command", "");
-  const auto line = parse_command_line(static_cast<int>(pointers.size()), pointers.data());
+  const auto line = parse_command_line(words);
   if (!line)
     throw Error::invalid_input(run.file.string() + ": its command, \"" + run.manifest.command +
                                "\", is no run");
