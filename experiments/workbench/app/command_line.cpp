@@ -35,8 +35,7 @@ CLI::Option* add_flag(CLI::App& app, const KeyDescription& key) {
 
 // The experiment's own, then those of every simulated run.
 std::vector<KeyDescription> every_option(const Experiment& experiment, Defaults defaults) {
-  std::vector<KeyDescription> keys;
-  if (experiment.own_keys) keys = experiment.own_keys();
+  std::vector<KeyDescription> keys = experiment.own_keys();
   if (!experiment.simulates) return keys;
   const bool shown = defaults == Defaults::shown && experiment.defaults;
   Setup setup = shown ? experiment.defaults() : Setup();
@@ -171,12 +170,8 @@ CommandLine taken_apart(const Command& command, std::string shell_command) {
 
 std::vector<KeyDescription> experiment_options(const Experiment& experiment, Defaults defaults) {
   std::vector<KeyDescription> keys = every_option(experiment, defaults);
-  if (!experiment.decided) return keys;
   const std::vector<DecidedKey> decided = experiment.decided();
-  std::erase_if(keys, [&](const KeyDescription& key) {
-    return std::any_of(decided.begin(), decided.end(),
-                       [&](const DecidedKey& own) { return own.path == key.path; });
-  });
+  std::erase_if(keys, [&](const KeyDescription& key) { return has_key(decided, key.path); });
   return keys;
 }
 

@@ -52,10 +52,7 @@ void find_scene(CommandLine& line, const RecordedRun& run) {
 
 // Without a simulation there are no threads, and of some experiments no pictures.
 bool takes(const Experiment& experiment, const std::string& key) {
-  if (experiment.simulates) return true;
-  const std::vector<KeyDescription> own =
-      experiment.own_keys ? experiment.own_keys() : std::vector<KeyDescription>();
-  return std::any_of(own.begin(), own.end(), [&](const KeyDescription& known) { return known.path == key; });
+  return experiment.simulates || has_key(experiment.own_keys(), key);
 }
 
 }  // namespace
