@@ -55,6 +55,14 @@ bool takes(const Experiment& experiment, const std::string& key) {
   return experiment.simulates || has_key(experiment.own_keys(), key);
 }
 
+// As it is typed: "hysteron drape --scene=a.toml".
+std::string typed_command(const CommandLine& line) {
+  std::vector<std::string> words = {"hysteron", line.experiment};
+  words.insert(words.end(), line.positionals.begin(), line.positionals.end());
+  for (const Flag& flag : line.flags) words.push_back("--" + flag.path + "=" + flag.text);
+  return shell_text(words);
+}
+
 }  // namespace
 
 RecordedRun recorded_run(const std::string& folder_or_manifest) {
@@ -86,13 +94,6 @@ CommandLine line_that_repeats(const RecordedRun& run, const std::vector<Flag>& l
     if (takes(experiment_named(line.experiment), flag.path)) line.flags.push_back(flag);
   line.command = typed_command(line);
   return line;
-}
-
-std::string typed_command(const CommandLine& line) {
-  std::vector<std::string> words = {"hysteron", line.experiment};
-  words.insert(words.end(), line.positionals.begin(), line.positionals.end());
-  for (const Flag& flag : line.flags) words.push_back("--" + flag.path + "=" + flag.text);
-  return shell_text(words);
 }
 
 }  // namespace hysteron::experiments
