@@ -33,7 +33,7 @@ int main(int count, char** words) {
   std::string experiment;
   std::optional<CommandLine> line;
   const Ending ending = run_ending(experiment, [&] {
-    line = parse_command_line(count, words);
+    line = parse_command_line({words, words + count});
     if (!line) return flushed(0);
     experiment = line->experiment;
     choose_gpu(*line);

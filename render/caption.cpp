@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <vector>
 
 #include "sim/base/error.h"
@@ -18,19 +19,6 @@ constexpr float kLineSpacing = 1.9f;   // of the letter height
 constexpr float kTitleGrowth = 1.25f;  // first line of a caption
 constexpr float kDescent = 0.35f;      // what letters have below the line, of their height
 constexpr float kSmallest = 6;         // letters that can be read [pixels]
-
-bool is_right(Corner corner) { return corner == Corner::top_right || corner == Corner::bottom_right; }
-bool is_bottom(Corner corner) { return corner == Corner::bottom_left || corner == Corner::bottom_right; }
-
-std::vector<std::string_view> text_lines(std::string_view text) {
-  std::vector<std::string_view> lines;
-  while (!text.empty()) {
-    const size_t end = std::min(text.find('\n'), text.size());
-    lines.push_back(text.substr(0, end));
-    text.remove_prefix(std::min(end + 1, text.size()));
-  }
-  return lines;
-}
 
 std::string number_text(double value) { return fmt::format("{:.3g}", value == 0 ? 0.0 : value); }
 
@@ -80,8 +68,9 @@ struct Line {
 
 std::vector<Line> set_lines(std::string_view text, float size, float width) {
   std::vector<Line> lines;
+  std::istringstream stream{std::string(text)};
   bool title = true;
-  for (const std::string_view line : text_lines(text)) {
+  for (std::string line; std::getline(stream, line);) {
     const float letters = title ? kTitleGrowth * size : size;
     for (const std::string& part : broken(line, letters, width))
       lines.push_back({part, letters, text_width(part, letters)});

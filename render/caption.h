@@ -12,6 +12,10 @@
 namespace hysteron::render {
 
 enum class Corner { top_left, top_right, bottom_left, bottom_right };
+inline bool is_right(Corner corner) { return corner == Corner::top_right || corner == Corner::bottom_right; }
+inline bool is_bottom(Corner corner) {
+  return corner == Corner::bottom_left || corner == Corner::bottom_right;
+}
 
 // Colour and letter height (capital's, in pixels) of a text.
 struct TextStyle {

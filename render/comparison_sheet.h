@@ -39,14 +39,14 @@ struct ComparisonRow {
 
 struct ComparisonSheet {
   std::string title;
-  std::vector<std::string> notes;  // below the title
-  std::vector<ComparisonRow> rows;
-  std::vector<ComparisonColumn> columns;
-  std::vector<ColorBar> bars;  // below all pictures
-  std::string scale_note;      // in which plane scale bars hold
-  int width = kSheetWidth;     // [pixels]
-  int beside = 0;              // columns beside each other; 0: as many as go well, at most five
-  bool in_sequence = false;    // columns are instants: blocks of any number that brings the page near 3 : 2
+  std::vector<std::string> notes{};  // below the title
+  std::vector<ComparisonRow> rows{};
+  std::vector<ComparisonColumn> columns{};
+  std::vector<ColorBar> bars{};  // below all pictures
+  std::string scale_note{};      // in which plane scale bars hold
+  int width = kSheetWidth;       // [pixels]
+  int beside = 0;                // columns beside each other; 0: as many as go well, at most five
+  bool in_sequence = false;      // columns are instants: blocks of any number that brings the page near 3 : 2
 
   static constexpr int kSheetWidth = 1676;  // twice the width of a repository's front page
 };

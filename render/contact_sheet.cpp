@@ -17,22 +17,16 @@ Image front_page_copy(const Image& cell) {
 
 }  // namespace
 
-Image contact_sheet(const std::vector<SheetEntry>& entries, const SheetLayout& layout) {
+Image contact_sheet(const std::vector<SheetEntry>& entries, ComparisonSheet page, double metres_per_pixel) {
   if (entries.empty()) throw Error::invalid_input("contact sheet: there are no pictures");
-  ComparisonSheet sheet;
-  sheet.title = layout.title;
-  sheet.width = layout.width;
-  sheet.beside = layout.columns;
-  sheet.bars = layout.bars;
-  sheet.scale_note = layout.scale_note;
-  sheet.in_sequence = true;
-  sheet.rows = {{"", "", layout.metres_per_pixel}};
+  page.in_sequence = true;
+  page.rows = {{"", "", metres_per_pixel}};
   for (const SheetEntry& entry : entries) {
     if (entry.image.empty())
       throw Error::invalid_input("contact sheet: the picture \"" + entry.caption + "\" is empty");
-    sheet.columns.push_back({entry.caption, {}, {}, "", {{entry.image, "", entry.loop}}});
+    page.columns.push_back({entry.caption, {}, {}, "", {{entry.image, "", entry.loop}}});
   }
-  return draw_comparison(sheet);
+  return draw_comparison(page);
 }
 
 Image onion_skin(const std::vector<Image>& pictures) {

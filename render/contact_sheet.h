@@ -18,18 +18,11 @@ struct SheetEntry {
   LoopInset loop{};     // in a corner of it; empty: none
 };
 
-struct SheetLayout {
-  std::string title;
-  int columns = 0;                           // 0: at most five, chosen so that the page comes out near 3 : 2
-  int width = ComparisonSheet::kSheetWidth;  // of the page [pixels]
-  double metres_per_pixel = 0;               // of the pictures; 0: no scale bar
-  std::string scale_note{};
-  std::vector<ColorBar> bars{};
-};
-
-// Cells are equally large and show each picture whole.  Error::invalid_input if there are no pictures, one is
-// empty, or the page is too narrow for its columns.
-Image contact_sheet(const std::vector<SheetEntry>& entries, const SheetLayout& layout);
+// Cells are equally large and show each picture whole.  `page`: without rows and columns, which it gets here;
+// `metres_per_pixel`: of the pictures; 0: no scale bar.  Error::invalid_input if there are no pictures, one
+// is empty, or the page is too narrow for its columns.
+Image contact_sheet(const std::vector<SheetEntry>& entries, ComparisonSheet page,
+                    double metres_per_pixel = 0);
 
 // Pictures on white over each other, the darkest of each pixel, the earlier the paler: a motion in one
 // picture. Error::invalid_input if there are none or their sizes differ.

@@ -15,7 +15,7 @@ namespace hysteron::render {
 // A shared library opened at run time.  It is never closed: drivers keep threads and exit handlers.
 class SharedLibrary {
  public:
-  // The first of `names` that opens; is_open() tells whether one did.
+  // The first of `names` that opens.
   explicit SharedLibrary(std::initializer_list<const char*> names) {
     for (const char* name : names) {
       handle_ = dlopen(name, RTLD_NOW | RTLD_LOCAL);
@@ -24,13 +24,12 @@ class SharedLibrary {
     }
   }
 
-  bool is_open() const { return handle_ != nullptr; }
-  const std::string& reason() const { return reason_; }
-
+  // Error::system where none did, or it has nothing of that name.
   template <class Function>
   void load(const char* name, Function& function) const {
-    function = is_open() ? reinterpret_cast<Function>(dlsym(handle_, name)) : nullptr;
-    if (function == nullptr) throw Error::system(is_open() ? std::string("it has no ") + name : reason_);
+    if (handle_ == nullptr) throw Error::system(reason_);
+    function = reinterpret_cast<Function>(dlsym(handle_, name));
+    if (function == nullptr) throw Error::system(std::string("it has no ") + name);
   }
 
  private:

@@ -10,8 +10,7 @@ namespace hysteron::render {
 
 class Exposure {
  public:
-  // [pixels] of the picture; `supersample`: drawn pixels a side of each.
-  Exposure(int width, int height, int supersample);
+  Exposure(int width, int height);  // [pixels]
 
   // One pass: RGBA rows from the bottom, as GL reads them, linear light multiplied by alpha.
   void add(std::span<const float> rgba);
@@ -22,7 +21,7 @@ class Exposure {
   Image image(bool alpha, int left = 0, int top = 0) const;
 
  private:
-  int width_, height_, supersample_, passes_ = 0;
+  int width_, height_, passes_ = 0;
   std::vector<float> sum_;  // linear light, 4 a pixel, rows from the top
 };
 

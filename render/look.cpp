@@ -53,12 +53,4 @@ Look look_named(std::string_view name) {
   return look;
 }
 
-Background background_named(std::string_view name) {
-  if (name == "studio") return Background::studio;
-  if (name == "white") return Background::white;
-  if (name == "transparent") return Background::transparent;
-  throw Error::invalid_input("background = \"" + std::string(name) +
-                             "\" is unknown; allowed: studio, white, transparent");
-}
-
 }  // namespace hysteron::render

@@ -27,6 +27,7 @@ enum class Background {
   white,        // white paper
   transparent,  // none: the picture is RGBA, and what the ground's shadow takes from white is its alpha
 };
+constexpr std::array<const char*, 3> names(Background) { return {"studio", "white", "transparent"}; }
 
 enum class Weave {
   plain,  // every thread over one, under one
@@ -69,7 +70,5 @@ struct Look {
 const std::vector<std::string>& look_names();
 // One of these with the colour map and colours that suit it; Error::invalid_input for anything else.
 Look look_named(std::string_view name);
-// "studio", "white" or "transparent"; Error::invalid_input for anything else.
-Background background_named(std::string_view name);
 
 }  // namespace hysteron::render

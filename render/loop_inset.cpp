@@ -36,10 +36,8 @@ float inset_width(const Image& image, float fraction) {
 
 Frame inset_frame(const Image& image, Corner corner, float fraction) {
   const float side = inset_width(image, fraction), edge = inset_width(image, kEdge);
-  const bool right = corner == Corner::top_right || corner == Corner::bottom_right,
-             bottom = corner == Corner::bottom_left || corner == Corner::bottom_right;
-  return {right ? static_cast<float>(image.width()) - edge - side : edge,
-          bottom ? static_cast<float>(image.height()) - edge - side : edge,
+  return {is_right(corner) ? static_cast<float>(image.width()) - edge - side : edge,
+          is_bottom(corner) ? static_cast<float>(image.height()) - edge - side : edge,
           side,
           {}};
 }

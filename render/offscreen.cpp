@@ -35,14 +35,6 @@ std::unique_ptr<Offscreen> create_or_explain(const Candidate& candidate, std::st
 
 }  // namespace
 
-Renderer renderer_named(std::string_view name) {
-  if (name == "auto") return Renderer::automatic;
-  if (name == "egl") return Renderer::egl;
-  if (name == "osmesa") return Renderer::osmesa;
-  throw Error::invalid_input("renderer = \"" + std::string(name) +
-                             "\" is unknown; allowed: auto, egl, osmesa");
-}
-
 std::string Candidate::name() const {
   if (kind == Kind::osmesa) return "OSMesa";
   if (kind == Kind::egl_surfaceless) return "EGL surfaceless";
@@ -87,7 +79,6 @@ void Offscreen::describe(GlLoader loader) {
   if (major * 10 + minor < 33)
     throw Error::system(renderer + " offers OpenGL " + std::to_string(major) + "." + std::to_string(minor) +
                         ", 3.3 is needed");
-  gl_.GetIntegerv(GL_MAX_SAMPLES, &max_samples_);
   hardware_ = candidate_.hardware && !draws_in_software(renderer);
   description_ = candidate_.name() + ": " + renderer + ", " + gl_string(gl_, GL_VENDOR) + ", GL " +
                  gl_string(gl_, GL_VERSION);

@@ -2,9 +2,9 @@
 // first.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "render/gl/glfunctions.h"
@@ -12,9 +12,7 @@
 namespace hysteron::render {
 
 enum class Renderer { automatic, egl, osmesa };
-
-// "auto", "egl" or "osmesa"; Error::invalid_input for anything else.
-Renderer renderer_named(std::string_view name);
+constexpr std::array<const char*, 3> names(Renderer) { return {"auto", "egl", "osmesa"}; }
 
 // One way to get a context, before it is tried.
 struct Candidate {
@@ -51,7 +49,6 @@ class Offscreen {
   const std::string& description() const { return description_; }
   bool egl_device_is_hardware() const { return hardware_; }
   int cuda_device() const { return candidate_.cuda_device; }
-  int max_samples() const { return max_samples_; }
 
  protected:
   explicit Offscreen(const Candidate& candidate) : candidate_(candidate) {}
@@ -63,7 +60,6 @@ class Offscreen {
   GlFunctions gl_;
   std::string description_;
   bool hardware_ = false;
-  int max_samples_ = 1;
 };
 
 }  // namespace hysteron::render

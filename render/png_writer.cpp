@@ -46,11 +46,6 @@ void PngWriter::finish() {
   throw_first_error();
 }
 
-int PngWriter::written() const {
-  const std::lock_guard lock(mutex_);
-  return written_;
-}
-
 double PngWriter::encode_seconds() const {
   const std::lock_guard lock(mutex_);
   return encode_seconds_;
@@ -87,7 +82,6 @@ void PngWriter::perform(const Job& job) {
   }
   const std::lock_guard lock(mutex_);
   encode_seconds_ += thread_seconds() - begin;
-  if (!error) ++written_;
   if (error && !first_error_) first_error_ = error;
 }
 

@@ -28,7 +28,6 @@ class PngWriter {
   // Waits until everything is on disk and throws the first error.
   void finish();
 
-  int written() const;
   // Processor time of all workers spent on encoding and writing [s].
   double encode_seconds() const;
 
@@ -47,7 +46,7 @@ class PngWriter {
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<Job> waiting_;
-  int in_progress_ = 0, written_ = 0;
+  int in_progress_ = 0;
   double encode_seconds_ = 0;
   bool closing_ = false;
   std::exception_ptr first_error_;

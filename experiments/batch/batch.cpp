@@ -73,10 +73,8 @@ Member parsed(std::vector<std::string> words) {
   if (std::any_of(known.begin(), known.end(), [&](const Experiment& e) { return e.name == name; }))
     known = {experiment_named(name)};
   words.insert(words.begin(), std::filesystem::read_symlink("/proc/self/exe").string());
-  std::vector<const char*> all;
-  for (const std::string& word : words) all.push_back(word.c_str());
   member.ending = run_ending(member.experiment, [&] {
-    member.line = parse_command_line(static_cast<int>(all.size()), all.data(), known);
+    member.line = parse_command_line(words, known);
     if (!member.line) return 0;
     member.experiment = member.line->experiment;
     choose_gpu(*member.line);

@@ -87,7 +87,7 @@ std::vector<KeyDescription> own_keys() {
   CompareChoice choice;
   std::vector<KeyDescription> keys = descriptions(bind(kRows, choice));
   for (const Experiment& experiment : experiments()) {
-    if (!experiment.compared || !experiment.own_keys) continue;
+    if (!experiment.compared) continue;
     auto more = experiment.own_keys();
     std::erase_if(more, [](const KeyDescription& key) { return key.path == "batch"; });  // is the page's
     keys.insert(keys.end(), more.begin(), more.end());

@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <iostream>
+#include <nlohmann/json.hpp>
 
 #include "experiments/list/key_tables.h"
-#include "experiments/list/list_json.h"
-#include "experiments/list/tried_devices.h"
 #include "experiments/workbench/app/experiment.h"
+#include "experiments/workbench/app/manifest.h"
+#include "render/contexts.h"
+#include "render/offscreen.h"
 #include "sim/base/csv.h"
 #include "sim/base/error.h"
 #include "sim/bending/laws/law_run.h"
@@ -15,6 +17,7 @@
 #include "sim/scene/assets.h"
 #include "sim/scene/fabric_reader.h"
 #include "sim/scene/keys.h"
+#include "sim/time/back_end.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -34,9 +37,10 @@ std::string bending_source(const FabricFile& file) {
   return file.shown(file.fabric.provenance.at(file.fabric.kes.on() ? "kes-b" : "b2"));
 }
 
-std::string listed(const std::vector<double>& numbers) {
+// Of a list, or of one number, over which Json goes as over a list of it.
+std::string listed(const Json& numbers) {
   std::vector<std::string> words;
-  for (double x : numbers) words.push_back(short_number(x));
+  for (const Json& x : numbers) words.push_back(short_number(x.get<double>()));
   return join(words, ", ");
 }
 
@@ -73,7 +77,7 @@ void print_parts(const FabricFile& file) {
   in_plane("shear", fabric.in_plane.shear);
 }
 
-void list_fabrics_table() {
+void print_fabrics() {
   const std::vector<int> widths = {-20, -11, -10, -11, -9, -17};
   print_row({"fabric", "B [N m]", "2HB [N]", "HB/B [1/m]", "K0 [1/m]", "density [kg/m^2]", "bending from"},
             widths);
@@ -90,40 +94,169 @@ void list_fabrics_table() {
   std::cout << "-: no bending friction published; none assumed (b1 = b2)\n";
 }
 
-// Every number of one fabric with its unit, how it is known, between which numbers it may lie, and its
-// source.
-void list_numbers(const FabricFile& file) {
-  const std::vector<int> widths = {-25, -24, -11, -10, -16};
-  std::cout << file.fabric.name << ": " << file.description << "\n";
-  print_row({"number", "value", "unit", "known", "range", "from"}, widths);
-  for (const StatedNumber& number : stated_numbers(file))
-    print_row({number.name, listed(number.value), number.unit, number.from->confidence,
-               number.range ? number_text(number.range->low) + " to " + number_text(number.range->high) : "",
-               number.from->source},
-              widths);
-  if (!file.fabric.published.empty()) std::cout << "as printed:\n";
-  for (const auto& [name, number] : file.fabric.published)
-    print_row({name, short_number(number.value), number.unit, number.provenance.confidence, "",
-               number.provenance.source},
-              widths);
+// Every number that the file states, in the order of the keys: a value or a list of them, its unit, how it is
+// known, between which numbers it may lie where that is stated, and its source.
+Json stated_numbers(const FabricFile& file) {
+  Scene scene;
+  scene.fabric = file.fabric;
+  Json numbers = Json::object();
+  for (const BoundKey& key : bind_scene(scene)) {
+    const std::string& path = key.description.path;
+    const auto from = file.fabric.provenance.find(path.substr(path.find('.') + 1));
+    if (!path.starts_with("fabric.") || from == file.fabric.provenance.end()) continue;
+    Json& number = numbers[from->first];
+    const auto* list = std::get_if<Numbers*>(&key.field);
+    number["value"] = list ? Json(**list) : Json(*std::get<double*>(key.field));
+    number["unit"] = key.description.unit;
+    number["known"] = from->second.confidence;
+    if (const auto range = file.range.find(from->first); range != file.range.end())
+      number["range"] = {range->second.low, range->second.high};
+    number["source"] = from->second.source;
+  }
+  return numbers;
 }
 
-void list_laws() {
+// With the numbers as published.
+Json fabric_json(const FabricFile& file) {
+  Json published = Json::object();
+  for (const auto& [name, number] : file.fabric.published)
+    published[name] = {{"value", number.value},
+                       {"unit", number.unit},
+                       {"known", number.provenance.confidence},
+                       {"source", number.provenance.source}};
+  return {{"name", file.fabric.name},
+          {"description", file.description},
+          {"numbers", stated_numbers(file)},
+          {"published", published}};
+}
+
+Json fabrics() {
+  Json list = Json::array();
+  for (const FabricFile& file : list_fabrics()) list.push_back(fabric_json(file));
+  return list;
+}
+
+const std::vector<int> kNumberWidths = {-25, -24, -11, -10, -16};
+
+void print_numbers(const Json& numbers) {
+  for (const auto& [name, number] : numbers.items()) {
+    std::string range;
+    if (number.contains("range"))
+      range = number_text(number["range"][0]) + " to " + number_text(number["range"][1]);
+    print_row({name, listed(number["value"]), number["unit"], number["known"], range, number["source"]},
+              kNumberWidths);
+  }
+}
+
+void print_fabric(const Json& fabric) {
+  std::cout << fabric["name"].get<std::string>() << ": " << fabric["description"].get<std::string>() << "\n";
+  print_row({"number", "value", "unit", "known", "range", "from"}, kNumberWidths);
+  print_numbers(fabric["numbers"]);
+  if (!fabric["published"].empty()) std::cout << "as printed:\n";
+  print_numbers(fabric["published"]);
+}
+
+Json laws() {
+  Json list = Json::array();
+  for (const LawEntry& law : law_catalogue())
+    list.push_back({{"name", law.name},
+                    {"description", law.description},
+                    {"parameters", law_parameter_names(law.name)}});
+  return list;
+}
+
+void print_laws() {
   for (const LawEntry& law : law_catalogue()) {
-    std::string parameters;
-    for (const std::string& name : law_parameter_names(law.name))
-      parameters += (parameters.empty() ? "" : " ") + name;
+    const std::string parameters = join(law_parameter_names(law.name), " ");
     print_row({law.name, law.description + (parameters.empty() ? "" : " [" + parameters + "]")}, {-15});
   }
 }
 
-void list_scenes() {
+Json scenes() { return list_assets("scenes"); }
+
+void print_scenes() {
   for (const std::string& name : list_assets("scenes")) print_row({name}, {-1});
 }
 
-void list_devices() {
+// What this machine computes and draws with, opened to see that it can be.
+struct TriedDevice {
+  std::string kind;     // cpu, cuda, renderer
+  std::string id;       // "cuda:0", "EGL device 0"
+  std::string name;     // with driver and version, as manifests have it; "EGL device 0 fails", "none"
+  std::string failure;  // why it could not be; empty: it was
+};
+
+template <class Open>
+TriedDevice tried(const std::string& kind, const std::string& id, const Open& open) {
+  constexpr int kAttempts = 2;  // drivers fail now and then while another process starts
+  TriedDevice device{kind, id, id + " fails", ""};
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    try {
+      device.name = open();
+      device.failure.clear();
+      return device;
+    } catch (const Error& error) {
+      device.failure = error.what();
+    }
+  }
+  return device;
+}
+
+void try_gpus(std::vector<TriedDevice>& devices) {
+  std::string reason;
+  const int gpus = gpu_count(reason);
+  for (int i = 0; i < gpus; ++i)
+    devices.push_back(tried("cuda", "cuda:" + std::to_string(i), [i] { return gpu_description(i); }));
+  if (gpus == 0) devices.push_back({"cuda", "cuda", "none", reason});
+}
+
+void try_renderers(std::vector<TriedDevice>& devices) {
+  using render::Offscreen;
+  const std::vector<render::Candidate> all = Offscreen::candidates(render::Renderer::automatic);
+  if (render::egl_candidates().empty())
+    devices.push_back({"renderer", "EGL", "EGL fails", render::egl_unavailable()});
+  for (const render::Candidate& candidate : all)
+    devices.push_back(
+        tried("renderer", candidate.name(), [&] { return Offscreen::create(candidate)->description(); }));
+}
+
+// The CPU, all GPUs, all renderers in the order in which they are tried for pictures.
+std::vector<TriedDevice> tried_devices() {
+  std::vector<TriedDevice> devices = {{"cpu", "cpu", cpu_description(), ""}};
+  try_gpus(devices);
+  try_renderers(devices);
+  return devices;
+}
+
+Json devices() {
+  Json list = Json::array();
+  for (const TriedDevice& device : tried_devices()) {
+    Json entry = {{device.kind == "renderer" ? "renderer" : "device", device.id},
+                  {"name", device.failure.empty() ? Json(device.name) : Json(nullptr)}};
+    if (!device.failure.empty()) entry["reason"] = device.failure;
+    list.push_back(entry);
+  }
+  return list;
+}
+
+void print_devices() {
   for (const TriedDevice& device : tried_devices())
     print_row({device.kind, device.name + (device.failure.empty() ? "" : ": " + device.failure)}, {-10});
+}
+
+struct List {
+  const char* name;
+  void (*print)();
+  Json (*json)();
+};
+constexpr List kLists[] = {{"fabrics", print_fabrics, fabrics},
+                           {"laws", print_laws, laws},
+                           {"scenes", print_scenes, scenes},
+                           {"devices", print_devices, devices}};
+
+bool is_list(const std::string& name) {
+  return std::any_of(std::begin(kLists), std::end(kLists),
+                     [&](const List& list) { return list.name == name; });
 }
 
 struct ListFlags {
@@ -136,49 +269,46 @@ const KeyRow<ListFlags> kRows[] = {
 // clang-format on
 
 void list_named_fabrics(const std::vector<std::string>& names, bool as_json) {
-  nlohmann::ordered_json fabrics = nlohmann::ordered_json::array();
+  Json fabrics = Json::array();
   for (const std::string& name : names) {
-    const FabricFile file = read_fabric(name, "list fabrics");
-    as_json ? fabrics.push_back(fabric_json(file)) : list_numbers(file);
+    const Json fabric = fabric_json(read_fabric(name, "list fabrics"));
+    as_json ? fabrics.push_back(fabric) : print_fabric(fabric);
   }
-  if (as_json) std::cout << nlohmann::ordered_json{{"fabrics", fabrics}}.dump(2) << "\n";
+  if (as_json) std::cout << Json{{"fabrics", fabrics}}.dump(2) << "\n";
+}
+
+void print_lists(const std::vector<std::string>& names, bool as_json) {
+  Json lists;
+  for (const List& list : kLists) {
+    if (!names.empty() && !std::count(names.begin(), names.end(), list.name)) continue;
+    if (as_json) {
+      lists[list.name] = list.json();
+      continue;
+    }
+    if (names.empty()) std::cout << (&list == kLists ? "" : "\n") << list.name << ":\n";
+    list.print();
+  }
+  if (as_json) std::cout << lists.dump(2) << "\n";
 }
 
 int run_list(const CommandLine& line) {
   ListFlags flags;
   set_keys(line, bind(kRows, flags));
-  const std::vector<std::pair<std::string, void (*)()>> parts = {{"fabrics", list_fabrics_table},
-                                                                 {"laws", list_laws},
-                                                                 {"scenes", list_scenes},
-                                                                 {"devices", list_devices}};
-  const auto is_part = [&](const std::string& name) {
-    return std::any_of(parts.begin(), parts.end(), [&](const auto& part) { return part.first == name; });
-  };
   const std::vector<std::string>& names = line.positionals;
   if (names == std::vector<std::string>{"keys"} && !flags.json) {
     std::cout << key_tables();
     return 0;
   }
   if (names.size() > 1 && names.front() == "fabrics" &&
-      std::none_of(names.begin() + 1, names.end(), is_part)) {
+      std::none_of(names.begin() + 1, names.end(), is_list)) {
     list_named_fabrics({names.begin() + 1, names.end()}, flags.json);
     return 0;
   }
   for (const std::string& name : names)
-    if (!is_part(name))
+    if (!is_list(name))
       throw Error::invalid_input(
           "\"" + name + "\" must be fabrics | laws | scenes | devices, or keys alone, without --json");
-  if (flags.json) {
-    nlohmann::ordered_json lists;
-    for (const auto& [name, print] : parts)
-      if (names.empty() || std::count(names.begin(), names.end(), name)) lists[name] = json_list(name);
-    std::cout << lists.dump(2) << "\n";
-    return 0;
-  }
-  for (const auto& [name, print] : parts) {
-    if (names.empty()) std::cout << (print == list_fabrics_table ? "" : "\n") << name << ":\n";
-    if (names.empty() || std::count(names.begin(), names.end(), name)) print();
-  }
+  print_lists(names, flags.json);
   return 0;
 }
 

@@ -33,10 +33,7 @@ bool can_be_repeated(const Experiment& experiment) {
   const bool by_flags = !*experiment.positionals || (experiment.simulates && experiment.defaults);
   if (!experiment.run || !by_flags) return false;
   const std::vector<KeyDescription> keys = experiment_options(experiment, Defaults::left_out);
-  const auto takes = [&](const char* path) {
-    return std::any_of(keys.begin(), keys.end(), [&](const KeyDescription& key) { return key.path == path; });
-  };
-  return takes("out") && takes("quiet");
+  return has_key(keys, "out") && has_key(keys, "quiet");
 }
 
 // A place for a value of each type, which is only checked.
@@ -187,7 +184,7 @@ class StudyFile {
   const KeyDescription& known_key(const std::string& key, const ValueTree& node) const {
     if (kSweepFlags.contains(key))
       throw refusal(node, key + " is given to sweep (--" + key + "), not to its runs").with_key(key, "");
-    for (const DecidedKey& decided : decided_by(study_.experiment))
+    for (const DecidedKey& decided : experiment_named(study_.experiment).decided())
       if (decided.path == key)
         throw refusal(node, key + " cannot be set: " + decided_words(study_.experiment, decided))
             .with_key(key, "");

@@ -53,7 +53,6 @@ namespace hysteron::render {
   X(PFNGLENABLEVERTEXATTRIBARRAYPROC, EnableVertexAttribArray)               \
   X(PFNGLENDQUERYPROC, EndQuery)                                             \
   X(PFNGLENDTRANSFORMFEEDBACKPROC, EndTransformFeedback)                     \
-  X(PFNGLFINISHPROC, Finish)                                                 \
   X(PFNGLFRAMEBUFFERRENDERBUFFERPROC, FramebufferRenderbuffer)               \
   X(PFNGLFRAMEBUFFERTEXTURE2DPROC, FramebufferTexture2D)                     \
   X(PFNGLGENBUFFERSPROC, GenBuffers)                                         \
@@ -90,13 +89,9 @@ namespace hysteron::render {
   X(PFNGLUNIFORM1IPROC, Uniform1i)                                           \
   X(PFNGLUNIFORM2FPROC, Uniform2f)                                           \
   X(PFNGLUNIFORM3FPROC, Uniform3f)                                           \
-  X(PFNGLUNIFORM3FVPROC, Uniform3fv)                                         \
-  X(PFNGLUNIFORM4FPROC, Uniform4f)                                           \
-  X(PFNGLUNIFORMMATRIX3FVPROC, UniformMatrix3fv)                             \
   X(PFNGLUNIFORMMATRIX4FVPROC, UniformMatrix4fv)                             \
   X(PFNGLUSEPROGRAMPROC, UseProgram)                                         \
   X(PFNGLVERTEXATTRIB1FPROC, VertexAttrib1f)                                 \
-  X(PFNGLVERTEXATTRIB2FPROC, VertexAttrib2f)                                 \
   X(PFNGLVERTEXATTRIBPOINTERPROC, VertexAttribPointer)                       \
   X(PFNGLVIEWPORTPROC, Viewport)
 

@@ -89,10 +89,6 @@ void Program::set(const char* name, const Eigen::Vector3f& value) const {
   gl_->Uniform3f(location(name), value.x(), value.y(), value.z());
 }
 
-void Program::set(const char* name, const Eigen::Matrix3f& value) const {
-  gl_->UniformMatrix3fv(location(name), 1, GL_FALSE, value.data());
-}
-
 void Program::set(const char* name, const Eigen::Matrix4f& value) const {
   gl_->UniformMatrix4fv(location(name), 1, GL_FALSE, value.data());
 }

@@ -202,7 +202,6 @@ TEST_F(ClothViewTest, BadInputIsRefused) {
   EXPECT_EQ(thrown_error([&] { ClothView(*offscreen_, {0, 720}); }).exit_code(), 2);
   EXPECT_EQ(thrown_error([&] { ClothView(*offscreen_, {1 << 20, 720}); }).exit_code(), 2);
   EXPECT_EQ(thrown_error([] { look_named("velvet"); }).exit_code(), 2);
-  EXPECT_EQ(thrown_error([] { background_named("black"); }).exit_code(), 2);
 }
 
 TEST_F(ClothViewTest, AHiddenObstacleIsNeitherSeenNorCastsAShadow) {

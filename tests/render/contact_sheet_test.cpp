@@ -36,13 +36,13 @@ std::vector<int> reading_order(const Image& sheet) {
 }
 
 TEST(ContactSheet, ShowsEveryPictureInReadingOrder) {
-  const Image sheet = contact_sheet(entries(7), {"a title", 3, 900});
+  const Image sheet = contact_sheet(entries(7), {.title = "a title", .width = 900, .beside = 3});
   EXPECT_EQ(reading_order(sheet), (std::vector<int>{0, 1, 2, 3, 4, 5, 6}));
   EXPECT_NEAR(sheet.width(), 900, 3) << "columns share what the gaps leave, rounded down";
 }
 
 TEST(ContactSheet, CellsKeepTheAspect) {
-  const Image sheet = contact_sheet(entries(1, 600, 300), {"", 1, 420});
+  const Image sheet = contact_sheet(entries(1, 600, 300), {.title = "", .width = 420, .beside = 1});
   int columns = 0, rows = 0;
   for (int x = 0; x < sheet.width(); ++x) columns += sheet.at(x, sheet.height() / 3)[1] == 0;
   for (int y = 0; y < sheet.height(); ++y) rows += sheet.at(sheet.width() / 2, y)[1] == 0;
@@ -52,7 +52,7 @@ TEST(ContactSheet, CellsKeepTheAspect) {
 
 TEST(ContactSheet, ChoosesColumnsNearThreeToTwo) {
   for (const int count : {4, 9, 12, 20}) {
-    const Image sheet = contact_sheet(entries(count, 400, 400), {"", 0, 1200});
+    const Image sheet = contact_sheet(entries(count, 400, 400), {.title = "", .width = 1200});
     const double aspect = static_cast<double>(sheet.width()) / sheet.height();
     EXPECT_GT(aspect, 0.9) << count;
     EXPECT_LT(aspect, 2.3) << count;

@@ -19,7 +19,6 @@ TEST(PngWriter, WritesEveryPictureThatItWasGiven) {
   for (int i = 0; i < 20; ++i)
     writer.write(folder.file(frame(i)), Image(40, 30, Rgb8{static_cast<std::uint8_t>(i), 0, 0}));
   writer.finish();
-  EXPECT_EQ(writer.written(), 20);
   EXPECT_GT(writer.encode_seconds(), 0);
   for (int i = 0; i < 20; ++i) EXPECT_EQ(read_png(folder.file(frame(i))).at(5, 5)[0], i);
 }

@@ -1,4 +1,4 @@
-// From argv to a CommandLine.
+// From the shell's words to a CommandLine.
 #pragma once
 
 #include <optional>
@@ -7,9 +7,10 @@
 
 namespace hysteron::experiments {
 
-// Nothing if help or the version was asked for and printed.  Throws Error::invalid_input in one line for what
-// cannot be understood: unknown subcommands and flags (with the nearest name), missing values.
-std::optional<CommandLine> parse_command_line(int count, const char* const* words,
+// `words`: the program's own name first.  Nothing if help or the version was asked for and printed.  Throws
+// Error::invalid_input in one line for what cannot be understood: unknown subcommands and flags (with the
+// nearest name), missing values.
+std::optional<CommandLine> parse_command_line(const std::vector<std::string>& words,
                                               const std::vector<Experiment>& known = experiments());
 
 // The options of a subcommand in the order of --help: its own, then those of every simulated run.  Their
@@ -18,8 +19,6 @@ enum class Defaults { left_out, shown };
 std::vector<KeyDescription> experiment_options(const Experiment& experiment, Defaults defaults);
 // As it is typed: "--fabric", "--step".
 std::string option_name(const KeyDescription& key);
-// "radius of the pedestal [m], > 0, default 0.09"
-std::string option_help(const KeyDescription& key);
 
 // Words as a line that a shell takes apart into them again.
 std::string shell_text(const std::vector<std::string>& words);

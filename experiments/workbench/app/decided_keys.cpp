@@ -8,11 +8,6 @@
 
 namespace hysteron::experiments {
 
-std::vector<DecidedKey> decided_by(const std::string& experiment) {
-  const auto decided = experiment_named(experiment).decided;
-  return decided ? decided() : std::vector<DecidedKey>();
-}
-
 std::vector<DecidedKey> unused_but(const std::string& beginning, const std::set<std::string>& used,
                                    const std::string& why) {
   std::vector<DecidedKey> keys;

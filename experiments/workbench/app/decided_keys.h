@@ -7,8 +7,6 @@
 
 namespace hysteron::experiments {
 
-// What the experiment of that name always decides; nothing of one that is not in the catalogue.
-std::vector<DecidedKey> decided_by(const std::string& experiment);
 // All keys that begin so but these, which are not used.
 std::vector<DecidedKey> unused_but(const std::string& beginning, const std::set<std::string>& used,
                                    const std::string& why);

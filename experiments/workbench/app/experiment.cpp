@@ -71,15 +71,10 @@ std::string last_text(const std::vector<Flag>& flags, const std::string& path, c
 }
 
 std::string whose(const std::string& key) {
-  const auto is_it = [&](const KeyDescription& description) { return description.path == key; };
-  const std::vector<KeyDescription> of_scenes = scene_keys();
-  if (std::any_of(of_scenes.begin(), of_scenes.end(), is_it))
-    return "it is an option of what simulates a cloth";
+  if (has_key(scene_keys(), key)) return "it is an option of what simulates a cloth";
   std::vector<std::string> owners;
   for (const Experiment& experiment : experiments()) {
-    if (experiment.hidden || !experiment.own_keys) continue;
-    const std::vector<KeyDescription> own = experiment.own_keys();
-    if (std::none_of(own.begin(), own.end(), is_it)) continue;
+    if (experiment.hidden || !has_key(experiment.own_keys(), key)) continue;
     if (key.starts_with(std::string(experiment.name) + "."))
       return "it is an option of " + std::string(experiment.name);
     owners.push_back(experiment.name);
@@ -91,10 +86,7 @@ namespace {
 
 // The same with whose key it is, where it is another experiment's.
 Error with_owner(const Error& error, const Keys& known) {
-  std::vector<KeyDescription> all = scene_keys();
-  for (const BoundKey& key : known) all.push_back(key.description);
-  if (std::any_of(all.begin(), all.end(), [&](const KeyDescription& key) { return key.path == error.key(); }))
-    return error;
+  if (has_key(scene_keys(), error.key()) || has_key(descriptions(known), error.key())) return error;
   const std::string owner = error.key().empty() ? "" : whose(error.key());
   return owner.empty() ? error
                        : Error::invalid_input(error.what() + ("; " + owner)).with_key(error.key(), "");
@@ -124,7 +116,7 @@ std::shared_ptr<const nlohmann::ordered_json> resolved_options(Keys keys) {
 
 Setup set_up(const CommandLine& line, Setup setup, const Keys& own,
              const std::function<void(Setup&)>& quick) {
-  decide(line, setup, decided_by(line.experiment));
+  decide(line, setup, experiment_named(line.experiment).decided());
   Keys extra = bind_options(setup.options);
   extra.insert(extra.end(), own.begin(), own.end());
   setup.options.scene = last_text(line.flags, "scene", setup.options.scene);

@@ -1,6 +1,7 @@
 // A subcommand of `hysteron`, and what its flags make of scene and options.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
@@ -41,17 +42,18 @@ struct DecidedKey {
 
 struct Experiment {
   const char* name;
-  const char* question;                                 // one line for --help
-  int (*run)(const CommandLine&) = nullptr;             // returns the exit code
-  bool simulates = false;                               // takes the keys of scenes and Options
-  std::vector<KeyDescription> (*own_keys)() = nullptr;  // further flags; null: none
+  const char* question;                      // one line for --help
+  int (*run)(const CommandLine&) = nullptr;  // returns the exit code
+  bool simulates = false;                    // takes the keys of scenes and Options
+  // Further flags.
+  std::vector<KeyDescription> (*own_keys)() = [] { return std::vector<KeyDescription>(); };
   Setup (*defaults)() =
       nullptr;  // of an experiment that simulates, for --help; null: they depend on the flags
   // What the pictures of that line frame where its scene decides, for runs beside each other; nothing where
   // it draws none or says so itself.  Null: it is the same for all.
   std::optional<render::Box> (*framing)(const CommandLine&) = nullptr;
-  std::vector<DecidedKey> (*decided)() =
-      nullptr;                   // of an experiment that simulates: flags of these are refused; null: none
+  // Of an experiment that simulates: flags of these are refused.
+  std::vector<DecidedKey> (*decided)() = [] { return std::vector<DecidedKey>(); };
   const char* positionals = "";  // what CommandLine::names are ("DIR"); "": not allowed
   const char* differs = "";      // what exit code 4 says; "": it does not occur
   bool hidden = false;           // called by scripts of the project: not in --help
@@ -93,6 +95,11 @@ Setup set_up(const CommandLine& line, Setup defaults, const Keys& own = {},
              const std::function<void(Setup&)>& quick = {});
 
 std::vector<KeyDescription> descriptions(const Keys& keys);
+// Whether one of the keys, described or decided, has that path.
+template <class Key>
+bool has_key(const std::vector<Key>& keys, const std::string& path) {
+  return std::ranges::find(keys, path, &Key::path) != keys.end();
+}
 
 // "all" is every one; else names separated by commas.
 std::vector<std::string> listed(const std::string& text, const std::vector<std::string>& every);

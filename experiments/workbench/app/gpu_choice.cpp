@@ -27,18 +27,17 @@ std::string visible_gpu(int gpu) {
 void choose_gpu(CommandLine& line) {
   for (Flag& flag : line.flags) {
     if (flag.path != "device" || !flag.text.starts_with(kGpu)) continue;
+    const auto refuse = [&](const std::string& why) {
+      throw Error::invalid_input("--device " + flag.text + ": " + why)
+          .with_key("device", "")
+          .with_experiment(line.experiment);
+    };
     const std::string number = flag.text.substr(kGpu.size());
     if (number.empty() || number.size() > kMaxDigits || number.find_first_not_of("0123456789") != number.npos)
-      throw Error::invalid_input("--device " + flag.text +
-                                 ": after cuda: comes the number of a GPU, from 0 on")
-          .with_key("device", "")
-          .with_experiment(line.experiment);
+      refuse("after cuda: comes the number of a GPU, from 0 on");
     const int gpu = std::stoi(number), allowed = static_cast<int>(allowed_gpus().size());
     if (allowed > 0 && gpu >= allowed)
-      throw Error::invalid_input("--device " + flag.text + ": " + kAllowed + " leaves " +
-                                 std::to_string(allowed) + ", numbered from 0 on")
-          .with_key("device", "")
-          .with_experiment(line.experiment);
+      refuse(std::string(kAllowed) + " leaves " + std::to_string(allowed) + ", numbered from 0 on");
     setenv(kAllowed, visible_gpu(gpu).c_str(), 1);
     flag.text = "cuda";
   }

@@ -24,9 +24,11 @@ struct Group {
   const char* about;
   std::vector<std::string> beginnings;  // of the keys that it has
 };
-// The last two take what no other does: the keys of scenes, and the options of runs.
+// In the order of --help.  The first takes the keys of scenes that no other does, the last the options of
+// runs.
 const std::vector<Group>& groups() {
   static const std::vector<Group> all = {
+      {"scene", "cloth, its mesh and start, gravity, contact, the scene's file", {"scene", "dump-scene"}},
       {"fabric",
        "the fabric's numbers, the law of bending and its parameters",
        {"fabric.", "law", "param", "element", "force"}},
@@ -38,7 +40,6 @@ const std::vector<Group>& groups() {
        "pictures, camera, meshes and probes that are written",
        {"size", "fps", "quality", "renderer", "no-images", "look", "curvature-range", "reference", "plain",
         "light", "background", "camera.", "export", "probe"}},
-      {"scene", "cloth, its mesh and start, gravity, contact, the scene's file", {"scene", "dump-scene"}},
       {"running", "folder, device, threads, errors, checkpoints, what is printed", {"device", "threads"}}};
   return all;
 }
@@ -56,20 +57,12 @@ std::string option_group_name(const KeyDescription& key, const std::set<std::str
   return of_scenes.contains(key.path) ? "scene" : "running";
 }
 
-std::vector<KeyDescription> own_key_descriptions(const Experiment& experiment) {
-  return experiment.own_keys ? experiment.own_keys() : std::vector<KeyDescription>();
-}
-
-bool has(const std::vector<KeyDescription>& keys, const std::string& path) {
-  return std::any_of(keys.begin(), keys.end(), [&](const KeyDescription& key) { return key.path == path; });
-}
-
 // Of a comparison's own options those of the experiment that it compares: "drape" of "drape.disc".
 std::string other_owner(const KeyDescription& key, const std::string& experiment) {
   const std::string name = key.path.substr(0, key.path.find('.'));
   if (name == experiment || name == key.path) return "";
   for (const Experiment& other : experiments())
-    if (other.name == name && has(own_key_descriptions(other), key.path)) return name;
+    if (other.name == name && has_key(other.own_keys(), key.path)) return name;
   return "";
 }
 
@@ -119,6 +112,16 @@ std::string entries(const std::vector<std::pair<std::string, std::string>>& all,
     text += after + 2 > indent ? "\n" + std::string(indent, ' ') : std::string(indent - after, ' ');
     text += wrapped(meaning, width, indent, indent) + "\n";
   }
+  return text;
+}
+
+// "radius of the pedestal [m], > 0, default 0.09"
+std::string option_help(const KeyDescription& key) {
+  std::string text = key.doc;
+  if (!key.choices.empty()) text += ": " + join(key.choices, " | ");
+  if (!key.unit.empty()) text += " [" + key.unit + "]";
+  if (key.range.text() != "finite") text += ", " + key.range.text();
+  if (!key.default_text.empty()) text += ", default " + key.default_text;
   return text;
 }
 
@@ -216,17 +219,15 @@ std::string program_help(const std::vector<Experiment>& known, int width) {
 std::vector<OptionGroup> option_groups(const Experiment& experiment, std::vector<KeyDescription> keys) {
   std::set<std::string> of_scenes;
   for (const KeyDescription& key : scene_keys()) of_scenes.insert(key.path);
-  const std::vector<KeyDescription> own = own_key_descriptions(experiment), fabric = fabric_keys();
+  const std::vector<KeyDescription> own = experiment.own_keys(), fabric = fabric_keys();
   // Of a test of fabrics, which simulates none.
   const bool takes_fabrics = std::all_of(fabric.begin(), fabric.end(),
-                                         [&](const KeyDescription& key) { return has(own, key.path); });
+                                         [&](const KeyDescription& key) { return has_key(own, key.path); });
   std::vector<OptionGroup> all = {{experiment.name, "", {}}};
-  for (const char* name : {"scene", "fabric", "solver", "pictures", "running"})
-    for (const Group& group : groups())
-      if (group.name == std::string(name)) all.push_back({name, group.about, {}});
+  for (const Group& group : groups()) all.push_back({group.name, group.about, {}});
   for (KeyDescription& key : keys) {
-    const bool of_fabric = takes_fabrics && has(fabric, key.path);
-    const bool is_own = !of_fabric && (!experiment.simulates || has(own, key.path));
+    const bool of_fabric = takes_fabrics && has_key(fabric, key.path);
+    const bool is_own = !of_fabric && (!experiment.simulates || has_key(own, key.path));
     std::string name = is_own ? experiment.name : option_group_name(key, of_scenes);
     if (const std::string other = is_own && experiment.simulates ? other_owner(key, name) : "";
         !other.empty())

@@ -32,12 +32,10 @@ std::string family_of_law(const std::string& law) {
 }
 
 render::Rgb8 color_of_law(const std::string& law) {
-  for (std::size_t f = 0; f < families().size(); ++f) {
-    const std::vector<std::string>& laws = families()[f].laws;
+  for (const auto& [family, laws] : families()) {
     const auto found = std::find(laws.begin(), laws.end(), law);
     if (found != laws.end())
-      return render::family_color(static_cast<int>(f), static_cast<int>(found - laws.begin()),
-                                  static_cast<int>(laws.size()));
+      return color_in_family(family, static_cast<int>(found - laws.begin()), static_cast<int>(laws.size()));
   }
   return kGrey;
 }

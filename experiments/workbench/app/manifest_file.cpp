@@ -202,6 +202,15 @@ std::vector<std::string> texts_in(const Json& list) {
 }
 std::vector<std::string> texts_at(const Json& json, const char* key) { return texts_in(at(json, key)); }
 
+// A list or an object is its text.
+MetricValue metric_value(const Json& json) {
+  if (json.is_boolean()) return json.get<bool>();
+  if (json.is_number_integer()) return json.get<std::int64_t>();
+  if (json.is_number()) return json.get<double>();
+  if (json.is_string()) return json.get<std::string>();
+  return json.is_null() ? MetricValue() : MetricValue(json.dump());
+}
+
 std::array<double, 4> cloth_box(const Json& instant) {
   const Json& box = at(instant, "cloth");
   std::array<double, 4> cloth{};
@@ -427,14 +436,6 @@ std::vector<SourcedNumber> Manifest::published_numbers() const {
     numbers.push_back({name, metric_value(at(number, "value")), shown_at(number, "unit"),
                        shown_at(number, "confidence"), shown_at(number, "source")});
   return numbers;
-}
-
-MetricValue metric_value(const Json& json) {
-  if (json.is_boolean()) return json.get<bool>();
-  if (json.is_number_integer()) return json.get<std::int64_t>();
-  if (json.is_number()) return json.get<double>();
-  if (json.is_string()) return json.get<std::string>();
-  return json.is_null() ? MetricValue() : MetricValue(json.dump());
 }
 
 bool is_manifest(const Json& json) { return missing_in(json).empty(); }

@@ -14,9 +14,6 @@ Json to_json(const Metrics& metrics);
 // What is missing, or of another type, is not known.
 Manifest parsed_manifest(const Json& json);
 
-// A list or an object is its text.
-MetricValue metric_value(const Json& json);
-
 // Whether the JSON of a file is a manifest.
 bool is_manifest(const Json& json);
 // Also one that cannot be read, which read_manifest then says.

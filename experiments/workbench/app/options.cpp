@@ -6,7 +6,6 @@
 #include <charconv>
 #include <utility>
 
-#include "render/look.h"
 #include "sim/base/comma_list.h"
 #include "sim/base/error.h"
 
@@ -22,14 +21,14 @@ const KeyRow<Options> kRows[] = {
     {"size", at<&O::size>, "", any(), "", "size of the pictures, WIDTHxHEIGHT pixels"},
     {"fps", at<&O::fps>, "1/s", {0, 10000, true}, "", "pictures per simulated second"},
     {"quality", at<&O::quality>, "", any(), "draft | final | figure", "of the pictures: a draft is drawn with 4 samples a pixel in place of 8; a figure, for pictures that are published, is lit from 192 directions and takes seconds"},
-    {"renderer", at<&O::renderer>, "", any(), "auto | egl | osmesa", "how pictures are drawn"},
+    {"renderer", at<&O::renderer>, "", any(), "", "how pictures are drawn"},
     {"no-images", at<&O::no_images>, "", any(), "", "draw no pictures"},
     {"look", at<&O::look>, "", any(), "", "what pictures show: cloth | grid (printed, 1 cm) | clay | curvature | residual | difference | friction | height (from the lowest to the highest point) | wireframe | silhouette; of several, separated by commas, each but the first has a sequence of its own, frames-LOOK/"},
     {"curvature-range", at<&O::curvature_range>, "1/m", at_least(0), "", "curvature at the ends of the colours, half of it for residual and difference; 0: 2 k0"},
     {"reference", at<&O::reference>, "", any(), "", "folder of a run on the same mesh with --export ply: look difference subtracts its curvature"},
     {"plain", at<&O::plain>, "", any(), "", "pictures of the sequence without captions and bars"},
     {"light", at<&O::light>, "", any(), "studio | raking", "raking: light from the side, almost in the plane of the picture, as wrinkles are photographed"},
-    {"background", at<&O::background>, "", any(), "studio | white | transparent", "behind the cloth; transparent: for figures, with the shadow on the ground and bars but without captions"},
+    {"background", at<&O::background>, "", any(), "", "behind the cloth; transparent: for figures, with the shadow on the ground and bars but without captions"},
     {"camera", at<&O::camera>, "", any(), "", "a camera as a run writes it, OUT/camera.json; keys camera.* that are given win"},
     {"camera.direction", at<&O::camera_direction>, "", any(), "", "from the cloth to the eye, any length"},
     {"camera.fov", at<&O::camera_fov>, "degree", between(1, 120), "", "full vertical angle of view"},

@@ -5,25 +5,27 @@
 #include <string>
 #include <vector>
 
+#include "render/look.h"
+#include "render/offscreen.h"
 #include "sim/scene/key_table.h"
 
 namespace hysteron::experiments {
 
 struct Options {
-  std::string scene;                  // scene      NAME|FILE.toml, "" = the experiment's own
-  std::string out;                    // out        folder of the results, "" = out/<experiment>
-  std::string size = "1280x720";      // size       of pictures, WIDTHxHEIGHT pixels
-  double fps = 30;                    // fps        pictures per simulated second
-  std::string quality = "final";      // quality    draft | final | figure
-  std::string renderer = "auto";      // renderer   auto | egl | osmesa
-  bool no_images = false;             // no-images
-  std::string look = "cloth";         // look       what the pictures show; several separated by commas
-  double curvature_range = 0;         // curvature-range  [1/m] at the ends of its colours; 0: 2 k0
-  std::string reference;              // reference  folder of the run that look `difference` subtracts
-  bool plain = false;                 // plain      pictures of the sequence without letters
-  std::string light = "studio";       // light      studio | raking
-  std::string background = "studio";  // background studio | white | transparent
-  std::string camera;                 // camera     a run's camera.json, before the keys camera.*
+  std::string scene;              // scene      NAME|FILE.toml, "" = the experiment's own
+  std::string out;                // out        folder of the results, "" = out/<experiment>
+  std::string size = "1280x720";  // size       of pictures, WIDTHxHEIGHT pixels
+  double fps = 30;                // fps        pictures per simulated second
+  std::string quality = "final";  // quality    draft | final | figure
+  render::Renderer renderer = render::Renderer::automatic;  // renderer   auto | egl | osmesa
+  bool no_images = false;                                   // no-images
+  std::string look = "cloth";    // look       what the pictures show; several separated by commas
+  double curvature_range = 0;    // curvature-range  [1/m] at the ends of its colours; 0: 2 k0
+  std::string reference;         // reference  folder of the run that look `difference` subtracts
+  bool plain = false;            // plain      pictures of the sequence without letters
+  std::string light = "studio";  // light      studio | raking
+  render::Background background = render::Background::studio;  // background studio | white | transparent
+  std::string camera;  // camera     a run's camera.json, before the keys camera.*
   Eigen::Vector3d camera_direction{0.8, -1.6, 0.9};  // camera.direction  from the cloth to the eye
   double camera_fov = 28;                            // camera.fov        full vertical angle [degree]
   Numbers camera_target;       // camera.target     [m] in the picture's middle; empty: found

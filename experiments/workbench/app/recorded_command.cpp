@@ -32,12 +32,10 @@ CommandLine recorded_line(const RecordedRun& run) {
     return line;
   }
   const std::vector<std::string> words = command_words(run.manifest.command);
-  std::vector<const char*> pointers;
-  for (const std::string& word : words) pointers.push_back(word.c_str());
   if (words.size() < 2)
     throw Error::invalid_input(run.file.string() + " holds no command that could be repeated")
         .with_key("command", "");
-  const auto line = parse_command_line(static_cast<int>(pointers.size()), pointers.data());
+  const auto line = parse_command_line(words);
   if (!line)
     throw Error::invalid_input(run.file.string() + ": its command, \"" + run.manifest.command +
                                "\", is no run");
@@ -54,10 +52,15 @@ void find_scene(CommandLine& line, const RecordedRun& run) {
 
 // Without a simulation there are no threads, and of some experiments no pictures.
 bool takes(const Experiment& experiment, const std::string& key) {
-  if (experiment.simulates) return true;
-  const std::vector<KeyDescription> own =
-      experiment.own_keys ? experiment.own_keys() : std::vector<KeyDescription>();
-  return std::any_of(own.begin(), own.end(), [&](const KeyDescription& known) { return known.path == key; });
+  return experiment.simulates || has_key(experiment.own_keys(), key);
+}
+
+// As it is typed: "hysteron drape --scene=a.toml".
+std::string typed_command(const CommandLine& line) {
+  std::vector<std::string> words = {"hysteron", line.experiment};
+  words.insert(words.end(), line.positionals.begin(), line.positionals.end());
+  for (const Flag& flag : line.flags) words.push_back("--" + flag.path + "=" + flag.text);
+  return shell_text(words);
 }
 
 }  // namespace
@@ -91,13 +94,6 @@ CommandLine line_that_repeats(const RecordedRun& run, const std::vector<Flag>& l
     if (takes(experiment_named(line.experiment), flag.path)) line.flags.push_back(flag);
   line.command = typed_command(line);
   return line;
-}
-
-std::string typed_command(const CommandLine& line) {
-  std::vector<std::string> words = {"hysteron", line.experiment};
-  words.insert(words.end(), line.positionals.begin(), line.positionals.end());
-  for (const Flag& flag : line.flags) words.push_back("--" + flag.path + "=" + flag.text);
-  return shell_text(words);
 }
 
 }  // namespace hysteron::experiments

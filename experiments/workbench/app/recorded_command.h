@@ -23,7 +23,4 @@ RecordedRun recorded_run(const std::string& folder_or_manifest);
 CommandLine line_that_repeats(const RecordedRun& run, const std::vector<Flag>& later = {},
                               bool with_errors = true);
 
-// As it is typed: "hysteron drape --scene=a.toml".
-std::string typed_command(const CommandLine& line);
-
 }  // namespace hysteron::experiments

@@ -100,26 +100,6 @@ Manifest first_entries(const CommandLine& line, const Setup& setup) {
   return manifest;
 }
 
-struct FirstRun {
-  bool started = false;
-  fs::path folder;
-};
-
-FirstRun& first_run() {
-  static FirstRun run;
-  return run;
-}
-
-std::string& reason_of_no_manifest() {
-  static thread_local std::string reason;
-  return reason;
-}
-
-void remember_first(const fs::path& folder, bool json) {
-  if (!first_run().started && !json) first_run().folder = folder;
-  first_run().started = true;
-}
-
 }  // namespace
 
 std::string program_version(const Manifest& m) {
@@ -143,7 +123,7 @@ Run::Run(Manifest first, const CommandLine& line, const Options& options,
       json_(options.json),
       quiet_(options.quiet),
       manifest_(std::move(first)) {
-  remember_first(folder(), json_);
+  if (!std::exchange(any_has_begun_, true) && !json_) first_folder_ = folder();
   manifest_.files = kept;
   reserve({"report.html"});  // every run ends with it, or `hysteron report` writes it later
   for (const std::string& name : kept) is_new(name);
@@ -157,13 +137,9 @@ Run::~Run() {
     keep();
   } catch (const Error& error) {
     // The exception that ended the run is on its way; this one can only be mentioned.
-    reason_of_no_manifest() = error.what();
+    unwritten_ = error.what();
   }
 }
-
-const std::string& Run::unwritten() { return reason_of_no_manifest(); }
-
-const fs::path& Run::first_folder() { return first_run().folder; }
 
 fs::path Run::path(const std::string& name) {
   if (std::count(manifest_.files.begin(), manifest_.files.end(), name)) return folder() / name;

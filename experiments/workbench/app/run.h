@@ -47,10 +47,10 @@ class Run {
   const std::filesystem::path& folder() const { return folder_.path(); }
   // Of the first run of this process, which was asked for; those of its parts lie in it.  "": none, or its
   // manifest goes to stdout.
-  static const std::filesystem::path& first_folder();
+  static const std::filesystem::path& first_folder() { return first_folder_; }
   // Why the manifest of a run of this thread could not be written after an exception had ended it; "": it
   // was.
-  static const std::string& unwritten();
+  static const std::string& unwritten() { return unwritten_; }
   // Where to write the file of that name ("sheet.png", "frames/0000.png"); its folder is made.  It is listed
   // in the manifest, on disk at once, so that a later run knows what one that is killed has left; of a
   // sequence the first file stands for all.  Throws Error::invalid_input where it would replace another's
@@ -127,6 +127,10 @@ class Run {
     std::string name;
     std::future<void> drawn;
   };
+
+  static inline bool any_has_begun_ = false;
+  static inline std::filesystem::path first_folder_;
+  static inline thread_local std::string unwritten_;
 
   RunFolder folder_;
   bool json_, quiet_, finished_ = false;

@@ -49,7 +49,7 @@ render::Camera framed_camera(const Options& options, const render::Box& bounds) 
 }
 
 render::Look lit(render::Look look, const Options& options) {
-  look.background = render::background_named(options.background);
+  look.background = options.background;
   look.shown = std::min(1.0f, static_cast<float>(kThumbnailWidth) / static_cast<float>(options.width()));
   look.raking = options.light == "raking";
   if (look.raking) look.room = kRakingRoom;

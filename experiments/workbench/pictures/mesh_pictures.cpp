@@ -48,7 +48,7 @@ MeshPictures::MeshPictures(const Options& options, const Choice& choice)
     : options_(options),
       choice_(choice),
       look_(mesh_look(options, choice)),
-      offscreen_(render::Offscreen::create(render::renderer_named(options.renderer))),
+      offscreen_(render::Offscreen::create(options.renderer)),
       view_(*offscreen_, picture_size(options)) {
   view_.set_look(look_);
   view_.set_ground(choice.ground);

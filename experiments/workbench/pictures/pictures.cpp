@@ -126,7 +126,7 @@ std::string Pictures::caption(double time) const {
 
 // A figure, whose background is transparent, has a caption of its own.
 std::string Pictures::captioned(const std::string& text) const {
-  return options_.background == "transparent" ? "" : text;
+  return options_.background == render::Background::transparent ? "" : text;
 }
 
 render::Image Pictures::picture(const std::string& look, const render::Camera& camera,
@@ -289,7 +289,8 @@ SheetView Pictures::sheet_view(const std::vector<KeptInstant>& instants) const {
 render::Look Pictures::sheet_look() const {
   Options options = options_;
   const std::string look = options.looks().front();
-  if (look == "cloth" && options.background == "studio") options.background = "white";
+  using render::Background;
+  if (look == "cloth" && options.background == Background::studio) options.background = Background::white;
   return scene_look(scene_, options, look);
 }
 
@@ -356,12 +357,11 @@ void Pictures::write_sheet(Run& run, const std::string& title) {
   render::LoopFrame frame;
   for (const render::SheetEntry& cell : cells) frame.include(cell.loop.path);
   for (render::SheetEntry& cell : cells) cell.loop.frame = frame;
-  render::SheetLayout layout{.title = title, .scale_note = "at the cloth's middle"};
-  layout.metres_per_pixel = view.camera.metres_per_pixel(render::bounding_box(instants.back().xyz).center(),
-                                                         cells.front().image.height());
-  if (const auto bar = value_color_bar(scene_, options_, options_.looks().front()))
-    layout.bars.push_back(*bar);
-  write(run.path("sheet.png"), render::contact_sheet(cells, layout));
+  render::ComparisonSheet page{.title = title, .scale_note = "at the cloth's middle"};
+  const double metres_per_pixel = view.camera.metres_per_pixel(
+      render::bounding_box(instants.back().xyz).center(), cells.front().image.height());
+  if (const auto bar = value_color_bar(scene_, options_, options_.looks().front())) page.bars.push_back(*bar);
+  write(run.path("sheet.png"), render::contact_sheet(cells, page, metres_per_pixel));
   keep_sheet(run, instants, skins, title);
 }
 

@@ -97,7 +97,7 @@ SceneRenderer::SceneRenderer(const Scene& scene, const Options& options, const D
       bounds_(bounds),
       floor_(floor),
       scenery_(scene.obstacle),
-      offscreen_(render::Offscreen::create(render::renderer_named(options.renderer), cuda_device)) {
+      offscreen_(render::Offscreen::create(options.renderer, cuda_device)) {
   take_size(picture_size(options));
 }
 

@@ -15,7 +15,7 @@ const std::vector<Experiment> kKnown = {
 
 std::optional<CommandLine> parsed(std::vector<const char*> words) {
   words.insert(words.begin(), "/somewhere/hysteron");
-  return parse_command_line(static_cast<int>(words.size()), words.data(), kKnown);
+  return parse_command_line({words.begin(), words.end()}, kKnown);
 }
 
 std::string text_of_flag(const CommandLine& line, const std::string& path) {

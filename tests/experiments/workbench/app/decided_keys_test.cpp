@@ -46,17 +46,12 @@ TEST(DecidedKeys, AreRefusedByName) {
 TEST(DecidedKeys, OfEveryExperimentAreKeysThatItTakesNoFlagOf) {
   const std::vector<std::string> tables = {"pin", "obstacle", "command", "phase"};
   for (const Experiment& experiment : experiments()) {
-    if (!experiment.decided) continue;
     const std::vector<KeyDescription> taken = experiment_options(experiment, Defaults::left_out),
                                       known = scene_keys();
-    const auto has = [](const std::vector<KeyDescription>& keys, const std::string& path) {
-      return std::any_of(keys.begin(), keys.end(),
-                         [&](const KeyDescription& key) { return key.path == path; });
-    };
     for (const DecidedKey& key : experiment.decided()) {
-      EXPECT_FALSE(has(taken, key.path)) << experiment.name << " " << key.path;
+      EXPECT_FALSE(has_key(taken, key.path)) << experiment.name << " " << key.path;
       if (std::count(tables.begin(), tables.end(), key.path)) continue;
-      EXPECT_TRUE(has(known, key.path)) << key.path;
+      EXPECT_TRUE(has_key(known, key.path)) << key.path;
       EXPECT_TRUE(refusal(experiment.name, {key.path, "1"}).starts_with("--" + key.path + " 1: "))
           << key.path;
     }
@@ -89,9 +84,7 @@ TEST(DecidedKeys, AreAllThatAnExperimentChangesButWhatItMakesFit) {
     std::vector<std::string> changed;
     changed_in(manifest_in(folder.path() / "run")["asked"], "", changed);
     for (const std::string& path : changed) {
-      const std::vector<DecidedKey> decided = decided_by(name);
-      const bool known = std::any_of(decided.begin(), decided.end(),
-                                     [&, &p = path](const DecidedKey& key) { return key.path == p; });
+      const bool known = has_key(experiment_named(name).decided(), path);
       const bool of_swing =
           name == std::string("swing") && path == "pin";  // which has one if the scene has none
       EXPECT_TRUE(known || of_swing || std::count(fitted.begin(), fitted.end(), path) ||
