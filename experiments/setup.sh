@@ -14,6 +14,7 @@ program_packages=(
   "ninja-build|runs the build"
   "git|names the commit in every manifest"
   "libeigen3-dev|vectors and matrices"
+  "libcli11-dev|command line"
   "libfmt-dev|numbers in texts"
   "libkainjow-mustache-dev|templates of pages"
   "libtomlplusplus-dev|scene and fabric files"

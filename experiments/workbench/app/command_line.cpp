@@ -1,5 +1,7 @@
+// The only file that includes CLI11: it costs seconds to compile.
 #include "experiments/workbench/app/command_line.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
@@ -14,6 +16,23 @@
 namespace hysteron::experiments {
 namespace {
 
+// One subcommand with its options, by the key that each sets.
+struct Command {
+  const Experiment* experiment;
+  CLI::App* app;
+  std::vector<std::pair<std::string, CLI::Option*>> flags;
+  std::vector<std::string> positionals;
+};
+
+CLI::Option* add_flag(CLI::App& app, const KeyDescription& key) {
+  const std::string name = option_name(key);
+  if (key.type == "flag") return app.add_flag(name);
+  CLI::Option* option = app.add_option(key.path == "fabric.name" ? name + ",--" + key.path : name);
+  option->expected(1)->type_name(key.type);
+  if (key.type == "name=value") return option->take_all()->allow_extra_args(false);
+  return option->take_last();
+}
+
 // The experiment's own, then those of every simulated run.
 std::vector<KeyDescription> every_option(const Experiment& experiment, Defaults defaults) {
   std::vector<KeyDescription> keys = experiment.own_keys();
@@ -27,6 +46,18 @@ std::vector<KeyDescription> every_option(const Experiment& experiment, Defaults 
     keys.push_back(std::move(key));
   }
   return keys;
+}
+
+// What the experiment decides itself, too: what it says to such a flag is more than that it is unknown.
+void add_command(CLI::App& program, const Experiment& experiment, Command& command) {
+  command.experiment = &experiment;
+  command.app = program.add_subcommand(experiment.name, experiment.question);
+  command.app->allow_extras();
+  command.app->set_version_flag("--version", program_version());
+  for (const KeyDescription& key : every_option(experiment, Defaults::left_out))
+    command.flags.emplace_back(option_name(key).substr(2), add_flag(*command.app, key));
+  if (*experiment.positionals)
+    command.app->add_option("names", command.positionals)->type_name(experiment.positionals);
 }
 
 // A word that the shell reads back as it is.
@@ -46,45 +77,70 @@ std::string shell_command(std::vector<std::string> words) {
   return shell_text(words);
 }
 
-// A word that begins an option, unlike a negative number.
-bool is_option(const std::string& word) {
-  return word.size() > 1 && word[0] == '-' && !std::isdigit(static_cast<unsigned char>(word[1]));
+// Of an option that wants a value CLI11 takes any next word for it, an option as well, and so it does for one
+// that is empty, "--key=".
+std::vector<std::string> with_their_values(const std::vector<std::string>& words, const Command& command) {
+  const auto wants = [&](const std::string& name) {
+    return std::any_of(command.flags.begin(), command.flags.end(), [&](const auto& flag) {
+      return flag.second->get_items_expected_max() > 0 && flag.second->check_name(name);
+    });
+  };
+  std::vector<std::string> all;
+  std::size_t i = 0;
+  for (; i < words.size() && words[i] != "--"; ++i) {
+    const std::size_t equals = words[i].find('=');
+    const std::string name = words[i].substr(0, equals);
+    all.push_back(words[i]);
+    if (!name.starts_with("--") || !wants(name)) continue;
+    if (equals + 1 == words[i].size()) {
+      all.back() = name;
+      all.emplace_back();
+    } else if (equals == std::string::npos && i + 1 < words.size()) {
+      const std::string& value = words[++i];
+      if (value.starts_with("--"))
+        throw Error::invalid_input(name + " needs a value, and " + value + " is an option: " + name + "=" +
+                                   value + " if it is not")
+            .with_key(name.substr(2), value)
+            .with_experiment(command.experiment->name);
+      all.push_back(value);
+    }
+  }
+  all.insert(all.end(), words.begin() + static_cast<std::ptrdiff_t>(i), words.end());
+  return all;
 }
 
-// What stands behind "=" in the word of this option, or else the next word, to which `i` goes on.
-std::string value_in(const std::vector<std::string>& words, std::size_t& i, const KeyDescription& key) {
-  const std::string& word = words[i];
-  const std::size_t equals = word.find('=');
-  const std::string text = equals == word.npos ? "" : word.substr(equals + 1);
-  if (key.type == "flag") return text.empty() ? "true" : text;
-  if (equals != word.npos) return text;
-  if (i + 1 == words.size())
-    throw Error::invalid_input(option_name(key) + ": 1 required " + key.type + " missing");
-  const std::string& value = words[++i];
-  if (value.starts_with("--"))
-    throw Error::invalid_input(word + " needs a value, and " + value + " is an option: " + word + "=" +
-                               value + " if it is not")
-        .with_key(word.substr(2), value);
-  return value;
+// Of the subcommand that the words begin with, the value that each option is given.
+std::vector<std::string> checked(const std::vector<std::string>& words,
+                                 const std::vector<Command>& commands) {
+  for (const Command& command : commands)
+    if (!words.empty() && words.front() == command.experiment->name) return with_their_values(words, command);
+  return words;
 }
 
-// Says which word no option takes, and what was meant.
-[[noreturn]] void throw_unknown(const std::string& given, const std::string& experiment,
-                                const std::vector<KeyDescription>& keys) {
-  const std::string word = given.substr(0, given.find('='));
-  if (!word.starts_with('-')) throw Error::invalid_input("unexpected argument \"" + word + "\"");
+// CLI11 leaves what it does not know, and the "--" behind which nothing is a flag; say which flag that is,
+// and what was meant.
+void throw_if_unknown(const Command& command) {
+  std::vector<std::string> unknown = command.app->remaining();
+  std::erase(unknown, "--");
+  if (unknown.empty()) return;
+  const std::string word = unknown.front().substr(0, unknown.front().find('='));
+  const std::string experiment = command.experiment->name;
+  if (!word.starts_with('-'))
+    throw Error::invalid_input("unexpected argument \"" + word + "\"").with_experiment(experiment);
   std::vector<std::string> known;
-  for (const KeyDescription& key : keys) known.push_back(option_name(key));
+  for (const auto& flag : command.flags) known.push_back("--" + flag.first);
   const std::string owner = whose(word.substr(std::min(word.find_first_not_of('-'), word.size())));
   const std::string nearest = nearest_name(word, known);
   std::string more = owner;
   if (!nearest.empty()) more = "did you mean " + nearest + "?" + (owner.empty() ? "" : " (" + owner + ")");
   if (more.empty()) more = "see hysteron " + experiment + " --help";
-  throw Error::invalid_input("unknown option " + word + "; " + more).with_key(word, "");
+  throw Error::invalid_input("unknown option " + word + "; " + more)
+      .with_key(word, "")
+      .with_experiment(experiment);
 }
 
 // A word before the subcommand, or instead of one.
-[[noreturn]] void throw_stray_word(const std::string& word, const std::vector<Experiment>& experiments) {
+void throw_if_stray_word(const std::string& word, const std::vector<Experiment>& experiments) {
   if (word.starts_with('-')) throw Error::invalid_input("unknown option " + word + " before the subcommand");
   std::vector<std::string> known;
   for (const Experiment& experiment : experiments)
@@ -94,36 +150,20 @@ std::string value_in(const std::vector<std::string>& words, std::size_t& i, cons
                              (nearest.empty() ? "; see hysteron --help" : "; did you mean " + nearest + "?"));
 }
 
-// The words behind the experiment's name.  Behind "--" nothing is an option.
-void take_apart(const std::vector<std::string>& words, const Experiment& experiment, CommandLine& line) {
-  // What the experiment decides itself, too: what it says to such a flag is more than that it is unknown.
-  const std::vector<KeyDescription> keys = every_option(experiment, Defaults::left_out);
-  std::vector<std::vector<std::string>> texts(keys.size());
-  std::optional<std::string> unknown;  // the first
-  bool names_only = false;
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    const std::string& word = words[i];
-    const bool is_name = names_only || !is_option(word);
-    const std::string option = is_name ? "" : word.substr(0, word.find('='));
-    const auto key = std::find_if(keys.begin(), keys.end(), [&](const KeyDescription& k) {
-      return option == option_name(k) || option == "--" + k.path;
-    });
-    if (key != keys.end())
-      texts[static_cast<std::size_t>(key - keys.begin())].push_back(value_in(words, i, *key));
-    else if (option == "--")
-      names_only = true;
-    else if (is_name && *experiment.positionals)
-      line.positionals.push_back(word);
-    else if (!unknown)
-      unknown = word;
+CommandLine taken_apart(const Command& command, std::string shell_command) {
+  CommandLine line{command.experiment->name, std::move(shell_command), {}, command.positionals};
+  if (!command.experiment->run) return line;
+  throw_if_unknown(command);
+  for (const auto& [path, option] : command.flags) {
+    for (const std::string& text : option->reduced_results()) {
+      if (path == "out" && text.empty())
+        throw Error::invalid_input("--out is empty: name where to write")
+            .with_key("out", "")
+            .with_experiment(line.experiment);
+      line.flags.push_back({path, text});
+    }
   }
-  if (unknown) throw_unknown(*unknown, line.experiment, keys);
-  for (std::size_t k = 0; k < keys.size(); ++k) {
-    if (keys[k].type != "name=value" && texts[k].size() > 1) texts[k] = {texts[k].back()};
-    for (const std::string& text : texts[k]) line.flags.push_back({option_name(keys[k]).substr(2), text});
-  }
-  if (last_text(line.flags, "out", "out").empty())
-    throw Error::invalid_input("--out is empty: name where to write").with_key("out", "");
+  return line;
 }
 
 }  // namespace
@@ -148,21 +188,34 @@ std::string shell_text(const std::vector<std::string>& words) {
 std::optional<CommandLine> parse_command_line(const std::vector<std::string>& words,
                                               const std::vector<Experiment>& known) {
   const std::vector<std::string> given(words.begin() + 1, words.end());
-  const auto end = std::find(given.begin(), given.end(), "--");
   if (const auto help = help_asked(given, known, terminal_width())) return std::cout << *help, std::nullopt;
-  if (std::find(given.begin(), end, "--version") != end)
-    return std::cout << program_version() << std::endl, std::nullopt;
-  if (given.empty()) throw Error::invalid_input("needs a subcommand; see hysteron --help");
-  const auto experiment =
-      std::find_if(known.begin(), known.end(), [&](const Experiment& e) { return e.name == given.front(); });
-  if (experiment == known.end()) throw_stray_word(given.front(), known);
-  CommandLine line{experiment->name, shell_command(words), {}, {}};
+  CLI::App program("", "hysteron");
+  program.set_help_flag();
+  program.set_version_flag("--version", program_version());
+  program.allow_extras();
+  program.require_subcommand(0, 1);
+  std::vector<Command> commands(known.size());
+  for (std::size_t i = 0; i < commands.size(); ++i) add_command(program, known[i], commands[i]);
+  const auto chosen = [&]() -> const Command* {
+    for (const Command& command : commands) {
+      if (command.app->parsed()) return &command;
+    }
+    return nullptr;
+  };
   try {
-    take_apart({given.begin() + 1, given.end()}, *experiment, line);
-  } catch (const Error& error) {
-    throw error.with_experiment(line.experiment);
+    std::vector<std::string> all = checked(given, commands);
+    std::reverse(all.begin(), all.end());  // as CLI11 takes words
+    program.parse(std::move(all));
+  } catch (const CLI::Success& requested) {
+    program.exit(requested);
+    return std::nullopt;
+  } catch (const CLI::ParseError& error) {
+    const Error refused = Error::invalid_input(error.what());
+    throw chosen() ? refused.with_experiment(chosen()->experiment->name) : refused;
   }
-  return line;
+  if (!program.remaining().empty()) throw_if_stray_word(program.remaining().front(), known);
+  if (!chosen()) throw Error::invalid_input("needs a subcommand; see hysteron --help");
+  return taken_apart(*chosen(), shell_command(words));
 }
 
 }  // namespace hysteron::experiments
