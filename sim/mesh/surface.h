@@ -14,20 +14,18 @@ struct Surface {
   std::vector<double> curvature;         // per vertex, in the file's unit; empty: the file has none
 };
 
-// The surface without the vertices that no face uses.
-Surface without_loose_vertices(Surface surface);
-
-// Both read triangles and quads (cut along the shorter diagonal), and leave out vertices that no face uses.
-// Edges of three faces, changes of orientation and triangles without area are taken as they are.  Throw
-// Error::system for a file that cannot be read; Error::invalid_input, naming the file and the line or
+// The ways below read triangles and quads (cut along the shorter diagonal), and leave out vertices that no
+// face uses.  Edges of three faces, changes of orientation and triangles without area are taken as they are.
+// Throw Error::system for a file that cannot be read; Error::invalid_input, naming the file and the line or
 // element, for what is malformed, for faces of other sizes, and for no faces at all.
 
+// Wavefront OBJ.  Numbers that are not finite are refused.
+Surface read_obj_surface(const std::string& file);
 // PLY, ASCII or binary of either byte order.  Takes the elements `vertex` with the properties x, y, z and
 // `curvature` (float or double), and `face` with vertex_indices or vertex_index (int or uint).  Positions
 // that are not finite are refused.
 Surface read_ply(const std::string& file);
-// By the ending, .obj or .ply in letters of either case; Error::invalid_input for another one.  In Wavefront
-// OBJ, too, numbers that are not finite are refused.
+// By the ending, .obj or .ply in letters of either case; Error::invalid_input for another one.
 Surface read_surface(const std::string& file);
 
 }  // namespace hysteron
