@@ -9,10 +9,9 @@
 
 namespace hysteron {
 
-// In C notation, whatever the locale; none unless all of the text is one that the type holds.
-template <class Number = double>
-std::optional<Number> number_in(std::string_view text) {
-  Number value = 0;
+// In C notation, whatever the locale; none unless all of the text is one.
+inline std::optional<double> number_in(std::string_view text) {
+  double value = 0;
   const char* end = text.data() + text.size();
   const auto [remainder, failure] = std::from_chars(text.data(), end, value);
   if (failure != std::errc() || remainder != end) return std::nullopt;

@@ -210,13 +210,19 @@ ClothMesh make_tube(double length, double radius, int triangles, MeshFamily fami
   const double around = 2 * std::numbers::pi * radius;
   const ClothMesh flat = make_rectangle(length, around, triangles, family, seed);
   ClothMesh tube;
-  tube.face = flat.face;
+  std::vector<Eigen::Vector3d> rolled;
   for (const Eigen::Vector3d& x : flat.rest) {
     const double angle = x.y() / radius;
-    tube.rest.push_back({x.x(), -radius * std::sin(angle), -radius * std::cos(angle)});
+    rolled.push_back({x.x(), -radius * std::sin(angle), -radius * std::cos(angle)});
   }
   constexpr double kSeam = 1e-6;  // of the radius: far below any edge, far above rounding
-  weld_vertices(tube, kSeam * radius);
+  const std::vector<int> kept = nearby_representatives(rolled, kSeam * radius);
+  std::vector<int> number(rolled.size());
+  for (std::size_t i = 0; i < rolled.size(); ++i) {
+    number[i] = kept[i] < static_cast<int>(i) ? number[kept[i]] : static_cast<int>(tube.rest.size());
+    if (kept[i] == static_cast<int>(i)) tube.rest.push_back(rolled[i]);
+  }
+  for (const Eigen::Vector3i& t : flat.face) tube.face.push_back({number[t[0]], number[t[1]], number[t[2]]});
   build_topology(tube, "tube mesh");
   if (!is_closed(tube, length))
     throw Error::invalid_input(

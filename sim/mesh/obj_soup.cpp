@@ -1,9 +1,12 @@
-// Read here and not by tinyobjloader, which takes a malformed number for 0, wraps one of more than 32 bits,
-// may round the last bit and keeps no line for its messages.
+// tinyobjloader resolves faces and relative indices; it reads a malformed number as 0, wraps one of more than
+// 32 bits and may round the last bit.  Numbers are read, and refused, here, and it sees only what it
+// resolves.
 #include "sim/mesh/obj_soup.h"
 
+#include <tiny_obj_loader.h>
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -11,7 +14,6 @@
 #include <string_view>
 
 #include "sim/base/error.h"
-#include "sim/base/number_in.h"
 #include "sim/base/whole_file.h"
 #include "sim/mesh/mesh_doubts.h"
 #include "sim/mesh/topology.h"
@@ -20,10 +22,24 @@ namespace hysteron {
 
 namespace {
 
-// What a corner of a face names, counted from 0; below 0 where that is before the first.
-struct Corner {
-  std::optional<int> vertex, texture, normal;
+// The file's own vertices and texture coordinates, the lines on which vertices and faces stand, and what the
+// loader needs of each line.
+struct Lines {
+  std::vector<Eigen::Vector3d> vertex;
+  std::vector<Eigen::Vector2d> texture;
+  std::vector<int> vertex_line, face_line;
+  std::string resolved;
+  // The first face that counts back beyond the beginning, which not every version of the loader takes.
+  struct BeforeFirst {
+    int line;
+    bool texture;
+  };
+  std::optional<BeforeFirst> before_first;
 };
+
+Error bad_line(const std::string& what, int line, const std::string& problem) {
+  return Error::invalid_input(what + ": line " + std::to_string(line) + ": " + problem);
+}
 
 // Of a line without its comment.
 std::vector<std::string_view> words(std::string_view line) {
@@ -38,6 +54,79 @@ std::vector<std::string_view> words(std::string_view line) {
   return found;
 }
 
+double finite_number(std::string_view word, const std::string& what, int line) {
+  double value = 0;
+  const std::string_view digits = word.substr(word.starts_with('+') ? 1 : 0);
+  const auto [end, code] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  if (code != std::errc() || end != digits.data() + digits.size() || !std::isfinite(value))
+    throw bad_line(what, line, "coordinate \"" + std::string(word) + "\" must be a finite number");
+  return value;
+}
+
+// "vertex", "vertex/texture", "vertex//normal" or "vertex/texture/normal", counted from 1, or from -1
+// backwards.
+void check_corner(std::string_view corner, const std::string& what, int line, Lines& lines) {
+  for (std::size_t at = 0, place = 0; place < 3; ++place) {
+    const std::size_t end = std::min(corner.find('/', at), corner.size());
+    std::int32_t index = 0;
+    const auto [rest, code] = std::from_chars(corner.data() + at, corner.data() + end, index);
+    const bool left_out = place == 1 && end == at && end < corner.size();
+    const bool whole = code == std::errc() && rest == corner.data() + end && index != 0;
+    if (!left_out && !whole) break;
+    const std::size_t count = place == 0 ? lines.vertex.size() : lines.texture.size();
+    if (whole && place < 2 && index < -static_cast<std::int64_t>(count) && !lines.before_first)
+      lines.before_first = {line, place == 1};
+    if (end == corner.size()) return;
+    at = end + 1;
+  }
+  throw bad_line(what, line,
+                 "corner \"" + std::string(corner) +
+                     "\" must be a vertex, vertex/texture or vertex/texture/normal, as whole numbers of 32 "
+                     "bits other than 0");
+}
+
+void add_face(const std::vector<std::string_view>& word, std::string& line) {
+  line += "f";
+  for (std::size_t i = 1; i < word.size(); ++i) line.append(" ").append(word[i]);
+}
+
+// A vertex or a face behind bytes that no editor shows, or in capitals, is none to a reader that passes over
+// what it does not know.
+void check_record(std::string_view word, const std::string& what, int line) {
+  std::string letters;
+  for (const unsigned char c : word)
+    if (std::isalpha(c) && c < 0x80) letters += static_cast<char>(std::tolower(c));
+  if (letters != "v" && letters != "vt" && letters != "f") return;
+  throw bad_line(what, line, "\"" + std::string(word) + "\" must be plain \"" + letters + "\"");
+}
+
+void scan_line(const std::vector<std::string_view>& word, const std::string& what, int line, Lines& lines) {
+  if (word.empty()) return;
+  if (word[0] == "v") {
+    if (word.size() < 4) throw bad_line(what, line, "a vertex needs three coordinates");
+    lines.vertex.emplace_back(finite_number(word[1], what, line), finite_number(word[2], what, line),
+                              finite_number(word[3], what, line));
+    lines.vertex_line.push_back(line);
+    lines.resolved += "v 0 0 0";  // counted only
+  } else if (word[0] == "vt") {
+    if (word.size() < 3) throw bad_line(what, line, "a texture coordinate needs two numbers");
+    lines.texture.emplace_back(finite_number(word[1], what, line), finite_number(word[2], what, line));
+    lines.resolved += "vt 0 0";  // counted only
+  } else if (word[0] == "vn") {
+    lines.resolved += "vn 0 0 1";                  // counted only
+  } else if (word[0] == "f" || word[0] == "fo") {  // as files before OBJ 3.0 have it
+    if (word.size() != 4 && word.size() != 5)
+      throw bad_line(what, line,
+                     "a face of " + std::to_string(word.size() - 1) +
+                         " corners; allowed are triangles and quads, triangulate the mesh first");
+    for (std::size_t i = 1; i < word.size(); ++i) check_corner(word[i], what, line, lines);
+    add_face(word, lines.resolved);
+    lines.face_line.push_back(line);
+  } else {
+    check_record(word[0], what, line);
+  }
+}
+
 // Text may begin with a byte order mark.
 std::string file_text(const std::string& file, const std::string& what) {
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
@@ -47,140 +136,100 @@ std::string file_text(const std::string& file, const std::string& what) {
   return text.starts_with(kByteOrderMark) ? text.substr(kByteOrderMark.size()) : text;
 }
 
-// Takes the lines of a file in their order.
-class ObjReader {
- public:
-  explicit ObjReader(const std::string& what) : what_(what) {}
+Error no_such_index(const std::string& what, int line, const std::string& which, std::size_t count) {
+  return bad_line(what, line, "the face uses " + which + "; the file has " + std::to_string(count));
+}
 
-  ObjSoup read(const std::string& text) {
-    for (std::size_t at = 0; at < text.size();) {
-      const std::size_t end = std::min(text.find_first_of("\r\n", at), text.size());
-      ++line_;
-      read_line(words(std::string_view(text).substr(at, end - at)));
-      at = end + (text.compare(end, 2, "\r\n") == 0 ? 2 : 1);
-    }
-    if (soup_.vertex.empty() && face_.empty())
-      throw Error::invalid_input(
-          what_ + ": not an OBJ: none of its lines is a vertex, \"v X Y Z\", or a face, \"f A B C\"");
-    for (const Face& face : face_) add(face);
-    return std::move(soup_);
+Lines scan(const std::string& text, const std::string& what) {
+  Lines lines;
+  int number = 0;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find_first_of("\r\n", at), text.size());
+    scan_line(words(std::string_view(text).substr(at, end - at)), what, ++number, lines);
+    lines.resolved += '\n';
+    at = end + (text.compare(end, 2, "\r\n") == 0 ? 2 : 1);
   }
+  if (const auto& before = lines.before_first)
+    throw no_such_index(
+        what, before->line,
+        before->texture ? "a texture coordinate before the first" : "a vertex before the first",
+        before->texture ? lines.texture.size() : lines.vertex.size());
+  return lines;
+}
+
+// Faces of three or four corners in the file's order, which the loader keeps.
+class Faces {
+ public:
+  Faces(const std::string& what, const Lines& lines) : what_(what), lines_(lines) {
+    std::vector<tinyobj::shape_t> shapes;
+    std::vector<tinyobj::material_t> materials;
+    std::string warning, error;
+    std::istringstream in(lines.resolved);
+    if (!tinyobj::LoadObj(&attributes_, &shapes, &materials, &warning, &error, &in, nullptr, false, false))
+      throw Error::invalid_input(what + ": " + error);
+    for (const auto& shape : shapes) {
+      auto corner = shape.mesh.indices.begin();
+      for (const int corners : shape.mesh.num_face_vertices) {
+        add_face({corner, corner + corners});
+        corner += corners;
+      }
+    }
+  }
+
+  ObjSoup take_soup() { return std::move(soup_); }
 
  private:
-  struct Face {
-    int line;
-    std::vector<Corner> corner;
-  };
-
-  Error bad_line(const std::string& problem) const {
-    return Error::invalid_input(what_ + ": line " + std::to_string(line_) + ": " + problem);
-  }
-
-  void read_line(const std::vector<std::string_view>& word) {
-    if (word.empty()) return;
-    if (word[0] == "v") {
-      if (word.size() < 4) throw bad_line("a vertex needs three coordinates");
-      soup_.vertex.emplace_back(finite_number(word[1]), finite_number(word[2]), finite_number(word[3]));
-      soup_.vertex_line.push_back(line_);
-    } else if (word[0] == "vt") {
-      if (word.size() < 3) throw bad_line("a texture coordinate needs two numbers");
-      texture_.emplace_back(finite_number(word[1]), finite_number(word[2]));
-    } else if (word[0] == "vn") {
-      ++normals_;
-    } else if (word[0] == "f" || word[0] == "fo") {  // as files before OBJ 3.0 have it
-      if (word.size() != 4 && word.size() != 5)
-        throw bad_line("a face of " + std::to_string(word.size() - 1) +
-                       " corners; allowed are triangles and quads, triangulate the mesh first");
-      face_.push_back({line_, {}});
-      for (std::size_t i = 1; i < word.size(); ++i) face_.back().corner.push_back(corner(word[i]));
+  void add_face(const std::vector<tinyobj::index_t>& corner) {
+    const int line = lines_.face_line.at(faces_++);
+    for (const auto& c : corner) check_index(c.vertex_index, lines_.vertex.size(), "vertex", line);
+    if (corner.size() == 3) return add_triangle(corner[0], corner[1], corner[2], line);
+    const auto at = [&](int i) { return lines_.vertex[corner[i].vertex_index]; };
+    if (crosses_itself(at(0), at(1), at(2), at(3))) soup_.crossed_line.push_back(line);
+    if (is_cut_from_first(at(0), at(1), at(2), at(3))) {
+      add_triangle(corner[0], corner[1], corner[2], line);
+      add_triangle(corner[0], corner[2], corner[3], line);
     } else {
-      check_record(word[0]);
+      add_triangle(corner[0], corner[1], corner[3], line);
+      add_triangle(corner[1], corner[2], corner[3], line);
     }
   }
 
-  double finite_number(std::string_view word) const {
-    const std::optional<double> value = number_in(word.substr(word.starts_with('+') ? 1 : 0));
-    if (!value || !std::isfinite(*value))
-      throw bad_line("coordinate \"" + std::string(word) + "\" must be a finite number");
-    return *value;
+  void add_triangle(const tinyobj::index_t& a, const tinyobj::index_t& b, const tinyobj::index_t& c,
+                    int line) {
+    soup_.face.emplace_back(a.vertex_index, b.vertex_index, c.vertex_index);
+    soup_.uv.push_back({uv(a, line), uv(b, line), uv(c, line)});
+    soup_.face_line.push_back(line);
   }
 
-  // "vertex", "vertex/texture", "vertex//normal" or "vertex/texture/normal", counted from 1, or from -1
-  // backwards.
-  Corner corner(std::string_view word) const {
-    const std::size_t count[] = {soup_.vertex.size(), texture_.size(), normals_};
-    Corner result;
-    std::optional<int>* const part[] = {&result.vertex, &result.texture, &result.normal};
-    for (std::size_t at = 0, place = 0; place < 3; ++place) {
-      const std::size_t end = std::min(word.find('/', at), word.size());
-      const std::optional<std::int32_t> index = number_in<std::int32_t>(word.substr(at, end - at));
-      const bool left_out = place == 1 && end == at && end < word.size();
-      if (!left_out && index.value_or(0) == 0) break;
-      if (!left_out) *part[place] = *index > 0 ? *index - 1 : counted_back(*index, count[place]);
-      if (end == word.size()) return result;
-      at = end + 1;
-    }
-    throw bad_line("corner \"" + std::string(word) +
-                   "\" must be a vertex, vertex/texture or vertex/texture/normal, as whole numbers of 32 "
-                   "bits other than 0");
-  }
-  static int counted_back(std::int64_t index, std::size_t count) {
-    return static_cast<int>(std::max<std::int64_t>(static_cast<std::int64_t>(count) + index, -1));
+  Uv uv(const tinyobj::index_t& corner, int line) const {
+    if (corner.texcoord_index == -1) return {};
+    check_index(corner.texcoord_index, lines_.texture.size(), "texture coordinate", line);
+    return lines_.texture[corner.texcoord_index];
   }
 
-  // A vertex or a face behind bytes that no editor shows, or in capitals, is none to a reader that passes
-  // over what it does not know.
-  void check_record(std::string_view word) const {
-    std::string letters;
-    for (const unsigned char c : word)
-      if (std::isalpha(c) && c < 0x80) letters += static_cast<char>(std::tolower(c));
-    if (letters != "v" && letters != "vt" && letters != "f") return;
-    throw bad_line("\"" + std::string(word) + "\" must be plain \"" + letters + "\"");
-  }
-
-  // What a face names may follow it.
-  void add(const Face& face) {
-    line_ = face.line;
-    std::vector<int> vertex;
-    std::vector<Eigen::Vector3d> at;
-    std::vector<Uv> uv;
-    for (const Corner& c : face.corner) {
-      check_index(*c.vertex, soup_.vertex.size(), "vertex");
-      vertex.push_back(*c.vertex);
-      at.push_back(soup_.vertex[*c.vertex]);
-    }
-    for (const Corner& c : face.corner) {
-      if (c.texture) check_index(*c.texture, texture_.size(), "texture coordinate");
-      if (c.normal.value_or(0) < 0) check_index(*c.normal, normals_, "normal");  // none is read
-      uv.push_back(c.texture ? Uv(texture_[*c.texture]) : Uv());
-    }
-    if (at.size() == 4 && crosses_itself(at[0], at[1], at[2], at[3])) soup_.crossed_line.push_back(line_);
-    for (const auto& [i, j, k] : triangles_of(at)) {
-      soup_.face.emplace_back(vertex[i], vertex[j], vertex[k]);
-      soup_.uv.push_back({uv[i], uv[j], uv[k]});
-      soup_.face_line.push_back(line_);
-    }
-  }
-
-  void check_index(int index, std::size_t count, const std::string& of) const {
+  void check_index(int index, std::size_t count, const std::string& of, int line) const {
     if (index >= 0 && index < static_cast<int>(count)) return;
-    const std::string which =
-        index < 0 ? "a " + of + " before the first" : of + " " + std::to_string(index + 1);
-    throw bad_line("the face uses " + which + "; the file has " + std::to_string(count));
+    throw no_such_index(what_, line, of + " " + std::to_string(index + 1), count);
   }
 
   const std::string& what_;
-  int line_ = 0;
+  const Lines& lines_;
+  tinyobj::attrib_t attributes_;
   ObjSoup soup_;
-  std::vector<Eigen::Vector2d> texture_;
-  std::size_t normals_ = 0;
-  std::vector<Face> face_;
+  std::size_t faces_ = 0;
 };
 
 }  // namespace
 
 ObjSoup read_obj_soup(const std::string& file, const std::string& what) {
-  return ObjReader(what).read(file_text(file, what));
+  Lines lines = scan(file_text(file, what), what);
+  if (lines.vertex.empty() && lines.face_line.empty())
+    throw Error::invalid_input(
+        what + ": not an OBJ: none of its lines is a vertex, \"v X Y Z\", or a face, \"f A B C\"");
+  ObjSoup soup = Faces(what, lines).take_soup();
+  soup.vertex = std::move(lines.vertex);
+  soup.vertex_line = std::move(lines.vertex_line);
+  return soup;
 }
 
 bool has_texture(const ObjSoup& soup) {
@@ -224,6 +273,23 @@ void check_quads(const ObjSoup& soup, const std::string& what) {
                              ": sides of the quad cross: its corners must follow one another around it");
 }
 
+// Renumbers the soup's vertices to the kept ones; fills rest and the vertices' lines.
+void weld_vertices(double distance, const ObjSoup& soup, ClothMesh& mesh, MeshNames& names) {
+  std::vector<int> number(soup.vertex.size());
+  std::vector<int> representative;
+  if (distance > 0) representative = nearby_representatives(soup.vertex, distance);
+  for (std::size_t v = 0; v < soup.vertex.size(); ++v) {
+    if (distance > 0 && representative[v] != static_cast<int>(v)) {
+      number[v] = number[representative[v]];
+      continue;
+    }
+    number[v] = mesh.vertices();
+    mesh.rest.push_back(soup.vertex[v]);
+    names.vertex_line.push_back(soup.vertex_line[v]);
+  }
+  for (auto& face : mesh.face) face = {number[face[0]], number[face[1]], number[face[2]]};
+}
+
 // Texture coordinates become the pattern where each vertex has one.  Along seams it has several: then each
 // triangle keeps those of its own corners.
 void take_pattern(const ObjSoup& soup, ClothMesh& mesh) {
@@ -243,14 +309,9 @@ ClothMesh read_obj(const std::string& file, double weld, LengthUnit unit, std::v
   for (Eigen::Vector3d& x : soup.vertex)
     for (double& length : x) length = in_metres(length, unit);
   ClothMesh mesh;
-  mesh.rest = soup.vertex;
   mesh.face = soup.face;
   names.face_line = soup.face_line;
-  names.vertex_line = soup.vertex_line;
-  if (weld > 0) {
-    names.vertex_line.clear();
-    for (const int kept : weld_vertices(mesh, weld)) names.vertex_line.push_back(soup.vertex_line[kept]);
-  }
+  weld_vertices(weld, soup, mesh, names);
   take_pattern(soup, mesh);
   build_topology(mesh, names);
   if (doubts)

@@ -11,18 +11,18 @@
 
 namespace hysteron {
 
-// The corners of each triangle of a polygon of three or four corners.  A quad a, b, c, d is cut along its
-// shorter diagonal, unless only the other one lies inside it: along a-c into (a, b, c) and (a, c, d), along
-// b-d into (a, b, d) and (b, c, d).
-inline std::vector<std::array<int, 3>> triangles_of(const std::vector<Eigen::Vector3d>& x) {
-  if (x.size() == 3) return {{0, 1, 2}};
-  const Eigen::Vector3d &a = x[0], &b = x[1], &c = x[2], &d = x[3];
+// How a quadrilateral becomes two triangles.
+
+// A quad a, b, c, d is cut along its shorter diagonal, unless only the other one lies inside it.  True: along
+// a-c, into (a, b, c) and (a, c, d); false: along b-d, into (a, b, d) and (b, c, d).
+inline bool is_cut_from_first(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
+                              const Eigen::Vector3d& d) {
   const auto folded = [](const auto& p, const auto& q, const auto& r, const auto& s) {  // along p-r
     return (q - p).cross(r - p).dot((r - p).cross(s - p)) <= 0;
   };
   const bool first = folded(a, b, c, d), second = folded(b, c, d, a);
-  if (first != second ? second : (c - a).norm() <= (d - b).norm()) return {{0, 1, 2}, {0, 2, 3}};
-  return {{0, 1, 3}, {1, 2, 3}};
+  if (first != second) return second;
+  return (c - a).norm() <= (d - b).norm();
 }
 
 // Whether the side a-b meets c-d, or b-c meets d-a, as where the corners are not given in their order around.

@@ -2,11 +2,11 @@
 // of one property for those of another.
 #include "sim/mesh/ply_header.h"
 
+#include <charconv>
 #include <sstream>
 #include <utility>
 
 #include "sim/base/error.h"
-#include "sim/base/number_in.h"
 
 namespace hysteron {
 
@@ -81,9 +81,11 @@ class HeaderReader {
 
   void read_element(const std::vector<std::string>& word) {
     if (word.size() != 3) throw bad("an element needs a name and a number");
-    const auto count = number_in<std::size_t>(word[2]);
-    if (!count) throw bad("\"" + word[2] + "\" is no number of elements");
-    header_.element.push_back({word[1], *count, line_, {}});
+    std::size_t count = 0;
+    const char* const end = word[2].data() + word[2].size();
+    const auto [parse_end, code] = std::from_chars(word[2].data(), end, count);
+    if (code != std::errc() || parse_end != end) throw bad("\"" + word[2] + "\" is no number of elements");
+    header_.element.push_back({word[1], count, line_, {}});
   }
 
   void read_property(const std::vector<std::string>& word) {

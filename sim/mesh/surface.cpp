@@ -63,10 +63,19 @@ void check_polygon(const std::vector<std::int64_t>& corner, std::size_t vertices
 }
 
 void add_polygon(const std::vector<std::int64_t>& corner, Surface& surface) {
-  std::vector<Eigen::Vector3d> at;
-  for (const std::int64_t v : corner) at.push_back(surface.vertex[v]);
   const auto v = [&](int i) { return static_cast<int>(corner[i]); };
-  for (const auto& [i, j, k] : triangles_of(at)) surface.face.emplace_back(v(i), v(j), v(k));
+  if (corner.size() == 3) {
+    surface.face.emplace_back(v(0), v(1), v(2));
+    return;
+  }
+  const auto x = [&](int i) { return surface.vertex[corner[i]]; };
+  if (is_cut_from_first(x(0), x(1), x(2), x(3))) {
+    surface.face.emplace_back(v(0), v(1), v(2));
+    surface.face.emplace_back(v(0), v(2), v(3));
+  } else {
+    surface.face.emplace_back(v(0), v(1), v(3));
+    surface.face.emplace_back(v(1), v(2), v(3));
+  }
 }
 
 }  // namespace

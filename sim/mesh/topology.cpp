@@ -244,20 +244,6 @@ std::vector<int> nearby_representatives(const std::vector<Eigen::Vector3d>& poin
   return representative;
 }
 
-std::vector<int> weld_vertices(ClothMesh& mesh, double distance) {
-  const std::vector<int> representative = nearby_representatives(mesh.rest, distance);
-  std::vector<int> number, kept;
-  for (int v = 0; v < mesh.vertices(); ++v) {
-    const bool is_kept = representative[v] == v;
-    number.push_back(is_kept ? static_cast<int>(kept.size()) : number[representative[v]]);
-    if (is_kept) kept.push_back(v);
-  }
-  for (std::size_t k = 0; k < kept.size(); ++k) mesh.rest[k] = mesh.rest[kept[k]];
-  mesh.rest.resize(kept.size());
-  for (Eigen::Vector3i& face : mesh.face) face = {number[face[0]], number[face[1]], number[face[2]]};
-  return kept;
-}
-
 ClothMesh copied_mesh(const ClothMesh& mesh, int copies, const Eigen::Vector3d& offset) {
   ClothMesh all;
   all.warp_axis = mesh.warp_axis;

@@ -28,8 +28,4 @@ void build_topology(ClothMesh& mesh, const MeshNames& names);
 // Kept points are at least `distance` apart.  Expected time linear in the points (spatial hash).
 std::vector<int> nearby_representatives(const std::vector<Eigen::Vector3d>& points, double distance);
 
-// Makes each vertex its representative, in `rest` and in the triangles; returns which are kept.  Before
-// build_topology().
-std::vector<int> weld_vertices(ClothMesh& mesh, double distance);
-
 }  // namespace hysteron

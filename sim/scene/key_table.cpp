@@ -1,6 +1,7 @@
 #include "sim/scene/key_table.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -129,10 +130,12 @@ void assign_numbers(const KeyDescription& key, Numbers& target, const Value& val
   target = *numbers;
 }
 
-// A plus sign may stand before it.
+// The whole text as a number; false if anything is left over.
 template <class Number>
-std::optional<Number> signed_number(std::string_view text) {
-  return number_in<Number>(text.substr(text.starts_with('+') ? 1 : 0));
+bool parse(std::string_view text, Number& number) {
+  if (text.starts_with('+')) text.remove_prefix(1);
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return error == std::errc() && end == text.data() + text.size();
 }
 
 std::vector<double> parse_components(std::string text) {
@@ -142,9 +145,9 @@ std::vector<double> parse_components(std::string text) {
   std::istringstream words(text);
   std::vector<double> components;
   for (std::string word; words >> word;) {
-    const auto x = signed_number<double>(word);
-    if (!x) return {};
-    components.push_back(*x);
+    double x = 0;
+    if (!parse(word, x)) return {};
+    components.push_back(x);
   }
   return components;
 }
@@ -227,11 +230,11 @@ void assign(const BoundKey& key, const Value& value, const std::string& origin) 
 }
 
 Value parse_text(const KeyDescription& key, const std::string& text) {
-  const auto integer = signed_number<std::int64_t>(text);
-  const auto number = signed_number<double>(text);
+  std::int64_t integer = 0;
+  double number = 0;
   if (key.type == "flag" && (text == "true" || text == "false")) return text == "true";
-  if (key.type == "integer" && integer) return *integer;
-  if ((key.type == "integer" || key.type == "number") && number) return *number;
+  if (key.type == "integer" && parse(text, integer)) return integer;
+  if ((key.type == "integer" || key.type == "number") && parse(text, number)) return number;
   if (key.type == "vector" && parse_components(text).size() == 3) return parse_components(text);
   if (key.type == "numbers" && (text == "[]" || !parse_components(text).empty()))
     return parse_components(text);
