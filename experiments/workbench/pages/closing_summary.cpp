@@ -25,12 +25,6 @@ std::string row(const std::string& words, const std::string& value) {
   return "  " + words + std::string(words.size() < kColumn ? kColumn - words.size() : 1, ' ') + value + "\n";
 }
 
-// What a comparison's columns were asked for.
-std::string comparison_question(const Manifest& manifest) {
-  const std::string compared = manifest.experiment == "compare" ? manifest.text("compared") : "";
-  return compared.empty() ? manifest.experiment : compared;
-}
-
 // A result that was asked for: "recovery angle", "86.0 degree".
 struct Finding {
   std::string words, value;
@@ -39,7 +33,7 @@ struct Finding {
 // Headlines of the manifest's experiment and what its scene asks for, as far as they are among `metrics`.
 std::vector<Finding> findings_in(const Manifest& manifest, const Metrics& metrics) {
   std::vector<Finding> findings;
-  for (const Headline& headline : experiment_headlines(comparison_question(manifest)).all)
+  for (const Headline& headline : column_headlines(manifest))
     findings.push_back({headline.words, value_words(headline, metrics)});
   for (const std::string& name : manifest.requested_metrics)
     if (metrics.contains(name))

@@ -11,14 +11,14 @@ using kainjow::mustache::data;
 
 data template_data(const Fields& fields) {
   data object;
-  for (const auto& [name, value] : fields.entries()) {
-    if (const auto* text = std::get_if<std::string>(&value)) {
-      if (!text->empty()) object.set(name, *text);
-    } else if (const auto* truth = std::get_if<bool>(&value)) {
-      object.set(name, *truth);
+  for (const auto& [name, value] : fields.items()) {
+    if (value.is_string()) {
+      if (value != "") object.set(name, value.get<std::string>());
+    } else if (value.is_boolean()) {
+      object.set(name, value.get<bool>());
     } else {
       kainjow::mustache::list list;
-      for (const Fields& entry : std::get<std::vector<Fields>>(value)) list.push_back(template_data(entry));
+      for (const Fields& entry : value) list.push_back(template_data(entry));
       object.set(name, std::move(list));
     }
   }

@@ -29,9 +29,10 @@ std::vector<std::uint8_t> thumbnail(const std::filesystem::path& file, int width
 // Of an SVG file; 0 x 0 where its first tag does not say it in numbers alone.
 render::ImageSize drawing_size(const std::filesystem::path& file);
 
-// An <img> of a PNG or SVG file.  `path` is where it lies, seen from the page; where the page is
-// self-contained, a PNG picture is shrunk to `width` pixels, 0: embedded as it is.  Throws
-// Error::invalid_input, naming the file, if a PNG picture that is linked or shrunk is broken.
+// An <img> of a PNG or SVG file.  `path` is where it lies, seen from the page, which reads it once it comes
+// near the window; `words` stand for it where it cannot be seen.  Where the page is self-contained, a PNG
+// picture is shrunk to `width` pixels, 0: embedded as it is.  Throws Error::invalid_input, naming the file,
+// if a PNG picture that is linked or shrunk is broken.
 struct PagePicture {
   std::filesystem::path file;
   std::string path, words;

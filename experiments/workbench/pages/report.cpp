@@ -94,13 +94,12 @@ std::string plots(const fs::path& folder, bool loops, PageForm form) {
   return html.empty() ? "" : "<div class=\"plot\">" + html + "</div>\n";
 }
 
-bool is_sheet(const fs::path& file) { return file.filename() == "sheet.png"; }
-
 // What else was drawn.
 std::string pictures(const fs::path& folder, PageForm form) {
   std::string html;
   for (const fs::path& file : files_ending(folder, ".png")) {
-    if (!is_plot(file) && !is_sheet(file)) html += picture(file, file.filename().string(), form);
+    if (!is_plot(file) && file.filename() != "sheet.png")
+      html += picture(file, file.filename().string(), form);
   }
   return html;
 }
@@ -119,7 +118,7 @@ std::string turning_cloth(const fs::path& folder) {
 std::string answer(const fs::path& folder, const Manifest& manifest, PageForm form) {
   const fs::path sheet = folder / "sheet.png";
   return "<div class=\"answer\">" +
-         filled("answer.html", {{"question", experiment_question(manifest.experiment)},
+         filled("answer.html", {{"question", experiment_named(manifest.experiment).question},
                                 {"numbers", answer_cards(manifest) + missing_errors(manifest)},
                                 {"picture", is_there(sheet) ? picture(sheet, "contact sheet", form) : ""},
                                 {"turn", turning_cloth(folder)}}) +
