@@ -29,14 +29,6 @@ BendingParts stiffened(BendingParts parts, double scale) {
   return parts;
 }
 
-Match match_named(const std::string& name) {
-  if (name == "fabric") return Match::fabric;
-  if (name == "small-strain") return Match::small_strain;
-  if (name == "energy") return Match::energy;
-  throw Error::invalid_input("compare.match = " + name + " must be fabric | small-strain | energy")
-      .with_key("compare.match", name);
-}
-
 double bending_work(const LawRequest& law, double curvature) {
   std::vector<LawRow> rows(kSteps + 1);
   for (int i = 0; i <= kSteps; ++i) rows[i] = {curvature * i / kSteps, i == 0 ? 0.0 : 1.0 / kSteps};
