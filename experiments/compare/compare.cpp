@@ -84,8 +84,7 @@ void claim_files(Run& run, bool with_images) {
 }
 
 std::vector<KeyDescription> own_keys() {
-  CompareChoice choice;
-  std::vector<KeyDescription> keys = descriptions(bind(kRows, choice));
+  std::vector<KeyDescription> keys = key_descriptions(kRows);
   for (const Experiment& experiment : experiments()) {
     if (!experiment.compared || !experiment.own_keys) continue;
     auto more = experiment.own_keys();

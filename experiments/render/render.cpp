@@ -20,6 +20,7 @@
 #include "render/png_writer.h"
 #include "sim/base/comma_list.h"
 #include "sim/base/error.h"
+#include "sim/base/number_in.h"
 #include "sim/mesh/cloth_mesh.h"
 #include "sim/mesh/mesh_doubts.h"
 #include "sim/mesh/mesh_sequence.h"
@@ -136,11 +137,8 @@ bool is_y_up(const std::string& up) {
 
 double frame_rate(const std::string& fps) {
   if (fps.empty()) return 0;
-  double rate = 0;
-  const char* const end = fps.data() + fps.size();
-  const auto [rest, code] = std::from_chars(fps.data(), end, rate);
-  if (code != std::errc() || rest != end || !(rate > 0 && rate <= 10000))
-    throw refusal("fps", fps, "a number in (0, 10000] [1/s]");
+  const double rate = number_in(fps).value_or(0);
+  if (!(rate > 0 && rate <= 10000)) throw refusal("fps", fps, "a number in (0, 10000] [1/s]");
   return rate;
 }
 

@@ -26,19 +26,17 @@ std::string row(const std::string& words, const std::string& value) {
 }
 
 // A result that was asked for: "recovery angle", "86.0 degree".
-struct Finding {
-  std::string words, value;
-};
+using Finding = std::pair<std::string, std::string>;
 
 // Headlines of the manifest's experiment and what its scene asks for, as far as they are among `metrics`.
 std::vector<Finding> findings_in(const Manifest& manifest, const Metrics& metrics) {
   std::vector<Finding> findings;
   for (const Headline& headline : column_headlines(manifest))
-    findings.push_back({headline.words, value_words(headline, metrics)});
+    findings.emplace_back(headline.words, value_words(headline, metrics));
   for (const std::string& name : manifest.requested_metrics)
     if (metrics.contains(name))
-      findings.push_back({split_unit(name).name, metric_words(metrics, name).text()});
-  std::erase_if(findings, [](const Finding& finding) { return finding.value.empty(); });
+      findings.emplace_back(split_unit(name).name, metric_words(metrics, name).text());
+  std::erase_if(findings, [](const Finding& finding) { return finding.second.empty(); });
   return findings;
 }
 

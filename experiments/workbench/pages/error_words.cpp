@@ -115,8 +115,11 @@ ShownQuantity headline_words(const Metrics& metrics, const Headline& headline) {
 }
 
 std::string with_errors(const Metrics& metrics, const std::string& name) {
-  if (!is_headline(metrics, name)) return metric_text(name, metrics[name].number());
-  return split_unit(name).name + " " + headline_words(metrics, name).text();
+  const auto [words, unit] = split_unit(name);
+  const bool plain = !is_headline(metrics, name);
+  return words + " " +
+         (plain ? joined({fmt::format("{:.4g}", metrics[name].number()), unit}, " ")
+                : headline_words(metrics, name).text());
 }
 
 }  // namespace hysteron::experiments

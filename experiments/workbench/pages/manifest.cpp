@@ -35,11 +35,6 @@ NamedUnit split_unit(std::string key) {
   return {key, unit};
 }
 
-std::string metric_text(const std::string& key, double value) {
-  const NamedUnit what = split_unit(key);
-  return fmt::format("{} {:.4g}{}{}", what.name, value, what.unit.empty() ? "" : " ", what.unit);
-}
-
 ShownQuantity shown_quantity(const MetricValue& value, const std::string& unit) {
   if (!value.is_number() || value.is_integer()) return {shown(value), unit};
   static const std::set<std::string> kPrefixed = {"m", "N", "J", "s", "N m", "J/m²", "m/s"};

@@ -16,8 +16,6 @@ struct NamedUnit {
 };
 // "drape_coefficient_percent" is "drape coefficient" in %: results carry their unit at the end of their name.
 NamedUnit split_unit(std::string key);
-// "drape coefficient 86 %": four significant digits.
-std::string metric_text(const std::string& key, double value);
 
 // Value and unit of a result as readers want them: four digits, the prefix of SI that leaves 1 to 999 before
 // the point, zero below 1e-12 of a unit that is one of mechanics: "0.94" "mN" of 0.00094 N.
