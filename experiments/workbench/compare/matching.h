@@ -22,8 +22,7 @@ BendingParts stiffened(BendingParts parts, double scale);
 // laws that take time. Error::invalid_input as run_law(), or if no number makes them equal to 1e-9.
 double matching_scale(const LawRequest& law, const LawRequest& reference, Match match, double curvature);
 
-// Work to bend from flat to `curvature`, stored or lost [J/m^2]; slope of the moment at rest [N m].
+// Work to bend from flat to `curvature`, stored or lost [J/m^2].
 double bending_work(const LawRequest& law, double curvature);
-double initial_stiffness(const LawRequest& law);
 
 }  // namespace hysteron::experiments

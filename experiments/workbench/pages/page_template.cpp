@@ -2,6 +2,7 @@
 #include "experiments/workbench/pages/page_template.h"
 
 #include <kainjow/mustache.hpp>
+#include <map>
 #include <stdexcept>
 
 namespace hysteron::experiments {
@@ -40,18 +41,12 @@ std::string embedded_text(const std::string& name) {
 }
 
 std::string escaped(const std::string& text) {
+  static const std::map<char, std::string> kEscaped = {
+      {'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}};
   std::string html;
   for (const char c : text) {
-    if (c == '&')
-      html += "&amp;";
-    else if (c == '<')
-      html += "&lt;";
-    else if (c == '>')
-      html += "&gt;";
-    else if (c == '"')
-      html += "&quot;";
-    else
-      html += c;
+    const auto known = kEscaped.find(c);
+    html += known == kEscaped.end() ? std::string(1, c) : known->second;
   }
   return html;
 }

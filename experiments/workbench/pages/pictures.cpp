@@ -120,7 +120,7 @@ std::string player(const fs::path& folder, const std::string& path, int count, P
   return filled("player.html", {{"figures", html}});
 }
 
-std::string series_charts(const fs::path& folder, bool with_energies) {
+std::string series_charts(const fs::path& folder) {
   const fs::path file = folder / "metrics.csv";
   if (!is_there(file)) return "";
   Table table = read_table(file);
@@ -128,7 +128,6 @@ std::string series_charts(const fs::path& folder, bool with_energies) {
   std::string charts;
   for (std::size_t i = 1; i < table.head.size() && !table.rows.empty(); ++i) {
     std::string title = table.head[i];
-    if (!with_energies && title.ends_with("[J]")) continue;
     std::replace(title.begin(), title.end(), '_', ' ');
     charts += line_chart(title, table.numbers(0), table.head[0], table.numbers(i));
   }

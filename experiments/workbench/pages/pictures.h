@@ -45,6 +45,6 @@ std::string image_element(const PagePicture& picture, PageForm form);
 std::string player(const std::filesystem::path& folder, const std::string& path, int count, PageForm form);
 
 // Charts of the columns of FOLDER/metrics.csv against its first.  "" if there is no series.
-std::string series_charts(const std::filesystem::path& folder, bool with_energies);
+std::string series_charts(const std::filesystem::path& folder);
 
 }  // namespace hysteron::experiments

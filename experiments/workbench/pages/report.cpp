@@ -129,7 +129,7 @@ std::string answer(const fs::path& folder, const Manifest& manifest, PageForm fo
 std::string numerics_html(const fs::path& folder, const Manifest& manifest) {
   const std::string all =
       metric_cards(numerics(manifest.metrics)) + html_section("Energy", energy_table(manifest)) +
-      html_section("Run", run_table(manifest)) + html_section("Time series", series_charts(folder, true));
+      html_section("Run", run_table(manifest)) + html_section("Time series", series_charts(folder));
   return html_details("Numerics: solver, energy, times", all, false);
 }
 
@@ -199,16 +199,12 @@ std::string study_runs(const fs::path& folder) {
                       table.rows.size() < 25);
 }
 
-Manifest manifest_in(const fs::path& folder) {
-  if (!has_manifest(folder))
-    throw Error::invalid_input("no run in " + folder.string() + ": it has no manifest.json");
-  return read_manifest(folder / "manifest.json");
-}
-
 }  // namespace
 
 std::string report_page(const fs::path& folder, PageForm form) {
-  return report_page(folder, manifest_in(folder), form);
+  if (!has_manifest(folder))
+    throw Error::invalid_input("no run in " + folder.string() + ": it has no manifest.json");
+  return report_page(folder, read_manifest(folder / "manifest.json"), form);
 }
 
 std::string report_page(const fs::path& folder, const Manifest& manifest, PageForm form) {
