@@ -35,7 +35,7 @@ const KeyRow<CompareChoice> kRows[] = {
     {"compare.no-outlines", at<&C::no_outlines>, "", any(), "", "no row that lays the outlines over each other"},
     {"compare.jobs", at<&C::jobs>, "", between(0, 64), "", "how many columns run at a time; 0: one for each GPU, or for each core"},
     {"batch", at<&C::batch>, "", between(1, kLargestBatch), "", kBatchDoc},
-    {"compare.match", at<&C::match>, "", any(), "fabric | small-strain | energy", "what all laws have in common: the fabric's numbers, the stiffness at rest, or the work to bend to compare.match-curvature"},
+    {"compare.match", at<&C::match>, "", any(), "", "what all laws have in common: the fabric's numbers, the stiffness at rest, or the work to bend to compare.match-curvature"},
     {"compare.match-curvature", at<&C::match_curvature>, "1/m", positive(), "", "curvature up to which the work is matched"},
     {"compare.video", at<&C::video>, "", any(), "none | mp4 | gif", "a film of the columns side by side, if ffmpeg is installed"},
     {"compare.tune", at<&C::tune>, "", any(), "", "KEY=LOW:HIGH: the first column's KEY is bisected between these, before all columns run, until its compare.tune-metric is the second column's; KEY=NUMBER on stdout"},
@@ -65,9 +65,9 @@ std::string comparison_title(const CommandLine& line, const std::vector<ChildRun
 
 std::vector<std::string> comparison_notes(const CompareChoice& choice, const Plan& plan) {
   if (plan.laws < 2) return {};
-  if (choice.match == "fabric")
+  if (choice.match == Match::fabric)
     return {"No stiffness is matched: a difference between laws may be one of stiffness alone."};
-  const std::string equal = choice.match == "energy"
+  const std::string equal = choice.match == Match::energy
                                 ? fmt::format("work to bend from flat to {:g} 1/m", choice.match_curvature)
                                 : "stiffness at rest";
   std::string note = fmt::format("Matched to {}: equal {}; b1, b2 times", plan.reference, equal);
@@ -84,8 +84,7 @@ void claim_files(Run& run, bool with_images) {
 }
 
 std::vector<KeyDescription> own_keys() {
-  CompareChoice choice;
-  std::vector<KeyDescription> keys = descriptions(bind(kRows, choice));
+  std::vector<KeyDescription> keys = key_descriptions(kRows);
   for (const Experiment& experiment : experiments()) {
     if (!experiment.compared) continue;
     auto more = experiment.own_keys();
@@ -146,7 +145,7 @@ int run_compare(const CommandLine& line) {
   SweepJobs jobs{choice.jobs, std::stoi(last_text(line.flags, "threads", "0")), options.resume,
                  last_text(inner.flags, "device", "auto") != "cpu", -1};
   jobs.batch = choice.batch;
-  Json keys = {{"compared", inner.experiment}, {"match", choice.match}};
+  Json keys = {{"compared", inner.experiment}, {"match", enum_name(choice.match)}};
   if (!choice.times.empty()) keys["times"] = choice.times;
   if (!choice.metrics.empty()) keys["metrics"] = split(choice.metrics);
   if (!choice.tune.empty() || !choice.tune_metric.empty())

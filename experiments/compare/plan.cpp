@@ -7,7 +7,6 @@
 #include <set>
 
 #include "experiments/workbench/app/scene_source.h"
-#include "experiments/workbench/compare/matching.h"
 #include "experiments/workbench/session/session.h"
 #include "sim/base/error.h"
 
@@ -68,11 +67,10 @@ ColumnFabric column_fabric(const CommandLine& line) {
 std::vector<Flag> matched(const CommandLine& inner, const Variant& variant, const std::string& to,
                           const CompareChoice& choice, double& scale) {
   scale = 1;
-  const Match match = match_named(choice.match);
-  if (match == Match::fabric) return {};
+  if (choice.match == Match::fabric) return {};
   const CommandLine line = with_variant(inner, variant);
   const auto [fabric, law] = column_fabric(line);
-  scale = matching_scale(requested_law(fabric, line, law), requested_law(fabric, line, to), match,
+  scale = matching_scale(requested_law(fabric, line, law), requested_law(fabric, line, to), choice.match,
                          choice.match_curvature);
   const auto scaled = [&](const char* key, double value) { return Flag{key, number_text(scale * value)}; };
   BendingParts parts = stiffened(fabric.bending, scale);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/workbench/compare/matching.h"
 #include "experiments/workbench/compare/sweep_columns.h"
 #include "experiments/workbench/compare/variants.h"
 
@@ -19,7 +20,7 @@ struct CompareChoice {
   std::string metrics;  // that are shown; empty: all in the table, the experiment's own on the page
   bool no_outlines = false;
   int jobs = 0, batch = 1;
-  std::string match = "energy";
+  Match match = Match::energy;
   double match_curvature = 100;  // [1/m], the KES tester's reading point
   std::string video = "none";
   std::string tune, tune_metric;

@@ -50,10 +50,7 @@ void draw_instants(Run& run, const Setup& setup, const DrawnMesh& mesh, const Ke
   Pictures pictures(setup, std::move(subject), cloth.bounds, cloth.floor);
   for (std::size_t i = 0; i < cloth.instants.size(); ++i) {
     shown.go_to(i);
-    const std::vector<float> xyz = shown.positions();
-    std::vector<Eigen::Vector3d> x;
-    for (std::size_t k = 0; k + 2 < xyz.size(); k += 3) x.emplace_back(xyz[k], xyz[k + 1], xyz[k + 2]);
-    pictures.frame(run, x, loop_until(sheet, cloth.instants[i].loop));
+    pictures.frame(run, shown.positions(), loop_until(sheet, cloth.instants[i].loop));
   }
   if (sheet.is_object() && sheet.contains("cells")) pictures.show_as(sheet);
   pictures.finish(run, title);

@@ -20,6 +20,7 @@
 #include "render/png_writer.h"
 #include "sim/base/comma_list.h"
 #include "sim/base/error.h"
+#include "sim/base/number_in.h"
 #include "sim/mesh/cloth_mesh.h"
 #include "sim/mesh/mesh_doubts.h"
 #include "sim/mesh/mesh_sequence.h"
@@ -95,18 +96,15 @@ std::optional<float> ground_height(const F& flags) {
 }
 
 // A sequence with how its files are to be taken, and which of its frames the sheet shows.
-struct Column {
-  MeshSequence sequence;
+struct Column : MeshSequence {
   FileAxes axes;
   double fps = 0;  // [1/s], 0: unknown
   std::vector<int> shown;
 
-  const std::string& name() const { return sequence.name; }
-  const std::vector<std::filesystem::path>& files() const { return sequence.files; }
   // "t = 0.50 s", or "frame 12" where the rate is unknown; nothing for a picture alone.
   std::string instant(std::size_t frame) const {
     if (fps > 0) return fmt::format("t = {:.2f} s", static_cast<double>(frame) / fps);
-    return files().size() > 1 ? fmt::format("frame {}", frame) : "";
+    return files.size() > 1 ? fmt::format("frame {}", frame) : "";
   }
 };
 
@@ -136,11 +134,8 @@ bool is_y_up(const std::string& up) {
 
 double frame_rate(const std::string& fps) {
   if (fps.empty()) return 0;
-  double rate = 0;
-  const char* const end = fps.data() + fps.size();
-  const auto [rest, code] = std::from_chars(fps.data(), end, rate);
-  if (code != std::errc() || rest != end || !(rate > 0 && rate <= 10000))
-    throw refusal("fps", fps, "a number in (0, 10000] [1/s]");
+  const double rate = number_in(fps).value_or(0);
+  if (!(rate > 0 && rate <= 10000)) throw refusal("fps", fps, "a number in (0, 10000] [1/s]");
   return rate;
 }
 
@@ -150,13 +145,13 @@ void choose_instants(std::vector<Column>& columns) {
   const bool timed = std::all_of(columns.begin(), columns.end(), [](const Column& c) { return c.fps > 0; });
   const Column* shortest = &columns.front();
   const auto length = [&](const Column& c) {
-    return static_cast<double>(c.files().size() - 1) / (timed ? c.fps : 1);
+    return static_cast<double>(c.files.size() - 1) / (timed ? c.fps : 1);
   };
   for (const Column& column : columns)
     if (length(column) < length(*shortest)) shortest = &column;
   const double rate = timed ? shortest->fps : 1;
   const std::vector<int> frames =
-      render::spread(static_cast<int>(shortest->files().size()), columns.size() > 1 ? kInstants : kCells);
+      render::spread(static_cast<int>(shortest->files.size()), columns.size() > 1 ? kInstants : kCells);
   for (Column& column : columns)
     for (const int k : frames)
       column.shown.push_back(static_cast<int>(std::lround(k * (timed ? column.fps : 1) / rate)));
@@ -208,8 +203,8 @@ void check_curvature(const F& flags, const Surface& frame, const std::string& wh
 void warn_of_loose_parts(const F& flags, const std::vector<Column>& columns, Run& run) {
   if (flags.options.look != "curvature" || flags.curvature == "file") return;
   for (const Column& column : columns) {
-    const std::string what = "mesh " + column.files().front().string();
-    const ClothMesh mesh = frame_mesh(read_frame(column.files().front(), column.axes), what);
+    const std::string what = "mesh " + column.files.front().string();
+    const ClothMesh mesh = frame_mesh(read_frame(column.files.front(), column.axes), what);
     for (const std::string& doubt : mesh_doubts(mesh, {what, {}, {}})) run.warn(doubt);
   }
 }
@@ -222,7 +217,7 @@ render::Box checked_box(const F& flags, const std::vector<Column>& columns) {
     box = box ? box->merged(here) : here;
   };
   for (const Column& column : columns)
-    for (const auto& file : column.files()) {
+    for (const auto& file : column.files) {
       const Surface frame = read_frame(file, column.axes);
       check_curvature(flags, frame, "mesh " + file.string());
       add(frame);
@@ -243,7 +238,7 @@ render::Box framed(const F& flags, const render::Box& whole) {
 std::string joined_names(const std::vector<Column>& columns) {
   std::vector<std::string> names;
   names.reserve(columns.size());
-  for (const Column& column : columns) names.push_back(column.name());
+  for (const Column& column : columns) names.push_back(column.name);
   return join(names, " | ");
 }
 
@@ -251,8 +246,8 @@ void note_sequences(const std::vector<Column>& columns, Run& run) {
   Json notes = Json::array();
   for (const Column& column : columns) {
     Json files = Json::array();
-    for (const auto& file : column.files()) files.push_back(file.string());
-    notes.push_back({{"name", column.name()}, {"files", files}});
+    for (const auto& file : column.files) files.push_back(file.string());
+    notes.push_back({{"name", column.name}, {"files", files}});
   }
   run.note("sequences", notes);
 }
@@ -284,38 +279,38 @@ class FramesAndSheet {
  private:
   bool alone() const { return columns_.size() == 1; }
   std::string label(const Column& column) const {
-    return alone() && !flags_.title.empty() ? flags_.title : column.name();
+    return alone() && !flags_.title.empty() ? flags_.title : column.name;
   }
 
   void draw_sequence(const Column& column) {
     pictures_.begin_sequence();
     Surface frame;
-    for (std::size_t k = 0; k < column.files().size(); ++k) {
+    for (std::size_t k = 0; k < column.files.size(); ++k) {
       frame = read(column, k);
       draw_frame(column, frame, k);
     }
-    run_.metric(column.name() + ".frames_count", column.files().size());
-    run_.metric(column.name() + ".triangles_count", frame.face.size());
-    if (const auto rms = pictures_.curvature_rms()) run_.metric(column.name() + ".curvature_rms_per_m", *rms);
+    run_.metric(column.name + ".frames_count", column.files.size());
+    run_.metric(column.name + ".triangles_count", frame.face.size());
+    if (const auto rms = pictures_.curvature_rms()) run_.metric(column.name + ".curvature_rms_per_m", *rms);
     if (flags_.also.isZero()) return;
     pictures_.look_from(flags_.also);
-    add_cell(picture(frame, column.name()), frame, direction_words(flags_.also));
+    add_cell(picture(frame, column.name), frame, direction_words(flags_.also));
     pictures_.look_from(flags_.options.camera_direction);
   }
 
   Surface read(const Column& column, std::size_t k) {
     const auto stage = run_.stage("io");
-    return read_frame(column.files()[k], column.axes);
+    return read_frame(column.files[k], column.axes);
   }
 
   void draw_frame(const Column& column, const Surface& frame, std::size_t k) {
-    const std::string when = column.instant(k), file = column.files()[k].string();
+    const std::string when = column.instant(k), file = column.files[k].string();
     run_.progress(file + ": " + std::to_string(frame.face.size()) + " triangles" + after(", ", when));
     render::Image image = picture(frame, "mesh " + file);
     for (auto n = std::count(column.shown.begin(), column.shown.end(), static_cast<int>(k)); n > 0; --n)
       add_cell(image, frame, when);
     pictures_.letter_picture(image, label(column) + after("\n", when));
-    const std::string folder = alone() ? "frames" : column.name();
+    const std::string folder = alone() ? "frames" : column.name;
     writer_.write(run_.path(fmt::format("{}/{:04}.png", folder, k)), std::move(image));
   }
 
@@ -365,7 +360,7 @@ class FramesAndSheet {
     for (std::size_t r = 0; r < rows; ++r)
       sheet.rows.push_back({alone() ? "" : cells_[r].when, "", cells_[r].metres_per_pixel});
     for (std::size_t c = 0; c < wide; ++c) {
-      sheet.columns.push_back({.name = alone() ? cells_[c].when : columns_[c].name(), .numbers = {}});
+      sheet.columns.push_back({.name = alone() ? cells_[c].when : columns_[c].name, .numbers = {}});
       for (std::size_t r = 0; r < rows; ++r)
         sheet.columns.back().cells.push_back({crops[r].of(cells_[c * rows + r].image)});
     }

@@ -15,6 +15,7 @@ struct ValueTree;
 struct Flag {
   std::string path;
   std::string text;
+  bool operator==(const Flag&) const = default;
 };
 
 // A scene with the program's defaults and a fabric of assets/fabrics.

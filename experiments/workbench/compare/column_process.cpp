@@ -92,54 +92,6 @@ void take_back(ChildRun& column, const SweepJobs& jobs, int exit_code, const std
   write_outcome(column, jobs.keep_reasons);
 }
 
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-// A process, `hysteron batch`, and what it says of its columns as they end.
-class Batch {
- public:
-  Batch(std::vector<ChildRun>& columns, const Chunk& chunk, const SweepJobs& jobs,
-        const std::function<void(std::size_t)>& ended)
-      : columns_(columns), chunk_(chunk), jobs_(jobs), ended_(ended), waiting_(chunk.begin(), chunk.end()) {}
-
-  void run(ProcessShare process_share) {
-    std::vector<std::string> command = program_with(process_share);
-    command.push_back("batch");
-    std::string lines;
-    for (const std::size_t i : chunk_)
-      lines += Json(child_arguments(columns_[i], jobs_, process_share.threads)).dump() + "\n";
-    const ProcessResult result = run_process(command, lines, [this](const std::string& line) { hear(line); });
-    if (!result.started) throw Error::system("cannot start the run " + columns_[chunk_[0]].name);
-    for (const std::size_t i : std::set(waiting_)) end(i, result.exit_code, result.first_error_line);
-    if (failure_) std::rethrow_exception(failure_);
-  }
-
- private:
-  void hear(const std::string& line) {
-    const Json said = parsed_json(line);
-    if (said.is_object()) end(chunk_.at(said.at("run")), said.at("exit_code"), said.at("error"));
-  }
-  void end(std::size_t i, int exit_code, const std::string& error) {
-    waiting_.erase(i);
-    columns_[i].seconds = seconds_since(std::exchange(begun_, Clock::now()));
-    try {
-      take_back(columns_[i], jobs_, exit_code, error);
-      ended_(i);
-    } catch (...) {
-      if (!failure_) failure_ = std::current_exception();
-    }
-  }
-
-  std::vector<ChildRun>& columns_;
-  const Chunk& chunk_;
-  const SweepJobs& jobs_;
-  const std::function<void(std::size_t)>& ended_;
-  std::set<std::size_t> waiting_;
-  Clock::time_point begun_ = Clock::now();
-  std::exception_ptr failure_;
-};
-
 // Why the run cannot share a process; "": it can.
 std::string why_not_batchable(const CommandLine& line) {
   const Experiment& experiment = experiment_named(line.experiment);
@@ -199,11 +151,38 @@ std::vector<Chunk> batch_chunks(const std::vector<ChildRun>& columns, int larges
   return chunks;
 }
 
+// The process is `hysteron batch`, which says of its columns as they end.
 void run_chunk(std::vector<ChildRun>& columns, const Chunk& chunk, const SweepJobs& jobs,
                ProcessShare process_share, const std::function<void(std::size_t)>& ended) {
   std::error_code ignored;
   for (const std::size_t i : chunk) fs::remove(columns[i].folder / kOutcome, ignored);
-  Batch(columns, chunk, jobs, ended).run(process_share);
+  std::set<std::size_t> waiting(chunk.begin(), chunk.end());
+  Clock::time_point begun = Clock::now();
+  std::exception_ptr failure;
+  const auto end = [&](std::size_t i, int exit_code, const std::string& error) {
+    waiting.erase(i);
+    const Clock::time_point now = Clock::now();
+    columns[i].seconds = std::chrono::duration<double>(now - std::exchange(begun, now)).count();
+    try {
+      take_back(columns[i], jobs, exit_code, error);
+      ended(i);
+    } catch (...) {
+      if (!failure) failure = std::current_exception();
+    }
+  };
+  const auto hear = [&](const std::string& line) {
+    const Json said = parsed_json(line);
+    if (said.is_object()) end(chunk.at(said.at("run")), said.at("exit_code"), said.at("error"));
+  };
+  std::vector<std::string> command = program_with(process_share);
+  command.push_back("batch");
+  std::string lines;
+  for (const std::size_t i : chunk)
+    lines += Json(child_arguments(columns[i], jobs, process_share.threads)).dump() + "\n";
+  const ProcessResult result = run_process(command, lines, hear);
+  if (!result.started) throw Error::system("cannot start the run " + columns[chunk[0]].name);
+  for (const std::size_t i : std::set(waiting)) end(i, result.exit_code, result.first_error_line);
+  if (failure) std::rethrow_exception(failure);
 }
 
 }  // namespace hysteron::experiments

@@ -19,10 +19,25 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kShown = 2;  // numbers behind a name, unless a page asks for more
 
-const ShownNumber* shown_number(const std::string& metric) {
-  for (const ShownNumber& number : shown_numbers())
-    if (number.metric == metric) return &number;
-  return nullptr;
+// What each experiment is asked for, then what any run has, in the order in which pages show it; and what
+// stands before the number in a picture's line, "" where the unit says enough.
+constexpr std::pair<const char*, const char*> kShownNumbers[] = {{"drape_coefficient_percent", "DC"},
+                                                                 {"node_count", "folds"},
+                                                                 {"recovery_angle_deg", ""},
+                                                                 {"2HB_N", "2HB"},
+                                                                 {"set_curvature_per_m", "κ"},
+                                                                 {"decay_shape", ""},
+                                                                 {"turns", "turns"},
+                                                                 {"decay_step_fraction", "step at"},
+                                                                 {"bending_friction_J", ""},
+                                                                 {"residual_curvature_rms_per_m", "κ"},
+                                                                 {"ridge_length_m", "ridges"},
+                                                                 {"max_stretch_percent", "stretch"}};
+
+std::string symbol_of(const std::string& metric) {
+  for (const auto& [known, symbol] : kShownNumbers)
+    if (metric == known) return symbol;
+  return split_unit(metric).name;
 }
 
 bool is_shown(const MetricValue& value) {
@@ -67,29 +82,12 @@ std::vector<std::string> head_numbers(const ChildRun& column, const std::vector<
   return numbers;
 }
 
-}  // namespace
-
-const std::vector<ShownNumber>& shown_numbers() {
-  static const std::vector<ShownNumber> kAll = {{"drape_coefficient_percent", "DC"},
-                                                {"node_count", "folds"},
-                                                {"recovery_angle_deg", ""},
-                                                {"2HB_N", "2HB"},
-                                                {"set_curvature_per_m", "κ"},
-                                                {"decay_shape", ""},
-                                                {"turns", "turns"},
-                                                {"decay_step_fraction", "step at"},
-                                                {"bending_friction_J", ""},
-                                                {"residual_curvature_rms_per_m", "κ"},
-                                                {"ridge_length_m", "ridges"},
-                                                {"max_stretch_percent", "stretch"}};
-  return kAll;
-}
-
+// Those of the requested metrics, or of kShownNumbers where none is requested, that any column knows.
 std::vector<std::string> shown_metrics(const std::vector<ChildRun>& columns,
                                        const std::vector<std::string>& requested) {
   std::vector<std::string> metrics = requested;
   if (requested.empty())
-    for (const ShownNumber& number : shown_numbers()) metrics.emplace_back(number.metric);
+    for (const auto& [metric, symbol] : kShownNumbers) metrics.emplace_back(metric);
   std::erase_if(metrics, [&](const std::string& metric) {
     return std::none_of(columns.begin(), columns.end(),
                         [&](const ChildRun& c) { return is_shown(c.metrics()[metric]); });
@@ -98,13 +96,13 @@ std::vector<std::string> shown_metrics(const std::vector<ChildRun>& columns,
   return metrics;
 }
 
+}  // namespace
+
 std::string short_number(const std::string& metric, const MetricValue& value) {
-  const NamedUnit unit = split_unit(metric);
-  const ShownNumber* known = shown_number(metric);
-  const std::string symbol = known ? known->symbol : unit.name;
+  const std::string symbol = symbol_of(metric);
   const std::string number = value.is_text()      ? value.text()
                              : value.is_integer() ? shown(value)
-                                                  : with_unit(value.number(), unit.unit);
+                                                  : with_unit(value.number(), split_unit(metric).unit);
   if (symbol == "folds" || symbol == "turns")
     return number + " " + (number == "1" ? symbol.substr(0, symbol.size() - 1) : symbol);
   return symbol.empty() ? number : symbol + " " + number;

@@ -13,16 +13,6 @@
 
 namespace hysteron::experiments {
 
-// What each experiment is asked for, then what any run has, in the order in which pages show it.
-struct ShownNumber {
-  const char* metric;
-  const char* symbol;  // before the number in a picture's line; "" where the unit says enough
-};
-const std::vector<ShownNumber>& shown_numbers();
-
-// Those of the asked metrics, or of shown_numbers() where none is asked for, that any column knows.
-std::vector<std::string> shown_metrics(const std::vector<ChildRun>& columns,
-                                       const std::vector<std::string>& requested);
 // "116°", "κ 31 /m", "0.94 mN": three digits, with the prefix of SI that leaves 1 to 999; zero below 1e-9 of
 // the unit, where sums of doubles end.
 std::string short_number(const std::string& metric, const MetricValue& value);

@@ -49,19 +49,12 @@ void check_metrics(const std::vector<ChildRun>& columns, const std::vector<std::
           .with_key("compare.metrics", name);
 }
 
-void run_comparison(Run& run, const std::string& varied, std::vector<ChildRun>& columns,
-                    const SweepJobs& jobs, const std::vector<std::string>& metrics) {
-  run_columns(run, columns, jobs);
-  write_comparison_table(run, varied, columns, metrics);
-}
-
 void write_comparison_table(Run& run, const std::string& varied, const std::vector<ChildRun>& columns,
                             const std::vector<std::string>& metrics) {
   const std::vector<std::string> keys = metrics.empty() ? metrics_in(columns, is_numeric) : metrics;
-  std::vector<std::string> head = {varied};
-  head.insert(head.end(), keys.begin(), keys.end());
-  head.push_back("stopped");
-  Table table(head);
+  Table table(std::vector{varied});
+  table.head.insert(table.head.end(), keys.begin(), keys.end());
+  table.head.push_back("stopped");
   for (const ChildRun& column : columns) {
     const Metrics found = column.metrics();
     if (column.manifest) run.manifest().requested_metrics = column.manifest->requested_metrics;

@@ -20,10 +20,6 @@ std::vector<std::string> metrics_in(const std::vector<ChildRun>& columns, bool (
 // columns none of which is complete, not all that would be there are known, and none is refused.
 void check_metrics(const std::vector<ChildRun>& columns, const std::vector<std::string>& names);
 
-// Runs the columns and writes their table.  Throws what run_columns() throws.
-void run_comparison(Run& run, const std::string& varied, std::vector<ChildRun>& columns,
-                    const SweepJobs& jobs, const std::vector<std::string>& metrics = {});
-
 // table.csv: `varied` heads the first column, "law", "fabric".  Then one for each of the metrics, numbers and
 // texts, or of all numbers that any column of the comparison has, in the order in which they come, and
 // `stopped`.  Each becomes the run's metric NAME.metric.  Throws Error::system if the file cannot be

@@ -59,12 +59,9 @@ std::vector<double> shown_times(const ComparisonPage& page, const std::vector<Ch
   return times;
 }
 
-struct InstantText {
-  std::string time, phase;
-};
-
-// Times of one's own may be milliseconds apart.
-InstantText instant_text(const ComparisonPage& page, const std::vector<ChildRun>& columns, double time) {
+// The time, and what happens then.  Times of one's own may be milliseconds apart.
+std::pair<std::string, std::string> instant_text(const ComparisonPage& page,
+                                                 const std::vector<ChildRun>& columns, double time) {
   const std::string text = fmt::format("{:.{}f} s", time, page.times.empty() ? 2 : 3);
   for (const ChildRun& c : columns) {
     if (!has_frames(c)) continue;
@@ -110,8 +107,8 @@ class PageTable {
   }
 
   void add_row(double time, const Crop& crop) {
-    const InstantText text = instant_text(page_, columns_, time);
-    sheet_.rows.push_back({text.time, text.phase, scale()});
+    const auto [text, phase] = instant_text(page_, columns_, time);
+    sheet_.rows.push_back({text, phase, scale()});
     for (std::size_t c = 0; c < columns_.size(); ++c) sheet_.columns[c].cells.push_back(cell(c, time, crop));
     if (sheet_.columns.size() > columns_.size())
       sheet_.columns.back().cells.push_back({outlines(time, crop)});
@@ -178,11 +175,8 @@ class PageTable {
       return {crop.of(render::read_png(picture_file(columns_[c], kDifference, frame))),
               fmt::format("rms {:.3g} /m", instants(columns_[c]).at(frame).difference_rms.value()),
               {}};
-    const auto read = [&](std::size_t column) {
-      return crop.of(
-          render::read_png(picture_file(columns_[column], page_.look, frame_at(columns_[column], time))));
-    };
-    const render::Image image = read(c), other = read(to);
+    const render::Image image = crop.of(picture_at(columns_[c], time)),
+                        other = crop.of(picture_at(columns_[to], time));
     return {render::heat_map(image, other, kDifferenceScale),
             fmt::format("{:.2g} % differ", render::compare(image, other).pixels_over_8_percent),
             {}};
@@ -280,10 +274,7 @@ render::Image page_sheet(const ComparisonPage& page, const std::vector<ChildRun>
 // All columns side by side at each instant of the film; the part that is shown stays the same.
 std::vector<render::Image> film_strips(const ComparisonPage& page, const std::vector<ChildRun>& columns,
                                        const std::vector<double>& times) {
-  Crop crop;
-  for (const ChildRun& c : columns)
-    if (has_frames(c))
-      for (const Frames::Instant& instant : instants(c)) crop.include(instant);
+  const Crop crop = PageTable(page, columns).crop_until(times.back());
   std::vector<render::Image> strips;
   for (double time : times) {
     PageTable table(page, columns);

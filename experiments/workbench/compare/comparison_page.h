@@ -14,7 +14,7 @@ struct ComparisonPage {
   std::vector<std::string> notes{};
   int rows = 4;                      // instants, at most
   std::vector<double> times{};       // of the rows, in their place [s]; empty: spread over what moves
-  std::vector<std::string> metrics;  // behind the columns' names and in bars; empty: those of shown_numbers()
+  std::vector<std::string> metrics;  // behind the columns' names and in bars; empty: those of column_heads()
   std::string look;                  // of the pictures
   std::string picture{};             // a file of each column's folder in place of them; "": none
   int to = -1;                       // the column that others differ from; -1: no differences

@@ -74,10 +74,10 @@ std::string changes_text(const std::vector<Flag>& flags) {
   return text;
 }
 
-ErrorRunResult error_run_result(const ErrorRun& error_run, const ChildRun& column, const Run& run) {
-  const bool unchanged = column.manifest && column.manifest->state_hash &&
-                         column.manifest->state_hash == run.manifest().state_hash;
-  return {error_run, column.metrics(), column.stopped, unchanged};
+// It ended in the run's own state.
+bool is_unchanged(const ChildRun& column, const Run& run) {
+  return column.manifest && column.manifest->state_hash &&
+         column.manifest->state_hash == run.manifest().state_hash;
 }
 
 // Beyond what the run itself warns of.
@@ -171,7 +171,7 @@ void measure_errors(Run& run, const CommandLine& line, const Setup& setup) {
   write_table(run, names, error_runs, columns);
   std::vector<ErrorRunResult> found;
   for (std::size_t i = 0; i < error_runs.size(); ++i)
-    found.push_back(error_run_result(error_runs[i], columns[i], run));
+    found.push_back({error_runs[i], columns[i].metrics(), columns[i].stopped, is_unchanged(columns[i], run)});
   const Errors errors = estimated_errors(line.experiment, run.metrics(), found, setup.requested_metrics);
   for (const auto& [name, value] : errors.metrics) run.metric(name, value);
   run.manifest().errors_missing = errors.missing;

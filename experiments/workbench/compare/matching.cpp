@@ -12,6 +12,12 @@ constexpr double kAlmostFlat = 1e-6;  // of k0: where the slope at rest is taken
 constexpr double kExact = 1e-9;       // relative
 constexpr int kMaxIterations = 60;
 
+// Slope of the moment at rest [N m].
+double initial_stiffness(const LawRequest& law) {
+  const double flat = kAlmostFlat * law.curve.k0;
+  return run_law(law, {{0, 0}, {flat, 1e-6}}).moment.back() / flat;
+}
+
 double measure(LawRequest law, double scale, Match match, double curvature) {
   law.curve.b1 *= scale;
   law.curve.b2 *= scale;
@@ -29,14 +35,6 @@ BendingParts stiffened(BendingParts parts, double scale) {
   return parts;
 }
 
-Match match_named(const std::string& name) {
-  if (name == "fabric") return Match::fabric;
-  if (name == "small-strain") return Match::small_strain;
-  if (name == "energy") return Match::energy;
-  throw Error::invalid_input("compare.match = " + name + " must be fabric | small-strain | energy")
-      .with_key("compare.match", name);
-}
-
 double bending_work(const LawRequest& law, double curvature) {
   std::vector<LawRow> rows(kSteps + 1);
   for (int i = 0; i <= kSteps; ++i) rows[i] = {curvature * i / kSteps, i == 0 ? 0.0 : 1.0 / kSteps};
@@ -44,11 +42,6 @@ double bending_work(const LawRequest& law, double curvature) {
   double work = 0;
   for (int i = 0; i < kSteps; ++i) work += (run.moment[i] + run.moment[i + 1]) / 2 * curvature / kSteps;
   return work;
-}
-
-double initial_stiffness(const LawRequest& law) {
-  const double flat = kAlmostFlat * law.curve.k0;
-  return run_law(law, {{0, 0}, {flat, 1e-6}}).moment.back() / flat;
 }
 
 // Moments of nearly all laws are proportional to b1 and b2; then the first step is exact.

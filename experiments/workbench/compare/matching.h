@@ -1,7 +1,7 @@
 // Laws of equal stiffness: what a comparison has to agree on before it compares anything else.
 #pragma once
 
-#include <string>
+#include <array>
 
 #include "sim/bending/laws/law_run.h"
 
@@ -12,9 +12,7 @@ enum class Match {
   small_strain,  // equal slopes of the moment at rest
   energy,        // equal work to bend from flat to a given curvature
 };
-
-// "fabric", "small-strain" or "energy"; Error::invalid_input for anything else.
-Match match_named(const std::string& name);
+constexpr std::array<const char*, 3> names(Match) { return {"fabric", "small-strain", "energy"}; }
 
 // Every stiffness in them multiplied: of stops, branches and set; no threshold and no time.
 BendingParts stiffened(BendingParts parts, double scale);
@@ -24,8 +22,7 @@ BendingParts stiffened(BendingParts parts, double scale);
 // laws that take time. Error::invalid_input as run_law(), or if no number makes them equal to 1e-9.
 double matching_scale(const LawRequest& law, const LawRequest& reference, Match match, double curvature);
 
-// Work to bend from flat to `curvature`, stored or lost [J/m^2]; slope of the moment at rest [N m].
+// Work to bend from flat to `curvature`, stored or lost [J/m^2].
 double bending_work(const LawRequest& law, double curvature);
-double initial_stiffness(const LawRequest& law);
 
 }  // namespace hysteron::experiments

@@ -38,17 +38,10 @@ std::string last_row(const fs::path& file) {
 class Watch {
  public:
   Watch(const std::vector<ChildRun>& columns, int most, const std::function<void(const std::string&)>& say)
-      : columns_(columns), most_(most), say_(say), thread_([this] { run(); }) {}
-  ~Watch() {
-    {
-      const std::lock_guard lock(mutex_);
-      ended_ = true;
-    }
-    wake_.notify_all();
-    thread_.join();
-  }
-  Watch(const Watch&) = delete;
-  Watch& operator=(const Watch&) = delete;
+      : columns_(columns),
+        most_(most),
+        say_(say),
+        thread_([this](const std::stop_token& end) { run(end); }) {}
 
   void begin(std::size_t column) {
     const std::lock_guard lock(mutex_);
@@ -60,10 +53,12 @@ class Watch {
   }
 
  private:
-  void run() {
+  void run(const std::stop_token& end) {
     constexpr auto kInterval = std::chrono::seconds(2);
     std::unique_lock lock(mutex_);
-    while (!wake_.wait_for(lock, kInterval, [this] { return ended_; })) {
+    while (true) {
+      wake_.wait_for(lock, end, kInterval, [] { return false; });
+      if (end.stop_requested()) return;
       std::vector<std::string> words;
       for (const std::size_t column : running_) {
         if (std::ssize(words) == most_) break;
@@ -79,11 +74,10 @@ class Watch {
   const int most_;
   const std::function<void(const std::string&)>& say_;
   std::mutex mutex_;
-  std::condition_variable wake_;
+  std::condition_variable_any wake_;
   std::set<std::size_t> running_;
   std::string said_;
-  bool ended_ = false;
-  std::thread thread_;  // the last: it reads the others
+  std::jthread thread_;  // the last: it reads the others
 };
 
 // The GPU with the fewest runs on it, for each run that begins.
@@ -108,27 +102,23 @@ class GpuQueue {
   std::vector<int> runs_;
 };
 
-// What the columns share, and how many processes may do so at a time.
-struct Resources {
-  int gpus, cores, at_once;
+// How the columns are run: in chunks, so many at a time, which share GPUs and cores.
+struct Division {
+  std::vector<Chunk> chunks;
+  int at_once, gpus, cores;
 };
-Resources resources_for(const SweepJobs& jobs) {
+Division divided(const std::vector<ChildRun>& columns, const SweepJobs& jobs) {
   std::string reason;
   const int gpus = jobs.gpu ? gpu_count(reason) : 0;
   const int cores =
       jobs.cores > 0 ? jobs.cores : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  return {gpus, cores,
-          jobs.at_once > 0 ? jobs.at_once
-          : gpus > 0       ? gpus
-                           : std::max(1, cores / std::max(1, jobs.threads))};
-}
-
-// Batches no larger than leaves something to each GPU or core.
-std::vector<Chunk> chunks_for(const std::vector<ChildRun>& columns, const SweepJobs& jobs,
-                              const Resources& resources) {
-  const int count = static_cast<int>(columns.size());
-  return batch_chunks(columns, std::min(jobs.batch, (count + resources.at_once - 1) / resources.at_once),
-                      jobs.first);
+  const int most = jobs.at_once > 0 ? jobs.at_once
+                   : gpus > 0       ? gpus
+                                    : std::max(1, cores / std::max(1, jobs.threads));
+  // No larger than leaves something to each GPU or core.
+  const int largest = std::min(jobs.batch, (static_cast<int>(columns.size()) + most - 1) / most);
+  const std::vector<Chunk> chunks = batch_chunks(columns, largest, jobs.first);
+  return {chunks, std::min(static_cast<int>(chunks.size()), most), gpus, cores};
 }
 
 }  // namespace
@@ -161,25 +151,22 @@ std::string progress_in(const fs::path& folder) {
 }
 
 int processes_at_once(const std::vector<ChildRun>& columns, const SweepJobs& jobs) {
-  const Resources resources = resources_for(jobs);
-  return std::min(static_cast<int>(chunks_for(columns, jobs, resources).size()), resources.at_once);
+  return divided(columns, jobs).at_once;
 }
 
 void run_columns(std::vector<ChildRun>& columns, const SweepJobs& jobs,
                  const std::function<void(ChildRun&)>& said,
                  const std::function<void(const std::string&)>& progress) {
   check_batch(columns, jobs.batch);
-  const Resources resources = resources_for(jobs);
-  const std::vector<Chunk> chunks = chunks_for(columns, jobs, resources);
-  const int at_once = std::min(static_cast<int>(chunks.size()), resources.at_once);
-  const int threads = jobs.threads > 0 ? jobs.threads : std::max(1, resources.cores / at_once);
+  const Division division = divided(columns, jobs);
+  const int threads = jobs.threads > 0 ? jobs.threads : std::max(1, division.cores / division.at_once);
   std::mutex one_at_a_time;
   const std::function<void(const std::string&)> say = [&](const std::string& line) {
     const std::lock_guard lock(one_at_a_time);
     progress(line);
   };
-  Watch watch(columns, at_once, say);
-  GpuQueue queue(resources.gpus);
+  Watch watch(columns, division.at_once, say);
+  GpuQueue queue(division.gpus);
   const auto tell = [&](std::size_t i) {
     watch.end(i);
     const std::lock_guard lock(one_at_a_time);
@@ -197,10 +184,10 @@ void run_columns(std::vector<ChildRun>& columns, const SweepJobs& jobs,
     run_chunk(columns, chunk, jobs, {its_threads, gpu}, tell);
     queue.give_back(gpu);
   };
-  if (jobs.first >= 0)
-    finish({static_cast<std::size_t>(jobs.first)}, jobs.threads > 0 ? jobs.threads : resources.cores);
-  in_parallel(chunks.size(), at_once, [&](std::size_t c) {
-    if (chunks[c] != Chunk{static_cast<std::size_t>(jobs.first)}) finish(chunks[c], threads);
+  const Chunk first = {static_cast<std::size_t>(jobs.first)};
+  if (jobs.first >= 0) finish(first, jobs.threads > 0 ? jobs.threads : division.cores);
+  in_parallel(division.chunks.size(), division.at_once, [&](std::size_t c) {
+    if (division.chunks[c] != first) finish(division.chunks[c], threads);
   });
 }
 

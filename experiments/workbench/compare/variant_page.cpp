@@ -1,5 +1,8 @@
 #include "experiments/workbench/compare/variant_page.h"
 
+#include <algorithm>
+#include <iterator>
+
 #include "experiments/workbench/compare/column_view.h"
 #include "experiments/workbench/compare/comparison.h"
 #include "experiments/workbench/compare/comparison_page.h"
@@ -10,22 +13,19 @@
 namespace hysteron::experiments {
 namespace {
 
-struct PageChoice {
-  int batch = 1;
-};
-const KeyRow<PageChoice> kRows[] = {
-    {"batch", at<&PageChoice::batch>, "", between(1, kLargestBatch), "", kBatchDoc}};
+const KeyRow<SweepJobs> kRows[] = {
+    {"batch", at<&SweepJobs::batch>, "", between(1, kLargestBatch), "", kBatchDoc}};
 
 // Takes the page's keys off the line.
-PageChoice taken_from(CommandLine& line) {
-  PageChoice choice;
-  for (const BoundKey& key : bind(kRows, choice))
+SweepJobs taken_from(CommandLine& line) {
+  SweepJobs jobs{.tolerates_failures = true};
+  for (const BoundKey& key : bind(kRows, jobs))
     std::erase_if(line.flags, [&](const Flag& flag) {
       if (flag.path != key.description.path) return false;
       assign(key, parse_text(key.description, flag.text), "--" + flag.path);
       return true;
     });
-  return choice;
+  return jobs;
 }
 
 // A comparison of the columns' last instants, of those that have one; plots.
@@ -60,12 +60,9 @@ void reserve_page(const Run& run, const VariantPage& page) {
 }
 
 std::vector<Variant> in_one_frame(const CommandLine& line, std::vector<Variant> variants) {
-  const std::vector<Flag> framing = shared_framing(line, variants);
-  for (Variant& variant : variants) {
-    variant.flags.insert(variant.flags.end(), framing.begin(), framing.end());
-    const std::vector<Flag> plain = for_sheets(line);
-    variant.flags.insert(variant.flags.end(), plain.begin(), plain.end());
-  }
+  std::vector<Flag> shared = shared_framing(line, variants);
+  std::ranges::copy(for_sheets(line), std::back_inserter(shared));
+  for (Variant& variant : variants) std::ranges::copy(shared, std::back_inserter(variant.flags));
   return variants;
 }
 
@@ -76,7 +73,7 @@ std::vector<KeyDescription> page_keys() { return key_descriptions(kRows); }
 int run_variants(const CommandLine& given, void (*once)(const CommandLine&),
                  VariantPage (*first_page)(const CommandLine&, std::vector<Variant>&)) {
   CommandLine line = given;
-  const PageChoice choice = taken_from(line);
+  SweepJobs jobs = taken_from(line);
   std::vector<Variant> variants = named_variants(line);
   if (variants.size() == 1) return once(line), 0;
   VariantPage page = first_page(without_lists(line), variants);
@@ -88,17 +85,16 @@ int run_variants(const CommandLine& given, void (*once)(const CommandLine&),
   for (const Variant& variant : in_one_frame(line, variants))
     columns.push_back(child_run(variant.name, line, variant.flags, page.setup.options.out));
   if (page.setup.options.explain) return explain_columns(columns), 0;
-  check_batch(columns, choice.batch);
+  check_batch(columns, jobs.batch);
   page.keys["fabric"] = to_json(scene)["fabric"];  // of variants that name none
   for (const Variant& variant : variants) page.keys["variants"].push_back(variant.name);
   Run run(line, page.setup.options, page.keys);
   reserve_page(run, page);
-  const SweepJobs jobs{.threads = scene.threads,
-                       .resume = page.setup.options.resume,
-                       .gpu = scene.device != DeviceChoice::cpu,
-                       .tolerates_failures = true,
-                       .batch = choice.batch};
-  run_comparison(run, varied_key(variants), columns, jobs, page.metrics);
+  jobs.threads = scene.threads;
+  jobs.resume = page.setup.options.resume;
+  jobs.gpu = scene.device != DeviceChoice::cpu;
+  run_columns(run, columns, jobs);
+  write_comparison_table(run, varied_key(variants), columns, page.metrics);
   for (const ChildRun& column : columns)
     if (column.exit_code == 1) throw Error::system(column.name + ": " + column.stopped);
   if (!page.setup.options.no_images) draw_page(run, page, columns);

@@ -64,18 +64,13 @@ std::vector<Variant> multiplied(const std::vector<Variant>& variants, const std:
   return result;
 }
 
-bool are_same(const std::vector<Flag>& a, const std::vector<Flag>& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](const Flag& x, const Flag& y) { return x.path == y.path && x.text == y.text; });
-}
-
 // Each has a folder: those of files with equal stems are numbered.
 void name_apart(std::vector<Variant>& variants) {
   std::set<std::string> taken;
   for (std::size_t i = 0; i < variants.size(); ++i) {
     std::string& name = variants[i].name;
     for (std::size_t j = 0; j < i; ++j)
-      if (are_same(variants[i].flags, variants[j].flags))
+      if (variants[i].flags == variants[j].flags)
         throw Error::invalid_input(name + " is named twice: columns must differ");
     const std::string stem = name;
     for (int number = 2; !taken.insert(name).second; ++number) name = stem + "-" + std::to_string(number);

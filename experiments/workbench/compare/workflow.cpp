@@ -18,14 +18,6 @@ void make(const fs::path& folder) {
   if (failure) throw Error::system("cannot create the folder " + folder.string() + ": " + failure.message());
 }
 
-Json to_json(const WorkflowJob& job) {
-  return {{"words", job.words},
-          {"cores", job.resources.cores},
-          {"memory_mb", job.resources.memory},
-          {"gpus", job.resources.gpus},
-          {"minutes", job.resources.minutes}};
-}
-
 }  // namespace
 
 void write_workflow(const fs::path& folder, const Workflow& workflow) {
@@ -34,7 +26,12 @@ void write_workflow(const fs::path& folder, const Workflow& workflow) {
   for (const char* name : {"Snakefile", "slurm/config.yaml"})
     write_text(folder / name, whole_file(shipped / name, "cannot read " + (shipped / name).string()));
   Json jobs = Json::object();
-  for (const WorkflowJob& job : workflow.jobs) jobs[job.name] = to_json(job);
+  for (const auto& [name, words, needs] : workflow.jobs)
+    jobs[name] = {{"words", words},
+                  {"cores", needs.cores},
+                  {"memory_mb", needs.memory},
+                  {"gpus", needs.gpus},
+                  {"minutes", needs.minutes}};
   const Json config = {{"hysteron", fs::read_symlink("/proc/self/exe").string()},
                        {"working_folder", fs::current_path().string()},
                        {"out", fs::absolute(workflow.out).lexically_normal().string()},

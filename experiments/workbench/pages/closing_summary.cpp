@@ -25,26 +25,18 @@ std::string row(const std::string& words, const std::string& value) {
   return "  " + words + std::string(words.size() < kColumn ? kColumn - words.size() : 1, ' ') + value + "\n";
 }
 
-// What a comparison's columns were asked for.
-std::string comparison_question(const Manifest& manifest) {
-  const std::string compared = manifest.experiment == "compare" ? manifest.text("compared") : "";
-  return compared.empty() ? manifest.experiment : compared;
-}
-
 // A result that was asked for: "recovery angle", "86.0 degree".
-struct Finding {
-  std::string words, value;
-};
+using Finding = std::pair<std::string, std::string>;
 
 // Headlines of the manifest's experiment and what its scene asks for, as far as they are among `metrics`.
 std::vector<Finding> findings_in(const Manifest& manifest, const Metrics& metrics) {
   std::vector<Finding> findings;
-  for (const Headline& headline : experiment_headlines(comparison_question(manifest)).all)
-    findings.push_back({headline.words, value_words(headline, metrics)});
+  for (const Headline& headline : column_headlines(manifest))
+    findings.emplace_back(headline.words, value_words(headline, metrics));
   for (const std::string& name : manifest.requested_metrics)
     if (metrics.contains(name))
-      findings.push_back({split_unit(name).name, metric_words(metrics, name).text()});
-  std::erase_if(findings, [](const Finding& finding) { return finding.value.empty(); });
+      findings.emplace_back(split_unit(name).name, metric_words(metrics, name).text());
+  std::erase_if(findings, [](const Finding& finding) { return finding.second.empty(); });
   return findings;
 }
 

@@ -8,16 +8,12 @@
 #include <utility>
 
 #include "experiments/workbench/pages/gallery_about.h"
-#include "experiments/workbench/pages/manifest.h"
 
 namespace hysteron::experiments {
 namespace {
 
-struct Source {
-  const char* ending;
-  const char* word;
-};
-constexpr Source kSources[] = {{kStepError, "step"}, {kMeshError, "mesh"}, {kDrawError, "draw"}};
+constexpr std::pair<const char*, const char*> kSources[] = {
+    {kStepError, "step"}, {kMeshError, "mesh"}, {kDrawError, "draw"}};
 
 bool is_number(const Metrics& metrics, const std::string& name) { return metrics[name].is_number(); }
 
@@ -46,18 +42,18 @@ std::string value_text(const MetricValue& value, double largest, double scale) {
 }
 
 // Value and errors of a headline whose errors were asked for.
-HeadlineWords scaled_words(const Metrics& metrics, const std::string& name, double scale) {
+ShownQuantity scaled_words(const Metrics& metrics, const std::string& name, double scale) {
   const auto metric_error = [&](const std::string& key) { return scale * std::abs(metrics[key].number()); };
-  HeadlineWords words;
+  ShownQuantity words;
   double largest = 0;
   std::string unknown;
-  for (const Source& source : kSources) {
-    const std::string key = name + source.ending;
+  for (const auto& [ending, source] : kSources) {
+    const std::string key = name + ending;
     if (is_number(metrics, key)) {
       largest = std::max(largest, metric_error(key));
-      words.errors = joined({words.errors, "± " + rounded_error(metric_error(key)), source.word}, " ");
+      words.errors = joined({words.errors, "± " + rounded_error(metric_error(key)), source}, " ");
     } else {
-      unknown += (unknown.empty() ? "" : " and ") + std::string(source.word);
+      unknown += (unknown.empty() ? "" : " and ") + std::string(source);
     }
   }
   if (!unknown.empty()) words.errors += (words.errors.empty() ? "" : ", ") + unknown + " error unknown";
@@ -75,9 +71,9 @@ HeadlineWords scaled_words(const Metrics& metrics, const std::string& name, doub
 }  // namespace
 
 bool is_headline(const Metrics& metrics, const std::string& name) {
-  return is_number(metrics, name) &&
-         std::any_of(std::begin(kSources), std::end(kSources),
-                     [&](const Source& source) { return metrics.contains(name + source.ending); });
+  return is_number(metrics, name) && std::ranges::any_of(kSources, [&](const auto& source) {
+           return metrics.contains(name + source.first);
+         });
 }
 
 std::string described_headline(const Metrics& metrics, const std::string& name) {
@@ -91,22 +87,20 @@ std::string described_headline(const Metrics& metrics, const std::string& name) 
   return "";
 }
 
-HeadlineWords with_rest_warning(HeadlineWords words, const Metrics& metrics, const std::string& name) {
+ShownQuantity with_rest_warning(ShownQuantity words, const Metrics& metrics, const std::string& name) {
   const bool is_ours = !name.starts_with("published_");
   if (is_ours && metrics["settled"].is(false)) words.errors = joined({words.errors, "(not at rest)"}, " ");
   return words;
 }
 
-std::string HeadlineWords::text() const { return joined({value, unit, errors}, " "); }
-
-HeadlineWords headline_words(const Metrics& metrics, const std::string& name) {
-  HeadlineWords words = scaled_words(metrics, name, 1);
+ShownQuantity headline_words(const Metrics& metrics, const std::string& name) {
+  ShownQuantity words = scaled_words(metrics, name, 1);
   words.unit = split_unit(name).unit;
   return with_rest_warning(std::move(words), metrics, name);
 }
 
-HeadlineWords headline_words(const Metrics& metrics, const Headline& headline) {
-  HeadlineWords words;
+ShownQuantity headline_words(const Metrics& metrics, const Headline& headline) {
+  ShownQuantity words;
   const std::string name = headline.metric, fitted = name + kStandardError;
   if (is_headline(metrics, name)) {
     words = scaled_words(metrics, name, headline.scale);
@@ -121,8 +115,11 @@ HeadlineWords headline_words(const Metrics& metrics, const Headline& headline) {
 }
 
 std::string with_errors(const Metrics& metrics, const std::string& name) {
-  if (!is_headline(metrics, name)) return metric_text(name, metrics[name].number());
-  return split_unit(name).name + " " + headline_words(metrics, name).text();
+  const auto [words, unit] = split_unit(name);
+  const bool plain = !is_headline(metrics, name);
+  return words + " " +
+         (plain ? joined({fmt::format("{:.4g}", metrics[name].number()), unit}, " ")
+                : headline_words(metrics, name).text());
 }
 
 }  // namespace hysteron::experiments

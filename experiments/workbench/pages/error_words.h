@@ -6,6 +6,7 @@
 
 #include "experiments/workbench/app/headlines.h"
 #include "experiments/workbench/app/manifest.h"
+#include "experiments/workbench/pages/manifest.h"
 
 namespace hysteron::experiments {
 
@@ -26,18 +27,14 @@ std::string described_headline(const Metrics& metrics, const std::string& name);
 
 // A headline in parts.  Errors have one significant digit, two if the first is 1, and the value ends where
 // the largest of them does.  An error that could not be measured is said to be unknown.
-struct HeadlineWords {
-  std::string value, unit, errors;  // "86.0", "%", "± 0.10 step ± 0.6 mesh ± 0.8 draw"
-  std::string text() const;         // one after the other
-};
-HeadlineWords headline_words(const Metrics& metrics, const std::string& name);
+ShownQuantity headline_words(const Metrics& metrics, const std::string& name);
 // In the unit that the headline is shown in; where no errors were asked for, with the standard error of its
 // fit, or alone.
-HeadlineWords headline_words(const Metrics& metrics, const Headline& headline);
+ShownQuantity headline_words(const Metrics& metrics, const Headline& headline);
 
 // Words on a result of cloth that should have come to rest and did not are marked as such: its shape is none
 // that could be measured.
-HeadlineWords with_rest_warning(HeadlineWords words, const Metrics& metrics, const std::string& name);
+ShownQuantity with_rest_warning(ShownQuantity words, const Metrics& metrics, const std::string& name);
 
 // Name, value, unit and errors in one line; without errors for a number that is no headline.
 std::string with_errors(const Metrics& metrics, const std::string& name);

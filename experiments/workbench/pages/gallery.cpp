@@ -1,7 +1,6 @@
 #include "experiments/workbench/pages/gallery.h"
 
 #include <algorithm>
-#include <optional>
 #include <set>
 #include <thread>
 
@@ -93,11 +92,6 @@ std::vector<std::string> all_html(const std::vector<ExhibitGroup>& groups, PageF
   return html;
 }
 
-std::optional<std::string> page_text(const fs::path& file) {
-  if (!is_there(file)) return std::nullopt;
-  return whole_file(file, "cannot read " + file.string());
-}
-
 // Folders below this one with a report.html, by name.
 std::vector<fs::path> reports_below(const fs::path& folder) {
   std::vector<fs::path> found;
@@ -124,7 +118,7 @@ std::string gallery_page(const std::filesystem::path& folder, PageForm form) {
       exhibits.push_back({{"anchor", page_anchor(exhibit)}, {"name", exhibit.name}, {"html", html[next++]}});
     sections.push_back({{"experiment", group.experiment},
                         {"title", experiment_title(group.experiment)},
-                        {"question", first_upper(experiment_question(group.experiment))},
+                        {"question", first_upper(experiment_named(group.experiment).question)},
                         {"exhibits", exhibits}});
   }
   const std::string body = filled("gallery.html", {{"facts", gallery_facts(groups)},
@@ -142,8 +136,10 @@ std::filesystem::path write_gallery(const std::filesystem::path& folder, PageFor
 std::vector<StalePage> stale_pages(const fs::path& folder) {
   std::vector<StalePage> stale;
   const auto check = [&](const fs::path& of, const char* name, const std::string& page) {
-    const std::optional<std::string> written = page_text(of / name);
-    if (!written || *written != page) stale.push_back({of / name, of, !written});
+    const fs::path file = of / name;
+    const bool missing = !is_there(file);
+    if (missing || whole_file(file, "cannot read " + file.string()) != page)
+      stale.push_back({file, of, missing});
   };
   if (has_manifest(folder)) {
     check(folder, "report.html", report_page(folder));

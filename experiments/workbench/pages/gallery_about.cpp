@@ -2,7 +2,6 @@
 
 #include <fmt/core.h>
 
-#include "experiments/workbench/app/experiment.h"
 #include "experiments/workbench/pages/manifest.h"
 #include "experiments/workbench/pages/page.h"
 #include "sim/scene/key_table.h"
@@ -36,8 +35,6 @@ std::string first_upper(std::string text) {
   if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
   return text;
 }
-
-std::string experiment_question(const std::string& name) { return experiment_named(name).question; }
 
 std::string counted(std::size_t count, const std::string& thing) {
   return std::to_string(count) + " " + thing + (count == 1 ? "" : "s");

@@ -11,8 +11,6 @@ namespace hysteron::experiments {
 // The texts that are not empty, with `between` between them.
 std::string joined(std::vector<std::string> texts, const std::string& between);
 std::string first_upper(std::string text);
-// What the experiment of that name asks; "" if there is none.
-std::string experiment_question(const std::string& experiment);
 // "3 rows", "1 row".
 std::string counted(std::size_t count, const std::string& thing);
 // "1000" is "1,000".

@@ -45,26 +45,18 @@ std::vector<fs::path> subfolders(const fs::path& folder) {
   return found;
 }
 
-// `beside` receives the subfolders of a folder that is no run.
-void collect(const fs::path& folder, const std::string& name, std::vector<Exhibit>& beside);
-
-Exhibit folder_exhibit(const fs::path& folder, const std::string& name, std::vector<Exhibit>& beside) {
-  Exhibit exhibit{name, folder, {}, {}};
-  if (const fs::path file = folder / "manifest.json"; is_there(file)) exhibit.manifest = read_manifest(file);
-  for (const fs::path& sub : subfolders(folder)) {
-    collect(sub, name + "/" + sub.filename().string(), exhibit.manifest ? exhibit.parts : beside);
-  }
-  return exhibit;
-}
-
 bool holds_anything(const Exhibit& exhibit) {
   const auto any = [&](const char* ending) { return !files_ending(exhibit.folder, ending).empty(); };
   return exhibit.manifest || any(".json") || any(".png") || any(".svg") || any(".csv") ||
          !files_ending(exhibit.folder / "frames", ".png").empty();
 }
 
+// `beside` receives the subfolders of a folder that is no run.
 void collect(const fs::path& folder, const std::string& name, std::vector<Exhibit>& beside) {
-  Exhibit exhibit = folder_exhibit(folder, name, beside);
+  Exhibit exhibit{name, folder, {}, {}};
+  if (const fs::path file = folder / "manifest.json"; is_there(file)) exhibit.manifest = read_manifest(file);
+  for (const fs::path& sub : subfolders(folder))
+    collect(sub, name + "/" + sub.filename().string(), exhibit.manifest ? exhibit.parts : beside);
   if (holds_anything(exhibit)) beside.push_back(std::move(exhibit));
 }
 

@@ -7,7 +7,10 @@
 #include <set>
 #include <vector>
 
+#include "experiments/workbench/pages/gallery_about.h"
+
 namespace hysteron::experiments {
+
 std::string shown(const MetricValue& value) {
   if (!value.is_known()) return "–";
   if (value.is(true)) return "yes";
@@ -32,11 +35,6 @@ NamedUnit split_unit(std::string key) {
   return {key, unit};
 }
 
-std::string metric_text(const std::string& key, double value) {
-  const NamedUnit what = split_unit(key);
-  return fmt::format("{} {:.4g}{}{}", what.name, value, what.unit.empty() ? "" : " ", what.unit);
-}
-
 ShownQuantity shown_quantity(const MetricValue& value, const std::string& unit) {
   if (!value.is_number() || value.is_integer()) return {shown(value), unit};
   static const std::set<std::string> kPrefixed = {"m", "N", "J", "s", "N m", "J/m²", "m/s"};
@@ -51,6 +49,10 @@ ShownQuantity shown_quantity(const MetricValue& value, const std::string& unit) 
   for (; std::abs(number) >= 1e3 && prefix < kLast; ++prefix) number /= 1e3;
   return {fmt::format("{:.4g}", number), kPrefixes[prefix] + unit};
 }
+
+std::string ShownQuantity::more() const { return joined({unit, errors}, " "); }
+
+std::string ShownQuantity::text() const { return joined({value, more()}, " "); }
 
 bool is_numerics(const std::string& key) {
   static const std::set<std::string> kOthers = {"parts_count",

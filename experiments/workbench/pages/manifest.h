@@ -16,13 +16,14 @@ struct NamedUnit {
 };
 // "drape_coefficient_percent" is "drape coefficient" in %: results carry their unit at the end of their name.
 NamedUnit split_unit(std::string key);
-// "drape coefficient 86 %": four significant digits.
-std::string metric_text(const std::string& key, double value);
 
 // Value and unit of a result as readers want them: four digits, the prefix of SI that leaves 1 to 999 before
 // the point, zero below 1e-12 of a unit that is one of mechanics: "0.94" "mN" of 0.00094 N.
 struct ShownQuantity {
   std::string value, unit;
+  std::string errors{};      // of a headline: "± 0.10 step ± 0.6 mesh ± 0.8 draw"
+  std::string more() const;  // unit and errors
+  std::string text() const;  // one after the other
 };
 ShownQuantity shown_quantity(const MetricValue& value, const std::string& unit);
 // How the solver fared, and what every simulated run counts beside its own question.

@@ -24,64 +24,74 @@ std::vector<std::pair<std::string, Metrics>> columns_in(const Metrics& metrics) 
   return columns;
 }
 
-HeadlineWords metric_words(const Metrics& metrics, const std::string& key) {
-  if (is_headline(metrics, key)) return headline_words(metrics, key);
-  const HeadlineWords words{shown(metrics[key]), split_unit(key).unit, ""};
-  return is_asked_for(key) ? with_rest_warning(words, metrics, key) : words;
+const std::vector<Headline>& column_headlines(const Manifest& manifest) {
+  const std::string compared = manifest.text("compared");
+  return experiment_headlines(compared.empty() ? manifest.experiment : compared).all;
 }
 
-std::string metric_cards(const Metrics& metrics) {
-  std::vector<Card> cards;
-  for (const auto& [key, value] : metrics) {
-    if (key.find('.') != key.npos || !described_headline(metrics, key).empty()) continue;
-    HeadlineWords words = metric_words(metrics, key);
-    if (!is_headline(metrics, key)) {
-      const ShownQuantity quantity = shown_quantity(metrics[key], words.unit);
-      words.value = quantity.value, words.unit = quantity.unit;
-    }
-    cards.push_back({words.value, joined({words.unit, words.errors}, " "), split_unit(key).name});
-  }
-  return html_cards(cards);
+ShownQuantity metric_words(const Metrics& metrics, const std::string& key) {
+  if (is_headline(metrics, key)) return headline_words(metrics, key);
+  const ShownQuantity words{shown(metrics[key]), split_unit(key).unit};
+  return is_asked_for(key) ? with_rest_warning(words, metrics, key) : words;
 }
 
 namespace {
 
-Card metric_card(const Metrics& metrics, const Headline& headline) {
+Fields card(const ShownQuantity& words, const std::string& name) {
+  return {{"value", words.value}, {"more", words.more()}, {"name", name}};
+}
+
+std::string html_cards(const std::vector<Fields>& cards) {
+  return cards.empty() ? "" : filled("cards.html", {{"cards", cards}});
+}
+
+// The same with the prefix of SI for readers.
+ShownQuantity prefixed(ShownQuantity words, const Metrics& metrics, const std::string& key) {
+  const ShownQuantity quantity = shown_quantity(metrics[key], split_unit(key).unit);
+  return {quantity.value, quantity.unit, std::move(words.errors)};
+}
+
+Fields headline_card(const Metrics& metrics, const Headline& headline, const std::string& name) {
   const std::string key = headline.metric;
-  HeadlineWords words = headline_words(metrics, headline);
-  if (!is_headline(metrics, key) && !metrics.contains(key + kStandardError) && headline.scale != 1) {
-    const ShownQuantity quantity = shown_quantity(metrics[key], split_unit(key).unit);
-    words.value = quantity.value, words.unit = quantity.unit;
-  }
-  return {words.value, joined({words.unit, words.errors}, " "), headline.words};
+  const ShownQuantity words = headline_words(metrics, headline);
+  const bool has_errors = is_headline(metrics, key) || metrics.contains(key + kStandardError);
+  return card(has_errors || headline.scale == 1 ? words : prefixed(words, metrics, key), name);
 }
 
 // Of laws or fabrics the first headline that they have, a card each.
-std::vector<Card> column_cards(const Manifest& manifest) {
+std::vector<Fields> column_cards(const Manifest& manifest) {
   constexpr std::size_t kMax = 8;  // more are a table
-  const std::string compared = manifest.text("compared");
   const auto columns = columns_in(manifest.metrics);
-  for (const Headline& headline :
-       experiment_headlines(compared.empty() ? manifest.experiment : compared).all) {
-    std::vector<Card> cards;
-    for (const auto& [name, own] : columns) {
-      if (!own[headline.metric].is_number()) continue;
-      cards.push_back(metric_card(own, headline));
-      cards.back().name = name + ": " + headline.words;
-    }
-    if (!cards.empty()) return cards.size() <= kMax ? cards : std::vector<Card>{};
+  for (const Headline& headline : column_headlines(manifest)) {
+    std::vector<Fields> cards;
+    for (const auto& [name, own] : columns)
+      if (own[headline.metric].is_number())
+        cards.push_back(headline_card(own, headline, name + ": " + headline.words));
+    if (!cards.empty()) return cards.size() <= kMax ? cards : std::vector<Fields>{};
   }
   return {};
 }
 
 }  // namespace
 
+std::string metric_cards(const Metrics& metrics) {
+  std::vector<Fields> cards;
+  for (const auto& [key, value] : metrics) {
+    if (key.find('.') != key.npos || !described_headline(metrics, key).empty()) continue;
+    const ShownQuantity words = metric_words(metrics, key);
+    cards.push_back(
+        card(is_headline(metrics, key) ? words : prefixed(words, metrics, key), split_unit(key).name));
+  }
+  return html_cards(cards);
+}
+
 std::string answer_cards(const Manifest& manifest) {
-  std::vector<Card> cards;
+  std::vector<Fields> cards;
   for (const Headline& headline : experiment_headlines(manifest.experiment).all) {
     const MetricValue& value = manifest.metrics[headline.metric];
-    if (value.is_text() && value.text() != "unknown") cards.push_back({value.text(), "", headline.words});
-    if (value.is_number()) cards.push_back(metric_card(manifest.metrics, headline));
+    if (value.is_text() && value.text() != "unknown")
+      cards.push_back(card({value.text(), ""}, headline.words));
+    if (value.is_number()) cards.push_back(headline_card(manifest.metrics, headline, headline.words));
   }
   return html_cards(cards.empty() ? column_cards(manifest) : cards);
 }
@@ -123,7 +133,7 @@ std::string metric_table(const Metrics& metrics) {
   for (const auto& [name, own] : columns) {
     rows.push_back({name});
     for (const std::string& key : keys) {
-      const HeadlineWords words = own.contains(key) ? metric_words(own, key) : HeadlineWords{};
+      const ShownQuantity words = own.contains(key) ? metric_words(own, key) : ShownQuantity{};
       rows.back().push_back(joined({words.value, words.errors}, " "));
     }
   }

@@ -13,8 +13,11 @@ namespace hysteron::experiments {
 // Laws, fabrics or others whose metrics are called NAME.KEY, in their order, each with its own.
 std::vector<std::pair<std::string, Metrics>> columns_in(const Metrics& metrics);
 
+// What each of them is asked for: of a comparison what it compares.
+const std::vector<Headline>& column_headlines(const Manifest& manifest);
+
 // Value, unit and, for a headline, errors of any metric.
-HeadlineWords metric_words(const Metrics& metrics, const std::string& key);
+ShownQuantity metric_words(const Metrics& metrics, const std::string& key);
 
 // Metrics of the run itself.
 std::string metric_cards(const Metrics& metrics);

@@ -1,7 +1,5 @@
 #include "experiments/workbench/pages/page.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cctype>
 #include <string_view>
@@ -10,13 +8,6 @@ namespace hysteron::experiments {
 namespace {
 
 constexpr std::string_view kLetters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-
-std::string short_number(double x) { return fmt::format("{:.4g}", x); }
-
-// `count` values out of a long series, the first and the last among them.
-std::size_t sampled(std::size_t i, std::size_t count, std::size_t size) {
-  return count < 2 ? 0 : i * (size - 1) / (count - 1);
-}
 
 }  // namespace
 
@@ -30,20 +21,6 @@ std::string base64(std::span<const std::uint8_t> bytes) {
     for (std::size_t k = 0; k < 4; ++k) text += k <= left ? kLetters[group >> (18 - 6 * k) & 63] : '=';
   }
   return text;
-}
-
-std::string embedded_image(std::span<const std::uint8_t> bytes, const std::string& type,
-                           const std::string& words) {
-  return "<img alt=\"" + escaped(words) + "\" src=\"data:" + type + ";base64," + base64(bytes) + "\">";
-}
-
-std::string linked_image(const std::string& path, const render::ImageSize& size, const std::string& words) {
-  const std::string place =
-      size == render::ImageSize{}
-          ? ""
-          : " width=\"" + std::to_string(size.width) + "\" height=\"" + std::to_string(size.height) + "\"";
-  return "<img loading=\"lazy\"" + place + " alt=\"" + escaped(words) + "\" src=\"" + relative_url(path) +
-         "\">";
 }
 
 std::string html_figure(const std::string& image, const std::string& caption) {
@@ -88,39 +65,6 @@ std::string file_link(const std::string& target, const std::string& text, PageFo
 
 std::string html_details(const std::string& summary, const std::string& body, bool open) {
   return filled("details.html", {{"summary", summary}, {"body", body}, {"open", open}});
-}
-
-std::string line_chart(const std::string& title, const std::vector<double>& x, const std::string& x_name,
-                       const std::vector<double>& y) {
-  constexpr double kLeft = 12, kTop = 40, kWidth = 396, kHeight = 120;  // of the line in chart.svg
-  constexpr std::size_t kMaxPoints = 600;
-  const auto [x_low, x_high] = std::minmax_element(x.begin(), x.end());
-  const auto [y_low, y_high] = std::minmax_element(y.begin(), y.end());
-  const double x_span = *x_high > *x_low ? *x_high - *x_low : 1,
-               y_span = *y_high > *y_low ? *y_high - *y_low : 1;
-  std::string points;
-  const std::size_t count = std::min(kMaxPoints, x.size());
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t row = sampled(i, count, x.size());
-    points += fmt::format("{:.1f},{:.1f} ", kLeft + kWidth * (x[row] - *x_low) / x_span,
-                          kTop + kHeight * (1 - (y[row] - *y_low) / y_span));
-  }
-  return filled("chart.svg", {{"title", title},
-                              {"points", points},
-                              {"high", short_number(*y_high)},
-                              {"low", short_number(*y_low)},
-                              {"axis", x_name + " " + short_number(*x_low) + " … " + short_number(*x_high)}});
-}
-
-std::string html_cards(const std::vector<Card>& cards) {
-  if (cards.empty()) return "";
-  std::vector<Fields> all;
-  for (const Card& card : cards)
-    all.push_back({{"value", card.value},
-                   {"has_more", !card.more.value_or("").empty()},
-                   {"more", card.more.value_or("")},
-                   {"name", card.name}});
-  return filled("cards.html", {{"cards", all}});
 }
 
 std::string html_group(const std::string& kind, const std::string& content) {

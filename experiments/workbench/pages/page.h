@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -19,14 +18,6 @@ enum class PageForm {
 
 // RFC 4648, with padding.
 std::string base64(std::span<const std::uint8_t> bytes);
-
-// An <img> with the picture inside.  `type`: "image/png", "image/svg+xml"; `words` stand for it where it
-// cannot be seen.
-std::string embedded_image(std::span<const std::uint8_t> bytes, const std::string& type,
-                           const std::string& words);
-// An <img> of a file beside the page, read once it comes near the window.  `size`, unless it is 0 x 0, keeps
-// the place until then.
-std::string linked_image(const std::string& path, const render::ImageSize& size, const std::string& words);
 
 // An image, which is HTML, with a caption, which is text.
 std::string html_figure(const std::string& image, const std::string& caption);
@@ -45,18 +36,6 @@ std::string file_link(const std::string& target, const std::string& text, PageFo
 
 // Folded away under a line that unfolds it.
 std::string html_details(const std::string& summary, const std::string& body, bool open);
-
-// A line through (x, y), scaled to its own extent, with the ends of both axes written.
-std::string line_chart(const std::string& title, const std::vector<double>& x, const std::string& x_name,
-                       const std::vector<double>& y);
-
-// Numbers to be seen first.
-struct Card {
-  std::string value;
-  std::optional<std::string> more;  // behind it in small letters: unit and errors
-  std::string name;
-};
-std::string html_cards(const std::vector<Card>& cards);
 
 // Figures or charts beside each other, "grid", "charts"; "" without content, which is HTML.
 std::string html_group(const std::string& kind, const std::string& content);

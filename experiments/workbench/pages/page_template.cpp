@@ -2,6 +2,7 @@
 #include "experiments/workbench/pages/page_template.h"
 
 #include <kainjow/mustache.hpp>
+#include <map>
 #include <stdexcept>
 
 namespace hysteron::experiments {
@@ -11,14 +12,14 @@ using kainjow::mustache::data;
 
 data template_data(const Fields& fields) {
   data object;
-  for (const auto& [name, value] : fields.entries()) {
-    if (const auto* text = std::get_if<std::string>(&value)) {
-      if (!text->empty()) object.set(name, *text);
-    } else if (const auto* truth = std::get_if<bool>(&value)) {
-      object.set(name, *truth);
+  for (const auto& [name, value] : fields.items()) {
+    if (value.is_string()) {
+      if (value != "") object.set(name, value.get<std::string>());
+    } else if (value.is_boolean()) {
+      object.set(name, value.get<bool>());
     } else {
       kainjow::mustache::list list;
-      for (const Fields& entry : std::get<std::vector<Fields>>(value)) list.push_back(template_data(entry));
+      for (const Fields& entry : value) list.push_back(template_data(entry));
       object.set(name, std::move(list));
     }
   }
@@ -40,18 +41,12 @@ std::string embedded_text(const std::string& name) {
 }
 
 std::string escaped(const std::string& text) {
+  static const std::map<char, std::string> kEscaped = {
+      {'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}};
   std::string html;
   for (const char c : text) {
-    if (c == '&')
-      html += "&amp;";
-    else if (c == '<')
-      html += "&lt;";
-    else if (c == '>')
-      html += "&gt;";
-    else if (c == '"')
-      html += "&quot;";
-    else
-      html += c;
+    const auto known = kEscaped.find(c);
+    html += known == kEscaped.end() ? std::string(1, c) : known->second;
   }
   return html;
 }

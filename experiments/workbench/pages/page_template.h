@@ -2,28 +2,16 @@
 // puts into the binary.
 #pragma once
 
-#include <initializer_list>
+#include <nlohmann/json.hpp>
 #include <span>
 #include <string>
 #include <string_view>
-#include <utility>
-#include <variant>
-#include <vector>
 
 namespace hysteron::experiments {
 
 // What a template is filled with, by name: {{text}} escaped or {{{html}}} as it is, {{#truth}} and {{#list}}
 // for sections.  An empty text is one that is not there.
-class Fields {
- public:
-  using Entry = std::pair<std::string, std::variant<std::string, bool, std::vector<Fields>>>;
-
-  Fields(std::initializer_list<Entry> entries) : entries_(entries) {}
-  const std::vector<Entry>& entries() const { return entries_; }
-
- private:
-  std::vector<Entry> entries_;
-};
+using Fields = nlohmann::ordered_json;
 
 // The template of that file name, "table.html", filled.  std::logic_error if the file is no template.
 std::string filled(const std::string& name, const Fields& fields);

@@ -1,5 +1,7 @@
 #include "experiments/workbench/pages/pictures.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cctype>
 #include <thread>
@@ -25,6 +27,29 @@ int whole_number(const std::string& tag, const std::string& name) {
     if (whole) return std::stoi(value);
   }
   return 0;
+}
+
+// A line through (x, y), scaled to its own extent, with the ends of both axes written.
+std::string line_chart(const std::string& title, const std::vector<double>& x, const std::string& x_name,
+                       const std::vector<double>& y) {
+  constexpr double kLeft = 12, kTop = 40, kWidth = 396, kHeight = 120;  // of the line in chart.svg
+  constexpr std::size_t kMaxPoints = 600;
+  const auto [x_low, x_high] = std::minmax_element(x.begin(), x.end());
+  const auto [y_low, y_high] = std::minmax_element(y.begin(), y.end());
+  const double x_span = *x_high > *x_low ? *x_high - *x_low : 1,
+               y_span = *y_high > *y_low ? *y_high - *y_low : 1;
+  std::string points;
+  const std::size_t count = std::min(kMaxPoints, x.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t row = count < 2 ? 0 : i * (x.size() - 1) / (count - 1);  // the first and the last, too
+    points += fmt::format("{:.1f},{:.1f} ", kLeft + kWidth * (x[row] - *x_low) / x_span,
+                          kTop + kHeight * (1 - (y[row] - *y_low) / y_span));
+  }
+  return filled("chart.svg", {{"title", title},
+                              {"points", points},
+                              {"high", fmt::format("{:.4g}", *y_high)},
+                              {"low", fmt::format("{:.4g}", *y_low)},
+                              {"axis", fmt::format("{} {:.4g} … {:.4g}", x_name, *x_low, *x_high)}});
 }
 
 }  // namespace
@@ -67,12 +92,17 @@ render::ImageSize drawing_size(const fs::path& file) {
 
 std::string image_element(const PagePicture& picture, PageForm form) {
   const bool drawing = picture.file.extension() == ".svg";
-  if (form == PageForm::linked)
-    return linked_image(picture.path, drawing ? drawing_size(picture.file) : render::png_size(picture.file),
-                        picture.words);
+  const std::string source = " alt=\"" + escaped(picture.words) + "\" src=\"";
+  if (form == PageForm::linked) {
+    const render::ImageSize size = drawing ? drawing_size(picture.file) : render::png_size(picture.file);
+    const std::string place = size == render::ImageSize{}
+                                  ? ""
+                                  : fmt::format(" width=\"{}\" height=\"{}\"", size.width, size.height);
+    return "<img loading=\"lazy\"" + place + source + relative_url(picture.path) + "\">";
+  }
   const bool shrunk = !drawing && picture.width > 0;
-  return embedded_image(shrunk ? thumbnail(picture.file, picture.width) : content_bytes(picture.file),
-                        drawing ? "image/svg+xml" : "image/png", picture.words);
+  return "<img" + source + "data:" + (drawing ? "image/svg+xml" : "image/png") + ";base64," +
+         base64(shrunk ? thumbnail(picture.file, picture.width) : content_bytes(picture.file)) + "\">";
 }
 
 std::string player(const fs::path& folder, const std::string& path, int count, PageForm form) {
@@ -90,7 +120,7 @@ std::string player(const fs::path& folder, const std::string& path, int count, P
   return filled("player.html", {{"figures", html}});
 }
 
-std::string series_charts(const fs::path& folder, bool with_energies) {
+std::string series_charts(const fs::path& folder) {
   const fs::path file = folder / "metrics.csv";
   if (!is_there(file)) return "";
   Table table = read_table(file);
@@ -98,7 +128,6 @@ std::string series_charts(const fs::path& folder, bool with_energies) {
   std::string charts;
   for (std::size_t i = 1; i < table.head.size() && !table.rows.empty(); ++i) {
     std::string title = table.head[i];
-    if (!with_energies && title.ends_with("[J]")) continue;
     std::replace(title.begin(), title.end(), '_', ' ');
     charts += line_chart(title, table.numbers(0), table.head[0], table.numbers(i));
   }

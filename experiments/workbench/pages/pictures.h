@@ -29,9 +29,10 @@ std::vector<std::uint8_t> thumbnail(const std::filesystem::path& file, int width
 // Of an SVG file; 0 x 0 where its first tag does not say it in numbers alone.
 render::ImageSize drawing_size(const std::filesystem::path& file);
 
-// An <img> of a PNG or SVG file.  `path` is where it lies, seen from the page; where the page is
-// self-contained, a PNG picture is shrunk to `width` pixels, 0: embedded as it is.  Throws
-// Error::invalid_input, naming the file, if a PNG picture that is linked or shrunk is broken.
+// An <img> of a PNG or SVG file.  `path` is where it lies, seen from the page, which reads it once it comes
+// near the window; `words` stand for it where it cannot be seen.  Where the page is self-contained, a PNG
+// picture is shrunk to `width` pixels, 0: embedded as it is.  Throws Error::invalid_input, naming the file,
+// if a PNG picture that is linked or shrunk is broken.
 struct PagePicture {
   std::filesystem::path file;
   std::string path, words;
@@ -44,6 +45,6 @@ std::string image_element(const PagePicture& picture, PageForm form);
 std::string player(const std::filesystem::path& folder, const std::string& path, int count, PageForm form);
 
 // Charts of the columns of FOLDER/metrics.csv against its first.  "" if there is no series.
-std::string series_charts(const std::filesystem::path& folder, bool with_energies);
+std::string series_charts(const std::filesystem::path& folder);
 
 }  // namespace hysteron::experiments

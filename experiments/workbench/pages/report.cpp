@@ -94,13 +94,12 @@ std::string plots(const fs::path& folder, bool loops, PageForm form) {
   return html.empty() ? "" : "<div class=\"plot\">" + html + "</div>\n";
 }
 
-bool is_sheet(const fs::path& file) { return file.filename() == "sheet.png"; }
-
 // What else was drawn.
 std::string pictures(const fs::path& folder, PageForm form) {
   std::string html;
   for (const fs::path& file : files_ending(folder, ".png")) {
-    if (!is_plot(file) && !is_sheet(file)) html += picture(file, file.filename().string(), form);
+    if (!is_plot(file) && file.filename() != "sheet.png")
+      html += picture(file, file.filename().string(), form);
   }
   return html;
 }
@@ -119,7 +118,7 @@ std::string turning_cloth(const fs::path& folder) {
 std::string answer(const fs::path& folder, const Manifest& manifest, PageForm form) {
   const fs::path sheet = folder / "sheet.png";
   return "<div class=\"answer\">" +
-         filled("answer.html", {{"question", experiment_question(manifest.experiment)},
+         filled("answer.html", {{"question", experiment_named(manifest.experiment).question},
                                 {"numbers", answer_cards(manifest) + missing_errors(manifest)},
                                 {"picture", is_there(sheet) ? picture(sheet, "contact sheet", form) : ""},
                                 {"turn", turning_cloth(folder)}}) +
@@ -130,7 +129,7 @@ std::string answer(const fs::path& folder, const Manifest& manifest, PageForm fo
 std::string numerics_html(const fs::path& folder, const Manifest& manifest) {
   const std::string all =
       metric_cards(numerics(manifest.metrics)) + html_section("Energy", energy_table(manifest)) +
-      html_section("Run", run_table(manifest)) + html_section("Time series", series_charts(folder, true));
+      html_section("Run", run_table(manifest)) + html_section("Time series", series_charts(folder));
   return html_details("Numerics: solver, energy, times", all, false);
 }
 
@@ -200,16 +199,12 @@ std::string study_runs(const fs::path& folder) {
                       table.rows.size() < 25);
 }
 
-Manifest manifest_in(const fs::path& folder) {
-  if (!has_manifest(folder))
-    throw Error::invalid_input("no run in " + folder.string() + ": it has no manifest.json");
-  return read_manifest(folder / "manifest.json");
-}
-
 }  // namespace
 
 std::string report_page(const fs::path& folder, PageForm form) {
-  return report_page(folder, manifest_in(folder), form);
+  if (!has_manifest(folder))
+    throw Error::invalid_input("no run in " + folder.string() + ": it has no manifest.json");
+  return report_page(folder, read_manifest(folder / "manifest.json"), form);
 }
 
 std::string report_page(const fs::path& folder, const Manifest& manifest, PageForm form) {

@@ -6,12 +6,8 @@
 namespace hysteron::experiments {
 namespace {
 
-constexpr int kThumbnailWidth = 640;  // [pixels]
+constexpr int kShownWidth = 640;      // [pixels] of a picture on a page
 constexpr float kRakingRoom = 0.45f;  // raking light is of a dim room
-
-}  // namespace
-
-namespace {
 
 render::Box framed_box(const Options& options, render::Box box) {
   if (!options.camera_box.empty()) {
@@ -37,12 +33,16 @@ render::PictureSize picture_size(const Options& options) {
   return size;
 }
 
+float picture_aspect(const Options& options) {
+  return static_cast<float>(options.width()) / static_cast<float>(options.height());
+}
+
 render::Camera framed_camera(const Options& options, const render::Box& bounds) {
-  const float aspect = static_cast<float>(options.width()) / static_cast<float>(options.height());
   const Eigen::Vector3f direction = options.camera_direction.cast<float>();
   const float fov = static_cast<float>(options.camera_fov);
   const render::Box box = framed_box(options, bounds);
-  if (options.camera_distance == 0) return render::Camera::framing(box, direction, fov, aspect);
+  if (options.camera_distance == 0)
+    return render::Camera::framing(box, direction, fov, picture_aspect(options));
   const Eigen::Vector3f eye =
       box.center() + static_cast<float>(options.camera_distance) * direction.normalized();
   return render::Camera::perspective(eye, box.center(), fov);
@@ -50,7 +50,7 @@ render::Camera framed_camera(const Options& options, const render::Box& bounds) 
 
 render::Look lit(render::Look look, const Options& options) {
   look.background = options.background;
-  look.shown = std::min(1.0f, static_cast<float>(kThumbnailWidth) / static_cast<float>(options.width()));
+  look.shown = std::min(1.0f, static_cast<float>(kShownWidth) / static_cast<float>(options.width()));
   look.raking = options.light == "raking";
   if (look.raking) look.room = kRakingRoom;
   return look;
@@ -62,11 +62,6 @@ void letter(render::Image& image, const render::Camera& camera, const Eigen::Vec
   render::draw_scale_bar(image, camera.metres_per_pixel(middle, image.height()), render::Corner::bottom_left,
                          "at the cloth's middle");
   if (bar) render::draw_color_bar(image, *bar, render::Corner::bottom_right);
-}
-
-render::Image thumbnail(const render::Image& image) {
-  const int width = std::min(kThumbnailWidth, image.width());
-  return render::shrink(image, width, std::max(1, image.height() * width / image.width()));
 }
 
 std::vector<int> flat_triangles(const std::vector<Eigen::Vector3i>& face) {

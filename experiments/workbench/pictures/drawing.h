@@ -16,6 +16,8 @@ namespace hysteron::experiments {
 
 // The options' size and quality.
 render::PictureSize picture_size(const Options& options);
+// Width over height.
+float picture_aspect(const Options& options);
 // The options' camera: as near as `bounds`, or the options' box, stays whole, unless they give a distance.
 render::Camera framed_camera(const Options& options, const render::Box& bounds);
 // The look in the options' light, "studio" or "raking", before their background.
@@ -24,8 +26,6 @@ render::Look lit(render::Look look, const Options& options);
 // Caption, scale bar (it holds at `middle`) and, where there is one, colour bar.
 void letter(render::Image& image, const render::Camera& camera, const Eigen::Vector3f& middle,
             const std::string& caption, const std::optional<render::ColorBar>& bar);
-// The picture as small as the contact sheet needs it.
-render::Image thumbnail(const render::Image& image);
 
 // Triangles and points as the renderer takes them.
 std::vector<int> flat_triangles(const std::vector<Eigen::Vector3i>& face);

@@ -15,16 +15,14 @@ constexpr int kFormat = 1;
 constexpr std::size_t kMaxHead = 1 << 20;  // [byte] of a record's line
 
 std::vector<int> all_steps(std::span<const float> values, double quantum) {
-  std::vector<int> steps;
-  steps.reserve(values.size());
-  for (const float value : values) steps.push_back(quantum_count(value, quantum));
+  std::vector<int> steps(values.size());
+  std::ranges::transform(values, steps.begin(), [&](float value) { return quantum_count(value, quantum); });
   return steps;
 }
 
 std::vector<float> all_values(const std::vector<int>& steps, double quantum) {
-  std::vector<float> values;
-  values.reserve(steps.size());
-  for (const int step : steps) values.push_back(dequantized(step, quantum));
+  std::vector<float> values(steps.size());
+  std::ranges::transform(steps, values.begin(), [&](int step) { return static_cast<float>(quantum * step); });
   return values;
 }
 
@@ -112,10 +110,7 @@ Kept kept_contents(const std::vector<KeptRecord>& records) {
 int quantum_count(double value, double quantum) { return static_cast<int>(std::lround(value / quantum)); }
 
 std::vector<float> rounded(std::span<const float> values, double quantum) {
-  std::vector<float> result;
-  result.reserve(values.size());
-  for (const float value : values) result.push_back(dequantized(quantum_count(value, quantum), quantum));
-  return result;
+  return all_values(all_steps(values, quantum), quantum);
 }
 
 KeptRecord mesh_record(const DrawnMesh& mesh) {

@@ -31,7 +31,6 @@ inline constexpr const char* kKeptSheet = "sheet.hyg";    // of those on its she
 
 // The nearest multiple.
 int quantum_count(double value, double quantum);
-inline float dequantized(int steps, double quantum) { return static_cast<float>(quantum * steps); }
 std::vector<float> rounded(std::span<const float> values, double quantum);
 
 struct DrawnMesh {

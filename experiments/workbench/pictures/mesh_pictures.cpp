@@ -3,7 +3,6 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "experiments/workbench/pictures/drawing.h"
 #include "experiments/workbench/pictures/fabric_look.h"
 #include "sim/base/error.h"
 #include "sim/base/root_mean_square.h"
@@ -59,11 +58,6 @@ void MeshPictures::add_body(const Surface& body) {
   view_.add_obstacle(matte_mesh(body), Eigen::Matrix4f::Identity());
 }
 
-std::vector<float> MeshPictures::frame_curvature(const Surface& frame, const std::string& what) const {
-  if (!choice_.stored_curvature) return surface_curvature(frame.vertex, frame.face, what);
-  return {frame.curvature.begin(), frame.curvature.end()};
-}
-
 render::Image MeshPictures::picture(const Surface& frame, const std::string& what) {
   if (frame.face != face_ || frame.vertex.size() != vertices_) {
     face_ = frame.face;
@@ -72,7 +66,10 @@ render::Image MeshPictures::picture(const Surface& frame, const std::string& wha
   }
   view_.set_positions(flat_points(frame.vertex));
   if (look_.show == render::Show::curvature) {
-    curvature_ = frame_curvature(frame, what);
+    if (choice_.stored_curvature)
+      curvature_.assign(frame.curvature.begin(), frame.curvature.end());
+    else
+      curvature_ = surface_curvature(frame.vertex, frame.face, what);
     view_.set_values(curvature_);
   }
   render::Image image = view_.draw(camera());

@@ -6,9 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/workbench/app/options.h"
-#include "render/camera.h"
-#include "render/cloth_view.h"
+#include "experiments/workbench/pictures/drawing.h"
 #include "sim/mesh/surface.h"
 
 namespace hysteron::experiments {
@@ -46,8 +44,6 @@ class MeshPictures {
   std::optional<double> curvature_rms() const;
 
  private:
-  std::vector<float> frame_curvature(const Surface& frame, const std::string& what) const;
-
   Options options_;
   Choice choice_;
   render::Look look_;

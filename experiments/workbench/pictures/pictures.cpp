@@ -35,10 +35,6 @@ Error no_cloth_in(const std::string& picture, double time) {
       fmt::format("{} shows no cloth at t = {:.3f} s: frame where it is (--camera.box)", picture, time));
 }
 
-float picture_aspect(const Options& options) {
-  return static_cast<float>(options.width()) / static_cast<float>(options.height());
-}
-
 // Those that look different, in their order.
 std::vector<render::SheetEntry> distinct_cells(const std::vector<render::SheetEntry>& cells) {
   std::vector<render::SeenPicture> seen;
@@ -186,10 +182,9 @@ void Pictures::watch_border(Run& run, const std::filesystem::path& file, const s
                   subject_->time(), file.lexically_relative(run.folder()).string()));
 }
 
-void Pictures::frame(Run& run, const std::vector<Eigen::Vector3d>& x, const render::Path& loop) {
+void Pictures::frame(Run& run, const std::vector<float>& xyz, const render::Path& loop) {
   const Stopwatch waited(waited_seconds_);
-  KeptState instant{
-      subject_->time(), rounded(flat_points(x), subject_->mesh().quantum), {}, loop.curvature.size()};
+  KeptState instant{subject_->time(), rounded(xyz, subject_->mesh().quantum), {}, loop.curvature.size()};
   take_positions(instant.xyz);
   std::vector<Order> orders;
   for (const std::string& look : options_.looks()) {
@@ -304,6 +299,7 @@ render::Image Pictures::sheet_picture(SceneRenderer& studio, const KeptInstant& 
 
 // Instants that look like one before are left out, but for the last.
 std::vector<render::SheetEntry> Pictures::sheet_cells(const std::vector<KeptInstant>& instants,
+                                                      const std::vector<KeptInstant>& motion,
                                                       const SheetView& view) {
   const int width = static_cast<int>(std::lround(std::sqrt(kCellPixels * view.aspect))),
             height = static_cast<int>(std::lround(width / view.aspect));
@@ -311,18 +307,16 @@ std::vector<render::SheetEntry> Pictures::sheet_cells(const std::vector<KeptInst
     const Stopwatch watch(render_seconds_);
     studio.take_size({width, height, picture_size(options_).samples});
     std::vector<render::SheetEntry> cells;
+    const auto add = [&](render::Image image, const std::string& words, const render::Path& loop) {
+      cells.push_back({std::move(image), words, {.path = loop, .color = color_of_law(scene_.law)}});
+    };
     std::vector<render::Image> skins;
-    const std::vector<KeptInstant> motion =
-        onion_until_ > 0 ? chosen(skin_times_, kSkins, onion_until_) : std::vector<KeptInstant>{};
     for (const KeptInstant& instant : motion) skins.push_back(sheet_picture(studio, instant, view));
     if (!skins.empty())
-      cells.push_back({render::onion_skin(skins),
-                       fmt::format("0–{:.2f} s, over each other", motion.back().time),
-                       {motion.back().loop, {}, color_of_law(scene_.law), {}}});
+      add(render::onion_skin(skins), fmt::format("0–{:.2f} s, over each other", motion.back().time),
+          motion.back().loop);
     for (const KeptInstant& instant : instants)
-      cells.push_back({sheet_picture(studio, instant, view),
-                       instant.caption,
-                       {instant.loop, {}, color_of_law(scene_.law), {}}});
+      add(sheet_picture(studio, instant, view), instant.caption, instant.loop);
     cells = distinct_cells(cells);
     for (const FurtherView& view_from : further_) cells.push_back(further_cell(studio, view_from, view));
     return cells;
@@ -353,7 +347,7 @@ void Pictures::write_sheet(Run& run, const std::string& title) {
   std::vector<KeptInstant> shown = instants;
   shown.insert(shown.end(), skins.begin(), skins.end());
   const SheetView view = sheet_view(shown);
-  std::vector<render::SheetEntry> cells = sheet_cells(instants, view);
+  std::vector<render::SheetEntry> cells = sheet_cells(instants, skins, view);
   render::LoopFrame frame;
   for (const render::SheetEntry& cell : cells) frame.include(cell.loop.path);
   for (render::SheetEntry& cell : cells) cell.loop.frame = frame;

@@ -46,10 +46,10 @@ class Pictures {
 
   // Has the present state drawn as the next of frames/, captioned with what is simulated and the time; in
   // further looks as the next of frames-LOOK/.  Returns when positions and values are taken; throws what went
-  // wrong with an earlier one, Error::simulation where it shows no cloth.  `x`: the positions, of which the
-  // first beyond the picture's border is a warning; `loop`: of a probe so far, shown in a corner unless it is
-  // empty.  What it is drawn from is added to frames.hyg.
-  void frame(Run& run, const std::vector<Eigen::Vector3d>& x, const render::Path& loop = {});
+  // wrong with an earlier one, Error::simulation where it shows no cloth.  `xyz`: the positions, of which
+  // the first beyond the picture's border is a warning; `loop`: of a probe so far, shown in a corner unless
+  // it is empty.  What it is drawn from is added to frames.hyg.
+  void frame(Run& run, const std::vector<float>& xyz, const render::Path& loop = {});
   // Draws the present state in a look of its own, with caption and colour bar.  Error::simulation where it
   // shows no cloth.
   render::Image picture(const std::string& look, const render::Camera& camera, const std::string& caption);
@@ -106,7 +106,7 @@ class Pictures {
   render::Look sheet_look() const;
   render::Image sheet_picture(SceneRenderer& studio, const KeptInstant& instant, const SheetView& view) const;
   std::vector<render::SheetEntry> sheet_cells(const std::vector<KeptInstant>& instants,
-                                              const SheetView& view);
+                                              const std::vector<KeptInstant>& motion, const SheetView& view);
   render::SheetEntry further_cell(SceneRenderer& studio, const FurtherView& from,
                                   const SheetView& view) const;
   void write_sheet(Run& run, const std::string& title);

@@ -40,10 +40,11 @@ struct Raster {
   }
 };
 
-// Runs of nodes above the threshold along a line, and the line's length on the sheet in nodes.
-struct Line {
+// Runs of nodes above the threshold along lines, and the lines' length on the sheet in nodes.
+struct Lines {
   long ridges = 0, nodes = 0;
   bool inside = false;
+  void begin() { inside = false; }
   void visit(float value, double threshold) {
     const bool above = value > threshold;
     ridges += above && !inside;
@@ -97,18 +98,16 @@ double ridge_length(const ClothMesh& mesh, const std::vector<Eigen::Vector2d>& a
     raster.fill(p, {value[t[0]], value[t[1]], value[t[2]]});
     area += mesh.face_area[f];
   }
-  long ridges = 0, nodes = 0;
+  Lines lines;
   for (int j = 0; j < raster.ny; ++j) {
-    Line line;
-    for (int i = 0; i < raster.nx; ++i) line.visit(raster.at(i, j), threshold);
-    ridges += line.ridges, nodes += line.nodes;
+    lines.begin();
+    for (int i = 0; i < raster.nx; ++i) lines.visit(raster.at(i, j), threshold);
   }
   for (int i = 0; i < raster.nx; ++i) {
-    Line line;
-    for (int j = 0; j < raster.ny; ++j) line.visit(raster.at(i, j), threshold);
-    ridges += line.ridges, nodes += line.nodes;
+    lines.begin();
+    for (int j = 0; j < raster.ny; ++j) lines.visit(raster.at(i, j), threshold);
   }
-  return nodes > 0 ? std::numbers::pi / 2 * area * ridges / (nodes * spacing) : 0;
+  return lines.nodes > 0 ? std::numbers::pi / 2 * area * lines.ridges / (lines.nodes * spacing) : 0;
 }
 
 std::vector<double> area_fractions(const std::vector<double>& value, const std::vector<double>& area,

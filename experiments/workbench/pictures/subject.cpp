@@ -62,44 +62,38 @@ std::vector<float> heights(const std::vector<float>& xyz) {
 class ReferenceRun {
  public:
   // `folder`: of a run with pictures and `--export ply`.  Throws Error::invalid_input if it is none.
-  explicit ReferenceRun(fs::path folder);
+  explicit ReferenceRun(fs::path folder) : folder_(std::move(folder)) {
+    const fs::path file = folder_ / "manifest.json";
+    const Json json = json_or_none(file);
+    if (json.is_object())
+      if (const Manifest manifest = checked_manifest(json, file); manifest.frames)
+        for (const Frames::Instant& instant : manifest.frames->instants) time_.push_back(instant.time);
+    std::error_code ignored;
+    if (time_.empty() || !fs::exists(folder_ / "mesh" / "0000.ply", ignored))
+      throw refusal("must be the folder of a run with pictures and --export ply");
+  }
 
   // One a vertex [1/m], at that run's instant nearest to `time` [s]: its last one where it ended before.
   // Throws Error::invalid_input if its triangles are not those of `mesh`.
-  std::vector<float> curvature(const ClothMesh& mesh, double time) const;
+  std::vector<float> curvature(const ClothMesh& mesh, double time) const {
+    const auto nearest = std::ranges::min_element(time_, {}, [&](double t) { return std::abs(t - time); });
+    const std::string name = fmt::format("{:04}.ply", nearest - time_.begin());
+    const Surface surface = read_surface((folder_ / "mesh" / name).string());
+    if (surface.face != mesh.face || surface.curvature.size() != mesh.rest.size())
+      throw refusal(fmt::format("has other triangles than this cloth ({} and {}): run it with the same mesh",
+                                surface.face.size(), mesh.face.size()));
+    return {surface.curvature.begin(), surface.curvature.end()};
+  }
 
  private:
+  Error refusal(const std::string& why) const {
+    return Error::invalid_input("reference = " + folder_.string() + " " + why + " (--reference)")
+        .with_key("reference", folder_.string());
+  }
+
   fs::path folder_;
   std::vector<double> time_;  // of each instant [s]
 };
-
-ReferenceRun::ReferenceRun(fs::path folder) : folder_(std::move(folder)) {
-  const fs::path file = folder_ / "manifest.json";
-  const Json json = json_or_none(file);
-  if (json.is_object())
-    if (const Manifest manifest = checked_manifest(json, file); manifest.frames)
-      for (const Frames::Instant& instant : manifest.frames->instants) time_.push_back(instant.time);
-  std::error_code ignored;
-  if (time_.empty() || !fs::exists(folder_ / "mesh" / "0000.ply", ignored))
-    throw Error::invalid_input("reference = " + folder_.string() +
-                               " must be the folder of a run with pictures and --export ply (--reference)")
-        .with_key("reference", folder_.string());
-}
-
-std::vector<float> ReferenceRun::curvature(const ClothMesh& mesh, double time) const {
-  const auto nearest = std::min_element(time_.begin(), time_.end(), [&](double a, double b) {
-    return std::abs(a - time) < std::abs(b - time);
-  });
-  const std::string name = fmt::format("{:04}.ply", nearest - time_.begin());
-  const Surface surface = read_surface((folder_ / "mesh" / name).string());
-  if (surface.face != mesh.face || surface.curvature.size() != mesh.rest.size())
-    throw Error::invalid_input("reference = " + folder_.string() + " has other triangles than this cloth (" +
-                               std::to_string(surface.face.size()) + " and " +
-                               std::to_string(mesh.face.size()) +
-                               "): run it with the same mesh (--reference)")
-        .with_key("reference", folder_.string());
-  return {surface.curvature.begin(), surface.curvature.end()};
-}
 
 class SimulatedSubject : public Subject {
  public:
@@ -112,7 +106,18 @@ class SimulatedSubject : public Subject {
   const DrawnMesh& mesh() const override { return mesh_; }
   double time() const override { return simulation_.time(); }
   std::vector<float> positions() override { return flat_points(simulation_.positions()); }
-  std::vector<float> values(const std::string& look) override;
+  std::vector<float> values(const std::string& look) override {
+    const int d = simulation_.dimension();
+    if (look == "residual") return vertex_curvature(cloth_.mesh, simulation_.residual_curvature(), d);
+    if (look == "height") return heights(positions());
+    if (look == "friction") return vertex_average(cloth_.mesh, simulation_.friction_share(), d);
+    if (look != "curvature" && look != "difference") return {};
+    std::vector<float> curvature = vertex_curvature(cloth_.mesh, simulation_.curvature(), d);
+    if (look == "curvature") return curvature;
+    const std::vector<float> other = reference_->curvature(cloth_.mesh, simulation_.time());
+    std::transform(curvature.begin(), curvature.end(), other.begin(), curvature.begin(), std::minus<>());
+    return curvature;
+  }
   int cuda_device() const override { return simulation_.cuda_device(); }
   std::unique_ptr<GlPositions> share_positions(unsigned gl_buffer, int gl_device,
                                                std::string& reason) override {
@@ -125,19 +130,6 @@ class SimulatedSubject : public Subject {
   DrawnMesh mesh_;
   std::optional<ReferenceRun> reference_;
 };
-
-std::vector<float> SimulatedSubject::values(const std::string& look) {
-  const int d = simulation_.dimension();
-  if (look == "residual") return vertex_curvature(cloth_.mesh, simulation_.residual_curvature(), d);
-  if (look == "height") return heights(positions());
-  if (look == "friction") return vertex_average(cloth_.mesh, simulation_.friction_share(), d);
-  if (look != "curvature" && look != "difference") return {};
-  std::vector<float> curvature = vertex_curvature(cloth_.mesh, simulation_.curvature(), d);
-  if (look == "curvature") return curvature;
-  const std::vector<float> other = reference_->curvature(cloth_.mesh, simulation_.time());
-  std::transform(curvature.begin(), curvature.end(), other.begin(), curvature.begin(), std::minus<>());
-  return curvature;
-}
 
 }  // namespace
 

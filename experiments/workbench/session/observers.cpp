@@ -7,6 +7,7 @@
 
 #include "experiments/workbench/compare/errors.h"
 #include "experiments/workbench/pages/closing_summary.h"
+#include "experiments/workbench/pictures/drawing.h"
 #include "experiments/workbench/session/doubts.h"
 #include "experiments/workbench/session/intersection_count.h"
 #include "experiments/workbench/session/mesh_export.h"
@@ -58,7 +59,7 @@ class Drawing : public Observer {
     run_->progress("pictures: " + pictures_->renderer() + "; positions: " + pictures_->positions_route());
   }
   void record(Session& session, const Snapshot& instant) override {
-    if (session.is_pictured(instant)) pictures_->frame(*run_, instant.x, probes_.loop());
+    if (session.is_pictured(instant)) pictures_->frame(*run_, flat_points(instant.x), probes_.loop());
   }
   void finish(Session& session, const std::string& title) override {
     const std::string rest_warning = not_at_rest_warning(run_->metrics());

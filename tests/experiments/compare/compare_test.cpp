@@ -42,7 +42,6 @@ TEST(Matching, OfSmallStrainGivesTheInitialSlope) {
   EXPECT_NEAR(matching_scale(law_called("linear"), law_called("prandtl"), Match::small_strain, 1),
               kCurve.b1 / kCurve.b2, 1e-4);
   EXPECT_EQ(matching_scale(law_called("linear"), law_called("prandtl"), Match::fabric, 1), 1);
-  EXPECT_THROW(match_named("stiffness"), Error);
 }
 
 TEST(Outline, IsTheEdgeOfTheSilhouetteOnly) {
