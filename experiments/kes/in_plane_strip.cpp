@@ -34,13 +34,10 @@ Scene strip_scene(const Fabric& fabric, Along along, const InPlaneSpecimen& spec
   scene.device = DeviceChoice::cpu;
   scene.threads = 1;
   scene.pin = {held_between(-1, 0), held_between(kInPlaneGauge, 1)};
-  scene.pin[1].motion.keys = {{}};
-  for (const ClampPlace& place : places) {
-    Keyframe key;
-    key.time = scene.pin[1].motion.keys.back().time + scene.step;
-    key.position = {kInPlaneGauge * place.apart, kInPlaneGauge * place.along, 0};
-    scene.pin[1].motion.keys.push_back(key);
-  }
+  std::vector<Keyframe>& keys = scene.pin[1].motion.keys = {{}};
+  for (const ClampPlace& place : places)
+    keys.push_back(
+        {keys.back().time + scene.step, {kInPlaneGauge * place.apart, kInPlaneGauge * place.along, 0}});
   return scene;
 }
 
