@@ -97,17 +97,13 @@ void throw_if_strip_keys(const CommandLine& line) {
 
 // Where no equilibrium is found, the test of other laws goes on.
 StripResult strip_tested(const Fabric& fabric, const KesFlags& flags, const LawRequest& law) {
-  const ClampedStrip strip = clamped_strip(flags.strip, law, fabric, flags.protocol);
   StripResult result;
-  result.mesh = flags.strip.mesh;
-  result.element = enum_name(flags.strip.element);
-  result.triangles = strip.cloth.mesh.faces();
-  result.spacing = strip.spacing;
-  result.walk = strip.walk;
-  StripPictures pictures(flags.options, strip);
+  result.strip = clamped_strip(flags.strip, law, fabric, flags.protocol);
+  StripPictures pictures(flags.options, result.strip);
   const StripWatch watch = [&](std::size_t row, Simulation& simulation) { pictures.watch(row, simulation); };
   try {
-    result.test = test_strip(strip, law, flags.protocol, flags.options.no_images ? StripWatch{} : watch);
+    result.test =
+        test_strip(result.strip, law, flags.protocol, flags.options.no_images ? StripWatch{} : watch);
     result.pictures = pictures.taken(result.test);
     result.renderer = pictures.renderer();
   } catch (const Error& error) {
@@ -115,7 +111,7 @@ StripResult strip_tested(const Fabric& fabric, const KesFlags& flags, const LawR
     result.failure = error.what();
   }
   if (!flags.options.quiet && result.failure.empty())
-    std::cerr << fabric.name << ", " << law.name << ", strip " << result.mesh << ": tested" << std::endl;
+    std::cerr << fabric.name << ", " << law.name << ", strip " << flags.strip.mesh << ": tested" << std::endl;
   return result;
 }
 
@@ -123,7 +119,7 @@ StripResult strip_tested(const Fabric& fabric, const KesFlags& flags, const LawR
 void warn_of_failures(const KesTests& tests, Run& run) {
   for (const KesResult& result : tests.results)
     if (result.strip && !result.strip->failure.empty())
-      run.warn(tests.fabric.name + ", " + result.law + ", strip " + result.strip->mesh + ": " +
+      run.warn(tests.fabric.name + ", " + result.law + ", strip " + result.strip->strip.scene.mesh + ": " +
                result.strip->failure);
 }
 
