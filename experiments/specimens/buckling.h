@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/scene/cloth.h"
+#include "experiments/specimens/cantilever_strip.h"
 #include "sim/time/simulation.h"
 
 namespace hysteron::experiments {
@@ -30,21 +30,17 @@ double reference_gamma(Buckling kind, const Scene& scene);
 // L/20 that is 3.1 %, and 0.06 % too little.
 double fraction_of_width(Buckling kind, const Scene& scene, double length);
 
-struct BucklingStrip {
+struct BucklingStrip : CantileverStrip {
   Buckling kind;
-  Scene scene;
-  Cloth cloth;
-  double length = 0;     // of the cloth that bends, from the middle of the clamp's columns [m]
   Eigen::Vector3d side;  // where it buckles to: the cloth's normal at the start
 
   // Mean displacement of the free end to that side [m].
   double deflection(const std::vector<Eigen::Vector3d>& x) const;
 };
 
-// Makes the scene's cloth a strip of its family of `length`, scene.cloth.width wide, of about scene.triangles
-// triangles, clamps it as `kind` asks, and has gravity pull it `tilt` [rad] to the side.  Its density becomes
-// such that the weight grows to `most` times that of the reference in scene.ramp = `most` seconds; pins of
-// the scene are replaced.  Error::invalid_input for impossible meshes.
+// The scene's cloth as overhang() makes it, clamped as `kind` asks, with gravity that pulls it `tilt` [rad]
+// to the side.  Its density becomes such that the weight grows to `most` times that of the reference in
+// scene.ramp = `most` seconds.
 BucklingStrip buckling_strip(Scene scene, Buckling kind, double length, double tilt, double most);
 
 // For measuring thresholds: a tilt under which the strip deflects in proportion to it, a weight that reaches
