@@ -245,7 +245,7 @@ FabAnswer fit_fab(const FabFlags& flags, const std::string& units, double densit
   return answer;
 }
 
-void report_fab(Run& run, const FabAnswer& answer, const FabricNotes& notes, bool pictures) {
+void report_fab(Run& run, const FabAnswer& answer, const FabricNotes& notes) {
   for (const FabBending& b : answer.found.bending)
     if (!b.converged) run.warn("along " + b.direction + " the fit of bending did not converge");
   for (const FabTension& t : answer.found.tension)
@@ -259,7 +259,7 @@ void report_fab(Run& run, const FabAnswer& answer, const FabricNotes& notes, boo
   const std::vector<FabPrediction> predictions = predict(answer, notes.density.value_or(0));
   write_predictions(run, predictions);
   write_compared_loops(run, predictions);
-  if (pictures) draw_predictions(run, notes.name, predictions);
+  draw_predictions(run, notes.name, predictions);
 }
 
 std::string summary(const FabAnswer& answer) {
