@@ -69,13 +69,6 @@ double extrapolated_threshold(const Southwell& plot, int power) {
 
 }  // namespace
 
-Buckling buckling_named(const std::string& name) {
-  if (name == "upright") return Buckling::upright;
-  if (name == "edge") return Buckling::edge;
-  throw Error::invalid_input("buckle.kind = " + name + " is unknown; choose upright or edge")
-      .with_key("buckle.kind", name);
-}
-
 int power_of_load(Buckling kind) { return kind == Buckling::upright ? 1 : 2; }
 
 double reference_gamma(Buckling kind, const Scene& scene) {

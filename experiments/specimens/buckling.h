@@ -2,7 +2,7 @@
 // the theory of beams says of it.
 #pragma once
 
-#include <string>
+#include <array>
 #include <vector>
 
 #include "experiments/specimens/cantilever_strip.h"
@@ -13,7 +13,7 @@ namespace hysteron::experiments {
 // upright: it stands on its clamp and falls over (Greenhill 1881).
 // edge: it is clamped level, its width vertical, and turns over sideways (Prandtl 1899).
 enum class Buckling { upright, edge };
-Buckling buckling_named(const std::string& name);  // Error::invalid_input for unknown ones
+constexpr std::array<const char*, 2> names(Buckling) { return {"upright", "edge"}; }
 
 // Heaviness Gamma, weight per area times L^3/b2, at which a strip of this law and fabric buckles that is
 // narrow, b << L, and bends far more easily out of its plane than in it.  Its bending rigidity is EI = B b
