@@ -1,19 +1,29 @@
 #include "experiments/kes/in_plane.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "experiments/kes/in_plane_strip.h"
+#include "experiments/specimens/clamped_mesh.h"
 #include "experiments/workbench/app/run.h"
 #include "experiments/workbench/pages/report.h"
 #include "render/plot.h"
 #include "sim/base/csv.h"
 #include "sim/base/error.h"
+#include "sim/reference/kes_in_plane.h"
+#include "sim/scene/cloth.h"
 #include "sim/scene/keys.h"
+#include "sim/time/simulation.h"
 
 namespace hysteron::experiments {
 namespace {
+
+struct InPlaneSpecimen {
+  std::string mesh = "aligned";
+  int triangles = 2000;  // about
+  int steps = 16;        // equilibria from zero to the largest: a multiple of 16 reads shear where they are
+};
 
 struct InPlaneFlags {
   std::string test = "shear";
@@ -47,6 +57,112 @@ Keys option_keys(InPlaneFlags& flags) {
   for (const BoundKey& key : bind(kOwnRows, flags)) keys.push_back(key);
   return with_output_options(keys, flags.options);
 }
+
+// ---- on a specimen of cloth between two clamps: one equilibrium per row, no weight of its own ----
+
+constexpr double kInPlaneGauge = 0.05, kInPlaneWidth = 0.2;  // of the tester's specimen [m]
+
+// Clamps lead along the way that uniform strain takes; what the free edges change, their forces show.  The
+// cloth stays in its plane, which it does not leave without a disturbance.
+template <class Test>
+struct InPlaneCloth {
+  Test test;           // its rows and readings, of the specimen
+  double tension = 0;  // per width, mean over the rows of shear [N/m]
+  int triangles = 0;
+  double seconds = 0;  // wall clock
+};
+
+using Clock = std::chrono::steady_clock;
+
+// Where the moving clamp goes, over the gauge: apart and along itself.
+struct ClampPlace {
+  double apart, along;
+};
+
+Scene strip_scene(const Fabric& fabric, Along along, const InPlaneSpecimen& specimen,
+                  const std::vector<ClampPlace>& places) {
+  Scene scene;
+  scene.fabric = fabric;
+  scene.fabric.damping = 0;
+  scene.cloth.shape = "strip";
+  scene.cloth.length = kInPlaneGauge;
+  scene.cloth.width = kInPlaneWidth;
+  scene.cloth.warp_angle = along == Along::warp ? 0 : 90;
+  scene.mesh = specimen.mesh;
+  scene.triangles = specimen.triangles;
+  scene.integrator = Integrator::quasi_static;
+  scene.gravity.setZero();
+  scene.step = 1;
+  scene.seconds = static_cast<double>(places.size());
+  scene.device = DeviceChoice::cpu;
+  scene.threads = 1;
+  scene.pin = {held_between(-1, 0), held_between(kInPlaneGauge, 1)};
+  std::vector<Keyframe>& keys = scene.pin[1].motion.keys = {{}};
+  for (const ClampPlace& place : places)
+    keys.push_back(
+        {keys.back().time + scene.step, {kInPlaneGauge * place.apart, kInPlaneGauge * place.along, 0}});
+  return scene;
+}
+
+// Of the moving clamp at each place, per width: apart and along itself [N/m].
+struct ClampForces {
+  std::vector<ClampPlace> force;
+  int triangles = 0;
+  double seconds = 0;
+};
+
+ClampForces forces_at(const Fabric& fabric, Along along, const InPlaneSpecimen& specimen,
+                      const std::vector<ClampPlace>& places) {
+  const Scene scene = strip_scene(fabric, along, specimen, places);
+  const Cloth cloth = make_cloth(scene);
+  const auto simulation = make_simulation(scene, cloth);
+  ClampForces result;
+  result.triangles = cloth.mesh.faces();
+  const auto start = Clock::now();
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    simulation->advance(1);
+    const std::vector<Eigen::Vector3d> force = simulation->handle_forces();
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (const int vertex : cloth.pin_vertices[1]) sum += force[vertex];
+    result.force.push_back({sum.x() / kInPlaneWidth, sum.y() / kInPlaneWidth});
+  }
+  result.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  return result;
+}
+
+// `along`: the direction from clamp to clamp.  Throws Error::simulation where no equilibrium is found.
+InPlaneCloth<ShearTest> shear_cloth(const Fabric& fabric, Along along, const InPlaneSpecimen& specimen,
+                                    InPlaneProtocol protocol) {
+  protocol.steps = specimen.steps;
+  const ShearTest law = test_shear(in_plane_law(fabric, along), protocol);
+  std::vector<ClampPlace> places;
+  for (std::size_t i = 0; i < law.force.size(); ++i)
+    places.push_back({law.walk.stretch[i] - 1, law.walk.shear.rows[i].curvature});
+  const ClampForces forces = forces_at(fabric, along, specimen, places);
+  InPlaneCloth<ShearTest> cloth{{{}, law.walk, {}}, 0, forces.triangles, forces.seconds};
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const auto [tension, force] = forces.force[i];
+    cloth.test.force.push_back(force - tension * places[i].along / law.walk.stretch[i]);
+    cloth.tension += tension / static_cast<double>(places.size());
+  }
+  cloth.test.reading = read_shear(protocol, law.walk.shear, cloth.test.force);
+  return cloth;
+}
+
+InPlaneCloth<TensionTest> stretch_cloth(const Fabric& fabric, Along along, const InPlaneSpecimen& specimen,
+                                        InPlaneProtocol protocol) {
+  protocol.steps = specimen.steps;
+  const TensionTest law = test_tension(in_plane_law(fabric, along), protocol);
+  std::vector<ClampPlace> places;
+  for (std::size_t i = 1; i < law.extension.size(); ++i) places.push_back({law.extension[i], 0});
+  const ClampForces forces = forces_at(fabric, along, specimen, places);
+  InPlaneCloth<TensionTest> cloth{{{}, law.extension, {0}, law.turn}, 0, forces.triangles, forces.seconds};
+  for (const ClampPlace& of : forces.force) cloth.test.force.push_back(of.apart);
+  cloth.test.reading = read_tension(cloth.test.extension, cloth.test.force, law.turn);
+  return cloth;
+}
+
+// ---- metrics, tables and plot ----
 
 enum class InPlaneTest { shear, tension };
 constexpr auto names(InPlaneTest) { return std::array{"shear", "tension"}; }
