@@ -45,7 +45,7 @@ void vary(std::vector<Setting>& list, const Setting& base, const std::string& fa
 
 // What came of it.
 struct Found {
-  double value = 0, reference = 0;  // of the problem's quantity
+  double value = 0, reference = 0;  // of what the problem asks for
   double error = 0;                 // as the problem defines it, no sign, 0.01 is 1 %
   double uncertainty = 0;           // of the reference, in the error's unit; 0: beyond the digits that count
   int triangles = 0;
@@ -58,7 +58,6 @@ struct Found {
 struct Problem {
   std::string name;       // "sag"
   std::string title;      // of the plot
-  std::string quantity;   // what `value` is, with its unit
   std::string error;      // what `error` is
   std::string reference;  // where the reference comes from
   std::vector<Setting> settings;
@@ -80,6 +79,17 @@ Scene with(const Setting& setting, Scene scene);
 // Steps and bytes of a simulation, and the seconds since `start`, when it was begun.
 void note_cost(Simulation& simulation, const Scene& scene, std::chrono::steady_clock::time_point start,
                Found& found);
+
+// A motion that settings differ in: its scene for a mesh, its size, and what to read off it.
+struct MotionQuestion {
+  std::function<Scene(const Setting&)> scene;
+  double length = 0, sampling = 0;  // [m], [s]
+  double reference_step = 0;        // of the references by bdf2, one per mesh and size [s]
+  std::function<double(const Cloth&, const std::vector<Eigen::Vector3d>&)> value;
+};
+// Gives the problem its solve(): error is the distance of the positions at sampled times from those of a run
+// of the same mesh with very small steps.
+void ask_for_motion(const MotionQuestion& question, Problem& problem);
 
 Problem sag_problem(const Effort& effort);     // heavy strips against the elastica
 Problem droop_problem(const Effort& effort);   // what remains of the sag with friction, unloaded

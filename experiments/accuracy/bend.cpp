@@ -50,7 +50,6 @@ Found bend(const Setting& setting) {
 Problem bend_problem(const Effort& effort) {
   Problem problem{"bend",
                   "Pure bending to 2.5 per cm and back: a strip's loop",
-                  "B [N m]",
                   "largest of |B|, |2HB|, |loop area| over the law's own - 1",
                   "the law alone through the same curvatures",
                   {},

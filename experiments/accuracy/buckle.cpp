@@ -51,7 +51,6 @@ Problem buckle_problem(const Effort& effort) {
   Problem problem{
       "buckle",
       "Strips that buckle under their own weight, upright (0) and on edge (1)",
-      "critical Gamma, density g L^3/b2",
       "|critical Gamma over the reference - 1|",
       "Timoshenko & Gere 1961: 7.8373 upright, 12.8538 sqrt2 on edge; there with the clamp's hold on "
       "warping",

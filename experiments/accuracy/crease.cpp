@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "experiments/accuracy/motion.h"
+#include "experiments/accuracy/accuracy.h"
 #include "experiments/specimens/clamped_mesh.h"
 
 namespace hysteron::experiments {
@@ -68,16 +68,11 @@ void vary_steps(const Setting& base, bool quick, std::vector<Setting>& list) {
 Problem crease_problem(const Effort& effort) {
   Problem problem{"crease",
                   "A crease, folded and let go: motion through reversals",
-                  "opening angle [degree]",
                   "position error (root mean square) over the length",
                   "bdf2 with 1/64 of 1/60 s on the same mesh",
                   {},
                   {}};
-  MotionQuestion question{crease, kLength, kSampling, {}, opening_angle};
-  question.reference.integrator = Integrator::bdf2;
-  question.reference.step = kFrame / (effort.quick ? 16 : 64);
-  ask_for_motion(question, problem);
-  problem.reference_per_mesh = true;
+  ask_for_motion({crease, kLength, kSampling, kFrame / (effort.quick ? 16 : 64), opening_angle}, problem);
   Setting base;
   base.mesh = "random";
   base.law = "prandtl";

@@ -78,7 +78,6 @@ Found solve(const Setting& setting) {
 Problem decay_problem(const Effort& effort) {
   Problem problem{"decay",
                   "Free vibrations of a clamped strip: amplitude lost in 20 cycles",
-                  "lost amplitude over the first (load 0: hyperbolic, 1: linear, 2: exponential decay)",
                   "|lost amplitude over that of the energy balance - 1|",
                   "energy balance of the first mode with the closed areas of the law's loops",
                   {},

@@ -2,7 +2,6 @@
 #include <cmath>
 #include <map>
 #include <memory>
-#include <tuple>
 
 #include "experiments/accuracy/accuracy.h"
 #include "experiments/kes/strip.h"
@@ -52,18 +51,13 @@ Sag sag_of_curve(const Scene& scene) {
   return {(4 * fine.loaded - coarse.loaded) / 3, (4 * fine.last - coarse.last) / 3};
 }
 
-// The same reference serves many settings.
-class Curves {
- public:
-  const Sag& of(const Scene& scene, const Setting& setting) {
-    const auto [at, is_new] = known_.try_emplace({setting.law, setting.load});
-    if (is_new) at->second = sag_of_curve(scene);
-    return at->second;
-  }
-
- private:
-  std::map<std::pair<std::string, double>, Sag> known_;
-};
+// By law and load: the same reference serves many settings.
+using Curves = std::map<std::pair<std::string, double>, Sag>;
+const Sag& curve_of(Curves& known, const Scene& scene, const Setting& setting) {
+  const auto [at, is_new] = known.try_emplace({setting.law, setting.load});
+  if (is_new) at->second = sag_of_curve(scene);
+  return at->second;
+}
 
 Sag sag_of_cloth(const Scene& scene, Found& found) {
   const CantileverStrip strip = overhang(scene, kLength);
@@ -119,7 +113,6 @@ void vary_elements(const Setting& base, bool quick, std::vector<Setting>& list) 
 Problem sag_problem(const Effort& effort) {
   Problem problem{"sag",
                   "Heavy strip (Gamma = 10): drop of the free end",
-                  "drop over length",
                   "|drop over that of the elastica - 1|",
                   "the heavy elastica with the same law, extrapolated from 60 and 120 segments",
                   {},
@@ -146,7 +139,7 @@ Problem sag_problem(const Effort& effort) {
   problem.solve = [curves = std::make_shared<Curves>()](const Setting& setting) {
     Found found;
     const Scene scene = sag_scene(setting, false);
-    found.reference = curves->of(scene, setting).loaded;
+    found.reference = curve_of(*curves, scene, setting).loaded;
     found.value = sag_of_cloth(scene, found).loaded;
     found.error = std::abs(found.value / found.reference - 1);
     return found;
@@ -157,7 +150,6 @@ Problem sag_problem(const Effort& effort) {
 Problem droop_problem(const Effort& effort) {
   Problem problem{"droop",
                   "What remains of the sag with bending friction, weight taken away",
-                  "remaining drop over length",
                   "|remaining drop - that of the elastica| over its drop when loaded",
                   "the heavy elastica with the same law and history, extrapolated from 60 and 120 segments",
                   {},
@@ -181,7 +173,7 @@ Problem droop_problem(const Effort& effort) {
   problem.solve = [curves = std::make_shared<Curves>()](const Setting& setting) {
     Found found;
     const Scene scene = sag_scene(setting, true);
-    const Sag& curve = curves->of(scene, setting);
+    const Sag& curve = curve_of(*curves, scene, setting);
     found.reference = curve.last;
     found.value = sag_of_cloth(scene, found).last;
     found.error = std::abs(found.value - curve.last) / curve.loaded;

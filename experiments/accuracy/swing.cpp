@@ -1,6 +1,6 @@
 // A strip held out straight, let go, swings through its first quarter second: a motion that is smooth in
 // time.
-#include "experiments/accuracy/motion.h"
+#include "experiments/accuracy/accuracy.h"
 #include "experiments/specimens/clamped_mesh.h"
 
 namespace hysteron::experiments {
@@ -36,16 +36,11 @@ double tip_height(const Cloth& cloth, const std::vector<Eigen::Vector3d>& x) {
 Problem swing_problem(const Effort& effort) {
   Problem problem{"swing",
                   "A strip let go: smooth motion",
-                  "height of the free end [m]",
                   "position error (root mean square) over the length",
                   "bdf2 with 1/15360 s on the same mesh",
                   {},
                   {}};
-  MotionQuestion question{swing_scene, kLength, kSampling, {}, tip_height};
-  question.reference.integrator = Integrator::bdf2;
-  question.reference.step = 1.0 / (effort.quick ? 7680 : 15360);
-  ask_for_motion(question, problem);
-  problem.reference_per_mesh = true;
+  ask_for_motion({swing_scene, kLength, kSampling, 1.0 / (effort.quick ? 7680 : 15360), tip_height}, problem);
   Setting base;
   base.device = effort.device;
   base.integrator = Integrator::bdf2;

@@ -14,13 +14,13 @@ namespace hysteron::experiments {
 namespace {
 
 struct BuckleChoice {
-  std::string kind = "upright";
+  Buckling kind = Buckling::upright;
   double width = 0;
 };
 using B = BuckleChoice;
 // clang-format off
 const KeyRow<B> kRows[] = {
-    {"buckle.kind", at<&B::kind>, "", any(), "upright | edge", "upright: stands on its clamp; edge: clamped level, width vertical; law = linear unless named"},
+    {"buckle.kind", at<&B::kind>, "", any(), "", "upright: stands on its clamp; edge: clamped level, width vertical; law = linear unless named"},
     {"buckle.width", at<&B::width>, "", between(0, 0.25), "", "over the length, of the strip whose threshold is measured; 0: 1/10 upright, 1/80 on edge. cloth.width is that of the pictured one"},
 };
 // clang-format on
@@ -67,8 +67,8 @@ render::Box strip_bounds(Buckling kind, double length, double width) {
 }
 
 // With its width in place of the pictured one's.
-Scene measured_scene(Scene scene, const BuckleChoice& choice, Buckling kind) {
-  const double default_width = kind == Buckling::upright ? 0.1 : 1.0 / 80;
+Scene measured_scene(Scene scene, const BuckleChoice& choice) {
+  const double default_width = choice.kind == Buckling::upright ? 0.1 : 1.0 / 80;
   scene.cloth.width = scene.cloth.length * (choice.width > 0 ? choice.width : default_width);
   return scene;
 }
@@ -157,9 +157,9 @@ void limit_to_quick(Setup& setup) { setup.scene.triangles = std::min(setup.scene
 int run_buckle(const CommandLine& line) {
   B choice;
   Setup setup = set_up(line, defaults(), bind(kRows, choice), limit_to_quick);
-  const Buckling kind = buckling_named(choice.kind);
+  const Buckling kind = choice.kind;
   const double length = setup.scene.cloth.length;  // that bends
-  const Scene measured = measured_scene(setup.scene, choice, kind);
+  const Scene measured = measured_scene(setup.scene, choice);
   const double reference = reference_gamma(kind, measured);
   const BucklingStrip pictured = buckling_strip(setup.scene, kind, length, kVisibleTilt, kPictured);
   setup.scene = pictured.scene;
@@ -177,7 +177,7 @@ int run_buckle(const CommandLine& line) {
   run.metric("error_percent", 100 * (found.critical_gamma / reference - 1));
   run.metric("clamp_effect_percent", 100 * fraction_of_width(kind, measured, length));
   if (session.pictures()) plot(session, columns, found, reference, power_of_load(kind));
-  session.finish("Buckling, " + choice.kind + ": law " + setup.scene.law);
+  session.finish("Buckling, " + enum_name(kind) + ": law " + setup.scene.law);
   return 0;
 }
 

@@ -25,11 +25,8 @@ Motion around_rod(double radius, const Eigen::Vector3d& axis_at) {
   motion.center = axis_at;
   for (int k = 0; k <= kKeys; ++k) {
     const double angle = std::numbers::pi * k / kKeys, taken = radius * angle * (1 + kSlack);
-    Keyframe key;
-    key.time = kTurn * k / kKeys;
-    key.angle = angle / kDegree;
-    key.position = -taken * Eigen::Vector3d(std::cos(angle), 0, std::sin(angle));
-    motion.keys.push_back(key);
+    motion.keys.push_back(
+        {kTurn * k / kKeys, -taken * Eigen::Vector3d(std::cos(angle), 0, std::sin(angle)), angle / kDegree});
   }
   return motion;
 }
@@ -45,10 +42,7 @@ Motion unfolding(double begin, double radius, double turn) {
   Motion motion;
   motion.axis = {0, 1, 0};
   motion.center = {center.x(), 0, kAbove + center.y()};
-  Keyframe rest, open;
-  open.time = kTurn;
-  open.angle = turn / kDegree;
-  motion.keys = {rest, open};
+  motion.keys = {{}, {kTurn, {0, 0, 0}, turn / kDegree}};
   return motion;
 }
 

@@ -61,14 +61,6 @@ Pin crease_clamp(const Scene& scene) { return held_between(-1, kLimbPart * scene
 
 namespace {
 
-Keyframe key(double time, double height, double angle = 0) {
-  Keyframe result;
-  result.time = time;
-  result.position = {0, 0, height};
-  result.angle = angle;
-  return result;
-}
-
 // The far limb's end goes over by half a turn, then down; it is let go before the plate presses.
 Pin moving_pin(const Scene& scene, double ground, double lowered) {
   const double length = scene.cloth.length, radius = kLoop * length;
@@ -77,7 +69,7 @@ Pin moving_pin(const Scene& scene, double ground, double lowered) {
   pin.motion.axis = {0, -1, 0};
   pin.motion.center = {length / 2, 0, ground + radius};
   const double down = kLetGo * scene.fabric.thickness - 2 * radius;
-  pin.motion.keys = {key(0, 0, 0), key(kFold, 0, 180), key(lowered, down, 180)};
+  pin.motion.keys = {{}, {kFold, {0, 0, 0}, 180}, {lowered, {0, 0, down}, 180}};
   return pin;
 }
 
@@ -90,12 +82,12 @@ Obstacle pressing_plate(const Scene& scene, const CreaseTimes& times, double low
   plate.size = {0.375 * length, 0.75 * scene.cloth.width, kPlate};
   plate.rim = kPlate / 4;
   plate.center = {0.3 * length, scene.cloth.width / 2, ready + kPlate + kRise};
-  plate.motion.keys = {key(kFold, 0),
-                       key(times.folded, -kRise),
-                       key(times.folded + kSettle, -kRise),
-                       key(times.pressed, lowest - ready - kRise),
-                       key(times.released, lowest - ready - kRise),
-                       key(times.lifted, 0)};
+  plate.motion.keys = {{kFold, {0, 0, 0}},
+                       {times.folded, {0, 0, -kRise}},
+                       {times.folded + kSettle, {0, 0, -kRise}},
+                       {times.pressed, {0, 0, lowest - ready - kRise}},
+                       {times.released, {0, 0, lowest - ready - kRise}},
+                       {times.lifted, {0, 0, 0}}};
   return plate;
 }
 

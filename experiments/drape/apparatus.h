@@ -1,10 +1,20 @@
 // The apparatus of drape tests (Cusick 1968; ISO 9073-9, JIS L 1096): a pedestal on which a disc holds the
-// specimen, the plate that lets its ring down, and the shaking of the Japanese test.
+// specimen, the plate that lets its ring down, and the shaking of the Japanese test; and the disc of cloth.
 #pragma once
 
-#include "experiments/drape/specimen.h"
+#include "sim/scene/cloth.h"
 
 namespace hysteron::experiments {
+
+// The disc of cloth that is draped, as it lies before the test.
+struct Specimen {
+  double radius;                       // [m]
+  Eigen::Vector3d middle = {0, 0, 0};  // [m]
+};
+
+// Measured where the cloth starts; that of a cloth that is built is its scene's.  Throws Error::invalid_input
+// unless it is a disc that lies flat.
+Specimen disc_specimen(const Scene& scene, const Cloth& cloth);
 
 struct DrapeChoice {
   std::string standard = "iso9073";  // whose sizes and release these are

@@ -70,19 +70,14 @@ TesterUnits tester_units(const std::string& name) {
       .with_key("units", name);
 }
 
-std::vector<CycleReading> readings(const FabLoops& loops, const BranchForces& force, int cycle) {
-  const std::string of = "_cycle" + std::to_string(cycle + 1);
-  return {{"area", "area" + of + "_J_per_m", loop_area(loops, force, cycle)},
-          {"peak force", "peak_force" + of + "_N_per_m", peak_force(loops, force, cycle)},
-          {"force range", "force_range" + of + "_N_per_m", force_range(force, cycle)}};
-}
-
 void add_metrics(Run& run, const ComparedLoops& compared) {
   const BranchForces measured = compared.measured_forces();
   for (int cycle = 0; cycle < compared.loops.cycles(); ++cycle) {
+    const std::string of = "_cycle" + std::to_string(cycle + 1);
     const auto add = [&](const std::string& before, const BranchForces& force) {
-      for (const CycleReading& reading : readings(compared.loops, force, cycle))
-        run.metric(before + reading.name, reading.value);
+      run.metric(before + "area" + of + "_J_per_m", loop_area(compared.loops, force, cycle));
+      run.metric(before + "peak_force" + of + "_N_per_m", peak_force(compared.loops, force, cycle));
+      run.metric(before + "force_range" + of + "_N_per_m", force_range(force, cycle));
     };
     add("", compared.run.force);
     if (compared.measured) add("measured_", measured);

@@ -23,15 +23,7 @@ struct ComparedLoops {
 // `si` | `fab`; Error::invalid_input for others.
 TesterUnits tester_units(const std::string& name);
 
-struct CycleReading {
-  const char* what;  // "area"
-  std::string name;  // "area_cycle1_J_per_m"
-  double value;
-};
-// Of one cycle, the first being 0: area, peak_force, force_range.
-std::vector<CycleReading> readings(const FabLoops& loops, const BranchForces& force, int cycle);
-
-// Those, also as measured_..., rms, zero, energy balance.
+// Area, peak force and force range of each cycle, also as measured_...; rms, zero, energy balance.
 void add_metrics(Run& run, const ComparedLoops& compared);
 // In the columns that `fit --fab` reads, the measured force behind.
 void write_loops(Run& run, const std::string& name, const ComparedLoops& compared);

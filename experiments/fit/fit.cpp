@@ -4,16 +4,25 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "experiments/fit/from_decay.h"
+#include "experiments/fit/from_fab.h"
 #include "experiments/fit/report.h"
 #include "experiments/workbench/app/experiment.h"
 #include "experiments/workbench/pages/report.h"
+#include "render/plot.h"
+#include "sim/base/csv.h"
 #include "sim/base/error.h"
 #include "sim/identification/curve.h"
+#include "sim/identification/decay_friction.h"
 #include "sim/identification/published.h"
 
 namespace hysteron::experiments {
 namespace {
+
+struct DecayFlags {
+  std::string file;
+  double length = 0;    // of the strip below the clamp [m]
+  double noise = 5e-4;  // of the amplitudes [m]
+};
 
 struct FitFlags {
   std::string loop, virgin_file;
@@ -173,26 +182,19 @@ void check_units(const FitFlags& flags) {
 }
 
 Answer identify(const FitFlags& flags) {
-  struct Source {
-    bool requested;
-    Answer (*go)(const FitFlags&);
-  };
-  const bool virgin = flags.virgin.b1.given() || flags.virgin.c1.given() || !flags.virgin_file.empty();
-  const bool kes = flags.kes.b.given() || flags.kes.two_hb.given();
-  const Source sources[] = {{!flags.loop.empty(), from_loop}, {virgin, from_virgin}, {kes, from_kes}};
+  std::vector<Answer (*)(const FitFlags&)> requested;
+  if (!flags.loop.empty()) requested.push_back(from_loop);
+  if (flags.virgin.b1.given() || flags.virgin.c1.given() || !flags.virgin_file.empty())
+    requested.push_back(from_virgin);
+  if (flags.kes.b.given() || flags.kes.two_hb.given()) requested.push_back(from_kes);
   check_units(flags);
-  const auto requested = std::count_if(std::begin(sources), std::end(sources),
-                                       [](const Source& source) { return source.requested; });
-  if (requested != 1) {
+  if (requested.size() != 1)
     throw Error::invalid_input(
         "needs one of --loop FILE.csv, --virgin.b1 with --virgin.c1, --kes.b with --kes.2hb, "
         "--fab FILE.csv, --decay FILE.csv" +
-        std::string(requested > 1 ? ", not several" : ""));
-  }
+        std::string(requested.empty() ? "" : ", not several"));
   throw_if_without_loop(flags);
-  return std::find_if(std::begin(sources), std::end(sources),
-                      [](const Source& source) { return source.requested; })
-      ->go(flags);
+  return requested[0](flags);
 }
 
 std::optional<double> if_given(double x) { return std::isnan(x) ? std::nullopt : std::optional(x); }
@@ -219,8 +221,60 @@ void fit_loops_of_fab(const CommandLine& line, const FitFlags& flags, const Keys
   const FabAnswer answer = fit_fab(flags.fab, flags.units, flags.density);
   Run run(line, flags.options, resolved(keys));
   const FabricNotes notes{flags.name, answer.found.from, if_given(flags.density), if_given(flags.thickness)};
-  report_fab(run, answer, notes, !flags.options.no_images);
+  report_fab(run, answer, notes);
   finish(run, flags, summary(answer), notes);
+}
+
+void draw_decay(Run& run, const DecaySeries& series, const std::vector<double>& found,
+                const std::vector<double>& saturated) {
+  render::Plot plot{"Amplitude against time", {"time [s]"}, {"amplitude of the free end [mm]"}};
+  const auto add = [&](const std::string& label, std::vector<double> values, render::Series::Style style) {
+    for (double& a : values) a *= 1e3;
+    plot.series.push_back({label, series.time, values, style});
+  };
+  add("measured", series.amplitude, render::Series::Style::points);
+  add("fitted", found, render::Series::Style::line);
+  if (!saturated.empty()) add("k0 = 50/m", saturated, render::Series::Style::dashed);
+  run.plot("plot_decay", plot);
+}
+
+// fabric.toml, forms.csv, decay.csv (measured and by the fit), a plot and metrics; what a reader is told.
+std::string report_decay(Run& run, const DecayFlags& flags, double density, double rigidity,
+                         const FabricNotes& notes) {
+  const DecaySeries series = read_decay(flags.file, "fit");
+  const DecayQuestion question{flags.length, density, rigidity, flags.noise};
+  FabAnswer answer;
+  answer.found.bending = {identify_decay(series, question)};
+  answer.found.from = notes.from;
+  answer.forms = {even_forms(series, question)};
+  const FabBending& b = answer.found.bending[0];
+  if (!b.converged) run.warn("the fit did not converge");
+  if (!(b.law.spring > 0))
+    throw Error::invalid_input(
+        "decay: the friction that is found is steeper than kes.b = " + number_text(rigidity) +
+        " N m where a tester reads it: check kes.b, fabric.density and decay.length")
+        .with_key("kes.b", number_text(rigidity));
+  write_fab_fabric(run.path("fabric.toml"), answer.found, notes);
+  write_forms(run, answer);
+  add_shape(run, b, "");
+  run.metric("HB_N", b.law.friction());
+  run.metric("HB_N_stderr", b.friction_error);
+  run.metric("b2_N_m", b.law.spring);
+  run.metric("residual_over_noise", b.residual_rms);
+  run.metric("iterations", b.iterations);
+  run.metric("undetermined", b.undetermined());
+
+  const auto by = [&](const FabBending& form) {
+    return decay_by(series, question, {form.law.thresholds, form.law.stiffnesses}, form.first);
+  };
+  const std::vector<double> found = by(b);
+  std::vector<double> saturated;
+  for (const FabForm& form : answer.forms[0])
+    if (form.name == "k0 = 50/m") saturated = by(form.found);
+  Table({{"time [s]", series.time}, {"amplitude [m]", series.amplitude}, {"fitted [m]", found}})
+      .write(run.path("decay.csv"));
+  draw_decay(run, series, found, saturated);
+  return summary(answer);
 }
 
 void fit_decay(const CommandLine& line, const FitFlags& flags, const Keys& keys) {
@@ -233,9 +287,7 @@ void fit_decay(const CommandLine& line, const FitFlags& flags, const Keys& keys)
   Run run(line, flags.options, resolved(keys));
   const FabricNotes notes{flags.name, "a free vibration in " + file_name(flags.decay.file),
                           if_given(flags.density), if_given(flags.thickness)};
-  const std::string text =
-      report_decay(run, flags.decay, flags.density, flags.kes.b.value, notes, !flags.options.no_images);
-  finish(run, flags, text, notes);
+  finish(run, flags, report_decay(run, flags.decay, flags.density, flags.kes.b.value, notes), notes);
 }
 
 int run_fit(const CommandLine& line) {

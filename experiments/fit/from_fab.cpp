@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "experiments/fab/loops.h"
-#include "experiments/fit/predictions.h"
 #include "render/plot.h"
 #include "sim/base/comma_list.h"
 #include "sim/base/csv.h"
@@ -167,6 +166,140 @@ void add_fab_metrics(Run& run, const FabAnswer& answer) {
   run.metric("undetermined", open);
 }
 
+// ---- what stops identified from some cycles predict of all others in the same file, beside one stop ----
+
+constexpr double kMicroPerCentimetre = 1e4;  // µJ/cm of 1 J/m
+constexpr double kBarWidth = 0.27;           // of the distance between groups of three
+
+std::string fitted_on(const FabAnswer& answer, const std::string& direction) {
+  std::string cycles;
+  for (const int cycle : answer.cycles) cycles += (cycles.empty() ? "" : ", ") + std::to_string(cycle);
+  return direction + " " + join(answer.tests, ", ") + " cycle " + cycles;
+}
+
+// The directions whose laws a strip along this one has; none if they were not identified.
+FabFabric fabric_with(const std::vector<FabBending>& bending, const std::vector<FabTension>& tension,
+                      double density) {
+  FabFabric fabric;
+  fabric.density = density;
+  if (!bending.empty()) fabric.warp = bending.front().law, fabric.weft = bending[bending.size() > 1].law;
+  if (!tension.empty())
+    fabric.warp_tension = tension.front().law, fabric.weft_tension = tension[tension.size() > 1].law;
+  return fabric;
+}
+
+template <class Found>
+bool has(const std::vector<Found>& all, const std::string& direction) {
+  return std::any_of(all.begin(), all.end(), [&](const Found& one) { return one.direction == direction; });
+}
+
+// A strip along a direction that was fitted, or along the bias of both.
+template <class Found>
+bool can_predict(const std::vector<Found>& all, const std::string& direction) {
+  return has(all, direction) || (direction == "B" && has(all, "L") && has(all, "W"));
+}
+
+template <class Found>
+std::vector<Found> only(const std::vector<Found>& all, const std::string& direction) {
+  if (!has(all, direction)) return all;
+  std::vector<Found> one;
+  for (const Found& found : all)
+    if (found.direction == direction) one.push_back(found);
+  return one;
+}
+
+struct FabPrediction {
+  ComparedLoops stops, one_stop;
+  std::vector<bool> fitted;  // by cycle
+  std::string fitted_on;     // "L D1 cycle 2"
+};
+
+// Every test of the directions that were fitted, and of the bias by the mean of both; tests that stretch
+// where stretch was fitted.  A test that a law cannot follow is left out.
+std::vector<FabPrediction> predict(const FabAnswer& answer, double density) {
+  std::vector<FabPrediction> predictions;
+  for (const FabLoops& loops : answer.loops) {
+    const std::string& along = loops.direction;
+    const FabIdentification& found = answer.found;
+    if (loops.bends() ? !can_predict(found.bending, along) : !can_predict(found.tension, along)) continue;
+    const auto run_with = [&](const std::vector<FabBending>& bending) {
+      const FabFabric fabric = fabric_with(only(bending, along), only(found.tension, along), density);
+      return run_fab(loops, fabric.strip("B"));  // of one direction both halves are alike
+    };
+    try {
+      FabPrediction p{
+          {loops, run_with(found.bending), true}, {loops, run_with(answer.one_stop), true}, {}, {}};
+      const bool own = has(found.bending, along);
+      p.fitted_on = fitted_on(answer, own ? along : "L, W");
+      const bool fitted =
+          own && std::find(answer.tests.begin(), answer.tests.end(), loops.test) != answer.tests.end();
+      for (int cycle = 1; cycle <= loops.cycles(); ++cycle)
+        p.fitted.push_back(fitted && std::find(answer.cycles.begin(), answer.cycles.end(), cycle) !=
+                                         answer.cycles.end());
+      predictions.push_back(std::move(p));
+    } catch (const Error& error) {
+      if (error.exit_code() != 3) throw;
+    }
+  }
+  return predictions;
+}
+
+// predictions.csv.
+void write_predictions(Run& run, const std::vector<FabPrediction>& predictions) {
+  Table table(
+      "loop,fitted on,is fitted,area [uJ/cm],measured area [uJ/cm],error [%],error [uJ/cm],"
+      "one stop area [uJ/cm],one stop error [%],force range [N/m],measured force range [N/m],"
+      "force range error [%],one stop force range error [%]");
+  for (const FabPrediction& p : predictions) {
+    const FabLoops& loops = p.stops.loops;
+    const BranchForces measured = p.stops.measured_forces();
+    for (int cycle = 0; cycle < loops.cycles(); ++cycle) {
+      const double seen = kMicroPerCentimetre * loop_area(loops, measured, cycle);
+      const double area = kMicroPerCentimetre * loop_area(loops, p.stops.run.force, cycle);
+      const double one = kMicroPerCentimetre * loop_area(loops, p.one_stop.run.force, cycle);
+      const double range = force_range(p.stops.run.force, cycle), seen_range = force_range(measured, cycle);
+      const double one_range = force_range(p.one_stop.run.force, cycle);
+      table.row({loops.name() + " cycle " + std::to_string(cycle + 1), p.fitted_on, p.fitted[cycle] ? 1 : 0,
+                 area, seen, 100 * (area / seen - 1), area - seen, one, 100 * (one / seen - 1), range,
+                 seen_range, 100 * (range / seen_range - 1), 100 * (one_range / seen_range - 1)});
+    }
+  }
+  table.write(run.path("predictions.csv"));
+}
+
+// loops_<loops>.csv of each: simulated and measured forces.
+void write_compared_loops(Run& run, const std::vector<FabPrediction>& predictions) {
+  for (const FabPrediction& p : predictions)
+    write_loops(run, "loops_" + p.stops.loops.direction + "_" + p.stops.loops.test + ".csv", p.stops);
+}
+
+// plot_<loops> of each, and plot_areas of all that bend.
+void draw_predictions(Run& run, const std::string& fabric, const std::vector<FabPrediction>& predictions) {
+  std::vector<double> measured, stops, one;
+  render::Axis loops{"test, cycle"};
+  for (const FabPrediction& p : predictions) {
+    const std::string& direction = p.stops.loops.direction;
+    draw_loops(run, "plot_" + direction + "_" + p.stops.loops.test,
+               fabric + ", " + p.stops.loops.name() + ", fitted on " + p.fitted_on, p.stops);
+    if (!p.stops.loops.bends()) continue;
+    const BranchForces seen = p.stops.measured_forces();
+    for (int cycle = 0; cycle < p.stops.loops.cycles(); ++cycle) {
+      loops.categories.push_back(p.stops.loops.name() + "." + std::to_string(cycle + 1) +
+                                 (p.fitted[cycle] ? "*" : ""));
+      measured.push_back(kMicroPerCentimetre * loop_area(p.stops.loops, seen, cycle));
+      stops.push_back(kMicroPerCentimetre * loop_area(p.stops.loops, p.stops.run.force, cycle));
+      one.push_back(kMicroPerCentimetre * loop_area(p.stops.loops, p.one_stop.run.force, cycle));
+    }
+  }
+  if (measured.empty()) return;
+  render::Plot plot{
+      fabric + ": areas of loops; * fitted, all others predicted", loops, {"area per width [µJ/cm]"}};
+  plot.width = 1600;
+  plot.bar_width = kBarWidth;
+  plot.series = render::grouped_bars({"measured", "stops", "one stop"}, {measured, stops, one}, kBarWidth);
+  run.plot("plot_areas", plot);
+}
+
 }  // namespace
 
 void write_forms(Run& run, const FabAnswer& answer) {
@@ -245,7 +378,7 @@ FabAnswer fit_fab(const FabFlags& flags, const std::string& units, double densit
   return answer;
 }
 
-void report_fab(Run& run, const FabAnswer& answer, const FabricNotes& notes, bool pictures) {
+void report_fab(Run& run, const FabAnswer& answer, const FabricNotes& notes) {
   for (const FabBending& b : answer.found.bending)
     if (!b.converged) run.warn("along " + b.direction + " the fit of bending did not converge");
   for (const FabTension& t : answer.found.tension)
@@ -259,7 +392,7 @@ void report_fab(Run& run, const FabAnswer& answer, const FabricNotes& notes, boo
   const std::vector<FabPrediction> predictions = predict(answer, notes.density.value_or(0));
   write_predictions(run, predictions);
   write_compared_loops(run, predictions);
-  if (pictures) draw_predictions(run, notes.name, predictions);
+  draw_predictions(run, notes.name, predictions);
 }
 
 std::string summary(const FabAnswer& answer) {

@@ -30,7 +30,7 @@ FabAnswer fit_fab(const FabFlags& flags, const std::string& units, double densit
 
 // fabric.toml, one_stop.toml (what a constant 2HB makes of the same data), spectrum.csv, forms.csv,
 // predictions.csv, plots and metrics.
-void report_fab(Run& run, const FabAnswer& answer, const FabricNotes& notes, bool pictures);
+void report_fab(Run& run, const FabAnswer& answer, const FabricNotes& notes);
 
 // forms.csv: what every form of friction leaves of the data, and how surely that excludes it.
 void write_forms(Run& run, const FabAnswer& answer);

@@ -13,9 +13,6 @@ namespace hysteron::experiments {
 // best; metrics are then called `<law>.<key>`.
 void report_fits(Run& run, const std::vector<Identification>& fits, const FabricNotes& notes);
 
-// plot_fit and plot_residual; a panel for each of several laws.
-void draw_fits(Run& run, const std::vector<Identification>& fits, const std::string& title);
-
 // What a reader is told: a line per law if there are several; of the best, numbers with standard errors, what
 // is undetermined, statements.
 std::string summary(const std::vector<Identification>& fits);

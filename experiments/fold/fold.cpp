@@ -1,4 +1,4 @@
-// ErrorRunResult folding (De Mattia flexing, ISO 7854): what is left of a fabric's bending friction after
+// Repeated folding (De Mattia flexing, ISO 7854): what is left of a fabric's bending friction after
 // many folds, and what they leave in the cloth; with `--law all`, or several laws separated by commas, each
 // on one page.
 #include <fmt/core.h>

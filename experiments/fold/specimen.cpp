@@ -17,12 +17,7 @@ constexpr double kHang = 1;         // after the last return, from one clamp [s]
 constexpr double kJaw = 2e-3;       // half the height of a clamp [m]
 constexpr double kNoContact = 3;    // between cloth and the clamps that are seen, in thicknesses
 
-Keyframe shifted(double time, double distance) {
-  Keyframe key;
-  key.time = time;
-  key.position.x() = -distance;
-  return key;
-}
+Keyframe shifted(double time, double distance) { return {time, {-distance, 0, 0}}; }
 
 Motion clamp_motion(const FoldChoice& choice, double free_length) {
   Motion motion;
@@ -94,8 +89,8 @@ Fold folded(const Scene& given, const FoldChoice& choice, double fps) {
   scene.step = apart / std::max(1.0, std::round(apart / scene.step));
   fold.fps = 1 / apart;
   fold.cycles = choice.cycles;
-  fold.released = choice.cycles * choice.period;
-  scene.seconds = fold.released + std::round(kHang / apart) * apart;
+  const double released = choice.cycles * choice.period;  // the moving clamp lets go [s]
+  scene.seconds = released + std::round(kHang / apart) * apart;
   scene.phase = phases(choice);
 
   ClampedMesh clamped =
@@ -104,7 +99,7 @@ Fold folded(const Scene& given, const FoldChoice& choice, double fps) {
   scene.triangles = clamped.mesh.faces();
   scene.pin = {held_between(-1, clamped.near()), held_between(clamped.far(), 1)};
   scene.pin[1].motion = clamp_motion(choice, fold.free_length);
-  scene.pin[1].until = fold.released + scene.step / 2;
+  scene.pin[1].until = released + scene.step / 2;
   scene.obstacle = {jaw(scene, 0, -1), jaw(scene, clamped.length, 1)};
   scene.obstacle[1].motion = scene.pin[1].motion;
   fold.cloth = place_cloth(scene, std::move(clamped.mesh));

@@ -25,7 +25,6 @@ struct Fold {
   double fps = 0;          // recorded instants per second
   int half = 0;            // recorded instants from one end of the stroke to the other
   int cycles = 0;
-  double released = 0;  // the moving clamp lets go [s]
 
   // Between the clamps' middles [m].
   double distance(double time) const;

@@ -1,15 +1,29 @@
 #include "experiments/kes/in_plane.h"
 
 #include <algorithm>
+#include <chrono>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "experiments/kes/in_plane_output.h"
+#include "experiments/specimens/clamped_mesh.h"
+#include "experiments/workbench/app/run.h"
 #include "experiments/workbench/pages/report.h"
+#include "render/plot.h"
+#include "sim/base/csv.h"
 #include "sim/base/error.h"
+#include "sim/reference/kes_in_plane.h"
+#include "sim/scene/cloth.h"
 #include "sim/scene/keys.h"
+#include "sim/time/simulation.h"
 
 namespace hysteron::experiments {
 namespace {
+
+struct InPlaneSpecimen {
+  std::string mesh = "aligned";
+  int triangles = 2000;  // about
+  int steps = 16;        // equilibria from zero to the largest: a multiple of 16 reads shear where they are
+};
 
 struct InPlaneFlags {
   std::string test = "shear";
@@ -42,6 +56,265 @@ Keys option_keys(InPlaneFlags& flags) {
   Keys keys = bind(kSharedRows, flags);
   for (const BoundKey& key : bind(kOwnRows, flags)) keys.push_back(key);
   return with_output_options(keys, flags.options);
+}
+
+// ---- on a specimen of cloth between two clamps: one equilibrium per row, no weight of its own ----
+
+constexpr double kInPlaneGauge = 0.05, kInPlaneWidth = 0.2;  // of the tester's specimen [m]
+
+// Clamps lead along the way that uniform strain takes; what the free edges change, their forces show.  The
+// cloth stays in its plane, which it does not leave without a disturbance.
+template <class Test>
+struct InPlaneCloth {
+  Test test;           // its rows and readings, of the specimen
+  double tension = 0;  // per width, mean over the rows of shear [N/m]
+  int triangles = 0;
+  double seconds = 0;  // wall clock
+};
+
+using Clock = std::chrono::steady_clock;
+
+// Where the moving clamp goes, over the gauge: apart and along itself.
+struct ClampPlace {
+  double apart, along;
+};
+
+Scene strip_scene(const Fabric& fabric, Along along, const InPlaneSpecimen& specimen,
+                  const std::vector<ClampPlace>& places) {
+  Scene scene;
+  scene.fabric = fabric;
+  scene.fabric.damping = 0;
+  scene.cloth.shape = "strip";
+  scene.cloth.length = kInPlaneGauge;
+  scene.cloth.width = kInPlaneWidth;
+  scene.cloth.warp_angle = along == Along::warp ? 0 : 90;
+  scene.mesh = specimen.mesh;
+  scene.triangles = specimen.triangles;
+  scene.integrator = Integrator::quasi_static;
+  scene.gravity.setZero();
+  scene.step = 1;
+  scene.seconds = static_cast<double>(places.size());
+  scene.device = DeviceChoice::cpu;
+  scene.threads = 1;
+  scene.pin = {held_between(-1, 0), held_between(kInPlaneGauge, 1)};
+  std::vector<Keyframe>& keys = scene.pin[1].motion.keys = {{}};
+  for (const ClampPlace& place : places)
+    keys.push_back(
+        {keys.back().time + scene.step, {kInPlaneGauge * place.apart, kInPlaneGauge * place.along, 0}});
+  return scene;
+}
+
+// Of the moving clamp at each place, per width: apart and along itself [N/m].
+struct ClampForces {
+  std::vector<ClampPlace> force;
+  int triangles = 0;
+  double seconds = 0;
+};
+
+ClampForces forces_at(const Fabric& fabric, Along along, const InPlaneSpecimen& specimen,
+                      const std::vector<ClampPlace>& places) {
+  const Scene scene = strip_scene(fabric, along, specimen, places);
+  const Cloth cloth = make_cloth(scene);
+  const auto simulation = make_simulation(scene, cloth);
+  ClampForces result;
+  result.triangles = cloth.mesh.faces();
+  const auto start = Clock::now();
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    simulation->advance(1);
+    const std::vector<Eigen::Vector3d> force = simulation->handle_forces();
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (const int vertex : cloth.pin_vertices[1]) sum += force[vertex];
+    result.force.push_back({sum.x() / kInPlaneWidth, sum.y() / kInPlaneWidth});
+  }
+  result.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  return result;
+}
+
+// `along`: the direction from clamp to clamp.  Throws Error::simulation where no equilibrium is found.
+InPlaneCloth<ShearTest> shear_cloth(const Fabric& fabric, Along along, const InPlaneSpecimen& specimen,
+                                    InPlaneProtocol protocol) {
+  protocol.steps = specimen.steps;
+  const ShearTest law = test_shear(in_plane_law(fabric, along), protocol);
+  std::vector<ClampPlace> places;
+  for (std::size_t i = 0; i < law.force.size(); ++i)
+    places.push_back({law.walk.stretch[i] - 1, law.walk.shear.rows[i].curvature});
+  const ClampForces forces = forces_at(fabric, along, specimen, places);
+  InPlaneCloth<ShearTest> cloth{{{}, law.walk, {}}, 0, forces.triangles, forces.seconds};
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const auto [tension, force] = forces.force[i];
+    cloth.test.force.push_back(force - tension * places[i].along / law.walk.stretch[i]);
+    cloth.tension += tension / static_cast<double>(places.size());
+  }
+  cloth.test.reading = read_shear(protocol, law.walk.shear, cloth.test.force);
+  return cloth;
+}
+
+InPlaneCloth<TensionTest> stretch_cloth(const Fabric& fabric, Along along, const InPlaneSpecimen& specimen,
+                                        InPlaneProtocol protocol) {
+  protocol.steps = specimen.steps;
+  const TensionTest law = test_tension(in_plane_law(fabric, along), protocol);
+  std::vector<ClampPlace> places;
+  for (std::size_t i = 1; i < law.extension.size(); ++i) places.push_back({law.extension[i], 0});
+  const ClampForces forces = forces_at(fabric, along, specimen, places);
+  InPlaneCloth<TensionTest> cloth{{{}, law.extension, {0}, law.turn}, 0, forces.triangles, forces.seconds};
+  for (const ClampPlace& of : forces.force) cloth.test.force.push_back(of.apart);
+  cloth.test.reading = read_tension(cloth.test.extension, cloth.test.force, law.turn);
+  return cloth;
+}
+
+// ---- metrics, tables and plot ----
+
+enum class InPlaneTest { shear, tension };
+constexpr auto names(InPlaneTest) { return std::array{"shear", "tension"}; }
+
+// A number that the tester reads.
+struct InPlaneNumber {
+  const char* key;    // of the metric, with its unit
+  const char* label;  // in table.csv, with its unit
+  double value;
+};
+
+// A loop and what is read of it; `x` in degrees of shear or percent of extension.
+struct InPlaneLoop {
+  std::vector<double> x, force;  // force in N/m
+  std::vector<InPlaneNumber> numbers;
+};
+
+struct InPlaneResult {
+  Fabric fabric;
+  InPlaneLoop law;
+  // Of the specimen of cloth and of one of a quarter of the triangles; without numbers where none was asked
+  // for.
+  InPlaneLoop cloth, coarse;
+  double tension = 0;  // of the specimen in shear [N/m]
+  int triangles = 0;
+  double seconds = 0;
+};
+
+constexpr const char* kLawColor = "#C8C8C8";
+constexpr const char* kClothColor = "#0072B2";
+
+// A number as a fabric's source prints it, and its unit in SI.
+struct PrintedNumber {
+  const char *key, *name, *unit;
+  double si;
+};
+constexpr PrintedNumber kPrinted[] = {
+    {"G_N_per_m", "G", "gf/(cm degree)", kGramForcePerCentimetre / kDegree},
+    {"2HG_N_per_m", "2HG", "gf/cm", kGramForcePerCentimetre},
+    {"2HG5_N_per_m", "2HG5", "gf/cm", kGramForcePerCentimetre},
+    {"LT", "LT", "", 1},
+    {"WT_J_per_m2", "WT", "gf cm/cm^2", kGramForcePerCentimetre},
+    {"RT_percent", "RT", "%", 1},
+    {"EMT_percent", "EMT", "%", 1},
+};
+
+double published(const Fabric& fabric, const std::string& key) {  // in SI; NaN: not published
+  for (const PrintedNumber& printed : kPrinted) {
+    const auto found = fabric.published.find(printed.name);
+    if (key == printed.key && found != fabric.published.end() && found->second.unit == printed.unit)
+      return found->second.value * printed.si;
+  }
+  return NAN;
+}
+
+constexpr double kNothing = 1e-9;  // [N/m], [J/m^2]: what an elastic law's loop has of width and area
+
+// Over another, minus 1 [percent].
+double difference(double a, double b) { return 100 * (a / b - 1); }
+// Of a specimen's number over the law's, and of one with fewer triangles over the specimen's; NaN where the
+// law reads nothing.
+struct ClothDifference {
+  double law = NAN, mesh = NAN;
+};
+ClothDifference cloth_difference(const InPlaneResult& result, std::size_t i) {
+  const double law = result.law.numbers[i].value, cloth = result.cloth.numbers[i].value;
+  if (std::abs(law) < kNothing) return {};
+  return {difference(cloth, law), difference(result.coarse.numbers[i].value, cloth)};
+}
+
+const char* strain_axis_label(InPlaneTest test) {
+  return test == InPlaneTest::shear ? "angle [degree]" : "extension [percent]";
+}
+
+render::Series series(const InPlaneLoop& loop, const char* label, const char* color, double width) {
+  return {.label = label, .x = loop.x, .y = loop.force, .color = color, .line_width = width};
+}
+
+InPlaneLoop in_plane_loop(const ShearTest& test) {
+  InPlaneLoop loop;
+  for (const LawRow& row : test.walk.shear.rows) loop.x.push_back(std::atan(row.curvature) / kDegree);
+  loop.force = test.force;
+  const ShearReading& r = test.reading;
+  loop.numbers = {{"G_N_per_m", "G [N/m]", r.stiffness},
+                  {"2HG_N_per_m", "2HG [N/m]", r.width},
+                  {"2HG5_N_per_m", "2HG5 [N/m]", r.second_width},
+                  {"shear_loop_area_J_per_m2", "area [J/m2]", r.loop_area}};
+  return loop;
+}
+
+InPlaneLoop in_plane_loop(const TensionTest& test) {
+  InPlaneLoop loop;
+  for (const double e : test.extension) loop.x.push_back(100 * e);
+  loop.force = test.force;
+  const TensionReading& r = test.reading;
+  loop.numbers = {{"LT", "LT", r.linearity},
+                  {"WT_J_per_m2", "WT [J/m2]", r.work},
+                  {"RT_percent", "RT [%]", r.resilience},
+                  {"EMT_percent", "EMT [%]", r.extension}};
+  return loop;
+}
+
+// Numbers of the law; strip_* of the specimen, by how much they differ from the law's, and how much they
+// change from a quarter of the triangles on.
+void write_in_plane_metrics(Run& run, const InPlaneResult& result) {
+  for (const InPlaneNumber& n : result.law.numbers) {
+    run.metric(n.key, n.value);
+    const double printed = published(result.fabric, n.key);
+    if (!std::isnan(printed))
+      run.metric(std::string("published_") + n.key + "_difference_percent", difference(n.value, printed));
+  }
+  for (std::size_t i = 0; i < result.cloth.numbers.size(); ++i) {
+    const InPlaneNumber& n = result.cloth.numbers[i];
+    const std::string name = std::string("strip_") + n.key;
+    run.metric(name, n.value);
+    const ClothDifference apart = cloth_difference(result, i);
+    run.metric(name + "_difference_percent", apart.law);
+    run.metric(name + "_mesh_error_percent", std::abs(apart.mesh));
+  }
+  if (result.cloth.numbers.empty()) return;
+  if (result.tension > 0) run.metric("strip_tension_N_per_m", result.tension);
+  run.metric("strip_triangles_count", result.triangles);
+  run.metric("strip_solve_s", result.seconds);
+}
+
+// loops.csv, strip.csv, and table.csv: beside what the fabric's file says was published.
+void write_in_plane_tables(Run& run, const InPlaneResult& result, InPlaneTest test) {
+  const auto write = [&](const std::string& name, const InPlaneLoop& loop) {
+    Table({{strain_axis_label(test), loop.x}, {"force per width [N/m]", loop.force}}).write(run.path(name));
+  };
+  write("loops.csv", result.law);
+  const bool cloth = !result.cloth.numbers.empty();
+  if (cloth) write("strip.csv", result.cloth);
+  Table table("fabric,number,published,law,strip,strip of a quarter of the triangles");
+  for (std::size_t i = 0; i < result.law.numbers.size(); ++i) {
+    const InPlaneNumber& n = result.law.numbers[i];
+    table.row({result.fabric.name, n.label, published(result.fabric, n.key), n.value,
+               cloth ? result.cloth.numbers[i].value : NAN, cloth ? result.coarse.numbers[i].value : NAN});
+  }
+  table.write(run.path("table.csv"));
+}
+
+// plot_loops.
+void write_in_plane_plot(Run& run, const InPlaneResult& result, InPlaneTest test) {
+  render::Plot plot{.title = "KES-FB1 " + enum_name(test) + " of " + result.fabric.name,
+                    .x = {strain_axis_label(test)},
+                    .y = {"force per width [N/m]"}};
+  plot.axes_at_zero = plot.key_inside = true;
+  plot.series.push_back(series(result.law, "law alone", kLawColor, 6));
+  if (!result.cloth.numbers.empty())
+    plot.series.push_back(series(result.cloth, "specimen of cloth", kClothColor, 1.6));
+  run.plot("plot_loops", plot);
 }
 
 template <class Test, class OnCloth>

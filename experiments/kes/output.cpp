@@ -2,8 +2,10 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "render/panels.h"
 #include "sim/base/csv.h"
 
 namespace hysteron::experiments {
@@ -86,6 +88,105 @@ void write_readings(Run& run, const KesTests& tests) {
   table.write(run.path("table.csv"));
 }
 
+// ---- small multiples of the loops: a panel per law ----
+
+constexpr const char* kLawColor = "#0072B2";
+constexpr const char* kReferenceColor = "#C8C8C8";
+constexpr const char* kMinorColors[] = {"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00"};
+constexpr int kDrawnSteps = 50;    // points from zero to the amplitude
+constexpr double kSettled = 0.01;  // change of the area from cycle to cycle that counts as settled
+constexpr double kHeadroom = 1.7;  // of the axis over the largest moment of `prandtl`
+
+render::Series curve(const std::vector<double>& curvature, const std::vector<double>& moment, int steps,
+                     const std::string& color, double width) {
+  render::Series series{.label = "", .x = {}, .y = {}, .color = color, .line_width = width};
+  const std::size_t stride = std::max(1, steps / kDrawnSteps);
+  for (std::size_t i = 0; i < curvature.size(); ++i) {
+    const bool turn = i > 0 && i + 1 < curvature.size() &&
+                      (curvature[i] - curvature[i - 1]) * (curvature[i + 1] - curvature[i]) <= 0;
+    if (i % stride && !turn && i + 1 < curvature.size()) continue;
+    series.x.push_back(curvature[i]);
+    series.y.push_back(kMilli * moment[i]);
+  }
+  return series;
+}
+
+render::Series whole_walk(const KesTest& test, int steps, const std::string& color, double width) {
+  std::vector<double> curvature;
+  for (const LawRow& row : test.walk.rows) curvature.push_back(row.curvature);
+  return curve(curvature, test.moment, steps, color, width);
+}
+
+double largest_moment(const KesTest& test) {
+  double largest = 0;
+  for (double m : test.moment) largest = std::max(largest, std::abs(m));
+  return largest;
+}
+
+// What must be known to read a law's loop.
+std::vector<std::string> remarks(const KesResult& result, double shown_moment) {
+  std::vector<std::string> lines;
+  if (result.law == "grinspun-edit") lines.push_back("rest curvature edited at both ends");
+  if (std::abs(result.test.reading.area_change) > kSettled) lines.push_back("not settled");
+  const double largest = largest_moment(result.test);
+  if (kMilli * largest > shown_moment)
+    lines.push_back("cut: reaches " + fmt::format("{:.2g} mN", kMilli * largest));
+  return lines;
+}
+
+std::vector<std::string> readings(const KesReading& r) {
+  return {fmt::format("B = {:.4g} µN m", 1e6 * r.rigidity),
+          fmt::format("2HB = {:.4g} mN", kMilli * r.loop_width),
+          fmt::format("residual {:.4g} /m", r.residual), fmt::format("area {:.3g} J/m²", r.loop_area)};
+}
+
+render::Panels empty_grid(const KesTests& tests, const KesProtocol& p, const std::string& what) {
+  render::Panels grid{
+      .title = what + " of " + tests.fabric.name, .subtitle = "", .x = {}, .y = {}, .panels = {}};
+  const double moment = kMilli * kHeadroom * largest_moment(tests.reference);
+  grid.x = {"curvature [1/m]", false, -1.08 * p.amplitude, 1.08 * p.amplitude};
+  grid.y = {"moment per width [mN]", false, -moment, moment};
+  grid.columns = tests.results.size() > 4 ? (tests.results.size() + 2) / 3 : tests.results.size();
+  return grid;
+}
+
+render::Panels loops(const KesTests& tests, const KesProtocol& p) {
+  render::Panels grid = empty_grid(tests, p, "KES-FB2 pure bending");
+  grid.subtitle = "from rest, then " + std::to_string(p.cycles) + " cycles" +
+                  fmt::format(" to ±{:.4g}/m", p.amplitude) + fmt::format(" at {:.4g}/(m s);", p.rate) +
+                  fmt::format(" B from {:.4g}", p.slope_from) + fmt::format(" to {:.4g}/m,", p.slope_to) +
+                  fmt::format(" 2HB at {:.4g}/m.", p.width_at) + "  Blue: the law, grey: prandtl";
+  for (const KesResult& result : tests.results) {
+    render::Panel panel{result.law, {}, readings(result.test.reading), remarks(result, grid.y.high)};
+    panel.series = {whole_walk(tests.reference, p.steps, kReferenceColor, 5),
+                    whole_walk(result.test, p.steps, kLawColor, 1.8)};
+    grid.panels.push_back(panel);
+  }
+  return grid;
+}
+
+render::Panels minor_loops(const KesTests& tests, const KesProtocol& p, MinorLoop::Family family) {
+  const bool amplitudes = family == MinorLoop::Family::amplitude;
+  render::Panels grid =
+      empty_grid(tests, p, amplitudes ? "Settled loops of several amplitudes" : "Partial reversals");
+  grid.subtitle =
+      (amplitudes ? "last of " + std::to_string(p.cycles) + " cycles from rest."
+                  : fmt::format("from {:.4g}/m part of the way back, and to it again.", p.amplitude)) +
+      std::string("  Grey: the law's loop of the full amplitude");
+  for (const KesResult& result : tests.results) {
+    render::Panel panel{result.law, {whole_walk(result.test, p.steps, kReferenceColor, 4)}, {}, {}};
+    panel.remarks = remarks(result, grid.y.high);
+    int color = 0;
+    for (const MinorLoop& loop : result.test.minor_loops) {
+      if (loop.family != family) continue;
+      panel.series.push_back(
+          curve(loop.curvature, loop.moment, p.steps, kMinorColors[color++ % std::size(kMinorColors)], 1.5));
+    }
+    grid.panels.push_back(panel);
+  }
+  return grid;
+}
+
 }  // namespace
 
 void write_metrics(Run& run, const KesTests& tests) {
@@ -113,6 +214,19 @@ void write_tables(Run& run, const KesTests& tests, const KesProtocol& protocol) 
   for (const KesResult& result : tests.results)
     if (result.strip && result.strip->failure.empty())
       write_strip_table(run, ending(result.name), *result.strip);
+}
+
+void write_plots(Run& run, const KesTests& tests, const KesProtocol& p) {
+  const auto write = [&](const std::string& name, const render::Panels& grid) {
+    run.plot(name, [grid](const std::filesystem::path& base) { render::write_panels(base, grid); });
+  };
+  for (const KesResult& result : tests.results)
+    if (result.strip && result.strip->failure.empty())
+      write_strip_figures(run, ending(result.name), *result.strip);
+  write("plot_loops", loops(tests, p));
+  if (!p.minor_loops) return;
+  write("plot_amplitudes", minor_loops(tests, p, MinorLoop::Family::amplitude));
+  write("plot_minor_loops", minor_loops(tests, p, MinorLoop::Family::partial_reversal));
 }
 
 }  // namespace hysteron::experiments

@@ -1,10 +1,69 @@
 #include "experiments/kes/strip.h"
 
+#include <fmt/core.h>
+
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 
+#include "experiments/specimens/clamped_mesh.h"
+#include "sim/base/error.h"
+#include "sim/scene/key_table.h"
+
 namespace hysteron::experiments {
 namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+// Where a chain of chords as long as the columns' spacing ends that bends uniformly through K L: its chords'
+// middles lie on a circle of radius d/(2 tan(K d/2)), a little less than 1/K.
+Keyframe bent(double curvature, double spacing, double time) {
+  const double angle = curvature * kGauge;
+  Keyframe key{time, {0, 0, 0}, angle * 180 / kPi};
+  if (curvature == 0) return key;
+  const double radius = spacing / (2 * std::tan(curvature * spacing / 2));
+  key.position = {radius * std::sin(angle) - kGauge, 0, radius * (1 - std::cos(angle))};
+  return key;
+}
+
+Scene strip_scene(const StripShape& shape, const LawRequest& law, const Fabric& fabric, const KesWalk& walk) {
+  Scene scene;
+  scene.fabric = fabric;
+  scene.fabric.damping = 0;
+  scene.law = law.name;
+  scene.param = law.parameters;
+  scene.element = shape.element;
+  scene.mesh = shape.mesh;
+  scene.integrator = Integrator::quasi_static;
+  scene.gravity.setZero();
+  scene.step = walk.rows.back().seconds;
+  scene.seconds = scene.step * static_cast<double>(walk.rows.size());
+  scene.device = DeviceChoice::cpu;
+  scene.threads = 1;  // strips are small
+  return scene;
+}
+
+void check_strip(const StripShape& shape, const LawRequest& law, const KesProtocol& protocol) {
+  const auto& meshes = strip_meshes();
+  if (std::find(meshes.begin(), meshes.end(), shape.mesh) == meshes.end())
+    throw Error::invalid_input("mesh = " + shape.mesh + " of a strip is not one of: " + join(meshes, ", "))
+        .with_key("mesh", shape.mesh)
+        .with_experiment("kes");
+  if (law.name == "grinspun-edit")
+    throw Error::invalid_input(
+        "grinspun-edit is tested alone (--on law): no edit is ordered on the strip's way, and without "
+        "one it is linear")
+        .with_key("law", law.name)
+        .with_experiment("kes");
+  if (protocol.amplitude * kGauge >= 2 * kPi) {
+    const std::string amplitude = fmt::format("{:g}", protocol.amplitude);
+    throw Error::invalid_input(
+        fmt::format("amplitude = {} 1/m bends a strip of {:g} m by a whole turn or more: the "
+                    "clamps would meet; it must be < {:g} 1/m",
+                    amplitude, kGauge, 2 * kPi / kGauge))
+        .with_key("amplitude", amplitude)
+        .with_experiment("kes");
+  }
+}
 
 using Clock = std::chrono::steady_clock;
 
@@ -44,6 +103,59 @@ LawRequest as_in_cloth(LawRequest law) {
 }
 
 }  // namespace
+
+const std::vector<std::string>& strip_meshes() {
+  static const std::vector<std::string> kMeshes = {"aligned",   "aligned-45",  "flipped",
+                                                   "unionjack", "equilateral", "random"};
+  return kMeshes;
+}
+
+KesWalk strip_walk(const KesProtocol& p, int steps) {
+  const int between = 2 * steps - 1;  // amplitudes
+  const double step = 2 * p.amplitude / between, seconds = step / p.rate;
+  KesWalk walk{{LawRow{0, seconds, false}}, {0}};
+  for (int i = 1; i <= steps; ++i) walk.rows.push_back({p.amplitude * (2 * i - 1) / between, seconds, false});
+  walk.start.push_back(walk.rows.size() - 1);
+  for (int leg = 0; leg < 2 * p.cycles; ++leg) {
+    const double from = leg % 2 ? -p.amplitude : p.amplitude;
+    for (int i = 1; i <= between; ++i) walk.rows.push_back({from * (1 - 2.0 * i / between), seconds, false});
+    walk.start.push_back(walk.rows.size() - 1);
+  }
+  return walk;
+}
+
+Placement ClampedStrip::clamp(std::size_t row) const {
+  return placement(scene.pin[1].motion, static_cast<double>(row) * scene.step);
+}
+
+Eigen::Vector3d ClampedStrip::middle() const { return scene.pin[1].motion.center; }
+
+bool ClampedStrip::is_free(int face) const {
+  const Eigen::Vector3i& corner = cloth.mesh.face[face];
+  return std::all_of(corner.begin(), corner.end(), [&](int vertex) { return cloth.pin[vertex] < 0; });
+}
+
+ClampedStrip clamped_strip(const StripShape& shape, const LawRequest& law, const Fabric& fabric,
+                           const KesProtocol& protocol) {
+  check_strip(shape, law, protocol);
+  ClampedStrip strip{{}, {}, strip_walk(protocol, shape.steps), 0};
+  ClampedMesh clamped = clamped_mesh(shape.mesh, kGauge, shape.width, shape.triangles, 2, 1);
+  const double d = strip.spacing = clamped.spacing;
+  Scene& scene = strip.scene = strip_scene(shape, law, fabric, strip.walk);
+  scene.cloth.shape = "strip";
+  scene.cloth.length = clamped.length;
+  scene.cloth.width = shape.width;
+  scene.cloth.warp_angle = shape.warp_angle;
+  scene.triangles = clamped.mesh.faces();
+  scene.pin = {held_between(-1, clamped.near()), held_between(clamped.far(), 1)};
+  Motion& motion = scene.pin[1].motion;
+  motion.axis = {0, -1, 0};  // warp turns towards +z
+  motion.center = {kGauge + d / 2, shape.width / 2, 0};
+  for (std::size_t i = 0; i < strip.walk.rows.size(); ++i)
+    motion.keys.push_back(bent(strip.walk.rows[i].curvature, d, static_cast<double>(i) * scene.step));
+  strip.cloth = place_cloth(scene, std::move(clamped.mesh));
+  return strip;
+}
 
 StripTest test_strip(const ClampedStrip& strip, const LawRequest& law, const KesProtocol& protocol,
                      const StripWatch& watch) {

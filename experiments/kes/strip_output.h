@@ -20,19 +20,11 @@ struct StripPicture {
 };
 
 struct StripResult {
-  std::string mesh, element;
-  int triangles = 0;
-  double spacing = 0;  // of columns [m]
-  KesWalk walk;
+  ClampedStrip strip;
   StripTest test;
   std::string failure;  // why there is no test: where no equilibrium was found; else empty
   std::vector<StripPicture> pictures;
   std::string renderer;  // of the pictures
-};
-
-// What was tested, for a title.
-struct StripTitle {
-  std::string fabric, law;
 };
 
 // A reading of a strip over that of the law alone through the same curvatures, minus 1 [percent].  NaN where
@@ -44,11 +36,10 @@ StripDifference difference(const StripTest& strip, double amplitude);
 
 // PREFIX strip_B_N_m, strip_2HB_N ... and their differences, or strip_failure; `amplitude` as in the
 // protocol.
-void write_strip_metrics(Run& run, const std::string& prefix, double amplitude, const StripResult& strip);
+void write_strip_metrics(Run& run, const std::string& prefix, double amplitude, const StripResult& result);
 // Of a strip that was tested.  strip ENDING.csv: the law and the strip, an equilibrium per row.
-void write_strip_table(Run& run, const std::string& ending, const StripResult& strip);
+void write_strip_table(Run& run, const std::string& ending, const StripResult& result);
 // plot_strip ENDING: loops and differences; strip ENDING.png: the same with pictures of the strip.
-void write_strip_figures(Run& run, const std::string& ending, const StripTitle& title,
-                         const StripResult& strip);
+void write_strip_figures(Run& run, const std::string& ending, const StripResult& result);
 
 }  // namespace hysteron::experiments

@@ -1,17 +1,44 @@
-#include "experiments/law/law.h"
-
+// `hysteron law`: one law alone, from a list of curvatures to moments and energies.
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <iostream>
 
+#include "experiments/workbench/app/experiment.h"
 #include "sim/base/csv.h"
 #include "sim/base/error.h"
+#include "sim/bending/laws/law_run.h"
 #include "sim/bending/laws/recovery.h"
 #include "sim/reference/kes.h"
+#include "sim/scene/fabric_reader.h"
 
 namespace hysteron::experiments {
 namespace {
+
+struct LawFlags {
+  std::string law = "prandtl";
+  std::string fabric = "cotton-broad";
+  VirginCurve curve{};  // with the parts of the fabric
+  Parameters param;
+  std::string in;   // columns `curvature [1/m]`, optional `time [s]`, `edit`
+  std::string out;  // curvature, moment, tangent, stored, dissipated (cumulative)
+};
+
+using L = LawFlags;
+// clang-format off
+const KeyRow<LawFlags> kRows[] = {
+    {"fabric", at<&L::fabric>, "", any(), "", "whose b1, b2, k0 are taken where not given, and what its file has beyond them; its stops unless b1 or k0 is given"},
+    {"law", at<&L::law>, "", any(), "", "see `hysteron list laws`"},
+    {"b1", at<&L::curve, &VirginCurve::b1>, "N m", at_least(0), "", "initial bending rigidity, >= b2"},
+    {"b2", at<&L::curve, &VirginCurve::b2>, "N m", at_least(0), "", "bending rigidity of the straight branch"},
+    {"k0", at<&L::curve, &VirginCurve::k0>, "1/m", at_least(0), "", "curvature at which friction saturates"},
+    {"param", at<&L::param>, "", any(), "", "parameters of the law"},
+    {"in", at<&L::in>, "", any(), "", "CSV with column `curvature [1/m]`"},
+    {"out", at<&L::out>, "", any(), "", "CSV with moments and energies"},
+};
+// clang-format on
 
 constexpr const char* kCurvature = "curvature [1/m]";
 constexpr const char* kTime = "time [s]";
@@ -115,12 +142,40 @@ std::string recovery_summary(const LawRequest& request, const std::vector<LawRow
   return text + "\n";
 }
 
-}  // namespace
+// b1 and k0 by hand are friction of three numbers.
+void drop_stops_unless_asked_for(const CommandLine& line, LawFlags& flags) {
+  const bool by_hand = std::any_of(line.flags.begin(), line.flags.end(),
+                                   [](const Flag& flag) { return flag.path == "b1" || flag.path == "k0"; });
+  if (by_hand) flags.curve.parts.stops = flags.curve.parts.weft_stops = {};
+}
 
-int run_law_command(const LawOptions& options) {
-  check_curve(options.curve);
-  const LawRequest request{options.law, options.curve, options.parameters};
-  const Table table = read_csv(options.in, {kCurvature}, {kTime, kEdit}, "law");
+// The flags over the fabric's numbers.
+LawFlags read_flags(const CommandLine& line) {
+  LawFlags flags;
+  const Keys keys = bind(kRows, flags);
+  const auto apply = [&](const Flag& flag) { assign_text(keys, flag.path, flag.text, "--" + flag.path); };
+  for (const Flag& flag : line.flags)
+    if (flag.path == "fabric") apply(flag);
+  flags.curve = read_fabric(flags.fabric, "--fabric").fabric.virgin_curve();
+  for (const Flag& flag : line.flags) apply(flag);
+  drop_stops_unless_asked_for(line, flags);
+  if (flags.in.empty() || flags.out.empty()) throw Error::invalid_input("needs --in K.csv and --out M.csv");
+  std::error_code missing;
+  if (std::filesystem::equivalent(flags.in, flags.out, missing))
+    throw Error::invalid_input("--out " + flags.out + " is the input: give another file")
+        .with_key("out", flags.out);
+  return flags;
+}
+
+// The first row is the first curvature visited from rest, every row is one accepted step, which takes the
+// difference of the two times (the first row: 0 s), or 1 s where there is no `time`; it must not fall.
+// `edit` = 1 sets the rest curvature to that of the row (grinspun-edit; others ignore it).  Prints the
+// reversals by recovery case, and the residual curvature after the last row.
+int run_law_command(const CommandLine& line) {
+  const LawFlags flags = read_flags(line);
+  check_curve(flags.curve);
+  const LawRequest request{flags.law, flags.curve, flags.param};
+  const Table table = read_csv(flags.in, {kCurvature}, {kTime, kEdit}, "law");
   check_curvature(table);
   check_time(table);
   check_edit(table);
@@ -134,8 +189,17 @@ int run_law_command(const LawOptions& options) {
   if (!run.relaxed.empty()) results.push_back({"relaxed [J/m2]", run.relaxed});
   check_results(results, table);
   std::cout << recovery_summary(request, rows, run) << stops_summary(request);
-  Table(results).write(options.out);
+  Table(results).write(flags.out);
   return 0;
+}
+
+}  // namespace
+
+Experiment law() {
+  return {.name = "law",
+          .question = "one law alone: curvatures in, moments out (CSV)",
+          .run = run_law_command,
+          .own_keys = own_key_descriptions<kRows>};
 }
 
 }  // namespace hysteron::experiments

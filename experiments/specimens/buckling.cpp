@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "experiments/specimens/cantilever_strip.h"
-#include "experiments/specimens/clamped_mesh.h"
 #include "sim/base/error.h"
 #include "sim/bending/laws/law_run.h"
 
@@ -71,13 +69,6 @@ double extrapolated_threshold(const Southwell& plot, int power) {
 
 }  // namespace
 
-Buckling buckling_named(const std::string& name) {
-  if (name == "upright") return Buckling::upright;
-  if (name == "edge") return Buckling::edge;
-  throw Error::invalid_input("buckle.kind = " + name + " is unknown; choose upright or edge")
-      .with_key("buckle.kind", name);
-}
-
 int power_of_load(Buckling kind) { return kind == Buckling::upright ? 1 : 2; }
 
 double reference_gamma(Buckling kind, const Scene& scene) {
@@ -106,11 +97,7 @@ double BucklingStrip::deflection(const std::vector<Eigen::Vector3d>& x) const {
 }
 
 BucklingStrip buckling_strip(Scene scene, Buckling kind, double length, double tilt, double most) {
-  ClampedMesh clamped = clamped_mesh(scene.mesh, length, scene.cloth.width, scene.triangles, 1, scene.seed);
   const double g = scene.gravity.norm();
-  scene.cloth.shape = "strip";
-  scene.cloth.length = clamped.length;
-  scene.triangles = clamped.mesh.faces();
   scene.cloth.rotation = kind == Buckling::upright ? Eigen::Vector3d(0, -90, 0) : Eigen::Vector3d(90, 0, 0);
   const Eigen::Vector3d side =
       kind == Buckling::upright ? -Eigen::Vector3d::UnitX() : -Eigen::Vector3d::UnitY();
@@ -126,9 +113,7 @@ BucklingStrip buckling_strip(Scene scene, Buckling kind, double length, double t
                                std::to_string(scene.fabric.density) + " kg/m^2")
         .with_key("law", scene.law)
         .with_experiment("buckle");
-  scene.pin = {held_between(-1, clamped.near())};
-  Cloth cloth = place_cloth(scene, std::move(clamped.mesh));
-  return {kind, std::move(scene), std::move(cloth), length, side};
+  return {overhang(std::move(scene), length), kind, side};
 }
 
 BucklingStrip measured_strip(Scene scene, Buckling kind, double length) {

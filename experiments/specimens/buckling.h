@@ -2,10 +2,10 @@
 // the theory of beams says of it.
 #pragma once
 
-#include <string>
+#include <array>
 #include <vector>
 
-#include "sim/scene/cloth.h"
+#include "experiments/specimens/cantilever_strip.h"
 #include "sim/time/simulation.h"
 
 namespace hysteron::experiments {
@@ -13,7 +13,7 @@ namespace hysteron::experiments {
 // upright: it stands on its clamp and falls over (Greenhill 1881).
 // edge: it is clamped level, its width vertical, and turns over sideways (Prandtl 1899).
 enum class Buckling { upright, edge };
-Buckling buckling_named(const std::string& name);  // Error::invalid_input for unknown ones
+constexpr std::array<const char*, 2> names(Buckling) { return {"upright", "edge"}; }
 
 // Heaviness Gamma, weight per area times L^3/b2, at which a strip of this law and fabric buckles that is
 // narrow, b << L, and bends far more easily out of its plane than in it.  Its bending rigidity is EI = B b
@@ -30,21 +30,17 @@ double reference_gamma(Buckling kind, const Scene& scene);
 // L/20 that is 3.1 %, and 0.06 % too little.
 double fraction_of_width(Buckling kind, const Scene& scene, double length);
 
-struct BucklingStrip {
+struct BucklingStrip : CantileverStrip {
   Buckling kind;
-  Scene scene;
-  Cloth cloth;
-  double length = 0;     // of the cloth that bends, from the middle of the clamp's columns [m]
   Eigen::Vector3d side;  // where it buckles to: the cloth's normal at the start
 
   // Mean displacement of the free end to that side [m].
   double deflection(const std::vector<Eigen::Vector3d>& x) const;
 };
 
-// Makes the scene's cloth a strip of its family of `length`, scene.cloth.width wide, of about scene.triangles
-// triangles, clamps it as `kind` asks, and has gravity pull it `tilt` [rad] to the side.  Its density becomes
-// such that the weight grows to `most` times that of the reference in scene.ramp = `most` seconds; pins of
-// the scene are replaced.  Error::invalid_input for impossible meshes.
+// The scene's cloth as overhang() makes it, clamped as `kind` asks, with gravity that pulls it `tilt` [rad]
+// to the side.  Its density becomes such that the weight grows to `most` times that of the reference in
+// scene.ramp = `most` seconds.
 BucklingStrip buckling_strip(Scene scene, Buckling kind, double length, double tilt, double most);
 
 // For measuring thresholds: a tilt under which the strip deflects in proportion to it, a weight that reaches

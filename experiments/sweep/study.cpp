@@ -2,7 +2,11 @@
 
 #include <algorithm>
 #include <cctype>
+#include <nlohmann/json.hpp>
+#include <numeric>
+#include <random>
 #include <set>
+#include <utility>
 
 #include "experiments/workbench/compare/variants.h"
 
@@ -81,6 +85,9 @@ void name_runs(const std::vector<StudyAxis>& axes, const std::vector<Part>& part
   for (std::size_t r = 0; r < runs.size(); ++r) runs[r].name = "run=" + padded(r + 1, runs.size());
 }
 
+// The standard fixes the engine's numbers, not those of its distributions.
+double uniform(std::mt19937_64& engine) { return static_cast<double>(engine() >> 11) * 0x1p-53; }
+
 }  // namespace
 
 bool is_seed(const StudyAxis& axis) { return axis.key == kSeedKey; }
@@ -101,15 +108,45 @@ std::vector<StudyRun> runs_on_axes(const std::vector<StudyAxis>& axes) {
   return runs;
 }
 
+std::vector<std::vector<double>> latin_hypercube(std::size_t axes, std::size_t n, std::uint64_t seed) {
+  std::mt19937_64 engine(seed);
+  std::vector<std::vector<double>> drawn(axes, std::vector<double>(n));
+  std::vector<std::size_t> part(n);
+  for (std::vector<double>& axis : drawn) {
+    std::iota(part.begin(), part.end(), std::size_t{0});
+    for (std::size_t i = n; i > 1; --i) {  // Durstenfeld 1964
+      const auto other = static_cast<std::size_t>(uniform(engine) * static_cast<double>(i));
+      std::swap(part[i - 1], part[other]);
+    }
+    for (std::size_t i = 0; i < n; ++i)
+      axis[i] = (static_cast<double>(part[i]) + uniform(engine)) / static_cast<double>(n);
+  }
+  return drawn;
+}
+
+Flag flag_of(const std::string& key, const std::string& value) {
+  if (!key.starts_with("param.")) return {key, value};
+  return {"param", key.substr(6) + "=" + value};
+}
+
 CommandLine run_command_line(const Study& study, const StudyRun& run) {
   CommandLine line{study.experiment, "hysteron " + study.experiment, study.shared, {}};
-  for (std::size_t a = 0; a < study.axes.size(); ++a) {
-    const std::string& key = study.axes[a].key;
-    const bool parameter = key.starts_with("param.");
-    line.flags.push_back(parameter ? Flag{"param", key.substr(6) + "=" + run.values[a]}
-                                   : Flag{key, run.values[a]});
-  }
+  for (std::size_t a = 0; a < study.axes.size(); ++a)
+    line.flags.push_back(flag_of(study.axes[a].key, run.values[a]));
   return line;
+}
+
+Json study_record(const Study& study) {
+  Json shared = Json::array(), axes = Json::array();
+  for (const Flag& flag : study.shared) shared.push_back(flag.path + "=" + flag.text);
+  for (const StudyAxis& axis : study.axes) {
+    axes.push_back({{"key", axis.key}, {"values", axis.values}});
+    if (axis.logarithmic) axes.back()["scale"] = "log";
+    if (axis.sampled) axes.back()["sampled"] = "latin";
+  }
+  Json keys = {{"study", study.name}, {"experiment", study.experiment}, {"shared", shared}, {"axes", axes}};
+  if (!study.metrics.empty()) keys["metrics"] = study.metrics;
+  return keys;
 }
 
 }  // namespace hysteron::experiments

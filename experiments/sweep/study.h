@@ -3,10 +3,12 @@
 //   study file -> axes -> runs, every combination of their values -> a folder each, OUT/runs/NAME/
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
 #include "experiments/workbench/app/experiment.h"
+#include "experiments/workbench/app/manifest.h"
 #include "experiments/workbench/compare/workflow.h"
 
 namespace hysteron::experiments {
@@ -51,7 +53,17 @@ Study read_study(const std::string& name_or_file);
 // files everywhere and differ from each other.
 std::vector<StudyRun> runs_on_axes(const std::vector<StudyAxis>& axes);
 
+// `n` numbers in [0, 1) of each of `axes`, by axis: every n-th part of an axis is drawn from once, in an
+// order of its own (McKay, Beckman & Conover 1979, Technometrics 21:239).  The same seed gives the same
+// numbers on every machine.
+std::vector<std::vector<double>> latin_hypercube(std::size_t axes, std::size_t n, std::uint64_t seed);
+
+// The flag that gives the key of a study this value: {"param", "stack=8"} for "param.stack".
+Flag flag_of(const std::string& key, const std::string& value);
 // What the run is asked for.
 CommandLine run_command_line(const Study& study, const StudyRun& run);
+
+// What the manifest keeps of it.
+Json study_record(const Study& study);
 
 }  // namespace hysteron::experiments

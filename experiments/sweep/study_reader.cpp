@@ -6,8 +6,6 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "experiments/sweep/latin_hypercube.h"
-#include "experiments/sweep/recorded_study.h"
 #include "experiments/sweep/study.h"
 #include "experiments/workbench/app/command_line.h"
 #include "experiments/workbench/app/decided_keys.h"
@@ -57,6 +55,33 @@ struct Scratch {
   }
 };
 
+// "fabric.k0=12", "param=stack=8".
+ValueTree shared_node(std::string flag) {
+  if (flag.starts_with("param=")) flag[5] = '.';
+  const std::size_t end = flag.find('=');
+  return {ValueTree::Kind::value, flag.substr(0, end), 0, flag.substr(end + 1), {}};
+}
+
+// A study as the manifest of its sweep keeps it, which outlives the file that it was read from: as a study
+// file would have it, beside what that cannot say, "scale" and "sampled" of an axis whose values stand there.
+// Throws Error::invalid_input, naming `file`, where the manifest is not of a sweep.
+ValueTree recorded_study(const Manifest& manifest, const std::string& file) {
+  for (const char* key : {"experiment", "shared", "axes"})
+    if (manifest.experiment != "sweep" || !manifest.keys || !manifest.keys->contains(key))
+      throw Error::invalid_input(file + " is not the manifest of a sweep").with_key("study", file);
+  ValueTree root = json_tree(*manifest.keys, file, Lists::allowed);
+  std::erase_if(root.children, [](const ValueTree& node) { return node.key == "study"; });
+  for (ValueTree& node : root.children) {
+    if (node.key == "axes") node.key = "axis";
+    if (node.key != "shared") continue;
+    node.key = "scene";
+    node.kind = ValueTree::Kind::table;
+    for (ValueTree& flag : node.children)
+      if (const auto* text = std::get_if<std::string>(&flag.value)) flag = shared_node(*text);
+  }
+  return root;
+}
+
 // As a flag takes it: integers without an exponent.
 std::string flag_text(double x) {
   constexpr double kExact = 1e15;
@@ -75,7 +100,7 @@ std::string flag_text(const Value& value) {
 
 class StudyFile {
  public:
-  // recorded: `root` is of a manifest (recorded_study.h).
+  // recorded: `root` is of a manifest.
   StudyFile(const std::string& file, const std::string& name, bool recorded)
       : file_(file), recorded_(recorded) {
     study_.file = file;
@@ -188,14 +213,13 @@ class StudyFile {
       if (decided.path == key)
         throw refusal(node, key + " cannot be set: " + decided_words(study_.experiment, decided))
             .with_key(key, "");
-    if (key.starts_with("param.")) return find_key(keys_, "param", at(node)).description;
-    return find_key(keys_, key == "fabric" ? "fabric.name" : key, at(node)).description;
+    return find_key(keys_, key == "fabric" ? "fabric.name" : flag_of(key, "").path, at(node)).description;
   }
 
   void check_value(const std::string& key, const KeyDescription& description, const std::string& value,
                    const ValueTree& node) const {
     Scratch scratch;
-    const std::string text = key.starts_with("param.") ? key.substr(6) + "=" + value : value;
+    const std::string text = flag_of(key, value).text;
     assign({description, scratch.field(description.type)}, parse_text(description, text), at(node));
     if (description.path == "fabric.name") find_asset("fabrics", value, key + ", " + at(node));
     if (key == "scene") find_asset("scenes", value, key + ", " + at(node));
@@ -214,8 +238,7 @@ class StudyFile {
       const KeyDescription& description = known_key(key, child);
       const std::string value = one_value(child, key);
       check_value(key, description, value, child);
-      const bool parameter = key.starts_with("param.");
-      study_.shared.push_back(parameter ? Flag{"param", key.substr(6) + "=" + value} : Flag{key, value});
+      study_.shared.push_back(flag_of(key, value));
       set_.insert(key);
     }
   }

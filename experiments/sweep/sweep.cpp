@@ -9,10 +9,10 @@
 #include <cmath>
 #include <filesystem>
 #include <iostream>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "experiments/sweep/plots.h"
-#include "experiments/sweep/recorded_study.h"
 #include "experiments/sweep/study.h"
 #include "experiments/sweep/tables.h"
 #include "experiments/workbench/app/ending.h"

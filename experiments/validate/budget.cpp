@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "experiments/validate/spread.h"
 #include "sim/base/comma_list.h"
 #include "sim/base/csv.h"
 

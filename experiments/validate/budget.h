@@ -7,7 +7,6 @@
 
 #include "experiments/validate/drapes.h"
 #include "render/plot.h"
-#include "sim/scene/fabric_reader.h"
 
 namespace hysteron::experiments {
 

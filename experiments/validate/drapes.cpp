@@ -5,7 +5,6 @@
 #include "experiments/workbench/compare/comparison.h"
 #include "sim/base/error.h"
 #include "sim/base/number_in.h"
-#include "sim/scene/fabric_reader.h"
 
 namespace hysteron::experiments {
 
@@ -19,9 +18,7 @@ Drape nominal_drape(const std::string& fabric, const ValidateFlags& flags) {
           shaken ? "jis" : "iso9073",
           shaken ? "shaken" : "lowered",
           "",
-          static_cast<int>(flags.triangles),
-          flags.step,
-          flags.tolerance};
+          static_cast<int>(flags.triangles)};
 }
 
 std::vector<Flag> drape_flags(const Drape& drape, const ValidateFlags& flags) {
@@ -30,8 +27,8 @@ std::vector<Flag> drape_flags(const Drape& drape, const ValidateFlags& flags) {
                            {"drape.standard", drape.standard},
                            {"drape.release", drape.release},
                            {"triangles", std::to_string(drape.triangles)},
-                           {"step", number_text(drape.step)},
-                           {"tolerance", number_text(drape.tolerance)},
+                           {"step", number_text(flags.step)},
+                           {"tolerance", number_text(flags.tolerance)},
                            {"device", flags.device}};
   if (flags.seconds > 0) own.push_back({"seconds", number_text(flags.seconds)});
   if (flags.options.quick) {

@@ -1,21 +1,38 @@
-// Cusick's drape by the subcommand `drape`, in folders of its own within a validation.
+// What `hysteron validate` is asked for, and Cusick's drape by the subcommand `drape`, in folders of its own
+// within a validation: also how much of it is known, with the fabric's uncertain numbers anywhere in their
+// ranges.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
-#include "experiments/validate/validate.h"
 #include "experiments/workbench/app/experiment.h"
 #include "experiments/workbench/app/manifest.h"
 #include "experiments/workbench/app/run.h"
+#include "sim/scene/fabric_reader.h"
 
 namespace hysteron::experiments {
+
+// The keys of the command line.
+struct ValidateFlags {
+  std::string parts = "spread";
+  std::string fabrics = "cotton-broad,wool-tropical,polyester-tropical,polyester-faille";
+  std::string law = "prandtl", device = "cpu";
+  std::string standard = "published";  // whose apparatus drapes are made on
+  std::string recorded = "results";    // folder of results that are drawn
+  double triangles = 6000, step = 1.0 / 120, tolerance = 1e-5;
+  double seconds = 0;  // longest of a drape; 0: as the drape has it
+  int samples = 8;     // of each fabric's uncertain numbers
+  int draws = 3;       // meshes for the mean of a drape in a budget
+  unsigned seed = 1;   // of the samples
+  Options options;
+};
 
 // A drape and what came of it.
 struct Drape {
   std::string fabric, law, standard, release, varied;  // varied: sample-1 | budget-3-1
   int triangles = 0;
-  double step = 0, tolerance = 0;
   std::vector<Flag> further = {};  // what else sets it apart
   Metrics metrics{};
   double seconds = 0;
@@ -35,5 +52,29 @@ std::vector<Flag> drape_flags(const Drape& drape, const ValidateFlags& flags);
 // Each in a folder of the run, side by side.  What they warn of the run does, too.  Throws Error::simulation
 // where one of them cannot go on.
 void run_drapes(std::vector<Drape>& drapes, const ValidateFlags& flags, Run& run);
+
+// Numbers of a fabric by their keys.
+using Sample = std::map<std::string, double>;
+
+// A Latin hypercube of the fabric's ranges (McKay, Beckman & Conover 1979): each number once in each of
+// `count` parts of its range that are equal in the logarithm, which part with which by chance.  B, 2HB or the
+// friction moment stay as published, the mean of warp and weft; the range of bias-bending is that of its
+// ratio to that mean.
+std::vector<Sample> fabric_samples(const FabricFile& file, int count, unsigned seed);
+
+// What is published holds for a sample: the friction moment for each k0, and B and 2HB as the mean of warp
+// and weft. A range of bias-bending is that of its ratio to the mean of both.
+void keep_what_was_measured(const Fabric& fabric, Sample& sample);
+
+double mean_value(const std::vector<double>& values);
+// Standard deviation of one, of at least two.
+double sample_deviation(const std::vector<double>& values);
+
+// As a drape is told of it, with all bits.
+std::vector<Flag> drape_flags(const Sample& sample);
+
+// Each fabric on its tester with `samples` draws of its uncertain numbers, each on another mesh: spread.csv,
+// plot_spread, and beside what was measured predictions.csv.
+void predict_spread(const ValidateFlags& flags, Run& run);
 
 }  // namespace hysteron::experiments

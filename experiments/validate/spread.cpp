@@ -1,5 +1,4 @@
-#include "experiments/validate/spread.h"
-
+// Drapes with the fabric's uncertain numbers anywhere in their ranges.
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numeric>

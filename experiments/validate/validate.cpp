@@ -6,7 +6,6 @@
 
 #include "experiments/validate/budget.h"
 #include "experiments/validate/figure.h"
-#include "experiments/validate/spread.h"
 #include "experiments/workbench/pages/report.h"
 #include "sim/base/comma_list.h"
 #include "sim/base/error.h"

@@ -1,5 +1,5 @@
 // What is draped: measured where it is, and refused where it is no disc.
-#include "experiments/drape/specimen.h"
+#include "experiments/drape/apparatus.h"
 
 #include <cmath>
 #include <fstream>

@@ -1,11 +1,10 @@
 // `hysteron law` from file to file.
-#include "experiments/law/law.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <fstream>
 
+#include "experiments/workbench/app/experiment.h"
 #include "sim/base/csv.h"
 #include "sim/base/error.h"
 #include "tests/sim/base/folder.h"
@@ -16,26 +15,30 @@ namespace {
 
 class LawCommand : public ::testing::Test {
  protected:
-  void SetUp() override {
-    options_ = {"wong", {4e-5, 1e-5, 50}, {}, folder_.file("k.csv"), folder_.file("m.csv")};
-    write("curvature [1/m],time [s]\n50,0\n100,1\n");
-  }
+  void SetUp() override { write("curvature [1/m],time [s]\n50,0\n100,1\n"); }
 
-  void write(const std::string& text) { std::ofstream(options_.in) << text; }
-  std::string refusal() {
-    const std::string message = test::refusal([&] { run_law_command(options_); });
-    EXPECT_FALSE(std::filesystem::exists(options_.out));
+  void write(const std::string& text) { std::ofstream(in_) << text; }
+  // The flags in place of, or beside, those of the usual law.
+  int run(std::vector<Flag> flags = {}) {
+    std::vector<Flag> all = {{"law", "wong"}, {"b1", "4e-5"}, {"b2", "1e-5"}, {"k0", "50"}};
+    all.insert(all.end(), {{"in", in_}, {"out", out_}});
+    all.insert(all.end(), flags.begin(), flags.end());
+    return experiment_named("law").run({"law", "hysteron law", all, {}});
+  }
+  std::string refusal(const std::vector<Flag>& flags = {}) {
+    const std::string message = test::refusal([&] { run(flags); });
+    EXPECT_FALSE(std::filesystem::exists(out_));
     return message;
   }
   const test::Folder folder_;
-  LawOptions options_;
+  const std::string in_ = folder_.file("k.csv"), out_ = folder_.file("m.csv");
 };
 
 TEST_F(LawCommand, WritesMomentTangentAndEnergiesForEveryRow) {
-  EXPECT_EQ(run_law_command(options_), 0);
-  const Table out = read_csv(
-      options_.out, {"curvature [1/m]", "moment [N]", "tangent [N m]", "stored [J/m2]", "dissipated [J/m2]"},
-      {}, "law");
+  EXPECT_EQ(run(), 0);
+  const Table out =
+      read_csv(out_, {"curvature [1/m]", "moment [N]", "tangent [N m]", "stored [J/m2]", "dissipated [J/m2]"},
+               {}, "law");
   const double m0 = 3e-5 * 50 / 2, b2 = 1e-5;
   constexpr double kRounding = 1e-15;
   EXPECT_NEAR(out.number(0, "moment [N]"), m0 + b2 * 50, kRounding);
@@ -45,14 +48,14 @@ TEST_F(LawCommand, WritesMomentTangentAndEnergiesForEveryRow) {
 }
 
 TEST_F(LawCommand, RefusesTheChaptersSignOfTheRigidities) {
-  options_.curve = {1e-5, 2e-5, 50};
-  EXPECT_NE(refusal().find("--b1 = 1e-05 N m must be finite and >= b2 = 2e-05 N m"), std::string::npos);
+  EXPECT_NE(
+      refusal({{"b1", "1e-5"}, {"b2", "2e-5"}}).find("--b1 = 1e-05 N m must be finite and >= b2 = 2e-05 N m"),
+      std::string::npos);
 }
 
 TEST_F(LawCommand, RefusesWhatItCannotUnderstand) {
-  options_.parameters = {{"recovery", "elastic"}};
-  EXPECT_NE(refusal().find("recovery = elastic must be masing or reversible"), std::string::npos);
-  options_.parameters = {};
+  EXPECT_NE(refusal({{"param", "recovery=elastic"}}).find("recovery = elastic must be masing or reversible"),
+            std::string::npos);
   write("curvature [1/m],time [s]\n50,1\n100,0\n");
   EXPECT_NE(refusal().find("k.csv:3: time = 0 s must be >= 1 s"), std::string::npos);
   write("curvature [1/m],edit\n50,2\n");
@@ -63,31 +66,28 @@ TEST_F(LawCommand, RefusesWhatNoNumberCanHold) {
   write("curvature [1/m]\n50\n1e300\n");
   EXPECT_NE(refusal().find("k.csv:3: curvature = 1e+300 1/m must be within +-1e+06 1/m"), std::string::npos)
       << refusal();
-  options_.law = "linear";
-  options_.curve = {1e306, 1e306, 50};
+  const std::vector<Flag> huge = {{"law", "linear"}, {"b1", "1e306"}, {"b2", "1e306"}};
   write("curvature [1/m]\n1\n\n-1000\n");
-  EXPECT_NE(refusal().find("k.csv:4: at curvature = -1000 1/m the law's moment [N] is no finite number"),
+  EXPECT_NE(refusal(huge).find("k.csv:4: at curvature = -1000 1/m the law's moment [N] is no finite number"),
             std::string::npos)
-      << refusal();
+      << refusal(huge);
 }
 
 TEST_F(LawCommand, GivesTimeAndCommandsToTheLawsThatTakeThem) {
-  const auto moments = [&] {
-    EXPECT_EQ(run_law_command(options_), 0);
-    return read_csv(options_.out, {"moment [N]"}, {}, "law").numbers("moment [N]");
+  const auto moments = [&](const std::string& law) {
+    EXPECT_EQ(run({{"law", law}}), 0);
+    return read_csv(out_, {"moment [N]"}, {}, "law").numbers("moment [N]");
   };
-  options_.law = "terzopoulos";
   write("curvature [1/m],time [s]\n200,0\n200,1\n200,1001\n");
   const double m0 = 3e-5 * 50 / 2, excess = 1e-5 * 200 - m0;
   constexpr double kRounding = 1e-15;
-  const std::vector<double> creep = moments();
+  const std::vector<double> creep = moments("terzopoulos");
   EXPECT_NEAR(creep[0], m0 + excess, kRounding);  // no time has passed
   EXPECT_NEAR(creep[1], m0 + excess * std::exp(-1), kRounding);
   EXPECT_NEAR(creep[2], m0, kRounding);
-  options_.law = "grinspun-edit";
   write("curvature [1/m],edit\n200,1\n150,0\n");
-  EXPECT_NEAR(moments()[0], 0, kRounding);
-  EXPECT_NEAR(moments()[1], -50e-5, kRounding);
+  EXPECT_NEAR(moments("grinspun-edit")[0], 0, kRounding);
+  EXPECT_NEAR(moments("grinspun-edit")[1], -50e-5, kRounding);
 }
 
 }  // namespace

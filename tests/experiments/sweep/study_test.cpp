@@ -4,7 +4,6 @@
 #include <cmath>
 #include <set>
 
-#include "experiments/sweep/latin_hypercube.h"
 #include "experiments/sweep/tables.h"
 #include "sim/base/atomic_file.h"
 #include "sim/base/error.h"

@@ -4,7 +4,6 @@
 #include <set>
 
 #include "experiments/validate/drapes.h"
-#include "experiments/validate/spread.h"
 #include "experiments/workbench/app/experiment.h"
 #include "sim/base/csv.h"
 #include "tests/experiments/program.h"
