@@ -7,8 +7,8 @@
 #include <numbers>
 #include <set>
 
-#include "sim/base/error.h"
 #include "sim/bending/curvature_operator.h"
+#include "tests/sim/base/refusal.h"
 
 namespace hysteron {
 namespace {
@@ -143,14 +143,8 @@ TEST(SurfaceCurvature, AtFreeEdgesIsWholeAlongThemAndPartAcrossThem) {
 
 TEST(SurfaceCurvature, NeedsASurfaceWithAFront) {
   const std::vector<Vector3d> x = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  try {
-    surface_curvature(x, {{0, 1, 2}, {0, 1, 3}}, "mesh turned.obj");
-    FAIL() << "neighbours of opposite orientation have no common front";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.exit_code(), 2);
-    EXPECT_TRUE(
-        std::string(error.what()).starts_with("mesh turned.obj: triangle 0 and triangle 1 have opposite"));
-  }
+  const auto refused = [&] { surface_curvature(x, {{0, 1, 2}, {0, 1, 3}}, "mesh turned.obj"); };
+  EXPECT_TRUE(test::says(test::refusal(refused), "mesh turned.obj: triangle 0 and triangle 1 have opposite"));
 }
 
 }  // namespace

@@ -6,11 +6,13 @@
 #include "render/cloth_view.h"
 #include "sim/base/error.h"
 #include "sim/time/back_end.h"
+#include "tests/sim/base/refusal.h"
 #include "tests/sim/time/scenes.h"
 
 namespace hysteron {
 namespace {
 
+using test::says;
 using test::Trial;
 
 constexpr int kDrawnSteps = 50;
@@ -125,7 +127,7 @@ TEST_P(CudaToOpenGl, RefusesABufferThatIsTooSmallAndStillSimulates) {
   ASSERT_TRUE(share_with(small));
   std::string reason;
   EXPECT_FALSE(small.view.write_positions(reason));
-  EXPECT_NE(reason.find("bytes"), std::string::npos) << reason;
+  EXPECT_TRUE(says(reason, "bytes"));
   EXPECT_NO_THROW(simulation_->advance(1));
   small.set_positions(*coarse.simulation());
   EXPECT_FALSE(small.draw().empty());
@@ -135,7 +137,7 @@ TEST_P(CudaToOpenGl, RefusesAContextOnAnotherDevice) {
   const Drawing drawing(*offscreen_, trial_->cloth);
   std::string reason;
   EXPECT_EQ(simulation_->share_positions(drawing.view.position_buffer(), -1, reason), nullptr);
-  EXPECT_NE(reason.find("CUDA device 0"), std::string::npos) << reason;
+  EXPECT_TRUE(says(reason, "CUDA device 0"));
 }
 
 TEST(GlPositions, AreNotToBeHadFromTheCpuWhichSaysSo) {
@@ -143,7 +145,7 @@ TEST(GlPositions, AreNotToBeHadFromTheCpuWhichSaysSo) {
   std::string reason;
   EXPECT_EQ(simulation->cuda_device(), -1);
   EXPECT_EQ(simulation->share_positions(1, 0, reason), nullptr);
-  EXPECT_NE(reason.find("CPU"), std::string::npos) << reason;
+  EXPECT_TRUE(says(reason, "CPU"));
 }
 
 }  // namespace

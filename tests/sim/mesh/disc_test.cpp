@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "tests/sim/base/folder.h"
+#include "tests/sim/base/refusal.h"
 #include "tests/sim/mesh/mesh_measures.h"
 
 namespace hysteron {
@@ -136,11 +136,10 @@ TEST(RandomDisc, AnglesStayWideForManySeeds) {
 }
 
 TEST(DiscRequest, ImpossibleOnesAreRefusedByName) {
-  const Error radius = test::thrown_error([] { make_disc(0, 100, MeshFamily::aligned, 0); });
-  EXPECT_EQ(radius.exit_code(), 2);
-  EXPECT_STREQ(radius.what(), "disc mesh: radius = 0 m must be > 0");
-  const Error count = test::thrown_error([] { make_disc(1, 0, MeshFamily::random, 0); });
-  EXPECT_STREQ(count.what(), "disc mesh: triangles = 0 must be 2 to 10000000");
+  EXPECT_EQ(test::refusal([] { make_disc(0, 100, MeshFamily::aligned, 0); }),
+            "disc mesh: radius = 0 m must be > 0");
+  EXPECT_EQ(test::refusal([] { make_disc(1, 0, MeshFamily::random, 0); }),
+            "disc mesh: triangles = 0 must be 2 to 10000000");
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 
 #include "sim/mesh/intersections.h"
 #include "tests/sim/contact/two_sheets.h"
-#include "tests/sim/scene/scene_file.h"
 
 namespace hysteron {
 namespace {
