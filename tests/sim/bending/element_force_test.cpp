@@ -37,7 +37,7 @@ struct Bent {
     return {cpu,
             mesh,
             op,
-            make_law_loop<double>(cpu, choose_law(law, testing::cotton_broad(), parameters), op.dimension,
+            make_law_loop<double>(cpu, choose_law(law, testing::kCotton, parameters), op.dimension,
                                   op.elements()),
             convention,
             0};
@@ -297,8 +297,7 @@ TEST(HingesOfAFabric, FollowTheClosedLoopsOfTheStopsAcrossTheirEdges) {
         cpu, mesh, op,
         make_law_loop<double>(cpu, choose_law("prandtl", fabric.virgin_curve(), {}), 1, op.elements()),
         ForceConvention::energy, 0);
-    testing::Driven<SpectrumStops<double, 1, 8>> law(
-        SpectrumStops<double, 1, 8>::make(q * fabric.b2, stops, {}));
+    testing::Driven law(SpectrumStops<double, 1, 8>::make(q * fabric.b2, stops, {}));
     const Positions still(mesh.vertices(), Vector3d::Zero());
     double before = 0, area = 0;
     for (double turn : {60.0, -60.0, 30.0, -10.0, kFar, -kFar, kFar}) {

@@ -57,8 +57,8 @@ class AnyLaw {
     tensor.tail(3 - dimension_).setZero();
     return tensor;
   }
-  Path<double, 3> random_path(int count, double amplitude, unsigned seed) const {
-    Path<double, 3> path = random_tensors(count, amplitude, seed);
+  Path random_path(int count, double amplitude, unsigned seed) const {
+    Path path = random_tensors(count, amplitude, seed);
     for (Vec<double, 3>& k : path) k = component(k);
     return path;
   }
@@ -69,8 +69,7 @@ class AnyLaw {
 
 // The case's law for this fabric, virgin; steps take `seconds`.
 enum class As { kScalar, kTensor, kTensorInSinglePrecision };
-std::unique_ptr<AnyLaw> any_law(const LawCase& c, As as, double seconds,
-                                const VirginCurve& curve = cotton_broad());
+std::unique_ptr<AnyLaw> any_law(const LawCase& c, As as, double seconds, const VirginCurve& curve = kCotton);
 
 constexpr double kSeconds = 0.05;  // of a step, where time matters
 

@@ -22,7 +22,7 @@ using Sheet = SpectrumStops<double, 3, 8>;
 double virgin(double k) { return kSpectrumB2 * k + warp().friction_at(k); }
 
 TEST(Spectrum, BeginsWithTheSumOfItsStiffnessesAndEndsWithItsFrictionMoment) {
-  Driven<Strip> cloth(Strip::make(kSpectrumB2, warp(), {}));
+  Driven cloth(Strip::make(kSpectrumB2, warp(), {}));
   const double k = 2;  // below all thresholds
   EXPECT_NEAR(cloth.moment(k), (kSpectrumB2 + 9e-6 + 7e-6 + 3e-6 + 1e-6 + 4e-7) * k,
               kSpectrumRounding * kSpectrumB2 * k);
@@ -34,7 +34,7 @@ TEST(Spectrum, BeginsWithTheSumOfItsStiffnessesAndEndsWithItsFrictionMoment) {
 // (Masing 1926): M = Mr + 2 f((K - Kr)/2), whatever the spectrum and the reversal.
 TEST(Spectrum, ReturnsOnItsVirginCurveDoubled) {
   for (double turn : {7.0, 30.0, 80.0, 250.0, 900.0}) {
-    Driven<Strip> cloth(Strip::make(kSpectrumB2, warp(), {}));
+    Driven cloth(Strip::make(kSpectrumB2, warp(), {}));
     EXPECT_NEAR(cloth.moment(turn), virgin(turn), kSpectrumRounding * virgin(turn));
     for (int i = 1; i <= 40; ++i) {
       const double k = turn - 2 * turn * i / 40;
@@ -46,7 +46,7 @@ TEST(Spectrum, ReturnsOnItsVirginCurveDoubled) {
 
 TEST(Spectrum, LosesTheAreaOfItsClosedFormInEachCycle) {
   for (double amplitude : {8.0, 50.0, 250.0, 1000.0}) {
-    Driven<Strip> cloth(Strip::make(kSpectrumB2, warp(), {}));
+    Driven cloth(Strip::make(kSpectrumB2, warp(), {}));
     double area = 0;
     for (std::size_t j = 0; j < warp().size(); ++j) {
       const double r = warp().thresholds[j];
@@ -59,7 +59,7 @@ TEST(Spectrum, LosesTheAreaOfItsClosedFormInEachCycle) {
 
 TEST(Spectrum, HasTheWidthOfItsClosedFormAtEveryCurvature) {
   const double amplitude = 250;
-  Driven<Strip> down(Strip::make(kSpectrumB2, warp(), {}));
+  Driven down(Strip::make(kSpectrumB2, warp(), {}));
   for (double turn : {amplitude, -amplitude, amplitude}) down.moment(turn);
   Driven<Strip> up = down;
   up.moment(-amplitude);
@@ -71,18 +71,18 @@ TEST(Spectrum, HasTheWidthOfItsClosedFormAtEveryCurvature) {
 }
 
 TEST(Spectrum, OfEvenThresholdsIsTheDefaultLaw) {
-  const VirginCurve c = cotton_broad();
   Spectrum even;
   for (int j = 0; j < 8; ++j) {
-    even.thresholds.push_back((j + 0.5) * c.k0 / 8);
-    even.stiffnesses.push_back((c.b1 - c.b2) / 8);
+    even.thresholds.push_back((j + 0.5) * kCotton.k0 / 8);
+    even.stiffnesses.push_back((kCotton.b1 - kCotton.b2) / 8);
   }
-  Driven<PrandtlStops<double, 3, 8>> usual(PrandtlStops<double, 3, 8>::make(c));
-  Driven<Sheet> cloth(Sheet::make(c.b2, even, {}));
-  for (const auto& k : random_tensors(200, 2 * c.k0, 11)) {
+  Driven usual(PrandtlStops<double, 3, 8>::make(kCotton));
+  Driven cloth(Sheet::make(kCotton.b2, even, {}));
+  for (const auto& k : random_tensors(200, 2 * kCotton.k0, 11)) {
     usual.to(k), cloth.to(k);
-    ASSERT_LE((usual.last.moment - cloth.last.moment).norm(), kSpectrumRounding * c.b1 * c.k0);
-    ASSERT_NEAR(usual.last.dissipated, cloth.last.dissipated, kSpectrumRounding * c.b1 * c.k0 * c.k0);
+    ASSERT_LE((usual.last.moment - cloth.last.moment).norm(), kSpectrumRounding * kCotton.b1 * kCotton.k0);
+    ASSERT_NEAR(usual.last.dissipated, cloth.last.dissipated,
+                kSpectrumRounding * kCotton.b1 * kCotton.k0 * kCotton.k0);
   }
 }
 
@@ -91,7 +91,7 @@ TEST(TwoSpectra, FollowTheirOwnLoopsAlongWarpAndAlongWeft) {
   const Sheet law = Sheet::make(kSpectrumB2, warp(), weft());
   for (int axis : {0, 1}) {
     Driven<Sheet> sheet(law);
-    Driven<Strip> strip(Strip::make(kSpectrumB2, axis == 0 ? warp() : weft(), {}));
+    Driven strip(Strip::make(kSpectrumB2, axis == 0 ? warp() : weft(), {}));
     for (double k : random_turns(200, 400, 5)) {
       const Vec<double, 3> bend = k * Vec<double, 3>::Unit(axis);
       const double m = strip.moment(k);
@@ -104,7 +104,7 @@ TEST(TwoSpectra, FollowTheirOwnLoopsAlongWarpAndAlongWeft) {
 }
 
 TEST(TwoSpectra, ThatAreEqualAreOne) {
-  Driven<Sheet> two(Sheet::make(kSpectrumB2, warp(), warp())), one(Sheet::make(kSpectrumB2, warp(), {}));
+  Driven two(Sheet::make(kSpectrumB2, warp(), warp())), one(Sheet::make(kSpectrumB2, warp(), {}));
   for (const auto& k : random_tensors(300, 200, 6)) {
     two.to(k), one.to(k);
     ASSERT_LE((two.last.moment - one.last.moment).norm(), kSpectrumRounding * kSpectrumB2 * 200);
@@ -114,7 +114,7 @@ TEST(TwoSpectra, ThatAreEqualAreOne) {
 
 // A bend at 45 degrees slips at a moment between those of warp and weft.
 TEST(TwoSpectra, RubBetweenWarpAndWeftOnTheBias) {
-  Driven<Sheet> sheet(Sheet::make(kSpectrumB2, warp(), weft()));
+  Driven sheet(Sheet::make(kSpectrumB2, warp(), weft()));
   const Vec<double, 3> bias(0.5, 0.5, std::sqrt(0.5));
   const double friction =
       (sheet.to(Vec<double, 3>(5000 * bias)).moment - kSpectrumB2 * 5000 * bias).dot(bias);
@@ -175,7 +175,7 @@ TEST(TurnedSpectra, BeginAndSlideAsTheTensorBentInTheirDirection) {
     const Vec<double, 3> u = Vec<double, 3>(c * c, 0.8 * s * s, 0.9 * std::sqrt(2.0) * c * s).normalized();
     const double direction[2] = {u[0] * u[0], u[1] * u[1]};
     Driven<Strip> strip(Directed<Strip>{Strip::make(0, warp(), weft())}.of(direction, 0));
-    Driven<Sheet> sheet(Sheet::make(0, warp(), weft()));
+    Driven sheet(Sheet::make(0, warp(), weft()));
     EXPECT_NEAR(strip.moment(kSmall), sheet.to(Vec<double, 3>(kSmall * u)).moment.dot(u),
                 kSpectrumRounding * warp().stiffness() * kSmall);
     EXPECT_NEAR(strip.moment(kFar), sheet.to(Vec<double, 3>(kFar * u)).moment.dot(u),
