@@ -141,22 +141,6 @@ TEST_P(Family, ShapeCarriesNoMomentAcrossAFreeEdge) {
   }
 }
 
-TEST_P(Family, ShapeGivesACylinderThePlatesEnergyInEveryDirection) {
-  const ClothMesh mesh = make_rectangle(1, 0.8, 300, GetParam(), 4);
-  const MatrixXd c = dense(make_shape_operator(mesh, none_held(mesh)), mesh.interior_edges);
-  const MatrixXd rate = angle_rates(mesh);
-  for (int d = 0; d < kDirections; ++d) {
-    const VectorXd s = c * (rate * uniformly_bent(mesh, cylinder(pi * d / kDirections)));
-    double energy = 0, plate = 0;
-    for (int f = 0; f < mesh.faces(); ++f) {
-      if (has_free_edge(mesh, f)) continue;
-      energy += mesh.face_area[f] * s.segment<3>(3 * f).squaredNorm() / 2;
-      plate += mesh.face_area[f] / 2;
-    }
-    EXPECT_NEAR(energy / plate, 1, 2 * kReproduced) << d;
-  }
-}
-
 // Bias, weft and warp are met, and in between nu^T Q nu (CurvatureOperator).
 TEST_P(Family, StiffenedShapeGivesEachDirectionItsRigidity) {
   constexpr double kWeft = 0.6, kBias = 0.7;
@@ -316,11 +300,6 @@ TEST(Hinge, OverratesBendingOnRandomTrianglesByASixth) {
   for (int d = 0; d < 6; ++d)
     mean += hinge_ratio(mesh, pi * d / 6, Vector2d(0.15, 0.15), Vector2d(0.85, 0.85)) / 6;
   EXPECT_NEAR(mean, kExpected, kScatter);
-}
-
-TEST(Element, UnknownNameIsRefusedWithTheChoices) {
-  const ClothMesh mesh = make_grid(1, 1, 2, 2, MeshFamily::aligned, 1);
-  EXPECT_THROW(value_named<BendingElement>("quad"), std::runtime_error);
 }
 
 }  // namespace

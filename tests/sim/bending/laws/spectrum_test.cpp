@@ -19,8 +19,6 @@ Spectrum weft() { return {{5, 10, 55, 60, 200}, {4e-6, 9e-6, 1e-6, 2e-6, 1e-7}};
 using Strip = SpectrumStops<double, 1, 8>;
 using Sheet = SpectrumStops<double, 3, 8>;
 
-double virgin(double k) { return kSpectrumB2 * k + warp().friction_at(k); }
-
 TEST(Spectrum, BeginsWithTheSumOfItsStiffnessesAndEndsWithItsFrictionMoment) {
   Driven cloth(Strip::make(kSpectrumB2, warp(), {}));
   const double k = 2;  // below all thresholds
@@ -29,32 +27,6 @@ TEST(Spectrum, BeginsWithTheSumOfItsStiffnessesAndEndsWithItsFrictionMoment) {
   const double hb = 3 * 9e-6 + 12 * 7e-6 + 40 * 3e-6 + 95 * 1e-6 + 300 * 4e-7;
   EXPECT_NEAR(cloth.moment(1000), kSpectrumB2 * 1000 + hb, kSpectrumRounding * kSpectrumB2 * 1000);
   EXPECT_NEAR(cloth.law.utilisation(Vec<double, 1>(1000), cloth.history), 1, kSpectrumRounding);
-}
-
-// (Masing 1926): M = Mr + 2 f((K - Kr)/2), whatever the spectrum and the reversal.
-TEST(Spectrum, ReturnsOnItsVirginCurveDoubled) {
-  for (double turn : {7.0, 30.0, 80.0, 250.0, 900.0}) {
-    Driven cloth(Strip::make(kSpectrumB2, warp(), {}));
-    EXPECT_NEAR(cloth.moment(turn), virgin(turn), kSpectrumRounding * virgin(turn));
-    for (int i = 1; i <= 40; ++i) {
-      const double k = turn - 2 * turn * i / 40;
-      EXPECT_NEAR(cloth.moment(k), virgin(turn) - 2 * virgin((turn - k) / 2),
-                  kSpectrumRounding * virgin(turn));
-    }
-  }
-}
-
-TEST(Spectrum, LosesTheAreaOfItsClosedFormInEachCycle) {
-  for (double amplitude : {8.0, 50.0, 250.0, 1000.0}) {
-    Driven cloth(Strip::make(kSpectrumB2, warp(), {}));
-    double area = 0;
-    for (std::size_t j = 0; j < warp().size(); ++j) {
-      const double r = warp().thresholds[j];
-      if (r < amplitude) area += 4 * warp().stiffnesses[j] * r * (amplitude - r);
-    }
-    EXPECT_NEAR(cloth.cycle_loss(amplitude), area, kSpectrumRounding * area);
-    EXPECT_NEAR(warp().loop_area(amplitude), area, kSpectrumRounding * area);
-  }
 }
 
 TEST(Spectrum, HasTheWidthOfItsClosedFormAtEveryCurvature) {
@@ -136,18 +108,28 @@ Spectrum bias() {
   return mean;
 }
 
-struct Turned {
-  double direction[2];  // of a hinge (CurvatureOperator)
-  Spectrum own;
-  Strip law() const { return Directed<Strip>{Strip::make(kSpectrumB2, warp(), weft())}.of(direction, 0); }
-};
-const Turned kTurned[] = {{{1, 0}, warp()}, {{0, 1}, weft()}, {{0.25, 0.25}, bias()}};
+// Of a hinge in this direction (CurvatureOperator).
+Strip in_direction(const Spectrum& along_warp, const Spectrum& along_weft, double warp_part,
+                   double weft_part) {
+  const double direction[2] = {warp_part, weft_part};
+  return Directed<Strip>{Strip::make(kSpectrumB2, along_warp, along_weft)}.of(direction, 0);
+}
 
-TEST(TurnedSpectra, ReturnOnTheVirginCurveOfTheirDirectionDoubled) {
-  for (const Turned& of : kTurned) {
+struct Bend {
+  Strip law;
+  Spectrum own;  // that it must follow
+};
+const Bend kBends[] = {{Strip::make(kSpectrumB2, warp(), {}), warp()},
+                       {in_direction(warp(), weft(), 1, 0), warp()},
+                       {in_direction(warp(), weft(), 0, 1), weft()},
+                       {in_direction(warp(), weft(), 0.25, 0.25), bias()}};
+
+// (Masing 1926): M = Mr + 2 f((K - Kr)/2), whatever the spectrum and the reversal.
+TEST(Spectra, ReturnOnTheVirginCurveOfTheirDirectionDoubled) {
+  for (const Bend& of : kBends) {
     const auto own = [&](double k) { return kSpectrumB2 * k + of.own.friction_at(k); };
-    for (double turn : {7.0, 30.0, 250.0, 900.0}) {
-      Driven<Strip> cloth(of.law());
+    for (double turn : {7.0, 30.0, 80.0, 250.0, 900.0}) {
+      Driven<Strip> cloth(of.law);
       EXPECT_NEAR(cloth.moment(turn), own(turn), kSpectrumRounding * own(turn));
       for (int i = 1; i <= 40; ++i) {
         const double k = turn - 2 * turn * i / 40;
@@ -157,11 +139,16 @@ TEST(TurnedSpectra, ReturnOnTheVirginCurveOfTheirDirectionDoubled) {
   }
 }
 
-TEST(TurnedSpectra, LoseTheAreaOfTheClosedLoopOfTheirDirection) {
-  for (const Turned& of : kTurned)
+TEST(Spectra, LoseTheAreaOfTheClosedLoopOfTheirDirection) {
+  for (const Bend& of : kBends)
     for (double amplitude : {8.0, 50.0, 250.0, 1000.0}) {
-      Driven<Strip> cloth(of.law());
-      const double area = of.own.loop_area(amplitude);
+      Driven<Strip> cloth(of.law);
+      double area = 0;
+      for (std::size_t j = 0; j < of.own.size(); ++j) {
+        const double r = of.own.thresholds[j];
+        if (r < amplitude) area += 4 * of.own.stiffnesses[j] * r * (amplitude - r);
+      }
+      EXPECT_NEAR(of.own.loop_area(amplitude), area, kSpectrumRounding * area);
       EXPECT_NEAR(cloth.cycle_loss(amplitude), area, kSpectrumRounding * area);
       EXPECT_NEAR(cloth.law.utilisation(Vec<double, 1>(2000), cloth.history), 1, kSpectrumRounding);
     }
@@ -185,11 +172,10 @@ TEST(TurnedSpectra, BeginAndSlideAsTheTensorBentInTheirDirection) {
 
 // Behind the metric of the curvature these are the same spectrum, whatever the direction.
 TEST(TurnedSpectra, ThatAreEqualAreOne) {
-  const Strip one = Strip::make(kSpectrumB2, warp(), warp());
-  const double direction[2] = {0.3, 0.5};
-  Driven<Strip> turned(Directed<Strip>{one}.of(direction, 0)), plain(one);
+  Driven<Strip> between(in_direction(warp(), warp(), 0.3, 0.5)),
+      plain(Strip::make(kSpectrumB2, warp(), warp()));
   for (double k : random_turns(200, 400, 5))
-    ASSERT_NEAR(turned.moment(k), plain.moment(k), kSpectrumRounding * kSpectrumB2 * 400);
+    ASSERT_NEAR(between.moment(k), plain.moment(k), kSpectrumRounding * kSpectrumB2 * 400);
 }
 
 }  // namespace
