@@ -6,6 +6,7 @@
 #include "sim/bending/angle.h"
 #include "sim/bending/curvature_operator.h"
 #include "tests/sim/linear/dense.h"
+#include "tests/sim/mesh/mesh_measures.h"
 
 namespace hysteron {
 namespace {
@@ -16,8 +17,6 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 using std::numbers::pi;
 
-constexpr MeshFamily kFamilies[] = {MeshFamily::aligned,   MeshFamily::aligned45,   MeshFamily::flipped,
-                                    MeshFamily::unionjack, MeshFamily::equilateral, MeshFamily::random};
 // Second differences of z over edges of 1/20 of the cloth amplify rounding some thousandfold, and the fit of
 // H by the inverse of its smallest singular value.
 constexpr double kReproduced = 1e-10;
@@ -105,11 +104,7 @@ double reproduction_error(const ClothMesh& mesh) {
 }
 
 class Family : public ::testing::TestWithParam<MeshFamily> {};
-INSTANTIATE_TEST_SUITE_P(Meshes, Family, ::testing::ValuesIn(kFamilies), [](const auto& family) {
-  std::string name = to_string(family.param);
-  std::erase(name, '-');
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(Meshes, Family, ::testing::ValuesIn(test::kFamilies), test::CaseName());
 
 TEST_P(Family, ShapeReproducesUniformCurvatureOnInteriorFacesOfARectangle) {
   EXPECT_LT(reproduction_error(make_rectangle(1, 0.8, 300, GetParam(), 4)), kReproduced);

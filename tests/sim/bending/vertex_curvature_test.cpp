@@ -9,14 +9,13 @@
 
 #include "sim/bending/curvature_operator.h"
 #include "tests/sim/base/refusal.h"
+#include "tests/sim/mesh/mesh_measures.h"
 
 namespace hysteron {
 namespace {
 
 using Eigen::Vector3d;
 
-constexpr MeshFamily kCurvedFamilies[] = {MeshFamily::aligned,   MeshFamily::aligned45,   MeshFamily::flipped,
-                                          MeshFamily::unionjack, MeshFamily::equilateral, MeshFamily::random};
 constexpr double kRadius = 0.03;  // [m]
 // Edges of 1.6 to 2.2 mm: the error is below (edge/R)^2/4 of the curvature and falls with the edge squared.
 constexpr double kCoarse = 6.5e-4;
@@ -63,8 +62,8 @@ double curvature_error(const ClothMesh& mesh, const std::vector<Vector3d>& x, do
 ClothMesh sheet(MeshFamily family, int triangles) { return make_rectangle(0.06, 0.04, triangles, family, 3); }
 
 class EveryFamily : public ::testing::TestWithParam<MeshFamily> {};
-INSTANTIATE_TEST_SUITE_P(SurfaceCurvature, EveryFamily, ::testing::ValuesIn(kCurvedFamilies),
-                         [](const auto& info) { return "n" + std::to_string(info.index); });
+INSTANTIATE_TEST_SUITE_P(SurfaceCurvature, EveryFamily, ::testing::ValuesIn(test::kFamilies),
+                         test::CaseName());
 
 TEST_P(EveryFamily, OfAPlaneIsZeroHoweverItLies) {
   const ClothMesh mesh = sheet(GetParam(), 400);

@@ -21,12 +21,9 @@ double displacement_done(double u) { return u * u * (3 - 2 * u); }
 
 // A plate of 2 cm over the ground whose underside comes down from 1 cm to `lowest` [m].
 void add_press(Scene& scene, double lowest) {
-  Obstacle ground, plate;
-  plate.kind = ObstacleKind::box;
-  plate.size = {0.2, 0.2, 0.01};
-  plate.center = {0.05, 0.05, 0.02};
+  Obstacle plate = test::box_at({0.05, 0.05, 0.02}, {0.2, 0.2, 0.01});
   plate.motion.keys = {{0, {0, 0, 0}, 0}, {kDown, {0, 0, lowest - 0.01}, 0}};
-  scene.obstacle = {ground, plate};
+  scene.obstacle = {Obstacle{}, plate};
 }
 
 // A sheet on the ground under the plate.
@@ -113,10 +110,7 @@ TEST(Press, OfTwoLayersBeyondTheirThicknessEndsTheRunWithPlaceAndTime) {
 TEST(Press, AgainstAPinEndsTheRun) {
   Trial trial = pressed_sheet("implicit", -2e-3);
   trial.scene.obstacle[0].center.z() = -1;
-  Pin pin;
-  pin.low = {-1, -1, -1};
-  pin.high = {0.02, 1, 1};
-  trial.scene.pin = {pin};
+  trial.scene.pin = {test::pin_in({-1, -1, -1}, {0.02, 1, 1})};
   trial = Trial(trial.scene);
   EXPECT_TRUE(says(press(trial, *trial.simulation()), "the cloth is crushed: vertex ",
                    "inside obstacle[1] (box)", "held by a pin"));
@@ -139,10 +133,7 @@ TEST(Blow, ThatDrivesTheClothDeepIntoAnObstacleIsNoCrushing) {
   scene.step = 1e-4;
   scene.gravity.setZero();
   scene.contact_stiffness = 1e6;
-  Obstacle ball;
-  ball.kind = ObstacleKind::sphere;
-  ball.radius = 0.03;
-  ball.center = {0.1, 0.1, -0.05};
+  Obstacle ball = test::sphere_at({0.1, 0.1, -0.05}, 0.03);
   ball.motion.keys = {{0, {0, 0, 0}, 0}, {0.02, {0, 0, 0.1}, 0}};  // 7.5 m/s in its middle
   scene.obstacle = {ball};
   const Trial trial(scene);

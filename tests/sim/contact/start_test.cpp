@@ -138,15 +138,11 @@ struct RestingSolid {
 Trial sheet_with(const RestingSolid& solid) {
   Scene scene = test::free_square(200);
   scene.mesh = "aligned";
-  Obstacle o;
+  Obstacle o = test::box_at(solid.center, {0.05, 0.05, 0.05});
   o.kind = solid.kind;
-  o.center = solid.center;
   o.radius = 0.05;
-  o.height = 0.1;
-  o.size = {0.05, 0.05, 0.05};
   o.rim = 0;
-  scene.obstacle = {Obstacle{}, o};
-  scene.obstacle[0].center.z() = -1;
+  scene.obstacle = {test::ground_at(-1), o};
   return Trial(scene);
 }
 
@@ -189,10 +185,7 @@ TEST(Start, WithinTheShellOfAnObstacleIsFineAndItsSurfaceIsTheLimit) {
 
 TEST(Start, OfHeldVerticesInsideAnObstacleIsFine) {
   Trial trial = sheet_with({ObstacleKind::sphere, {0.1, 0.1, -0.03}, 0});
-  Pin pin;
-  pin.low = {0.055, 0.055, -1};
-  pin.high = {0.145, 0.145, 1};
-  trial.scene.pin = {pin};
+  trial.scene.pin = {test::pin_in({0.055, 0.055, -1}, {0.145, 0.145, 1})};
   trial = Trial(trial.scene);
   trial.after(10);
   trial.scene.pin[0].until = 0.005;  // let go where the sphere is

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "sim/identification/curve.h"
+#include "tests/sim/base/case_name.h"
 #include "tests/sim/base/refusal.h"
 #include "tests/sim/identification/synthetic.h"
 
@@ -83,13 +84,12 @@ TEST_P(NoisyLoop, GivesTheFabricBackWithinThreeStandardErrorsThatAreTrue) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Loops, NoisyLoop,
-                         testing::Values(LoopCase{"OneCycle", "prandtl", {250, -250, 250}, 60},
-                                         LoopCase{"TwoCycles", "prandtl", {150, -150, 150, -150, 150}, 30},
-                                         LoopCase{
-                                             "MinorLoops", "prandtl", {200, 150, 200, -200, -160, -200}, 40},
-                                         LoopCase{"WongsReading", "wong", {250, -250, 250}, 60}),
-                         [](const auto& info) { return std::string(info.param.name); });
+const LoopCase kLoopCases[] = {{"OneCycle", "prandtl", {250, -250, 250}, 60},
+                               {"TwoCycles", "prandtl", {150, -150, 150, -150, 150}, 30},
+                               {"MinorLoops", "prandtl", {200, 150, 200, -200, -160, -200}, 40},
+                               {"WongsReading", "wong", {250, -250, 250}, 60}};
+
+INSTANTIATE_TEST_SUITE_P(Loops, NoisyLoop, testing::ValuesIn(kLoopCases), test::CaseName());
 
 // Heavy data: the last of many cycles, recorded from somewhere in its middle.
 TEST(Loop, OfACycleThatWasRunningBeforeTheFirstRowIsRecognised) {
@@ -151,7 +151,7 @@ TEST_P(GeneratingLaw, DescribesItsDataBestOfAll) {
   }
 }
 INSTANTIATE_TEST_SUITE_P(Laws, GeneratingLaw, testing::Values("prandtl", "wong", "bilinear", "dahl"),
-                         [](const auto& info) { return std::string(info.param); });
+                         test::CaseName());
 
 }  // namespace
 }  // namespace hysteron

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "tests/sim/base/case_name.h"
 #include "tests/sim/base/folder.h"
 #include "tests/sim/base/refusal.h"
 #include "tests/sim/identification/synthetic.h"
@@ -45,30 +46,28 @@ const std::string kShuffled =
     std::string(kHead) + "0,0\n70,7e-4\n10,1e-4\n60,6e-4\n20,2e-4\n50,5e-4\n30,3e-4\n40,4e-4\n20,2e-4\n";
 const std::string kTime = "curvature [1/m],moment [N],time [s]\n0,0,0\n10,1e-4,2\n20,2e-4,1\n";
 
-INSTANTIATE_TEST_SUITE_P(
-    Refused, MeasuredFile,
-    testing::Values(
-        BadFile{"WithNan", kNan.c_str(), "loop.csv:3: moment [N] = 'nan' must be a finite number"},
-        BadFile{"TooShort", kFew.c_str(), "3 rows, at least 8"},
-        BadFile{"OfConstantCurvature", kConstant.c_str(), "the curvature is 10 1/m in all rows"},
-        BadFile{"WithFallingMoments", kFalling.c_str(), "moments fall with curvature"},
-        BadFile{"InGramForce", kGramForce.c_str(), "times 9.80665e-05 it is"},
-        BadFile{"ConvertedTwice", kTwice.c_str(), "Divided by 9.80665e-05 it is"},
-        BadFile{"WithTimeThatRunsBack", kTime.c_str(), "time = 1 s must be >= 2 s"},
-        BadFile{"WithConstantMoments", kZero.c_str(), "the moment is 0 N in all rows, and must vary"},
-        BadFile{"WithShuffledRows", kShuffled.c_str(),
-                "turns 7 times in 9 rows, which must stand in the order"},
-        BadFile{"InUnitsOfKes", "curvature [1/cm],moment [gf cm/cm]\n0,0\n",
-                "curvature is in 1/cm and moment in gf cm/cm: give --units kes, which reads these"},
-        BadFile{"InOtherUnits", "curvature [1/cm],moment [N]\n0,0\n",
-                "curvature is in 1/cm and must be in 1/m, 'curvature [1/m]' (--units si reads 1/m and N, "
-                "--units kes reads 1/cm and gf cm/cm): convert numbers of other units, not their name"},
-        BadFile{"WithoutUnits", "curvature [1/m],moment\n0,0\n", "moment names no unit and must be in N"},
-        BadFile{"WithMinutes", "curvature [1/m],moment [N],time [min]\n0,0,0\n", "time is in min"},
-        BadFile{"WithTwoMoments", "curvature [1/m],moment [N],moment [N]\n0,0,0\n", "stands twice"},
-        BadFile{"WithoutMoment", "curvature [1/m],torque [N m]\n0,0\n", "column 'moment' is missing"},
-        BadFile{"OfAnotherKind", "x [m],y [m]\n0,0\n", "names a column curvature [1/m]"}),
-    [](const auto& info) { return std::string(info.param.name); });
+const BadFile kBadFiles[] = {
+    {"WithNan", kNan.c_str(), "loop.csv:3: moment [N] = 'nan' must be a finite number"},
+    {"TooShort", kFew.c_str(), "3 rows, at least 8"},
+    {"OfConstantCurvature", kConstant.c_str(), "the curvature is 10 1/m in all rows"},
+    {"WithFallingMoments", kFalling.c_str(), "moments fall with curvature"},
+    {"InGramForce", kGramForce.c_str(), "times 9.80665e-05 it is"},
+    {"ConvertedTwice", kTwice.c_str(), "Divided by 9.80665e-05 it is"},
+    {"WithTimeThatRunsBack", kTime.c_str(), "time = 1 s must be >= 2 s"},
+    {"WithConstantMoments", kZero.c_str(), "the moment is 0 N in all rows, and must vary"},
+    {"WithShuffledRows", kShuffled.c_str(), "turns 7 times in 9 rows, which must stand in the order"},
+    {"InUnitsOfKes", "curvature [1/cm],moment [gf cm/cm]\n0,0\n",
+     "curvature is in 1/cm and moment in gf cm/cm: give --units kes, which reads these"},
+    {"InOtherUnits", "curvature [1/cm],moment [N]\n0,0\n",
+     "curvature is in 1/cm and must be in 1/m, 'curvature [1/m]' (--units si reads 1/m and N, "
+     "--units kes reads 1/cm and gf cm/cm): convert numbers of other units, not their name"},
+    {"WithoutUnits", "curvature [1/m],moment\n0,0\n", "moment names no unit and must be in N"},
+    {"WithMinutes", "curvature [1/m],moment [N],time [min]\n0,0,0\n", "time is in min"},
+    {"WithTwoMoments", "curvature [1/m],moment [N],moment [N]\n0,0,0\n", "stands twice"},
+    {"WithoutMoment", "curvature [1/m],torque [N m]\n0,0\n", "column 'moment' is missing"},
+    {"OfAnotherKind", "x [m],y [m]\n0,0\n", "names a column curvature [1/m]"}};
+
+INSTANTIATE_TEST_SUITE_P(Refused, MeasuredFile, testing::ValuesIn(kBadFiles), test::CaseName());
 
 // B = 0.118 gf cm^2/cm, as KES-FB2 prints it.
 const std::string kKes = "KES-FB2\nspecimen;warp 1\n\ncurvature [1/cm];moment [gf cm/cm]\n";

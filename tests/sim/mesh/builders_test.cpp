@@ -19,8 +19,7 @@ constexpr double kSumRounding = 1e-12;
 double stated_share(int triangles) { return std::sqrt(2.0 / triangles); }
 
 class Rectangle : public testing::TestWithParam<MeshFamily> {};
-INSTANTIATE_TEST_SUITE_P(Families, Rectangle, testing::ValuesIn(kFamilies),
-                         [](const auto& family) { return test::enum_name(family.param); });
+INSTANTIATE_TEST_SUITE_P(Families, Rectangle, testing::ValuesIn(kFamilies), test::CaseName());
 
 TEST_P(Rectangle, HasEulerCharacteristicOfADisc) {
   for (const int n : kSizes)

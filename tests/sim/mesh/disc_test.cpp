@@ -25,8 +25,7 @@ class Disc : public testing::TestWithParam<MeshFamily> {
  protected:
   static ClothMesh disc(int triangles) { return make_disc(kDiscRadius, triangles, GetParam(), 1); }
 };
-INSTANTIATE_TEST_SUITE_P(Families, Disc, testing::ValuesIn(kFamilies),
-                         [](const auto& family) { return test::enum_name(family.param); });
+INSTANTIATE_TEST_SUITE_P(Families, Disc, testing::ValuesIn(kFamilies), test::CaseName());
 
 TEST_P(Disc, HasEulerCharacteristicOfADisc) {
   for (const int n : kDiscSizes) EXPECT_EQ(test::euler_characteristic(disc(n)), 1) << n;

@@ -2,20 +2,17 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <set>
-#include <string>
 #include <vector>
 
 #include "sim/mesh/cloth_mesh.h"
+#include "tests/sim/base/case_name.h"
 
 namespace hysteron::test {
 
 inline constexpr MeshFamily kFamilies[] = {MeshFamily::aligned,     MeshFamily::aligned45,
                                            MeshFamily::flipped,     MeshFamily::unionjack,
                                            MeshFamily::equilateral, MeshFamily::random};
-
-std::string enum_name(MeshFamily family);  // as gtest takes it: "aligned45"
 
 double total_area(const ClothMesh& mesh);         // [m^2]
 double least_angle(const ClothMesh& mesh);        // [degrees]

@@ -4,6 +4,7 @@
 
 #include "sim/bending/laws/recovery.h"
 #include "sim/scene/fabric_reader.h"
+#include "tests/sim/base/case_name.h"
 #include "tests/sim/base/refusal.h"
 
 namespace hysteron {
@@ -19,12 +20,6 @@ std::vector<std::string> all_laws() {
   std::vector<std::string> names;
   for (const LawEntry& law : law_catalogue()) names.push_back(law.name);
   return names;
-}
-
-std::string law_name(const testing::TestParamInfo<std::string>& test) {
-  std::string name = test.param;
-  std::replace(name.begin(), name.end(), '-', '_');
-  return name;
 }
 
 // Where linear interpolation between two rows can miss the root of a curved branch: h^2 |M''|/(8 M') with
@@ -53,7 +48,7 @@ TEST_P(PublishedPair, ComesBackFromPrandtlAndWong) {
 INSTANTIATE_TEST_SUITE_P(Kes, PublishedPair,
                          testing::Values("cotton-broad-k50", "wool-tropical-k50", "polyester-tropical-k50",
                                          "polyester-faille-k50"),
-                         law_name);
+                         test::CaseName());
 
 class AnyLaw : public testing::TestWithParam<std::string> {};
 
@@ -79,7 +74,7 @@ TEST_P(AnyLaw, HasEveryReversalOfEveryLoopClassified) {
   EXPECT_EQ(test.minor_loops.size(), static_cast<std::size_t>(amplitudes + partial));
 }
 
-INSTANTIATE_TEST_SUITE_P(Kes, AnyLaw, testing::ValuesIn(all_laws()), law_name);
+INSTANTIATE_TEST_SUITE_P(Kes, AnyLaw, testing::ValuesIn(all_laws()), test::CaseName());
 
 TEST(Kes, ElasticLawsHaveNeitherWidthNorAreaNorResidual) {
   for (const char* law : {"linear", "bridson", "spring", "pabst"}) {

@@ -24,14 +24,11 @@ Scene lifted(const Vector3d& place) {
   moving_pin.motion.keys = {{0}, {0.2, {0, 0, 0.05}, 20}};
   moving_pin.motion.axis = {0, 1, 0};
   moving_pin.motion.center = place + Vector3d(0.1, 0.2, 0);
-  Obstacle ground, ball;
-  ground.kind = ObstacleKind::ground;
+  Obstacle ground;
   ground.axis = {0.1, 0, 1};
   const Vector3d normal = ground.axis.normalized();  // any point of the ground stands for it
   ground.center = normal * normal.dot(place + Vector3d(0, 0, -0.025));
-  ball.kind = ObstacleKind::sphere;
-  ball.radius = 0.04;
-  ball.center = place + Vector3d(0.15, 0.07, -0.05);
+  Obstacle ball = test::sphere_at(place + Vector3d(0.15, 0.07, -0.05), 0.04);
   ball.motion.keys = {{0}, {0.1, {0, 0, 0.02}, 40}};
   ball.motion.axis = {1, 0, 0};
   ball.motion.center = ball.center;

@@ -35,9 +35,7 @@ Momenta momenta(const Trial& trial, Simulation& simulation) {
 
 class TwoIntegrators : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Both, TwoIntegrators, testing::Values("semi-implicit", "explicit"),
-                         [](const auto& i) {
-                           return std::string(i.param) == "explicit" ? "explicit" : "semi_implicit";
-                         });
+                         test::CaseName());
 
 TEST_P(TwoIntegrators, FreeFallGainsExactlyTheWeightsMomentum) {
   for (const char* law : {"linear", "prandtl", "wong"}) {

@@ -148,15 +148,13 @@ struct Step {
 };
 
 class OfACloth : public testing::TestWithParam<PotentialCase> {};
-INSTANTIATE_TEST_SUITE_P(Laws, OfACloth,
-                         testing::Values(PotentialCase{"linear", "hinge"}, PotentialCase{"prandtl", "hinge"},
-                                         PotentialCase{"prandtl", "shape"}, PotentialCase{"wong", "shape"},
-                                         PotentialCase{"kim", "shape"}, PotentialCase{"terzopoulos", "hinge"},
-                                         PotentialCase{"prandtl", "shape", true},
-                                         PotentialCase{"linear", "hinge", true}),
-                         [](const auto& c) {
-                           return c.param.law + "_" + c.param.element + (c.param.stiff ? "_stiff" : "");
-                         });
+const PotentialCase kPotentialCases[] = {
+    {"linear", "hinge"}, {"prandtl", "hinge"},     {"prandtl", "shape"},       {"wong", "shape"},
+    {"kim", "shape"},    {"terzopoulos", "hinge"}, {"prandtl", "shape", true}, {"linear", "hinge", true}};
+
+INSTANTIATE_TEST_SUITE_P(Laws, OfACloth, testing::ValuesIn(kPotentialCases), [](const auto& c) {
+  return c.param.law + "_" + c.param.element + (c.param.stiff ? "_stiff" : "");
+});
 
 void expect_gradient_of_second_order(Step& step) {
   step.give_it_a_past();

@@ -142,11 +142,7 @@ Trial draping() {
   Scene scene = test::hanging_square(5000);
   scene.law = "prandtl";
   scene.solver_tolerance = 1e-4;
-  Obstacle sphere;
-  sphere.kind = ObstacleKind::sphere;
-  sphere.radius = 0.05;
-  sphere.center = {0.1, 0.05, -0.051};
-  scene.obstacle = {sphere};
+  scene.obstacle = {test::sphere_at({0.1, 0.05, -0.051}, 0.05)};
   return Trial(scene);
 }
 

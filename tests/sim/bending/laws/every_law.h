@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "sim/bending/laws/law_parameters.h"
+#include "tests/sim/base/case_name.h"
 #include "tests/sim/bending/laws/law_fixtures.h"
 
 namespace hysteron::testing {
@@ -24,12 +25,6 @@ struct LawCase {
 };
 
 std::vector<LawCase> law_cases();
-
-inline std::string case_name(const ::testing::TestParamInfo<LawCase>& c) {
-  std::string name = c.param.name;
-  for (char& letter : name) letter = letter == '-' ? '_' : letter;
-  return name;
-}
 
 // A law with its history, scalar or tensor.  Scalar laws take the first component of a curvature; all that
 // they give is 0 in the others.

@@ -13,7 +13,7 @@ namespace hysteron::testing {
 namespace {
 
 class EveryLaw : public ::testing::TestWithParam<LawCase> {};
-INSTANTIATE_TEST_SUITE_P(Laws, EveryLaw, ::testing::ValuesIn(law_cases()), case_name);
+INSTANTIATE_TEST_SUITE_P(Laws, EveryLaw, ::testing::ValuesIn(law_cases()), test::CaseName());
 
 double tangent_error(const AnyLaw& law, const Vec<double, 3>& k, double h) {
   Tangent<double, 3> difference;
