@@ -90,8 +90,7 @@ class CudaToOpenGl : public testing::TestWithParam<std::string> {
   std::unique_ptr<Trial> trial_;
   std::unique_ptr<Simulation> simulation_;
 };
-INSTANTIATE_TEST_SUITE_P(Precisions, CudaToOpenGl, testing::Values("double", "float"),
-                         [](const auto& precision) { return precision.param; });
+INSTANTIATE_TEST_SUITE_P(Precisions, CudaToOpenGl, testing::Values("double", "float"), test::CaseName());
 
 // Both ways round the same numbers to float, so that the same driver draws the same bits.
 TEST_P(CudaToOpenGl, GivesThePicturesOfPositionsThatPassTheHost) {
