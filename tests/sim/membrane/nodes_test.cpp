@@ -6,10 +6,8 @@
 #include <random>
 
 #include "sim/membrane/membrane.h"
-#include "sim/mesh/garment.h"
 #include "tests/sim/linear/dense.h"
 #include "tests/sim/mesh/panel_tube.h"
-#include "tests/sim/scene/scene_file.h"
 
 namespace hysteron {
 namespace {
@@ -101,9 +99,7 @@ TEST(MembraneNodes, AreTheVerticesOfClothWithoutSeams) {
 
 // Vertices of both seams have one in each panel.
 TEST(MembraneNodes, OfPanelsEndAtTheirSeams) {
-  const PanelTube panels{.second = [](const Vector2d& at) { return Vector2d(at + Vector2d(2, -1)); }};
-  const TextFile file(panels.obj(), ".obj");
-  const ClothMesh mesh = read_pattern(file.path(), 0, 1);
+  const ClothMesh mesh = PanelTube{.second = PanelTube::moved}.mesh();
   const MembraneNodes nodes = membrane_nodes(mesh);
   EXPECT_EQ(nodes.count(), mesh.vertices() + 2 * (PanelTube::kAlong + 1));
   EXPECT_NEAR(std::accumulate(nodes.area.begin(), nodes.area.end(), 0.0), PanelTube::area(), kNodeRounding);

@@ -4,6 +4,7 @@
 
 #include "sim/scene/cloth.h"
 #include "tests/sim/base/refusal.h"
+#include "tests/sim/mesh/mesh_measures.h"
 #include "tests/sim/scene/scene_file.h"
 
 namespace hysteron {
@@ -35,9 +36,7 @@ TEST_F(Rolled, PatternIsTheClothAtRest) {
   ASSERT_EQ(mesh.face, flat_.face);
   for (int v = 0; v < mesh.vertices(); ++v)
     EXPECT_LT((mesh.rest[v] - flat_.rest[v]).norm(), kGarmentRounding) << v;
-  double area = 0;
-  for (const double a : mesh.face_area) area += a;
-  EXPECT_NEAR(area, 0.2 * 0.1, kGarmentRounding);
+  EXPECT_NEAR(test::total_area(mesh), 0.2 * 0.1, kGarmentRounding);
 }
 
 TEST_F(Rolled, ClothOfAPatternStartsWhereItsVerticesAre) {

@@ -2,11 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "sim/mesh/garment.h"
 #include "sim/scene/cloth.h"
 #include "tests/sim/mesh/mesh_measures.h"
 #include "tests/sim/mesh/panel_tube.h"
-#include "tests/sim/scene/scene_file.h"
 
 namespace hysteron {
 namespace {
@@ -29,11 +27,7 @@ TEST(Subdivision, TurnsNoTriangleOver) {
 }
 
 TEST(Subdivision, KeepsPanelsAndTheirSeams) {
-  const TextFile file(
-      test::PanelTube{.second = [](const Eigen::Vector2d& at) { return Eigen::Vector2d(at.y(), -at.x()); }}
-          .obj(),
-      ".obj");
-  const ClothMesh fine = subdivided(read_pattern(file.path(), 0, 1));
+  const ClothMesh fine = subdivided(test::PanelTube{.second = test::PanelTube::turned}.mesh());
   EXPECT_TRUE(fine.sewn);
   EXPECT_EQ(test::total_area(fine), test::PanelTube::area());
   int seams = 0;
