@@ -211,7 +211,6 @@ TEST(ChapterForce, BreaksAngularMomentumOnASkewHinge) {
         EXPECT_LT(torque(hinge.bent, hinge.forces(ForceConvention::energy)).norm(), kForceRounding);
         worst = std::max(worst, hinge.torque_defect());
       }
-  RecordProperty("worst_torque_defect", std::to_string(worst));
   EXPECT_GT(worst, kNoticeable);
 }
 

@@ -64,7 +64,6 @@ TEST_P(BothDevices, AgreeOnEveryPosition) {
   const auto cpu = run_on("cpu", scene), gpu = run_on("cuda", scene);
   EXPECT_EQ(gpu->device().substr(0, 4), "cuda");
   const double distance = test::farthest(cpu->positions(), gpu->positions());
-  RecordProperty("distance_nm", std::to_string(1e9 * distance));
   EXPECT_GT(test::farthest(cpu->positions(), Trial(scene).cloth.start), 1e-3);
   EXPECT_LT(distance, kAgreement);
   EXPECT_LT(gpu->ledger().remainder_relative, 1e-9);
@@ -167,7 +166,6 @@ TEST_P(SelfContactOnBothDevices, FoldsAlikeAndTwiceTheSame) {
   const auto cpu = run_on("cpu", scene), gpu = run_on("cuda", scene), again = run_on("cuda", scene);
   EXPECT_GT(cpu->ledger().contact, 0);
   const double distance = test::farthest(cpu->positions(), gpu->positions());
-  RecordProperty("distance_nm", std::to_string(1e9 * distance));
   EXPECT_LT(distance, kAgreement);
   EXPECT_EQ(gpu->state_hash(), again->state_hash());
   EXPECT_LT(gpu->ledger().remainder_relative, 1e-9);
