@@ -12,10 +12,7 @@ namespace {
 
 using test::kFamilies;
 
-constexpr double kDiscRadius = 0.15;  // [m], Cusick's disc
-constexpr int kDiscSizes[] = {2, 3, 7, 20, 100, 333, 1000, 4608, 20000};
-constexpr double kDiscSumRounding = 1e-12;
-// A unit vector is normalised to 1 ulp or so, then scaled.
+constexpr double kDiscRadius = 0.15;  // A unit vector is normalised to 1 ulp or so, then scaled.
 constexpr double kOnCircle = 1e-15;
 // The docstring's promise about the triangle count.
 constexpr double kStatedFraction = 0.05;
@@ -28,11 +25,11 @@ class Disc : public testing::TestWithParam<MeshFamily> {
 INSTANTIATE_TEST_SUITE_P(Families, Disc, testing::ValuesIn(kFamilies), test::CaseName());
 
 TEST_P(Disc, HasEulerCharacteristicOfADisc) {
-  for (const int n : kDiscSizes) EXPECT_EQ(test::euler_characteristic(disc(n)), 1) << n;
+  for (const int n : test::kMeshSizes) EXPECT_EQ(test::euler_characteristic(disc(n)), 1) << n;
 }
 
 TEST_P(Disc, BoundaryVerticesLieOnTheCircleAndAllOthersInside) {
-  for (const int n : kDiscSizes) {
+  for (const int n : test::kMeshSizes) {
     const ClothMesh mesh = disc(n);
     const std::set<int> boundary = test::boundary_vertices(mesh);
     for (int v = 0; v < mesh.vertices(); ++v) {
@@ -46,11 +43,11 @@ TEST_P(Disc, BoundaryVerticesLieOnTheCircleAndAllOthersInside) {
 }
 
 TEST_P(Disc, AreaIsThatOfTheRegularPolygonOfItsBoundary) {
-  for (const int n : kDiscSizes) {
+  for (const int n : test::kMeshSizes) {
     const ClothMesh mesh = disc(n);
     const double b = static_cast<double>(test::boundary_vertices(mesh).size());
     const double polygon = 0.5 * b * kDiscRadius * kDiscRadius * std::sin(2 * std::numbers::pi / b);
-    EXPECT_NEAR(test::total_area(mesh), polygon, kDiscSumRounding * polygon) << n;
+    EXPECT_NEAR(test::total_area(mesh), polygon, test::kSumRounding * polygon) << n;
   }
 }
 

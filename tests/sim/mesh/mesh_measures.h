@@ -14,6 +14,9 @@ inline constexpr MeshFamily kFamilies[] = {MeshFamily::aligned,     MeshFamily::
                                            MeshFamily::flipped,     MeshFamily::unionjack,
                                            MeshFamily::equilateral, MeshFamily::random};
 
+constexpr int kMeshSizes[] = {2, 3, 7, 20, 100, 333, 1000, 4608, 20000};
+constexpr double kSumRounding = 1e-12;  // of areas of up to 20,000 triangles
+
 double total_area(const ClothMesh& mesh);         // [m^2]
 double least_angle(const ClothMesh& mesh);        // [degrees]
 int euler_characteristic(const ClothMesh& mesh);  // V - E + F

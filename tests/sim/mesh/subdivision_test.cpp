@@ -9,15 +9,13 @@
 namespace hysteron {
 namespace {
 
-constexpr double kSubdivisionSumRounding = 1e-12;
-
 TEST(Subdivision, CutsEachTriangleIntoFourEqualOnes) {
   const ClothMesh mesh = make_disc(0.15, 200, MeshFamily::random, 1), fine = subdivided(mesh);
   EXPECT_EQ(fine.vertices(), mesh.vertices() + static_cast<int>(mesh.edge.size()));
   EXPECT_EQ(test::euler_characteristic(fine), 1);
   ASSERT_EQ(fine.faces(), 4 * mesh.faces());
   for (int f = 0; f < fine.faces(); ++f)
-    EXPECT_NEAR(fine.face_area[f], mesh.face_area[f / 4] / 4, kSubdivisionSumRounding) << f;
+    EXPECT_NEAR(fine.face_area[f], mesh.face_area[f / 4] / 4, test::kSumRounding) << f;
 }
 
 TEST(Subdivision, TurnsNoTriangleOver) {
