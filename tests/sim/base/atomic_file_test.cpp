@@ -7,6 +7,7 @@
 
 #include "sim/base/error.h"
 #include "tests/sim/base/folder.h"
+#include "tests/sim/base/refusal.h"
 #include "tests/sim/base/small_disk.h"
 
 namespace hysteron {
@@ -51,14 +52,8 @@ TEST(AtomicFile, ReplacesNoFileThatIsStandardOutput) {
 TEST(AtomicFile, ReplacesNoPipe) {
   const Folder folder;
   ASSERT_EQ(mkfifo(folder.file("pipe").c_str(), 0600), 0);
-  try {
-    AtomicFile file(folder.file("pipe"));
-    FAIL() << "a pipe was taken for a file";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.exit_code(), 2);
-    EXPECT_EQ(error.what(),
-              "cannot write " + folder.file("pipe") + ": it is no plain file; give another name");
-  }
+  EXPECT_EQ(test::refusal([&] { AtomicFile file(folder.file("pipe")); }),
+            "cannot write " + folder.file("pipe") + ": it is no plain file; give another name");
   EXPECT_EQ(folder.names(), std::vector<std::string>{"pipe"});
 }
 
@@ -75,23 +70,21 @@ TEST(AtomicFile, TwoWritersOfOneTargetDoNotMix) {
 TEST(AtomicFile, FolderInTheWayIsTheMachinesFailure) {
   const Folder folder;
   folder.write("taken", "");
-  const Error below = test::thrown_error([&] { AtomicFile(folder.file("taken/a.txt")); });
-  EXPECT_EQ(below.exit_code(), 1);
-  EXPECT_EQ(std::string(below.what()), "cannot create " + folder.file("taken/a.txt") + ": Not a directory");
+  EXPECT_EQ(test::refusal([&] { AtomicFile(folder.file("taken/a.txt")); }, 1),
+            "cannot create " + folder.file("taken/a.txt") + ": Not a directory");
 }
 
 TEST(AtomicFile, FullDiskKeepsTheOldFileAndNothingElse) {
   const Folder folder;
   folder.write("a.txt", "old");
   for (const std::size_t size : {2000, 2000000}) {  // fails when flushed, and while writing
-    const Error error = test::thrown_error([&] {
+    const auto write = [&] {
       const test::SmallDisk disk(1000);
       AtomicFile file(folder.file("a.txt"));
       file.stream() << std::string(size, 'x');
       file.commit();
-    });
-    EXPECT_EQ(error.exit_code(), 1);
-    EXPECT_EQ(std::string(error.what()).find("cannot write " + folder.file("a.txt") + ": "), 0u);
+    };
+    EXPECT_TRUE(test::says(test::refusal(write, 1), "cannot write " + folder.file("a.txt") + ": "));
     EXPECT_EQ(test::file_content(folder.file("a.txt")), "old");
     EXPECT_EQ(folder.names(), std::vector<std::string>{"a.txt"});
   }

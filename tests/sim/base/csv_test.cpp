@@ -12,6 +12,7 @@
 namespace hysteron::experiments {
 namespace {
 
+using test::says;
 class Csv : public ::testing::Test {
  protected:
   std::string file(const std::string& text) { return folder_.write("in.csv", text); }
@@ -32,18 +33,16 @@ TEST_F(Csv, FindsColumnsByNameInAnyOrderAndIgnoresOthers) {
 }
 
 TEST_F(Csv, RefusesBadInputWithFileAndLine) {
-  EXPECT_NE(refusal("").find("in.csv:1: column 'curvature [1/m]' is missing"), std::string::npos);
-  EXPECT_NE(refusal("curvature [1/cm]\n1\n").find("column 'curvature' is in 1/cm and must be in 1/m"),
-            std::string::npos);
-  EXPECT_NE(refusal("curvature\n1\n").find("column 'curvature' names no unit; its numbers must be in 1/m"),
-            std::string::npos);
-  EXPECT_NE(refusal("curvature [1/m],curvature [1/m]\n1,2\n").find("stands twice"), std::string::npos);
-  EXPECT_NE(refusal("curvature [1/m]\n1\ntwo\n").find("in.csv:3: curvature [1/m] = 'two'"),
-            std::string::npos);
-  EXPECT_NE(refusal("curvature [1/m]\nnan\n").find("must be a finite number"), std::string::npos);
-  EXPECT_NE(refusal("curvature [1/m],time [s]\n1\n").find("in.csv:2: 1 fields, must be 2"),
-            std::string::npos);
-  EXPECT_NE(refusal("curvature [1/m]\n").find("no rows"), std::string::npos);
+  EXPECT_TRUE(says(refusal(""), "in.csv:1: column 'curvature [1/m]' is missing"));
+  EXPECT_TRUE(says(refusal("curvature [1/cm]\n1\n"), "column 'curvature' is in 1/cm and must be in 1/m"));
+  EXPECT_TRUE(
+      says(refusal("curvature\n1\n"), "column 'curvature' names no unit; its numbers must be in 1/m"));
+  EXPECT_TRUE(says(refusal("curvature [1/m],curvature [1/m]\n1,2\n"), "stands twice"));
+  EXPECT_TRUE(says(refusal("curvature [1/m]\n1\ntwo\n"), "in.csv:3: curvature [1/m] = 'two'"));
+  EXPECT_TRUE(says(refusal("curvature [1/m]\nnan\n"), "must be a finite number"));
+  EXPECT_TRUE(says(refusal("curvature [1/m],time [s]\n1\n"), "in.csv:2: 1 fields, must be 2"));
+  EXPECT_TRUE(says(refusal("curvature [1/m],time [s]\n\"0,5\",1\n"), "'0,5' must be a finite number"));
+  EXPECT_TRUE(says(refusal("curvature [1/m]\n"), "no rows"));
 }
 
 // Semicolons and tabs leave the comma to the decimals; only the head tells what separates.
@@ -60,20 +59,9 @@ TEST_F(Csv, TellsSemicolonsAndTabsFromCommasByTheHead) {
   }
 }
 
-TEST_F(Csv, RefusesDecimalCommasBetweenCommas) {
-  EXPECT_NE(refusal("curvature [1/m],time [s]\n\"0,5\",1\n").find("'0,5' must be a finite number"),
-            std::string::npos);
-}
-
 TEST_F(Csv, RefusesAFileThatIsNotThereAsAFailureOfTheMachine) {
-  for (const std::string& path : {folder_.file("missing.csv"), folder_.file("")}) {
-    try {
-      read_csv(path, {"curvature [1/m]"}, {}, "law");
-      ADD_FAILURE() << path << " was read";
-    } catch (const Error& error) {
-      EXPECT_EQ(error.exit_code(), 1);
-    }
-  }
+  for (const std::string& path : {folder_.file("missing.csv"), folder_.file("")})
+    EXPECT_NE(test::refusal([&] { read_csv(path, {"curvature [1/m]"}, {}, "law"); }, 1), test::kAccepted);
 }
 
 TEST_F(Csv, NamesTheReaderTheFileAndTheLineOfARow) {
@@ -101,9 +89,8 @@ TEST_F(Csv, FindsRowsByWordsAndByNumbersAndColumnsByName) {
             (std::vector<std::vector<std::string>>{{"1", "4.0"}, {"3", "5"}}));
   EXPECT_EQ(table.where("k", "4").lines, (std::vector<int>{2, 3}));
   EXPECT_TRUE(std::isnan(table.number(1, "x")));
-  EXPECT_NE(test::refusal([&] { table.numbers("x"); }).find("in.csv:3: x = '' must be a finite"),
-            std::string::npos);
-  EXPECT_NE(test::refusal([&] { table.at("y"); }).find("in.csv has no column y"), std::string::npos);
+  EXPECT_TRUE(says(test::refusal([&] { table.numbers("x"); }), "in.csv:3: x = '' must be a finite"));
+  EXPECT_TRUE(says(test::refusal([&] { table.at("y"); }), "in.csv has no column y"));
 }
 
 TEST_F(Csv, AlignsCellsInTheirWidths) {

@@ -1,4 +1,4 @@
-// What a call says that is refused as a wrong request.
+// What a call says that is refused, and whether a text says something.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -9,17 +9,26 @@
 
 namespace hysteron::test {
 
-// "(accepted)" if it is not refused.
+inline constexpr const char* kAccepted = "(accepted)";
+
+// Of a wrong request, or of what else ends with this exit code; kAccepted if it is not refused.
 template <class Body>
-std::string refusal(const Body& body) {
+std::string refusal(const Body& body, int exit_code = 2) {
   try {
     body();
   } catch (const Error& error) {
-    EXPECT_EQ(error.exit_code(), 2) << error.what();
-    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << "the message must be one line";
+    EXPECT_EQ(error.exit_code(), exit_code) << error.what();
     return error.what();
   }
-  return "(accepted)";
+  return kAccepted;
+}
+
+// Whether the text has all these parts; if not, the failure shows it.
+template <class... Parts>
+::testing::AssertionResult says(const std::string& text, const Parts&... parts) {
+  for (const std::string& part : {std::string(parts)...})
+    if (text.find(part) == text.npos) return ::testing::AssertionFailure() << text << "\n  lacks " << part;
+  return ::testing::AssertionSuccess();
 }
 
 }  // namespace hysteron::test

@@ -6,6 +6,7 @@
 #include "sim/bending/angle.h"
 #include "sim/bending/curvature_operator.h"
 #include "tests/sim/linear/dense.h"
+#include "tests/sim/mesh/mesh_measures.h"
 
 namespace hysteron {
 namespace {
@@ -16,8 +17,6 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 using std::numbers::pi;
 
-constexpr MeshFamily kFamilies[] = {MeshFamily::aligned,   MeshFamily::aligned45,   MeshFamily::flipped,
-                                    MeshFamily::unionjack, MeshFamily::equilateral, MeshFamily::random};
 // Second differences of z over edges of 1/20 of the cloth amplify rounding some thousandfold, and the fit of
 // H by the inverse of its smallest singular value.
 constexpr double kReproduced = 1e-10;
@@ -105,11 +104,7 @@ double reproduction_error(const ClothMesh& mesh) {
 }
 
 class Family : public ::testing::TestWithParam<MeshFamily> {};
-INSTANTIATE_TEST_SUITE_P(Meshes, Family, ::testing::ValuesIn(kFamilies), [](const auto& family) {
-  std::string name = enum_name(family.param);
-  std::erase(name, '-');
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(Meshes, Family, ::testing::ValuesIn(test::kFamilies), test::CaseName());
 
 TEST_P(Family, ShapeReproducesUniformCurvatureOnInteriorFacesOfARectangle) {
   EXPECT_LT(reproduction_error(make_rectangle(1, 0.8, 300, GetParam(), 4)), kReproduced);
@@ -138,22 +133,6 @@ TEST_P(Family, ShapeCarriesNoMomentAcrossAFreeEdge) {
                 kReproduced * projected.middleRows<3>(3 * f).norm())
           << f;
     }
-  }
-}
-
-TEST_P(Family, ShapeGivesACylinderThePlatesEnergyInEveryDirection) {
-  const ClothMesh mesh = make_rectangle(1, 0.8, 300, GetParam(), 4);
-  const MatrixXd c = dense(make_shape_operator(mesh, none_held(mesh)), mesh.interior_edges);
-  const MatrixXd rate = angle_rates(mesh);
-  for (int d = 0; d < kDirections; ++d) {
-    const VectorXd s = c * (rate * uniformly_bent(mesh, cylinder(pi * d / kDirections)));
-    double energy = 0, plate = 0;
-    for (int f = 0; f < mesh.faces(); ++f) {
-      if (has_free_edge(mesh, f)) continue;
-      energy += mesh.face_area[f] * s.segment<3>(3 * f).squaredNorm() / 2;
-      plate += mesh.face_area[f] / 2;
-    }
-    EXPECT_NEAR(energy / plate, 1, 2 * kReproduced) << d;
   }
 }
 
@@ -316,11 +295,6 @@ TEST(Hinge, OverratesBendingOnRandomTrianglesByASixth) {
   for (int d = 0; d < 6; ++d)
     mean += hinge_ratio(mesh, pi * d / 6, Vector2d(0.15, 0.15), Vector2d(0.85, 0.85)) / 6;
   EXPECT_NEAR(mean, kExpected, kScatter);
-}
-
-TEST(Element, UnknownNameIsRefusedWithTheChoices) {
-  const ClothMesh mesh = make_grid(1, 1, 2, 2, MeshFamily::aligned, 1);
-  EXPECT_THROW(value_named<BendingElement>("quad"), std::runtime_error);
 }
 
 }  // namespace

@@ -7,16 +7,15 @@
 #include <numbers>
 #include <set>
 
-#include "sim/base/error.h"
 #include "sim/bending/curvature_operator.h"
+#include "tests/sim/base/refusal.h"
+#include "tests/sim/mesh/mesh_measures.h"
 
 namespace hysteron {
 namespace {
 
 using Eigen::Vector3d;
 
-constexpr MeshFamily kCurvedFamilies[] = {MeshFamily::aligned,   MeshFamily::aligned45,   MeshFamily::flipped,
-                                          MeshFamily::unionjack, MeshFamily::equilateral, MeshFamily::random};
 constexpr double kRadius = 0.03;  // [m]
 // Edges of 1.6 to 2.2 mm: the error is below (edge/R)^2/4 of the curvature and falls with the edge squared.
 constexpr double kCoarse = 6.5e-4;
@@ -63,8 +62,8 @@ double curvature_error(const ClothMesh& mesh, const std::vector<Vector3d>& x, do
 ClothMesh sheet(MeshFamily family, int triangles) { return make_rectangle(0.06, 0.04, triangles, family, 3); }
 
 class EveryFamily : public ::testing::TestWithParam<MeshFamily> {};
-INSTANTIATE_TEST_SUITE_P(SurfaceCurvature, EveryFamily, ::testing::ValuesIn(kCurvedFamilies),
-                         [](const auto& info) { return "n" + std::to_string(info.index); });
+INSTANTIATE_TEST_SUITE_P(SurfaceCurvature, EveryFamily, ::testing::ValuesIn(test::kFamilies),
+                         test::CaseName());
 
 TEST_P(EveryFamily, OfAPlaneIsZeroHoweverItLies) {
   const ClothMesh mesh = sheet(GetParam(), 400);
@@ -143,14 +142,8 @@ TEST(SurfaceCurvature, AtFreeEdgesIsWholeAlongThemAndPartAcrossThem) {
 
 TEST(SurfaceCurvature, NeedsASurfaceWithAFront) {
   const std::vector<Vector3d> x = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  try {
-    surface_curvature(x, {{0, 1, 2}, {0, 1, 3}}, "mesh turned.obj");
-    FAIL() << "neighbours of opposite orientation have no common front";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.exit_code(), 2);
-    EXPECT_TRUE(
-        std::string(error.what()).starts_with("mesh turned.obj: triangle 0 and triangle 1 have opposite"));
-  }
+  const auto refused = [&] { surface_curvature(x, {{0, 1, 2}, {0, 1, 3}}, "mesh turned.obj"); };
+  EXPECT_TRUE(test::says(test::refusal(refused), "mesh turned.obj: triangle 0 and triangle 1 have opposite"));
 }
 
 }  // namespace

@@ -51,11 +51,8 @@ double least_distance(const Trial& trial, Simulation& simulation) {
 }
 
 Obstacle box(const Vector3d& half, const Vector3d& center, double rim = 1e-4) {
-  Obstacle o;
-  o.kind = ObstacleKind::box;
-  o.size = half;
+  Obstacle o = test::box_at(center, half);
   o.rim = rim;
-  o.center = center;
   return o;
 }
 
@@ -262,12 +259,7 @@ double turn_around(const Trial& trial, Simulation& simulation, double y, double 
 // 1 mm thick, through 17 mm long edges of free cloth: 83 mm a step.
 class FastRod : public ::testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Integrators, FastRod,
-                         ::testing::Values("implicit", "bdf2", "tr-bdf2", "semi-implicit"),
-                         [](const auto& of) {
-                           std::string name = of.param;
-                           std::replace(name.begin(), name.end(), '-', '_');
-                           return name;
-                         });
+                         ::testing::Values("implicit", "bdf2", "tr-bdf2", "semi-implicit"), test::CaseName());
 
 // Two keys a way L and a time T apart are 1.5 L/T apart in speed in their middle.
 TEST_P(FastRod, AtFiveMetresASecondCarriesACoarseMeshBeforeIt) {

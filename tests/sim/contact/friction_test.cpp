@@ -112,11 +112,8 @@ TEST(SlopeOfCloth, KeepsASheetThatIsPressedAgainAndAgain) {
   Trial trial = on_cloth(ramp_angle(0.5));
   trial.scene.step = 1.0 / 120;
   const double thickness = Fabric{}.thickness;
-  Obstacle plate;
-  plate.kind = ObstacleKind::box;
-  plate.size = {0.2, 0.2, 0.01};
+  Obstacle plate = test::box_at({0.035, 0.035, 0.01}, {0.2, 0.2, 0.01});
   plate.friction = 0;
-  plate.center = {0.035, 0.035, 0.01};
   for (int k = 0; k <= 40; ++k)
     plate.motion.keys.push_back({0.1 * k + 0.1, {0, 0, (k % 2 ? 1.7 : 2.1) * thickness}, 0});
   trial.scene.obstacle = {plate};

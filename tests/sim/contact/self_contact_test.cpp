@@ -242,10 +242,7 @@ TEST_P(SelfContactOf, CarriesASheetThatLandsOnAnother) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Integrators, SelfContactOf, ::testing::Values("implicit", "bdf2", "semi-implicit"),
-                         [](const auto& which) {
-                           return std::string(which.param == std::string("semi-implicit") ? "semi_implicit"
-                                                                                          : which.param);
-                         });
+                         test::CaseName());
 
 TEST(SelfContact, NeedsAnIntegratorThatSolvesForContact) {
   Scene scene = test::free_square(40);

@@ -37,11 +37,8 @@ Scene sheet(const std::string& integrator, int triangles = 100) {
 }
 
 Obstacle plate_at(const Vector3d& center) {
-  Obstacle plate;
-  plate.kind = ObstacleKind::box;
-  plate.size = {0.5, 0.5, kHalf};
+  Obstacle plate = test::box_at(center, {0.5, 0.5, kHalf});
   plate.rim = 0;
-  plate.center = center;
   return plate;
 }
 
@@ -53,17 +50,12 @@ double lowest_over(Simulation& simulation, double height) {
 }
 
 class Sweep : public ::testing::TestWithParam<const char*> {};
-std::string name_of_case(const ::testing::TestParamInfo<const char*>& info) {
-  std::string name = info.param;
-  std::replace(name.begin(), name.end(), '-', '_');
-  return name;
-}
 INSTANTIATE_TEST_SUITE_P(Integrators, Sweep,
                          ::testing::Values("implicit", "bdf2", "tr-bdf2", "quasi-static", "semi-implicit"),
-                         name_of_case);
+                         test::CaseName());
 class SweepInMotion : public Sweep {};  // free cloth, for which there is no equilibrium
 INSTANTIATE_TEST_SUITE_P(Integrators, SweepInMotion,
-                         ::testing::Values("implicit", "bdf2", "tr-bdf2", "semi-implicit"), name_of_case);
+                         ::testing::Values("implicit", "bdf2", "tr-bdf2", "semi-implicit"), test::CaseName());
 
 // Two keys a way L and a time T apart are 1.5 L/T apart in speed in their middle: 5 m/s there, 83 mm a step.
 TEST_P(Sweep, PlateOfAMillimetreAtFiveMetresASecondCarriesTheClothBeforeIt) {

@@ -27,8 +27,7 @@ inline Trial two_sheets(double gap, int triangles) {
   trial.cloth = place_cloth(scene, both);
   for (int i = lower.vertices(); i < both.vertices(); ++i)
     trial.cloth.start[i] += Eigen::Vector3d(0.2 * kUpperSide - 1, 0.2 * kUpperSide, gap);
-  Pin moving_pin;
-  trial.scene.pin = {moving_pin};
+  trial.scene.pin = {Pin{}};
   trial.cloth.pin_vertices = {{}};
   for (int i = 0; i < lower.vertices(); ++i) {
     trial.cloth.pin[i] = 0;

@@ -5,8 +5,8 @@
 #include <numeric>
 
 #include "sim/base/error.h"
-#include "sim/time/back_end.h"
 #include "sim/time/together.h"
+#include "tests/sim/device/on_each_device.h"
 #include "tests/sim/device/primitives.h"
 #include "tests/sim/time/scenes.h"
 
@@ -28,9 +28,9 @@ TEST(Together, OnACpuAJobSharesNoLaunches) {
   run_together(false, 4, [](int) { EXPECT_EQ(jobs_together(), 1); });
 }
 
-TEST(Together, OnAGpuAJobKnowsHowManyShareItsLaunches) {
-  std::string reason;
-  if (gpu_count(reason) == 0) GTEST_SKIP() << "no GPU: " << reason;
+class BatchTogether : public test::OnGpu {};
+
+TEST_F(BatchTogether, LetsAJobKnowHowManyShareItsLaunches) {
   run_together(true, 5, [](int) { EXPECT_EQ(jobs_together(), 5); });
   EXPECT_EQ(jobs_together(), 1);
 }
@@ -42,9 +42,7 @@ TEST(Together, AskForAGpuWhereThereIsNone) {
 }
 
 // Members whose loops differ in length and in how often they are repeated.
-TEST(Together, LoopsOfABatchGiveWhatTheyGiveAlone) {
-  std::string reason;
-  if (gpu_count(reason) == 0) GTEST_SKIP() << "no GPU: " << reason;
+TEST_F(BatchTogether, HasLoopsThatGiveWhatTheyGiveAlone) {
   constexpr int kMembers = 9, kTimes = 3;
   const auto alone = test::gpu_primitives();
   run_together(true, kMembers, [&](int i) {
@@ -94,13 +92,10 @@ std::uint64_t hash_after(Scene scene, int steps) {
   return Trial(scene).after(steps)->state_hash();
 }
 
-class BatchOnGpu : public testing::TestWithParam<test::Method> {};
-INSTANTIATE_TEST_SUITE_P(Cases, BatchOnGpu, testing::ValuesIn(methods()),
-                         [](const auto& method) { return method.param.name(); });
+class BatchOnGpu : public test::OnGpuWith<test::Method> {};
+INSTANTIATE_TEST_SUITE_P(Cases, BatchOnGpu, testing::ValuesIn(methods()), test::CaseName());
 
 TEST_P(BatchOnGpu, EveryClothHasTheBitsThatItHasAlone) {
-  std::string reason;
-  if (gpu_count(reason) == 0) GTEST_SKIP() << "no GPU: " << reason;
   constexpr int kMembers = 5, kSteps = 20;
   std::vector<std::uint64_t> together(kMembers), alone;
   run_together(true, kMembers, [&](int i) { together[i] = hash_after(member_scene(GetParam(), i), kSteps); });
@@ -110,18 +105,14 @@ TEST_P(BatchOnGpu, EveryClothHasTheBitsThatItHasAlone) {
 }
 
 // Lists of pairs grow, are scanned and sorted, and obstacles ask for the smallest step.
-TEST(BatchOfContact, EveryClothHasTheBitsThatItHasAlone) {
-  std::string reason;
-  if (gpu_count(reason) == 0) GTEST_SKIP() << "no GPU: " << reason;
+class BatchOfContact : public test::OnGpu {};
+
+TEST_F(BatchOfContact, EveryClothHasTheBitsThatItHasAlone) {
   constexpr int kMembers = 3, kSteps = 30;
   const auto batch_scene = [](int i) {
     Scene scene = member_scene({"prandtl", "shape", "implicit"}, i);
     scene.self_contact = true;
-    Obstacle sphere;
-    sphere.kind = ObstacleKind::sphere;
-    sphere.radius = 0.04;
-    sphere.center = {0.1, 0.05, -0.042};
-    scene.obstacle = {sphere};
+    scene.obstacle = {test::sphere_at({0.1, 0.05, -0.042}, 0.04)};
     return scene;
   };
   std::vector<std::uint64_t> together(kMembers), alone;
@@ -130,9 +121,7 @@ TEST(BatchOfContact, EveryClothHasTheBitsThatItHasAlone) {
   EXPECT_EQ(together, alone);
 }
 
-TEST(Together, AMemberThatFailsLeavesTheOthersTheirStates) {
-  std::string reason;
-  if (gpu_count(reason) == 0) GTEST_SKIP() << "no GPU: " << reason;
+TEST_F(BatchTogether, LeavesTheOthersTheirStatesWhereOneFails) {
   constexpr int kMembers = 4, kFails = 2, kSteps = 10;
   const test::Method method{"prandtl", "shape", "implicit"};
   std::vector<std::uint64_t> together(kMembers);

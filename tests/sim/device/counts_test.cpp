@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "sim/device/device_counts.h"
-#include "sim/time/back_end.h"
+#include "tests/sim/device/on_each_device.h"
 #include "tests/sim/time/scenes.h"
 
 namespace hysteron {
@@ -44,15 +44,10 @@ std::vector<CountedStep> recorded_steps(const char* integrator, const char* devi
   return steps;
 }
 
-class DeviceCountsOfAStep : public testing::TestWithParam<const char*> {
- protected:
-  void SetUp() override {
-    std::string reason;
-    if (GetParam() == std::string("cuda") && gpu_count(reason) == 0) GTEST_SKIP() << "no GPU: " << reason;
-  }
-};
-INSTANTIATE_TEST_SUITE_P(Devices, DeviceCountsOfAStep, testing::Values("cpu", "cuda"),
-                         [](const auto& device) { return std::string(device.param); });
+// A GPU repeats the iterations of a solve by itself, which is one launch, and the host asks once for their
+// number.
+class DeviceCountsOfAStep : public test::OnEachDevice {};
+INSTANTIATE_TEST_SUITE_P(Devices, DeviceCountsOfAStep, testing::Values("cpu", "cuda"), test::CaseName());
 
 TEST_P(DeviceCountsOfAStep, ExplicitStepsAreAllTheSame) {
   const auto steps = recorded_steps("explicit", GetParam());
@@ -64,18 +59,12 @@ TEST_P(DeviceCountsOfAStep, ExplicitStepsAreAllTheSame) {
   }
 }
 
-// A GPU repeats the iterations of a solve by itself, which is one launch, and the host asks once for their
-// number.
-bool repeats_by_itself(const std::string& device) { return device == "cuda"; }
-
 TEST_P(DeviceCountsOfAStep, SemiImplicitStepsTakeThreeLoopsAnIterationAndFourteen) {
   constexpr long kOwn = 14, kIteration = 3;
   const auto steps = recorded_steps("semi-implicit", GetParam());
   for (int i = 1; i < kSteps; ++i) {
     EXPECT_GT(steps[i].solver, 10);
-    EXPECT_EQ(steps[i].counts.loops,
-              kOwn + (repeats_by_itself(GetParam()) ? 1 : kIteration * steps[i].solver))
-        << "step " << i;
+    EXPECT_EQ(steps[i].counts.loops, kOwn + (on_gpu() ? 1 : kIteration * steps[i].solver)) << "step " << i;
     EXPECT_LE(steps[i].counts.synchronizations, 4) << "step " << i;
     EXPECT_EQ(steps[i].counts.allocations, 0) << "step " << i;
   }
@@ -90,7 +79,7 @@ TEST_P(DeviceCountsOfAStep, ImplicitStepsAreBoundedByTheirIterations) {
   constexpr long kCaptured = 2;  // with the membrane's softening and without
   const auto steps = recorded_steps("implicit", GetParam());
   for (int i = 1; i < kSteps; ++i) {
-    const long sent = repeats_by_itself(GetParam()) ? kCaptured : steps[i].solver;
+    const long sent = on_gpu() ? kCaptured : steps[i].solver;
     EXPECT_GE(steps[i].newton, 1);
     EXPECT_LE(steps[i].counts.loops, kOwn + kNewton * steps[i].newton + kIteration * sent) << "step " << i;
     EXPECT_LE(steps[i].counts.synchronizations, kWaits + kNewtonWaits * steps[i].newton) << "step " << i;

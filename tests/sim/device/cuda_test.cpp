@@ -1,10 +1,10 @@
 // CPU against CUDA: the same source on both must give the same cloth.
 #include <gtest/gtest.h>
 
-#include "sim/base/error.h"
 #include "sim/bending/laws/law_parameters.h"
 #include "sim/mesh/intersections.h"
-#include "sim/time/back_end.h"
+#include "tests/sim/base/refusal.h"
+#include "tests/sim/device/on_each_device.h"
 #include "tests/sim/time/scenes.h"
 
 namespace hysteron {
@@ -23,11 +23,7 @@ Scene busy_scene(const std::string& law, const std::string& element, const std::
   scene.air_drag = 0.02;
   scene.solver_tolerance = 1e-10;
   scene.pin[0].motion.keys = {{0, {0, 0, 0}, 0}, {0.05, {0.01, 0, 0.02}, 10}};
-  Obstacle sphere;
-  sphere.kind = ObstacleKind::sphere;
-  sphere.radius = 0.04;
-  sphere.center = {0.1, 0.05, -0.042};
-  if (integrator != "explicit") scene.obstacle = {sphere};
+  if (integrator != "explicit") scene.obstacle = {test::sphere_at({0.1, 0.05, -0.042}, 0.04)};
   if (scene.is_implicit()) {  // stiff enough that each step has one minimum, not one for each way to buckle
     scene.step = 5e-3;
     scene.fabric.b1 *= 100;
@@ -57,21 +53,17 @@ std::vector<test::Method> cuda_methods() {
   return all;
 }
 
-class BothDevices : public testing::TestWithParam<test::Method> {};
-INSTANTIATE_TEST_SUITE_P(Cases, BothDevices, testing::ValuesIn(cuda_methods()),
-                         [](const auto& method) { return method.param.name(); });
+class BothDevices : public test::OnGpuWith<test::Method> {};
+INSTANTIATE_TEST_SUITE_P(Cases, BothDevices, testing::ValuesIn(cuda_methods()), test::CaseName());
 
 // Sums run in another order and division and roots round differently; the solver's tolerance hides the rest.
 TEST_P(BothDevices, AgreeOnEveryPosition) {
-  std::string reason;
-  if (gpu_count(reason) == 0) GTEST_SKIP() << "no GPU to compare with: " << reason;
   // gong's clock starts again by the sign of a motion, however small: rounding decides where cloth rests.
   const double kAgreement = GetParam().law == "gong" ? 1e-7 : 1e-9;  // [m]
   const Scene scene = busy_scene(GetParam().law, GetParam().element, GetParam().integrator);
   const auto cpu = run_on("cpu", scene), gpu = run_on("cuda", scene);
   EXPECT_EQ(gpu->device().substr(0, 4), "cuda");
   const double distance = test::farthest(cpu->positions(), gpu->positions());
-  RecordProperty("distance_nm", std::to_string(1e9 * distance));
   EXPECT_GT(test::farthest(cpu->positions(), Trial(scene).cloth.start), 1e-3);
   EXPECT_LT(distance, kAgreement);
   EXPECT_LT(gpu->ledger().remainder_relative, 1e-9);
@@ -79,21 +71,16 @@ TEST_P(BothDevices, AgreeOnEveryPosition) {
 }
 
 TEST_P(BothDevices, GpuGivesTheSameBitsTwice) {
-  std::string reason;
-  if (gpu_count(reason) == 0) GTEST_SKIP() << "no GPU: " << reason;
   const Scene scene = busy_scene(GetParam().law, GetParam().element, GetParam().integrator);
   EXPECT_EQ(run_on("cuda", scene)->state_hash(), run_on("cuda", scene)->state_hash());
 }
 
-TEST(Gpu, TiresAndObeysCommandsAsTheCpuDoes) {
-  std::string reason;
-  if (gpu_count(reason) == 0) GTEST_SKIP() << "no GPU: " << reason;
+class Gpu : public test::OnGpu {};
+
+TEST_F(Gpu, TiresAndObeysCommandsAsTheCpuDoes) {
   Scene scene = busy_scene("prandtl", "shape", "semi-implicit");
   scene.param = {{"fatigue.dc", "1e-3"}};
-  Command iron;
-  iron.time = 0.02;
-  iron.low = {0.1, -1, -1};
-  scene.command = {iron};
+  scene.command = {{.time = 0.02, .low = {0.1, -1, -1}}};
   const auto cpu = run_on("cpu", scene), gpu = run_on("cuda", scene);
   EXPECT_LT(test::farthest(cpu->positions(), gpu->positions()), 1e-9);
   EXPECT_NE(gpu->ledger().commands, 0);
@@ -108,9 +95,7 @@ std::vector<test::Method> every_integrator() {
 }
 
 // Stops along warp and weft, branches and a set, on hinges and faces.
-TEST(Gpu, BendsAFabricOfManyPartsAsTheCpuDoes) {
-  std::string reason;
-  if (gpu_count(reason) == 0) GTEST_SKIP() << "no GPU: " << reason;
+TEST_F(Gpu, BendsAFabricOfManyPartsAsTheCpuDoes) {
   for (const char* element : {"hinge", "shape"}) {
     Scene scene = busy_scene("chapman", element, "semi-implicit");
     scene.fabric.bending = test::all_parts();
@@ -123,13 +108,11 @@ TEST(Gpu, BendsAFabricOfManyPartsAsTheCpuDoes) {
   }
 }
 
-class InPlaneFrictionOnBothDevices : public testing::TestWithParam<test::Method> {};
+class InPlaneFrictionOnBothDevices : public test::OnGpuWith<test::Method> {};
 INSTANTIATE_TEST_SUITE_P(Integrators, InPlaneFrictionOnBothDevices, testing::ValuesIn(every_integrator()),
-                         [](const auto& method) { return method.param.name(); });
+                         test::CaseName());
 
 TEST_P(InPlaneFrictionOnBothDevices, LosesTheSameToTheSameCloth) {
-  std::string reason;
-  if (gpu_count(reason) == 0) GTEST_SKIP() << "no GPU: " << reason;
   Scene scene = busy_scene(GetParam().law, GetParam().element, GetParam().integrator);
   scene.fabric.weft = 5e3;  // with means at nodes
   scene.fabric.in_plane = {{{1e-4}, {300}}, {{1e-4, 1e-3}, {200, 80}}, {{5e-4, 3e-3}, {90, 40}}};
@@ -141,9 +124,7 @@ TEST_P(InPlaneFrictionOnBothDevices, LosesTheSameToTheSameCloth) {
   EXPECT_EQ(run_on("cuda", scene)->state_hash(), gpu->state_hash());
 }
 
-TEST(Gpu, InSinglePrecisionStaysNearTheCpusDouble) {
-  std::string reason;
-  if (gpu_count(reason) == 0) GTEST_SKIP() << "no GPU: " << reason;
+TEST_F(Gpu, InSinglePrecisionStaysNearTheCpusDouble) {
   constexpr double kNear = 1e-4;  // [m], as on the CPU
   Scene scene = busy_scene("prandtl", "shape", "semi-implicit");
   scene.obstacle.clear();
@@ -165,11 +146,8 @@ Scene folding_strip(const std::string& integrator) {
   scene.step = 5e-3;
   scene.law = "prandtl";
   scene.newton_residual = 1e-9;
-  Pin clamp, moving_pin;
-  clamp.low = {-1, -1, -1};
-  clamp.high = {0.02, 1, 1};
-  moving_pin.low = {0.05, -1, -1};
-  moving_pin.high = {1, 1, 1};
+  const Pin clamp = test::pin_in({-1, -1, -1}, {0.02, 1, 1});
+  Pin moving_pin = test::pin_in({0.05, -1, -1}, {1, 1, 1});
   moving_pin.motion.axis = {0, -1, 0};
   moving_pin.motion.center = {0.035, 0, 0.005};
   moving_pin.motion.keys = {{0, {0, 0, 0}, 0}, {0.2, {0, 0, 0}, 180}, {0.25, {0, 0, -0.0096}, 180}};
@@ -177,22 +155,17 @@ Scene folding_strip(const std::string& integrator) {
   return scene;
 }
 
-class SelfContactOnBothDevices : public ::testing::TestWithParam<const char*> {};
+class SelfContactOnBothDevices : public test::OnGpuWith<const char*> {};
 
 INSTANTIATE_TEST_SUITE_P(Integrators, SelfContactOnBothDevices,
-                         ::testing::Values("implicit", "semi-implicit"), [](const auto& which) {
-                           return std::string(which.param == std::string("implicit") ? "implicit" : "semi");
-                         });
+                         ::testing::Values("implicit", "semi-implicit"), test::CaseName());
 
 TEST_P(SelfContactOnBothDevices, FoldsAlikeAndTwiceTheSame) {
-  std::string reason;
-  if (gpu_count(reason) == 0) GTEST_SKIP() << "no GPU: " << reason;
   constexpr double kAgreement = 1e-6;  // [m]
   const Scene scene = folding_strip(GetParam());
   const auto cpu = run_on("cpu", scene), gpu = run_on("cuda", scene), again = run_on("cuda", scene);
   EXPECT_GT(cpu->ledger().contact, 0);
   const double distance = test::farthest(cpu->positions(), gpu->positions());
-  RecordProperty("distance_nm", std::to_string(1e9 * distance));
   EXPECT_LT(distance, kAgreement);
   EXPECT_EQ(gpu->state_hash(), again->state_hash());
   EXPECT_LT(gpu->ledger().remainder_relative, 1e-9);
@@ -207,7 +180,7 @@ TEST(Device, ListNamesTheCpuAndTheGpuOrWhyThereIsNone) {
   EXPECT_EQ(list[1].substr(0, 5), "cuda:");
   std::string reason;
   if (gpu_count(reason) == 0) {
-    EXPECT_NE(list[1].find(reason), std::string::npos) << list[1];
+    EXPECT_TRUE(test::says(list[1], reason));
   }
 }
 
@@ -216,13 +189,7 @@ TEST(Device, CudaWithoutAGpuIsTheMachinesFailureInOneLine) {
   if (gpu_count(reason) > 0) GTEST_SKIP() << "there is a GPU";
   Trial trial(test::hanging_square());
   trial.scene.device = DeviceChoice::cuda;
-  try {
-    trial.simulation();
-    FAIL() << "started on a GPU that is not there";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.exit_code(), 1);
-    EXPECT_NE(std::string(error.what()).find(reason), std::string::npos) << error.what();
-  }
+  EXPECT_TRUE(test::says(test::refusal([&] { trial.simulation(); }, 1), reason));
   trial.scene.device = DeviceChoice::automatic;
   EXPECT_EQ(trial.simulation()->device().substr(0, 3), "cpu");
 }

@@ -6,11 +6,13 @@
 #include "render/cloth_view.h"
 #include "sim/base/error.h"
 #include "sim/time/back_end.h"
+#include "tests/sim/base/refusal.h"
 #include "tests/sim/time/scenes.h"
 
 namespace hysteron {
 namespace {
 
+using test::says;
 using test::Trial;
 
 constexpr int kDrawnSteps = 50;
@@ -88,8 +90,7 @@ class CudaToOpenGl : public testing::TestWithParam<std::string> {
   std::unique_ptr<Trial> trial_;
   std::unique_ptr<Simulation> simulation_;
 };
-INSTANTIATE_TEST_SUITE_P(Precisions, CudaToOpenGl, testing::Values("double", "float"),
-                         [](const auto& precision) { return precision.param; });
+INSTANTIATE_TEST_SUITE_P(Precisions, CudaToOpenGl, testing::Values("double", "float"), test::CaseName());
 
 // Both ways round the same numbers to float, so that the same driver draws the same bits.
 TEST_P(CudaToOpenGl, GivesThePicturesOfPositionsThatPassTheHost) {
@@ -125,7 +126,7 @@ TEST_P(CudaToOpenGl, RefusesABufferThatIsTooSmallAndStillSimulates) {
   ASSERT_TRUE(share_with(small));
   std::string reason;
   EXPECT_FALSE(small.view.write_positions(reason));
-  EXPECT_NE(reason.find("bytes"), std::string::npos) << reason;
+  EXPECT_TRUE(says(reason, "bytes"));
   EXPECT_NO_THROW(simulation_->advance(1));
   small.set_positions(*coarse.simulation());
   EXPECT_FALSE(small.draw().empty());
@@ -135,7 +136,7 @@ TEST_P(CudaToOpenGl, RefusesAContextOnAnotherDevice) {
   const Drawing drawing(*offscreen_, trial_->cloth);
   std::string reason;
   EXPECT_EQ(simulation_->share_positions(drawing.view.position_buffer(), -1, reason), nullptr);
-  EXPECT_NE(reason.find("CUDA device 0"), std::string::npos) << reason;
+  EXPECT_TRUE(says(reason, "CUDA device 0"));
 }
 
 TEST(GlPositions, AreNotToBeHadFromTheCpuWhichSaysSo) {
@@ -143,7 +144,7 @@ TEST(GlPositions, AreNotToBeHadFromTheCpuWhichSaysSo) {
   std::string reason;
   EXPECT_EQ(simulation->cuda_device(), -1);
   EXPECT_EQ(simulation->share_positions(1, 0, reason), nullptr);
-  EXPECT_NE(reason.find("CPU"), std::string::npos) << reason;
+  EXPECT_TRUE(says(reason, "CPU"));
 }
 
 }  // namespace

@@ -6,8 +6,8 @@
 #include <cstring>
 
 #include "sim/mesh/cloth_mesh.h"
-#include "sim/time/back_end.h"
 #include "tests/sim/device/linear_solves.h"
+#include "tests/sim/device/on_each_device.h"
 
 namespace hysteron {
 namespace {
@@ -36,15 +36,14 @@ bool same_bits(const LinearSolve& a, const LinearSolve& b) {
   return std::memcmp(a.x.data(), b.x.data(), a.x.size() * sizeof(Eigen::Vector3d)) == 0;
 }
 
-class LinearSolvesOnEachDevice : public testing::TestWithParam<const char*> {
+class LinearSolvesOnEachDevice : public test::OnEachDevice {
  protected:
   void SetUp() override {
-    std::string reason;
-    if (on_gpu() && gpu_count(reason) == 0) GTEST_SKIP() << "no GPU: " << reason;
+    OnEachDevice::SetUp();
+    if (IsSkipped()) return;
     solves = on_gpu() ? test::gpu_linear_solves() : test::cpu_linear_solves();
     ASSERT_TRUE(solves);
   }
-  static bool on_gpu() { return GetParam() == std::string("gpu"); }
   // On a GPU one more, whose rows and first level are too many for a warp each and for one launch.
   static std::vector<int> triangles_here() {
     std::vector<int> all(std::begin(kTriangles), std::end(kTriangles));
@@ -53,8 +52,7 @@ class LinearSolvesOnEachDevice : public testing::TestWithParam<const char*> {
   }
   std::unique_ptr<test::LinearSolves> solves;
 };
-INSTANTIATE_TEST_SUITE_P(Devices, LinearSolvesOnEachDevice, testing::Values("cpu", "gpu"),
-                         [](const auto& device) { return std::string(device.param); });
+INSTANTIATE_TEST_SUITE_P(Devices, LinearSolvesOnEachDevice, testing::Values("cpu", "gpu"), test::CaseName());
 
 TEST_P(LinearSolvesOnEachDevice, LeaveTheResidualThatTheyWereAskedFor) {
   for (const int triangles : triangles_here())

@@ -10,7 +10,7 @@
 #include <random>
 
 #include "sim/device/cpu.h"
-#include "sim/time/back_end.h"
+#include "tests/sim/device/on_each_device.h"
 
 namespace hysteron {
 namespace {
@@ -37,19 +37,19 @@ std::vector<double> fractions(int n) {
   return values;
 }
 
-class DevicePrimitives : public testing::TestWithParam<const char*> {
+class DevicePrimitives : public test::OnEachDevice {
  protected:
   void SetUp() override {
-    const std::string device = GetParam();
-    std::string reason;
-    if (device == "gpu" && gpu_count(reason) == 0) GTEST_SKIP() << "no GPU: " << reason;
-    primitives = device == "gpu" ? test::gpu_primitives() : test::cpu_primitives(device == "cpu_1" ? 1 : 3);
+    OnEachDevice::SetUp();
+    if (IsSkipped()) return;
+    const int threads = GetParam() == std::string("cpu_1") ? 1 : 3;
+    primitives = on_gpu() ? test::gpu_primitives() : test::cpu_primitives(threads);
     ASSERT_TRUE(primitives);
   }
   std::unique_ptr<Primitives> primitives;
 };
 INSTANTIATE_TEST_SUITE_P(Devices, DevicePrimitives, testing::Values("cpu_1", "cpu_3", "gpu"),
-                         [](const auto& device) { return std::string(device.param); });
+                         test::CaseName());
 
 TEST_P(DevicePrimitives, ALoopVisitsEveryElementOnceAndNoOther) {
   for (const int n : kSizes) {

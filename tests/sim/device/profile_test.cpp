@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "sim/time/back_end.h"
 #include "tests/sim/bending/coupled_pairs.h"
+#include "tests/sim/device/on_each_device.h"
 #include "tests/sim/time/scenes.h"
 
 namespace hysteron {
@@ -43,16 +43,8 @@ Profile kernel_profile(const Scene& scene) {
           simulation->counts().newton - newton, trial.cloth.mesh};
 }
 
-class ProfileOfSteps : public testing::TestWithParam<const char*> {
- protected:
-  void SetUp() override {
-    std::string reason;
-    if (on_gpu() && gpu_count(reason) == 0) GTEST_SKIP() << "no GPU: " << reason;
-  }
-  static bool on_gpu() { return GetParam() == std::string("cuda"); }
-};
-INSTANTIATE_TEST_SUITE_P(Devices, ProfileOfSteps, testing::Values("cpu", "cuda"),
-                         [](const auto& device) { return std::string(device.param); });
+class ProfileOfSteps : public test::OnEachDevice {};
+INSTANTIATE_TEST_SUITE_P(Devices, ProfileOfSteps, testing::Values("cpu", "cuda"), test::CaseName());
 
 TEST_P(ProfileOfSteps, CountsEveryLaunchOnce) {
   for (const char* integrator : {"explicit", "semi-implicit", "implicit"}) {
@@ -142,11 +134,7 @@ TEST_P(ProfileOfSteps, HasNoLoopOfAPartThatTheSceneLacks) {
   const Profile without = kernel_profile(plain);
   Scene full = hanging("implicit", GetParam());
   full.self_contact = true;
-  Obstacle ball;
-  ball.kind = ObstacleKind::sphere;
-  ball.center = {0, 0, -10};
-  ball.radius = 0.1;
-  full.obstacle = {ball};
+  full.obstacle = {test::sphere_at({0, 0, -10}, 0.1)};
   full.linear_precision = Precision::fp32;
   const Profile with = kernel_profile(full);
   for (const char* part : {"contact: ", "self-contact: ", "bending reference", "in float: "}) {

@@ -3,8 +3,9 @@
 
 #include <algorithm>
 
-#include "sim/base/error.h"
 #include "sim/identification/curve.h"
+#include "tests/sim/base/case_name.h"
+#include "tests/sim/base/refusal.h"
 #include "tests/sim/identification/synthetic.h"
 
 namespace hysteron {
@@ -19,6 +20,12 @@ Identification identified(const MomentSeries& series, const std::string& law = "
   question.law.name = law;
   question.offset = offset;
   return identify_curve(series, question);
+}
+
+// Whether one of its statements has this part.
+bool states(const Identification& found, const std::string& part) {
+  const auto has_part = [&](const std::string& text) { return text.find(part) != text.npos; };
+  return std::any_of(found.statements.begin(), found.statements.end(), has_part);
 }
 
 // Of one number over many seeds.
@@ -77,13 +84,12 @@ TEST_P(NoisyLoop, GivesTheFabricBackWithinThreeStandardErrorsThatAreTrue) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Loops, NoisyLoop,
-                         testing::Values(LoopCase{"OneCycle", "prandtl", {250, -250, 250}, 60},
-                                         LoopCase{"TwoCycles", "prandtl", {150, -150, 150, -150, 150}, 30},
-                                         LoopCase{
-                                             "MinorLoops", "prandtl", {200, 150, 200, -200, -160, -200}, 40},
-                                         LoopCase{"WongsReading", "wong", {250, -250, 250}, 60}),
-                         [](const auto& info) { return std::string(info.param.name); });
+const LoopCase kLoopCases[] = {{"OneCycle", "prandtl", {250, -250, 250}, 60},
+                               {"TwoCycles", "prandtl", {150, -150, 150, -150, 150}, 30},
+                               {"MinorLoops", "prandtl", {200, 150, 200, -200, -160, -200}, 40},
+                               {"WongsReading", "wong", {250, -250, 250}, 60}};
+
+INSTANTIATE_TEST_SUITE_P(Loops, NoisyLoop, testing::ValuesIn(kLoopCases), test::CaseName());
 
 // Heavy data: the last of many cycles, recorded from somewhere in its middle.
 TEST(Loop, OfACycleThatWasRunningBeforeTheFirstRowIsRecognised) {
@@ -94,7 +100,7 @@ TEST(Loop, OfACycleThatWasRunningBeforeTheFirstRowIsRecognised) {
   const Identification found = identified(measured(k, moment, kLoopNoise, 1));
   EXPECT_LE(std::abs(found.b1.value - kCotton.b1), 3 * found.b1.standard_error);
   EXPECT_LE(std::abs(found.k0.value - kCotton.k0), 3 * found.k0.standard_error);
-  EXPECT_NE(found.statements.at(0).find("in the middle of a cycle"), std::string::npos);
+  EXPECT_TRUE(test::says(found.statements.at(0), "in the middle of a cycle"));
 }
 
 TEST(Loop, WithRippleInItsCurvatureIsNotTakenForManySmallLoops) {
@@ -120,18 +126,16 @@ TEST(Loop, WithAShiftedZeroGivesTheShiftBack) {
   ASSERT_EQ(with.further.at(0).first, "offset_N");
   EXPECT_LE(std::abs(with.further[0].second - shift), 3 * with.further[1].second);
   EXPECT_LE(std::abs(with.b1.value - kCotton.b1), 3 * with.b1.standard_error);
-  const auto names_the_zero = [](const std::string& text) { return text.find("--offset") != text.npos; };
-  EXPECT_TRUE(std::any_of(without.statements.begin(), without.statements.end(), names_the_zero));
+  EXPECT_TRUE(states(without, "--offset"));
 }
 
 // The law is too simple for the data: what is left hangs together, and independent rows are fewer than rows.
 TEST(Loop, ThatALawCannotDescribeHasItsStandardErrorsWidened) {
   const MomentSeries series = measured("prandtl", kCotton, {250, -250, 250}, kLoopNoise, 6);
   EXPECT_GT(identified(series, "linear").residual_rms(), 3 * identified(series).residual_rms());
-  const auto widened = [](const std::string& text) { return text.find("are widened") != text.npos; };
   const Identification poor = identified(series, "linear"), good = identified(series);
-  EXPECT_TRUE(std::any_of(poor.statements.begin(), poor.statements.end(), widened));
-  EXPECT_FALSE(std::any_of(good.statements.begin(), good.statements.end(), widened));
+  EXPECT_TRUE(states(poor, "are widened"));
+  EXPECT_FALSE(states(good, "are widened"));
 }
 
 class GeneratingLaw : public testing::TestWithParam<const char*> {};
@@ -147,7 +151,7 @@ TEST_P(GeneratingLaw, DescribesItsDataBestOfAll) {
   }
 }
 INSTANTIATE_TEST_SUITE_P(Laws, GeneratingLaw, testing::Values("prandtl", "wong", "bilinear", "dahl"),
-                         [](const auto& info) { return std::string(info.param); });
+                         test::CaseName());
 
 }  // namespace
 }  // namespace hysteron

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "sim/linear/block_rows.h"
+#include "tests/sim/base/case_name.h"
 
 namespace hysteron {
 namespace {
@@ -32,7 +33,7 @@ class EveryFamily : public testing::TestWithParam<MeshFamily> {};
 INSTANTIATE_TEST_SUITE_P(Meshes, EveryFamily,
                          testing::Values(MeshFamily::aligned, MeshFamily::flipped, MeshFamily::unionjack,
                                          MeshFamily::equilateral, MeshFamily::random),
-                         [](const auto& family) { return enum_name(family.param); });
+                         test::CaseName());
 
 TEST_P(EveryFamily, LevelsShrinkToSomeDozenNodes) {
   const ClothMesh mesh = make_rectangle(0.5, 0.3, 20000, GetParam(), 1);

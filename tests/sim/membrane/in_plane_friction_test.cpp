@@ -6,8 +6,8 @@
 #include <Eigen/Geometry>
 #include <random>
 
-#include "sim/membrane/membrane.h"
 #include "tests/sim/linear/dense.h"
+#include "tests/sim/membrane/sheet.h"
 
 namespace hysteron {
 namespace {
@@ -15,7 +15,7 @@ namespace {
 using Eigen::Matrix2d;
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
-using Positions = std::vector<Vector3d>;
+using Positions = test::Sheet::Positions;
 
 constexpr double kSide = 0.1;                // [m]
 constexpr double kFrictionRounding = 1e-12;  // of some hundred operations, relative
@@ -29,12 +29,9 @@ Fabric rubbing() {
 }
 
 // A square of two triangles, warp along x.
-struct Square {
-  Fabric fabric = rubbing();
-  ClothMesh mesh = make_grid(kSide, kSide, 1, 1, MeshFamily::aligned, 1);
-  Cpu cpu{1};
-  BlockRows<double, Cpu> rows{cpu, mesh};
-  Membrane<double, Cpu> membrane{cpu, mesh, fabric, MembraneElement::constant, rows};
+struct Square : test::Sheet {
+  Square()
+      : Sheet(make_grid(kSide, kSide, 1, 1, MeshFamily::aligned, 1), rubbing(), MembraneElement::constant) {}
 
   // Images under the plane map (warp, weft) -> m, turned into space.
   Positions mapped(const Matrix2d& m, double turn = 0) const {
@@ -49,22 +46,14 @@ struct Square {
   }
   Positions sheared(double gamma) const { return mapped((Matrix2d() << 1, gamma, 0, 1).finished()); }
 
-  void try_at(const Positions& x) {
-    membrane.begin_step(StepFormula::statics(1), x.data(), nullptr);
-    membrane.evaluate(x.data());
-  }
   void accept(const Positions& x) { membrane.commit_friction(x.data()); }
   double potential(const Positions& x) {
     try_at(x);
-    double sum = 0;
-    for (int f = 0; f < mesh.faces(); ++f) sum += membrane.energies()[f];
-    return sum;
+    return energy();
   }
   Positions forces(const Positions& x) {
     try_at(x);
-    Positions f;
-    for (int i = 0; i < mesh.vertices(); ++i) f.push_back(membrane.forces().at(i));
-    return f;
+    return Sheet::forces();
   }
   // On the upper edge along x, over its length; of the lateral stress 2 E12 alone at x = X + gamma Y.
   double shear_force(double gamma) {
@@ -79,16 +68,7 @@ struct Square {
   }
   MatrixXd matrix(const Positions& x) {
     try_at(x);
-    membrane.assemble(1, 1, rows.view());
-    const int n = mesh.vertices();
-    MatrixXd k = MatrixXd::Zero(3 * n, 3 * n);
-    const auto off = rows.off_diagonal(), diagonal = rows.diagonal();
-    for (int v = 0; v < n; ++v) {
-      k.block<3, 3>(3 * v, 3 * v) = diagonal[v];
-      for (int j = rows.row_ptr()[v]; j < rows.row_ptr()[v + 1]; ++j)
-        k.block<3, 3>(3 * v, 3 * rows.col()[j]) = off[j];
-    }
-    return k;
+    return Sheet::matrix();
   }
 };
 

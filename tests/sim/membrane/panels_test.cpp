@@ -1,13 +1,10 @@
 // The membrane of panels that are sewn together.
 #include "sim/membrane/membrane.h"
-#include "sim/mesh/garment.h"
 #include "tests/sim/mesh/panel_tube.h"
-#include "tests/sim/scene/scene_file.h"
 
 namespace hysteron {
 namespace {
 
-using Eigen::Vector2d;
 using Eigen::Vector3d;
 using test::PanelTube;
 
@@ -15,8 +12,7 @@ constexpr MembraneStiffness<double> kFabric{1000, 300, 50, 60};  // [N/m]
 
 // Of the panels where they are sewn [J].
 double seam_energy(const PanelTube& panels) {
-  const TextFile file(panels.obj(), ".obj");
-  const ClothMesh mesh = read_pattern(file.path(), 0, 1);
+  const ClothMesh mesh = panels.mesh();
   const auto rest = membrane_rest(mesh);
   double sum = 0;
   for (int f = 0; f < mesh.faces(); ++f) {
@@ -27,20 +23,18 @@ double seam_energy(const PanelTube& panels) {
   return sum;
 }
 
-Vector2d displaced(const Vector2d& at) { return at + Vector2d(2, -1); }
-Vector2d turned(const Vector2d& at) { return {-at.y(), at.x()}; }
-Vector2d mirrored(const Vector2d& at) { return {at.x(), -at.y()}; }
-
 TEST(SewnMembrane, StoresNothingWherePanelsAreFoldedAndSewnButNotStretched) {
-  for (const auto& second : {displaced, turned, mirrored}) EXPECT_EQ(seam_energy({.second = second}), 0);
+  for (const auto& second : {PanelTube::moved, PanelTube::turned, PanelTube::mirrored})
+    EXPECT_EQ(seam_energy({.second = second}), 0);
 }
 
 // One panel along warp, the other along weft where its texture is turned: W = C E^2/2, E = (1.1^2 - 1)/2.
 TEST(SewnMembrane, ResistsByTheWarpAndWeftOfEachPanel) {
   const auto longer = [](const Vector3d& x) { return Vector3d(1.1 * x.x(), x.y(), x.z()); };
   const double strain = (1.1 * 1.1 - 1) / 2, of_one = PanelTube::area() / 2 * strain * strain / 2;
-  EXPECT_NEAR(seam_energy({.second = displaced, .worn = longer}), 2 * kFabric.warp * of_one, 1e-12);
-  EXPECT_NEAR(seam_energy({.second = turned, .worn = longer}), (kFabric.warp + kFabric.weft) * of_one, 1e-12);
+  EXPECT_NEAR(seam_energy({.second = PanelTube::moved, .worn = longer}), 2 * kFabric.warp * of_one, 1e-12);
+  EXPECT_NEAR(seam_energy({.second = PanelTube::turned, .worn = longer}),
+              (kFabric.warp + kFabric.weft) * of_one, 1e-12);
 }
 
 }  // namespace

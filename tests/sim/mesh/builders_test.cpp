@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "tests/sim/base/folder.h"
 #include "tests/sim/base/refusal.h"
 #include "tests/sim/mesh/mesh_measures.h"
 
@@ -12,26 +11,21 @@ namespace {
 using test::kFamilies;
 
 constexpr double kLength = 0.5, kWidth = 0.3;  // [m]
-constexpr int kSizes[] = {2, 3, 7, 20, 100, 333, 1000, 4608, 20000};
-// Areas of up to 20,000 triangles are summed.
-constexpr double kSumRounding = 1e-12;
-
 // Counts of whole cells miss the request by at most half a row of cells.
 double stated_share(int triangles) { return std::sqrt(2.0 / triangles); }
 
 class Rectangle : public testing::TestWithParam<MeshFamily> {};
-INSTANTIATE_TEST_SUITE_P(Families, Rectangle, testing::ValuesIn(kFamilies),
-                         [](const auto& family) { return test::enum_name(family.param); });
+INSTANTIATE_TEST_SUITE_P(Families, Rectangle, testing::ValuesIn(kFamilies), test::CaseName());
 
 TEST_P(Rectangle, HasEulerCharacteristicOfADisc) {
-  for (const int n : kSizes)
+  for (const int n : test::kMeshSizes)
     EXPECT_EQ(test::euler_characteristic(make_rectangle(kLength, kWidth, n, GetParam(), 1)), 1) << n;
 }
 
 TEST_P(Rectangle, AreaIsLengthTimesWidth) {
-  for (const int n : kSizes) {
+  for (const int n : test::kMeshSizes) {
     const ClothMesh mesh = make_rectangle(kLength, kWidth, n, GetParam(), 1);
-    EXPECT_NEAR(test::total_area(mesh), kLength * kWidth, kSumRounding * kLength * kWidth) << n;
+    EXPECT_NEAR(test::total_area(mesh), kLength * kWidth, test::kSumRounding * kLength * kWidth) << n;
   }
 }
 
@@ -52,7 +46,7 @@ TEST_P(Rectangle, BoundaryVerticesLieExactlyOnTheOutlineAndNoOthers) {
 }
 
 TEST_P(Rectangle, TriangleCountIsWithinHalfARowOfTheRequest) {
-  for (const int n : kSizes) {
+  for (const int n : test::kMeshSizes) {
     if (n < 20) continue;  // of a few triangles, whole cells cannot make any number
     const int made = make_rectangle(kLength, kWidth, n, GetParam(), 1).faces();
     EXPECT_NEAR(made, n, stated_share(n) * n) << n;
@@ -63,7 +57,7 @@ TEST_P(Rectangle, AnglesStayWideForFiftyTrianglesAndMore) {
   const double least = GetParam() == MeshFamily::random        ? 18
                        : GetParam() == MeshFamily::equilateral ? 25
                                                                : 35;
-  for (const int n : kSizes) {
+  for (const int n : test::kMeshSizes) {
     if (n < 50) continue;
     EXPECT_GT(test::least_angle(make_rectangle(kLength, kWidth, n, GetParam(), 1)), least) << n;
   }
@@ -72,7 +66,7 @@ TEST_P(Rectangle, AnglesStayWideForFiftyTrianglesAndMore) {
 TEST_P(Rectangle, NarrowStripKeepsOneRowOfCells) {
   const ClothMesh mesh = make_rectangle(1, 0.01, 200, GetParam(), 1);
   EXPECT_NEAR(mesh.faces(), 200, 2);
-  EXPECT_NEAR(test::total_area(mesh), 0.01, kSumRounding * 0.01);
+  EXPECT_NEAR(test::total_area(mesh), 0.01, test::kSumRounding * 0.01);
 }
 
 TEST_P(Rectangle, IsTheSameMeshTwice) {
@@ -132,8 +126,8 @@ TEST(RectangleRequest, ImpossibleOnesAreRefusedByName) {
   EXPECT_EQ(refusal(1, NAN, 10), "rectangle mesh: width = nan m must be > 0");
   EXPECT_EQ(refusal(1, 1, 1), "rectangle mesh: triangles = 1 must be 2 to 10000000");
   EXPECT_EQ(refusal(1, 1, 2000000000), "rectangle mesh: triangles = 2000000000 must be 2 to 10000000");
-  const Error cells = test::thrown_error([] { make_grid(1, 1, 3, 0, MeshFamily::aligned, 0); });
-  EXPECT_STREQ(cells.what(), "rectangle mesh: 3 x 0 cells must be at least 1 x 1 and at most 10000000");
+  EXPECT_EQ(test::refusal([] { make_grid(1, 1, 3, 0, MeshFamily::aligned, 0); }),
+            "rectangle mesh: 3 x 0 cells must be at least 1 x 1 and at most 10000000");
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "tests/sim/base/folder.h"
+#include "tests/sim/base/refusal.h"
 #include "tests/sim/mesh/mesh_measures.h"
 
 namespace hysteron {
@@ -12,10 +12,7 @@ namespace {
 
 using test::kFamilies;
 
-constexpr double kDiscRadius = 0.15;  // [m], Cusick's disc
-constexpr int kDiscSizes[] = {2, 3, 7, 20, 100, 333, 1000, 4608, 20000};
-constexpr double kDiscSumRounding = 1e-12;
-// A unit vector is normalised to 1 ulp or so, then scaled.
+constexpr double kDiscRadius = 0.15;  // A unit vector is normalised to 1 ulp or so, then scaled.
 constexpr double kOnCircle = 1e-15;
 // The docstring's promise about the triangle count.
 constexpr double kStatedFraction = 0.05;
@@ -25,15 +22,14 @@ class Disc : public testing::TestWithParam<MeshFamily> {
  protected:
   static ClothMesh disc(int triangles) { return make_disc(kDiscRadius, triangles, GetParam(), 1); }
 };
-INSTANTIATE_TEST_SUITE_P(Families, Disc, testing::ValuesIn(kFamilies),
-                         [](const auto& family) { return test::enum_name(family.param); });
+INSTANTIATE_TEST_SUITE_P(Families, Disc, testing::ValuesIn(kFamilies), test::CaseName());
 
 TEST_P(Disc, HasEulerCharacteristicOfADisc) {
-  for (const int n : kDiscSizes) EXPECT_EQ(test::euler_characteristic(disc(n)), 1) << n;
+  for (const int n : test::kMeshSizes) EXPECT_EQ(test::euler_characteristic(disc(n)), 1) << n;
 }
 
 TEST_P(Disc, BoundaryVerticesLieOnTheCircleAndAllOthersInside) {
-  for (const int n : kDiscSizes) {
+  for (const int n : test::kMeshSizes) {
     const ClothMesh mesh = disc(n);
     const std::set<int> boundary = test::boundary_vertices(mesh);
     for (int v = 0; v < mesh.vertices(); ++v) {
@@ -47,11 +43,11 @@ TEST_P(Disc, BoundaryVerticesLieOnTheCircleAndAllOthersInside) {
 }
 
 TEST_P(Disc, AreaIsThatOfTheRegularPolygonOfItsBoundary) {
-  for (const int n : kDiscSizes) {
+  for (const int n : test::kMeshSizes) {
     const ClothMesh mesh = disc(n);
     const double b = static_cast<double>(test::boundary_vertices(mesh).size());
     const double polygon = 0.5 * b * kDiscRadius * kDiscRadius * std::sin(2 * std::numbers::pi / b);
-    EXPECT_NEAR(test::total_area(mesh), polygon, kDiscSumRounding * polygon) << n;
+    EXPECT_NEAR(test::total_area(mesh), polygon, test::kSumRounding * polygon) << n;
   }
 }
 
@@ -136,11 +132,10 @@ TEST(RandomDisc, AnglesStayWideForManySeeds) {
 }
 
 TEST(DiscRequest, ImpossibleOnesAreRefusedByName) {
-  const Error radius = test::thrown_error([] { make_disc(0, 100, MeshFamily::aligned, 0); });
-  EXPECT_EQ(radius.exit_code(), 2);
-  EXPECT_STREQ(radius.what(), "disc mesh: radius = 0 m must be > 0");
-  const Error count = test::thrown_error([] { make_disc(1, 0, MeshFamily::random, 0); });
-  EXPECT_STREQ(count.what(), "disc mesh: triangles = 0 must be 2 to 10000000");
+  EXPECT_EQ(test::refusal([] { make_disc(0, 100, MeshFamily::aligned, 0); }),
+            "disc mesh: radius = 0 m must be > 0");
+  EXPECT_EQ(test::refusal([] { make_disc(1, 0, MeshFamily::random, 0); }),
+            "disc mesh: triangles = 0 must be 2 to 10000000");
 }
 
 }  // namespace

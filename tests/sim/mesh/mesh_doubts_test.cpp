@@ -6,10 +6,12 @@
 #include <sstream>
 
 #include "tests/sim/base/folder.h"
+#include "tests/sim/base/refusal.h"
 
 namespace hysteron {
 namespace {
 
+using test::says;
 using Doubts = std::vector<std::string>;
 
 // Of an OBJ with this content, without "mesh FILE: ".
@@ -32,8 +34,6 @@ std::string stl_soup(const ClothMesh& mesh) {
   return text.str();
 }
 
-bool has(const std::string& text, const std::string& part) { return text.find(part) != text.npos; }
-
 TEST(MeshDoubts, TrianglesThatShareNoVerticesAreCountedAndTheWeldIsNamed) {
   const ClothMesh mesh = make_grid(0.2, 0.2, 10, 10, MeshFamily::aligned, 0);
   const std::string soup = stl_soup(mesh);
@@ -41,10 +41,9 @@ TEST(MeshDoubts, TrianglesThatShareNoVerticesAreCountedAndTheWeldIsNamed) {
   ASSERT_EQ(doubts.size(), 2u);
   EXPECT_EQ(doubts[0], "200 triangles in 200 parts that share no edge, with 0 hinges");
   const int coincident = 3 * mesh.faces() - mesh.vertices();
-  EXPECT_TRUE(has(doubts[1], std::to_string(coincident) + " vertices on its boundary lie on others"))
-      << doubts[1];
+  EXPECT_TRUE(says(doubts[1], std::to_string(coincident) + " vertices on its boundary lie on others"));
   // A thousandth of the mean edge (20 mm and its diagonals), rounded down to a power of ten.
-  EXPECT_TRUE(has(doubts[1], "cloth.weld = 1e-05 m joins them")) << doubts[1];
+  EXPECT_TRUE(says(doubts[1], "cloth.weld = 1e-05 m joins them"));
   EXPECT_EQ(obj_doubts(soup, 1e-5), Doubts());
 }
 
@@ -62,8 +61,8 @@ TEST(MeshDoubts, SeamThatIsStoredTwiceIsCounted) {
     }
   const Doubts doubts = obj_doubts(text.str());
   ASSERT_EQ(doubts.size(), 2u);
-  EXPECT_TRUE(has(doubts[0], "in 2 parts")) << doubts[0];
-  EXPECT_TRUE(has(doubts[1], std::to_string(n + 1) + " vertices on its boundary")) << doubts[1];
+  EXPECT_TRUE(says(doubts[0], "in 2 parts"));
+  EXPECT_TRUE(says(doubts[1], std::to_string(n + 1) + " vertices on its boundary"));
 }
 
 TEST(MeshDoubts, FansThatMeetInOneVertexAreNamed) {
@@ -71,7 +70,7 @@ TEST(MeshDoubts, FansThatMeetInOneVertexAreNamed) {
       obj_doubts("v 0 0 0\nv 0.1 0 0\nv 0.1 0.1 0\nv -0.1 0 0\nv -0.1 -0.1 0\nf 1 2 3\nf 1 4 5\n");
   ASSERT_EQ(doubts.size(), 2u);
   EXPECT_EQ(doubts[0], "2 triangles in 2 parts that share no edge, with 0 hinges");
-  EXPECT_TRUE(has(doubts[1], "meet in 1 vertex alone (the first is the vertex of line 1)")) << doubts[1];
+  EXPECT_TRUE(says(doubts[1], "meet in 1 vertex alone (the first is the vertex of line 1)"));
 }
 
 // Closed fans have no boundary there that could be counted.
@@ -81,7 +80,7 @@ TEST(MeshDoubts, TipsOfTwoClosedConesMeet) {
     for (const char* xy : {"v 1 0", "v 0 1", "v -1 -1"}) text += xy + std::string(z) + "\n";
   const Doubts doubts = obj_doubts(text + "f 1 2 3\nf 1 3 4\nf 1 4 2\nf 1 6 5\nf 1 7 6\nf 1 5 7\n");
   ASSERT_EQ(doubts.size(), 2u);
-  EXPECT_TRUE(has(doubts[1], "two fans of triangles meet in 1 vertex")) << doubts[1];
+  EXPECT_TRUE(says(doubts[1], "two fans of triangles meet in 1 vertex"));
 }
 
 TEST(MeshDoubts, VertexWithinASideOfATriangleIsNamed) {
@@ -89,10 +88,10 @@ TEST(MeshDoubts, VertexWithinASideOfATriangleIsNamed) {
       "v 0 0 0\nv 0.1 0 0\nv 0.1 0.1 0\nv 0 0.1 0\nv 0.1 0.05 0\nv 0.2 0 0\nv 0.2 0.1 0\n"
       "f 1 2 3 4\nf 2 6 5\nf 5 6 7\nf 5 7 3\n");
   ASSERT_EQ(doubts.size(), 3u);
-  EXPECT_TRUE(has(doubts[1], "1 vertex lies within sides of triangles")) << doubts[1];
-  EXPECT_TRUE(has(doubts[1], "the first is the vertex of line 5 on the triangle of line 8")) << doubts[1];
+  EXPECT_TRUE(says(doubts[1], "1 vertex lies within sides of triangles"));
+  EXPECT_TRUE(says(doubts[1], "the first is the vertex of line 5 on the triangle of line 8"));
   // The parts hang together at both ends of that side.
-  EXPECT_TRUE(has(doubts[2], "meet in 2 vertices alone")) << doubts[2];
+  EXPECT_TRUE(says(doubts[2], "meet in 2 vertices alone"));
 }
 
 TEST(MeshDoubts, LoneTriangleCannotBend) {

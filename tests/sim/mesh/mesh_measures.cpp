@@ -1,23 +1,11 @@
 #include "tests/sim/mesh/mesh_measures.h"
 
-#include <gtest/gtest.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <numbers>
-#include <sstream>
 
 namespace hysteron::test {
-
-std::string enum_name(MeshFamily family) {
-  std::string name = hysteron::enum_name(family);
-  std::erase(name, '-');
-  return name;
-}
 
 double total_area(const ClothMesh& mesh) {
   double sum = 0;

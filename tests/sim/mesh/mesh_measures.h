@@ -2,12 +2,11 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <set>
-#include <string>
 #include <vector>
 
 #include "sim/mesh/cloth_mesh.h"
+#include "tests/sim/base/case_name.h"
 
 namespace hysteron::test {
 
@@ -15,7 +14,8 @@ inline constexpr MeshFamily kFamilies[] = {MeshFamily::aligned,     MeshFamily::
                                            MeshFamily::flipped,     MeshFamily::unionjack,
                                            MeshFamily::equilateral, MeshFamily::random};
 
-std::string enum_name(MeshFamily family);  // as gtest takes it: "aligned45"
+constexpr int kMeshSizes[] = {2, 3, 7, 20, 100, 333, 1000, 4608, 20000};
+constexpr double kSumRounding = 1e-12;  // of areas of up to 20,000 triangles
 
 double total_area(const ClothMesh& mesh);         // [m^2]
 double least_angle(const ClothMesh& mesh);        // [degrees]

@@ -5,7 +5,8 @@
 #include <sstream>
 #include <string>
 
-#include "sim/mesh/cloth_mesh.h"
+#include "sim/mesh/garment.h"
+#include "tests/sim/scene/scene_file.h"
 
 namespace hysteron::test {
 
@@ -27,6 +28,14 @@ struct PanelTube {
   Place worn = [](const Eigen::Vector3d& at) { return at; };  // where vertices are
 
   static double area() { return 4 * kSide * kLength; }
+  static Eigen::Vector2d moved(const Eigen::Vector2d& at) { return at + Eigen::Vector2d(2, -1); }
+  static Eigen::Vector2d turned(const Eigen::Vector2d& at) { return {-at.y(), at.x()}; }
+  static Eigen::Vector2d mirrored(const Eigen::Vector2d& at) { return {at.x(), -at.y()}; }
+
+  ClothMesh mesh(double texture_scale = 1) const {
+    const TextFile file(obj(), ".obj");
+    return read_pattern(file.path(), 0, texture_scale);
+  }
 
   std::string obj() const {
     std::ostringstream text;

@@ -1,10 +1,9 @@
 // Panels: islands of a texture that are sewn together along seams.
-#include "sim/mesh/garment.h"
 #include "sim/scene/cloth.h"
 #include "tests/sim/base/folder.h"
+#include "tests/sim/base/refusal.h"
 #include "tests/sim/mesh/mesh_measures.h"
 #include "tests/sim/mesh/panel_tube.h"
-#include "tests/sim/scene/scene_file.h"
 
 namespace hysteron {
 namespace {
@@ -15,14 +14,7 @@ using test::PanelTube;
 
 constexpr double kPanelRounding = 1e-15;
 
-Vector2d moved(const Vector2d& at) { return at + Vector2d(2, -1); }
-Vector2d turned(const Vector2d& at) { return {-at.y(), at.x()}; }
-Vector2d mirrored(const Vector2d& at) { return {at.x(), -at.y()}; }
-
-ClothMesh tube(const PanelTube& panels, double scale = 1) {
-  const TextFile file(panels.obj(), ".obj");
-  return read_pattern(file.path(), 0, scale);
-}
+constexpr auto moved = PanelTube::moved, turned = PanelTube::turned;
 
 int seams(const ClothMesh& mesh) {
   int count = 0;
@@ -30,14 +22,13 @@ int seams(const ClothMesh& mesh) {
   return count;
 }
 
-Failure refusal(const std::string& obj, double scale = 1) {
-  const TextFile file(obj, ".obj");
-  return caught_failure([&, name = file.path()] { read_pattern(name, 0, scale); });
+std::string refusal(const PanelTube& panels, double scale = 1) {
+  return test::refusal([&] { panels.mesh(scale); });
 }
 
 TEST(Panels, SewnAtTwoSeamsMakeATube) {
-  for (const auto& second : {moved, turned, mirrored}) {
-    const ClothMesh mesh = tube({.second = second});
+  for (const auto& second : {moved, turned, PanelTube::mirrored}) {
+    const ClothMesh mesh = PanelTube{.second = second}.mesh();
     EXPECT_TRUE(mesh.sewn);
     EXPECT_EQ(test::euler_characteristic(mesh), 0);
     EXPECT_EQ(seams(mesh), 2 * PanelTube::kAlong);
@@ -46,7 +37,8 @@ TEST(Panels, SewnAtTwoSeamsMakeATube) {
 }
 
 TEST(Panels, OfTheWornClothWeighWhatTheFlatOnesDo) {
-  const ClothMesh mesh = tube({.second = moved, .worn = [](const Vector3d& x) { return 1.25 * x; }});
+  const PanelTube larger{.second = moved, .worn = [](const Vector3d& x) { return 1.25 * x; }};
+  const ClothMesh mesh = larger.mesh();
   double area = 0;
   for (const double a : mesh.vertex_area) area += a;
   EXPECT_NEAR(area, PanelTube::area(), kPanelRounding);
@@ -70,7 +62,7 @@ TEST(Panels, StartWhereTheVerticesAreAndPinsFindThemThere) {
 }
 
 TEST(Panels, TakeWarpFromTheirTexture) {
-  ClothMesh mesh = tube({.second = turned});
+  ClothMesh mesh = PanelTube{.second = turned}.mesh();
   for (const double angle : {0.0, 0.7}) {  // of warp in the texture
     mesh.warp_axis = {std::cos(angle), std::sin(angle), 0};
     for (int f = 0; f < mesh.faces(); ++f) {
@@ -81,8 +73,8 @@ TEST(Panels, TakeWarpFromTheirTexture) {
 }
 
 TEST(Panels, SeamIsAsLongAsTheMeanOfItsSides) {
-  const ClothMesh mesh =
-      tube({.second = [](const Vector2d& at) { return Vector2d(1.5 * at.x(), at.y() + 1); }});
+  const auto longer = [](const Vector2d& at) { return Vector2d(1.5 * at.x(), at.y() + 1); };
+  const ClothMesh mesh = PanelTube{.second = longer}.mesh();
   const double cell = PanelTube::kLength / PanelTube::kAlong;
   for (int e = 0; e < mesh.interior_edges; ++e)
     if (is_seam(mesh, e)) {
@@ -92,7 +84,7 @@ TEST(Panels, SeamIsAsLongAsTheMeanOfItsSides) {
 
 TEST(Panels, TravelAsTextureCoordinates) {
   const test::Folder folder;
-  const ClothMesh mesh = tube({.second = turned});
+  const ClothMesh mesh = PanelTube{.second = turned}.mesh();
   write_obj(folder.file("tube.obj"), mesh, mesh.rest);
   const ClothMesh read = read_pattern(folder.file("tube.obj"), 0, 1);
   EXPECT_EQ(read.rest, mesh.rest);
@@ -101,29 +93,21 @@ TEST(Panels, TravelAsTextureCoordinates) {
 
 TEST(Panels, InOtherUnitsAreScaled) {
   const PanelTube in_centimetres{.second = moved, .worn = [](const Vector3d& x) { return 0.01 * x; }};
-  EXPECT_NEAR(test::total_area(tube(in_centimetres, 0.01)), 1e-4 * PanelTube::area(), kPanelRounding);
+  EXPECT_NEAR(test::total_area(in_centimetres.mesh(0.01)), 1e-4 * PanelTube::area(), kPanelRounding);
 }
 
 TEST(Panels, OfAnotherSizeThanTheWornClothAreRefusedWithTheScaleThatFits) {
-  const Failure failure =
-      refusal(PanelTube{.second = moved, .worn = [](const Vector3d& x) { return 2.5 * x; }}.obj(), 0.5);
-  EXPECT_EQ(failure.exit_code, 2);
-  EXPECT_NE(
-      failure.message.find("5 times as long as in texture coordinates of 0.5 m a unit, which must be 0.5 to "
-                           "2; cloth.texture-scale = 2.5 m"),
-      std::string::npos)
-      << failure.message;
+  EXPECT_TRUE(test::says(refusal({.second = moved, .worn = [](const Vector3d& x) { return 2.5 * x; }}, 0.5),
+                         "5 times as long as in texture coordinates of 0.5 m a unit, which must be 0.5 to 2; "
+                         "cloth.texture-scale = 2.5 m"));
 }
 
 TEST(Panels, ThatAreFoldedOrHaveNoAreaAreRefused) {
   const PanelTube folded{
       .second = [](const Vector2d& at) { return Vector2d(std::abs(at.x() - 0.25), at.y()); }};
-  EXPECT_NE(refusal(folded.obj()).message.find("is turned over in its texture coordinates"),
-            std::string::npos);
+  EXPECT_TRUE(test::says(refusal(folded), "is turned over in its texture coordinates"));
   const PanelTube line{.second = [](const Vector2d& at) { return Vector2d(at.x(), 0); }};
-  EXPECT_NE(refusal(line.obj()).message.find("its texture coordinates: triangle 32 is degenerate"),
-            std::string::npos)
-      << refusal(line.obj()).message;
+  EXPECT_TRUE(test::says(refusal(line), "its texture coordinates: triangle 32 is degenerate"));
 }
 
 }  // namespace

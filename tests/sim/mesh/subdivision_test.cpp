@@ -2,16 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include "sim/mesh/garment.h"
 #include "sim/scene/cloth.h"
 #include "tests/sim/mesh/mesh_measures.h"
 #include "tests/sim/mesh/panel_tube.h"
-#include "tests/sim/scene/scene_file.h"
 
 namespace hysteron {
 namespace {
-
-constexpr double kSubdivisionSumRounding = 1e-12;
 
 TEST(Subdivision, CutsEachTriangleIntoFourEqualOnes) {
   const ClothMesh mesh = make_disc(0.15, 200, MeshFamily::random, 1), fine = subdivided(mesh);
@@ -19,7 +15,7 @@ TEST(Subdivision, CutsEachTriangleIntoFourEqualOnes) {
   EXPECT_EQ(test::euler_characteristic(fine), 1);
   ASSERT_EQ(fine.faces(), 4 * mesh.faces());
   for (int f = 0; f < fine.faces(); ++f)
-    EXPECT_NEAR(fine.face_area[f], mesh.face_area[f / 4] / 4, kSubdivisionSumRounding) << f;
+    EXPECT_NEAR(fine.face_area[f], mesh.face_area[f / 4] / 4, test::kSumRounding) << f;
 }
 
 TEST(Subdivision, TurnsNoTriangleOver) {
@@ -29,11 +25,7 @@ TEST(Subdivision, TurnsNoTriangleOver) {
 }
 
 TEST(Subdivision, KeepsPanelsAndTheirSeams) {
-  const TextFile file(
-      test::PanelTube{.second = [](const Eigen::Vector2d& at) { return Eigen::Vector2d(at.y(), -at.x()); }}
-          .obj(),
-      ".obj");
-  const ClothMesh fine = subdivided(read_pattern(file.path(), 0, 1));
+  const ClothMesh fine = subdivided(test::PanelTube{.second = test::PanelTube::turned}.mesh());
   EXPECT_TRUE(fine.sewn);
   EXPECT_EQ(test::total_area(fine), test::PanelTube::area());
   int seams = 0;

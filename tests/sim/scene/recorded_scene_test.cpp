@@ -7,6 +7,7 @@
 #include "sim/scene/assets.h"
 #include "sim/scene/scene_reader.h"
 #include "sim/scene/scene_text.h"
+#include "tests/sim/base/refusal.h"
 #include "tests/sim/scene/scene_file.h"
 
 namespace hysteron {
@@ -69,23 +70,17 @@ TEST(RecordedScene, RefusesInOneLineThatNamesTheKey) {
            {R"({"fabric": {"published": {"B": 3}}})", "scene.fabric.published.B"},
            {R"({"seconds": null})", "seconds is no value"}}) {
     Scene scene = default_scene();
-    const Failure failure =
-        caught_failure([&, text = tree] { apply_recorded_scene(scene, Json::parse(text), "manifest.json"); });
-    EXPECT_EQ(failure.exit_code, 2);
-    EXPECT_NE(failure.message.find(words), std::string::npos) << failure.message;
-    EXPECT_NE(failure.message.find("manifest.json"), std::string::npos) << failure.message;
+    const std::string reason =
+        test::refusal([&, text = tree] { apply_recorded_scene(scene, Json::parse(text), "manifest.json"); });
+    EXPECT_TRUE(test::says(reason, words, "manifest.json"));
   }
 }
 
 TEST(SceneText, ReadsBackToTheSameScene) {
   std::vector<Scene> scenes = {unusual(), default_scene("polyester-faille")};
   for (const std::string& name : list_assets("scenes")) scenes.push_back(shipped(name));
-  for (const Scene& scene : scenes) {
-    const TextFile file(scene_toml(scene));
-    Scene back = default_scene();
-    apply_scene_file(back, file.path());
-    EXPECT_EQ(without_origins(back), without_origins(scene));
-  }
+  for (const Scene& scene : scenes)
+    EXPECT_EQ(without_origins(scene_of(scene_toml(scene))), without_origins(scene));
 }
 
 TEST(SceneText, TellsTheOriginOfEachValue) {
@@ -94,7 +89,7 @@ TEST(SceneText, TellsTheOriginOfEachValue) {
                            "element = \"shape\"  # assets/scenes/strip-over-sphere.toml:",
                            "fabric.density = 0.1629  # [kg/m^2] assets/fabrics/wool-tropical.toml:",
                            "air-drag = 0.0  # [kg/(m^2 s)] default\n"})
-    EXPECT_NE(text.find(line), text.npos) << line << text;
+    EXPECT_TRUE(test::says(text, line));
 }
 
 TEST(SceneText, CommentsOutWhatTheExperimentAdds) {
@@ -102,12 +97,10 @@ TEST(SceneText, CommentsOutWhatTheExperimentAdds) {
   scene.obstacle.emplace_back();  // without a place in a file
   scene.seconds = 3;
   const std::string text = scene_toml(scene, {"seconds"});
-  const TextFile file(text);
-  Scene back = default_scene();
-  apply_scene_file(back, file.path());
+  const Scene back = scene_of(text);
   EXPECT_TRUE(back.obstacle.empty());
   EXPECT_EQ(back.seconds, 3);
-  EXPECT_NE(text.find("seconds = 3.0  # [s] the experiment's own\n"), text.npos) << text;
+  EXPECT_TRUE(test::says(text, "seconds = 3.0  # [s] the experiment's own\n"));
 }
 
 // A number in the key's range whose last bits six digits would lose.
@@ -166,12 +159,10 @@ TEST(ResolvedScene, ReachesAnotherRunWithEveryBitWhateverItIsTold) {
     return found.size() == wanted.size() &&
            std::memcmp(found.data(), wanted.data(), wanted.size() * sizeof(double)) == 0;
   };
-  Scene by_manifest = default_scene(), by_file = default_scene(), by_flags = default_scene();
+  Scene by_manifest = default_scene(), by_flags = default_scene();
   apply_recorded_scene(by_manifest, Json::parse(to_json(scene).dump()), "manifest.json");
   EXPECT_TRUE(same_bits(by_manifest));
-  const TextFile file(scene_toml(scene));
-  apply_scene_file(by_file, file.path());
-  EXPECT_TRUE(same_bits(by_file));
+  EXPECT_TRUE(same_bits(scene_of(scene_toml(scene))));
   apply_flags(by_flags, drape_flags(scene));
   EXPECT_TRUE(same_bits(by_flags));
 }

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "gtest/gtest.h"
-#include "sim/base/error.h"
+#include "sim/scene/scene_reader.h"
 
 namespace hysteron {
 
@@ -32,20 +32,12 @@ class TextFile {
   std::filesystem::path path_;
 };
 
-struct Failure {
-  int exit_code = 0;
-  std::string message;
-};
-
-// Exit code and line of what `attempt` throws; {0, ""} if it does not.
-template <class Attempt>
-Failure caught_failure(Attempt attempt) {
-  try {
-    attempt();
-  } catch (const Error& error) {
-    return {error.exit_code(), error.what()};
-  }
-  return {};
+// The default scene with what a file of this text says.
+inline Scene scene_of(const std::string& text) {
+  const TextFile file(text);
+  Scene scene = default_scene();
+  apply_scene_file(scene, file.path());
+  return scene;
 }
 
 }  // namespace hysteron

@@ -1,6 +1,7 @@
 #include "sim/scene/scene_reader.h"
 
 #include "sim/scene/assets.h"
+#include "tests/sim/base/refusal.h"
 #include "tests/sim/scene/scene_file.h"
 
 namespace hysteron {
@@ -29,9 +30,7 @@ TEST(Precedence, ASingleFabricNumberOverridesTheFabricWhateverTheOrder) {
 }
 
 TEST(Precedence, NamingAFabricStartsItAfresh) {
-  const TextFile file("[fabric]\nk0 = 20\nname = \"polyester-faille\"\n");
-  Scene scene = default_scene();
-  apply_scene_file(scene, file.path());
+  Scene scene = scene_of("[fabric]\nk0 = 20\nname = \"polyester-faille\"\n");
   EXPECT_EQ(scene.fabric.k0, 20);
   apply_flags(scene, {{"fabric", "wool-tropical-k50"}});
   EXPECT_EQ(scene.fabric.k0, 50);
@@ -61,10 +60,7 @@ TEST(ShippedScenes, AreReadUnderTheNameThatIsListed) {
 }
 
 TEST(SceneFile, MayNameItsFabricAtTheTopLevel) {
-  const TextFile file("fabric = \"polyester-tropical\"\n");
-  Scene scene = default_scene();
-  apply_scene_file(scene, file.path());
-  EXPECT_EQ(scene.fabric.name, "polyester-tropical");
+  EXPECT_EQ(scene_of("fabric = \"polyester-tropical\"\n").fabric.name, "polyester-tropical");
 }
 
 TEST(SceneFile, GivesPinsAndObstaclesWithTheirMotion) {
@@ -112,9 +108,7 @@ TEST(SceneFile, FindsAClothBesideItself) {
 
 // However they are written.
 TEST(SceneFile, TakesIntegersWithAnExponent) {
-  const TextFile file("triangles = 1e3\nseed = 7.0\n");
-  Scene scene;
-  apply_scene_file(scene, file.path());
+  Scene scene = scene_of("triangles = 1e3\nseed = 7.0\n");
   EXPECT_EQ(scene.triangles, 1000);
   EXPECT_EQ(scene.seed, 7u);
   apply_flags(scene, {{"triangles", "2.5e3"}, {"seed", "1e1"}});
@@ -125,8 +119,8 @@ TEST(SceneFile, TakesIntegersWithAnExponent) {
 TEST(SceneFile, LeavesNoTableToOthersThatIsNoArray) {
   const TextFile file("[metric]\nname = \"a\"\n");
   Scene scene;
-  const Failure failure = caught_failure([&] { apply_scene_file(scene, file.path(), {}, {"metric"}); });
-  EXPECT_EQ(failure.message, "metric must be an array of tables, [[metric]] (" + file.line(1) + ")");
+  EXPECT_EQ(test::refusal([&] { apply_scene_file(scene, file.path(), {}, {"metric"}); }),
+            "metric must be an array of tables, [[metric]] (" + file.line(1) + ")");
 }
 
 TEST(SceneFile, SetsAnExperimentsOwnKeysToo) {

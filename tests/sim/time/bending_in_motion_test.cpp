@@ -191,18 +191,11 @@ TEST(History, IsCommittedOncePerSubstepAtThePositionsBeforeIt) {
   }
 }
 
-const ScenePart& part(const std::vector<ScenePart>& parts, const std::string& name) {
-  for (const ScenePart& p : parts)
-    if (p.name == name) return p;
-  throw std::runtime_error("no part named " + name);
-}
-
 TEST(Scene, PaysForHistoryOnlyWhereTheLawRemembers) {
   for (const char* law : {"linear", "pabst", "prandtl", "wong"}) {
     Trial trial(test::hanging_square());
     trial.scene.law = law;
-    const auto parts = trial.simulation()->parts();
-    const ScenePart& history = part(parts, "bending history");
+    const ScenePart history = test::scene_part(*trial.simulation(), "bending history");
     const bool remembers = std::string(law) == "prandtl" || std::string(law) == "wong";
     EXPECT_EQ(history.included, remembers) << law;
     EXPECT_EQ(history.bytes > 0, remembers) << law;
@@ -211,35 +204,33 @@ TEST(Scene, PaysForHistoryOnlyWhereTheLawRemembers) {
   // Eight stops of three components for each face.
   Trial trial(test::hanging_square());
   trial.scene.law = "prandtl";
-  EXPECT_EQ(part(trial.simulation()->parts(), "bending history").bytes,
+  EXPECT_EQ(test::scene_part(*trial.simulation(), "bending history").bytes,
             8 * 3 * sizeof(double) * trial.cloth.mesh.faces());
 }
 
 TEST(Scene, PaysForObstaclesHandlesAndTheImplicitSolveOnlyWhereItHasThem) {
   Scene scene = test::hanging_square();
   const auto bytes = [](const Scene& s, const char* name) {
-    return part(Trial(s).simulation()->parts(), name).bytes;
+    return test::scene_part(*Trial(s).simulation(), name).bytes;
   };
   EXPECT_EQ(bytes(scene, "obstacles"), 0u);
   EXPECT_EQ(bytes(scene, "moving handles"), 0u);
   EXPECT_GT(bytes(scene, "implicit solve"), 0u);
   const std::size_t plain = Trial(scene).simulation()->counts().bytes;
-  scene.obstacle = {Obstacle{}};
-  scene.obstacle[0].center = {0, 0, -1};
+  scene.obstacle = {test::ground_at(-1)};
   scene.pin[0].motion.keys = {{0, {0, 0, 0}, 0}, {1, {0, 0, 1}, 0}};
   EXPECT_GT(bytes(scene, "obstacles"), 0u);
   EXPECT_GT(bytes(scene, "moving handles"), 0u);
   EXPECT_GT(Trial(scene).simulation()->counts().bytes, plain);
   scene = test::hanging_square();
   scene.integrator = Integrator::explicit_euler;
-  EXPECT_FALSE(part(Trial(scene).simulation()->parts(), "implicit solve").included);
+  EXPECT_FALSE(test::scene_part(*Trial(scene).simulation(), "implicit solve").included);
 }
 
 TEST(Scene, PartsAddUpToTheDevicesMemory) {
   Scene scene = test::hanging_square(1000);
   scene.law = "prandtl";
-  scene.obstacle = {Obstacle{}};
-  scene.obstacle[0].center = {0, 0, -1};
+  scene.obstacle = {test::ground_at(-1)};
   const auto simulation = Trial(scene).simulation();
   std::size_t sum = 0;
   for (const ScenePart& p : simulation->parts()) sum += p.bytes;

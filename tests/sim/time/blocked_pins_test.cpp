@@ -3,7 +3,6 @@
 
 #include "sim/mesh/intersections.h"
 #include "tests/sim/contact/two_sheets.h"
-#include "tests/sim/scene/scene_file.h"
 
 namespace hysteron {
 namespace {
@@ -27,9 +26,8 @@ int steps_in(const Trial& trial, double seconds) {
 Trial led_through(double most_x, Integrator integrator = Integrator::implicit) {
   Trial trial = test::two_sheets(kGap, 60);
   trial.scene.integrator = integrator;
-  Pin moving_pin;
-  moving_pin.motion.keys = {{0, {0, 0, 0}, 0}, {kTime, {0, 0, -kTravel}, 0}, {2 * kTime, {0, 0, 0}, 0}};
-  test::hold_upper(trial, moving_pin, most_x);
+  const Motion there_and_back{{{0}, {kTime, {0, 0, -kTravel}}, {2 * kTime}}};
+  test::hold_upper(trial, {.motion = there_and_back}, most_x);
   return trial;
 }
 

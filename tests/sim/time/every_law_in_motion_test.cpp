@@ -26,12 +26,8 @@ Trial rippled(const std::string& law, const LawParameters& parameters = {}) {
   return trial;
 }
 
-std::string shown_name(const testing::TestParamInfo<std::string>& law) {
-  return test::Method{law.param, "shape", "semi-implicit"}.name();
-}
-
 class EveryLawInMotion : public testing::TestWithParam<std::string> {};
-INSTANTIATE_TEST_SUITE_P(Laws, EveryLawInMotion, testing::ValuesIn(law_names()), shown_name);
+INSTANTIATE_TEST_SUITE_P(Laws, EveryLawInMotion, testing::ValuesIn(law_names()), test::CaseName());
 
 // The integrator's share of bending, at the least number of substeps and at four times as many.  It does not
 // shrink in proportion: shorter steps damp the fast waves less, and those rub.
@@ -50,17 +46,10 @@ TEST_P(EveryLawInMotion, LosesLittleToTheIntegratorAndLessInShorterSteps) {
   EXPECT_LT(fine, coarse);
 }
 
-Command command(CommandKind kind, double time) {
-  Command c;
-  c.kind = kind;
-  c.time = time;
-  return c;
-}
-
 TEST(Commands, AnEditMakesThePresentShapeTheShapeAtRest) {
   Trial trial = rippled("grinspun-edit");
   const double initial = trial.simulation()->ledger().bending;
-  trial.scene.command = {command(CommandKind::edit, 0)};
+  trial.scene.command = {{.kind = CommandKind::edit}};
   const auto edited = trial.after(1);
   const Ledger ledger = edited->ledger();
   EXPECT_GT(initial, 1e-6);
@@ -81,8 +70,7 @@ TEST(Commands, IroningForgetsTheBendsOfItsRegionAlone) {
   Trial trial = rippled("prandtl");
   trial.scene.step = 1e-3;
   const auto creased = trial.after(40)->residual_curvature();
-  trial.scene.command = {command(CommandKind::iron, 0.04 - 1e-4)};
-  trial.scene.command[0].low = {0.1, -1, -1};
+  trial.scene.command = {{.kind = CommandKind::iron, .time = 0.04 - 1e-4, .low = {0.1, -1, -1}}};
   auto simulation = trial.after(39);
   const Ledger before = simulation->ledger();
   EXPECT_EQ(before.commands, 0);
@@ -107,11 +95,7 @@ TEST(Commands, IroningForgetsTheBendsOfItsRegionAlone) {
 
 TEST(FatigueInMotion, TakesMoreMemoryAndLosesMoreThanFrictionAlone) {
   const Trial fresh = rippled("prandtl"), tired = rippled("prandtl", {{"fatigue.dc", "1e-3"}});
-  const auto history = [](const Simulation& s) {
-    for (const ScenePart& part : s.parts())
-      if (part.name == "bending history") return part.bytes;
-    return std::size_t(0);
-  };
+  const auto history = [](const Simulation& s) { return test::scene_part(s, "bending history").bytes; };
   const auto a = fresh.after(60), b = tired.after(60);
   EXPECT_EQ(history(*b) - history(*a), fresh.cloth.mesh.faces() * 4 * sizeof(double));  // D and K_p
   EXPECT_GT(b->ledger().bending_friction, 0);

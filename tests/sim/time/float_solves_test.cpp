@@ -29,12 +29,8 @@ Trial drape() {
   scene.fabric.b2 *= 100;
   scene.step = 1.0 / 120;
   scene.integrator = Integrator::tr_bdf2;
-  Obstacle ball;
-  ball.kind = ObstacleKind::sphere;
-  ball.radius = 0.06;
-  ball.center = {0.1, 0.1, -0.0605};
-  ball.friction = 0.3;
-  scene.obstacle = {ball};
+  scene.obstacle = {test::sphere_at({0.1, 0.1, -0.0605}, 0.06)};
+  scene.obstacle[0].friction = 0.3;
   return Trial(scene);
 }
 
@@ -47,15 +43,12 @@ Trial crease() {
   scene.law = "prandtl";
   scene.step = 1.0 / 120;
   scene.integrator = Integrator::tr_bdf2;
-  Pin still, turns;
-  still.low = {-1, -1, -1};
-  still.high = {0.0201, 1, 1};
-  turns.low = {0.0399, -1, -1};
-  turns.high = {1, 1, 1};
+  const Pin still = test::pin_in({-1, -1, -1}, {0.0201, 1, 1});
+  Pin turns = test::pin_in({0.0399, -1, -1}, {1, 1, 1});
+  turns.until = 0.1;
   turns.motion.axis = {0, -1, 0};
   turns.motion.center = {0.03, 0, 0};
   turns.motion.keys = {{0}, {0.1, {0, 0, 0}, 120}};
-  turns.until = 0.1;
   scene.pin = {still, turns};
   return Trial(scene);
 }
@@ -83,7 +76,7 @@ class FloatSolves : public testing::TestWithParam<Case> {
 INSTANTIATE_TEST_SUITE_P(Scenes, FloatSolves,
                          testing::Values(Case{"drape", drape, 12}, Case{"crease", crease, 16},
                                          Case{"layers", layers, 16}),
-                         [](const auto& of) { return std::string(of.param.name); });
+                         test::CaseName());
 
 // Where a step ends is decided in double: what it leaves unbalanced is what the scene allows, and its
 // positions are nearer to the exact ones than those of a looser tolerance.

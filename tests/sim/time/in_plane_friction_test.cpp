@@ -1,7 +1,6 @@
 // Friction in the plane of cloth in motion, under every integrator.
 #include <gtest/gtest.h>
 
-#include "sim/base/error.h"
 #include "tests/sim/time/scenes.h"
 
 namespace hysteron {
@@ -37,11 +36,7 @@ class InPlaneFrictionInMotion : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Integrators, InPlaneFrictionInMotion,
                          testing::Values("semi-implicit", "explicit", "implicit", "bdf2", "tr-bdf2",
                                          "quasi-static"),
-                         [](const auto& of) {
-                           std::string name = of.param;
-                           std::replace(name.begin(), name.end(), '-', '_');
-                           return name;
-                         });
+                         test::CaseName());
 
 TEST_P(InPlaneFrictionInMotion, LosesEnergyOfItsOwnInABalanceThatCloses) {
   const auto simulation = sheared(GetParam(), test::in_plane_stops()).simulation();
@@ -67,12 +62,6 @@ TEST(InPlaneFriction, LosesInTheChaptersStepsToo) {
   EXPECT_LT(ledger.remainder_relative, 1e-9);
 }
 
-ScenePart friction_history(const Simulation& simulation) {
-  for (const ScenePart& part : simulation.parts())
-    if (part.name == std::string("membrane history")) return part;
-  throw Error::simulation("no such part");
-}
-
 // Memory of one number for each stop and one for what is lost, of two for shear on triangles and of three for
 // warp and weft at nodes, which are vertices here; loops of its own.
 TEST(InPlaneFriction, CostsNothingWhereAFabricHasNone) {
@@ -86,7 +75,8 @@ TEST(InPlaneFriction, CostsNothingWhereAFabricHasNone) {
     return names;
   };
   const Trial without = sheared("implicit", {}), with = sheared("implicit", test::in_plane_stops());
-  const ScenePart none = friction_history(*without.simulation()), some = friction_history(*with.simulation());
+  const ScenePart none = test::scene_part(*without.simulation(), "membrane history"),
+                  some = test::scene_part(*with.simulation(), "membrane history");
   EXPECT_FALSE(none.included);
   EXPECT_EQ(none.bytes, 0u);
   EXPECT_TRUE(some.included);
@@ -105,9 +95,7 @@ TEST(InPlaneFriction, OfWarpAndWeftActsOnStretchAlongThem) {
     scene.gravity.setZero();
     scene.step = 0.01;
     scene.fabric.in_plane = stops;
-    Pin low, high;
-    low.low = {-1, -1, -1}, low.high = {1e-6, 1, 1};
-    high.low = {0.2 - 1e-6, -1, -1}, high.high = {1, 1, 1};
+    Pin low = test::pin_in({-1, -1, -1}, {1e-6, 1, 1}), high = test::pin_in({0.2 - 1e-6, -1, -1}, {1, 1, 1});
     if (pull.y() > 0) std::swap(low.high.x(), low.high.y()), std::swap(high.low.x(), high.low.y());
     high.motion.keys = {{0}, {0.02, pull, 0}};
     scene.pin = {low, high};

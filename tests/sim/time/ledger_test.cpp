@@ -14,12 +14,6 @@ using test::Trial;
 // Remainder over the sum of the terms: rounding of some hundred vertices over some thousand substeps.
 constexpr double kClosed = 1e-9;
 
-Obstacle ground(double height) {
-  Obstacle o;
-  o.center = {0, 0, height};
-  return o;
-}
-
 Scene law_scene(const std::string& law, const std::string& integrator) {
   Scene scene = test::hanging_square();
   scene.law = law;
@@ -29,23 +23,16 @@ Scene law_scene(const std::string& law, const std::string& integrator) {
   return scene;
 }
 
-struct LedgerCase {
-  std::string law, integrator;
-  std::string name() const { return test::Method{law, "shape", integrator}.name(); }
-};
+class Balance : public testing::TestWithParam<test::Method> {};
+const test::Method kLedgerCases[] = {{"linear", "shape", "semi-implicit"},  {"linear", "shape", "explicit"},
+                                     {"prandtl", "shape", "semi-implicit"}, {"prandtl", "shape", "explicit"},
+                                     {"wong", "shape", "semi-implicit"},    {"pabst", "shape", "explicit"},
+                                     {"prandtl", "shape", "implicit"},      {"prandtl", "shape", "bdf2"},
+                                     {"prandtl", "shape", "tr-bdf2"},       {"wong", "shape", "tr-bdf2"},
+                                     {"kim", "shape", "implicit"},          {"wong", "shape", "bdf2"},
+                                     {"prandtl", "shape", "quasi-static"}};
 
-class Balance : public testing::TestWithParam<LedgerCase> {};
-INSTANTIATE_TEST_SUITE_P(Cases, Balance,
-                         testing::Values(LedgerCase{"linear", "semi-implicit"},
-                                         LedgerCase{"linear", "explicit"},
-                                         LedgerCase{"prandtl", "semi-implicit"},
-                                         LedgerCase{"prandtl", "explicit"},
-                                         LedgerCase{"wong", "semi-implicit"}, LedgerCase{"pabst", "explicit"},
-                                         LedgerCase{"prandtl", "implicit"}, LedgerCase{"prandtl", "bdf2"},
-                                         LedgerCase{"prandtl", "tr-bdf2"}, LedgerCase{"wong", "tr-bdf2"},
-                                         LedgerCase{"kim", "implicit"}, LedgerCase{"wong", "bdf2"},
-                                         LedgerCase{"prandtl", "quasi-static"}),
-                         [](const auto& c) { return c.param.name(); });
+INSTANTIATE_TEST_SUITE_P(Cases, Balance, testing::ValuesIn(kLedgerCases), test::CaseName());
 
 TEST_P(Balance, ClosesForASwingingCloth) {
   Scene scene = law_scene(GetParam().law, GetParam().integrator);
@@ -72,10 +59,7 @@ TEST_P(Balance, ClosesWithDampingAirMovingHandleMovingObstacleAndARelease) {
   scene.air_drag = 0.05;
   scene.pin[0].motion.keys = {{0, {0, 0, 0}, 0}, {0.05, {0.02, 0.03, 0.01}, 20}};
   if (!statics) scene.pin[1].until = 0.03;
-  Obstacle sphere;
-  sphere.kind = ObstacleKind::sphere;
-  sphere.radius = 0.04;
-  sphere.center = {0.1, 0.1, -0.045};
+  Obstacle sphere = test::sphere_at({0.1, 0.1, -0.045}, 0.04);
   sphere.motion.keys = {{0, {0, 0, 0}, 0}, {0.05, {0.01, 0, 0.02}, 30}};
   scene.obstacle = {sphere};
   const Trial trial(scene);
@@ -94,7 +78,7 @@ TEST(Ledger, ClosesForClothFallingOnTheGround) {
   for (const char* law : {"prandtl", "wong"}) {
     Scene scene = test::free_square();
     scene.law = law;
-    scene.obstacle = {ground(-0.02)};
+    scene.obstacle = {test::ground_at(-0.02)};
     scene.cloth.rotation = {20, 10, 0};
     scene.cloth.position = {0, 0, 0.02};
     const Ledger ledger = Trial(scene).after(150)->ledger();

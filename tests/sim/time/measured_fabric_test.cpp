@@ -26,13 +26,12 @@ Trial rippled(const Method& method, const BendingParts& parts) {
 }
 
 class MeasuredFabric : public testing::TestWithParam<Method> {};
-INSTANTIATE_TEST_SUITE_P(
-    Methods, MeasuredFabric,
-    testing::Values(Method{"chapman", "shape", "semi-implicit"}, Method{"chapman", "hinge", "semi-implicit"},
-                    Method{"chapman", "shape", "explicit"}, Method{"chapman", "hinge", "implicit"},
-                    Method{"chapman", "shape", "bdf2"}, Method{"chapman", "shape", "tr-bdf2"},
-                    Method{"prandtl", "shape", "tr-bdf2"}, Method{"prandtl", "hinge", "implicit"}),
-    [](const auto& method) { return method.param.name(); });
+const Method kMeasuredCases[] = {{"chapman", "shape", "semi-implicit"}, {"chapman", "hinge", "semi-implicit"},
+                                 {"chapman", "shape", "explicit"},      {"chapman", "hinge", "implicit"},
+                                 {"chapman", "shape", "bdf2"},          {"chapman", "shape", "tr-bdf2"},
+                                 {"prandtl", "shape", "tr-bdf2"},       {"prandtl", "hinge", "implicit"}};
+
+INSTANTIATE_TEST_SUITE_P(Methods, MeasuredFabric, testing::ValuesIn(kMeasuredCases), test::CaseName());
 
 TEST_P(MeasuredFabric, LosesEnergyToFrictionAndRelaxationInABalanceThatCloses) {
   const bool relaxes = GetParam().law == "chapman";
@@ -57,9 +56,8 @@ TEST_P(MeasuredFabric, LosesEnergyToFrictionAndRelaxationInABalanceThatCloses) {
 TEST(MeasuredFabric, PaysForThePartsThatItHasAlone) {
   const auto bytes = [](const char* law, const BendingParts& parts) {
     const Trial trial = rippled({law, "shape", "semi-implicit"}, parts);
-    for (const ScenePart& part : trial.simulation()->parts())
-      if (part.name == "bending history") return part.bytes / trial.cloth.mesh.faces() / (3 * sizeof(double));
-    return std::size_t(0);
+    return test::scene_part(*trial.simulation(), "bending history").bytes / trial.cloth.mesh.faces() /
+           (3 * sizeof(double));
   };
   const BendingParts all = test::all_parts();
   EXPECT_EQ(bytes("prandtl", {}), 8u);
@@ -88,9 +86,7 @@ TEST(MeasuredFabric, PaysForDirectionsOfHingesWhereItsStopsDifferByThem) {
 // A sheet with one relaxing branch, held in waves that it is not at rest in.
 Trial held_in_waves(const char* integrator, double tau) {
   Trial trial = rippled({"chapman", "shape", integrator}, {{}, {}, {{tau}, {6e-6}}, {}});
-  Pin holding_pin;
-  holding_pin.low = {-1, -1, -1}, holding_pin.high = {1, 1, 1};
-  trial.scene.pin = {holding_pin};
+  trial.scene.pin = {test::pin_in({-1, -1, -1}, {1, 1, 1})};
   const std::vector<Eigen::Vector3d> start = trial.cloth.start;
   trial.cloth = make_cloth(trial.scene);
   trial.cloth.start = start;

@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "sim/scene/cloth.h"
 #include "sim/scene/scene.h"
 #include "sim/time/simulation.h"
+#include "tests/sim/base/case_name.h"
 
 namespace hysteron::test {
 
@@ -32,13 +34,7 @@ struct Trial {
 // How a scene is computed: what tests of several methods run over, and the name of such a test.
 struct Method {
   std::string law, element, integrator;
-  std::string name() const {
-    std::string name = law + "_" + element;
-    std::replace(name.begin(), name.end(), '-', '_');
-    std::string ending = "_" + integrator;
-    std::replace(ending.begin(), ending.end(), '-', '_');
-    return name + ending;
-  }
+  std::string name() const { return law + "_" + element + "_" + integrator; }
 };
 
 inline Pin pin_at(double x, double y) {
@@ -46,6 +42,32 @@ inline Pin pin_at(double x, double y) {
   pin.select = "nearest";
   pin.point = {x, y, 0};
   return pin;
+}
+inline Pin pin_in(const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
+  Pin pin;
+  pin.low = low;
+  pin.high = high;
+  return pin;
+}
+
+inline Obstacle ground_at(double height) {
+  Obstacle ground;
+  ground.center = {0, 0, height};
+  return ground;
+}
+inline Obstacle sphere_at(const Eigen::Vector3d& center, double radius) {
+  Obstacle sphere;
+  sphere.kind = ObstacleKind::sphere;
+  sphere.center = center;
+  sphere.radius = radius;
+  return sphere;
+}
+inline Obstacle box_at(const Eigen::Vector3d& center, const Eigen::Vector3d& half) {
+  Obstacle box;
+  box.kind = ObstacleKind::box;
+  box.center = center;
+  box.size = half;
+  return box;
 }
 
 // All that a fabric's bending may have beyond three numbers, on the scale of cotton broad; it sets early.
@@ -88,6 +110,13 @@ inline void ripple(Cloth& cloth, double height) {
     cloth.start[i] += height * Eigen::Vector3d(0.3 * std::sin(60 * x.y()), 0.2 * std::cos(50 * x.x()),
                                                std::sin(40 * x.x() + 25 * x.y()));
   }
+}
+
+// What a simulation pays for under this name.
+inline ScenePart scene_part(const Simulation& simulation, const std::string& name) {
+  for (const ScenePart& part : simulation.parts())
+    if (part.name == name) return part;
+  throw std::out_of_range("no part named " + name);
 }
 
 inline double farthest(const Positions& a, const Positions& b) {

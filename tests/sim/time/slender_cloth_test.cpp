@@ -19,10 +19,7 @@ double iterations_of_a_solve(int wide, int long_, Preconditioning solver) {
   scene.step = 1.0 / 60;
   scene.solver_tolerance = Scene{}.solver_tolerance;
   scene.linear_solver = solver;
-  Pin held;
-  held.low = {-1, -1, -1};
-  held.high = {0.011, 1, 1};
-  scene.pin = {held};
+  scene.pin = {test::pin_in({-1, -1, -1}, {0.011, 1, 1})};
   const auto simulation = test::Trial(scene).after(3);
   const Diagnostics counts = simulation->counts();
   return static_cast<double>(counts.linear) / static_cast<double>(counts.newton);

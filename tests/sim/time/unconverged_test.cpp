@@ -60,9 +60,7 @@ TEST(HandsThatBringHome, AreThereInTime) {
   scene.step = 1.0 / 120;
   scene.seconds = 1;
   scene.air_drag = 1;
-  Pin pin;
-  pin.select = "nearest";
-  pin.point = {scene.cloth.length, 0, 0};
+  Pin pin = test::pin_at(scene.cloth.length, 0);
   pin.from = 0.1;
   pin.home = 0.2;
   scene.pin.push_back(pin);
@@ -113,9 +111,7 @@ TEST_P(FreeCloth, DriftsSlowlyInSinglePrecision) {
   constexpr double kSpeed = 1e-4;  // [m/s]
   Scene scene = weightless(GetParam());
   scene.precision = Precision::fp32;
-  Pin moving_pin;
-  moving_pin.low = {-1, -1, -1};
-  moving_pin.high = {1, 1, 1};
+  Pin moving_pin = test::pin_in({-1, -1, -1}, {1, 1, 1});
   moving_pin.until = 5 * scene.step;
   moving_pin.motion.keys = {{0, {0, 0, 0}, 0, 1},
                             {2 * moving_pin.until, {0, 0, 2 * moving_pin.until * kSpeed}, 0, 1}};

@@ -16,24 +16,23 @@ namespace {
 constexpr double kRounding = 1e-15;  // of moments of about 1e-3 N
 
 TEST(Bridson, IsLinearAtFirstAndVanishesWhenFoldedAllTheWayRound) {
-  const VirginCurve c = cotton_broad();
   const double h = 5e-3;
-  const auto law = Bridson<double, 1>::make(c, h);
+  const auto law = Bridson<double, 1>::make(kCotton, h);
   const auto moment = [&](double k) { return law.step(Vec<double, 1>(k), {}).moment[0]; };
-  EXPECT_NEAR(moment(1) / c.b2, 1, 2e-6);  // (K h/2)^2/6
-  EXPECT_NEAR(moment(100), 2 * c.b2 / h * std::sin(0.25), kRounding);
-  EXPECT_NEAR(moment(std::numbers::pi / h), 2 * c.b2 / h, kRounding);  // folded flat: the largest moment
+  EXPECT_NEAR(moment(1) / kCotton.b2, 1, 2e-6);  // (K h/2)^2/6
+  EXPECT_NEAR(moment(100), 2 * kCotton.b2 / h * std::sin(0.25), kRounding);
+  EXPECT_NEAR(moment(std::numbers::pi / h), 2 * kCotton.b2 / h,
+              kRounding);  // folded flat: the largest moment
   EXPECT_NEAR(moment(2 * std::numbers::pi / h), 0, 10 * kRounding);
-  EXPECT_NEAR(law.step(Vec<double, 1>(std::numbers::pi / h), {}).stored, 4 * c.b2 / (h * h), kRounding);
+  EXPECT_NEAR(law.step(Vec<double, 1>(std::numbers::pi / h), {}).stored, 4 * kCotton.b2 / (h * h), kRounding);
 }
 
 // A spring of length 2 h between the tips: E = q (2 h cos(theta/2) - 2 h)^2/2, M = dE/dK.
 TEST(FlexionSpring, IsTheSpringBetweenTheTipsOfAHinge) {
-  const VirginCurve c = cotton_broad();
   const double h = 5e-3, step = 1e-4;
-  const auto law = FlexionSpring<double, 1>::make(c, h);
+  const auto law = FlexionSpring<double, 1>::make(kCotton, h);
   const auto at = [&](double k) { return law.step(Vec<double, 1>(k), {}); };
-  EXPECT_NEAR(at(c.k0).moment[0], c.b2 * c.k0, kRounding);
+  EXPECT_NEAR(at(kCotton.k0).moment[0], kCotton.b2 * kCotton.k0, kRounding);
   const auto stretch = [&](double k) { return 2 * h * (std::cos(k * h / 2) - 1); };
   const double q = 2 * at(100).stored / std::pow(stretch(100), 2);
   for (double k : {20., 77., 300.}) {
@@ -45,22 +44,21 @@ TEST(FlexionSpring, IsTheSpringBetweenTheTipsOfAHinge) {
 }
 
 TEST(Bilinear, HasTwoSlopesAndUnloadsWithTheFirst) {
-  const VirginCurve c = cotton_broad();
-  Driven<PrandtlStops<double, 1, 1>> cloth(make_bilinear<double, 1>(c));
-  const double ma = c.elastic_limit_moment(), first = ma / c.k0, km = 4 * c.k0;
-  EXPECT_NEAR(cloth.moment(c.k0 / 2), ma / 2, kRounding);
-  EXPECT_NEAR(cloth.moment(c.k0), ma, kRounding);
+  Driven<PrandtlStops<double, 1, 1>> cloth(make_bilinear<double, 1>(kCotton));
+  const double ma = kCotton.elastic_limit_moment(), first = ma / kCotton.k0, km = 4 * kCotton.k0;
+  EXPECT_NEAR(cloth.moment(kCotton.k0 / 2), ma / 2, kRounding);
+  EXPECT_NEAR(cloth.moment(kCotton.k0), ma, kRounding);
   const double mm = cloth.moment(km);
-  EXPECT_NEAR(mm, c.friction_moment() + c.b2 * km, kRounding);
-  EXPECT_NEAR(cloth.moment(km - c.k0), mm - first * c.k0, kRounding);
-  EXPECT_NEAR(cloth.moment(km - 2 * c.k0), mm - 2 * first * c.k0, 10 * kRounding);
-  EXPECT_NEAR(cloth.moment(km - 3 * c.k0), mm - 2 * first * c.k0 - c.b2 * c.k0, 10 * kRounding);
+  EXPECT_NEAR(mm, kCotton.friction_moment() + kCotton.b2 * km, kRounding);
+  EXPECT_NEAR(cloth.moment(km - kCotton.k0), mm - first * kCotton.k0, kRounding);
+  EXPECT_NEAR(cloth.moment(km - 2 * kCotton.k0), mm - 2 * first * kCotton.k0, 10 * kRounding);
+  EXPECT_NEAR(cloth.moment(km - 3 * kCotton.k0), mm - 2 * first * kCotton.k0 - kCotton.b2 * kCotton.k0,
+              10 * kRounding);
 }
 
 TEST(Bilinear, LoopAreaIsThatOfItsStop) {
-  const VirginCurve c = cotton_broad();
-  Driven<PrandtlStops<double, 1, 1>> cloth(make_bilinear<double, 1>(c));
-  const double m = c.friction_moment(), stiffness = m / c.k0;
+  Driven<PrandtlStops<double, 1, 1>> cloth(make_bilinear<double, 1>(kCotton));
+  const double m = kCotton.friction_moment(), stiffness = m / kCotton.k0;
   EXPECT_NEAR(cloth.cycle_loss(150), 4 * m * (150 - m / stiffness), 1e-13);
 }
 
@@ -71,33 +69,31 @@ struct RecoveryLaw {
 
 // The closed forms against the law itself, over all three cases and both signs.
 TEST(RecoveryFormula, EqualsTheRootOnTheLaw) {
-  const VirginCurve c = cotton_broad();
   for (const RecoveryLaw& law :
        {RecoveryLaw{"bilinear", {}}, RecoveryLaw{"wong", {}}, RecoveryLaw{"prandtl", {}},
         RecoveryLaw{"wong", {{"recovery", "reversible"}}}, RecoveryLaw{"pabst", {}}}) {
-    const LawRequest request{law.name, c, law.parameters};
-    const LawChoice choice = choose_law(law.name, c, law.parameters, LawUse::alone);
+    const LawRequest request{law.name, kCotton, law.parameters};
+    const LawChoice choice = choose_law(law.name, kCotton, law.parameters, LawUse::alone);
     ASSERT_TRUE(has_residual_formula(choice));
     for (double k : {0.2, 0.7, 0.99, 1.01, 1.5, 2.2, 3.0, 4.0, 9.0})
       for (double sign : {1., -1.}) {
-        const std::vector<LawRow> path = {{sign * k * c.k0}};
+        const std::vector<LawRow> path = {{sign * k * kCotton.k0}};
         const double moment = run_law(request, path).moment[0];
         EXPECT_NEAR(residual_by_formula(choice, path[0].curvature, moment), residual_after(request, path),
-                    1e-10 * c.k0)
+                    1e-10 * kCotton.k0)
             << law.name << " from " << sign * k << " K0";
       }
   }
 }
 
 TEST(RecoveryCases, AreDecidedByTheMomentAtTheReversalAndCountedThere) {
-  const VirginCurve c = cotton_broad();
-  const double ma = c.elastic_limit_moment();
-  EXPECT_EQ(recovery_case(c, -ma), RecoveryCase::elastic);
-  EXPECT_EQ(recovery_case(c, 1.5 * ma), RecoveryCase::partial);
-  EXPECT_EQ(recovery_case(c, 2.01 * ma), RecoveryCase::full_slip);
+  const double ma = kCotton.elastic_limit_moment();
+  EXPECT_EQ(recovery_case(kCotton, -ma), RecoveryCase::elastic);
+  EXPECT_EQ(recovery_case(kCotton, 1.5 * ma), RecoveryCase::partial);
+  EXPECT_EQ(recovery_case(kCotton, 2.01 * ma), RecoveryCase::full_slip);
   // linear: Ma is reached at Ma/b2 = 102.6/m.
   const std::vector<LawRow> rows = {{100}, {50}, {-200}, {-100}, {-100}, {400}, {0}, {10}};
-  const RecoveryCounts counts = count_recoveries(c, rows, run_law({"linear", c, {}}, rows));
+  const RecoveryCounts counts = count_recoveries(kCotton, rows, run_law({"linear", kCotton, {}}, rows));
   EXPECT_EQ(counts.of[0], 1);  // at 100/m; at 0/m nothing is unloaded
   EXPECT_EQ(counts.of[1], 1);  // at -200/m
   EXPECT_EQ(counts.of[2], 1);  // at 400/m

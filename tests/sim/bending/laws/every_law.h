@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "sim/bending/laws/law_parameters.h"
+#include "tests/sim/base/case_name.h"
 #include "tests/sim/bending/laws/law_fixtures.h"
 
 namespace hysteron::testing {
@@ -24,12 +25,6 @@ struct LawCase {
 };
 
 std::vector<LawCase> law_cases();
-
-inline std::string case_name(const ::testing::TestParamInfo<LawCase>& c) {
-  std::string name = c.param.name;
-  for (char& letter : name) letter = letter == '-' ? '_' : letter;
-  return name;
-}
 
 // A law with its history, scalar or tensor.  Scalar laws take the first component of a curvature; all that
 // they give is 0 in the others.
@@ -57,8 +52,8 @@ class AnyLaw {
     tensor.tail(3 - dimension_).setZero();
     return tensor;
   }
-  Path<double, 3> random_path(int count, double amplitude, unsigned seed) const {
-    Path<double, 3> path = random_tensors(count, amplitude, seed);
+  Path random_path(int count, double amplitude, unsigned seed) const {
+    Path path = random_tensors(count, amplitude, seed);
     for (Vec<double, 3>& k : path) k = component(k);
     return path;
   }
@@ -69,8 +64,7 @@ class AnyLaw {
 
 // The case's law for this fabric, virgin; steps take `seconds`.
 enum class As { kScalar, kTensor, kTensorInSinglePrecision };
-std::unique_ptr<AnyLaw> any_law(const LawCase& c, As as, double seconds,
-                                const VirginCurve& curve = cotton_broad());
+std::unique_ptr<AnyLaw> any_law(const LawCase& c, As as, double seconds, const VirginCurve& curve = kCotton);
 
 constexpr double kSeconds = 0.05;  // of a step, where time matters
 

@@ -12,10 +12,8 @@
 namespace hysteron::testing {
 namespace {
 
-const VirginCurve kCloth = cotton_broad();
-
 class EveryLaw : public ::testing::TestWithParam<LawCase> {};
-INSTANTIATE_TEST_SUITE_P(Laws, EveryLaw, ::testing::ValuesIn(law_cases()), case_name);
+INSTANTIATE_TEST_SUITE_P(Laws, EveryLaw, ::testing::ValuesIn(law_cases()), test::CaseName());
 
 double tangent_error(const AnyLaw& law, const Vec<double, 3>& k, double h) {
   Tangent<double, 3> difference;
@@ -28,16 +26,16 @@ double tangent_error(const AnyLaw& law, const Vec<double, 3>& k, double h) {
 
 TEST_P(EveryLaw, TangentIsTheDerivativeOfTheMomentToSecondOrder) {
   for_scalar_and_tensor(GetParam(), kSeconds, [](AnyLaw& law) {
-    for (const auto& k : law.random_path(5, 2 * kCloth.k0, 41)) law.to(k);
+    for (const auto& k : law.random_path(5, 2 * kCotton.k0, 41)) law.to(k);
     constexpr double kCoarse = 3e-2, kFine = 3e-3;  // [1/m] nearer than any kink at all but a few points
     int measured = 0, second_order = 0;
-    for (const auto& k : law.random_path(60, 2 * kCloth.k0, 42)) {
+    for (const auto& k : law.random_path(60, 2 * kCotton.k0, 42)) {
       const Tangent<double, 3> tangent = law.tangent(k);
       ASSERT_LE((tangent - tangent.transpose()).norm(), 1e-14 * tangent.norm());
       ASSERT_LE(tangent.selfadjointView<Eigen::Lower>().eigenvalues().maxCoeff(),
                 law.largest_stiffness() * (1 + 1e-9));
       const double e1 = tangent_error(law, k, kCoarse), e2 = tangent_error(law, k, kFine);
-      const double rounding = 1e-15 * law.step(k).moment.norm() / kFine + 1e-9 * kCloth.b2;
+      const double rounding = 1e-15 * law.step(k).moment.norm() / kFine + 1e-9 * kCotton.b2;
       ++measured;
       second_order += e2 < 10 * rounding || std::log10(e1 / e2) > 1.9;
     }
@@ -56,11 +54,11 @@ TEST_P(EveryLaw, RadialTensorLawsFollowTheScalarLawOnACylinderInAnyDirection) {
     const Vec<double, 3> bend{c * c, s * s, std::sqrt(2) * c * s};
     const auto sheet = any_law(GetParam(), As::kTensor, kSeconds),
                strip = any_law(GetParam(), As::kScalar, kSeconds);
-    for (double k : random_turns(60, 2 * kCloth.k0, 61)) {
+    for (double k : random_turns(60, 2 * kCotton.k0, 61)) {
       const AnyLaw::Step one = strip->to({k, 0, 0}), all = sheet->to(k * bend);
-      ASSERT_LE((all.moment - one.moment[0] * bend).norm(), kRounding * kCloth.b1 * kCloth.k0);
-      ASSERT_NEAR(all.stored, one.stored, kRounding * kCloth.b1 * kCloth.k0 * kCloth.k0);
-      ASSERT_NEAR(all.dissipated, one.dissipated, kRounding * kCloth.b1 * kCloth.k0 * kCloth.k0);
+      ASSERT_LE((all.moment - one.moment[0] * bend).norm(), kRounding * kCotton.b1 * kCotton.k0);
+      ASSERT_NEAR(all.stored, one.stored, kRounding * kCotton.b1 * kCotton.k0 * kCotton.k0);
+      ASSERT_NEAR(all.dissipated, one.dissipated, kRounding * kCotton.b1 * kCotton.k0 * kCotton.k0);
     }
   }
 }
@@ -68,11 +66,11 @@ TEST_P(EveryLaw, RadialTensorLawsFollowTheScalarLawOnACylinderInAnyDirection) {
 TEST_P(EveryLaw, CarriesNoMomentAtItsResidualCurvature) {
   for_scalar_and_tensor(GetParam(), kSeconds, [](AnyLaw& law) {
     constexpr double kNewton = 1e-9;
-    for (const auto& k : law.random_path(100, 3 * kCloth.k0, 7)) {
+    for (const auto& k : law.random_path(100, 3 * kCotton.k0, 7)) {
       law.set_seconds(kSeconds);
       law.to(k);
       law.set_seconds(0);
-      ASSERT_LE(law.step(law.residual()).moment.norm(), kNewton * kCloth.b1 * kCloth.k0);
+      ASSERT_LE(law.step(law.residual()).moment.norm(), kNewton * kCotton.b1 * kCotton.k0);
     }
   });
 }
@@ -82,14 +80,14 @@ TEST_P(EveryLaw, InSinglePrecisionStaysCloseToDouble) {
              coarse = any_law(GetParam(), As::kTensorInSinglePrecision, kSeconds);
   constexpr double kSingle = 2e-5;  // some hundred roundings of 6e-8
   double lost = 0, lost_in_single = 0;
-  for (const auto& k : random_tensors(200, 2 * kCloth.k0, 51)) {
+  for (const auto& k : random_tensors(200, 2 * kCotton.k0, 51)) {
     const Vec<double, 3> here = k.cast<float>().cast<double>();
     const AnyLaw::Step exact = fine->to(here), rough = coarse->to(here);
-    ASSERT_LE((exact.moment - rough.moment).norm(), kSingle * kCloth.b1 * kCloth.k0);
+    ASSERT_LE((exact.moment - rough.moment).norm(), kSingle * kCotton.b1 * kCotton.k0);
     lost += exact.dissipated;
     lost_in_single += rough.dissipated;
   }
-  EXPECT_NEAR(lost_in_single, lost, kSingle * 200 * kCloth.friction_moment() * kCloth.k0);
+  EXPECT_NEAR(lost_in_single, lost, kSingle * 200 * kCotton.friction_moment() * kCotton.k0);
 }
 
 void expect_finite(AnyLaw& law, const VirginCurve& c, bool passive) {
@@ -119,10 +117,10 @@ TEST_P(EveryLaw, BehavesOnExtremeFabrics) {
 }
 
 TEST_P(EveryLaw, ButWongNeverGivesBackWhatItLost) {
-  const double rounding = 1e-14 * kCloth.b1 * 4 * kCloth.k0 * kCloth.k0;
+  const double rounding = 1e-14 * kCotton.b1 * 4 * kCotton.k0 * kCotton.k0;
   for (unsigned seed = 1; seed <= 5; ++seed)
     for_scalar_and_tensor(GetParam(), kSeconds, [&](AnyLaw& law) {
-      for (const auto& k : random_tensors(2000, 2 * kCloth.k0, seed)) {
+      for (const auto& k : random_tensors(2000, 2 * kCotton.k0, seed)) {
         const AnyLaw::Step step = law.to(k);
         ASSERT_GE(step.stored, 0);
         if (GetParam().passive) {
@@ -133,7 +131,7 @@ TEST_P(EveryLaw, ButWongNeverGivesBackWhatItLost) {
 }
 
 // |int M dK - stored - dissipated| along straight pieces by the trapezium rule; the whole way takes 10 s.
-double balance_error(AnyLaw& law, const Path<double, 3>& corners, int pieces) {
+double balance_error(AnyLaw& law, const Path& corners, int pieces) {
   constexpr double kWholePath = 10;
   law.set_seconds(kWholePath / (static_cast<double>(corners.size()) * pieces));
   Vec<double, 3> at = Vec<double, 3>::Zero(), moment = at;
@@ -154,11 +152,11 @@ double balance_error(AnyLaw& law, const Path<double, 3>& corners, int pieces) {
 
 // Steps fine enough for laws that stick and slip: below, their error depends on where in a step they slip.
 TEST_P(EveryLaw, StoresOrLosesTheWorkDoneAlongFinePaths) {
-  const double scale = kCloth.friction_moment() * kCloth.k0;
+  const double scale = kCotton.friction_moment() * kCotton.k0;
   for (const As as : {As::kScalar, As::kTensor}) {
     const auto error = [&](int pieces) {
       const auto law = any_law(GetParam(), as, 0);
-      return balance_error(*law, law->random_path(6, 2 * kCloth.k0, 4), pieces);
+      return balance_error(*law, law->random_path(6, 2 * kCotton.k0, 4), pieces);
     };
     const double coarse = error(4000), fine = error(32000);
     constexpr double kFirstOrder = 0.8, kQuadratureRounding = 1e-10;
@@ -170,14 +168,14 @@ TEST_P(EveryLaw, StoresOrLosesTheWorkDoneAlongFinePaths) {
 }
 
 TEST(EnergyBalance, HoldsToSecondOrderForABoundedStackThatDropsPairs) {
-  Path<double, 3> corners;
-  for (double k : random_turns(60, 2 * kCloth.k0, 12)) corners.push_back({k, 0, 0});
+  Path corners;
+  for (double k : random_turns(60, 2 * kCotton.k0, 12)) corners.push_back({k, 0, 0});
   const auto error = [&](int pieces) {
     const auto law = any_law({"", "prandtl", {{"memory", "stack"}, {"stack", "4"}}}, As::kScalar, 0);
     return balance_error(*law, corners, pieces);
   };
   const double coarse = error(400), fine = error(1600);
-  EXPECT_LE(coarse, 0.1 * kCloth.friction_moment() * kCloth.k0);
+  EXPECT_LE(coarse, 0.1 * kCotton.friction_moment() * kCotton.k0);
   EXPECT_GE(std::log2(coarse / fine) / 2, 1.75);
 }
 
@@ -186,11 +184,11 @@ TEST(EnergyBalance, HoldsToSecondOrderForABoundedStackThatDropsPairs) {
 TEST_P(EveryLaw, StoresAndLosesAConvexPotentialWithinAStep) {
   const bool late_losses = GetParam().name.ends_with("fatigue") || GetParam().timed;
   for_scalar_and_tensor(GetParam(), kSeconds, [&](AnyLaw& law) {
-    for (const auto& k : law.random_path(7, 1.5 * kCloth.k0, 30)) law.to(k);
-    const double step = kCloth.k0 / 37,  // 37: unrelated to any threshold
-        rounding = 1e-12 * kCloth.b1 * kCloth.k0 * kCloth.k0;
+    for (const auto& k : law.random_path(7, 1.5 * kCotton.k0, 30)) law.to(k);
+    const double step = kCotton.k0 / 37,  // 37: unrelated to any threshold
+        rounding = 1e-12 * kCotton.b1 * kCotton.k0 * kCotton.k0;
     const Vec<double, 3> way = step * law.component(Vec<double, 3>::Ones());
-    for (const auto& here : law.random_path(100, 2 * kCloth.k0, 31)) {
+    for (const auto& here : law.random_path(100, 2 * kCotton.k0, 31)) {
       const auto at = [&](double t) { return law.step(here + t * way); };
       ASSERT_GE(at(1).moment.dot(way) - at(-1).moment.dot(way), -rounding);
       if (late_losses) continue;
@@ -204,9 +202,9 @@ TEST_P(EveryLaw, StoresAndLosesAConvexPotentialWithinAStep) {
 // Measurements evaluate the law again where it is; they must find what the step left.
 TEST_P(EveryLaw, IsFoundAsItWasLeft) {
   for_scalar_and_tensor(GetParam(), kSeconds, [](AnyLaw& law) {
-    const double rounding = 1e-12 * kCloth.b1 * kCloth.k0 * kCloth.k0;
+    const double rounding = 1e-12 * kCotton.b1 * kCotton.k0 * kCotton.k0;
     law.set_seconds(0);
-    for (const auto& k : random_tensors(200, 2 * kCloth.k0, 5)) {
+    for (const auto& k : random_tensors(200, 2 * kCotton.k0, 5)) {
       const double stored = law.to(k).stored;
       ASSERT_NEAR(law.step(k).stored, stored, rounding);
       ASSERT_NEAR(law.step(k).dissipated, 0, rounding);
@@ -221,7 +219,7 @@ double quotient_error(const AnyLaw& law, const Vec<double, 3>& k, const Vec<doub
 
 TEST_P(EveryLaw, HasAPotentialWhoseDerivativeIsTheMoment) {
   for_scalar_and_tensor(GetParam(), kSeconds, [](AnyLaw& law) {
-    const double largest = 3 * kCloth.k0;
+    const double largest = 3 * kCotton.k0;
     for (const auto& k : law.random_path(7, largest, 51)) law.to(k);
     const Vec<double, 3> d = law.component(Vec<double, 3>::Ones()).normalized();
     constexpr double kCoarse = 1e-1, kFine = 1e-2;  // [1/m]
@@ -239,7 +237,7 @@ TEST_P(EveryLaw, HasAPotentialWhoseDerivativeIsTheMoment) {
 
 // Least (M(a) - M(b)).(a - b)/|a - b|^2 over random pairs [N m].
 double least_secant(const AnyLaw& law, double largest) {
-  const Path<double, 3> points = law.random_path(200, largest, 53);
+  const Path points = law.random_path(200, largest, 53);
   double least = 1e30;
   for (std::size_t i = 0; i + 1 < points.size(); ++i) {
     const Vec<double, 3> a = points[i], b = points[i + 1];
@@ -252,7 +250,7 @@ TEST_P(EveryLaw, HasAConvexPotentialSoThatTheMomentIsMonotone) {
   // sin-shaped moments fall beyond their crest: 180 degrees of a hinge of 5 mm are 628/m.
   const bool falls_beyond_the_crest = GetParam().law == "bridson" || GetParam().law == "spring";
   for_scalar_and_tensor(GetParam(), kSeconds, [&](AnyLaw& law) {
-    const double largest = 3 * kCloth.k0;
+    const double largest = 3 * kCotton.k0;
     for (const auto& k : law.random_path(7, largest, 51)) law.to(k);
     EXPECT_GE(least_secant(law, largest), -1e-12);
     EXPECT_EQ(least_secant(law, 20 * largest) < -1e-12, falls_beyond_the_crest);

@@ -14,17 +14,15 @@ namespace {
 
 template <class Law>
 Fatigue<Law> tired(const FatigueChoice& choice) {
-  const VirginCurve c = cotton_broad();
-  return Fatigue<Law>::make(c, choice, Law::make({c.b1 - c.b2, 0, c.k0}));
+  return Fatigue<Law>::make(kCotton, choice, Law::make({kCotton.b1 - kCotton.b2, 0, kCotton.k0}));
 }
 
 using TiringStops = PrandtlStops<double, 1, 8>;
 
 TEST(Fatigue, OfUnlimitedEnergyIsTheLawItself) {
-  const VirginCurve c = cotton_broad();
   Driven<Fatigue<TiringStops>> tired_cloth(tired<TiringStops>({1e30, 0, 1}));
-  Driven<TiringStops> fresh(TiringStops::make(c));
-  for (double k : random_turns(200, 2 * c.k0, 3)) {
+  Driven fresh(TiringStops::make(kCotton));
+  for (double k : random_turns(200, 2 * kCotton.k0, 3)) {
     ASSERT_NEAR(tired_cloth.moment(k), fresh.moment(k), 1e-15);
     ASSERT_NEAR(tired_cloth.last.stored, fresh.last.stored, 1e-13);
     ASSERT_NEAR(tired_cloth.last.dissipated, fresh.last.dissipated, 1e-13);
@@ -32,8 +30,7 @@ TEST(Fatigue, OfUnlimitedEnergyIsTheLawItself) {
 }
 
 TEST(Fatigue, WeakensExponentiallyWithTheEnergyLost) {
-  const VirginCurve c = cotton_broad();
-  const double m0 = c.friction_moment(), m_inf = 1e-4, dc = 0.3;
+  const double m0 = kCotton.friction_moment(), m_inf = 1e-4, dc = 0.3;
   Driven<Fatigue<TiringStops>> cloth(tired<TiringStops>({dc, m_inf, 0}));
   constexpr double kTwoRounds = 1e-4;  // (M0 K0/3 / Dc)^2 of the energy that weakening itself releases
   double at = 0;
@@ -48,12 +45,11 @@ TEST(Fatigue, WeakensExponentiallyWithTheEnergyLost) {
 }
 
 TEST(Fatigue, SetStaysWithinTheFrictionMomentLostOverTheRigidity) {
-  const VirginCurve c = cotton_broad();
   for (double eta : {0.3, 1.0}) {
     Driven<Fatigue<TiringStops>> cloth(tired<TiringStops>({0.05, 1e-4, eta}));
-    const double bound = eta * (c.friction_moment() - 1e-4) / c.b2;
+    const double bound = eta * (kCotton.friction_moment() - 1e-4) / kCotton.b2;
     double largest = 0;
-    for (double k : random_turns(3000, 4 * c.k0, 4)) {
+    for (double k : random_turns(3000, 4 * kCotton.k0, 4)) {
       cloth.moment(std::abs(k));  // always to one side, as a fold is
       const double set = std::abs(Fatigue<TiringStops>::set_curvature(cloth.history)[0]);
       ASSERT_LE(set, bound * (1 + 1e-12));
@@ -65,7 +61,6 @@ TEST(Fatigue, SetStaysWithinTheFrictionMomentLostOverTheRigidity) {
 
 // What is lost in a cycle falls with the strength m itself, so that m falls as 1/cycles.
 TEST(Fatigue, EndsAsAnElasticSheetWithAPermanentCrease) {
-  const VirginCurve c = cotton_broad();
   Driven<Fatigue<TiringStops>> cloth(tired<TiringStops>({0.05, 0, 1}));
   double strength_after_half = 0;
   constexpr int kCycles = 4000;
@@ -79,11 +74,10 @@ TEST(Fatigue, EndsAsAnElasticSheetWithAPermanentCrease) {
   EXPECT_LT(left, 1e-3);
   EXPECT_GT(set, 1);  // [1/m]
   for (double k : {-100., 60., 200.})
-    EXPECT_NEAR(cloth.moment(k), c.b2 * (k - set), 1.01 * left * c.friction_moment());
+    EXPECT_NEAR(cloth.moment(k), kCotton.b2 * (k - set), 1.01 * left * kCotton.friction_moment());
 }
 
 TEST(Fatigue, KeepsTheMomentOfAHeldFoldWhileItSets) {
-  const VirginCurve c = cotton_broad();
   // eta = 1: what friction loses, the set takes over, as long as friction holds the fold open.
   Driven<Fatigue<TiringStops>> cloth(tired<TiringStops>({0.2, 0, 1}));
   cloth.moment(200);
@@ -94,7 +88,7 @@ TEST(Fatigue, KeepsTheMomentOfAHeldFoldWhileItSets) {
     for (double ripple : {0.5, -0.5, 0.}) cloth.moment(rest + ripple);
   EXPECT_LT(cloth.law.strength(cloth.history), strength);
   constexpr double kStopsRub = 0.05;  // ripples of 0.5/m in stops of 3 to 47/m: the shortest slips a little
-  EXPECT_NEAR(cloth.law.residual(cloth.history)[0], rest, kStopsRub * c.k0);
+  EXPECT_NEAR(cloth.law.residual(cloth.history)[0], rest, kStopsRub * kCotton.k0);
 }
 
 TEST(Fatigue, IsHealedByIroningButStaysWeak) {

@@ -10,13 +10,9 @@
 namespace hysteron::testing {
 
 // Cotton broad (Matsudaira et al. 2015: B = 1.157e-5 N m, 2HB = 1.216e-3 N), K0 = 50/m assumed.
-inline VirginCurve cotton_broad() {
-  const double b2 = 1.157e-5, m0 = 1.216e-3 / 2, k0 = 50;
-  return {b2 + 2 * m0 / k0, b2, k0};
-}
+inline constexpr VirginCurve kCotton{1.157e-5 + 1.216e-3 / 50, 1.157e-5, 50};
 
-template <class Real, int D>
-using Path = std::vector<Vec<Real, D>>;
+using Path = std::vector<Vec<double, 3>>;
 
 // Corners of a random walk: uniformly drawn turns within +-`amplitude` [1/m], of widely different sizes.
 inline std::vector<double> random_turns(int count, double amplitude, unsigned seed) {
@@ -28,10 +24,10 @@ inline std::vector<double> random_turns(int count, double amplitude, unsigned se
   return turns;
 }
 
-inline Path<double, 3> random_tensors(int count, double amplitude, unsigned seed) {
+inline Path random_tensors(int count, double amplitude, unsigned seed) {
   std::mt19937 generator(seed);
   std::uniform_real_distribution<double> uniform(-1, 1);
-  Path<double, 3> path;
+  Path path;
   for (int i = 0; i < count; ++i)
     path.push_back(amplitude * Vec<double, 3>(uniform(generator), uniform(generator), uniform(generator)));
   return path;

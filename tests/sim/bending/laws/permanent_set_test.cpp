@@ -86,7 +86,7 @@ TEST(PermanentSet, IsLargerInAFastFoldThanInASlowOne) {
   using Relaxed = Relaxing<SettingStops, kMaxBranches>;
   const auto folded = [](double seconds) {
     const Relaxed inner = Relaxed::make(SettingStops::make(kB2, {}, {}), {{1}, {5e-6}});
-    Driven<Setting<Relaxed>> cloth(Setting<Relaxed>::make(inner, kB2, {kYield, kHardening}));
+    Driven cloth(Setting<Relaxed>::make(inner, kB2, {kYield, kHardening}));
     cloth.law.law.dt = seconds / 100;
     for (int i = 1; i <= 100; ++i) cloth.moment(300.0 * i / 100);
     return Setting<Relaxed>::set_curvature(cloth.history)[0];

@@ -17,53 +17,48 @@ constexpr double kNone = std::numeric_limits<double>::infinity();
 constexpr double kPlasticRounding = 1e-14;  // of moments of about 1e-3 N
 
 TEST(Obrien, YieldsAtItsThresholdAndUnloadsElastically) {
-  const VirginCurve c = cotton_broad();
-  Driven<Obrien<double, 1>> cloth(Obrien<double, 1>::make(c, 40, kNone));
-  EXPECT_NEAR(cloth.moment(30), c.b2 * 30, kPlasticRounding);
-  EXPECT_NEAR(cloth.moment(100), c.b2 * 40, kPlasticRounding);  // K_p = 60
+  Driven cloth(Obrien<double, 1>::make(kCotton, 40, kNone));
+  EXPECT_NEAR(cloth.moment(30), kCotton.b2 * 30, kPlasticRounding);
+  EXPECT_NEAR(cloth.moment(100), kCotton.b2 * 40, kPlasticRounding);  // K_p = 60
   EXPECT_NEAR(cloth.moment(60), 0, kPlasticRounding);
-  EXPECT_NEAR(cloth.moment(-20), -c.b2 * 40, kPlasticRounding);  // K_p = 20
-  EXPECT_NEAR(cloth.dissipated, c.b2 * 40 * (60 + 40), kPlasticRounding);
+  EXPECT_NEAR(cloth.moment(-20), -kCotton.b2 * 40, kPlasticRounding);  // K_p = 20
+  EXPECT_NEAR(cloth.dissipated, kCotton.b2 * 40 * (60 + 40), kPlasticRounding);
 }
 
 TEST(Obrien, LoopAreaIsThatOfAnElasticPerfectlyPlasticPlate) {
-  const VirginCurve c = cotton_broad();
-  Driven<Obrien<double, 1>> cloth(Obrien<double, 1>::make(c, 40, kNone));
-  EXPECT_NEAR(cloth.cycle_loss(100), 4 * c.b2 * 40 * (100 - 40), 1e-12);
+  Driven cloth(Obrien<double, 1>::make(kCotton, 40, kNone));
+  EXPECT_NEAR(cloth.cycle_loss(100), 4 * kCotton.b2 * 40 * (100 - 40), 1e-12);
 }
 
 TEST(Obrien, IsElasticAgainWhereItsSetIsBounded) {
-  const VirginCurve c = cotton_broad();
-  Driven<Obrien<double, 1>> cloth(Obrien<double, 1>::make(c, 40, 25));
-  EXPECT_NEAR(cloth.moment(100), c.b2 * (100 - 25), kPlasticRounding);
-  EXPECT_NEAR(cloth.dissipated, c.b2 * 40 * 25, kPlasticRounding);
-  EXPECT_NEAR(cloth.moment(-100), -c.b2 * (100 - 25), kPlasticRounding);
-  EXPECT_NEAR(cloth.dissipated, c.b2 * 40 * (25 + 50), kPlasticRounding);
+  Driven cloth(Obrien<double, 1>::make(kCotton, 40, 25));
+  EXPECT_NEAR(cloth.moment(100), kCotton.b2 * (100 - 25), kPlasticRounding);
+  EXPECT_NEAR(cloth.dissipated, kCotton.b2 * 40 * 25, kPlasticRounding);
+  EXPECT_NEAR(cloth.moment(-100), -kCotton.b2 * (100 - 25), kPlasticRounding);
+  EXPECT_NEAR(cloth.dissipated, kCotton.b2 * 40 * (25 + 50), kPlasticRounding);
 }
 
 TEST(Narain, WeakensByOneOverOnePlusDamageAfterTheStepThatYields) {
-  const VirginCurve c = cotton_broad();
-  Driven<Narain<double, 1>> cloth(Narain<double, 1>::make(c, 40, kNone, 2));
-  EXPECT_NEAR(cloth.moment(100), c.b2 * 40, kPlasticRounding);
-  const double softened = c.b2 / (1 + 2 * (100. / 40 - 1));
+  Driven cloth(Narain<double, 1>::make(kCotton, 40, kNone, 2));
+  EXPECT_NEAR(cloth.moment(100), kCotton.b2 * 40, kPlasticRounding);
+  const double softened = kCotton.b2 / (1 + 2 * (100. / 40 - 1));
   EXPECT_NEAR(cloth.moment(90), softened * 30, kPlasticRounding);
   EXPECT_NEAR(cloth.moment(60), 0, kPlasticRounding);
-  EXPECT_NEAR(cloth.dissipated, c.b2 * 40 * 60 + (c.b2 - softened) * 40 * 40 / 2, kPlasticRounding);
+  EXPECT_NEAR(cloth.dissipated, kCotton.b2 * 40 * 60 + (kCotton.b2 - softened) * 40 * 40 / 2,
+              kPlasticRounding);
 }
 
 TEST(Narain, WithoutWeakeningIsObrien) {
-  const VirginCurve c = cotton_broad();
-  Driven<Narain<double, 3>> narain(Narain<double, 3>::make(c, 40, 30, 0));
-  Driven<Obrien<double, 3>> obrien(Obrien<double, 3>::make(c, 40, 30));
+  Driven narain(Narain<double, 3>::make(kCotton, 40, 30, 0));
+  Driven obrien(Obrien<double, 3>::make(kCotton, 40, 30));
   for (const auto& k : random_tensors(100, 100, 3))
     ASSERT_LE((narain.to(k).moment - obrien.to(k).moment).norm(), kPlasticRounding);
   EXPECT_NEAR(narain.dissipated, obrien.dissipated, 100 * kPlasticRounding);
 }
 
 TEST(Terzopoulos, CreepsDownToTheFrictionMomentExponentially) {
-  const VirginCurve c = cotton_broad();
-  auto law = Terzopoulos<double, 1>::make(c, 2.0);
-  const double start = c.b2 * 200, m0 = c.friction_moment();
+  auto law = Terzopoulos<double, 1>::make(kCotton, 2.0);
+  const double start = kCotton.b2 * 200, m0 = kCotton.friction_moment();
   for (int steps : {1, 7, 400}) {  // in any number of steps: the decay is exact
     law.dt = 3.0 / steps;
     Driven<Terzopoulos<double, 1>> cloth(law);
@@ -73,24 +68,23 @@ TEST(Terzopoulos, CreepsDownToTheFrictionMomentExponentially) {
   law.dt = 1e9;
   Driven<Terzopoulos<double, 1>> slow(law);
   EXPECT_NEAR(slow.moment(200), m0, kPlasticRounding);
-  EXPECT_NEAR(slow.law.residual(slow.history)[0], 200 - m0 / c.b2, 1e-10);
+  EXPECT_NEAR(slow.law.residual(slow.history)[0], 200 - m0 / kCotton.b2, 1e-10);
 }
 
 TEST(Kim, CreepsToItsThresholdAndSoftensByTheWayOfItsSet) {
-  const VirginCurve c = cotton_broad();
-  auto law = Kim<double, 1>::make(c, 40, kNone, 0.5, 2.0);
+  auto law = Kim<double, 1>::make(kCotton, 40, kNone, 0.5, 2.0);
   law.dt = 1;
   Driven<Kim<double, 1>> cloth(law);
   const double held = 200 * std::exp(-0.5);
-  EXPECT_NEAR(cloth.moment(200), c.b2 * held, kPlasticRounding);
-  const double softened = c.b2 / (1 + 0.5 * (200 - held) / 40);
+  EXPECT_NEAR(cloth.moment(200), kCotton.b2 * held, kPlasticRounding);
+  const double softened = kCotton.b2 / (1 + 0.5 * (200 - held) / 40);
   EXPECT_NEAR(cloth.moment(200), softened * held * std::exp(-0.5), kPlasticRounding);
   for (int i = 0; i < 60; ++i) cloth.moment(200);
   EXPECT_NEAR(cloth.law.residual(cloth.history)[0], 200 - 40, 1e-10);
 }
 
 TEST(Kim, StopsCreepingAtTheBoundOfItsSet) {
-  auto law = Kim<double, 1>::make(cotton_broad(), 40, 25, 1, 1);
+  auto law = Kim<double, 1>::make(kCotton, 40, 25, 1, 1);
   law.dt = 100;
   Driven<Kim<double, 1>> cloth(law);
   cloth.moment(200);
@@ -100,30 +94,29 @@ TEST(Kim, StopsCreepingAtTheBoundOfItsSet) {
 }
 
 TEST(GrinspunEdit, HasNoMomentWhereItWasEditedAndForgetsNothingElse) {
-  const VirginCurve c = cotton_broad();
-  const auto law = GrinspunEdit<double, 3>::make(c);
+  const auto law = GrinspunEdit<double, 3>::make(kCotton);
   const Vec<double, 3> bent(100, -20, 7);
   const auto edited = law.edited(bent, {});
   EXPECT_EQ(law.step(bent, edited).moment.norm(), 0);
-  EXPECT_NEAR((law.step(Vec<double, 3>::Zero(), edited).moment + c.b2 * bent).norm(), 0, kPlasticRounding);
+  EXPECT_NEAR((law.step(Vec<double, 3>::Zero(), edited).moment + kCotton.b2 * bent).norm(), 0,
+              kPlasticRounding);
 }
 
 TEST(Dahl, RelaxesExponentiallyToTheFrictionMoment) {
-  const VirginCurve c = cotton_broad();
-  const double m0 = c.friction_moment(), l = c.k0 / 2;
-  Driven<Dahl<double, 1>> cloth(Dahl<double, 1>::make(c));
+  const double m0 = kCotton.friction_moment(), l = kCotton.k0 / 2;
+  Driven cloth(Dahl<double, 1>::make(kCotton));
   const double f1 = m0 * (1 - std::exp(-60 / l));
-  EXPECT_NEAR(cloth.moment(60), c.b2 * 60 + f1, kPlasticRounding);
+  EXPECT_NEAR(cloth.moment(60), kCotton.b2 * 60 + f1, kPlasticRounding);
   const double f2 = -m0 + (f1 + m0) * std::exp(-100 / l);
-  EXPECT_NEAR(cloth.moment(-40), -c.b2 * 40 + f2, kPlasticRounding);
-  EXPECT_NEAR(cloth.last.stored, c.b2 * 40 * 40 / 2 + f2 * f2 / (2 * (c.b1 - c.b2)), kPlasticRounding);
+  EXPECT_NEAR(cloth.moment(-40), -kCotton.b2 * 40 + f2, kPlasticRounding);
+  EXPECT_NEAR(cloth.last.stored, kCotton.b2 * 40 * 40 / 2 + f2 * f2 / (2 * (kCotton.b1 - kCotton.b2)),
+              kPlasticRounding);
 }
 
 TEST(Dahl, AStepInOnePieceEqualsManySmallOnes) {
-  const VirginCurve c = cotton_broad();
-  Driven<Dahl<double, 1>> one(Dahl<double, 1>::make(c)), many(one.law);
+  Driven one(Dahl<double, 1>::make(kCotton)), many(one.law);
   double at = 0;
-  for (double k : random_turns(30, 2 * c.k0, 9)) {
+  for (double k : random_turns(30, 2 * kCotton.k0, 9)) {
     for (int i = 1; i <= 20; ++i) many.moment(at + (k - at) * i / 20);
     ASSERT_NEAR(one.moment(k), many.last.moment[0], 1e-13);
     at = k;
@@ -133,33 +126,30 @@ TEST(Dahl, AStepInOnePieceEqualsManySmallOnes) {
 
 // A settled cycle of +-A: F reaches +-F_A with F_A = M0 tanh(A/l), and loses 4 (M0 A - l F_A).
 TEST(Dahl, LoopAreaMatchesClosedForm) {
-  const VirginCurve c = cotton_broad();
-  const double m0 = c.friction_moment(), l = c.k0 / 2;
+  const double m0 = kCotton.friction_moment(), l = kCotton.k0 / 2;
   for (double amplitude : {10., 50., 200.}) {
-    Driven<Dahl<double, 1>> cloth(Dahl<double, 1>::make(c));
+    Driven cloth(Dahl<double, 1>::make(kCotton));
     const double settled = m0 * std::tanh(amplitude / l);
     EXPECT_NEAR(cloth.cycle_loss(amplitude, 200), 4 * (m0 * amplitude - l * settled), 1e-12);
-    EXPECT_NEAR(cloth.last.moment[0], -c.b2 * amplitude - settled, 1e-12);
+    EXPECT_NEAR(cloth.last.moment[0], -kCotton.b2 * amplitude - settled, 1e-12);
   }
 }
 
 TEST(Gong, HoldsTheFullFrictionMomentOnlyAfterALongHold) {
-  const VirginCurve c = cotton_broad();
-  auto law = Gong<double>::make(c, 1e6, 30);  // yields nowhere: friction alone
-  const double m0 = c.friction_moment();
+  auto law = Gong<double>::make(kCotton, 1e6, 30);  // yields nowhere: friction alone
+  const double m0 = kCotton.friction_moment();
   law.dt = 0;
-  EXPECT_NEAR((law.step(Vec<double, 1>(100.), {}).moment[0] - c.b2 * 100), m0 / 12, kPlasticRounding);
+  EXPECT_NEAR((law.step(Vec<double, 1>(100.), {}).moment[0] - kCotton.b2 * 100), m0 / 12, kPlasticRounding);
   law.dt = 1e9;
-  EXPECT_NEAR((law.step(Vec<double, 1>(100.), {}).moment[0] - c.b2 * 100), m0, kPlasticRounding);
+  EXPECT_NEAR((law.step(Vec<double, 1>(100.), {}).moment[0] - kCotton.b2 * 100), m0, kPlasticRounding);
 }
 
 // Below yield the anchor alone keeps a bend.  One that slipped through bending and was let go at once slips
 // back to g r_0/b2; after a hold friction holds the anchor where it is, and b2 K + g (K - anchor) = 0.
 TEST(Gong, AHoldStrengthensTheFrictionThatTheReleaseMeets) {
-  const VirginCurve c = cotton_broad();
-  const double g = c.b1 - c.b2, first = c.k0 / 2 / 12, bent = 40;
+  const double g = kCotton.b1 - kCotton.b2, first = kCotton.k0 / 2 / 12, bent = 40;
   const auto residual_after = [&](double held) {
-    Driven<Gong<double>> cloth(Gong<double>::make(c, c.k0, 30));
+    Driven cloth(Gong<double>::make(kCotton, kCotton.k0, 30));
     cloth.law.dt = 1e-3;
     for (int i = 1; i <= 400; ++i) cloth.moment(bent * i / 400);
     for (int i = 0; i < 10; ++i) {
@@ -170,28 +160,27 @@ TEST(Gong, AHoldStrengthensTheFrictionThatTheReleaseMeets) {
     return cloth.law.residual(cloth.history)[0];
   };
   constexpr double kOfTheClock = 0.02;  // thresholds grow by 0.03 % in a step of 1 ms
-  EXPECT_NEAR(residual_after(0), g * first / c.b2, kOfTheClock);  // 4.4/m
+  EXPECT_NEAR(residual_after(0), g * first / kCotton.b2, kOfTheClock);  // 4.4/m
   for (double held : {30., 600.})
-    EXPECT_NEAR(residual_after(held), g / (g + c.b2) * (bent - first), kOfTheClock) << held;  // 25.7/m
+    EXPECT_NEAR(residual_after(held), g / (g + kCotton.b2) * (bent - first), kOfTheClock) << held;  // 25.7/m
 }
 
 // ... and turning back leaves it as strong as it was, until the anchor slips.
 TEST(Gong, KeepsItsFrictionThroughAReversal) {
-  const VirginCurve c = cotton_broad();
-  auto law = Gong<double>::make(c, 1e6, 30);
+  auto law = Gong<double>::make(kCotton, 1e6, 30);
   law.dt = 1e9;
   Driven<Gong<double>> cloth(law);
   cloth.moment(1);  // stuck, for long
   cloth.law.dt = 0;
-  const double m0 = c.friction_moment();
+  const double m0 = kCotton.friction_moment();
   cloth.moment(20);  // 20 < r_inf = 25
-  EXPECT_NEAR(cloth.moment(-20) + c.b2 * 20, -(c.b1 - c.b2) * 20, kPlasticRounding);
-  EXPECT_NEAR(cloth.moment(-100) + c.b2 * 100, -m0, kPlasticRounding);
-  EXPECT_NEAR(cloth.moment(-101) + c.b2 * 101, -m0 / 12, kPlasticRounding) << "after it has slipped";
+  EXPECT_NEAR(cloth.moment(-20) + kCotton.b2 * 20, -(kCotton.b1 - kCotton.b2) * 20, kPlasticRounding);
+  EXPECT_NEAR(cloth.moment(-100) + kCotton.b2 * 100, -m0, kPlasticRounding);
+  EXPECT_NEAR(cloth.moment(-101) + kCotton.b2 * 101, -m0 / 12, kPlasticRounding) << "after it has slipped";
 }
 
 TEST(Gong, HardensIsotropicallyAtFirstContactWithFiveSixthsOfTheExcessKept) {
-  VirginCurve c = cotton_broad();
+  VirginCurve c = kCotton;
   c.b1 = c.b2;  // plasticity alone
   auto law = Gong<double>::make(c, 40, 30);
   Driven<Gong<double>> cloth(law);
@@ -202,7 +191,7 @@ TEST(Gong, HardensIsotropicallyAtFirstContactWithFiveSixthsOfTheExcessKept) {
 }
 
 TEST(Gong, SetsMoreTheLongerItIsHeld) {
-  VirginCurve c = cotton_broad();
+  VirginCurve c = kCotton;
   c.b1 = c.b2;  // plasticity alone
   double before = 0;
   for (double held : {0., 10., 100., 1000.}) {

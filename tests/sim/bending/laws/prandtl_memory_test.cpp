@@ -40,57 +40,53 @@ constexpr int kLongStack = 10000;
 constexpr double kDiscretisation = 40 / (4. * kLongStack * kLongStack);  // up to 20 branches on the stack
 
 TEST(PrandtlStack, EqualsTenThousandStopsOnRandomHistories) {
-  const VirginCurve c = cotton_broad();
-  const double m0 = c.friction_moment();
-  Driven<PrandtlStack<double, 64>> cloth(PrandtlStack<double, 64>::make(c));
-  ManyStops reference(c, kLongStack);
-  for (double k : random_turns(400, 2 * c.k0, 5)) {
+  const double m0 = kCotton.friction_moment();
+  Driven cloth(PrandtlStack<double, 64>::make(kCotton));
+  ManyStops reference(kCotton, kLongStack);
+  for (double k : random_turns(400, 2 * kCotton.k0, 5)) {
     const auto expected = reference.to(k);
     ASSERT_NEAR(cloth.moment(k), expected.moment, kDiscretisation * m0);
-    ASSERT_NEAR(cloth.last.stored, expected.stored, kDiscretisation * m0 * c.k0);
-    ASSERT_NEAR(cloth.last.dissipated, expected.dissipated, kDiscretisation * m0 * c.k0);
+    ASSERT_NEAR(cloth.last.stored, expected.stored, kDiscretisation * m0 * kCotton.k0);
+    ASSERT_NEAR(cloth.last.dissipated, expected.dissipated, kDiscretisation * m0 * kCotton.k0);
   }
   EXPECT_EQ(cloth.law.dropped_pairs(cloth.history), 0);
 }
 
 TEST(PrandtlStack, EqualsAThousandStopsOnAThousandRandomHistories) {
-  const VirginCurve c = cotton_broad();
   constexpr int kStops = 1000;
-  const double near = 40 / (4. * kStops * kStops) * c.friction_moment();  // as above
+  const double near = 40 / (4. * kStops * kStops) * kCotton.friction_moment();  // as above
   for (unsigned seed = 1; seed <= 1000; ++seed) {
-    Driven<PrandtlStack<double, 64>> cloth(PrandtlStack<double, 64>::make(c));
-    ManyStops reference(c, kStops);
-    for (double k : random_turns(40, 2 * c.k0, seed))
+    Driven cloth(PrandtlStack<double, 64>::make(kCotton));
+    ManyStops reference(kCotton, kStops);
+    for (double k : random_turns(40, 2 * kCotton.k0, seed))
       ASSERT_NEAR(cloth.moment(k), reference.to(k).moment, near);
   }
 }
 
 TEST(PrandtlStops, EqualsItsDefinitionOnRandomHistories) {
-  const VirginCurve c = cotton_broad();
   constexpr double kRounding = 1e-13;
-  Driven<PrandtlStops<double, 1, 16>> cloth(PrandtlStops<double, 1, 16>::make(c));
-  ManyStops reference(c, 16);
-  for (double k : random_turns(400, 2 * c.k0, 6)) {
+  Driven cloth(PrandtlStops<double, 1, 16>::make(kCotton));
+  ManyStops reference(kCotton, 16);
+  for (double k : random_turns(400, 2 * kCotton.k0, 6)) {
     const auto expected = reference.to(k);
-    ASSERT_NEAR(cloth.moment(k), expected.moment, kRounding * c.b1 * c.k0);
-    ASSERT_NEAR(cloth.last.stored, expected.stored, kRounding * c.b1 * c.k0 * c.k0);
-    ASSERT_NEAR(cloth.last.dissipated, expected.dissipated, kRounding * c.b1 * c.k0 * c.k0);
+    ASSERT_NEAR(cloth.moment(k), expected.moment, kRounding * kCotton.b1 * kCotton.k0);
+    ASSERT_NEAR(cloth.last.stored, expected.stored, kRounding * kCotton.b1 * kCotton.k0 * kCotton.k0);
+    ASSERT_NEAR(cloth.last.dissipated, expected.dissipated, kRounding * kCotton.b1 * kCotton.k0 * kCotton.k0);
   }
 }
 
 TEST(PrandtlStops, ComeWithinTwiceTheirVirginErrorPerBranchOfTenThousand) {
-  const VirginCurve c = cotton_broad();
-  Driven<PrandtlStops<double, 1, 8>> cloth(PrandtlStops<double, 1, 8>::make(c));
-  ManyStops reference(c, kLongStack);
+  Driven cloth(PrandtlStops<double, 1, 8>::make(kCotton));
+  ManyStops reference(kCotton, kLongStack);
   constexpr double kTurnsOfThisHistory = 5;
-  const double bound = 2 * kTurnsOfThisHistory * c.friction_moment() / (4 * 8 * 8);
+  const double bound = 2 * kTurnsOfThisHistory * kCotton.friction_moment() / (4 * 8 * 8);
   for (double k : {1.7, -0.4, 0.9, 0.1, 0.7, 1.9})
-    EXPECT_NEAR(cloth.moment(k * c.k0), reference.to(k * c.k0).moment, bound);
+    EXPECT_NEAR(cloth.moment(k * kCotton.k0), reference.to(k * kCotton.k0).moment, bound);
 }
 
 template <class Law>
 void expect_return_points(const Law& law, double tolerance) {
-  const double k0 = cotton_broad().k0;
+  const double k0 = kCotton.k0;
   Driven<Law> looped(law), direct(law);
   const double outer = looped.moment(1.5 * k0);
   looped.moment(-0.3 * k0);
@@ -103,50 +99,48 @@ void expect_return_points(const Law& law, double tolerance) {
 }
 
 TEST(Prandtl, RemembersItsReturnPoints) {
-  const VirginCurve c = cotton_broad();
   constexpr double kRounding = 1e-13;
-  expect_return_points(PrandtlStack<double, 8>::make(c), kRounding * c.b1 * c.k0);
-  expect_return_points(PrandtlStops<double, 1, 8>::make(c), kRounding * c.b1 * c.k0);
+  expect_return_points(PrandtlStack<double, 8>::make(kCotton), kRounding * kCotton.b1 * kCotton.k0);
+  expect_return_points(PrandtlStops<double, 1, 8>::make(kCotton), kRounding * kCotton.b1 * kCotton.k0);
 }
 
 TEST(Prandtl, PassingTheMirrorImageOfTheFirstReversalReturnsToTheVirginCurve) {
-  const VirginCurve c = cotton_broad();
-  Driven<PrandtlStack<double, 8>> bent(PrandtlStack<double, 8>::make(c)), fresh(bent.law);
-  bent.moment(0.5 * c.k0);
-  const double k = -0.7 * c.k0;
+  Driven bent(PrandtlStack<double, 8>::make(kCotton)), fresh(bent.law);
+  bent.moment(0.5 * kCotton.k0);
+  const double k = -0.7 * kCotton.k0;
   EXPECT_DOUBLE_EQ(bent.moment(k), fresh.moment(k));
   EXPECT_DOUBLE_EQ(bent.last.stored, fresh.last.stored);
 }
 
 TEST(Prandtl, AStepInOnePieceEqualsManySmallOnes) {
-  const VirginCurve c = cotton_broad();
   constexpr double kRounding = 1e-12;  // a thousand sums
-  Driven<PrandtlStack<double, 16>> coarse(PrandtlStack<double, 16>::make(c)), fine(coarse.law);
+  Driven coarse(PrandtlStack<double, 16>::make(kCotton)), fine(coarse.law);
   double at = 0;
-  for (double target : random_turns(50, 1.5 * c.k0, 8)) {
+  for (double target : random_turns(50, 1.5 * kCotton.k0, 8)) {
     coarse.moment(target);
     for (int i = 1; i <= 20; ++i) fine.moment(at + (target - at) * i / 20);
     at = target;
-    ASSERT_NEAR(coarse.last.moment[0], fine.last.moment[0], kRounding * c.b1 * c.k0);
-    ASSERT_NEAR(coarse.dissipated, fine.dissipated, kRounding * c.b1 * c.k0 * c.k0 * 50);
+    ASSERT_NEAR(coarse.last.moment[0], fine.last.moment[0], kRounding * kCotton.b1 * kCotton.k0);
+    ASSERT_NEAR(coarse.dissipated, fine.dissipated, kRounding * kCotton.b1 * kCotton.k0 * kCotton.k0 * 50);
   }
 }
 
 template <int Depth>
 void expect_no_jumps(unsigned seed) {
-  const VirginCurve c = cotton_broad();
-  Driven<PrandtlStack<double, Depth>> cloth(PrandtlStack<double, Depth>::make(c));
+  Driven cloth(PrandtlStack<double, Depth>::make(kCotton));
   constexpr double kRounding = 1e-12;
   double at = 0, moment = 0;
-  for (double target : random_turns(3000, 2 * c.k0, seed)) {
+  for (double target : random_turns(3000, 2 * kCotton.k0, seed)) {
     for (int i = 1; i <= 10; ++i) {
       const double increment = (target - at) / 10, k = i < 10 ? at + increment * i : target, before = moment;
       moment = cloth.moment(k);
       // Increasing, never steeper than b1: no jump, at any step size.
-      ASSERT_LE(std::abs(moment - before), c.b1 * std::abs(increment) + kRounding * c.friction_moment());
-      ASSERT_GE((moment - before) * increment,
-                (c.b2 * increment * increment) - kRounding * c.friction_moment() * std::abs(increment));
-      ASSERT_LE(std::abs(moment - c.b2 * k), c.friction_moment() * (1 + kRounding));
+      ASSERT_LE(std::abs(moment - before),
+                kCotton.b1 * std::abs(increment) + kRounding * kCotton.friction_moment());
+      ASSERT_GE(
+          (moment - before) * increment,
+          (kCotton.b2 * increment * increment) - kRounding * kCotton.friction_moment() * std::abs(increment));
+      ASSERT_LE(std::abs(moment - kCotton.b2 * k), kCotton.friction_moment() * (1 + kRounding));
     }
     at = target;
   }
@@ -160,8 +154,8 @@ TEST(PrandtlStack, BoundedStackNeverLetsTheMomentJump) {
 }
 
 TEST(PrandtlStack, CountsThePairsItDrops) {
-  const double k0 = cotton_broad().k0;
-  Driven<PrandtlStack<double, 4>> cloth(PrandtlStack<double, 4>::make(cotton_broad()));
+  const double k0 = kCotton.k0;
+  Driven cloth(PrandtlStack<double, 4>::make(kCotton));
   for (double k : {0.9, -0.8, 0.7, -0.6, 0.5}) cloth.moment(k * k0);
   EXPECT_EQ(cloth.law.dropped_pairs(cloth.history), 0);  // four turns fit
   cloth.moment(-0.4 * k0);
@@ -169,31 +163,30 @@ TEST(PrandtlStack, CountsThePairsItDrops) {
 }
 
 TEST(PrandtlStack, LoopAreaMatchesClosedForm) {
-  const VirginCurve c = cotton_broad();
-  const double m0 = c.friction_moment();
-  const auto law = PrandtlStack<double, 8>::make(c);
+  const double m0 = kCotton.friction_moment();
+  const auto law = PrandtlStack<double, 8>::make(kCotton);
   constexpr double kRounding = 1e-13;
   for (double a : {0.1, 0.5, 0.9, 1.0}) {
-    const double amplitude = a * c.k0, area = 4. / 3 * -c.c1() * amplitude * amplitude * amplitude;
-    EXPECT_NEAR(Driven(law).cycle_loss(amplitude), area, kRounding * m0 * c.k0);
+    const double amplitude = a * kCotton.k0,
+                 area = 4. / 3 * -kCotton.c1() * amplitude * amplitude * amplitude;
+    EXPECT_NEAR(Driven(law).cycle_loss(amplitude), area, kRounding * m0 * kCotton.k0);
   }
   for (double a : {1.0, 1.5, 4.0})
-    EXPECT_NEAR(Driven(law).cycle_loss(a * c.k0), 4 * m0 * (a * c.k0 - 2 * c.k0 / 3),
-                kRounding * m0 * c.k0 * a);
+    EXPECT_NEAR(Driven(law).cycle_loss(a * kCotton.k0), 4 * m0 * (a * kCotton.k0 - 2 * kCotton.k0 / 3),
+                kRounding * m0 * kCotton.k0 * a);
 }
 
 TEST(PrandtlStops, EachStopEnclosesFourLimitsTimesTheSlippedWay) {
-  const VirginCurve c = cotton_broad();
   constexpr int kStops = 8;
-  const double stiffness = (c.b1 - c.b2) / kStops, amplitude = 0.7 * c.k0;
+  const double stiffness = (kCotton.b1 - kCotton.b2) / kStops, amplitude = 0.7 * kCotton.k0;
   double area = 0;
   for (int j = 0; j < kStops; ++j) {
-    const double limit = stiffness * (j + 0.5) * c.k0 / kStops;
+    const double limit = stiffness * (j + 0.5) * kCotton.k0 / kStops;
     area += std::max(0.0, 4 * limit * (amplitude - limit / stiffness));
   }
   constexpr double kRounding = 1e-13;
-  const auto law = PrandtlStops<double, 1, kStops>::make(c);
-  EXPECT_NEAR(Driven(law).cycle_loss(amplitude), area, kRounding * c.friction_moment() * c.k0);
+  const auto law = PrandtlStops<double, 1, kStops>::make(kCotton);
+  EXPECT_NEAR(Driven(law).cycle_loss(amplitude), area, kRounding * kCotton.friction_moment() * kCotton.k0);
 }
 
 }  // namespace

@@ -19,10 +19,8 @@ Spectrum weft() { return {{5, 10, 55, 60, 200}, {4e-6, 9e-6, 1e-6, 2e-6, 1e-7}};
 using Strip = SpectrumStops<double, 1, 8>;
 using Sheet = SpectrumStops<double, 3, 8>;
 
-double virgin(double k) { return kSpectrumB2 * k + warp().friction_at(k); }
-
 TEST(Spectrum, BeginsWithTheSumOfItsStiffnessesAndEndsWithItsFrictionMoment) {
-  Driven<Strip> cloth(Strip::make(kSpectrumB2, warp(), {}));
+  Driven cloth(Strip::make(kSpectrumB2, warp(), {}));
   const double k = 2;  // below all thresholds
   EXPECT_NEAR(cloth.moment(k), (kSpectrumB2 + 9e-6 + 7e-6 + 3e-6 + 1e-6 + 4e-7) * k,
               kSpectrumRounding * kSpectrumB2 * k);
@@ -31,35 +29,9 @@ TEST(Spectrum, BeginsWithTheSumOfItsStiffnessesAndEndsWithItsFrictionMoment) {
   EXPECT_NEAR(cloth.law.utilisation(Vec<double, 1>(1000), cloth.history), 1, kSpectrumRounding);
 }
 
-// (Masing 1926): M = Mr + 2 f((K - Kr)/2), whatever the spectrum and the reversal.
-TEST(Spectrum, ReturnsOnItsVirginCurveDoubled) {
-  for (double turn : {7.0, 30.0, 80.0, 250.0, 900.0}) {
-    Driven<Strip> cloth(Strip::make(kSpectrumB2, warp(), {}));
-    EXPECT_NEAR(cloth.moment(turn), virgin(turn), kSpectrumRounding * virgin(turn));
-    for (int i = 1; i <= 40; ++i) {
-      const double k = turn - 2 * turn * i / 40;
-      EXPECT_NEAR(cloth.moment(k), virgin(turn) - 2 * virgin((turn - k) / 2),
-                  kSpectrumRounding * virgin(turn));
-    }
-  }
-}
-
-TEST(Spectrum, LosesTheAreaOfItsClosedFormInEachCycle) {
-  for (double amplitude : {8.0, 50.0, 250.0, 1000.0}) {
-    Driven<Strip> cloth(Strip::make(kSpectrumB2, warp(), {}));
-    double area = 0;
-    for (std::size_t j = 0; j < warp().size(); ++j) {
-      const double r = warp().thresholds[j];
-      if (r < amplitude) area += 4 * warp().stiffnesses[j] * r * (amplitude - r);
-    }
-    EXPECT_NEAR(cloth.cycle_loss(amplitude), area, kSpectrumRounding * area);
-    EXPECT_NEAR(warp().loop_area(amplitude), area, kSpectrumRounding * area);
-  }
-}
-
 TEST(Spectrum, HasTheWidthOfItsClosedFormAtEveryCurvature) {
   const double amplitude = 250;
-  Driven<Strip> down(Strip::make(kSpectrumB2, warp(), {}));
+  Driven down(Strip::make(kSpectrumB2, warp(), {}));
   for (double turn : {amplitude, -amplitude, amplitude}) down.moment(turn);
   Driven<Strip> up = down;
   up.moment(-amplitude);
@@ -71,18 +43,18 @@ TEST(Spectrum, HasTheWidthOfItsClosedFormAtEveryCurvature) {
 }
 
 TEST(Spectrum, OfEvenThresholdsIsTheDefaultLaw) {
-  const VirginCurve c = cotton_broad();
   Spectrum even;
   for (int j = 0; j < 8; ++j) {
-    even.thresholds.push_back((j + 0.5) * c.k0 / 8);
-    even.stiffnesses.push_back((c.b1 - c.b2) / 8);
+    even.thresholds.push_back((j + 0.5) * kCotton.k0 / 8);
+    even.stiffnesses.push_back((kCotton.b1 - kCotton.b2) / 8);
   }
-  Driven<PrandtlStops<double, 3, 8>> usual(PrandtlStops<double, 3, 8>::make(c));
-  Driven<Sheet> cloth(Sheet::make(c.b2, even, {}));
-  for (const auto& k : random_tensors(200, 2 * c.k0, 11)) {
+  Driven usual(PrandtlStops<double, 3, 8>::make(kCotton));
+  Driven cloth(Sheet::make(kCotton.b2, even, {}));
+  for (const auto& k : random_tensors(200, 2 * kCotton.k0, 11)) {
     usual.to(k), cloth.to(k);
-    ASSERT_LE((usual.last.moment - cloth.last.moment).norm(), kSpectrumRounding * c.b1 * c.k0);
-    ASSERT_NEAR(usual.last.dissipated, cloth.last.dissipated, kSpectrumRounding * c.b1 * c.k0 * c.k0);
+    ASSERT_LE((usual.last.moment - cloth.last.moment).norm(), kSpectrumRounding * kCotton.b1 * kCotton.k0);
+    ASSERT_NEAR(usual.last.dissipated, cloth.last.dissipated,
+                kSpectrumRounding * kCotton.b1 * kCotton.k0 * kCotton.k0);
   }
 }
 
@@ -91,7 +63,7 @@ TEST(TwoSpectra, FollowTheirOwnLoopsAlongWarpAndAlongWeft) {
   const Sheet law = Sheet::make(kSpectrumB2, warp(), weft());
   for (int axis : {0, 1}) {
     Driven<Sheet> sheet(law);
-    Driven<Strip> strip(Strip::make(kSpectrumB2, axis == 0 ? warp() : weft(), {}));
+    Driven strip(Strip::make(kSpectrumB2, axis == 0 ? warp() : weft(), {}));
     for (double k : random_turns(200, 400, 5)) {
       const Vec<double, 3> bend = k * Vec<double, 3>::Unit(axis);
       const double m = strip.moment(k);
@@ -104,7 +76,7 @@ TEST(TwoSpectra, FollowTheirOwnLoopsAlongWarpAndAlongWeft) {
 }
 
 TEST(TwoSpectra, ThatAreEqualAreOne) {
-  Driven<Sheet> two(Sheet::make(kSpectrumB2, warp(), warp())), one(Sheet::make(kSpectrumB2, warp(), {}));
+  Driven two(Sheet::make(kSpectrumB2, warp(), warp())), one(Sheet::make(kSpectrumB2, warp(), {}));
   for (const auto& k : random_tensors(300, 200, 6)) {
     two.to(k), one.to(k);
     ASSERT_LE((two.last.moment - one.last.moment).norm(), kSpectrumRounding * kSpectrumB2 * 200);
@@ -114,7 +86,7 @@ TEST(TwoSpectra, ThatAreEqualAreOne) {
 
 // A bend at 45 degrees slips at a moment between those of warp and weft.
 TEST(TwoSpectra, RubBetweenWarpAndWeftOnTheBias) {
-  Driven<Sheet> sheet(Sheet::make(kSpectrumB2, warp(), weft()));
+  Driven sheet(Sheet::make(kSpectrumB2, warp(), weft()));
   const Vec<double, 3> bias(0.5, 0.5, std::sqrt(0.5));
   const double friction =
       (sheet.to(Vec<double, 3>(5000 * bias)).moment - kSpectrumB2 * 5000 * bias).dot(bias);
@@ -136,18 +108,28 @@ Spectrum bias() {
   return mean;
 }
 
-struct Turned {
-  double direction[2];  // of a hinge (CurvatureOperator)
-  Spectrum own;
-  Strip law() const { return Directed<Strip>{Strip::make(kSpectrumB2, warp(), weft())}.of(direction, 0); }
-};
-const Turned kTurned[] = {{{1, 0}, warp()}, {{0, 1}, weft()}, {{0.25, 0.25}, bias()}};
+// Of a hinge in this direction (CurvatureOperator).
+Strip in_direction(const Spectrum& along_warp, const Spectrum& along_weft, double warp_part,
+                   double weft_part) {
+  const double direction[2] = {warp_part, weft_part};
+  return Directed<Strip>{Strip::make(kSpectrumB2, along_warp, along_weft)}.of(direction, 0);
+}
 
-TEST(TurnedSpectra, ReturnOnTheVirginCurveOfTheirDirectionDoubled) {
-  for (const Turned& of : kTurned) {
+struct Bend {
+  Strip law;
+  Spectrum own;  // that it must follow
+};
+const Bend kBends[] = {{Strip::make(kSpectrumB2, warp(), {}), warp()},
+                       {in_direction(warp(), weft(), 1, 0), warp()},
+                       {in_direction(warp(), weft(), 0, 1), weft()},
+                       {in_direction(warp(), weft(), 0.25, 0.25), bias()}};
+
+// (Masing 1926): M = Mr + 2 f((K - Kr)/2), whatever the spectrum and the reversal.
+TEST(Spectra, ReturnOnTheVirginCurveOfTheirDirectionDoubled) {
+  for (const Bend& of : kBends) {
     const auto own = [&](double k) { return kSpectrumB2 * k + of.own.friction_at(k); };
-    for (double turn : {7.0, 30.0, 250.0, 900.0}) {
-      Driven<Strip> cloth(of.law());
+    for (double turn : {7.0, 30.0, 80.0, 250.0, 900.0}) {
+      Driven<Strip> cloth(of.law);
       EXPECT_NEAR(cloth.moment(turn), own(turn), kSpectrumRounding * own(turn));
       for (int i = 1; i <= 40; ++i) {
         const double k = turn - 2 * turn * i / 40;
@@ -157,11 +139,16 @@ TEST(TurnedSpectra, ReturnOnTheVirginCurveOfTheirDirectionDoubled) {
   }
 }
 
-TEST(TurnedSpectra, LoseTheAreaOfTheClosedLoopOfTheirDirection) {
-  for (const Turned& of : kTurned)
+TEST(Spectra, LoseTheAreaOfTheClosedLoopOfTheirDirection) {
+  for (const Bend& of : kBends)
     for (double amplitude : {8.0, 50.0, 250.0, 1000.0}) {
-      Driven<Strip> cloth(of.law());
-      const double area = of.own.loop_area(amplitude);
+      Driven<Strip> cloth(of.law);
+      double area = 0;
+      for (std::size_t j = 0; j < of.own.size(); ++j) {
+        const double r = of.own.thresholds[j];
+        if (r < amplitude) area += 4 * of.own.stiffnesses[j] * r * (amplitude - r);
+      }
+      EXPECT_NEAR(of.own.loop_area(amplitude), area, kSpectrumRounding * area);
       EXPECT_NEAR(cloth.cycle_loss(amplitude), area, kSpectrumRounding * area);
       EXPECT_NEAR(cloth.law.utilisation(Vec<double, 1>(2000), cloth.history), 1, kSpectrumRounding);
     }
@@ -175,7 +162,7 @@ TEST(TurnedSpectra, BeginAndSlideAsTheTensorBentInTheirDirection) {
     const Vec<double, 3> u = Vec<double, 3>(c * c, 0.8 * s * s, 0.9 * std::sqrt(2.0) * c * s).normalized();
     const double direction[2] = {u[0] * u[0], u[1] * u[1]};
     Driven<Strip> strip(Directed<Strip>{Strip::make(0, warp(), weft())}.of(direction, 0));
-    Driven<Sheet> sheet(Sheet::make(0, warp(), weft()));
+    Driven sheet(Sheet::make(0, warp(), weft()));
     EXPECT_NEAR(strip.moment(kSmall), sheet.to(Vec<double, 3>(kSmall * u)).moment.dot(u),
                 kSpectrumRounding * warp().stiffness() * kSmall);
     EXPECT_NEAR(strip.moment(kFar), sheet.to(Vec<double, 3>(kFar * u)).moment.dot(u),
@@ -185,11 +172,10 @@ TEST(TurnedSpectra, BeginAndSlideAsTheTensorBentInTheirDirection) {
 
 // Behind the metric of the curvature these are the same spectrum, whatever the direction.
 TEST(TurnedSpectra, ThatAreEqualAreOne) {
-  const Strip one = Strip::make(kSpectrumB2, warp(), warp());
-  const double direction[2] = {0.3, 0.5};
-  Driven<Strip> turned(Directed<Strip>{one}.of(direction, 0)), plain(one);
+  Driven<Strip> between(in_direction(warp(), warp(), 0.3, 0.5)),
+      plain(Strip::make(kSpectrumB2, warp(), warp()));
   for (double k : random_turns(200, 400, 5))
-    ASSERT_NEAR(turned.moment(k), plain.moment(k), kSpectrumRounding * kSpectrumB2 * 400);
+    ASSERT_NEAR(between.moment(k), plain.moment(k), kSpectrumRounding * kSpectrumB2 * 400);
 }
 
 }  // namespace

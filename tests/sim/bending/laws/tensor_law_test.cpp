@@ -31,30 +31,28 @@ Eigen::Matrix3d turned(double angle) {
 template <class Law>
 void expect_isotropic(const Law& law) {
   constexpr double kRounding = 1e-13;
-  const VirginCurve c = cotton_broad();
   const Eigen::Matrix3d q = turned(0.37);
   ASSERT_LE((q.transpose() * q - Eigen::Matrix3d::Identity()).norm(), kRounding);
   Driven<Law> sheet(law), rotated(law);
-  for (const auto& s : random_tensors(100, 2 * c.k0, 62)) {
+  for (const auto& s : random_tensors(100, 2 * kCotton.k0, 62)) {
     const Vec<double, 3> m = sheet.to(s).moment;
-    ASSERT_LE((rotated.to(Vec<double, 3>(q * s)).moment - q * m).norm(), kRounding * c.b1 * c.k0);
-    ASSERT_NEAR(rotated.last.stored, sheet.last.stored, kRounding * c.b1 * c.k0 * c.k0);
+    ASSERT_LE((rotated.to(Vec<double, 3>(q * s)).moment - q * m).norm(), kRounding * kCotton.b1 * kCotton.k0);
+    ASSERT_NEAR(rotated.last.stored, sheet.last.stored, kRounding * kCotton.b1 * kCotton.k0 * kCotton.k0);
   }
 }
 
 TEST(TensorLaw, TurningTheClothTurnsTheMoment) {
-  expect_isotropic(Pabst<double, 3>::make(cotton_broad()));
-  expect_isotropic(PrandtlStops<double, 3, 8>::make(cotton_broad()));
+  expect_isotropic(Pabst<double, 3>::make(kCotton));
+  expect_isotropic(PrandtlStops<double, 3, 8>::make(kCotton));
 }
 
 TEST(FourDirections, OfALinearLawAreAnIsotropicPlate) {
-  const VirginCurve c = cotton_broad();
-  const auto law = FourDirections<Linear<double, 1>>::make(c);
+  const auto law = FourDirections<Linear<double, 1>>::make(kCotton);
   const Eigen::Matrix3d tangent = law.tangent(Vec<double, 3>::Zero(), {});
   constexpr double kRounding = 1e-14, kFrame = 1e-3;  // omega s^2 (1 - beta)^2/4 = 0.9995
   EXPECT_LE((tangent - tangent(0, 0) * Eigen::Matrix3d::Identity()).norm(), kRounding * tangent.norm());
-  EXPECT_NEAR(tangent(0, 0), c.b2, kFrame * c.b2);
-  EXPECT_NEAR(law.largest_stiffness(), tangent(0, 0), kRounding * c.b2);
+  EXPECT_NEAR(tangent(0, 0), kCotton.b2, kFrame * kCotton.b2);
+  EXPECT_NEAR(law.largest_stiffness(), tangent(0, 0), kRounding * kCotton.b2);
 }
 
 TEST(FourDirections, StandAtTwentyTwoAndAHalfDegreesWithTheirWeights) {
@@ -97,10 +95,10 @@ void expect_bends_within_claims(const Tensor& tensor, const Scalar& scalar, cons
 }
 
 TEST(FourDirections, FollowTheScalarLawWithinFourPermilleAlignedAndOverrateFrictionInBetween) {
-  const VirginCurve c = cotton_broad();
-  expect_bends_within_claims(FourDirections<Wong<double>>::make(c), Wong<double>::make(c), c);
-  expect_bends_within_claims(FourDirections<PrandtlStack<double, 8>>::make(c),
-                             PrandtlStack<double, 8>::make(c), c);
+  expect_bends_within_claims(FourDirections<Wong<double>>::make(kCotton), Wong<double>::make(kCotton),
+                             kCotton);
+  expect_bends_within_claims(FourDirections<PrandtlStack<double, 8>>::make(kCotton),
+                             PrandtlStack<double, 8>::make(kCotton), kCotton);
 }
 
 TEST(FourDirections, SaturateAtAFrictionThatDependsOnTheDirection) {

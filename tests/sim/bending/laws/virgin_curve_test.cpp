@@ -19,30 +19,28 @@ double virgin_moment(const VirginCurve& c, double k) {
 
 template <class Law>
 void expect_virgin_curve(const Law& law, double tolerance) {
-  const VirginCurve fabric = cotton_broad();
   Driven<Law> cloth(law), mirrored(law);
   for (int i = 1; i <= 60; ++i) {
-    const double k = fabric.k0 * i / 20;
-    EXPECT_NEAR(cloth.moment(k), virgin_moment(fabric, k), tolerance);
-    EXPECT_NEAR(mirrored.moment(-k), -virgin_moment(fabric, k), tolerance);
+    const double k = kCotton.k0 * i / 20;
+    EXPECT_NEAR(cloth.moment(k), virgin_moment(kCotton, k), tolerance);
+    EXPECT_NEAR(mirrored.moment(-k), -virgin_moment(kCotton, k), tolerance);
   }
 }
 
 TEST(VirginCurve, IsContinuousWithItsSlopeAtTheElasticLimit) {
-  const VirginCurve c = cotton_broad();
-  EXPECT_NEAR(c.b1 * c.k0 + c.c1() * c.k0 * c.k0, c.elastic_limit_moment(),
-              kCurveRounding * c.elastic_limit_moment());
-  EXPECT_NEAR(c.b1 + 2 * c.c1() * c.k0, c.b2, kCurveRounding * c.b1);
+  EXPECT_NEAR(kCotton.b1 * kCotton.k0 + kCotton.c1() * kCotton.k0 * kCotton.k0,
+              kCotton.elastic_limit_moment(), kCurveRounding * kCotton.elastic_limit_moment());
+  EXPECT_NEAR(kCotton.b1 + 2 * kCotton.c1() * kCotton.k0, kCotton.b2, kCurveRounding * kCotton.b1);
 }
 
 TEST(VirginCurve, FrictionMomentIsTheSizeOfTheQuadraticTermAtTheElasticLimit) {
-  const VirginCurve c = cotton_broad();
-  EXPECT_GT(c.b1, c.b2);  // the chapter prints b1 <= b2
-  EXPECT_LT(c.c1(), 0);
-  EXPECT_NEAR((c.b2 - c.b1) / (2 * c.c1()), c.k0, kCurveRounding * c.k0);
-  EXPECT_NEAR((c.b1 - c.b2) * c.k0 + c.c1() * c.k0 * c.k0, c.friction_moment(),
+  EXPECT_GT(kCotton.b1, kCotton.b2);  // the chapter prints b1 <= b2
+  EXPECT_LT(kCotton.c1(), 0);
+  EXPECT_NEAR((kCotton.b2 - kCotton.b1) / (2 * kCotton.c1()), kCotton.k0, kCurveRounding * kCotton.k0);
+  EXPECT_NEAR((kCotton.b1 - kCotton.b2) * kCotton.k0 + kCotton.c1() * kCotton.k0 * kCotton.k0,
+              kCotton.friction_moment(),
               kCurveRounding);  // Wong, under 4.2
-  EXPECT_NEAR(-c.c1() * c.k0 * c.k0, c.friction_moment(), kCurveRounding);
+  EXPECT_NEAR(-kCotton.c1() * kCotton.k0 * kCotton.k0, kCotton.friction_moment(), kCurveRounding);
 }
 
 TEST(VirginCurve, FollowsFromKesNumbers) {
@@ -55,27 +53,25 @@ TEST(VirginCurve, FollowsFromKesNumbers) {
 }
 
 TEST(VirginCurve, IsFollowedByPabstWongAndTheStack) {
-  const VirginCurve c = cotton_broad();
-  const double tolerance = kCurveRounding * c.elastic_limit_moment() * 3;
-  expect_virgin_curve(Pabst<double, 1>::make(c), tolerance);
-  expect_virgin_curve(Wong<double>::make(c), tolerance);
-  expect_virgin_curve(PrandtlStack<double, 8>::make(c), tolerance);
+  const double tolerance = kCurveRounding * kCotton.elastic_limit_moment() * 3;
+  expect_virgin_curve(Pabst<double, 1>::make(kCotton), tolerance);
+  expect_virgin_curve(Wong<double>::make(kCotton), tolerance);
+  expect_virgin_curve(PrandtlStack<double, 8>::make(kCotton), tolerance);
 }
 
 template <int N>
 double worst_virgin_error() {
-  const VirginCurve c = cotton_broad();
-  Driven<PrandtlStops<double, 1, N>> cloth(PrandtlStops<double, 1, N>::make(c));
+  Driven cloth(PrandtlStops<double, 1, N>::make(kCotton));
   double worst = 0;
   for (int i = 1; i <= 4 * N * 50; ++i) {
-    const double k = c.k0 * i / (2 * N * 50);  // the worst points, multiples of K0/N, are among them
-    worst = std::max(worst, std::abs(cloth.moment(k) - virgin_moment(c, k)));
+    const double k = kCotton.k0 * i / (2 * N * 50);  // the worst points, multiples of K0/N, are among them
+    worst = std::max(worst, std::abs(cloth.moment(k) - virgin_moment(kCotton, k)));
   }
   return worst;
 }
 
 TEST(VirginCurve, StopsMissItByTheFrictionMomentOverFourTimesTheirNumberSquared) {
-  const double m0 = cotton_broad().friction_moment();
+  const double m0 = kCotton.friction_moment();
   constexpr double kExact = 1e-10;  // the worst points are visited, only rounding is left
   EXPECT_NEAR(worst_virgin_error<4>() / m0, 1. / (4 * 4 * 4), kExact);
   EXPECT_NEAR(worst_virgin_error<8>() / m0, 1. / (4 * 8 * 8), kExact);
@@ -84,32 +80,30 @@ TEST(VirginCurve, StopsMissItByTheFrictionMomentOverFourTimesTheirNumberSquared)
 
 template <class Law>
 void expect_doubled_branch(const Law& law, double tolerance) {
-  const VirginCurve c = cotton_broad();
-  const double m0 = c.friction_moment(), kr = 4 * c.k0, beta1 = c.b2 + 2 * m0 / c.k0,
-               gamma1 = -m0 / (2 * c.k0 * c.k0);
+  const double m0 = kCotton.friction_moment(), kr = 4 * kCotton.k0, beta1 = kCotton.b2 + 2 * m0 / kCotton.k0,
+               gamma1 = -m0 / (2 * kCotton.k0 * kCotton.k0);
   Driven<Law> cloth(law);
   const double mr = cloth.moment(kr);
   for (int i = 1; i <= 20; ++i) {
-    const double x = 2 * c.k0 * i / 20;
+    const double x = 2 * kCotton.k0 * i / 20;
     EXPECT_NEAR(cloth.moment(kr - x), mr - (beta1 * x + gamma1 * x * x), tolerance);  // Wong, Eqs. 4.4, 4.5
   }
-  EXPECT_NEAR(cloth.moment(kr - 3 * c.k0), c.b2 * (kr - 3 * c.k0) - m0, tolerance);
-  EXPECT_NEAR(beta1, c.b1, kCurveRounding);
+  EXPECT_NEAR(cloth.moment(kr - 3 * kCotton.k0), kCotton.b2 * (kr - 3 * kCotton.k0) - m0, tolerance);
+  EXPECT_NEAR(beta1, kCotton.b1, kCurveRounding);
 }
 
 TEST(VirginCurve, IsDoubledAfterAReversalAsTheChapterPrints) {
-  const VirginCurve c = cotton_broad();
-  const double tolerance = kCurveRounding * c.b2 * 4 * c.k0;
-  expect_doubled_branch(Wong<double>::make(c), tolerance);
-  expect_doubled_branch(PrandtlStack<double, 8>::make(c), tolerance);
+  const double tolerance = kCurveRounding * kCotton.b2 * 4 * kCotton.k0;
+  expect_doubled_branch(Wong<double>::make(kCotton), tolerance);
+  expect_doubled_branch(PrandtlStack<double, 8>::make(kCotton), tolerance);
   // A branch over 2 K0 misses by twice the virgin error.
-  expect_doubled_branch(PrandtlStops<double, 1, 32>::make(c),
-                        1.0001 * 2 * c.friction_moment() / (4 * 32 * 32));
+  expect_doubled_branch(PrandtlStops<double, 1, 32>::make(kCotton),
+                        1.0001 * 2 * kCotton.friction_moment() / (4 * 32 * 32));
 }
 
 template <class Law>
 void expect_straight_line(const VirginCurve& c) {
-  Driven<Law> cloth(Law::make(c));
+  Driven cloth(Law::make(c));
   for (double k : {0.0, 10.0, -20.0, 5.0, 5.0, 0.0, -5.0}) {
     EXPECT_DOUBLE_EQ(cloth.moment(k), c.b2 * k);
     EXPECT_DOUBLE_EQ(cloth.law.tangent(Vec<double, 1>(k), cloth.history)(0, 0), c.b2);
@@ -128,35 +122,34 @@ TEST(VirginCurve, WithoutFrictionEveryLawIsTheStraightLine) {
 }
 
 TEST(VirginCurve, BeginsWithTheInitialRigidityAsTangent) {
-  const VirginCurve c = cotton_broad();
   const Vec<double, 1> rest(0.0);
-  EXPECT_DOUBLE_EQ((Pabst<double, 1>::make(c).tangent(rest, {})(0, 0)), c.b1);
-  EXPECT_DOUBLE_EQ((PrandtlStops<double, 1, 8>::make(c).tangent(rest, {})(0, 0)), c.b1);
-  EXPECT_DOUBLE_EQ((PrandtlStack<double, 8>::make(c).tangent(rest, {})(0, 0)), c.b1);
-  EXPECT_DOUBLE_EQ(Wong<double>::make(c).tangent(rest, {})(0, 0), c.b1);
+  EXPECT_DOUBLE_EQ((Pabst<double, 1>::make(kCotton).tangent(rest, {})(0, 0)), kCotton.b1);
+  EXPECT_DOUBLE_EQ((PrandtlStops<double, 1, 8>::make(kCotton).tangent(rest, {})(0, 0)), kCotton.b1);
+  EXPECT_DOUBLE_EQ((PrandtlStack<double, 8>::make(kCotton).tangent(rest, {})(0, 0)), kCotton.b1);
+  EXPECT_DOUBLE_EQ(Wong<double>::make(kCotton).tangent(rest, {})(0, 0), kCotton.b1);
 }
 
 // The quadratic branches run into the straight lines with the same moment and the same slope.
 template <class Law>
 void expect_smooth_joins(const Law& law) {
-  const VirginCurve c = cotton_broad();
-  constexpr double kStep = 1e-6;                            // of K0
-  const double bend = 4 * std::abs(c.c1()) * kStep * c.k0;  // change of slope over two steps
-  for (const double turn : {0.0, 1.0, 2.5, 7.0}) {          // in K0; 0: the virgin curve
+  constexpr double kStep = 1e-6;                                        // of K0
+  const double bend = 4 * std::abs(kCotton.c1()) * kStep * kCotton.k0;  // change of slope over two steps
+  for (const double turn : {0.0, 1.0, 2.5, 7.0}) {                      // in K0; 0: the virgin curve
     Driven<Law> cloth(law);
-    if (turn > 0) cloth.moment(turn * c.k0);
+    if (turn > 0) cloth.moment(turn * kCotton.k0);
     const double join = turn > 0 ? turn - 2 : 1, sense = turn > 0 ? -1 : 1;
-    const auto at = [&](double x) { return Vec<double, 1>((join + sense * x) * c.k0); };
+    const auto at = [&](double x) { return Vec<double, 1>((join + sense * x) * kCotton.k0); };
     const auto slope = [&](double x) { return law.tangent(at(x), cloth.history)(0, 0); };
     const auto moment = [&](double x) { return law.step(at(x), cloth.history).moment[0]; };
     EXPECT_NEAR(slope(-kStep), slope(kStep), bend) << "join at " << join << " K0";
-    EXPECT_NEAR(moment(kStep) - moment(-kStep), sense * c.b2 * 2 * kStep * c.k0, 2 * bend * kStep * c.k0);
+    EXPECT_NEAR(moment(kStep) - moment(-kStep), sense * kCotton.b2 * 2 * kStep * kCotton.k0,
+                2 * bend * kStep * kCotton.k0);
   }
 }
 
 TEST(VirginCurve, AndItsBranchesJoinTheStraightLinesWithoutAKink) {
-  expect_smooth_joins(PrandtlStack<double, 8>::make(cotton_broad()));
-  expect_smooth_joins(Wong<double>::make(cotton_broad()));
+  expect_smooth_joins(PrandtlStack<double, 8>::make(kCotton));
+  expect_smooth_joins(Wong<double>::make(kCotton));
 }
 
 }  // namespace

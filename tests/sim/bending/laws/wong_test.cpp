@@ -10,51 +10,49 @@ namespace hysteron::testing {
 namespace {
 
 TEST(Wong, EqualsPrandtlOnCyclesOfAmplitudeAboveTheElasticLimit) {
-  const VirginCurve c = cotton_broad();
   constexpr double kRounding = 1e-12;  // of the largest moment
   for (double amplitude : {1.0, 1.3, 2.0, 5.0}) {
-    Driven<Wong<double>> wong(Wong<double>::make(c));
-    Driven<PrandtlStack<double, 8>> prandtl(PrandtlStack<double, 8>::make(c));
+    Driven wong(Wong<double>::make(kCotton));
+    Driven prandtl(PrandtlStack<double, 8>::make(kCotton));
     for (int i = 0; i <= 400; ++i) {
       const int phase = i % 80;  // four corners per cycle of 80 steps, from rest
       const double wave = phase <= 20 ? phase / 20. : phase <= 60 ? 2 - phase / 20. : phase / 20. - 4;
-      const double k = amplitude * c.k0 * wave;
+      const double k = amplitude * kCotton.k0 * wave;
       ASSERT_NEAR(wong.moment(k), prandtl.moment(k),
-                  kRounding * (c.friction_moment() + c.b2 * amplitude * c.k0));
+                  kRounding * (kCotton.friction_moment() + kCotton.b2 * amplitude * kCotton.k0));
     }
   }
 }
 
 double settled_loop_area(double amplitude) {
   constexpr int kCyclesToSettle = 2000;
-  return Driven(Wong<double>::make(cotton_broad())).cycle_loss(amplitude, kCyclesToSettle);
+  return Driven(Wong<double>::make(kCotton)).cycle_loss(amplitude, kCyclesToSettle);
 }
 
 TEST(Wong, LoopAreaMatchesClosedFormBelowTheElasticLimit) {
-  const VirginCurve c = cotton_broad();
   constexpr double kSettled = 1e-12;
   for (double a : {0.1, 0.3, 0.6, 0.9}) {
-    const double amplitude = a * c.k0, x = (2 * a - 1 + std::sqrt(1 + 4 * a - 4 * a * a)) / 2;
-    const double area = 8. / 3 * -c.c1() * amplitude * amplitude * amplitude / (1 + x);
-    EXPECT_NEAR(settled_loop_area(amplitude), area, kSettled * c.friction_moment() * c.k0) << "a = " << a;
+    const double amplitude = a * kCotton.k0, x = (2 * a - 1 + std::sqrt(1 + 4 * a - 4 * a * a)) / 2;
+    const double area = 8. / 3 * -kCotton.c1() * amplitude * amplitude * amplitude / (1 + x);
+    EXPECT_NEAR(settled_loop_area(amplitude), area, kSettled * kCotton.friction_moment() * kCotton.k0)
+        << "a = " << a;
   }
 }
 
 TEST(Wong, LoopAreaMatchesClosedFormAboveTheElasticLimit) {
-  const VirginCurve c = cotton_broad();
   constexpr double kRounding = 1e-10;  // a difference of sums over 2000 cycles
   for (double a : {1.0, 1.5, 4.0})
-    EXPECT_NEAR(settled_loop_area(a * c.k0), 4 * c.friction_moment() * c.k0 * (a - 2. / 3),
-                kRounding * c.friction_moment() * c.k0);
+    EXPECT_NEAR(settled_loop_area(a * kCotton.k0), 4 * kCotton.friction_moment() * kCotton.k0 * (a - 2. / 3),
+                kRounding * kCotton.friction_moment() * kCotton.k0);
 }
 
 // Moves in `direction` until friction reaches `target` (in M0); bisection over the law itself.
 void move_until_friction(Driven<Wong<double>>& cloth, double& k, double direction, double target) {
-  const VirginCurve c = cotton_broad();
   const auto friction = [&](double at) {
-    return (cloth.law.step(Vec<double, 1>(at), cloth.history).moment[0] - c.b2 * at) / c.friction_moment();
+    return (cloth.law.step(Vec<double, 1>(at), cloth.history).moment[0] - kCotton.b2 * at) /
+           kCotton.friction_moment();
   };
-  double near = 0, far = 2 * c.k0;
+  double near = 0, far = 2 * kCotton.k0;
   for (int i = 0; i < 100; ++i) {
     const double middle = (near + far) / 2;
     (direction * (friction(k + direction * middle) - target) < 0 ? near : far) = middle;
@@ -67,8 +65,7 @@ TEST(Wong, ReturnsMoreThanWasSpentInTheRippleOfTwentyTwoReversals) {
   constexpr double kRipple[] = {-.3,    -.2875, -.3875, -.375, -.4625, -.45,  -.525,  -.5125,
                                 -.5875, -.575,  -.6375, -.625, -.6875, -.675, -.7375, -.725,
                                 -.775,  -.7625, -.8125, -.025, -.1875, -.175, -.3};  // F/M0 at the reversals
-  const VirginCurve c = cotton_broad();
-  Driven<Wong<double>> cloth(Wong<double>::make(c));
+  Driven cloth(Wong<double>::make(kCotton));
   double k = 0, direction = -1;
   move_until_friction(cloth, k, direction, kRipple[0]);
   const double before = cloth.dissipated;
@@ -78,44 +75,44 @@ TEST(Wong, ReturnsMoreThanWasSpentInTheRippleOfTwentyTwoReversals) {
   }
   // Friction is back at its value and ready to turn up again: the ripple can be repeated for ever.
   constexpr double kPublished = 0.0059, kItsRounding = 0.00005;
-  EXPECT_NEAR((before - cloth.dissipated) / (c.friction_moment() * c.k0), kPublished, kItsRounding);
+  EXPECT_NEAR((before - cloth.dissipated) / (kCotton.friction_moment() * kCotton.k0), kPublished,
+              kItsRounding);
 }
 
 TEST(Wong, ReversibleRecoveryComesBackToAVirginOrigin) {
-  const VirginCurve c = cotton_broad();
-  Driven<Wong<double>> cloth(Wong<double>::make(c, Recovery::kReversible)), fresh(cloth.law);
-  const double kr = 0.8 * c.k0, mr = cloth.moment(kr);
+  Driven cloth(Wong<double>::make(kCotton, Recovery::kReversible)), fresh(cloth.law);
+  const double kr = 0.8 * kCotton.k0, mr = cloth.moment(kr);
   constexpr double kRounding = 1e-14;
-  for (double k = 0.7 * c.k0; k > 0; k -= 0.1 * c.k0)
-    EXPECT_NEAR(cloth.moment(k), mr + c.b1 * (k - kr) - c.c1() * (k - kr) * (k - kr), kRounding);
+  for (double k = 0.7 * kCotton.k0; k > 0; k -= 0.1 * kCotton.k0)
+    EXPECT_NEAR(cloth.moment(k), mr + kCotton.b1 * (k - kr) - kCotton.c1() * (k - kr) * (k - kr), kRounding);
   EXPECT_NEAR(cloth.moment(0), 0, kRounding);
-  EXPECT_NEAR(cloth.dissipated, -c.c1() * kr * kr * kr / 3, kRounding);  // zero residual, not zero loss
-  for (double k : {-0.5, -2.0, 0.3}) EXPECT_NEAR(cloth.moment(k * c.k0), fresh.moment(k * c.k0), kRounding);
+  EXPECT_NEAR(cloth.dissipated, -kCotton.c1() * kr * kr * kr / 3, kRounding);  // zero residual, not zero loss
+  for (double k : {-0.5, -2.0, 0.3})
+    EXPECT_NEAR(cloth.moment(k * kCotton.k0), fresh.moment(k * kCotton.k0), kRounding);
 }
 
 TEST(Wong, ReversibleRecoveryGoesStraightThroughTheOrigin) {
-  const VirginCurve c = cotton_broad();
-  Driven<Wong<double>> cloth(Wong<double>::make(c, Recovery::kReversible)), fresh(cloth.law);
-  cloth.moment(0.6 * c.k0);
-  EXPECT_DOUBLE_EQ(cloth.moment(-0.4 * c.k0), fresh.moment(-0.4 * c.k0));
+  Driven cloth(Wong<double>::make(kCotton, Recovery::kReversible)), fresh(cloth.law);
+  cloth.moment(0.6 * kCotton.k0);
+  EXPECT_DOUBLE_EQ(cloth.moment(-0.4 * kCotton.k0), fresh.moment(-0.4 * kCotton.k0));
 }
 
 TEST(Wong, ReversibleRecoveryAppliesOnlyUpToTheElasticLimit) {
-  const VirginCurve c = cotton_broad();
-  Driven<Wong<double>> reversible(Wong<double>::make(c, Recovery::kReversible));
-  Driven<Wong<double>> masing(Wong<double>::make(c));
+  Driven reversible(Wong<double>::make(kCotton, Recovery::kReversible));
+  Driven masing(Wong<double>::make(kCotton));
   for (double k : {1.01, 0.4, 0.7, -0.2})
-    EXPECT_DOUBLE_EQ(reversible.moment(k * c.k0), masing.moment(k * c.k0));
+    EXPECT_DOUBLE_EQ(reversible.moment(k * kCotton.k0), masing.moment(k * kCotton.k0));
 }
 
 TEST(Wong, ReversalOnTheReversibleRecoveryStartsABranchWithTheInitialSlope) {
-  const VirginCurve c = cotton_broad();
-  Driven<Wong<double>> cloth(Wong<double>::make(c, Recovery::kReversible));
-  cloth.moment(0.8 * c.k0);
-  const double turn = 0.3 * c.k0, mr = cloth.moment(turn), fr = mr - c.b2 * turn, m0 = c.friction_moment();
-  const double span = 2 * (m0 - fr) / (c.b1 - c.b2), u = 0.2 * c.k0 / span;
+  Driven cloth(Wong<double>::make(kCotton, Recovery::kReversible));
+  cloth.moment(0.8 * kCotton.k0);
+  const double turn = 0.3 * kCotton.k0, mr = cloth.moment(turn), fr = mr - kCotton.b2 * turn,
+               m0 = kCotton.friction_moment();
+  const double span = 2 * (m0 - fr) / (kCotton.b1 - kCotton.b2), u = 0.2 * kCotton.k0 / span;
   constexpr double kRounding = 1e-15;
-  EXPECT_NEAR(cloth.moment(0.5 * c.k0), c.b2 * 0.5 * c.k0 + m0 - (m0 - fr) * (1 - u) * (1 - u), kRounding);
+  EXPECT_NEAR(cloth.moment(0.5 * kCotton.k0),
+              kCotton.b2 * 0.5 * kCotton.k0 + m0 - (m0 - fr) * (1 - u) * (1 - u), kRounding);
 }
 
 // F at each turn from F at the one before, written out once more from the header's formula.
@@ -136,14 +133,13 @@ std::vector<double> friction_at_turns(const VirginCurve& c, const std::vector<do
 }
 
 TEST(Wong, EqualsItsFormulaOnAThousandRandomHistories) {
-  const VirginCurve c = cotton_broad();
   constexpr double kRounding = 1e-15;  // of moments of about 1e-3 N, over 60 reversals
   for (unsigned seed = 1; seed <= 1000; ++seed) {
-    const std::vector<double> turns = random_turns(60, 2 * c.k0, seed);
-    const std::vector<double> friction = friction_at_turns(c, turns);
-    Driven<Wong<double>> cloth(Wong<double>::make(c));
+    const std::vector<double> turns = random_turns(60, 2 * kCotton.k0, seed);
+    const std::vector<double> friction = friction_at_turns(kCotton, turns);
+    Driven cloth(Wong<double>::make(kCotton));
     for (size_t i = 0; i < turns.size(); ++i)
-      ASSERT_NEAR(cloth.moment(turns[i]), c.b2 * turns[i] + friction[i], 60 * kRounding);
+      ASSERT_NEAR(cloth.moment(turns[i]), kCotton.b2 * turns[i] + friction[i], 60 * kRounding);
   }
 }
 
