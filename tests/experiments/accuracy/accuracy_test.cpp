@@ -1,11 +1,8 @@
 // Fronts and orders on made-up findings; the problems' own answers at small size.
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "experiments/accuracy/front.h"
-#include "experiments/workbench/app/experiment.h"
 #include "sim/base/error.h"
 #include "tests/experiments/folder.h"
 
@@ -106,8 +103,8 @@ TEST(AccuracyCommand, WritesTablesOrdersAndTheCheapest) {
   const std::string table = file_content(out / "table.csv");
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'),
             1 + static_cast<long>(bend_problem(kQuick).settings.size()));
-  EXPECT_NE(file_content(out / "cheapest.csv").find("bend,"), std::string::npos);
-  EXPECT_NE(file_content(out / "orders.csv").find("problem,in,group"), std::string::npos);
+  EXPECT_TRUE(has(file_content(out / "cheapest.csv"), "bend,"));
+  EXPECT_TRUE(has(file_content(out / "orders.csv"), "problem,in,group"));
 }
 
 }  // namespace

@@ -1,13 +1,10 @@
 // Free decay of a clamped strip: the energy balance against the closed laws, the cloth against the balance.
 #include "experiments/accuracy/free_decay.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 
 #include "experiments/accuracy/accuracy.h"
 #include "experiments/specimens/clamped_mesh.h"
-#include "experiments/workbench/app/experiment.h"
 #include "sim/base/csv.h"
 #include "sim/identification/decay_shape.h"
 #include "tests/experiments/folder.h"

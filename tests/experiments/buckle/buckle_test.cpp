@@ -1,9 +1,7 @@
 // Thresholds of strips that buckle under their own weight, against the theory of beams.
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "experiments/specimens/buckling.h"
-#include "experiments/workbench/app/experiment.h"
 #include "sim/base/error.h"
 #include "tests/experiments/folder.h"
 
@@ -79,7 +77,7 @@ TEST(BucklingReference, IsRefusedOnEdgeWhereBendingTwists) {
     FAIL() << "not refused";
   } catch (const Error& error) {
     EXPECT_EQ(error.exit_code(), 2);
-    EXPECT_NE(std::string(error.what()).find("cloth.warp-angle = 30"), std::string::npos) << error.what();
+    EXPECT_TRUE(has(error.what(), "cloth.warp-angle = 30"));
   }
 }
 
@@ -162,7 +160,7 @@ Json recorded_metrics(const std::vector<Flag>& flags) {
   for (const char* on : {"no-images", "quiet", "quick"}) line.flags.push_back({on, "true"});
   line.flags.push_back({"out", (folder.path() / "run").string()});
   EXPECT_EQ(experiment_named("buckle").run(line), 0);
-  EXPECT_TRUE(std::filesystem::exists(folder.path() / "run" / "southwell.csv"));
+  EXPECT_TRUE(fs::exists(folder.path() / "run" / "southwell.csv"));
   return metrics_of(folder.path() / "run");
 }
 

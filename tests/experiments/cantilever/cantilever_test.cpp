@@ -1,7 +1,4 @@
 // The sagging strip against the elastica.
-#include <nlohmann/json.hpp>
-
-#include "experiments/workbench/app/experiment.h"
 #include "experiments/workbench/session/recoveries.h"
 #include "tests/experiments/folder.h"
 

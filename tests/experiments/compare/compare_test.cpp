@@ -1,9 +1,6 @@
 // Methods side by side: what is made equal, what stands on the page, what is not run again.
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <fstream>
-#include <nlohmann/json.hpp>
 
 #include "experiments/workbench/compare/comparison.h"
 #include "experiments/workbench/compare/matching.h"
@@ -13,12 +10,10 @@
 #include "render/comparison_sheet.h"
 #include "sim/base/error.h"
 #include "sim/scene/assets.h"
-#include "tests/experiments/folder.h"
 #include "tests/experiments/program.h"
 
 namespace hysteron::experiments {
 namespace {
-namespace fs = std::filesystem;
 
 const VirginCurve kCurve{2e-5, 5e-6, 40};  // b1, b2 [N m], k0 [1/m]
 
@@ -64,7 +59,7 @@ const char* const kSmall =
 TEST(Compare, SetsLawsSideBySide) {
   const Folder folder;
   const std::string out = (folder.path() / "out").string();
-  ASSERT_EQ(program("compare swing --laws linear,prandtl --out " + out + kSmall).exit_code, 0);
+  finished("compare swing --laws linear,prandtl --out " + out + kSmall);
   for (const char* name :
        {"sheet.png", "table.csv", "plot_tip_height.png", "report.html", "linear/manifest.json",
         "prandtl/frames/0003.png", "prandtl/frames-silhouette/0003.png"})
@@ -78,11 +73,11 @@ TEST(Compare, KeepsWhatIsFinishedOfTheSameQuestion) {
   const Folder folder;
   const std::string out = (folder.path() / "out").string(),
                     line = "compare swing --laws linear,prandtl --no-images --out " + out + kSmall;
-  ASSERT_EQ(program(line).exit_code, 0);
+  finished(line);
   const auto first = fs::last_write_time(fs::path(out) / "linear/manifest.json");
-  ASSERT_EQ(program(line + " --resume").exit_code, 0);
+  finished(line + " --resume");
   EXPECT_EQ(fs::last_write_time(fs::path(out) / "linear/manifest.json"), first);
-  ASSERT_EQ(program(line + " --resume --fabric wool-tropical").exit_code, 0);
+  finished(line + " --resume --fabric wool-tropical");
   EXPECT_NE(fs::last_write_time(fs::path(out) / "linear/manifest.json"), first);
 }
 
@@ -169,9 +164,7 @@ TEST(ComparisonTable, HasAColumnForEveryMetricOfAnyRow) {
 TEST(Compare, PlotsItsColumnsWhichStandBesideIt) {
   const Folder folder;
   const std::string out = (folder.path() / "out").string();
-  ASSERT_EQ(
-      program("compare swing --laws linear,prandtl --out " + out + kSmall + " --seconds 1 --fps 5").exit_code,
-      0);
+  finished("compare swing --laws linear,prandtl --out " + out + kSmall + " --seconds 1 --fps 5");
   EXPECT_EQ(file_content(fs::path(out) / "table.csv").substr(0, 4), "law,");
   EXPECT_TRUE(fs::exists(fs::path(out) / "plot_decay.svg"));
   EXPECT_GT(file_content(fs::path(out) / "linear/turns.csv").size(), 40u);
@@ -180,8 +173,7 @@ TEST(Compare, PlotsItsColumnsWhichStandBesideIt) {
 std::string compare_refusal(const std::string& more) {
   const Folder folder;
   const fs::path out = folder.path() / "out";
-  const Outcome outcome =
-      program("compare swing --laws linear,prandtl --out " + out.string() + kSmall + more);
+  const Outcome outcome = program("compare swing --laws linear,prandtl" + out_flag(out) + kSmall + more);
   EXPECT_EQ(outcome.exit_code, 2);
   const std::string said = without_warnings(outcome.err);
   EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << outcome.err;
@@ -191,11 +183,10 @@ std::string compare_refusal(const std::string& more) {
 TEST(Compare, ShowsTheInstantsAndTheMetricsThatItIsAskedForInTheirOrder) {
   const Folder folder;
   const fs::path out = folder.path() / "out";
-  ASSERT_EQ(program("compare swing --laws linear,prandtl --compare.times 0.1,0.035 --compare.metrics "
-                    "max_stretch_percent,decay_shape,bending_friction_J --out " +
-                    out.string() + kSmall)
-                .exit_code,
-            0);
+  finished(
+      "compare swing --laws linear,prandtl --compare.times 0.1,0.035 --compare.metrics "
+      "max_stretch_percent,decay_shape,bending_friction_J" +
+      out_flag(out) + kSmall);
   const std::string table = file_content(out / "table.csv");
   EXPECT_EQ(table.substr(0, table.find('\n')),
             "law,max_stretch_percent,decay_shape,bending_friction_J,stopped");
@@ -216,13 +207,13 @@ TEST(Compare, RefusesInstantsAfterTheEndOfTheRunBeforeItBegins) {
   EXPECT_EQ(compare_refusal(" --compare.times 0.05,0.11"),
             "hysteron compare: compare.times = 0.11 s must be in [0, 0.1] s, the time of the run "
             "(--compare.times)\n");
-  EXPECT_NE(compare_refusal(" --compare.times=-0.1").find("must be >= 0"), std::string::npos);
+  EXPECT_TRUE(has(compare_refusal(" --compare.times=-0.1"), "must be >= 0"));
 }
 
 TEST(Compare, NamesTheColumnThatIsWrong) {
   const Folder folder;
-  const std::string out = " --out " + (folder.path() / "out").string() + kSmall;
-  EXPECT_NE(program("compare swing --laws linear,prandle" + out).err.find("prandle"), std::string::npos);
+  const std::string out = out_flag(folder.path() / "out") + kSmall;
+  EXPECT_TRUE(has(program("compare swing --laws linear,prandle" + out).err, "prandle"));
   EXPECT_EQ(program("compare swing --laws linear,prandle" + out).exit_code, 2);
   EXPECT_EQ(program("compare" + out).exit_code, 2);
   EXPECT_EQ(program("compare swing --laws linear --compare.to narain" + out).exit_code, 2);
@@ -238,10 +229,10 @@ radius = 0.02
 from = 0.04
 )";
   const Outcome outcome =
-      program("compare swing --scene " + scene.string() + " --laws linear --out " + out.string() + kSmall);
-  EXPECT_NE(file_content(out / "table.csv").find("an obstacle appears where the cloth is"), std::string::npos)
+      program("compare swing --scene " + scene.string() + " --laws linear" + out_flag(out) + kSmall);
+  EXPECT_TRUE(has(file_content(out / "table.csv"), "an obstacle appears where the cloth is"))
       << outcome.out << outcome.err << file_content(out / "table.csv");
-  EXPECT_NE(outcome.err.find("warning: linear: "), std::string::npos) << "though it is quiet";
+  EXPECT_TRUE(has(outcome.err, "warning: linear: ")) << "though it is quiet";
 }
 
 // Fabrics under the one law that the scene names, or the program's own.
@@ -252,11 +243,10 @@ TEST(Compare, SetsFabricsOfASceneSideBySide) {
     std::ofstream(scene) << law
                          << "triangles = 60\nstep = 0.01\nseconds = 0.05\n[cloth]\nlength = 0.2\n"
                             "[[pin]]\nlow = [-1, -1, -1]\nhigh = [0.01, 1, 1]\n";
-    const Outcome outcome = program("compare " + scene.string() +
-                                    " --fabrics cotton-broad,wool-tropical --no-images --device cpu --quiet "
-                                    "--out " +
-                                    out.string());
-    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    finished("compare " + scene.string() +
+             " --fabrics cotton-broad,wool-tropical --no-images --device cpu --quiet "
+             "--out " +
+             out.string());
     const auto column = manifest_in(out / "wool-tropical");
     EXPECT_EQ(column["law"], *law ? "dahl" : "prandtl");
     const auto page = manifest_in(out)["scene"]["columns"];
@@ -272,9 +262,9 @@ TEST(Compare, MatchesLawsByTheirWorkUnlessToldOtherwise) {
   const std::string out = (folder.path() / "out").string(),
                     line = "compare swing --laws linear,prandtl --no-images --out " + out + kSmall;
   const auto times = [&] { return manifest_in(out)["scene"]["columns"][0]["stiffness_times"].get<double>(); };
-  ASSERT_EQ(program(line).exit_code, 0);
+  finished(line);
   EXPECT_GT(times(), 1.2);
-  ASSERT_EQ(program(line + " --compare.match fabric").exit_code, 0);
+  finished(line + " --compare.match fabric");
   EXPECT_EQ(times(), 1);
 }
 

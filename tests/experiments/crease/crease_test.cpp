@@ -1,18 +1,14 @@
 // The crease recovery specimen, and what opens it.
 #include "experiments/crease/specimen.h"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "experiments/workbench/compare/variants.h"
 #include "sim/contact/compression.h"
 #include "sim/reference/kes.h"
 #include "sim/scene/fabric_reader.h"
-#include "tests/experiments/folder.h"
 #include "tests/experiments/program.h"
 
 namespace hysteron::experiments {
@@ -64,11 +60,10 @@ TEST(CreaseSpecimen, KnowsWhatTheLawAloneKeeps) {
 TEST(Crease, OpensWithoutAnIntersectionAndKeepsWhatTheLawKeeps) {
   const Folder folder;
   const auto out = folder.path() / "run";
-  const Outcome outcome = program(
+  finished(
       "crease --law linear,prandtl --triangles 200 --crease.hold 0.05 --crease.recovery 0.3 "
-      "--crease.force 5 --no-images --quiet --out " +
-      out.string());
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+      "--crease.force 5 --no-images --quiet" +
+      out_flag(out));
   const std::string table = file_content(out / "table.csv");
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 3);
   const auto elastic = metrics_of(out / "linear"), hysteretic = metrics_of(out / "prandtl");
@@ -87,17 +82,16 @@ TEST(Crease, OpensWithoutAnIntersectionAndKeepsWhatTheLawKeeps) {
 TEST(Crease, FindsTheEquilibriumOfAFoldThatIsPressedEdgeAlongEdge) {
   const Folder folder;
   const auto out = folder.path() / "run";
-  const Outcome outcome = program(
+  finished(
       "crease --law prandtl --triangles 200 --crease.hold 0.05 --crease.recovery 0.3 --crease.force 4.98 "
-      "--no-images --quiet --out " +
-      out.string());
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+      "--no-images --quiet" +
+      out_flag(out));
   const auto metrics = metrics_of(out);
   EXPECT_EQ(metrics["intersections"], 0);
   EXPECT_LT(metrics["energy_remainder_relative"], 1e-4);
 }
 
-CommandLine soft_fold(const char* fold, const std::filesystem::path& out) {
+CommandLine soft_fold(const char* fold, const fs::path& out) {
   CommandLine line{"crease",
                    "hysteron crease",
                    {{"crease.fold", fold},
@@ -218,7 +212,7 @@ TEST(CreaseInTime, OfCottonBroadHasItsPublishedPair) {
   }
 }
 
-CommandLine pressed_by_standard(const std::filesystem::path& out, std::vector<Flag> further) {
+CommandLine pressed_by_standard(const fs::path& out, std::vector<Flag> further) {
   CommandLine line{
       "crease",
       "hysteron crease",

@@ -1,8 +1,4 @@
 // Crumpling by its own command: what stays under a law with hysteresis and does not under an elastic one.
-#include <gtest/gtest.h>
-
-#include <nlohmann/json.hpp>
-
 #include <fstream>
 
 #include "render/image.h"
@@ -13,17 +9,15 @@ namespace {
 
 // Of a scene beside this file, or of a shipped one.
 std::string scene_named(const std::string& name) {
-  const auto file = std::filesystem::path(__FILE__).parent_path() / "scenes" / (name + ".toml");
-  return std::filesystem::exists(file) ? file.string() : "crumple-" + name;
+  const auto file = fs::path(__FILE__).parent_path() / "scenes" / (name + ".toml");
+  return fs::exists(file) ? file.string() : "crumple-" + name;
 }
 
 TEST(Crumple, LeavesWrinklesInClothThatRubsAndNoneInElasticCloth) {
   const Folder folder;
   const auto out = folder.path() / "run";
-  const Outcome outcome =
-      program("crumple --scene " + scene_named("tube") +
-              " --law linear,prandtl --triangles 300 --no-images --quiet --out " + out.string());
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  finished("crumple --scene " + scene_named("tube") +
+           " --law linear,prandtl --triangles 300 --no-images --quiet" + out_flag(out));
   const auto law_manifest = [&](const char* law) { return manifest_in(out / law); };
   const auto elastic = law_manifest("linear"), hysteretic = law_manifest("prandtl");
   for (const auto& manifest : {elastic, hysteretic}) {
@@ -35,7 +29,7 @@ TEST(Crumple, LeavesWrinklesInClothThatRubsAndNoneInElasticCloth) {
   EXPECT_LT(elastic["metrics"]["residual_curvature_rms_per_m"], 1e-9);
   EXPECT_GT(hysteretic["metrics"]["residual_curvature_rms_per_m"], 5);
   EXPECT_GT(hysteretic["metrics"]["ridge_length_m"], 0.05);
-  EXPECT_NE(file_content(out / "table.csv").find("prandtl,"), std::string::npos);
+  EXPECT_TRUE(has(file_content(out / "table.csv"), "prandtl,"));
 }
 
 // The right end of a strip is led over the left one, which is held, and 2 cm beyond it.
@@ -65,15 +59,14 @@ TEST(Crumple, ComesToItsEndWhereRigidPinsPullClothThroughClothAndTellsHowFarThey
   const Folder folder;
   std::ofstream(folder.path() / "led.toml") << kLedThroughItself;
   const auto out = folder.path() / "run";
-  const Outcome outcome = program("crumple --scene " + (folder.path() / "led.toml").string() +
-                                  " --threads 1 --no-images --out " + out.string());
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const Outcome outcome = finished("crumple --scene " + (folder.path() / "led.toml").string() +
+                                   " --threads 1 --no-images" + out_flag(out));
   const auto metrics = metrics_of(out);
   EXPECT_GT(metrics["barred_hand_steps_count"], 0);
   EXPECT_NEAR(metrics["hand_lag_m"].get<double>(), 0.02, 3 * Fabric{}.thickness);
   EXPECT_EQ(metrics["intersections"], 0);
   EXPECT_EQ(metrics.value("unbalanced_steps_count", 0), 0);
-  EXPECT_NE(outcome.err.find("cloth barred the way of rigid pins"), std::string::npos) << outcome.err;
+  EXPECT_TRUE(has(outcome.err, "cloth barred the way of rigid pins"));
 }
 
 // Nothing holds this square, which falls by 1/2 g t^2 = 0.8 m.
@@ -89,7 +82,7 @@ length = 0.1
 rotation = [90, 0, 0]
 )";
 
-std::size_t dark_pixels(const std::filesystem::path& silhouette) {
+std::size_t dark_pixels(const fs::path& silhouette) {
   const render::Image image = render::read_png(silhouette);
   std::size_t count = 0;
   for (int y = 0; y < image.height(); ++y)
@@ -102,12 +95,11 @@ TEST(Crumple, PicturesClothThatFallsToTheEnd) {
   std::ofstream(folder.path() / "falling.toml") << kFalling;
   const auto out = folder.path() / "run";
   const Outcome outcome =
-      program("crumple --scene " + (folder.path() / "falling.toml").string() +
-              " --size 160x120 --fps 5 --look silhouette --plain --threads 1 --quiet --out " + out.string());
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+      finished("crumple --scene " + (folder.path() / "falling.toml").string() +
+               " --size 160x120 --fps 5 --look silhouette --plain --threads 1 --quiet" + out_flag(out));
   for (const char* frame : {"0000.png", "0001.png", "0002.png"})
     EXPECT_GT(dark_pixels(out / "frames" / frame), 20u) << frame;
-  EXPECT_EQ(outcome.err.find("cut off"), std::string::npos) << outcome.err;
+  EXPECT_FALSE(has(outcome.err, "cut off"));
 }
 
 // The camera of one law looks elsewhere; of what its run says the error counts, not the warning before it.
@@ -118,11 +110,11 @@ TEST(Crumple, WarnsOfALawThatIsMissingOnItsSheet) {
   const Outcome outcome =
       program("crumple --scene " + (folder.path() / "falling.toml").string() +
               " --law 'linear,prandtl+camera.target=9 9 9+camera.distance=1' --size 160x120 --fps 5 "
-              "--threads 1 --quiet --out " +
-              out.string());
-  EXPECT_NE(outcome.err.find("is missing on the page's sheet and plots: "), std::string::npos) << outcome.err;
-  EXPECT_NE(outcome.err.find("shows no cloth at t = 0.000 s"), std::string::npos) << outcome.err;
-  EXPECT_TRUE(std::filesystem::exists(out / "sheet.png"));
+              "--threads 1 --quiet" +
+              out_flag(out));
+  EXPECT_TRUE(has(outcome.err, "is missing on the page's sheet and plots: "));
+  EXPECT_TRUE(has(outcome.err, "shows no cloth at t = 0.000 s"));
+  EXPECT_TRUE(fs::exists(out / "sheet.png"));
 }
 
 // The beginning of each shipped scene and of those beside this file, on a small mesh.
@@ -131,10 +123,8 @@ class CrumpledScene : public testing::TestWithParam<const char*> {};
 TEST_P(CrumpledScene, BeginsInBalanceAndFreeOfCrossingsUnderLawsWithAndWithoutMemory) {
   const Folder folder;
   const auto out = folder.path() / "run";
-  const Outcome outcome = program(
-      "crumple --scene " + scene_named(GetParam()) +
-      " --law linear,prandtl --triangles 300 --seconds 0.06 --no-images --quiet --out " + out.string());
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  finished("crumple --scene " + scene_named(GetParam()) +
+           " --law linear,prandtl --triangles 300 --seconds 0.06 --no-images --quiet" + out_flag(out));
   for (const char* law : {"linear", "prandtl"}) {
     const auto metrics = metrics_of(out / law);
     EXPECT_EQ(metrics["intersections"], 0) << law;

@@ -1,8 +1,6 @@
 // The apparatus of drape tests: sizes of the standards, and how pedestal, disc and plate move.
 #include "experiments/drape/apparatus.h"
 
-#include <gtest/gtest.h>
-
 #include "experiments/workbench/app/manifest_file.h"
 #include "sim/base/csv.h"
 #include "sim/scene/motion.h"

@@ -1,6 +1,4 @@
 // `hysteron kes --test shear|tension`: the law and a specimen of cloth.
-#include <nlohmann/json.hpp>
-
 #include "sim/base/csv.h"
 #include "sim/base/error.h"
 #include "tests/experiments/folder.h"
@@ -36,7 +34,7 @@ TEST_F(KesInPlane, ReturnsWhatWasPublishedOfADenim) {
         << key;
   EXPECT_TRUE(tension["LT"].is_number());
   for (const char* file : {"table.csv", "loops.csv", "report.html"})
-    EXPECT_TRUE(std::filesystem::exists(folder_.path() / file)) << file;
+    EXPECT_TRUE(fs::exists(folder_.path() / file)) << file;
 }
 
 // Free edges bear no shear, and a coarse mesh is stiff: both within what is asked.

@@ -1,9 +1,6 @@
 #include "experiments/kes/strip.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "experiments/kes/strip_output.h"
 #include "experiments/workbench/pages/closing_summary.h"
@@ -190,7 +187,7 @@ TEST(KesStrip, ThatCannotBeTestedIsRefusedInASentence) {
     FAIL() << "accepted";
   } catch (const Error& error) {
     EXPECT_EQ(error.exit_code(), 2);
-    EXPECT_NE(std::string(error.what()).find("--on law"), std::string::npos) << error.what();
+    EXPECT_TRUE(has(error.what(), "--on law"));
   }
 }
 
@@ -211,8 +208,8 @@ TEST_F(KesStripCommand, PutsTheStripBesideTheLaw) {
        {"B_N_m", "strip_B_N_m", "strip_2HB_N", "strip_solve_s", "strip_loop_area_difference_percent"})
     EXPECT_TRUE(metrics[key].is_number()) << key;
   const std::string summary = closing_summary(folder_.path());
-  EXPECT_NE(summary.find("strip's B over the law's"), std::string::npos) << summary;
-  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "strip.csv"));
+  EXPECT_TRUE(has(summary, "strip's B over the law's"));
+  EXPECT_TRUE(fs::exists(folder_.path() / "strip.csv"));
 }
 
 }  // namespace

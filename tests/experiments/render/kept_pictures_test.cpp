@@ -1,13 +1,10 @@
 // A run's folder drawn again without simulating.
-#include <nlohmann/json.hpp>
-
 #include "render/compare.h"
 #include "render/image.h"
 #include "tests/experiments/program.h"
 
 namespace hysteron::experiments {
 namespace {
-namespace fs = std::filesystem;
 
 const std::string kSmall = " --quick --fps 10 --seconds 0.3 --size 240x180 --device cpu --quiet";
 
@@ -17,13 +14,12 @@ struct Recorded {
   fs::path run = folder.path() / "run", kept = folder.path() / "kept", again = folder.path() / "again";
 
   explicit Recorded(const std::string& command) {
-    const Outcome outcome = program(command + kSmall + " --out " + run.string());
-    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    finished(command + kSmall + out_flag(run));
     fs::create_directories(kept);
     for (const char* name : {"manifest.json", "sheet.hyg"}) fs::copy_file(run / name, kept / name);
   }
   Outcome drawn(const fs::path& from, const std::string& flags = "") const {
-    return program("render " + from.string() + " --quiet --out " + again.string() + flags);
+    return program("render " + from.string() + " --quiet" + out_flag(again) + flags);
   }
 };
 
@@ -49,8 +45,7 @@ TEST(KeptPictures, ARecordedFolderGivesItsSheetOrWhatFlagsAskFor) {
 
   const Outcome outcome = swing.drawn(swing.kept, " --look friction");
   EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_NE(outcome.err.find("look = friction needs values that were not kept"), std::string::npos)
-      << outcome.err;
+  EXPECT_TRUE(has(outcome.err, "look = friction needs values that were not kept"));
   EXPECT_EQ(swing.drawn(swing.kept, " --render.ground 0").exit_code, 2);
 }
 

@@ -1,10 +1,7 @@
 // Meshes from files in the look of a run.
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "render/compare.h"
@@ -12,11 +9,9 @@
 #include "sim/base/error.h"
 #include "sim/mesh/cloth_mesh.h"
 #include "tests/experiments/folder.h"
-#include "tests/sim/base/refusal.h"
 
 namespace hysteron::experiments {
 namespace {
-namespace fs = std::filesystem;
 
 using FlagList = std::vector<Flag>;
 

@@ -1,6 +1,5 @@
 // Studies as a script meets them, of runs that take a fiftieth of a second.
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "sim/base/atomic_file.h"
 #include "sim/base/csv.h"
@@ -8,7 +7,6 @@
 
 namespace hysteron::experiments {
 namespace {
-namespace fs = std::filesystem;
 
 constexpr const char* kStudy =
     "experiment = \"kes\"\n[scene]\nno-images = true\nlaw = \"bilinear\"\n"
@@ -20,8 +18,8 @@ class Sweep : public testing::Test {
   Sweep() { write(kStudy); }
   void write(const std::string& text) { write_text(study_, text); }
   Outcome run(const std::string& options, const std::string& out = "out") const {
-    return program("sweep " + study_.string() + " --no-images --jobs 2 --out " +
-                   (folder_.path() / out).string() + " " + options);
+    return program("sweep " + study_.string() + " --no-images --jobs 2" + out_flag(folder_.path() / out) +
+                   " " + options);
   }
   Table table(const std::string& out = "out") const { return read_table(folder_.path() / out / "table.csv"); }
   Json manifest(const fs::path& in) const { return manifest_in(folder_.path() / in); }
@@ -81,8 +79,8 @@ TEST_F(Sweep, WarnsOfWhatItsRunsWarnOf) {
     ASSERT_FALSE(warnings.empty());
     const std::string names = warnings[0].get<std::string>();
     for (const char* part : {"linear", "dahl", ": cloth.copies = 2 ("})
-      EXPECT_NE(names.find(part), std::string::npos) << warnings;
-    EXPECT_NE(outcome.err.find("warning: "), std::string::npos) << outcome.err;
+      EXPECT_TRUE(has(names, part)) << warnings;
+    EXPECT_TRUE(has(outcome.err, "warning: "));
   }
 }
 
@@ -92,14 +90,14 @@ TEST_F(Sweep, ListsRunsThatFailGoesOnAndExitsWithThree) {
   write(text);
   const Outcome outcome = run("");
   EXPECT_EQ(outcome.exit_code, 3);
-  EXPECT_NE(outcome.err.find("2 of 4 runs are not complete"), std::string::npos) << outcome.err;
+  EXPECT_TRUE(has(outcome.err, "2 of 4 runs are not complete"));
   const Table found = table();
   for (std::size_t r = 0; r < 4; ++r) {
     const bool fails = r % 2 == 1;
     EXPECT_EQ(found.rows[r].back().empty(), !fails);
     EXPECT_EQ(found.rows[r][found.rows[r].size() - 2], fails ? "2" : "0");
   }
-  EXPECT_NE(file_content(folder_.path() / "out/report.html").find("Not complete"), std::string::npos);
+  EXPECT_TRUE(has(file_content(folder_.path() / "out/report.html"), "Not complete"));
 }
 
 // Which metrics there are is known once a run has ended.
@@ -110,9 +108,7 @@ TEST_F(Sweep, RefusesMetricsThatNoRunHasFoundAndNamesTheNearest) {
   const std::string unknown = "found no 2HB_M (did you mean 2HB_N?)",
                     place = " (" + study_.string() + ":1)\n";
   EXPECT_EQ(outcome.err.find("warning: metrics: the first run has " + unknown + place), 0u) << outcome.err;
-  EXPECT_NE(outcome.err.find("metrics: no run has found 2HB_M (did you mean 2HB_N?); the runs are kept"),
-            std::string::npos)
-      << outcome.err;
+  EXPECT_TRUE(has(outcome.err, "metrics: no run has found 2HB_M (did you mean 2HB_N?); the runs are kept"));
   EXPECT_EQ(table().rows.size(), 4u);
   write(std::string("metrics = [\"B_N_m\", \"2HB_N\"]\n") + kStudy);
   EXPECT_EQ(run("--collect").exit_code, 0);
@@ -182,8 +178,7 @@ n = 3
   ASSERT_EQ(run("").exit_code, 0);
   ASSERT_TRUE(fs::remove(study_));
   const std::string folder = (folder_.path() / "out").string(), again = (folder_.path() / "again").string();
-  const Outcome outcome = program("rerun " + folder + " --no-images --out " + again);
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  finished("rerun " + folder + " --no-images --out " + again);
   ASSERT_EQ(table().rows.size(), 6u);
   expect_same(without_time(table("again")), without_time(table()));
   EXPECT_EQ(manifest("again")["scene"], manifest("out")["scene"]);
@@ -198,7 +193,7 @@ TEST_F(Sweep, IsNotReadFromTheManifestOfAnotherRun) {
     write(other.dump());
     const Outcome outcome = run("", "again");
     EXPECT_EQ(outcome.exit_code, 2) << outcome.err;
-    EXPECT_NE(outcome.err.find("is not the manifest of a sweep"), std::string::npos) << outcome.err;
+    EXPECT_TRUE(has(outcome.err, "is not the manifest of a sweep"));
   }
 }
 

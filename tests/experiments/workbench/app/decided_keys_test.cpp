@@ -3,17 +3,13 @@
 
 #include <algorithm>
 #include <fstream>
-#include <nlohmann/json.hpp>
 
 #include "experiments/workbench/app/command_line.h"
 #include "experiments/workbench/app/manifest.h"
-#include "tests/experiments/folder.h"
 #include "tests/experiments/program.h"
-#include "tests/sim/base/refusal.h"
 
 namespace hysteron::experiments {
 namespace {
-namespace fs = std::filesystem;
 
 std::string refusal(const std::string& experiment, const Flag& flag) {
   return test::refusal([&] {
@@ -82,10 +78,8 @@ TEST(DecidedKeys, AreAllThatAnExperimentChangesButWhatItMakesFit) {
       {"swing", "--triangles 40 --seconds 0.05"}};
   for (const auto& [name, flags] : runs) {
     const Folder folder;
-    const Outcome outcome =
-        program(std::string(name) + " " + flags + " --device cpu --no-images --quiet --out " +
-                (folder.path() / "run").string());
-    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    finished(std::string(name) + " " + flags + " --device cpu --no-images --quiet" +
+             out_flag(folder.path() / "run"));
     std::vector<std::string> changed;
     changed_in(manifest_in(folder.path() / "run")["asked"], "", changed);
     for (const std::string& path : changed) {
@@ -106,7 +100,7 @@ class Strips : public testing::Test {
   // Of a cantilever with this scene file.
   Outcome run(const fs::path& scene) const {
     return program("cantilever --triangles 32 --device cpu --no-images --quiet --scene " + scene.string() +
-                   " --out " + (folder_.path() / "run").string());
+                   out_flag(folder_.path() / "run"));
   }
   fs::path written(const std::string& text) const {
     std::ofstream(folder_.path() / "strip.toml") << text;
@@ -125,19 +119,18 @@ TEST_F(Strips, WarnOfWhatAFileAsksForAndDoesNotGet) {
        {"cloth.copies = 2 (" + scene.string() + ":3) is not used: cantilever does not use cloth.copies",
         "seconds = 9.0 (" + scene.string() + ":1) is not used: cantilever sets seconds itself",
         "[[pin]] (" + scene.string() + ":5) is not used: cantilever sets pin itself"}) {
-    EXPECT_NE(outcome.err.find("warning: " + words), std::string::npos) << outcome.err;
-    EXPECT_NE(file_content(folder_.path() / "run/report.html").find("Warning: " + words), std::string::npos)
-        << words;
+    EXPECT_TRUE(has(outcome.err, "warning: " + words));
+    EXPECT_TRUE(has(file_content(folder_.path() / "run/report.html"), "Warning: " + words)) << words;
   }
-  EXPECT_EQ(outcome.err.find("cloth.width"), std::string::npos) << outcome.err;
+  EXPECT_FALSE(has(outcome.err, "cloth.width"));
 }
 
 TEST_F(Strips, OfADumpedFileAskForNothingElse) {
   const fs::path dumped = folder_.path() / "dumped.toml";
-  ASSERT_EQ(program("cantilever --triangles 32 --device cpu --dump-scene " + dumped.string()).exit_code, 0);
+  finished("cantilever --triangles 32 --device cpu --dump-scene " + dumped.string());
   const Outcome outcome = run(dumped);
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_EQ(outcome.err.find("is not used"), std::string::npos) << outcome.err;
+  EXPECT_FALSE(has(outcome.err, "is not used"));
 }
 
 }  // namespace

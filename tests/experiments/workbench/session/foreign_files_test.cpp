@@ -1,15 +1,10 @@
 // What a simulation will write is refused before it begins where another's file of that name stands.
-#include <gtest/gtest.h>
-
-#include <nlohmann/json.hpp>
-
 #include <fstream>
 
 #include "tests/experiments/program.h"
 
 namespace hysteron::experiments {
 namespace {
-namespace fs = std::filesystem;
 
 // Few triangles, for a short time.
 class ForeignFiles : public testing::TestWithParam<const char*> {};
@@ -18,7 +13,7 @@ TEST_P(ForeignFiles, AreRefusedBeforeTheSimulation) {
   const std::string command =
       std::string(GetParam()) + " --size 64x48 --threads 1 --device cpu --quiet --out ";
   const Folder first;
-  ASSERT_EQ(program(command + (first.path() / "out").string()).exit_code, 0);
+  finished(command + (first.path() / "out").string());
   const auto manifest = manifest_in(first.path() / "out");
   ASSERT_GT(manifest["files"].size(), 3u);
   for (const std::string name : manifest["files"]) {
@@ -28,8 +23,7 @@ TEST_P(ForeignFiles, AreRefusedBeforeTheSimulation) {
     std::ofstream(foreign) << "mine";
     const Outcome outcome = program(command + folder.path().string());
     EXPECT_EQ(outcome.exit_code, 2) << name;
-    EXPECT_NE(outcome.err.find(foreign.string() + " is not of an earlier run"), std::string::npos)
-        << outcome.err;
+    EXPECT_TRUE(has(outcome.err, foreign.string() + " is not of an earlier run"));
     EXPECT_EQ(file_content(foreign), "mine");
     EXPECT_EQ(fs::exists(folder.path() / "metrics.csv"), name == "metrics.csv") << name;
   }
