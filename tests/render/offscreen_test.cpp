@@ -1,6 +1,5 @@
 #include "render/offscreen.h"
 
-#include <gtest/gtest.h>
 #include <sys/wait.h>
 
 #include <algorithm>
@@ -25,7 +24,7 @@ TEST(Offscreen, AutomaticChoiceGivesAContextAndNamesIt) {
   GLint major = 0;
   offscreen->gl().GetIntegerv(GL_MAJOR_VERSION, &major);
   EXPECT_GE(major, 3);
-  EXPECT_NE(offscreen->description().find("GL "), std::string::npos) << offscreen->description();
+  EXPECT_TRUE(has(offscreen->description(), "GL "));
   EXPECT_GE(offscreen->max_samples(), 4);
 }
 
@@ -72,16 +71,16 @@ TEST(Offscreen, HardwareIsTriedFirstAndOSMesaLast) {
 
 TEST(Offscreen, ADeviceThatIsNotThereIsTheMachinesFailure) {
   const Candidate missing{.kind = Candidate::Kind::egl_device, .device = 999};
-  EXPECT_EQ(test::thrown_error([&] { Offscreen::create(missing); }).exit_code(), 1);
+  EXPECT_EQ(thrown_error([&] { Offscreen::create(missing); }).exit_code(), 1);
 }
 
 TEST(Offscreen, RendererNamesAreThoseOfTheInterface) {
   EXPECT_EQ(renderer_named("auto"), Renderer::automatic);
   EXPECT_EQ(renderer_named("egl"), Renderer::egl);
   EXPECT_EQ(renderer_named("osmesa"), Renderer::osmesa);
-  const Error error = test::thrown_error([] { renderer_named("vulkan"); });
+  const Error error = thrown_error([] { renderer_named("vulkan"); });
   EXPECT_EQ(error.exit_code(), 2);
-  EXPECT_NE(std::string(error.what()).find("auto, egl, osmesa"), std::string::npos);
+  EXPECT_TRUE(has(error.what(), "auto, egl, osmesa"));
 }
 
 TEST(Offscreen, TwoContextsLiveSideBySide) {
