@@ -49,15 +49,9 @@ TEST(Tuning, TriesTheMiddlesOfTheLogarithmToFourDigits) {
 }
 
 TEST(Tuning, RefusesABracketWithoutARoot) {
-  try {
-    tuned(tuning(), [](const std::string&) { return 1.0; });
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.exit_code(), 2);
-    EXPECT_STREQ(error.what(),
-                 "viscous_J is not below the second column's bending_friction_J at both ends of "
-                 "fabric.damping = 1e-5:1e-1: widen the bracket (--compare.tune)");
-  }
+  EXPECT_EQ(test::refusal([] { tuned(tuning(), [](const std::string&) { return 1.0; }); }),
+            "viscous_J is not below the second column's bending_friction_J at both ends of fabric.damping = "
+            "1e-5:1e-1: widen the bracket (--compare.tune)");
 }
 
 const char* const kSmallStrip =

@@ -91,24 +91,17 @@ TEST(Crease, FindsTheEquilibriumOfAFoldThatIsPressedEdgeAlongEdge) {
   EXPECT_LT(metrics["energy_remainder_relative"], 1e-4);
 }
 
-CommandLine soft_fold(const char* fold, const fs::path& out) {
-  CommandLine line{"crease",
-                   "hysteron crease",
-                   {{"crease.fold", fold},
-                    {"fabric", "cotton-broad-k50"},
-                    {"triangles", "200"},
-                    {"crease.recovery", "1"},
-                    {"out", out.string()}},
-                   {}};
-  for (const char* on : {"no-images", "quiet"}) line.flags.push_back({on, "true"});
-  return line;
+Json soft_fold(const char* fold, std::vector<Flag> flags = {}) {
+  flags.insert(flags.end(), {{"crease.fold", fold},
+                             {"fabric", "cotton-broad-k50"},
+                             {"triangles", "200"},
+                             {"crease.recovery", "1"}});
+  return metrics_with("crease", std::move(flags));
 }
 
 // Opens to within `tolerance` of the law alone and between the limits [degree].
 void expect_opening(const char* fold, double tolerance, double least, double most) {
-  const Folder folder;
-  EXPECT_EQ(experiment_named("crease").run(soft_fold(fold, folder.path())), 0);
-  const auto metrics = metrics_of(folder.path());
+  const auto metrics = soft_fold(fold);
   EXPECT_EQ(metrics["intersections"], 0);
   const double opening = metrics["recovery_angle_deg"];
   EXPECT_NEAR(opening, metrics["law_recovery_angle_deg"].get<double>(), tolerance);
@@ -122,11 +115,7 @@ TEST(SoftFold, AroundARodOpensAsTheLawAlone) { expect_opening("rod", 3, 45, 130)
 // Let go slowly, it passes through equilibria: what stays does not depend on the step.
 TEST(SoftFold, LetGoSlowlyKeepsTheSameWithHalfTheStep) {
   const auto kept = [](const char* step) {
-    const Folder folder;
-    CommandLine line = soft_fold("rod", folder.path());
-    line.flags.push_back({"step", step});
-    EXPECT_EQ(experiment_named("crease").run(line), 0);
-    const auto metrics = metrics_of(folder.path());
+    const auto metrics = soft_fold("rod", {{"step", step}});
     return std::pair<double, double>(metrics["recovery_angle_deg"], metrics["residual_curvature_per_m"]);
   };
   const auto [angle, residual] = kept("0.016666666666666666");
@@ -212,23 +201,11 @@ TEST(CreaseInTime, OfCottonBroadHasItsPublishedPair) {
   }
 }
 
-CommandLine pressed_by_standard(const fs::path& out, std::vector<Flag> further) {
-  CommandLine line{
-      "crease",
-      "hysteron crease",
-      {{"crease.standard", "iso2313"}, {"law", "chapman"}, {"triangles", "200"}, {"out", out.string()}},
-      {}};
-  line.flags.insert(line.flags.end(), further.begin(), further.end());
-  for (const char* on : {"no-images", "quiet"}) line.flags.push_back({on, "true"});
-  return line;
-}
-
 // Friction alone keeps what it keeps; with a branch the angle comes back in time.
 TEST(CreaseInTime, RecoversOverMinutesWithARelaxingBranchOnly) {
-  const auto recovered = [](std::vector<Flag> further) {
-    const Folder folder;
-    EXPECT_EQ(experiment_named("crease").run(pressed_by_standard(folder.path(), std::move(further))), 0);
-    return metrics_of(folder.path());
+  const auto recovered = [](std::vector<Flag> flags) {
+    flags.insert(flags.end(), {{"crease.standard", "iso2313"}, {"law", "chapman"}, {"triangles", "200"}});
+    return metrics_with("crease", std::move(flags));
   };
   const auto friction = recovered({}),
              relaxing = recovered({{"fabric.bending.branches.times", "30"},

@@ -18,10 +18,8 @@ std::vector<std::string> all_laws() {
 class KesCommand : public testing::Test {
  protected:
   Json run(std::vector<Flag> flags) {
-    flags.push_back({"out", folder_.path().string()});
-    flags.push_back({"no-images", "true"});
     flags.push_back({"quick", "true"});
-    EXPECT_EQ(experiment_named("kes").run({"kes", "hysteron kes", flags, {}}), 0);
+    EXPECT_EQ(run_into(folder_.path(), "kes", std::move(flags)), 0);
     return manifest_in(folder_.path());
   }
   Folder folder_;

@@ -11,8 +11,8 @@ constexpr double kReturnedByLaw = 1, kReturnedByCloth = 3;  // [percent], asked 
 class KesInPlane : public testing::Test {
  protected:
   Json metrics(std::vector<Flag> flags) {
-    flags.insert(flags.end(), {{"out", folder_.path().string()}, {"no-images", "true"}, {"quick", "true"}});
-    EXPECT_EQ(experiment_named("kes").run({"kes", "hysteron kes", flags, {}}), 0);
+    flags.push_back({"quick", "true"});
+    EXPECT_EQ(run_into(folder_.path(), "kes", std::move(flags)), 0);
     return metrics_of(folder_.path());
   }
   Folder folder_;

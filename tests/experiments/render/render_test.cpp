@@ -247,13 +247,11 @@ TEST(RenderedFiles, OfAHundredThousandTrianglesAreDrawn) {
 TEST(RenderedFiles, ThatAreBesideTheirPictureFail) {
   const Folder folder;
   const std::string mesh = write(folder.path() / "flat.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-  try {
+  const Error error = test::thrown_error([&] {
     rendered(folder.path() / "out", {mesh}, {{"render.low", "5 5 5"}, {"render.high", "6 6 6"}});
-    FAIL() << "must not succeed";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.exit_code(), 3);
-    EXPECT_STREQ(error.what(), ("mesh " + mesh + " is not in its picture: frame where it is").c_str());
-  }
+  });
+  EXPECT_EQ(error.exit_code(), 3);
+  EXPECT_EQ(error.what(), "mesh " + mesh + " is not in its picture: frame where it is");
 }
 
 TEST(RenderedFiles, WhatIsNoSequenceIsRefusedInOneLine) {

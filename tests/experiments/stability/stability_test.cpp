@@ -180,13 +180,8 @@ TEST_P(ExplicitLimit, LiesAboveTheBoundByItsMargin) {
 class StabilityCommand : public testing::Test {
  protected:
   int run(std::vector<Flag> flags) {
-    for (const char* bare : {"quick", "quiet", "no-images"}) flags.push_back({bare, "true"});
-    flags.push_back({"out", folder_.path().string()});
-    testing::internal::CaptureStdout();
-    const int exit_code =
-        experiment_named("stability").run({"stability", "hysteron stability --quick", flags, {}});
-    printed_ = testing::internal::GetCapturedStdout();
-    return exit_code;
+    flags.push_back({"quick", "true"});
+    return run_into(folder_.path(), "stability", std::move(flags));
   }
   Json manifest() const { return manifest_in(folder_.path()); }
   std::vector<std::string> lines(const char* file) const {
@@ -196,7 +191,6 @@ class StabilityCommand : public testing::Test {
     return all;
   }
   Folder folder_;
-  std::string printed_;
 };
 
 TEST_F(StabilityCommand, WritesARowForEachCellAndCountsThem) {

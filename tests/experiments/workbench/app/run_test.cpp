@@ -125,13 +125,10 @@ TEST(Run, NeverRemovesWhatAManifestNamesOutsideItsFolder) {
 TEST(Run, InAFolderThatCannotBeMadeIsAMachineErrorBeforeAnythingElse) {
   const Folder folder;
   std::ofstream(folder.path() / "file") << "no folder";
-  try {
-    ExperimentRun run(drape_line(), setup_in(folder.path() / "file" / "out"));
-    FAIL() << "a folder was made inside a file";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.exit_code(), 1);
-    EXPECT_TRUE(has(error.what(), "cannot create the folder"));
-  }
+  const Error error =
+      test::thrown_error([&] { ExperimentRun(drape_line(), setup_in(folder.path() / "file" / "out")); });
+  EXPECT_EQ(error.exit_code(), 1);
+  EXPECT_TRUE(has(error.what(), "cannot create the folder"));
 }
 
 TEST(Run, OnAFullDiskIsAMachineErrorAndLeavesNothingHalfWritten) {

@@ -46,13 +46,9 @@ TEST(Record, NeverTakesItsNameOnAFullDisk) {
   const Folder folder;
   const auto file = folder.path() / "metrics.csv";
   fs::create_symlink("/dev/full", file.string() + ".part");
-  try {
-    Record record(file, kColumns);
-    FAIL() << "a full disk took a row";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.exit_code(), 1);
-    EXPECT_TRUE(has(error.what(), "No space left on device"));
-  }
+  const Error error = test::thrown_error([&] { Record(file, kColumns); });
+  EXPECT_EQ(error.exit_code(), 1);
+  EXPECT_TRUE(has(error.what(), "No space left on device"));
   EXPECT_FALSE(fs::exists(fs::symlink_status(file)));
 }
 
