@@ -7,7 +7,7 @@
 namespace hysteron::experiments {
 namespace {
 
-const char* const kSmallSwing =
+const std::string kSmallSwing =
     " --triangles 60 --seconds 0.1 --fps 30 --device cpu --size 160x120 --quality draft --quiet";
 
 double last_difference(const fs::path& column) {  // [1/m]
@@ -16,17 +16,15 @@ double last_difference(const fs::path& column) {  // [1/m]
 }
 
 TEST(Compare, SubtractsTheCurvatureOfAColumn) {
-  const Folder folder;
-  const fs::path out = folder.path() / "out";
-  finished(
+  const FinishedRun run(
       "compare swing --fabrics cotton-broad,feng2022-median --law prandtl --compare.to "
       "cotton-broad --compare.difference curvature --compare.rows 2" +
-      out_flag(out) + kSmallSwing);
-  EXPECT_TRUE(fs::exists(out / "cotton-broad/mesh/0003.ply"));
-  EXPECT_TRUE(fs::exists(out / "feng2022-median/frames-difference/0003.png"));
-  EXPECT_GT(last_difference(out / "feng2022-median"), 1);
+      kSmallSwing);
+  EXPECT_TRUE(fs::exists(run.out / "cotton-broad/mesh/0003.ply"));
+  EXPECT_TRUE(fs::exists(run.out / "feng2022-median/frames-difference/0003.png"));
+  EXPECT_GT(last_difference(run.out / "feng2022-median"), 1);
   // Colours mean the same in every column: the larger k0 of the two counts, as half of 2 k0.
-  const auto looks = manifest_in(out / "feng2022-median")["frames"]["looks"];
+  const auto looks = manifest_in(run.out / "feng2022-median")["frames"]["looks"];
   EXPECT_NEAR(looks["difference"]["high"].get<double>(), 98.43617921, 1e-4);
 }
 

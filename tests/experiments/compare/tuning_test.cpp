@@ -54,25 +54,23 @@ TEST(Tuning, RefusesABracketWithoutARoot) {
             "1e-5:1e-1: widen the bracket (--compare.tune)");
 }
 
-const char* const kSmallStrip =
+const std::string kSmallStrip =
     " --triangles 16 --seconds 0.1 --fps 30 --device cpu --no-images --quiet --compare.match fabric";
 
 // Both columns are the same strip but for its viscosity, so that the number found is the second column's.
 TEST(Compare, TunesItsFirstColumnToItsSecond) {
-  const Folder folder;
-  const fs::path out = folder.path() / "out";
-  const Outcome outcome = finished(
+  const FinishedRun run(
       "compare swing --laws linear,linear+fabric.damping=2e-3 --compare.tune fabric.damping=1e-3:4e-3 "
       "--compare.tune-metric viscous_J" +
-      out_flag(out) + kSmallStrip);
-  const std::string line = outcome.out.substr(0, outcome.out.find('\n'));
-  ASSERT_EQ(line.find("fabric.damping="), 0u) << outcome.out;
-  const Json scene = manifest_in(out)["scene"];
+      kSmallStrip);
+  const std::string line = run.outcome.out.substr(0, run.outcome.out.find('\n'));
+  ASSERT_EQ(line.find("fabric.damping="), 0u) << run.outcome.out;
+  const Json scene = run.manifest()["scene"];
   const double found = scene["tuned"]["value"].get<double>();
   const double bracket = std::log(4.0) / 512, four_digits = 5e-4;  // relative, after nine halvings
   EXPECT_NEAR(found / 2e-3, 1, bracket + four_digits);
   EXPECT_EQ(scene["columns"][0]["name"], "linear+" + line);
-  EXPECT_TRUE(fs::exists(out / ("linear+" + line) / "manifest.json"));
+  EXPECT_TRUE(fs::exists(run.out / ("linear+" + line) / "manifest.json"));
 }
 
 TEST(Compare, RefusesToTuneWhatItCannot) {

@@ -58,15 +58,12 @@ TEST(CreaseSpecimen, KnowsWhatTheLawAloneKeeps) {
 
 // Both laws by one command.
 TEST(Crease, OpensWithoutAnIntersectionAndKeepsWhatTheLawKeeps) {
-  const Folder folder;
-  const auto out = folder.path() / "run";
-  finished(
+  const FinishedRun run(
       "crease --law linear,prandtl --triangles 200 --crease.hold 0.05 --crease.recovery 0.3 "
-      "--crease.force 5 --no-images --quiet" +
-      out_flag(out));
-  const std::string table = file_content(out / "table.csv");
+      "--crease.force 5 --no-images --quiet");
+  const std::string table = file_content(run.out / "table.csv");
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 3);
-  const auto elastic = metrics_of(out / "linear"), hysteretic = metrics_of(out / "prandtl");
+  const auto elastic = metrics_of(run.out / "linear"), hysteretic = metrics_of(run.out / "prandtl");
   EXPECT_EQ(elastic["intersections"], 0);
   EXPECT_EQ(hysteretic["intersections"], 0);
   EXPECT_GT(elastic["recovery_angle_deg"], 178);
@@ -80,13 +77,10 @@ TEST(Crease, OpensWithoutAnIntersectionAndKeepsWhatTheLawKeeps) {
 // Under this force edges of the fold are pressed along each other: their full steps turn them too far, and
 // the shortest parts of a step need the stiffness against that.
 TEST(Crease, FindsTheEquilibriumOfAFoldThatIsPressedEdgeAlongEdge) {
-  const Folder folder;
-  const auto out = folder.path() / "run";
-  finished(
+  const FinishedRun run(
       "crease --law prandtl --triangles 200 --crease.hold 0.05 --crease.recovery 0.3 --crease.force 4.98 "
-      "--no-images --quiet" +
-      out_flag(out));
-  const auto metrics = metrics_of(out);
+      "--no-images --quiet");
+  const auto metrics = run.metrics();
   EXPECT_EQ(metrics["intersections"], 0);
   EXPECT_LT(metrics["energy_remainder_relative"], 1e-4);
 }

@@ -139,12 +139,10 @@ TEST(BentRepeatedly, WeakensInInverseProportionToTheCycles) {
 
 // An elastic law, and a hysteretic one without and with fatigue, by one command.
 TEST(Fold, RepeatsWithoutFatigueAndWeakensAndSetsWithIt) {
-  const Folder folder;
-  const auto out = folder.path() / "run";
-  finished(
+  const FinishedRun fold(
       "fold --law linear,prandtl --triangles 150 --fold.cycles 3 --fold.fatigue 1 --threads 1 --no-images "
-      "--quiet" +
-      out_flag(out));
+      "--quiet");
+  const auto& out = fold.out;
   const std::string table = file_content(out / "table.csv");
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 4);
   const auto elastic = metrics_of(out / "linear"), sound = metrics_of(out / "prandtl"),
@@ -178,12 +176,9 @@ TEST(Fold, RepeatsWithoutFatigueAndWeakensAndSetsWithIt) {
 }
 
 TEST(Fold, OfALawThatCannotGoOnIsMarkedOnThePageOfTheOthers) {
-  const Folder folder;
-  finished(
-      "fold --quick --fold.law-alone --law linear,nonsense,prandtl --fold.fatigue 0 --no-images "
-      "--quiet" +
-      out_flag(folder.path()));
-  const Table table = read_table(folder.path() / "table.csv");
+  const FinishedRun run(
+      "fold --quick --fold.law-alone --law linear,nonsense,prandtl --fold.fatigue 0 --no-images --quiet");
+  const Table table = read_table(run.out / "table.csv");
   ASSERT_EQ(table.rows.size(), 3u);
   EXPECT_TRUE(has(table.rows[1].back(), "law = nonsense must be"));
   for (const std::size_t row : {0, 2}) {

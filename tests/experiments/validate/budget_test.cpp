@@ -79,17 +79,6 @@ weft = {value = 1000, unit = "N/m", source = "made", confidence = "assumed"}
 shear = {value = 60, unit = "N/m", source = "made", confidence = "assumed"}
 )";
 
-class InFolder {
- public:
-  explicit InFolder(const fs::path& folder) { fs::current_path(folder); }
-  ~InFolder() { fs::current_path(before_); }
-  InFolder(const InFolder&) = delete;
-  InFolder& operator=(const InFolder&) = delete;
-
- private:
-  fs::path before_ = fs::current_path();
-};
-
 double recorded_drape(const fs::path& out, int trial, int draw) {
   for (const auto& entry : fs::directory_iterator(out))
     if (entry.path().filename().string().ends_with("-budget-" + std::to_string(trial) + "-" +

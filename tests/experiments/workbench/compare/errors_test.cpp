@@ -200,19 +200,9 @@ double friction_in(const fs::path& folder) {
   return manifest_in(folder)["metrics"]["bending_friction_J"].get<double>();
 }
 
-// The working folder of the program while it exists.
-class WorkingFolder {
- public:
-  explicit WorkingFolder(const fs::path& folder) { fs::current_path(folder); }
-  ~WorkingFolder() { fs::current_path(before_); }
-
- private:
-  fs::path before_ = fs::current_path();
-};
-
 TEST(SwingWithErrors, FindsWhatSeparateRunsFind) {
   const Folder folder;
-  const WorkingFolder working(folder.path());
+  const InFolder here(folder.path());
   finished("swing --errors --out run" + kSmall);
   const std::string swing = "swing --no-images --quiet --device cpu --seconds 0.05 --fps 30 ";
   finished(swing + "--triangles 60 --step 0.0020833333333333333 --out step");
@@ -243,14 +233,12 @@ TEST(SwingWithErrors, FindsWhatSeparateRunsFind) {
 }
 
 TEST(SwingWithErrors, PassesFlagsOnButThoseThatItChanges) {
-  const Folder folder;
-  const std::string out = (folder.path() / "run").string();
-  finished(
+  const FinishedRun run(
       "swing --errors --errors.draws 1 --fabric.b2 4e-6 --mesh random --seed 5 --law prandtl "
-      "--param stack=8 --json --out " +
-      out + kSmall);
+      "--param stack=8 --json" +
+      kSmall);
   for (const char* name : {"mesh", "step", "draw-1"}) {
-    const Json scene = manifest_in(fs::path(out) / "errors" / name)["scene"];
+    const Json scene = manifest_in(run.out / "errors" / name)["scene"];
     EXPECT_EQ(scene["fabric"]["b2"], 4e-6) << name;
     EXPECT_EQ(scene["param"]["stack"], "8") << name;
     EXPECT_EQ(scene["seed"], std::string(name) == "draw-1" ? 6 : 5) << name;
@@ -295,13 +283,11 @@ TEST(SwingWithErrors, AsksForNoErrorsOfRepeatsWhereASceneFileDoes) {
 }
 
 TEST(Compare, GivesEachColumnItsErrors) {
-  const Folder folder;
-  const std::string out = (folder.path() / "out").string();
-  finished("compare swing --laws linear,prandtl --errors --errors.draws 1 --out " + out + kSmall);
-  const Json metrics = manifest_in(out)["metrics"];
+  const FinishedRun run("compare swing --laws linear,prandtl --errors --errors.draws 1" + kSmall);
+  const Json metrics = run.manifest()["metrics"];
   EXPECT_EQ(metrics["linear.bending_friction_J_step_error"], 0);
   EXPECT_GT(metrics["prandtl.bending_friction_J_step_error"].get<double>(), 0);
-  EXPECT_TRUE(has(file_content(fs::path(out) / "report.html"), " step ± "));
+  EXPECT_TRUE(has(file_content(run.out / "report.html"), " step ± "));
 }
 
 TEST(RequestForErrors, IsRefusedWhereThereIsNone) {

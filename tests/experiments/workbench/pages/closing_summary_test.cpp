@@ -78,23 +78,18 @@ TEST(ResultWords, OfARunThatWasCutShortSaySo) {
 }
 
 TEST(LastWords, AreTheResultAndItsPlacesOnStdoutEvenIfQuiet) {
-  const Folder folder;
-  const std::string out = folder.path() / "c";
-  const Outcome outcome = finished("cantilever --quick --no-images --quiet --triangles 32 --out " + out);
-  EXPECT_EQ(without_warnings(outcome.err), "");
+  const FinishedRun run("cantilever --quick --no-images --quiet --triangles 32");
+  EXPECT_EQ(without_warnings(run.outcome.err), "");
   for (const std::string part : {"cantilever: cotton-broad, law prandtl\n", "tip drop over length",
-                                 "bending length", " mm\n", "/c/report.html\n"})
-    EXPECT_TRUE(has(outcome.out, part));
-  EXPECT_FALSE(has(outcome.out, "sheet.png")) << "there is none";
+                                 "bending length", " mm\n", "/out/report.html\n"})
+    EXPECT_TRUE(has(run.outcome.out, part));
+  EXPECT_FALSE(has(run.outcome.out, "sheet.png")) << "there is none";
 }
 
 TEST(LastWords, LeaveStdoutToTheManifestWithJson) {
-  const Folder folder;
-  const std::string out = folder.path() / "s";
-  const Outcome outcome =
-      finished("swing --quick --no-images --seconds 0.05 --triangles 60 --json --out " + out);
-  EXPECT_EQ(json_in(outcome.out, "stdout").at("experiment"), "swing");
-  EXPECT_TRUE(has(outcome.err, "cotton-broad, law prandtl, "));
+  const FinishedRun run("swing --quick --no-images --seconds 0.05 --triangles 60 --json");
+  EXPECT_EQ(json_in(run.outcome.out, "stdout").at("experiment"), "swing");
+  EXPECT_TRUE(has(run.outcome.err, "cotton-broad, law prandtl, "));
 }
 
 TEST(TimeLeft, IsTheTimeSoFarTimesWhatIsLeftOverWhatIsDone) {

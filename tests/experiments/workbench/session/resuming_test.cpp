@@ -189,18 +189,16 @@ TEST(Resuming, TwoSignalsAtOnceAreOneAndTwoApartEndTheProcess) {
 }
 
 TEST(Resuming, ACompleteRunIsNotRepeatedAndOneWithoutCheckpointBeginsAnew) {
-  const Folder folder;
-  const fs::path out = folder.path() / "out";
-  const Outcome first = finished(kResumedSwing + " --resume" + out_flag(out));
-  EXPECT_TRUE(has(first.err, "no checkpoint in " + out.string() + ": from the start"));
-  const std::string manifest = file_content(out / "manifest.json");
-  const Outcome again = finished(kResumedSwing + " --resume --threads 2" + out_flag(out));
-  EXPECT_EQ(again.err, out.string() + " is complete\n");
-  EXPECT_EQ(program(kResumedSwing + " --resume --json" + out_flag(out)).out, manifest);
-  const Outcome other = program(kResumedSwing + " --resume --law linear" + out_flag(out));
+  const FinishedRun run(kResumedSwing + " --resume");
+  EXPECT_TRUE(has(run.outcome.err, "no checkpoint in " + run.out.string() + ": from the start"));
+  const std::string manifest = file_content(run.out / "manifest.json");
+  const Outcome again = finished(kResumedSwing + " --resume --threads 2" + out_flag(run.out));
+  EXPECT_EQ(again.err, run.out.string() + " is complete\n");
+  EXPECT_EQ(program(kResumedSwing + " --resume --json" + out_flag(run.out)).out, manifest);
+  const Outcome other = program(kResumedSwing + " --resume --law linear" + out_flag(run.out));
   EXPECT_EQ(other.exit_code, 2);
   EXPECT_TRUE(has(other.err, "has a complete run of other values (law"));
-  EXPECT_EQ(file_content(out / "manifest.json"), manifest);
+  EXPECT_EQ(file_content(run.out / "manifest.json"), manifest);
 }
 
 // One folder with a checkpoint for all of them: a refusal changes nothing in it.
