@@ -9,22 +9,14 @@
 #include <thread>
 
 #include "sim/base/atomic_file.h"
-#include "sim/base/csv.h"
 #include "sim/time/back_end.h"
 #include "tests/experiments/program.h"
+#include "tests/experiments/sweep/timeless.h"
 
 namespace hysteron::experiments {
 namespace {
 
 constexpr const char* kSwing = "swing --quick --no-images --triangles 60 --seconds 0.05 --threads 1 --quiet";
-
-// Starts the program by a shell; its number.
-pid_t started(const std::string& line) {
-  const pid_t child = fork();
-  if (child != 0) return child;
-  execl("/bin/sh", "sh", "-c", ("exec " HYSTERON_PROGRAM " " + line).c_str(), nullptr);
-  _exit(127);
-}
 
 // Once the file is there.
 void terminate_after(pid_t child, const fs::path& file) {
@@ -49,18 +41,9 @@ class SweepInABatch : public testing::Test {
   fs::path law_folder(const std::string& out, const std::string& law) const {
     return folder_.path() / out / "runs" / ("law=" + law + ",k0=40");
   }
-  // All but times: metrics, hashes, exit codes and reasons.
-  Table table(const std::string& out) const {
-    Table table = read_table(folder_.path() / out / "table.csv");
-    const auto at = std::find(table.head.begin(), table.head.end(), "wall_s") - table.head.begin();
-    table.head.erase(table.head.begin() + at);
-    for (auto& row : table.rows) row.erase(row.begin() + at);
-    return table;
-  }
+  Table table(const std::string& out) const { return read_table(folder_.path() / out / "table.csv"); }
   void expect_same(const std::string& a, const std::string& b) const {
-    const Table one = table(a), other = table(b);
-    EXPECT_EQ(one.head, other.head);
-    EXPECT_EQ(one.rows, other.rows);
+    experiments::expect_same(table(a), table(b));
   }
 
   Folder folder_;

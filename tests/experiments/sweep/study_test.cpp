@@ -6,7 +6,6 @@
 
 #include "experiments/sweep/latin_hypercube.h"
 #include "experiments/sweep/tables.h"
-#include "sim/base/atomic_file.h"
 #include "sim/base/error.h"
 #include "tests/experiments/folder.h"
 
@@ -15,8 +14,7 @@ namespace {
 
 Study parsed_study(const std::string& text) {
   const Folder folder;
-  write_text(folder.path() / "s.toml", text);
-  return read_study(folder.path() / "s.toml");
+  return read_study(folder.write("s.toml", text));
 }
 
 TEST(Study, RunsEveryCombinationTheLastAxisFirst) {
@@ -126,8 +124,7 @@ TEST(Study, RefusesInOneLineWithFileLineKeyAndRange) {
   };
   const Folder folder;
   for (const auto& [text, message] : cases) {
-    const std::string file = folder.path() / "s.toml";
-    write_text(file, text);
+    const std::string file = folder.write("s.toml", text);
     std::string said = test::refusal([&] { read_study(file); });
     if (const auto at = said.find(file); at != said.npos) said.replace(at, file.size(), "s.toml");
     EXPECT_TRUE(has(said, message)) << text;

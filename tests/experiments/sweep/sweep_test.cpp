@@ -2,8 +2,8 @@
 #include <algorithm>
 
 #include "sim/base/atomic_file.h"
-#include "sim/base/csv.h"
 #include "tests/experiments/program.h"
+#include "tests/experiments/sweep/timeless.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -23,46 +23,29 @@ class Sweep : public testing::Test {
   }
   Table table(const std::string& out = "out") const { return read_table(folder_.path() / out / "table.csv"); }
   Json manifest(const fs::path& in) const { return manifest_in(folder_.path() / in); }
-  // Runs that are repeated take another time.
-  static Table without_time(Table table) {
-    const auto at = std::find(table.head.begin(), table.head.end(), "wall_s") - table.head.begin();
-    table.head.erase(table.head.begin() + at);
-    for (auto& row : table.rows) row.erase(row.begin() + at);
-    return table;
-  }
-  static void expect_same(const Table& a, const Table& b) {
-    EXPECT_EQ(a.head, b.head);
-    EXPECT_EQ(a.rows, b.rows);
-  }
-
   Folder folder_;
   fs::path study_ = folder_.path() / "s.toml";
 };
 
-TEST_F(Sweep, TabulatesWhatEveryRunHasFoundInItsOwnFolder) {
+TEST_F(Sweep, TabulatesWhatEveryRunHasFoundInItsOwnFolderAndRepeatsNothingThatIsFinished) {
   ASSERT_EQ(run("").exit_code, 0);
-  const Table found = table();
-  ASSERT_EQ(found.rows.size(), 4u);
-  const std::vector<std::string> first(found.head.begin(), found.head.begin() + 3);
+  const Table whole = table();
+  ASSERT_EQ(whole.rows.size(), 4u);
+  const std::vector<std::string> first(whole.head.begin(), whole.head.begin() + 3);
   EXPECT_EQ(first, (std::vector<std::string>{"run", "fabric.k0", "fabric.b2"}));
-  const auto column = std::find(found.head.begin(), found.head.end(), "2HB_N") - found.head.begin();
-  ASSERT_LT(column, std::ssize(found.head));
-  for (const auto& row : found.rows) {
+  const auto column = std::find(whole.head.begin(), whole.head.end(), "2HB_N") - whole.head.begin();
+  ASSERT_LT(column, std::ssize(whole.head));
+  for (const auto& row : whole.rows) {
     const auto of_run = manifest(fs::path("out/runs") / row[0]);
     EXPECT_EQ(of_run["metrics"]["2HB_N"].get<double>(), std::stod(row[static_cast<std::size_t>(column)]));
     EXPECT_EQ(of_run["scene"]["fabric"]["k0"].get<double>(), std::stod(row[1]));
   }
-  EXPECT_NE(found.rows[0][static_cast<std::size_t>(column)], found.rows[3][static_cast<std::size_t>(column)]);
-}
-
-TEST_F(Sweep, GoesOnToTheSameTableAndRepeatsNothingThatIsFinished) {
-  ASSERT_EQ(run("").exit_code, 0);
-  const Table whole = table();
+  EXPECT_NE(whole.rows[0][static_cast<std::size_t>(column)], whole.rows[3][static_cast<std::size_t>(column)]);
   fs::remove_all(folder_.path() / "out/runs" / whole.rows[1][0]);
   fs::remove(folder_.path() / "out/table.csv");
   ASSERT_EQ(run("--resume").exit_code, 0);
   EXPECT_EQ(manifest("out")["metrics"]["kept_count"], 3);
-  expect_same(without_time(table()), without_time(whole));
+  expect_same(table(), whole);
   EXPECT_EQ(table().rows[0], whole.rows[0]) << "kept with its time";
 }
 
@@ -120,7 +103,7 @@ TEST_F(Sweep, InPartsFindsTheTableOfTheWhole) {
   for (const char* part : {"--part 3/3", "--part 1/3", "--part 2/3"}) EXPECT_EQ(run(part).exit_code, 0);
   EXPECT_EQ(run("--only k0=80,b2=2e-06").exit_code, 0);
   EXPECT_EQ(run("--collect").exit_code, 0);
-  expect_same(without_time(table()), without_time(table("whole")));
+  expect_same(table(), table("whole"));
   EXPECT_EQ(run("--part 5/4").exit_code, 2);
   EXPECT_EQ(run("--only k0=81").exit_code, 2);
 }
@@ -154,7 +137,7 @@ TEST_F(Sweep, WritesAWorkflowOfAJobForEachRun) {
 }
 
 // The manifest keeps the study, whose file may be gone: axes, what all runs share, and what pages show.
-TEST_F(Sweep, IsRunAgainFromItsManifestAlone) {
+TEST_F(Sweep, IsRunAgainFromItsManifestAloneAndFromNoOther) {
   write(R"(experiment = "kes"
 metrics = ["2HB_N"]
 [scene]
@@ -180,18 +163,14 @@ n = 3
   const std::string folder = (folder_.path() / "out").string(), again = (folder_.path() / "again").string();
   finished("rerun " + folder + " --no-images --out " + again);
   ASSERT_EQ(table().rows.size(), 6u);
-  expect_same(without_time(table("again")), without_time(table()));
+  expect_same(table("again"), table());
   EXPECT_EQ(manifest("again")["scene"], manifest("out")["scene"]);
-}
-
-TEST_F(Sweep, IsNotReadFromTheManifestOfAnotherRun) {
-  ASSERT_EQ(run("").exit_code, 0);
   Json other = manifest("out");
   study_ = folder_.path() / "other.json";
   for (const char* keys : {R"({"law": "prandtl"})", R"({"shared": [1], "axes": [{"key": 2}]})"}) {
     other["scene"] = json_in(keys, "keys");
     write(other.dump());
-    const Outcome outcome = run("", "again");
+    const Outcome outcome = run("", "other");
     EXPECT_EQ(outcome.exit_code, 2) << outcome.err;
     EXPECT_TRUE(has(outcome.err, "is not the manifest of a sweep"));
   }

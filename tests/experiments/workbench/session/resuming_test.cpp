@@ -18,12 +18,7 @@ const std::string kResumedCrumple =
 
 // Starts the program, which gets a signal after some milliseconds.  Its wait status.
 int signalled(const std::string& arguments, int signal, int milliseconds, const fs::path& err) {
-  const pid_t child = fork();
-  if (child == 0) {
-    const std::string line = "exec " HYSTERON_PROGRAM " " + arguments + " >/dev/null 2>" + err.string();
-    execl("/bin/sh", "sh", "-c", line.c_str(), nullptr);
-    _exit(127);
-  }
+  const pid_t child = started(arguments + " >/dev/null 2>" + err.string());
   std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
   kill(child, signal);
   int status = 0;
@@ -36,12 +31,7 @@ int after_a_checkpoint(const std::string& arguments, const fs::path& out, const 
   const fs::path file = out / "checkpoint";
   std::error_code none;
   const auto before = fs::last_write_time(file, none);
-  const pid_t child = fork();
-  if (child == 0) {
-    const std::string line = "exec " HYSTERON_PROGRAM " " + arguments + " >/dev/null 2>" + err.string();
-    execl("/bin/sh", "sh", "-c", line.c_str(), nullptr);
-    _exit(127);
-  }
+  const pid_t child = started(arguments + " >/dev/null 2>" + err.string());
   int status = 0;
   for (bool requested = false; waitpid(child, &status, WNOHANG) == 0;) {
     if (!requested && fs::exists(file, none) && fs::last_write_time(file, none) != before) {
@@ -115,12 +105,12 @@ TEST_P(ResumingEvery, EndsInTheSameBits) {
   const Folder folder;
   const fs::path parts = folder.path() / "parts";
   const std::string line = std::string(GetParam()) + " --quick --no-images --threads 1 --device cpu";
-  const Outcome whole = finished(line + out_flag(folder.path() / "whole"));
+  const FinishedRun whole(line);
   for (int k = 0; k < 2; ++k)
     ASSERT_EQ(after_a_checkpoint(line + " --checkpoint 1e-6 --resume" + out_flag(parts), parts), 3);
   finished(line + " --resume" + out_flag(parts));
   EXPECT_EQ(manifest_in(parts)["resumed_at_s"].size(), 2u);
-  expect_same_results(folder.path() / "whole", parts);
+  expect_same_results(whole.out, parts);
 }
 
 // Which leaves no time for last words, and half-written files.
@@ -136,14 +126,14 @@ TEST(Resuming, PicturesAndMeshesGoOnWhereTheyWere) {
   const std::string line =
       "swing --quick --threads 1 --device cpu --fps 60 --size 96x64 --look cloth,curvature --export obj";
   const fs::path parts = folder.path() / "parts", said = folder.path() / "said";
-  finished(line + out_flag(folder.path() / "whole"));
+  const FinishedRun whole(line);
   for (int k = 0; k < 2; ++k)
     ASSERT_EQ(after_a_checkpoint(line + " --checkpoint 1e-6 --resume" + out_flag(parts), parts, said), 3);
   EXPECT_TRUE(has(file_content(said), "the same command with --resume goes on"));
   EXPECT_EQ(manifest_in(parts)["complete"], false);
   finished(line + " --resume" + out_flag(parts));
   EXPECT_EQ(manifest_in(parts)["resumed_at_s"].size(), 2u);
-  expect_same_results(folder.path() / "whole", parts);
+  expect_same_results(whole.out, parts);
 }
 
 TEST(Resuming, AnAnimationIsThereWhenARunEndsEarlyAndWholeInTheEnd) {
@@ -170,14 +160,7 @@ TEST(Resuming, TwoSignalsAtOnceAreOneAndTwoApartEndTheProcess) {
   EXPECT_EQ(manifest_in(out)["complete"], false);
   // Seconds before the next instant.
   const std::string slow = "swing --no-images --quiet --threads 1 --device cpu --triangles 6000 --fps 1";
-  const pid_t child = fork();
-  if (child == 0) {
-    execl("/bin/sh", "sh", "-c",
-          ("exec " HYSTERON_PROGRAM " " + slow + " --checkpoint 1000" + out_flag(folder.path() / "slow"))
-              .c_str(),
-          nullptr);
-    _exit(127);
-  }
+  const pid_t child = started(slow + " --checkpoint 1000" + out_flag(folder.path() / "slow"));
   int status = 0;
   std::this_thread::sleep_for(std::chrono::milliseconds(700));
   kill(child, SIGTERM);
