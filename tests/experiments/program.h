@@ -34,8 +34,15 @@ inline Outcome program(const std::string& arguments) {
 // The same with arguments that have to end well.
 inline Outcome finished(const std::string& arguments) {
   Outcome outcome = program(arguments);
-  EXPECT_EQ(outcome.exit_code, 0) << arguments << '\n' << outcome.err;
+  EXPECT_EQ(outcome.exit_code, 0) << arguments << '\n' << outcome.out << outcome.err;
   return outcome;
+}
+
+// What the program says to arguments that it refuses as a wrong request.
+inline std::string refused(const std::string& arguments) {
+  const Outcome outcome = program(arguments);
+  EXPECT_EQ(outcome.exit_code, 2) << arguments << '\n' << outcome.err;
+  return outcome.err;
 }
 
 // A run into a folder of its own, which ends well.

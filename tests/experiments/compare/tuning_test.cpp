@@ -76,10 +76,7 @@ TEST(Compare, TunesItsFirstColumnToItsSecond) {
 TEST(Compare, RefusesToTuneWhatItCannot) {
   const Folder folder;
   const auto refusal = [&](const std::string& options) {
-    const Outcome outcome =
-        program("compare swing " + options + out_flag(folder.path() / "out") + kSmallStrip);
-    EXPECT_EQ(outcome.exit_code, 2) << options;
-    return outcome.err;
+    return refused("compare swing " + options + out_flag(folder.path() / "out") + kSmallStrip);
   };
   const std::string columns = "--laws linear,prandtl ",
                     metric = " --compare.tune-metric viscous_J=bending_friction_J";

@@ -1,5 +1,4 @@
 #include <cmath>
-#include <fstream>
 
 #include "experiments/workbench/pictures/drawing.h"
 #include "render/compare.h"
@@ -17,9 +16,8 @@ class Scenes : public testing::Test {
     return metrics_of(out());
   }
   Outcome run(const std::string& scene, const std::string& flags) {
-    std::ofstream(folder_.path() / "mine.toml") << scene;
-    return program("run " + (folder_.path() / "mine.toml").string() + " --quiet --threads 1 --device cpu " +
-                   flags + out_flag(out()));
+    return program("run " + folder_.write("mine.toml", scene) + " --quiet --threads 1 --device cpu " + flags +
+                   out_flag(out()));
   }
   fs::path out() const { return folder_.path() / "out"; }
 
@@ -142,11 +140,20 @@ TEST_F(Scenes, WarnWhereTheBorderOfThePicturesCutsOffCloth) {
             1);
 }
 
-TEST_F(Scenes, AreComparedInOneFrame) {
-  std::ofstream(folder_.path() / "mine.toml") << kSquare + "[[metric]]\nname = \"side\"\nto = [0.2, 0, 0]\n";
-  const Outcome outcome = finished(
-      "compare " + (folder_.path() / "mine.toml").string() +
-      " --laws linear,prandtl --quiet --threads 1 --device cpu --size 160x120 --fps 10" + out_flag(out()));
+// Of all programs only env is found, which starts the columns.
+TEST_F(Scenes, AreComparedInOneFrameAndWarnOfPlotsAndFilmsThatCannotBeMade) {
+  const std::string scene =
+      folder_.write("mine.toml", kSquare + "[[metric]]\nname = \"side\"\nto = [0.2, 0, 0]\n");
+  const std::string path = std::getenv("PATH");
+  fs::create_symlink("/usr/bin/env", folder_.path() / "env");
+  setenv("PATH", folder_.path().c_str(), 1);
+  const Outcome outcome =
+      program("compare " + scene +
+              " --laws linear,prandtl --compare.video mp4 --quiet --threads 1 --device cpu --size 160x120 "
+              "--fps 10" +
+              out_flag(out()));
+  setenv("PATH", path.c_str(), 1);
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const Json linear = manifest_in(out() / "linear");
   const Json prandtl = manifest_in(out() / "prandtl");
   EXPECT_TRUE(has(outcome.out, "linear                        side "));
@@ -154,21 +161,6 @@ TEST_F(Scenes, AreComparedInOneFrame) {
   EXPECT_EQ(linear["options"]["camera"]["box"].size(), 6u);
   EXPECT_EQ(linear["options"]["camera"], prandtl["options"]["camera"]);
   EXPECT_TRUE(prandtl["metrics"].contains("side_m"));
-}
-
-// Of all programs only env is found, which starts the columns.
-TEST_F(Scenes, WarnOfPlotsAndFilmsThatCannotBeMade) {
-  std::ofstream(folder_.path() / "mine.toml") << kSquare + "[[metric]]\nname = \"side\"\nto = [0.2, 0, 0]\n";
-  const std::string path = std::getenv("PATH");
-  fs::create_symlink("/usr/bin/env", folder_.path() / "env");
-  setenv("PATH", folder_.path().c_str(), 1);
-  const Outcome outcome =
-      program("compare " + (folder_.path() / "mine.toml").string() +
-              " --laws linear,prandtl --compare.video mp4 --quiet --threads 1 --device cpu --size 160x120 "
-              "--fps 10" +
-              out_flag(out()));
-  setenv("PATH", path.c_str(), 1);
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const std::string film = "compare.video: there is no film.mp4: ffmpeg is not installed";
   EXPECT_TRUE(has(outcome.err, "warning: " + film + "\n"));
   EXPECT_TRUE(has(outcome.err, "warning: the plot plot_side is missing: "));

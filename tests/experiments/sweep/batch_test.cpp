@@ -201,9 +201,8 @@ TEST_F(Batch, ASignalEndsAllItsRunsAtCheckpointsOfTheirOwn) {
 
 TEST_F(Batch, RefusesWhatIsNoListOfWords) {
   write_text(folder_.path() / "lines", "[\"swing\"]\n{}\n");
-  const Outcome outcome = program("batch <" + (folder_.path() / "lines").string());
-  EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_EQ(outcome.err, "hysteron batch: line 2 of stdin is no list of words\n");
+  EXPECT_EQ(refused("batch <" + (folder_.path() / "lines").string()),
+            "hysteron batch: line 2 of stdin is no list of words\n");
 }
 
 }  // namespace

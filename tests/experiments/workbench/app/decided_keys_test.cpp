@@ -28,7 +28,7 @@ TEST(DecidedKeys, AreRefusedByName) {
             "--seconds 9: cantilever sets seconds itself: the weight grows in ramp and goes in unload");
   EXPECT_EQ(refusal("crease", {"mesh", "random"}),
             "--mesh random: crease does not use mesh: its mesh has its finest columns along the crease");
-  EXPECT_EQ(program("buckle --gravity '0 0 -1' --no-images").exit_code, 2);
+  refused("buckle --gravity '0 0 -1' --no-images");
   EXPECT_EQ(
       program("cantilever --gamma 1 --fabric.density 0.1 --no-images --out /nonexistent/x").err,
       "hysteron cantilever: --fabric.density 0.1: cantilever sets fabric.density itself: gamma says how "
@@ -77,11 +77,9 @@ TEST(DecidedKeys, AreAllThatAnExperimentChangesButWhatItMakesFit) {
       {"crease", "--triangles 60 --crease.fold pleat --crease.recovery 0.02"},
       {"swing", "--triangles 40 --seconds 0.05"}};
   for (const auto& [name, flags] : runs) {
-    const Folder folder;
-    finished(std::string(name) + " " + flags + " --device cpu --no-images --quiet" +
-             out_flag(folder.path() / "run"));
+    const FinishedRun run(std::string(name) + " " + flags + " --device cpu --no-images --quiet");
     std::vector<std::string> changed;
-    changed_in(manifest_in(folder.path() / "run")["asked"], "", changed);
+    changed_in(run.manifest()["asked"], "", changed);
     for (const std::string& path : changed) {
       const std::vector<DecidedKey> decided = decided_by(name);
       const bool known = std::any_of(decided.begin(), decided.end(),
@@ -95,42 +93,31 @@ TEST(DecidedKeys, AreAllThatAnExperimentChangesButWhatItMakesFit) {
   }
 }
 
-class Strips : public testing::Test {
- protected:
-  // Of a cantilever with this scene file.
-  Outcome run(const fs::path& scene) const {
-    return program("cantilever --triangles 32 --device cpu --no-images --quiet --scene " + scene.string() +
-                   out_flag(folder_.path() / "run"));
-  }
-  fs::path written(const std::string& text) const {
-    std::ofstream(folder_.path() / "strip.toml") << text;
-    return folder_.path() / "strip.toml";
-  }
-
-  Folder folder_;
-};
-
-TEST_F(Strips, WarnOfWhatAFileAsksForAndDoesNotGet) {
-  const fs::path scene =
-      written("seconds = 9\n[cloth]\ncopies = 2\nwidth = 0.02\n[[pin]]\nselect = \"nearest\"\n");
-  const Outcome outcome = run(scene);
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  for (const std::string& words :
-       {"cloth.copies = 2 (" + scene.string() + ":3) is not used: cantilever does not use cloth.copies",
-        "seconds = 9.0 (" + scene.string() + ":1) is not used: cantilever sets seconds itself",
-        "[[pin]] (" + scene.string() + ":5) is not used: cantilever sets pin itself"}) {
-    EXPECT_TRUE(has(outcome.err, "warning: " + words));
-    EXPECT_TRUE(has(file_content(folder_.path() / "run/report.html"), "Warning: " + words)) << words;
-  }
-  EXPECT_FALSE(has(outcome.err, "cloth.width"));
+// Of a cantilever with this scene file.
+FinishedRun strip_run(const std::string& scene) {
+  return FinishedRun("cantilever --triangles 32 --device cpu --no-images --quiet --scene " + scene);
 }
 
-TEST_F(Strips, OfADumpedFileAskForNothingElse) {
-  const fs::path dumped = folder_.path() / "dumped.toml";
-  finished("cantilever --triangles 32 --device cpu --dump-scene " + dumped.string());
-  const Outcome outcome = run(dumped);
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_FALSE(has(outcome.err, "is not used"));
+TEST(Strips, WarnOfWhatAFileAsksForAndDoesNotGet) {
+  const Folder folder;
+  const std::string scene = folder.write(
+      "strip.toml", "seconds = 9\n[cloth]\ncopies = 2\nwidth = 0.02\n[[pin]]\nselect = \"nearest\"\n");
+  const FinishedRun run = strip_run(scene);
+  for (const std::string& words :
+       {"cloth.copies = 2 (" + scene + ":3) is not used: cantilever does not use cloth.copies",
+        "seconds = 9.0 (" + scene + ":1) is not used: cantilever sets seconds itself",
+        "[[pin]] (" + scene + ":5) is not used: cantilever sets pin itself"}) {
+    EXPECT_TRUE(has(run.outcome.err, "warning: " + words));
+    EXPECT_TRUE(has(file_content(run.out / "report.html"), "Warning: " + words)) << words;
+  }
+  EXPECT_FALSE(has(run.outcome.err, "cloth.width"));
+}
+
+TEST(Strips, OfADumpedFileAskForNothingElse) {
+  const Folder folder;
+  const std::string dumped = folder.file("dumped.toml");
+  finished("cantilever --triangles 32 --device cpu --dump-scene " + dumped);
+  EXPECT_FALSE(has(strip_run(dumped).outcome.err, "is not used"));
 }
 
 }  // namespace

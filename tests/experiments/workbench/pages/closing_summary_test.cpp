@@ -1,6 +1,4 @@
 // What a run says first and last: results with their errors, rest, places, time left.
-#include <fstream>
-
 #include "experiments/workbench/pages/closing_summary.h"
 
 #include "experiments/workbench/compare/sweep_columns.h"
@@ -104,18 +102,16 @@ TEST(TimeLeft, IsTheTimeSoFarTimesWhatIsLeftOverWhatIsDone) {
 TEST(ColumnProgress, IsTheLastWholeMomentOfTheRunsTable) {
   const Folder folder;
   EXPECT_EQ(progress_in(folder.path()), "");
-  std::ofstream(folder.path() / "manifest.json") << R"({"hysteron": {}, "scene": {"seconds": 4}})";
-  std::ofstream(folder.path() / "metrics.csv.part") << "time [s],x\n0,1\n1.2,3\n2.";
+  folder.write("manifest.json", R"({"hysteron": {}, "scene": {"seconds": 4}})");
+  folder.write("metrics.csv.part", "time [s],x\n0,1\n1.2,3\n2.");
   EXPECT_EQ(progress_in(folder.path()), "1.20/4 s");
 }
 
 TEST(ReportOfMotion, SaysAtItsTopThatTheClothDidNotComeToRest) {
-  const Folder folder;
-  const Outcome outcome =
-      finished("drape --quick --no-images --quiet --triangles 100 --seconds 0.1" + out_flag(folder.path()));
-  EXPECT_TRUE(has(outcome.out, "NOT at rest: fastest vertex "));
-  EXPECT_TRUE(has(outcome.err, "warning: no state of rest was found: "));
-  const std::string page = file_content(folder.path() / "report.html");
+  const FinishedRun run("drape --quick --no-images --quiet --triangles 100 --seconds 0.1");
+  EXPECT_TRUE(has(run.outcome.out, "NOT at rest: fastest vertex "));
+  EXPECT_TRUE(has(run.outcome.err, "warning: no state of rest was found: "));
+  const std::string page = file_content(run.out / "report.html");
   EXPECT_TRUE(has(page, "NOT at rest: fastest vertex "));
   EXPECT_TRUE(has(page, "% (not at rest)"));
 }

@@ -9,7 +9,7 @@
 #include "experiments/workbench/session/record.h"
 #include "render/image.h"
 #include "sim/base/error.h"
-#include "tests/experiments/folder.h"
+#include "tests/experiments/program.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -282,24 +282,16 @@ TEST_F(Gallery, ChecksThePagesOfItsRunsToo) {
   EXPECT_EQ(stale_names(results_), (std::vector<std::string>{"a-kes/report.html"}));
 }
 
-// Exit code and stderr of the program.
-std::pair<int, std::string> outcome(const std::string& arguments, const fs::path& folder) {
-  const fs::path err = folder / "err";
-  const int status =
-      std::system((HYSTERON_PROGRAM " " + arguments + " >/dev/null 2>" + err.string()).c_str());
-  return {WEXITSTATUS(status), file_content(err)};
-}
-
 TEST_F(Gallery, OfTheProgramSaysHowToRefreshAStalePage) {
   const std::string results = results_.string();
-  EXPECT_EQ(outcome("report " + results + "/", folder_.path()), std::pair(0, std::string()));
-  EXPECT_EQ(outcome("report --check " + results, folder_.path()), std::pair(0, std::string()));
+  EXPECT_EQ(finished("report " + results + "/").err, "");
+  EXPECT_EQ(finished("report --check " + results).err, "");
   write_run(results_ / "a-kes", "kes", 50.0);
-  EXPECT_EQ(
-      outcome("report --check " + results, folder_.path()),
-      std::pair(4, "hysteron report: " + results + "/index.html is not what its folder says now; write " +
-                       "it again: hysteron report " + results + "\n"));
-  EXPECT_EQ(outcome("report " + results + "/nowhere", folder_.path()).first, 2);
+  const Outcome stale = program("report --check " + results);
+  EXPECT_EQ(stale.exit_code, 4);
+  EXPECT_EQ(stale.err, "hysteron report: " + results + "/index.html is not what its folder says now; write " +
+                           "it again: hysteron report " + results + "\n");
+  refused("report " + results + "/nowhere");
 }
 
 }  // namespace

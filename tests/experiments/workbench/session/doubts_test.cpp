@@ -69,11 +69,10 @@ keys = [{time = 0}, {time = 0.2, position = [5, 0, 0]}]
 )";
 
 TEST(End, WithClothTornApartIsSaidWithQuietToo) {
-  const Folder folder;
   const TextFile scene(kTorn);
-  const Outcome outcome = finished("run " + scene.path() + " --no-images --quiet" + out_flag(folder.path()));
-  EXPECT_TRUE(has(outcome.err, "warning: the cloth was stretched by up to "));
-  EXPECT_TRUE(has(file_content(folder.path() / "manifest.json"), "\"the cloth was stretched by up to "));
+  const FinishedRun run("run " + scene.path() + " --no-images --quiet");
+  EXPECT_TRUE(has(run.outcome.err, "warning: the cloth was stretched by up to "));
+  EXPECT_TRUE(has(file_content(run.out / "manifest.json"), "\"the cloth was stretched by up to "));
 }
 
 TEST(Drawing, FarFromTheOriginIsSaidToBeRounded) {
