@@ -31,19 +31,15 @@ inline Outcome program(const std::string& arguments) {
   return {WEXITSTATUS(status), file_content(out), file_content(err)};
 }
 
-// The same with arguments that have to end well.
-inline Outcome finished(const std::string& arguments) {
+// The same with arguments that have to end in this exit code.
+inline Outcome ended(int exit_code, const std::string& arguments) {
   Outcome outcome = program(arguments);
-  EXPECT_EQ(outcome.exit_code, 0) << arguments << '\n' << outcome.out << outcome.err;
+  EXPECT_EQ(outcome.exit_code, exit_code) << arguments << '\n' << outcome.out << outcome.err;
   return outcome;
 }
-
+inline Outcome finished(const std::string& arguments) { return ended(0, arguments); }
 // What the program says to arguments that it refuses as a wrong request.
-inline std::string refused(const std::string& arguments) {
-  const Outcome outcome = program(arguments);
-  EXPECT_EQ(outcome.exit_code, 2) << arguments << '\n' << outcome.err;
-  return outcome.err;
-}
+inline std::string refused(const std::string& arguments) { return ended(2, arguments).err; }
 
 // A run into a folder of its own, which ends well.
 struct FinishedRun {

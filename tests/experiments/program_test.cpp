@@ -23,10 +23,9 @@ TEST(Program, NamesTheExperimentOnceInAMessage) {
 TEST(Program, ExitsWithTwoForAWrongRequestAndOneForAFailingMachine) {
   refused("law --b1 -1 --in a --out b");
   refused("");
-  EXPECT_EQ(program("list fabrics >/dev/full #").exit_code, 1);
+  ended(1, "list fabrics >/dev/full #");
   for (const char* words : {"--version", "drape --help", "--help"}) {
-    const Outcome outcome = program(std::string(words) + " >/dev/full #");
-    EXPECT_EQ(outcome.exit_code, 1) << words;
+    ended(1, std::string(words) + " >/dev/full #");
   }
 }
 
@@ -162,8 +161,7 @@ size = [0.2, 0.2, 0.01]
 center = [0.05, 0.05, 0.02]
 keys = [{time = 0.1}, {time = 0.4, position = [0, 0, -0.012]}]
 )");
-  const Outcome outcome = program("swing --no-images --quiet --fps 50 --scene " + scene + out_flag(out));
-  EXPECT_EQ(outcome.exit_code, 3) << outcome.err;
+  const Outcome outcome = ended(3, "swing --no-images --quiet --fps 50 --scene " + scene + out_flag(out));
   EXPECT_TRUE(has(outcome.err, "hysteron swing: at t = 0.3"));
   EXPECT_TRUE(has(outcome.err, "the cloth is crushed: vertex "));
   const Json manifest = manifest_in(out);

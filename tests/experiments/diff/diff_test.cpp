@@ -41,15 +41,16 @@ class Diff : public testing::Test {
     render::write_png(a_, ramp());
     render::write_png(b_, marked(8, 20));
   }
-  Outcome diff(const std::string& more = "") const { return program("diff " + a_ + " " + b_ + " " + more); }
+  Outcome diff(int exit_code, const std::string& more = "") const {
+    return ended(exit_code, "diff " + a_ + " " + b_ + " " + more);
+  }
 
   Folder folder_;
   std::string a_ = folder_.path() / "a.png", b_ = folder_.path() / "b.png";
 };
 
 TEST_F(Diff, PrintsEveryMeasureByItsName) {
-  const Outcome outcome = diff();
-  EXPECT_EQ(outcome.exit_code, 0);
+  const Outcome outcome = diff(0);
   EXPECT_EQ(outcome.err, "");
   std::istringstream lines(outcome.out);
   std::string name;
@@ -81,13 +82,12 @@ TEST_F(Diff, ExitsWithFourBeyondEachLimitAndNamesItTheValueAndBothFiles) {
   const Measures found = compare_files(a_, b_, {}).measures;
   for (const Measure& m : all_measures()) {
     const double value = found.*m.value, margin = 0.01 * std::abs(value);
-    const auto limited = [&](double limit) {
-      return diff(std::string("--") + m.limit + " " + std::to_string(limit));
+    const auto limited = [&](int exit_code, double limit) {
+      return diff(exit_code, std::string("--") + m.limit + " " + std::to_string(limit));
     };
-    EXPECT_EQ(limited(m.least ? value - margin : value + margin).exit_code, 0) << m.name;
+    limited(0, m.least ? value - margin : value + margin);
     const Outcome outcome =
-        limited(m.least ? std::min(value + margin, m.value == &Measures::ssim ? 1 : 1e9) : value - margin);
-    EXPECT_EQ(outcome.exit_code, 4) << m.name;
+        limited(4, m.least ? std::min(value + margin, m.value == &Measures::ssim ? 1 : 1e9) : value - margin);
     EXPECT_TRUE(one_line(outcome.err)) << outcome.err;
     for (const std::string& part : {a_, b_, std::string("--") + m.limit, std::string(m.name) + " = "})
       EXPECT_TRUE(has(outcome.err, part));
@@ -96,8 +96,7 @@ TEST_F(Diff, ExitsWithFourBeyondEachLimitAndNamesItTheValueAndBothFiles) {
 }
 
 TEST_F(Diff, NamesAllLimitsThatAreBrokenInOneLine) {
-  const Outcome outcome = diff("--max-mean 0.1 --min-ssim 0.5 --max-pixels-over-8 1");
-  EXPECT_EQ(outcome.exit_code, 4);
+  const Outcome outcome = diff(4, "--max-mean 0.1 --min-ssim 0.5 --max-pixels-over-8 1");
   EXPECT_TRUE(one_line(outcome.err)) << outcome.err;
   EXPECT_TRUE(has(outcome.err, "must be <= 0.1 (--max-mean); pixels_over_8_percent = 2.08"));
   EXPECT_FALSE(has(outcome.err, "ssim"));
@@ -105,14 +104,14 @@ TEST_F(Diff, NamesAllLimitsThatAreBrokenInOneLine) {
 
 TEST_F(Diff, WritesAHeatMapOfStepsOrOfFlip) {
   const fs::path heat = folder_.path() / "new" / "heat.png";
-  EXPECT_EQ(diff("--max-mean 0" + out_flag(heat)).exit_code, 4);
+  diff(4, "--max-mean 0" + out_flag(heat));
   EXPECT_EQ(render::read_png(heat), render::heat_map(ramp(), marked(8, 20)));
-  EXPECT_EQ(diff("--map flip" + out_flag(heat)).exit_code, 0);
+  diff(0, "--map flip" + out_flag(heat));
   EXPECT_EQ(render::read_png(heat), render::heat_map(render::flip_map(ramp(), marked(8, 20))));
 }
 
 TEST_F(Diff, PrintsOneJsonObject) {
-  const Json json = json_in(diff("--json --max-mean 0.1").out, "stdout");
+  const Json json = json_in(diff(4, "--json --max-mean 0.1").out, "stdout");
   EXPECT_EQ(json["a"], a_);
   EXPECT_DOUBLE_EQ(json["mean_abs"], 20 * 64.0 / (64 * 48));
   EXPECT_EQ(json["broken"].size(), 1u);
@@ -128,8 +127,7 @@ TEST_F(Diff, RefusesWhatItCannotCompareInOneLine) {
   std::ofstream(root / "cut.png", std::ios::binary) << file_content(a_).substr(0, 300);
   fs::create_directories(root / "empty");
   const auto refused = [&](const std::string& arguments, const std::vector<std::string>& parts) {
-    const Outcome outcome = program("diff " + arguments);
-    EXPECT_EQ(outcome.exit_code, 2) << arguments;
+    const Outcome outcome = ended(2, "diff " + arguments);
     EXPECT_EQ(outcome.out, "") << arguments;
     EXPECT_TRUE(one_line(outcome.err)) << outcome.err;
     for (const std::string& part : parts) EXPECT_TRUE(has(outcome.err, part));
@@ -179,8 +177,7 @@ TEST_F(Diff, WritesOntoNeitherPicture) {
   for (const std::string& picture : {a_, b_}) {
     const std::string before = file_content(picture);
     const Outcome outcome =
-        diff("--out " + folder_.path().string() + "/./" + fs::path(picture).filename().string());
-    EXPECT_EQ(outcome.exit_code, 2);
+        diff(2, "--out " + folder_.path().string() + "/./" + fs::path(picture).filename().string());
     EXPECT_TRUE(has(outcome.err, "which is compared: give another name"));
     EXPECT_EQ(file_content(picture), before);
   }
@@ -198,16 +195,15 @@ class DiffOfFolders : public testing::Test {
     render::write_png(a_ / "frames/0000.png", ramp());
     render::write_png(b_ / "frames/0000.png", marked(8, 20));
   }
-  Outcome diff(const std::string& more = "") const {
-    return program("diff " + a_.string() + " " + b_.string() + " " + more);
+  Outcome diff(int exit_code, const std::string& more = "") const {
+    return ended(exit_code, "diff " + a_.string() + " " + b_.string() + " " + more);
   }
   Folder folder_;
   fs::path a_ = folder_.path() / "a", b_ = folder_.path() / "b", out_ = folder_.path() / "out";
 };
 
 TEST_F(DiffOfFolders, HasARowForEachPictureAndTheWorst) {
-  const Outcome outcome = diff();
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  const Outcome outcome = diff(0);
   std::istringstream lines(outcome.out);
   std::vector<std::string> names;
   std::vector<double> means;
@@ -227,11 +223,10 @@ TEST_F(DiffOfFolders, HasARowForEachPictureAndTheWorst) {
 }
 
 TEST_F(DiffOfFolders, HoldsEachPictureToTheLimits) {
-  const Outcome outcome = diff("--max-mean 0.1");
-  EXPECT_EQ(outcome.exit_code, 4);
+  const Outcome outcome = diff(4, "--max-mean 0.1");
   EXPECT_TRUE(one_line(outcome.err)) << outcome.err;
   EXPECT_TRUE(has(outcome.err, (b_ / "frames/0000.png").string()));
-  EXPECT_EQ(diff("--max-mean 1").exit_code, 0);
+  diff(0, "--max-mean 1");
 }
 
 // One is missing on each side, one is broken, one has another size; the rest goes on.
@@ -243,8 +238,7 @@ TEST_F(DiffOfFolders, HasAnErrorOfItsOwnForEachPictureThatCannotBeCompared) {
     render::write_png(side / "small.png", side == a_ ? ramp() : ramp(30, 20));
   }
   const fs::path xml = folder_.path() / "tests.xml";
-  const Outcome outcome = diff("--max-mean 0.1" + out_flag(out_) + " --junit " + xml.string());
-  EXPECT_EQ(outcome.exit_code, 2);
+  const Outcome outcome = diff(2, "--max-mean 0.1" + out_flag(out_) + " --junit " + xml.string());
   const std::pair<const char*, const char*> kCases[] = {{"frames/0001.png", "missing in"},
                                                         {"frames/0002.png", "missing in"},
                                                         {"cut.png", "a broken PNG picture"},
@@ -263,7 +257,7 @@ TEST_F(DiffOfFolders, HasAnErrorOfItsOwnForEachPictureThatCannotBeCompared) {
   EXPECT_TRUE(has(tests, "tests=\"6\" failures=\"1\" errors=\"4\""));
   EXPECT_TRUE(has(csv, "\nsheet.png,0,0,,1,0,0,\n"));
   EXPECT_TRUE(fs::exists(out_ / "heat/frames/0000.png"));
-  const Json json = json_in(diff("--json").out, "stdout");
+  const Json json = json_in(diff(2, "--json").out, "stdout");
   EXPECT_EQ(json["pictures"].size(), 6u);
   EXPECT_EQ(json["worst"]["flip"], json["pictures"][1]["flip"]) << "of those that were compared";
 }
@@ -271,13 +265,12 @@ TEST_F(DiffOfFolders, HasAnErrorOfItsOwnForEachPictureThatCannotBeCompared) {
 TEST_F(DiffOfFolders, WithNothingToCompareHasNoWorst) {
   const fs::path empty = folder_.path() / "empty";
   fs::create_directories(empty);
-  const Outcome outcome = program("diff --json " + a_.string() + " " + empty.string());
-  EXPECT_EQ(outcome.exit_code, 2);
+  const Outcome outcome = ended(2, "diff --json " + a_.string() + " " + empty.string());
   EXPECT_FALSE(json_in(outcome.out, "stdout").contains("worst"));
 }
 
 TEST_F(DiffOfFolders, WritesHeatMapsAndATable) {
-  EXPECT_EQ(diff("--max-flip 0.001" + out_flag(out_)).exit_code, 4);
+  diff(4, "--max-flip 0.001" + out_flag(out_));
   EXPECT_EQ(render::read_png(out_ / "heat/frames/0000.png"), render::heat_map(ramp(), marked(8, 20)));
   const std::string csv = file_content(out_ / "diff.csv");
   EXPECT_EQ(csv.substr(0, csv.find('\n')),
@@ -286,8 +279,7 @@ TEST_F(DiffOfFolders, WritesHeatMapsAndATable) {
 }
 
 TEST_F(DiffOfFolders, RefusesToWriteWhereItReads) {
-  const Outcome outcome = diff("--out " + (b_ / "difference").string());
-  EXPECT_EQ(outcome.exit_code, 2);
+  const Outcome outcome = diff(2, "--out " + (b_ / "difference").string());
   EXPECT_TRUE(has(outcome.err, "must not be in"));
   EXPECT_FALSE(fs::exists(b_ / "difference"));
   fs::rename(b_, folder_.path() / "heat");
@@ -300,30 +292,29 @@ TEST_F(DiffOfFolders, RefusesToWriteWhereItReads) {
 TEST_F(Diff, TakesLimitsFromAFileAndFlagsInTheirPlace) {
   const std::string file = folder_.path() / "limits.toml";
   std::ofstream(file) << "max-mean = 0.4\nmin-ssim = 0.5\n";
-  const Outcome outcome = diff("--limits " + file);
-  EXPECT_EQ(outcome.exit_code, 4);
+  const Outcome outcome = diff(4, "--limits " + file);
   EXPECT_TRUE(one_line(outcome.err)) << outcome.err;
   EXPECT_TRUE(has(outcome.err, "must be <= 0.4 (" + file + ":1)"));
-  EXPECT_EQ(diff("--limits " + file + " --max-mean 0.5").exit_code, 0);
-  EXPECT_TRUE(has(diff("--limits " + file + " --max-mean 0.3").err, "<= 0.3 (--max-mean)"));
-  EXPECT_EQ(diff("--limits pictures").exit_code, 4) << "those that come with the program";
+  diff(0, "--limits " + file + " --max-mean 0.5");
+  EXPECT_TRUE(has(diff(4, "--limits " + file + " --max-mean 0.3").err, "<= 0.3 (--max-mean)"));
+  diff(4, "--limits pictures");  // those that come with the program
 }
 
 TEST_F(DiffOfFolders, TakesLimitsOfSomePicturesFromAFile) {
   const std::string file = folder_.path() / "limits.toml";
-  const auto limited = [&](const std::string& name, const std::string& mean) {
+  const auto limited = [&](int exit_code, const std::string& name, const std::string& mean) {
     std::ofstream(file) << "max-mean = 0.1\n[[picture]]\nname = \"" << name << "\"\nmax-mean = " << mean
                         << "\n";
-    return diff("--limits " + file).exit_code;
+    diff(exit_code, "--limits " + file);
   };
-  EXPECT_EQ(limited("frames/*.png", "0.5"), 0);
-  EXPECT_EQ(limited("frames/*.png", "0.3"), 4);
-  EXPECT_EQ(limited("sheet.png", "0.5"), 4) << "the other picture keeps the limit of all";
+  limited(0, "frames/*.png", "0.5");
+  limited(4, "frames/*.png", "0.3");
+  limited(4, "sheet.png", "0.5");  // the other picture keeps the limit of all
 }
 
 TEST_F(DiffOfFolders, WritesATestCaseForEachPicture) {
   const std::string file = folder_.path() / "new" / "tests.xml";
-  EXPECT_EQ(diff("--max-mean 0.1 --junit " + file).exit_code, 4);
+  diff(4, "--max-mean 0.1 --junit " + file);
   const std::string xml = file_content(file);
   for (const char* part :
        {"tests=\"2\" failures=\"1\"", "<testcase name=\"sheet.png\" classname=\"hysteron.diff\"",

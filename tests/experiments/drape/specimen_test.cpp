@@ -88,10 +88,9 @@ TEST_F(Draped, DiscThatLiesOnThePedestalIsRefused) {
 
 // Without friction and on its side, the specimen slides off the pedestal.
 TEST_F(Draped, CoefficientThatNoShadowHasIsNoResult) {
-  const Outcome outcome = program(
-      drape("--seconds 0.3 --drape.release dropped --fabric.friction 0 --gravity '60 0 0' --integrator "
-            "semi-implicit"));
-  EXPECT_EQ(outcome.exit_code, 3);
+  const Outcome outcome = ended(
+      3, drape("--seconds 0.3 --drape.release dropped --fabric.friction 0 --gravity '60 0 0' --integrator "
+               "semi-implicit"));
   EXPECT_TRUE(has(outcome.err, "% of the ring, which must be 0 to 101"));
   const Json manifest = manifest_in(folder_.path() / "out");
   EXPECT_EQ(manifest["complete"], false);

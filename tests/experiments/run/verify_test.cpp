@@ -186,8 +186,7 @@ TEST_F(Recorded, RunIsVerified) {
     EXPECT_TRUE(has(same.out, words));
 
   edit([](Json& json) { move(json, "drape_coefficient_percent", 1); });
-  const Outcome beyond = program(verify);
-  EXPECT_EQ(beyond.exit_code, 4);
+  const Outcome beyond = ended(4, verify);
   EXPECT_TRUE(has(beyond.out, "beyond: drape_coefficient_percent"));
 
   edit([](Json& json) {
@@ -200,7 +199,7 @@ TEST_F(Recorded, RunIsVerified) {
   for (const char* words : {"within  one", "state differs", "within their errors: drape_coefficient_percent",
                             "program 0123456", "device cpu: another, 1 threads, now"})
     EXPECT_TRUE(has(within.out, words));
-  EXPECT_EQ(program(verify + " --exact").exit_code, 4);
+  ended(4, verify + " --exact");
 }
 
 // The program promises them of one build on one device.
@@ -208,7 +207,7 @@ TEST_F(Recorded, RunWithOtherBitsDiffersOnlyWhereTheyAreDue) {
   record(kDrape);
   edit([](Json& json) { json["state_hash"] = "0123456789abcdef"; });
   const std::string verify = "verify " + in("runs") + " --out " + in("check");
-  EXPECT_EQ(program(verify).exit_code, 4);
+  ended(4, verify);
   const Json here = manifest_in(run())["hysteron"];
   edit([](Json& json) { json["hysteron"]["instructions"] = "x86-64-v9"; });
   EXPECT_TRUE(has(finished(verify).out, "instructions x86-64-v9, now x86-64"));

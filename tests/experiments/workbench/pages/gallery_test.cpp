@@ -287,8 +287,7 @@ TEST_F(Gallery, OfTheProgramSaysHowToRefreshAStalePage) {
   EXPECT_EQ(finished("report " + results + "/").err, "");
   EXPECT_EQ(finished("report --check " + results).err, "");
   write_run(results_ / "a-kes", "kes", 50.0);
-  const Outcome stale = program("report --check " + results);
-  EXPECT_EQ(stale.exit_code, 4);
+  const Outcome stale = ended(4, "report --check " + results);
   EXPECT_EQ(stale.err, "hysteron report: " + results + "/index.html is not what its folder says now; write " +
                            "it again: hysteron report " + results + "\n");
   refused("report " + results + "/nowhere");

@@ -119,7 +119,7 @@ TEST_F(PageForms, OfTheProgramAreLinkedUnlessAskedForAlone) {
   const Outcome alone = finished("report " + results + " --self-contained");
   EXPECT_EQ(alone.out, page + "\n");
   expect_alone(file_content(page));
-  EXPECT_EQ(program("report --check " + results).exit_code, 4) << "the default form is compared";
+  ended(4, "report --check " + results);  // the default form is compared
   finished("report " + results);
   expect_all_there(file_content(page), results_);
   finished("report --check " + results);
