@@ -8,19 +8,24 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "experiments/workbench/app/experiment.h"
 #include "experiments/workbench/app/json_file.h"
 #include "experiments/workbench/app/run.h"
 #include "gtest/gtest.h"
+#include "tests/has.h"
 #include "tests/sim/base/folder.h"
+#include "tests/sim/base/refusal.h"
 #include "tests/sim/base/small_disk.h"
 
 namespace hysteron::experiments {
+namespace fs = std::filesystem;
 
 // In a test body `Run` is testing::Test::Run.
 using ExperimentRun = Run;
 
 using test::file_content;
 using test::Folder;
+using test::has;
 
 inline int occurrences(const std::string& text, const std::string& part) {
   int count = 0;
@@ -29,12 +34,36 @@ inline int occurrences(const std::string& text, const std::string& part) {
 }
 
 // What a run has noted in its folder.
-inline Json manifest_in(const std::filesystem::path& run) { return read_json(run / "manifest.json"); }
-inline Json metrics_of(const std::filesystem::path& run) { return manifest_in(run)["metrics"]; }
+inline Json manifest_in(const fs::path& run) { return read_json(run / "manifest.json"); }
+inline Json metrics_of(const fs::path& run) { return manifest_in(run)["metrics"]; }
 
-inline std::string out_flag(const std::filesystem::path& out) { return " --out " + out.string(); }
+inline std::string out_flag(const fs::path& out) { return " --out " + out.string(); }
 
-inline Setup setup_in(const std::filesystem::path& out) {
+// The exit code of an experiment with these flags, which writes into `out` without pictures and progress.
+inline int run_into(const fs::path& out, const std::string& experiment, std::vector<Flag> flags) {
+  flags.insert(flags.end(), {{"out", out.string()}, {"no-images", "true"}, {"quiet", "true"}});
+  return experiment_named(experiment).run({experiment, "hysteron " + experiment, std::move(flags), {}});
+}
+// Metrics of such a run, which ends well.
+inline Json metrics_with(const std::string& experiment, std::vector<Flag> flags) {
+  const Folder folder;
+  EXPECT_EQ(run_into(folder.path(), experiment, std::move(flags)), 0);
+  return metrics_of(folder.path());
+}
+
+// In a folder while it exists.
+class InFolder {
+ public:
+  explicit InFolder(const fs::path& folder) { fs::current_path(folder); }
+  ~InFolder() { fs::current_path(before_); }
+  InFolder(const InFolder&) = delete;
+  InFolder& operator=(const InFolder&) = delete;
+
+ private:
+  const fs::path before_ = fs::current_path();
+};
+
+inline Setup setup_in(const fs::path& out) {
   Setup setup{default_scene(), {}};
   setup.options.out = out.string();
   setup.options.quiet = true;

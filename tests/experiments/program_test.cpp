@@ -4,19 +4,15 @@
 #include <cstdio>
 #include <fstream>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "experiments/workbench/app/experiment.h"
 #include "sim/mesh/cloth_mesh.h"
 #include "sim/scene/assets.h"
 #include "sim/scene/fabric_reader.h"
-#include "tests/experiments/folder.h"
 #include "tests/experiments/program.h"
 
 namespace hysteron::experiments {
 namespace {
-namespace fs = std::filesystem;
 
 TEST(Program, NamesTheExperimentOnceInAMessage) {
   EXPECT_EQ(program("law --b1 -1 --in a --out b").err, "hysteron law: b1 = -1 N m must be >= 0 (--b1)\n");
@@ -25,23 +21,21 @@ TEST(Program, NamesTheExperimentOnceInAMessage) {
 }
 
 TEST(Program, ExitsWithTwoForAWrongRequestAndOneForAFailingMachine) {
-  EXPECT_EQ(program("law --b1 -1 --in a --out b").exit_code, 2);
-  EXPECT_EQ(program("").exit_code, 2);
-  EXPECT_EQ(program("list fabrics >/dev/full #").exit_code, 1);
+  refused("law --b1 -1 --in a --out b");
+  refused("");
+  ended(1, "list fabrics >/dev/full #");
   for (const char* words : {"--version", "drape --help", "--help"}) {
-    const Outcome outcome = program(std::string(words) + " >/dev/full #");
-    EXPECT_EQ(outcome.exit_code, 1) << words;
+    ended(1, std::string(words) + " >/dev/full #");
   }
 }
 
 TEST(Program, RefusesRunsThatWouldDoNothing) {
   const Folder folder;
-  const std::string out = " --quiet --no-images --out " + (folder.path() / "out").string();
+  const std::string out = " --quiet --no-images" + out_flag(folder.path() / "out");
   const auto refusal = [&](const std::string& words) {
-    const Outcome outcome = program(words + out);
-    EXPECT_EQ(outcome.exit_code, 2) << outcome.err;
+    const std::string said = refused(words + out);
     EXPECT_FALSE(fs::exists(folder.path() / "out")) << words;
-    return outcome.err;
+    return said;
   };
   for (const char* name : {"swing", "drape"})
     EXPECT_EQ(
@@ -88,9 +82,9 @@ TEST(Program, ListsSourcesOfFabricsByTheirShortNames) {
     EXPECT_TRUE(by_its_short_name) << line;
   }
   for (const char* part : {"found such that", "assumed: assumed", "Kumari et al.", "2313"})
-    EXPECT_EQ(table.find(part), std::string::npos) << part << "\n" << table;
+    EXPECT_FALSE(has(table, part));
   for (const char* part : {"Kumari, Khurana 2016", "(fitted: Fashion and Textiles 2017)", "Wang et al. 2011"})
-    EXPECT_NE(table.find(part), std::string::npos) << part << "\n" << table;
+    EXPECT_TRUE(has(table, part));
 }
 
 // Where EGL finds no driver, it is listed with what fails.
@@ -118,21 +112,19 @@ TEST(Program, ListsDevicesWithWhatFailsWhenTheyAreOpened) {
 }
 
 TEST(Program, ListsEveryNumberOfAFabricWithHowItIsKnown) {
-  const Outcome outcome = program("list fabrics wool-tropical-k50");
-  EXPECT_EQ(outcome.exit_code, 0);
+  const Outcome outcome = finished("list fabrics wool-tropical-k50");
   std::map<std::string, std::string> row;  // by its first word
   std::istringstream lines(outcome.out);
   for (std::string line; std::getline(lines, line);) row[line.substr(0, line.find(' '))] = line;
-  EXPECT_NE(row["b2"].find("6.57e-06"), std::string::npos) << row["b2"];
-  EXPECT_NE(row["b2"].find("published"), std::string::npos) << row["b2"];
-  EXPECT_NE(row["k0"].find("assumed    12.5 to 50"), std::string::npos) << row["k0"];
-  EXPECT_NE(row["drape-coefficient"].find("49.8"), std::string::npos) << row["drape-coefficient"];
-  EXPECT_EQ(program("list fabrics silk-of-nowhere").exit_code, 2);
+  EXPECT_TRUE(has(row["b2"], "6.57e-06"));
+  EXPECT_TRUE(has(row["b2"], "published"));
+  EXPECT_TRUE(has(row["k0"], "assumed    12.5 to 50"));
+  EXPECT_TRUE(has(row["drape-coefficient"], "49.8"));
+  refused("list fabrics silk-of-nowhere");
 }
 
 TEST(Program, ListsAsJsonWhatItListsAsText) {
-  const Outcome outcome = program("list --json");
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const Outcome outcome = finished("list --json");
   const auto lists = json_in(outcome.out, "stdout");
   for (const char* list : {"fabrics", "laws", "scenes", "devices"})
     EXPECT_FALSE(lists.at(list).empty()) << list;
@@ -144,22 +136,18 @@ TEST(Program, ListsAsJsonWhatItListsAsText) {
 }
 
 TEST(Program, SaysItsVersionAndCommit) {
-  const Outcome outcome = program("--version");
-  EXPECT_EQ(outcome.exit_code, 0);
-  EXPECT_NE(outcome.out.find("(commit "), std::string::npos) << outcome.out;
-  for (const char* words : {"drape --version", "list laws --version", "drape --quick --step 0.1 --version"}) {
-    const Outcome anywhere = program(words);
-    EXPECT_EQ(anywhere.exit_code, 0) << words;
-    EXPECT_EQ(anywhere.out, outcome.out) << words;
-  }
+  const Outcome outcome = finished("--version");
+  EXPECT_TRUE(has(outcome.out, "(commit "));
+  for (const char* words : {"drape --version", "list laws --version", "drape --quick --step 0.1 --version"})
+    EXPECT_EQ(finished(words).out, outcome.out) << words;
 }
 
 // A plate that comes down to below the ground, from 0.1 s to 0.4 s; nothing is left of the sheet's room near
 // the end.
 TEST(Program, ExitsWithThreeWhereTheClothIsCrushedAndKeepsWhatWasWritten) {
   const Folder folder;
-  const fs::path out = folder.path() / "crushed", scene = folder.path() / "crush.toml";
-  std::ofstream(scene) << R"(integrator = "implicit"
+  const fs::path out = folder.path() / "crushed";
+  const std::string scene = folder.write("crush.toml", R"(integrator = "implicit"
 step = 0.004
 triangles = 60
 seconds = 0.5
@@ -172,12 +160,10 @@ kind = "box"
 size = [0.2, 0.2, 0.01]
 center = [0.05, 0.05, 0.02]
 keys = [{time = 0.1}, {time = 0.4, position = [0, 0, -0.012]}]
-)";
-  const Outcome outcome =
-      program("swing --no-images --quiet --fps 50 --scene " + scene.string() + " --out " + out.string());
-  EXPECT_EQ(outcome.exit_code, 3) << outcome.err;
-  EXPECT_NE(outcome.err.find("hysteron swing: at t = 0.3"), std::string::npos) << outcome.err;
-  EXPECT_NE(outcome.err.find("the cloth is crushed: vertex "), std::string::npos) << outcome.err;
+)");
+  const Outcome outcome = ended(3, "swing --no-images --quiet --fps 50 --scene " + scene + out_flag(out));
+  EXPECT_TRUE(has(outcome.err, "hysteron swing: at t = 0.3"));
+  EXPECT_TRUE(has(outcome.err, "the cloth is crushed: vertex "));
   const Json manifest = manifest_in(out);
   EXPECT_EQ(manifest["complete"], false);
   const std::string table = file_content(out / "metrics.csv");
@@ -186,13 +172,11 @@ keys = [{time = 0.1}, {time = 0.4, position = [0, 0, -0.012]}]
 
 TEST(Program, WritesNoMomentsOntoItsCurvatures) {
   const Folder folder;
-  const std::string in = folder.path() / "k.csv", link = folder.path() / "link.csv";
-  std::ofstream(in) << "curvature [1/m]\n50\n";
+  const std::string in = folder.write("k.csv", "curvature [1/m]\n50\n"), link = folder.file("link.csv");
   fs::create_symlink(in, link);
   for (const std::string& out : {in, link}) {
-    const Outcome outcome = program("law --in " + in + " --out " + out);
-    EXPECT_EQ(outcome.exit_code, 2);
-    EXPECT_EQ(outcome.err, "hysteron law: --out " + out + " is the input: give another file\n");
+    EXPECT_EQ(refused("law --in " + in + " --out " + out),
+              "hysteron law: --out " + out + " is the input: give another file\n");
     EXPECT_EQ(file_content(in), "curvature [1/m]\n50\n");
   }
 }
@@ -205,41 +189,37 @@ TEST(Program, TakesTheTrianglesThatAreAskedForThoughItIsQuick) {
                                "buckle --triangles 600"};
   for (const std::string line : lines) {
     const std::string requested = program(line + " --no-images --explain --device cpu").out;
-    EXPECT_NE(requested.find(" triangles, "), std::string::npos) << line;
+    EXPECT_TRUE(has(requested, " triangles, ")) << line;
     EXPECT_EQ(program(line + " --quick --no-images --explain --device cpu").out, requested) << line;
   }
 }
 
-// Along every path, and says what bringing it to rest has moved.
 // Turns are counted from a hundredth of its length on.
 TEST(Program, MeasuresASwingByTheStripThatItReads) {
   const Folder folder;
-  const std::string file = (folder.path() / "strip.obj").string();
+  const std::string file = folder.file("strip.obj");
   const ClothMesh strip = make_grid(0.09, 0.03, 9, 3, MeshFamily::unionjack, 1);
   write_obj(file, strip, strip.rest);
   const auto turns = [&](const std::string& flags) {
-    const fs::path out = folder.path() / "out";
-    const Outcome outcome = program(
+    const FinishedRun run(
         "swing --quiet --no-images --device cpu --threads 1 --seconds 1 --cloth.shape file --cloth.file " +
-        file + " --out " + out.string() + flags);
-    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-    return metrics_of(out)["turns"].get<int>();
+        file + flags);
+    return run.metrics()["turns"].get<int>();
   };
   const int expected = turns("");
   EXPECT_GT(expected, 0);
   EXPECT_EQ(turns(" --cloth.length 50"), expected);
 }
 
+// Along every path, and says what bringing it to rest has moved.
 TEST(Program, EndsADrapeAtRest) {
-  const Folder folder;
   for (const std::string release : {"lowered", "dropped", "relifted"}) {
-    const Outcome outcome = program(
+    const FinishedRun run(
         "drape --triangles 200 --seconds 0.5 --drape.lowering 0.1 --device cpu --no-images --quiet "
         "--drape.release " +
-        release + " --out " + (folder.path() / release).string());
-    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-    EXPECT_NE(outcome.out.find("at rest"), std::string::npos) << outcome.out;
-    const Json manifest = manifest_in(folder.path() / release);
+        release);
+    EXPECT_TRUE(has(run.outcome.out, "at rest"));
+    const Json manifest = run.manifest();
     EXPECT_TRUE(manifest["metrics"]["settled"].get<bool>()) << release;
     EXPECT_TRUE(manifest["metrics"]["rest_shift_percent"].is_number()) << release;
     EXPECT_EQ(manifest["energy"]["kinetic"], 0) << release;

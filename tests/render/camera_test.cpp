@@ -1,7 +1,5 @@
 #include "render/camera.h"
 
-#include <gtest/gtest.h>
-
 #include <Eigen/Geometry>
 #include <cmath>
 #include <limits>
@@ -35,21 +33,26 @@ TEST(Camera, FieldOfViewIsTheFullVerticalAngle) {
   EXPECT_NEAR(camera.metres_per_pixel({0, 0, 0}, 100), 2 * edge / 100, kRounding);
 }
 
+// The whole box is in the picture, with little room around it.
+void expect_framed(const Box& box, const Eigen::Vector3f& direction, float fov, float aspect) {
+  const Camera camera = Camera::framing(box, direction, fov, aspect);
+  float reach = 0;
+  for (int i = 0; i < 8; ++i) {
+    const Eigen::Vector3f corner(i & 1 ? box.low.x() : box.high.x(), i & 2 ? box.low.y() : box.high.y(),
+                                 i & 4 ? box.low.z() : box.high.z());
+    const Eigen::Vector3f shown = projected(camera, aspect, corner);
+    reach = std::max(reach, shown.head<2>().cwiseAbs().maxCoeff());
+    EXPECT_LT(std::abs(shown.z()), 1) << "cut off by the near or far plane";
+  }
+  EXPECT_LE(reach, 1.0f);
+  EXPECT_GE(reach, 0.9f);
+}
+
 TEST(Camera, FramingKeepsTheWholeBoxAndWastesLittle) {
   const Box box{{-0.2f, -0.1f, 0}, {0.3f, 0.2f, 0.25f}};
   for (const Eigen::Vector3f& direction : {Eigen::Vector3f(0.4f, -1, 0.5f), Eigen::Vector3f(0, 0, 1),
                                            Eigen::Vector3f(-1, 0, 0), Eigen::Vector3f(1, 1, -0.3f)})
-    for (const float aspect : {0.6f, 1.0f, 16.0f / 9}) {
-      const Camera camera = Camera::framing(box, direction, 25, aspect);
-      float reach = 0;
-      for (int i = 0; i < 8; ++i) {
-        const Eigen::Vector3f corner(i & 1 ? box.low.x() : box.high.x(), i & 2 ? box.low.y() : box.high.y(),
-                                     i & 4 ? box.low.z() : box.high.z());
-        reach = std::max(reach, projected(camera, aspect, corner).head<2>().cwiseAbs().maxCoeff());
-      }
-      EXPECT_LE(reach, 1.0f);
-      EXPECT_GE(reach, 0.9f);
-    }
+    for (const float aspect : {0.6f, 1.0f, 16.0f / 9}) expect_framed(box, direction, 25, aspect);
 }
 
 TEST(Camera, FramesPointsWithinItsBorder) {
@@ -74,19 +77,7 @@ TEST(Camera, FramingHoldsExtremeShapes) {
     for (const Eigen::Vector3f& direction :
          {Eigen::Vector3f(0.8f, -1.6f, 0.9f), Eigen::Vector3f(0, 0, 1), Eigen::Vector3f(1, 0, 0),
           Eigen::Vector3f(0, -1, 0), Eigen::Vector3f(0, 0, -1), Eigen::Vector3f(1, 0, 0.02f)})
-      for (const float aspect : {0.25f, 1.0f, 4.0f}) {
-        const Camera camera = Camera::framing(box, direction, 28, aspect);
-        float reach = 0;
-        for (int i = 0; i < 8; ++i) {
-          const Eigen::Vector3f corner(i & 1 ? box.low.x() : box.high.x(), i & 2 ? box.low.y() : box.high.y(),
-                                       i & 4 ? box.low.z() : box.high.z());
-          const Eigen::Vector3f shown = projected(camera, aspect, corner);
-          reach = std::max(reach, shown.head<2>().cwiseAbs().maxCoeff());
-          EXPECT_LT(std::abs(shown.z()), 1) << "cut off by the near or far plane";
-        }
-        EXPECT_LE(reach, 1.0f);
-        EXPECT_GE(reach, 0.9f);
-      }
+      for (const float aspect : {0.25f, 1.0f, 4.0f}) expect_framed(box, direction, 28, aspect);
 }
 
 // However the points lie, they touch two opposite borders but for the margin, and none is beyond.
@@ -140,11 +131,11 @@ TEST(Camera, AWindowShowsItsPartOfThePicture) {
 }
 
 TEST(Camera, ImpossibleViewsAreRefused) {
-  EXPECT_EQ(test::thrown_error([] { Camera::perspective({0, 0, 0}, {0, 0, 0}, 30); }).exit_code(), 2);
-  EXPECT_EQ(test::thrown_error([] { Camera::perspective({1, 0, 0}, {0, 0, 0}, 180); }).exit_code(), 2);
-  EXPECT_EQ(test::thrown_error([] { bounding_box({}); }).exit_code(), 2);
+  EXPECT_EQ(thrown_error([] { Camera::perspective({0, 0, 0}, {0, 0, 0}, 30); }).exit_code(), 2);
+  EXPECT_EQ(thrown_error([] { Camera::perspective({1, 0, 0}, {0, 0, 0}, 180); }).exit_code(), 2);
+  EXPECT_EQ(thrown_error([] { bounding_box({}); }).exit_code(), 2);
   const std::vector<float> broken{0, 0, std::numeric_limits<float>::infinity()};
-  EXPECT_EQ(test::thrown_error([&] { bounding_box(broken); }).exit_code(), 2);
+  EXPECT_EQ(thrown_error([&] { bounding_box(broken); }).exit_code(), 2);
 }
 
 }  // namespace

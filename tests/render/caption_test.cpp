@@ -1,7 +1,5 @@
 #include "render/caption.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <limits>
 #include <string>
@@ -13,24 +11,21 @@ namespace {
 
 constexpr Rgb8 kWhite{255, 255, 255};
 
-bool is_ink(const Image& image, int x, int y) { return image.at(x, y)[1] < 100; }
+bool is_ink(const std::uint8_t* pixel) { return pixel[1] < 100; }
 
 // Longest run of dark pixels in any row.
 int longest_run(const Image& image) {
   int longest = 0;
   for (int y = 0; y < image.height(); ++y)
     for (int x = 0, run = 0; x < image.width(); ++x) {
-      run = is_ink(image, x, y) ? run + 1 : 0;
+      run = is_ink(image.at(x, y)) ? run + 1 : 0;
       longest = std::max(longest, run);
     }
   return longest;
 }
 
-int ink_in(const Image& image, int left, int top, int right, int bottom) {
-  int count = 0;
-  for (int y = top; y < bottom; ++y)
-    for (int x = left; x < right; ++x) count += is_ink(image, x, y);
-  return count;
+int ink_in(const Image& image, int left = 0, int top = 0, int right = 1 << 20, int bottom = 1 << 20) {
+  return test::count_pixels(image, is_ink, left, top, right, bottom);
 }
 
 TEST(ScaleBar, IsAsLongAsItsLabelSays) {
@@ -52,7 +47,7 @@ TEST(ScaleBar, LengthIsRoundAndNearASixthOfTheWidth) {
   EXPECT_DOUBLE_EQ(scale_bar_length(image, 2.5e-4), 0.05);
   EXPECT_DOUBLE_EQ(scale_bar_length(image, 5e-4), 0.1);
   for (const double bad : {0.0, -1.0, std::nan(""), std::numeric_limits<double>::infinity()})
-    EXPECT_EQ(test::thrown_error([&] { scale_bar_length(image, bad); }).exit_code(), 2);
+    EXPECT_EQ(thrown_error([&] { scale_bar_length(image, bad); }).exit_code(), 2);
 }
 
 TEST(Text, GreekAndSuperscriptsAreLetters) {
@@ -65,7 +60,7 @@ TEST(Text, GreekAndSuperscriptsAreLetters) {
 TEST(Text, WhatLeavesThePictureIsCutOff) {
   Image image(20, 20, kWhite);
   draw_text(image, "far too long for this", -15, 15, {.size = 12});
-  EXPECT_GT(ink_in(image, 0, 0, 20, 20), 0);
+  EXPECT_GT(ink_in(image), 0);
   draw_text(image, "\xE2\x82", 2, 15, {.size = 12});  // a broken sequence must not be read beyond its end
 }
 
@@ -82,11 +77,10 @@ TEST(Caption, StandsInItsCornerAndGrowsWithThePicture) {
   for (int i = 0; i < 2; ++i) {
     Image image(1280 << i, 720 << i, kWhite);
     draw_caption(image, "cotton broad\nprandtl, t = 1.25 s", Corner::bottom_right);
-    const int w = image.width(), h = image.height();
-    const int ink = ink_in(image, w / 2, h / 2, w, h);
+    const int ink = ink_in(image, image.width() / 2, image.height() / 2);
     EXPECT_GT(ink, 0);
-    EXPECT_EQ(ink_in(image, 0, 0, w, h), ink);
-    EXPECT_EQ(ink_in(image, w - margin(image) + 2, 0, w, h), 0) << "the margin stays free";
+    EXPECT_EQ(ink_in(image), ink);
+    EXPECT_EQ(ink_in(image, image.width() - margin(image) + 2), 0) << "the margin stays free";
     area[i] = darkness(image);
   }
   constexpr double kHinting = 0.1;  // letters fall otherwise between pixels
@@ -103,11 +97,11 @@ TEST(Caption, ABrokenLineKeepsAllItsWords) {
   draw_caption(whole, text, Corner::top_left);
   draw_caption(narrow, text, Corner::top_left);
   const int below_second = margin(narrow) + static_cast<int>(3.5f * text_size(narrow));
-  EXPECT_EQ(ink_in(whole, 0, below_second, 3200, 720), 0);
-  EXPECT_GT(ink_in(narrow, 0, below_second, 1280, 720), 0) << "a third line";
+  EXPECT_EQ(ink_in(whole, 0, below_second), 0);
+  EXPECT_GT(ink_in(narrow, 0, below_second), 0) << "a third line";
   constexpr double kSubpixels = 0.03;  // letters fall otherwise between pixels
-  const double ink = ink_in(whole, 0, 0, 3200, 720);
-  EXPECT_NEAR(ink_in(narrow, 0, 0, 1280, 720), ink, kSubpixels * ink);
+  const double ink = ink_in(whole);
+  EXPECT_NEAR(ink_in(narrow), ink, kSubpixels * ink);
 }
 
 // The colours read back at the ticks are those of the ticks' values, to the bit.
@@ -124,7 +118,7 @@ TEST(ColorBar, ShowsTheTicksValuesAtTheTicks) {
           const std::uint8_t* shown = image.at(x, place.top + place.height / 2);
           const Rgb8 expected = map_color8(map, static_cast<float>(i) / static_cast<float>(ticks - 1));
           EXPECT_EQ((Rgb8{shown[0], shown[1], shown[2]}), expected) << "tick " << i << " of " << ticks;
-          EXPECT_TRUE(is_ink(image, x, place.top + place.height + 2)) << "tick " << i << " of " << ticks;
+          EXPECT_TRUE(is_ink(image.at(x, place.top + place.height + 2))) << "tick " << i << " of " << ticks;
         }
       }
 }
@@ -151,18 +145,15 @@ TEST(ColorBar, RunsFromTheMapsLowToItsHighColour) {
                  Corner::top_left);
   const Rgb8 low = map_color8(ColorMap::diverging, 0), high = map_color8(ColorMap::diverging, 1);
   const auto has_near = [&](const Rgb8& color, int left, int right) {
-    for (int y = 0; y < 150; ++y)
-      for (int x = left; x < right; ++x) {
-        const std::uint8_t* p = image.at(x, y);
-        if (std::abs(p[0] - color[0]) + std::abs(p[1] - color[1]) + std::abs(p[2] - color[2]) < 6)
-          return true;
-      }
-    return false;
+    const auto is_near = [&](const std::uint8_t* p) {
+      return std::abs(p[0] - color[0]) + std::abs(p[1] - color[1]) + std::abs(p[2] - color[2]) < 6;
+    };
+    return test::count_pixels(image, is_near, left, 0, right, 150) > 0;
   };
   EXPECT_TRUE(has_near(low, 0, 60));
   EXPECT_FALSE(has_near(low, 200, 400));
   EXPECT_TRUE(has_near(high, 200, 400));
-  EXPECT_EQ(test::thrown_error([&] {
+  EXPECT_EQ(thrown_error([&] {
               draw_color_bar(image, {.low = 1, .high = 1, .label = "", .unit = ""}, Corner::top_left);
             }).exit_code(),
             2);

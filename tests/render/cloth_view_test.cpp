@@ -1,7 +1,5 @@
 #include "render/cloth_view.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <limits>
 
@@ -12,20 +10,13 @@ namespace hysteron::render {
 namespace {
 
 using test::brightness;
-using test::thrown_error;
 
 constexpr PictureSize kSquarePicture{200, 200};
 
-class ClothViewTest : public testing::Test {
+class ClothViewTest : public test::OffscreenTest {
  protected:
-  std::unique_ptr<Offscreen> offscreen_ = Offscreen::create(Renderer::automatic);
-
   std::unique_ptr<ClothView> viewed_cloth(const test::Cloth& cloth, const Look& look) {
-    auto view = std::make_unique<ClothView>(*offscreen_, kSquarePicture);
-    view->set_cloth(cloth.topology());
-    view->set_positions(cloth.positions);
-    view->set_look(look);
-    return view;
+    return test::cloth_view(*offscreen_, kSquarePicture, cloth, look);
   }
 };
 

@@ -2,19 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
-#include "render/srgb.h"
+#include "tests/render/lab.h"
 
 namespace hysteron::render {
 namespace {
 
-// CIE L* (0 to 100) of an sRGB colour, from its relative luminance (IEC 61966-2-1; CIE 15:2004).
-double lightness(const Rgb8& color) {
-  const auto& light = linear_of_srgb8();
-  const double y = 0.2126 * light[color[0]] + 0.7152 * light[color[1]] + 0.0722 * light[color[2]];
-  return y > 216.0 / 24389 ? 116 * std::cbrt(y) - 16 : y * 24389 / 27;
-}
+double lightness(const Rgb8& color) { return test::lightness(color.data()); }
 
 // An 8-bit step changes L* by up to about half a unit in the dark.
 constexpr double kByteRounding = 0.6;

@@ -1,7 +1,5 @@
 #include "render/compare.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 
 #include "render/color_map.h"

@@ -1,7 +1,5 @@
 #include "render/comparison_sheet.h"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -139,15 +137,10 @@ TEST(LoopInset, EndsInADotOfItsColorWithinItsSquare) {
   Image picture(400, 300, Rgb8{255, 255, 255});
   LoopInset loop{.path = {{0, 50, 100}, {0, 2e-4, 3e-4}}, .color = {0, 0, 220}};
   draw_loop(picture, loop, Corner::top_right, 0.28f, 10);
-  int blue = 0, beyond = 0;
-  for (int y = 0; y < 300; ++y)
-    for (int x = 0; x < 400; ++x) {
-      const bool is_blue = picture.at(x, y)[2] > picture.at(x, y)[0] + 100;
-      blue += is_blue;
-      beyond += is_blue && (x < 400 - 122 || y > 122);
-    }
+  const auto is_blue = [](const std::uint8_t* pixel) { return pixel[2] > pixel[0] + 100; };
+  const int blue = test::count_pixels(picture, is_blue);
   EXPECT_GT(blue, 40);
-  EXPECT_EQ(beyond, 0) << "28 % of the width";
+  EXPECT_EQ(test::count_pixels(picture, is_blue, 400 - 122, 0, 400, 123), blue) << "28 % of the width";
 }
 
 // In a cell whose right half is cloth the inset is drawn in the left one, though it belongs to the right.
@@ -185,10 +178,8 @@ TEST(LoopInset, ReachesAsFarAsHalfOfThePathsAndCutsWhatGoesBeyond) {
 TEST(DrawLine, CoversItsLengthTimesItsWidth) {
   Image image(100, 100, Rgb8{255, 255, 255});
   draw_line(image, 20, 50, 80, 50, 6, {0, 0, 0});
-  int dark = 0;
-  for (int y = 0; y < 100; ++y)
-    for (int x = 0; x < 100; ++x) dark += image.at(x, y)[0] < 128;
-  EXPECT_NEAR(dark, 60 * 6 + 3.14159 * 9, 12);
+  const auto is_dark = [](const std::uint8_t* pixel) { return pixel[0] < 128; };
+  EXPECT_NEAR(test::count_pixels(image, is_dark), 60 * 6 + 3.14159 * 9, 12);
 }
 
 }  // namespace

@@ -1,7 +1,5 @@
 #include "render/contact_sheet.h"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cstddef>
 
@@ -9,9 +7,6 @@
 
 namespace hysteron::render {
 namespace {
-
-using test::Folder;
-using test::thrown_error;
 
 Rgb8 cell_color(int i) { return {static_cast<std::uint8_t>(20 + 30 * i), 0, 0}; }
 

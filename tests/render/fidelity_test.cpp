@@ -1,6 +1,5 @@
 // What a picture must not add to what it shows: stairs along edges, bands in gradients, a gap below cloth
 // that lies on the ground, colours that are not those of the bar.
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
@@ -18,15 +17,12 @@ using test::lightness;
 
 constexpr int kFigure = 16;  // passes; 0: a picture of a sequence
 
-class FidelityTest : public testing::Test {
+class FidelityTest : public test::OffscreenTest {
  protected:
   Image draped(const Look& look, int passes, int width = 320) const {
-    const int height = width * 9 / 16;
-    return test::draped_view(*offscreen_, {.width = width, .height = height, .figure_passes = passes}, look)
-        ->draw(test::draped_camera(16.0f / 9));
+    return test::draped_picture(*offscreen_,
+                                {.width = width, .height = width * 9 / 16, .figure_passes = passes}, look);
   }
-
-  std::unique_ptr<Offscreen> offscreen_ = Offscreen::create(Renderer::automatic);
 };
 
 // Edges are smooth, and sixteen passes have directions enough.  The reference has 64: against one of 256,
@@ -89,13 +85,11 @@ TEST_F(FidelityTest, AFlatSpecimenLiesOnTheGroundWithoutAGap) {
     for (const double pixels : {3.0, 8.0}) {
       Look look;
       look.thickness = static_cast<float>(pixels * metres);
-      ClothView view(*offscreen_, {.width = kSide, .height = kSide, .figure_passes = passes});
-      const test::Cloth cloth = test::flat_square(4, 2 * kHalf, look.thickness);
-      view.set_cloth(cloth.topology());
-      view.set_positions(cloth.positions);
-      view.set_ground(0.0f);
-      view.set_look(look);
-      const Image image = view.draw(camera);
+      const auto view =
+          test::cloth_view(*offscreen_, {.width = kSide, .height = kSide, .figure_passes = passes},
+                           test::flat_square(4, 2 * kHalf, look.thickness), look);
+      view->set_ground(0.0f);
+      const Image image = view->draw(camera);
       const auto at = [&](int row) { return lightness(image.at(kSide / 2, row)); };
       const std::vector<float> foot = {0, -kHalf, 0.5f * look.thickness};
       const double edge = kSide * (1 - camera.image_window(foot, 1).top);

@@ -1,6 +1,5 @@
 // What a figure promises: light that models the cloth, shadows without steps, a page that stays white, edges
 // as thick as the cloth.
-#include <gtest/gtest.h>
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -14,7 +13,6 @@ namespace hysteron::render {
 namespace {
 
 constexpr int kWidth = 320, kHeight = 180, kPasses = 16;
-constexpr float kAspect = static_cast<float>(kWidth) / kHeight;
 
 using test::lightness;
 
@@ -25,27 +23,21 @@ double quantile(std::vector<double> values, double q) {
   return *at;
 }
 
-class FigureTest : public testing::Test {
+class FigureTest : public test::OffscreenTest {
  protected:
   Image figure(const Look& look, int passes = kPasses) {
-    return test::draped_view(*offscreen_, {.width = kWidth, .height = kHeight, .figure_passes = passes}, look)
-        ->draw(test::draped_camera(kAspect));
+    return test::draped_picture(*offscreen_, {.width = kWidth, .height = kHeight, .figure_passes = passes},
+                                look);
   }
   // Where the cloth is wholly in a pixel.
-  Image silhouette() {
-    return test::draped_view(*offscreen_, {kWidth, kHeight}, look_named("silhouette"))
-        ->draw(test::draped_camera(kAspect));
-  }
   std::vector<double> on_cloth(const Image& image) {
-    const Image where = silhouette();
+    const Image where = test::draped_picture(*offscreen_, {kWidth, kHeight}, look_named("silhouette"));
     std::vector<double> values;
     for (int y = 0; y < kHeight; ++y)
       for (int x = 0; x < kWidth; ++x)
         if (where.at(x, y)[1] == 0) values.push_back(lightness(image.at(x, y)));
     return values;
   }
-
-  std::unique_ptr<Offscreen> offscreen_ = Offscreen::create(Renderer::automatic);
 };
 
 TEST_F(FigureTest, RakingLightIsStrongerAndLeavesNoBlack) {
@@ -101,13 +93,11 @@ double roughness(const std::vector<double>& y) {
 // Lightness of columns, each the mean over a band of rows: the noise of rounding is gone, steps remain.
 TEST_F(FigureTest, ShadowsHaveNoSteps) {
   constexpr int kSide = 300, kBand = 24;
-  ClothView view(*offscreen_, {.width = kSide, .height = kSide, .figure_passes = kPasses});
-  const test::Cloth cloth = test::flat_square(8, 0.12f, 0.12f);
-  view.set_cloth(cloth.topology());
-  view.set_positions(cloth.positions);
-  view.set_ground(0.0f);
+  const auto view = test::cloth_view(*offscreen_, {.width = kSide, .height = kSide, .figure_passes = kPasses},
+                                     test::flat_square(8, 0.12f, 0.12f), {});
+  view->set_ground(0.0f);
   // From below the sheet's height: the ground behind it.
-  const Image image = view.draw(Camera::perspective({0, -0.9f, 0.35f}, {0, 0, 0.03f}, 26));
+  const Image image = view->draw(Camera::perspective({0, -0.9f, 0.35f}, {0, 0, 0.03f}, 26));
   const auto columns = [&](int left, int right, int top) {
     std::vector<double> values;
     for (int x = left; x < right; ++x) {
@@ -131,12 +121,10 @@ TEST_F(FigureTest, AnEdgeIsAsThickAsTheCloth) {
   const double metres = camera.metres_per_pixel({0, -kHalf, 0.01f}, kSide);
   for (const double pixels : {0.3, 2.0, 5.0}) {
     look.thickness = static_cast<float>(pixels * metres);
-    ClothView view(*offscreen_, {.width = kSide, .height = kSide, .figure_passes = kPasses});
-    const test::Cloth cloth = test::flat_square(4, 2 * kHalf, 0.01f);
-    view.set_cloth(cloth.topology());
-    view.set_positions(cloth.positions);
-    view.set_look(look);
-    const Image image = view.draw(camera);
+    const Image image =
+        test::cloth_view(*offscreen_, {.width = kSide, .height = kSide, .figure_passes = kPasses},
+                         test::flat_square(4, 2 * kHalf, 0.01f), look)
+            ->draw(camera);
     const double edge = linear_of_srgb8()[image.at(kSide / 2, kSide / 2)[0]];
     double covered = 0;
     for (int y = 0; y < kSide; ++y) covered += 1 - linear_of_srgb8()[image.at(kSide / 2, y)[0]];
@@ -144,27 +132,6 @@ TEST_F(FigureTest, AnEdgeIsAsThickAsTheCloth) {
     EXPECT_NEAR(covered / (pixels < 1.5 ? 1 : 1 - edge), expected, pixels < 1.5 ? 0.9 : 0.5) << pixels;
     EXPECT_GE(covered, 0.3) << "an edge must be seen";
   }
-}
-
-TEST_F(FigureTest, TheSameCallsGiveTheSameBits) { EXPECT_EQ(figure({}, 4), figure({}, 4)); }
-
-// All of Mesa's software paths run one rasteriser, so between them not a bit may differ.
-TEST(Figure, AllPathsOfOneMesaAgreeToTheBit) {
-  std::vector<Image> pictures;
-  for (const Candidate& candidate : Offscreen::candidates(Renderer::automatic)) {
-    if (candidate.hardware) continue;
-    try {
-      const auto offscreen = Offscreen::create(candidate);
-      if (offscreen->description().find("llvmpipe") == std::string::npos) continue;
-      pictures.push_back(
-          test::draped_view(*offscreen, {.width = kWidth, .height = kHeight, .figure_passes = 4}, {})
-              ->draw(test::draped_camera(kAspect)));
-    } catch (const Error&) {
-      continue;  // a path this machine lacks
-    }
-  }
-  if (pictures.size() < 2) GTEST_SKIP() << "fewer than two software paths on this machine";
-  for (const Image& picture : pictures) EXPECT_EQ(picture, pictures[0]);
 }
 
 }  // namespace

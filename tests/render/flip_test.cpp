@@ -1,7 +1,5 @@
 #include "render/flip.h"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 

@@ -1,5 +1,4 @@
 // The key light is a disc far away: its shadows' edges are as wide as geometry says.
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
@@ -16,7 +15,7 @@ constexpr int kBand = 8;             // half of the rows that are averaged
 constexpr float kHalf = 0.12f;       // of what the picture shows [m]
 constexpr double kLightSize = 0.06;  // the light's radius over its distance, as in key_shadow.glsl
 
-class KeyShadowTest : public testing::Test {
+class KeyShadowTest : public test::OffscreenTest {
  protected:
   // Along rows around the middle, whose mean has no noise of rounding, from above, with the key light alone,
   // from the left at 45 degrees: light per pixel, as a share of the brightest.
@@ -26,11 +25,7 @@ class KeyShadowTest : public testing::Test {
     look.front = {70, 80, 90};  // so dark that its brightest light is shown in proportion
     look.room = 0;
     look.to_light = {-1, 0, 1};
-    ClothView view(*offscreen_, {kSide, kSide});
-    view.set_look(look);
-    view.set_cloth(cloth.topology());
-    view.set_positions(cloth.positions);
-    const Image image = view.draw(camera_);
+    const Image image = test::cloth_view(*offscreen_, {kSide, kSide}, cloth, look)->draw(camera_);
     std::vector<double> light;
     for (int x = 0; x < kSide; ++x) {
       double sum = 0;
@@ -46,7 +41,6 @@ class KeyShadowTest : public testing::Test {
 
   const Camera camera_ = Camera::top({{-kHalf, -kHalf, 0}, {kHalf, kHalf, kHalf}}, 1);
   const double metres_ = camera_.metres_per_pixel({0, 0, 0}, kSide);
-  std::unique_ptr<Offscreen> offscreen_ = Offscreen::create(Renderer::automatic);
 };
 
 // A sheet on z = 0 and another square, of four corners counter-clockwise, in one cloth.

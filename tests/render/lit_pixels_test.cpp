@@ -1,7 +1,5 @@
 #include "render/lit_pixels.h"
 
-#include <gtest/gtest.h>
-
 #include "render/flip.h"
 #include "render/offscreen.h"
 #include "tests/render/test_scene.h"
@@ -36,9 +34,8 @@ TEST(LitPixels, FurtherPassesCountWhereTheFirstDiffersFromANeighbour) {
 TEST(LitPixels, ArePixelsEnough) {
   constexpr int kSide = 240;
   const auto offscreen = Offscreen::create(Renderer::automatic);
-  const Camera camera = test::draped_camera(1);
   const auto drawn = [&](int side) {
-    return test::draped_view(*offscreen, {.width = side, .height = side}, look_named("clay"))->draw(camera);
+    return test::draped_picture(*offscreen, {.width = side, .height = side}, look_named("clay"));
   };
   EXPECT_LT(flip(drawn(kSide), shrink(drawn(4 * kSide), kSide, kSide)), 0.015);
 }

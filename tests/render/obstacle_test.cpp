@@ -1,5 +1,4 @@
 // Bodies below coarse cloth: what is drawn of them, and the room's light on them.
-#include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -29,31 +28,13 @@ Look red_bodies() {
 
 bool is_red(const std::uint8_t* pixel) { return pixel[0] > 1.5 * pixel[2]; }
 
-int red_pixels(const Image& image) {
-  int count = 0;
-  for (int y = 0; y < image.height(); ++y)
-    for (int x = 0; x < image.width(); ++x) count += is_red(image.at(x, y));
-  return count;
-}
+int red_pixels(const Image& image) { return test::count_pixels(image, is_red); }
 
-// In the column through the middle.
-int red_rows(const Image& image) {
-  int count = 0;
-  for (int y = 0; y < image.height(); ++y) count += is_red(image.at(image.width() / 2, y));
-  return count;
-}
-
-class ObstacleTest : public testing::Test {
+class ObstacleTest : public test::OffscreenTest {
  protected:
-  std::unique_ptr<ClothView> viewed_cloth(const test::Cloth& cloth) {
-    auto view = std::make_unique<ClothView>(*offscreen_, PictureSize{kObstaclePicture, kObstaclePicture});
-    view->set_cloth(cloth.topology());
-    view->set_positions(cloth.positions);
-    view->set_look(red_bodies());
-    return view;
+  std::unique_ptr<ClothView> viewed_cloth(const test::Cloth& cloth, const Look& look = red_bodies()) {
+    return test::cloth_view(*offscreen_, {kObstaclePicture, kObstaclePicture}, cloth, look);
   }
-
-  std::unique_ptr<Offscreen> offscreen_ = Offscreen::create(Renderer::automatic);
 };
 
 // A square of `cells` a side, 0.3 m, laid around a horizontal cylinder about the y axis through the origin:
@@ -98,7 +79,8 @@ TEST_F(ObstacleTest, AThinPlateIsStillSeen) {
   view->add_obstacle(box_mesh({0.02f, 0.02f, kThick / 2}, 0.5e-3f), placed({0, 0, 0}, {0, 0, 1}));
   const Camera camera = Camera::perspective({0, -0.2f, 0}, {0, 0, 0}, 4);
   const double rows = 0.3 * kThick / camera.metres_per_pixel({0, -0.02f, 0}, kObstaclePicture);
-  EXPECT_NEAR(red_rows(view->draw(camera)), rows, 2);
+  const int middle = kObstaclePicture / 2;
+  EXPECT_NEAR(test::count_pixels(view->draw(camera), is_red, middle, 0, middle + 1), rows, 2);
 }
 
 TEST_F(ObstacleTest, ABodyOnTheGroundKeepsStandingOnIt) {
@@ -169,7 +151,7 @@ TEST(Refine, KeepsTheSurfaceClosedAndLeavesNoLongSide) {
     EXPECT_EQ(count, 1);
     EXPECT_EQ(sides.count({side.second, side.first}), 1u) << "a gap";
   }
-  EXPECT_EQ(test::thrown_error([] { refined(cuboid({1, 1, 1}), 0); }).exit_code(), 2);
+  EXPECT_EQ(thrown_error([] { refined(cuboid({1, 1, 1}), 0); }).exit_code(), 2);
 }
 
 // With the key light off: the corners of a bare cuboid see all of the sky, its middle below a sheet does not.
@@ -177,10 +159,9 @@ TEST_F(ObstacleTest, APlateOfEightCornersIsDarkBelowASheet) {
   const Camera camera = Camera::perspective({0, -0.6f, 0.13f}, {0, 0, 0.01f}, 25);
   std::vector<double> light;
   for (const float height : {0.02f, 0.3f}) {
-    auto view = viewed_cloth(test::flat_square(20, 0.1f, height));
     Look look = red_bodies();
     look.room = 19.0f / 9;  // the key light's 1.9 - 0.9 room is 0
-    view->set_look(look);
+    auto view = viewed_cloth(test::flat_square(20, 0.1f, height), look);
     view->add_obstacle(cuboid({0.15f, 0.15f, 0.01f}), Eigen::Matrix4f::Identity());
     view->set_bounds({{-0.15f, -0.15f, -0.01f}, {0.15f, 0.15f, 0.3f}});
     // A point 1 cm before the middle, seen below the sheet's near edge.

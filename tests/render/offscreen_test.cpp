@@ -1,6 +1,5 @@
 #include "render/offscreen.h"
 
-#include <gtest/gtest.h>
 #include <sys/wait.h>
 
 #include <algorithm>
@@ -26,7 +25,7 @@ TEST(Offscreen, AutomaticChoiceGivesAContextAndNamesIt) {
   GLint major = 0;
   offscreen->gl().GetIntegerv(GL_MAJOR_VERSION, &major);
   EXPECT_GE(major, 3);
-  EXPECT_NE(offscreen->description().find("GL "), std::string::npos) << offscreen->description();
+  EXPECT_TRUE(has(offscreen->description(), "GL "));
 }
 
 TEST(Offscreen, EveryEglCandidateIsUsableOrSaysWhyNot) {
@@ -72,13 +71,16 @@ TEST(Offscreen, HardwareIsTriedFirstAndOSMesaLast) {
 
 TEST(Offscreen, ADeviceThatIsNotThereIsTheMachinesFailure) {
   const Candidate missing{.kind = Candidate::Kind::egl_device, .device = 999};
-  EXPECT_EQ(test::thrown_error([&] { Offscreen::create(missing); }).exit_code(), 1);
+  EXPECT_EQ(thrown_error([&] { Offscreen::create(missing); }).exit_code(), 1);
 }
 
 TEST(Offscreen, RendererNamesAreThoseOfTheInterface) {
   EXPECT_EQ(value_named<Renderer>("auto"), Renderer::automatic);
   EXPECT_EQ(value_named<Renderer>("egl"), Renderer::egl);
   EXPECT_EQ(value_named<Renderer>("osmesa"), Renderer::osmesa);
+  const Error error = thrown_error([] { value_named<Renderer>("vulkan"); });
+  EXPECT_EQ(error.exit_code(), 2);
+  EXPECT_TRUE(has(error.what(), "auto, egl, osmesa"));
 }
 
 TEST(Offscreen, TwoContextsLiveSideBySide) {

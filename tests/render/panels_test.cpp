@@ -1,18 +1,10 @@
 #include "render/panels.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-
 #include "render/image.h"
-#include "sim/base/process.h"
 #include "tests/render/test_scene.h"
 
 namespace hysteron::render {
 namespace {
-
-using test::Folder;
-using test::thrown_error;
 
 constexpr int kLeft = 90, kColumn = 172;  // [pixels] where the first panel begins, and every next one
 
@@ -28,33 +20,20 @@ Panels panel_grid(int count) {
   return grid;
 }
 
-class PanelsTest : public testing::Test {
- protected:
-  void SetUp() override {
-    if (run_process({"gnuplot", "--version"}, "").exit_code != 0)
-      GTEST_SKIP() << "gnuplot is not installed (gnuplot-nox)";
-  }
-  Folder folder_;
-};
+using PanelsTest = test::GnuplotTest;
 
-TEST_F(PanelsTest, EveryPanelHasItsTitleAndItsTexts) {
-  write_panels(folder_.file("p"), panel_grid(5));
-  EXPECT_EQ(folder_.names(), (std::vector<std::string>{"p.pdf", "p.png", "p.svg"}));
-  const std::string svg = test::file_content(folder_.file("p.svg"));
-  for (const char* text : {"panel_0", "panel_4", "B = 1", "lower right", "Loops", "red: a line", "x [m]"})
-    EXPECT_NE(svg.find(text), std::string::npos) << text;
-}
-
-TEST_F(PanelsTest, PanelsStandInRowsOfTheGivenLength) {
+TEST_F(PanelsTest, StandInRowsOfTheGivenLengthWithTheirTitlesAndTexts) {
   write_panels(folder_.file("p"), panel_grid(4));
+  EXPECT_EQ(folder_.names(), (std::vector<std::string>{"p.pdf", "p.png", "p.svg"}));
+  const std::string svg = file_content(folder_.file("p.svg"));
+  for (const char* text : {"panel_0", "panel_3", "B = 1", "lower right", "Loops", "red: a line", "x [m]"})
+    EXPECT_TRUE(has(svg, text));
   const Image image = read_png(folder_.file("p.png"));
-  std::vector<int> red(3);  // pixels of the lines, by column of the grid
-  for (int y = 0; y < image.height(); ++y) {
-    for (int x = 0; x < image.width(); ++x) {
-      const std::uint8_t* pixel = image.at(x, y);
-      red[std::clamp((x - kLeft) / kColumn, 0, 2)] += pixel[0] > pixel[1] + 100;
-    }
-  }
+  const int ends[] = {0, kLeft + kColumn, kLeft + 2 * kColumn, image.width()};
+  std::vector<int> red;  // pixels of the lines, by column of the grid
+  for (int i = 0; i < 3; ++i)
+    red.push_back(test::count_pixels(
+        image, [](const std::uint8_t* p) { return p[0] > p[1] + 100; }, ends[i], 0, ends[i + 1]));
   EXPECT_GT(red[2], 100);
   EXPECT_NEAR(red[1], red[2], 0.1 * red[2]) << "one panel each";
   EXPECT_NEAR(red[0], 2.0 * red[2], 0.2 * red[2]) << "two panels, one below the other";
@@ -67,8 +46,8 @@ TEST_F(PanelsTest, AxesAreCommonToAllPanels) {
   cut.y.low = -1, cut.y.high = 1;
   write_panels(folder_.file("wide"), wide);
   write_panels(folder_.file("cut"), cut);
-  EXPECT_NE(test::file_content(folder_.file("wide.svg")).find("10"), std::string::npos);
-  EXPECT_EQ(test::file_content(folder_.file("cut.svg")).find("> 10<"), std::string::npos);
+  EXPECT_TRUE(has(file_content(folder_.file("wide.svg")), "10"));
+  EXPECT_FALSE(has(file_content(folder_.file("cut.svg")), "> 10<"));
 }
 
 TEST(Panels, NothingToDrawIsRefused) {

@@ -1,7 +1,5 @@
 // Whole pictures: against a stored one, and between drivers.
-#include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <set>
 
@@ -12,7 +10,6 @@ namespace hysteron::render {
 namespace {
 
 constexpr int kPictureWidth = 320, kPictureHeight = 180;
-constexpr float kPictureAspect = static_cast<float>(kPictureWidth) / kPictureHeight;
 
 // Drivers round differently along edges and in shadow borders; a change of shading, framing or geometry moves
 // thousands of pixels by tens of steps.
@@ -23,9 +20,26 @@ constexpr double kPixelsOver8TolerancePercent = 1.0;
 constexpr double kPartsMean = 1e-3;  // 8-bit steps
 constexpr double kPartsOver8Percent = 0.01;
 
-Image picture(Offscreen& offscreen, const std::string& look,
-              const PictureSize& size = {kPictureWidth, kPictureHeight}) {
-  return test::draped_view(offscreen, size, look_named(look))->draw(test::draped_camera(kPictureAspect));
+PictureSize picture_size(int figure_passes) {
+  return {.width = kPictureWidth, .height = kPictureHeight, .figure_passes = figure_passes};
+}
+
+Image picture(Offscreen& offscreen, const std::string& look, const PictureSize& size) {
+  return test::draped_picture(offscreen, size, look_named(look));
+}
+
+// Calls body(offscreen, is it hardware?) for each renderer that this machine has.
+template <class Body>
+void on_each_renderer(const Body& body) {
+  for (const Candidate& candidate : Offscreen::candidates(Renderer::automatic)) {
+    std::unique_ptr<Offscreen> offscreen;
+    try {
+      offscreen = Offscreen::create(candidate);
+    } catch (const Error&) {
+      continue;
+    }
+    body(*offscreen, candidate.hardware);
+  }
 }
 
 void expect_like_golden(const std::string& name, const Image& actual) {
@@ -65,7 +79,10 @@ INSTANTIATE_TEST_SUITE_P(Looks, GoldenPicture,
 
 TEST(Picture, TheSameCallsGiveTheSameBits) {
   const auto offscreen = Offscreen::create(Renderer::automatic);
-  EXPECT_EQ(picture(*offscreen, "cloth"), picture(*offscreen, "cloth"));
+  for (const int passes : {0, 4})
+    EXPECT_EQ(picture(*offscreen, "cloth", picture_size(passes)),
+              picture(*offscreen, "cloth", picture_size(passes)))
+        << passes << " passes of a figure";
 }
 
 // The upper edge of a square, turned so that it falls by a pixel in 24 columns: every sample of a pixel is
@@ -74,24 +91,15 @@ TEST(Picture, EveryRendererTakesEightSamplesOfAnEdge) {
   test::Cloth cloth = test::flat_square(1, 0.2f, 0.0f);
   for (size_t i = 0; i < cloth.positions.size(); i += 3) cloth.positions[i + 1] -= cloth.positions[i] / 24;
   int drawn = 0;
-  for (const Candidate& candidate : Offscreen::candidates(Renderer::automatic)) {
-    std::unique_ptr<Offscreen> offscreen;
-    try {
-      offscreen = Offscreen::create(candidate);
-    } catch (const Error&) {
-      continue;  // a path this machine lacks
-    }
-    ClothView view(*offscreen, {120, 120});
-    view.set_look(look_named("silhouette"));
-    view.set_cloth(cloth.topology());
-    view.set_positions(cloth.positions);
-    const Image image = view.draw(Camera::top({{-0.12f, -0.12f, 0}, {0.12f, 0.12f, 0}}, 1));
+  on_each_renderer([&](Offscreen& offscreen, bool) {
+    const Image image = test::cloth_view(offscreen, {120, 120}, cloth, look_named("silhouette"))
+                            ->draw(Camera::top({{-0.12f, -0.12f, 0}, {0.12f, 0.12f, 0}}, 1));
     std::set<int> levels;
     for (int x = 40; x < 80; ++x)
       for (int y = 2; y < 60; ++y) levels.insert(image.at(x, y)[1]);
-    EXPECT_GE(levels.size(), 9u) << offscreen->description();
+    EXPECT_GE(levels.size(), 9u) << offscreen.description();
     ++drawn;
-  }
+  });
   EXPECT_GE(drawn, 1);
 }
 
@@ -110,25 +118,22 @@ TEST(Picture, PartsMakeTheWholePicture) {
 }
 
 // All of Mesa's software paths run one rasteriser, so between them not a bit may differ.
-class SoftwarePicture : public testing::TestWithParam<Background> {};
+struct Drawn {
+  Background background;
+  int figure_passes;
+};
+class SoftwarePicture : public testing::TestWithParam<Drawn> {};
 
 TEST_P(SoftwarePicture, AllPathsOfOneMesaAgreeToTheBit) {
-  const Background background = GetParam();
   std::vector<std::pair<std::string, Image>> pictures;
-  for (const Candidate& candidate : Offscreen::candidates(Renderer::automatic)) {
-    if (candidate.hardware) continue;
-    try {
-      const auto offscreen = Offscreen::create(candidate);
-      if (offscreen->description().find("llvmpipe") == std::string::npos) continue;
-      Look look;
-      look.background = background;
-      pictures.emplace_back(offscreen->description(),
-                            test::draped_view(*offscreen, {kPictureWidth, kPictureHeight}, look)
-                                ->draw(test::draped_camera(kPictureAspect)));
-    } catch (const Error&) {
-      continue;  // a path this machine lacks
-    }
-  }
+  on_each_renderer([&](Offscreen& offscreen, bool hardware) {
+    const std::string name = offscreen.description();
+    if (hardware || name.find("llvmpipe") == std::string::npos) return;
+    Look look;
+    look.background = GetParam().background;
+    pictures.emplace_back(name,
+                          test::draped_picture(offscreen, picture_size(GetParam().figure_passes), look));
+  });
   if (pictures.size() < 2) GTEST_SKIP() << "fewer than two software paths on this machine";
   for (size_t i = 1; i < pictures.size(); ++i)
     EXPECT_EQ(pictures[i].second, pictures[0].second)
@@ -136,7 +141,8 @@ TEST_P(SoftwarePicture, AllPathsOfOneMesaAgreeToTheBit) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Backgrounds, SoftwarePicture,
-                         testing::Values(Background::studio, Background::transparent));
+                         testing::Values(Drawn{Background::studio, 0}, Drawn{Background::transparent, 0},
+                                         Drawn{Background::studio, 4}));
 
 }  // namespace
 }  // namespace hysteron::render

@@ -1,7 +1,5 @@
 #include "render/plot.h"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -10,14 +8,10 @@
 #include <optional>
 
 #include "render/image.h"
-#include "sim/base/process.h"
 #include "tests/render/test_scene.h"
 
 namespace hysteron::render {
 namespace {
-
-using test::Folder;
-using test::thrown_error;
 
 Plot parabola() {
   Plot plot{.title = "don't mix_up ^this^",
@@ -32,33 +26,27 @@ Plot parabola() {
   return plot;
 }
 
-bool has_gnuplot() { return run_process({"gnuplot", "--version"}, "").exit_code == 0; }
+bool is_blue(const std::uint8_t* pixel) { return pixel[2] > pixel[0] + 100; }
 
-class PlotTest : public testing::Test {
- protected:
-  void SetUp() override {
-    if (!has_gnuplot()) GTEST_SKIP() << "gnuplot is not installed (gnuplot-nox)";
-  }
-  Folder folder_;
-};
+using PlotTest = test::GnuplotTest;
 
-TEST_F(PlotTest, WritesPngAndSvgAndNothingElse) {
+// Labels are text, not markup; two files of one plot are equal, though they are written at different times.
+TEST_F(PlotTest, IsAPngAnSvgAndAPdfThatDoesNotSayWhenItWasWritten) {
   write_plot(folder_.file("p"), parabola());
   EXPECT_EQ(folder_.names(), (std::vector<std::string>{"p.pdf", "p.png", "p.svg"}));
   const Image image = read_png(folder_.file("p.png"));
   EXPECT_EQ(image.width(), 600);
   EXPECT_EQ(image.height(), 400);
-  int blue = 0;
-  for (int y = 0; y < image.height(); ++y)
-    for (int x = 0; x < image.width(); ++x) blue += image.at(x, y)[2] > image.at(x, y)[0] + 100;
-  EXPECT_GT(blue, 300) << "the curve is drawn in the palette's first colour";
-}
-
-TEST_F(PlotTest, LabelsAreTextNotMarkup) {
-  write_plot(folder_.file("p"), parabola());
-  const std::string svg = test::file_content(folder_.file("p.svg"));
-  EXPECT_NE(svg.find("mix_up ^this^"), std::string::npos);
-  EXPECT_NE(svg.find("curvature [1/m]"), std::string::npos);
+  EXPECT_GT(test::count_pixels(image, is_blue), 300) << "the curve is drawn in the palette's first colour";
+  const std::string svg = file_content(folder_.file("p.svg"));
+  EXPECT_TRUE(has(svg, "mix_up ^this^"));
+  EXPECT_TRUE(has(svg, "curvature [1/m]"));
+  const std::string pdf = file_content(folder_.file("p.pdf"));
+  EXPECT_TRUE(pdf.starts_with("%PDF-"));
+  const std::size_t date = pdf.find("/CreationDate (D:");
+  if (date != std::string::npos) {
+    EXPECT_EQ(pdf.substr(date + 17, 8), "00000000");
+  }
 }
 
 TEST_F(PlotTest, LineEndsAtAGap) {
@@ -66,7 +54,7 @@ TEST_F(PlotTest, LineEndsAtAGap) {
   plot.series[0].color = "#123456";
   const auto lines = [&] {
     write_plot(folder_.file("p"), plot);
-    const std::string svg = test::file_content(folder_.file("p.svg")),
+    const std::string svg = file_content(folder_.file("p.svg")),
                       path = "<path stroke='rgb( 18,  52,  86)'  d='";
     std::size_t begun = 0;
     for (std::size_t at = svg.rfind(path); at < svg.size() && svg[at] != '>'; ++at) begun += svg[at] == 'M';
@@ -92,7 +80,7 @@ TEST_F(PlotTest, LinesHaveTheirLabelsAtTheirEndsAndApart) {
   Plot plot = parabola();
   plot.series = {{"low", {0, 1}, {0, 0}}, {"high", {0, 1}, {0, 10}}, {"higher", {0, 1}, {0, 10.1}}};
   write_plot(folder_.file("p"), plot);
-  const std::string svg = test::file_content(folder_.file("p.svg"));
+  const std::string svg = file_content(folder_.file("p.svg"));
   const double low = text_height(svg, "low"), high = text_height(svg, "high"),
                higher = text_height(svg, "higher");
   EXPECT_GT(higher, 0);
@@ -105,11 +93,11 @@ TEST_F(PlotTest, SmallNumbersTakeThePrefixOfTheirUnit) {
   for (double& y : plot.series[0].y) y *= 1e-5;  // 1 mJ/m² at most
   plot.note = "zero throughout: linear";
   write_plot(folder_.file("p"), plot);
-  const std::string svg = test::file_content(folder_.file("p.svg"));
-  EXPECT_NE(svg.find("energy [mJ/m²]"), std::string::npos);
-  EXPECT_NE(svg.find("curvature [1/m]"), std::string::npos) << "of which there are no prefixes";
-  EXPECT_NE(svg.find("zero throughout: linear"), std::string::npos);
-  EXPECT_EQ(svg.find(">0.001<"), std::string::npos);
+  const std::string svg = file_content(folder_.file("p.svg"));
+  EXPECT_TRUE(has(svg, "energy [mJ/m²]"));
+  EXPECT_TRUE(has(svg, "curvature [1/m]")) << "of which there are no prefixes";
+  EXPECT_TRUE(has(svg, "zero throughout: linear"));
+  EXPECT_FALSE(has(svg, ">0.001<"));
 }
 
 TEST(SiPrefix, LeavesOneTo999) {
@@ -122,18 +110,6 @@ TEST(SiPrefix, LeavesOneTo999) {
                                       {-3e-8, "n"},
                                       {0.0, ""}})
     EXPECT_STREQ(si_prefix(value).prefix, prefix) << value;
-}
-
-// Two files of one plot are equal, though they are written at different times.
-TEST_F(PlotTest, PdfsDoNotSayWhenTheyWereWritten) {
-  write_plot(folder_.file("p"), parabola());
-  if (!std::filesystem::exists(folder_.file("p.pdf"))) GTEST_SKIP() << "this gnuplot writes no PDF";
-  const std::string text = test::file_content(folder_.file("p.pdf"));
-  EXPECT_EQ(text.substr(0, 5), "%PDF-");
-  const std::size_t date = text.find("/CreationDate (D:");
-  if (date != std::string::npos) {
-    EXPECT_EQ(text.substr(date + 17, 8), "00000000");
-  }
 }
 
 TEST(GroupedBars, StandSideBySideAroundTheirCategory) {
@@ -157,12 +133,11 @@ TEST_F(PlotTest, BarsHaveTheirCategoriesBelowAndTheirHeights) {
   plot.y.high = 4;
   plot.series = grouped_bars({""}, {{1, 4}}, plot.bar_width);
   write_plot(folder_.file("p"), plot);
-  const std::string svg = test::file_content(folder_.file("p.svg"));
-  for (const std::string& name : plot.x.categories) EXPECT_NE(svg.find(name), std::string::npos) << name;
+  const std::string svg = file_content(folder_.file("p.svg"));
+  for (const std::string& name : plot.x.categories) EXPECT_TRUE(has(svg, name));
   const Image image = read_png(folder_.file("p.png"));
   std::vector<int> blue(image.width());  // pixels of the bars in each column
-  for (int y = 0; y < image.height(); ++y)
-    for (int x = 0; x < image.width(); ++x) blue[x] += image.at(x, y)[2] > image.at(x, y)[0] + 100;
+  for (int x = 0; x < image.width(); ++x) blue[x] = test::count_pixels(image, is_blue, x, 0, x + 1);
   const int tallest = *std::max_element(blue.begin(), blue.end());
   const auto low = std::count_if(blue.begin(), blue.end(), [&](int n) { return n > 0 && n < tallest / 2; });
   const auto high = std::count_if(blue.begin(), blue.end(), [&](int n) { return n >= tallest - 2; });
@@ -205,7 +180,7 @@ TEST_F(PlotTest, WithoutFontsIsRefused) {
   const Setting file("FONTCONFIG_FILE", own.file("fonts.conf"));
   const Error error = thrown_error([&] { write_plot(folder_.file("p"), parabola()); });
   EXPECT_EQ(error.exit_code(), 1);
-  EXPECT_NE(std::string(error.what()).find("fonts-dejavu-core"), std::string::npos) << error.what();
+  EXPECT_TRUE(has(error.what(), "fonts-dejavu-core"));
   EXPECT_TRUE(folder_.names().empty());
 }
 
@@ -216,7 +191,7 @@ TEST(Plot, MissingGnuplotNamesThePackage) {
   const Error error = thrown_error([&] { write_plot(folder.file("p"), parabola()); });
   setenv("PATH", before.c_str(), 1);
   EXPECT_EQ(error.exit_code(), 1);
-  EXPECT_NE(std::string(error.what()).find("gnuplot-nox"), std::string::npos);
+  EXPECT_TRUE(has(error.what(), "gnuplot-nox"));
   EXPECT_TRUE(folder.names().empty());
 }
 
@@ -243,12 +218,9 @@ TEST(SeriesFromCsv, BadFilesAreRefusedWithTheirPlace) {
   const Folder folder;
   std::ofstream(folder.file("m.csv")) << "t,y\n0,1\n1,oops\n";
   EXPECT_EQ(thrown_error([&] { series_from_csv(folder.file("none.csv"), "t", "y", ""); }).exit_code(), 2);
-  EXPECT_NE(std::string(thrown_error([&] { series_from_csv(folder.file("m.csv"), "t", "z", ""); }).what())
-                .find("t, y"),
-            std::string::npos);
-  EXPECT_NE(std::string(thrown_error([&] { series_from_csv(folder.file("m.csv"), "t", "y", ""); }).what())
-                .find("m.csv:3"),
-            std::string::npos);
+  EXPECT_TRUE(has(thrown_error([&] { series_from_csv(folder.file("m.csv"), "t", "z", ""); }).what(), "t, y"));
+  EXPECT_TRUE(
+      has(thrown_error([&] { series_from_csv(folder.file("m.csv"), "t", "y", ""); }).what(), "m.csv:3"));
 }
 
 }  // namespace

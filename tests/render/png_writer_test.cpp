@@ -1,15 +1,11 @@
 #include "render/png_writer.h"
 
-#include <gtest/gtest.h>
-
 #include <fstream>
 
 #include "tests/render/test_scene.h"
 
 namespace hysteron::render {
 namespace {
-
-using test::Folder;
 
 std::string frame(int i) { return "frame" + std::to_string(i) + ".png"; }
 
@@ -28,16 +24,16 @@ TEST(PngWriter, FinishReportsTheFirstErrorAndKeepsTheOtherPictures) {
   PngWriter writer(1, 8);
   writer.write(folder.file("good.png"), Image(4, 4));
   writer.write(folder.file("none/bad.png"), Image(4, 4));
-  const Error error = test::thrown_error([&] { writer.finish(); });
+  const Error error = thrown_error([&] { writer.finish(); });
   EXPECT_EQ(error.exit_code(), 1);
-  EXPECT_NE(std::string(error.what()).find("none/bad.png"), std::string::npos);
+  EXPECT_TRUE(has(error.what(), "none/bad.png"));
   EXPECT_EQ(folder.names(), std::vector<std::string>{"good.png"});
 }
 
 TEST(PngWriter, WriteStopsARunAfterAnError) {
   const Folder folder;
   PngWriter writer(1, 2);
-  const Error error = test::thrown_error([&] {
+  const Error error = thrown_error([&] {
     for (int i = 0; i < 1000; ++i) writer.write(folder.file("none/bad.png"), Image(4, 4));
   });
   EXPECT_EQ(error.exit_code(), 1);

@@ -1,5 +1,4 @@
 // What pictures promise to a paper: true lengths, sky light by what is in the way, transparent backgrounds.
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
@@ -14,9 +13,11 @@ namespace {
 
 constexpr int kQualityPicture = 240;
 
-class QualityTest : public testing::Test {
+class QualityTest : public test::OffscreenTest {
  protected:
-  std::unique_ptr<Offscreen> offscreen_ = Offscreen::create(Renderer::automatic);
+  std::unique_ptr<ClothView> viewed_cloth(const test::Cloth& cloth, const Look& look) {
+    return test::cloth_view(*offscreen_, {kQualityPicture, kQualityPicture}, cloth, look);
+  }
 };
 
 // Columns that a dark square covers, the edges' by their share of light.
@@ -30,18 +31,14 @@ double covered_width(const Image& silhouette, int row) {
 // from above: its bar is right to a pixel.
 TEST_F(QualityTest, TheScaleBarHoldsInThePlaneThatItNames) {
   constexpr float kLength = 0.2f;
-  const test::Cloth cloth = test::flat_square(2, kLength, 0.03f);
-  ClothView view(*offscreen_, {kQualityPicture, kQualityPicture});
-  view.set_look(look_named("silhouette"));
-  view.set_cloth(cloth.topology());
-  view.set_positions(cloth.positions);
+  const auto view = viewed_cloth(test::flat_square(2, kLength, 0.03f), look_named("silhouette"));
   const Eigen::Vector3f middle(0, 0, 0.03f);
   for (const Camera& camera :
        {Camera::top({{-0.15f, -0.15f, 0}, {0.15f, 0.15f, 0.1f}}, 1),
         Camera::perspective({0, 0, 0.8f}, middle, 30), Camera::perspective({0, 0, 0.4f}, middle, 60)}) {
     const double metres = camera.metres_per_pixel(middle, kQualityPicture);
     constexpr double kEdges = 0.25;  // pixels: two edges of an eighth
-    EXPECT_NEAR(covered_width(view.draw(camera), kQualityPicture / 2), kLength / metres, kEdges);
+    EXPECT_NEAR(covered_width(view->draw(camera), kQualityPicture / 2), kLength / metres, kEdges);
     Image image(kQualityPicture, kQualityPicture);
     EXPECT_NEAR(draw_scale_bar(image, metres, Corner::bottom_left), scale_bar_length(image, metres) / metres,
                 1);
@@ -89,12 +86,8 @@ TEST_F(QualityTest, FoldsAreDarkInTheirDepth) {
   Look look;
   look.weave = 0;
   look.room = 19.0f / 9;
-  ClothView view(*offscreen_, {kQualityPicture, kQualityPicture});
-  view.set_look(look);
-  view.set_cloth(cloth.topology());
-  view.set_positions(cloth.positions);
   const Camera camera = Camera::top({{-0.06f, -0.06f, 0}, {0.06f, 0.06f, 0}}, 1);
-  const Image image = view.draw(camera);
+  const Image image = viewed_cloth(cloth, look)->draw(camera);
   const auto half_pleat =
       static_cast<int>(0.5 * kPleat / camera.metres_per_pixel({0, 0, 0}, kQualityPicture));
   const double ridge = linear_of_srgb8()[image.at(kQualityPicture / 2, kQualityPicture / 2)[1]];
@@ -115,15 +108,12 @@ test::Cloth askew(float x) {
 
 // A square of `half` half width around the cloth's middle, from above or tilted by 0.9 rad.
 Image close_up(Offscreen& offscreen, float x, float half, bool tilted, const PictureSize& size) {
-  ClothView view(offscreen, size);
-  const test::Cloth cloth = askew(x);
-  view.set_cloth(cloth.topology());
-  view.set_positions(cloth.positions);
-  view.set_bounds({{x - 0.5f, -0.5f, 0}, {x + 0.5f, 0.5f, 0.1f}});
+  const auto view = test::cloth_view(offscreen, size, askew(x), {});
+  view->set_bounds({{x - 0.5f, -0.5f, 0}, {x + 0.5f, 0.5f, 0.1f}});
   const float distance = half / std::tan(10 * std::numbers::pi_v<float> / 180);
   const Eigen::Vector3f back(0, -std::sin(0.9f), std::cos(0.9f));
-  return view.draw(tilted ? Camera::perspective(Eigen::Vector3f(x, 0, 0) + distance * back, {x, 0, 0}, 20)
-                          : Camera::top({{x - half, -half, 0}, {x + half, half, 0}}, 1));
+  return view->draw(tilted ? Camera::perspective(Eigen::Vector3f(x, 0, 0) + distance * back, {x, 0, 0}, 20)
+                           : Camera::top({{x - half, -half, 0}, {x + half, half, 0}}, 1));
 }
 
 double mean_light(const Image& image, int left, int top, int side) {
@@ -174,7 +164,7 @@ Image over_white(const Image& layer) {
 Image draped(Offscreen& offscreen, Background background) {
   Look look;
   look.background = background;
-  return test::draped_view(offscreen, {320, 180}, look)->draw(test::draped_camera(320.0f / 180));
+  return test::draped_picture(offscreen, {320, 180}, look);
 }
 
 // Laid over white, the transparent picture is the white one: cloth and shadow alike.  Edges are blended in
@@ -208,11 +198,8 @@ TEST_F(QualityTest, TransparentEdgesKeepTheClothsColour) {
   look.background = Background::transparent;
   test::Cloth cloth = test::flat_square(2, 0.2f, 0.0f);
   for (size_t i = 0; i < cloth.positions.size(); i += 3) cloth.positions[i + 1] -= 0.1f * cloth.positions[i];
-  ClothView view(*offscreen_, {kQualityPicture, kQualityPicture});
-  view.set_look(look);
-  view.set_cloth(cloth.topology());
-  view.set_positions(cloth.positions);
-  const Image image = view.draw(Camera::top({{-0.12f, -0.12f, 0}, {0.12f, 0.12f, 0}}, 1));
+  const Image image =
+      viewed_cloth(cloth, look)->draw(Camera::top({{-0.12f, -0.12f, 0}, {0.12f, 0.12f, 0}}, 1));
   const std::uint8_t* cloth_color = image.at(kQualityPicture / 2, kQualityPicture / 2);
   int partly = 0;
   for (int y = 0; y < kQualityPicture; ++y)

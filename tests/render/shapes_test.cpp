@@ -1,7 +1,5 @@
 #include "render/shapes.h"
 
-#include <gtest/gtest.h>
-
 #include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>

@@ -1,5 +1,4 @@
 // A view and what writes its position buffer from outside; here a writer that needs no GPU.
-#include <gtest/gtest.h>
 
 #include <optional>
 
@@ -38,7 +37,7 @@ class HostPositions : public GlPositions {
   std::optional<bool>& closed_in_time_;
 };
 
-class SharedPositions : public testing::Test {
+class SharedPositions : public test::OffscreenTest {
  protected:
   std::unique_ptr<ClothView> new_view() {
     auto view = std::make_unique<ClothView>(*offscreen_, kSharedPicture);
@@ -52,7 +51,6 @@ class SharedPositions : public testing::Test {
   }
   Image draw(ClothView& view) { return view.draw(Camera::perspective({0.1f, -0.6f, 0.3f}, {0, 0, 0}, 25)); }
 
-  std::unique_ptr<Offscreen> offscreen_ = Offscreen::create(Renderer::automatic);
   test::Cloth cloth_ = test::flat_square(8, 0.2f, 0.02f);
   std::optional<bool> closed_in_time_;
   std::string reason_;

@@ -1,7 +1,5 @@
 #include "render/plane.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 
 #include "tests/render/formula_pictures.h"

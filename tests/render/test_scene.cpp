@@ -1,7 +1,5 @@
 #include "tests/render/test_scene.h"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -83,15 +81,18 @@ Camera draped_camera(float aspect) {
   return Camera::framing({{-0.13f, -0.13f, 0}, {0.13f, 0.13f, 0.12f}}, {0.35f, -1, 0.5f}, 24, aspect);
 }
 
-Error thrown_error(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << "the message must be one line";
-    return error;
-  }
-  ADD_FAILURE() << "nothing was thrown";
-  return Error::simulation("nothing was thrown");
+Image draped_picture(Offscreen& offscreen, const PictureSize& size, const Look& look) {
+  const float aspect = static_cast<float>(size.width) / static_cast<float>(size.height);
+  return draped_view(offscreen, size, look)->draw(draped_camera(aspect));
+}
+
+std::unique_ptr<ClothView> cloth_view(Offscreen& offscreen, const PictureSize& size, const Cloth& cloth,
+                                      const Look& look) {
+  auto view = std::make_unique<ClothView>(offscreen, size);
+  view->set_look(look);
+  view->set_cloth(cloth.topology());
+  view->set_positions(cloth.positions);
+  return view;
 }
 
 double brightness(const Image& image, int x, int y, int half_side) {

@@ -1,16 +1,27 @@
-// Small things that the render tests share: a folded cloth on a pedestal, folders, expected errors.
+// Small things that the render tests share: a folded cloth on a pedestal, folders, plots, pixels.
 #pragma once
 
-#include <functional>
+#include <gtest/gtest.h>
+
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "render/cloth_view.h"
 #include "sim/base/error.h"
+#include "sim/base/process.h"
+#include "tests/has.h"
 #include "tests/sim/base/folder.h"
 
-namespace hysteron::render::test {
+namespace hysteron::render {
+
+using hysteron::test::file_content;
+using hysteron::test::Folder;  // removed with its content
+using hysteron::test::has;
+using hysteron::test::thrown_error;
+
+namespace test {
 
 struct Cloth {
   std::vector<float> positions, pattern, values;
@@ -29,13 +40,41 @@ Cloth draped_disc(int rings, int sectors);
 std::unique_ptr<ClothView> draped_view(Offscreen& offscreen, const PictureSize& size, const Look& look);
 Camera draped_camera(float aspect);
 
-using hysteron::test::file_content;
-using hysteron::test::Folder;  // removed with its content
+// Such a picture of this look.
+Image draped_picture(Offscreen& offscreen, const PictureSize& size, const Look& look);
 
-// The hysteron::Error that `action` throws; a test failure and a run error "nothing was thrown" otherwise.
-Error thrown_error(const std::function<void()>& action);
+// A view of a cloth that lies free, ready to draw.
+std::unique_ptr<ClothView> cloth_view(Offscreen& offscreen, const PictureSize& size, const Cloth& cloth,
+                                      const Look& look);
 
 // Mean of the channels over a square of pixels around (x, y).
 double brightness(const Image& image, int x, int y, int half_side = 2);
 
-}  // namespace hysteron::render::test
+// How many pixels are such, those between left and right, top and bottom: all of the picture, if not said.
+template <class Such>
+int count_pixels(const Image& image, const Such& such, int left = 0, int top = 0, int right = 1 << 20,
+                 int bottom = 1 << 20) {
+  int count = 0;
+  for (int y = top; y < std::min(bottom, image.height()); ++y)
+    for (int x = left; x < std::min(right, image.width()); ++x) count += such(image.at(x, y));
+  return count;
+}
+
+// Tests that draw.
+class OffscreenTest : public testing::Test {
+ protected:
+  std::unique_ptr<Offscreen> offscreen_ = Offscreen::create(Renderer::automatic);
+};
+
+// Tests that need gnuplot, with a folder.
+class GnuplotTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (run_process({"gnuplot", "--version"}, "").exit_code != 0)
+      GTEST_SKIP() << "gnuplot is not installed (gnuplot-nox)";
+  }
+  Folder folder_;
+};
+
+}  // namespace test
+}  // namespace hysteron::render

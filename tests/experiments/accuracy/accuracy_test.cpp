@@ -1,11 +1,8 @@
 // Fronts and orders on made-up findings; the problems' own answers at small size.
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "experiments/accuracy/front.h"
-#include "experiments/workbench/app/experiment.h"
 #include "sim/base/error.h"
 #include "tests/experiments/folder.h"
 
@@ -100,14 +97,12 @@ TEST(Swing, SemiImplicitIsOfFirstOrder) { EXPECT_NEAR(order_in_time("semi-implic
 TEST(AccuracyCommand, WritesTablesOrdersAndTheCheapest) {
   const Folder folder;
   const auto out = folder.path() / "a";
-  CommandLine line{"accuracy", "hysteron accuracy", {{"problem", "bend"}, {"out", out.string()}}, {}};
-  for (const char* bare : {"quick", "quiet", "no-images"}) line.flags.push_back({bare, "true"});
-  EXPECT_EQ(experiment_named("accuracy").run(line), 0);
+  EXPECT_EQ(run_into(out, "accuracy", {{"problem", "bend"}, {"quick", "true"}}), 0);
   const std::string table = file_content(out / "table.csv");
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'),
             1 + static_cast<long>(bend_problem(kQuick).settings.size()));
-  EXPECT_NE(file_content(out / "cheapest.csv").find("bend,"), std::string::npos);
-  EXPECT_NE(file_content(out / "orders.csv").find("problem,in,group"), std::string::npos);
+  EXPECT_TRUE(has(file_content(out / "cheapest.csv"), "bend,"));
+  EXPECT_TRUE(has(file_content(out / "orders.csv"), "problem,in,group"));
 }
 
 }  // namespace

@@ -1,13 +1,10 @@
 // Free decay of a clamped strip: the energy balance against the closed laws, the cloth against the balance.
 #include "experiments/accuracy/free_decay.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 
 #include "experiments/accuracy/accuracy.h"
 #include "experiments/specimens/clamped_mesh.h"
-#include "experiments/workbench/app/experiment.h"
 #include "sim/base/csv.h"
 #include "sim/identification/decay_shape.h"
 #include "tests/experiments/folder.h"
@@ -194,14 +191,11 @@ TEST_P(Swinging, StripHasTheBeamsFrequency) {
 // half period; the second mode moves that by up to 0.9 %.
 TEST(Swing, HangsFromTheClampsLine) {
   const Folder folder;
-  CommandLine line{"swing", "hysteron swing", {}, {}};
-  line.flags = {{"law", "linear"},          {"fabric", "cotton-broad-k50"},
-                {"fabric.damping", "1e-5"}, {"gravity", "0 0 -1e-3"},
-                {"triangles", "240"},       {"fps", "120"},
-                {"seconds", "1"},           {"device", "cpu"},
-                {"no-images", "true"},      {"quiet", "true"}};
-  line.flags.push_back({"out", folder.path().string()});
-  ASSERT_EQ(experiment_named("swing").run(line), 0);
+  const std::vector<Flag> flags = {{"law", "linear"},          {"fabric", "cotton-broad-k50"},
+                                   {"fabric.damping", "1e-5"}, {"gravity", "0 0 -1e-3"},
+                                   {"triangles", "240"},       {"fps", "120"},
+                                   {"seconds", "1"},           {"device", "cpu"}};
+  ASSERT_EQ(run_into(folder.path(), "swing", flags), 0);
   const Table series = read_csv(folder.path() / "metrics.csv", {"time [s]", "tip_height [m]"}, {}, "test");
   const std::vector<double> t = series.numbers("time [s]"), z = series.numbers("tip_height [m]");
   const Fabric fabric;

@@ -1,23 +1,11 @@
 // The sagging strip against the elastica.
-#include <nlohmann/json.hpp>
-
-#include "experiments/workbench/app/experiment.h"
 #include "experiments/workbench/session/recoveries.h"
 #include "tests/experiments/folder.h"
 
 namespace hysteron::experiments {
 namespace {
 
-using Words = std::vector<Flag>;
-
-Json recorded_metrics(const Words& flags) {
-  const Folder folder;
-  CommandLine line{"cantilever", "hysteron cantilever", flags, {}};
-  for (const char* on : {"no-images", "quiet"}) line.flags.push_back({on, "true"});
-  line.flags.push_back({"out", (folder.path() / "run").string()});
-  EXPECT_EQ(experiment_named("cantilever").run(line), 0);
-  return metrics_of(folder.path() / "run");
-}
+Json recorded_metrics(const std::vector<Flag>& flags) { return metrics_with("cantilever", flags); }
 
 constexpr double kDropOfTen = 0.7001997;  // over the length, heaviness 10: the elastica by shooting
 constexpr double kWithin = 5e-3;          // of 256 triangles at most 0.22 %, of aligned-45 on 512 0.49 %

@@ -1,9 +1,5 @@
 // Methods side by side: what is made equal, what stands on the page, what is not run again.
-#include <gtest/gtest.h>
-
 #include <cmath>
-#include <fstream>
-#include <nlohmann/json.hpp>
 
 #include "experiments/workbench/compare/comparison.h"
 #include "experiments/workbench/compare/matching.h"
@@ -13,12 +9,10 @@
 #include "render/comparison_sheet.h"
 #include "sim/base/error.h"
 #include "sim/scene/assets.h"
-#include "tests/experiments/folder.h"
 #include "tests/experiments/program.h"
 
 namespace hysteron::experiments {
 namespace {
-namespace fs = std::filesystem;
 
 const VirginCurve kCurve{2e-5, 5e-6, 40};  // b1, b2 [N m], k0 [1/m]
 
@@ -56,33 +50,39 @@ TEST(Outline, IsTheEdgeOfTheSilhouetteOnly) {
   EXPECT_THROW(render::draw_outline(target, render::Image(10, 10), color, 1), Error);
 }
 
-const char* const kSmall =
+const std::string kSmall =
     " --triangles 60 --seconds 0.1 --fps 30 --device cpu --size 160x120 --compare.rows 2 --quality draft "
     "--quiet";
 
-TEST(Compare, SetsLawsSideBySide) {
-  const Folder folder;
-  const std::string out = (folder.path() / "out").string();
-  ASSERT_EQ(program("compare swing --laws linear,prandtl --out " + out + kSmall).exit_code, 0);
+double first_stiffness(const FinishedRun& run) {
+  return run.manifest()["scene"]["columns"][0]["stiffness_times"];
+}
+
+// A difference that a page shows between laws is one of kind, not of stiffness, unless the fabric's own
+// numbers are asked for.
+TEST(Compare, SetsLawsOfEqualWorkSideBySideWithTheirPlots) {
+  const FinishedRun run("compare swing --laws linear,prandtl" + kSmall + " --seconds 1 --fps 5");
   for (const char* name :
-       {"sheet.png", "table.csv", "plot_tip_height.png", "report.html", "linear/manifest.json",
+       {"sheet.png", "plot_tip_height.png", "plot_decay.svg", "report.html", "linear/manifest.json",
         "prandtl/frames/0003.png", "prandtl/frames-silhouette/0003.png"})
-    EXPECT_TRUE(fs::exists(fs::path(out) / name)) << name;
-  const auto metrics = metrics_of(out);
+    EXPECT_TRUE(fs::exists(run.out / name)) << name;
+  EXPECT_TRUE(file_content(run.out / "table.csv").starts_with("law,"));
+  EXPECT_GT(file_content(run.out / "linear/turns.csv").size(), 40u);
+  EXPECT_GT(first_stiffness(run), 1.2);
+  const auto metrics = run.metrics();
   EXPECT_EQ(metrics["linear.bending_friction_J"].get<double>(), 0);
   EXPECT_GT(metrics["prandtl.bending_friction_J"].get<double>(), 0);
 }
 
 TEST(Compare, KeepsWhatIsFinishedOfTheSameQuestion) {
-  const Folder folder;
-  const std::string out = (folder.path() / "out").string(),
-                    line = "compare swing --laws linear,prandtl --no-images --out " + out + kSmall;
-  ASSERT_EQ(program(line).exit_code, 0);
-  const auto first = fs::last_write_time(fs::path(out) / "linear/manifest.json");
-  ASSERT_EQ(program(line + " --resume").exit_code, 0);
-  EXPECT_EQ(fs::last_write_time(fs::path(out) / "linear/manifest.json"), first);
-  ASSERT_EQ(program(line + " --resume --fabric wool-tropical").exit_code, 0);
-  EXPECT_NE(fs::last_write_time(fs::path(out) / "linear/manifest.json"), first);
+  const std::string line = "compare swing --laws linear,prandtl --no-images" + kSmall;
+  const FinishedRun run(line);
+  const auto written = [&] { return fs::last_write_time(run.out / "linear/manifest.json"); };
+  const auto first = written();
+  finished(line + " --resume" + out_flag(run.out));
+  EXPECT_EQ(written(), first);
+  finished(line + " --resume --fabric wool-tropical" + out_flag(run.out));
+  EXPECT_NE(written(), first);
 }
 
 TEST(Compare, WritesColumnsOfFabricFilesIntoItsOwnFolder) {
@@ -93,15 +93,11 @@ TEST(Compare, WritesColumnsOfFabricFilesIntoItsOwnFolder) {
     fs::copy_file(find_asset("fabrics", "wool-tropical", "--fabric"), root / side / "mine.toml");
   }
   fs::create_directories(root / "run");
-  const auto go = [&](const std::string& arguments) {
-    const fs::path here = fs::current_path();
-    fs::current_path(root / "run");
-    const Outcome outcome = program("compare swing --no-images --out out" + std::string(kSmall) + arguments);
-    fs::current_path(here);
-    return outcome;
-  };
-  const Outcome outcome = go(" --law linear --fabrics ../p/mine.toml," + (root / "q" / "mine.toml").string());
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  {
+    const InFolder here(root / "run");
+    finished("compare swing --no-images --out out" + kSmall + " --law linear --fabrics ../p/mine.toml," +
+             (root / "q" / "mine.toml").string());
+  }
   for (const char* column : {"mine", "mine-2"}) EXPECT_TRUE(fs::exists(out / column / "manifest.json"));
   for (const char* side : {"p", "q"})
     EXPECT_EQ(std::distance(fs::directory_iterator(root / side), fs::directory_iterator()), 1) << side;
@@ -111,10 +107,9 @@ TEST(Compare, WritesColumnsOfFabricFilesIntoItsOwnFolder) {
 TEST(Compare, RefusesTheSameColumnTwice) {
   const Folder folder;
   const std::string out = folder.path() / "out";
-  const Outcome twice = program("compare swing --laws linear,linear --out " + out + kSmall);
-  EXPECT_EQ(twice.exit_code, 2);
-  EXPECT_EQ(twice.err, "hysteron compare: linear is named twice: columns must differ\n");
-  EXPECT_EQ(program("compare swing --laws linear,,prandtl --out " + out + kSmall).exit_code, 2);
+  EXPECT_EQ(refused("compare swing --laws linear,linear --out " + out + kSmall),
+            "hysteron compare: linear is named twice: columns must differ\n");
+  refused("compare swing --laws linear,,prandtl --out " + out + kSmall);
   EXPECT_FALSE(fs::exists(out));
 }
 
@@ -147,10 +142,7 @@ TEST(Variants, AreNamedAfterTheOneKeyInWhichTheyDiffer) {
 
 TEST(ComparisonTable, HasAColumnForEveryMetricOfAnyRow) {
   const Folder folder;
-  Options options;
-  options.out = folder.path().string();
-  options.quiet = true;
-  ExperimentRun run({"compare", "hysteron compare", {}, {}}, options, Json::object());
+  ExperimentRun run({"compare", "hysteron compare", {}, {}}, setup_in(folder.path()).options, Json::object());
   std::vector<ChildRun> columns(2);
   columns[0].name = "linear";
   columns[1].name = "prandtl";
@@ -165,116 +157,87 @@ TEST(ComparisonTable, HasAColumnForEveryMetricOfAnyRow) {
   EXPECT_EQ(metrics, Json({{"linear.turns", 3}, {"prandtl.turns", 2}, {"prandtl.loss_J", 0.5}}));
 }
 
-TEST(Compare, PlotsItsColumnsWhichStandBesideIt) {
-  const Folder folder;
-  const std::string out = (folder.path() / "out").string();
-  ASSERT_EQ(
-      program("compare swing --laws linear,prandtl --out " + out + kSmall + " --seconds 1 --fps 5").exit_code,
-      0);
-  EXPECT_EQ(file_content(fs::path(out) / "table.csv").substr(0, 4), "law,");
-  EXPECT_TRUE(fs::exists(fs::path(out) / "plot_decay.svg"));
-  EXPECT_GT(file_content(fs::path(out) / "linear/turns.csv").size(), 40u);
-}
-
 std::string compare_refusal(const std::string& more) {
   const Folder folder;
-  const fs::path out = folder.path() / "out";
-  const Outcome outcome =
-      program("compare swing --laws linear,prandtl --out " + out.string() + kSmall + more);
-  EXPECT_EQ(outcome.exit_code, 2);
-  const std::string said = without_warnings(outcome.err);
-  EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << outcome.err;
+  const std::string said = without_warnings(
+      refused("compare swing --laws linear,prandtl" + out_flag(folder.path() / "out") + kSmall + more));
+  EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << said;
   return said;
 }
 
 TEST(Compare, ShowsTheInstantsAndTheMetricsThatItIsAskedForInTheirOrder) {
-  const Folder folder;
-  const fs::path out = folder.path() / "out";
-  ASSERT_EQ(program("compare swing --laws linear,prandtl --compare.times 0.1,0.035 --compare.metrics "
-                    "max_stretch_percent,decay_shape,bending_friction_J --out " +
-                    out.string() + kSmall)
-                .exit_code,
-            0);
-  const std::string table = file_content(out / "table.csv");
+  const FinishedRun run(
+      "compare swing --laws linear,prandtl --compare.times 0.1,0.035 --compare.metrics "
+      "max_stretch_percent,decay_shape,bending_friction_J" +
+      kSmall);
+  const std::string table = file_content(run.out / "table.csv");
   EXPECT_EQ(table.substr(0, table.find('\n')),
             "law,max_stretch_percent,decay_shape,bending_friction_J,stopped");
-  const Json metrics = metrics_of(out);
+  const Json metrics = run.metrics();
   EXPECT_EQ(metrics.size(), 6u) << metrics;
   EXPECT_EQ(metrics["linear.decay_shape"], "unknown");
   // Pictures are 1/30 s apart: the one at 0.033 s is the nearest to 0.035 s.
   std::vector<double> times;
-  for (const KeptState& instant : read_kept(out / "sheet.hyg").cloths.at(0).instants)
+  for (const KeptState& instant : read_kept(run.out / "sheet.hyg").cloths.at(0).instants)
     times.push_back(instant.time);
   ASSERT_EQ(times.size(), 3u) << "the first is kept beside the rows'";
   EXPECT_NEAR(times[1], 1 / 30.0, 1e-3);
   EXPECT_NEAR(times[2], 0.1, 1e-3);
-  EXPECT_TRUE(fs::exists(out / "plot_bending_friction_J.png"));
+  EXPECT_TRUE(fs::exists(run.out / "plot_bending_friction_J.png"));
 }
 
 TEST(Compare, RefusesInstantsAfterTheEndOfTheRunBeforeItBegins) {
   EXPECT_EQ(compare_refusal(" --compare.times 0.05,0.11"),
             "hysteron compare: compare.times = 0.11 s must be in [0, 0.1] s, the time of the run "
             "(--compare.times)\n");
-  EXPECT_NE(compare_refusal(" --compare.times=-0.1").find("must be >= 0"), std::string::npos);
+  EXPECT_TRUE(has(compare_refusal(" --compare.times=-0.1"), "must be >= 0"));
 }
 
 TEST(Compare, NamesTheColumnThatIsWrong) {
   const Folder folder;
-  const std::string out = " --out " + (folder.path() / "out").string() + kSmall;
-  EXPECT_NE(program("compare swing --laws linear,prandle" + out).err.find("prandle"), std::string::npos);
-  EXPECT_EQ(program("compare swing --laws linear,prandle" + out).exit_code, 2);
-  EXPECT_EQ(program("compare" + out).exit_code, 2);
-  EXPECT_EQ(program("compare swing --laws linear --compare.to narain" + out).exit_code, 2);
+  const std::string out = out_flag(folder.path() / "out") + kSmall;
+  EXPECT_TRUE(has(refused("compare swing --laws linear,prandle" + out), "prandle"));
+  refused("compare" + out);
+  refused("compare swing --laws linear --compare.to narain" + out);
 }
 
 TEST(Compare, SaysWhyAColumnStopped) {
   const Folder folder;
-  const fs::path scene = folder.path() / "struck.toml", out = folder.path() / "out";
-  std::ofstream(scene) << R"([[obstacle]]
+  const fs::path out = folder.path() / "out";
+  const std::string scene = folder.write("struck.toml", R"([[obstacle]]
 kind = "sphere"
 center = [0.06, 0.025, 0]
 radius = 0.02
 from = 0.04
-)";
+)");
   const Outcome outcome =
-      program("compare swing --scene " + scene.string() + " --laws linear --out " + out.string() + kSmall);
-  EXPECT_NE(file_content(out / "table.csv").find("an obstacle appears where the cloth is"), std::string::npos)
+      program("compare swing --scene " + scene + " --laws linear" + out_flag(out) + kSmall);
+  EXPECT_TRUE(has(file_content(out / "table.csv"), "an obstacle appears where the cloth is"))
       << outcome.out << outcome.err << file_content(out / "table.csv");
-  EXPECT_NE(outcome.err.find("warning: linear: "), std::string::npos) << "though it is quiet";
+  EXPECT_TRUE(has(outcome.err, "warning: linear: ")) << "though it is quiet";
 }
 
 // Fabrics under the one law that the scene names, or the program's own.
 TEST(Compare, SetsFabricsOfASceneSideBySide) {
   const Folder folder;
-  const fs::path scene = folder.path() / "held.toml", out = folder.path() / "out";
-  for (const char* law : {"", "law = \"dahl\"\n"}) {
-    std::ofstream(scene) << law
-                         << "triangles = 60\nstep = 0.01\nseconds = 0.05\n[cloth]\nlength = 0.2\n"
-                            "[[pin]]\nlow = [-1, -1, -1]\nhigh = [0.01, 1, 1]\n";
-    const Outcome outcome = program("compare " + scene.string() +
-                                    " --fabrics cotton-broad,wool-tropical --no-images --device cpu --quiet "
-                                    "--out " +
-                                    out.string());
-    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-    const auto column = manifest_in(out / "wool-tropical");
-    EXPECT_EQ(column["law"], *law ? "dahl" : "prandtl");
-    const auto page = manifest_in(out)["scene"]["columns"];
+  for (const std::string law : {"", "law = \"dahl\"\n"}) {
+    const std::string scene =
+        folder.write("held.toml", law +
+                                      "triangles = 60\nstep = 0.01\nseconds = 0.05\n[cloth]\nlength = 0.2\n"
+                                      "[[pin]]\nlow = [-1, -1, -1]\nhigh = [0.01, 1, 1]\n");
+    const FinishedRun run("compare " + scene +
+                          " --fabrics cotton-broad,wool-tropical --no-images --device cpu --quiet");
+    EXPECT_EQ(manifest_in(run.out / "wool-tropical")["law"], law.empty() ? "prandtl" : "dahl");
+    const auto page = run.manifest()["scene"]["columns"];
     ASSERT_EQ(page.size(), 2u);
     for (const auto& one : page) EXPECT_EQ(one["stiffness_times"], 1) << "of one law nothing is matched";
   }
 }
 
-// A difference that a page shows between laws is one of kind, not of stiffness, unless the fabric's own
-// numbers are asked for.
-TEST(Compare, MatchesLawsByTheirWorkUnlessToldOtherwise) {
-  const Folder folder;
-  const std::string out = (folder.path() / "out").string(),
-                    line = "compare swing --laws linear,prandtl --no-images --out " + out + kSmall;
-  const auto times = [&] { return manifest_in(out)["scene"]["columns"][0]["stiffness_times"].get<double>(); };
-  ASSERT_EQ(program(line).exit_code, 0);
-  EXPECT_GT(times(), 1.2);
-  ASSERT_EQ(program(line + " --compare.match fabric").exit_code, 0);
-  EXPECT_EQ(times(), 1);
+TEST(Compare, LeavesLawsTheFabricsNumbersIfToldSo) {
+  EXPECT_EQ(first_stiffness(FinishedRun(
+                "compare swing --laws linear,prandtl --no-images --compare.match fabric" + kSmall)),
+            1);
 }
 
 }  // namespace

@@ -1,18 +1,13 @@
 // What the curvature of a cloth differs by from that of another run of the same mesh.
-#include <gtest/gtest.h>
-
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "sim/mesh/surface.h"
-#include "tests/experiments/folder.h"
 #include "tests/experiments/program.h"
 
 namespace hysteron::experiments {
 namespace {
-namespace fs = std::filesystem;
 
-const char* const kSmallSwing =
+const std::string kSmallSwing =
     " --triangles 60 --seconds 0.1 --fps 30 --device cpu --size 160x120 --quality draft --quiet";
 
 double last_difference(const fs::path& column) {  // [1/m]
@@ -21,18 +16,15 @@ double last_difference(const fs::path& column) {  // [1/m]
 }
 
 TEST(Compare, SubtractsTheCurvatureOfAColumn) {
-  const Folder folder;
-  const fs::path out = folder.path() / "out";
-  ASSERT_EQ(program("compare swing --fabrics cotton-broad,feng2022-median --law prandtl --compare.to "
-                    "cotton-broad --compare.difference curvature --compare.rows 2 --out " +
-                    out.string() + kSmallSwing)
-                .exit_code,
-            0);
-  EXPECT_TRUE(fs::exists(out / "cotton-broad/mesh/0003.ply"));
-  EXPECT_TRUE(fs::exists(out / "feng2022-median/frames-difference/0003.png"));
-  EXPECT_GT(last_difference(out / "feng2022-median"), 1);
+  const FinishedRun run(
+      "compare swing --fabrics cotton-broad,feng2022-median --law prandtl --compare.to "
+      "cotton-broad --compare.difference curvature --compare.rows 2" +
+      kSmallSwing);
+  EXPECT_TRUE(fs::exists(run.out / "cotton-broad/mesh/0003.ply"));
+  EXPECT_TRUE(fs::exists(run.out / "feng2022-median/frames-difference/0003.png"));
+  EXPECT_GT(last_difference(run.out / "feng2022-median"), 1);
   // Colours mean the same in every column: the larger k0 of the two counts, as half of 2 k0.
-  const auto looks = manifest_in(out / "feng2022-median")["frames"]["looks"];
+  const auto looks = manifest_in(run.out / "feng2022-median")["frames"]["looks"];
   EXPECT_NEAR(looks["difference"]["high"].get<double>(), 98.43617921, 1e-4);
 }
 
@@ -40,7 +32,7 @@ TEST(Compare, SubtractsTheCurvatureOfAColumn) {
 TEST(Difference, OfARunToItselfIsNone) {
   const Folder folder;
   const auto run = [&](const std::string& name, const std::string& more) {
-    return program("swing --out " + (folder.path() / name).string() + kSmallSwing + " " + more);
+    return program("swing" + out_flag(folder.path() / name) + kSmallSwing + " " + more);
   };
   const std::string less = " --look difference --reference " + (folder.path() / "first").string();
   ASSERT_EQ(run("first", "--law linear --export ply").exit_code, 0);
@@ -61,7 +53,7 @@ TEST(Difference, OfARunToItselfIsNone) {
   EXPECT_EQ(run("empty", "--look difference --reference " + (folder.path() / "again").string()).exit_code, 2);
   const Outcome finer = run("finer", "--triangles 200" + less);
   EXPECT_EQ(finer.exit_code, 2);
-  EXPECT_NE(finer.err.find("other triangles"), std::string::npos);
+  EXPECT_TRUE(has(finer.err, "other triangles"));
 }
 
 }  // namespace

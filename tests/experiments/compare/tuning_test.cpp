@@ -4,12 +4,10 @@
 #include <cmath>
 
 #include "sim/base/error.h"
-#include "tests/experiments/folder.h"
 #include "tests/experiments/program.h"
 
 namespace hysteron::experiments {
 namespace {
-namespace fs = std::filesystem;
 
 Tuning tuning() { return parsed_tuning("fabric.damping=1e-5:1e-1", "viscous_J=bending_friction_J"); }
 
@@ -51,46 +49,34 @@ TEST(Tuning, TriesTheMiddlesOfTheLogarithmToFourDigits) {
 }
 
 TEST(Tuning, RefusesABracketWithoutARoot) {
-  try {
-    tuned(tuning(), [](const std::string&) { return 1.0; });
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.exit_code(), 2);
-    EXPECT_STREQ(error.what(),
-                 "viscous_J is not below the second column's bending_friction_J at both ends of "
-                 "fabric.damping = 1e-5:1e-1: widen the bracket (--compare.tune)");
-  }
+  EXPECT_EQ(test::refusal([] { tuned(tuning(), [](const std::string&) { return 1.0; }); }),
+            "viscous_J is not below the second column's bending_friction_J at both ends of fabric.damping = "
+            "1e-5:1e-1: widen the bracket (--compare.tune)");
 }
 
-const char* const kSmallStrip =
+const std::string kSmallStrip =
     " --triangles 16 --seconds 0.1 --fps 30 --device cpu --no-images --quiet --compare.match fabric";
 
 // Both columns are the same strip but for its viscosity, so that the number found is the second column's.
 TEST(Compare, TunesItsFirstColumnToItsSecond) {
-  const Folder folder;
-  const fs::path out = folder.path() / "out";
-  const Outcome outcome = program(
+  const FinishedRun run(
       "compare swing --laws linear,linear+fabric.damping=2e-3 --compare.tune fabric.damping=1e-3:4e-3 "
-      "--compare.tune-metric viscous_J --out " +
-      out.string() + kSmallStrip);
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  const std::string line = outcome.out.substr(0, outcome.out.find('\n'));
-  ASSERT_EQ(line.find("fabric.damping="), 0u) << outcome.out;
-  const Json scene = manifest_in(out)["scene"];
+      "--compare.tune-metric viscous_J" +
+      kSmallStrip);
+  const std::string line = run.outcome.out.substr(0, run.outcome.out.find('\n'));
+  ASSERT_EQ(line.find("fabric.damping="), 0u) << run.outcome.out;
+  const Json scene = run.manifest()["scene"];
   const double found = scene["tuned"]["value"].get<double>();
   const double bracket = std::log(4.0) / 512, four_digits = 5e-4;  // relative, after nine halvings
   EXPECT_NEAR(found / 2e-3, 1, bracket + four_digits);
   EXPECT_EQ(scene["columns"][0]["name"], "linear+" + line);
-  EXPECT_TRUE(fs::exists(out / ("linear+" + line) / "manifest.json"));
+  EXPECT_TRUE(fs::exists(run.out / ("linear+" + line) / "manifest.json"));
 }
 
 TEST(Compare, RefusesToTuneWhatItCannot) {
   const Folder folder;
   const auto refusal = [&](const std::string& options) {
-    const Outcome outcome =
-        program("compare swing " + options + " --out " + (folder.path() / "out").string() + kSmallStrip);
-    EXPECT_EQ(outcome.exit_code, 2) << options;
-    return outcome.err;
+    return refused("compare swing " + options + out_flag(folder.path() / "out") + kSmallStrip);
   };
   const std::string columns = "--laws linear,prandtl ",
                     metric = " --compare.tune-metric viscous_J=bending_friction_J";
@@ -106,12 +92,10 @@ TEST(Compare, RefusesToTuneWhatItCannot) {
   EXPECT_EQ(
       refusal("--laws linear --compare.tune fabric.damping=1e-5:1e-1" + metric),
       "hysteron compare: compare.tune needs two columns, the one to tune and its target (--compare.tune)\n");
-  EXPECT_NE(refusal(columns + "--compare.tune fabric.dampin=1e-5:1e-1" + metric).find("fabric.damping"),
-            std::string::npos);
+  EXPECT_TRUE(has(refusal(columns + "--compare.tune fabric.dampin=1e-5:1e-1" + metric), "fabric.damping"));
   EXPECT_EQ(refusal(columns + metric).find("hysteron compare: compare.tune =  must be KEY=LOW:HIGH"), 0u);
-  EXPECT_NE(refusal(columns + "--compare.tune fabric.damping=1e-5:1e-1 --compare.tune-metric heat_J")
-                .find("has no metric heat_J that is a number (--compare.tune-metric)"),
-            std::string::npos);
+  EXPECT_TRUE(has(refusal(columns + "--compare.tune fabric.damping=1e-5:1e-1 --compare.tune-metric heat_J"),
+                  "has no metric heat_J that is a number (--compare.tune-metric)"));
 }
 
 }  // namespace

@@ -1,18 +1,14 @@
 // The crease recovery specimen, and what opens it.
 #include "experiments/crease/specimen.h"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "experiments/workbench/compare/variants.h"
 #include "sim/contact/compression.h"
 #include "sim/reference/kes.h"
 #include "sim/scene/fabric_reader.h"
-#include "tests/experiments/folder.h"
 #include "tests/experiments/program.h"
 
 namespace hysteron::experiments {
@@ -62,16 +58,12 @@ TEST(CreaseSpecimen, KnowsWhatTheLawAloneKeeps) {
 
 // Both laws by one command.
 TEST(Crease, OpensWithoutAnIntersectionAndKeepsWhatTheLawKeeps) {
-  const Folder folder;
-  const auto out = folder.path() / "run";
-  const Outcome outcome = program(
+  const FinishedRun run(
       "crease --law linear,prandtl --triangles 200 --crease.hold 0.05 --crease.recovery 0.3 "
-      "--crease.force 5 --no-images --quiet --out " +
-      out.string());
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  const std::string table = file_content(out / "table.csv");
+      "--crease.force 5 --no-images --quiet");
+  const std::string table = file_content(run.out / "table.csv");
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 3);
-  const auto elastic = metrics_of(out / "linear"), hysteretic = metrics_of(out / "prandtl");
+  const auto elastic = metrics_of(run.out / "linear"), hysteretic = metrics_of(run.out / "prandtl");
   EXPECT_EQ(elastic["intersections"], 0);
   EXPECT_EQ(hysteretic["intersections"], 0);
   EXPECT_GT(elastic["recovery_angle_deg"], 178);
@@ -85,36 +77,25 @@ TEST(Crease, OpensWithoutAnIntersectionAndKeepsWhatTheLawKeeps) {
 // Under this force edges of the fold are pressed along each other: their full steps turn them too far, and
 // the shortest parts of a step need the stiffness against that.
 TEST(Crease, FindsTheEquilibriumOfAFoldThatIsPressedEdgeAlongEdge) {
-  const Folder folder;
-  const auto out = folder.path() / "run";
-  const Outcome outcome = program(
+  const FinishedRun run(
       "crease --law prandtl --triangles 200 --crease.hold 0.05 --crease.recovery 0.3 --crease.force 4.98 "
-      "--no-images --quiet --out " +
-      out.string());
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  const auto metrics = metrics_of(out);
+      "--no-images --quiet");
+  const auto metrics = run.metrics();
   EXPECT_EQ(metrics["intersections"], 0);
   EXPECT_LT(metrics["energy_remainder_relative"], 1e-4);
 }
 
-CommandLine soft_fold(const char* fold, const std::filesystem::path& out) {
-  CommandLine line{"crease",
-                   "hysteron crease",
-                   {{"crease.fold", fold},
-                    {"fabric", "cotton-broad-k50"},
-                    {"triangles", "200"},
-                    {"crease.recovery", "1"},
-                    {"out", out.string()}},
-                   {}};
-  for (const char* on : {"no-images", "quiet"}) line.flags.push_back({on, "true"});
-  return line;
+Json soft_fold(const char* fold, std::vector<Flag> flags = {}) {
+  flags.insert(flags.end(), {{"crease.fold", fold},
+                             {"fabric", "cotton-broad-k50"},
+                             {"triangles", "200"},
+                             {"crease.recovery", "1"}});
+  return metrics_with("crease", std::move(flags));
 }
 
 // Opens to within `tolerance` of the law alone and between the limits [degree].
 void expect_opening(const char* fold, double tolerance, double least, double most) {
-  const Folder folder;
-  EXPECT_EQ(experiment_named("crease").run(soft_fold(fold, folder.path())), 0);
-  const auto metrics = metrics_of(folder.path());
+  const auto metrics = soft_fold(fold);
   EXPECT_EQ(metrics["intersections"], 0);
   const double opening = metrics["recovery_angle_deg"];
   EXPECT_NEAR(opening, metrics["law_recovery_angle_deg"].get<double>(), tolerance);
@@ -128,11 +109,7 @@ TEST(SoftFold, AroundARodOpensAsTheLawAlone) { expect_opening("rod", 3, 45, 130)
 // Let go slowly, it passes through equilibria: what stays does not depend on the step.
 TEST(SoftFold, LetGoSlowlyKeepsTheSameWithHalfTheStep) {
   const auto kept = [](const char* step) {
-    const Folder folder;
-    CommandLine line = soft_fold("rod", folder.path());
-    line.flags.push_back({"step", step});
-    EXPECT_EQ(experiment_named("crease").run(line), 0);
-    const auto metrics = metrics_of(folder.path());
+    const auto metrics = soft_fold("rod", {{"step", step}});
     return std::pair<double, double>(metrics["recovery_angle_deg"], metrics["residual_curvature_per_m"]);
   };
   const auto [angle, residual] = kept("0.016666666666666666");
@@ -218,23 +195,11 @@ TEST(CreaseInTime, OfCottonBroadHasItsPublishedPair) {
   }
 }
 
-CommandLine pressed_by_standard(const std::filesystem::path& out, std::vector<Flag> further) {
-  CommandLine line{
-      "crease",
-      "hysteron crease",
-      {{"crease.standard", "iso2313"}, {"law", "chapman"}, {"triangles", "200"}, {"out", out.string()}},
-      {}};
-  line.flags.insert(line.flags.end(), further.begin(), further.end());
-  for (const char* on : {"no-images", "quiet"}) line.flags.push_back({on, "true"});
-  return line;
-}
-
 // Friction alone keeps what it keeps; with a branch the angle comes back in time.
 TEST(CreaseInTime, RecoversOverMinutesWithARelaxingBranchOnly) {
-  const auto recovered = [](std::vector<Flag> further) {
-    const Folder folder;
-    EXPECT_EQ(experiment_named("crease").run(pressed_by_standard(folder.path(), std::move(further))), 0);
-    return metrics_of(folder.path());
+  const auto recovered = [](std::vector<Flag> flags) {
+    flags.insert(flags.end(), {{"crease.standard", "iso2313"}, {"law", "chapman"}, {"triangles", "200"}});
+    return metrics_with("crease", std::move(flags));
   };
   const auto friction = recovered({}),
              relaxing = recovered({{"fabric.bending.branches.times", "30"},

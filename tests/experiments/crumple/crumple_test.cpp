@@ -1,31 +1,21 @@
 // Crumpling by its own command: what stays under a law with hysteresis and does not under an elastic one.
-#include <gtest/gtest.h>
-
-#include <nlohmann/json.hpp>
-
-#include <fstream>
-
 #include "render/image.h"
 #include "tests/experiments/program.h"
+#include "tests/render/test_scene.h"
 
 namespace hysteron::experiments {
 namespace {
 
 // Of a scene beside this file, or of a shipped one.
 std::string scene_named(const std::string& name) {
-  const auto file = std::filesystem::path(__FILE__).parent_path() / "scenes" / (name + ".toml");
-  return std::filesystem::exists(file) ? file.string() : "crumple-" + name;
+  const auto file = fs::path(__FILE__).parent_path() / "scenes" / (name + ".toml");
+  return fs::exists(file) ? file.string() : "crumple-" + name;
 }
 
 TEST(Crumple, LeavesWrinklesInClothThatRubsAndNoneInElasticCloth) {
-  const Folder folder;
-  const auto out = folder.path() / "run";
-  const Outcome outcome =
-      program("crumple --scene " + scene_named("tube") +
-              " --law linear,prandtl --triangles 300 --no-images --quiet --out " + out.string());
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  const auto law_manifest = [&](const char* law) { return manifest_in(out / law); };
-  const auto elastic = law_manifest("linear"), hysteretic = law_manifest("prandtl");
+  const FinishedRun run("crumple --scene " + scene_named("tube") +
+                        " --law linear,prandtl --triangles 300 --no-images --quiet");
+  const auto elastic = manifest_in(run.out / "linear"), hysteretic = manifest_in(run.out / "prandtl");
   for (const auto& manifest : {elastic, hysteretic}) {
     EXPECT_EQ(manifest["metrics"]["intersections"], 0);
     EXPECT_EQ(manifest["complete"], true);
@@ -35,7 +25,7 @@ TEST(Crumple, LeavesWrinklesInClothThatRubsAndNoneInElasticCloth) {
   EXPECT_LT(elastic["metrics"]["residual_curvature_rms_per_m"], 1e-9);
   EXPECT_GT(hysteretic["metrics"]["residual_curvature_rms_per_m"], 5);
   EXPECT_GT(hysteretic["metrics"]["ridge_length_m"], 0.05);
-  EXPECT_NE(file_content(out / "table.csv").find("prandtl,"), std::string::npos);
+  EXPECT_TRUE(has(file_content(run.out / "table.csv"), "prandtl,"));
 }
 
 // The right end of a strip is led over the left one, which is held, and 2 cm beyond it.
@@ -63,17 +53,14 @@ keys = [{time = 0, position = [0, 0, 0]}, {time = 0.1, position = [-0.04, 0, 0.0
 
 TEST(Crumple, ComesToItsEndWhereRigidPinsPullClothThroughClothAndTellsHowFarTheyLagged) {
   const Folder folder;
-  std::ofstream(folder.path() / "led.toml") << kLedThroughItself;
-  const auto out = folder.path() / "run";
-  const Outcome outcome = program("crumple --scene " + (folder.path() / "led.toml").string() +
-                                  " --threads 1 --no-images --out " + out.string());
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  const auto metrics = metrics_of(out);
+  const FinishedRun run("crumple --scene " + folder.write("led.toml", kLedThroughItself) +
+                        " --threads 1 --no-images");
+  const auto metrics = run.metrics();
   EXPECT_GT(metrics["barred_hand_steps_count"], 0);
   EXPECT_NEAR(metrics["hand_lag_m"].get<double>(), 0.02, 3 * Fabric{}.thickness);
   EXPECT_EQ(metrics["intersections"], 0);
   EXPECT_EQ(metrics.value("unbalanced_steps_count", 0), 0);
-  EXPECT_NE(outcome.err.find("cloth barred the way of rigid pins"), std::string::npos) << outcome.err;
+  EXPECT_TRUE(has(run.outcome.err, "cloth barred the way of rigid pins"));
 }
 
 // Nothing holds this square, which falls by 1/2 g t^2 = 0.8 m.
@@ -89,54 +76,38 @@ length = 0.1
 rotation = [90, 0, 0]
 )";
 
-std::size_t dark_pixels(const std::filesystem::path& silhouette) {
-  const render::Image image = render::read_png(silhouette);
-  std::size_t count = 0;
-  for (int y = 0; y < image.height(); ++y)
-    for (int x = 0; x < image.width(); ++x) count += image.at(x, y)[1] < 128;
-  return count;
-}
-
 TEST(Crumple, PicturesClothThatFallsToTheEnd) {
   const Folder folder;
-  std::ofstream(folder.path() / "falling.toml") << kFalling;
-  const auto out = folder.path() / "run";
-  const Outcome outcome =
-      program("crumple --scene " + (folder.path() / "falling.toml").string() +
-              " --size 160x120 --fps 5 --look silhouette --plain --threads 1 --quiet --out " + out.string());
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const FinishedRun run("crumple --scene " + folder.write("falling.toml", kFalling) +
+                        " --size 160x120 --fps 5 --look silhouette --plain --threads 1 --quiet");
+  const auto is_dark = [](const std::uint8_t* pixel) { return pixel[1] < 128; };
   for (const char* frame : {"0000.png", "0001.png", "0002.png"})
-    EXPECT_GT(dark_pixels(out / "frames" / frame), 20u) << frame;
-  EXPECT_EQ(outcome.err.find("cut off"), std::string::npos) << outcome.err;
+    EXPECT_GT(render::test::count_pixels(render::read_png(run.out / "frames" / frame), is_dark), 20) << frame;
+  EXPECT_FALSE(has(run.outcome.err, "cut off"));
 }
 
 // The camera of one law looks elsewhere; of what its run says the error counts, not the warning before it.
 TEST(Crumple, WarnsOfALawThatIsMissingOnItsSheet) {
   const Folder folder;
-  std::ofstream(folder.path() / "falling.toml") << kFalling;
   const auto out = folder.path() / "run";
   const Outcome outcome =
-      program("crumple --scene " + (folder.path() / "falling.toml").string() +
+      program("crumple --scene " + folder.write("falling.toml", kFalling) +
               " --law 'linear,prandtl+camera.target=9 9 9+camera.distance=1' --size 160x120 --fps 5 "
-              "--threads 1 --quiet --out " +
-              out.string());
-  EXPECT_NE(outcome.err.find("is missing on the page's sheet and plots: "), std::string::npos) << outcome.err;
-  EXPECT_NE(outcome.err.find("shows no cloth at t = 0.000 s"), std::string::npos) << outcome.err;
-  EXPECT_TRUE(std::filesystem::exists(out / "sheet.png"));
+              "--threads 1 --quiet" +
+              out_flag(out));
+  EXPECT_TRUE(has(outcome.err, "is missing on the page's sheet and plots: "));
+  EXPECT_TRUE(has(outcome.err, "shows no cloth at t = 0.000 s"));
+  EXPECT_TRUE(fs::exists(out / "sheet.png"));
 }
 
 // The beginning of each shipped scene and of those beside this file, on a small mesh.
 class CrumpledScene : public testing::TestWithParam<const char*> {};
 
 TEST_P(CrumpledScene, BeginsInBalanceAndFreeOfCrossingsUnderLawsWithAndWithoutMemory) {
-  const Folder folder;
-  const auto out = folder.path() / "run";
-  const Outcome outcome = program(
-      "crumple --scene " + scene_named(GetParam()) +
-      " --law linear,prandtl --triangles 300 --seconds 0.06 --no-images --quiet --out " + out.string());
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const FinishedRun run("crumple --scene " + scene_named(GetParam()) +
+                        " --law linear,prandtl --triangles 300 --seconds 0.06 --no-images --quiet");
   for (const char* law : {"linear", "prandtl"}) {
-    const auto metrics = metrics_of(out / law);
+    const auto metrics = metrics_of(run.out / law);
     EXPECT_EQ(metrics["intersections"], 0) << law;
     EXPECT_EQ(metrics["unbalanced_steps_count"], 0) << law;
     EXPECT_EQ(metrics.value("deep_contact_steps_count", 0), 0) << law;

@@ -1,8 +1,6 @@
 // The apparatus of drape tests: sizes of the standards, and how pedestal, disc and plate move.
 #include "experiments/drape/apparatus.h"
 
-#include <gtest/gtest.h>
-
 #include "experiments/workbench/app/manifest_file.h"
 #include "sim/base/csv.h"
 #include "sim/scene/motion.h"
@@ -19,15 +17,10 @@ Scene with_apparatus(const DrapeChoice& choice) {
 }
 
 // Metrics of a drape of 300 triangles, unless flags say otherwise; its files lie in out/.
-Metrics quick_drape(const Folder& folder, const std::vector<Flag>& flags) {
-  CommandLine line{
-      "drape",
-      "hysteron drape",
-      {{"triangles", "300"}, {"threads", "1"}, {"device", "cpu"}, {"out", (folder.path() / "out").string()}},
-      {}};
-  for (const char* bare : {"quick", "quiet", "no-images"}) line.flags.push_back({bare, "true"});
-  line.flags.insert(line.flags.end(), flags.begin(), flags.end());
-  EXPECT_EQ(experiment_named("drape").run(line), 0);
+Metrics quick_drape(const Folder& folder, const std::vector<Flag>& further) {
+  std::vector<Flag> flags = {{"triangles", "300"}, {"threads", "1"}, {"device", "cpu"}, {"quick", "true"}};
+  flags.insert(flags.end(), further.begin(), further.end());
+  EXPECT_EQ(run_into(folder.path() / "out", "drape", std::move(flags)), 0);
   return read_manifest(folder.path() / "out/manifest.json").metrics;
 }
 

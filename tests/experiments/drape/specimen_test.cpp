@@ -3,12 +3,10 @@
 
 #include <cmath>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "experiments/drape/outline.h"
 #include "tests/experiments/program.h"
-#include "tests/sim/base/refusal.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -28,9 +26,10 @@ class Draped : public testing::Test {
   std::string refusal(const Scene& scene) {
     return test::refusal([&] { disc_specimen(scene, make_cloth(scene)); });
   }
-  Outcome drape(const std::string& flags) {
-    return program("drape --quick --no-images --quiet --device cpu --threads 1 --triangles 200 --out " +
-                   (folder_.path() / "out").string() + " " + flags);
+  // A command line.
+  std::string drape(const std::string& flags) const {
+    return "drape --quick --no-images --quiet --device cpu --threads 1 --triangles 200" +
+           out_flag(folder_.path() / "out") + " " + flags;
   }
   std::string file() const { return (folder_.path() / "disc.obj").string(); }
 
@@ -50,13 +49,12 @@ TEST_F(Draped, DiscIsMeasuredWhereverItLies) {
 
 TEST_F(Draped, WhatIsNoFlatDiscIsRefused) {
   const ClothMesh square = make_grid(0.2, 0.2, 8, 8, MeshFamily::unionjack, 1);
-  EXPECT_NE(refusal(disc_scene(square, square.rest)).find("is no disc: its edge is 0.1 to 0.141 m"),
-            std::string::npos);
+  EXPECT_TRUE(has(refusal(disc_scene(square, square.rest)), "is no disc: its edge is 0.1 to 0.141 m"));
   const ClothMesh disc = make_disc(kRadius, 300, MeshFamily::random, 1);
   std::vector<Eigen::Vector3d> upright;
   for (const Eigen::Vector3d& x : disc.rest) upright.emplace_back(x.x(), 0, x.y());
   Scene scene = disc_scene(disc, upright);
-  EXPECT_NE(refusal(scene).find("m high and must lie flat"), std::string::npos);
+  EXPECT_TRUE(has(refusal(scene), "m high and must lie flat"));
   scene.cloth.rotation = {90, 0, 0};
   EXPECT_NEAR(disc_specimen(scene, make_cloth(scene)).radius, kRadius, 1e-12);
 }
@@ -64,9 +62,7 @@ TEST_F(Draped, WhatIsNoFlatDiscIsRefused) {
 TEST_F(Draped, CoefficientRefersToTheFileThatIsRead) {
   const ClothMesh disc = make_disc(kRadius, 200, MeshFamily::random, 1);
   disc_scene(disc, disc.rest);
-  const Outcome outcome =
-      drape("--cloth.shape file --cloth.file " + file() + " --seconds 0.01 --drape.release dropped");
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  finished(drape("--cloth.shape file --cloth.file " + file() + " --seconds 0.01 --drape.release dropped"));
   const Json manifest = manifest_in(folder_.path() / "out");
   EXPECT_NEAR(manifest["specimen_radius_m"].get<double>(), kRadius, 1e-12);
   // It lies flat at first: the polygon of its rim, less the pedestal, over the ring.
@@ -85,21 +81,17 @@ TEST_F(Draped, CoefficientRefersToTheFileThatIsRead) {
 TEST_F(Draped, DiscThatLiesOnThePedestalIsRefused) {
   const ClothMesh disc = make_disc(0.08, 200, MeshFamily::random, 1);
   disc_scene(disc, disc.rest);
-  const Outcome outcome = drape("--cloth.shape file --cloth.file " + file());
-  EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_NE(outcome.err.find("drape.disc = 0.09 m must be < 0.08 m, the radius of mesh " + file()),
-            std::string::npos)
-      << outcome.err;
-  EXPECT_EQ(drape("--cloth.shape square --cloth.length 0.3").exit_code, 2);
+  EXPECT_TRUE(has(refused(drape("--cloth.shape file --cloth.file " + file())),
+                  "drape.disc = 0.09 m must be < 0.08 m, the radius of mesh " + file()));
+  refused(drape("--cloth.shape square --cloth.length 0.3"));
 }
 
 // Without friction and on its side, the specimen slides off the pedestal.
 TEST_F(Draped, CoefficientThatNoShadowHasIsNoResult) {
-  const Outcome outcome = drape(
-      "--seconds 0.3 --drape.release dropped --fabric.friction 0 --gravity '60 0 0' --integrator "
-      "semi-implicit");
-  EXPECT_EQ(outcome.exit_code, 3);
-  EXPECT_NE(outcome.err.find("% of the ring, which must be 0 to 101"), std::string::npos) << outcome.err;
+  const Outcome outcome = ended(
+      3, drape("--seconds 0.3 --drape.release dropped --fabric.friction 0 --gravity '60 0 0' --integrator "
+               "semi-implicit"));
+  EXPECT_TRUE(has(outcome.err, "% of the ring, which must be 0 to 101"));
   const Json manifest = manifest_in(folder_.path() / "out");
   EXPECT_EQ(manifest["complete"], false);
   EXPECT_FALSE(manifest["metrics"].contains("drape_coefficient_percent"));

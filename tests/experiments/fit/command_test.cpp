@@ -1,22 +1,16 @@
 // `hysteron fit` from flags to its folder.
-#include <gtest/gtest.h>
-
 #include <fstream>
-#include <nlohmann/json.hpp>
 
 #include "experiments/fit/report.h"
-#include "experiments/workbench/app/experiment.h"
 #include "sim/base/atomic_file.h"
 #include "sim/base/csv.h"
 #include "sim/base/error.h"
 #include "sim/scene/fabric_reader.h"
 #include "tests/experiments/folder.h"
-#include "tests/sim/base/refusal.h"
 #include "tests/sim/identification/synthetic.h"
 
 namespace hysteron::experiments {
 namespace {
-namespace fs = std::filesystem;
 
 class Fit : public testing::Test {
  protected:
@@ -63,7 +57,7 @@ TEST_F(Fit, OfALoopWritesWhatTheInterfaceNames) {
                           "residual_rms_N", "iterations"})
     EXPECT_TRUE(m.at(key).is_number()) << key;
   EXPECT_EQ(m.at("undetermined"), Json::array());
-  EXPECT_NE(said_.find("undetermined: nothing"), std::string::npos) << said_;
+  EXPECT_TRUE(has(said_, "undetermined: nothing"));
 }
 
 TEST_F(Fit, WritesAFabricThatIsReadBackWithItsStandardErrors) {
@@ -88,15 +82,13 @@ TEST_F(Fit, SaysAloudWhoseDensityAndThicknessItFillsIn) {
   const std::string file = file_content(out() / "fabric.toml");
   const std::string kept = manifest_in(out()).at("warnings").dump();
   for (const std::string& text : {warned_, file, kept}) {
-    EXPECT_NE(text.find("thickness was not given: fabric.toml holds that of another fabric, cotton-broad"),
-              std::string::npos)
-        << text;
-    EXPECT_EQ(text.find("density was not given"), std::string::npos) << text;
+    EXPECT_TRUE(has(text, "thickness was not given: fabric.toml holds that of another fabric, cotton-broad"));
+    EXPECT_FALSE(has(text, "density was not given"));
   }
   const Fabric fabric = read_fabric((out() / "fabric.toml").string(), "--fabric").fabric;
   EXPECT_EQ(fabric.provenance.at("density").confidence, "given");
   EXPECT_EQ(fabric.provenance.at("thickness").confidence, "assumed");
-  EXPECT_NE(fabric.provenance.at("thickness").source.find("cotton-broad"), std::string::npos);
+  EXPECT_TRUE(has(fabric.provenance.at("thickness").source, "cotton-broad"));
 }
 
 TEST_F(Fit, ComparesLawsOnTheSameDataTheBestFirst) {
@@ -116,7 +108,7 @@ TEST_F(Fit, RefusesRequestsThatMakeNoSense) {
   const std::string file = loop("prandtl", {250, -250, 250});
   const auto says = [&](const std::vector<Flag>& flags, const char* part) {
     const std::string reason = refusal(flags);
-    EXPECT_NE(reason.find(part), std::string::npos) << reason;
+    EXPECT_TRUE(has(reason, part));
   };
   says({}, "needs one of --loop");
   says({{"loop", file}, {"kes.b", "1e-5"}}, "not several");
@@ -138,10 +130,8 @@ TEST_F(Fit, WarnsOfALawThatDoesNotDescribeTheData) {
   }
   Table({curvature, moment}).write(file);
   ASSERT_EQ(fit({{"loop", file.string()}, {"law", "linear"}}), 0);
-  EXPECT_NE(warned_.find("warning: linear does not describe these data: it misses them by "),
-            std::string::npos)
-      << warned_;
-  EXPECT_NE(manifest_in(out()).at("warnings").dump().find("linear does not"), std::string::npos);
+  EXPECT_TRUE(has(warned_, "warning: linear does not describe these data: it misses them by "));
+  EXPECT_TRUE(has(manifest_in(out()).at("warnings").dump(), "linear does not"));
 }
 
 // The loops of a known law, as `fab` writes them, in the columns that are read.
@@ -206,10 +196,9 @@ TEST_F(FitOfFab, FarOutsideTheNoiseIsRefusedUnlessTheNoiseIsSaidToBeThatLarge) {
   std::vector<Flag> stops = flags(file);
   stops.push_back({"fab.friction", "stops"});
   const std::string reason = refusal(stops);
-  EXPECT_NE(reason.find("along L the fit misses the forces by "), std::string::npos) << reason;
-  EXPECT_NE(reason.find("times their noise of 0.00075 N (rms), at most 3 times"), std::string::npos)
-      << reason;
-  EXPECT_NE(reason.find("are fitted with --fab.noise 0.00"), std::string::npos) << reason;
+  EXPECT_TRUE(has(reason, "along L the fit misses the forces by "));
+  EXPECT_TRUE(has(reason, "times their noise of 0.00075 N (rms), at most 3 times"));
+  EXPECT_TRUE(has(reason, "are fitted with --fab.noise 0.00"));
   std::vector<Flag> noisy = stops;
   noisy.push_back({"fab.noise", "7.5e-3"});
   EXPECT_EQ(fit(noisy), 0);
@@ -220,13 +209,13 @@ TEST_F(FitOfFab, OfForcesInAnotherUnitIsRefusedAsNoFabric) {
   const std::string file =
       changed([](std::vector<std::string>& row) { row[4] = number_text(std::stod(row[4]) / 9.80665e-3); });
   const std::string reason = refusal(flags(file));
-  EXPECT_NE(reason.find("must be in [1e-08, 0.001] N m, as fabrics are"), std::string::npos) << reason;
+  EXPECT_TRUE(has(reason, "must be in [1e-08, 0.001] N m, as fabrics are"));
 }
 
 TEST_F(FitOfFab, OfLoopsThatNoTesterRecordsIsRefusedBeforeAnythingIsWritten) {
   const auto says = [&](const auto& change, const char* part) {
     const std::string reason = refusal(flags(changed(change)));
-    EXPECT_NE(reason.find(part), std::string::npos) << reason;
+    EXPECT_TRUE(has(reason, part));
   };
   using Row = std::vector<std::string>;
   says([](Row& row) { row[4] = "0"; }, "must vary");
@@ -247,28 +236,26 @@ TEST_F(FitOfFab, TakesWarpBeforeWeftWhateverTheirOrderInTheFile) {
     }
   table.write(file);
   ASSERT_EQ(fit(flags(file)), 0);
-  EXPECT_NE(file_content(out() / "fabric.toml").find("along L, W in both.csv"), std::string::npos);
+  EXPECT_TRUE(has(file_content(out() / "fabric.toml"), "along L, W in both.csv"));
   std::vector<Flag> bias = flags(file);
   bias.push_back({"fab.directions", "L,B"});
-  EXPECT_NE(test::refusal([&] { fit(bias); }).find("must begin with warp and weft"), std::string::npos);
+  EXPECT_TRUE(has(test::refusal([&] { fit(bias); }), "must begin with warp and weft"));
   bias.back() = {"fab.cycles", "inf"};
-  EXPECT_NE(test::refusal([&] { fit(bias); }).find("must be numbers > 0"), std::string::npos);
+  EXPECT_TRUE(has(test::refusal([&] { fit(bias); }), "must be numbers > 0"));
   bias.back() = {"fab.cycles", "1.5"};
-  EXPECT_NE(test::refusal([&] { fit(bias); }).find("must be whole numbers"), std::string::npos);
+  EXPECT_TRUE(has(test::refusal([&] { fit(bias); }), "must be whole numbers"));
 }
 
 TEST_F(Fit, OfLoopsOfAFabTesterNeedsDensityAndTheRightUnits) {
   const fs::path file = folder_.path() / "fab.csv";
   std::ofstream(file) << "direction,test,branch,clamp_distance_m,force_N,gauge_length_m,width_m\n"
                          "L,D1,0,0.018,0,0.021,0.04\n";
-  EXPECT_NE(refusal({{"fab", file.string()}}).find("fabric.density"), std::string::npos);
-  EXPECT_NE(
-      refusal({{"fab", file.string()}, {"units", "fab"}, {"fabric.density", "0.3"}}).find("give --units si"),
-      std::string::npos);
-  EXPECT_NE(
-      refusal({{"fab", file.string()}, {"units", "kes"}, {"fabric.density", "0.3"}}).find("fab (cm, gf)"),
-      std::string::npos);
-  EXPECT_NE(refusal({{"loop", file.string()}, {"units", "fab"}}).find("--fab"), std::string::npos);
+  EXPECT_TRUE(has(refusal({{"fab", file.string()}}), "fabric.density"));
+  EXPECT_TRUE(
+      has(refusal({{"fab", file.string()}, {"units", "fab"}, {"fabric.density", "0.3"}}), "give --units si"));
+  EXPECT_TRUE(
+      has(refusal({{"fab", file.string()}, {"units", "kes"}, {"fabric.density", "0.3"}}), "fab (cm, gf)"));
+  EXPECT_TRUE(has(refusal({{"loop", file.string()}, {"units", "fab"}}), "--fab"));
 }
 
 }  // namespace

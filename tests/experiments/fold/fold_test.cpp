@@ -1,16 +1,12 @@
 // ErrorRunResult folding: the flexed specimen, what is read from it, and what many bends make of a material.
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "experiments/fold/material.h"
 #include "sim/base/csv.h"
 #include "sim/base/error.h"
 #include "sim/bending/laws/law_parameters.h"
-#include "tests/experiments/folder.h"
 #include "tests/experiments/program.h"
 
 namespace hysteron::experiments {
@@ -141,22 +137,12 @@ TEST(BentRepeatedly, WeakensInInverseProportionToTheCycles) {
   }
 }
 
-CommandLine fold_line(const std::filesystem::path& out, std::vector<Flag> flags) {
-  CommandLine line{"fold", "hysteron fold", std::move(flags), {}};
-  line.flags.push_back({"out", out.string()});
-  for (const char* on : {"no-images", "quiet"}) line.flags.push_back({on, "true"});
-  return line;
-}
-
 // An elastic law, and a hysteretic one without and with fatigue, by one command.
 TEST(Fold, RepeatsWithoutFatigueAndWeakensAndSetsWithIt) {
-  const Folder folder;
-  const auto out = folder.path() / "run";
-  const Outcome outcome = program(
+  const FinishedRun fold(
       "fold --law linear,prandtl --triangles 150 --fold.cycles 3 --fold.fatigue 1 --threads 1 --no-images "
-      "--quiet --out " +
-      out.string());
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+      "--quiet");
+  const auto& out = fold.out;
   const std::string table = file_content(out / "table.csv");
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 4);
   const auto elastic = metrics_of(out / "linear"), sound = metrics_of(out / "prandtl"),
@@ -190,15 +176,11 @@ TEST(Fold, RepeatsWithoutFatigueAndWeakensAndSetsWithIt) {
 }
 
 TEST(Fold, OfALawThatCannotGoOnIsMarkedOnThePageOfTheOthers) {
-  const Folder folder;
-  const Outcome outcome = program(
-      "fold --quick --fold.law-alone --law linear,nonsense,prandtl --fold.fatigue 0 --no-images "
-      "--quiet --out " +
-      folder.path().string());
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  const Table table = read_table(folder.path() / "table.csv");
+  const FinishedRun run(
+      "fold --quick --fold.law-alone --law linear,nonsense,prandtl --fold.fatigue 0 --no-images --quiet");
+  const Table table = read_table(run.out / "table.csv");
   ASSERT_EQ(table.rows.size(), 3u);
-  EXPECT_NE(table.rows[1].back().find("law = nonsense must be"), std::string::npos);
+  EXPECT_TRUE(has(table.rows[1].back(), "law = nonsense must be"));
   for (const std::size_t row : {0, 2}) {
     EXPECT_EQ(table.rows[row].back(), "");
     EXPECT_NE(table.rows[row][1], "");
@@ -208,8 +190,7 @@ TEST(Fold, OfALawThatCannotGoOnIsMarkedOnThePageOfTheOthers) {
 TEST(Fold, OfTheLawAloneWritesItsCyclesAndMetrics) {
   const Folder folder;
   const auto out = folder.path() / "run";
-  EXPECT_EQ(
-      experiment_named("fold").run(fold_line(out, {{"fold.law-alone", "true"}, {"fold.cycles", "1000"}})), 0);
+  EXPECT_EQ(run_into(out, "fold", {{"fold.law-alone", "true"}, {"fold.cycles", "1000"}}), 0);
   const Table cycles = read_csv(out / "cycles.csv", {"cycle", "2HB [N]"}, {}, "test");
   EXPECT_EQ(cycles.numbers("cycle").back(), 1000);
   EXPECT_EQ(metrics_of(out)["2HB_N"].get<double>(), cycles.numbers("2HB [N]").back());
@@ -221,13 +202,11 @@ TEST(Fold, RefusesWhatCannotBeFolded) {
                                    {"fold.period", "0"},   {"fold.fatigue", "-1"}, {"fold.curvature", "0"},
                                    {"element", "hinge"},   {"param", "stops=4"},   {"fold.tension", "1"}};
   for (const Flag& flag : wrong) {
-    try {
-      // The law's own stops: the parameter says nothing of a fabric's.
-      experiment_named("fold").run(fold_line(folder.path() / "run", {{"fabric", "cotton-broad-k50"}, flag}));
-      ADD_FAILURE() << flag.path << " = " << flag.text << " was accepted";
-    } catch (const Error& error) {
-      EXPECT_EQ(error.exit_code(), 2) << error.what();
-    }
+    // The law's own stops: the parameter says nothing of a fabric's.
+    const std::string said = test::refusal([&] {
+      run_into(folder.path() / "run", "fold", {{"fabric", "cotton-broad-k50"}, flag});
+    });
+    EXPECT_NE(said, "(accepted)") << flag.path << " = " << flag.text;
   }
 }
 

@@ -1,6 +1,4 @@
 // `hysteron kes` of the law alone: its metrics, tables and flags.
-#include <nlohmann/json.hpp>
-
 #include "experiments/workbench/pages/closing_summary.h"
 #include "sim/base/error.h"
 #include "sim/bending/laws/law_parameters.h"
@@ -20,10 +18,8 @@ std::vector<std::string> all_laws() {
 class KesCommand : public testing::Test {
  protected:
   Json run(std::vector<Flag> flags) {
-    flags.push_back({"out", folder_.path().string()});
-    flags.push_back({"no-images", "true"});
     flags.push_back({"quick", "true"});
-    EXPECT_EQ(experiment_named("kes").run({"kes", "hysteron kes", flags, {}}), 0);
+    EXPECT_EQ(run_into(folder_.path(), "kes", std::move(flags)), 0);
     return manifest_in(folder_.path());
   }
   Folder folder_;
@@ -41,10 +37,10 @@ TEST_F(KesCommand, TestsEveryLawAndWritesItsTables) {
   for (const std::string& law : all_laws()) {
     for (const char* key : {"B_N_m", "2HB_N", "residual_curvature_per_m", "loop_area_J_per_m2"})
       EXPECT_TRUE(manifest["metrics"][law + "." + key].is_number()) << law << " " << key;
-    EXPECT_NE(summary.find("\n  " + law + " "), std::string::npos) << summary;
+    EXPECT_TRUE(has(summary, "\n  " + law + " "));
   }
   for (const char* file : {"loops.csv", "table.csv", "report.html"})
-    EXPECT_TRUE(std::filesystem::exists(folder_.path() / file)) << file;
+    EXPECT_TRUE(fs::exists(folder_.path() / file)) << file;
 }
 
 TEST_F(KesCommand, TakesAFabricsNumbersFromFlags) {

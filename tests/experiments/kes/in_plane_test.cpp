@@ -1,6 +1,4 @@
 // `hysteron kes --test shear|tension`: the law and a specimen of cloth.
-#include <nlohmann/json.hpp>
-
 #include "sim/base/csv.h"
 #include "sim/base/error.h"
 #include "tests/experiments/folder.h"
@@ -13,8 +11,8 @@ constexpr double kReturnedByLaw = 1, kReturnedByCloth = 3;  // [percent], asked 
 class KesInPlane : public testing::Test {
  protected:
   Json metrics(std::vector<Flag> flags) {
-    flags.insert(flags.end(), {{"out", folder_.path().string()}, {"no-images", "true"}, {"quick", "true"}});
-    EXPECT_EQ(experiment_named("kes").run({"kes", "hysteron kes", flags, {}}), 0);
+    flags.push_back({"quick", "true"});
+    EXPECT_EQ(run_into(folder_.path(), "kes", std::move(flags)), 0);
     return metrics_of(folder_.path());
   }
   Folder folder_;
@@ -36,7 +34,7 @@ TEST_F(KesInPlane, ReturnsWhatWasPublishedOfADenim) {
         << key;
   EXPECT_TRUE(tension["LT"].is_number());
   for (const char* file : {"table.csv", "loops.csv", "report.html"})
-    EXPECT_TRUE(std::filesystem::exists(folder_.path() / file)) << file;
+    EXPECT_TRUE(fs::exists(folder_.path() / file)) << file;
 }
 
 // Free edges bear no shear, and a coarse mesh is stiff: both within what is asked.

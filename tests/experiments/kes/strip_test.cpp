@@ -1,9 +1,6 @@
 #include "experiments/kes/strip.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "experiments/kes/strip_output.h"
 #include "experiments/workbench/pages/closing_summary.h"
@@ -185,34 +182,23 @@ TEST(KesStrip, ThatCannotBeTestedIsRefusedInASentence) {
   const Fabric fabric;
   EXPECT_THROW(clamped_strip(odd, cotton("prandtl"), fabric, protocol()), Error);
   EXPECT_THROW(clamped_strip(small("aligned"), cotton("prandtl"), fabric, round), Error);
-  try {
-    clamped_strip(small("aligned"), cotton("grinspun-edit"), fabric, protocol());
-    FAIL() << "accepted";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.exit_code(), 2);
-    EXPECT_NE(std::string(error.what()).find("--on law"), std::string::npos) << error.what();
-  }
+  const LawRequest edited = cotton("grinspun-edit");
+  EXPECT_TRUE(
+      has(test::refusal([&] { clamped_strip(small("aligned"), edited, fabric, protocol()); }), "--on law"));
 }
 
-class KesStripCommand : public testing::Test {
- protected:
-  int run(std::vector<Flag> flags) {
-    for (const char* flag : {"no-images", "quick", "quiet"}) flags.push_back({flag, "true"});
-    flags.push_back({"out", folder_.path().string()});
-    return experiment_named("kes").run({"kes", "hysteron kes", flags, {}});
-  }
-  Folder folder_;
-};
-
-TEST_F(KesStripCommand, PutsTheStripBesideTheLaw) {
-  ASSERT_EQ(run({{"on", "strip"}, {"mesh", "random"}, {"triangles", "100"}}), 0);
-  const Json metrics = metrics_of(folder_.path());
+TEST(KesStripCommand, PutsTheStripBesideTheLaw) {
+  const Folder folder;
+  ASSERT_EQ(run_into(folder.path(), "kes",
+                     {{"on", "strip"}, {"mesh", "random"}, {"triangles", "100"}, {"quick", "true"}}),
+            0);
+  const Json metrics = metrics_of(folder.path());
   for (const char* key :
        {"B_N_m", "strip_B_N_m", "strip_2HB_N", "strip_solve_s", "strip_loop_area_difference_percent"})
     EXPECT_TRUE(metrics[key].is_number()) << key;
-  const std::string summary = closing_summary(folder_.path());
-  EXPECT_NE(summary.find("strip's B over the law's"), std::string::npos) << summary;
-  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "strip.csv"));
+  const std::string summary = closing_summary(folder.path());
+  EXPECT_TRUE(has(summary, "strip's B over the law's"));
+  EXPECT_TRUE(fs::exists(folder.path() / "strip.csv"));
 }
 
 }  // namespace

@@ -1,10 +1,7 @@
 // Meshes from files in the look of a run.
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "render/compare.h"
@@ -12,11 +9,9 @@
 #include "sim/base/error.h"
 #include "sim/mesh/cloth_mesh.h"
 #include "tests/experiments/folder.h"
-#include "tests/sim/base/refusal.h"
 
 namespace hysteron::experiments {
 namespace {
-namespace fs = std::filesystem;
 
 using FlagList = std::vector<Flag>;
 
@@ -252,13 +247,11 @@ TEST(RenderedFiles, OfAHundredThousandTrianglesAreDrawn) {
 TEST(RenderedFiles, ThatAreBesideTheirPictureFail) {
   const Folder folder;
   const std::string mesh = write(folder.path() / "flat.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-  try {
+  const Error error = test::thrown_error([&] {
     rendered(folder.path() / "out", {mesh}, {{"render.low", "5 5 5"}, {"render.high", "6 6 6"}});
-    FAIL() << "must not succeed";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.exit_code(), 3);
-    EXPECT_STREQ(error.what(), ("mesh " + mesh + " is not in its picture: frame where it is").c_str());
-  }
+  });
+  EXPECT_EQ(error.exit_code(), 3);
+  EXPECT_EQ(error.what(), "mesh " + mesh + " is not in its picture: frame where it is");
 }
 
 TEST(RenderedFiles, WhatIsNoSequenceIsRefusedInOneLine) {

@@ -1,6 +1,4 @@
 #include <cmath>
-#include <fstream>
-#include <nlohmann/json.hpp>
 
 #include "experiments/workbench/pictures/drawing.h"
 #include "render/compare.h"
@@ -18,11 +16,10 @@ class Scenes : public testing::Test {
     return metrics_of(out());
   }
   Outcome run(const std::string& scene, const std::string& flags) {
-    std::ofstream(folder_.path() / "mine.toml") << scene;
-    return program("run " + (folder_.path() / "mine.toml").string() + " --quiet --threads 1 --device cpu " +
-                   flags + " --out " + out().string());
+    return program("run " + folder_.write("mine.toml", scene) + " --quiet --threads 1 --device cpu " + flags +
+                   out_flag(out()));
   }
-  std::filesystem::path out() const { return folder_.path() / "out"; }
+  fs::path out() const { return folder_.path() / "out"; }
 
   Folder folder_;
 };
@@ -119,15 +116,14 @@ seconds = 0.05
   ASSERT_EQ(manifest["frames"]["moments"].size(), 3u);
   EXPECT_EQ(manifest["frames"]["moments"][0]["phase"], "hang");
   EXPECT_EQ(manifest["frames"]["moments"][2]["phase"], "swing");
-  EXPECT_TRUE(std::filesystem::exists(out() / "sheet.png"));
+  EXPECT_TRUE(fs::exists(out() / "sheet.png"));
 }
 
 TEST_F(Scenes, FailWhereAPictureShowsNoCloth) {
   const Outcome outcome =
       run(kSquare, "--fps 10 --size 160x120 --camera.box '0 0 5 0.2 0.2 5.2' --camera.direction '0 -1 0'");
   EXPECT_EQ(outcome.exit_code, 3);
-  EXPECT_NE(outcome.err.find("frames/0000.png shows no cloth at t = 0.000 s"), std::string::npos)
-      << outcome.err;
+  EXPECT_TRUE(has(outcome.err, "frames/0000.png shows no cloth at t = 0.000 s"));
   EXPECT_EQ(manifest_in(out())["complete"], false);
 }
 
@@ -137,54 +133,46 @@ TEST_F(Scenes, WarnWhereTheBorderOfThePicturesCutsOffCloth) {
       kSquare, "--fps 20 --size 160x120 --camera.box '0 0 -0.01 0.1 0.1 0.01' --camera.direction '0 0 1'");
   EXPECT_EQ(outcome.exit_code, 0);
   const std::string warning = "from t = 0.000 s on (frames/0000.png) the cloth is cut off at the border";
-  EXPECT_NE(outcome.err.find("warning: " + warning), std::string::npos) << outcome.err;
+  EXPECT_TRUE(has(outcome.err, "warning: " + warning));
   const Json warnings = manifest_in(out())["warnings"];
   EXPECT_EQ(std::count_if(warnings.begin(), warnings.end(),
                           [&](const Json& text) { return text.get<std::string>().starts_with(warning); }),
             1);
 }
 
-TEST_F(Scenes, AreComparedInOneFrame) {
-  std::ofstream(folder_.path() / "mine.toml") << kSquare + "[[metric]]\nname = \"side\"\nto = [0.2, 0, 0]\n";
+// Of all programs only env is found, which starts the columns.
+TEST_F(Scenes, AreComparedInOneFrameAndWarnOfPlotsAndFilmsThatCannotBeMade) {
+  const std::string scene =
+      folder_.write("mine.toml", kSquare + "[[metric]]\nname = \"side\"\nto = [0.2, 0, 0]\n");
+  const std::string path = std::getenv("PATH");
+  fs::create_symlink("/usr/bin/env", folder_.path() / "env");
+  setenv("PATH", folder_.path().c_str(), 1);
   const Outcome outcome =
-      program("compare " + (folder_.path() / "mine.toml").string() +
-              " --laws linear,prandtl --quiet --threads 1 --device cpu --size 160x120 --fps 10 --out " +
-              out().string());
+      program("compare " + scene +
+              " --laws linear,prandtl --compare.video mp4 --quiet --threads 1 --device cpu --size 160x120 "
+              "--fps 10" +
+              out_flag(out()));
+  setenv("PATH", path.c_str(), 1);
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const Json linear = manifest_in(out() / "linear");
   const Json prandtl = manifest_in(out() / "prandtl");
-  EXPECT_NE(outcome.out.find("linear                        side "), std::string::npos) << outcome.out;
+  EXPECT_TRUE(has(outcome.out, "linear                        side "));
   EXPECT_EQ(linear["experiment"], "run");
   EXPECT_EQ(linear["options"]["camera"]["box"].size(), 6u);
   EXPECT_EQ(linear["options"]["camera"], prandtl["options"]["camera"]);
   EXPECT_TRUE(prandtl["metrics"].contains("side_m"));
-}
-
-// Of all programs only env is found, which starts the columns.
-TEST_F(Scenes, WarnOfPlotsAndFilmsThatCannotBeMade) {
-  std::ofstream(folder_.path() / "mine.toml") << kSquare + "[[metric]]\nname = \"side\"\nto = [0.2, 0, 0]\n";
-  const std::string path = std::getenv("PATH");
-  std::filesystem::create_symlink("/usr/bin/env", folder_.path() / "env");
-  setenv("PATH", folder_.path().c_str(), 1);
-  const Outcome outcome =
-      program("compare " + (folder_.path() / "mine.toml").string() +
-              " --laws linear,prandtl --compare.video mp4 --quiet --threads 1 --device cpu --size 160x120 "
-              "--fps 10 --out " +
-              out().string());
-  setenv("PATH", path.c_str(), 1);
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const std::string film = "compare.video: there is no film.mp4: ffmpeg is not installed";
-  EXPECT_NE(outcome.err.find("warning: " + film + "\n"), std::string::npos) << outcome.err;
-  EXPECT_NE(outcome.err.find("warning: the plot plot_side is missing: "), std::string::npos) << outcome.err;
+  EXPECT_TRUE(has(outcome.err, "warning: " + film + "\n"));
+  EXPECT_TRUE(has(outcome.err, "warning: the plot plot_side is missing: "));
   const Json warnings = manifest_in(out())["warnings"];
   EXPECT_NE(std::find(warnings.begin(), warnings.end(), film), warnings.end()) << warnings;
-  EXPECT_TRUE(std::filesystem::exists(out() / "sheet.png"));
+  EXPECT_TRUE(fs::exists(out() / "sheet.png"));
 }
 
 // Two points of a cloth that falls freely stay as far apart as they are.
 TEST_F(Scenes, SayAtTheEndWhatTheyWereAskedFor) {
   const Outcome outcome = run(kSquare + "[[metric]]\nname = \"side\"\nto = [0.2, 0, 0]\n", "--no-images");
-  EXPECT_NE(outcome.out.find("  side                          0.2 m\n"), std::string::npos) << outcome.out;
+  EXPECT_TRUE(has(outcome.out, "  side                          0.2 m\n"));
   EXPECT_EQ(manifest_in(out())["asked_metrics"], Json({"side_m"}));
 }
 
@@ -206,7 +194,7 @@ TEST_F(Scenes, HaveTheErrorsOfTheirOwnMetrics) {
 TEST_F(Scenes, WithoutMetricsHaveNoErrors) {
   const Outcome outcome = run(kSquare, "--no-images --errors");
   EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_NE(outcome.err.find("has no [[metric]] whose errors could be measured"), std::string::npos);
+  EXPECT_TRUE(has(outcome.err, "has no [[metric]] whose errors could be measured"));
 }
 
 TEST_F(Scenes, RefuseInOneLineWhatCannotBeMeasured) {
@@ -221,10 +209,10 @@ TEST_F(Scenes, RefuseInOneLineWhatCannotBeMeasured) {
   for (const auto& [metric, message] : kCases) {
     const Outcome outcome = run(kSquare + "[[metric]]\n" + metric + "\n", "--no-images");
     EXPECT_EQ(outcome.exit_code, 2) << metric;
-    EXPECT_NE(outcome.err.find(message), std::string::npos) << outcome.err;
+    EXPECT_TRUE(has(outcome.err, message));
     const std::string said = without_warnings(outcome.err);
     EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << outcome.err;
-    EXPECT_NE(said.find("mine.toml:"), std::string::npos) << outcome.err;
+    EXPECT_TRUE(has(said, "mine.toml:")) << outcome.err;
   }
 }
 
@@ -255,7 +243,7 @@ TEST_F(Scenes, AreDrawnWithFewerSamplesAsADraft) {
     const Outcome outcome = run(kSquare, "--fps 10 --size 64x48 --quality " + quality);
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     const render::Image picture = render::read_png(out() / "frames" / "0001.png");
-    std::filesystem::remove_all(out());
+    fs::remove_all(out());
     return picture;
   };
   const auto difference = render::compare(picture_bytes("final"), picture_bytes("draft"));

@@ -5,28 +5,18 @@
 
 #include <algorithm>
 #include <csignal>
-#include <nlohmann/json.hpp>
 #include <sstream>
 #include <thread>
 
 #include "sim/base/atomic_file.h"
-#include "sim/base/csv.h"
 #include "sim/time/back_end.h"
 #include "tests/experiments/program.h"
+#include "tests/experiments/sweep/timeless.h"
 
 namespace hysteron::experiments {
 namespace {
-namespace fs = std::filesystem;
 
 constexpr const char* kSwing = "swing --quick --no-images --triangles 60 --seconds 0.05 --threads 1 --quiet";
-
-// Starts the program by a shell; its number.
-pid_t started(const std::string& line) {
-  const pid_t child = fork();
-  if (child != 0) return child;
-  execl("/bin/sh", "sh", "-c", ("exec " HYSTERON_PROGRAM " " + line).c_str(), nullptr);
-  _exit(127);
-}
 
 // Once the file is there.
 void terminate_after(pid_t child, const fs::path& file) {
@@ -42,8 +32,8 @@ class SweepInABatch : public testing::Test {
                            "[[axis]]\nkey = \"law\"\nvalues = [\"linear\", \"prandtl\"]\n[[axis]]\n" + axis);
   }
   std::string line(const std::string& out, const std::string& options) const {
-    return "sweep " + study_.string() + " --no-images --jobs 2 --out " + (folder_.path() / out).string() +
-           " " + options;
+    return "sweep " + study_.string() + " --no-images --jobs 2" + out_flag(folder_.path() / out) + " " +
+           options;
   }
   Outcome run(const std::string& out, const std::string& options) const {
     return program(line(out, options));
@@ -51,18 +41,9 @@ class SweepInABatch : public testing::Test {
   fs::path law_folder(const std::string& out, const std::string& law) const {
     return folder_.path() / out / "runs" / ("law=" + law + ",k0=40");
   }
-  // All but times: metrics, hashes, exit codes and reasons.
-  Table table(const std::string& out) const {
-    Table table = read_table(folder_.path() / out / "table.csv");
-    const auto at = std::find(table.head.begin(), table.head.end(), "wall_s") - table.head.begin();
-    table.head.erase(table.head.begin() + at);
-    for (auto& row : table.rows) row.erase(row.begin() + at);
-    return table;
-  }
+  Table table(const std::string& out) const { return read_table(folder_.path() / out / "table.csv"); }
   void expect_same(const std::string& a, const std::string& b) const {
-    const Table one = table(a), other = table(b);
-    EXPECT_EQ(one.head, other.head);
-    EXPECT_EQ(one.rows, other.rows);
+    experiments::expect_same(table(a), table(b));
   }
 
   Folder folder_;
@@ -163,7 +144,7 @@ class Batch : public testing::Test {
     write_text(folder_.path() / "lines", text);
   }
   std::string swing(const std::string& name, const std::string& more = "") const {
-    return std::string(kSwing) + " --device cpu --out " + (folder_.path() / name).string() + more;
+    return std::string(kSwing) + " --device cpu" + out_flag(folder_.path() / name) + more;
   }
   // What it has said of its runs, by their number.
   static std::vector<Json> reports_in(const std::string& text, std::size_t runs) {
@@ -184,8 +165,7 @@ TEST_F(Batch, EndsEveryRunAsTheProgramWouldByItself) {
   const std::vector<std::string> lines = {swing("a"), swing("b", " --fabric.b2 -1"), swing("c", " --flie x"),
                                           swing("file/d"), "swung"};
   write(lines);
-  const Outcome outcome = program("batch <" + (folder_.path() / "lines").string());
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const Outcome outcome = finished("batch <" + (folder_.path() / "lines").string());
   const std::vector<Json> reports = reports_in(outcome.out, lines.size());
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const Outcome alone = program(lines[i]);
@@ -221,9 +201,8 @@ TEST_F(Batch, ASignalEndsAllItsRunsAtCheckpointsOfTheirOwn) {
 
 TEST_F(Batch, RefusesWhatIsNoListOfWords) {
   write_text(folder_.path() / "lines", "[\"swing\"]\n{}\n");
-  const Outcome outcome = program("batch <" + (folder_.path() / "lines").string());
-  EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_EQ(outcome.err, "hysteron batch: line 2 of stdin is no list of words\n");
+  EXPECT_EQ(refused("batch <" + (folder_.path() / "lines").string()),
+            "hysteron batch: line 2 of stdin is no list of words\n");
 }
 
 }  // namespace

@@ -1,14 +1,12 @@
 // Studies as a script meets them, of runs that take a fiftieth of a second.
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "sim/base/atomic_file.h"
-#include "sim/base/csv.h"
 #include "tests/experiments/program.h"
+#include "tests/experiments/sweep/timeless.h"
 
 namespace hysteron::experiments {
 namespace {
-namespace fs = std::filesystem;
 
 constexpr const char* kStudy =
     "experiment = \"kes\"\n[scene]\nno-images = true\nlaw = \"bilinear\"\n"
@@ -20,51 +18,34 @@ class Sweep : public testing::Test {
   Sweep() { write(kStudy); }
   void write(const std::string& text) { write_text(study_, text); }
   Outcome run(const std::string& options, const std::string& out = "out") const {
-    return program("sweep " + study_.string() + " --no-images --jobs 2 --out " +
-                   (folder_.path() / out).string() + " " + options);
+    return program("sweep " + study_.string() + " --no-images --jobs 2" + out_flag(folder_.path() / out) +
+                   " " + options);
   }
   Table table(const std::string& out = "out") const { return read_table(folder_.path() / out / "table.csv"); }
   Json manifest(const fs::path& in) const { return manifest_in(folder_.path() / in); }
-  // Runs that are repeated take another time.
-  static Table without_time(Table table) {
-    const auto at = std::find(table.head.begin(), table.head.end(), "wall_s") - table.head.begin();
-    table.head.erase(table.head.begin() + at);
-    for (auto& row : table.rows) row.erase(row.begin() + at);
-    return table;
-  }
-  static void expect_same(const Table& a, const Table& b) {
-    EXPECT_EQ(a.head, b.head);
-    EXPECT_EQ(a.rows, b.rows);
-  }
-
   Folder folder_;
   fs::path study_ = folder_.path() / "s.toml";
 };
 
-TEST_F(Sweep, TabulatesWhatEveryRunHasFoundInItsOwnFolder) {
+TEST_F(Sweep, TabulatesWhatEveryRunHasFoundInItsOwnFolderAndRepeatsNothingThatIsFinished) {
   ASSERT_EQ(run("").exit_code, 0);
-  const Table found = table();
-  ASSERT_EQ(found.rows.size(), 4u);
-  const std::vector<std::string> first(found.head.begin(), found.head.begin() + 3);
+  const Table whole = table();
+  ASSERT_EQ(whole.rows.size(), 4u);
+  const std::vector<std::string> first(whole.head.begin(), whole.head.begin() + 3);
   EXPECT_EQ(first, (std::vector<std::string>{"run", "fabric.k0", "fabric.b2"}));
-  const auto column = std::find(found.head.begin(), found.head.end(), "2HB_N") - found.head.begin();
-  ASSERT_LT(column, std::ssize(found.head));
-  for (const auto& row : found.rows) {
+  const auto column = std::find(whole.head.begin(), whole.head.end(), "2HB_N") - whole.head.begin();
+  ASSERT_LT(column, std::ssize(whole.head));
+  for (const auto& row : whole.rows) {
     const auto of_run = manifest(fs::path("out/runs") / row[0]);
     EXPECT_EQ(of_run["metrics"]["2HB_N"].get<double>(), std::stod(row[static_cast<std::size_t>(column)]));
     EXPECT_EQ(of_run["scene"]["fabric"]["k0"].get<double>(), std::stod(row[1]));
   }
-  EXPECT_NE(found.rows[0][static_cast<std::size_t>(column)], found.rows[3][static_cast<std::size_t>(column)]);
-}
-
-TEST_F(Sweep, GoesOnToTheSameTableAndRepeatsNothingThatIsFinished) {
-  ASSERT_EQ(run("").exit_code, 0);
-  const Table whole = table();
+  EXPECT_NE(whole.rows[0][static_cast<std::size_t>(column)], whole.rows[3][static_cast<std::size_t>(column)]);
   fs::remove_all(folder_.path() / "out/runs" / whole.rows[1][0]);
   fs::remove(folder_.path() / "out/table.csv");
   ASSERT_EQ(run("--resume").exit_code, 0);
   EXPECT_EQ(manifest("out")["metrics"]["kept_count"], 3);
-  expect_same(without_time(table()), without_time(whole));
+  expect_same(table(), whole);
   EXPECT_EQ(table().rows[0], whole.rows[0]) << "kept with its time";
 }
 
@@ -81,8 +62,8 @@ TEST_F(Sweep, WarnsOfWhatItsRunsWarnOf) {
     ASSERT_FALSE(warnings.empty());
     const std::string names = warnings[0].get<std::string>();
     for (const char* part : {"linear", "dahl", ": cloth.copies = 2 ("})
-      EXPECT_NE(names.find(part), std::string::npos) << warnings;
-    EXPECT_NE(outcome.err.find("warning: "), std::string::npos) << outcome.err;
+      EXPECT_TRUE(has(names, part)) << warnings;
+    EXPECT_TRUE(has(outcome.err, "warning: "));
   }
 }
 
@@ -92,14 +73,14 @@ TEST_F(Sweep, ListsRunsThatFailGoesOnAndExitsWithThree) {
   write(text);
   const Outcome outcome = run("");
   EXPECT_EQ(outcome.exit_code, 3);
-  EXPECT_NE(outcome.err.find("2 of 4 runs are not complete"), std::string::npos) << outcome.err;
+  EXPECT_TRUE(has(outcome.err, "2 of 4 runs are not complete"));
   const Table found = table();
   for (std::size_t r = 0; r < 4; ++r) {
     const bool fails = r % 2 == 1;
     EXPECT_EQ(found.rows[r].back().empty(), !fails);
     EXPECT_EQ(found.rows[r][found.rows[r].size() - 2], fails ? "2" : "0");
   }
-  EXPECT_NE(file_content(folder_.path() / "out/report.html").find("Not complete"), std::string::npos);
+  EXPECT_TRUE(has(file_content(folder_.path() / "out/report.html"), "Not complete"));
 }
 
 // Which metrics there are is known once a run has ended.
@@ -110,9 +91,7 @@ TEST_F(Sweep, RefusesMetricsThatNoRunHasFoundAndNamesTheNearest) {
   const std::string unknown = "found no 2HB_M (did you mean 2HB_N?)",
                     place = " (" + study_.string() + ":1)\n";
   EXPECT_EQ(outcome.err.find("warning: metrics: the first run has " + unknown + place), 0u) << outcome.err;
-  EXPECT_NE(outcome.err.find("metrics: no run has found 2HB_M (did you mean 2HB_N?); the runs are kept"),
-            std::string::npos)
-      << outcome.err;
+  EXPECT_TRUE(has(outcome.err, "metrics: no run has found 2HB_M (did you mean 2HB_N?); the runs are kept"));
   EXPECT_EQ(table().rows.size(), 4u);
   write(std::string("metrics = [\"B_N_m\", \"2HB_N\"]\n") + kStudy);
   EXPECT_EQ(run("--collect").exit_code, 0);
@@ -124,7 +103,7 @@ TEST_F(Sweep, InPartsFindsTheTableOfTheWhole) {
   for (const char* part : {"--part 3/3", "--part 1/3", "--part 2/3"}) EXPECT_EQ(run(part).exit_code, 0);
   EXPECT_EQ(run("--only k0=80,b2=2e-06").exit_code, 0);
   EXPECT_EQ(run("--collect").exit_code, 0);
-  expect_same(without_time(table()), without_time(table("whole")));
+  expect_same(table(), table("whole"));
   EXPECT_EQ(run("--part 5/4").exit_code, 2);
   EXPECT_EQ(run("--only k0=81").exit_code, 2);
 }
@@ -158,7 +137,7 @@ TEST_F(Sweep, WritesAWorkflowOfAJobForEachRun) {
 }
 
 // The manifest keeps the study, whose file may be gone: axes, what all runs share, and what pages show.
-TEST_F(Sweep, IsRunAgainFromItsManifestAlone) {
+TEST_F(Sweep, IsRunAgainFromItsManifestAloneAndFromNoOther) {
   write(R"(experiment = "kes"
 metrics = ["2HB_N"]
 [scene]
@@ -182,23 +161,18 @@ n = 3
   ASSERT_EQ(run("").exit_code, 0);
   ASSERT_TRUE(fs::remove(study_));
   const std::string folder = (folder_.path() / "out").string(), again = (folder_.path() / "again").string();
-  const Outcome outcome = program("rerun " + folder + " --no-images --out " + again);
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  finished("rerun " + folder + " --no-images --out " + again);
   ASSERT_EQ(table().rows.size(), 6u);
-  expect_same(without_time(table("again")), without_time(table()));
+  expect_same(table("again"), table());
   EXPECT_EQ(manifest("again")["scene"], manifest("out")["scene"]);
-}
-
-TEST_F(Sweep, IsNotReadFromTheManifestOfAnotherRun) {
-  ASSERT_EQ(run("").exit_code, 0);
   Json other = manifest("out");
   study_ = folder_.path() / "other.json";
   for (const char* keys : {R"({"law": "prandtl"})", R"({"shared": [1], "axes": [{"key": 2}]})"}) {
     other["scene"] = json_in(keys, "keys");
     write(other.dump());
-    const Outcome outcome = run("", "again");
+    const Outcome outcome = run("", "other");
     EXPECT_EQ(outcome.exit_code, 2) << outcome.err;
-    EXPECT_NE(outcome.err.find("is not the manifest of a sweep"), std::string::npos) << outcome.err;
+    EXPECT_TRUE(has(outcome.err, "is not the manifest of a sweep"));
   }
 }
 

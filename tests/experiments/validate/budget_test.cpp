@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <fstream>
-#include <nlohmann/json.hpp>
 
 #include "tests/experiments/program.h"
 
@@ -80,19 +79,8 @@ weft = {value = 1000, unit = "N/m", source = "made", confidence = "assumed"}
 shear = {value = 60, unit = "N/m", source = "made", confidence = "assumed"}
 )";
 
-class InFolder {
- public:
-  explicit InFolder(const std::filesystem::path& folder) { std::filesystem::current_path(folder); }
-  ~InFolder() { std::filesystem::current_path(before_); }
-  InFolder(const InFolder&) = delete;
-  InFolder& operator=(const InFolder&) = delete;
-
- private:
-  std::filesystem::path before_ = std::filesystem::current_path();
-};
-
-double recorded_drape(const std::filesystem::path& out, int trial, int draw) {
-  for (const auto& entry : std::filesystem::directory_iterator(out))
+double recorded_drape(const fs::path& out, int trial, int draw) {
+  for (const auto& entry : fs::directory_iterator(out))
     if (entry.path().filename().string().ends_with("-budget-" + std::to_string(trial) + "-" +
                                                    std::to_string(draw)))
       return metrics_of(entry.path())["drape_coefficient_percent"];
@@ -105,11 +93,10 @@ TEST(Budget, RowsAreMeansOfTheirDrapesAndChangesFromTheFirst) {
   const auto out = folder.path() / "v";
   std::ofstream(folder.path() / "one-unknown") << kOneUnknown;
   const InFolder here(folder.path());  // where the name is a file's
-  ASSERT_EQ(program("validate --quick --quiet --no-images --fabrics one-unknown --parts budget --laws linear "
-                    "--triangles 100 --seconds 0.5 --step 0.0166666666666 --out " +
-                    out.string())
-                .exit_code,
-            0);
+  finished(
+      "validate --quick --quiet --no-images --fabrics one-unknown --parts budget --laws linear "
+      "--triangles 100 --seconds 0.5 --step 0.0166666666666" +
+      out_flag(out));
   const std::vector<BudgetRow> rows = read_budget(out / "budget.csv");
   ASSERT_EQ(rows.size(), 5u);  // file, two ends, tester, mesh
   for (int trial = 0; trial < 5; ++trial) {

@@ -8,8 +8,6 @@
 namespace hysteron::experiments {
 namespace {
 
-namespace fs = std::filesystem;
-
 // Tables as a study and a validation write them.
 class RecordedDrapes : public testing::Test {
  protected:

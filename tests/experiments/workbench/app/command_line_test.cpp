@@ -1,8 +1,7 @@
 #include "experiments/workbench/app/command_line.h"
 
-#include "gtest/gtest.h"
 #include "sim/base/error.h"
-#include "tests/sim/base/refusal.h"
+#include "tests/experiments/folder.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -125,7 +124,7 @@ TEST(CommandLine, SaysWhoseAnOptionIs) {
 
 TEST(CommandLine, RefusesAFlagWithoutItsValueInOneLine) {
   const std::string message = refusal({"drape", "--step"});
-  EXPECT_NE(message.find("drape: --step"), std::string::npos) << message;
+  EXPECT_TRUE(has(message, "drape: --step"));
   EXPECT_EQ(message.find('\n'), std::string::npos);
 }
 

@@ -3,17 +3,13 @@
 
 #include <algorithm>
 #include <fstream>
-#include <nlohmann/json.hpp>
 
 #include "experiments/workbench/app/command_line.h"
 #include "experiments/workbench/app/manifest.h"
-#include "tests/experiments/folder.h"
 #include "tests/experiments/program.h"
-#include "tests/sim/base/refusal.h"
 
 namespace hysteron::experiments {
 namespace {
-namespace fs = std::filesystem;
 
 std::string refusal(const std::string& experiment, const Flag& flag) {
   return test::refusal([&] {
@@ -32,7 +28,7 @@ TEST(DecidedKeys, AreRefusedByName) {
             "--seconds 9: cantilever sets seconds itself: the weight grows in ramp and goes in unload");
   EXPECT_EQ(refusal("crease", {"mesh", "random"}),
             "--mesh random: crease does not use mesh: its mesh has its finest columns along the crease");
-  EXPECT_EQ(program("buckle --gravity '0 0 -1' --no-images").exit_code, 2);
+  refused("buckle --gravity '0 0 -1' --no-images");
   EXPECT_EQ(
       program("cantilever --gamma 1 --fabric.density 0.1 --no-images --out /nonexistent/x").err,
       "hysteron cantilever: --fabric.density 0.1: cantilever sets fabric.density itself: gamma says how "
@@ -76,13 +72,9 @@ TEST(DecidedKeys, AreAllThatAnExperimentChangesButWhatItMakesFit) {
       {"crease", "--triangles 60 --crease.fold pleat --crease.recovery 0.02"},
       {"swing", "--triangles 40 --seconds 0.05"}};
   for (const auto& [name, flags] : runs) {
-    const Folder folder;
-    const Outcome outcome =
-        program(std::string(name) + " " + flags + " --device cpu --no-images --quiet --out " +
-                (folder.path() / "run").string());
-    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const FinishedRun run(std::string(name) + " " + flags + " --device cpu --no-images --quiet");
     std::vector<std::string> changed;
-    changed_in(manifest_in(folder.path() / "run")["asked"], "", changed);
+    changed_in(run.manifest()["asked"], "", changed);
     for (const std::string& path : changed) {
       const bool known = has_key(experiment_named(name).decided(), path);
       const bool of_swing =
@@ -94,43 +86,31 @@ TEST(DecidedKeys, AreAllThatAnExperimentChangesButWhatItMakesFit) {
   }
 }
 
-class Strips : public testing::Test {
- protected:
-  // Of a cantilever with this scene file.
-  Outcome run(const fs::path& scene) const {
-    return program("cantilever --triangles 32 --device cpu --no-images --quiet --scene " + scene.string() +
-                   " --out " + (folder_.path() / "run").string());
-  }
-  fs::path written(const std::string& text) const {
-    std::ofstream(folder_.path() / "strip.toml") << text;
-    return folder_.path() / "strip.toml";
-  }
-
-  Folder folder_;
-};
-
-TEST_F(Strips, WarnOfWhatAFileAsksForAndDoesNotGet) {
-  const fs::path scene =
-      written("seconds = 9\n[cloth]\ncopies = 2\nwidth = 0.02\n[[pin]]\nselect = \"nearest\"\n");
-  const Outcome outcome = run(scene);
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  for (const std::string& words :
-       {"cloth.copies = 2 (" + scene.string() + ":3) is not used: cantilever does not use cloth.copies",
-        "seconds = 9.0 (" + scene.string() + ":1) is not used: cantilever sets seconds itself",
-        "[[pin]] (" + scene.string() + ":5) is not used: cantilever sets pin itself"}) {
-    EXPECT_NE(outcome.err.find("warning: " + words), std::string::npos) << outcome.err;
-    EXPECT_NE(file_content(folder_.path() / "run/report.html").find("Warning: " + words), std::string::npos)
-        << words;
-  }
-  EXPECT_EQ(outcome.err.find("cloth.width"), std::string::npos) << outcome.err;
+// Of a cantilever with this scene file.
+FinishedRun strip_run(const std::string& scene) {
+  return FinishedRun("cantilever --triangles 32 --device cpu --no-images --quiet --scene " + scene);
 }
 
-TEST_F(Strips, OfADumpedFileAskForNothingElse) {
-  const fs::path dumped = folder_.path() / "dumped.toml";
-  ASSERT_EQ(program("cantilever --triangles 32 --device cpu --dump-scene " + dumped.string()).exit_code, 0);
-  const Outcome outcome = run(dumped);
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_EQ(outcome.err.find("is not used"), std::string::npos) << outcome.err;
+TEST(Strips, WarnOfWhatAFileAsksForAndDoesNotGet) {
+  const Folder folder;
+  const std::string scene = folder.write(
+      "strip.toml", "seconds = 9\n[cloth]\ncopies = 2\nwidth = 0.02\n[[pin]]\nselect = \"nearest\"\n");
+  const FinishedRun run = strip_run(scene);
+  for (const std::string& words :
+       {"cloth.copies = 2 (" + scene + ":3) is not used: cantilever does not use cloth.copies",
+        "seconds = 9.0 (" + scene + ":1) is not used: cantilever sets seconds itself",
+        "[[pin]] (" + scene + ":5) is not used: cantilever sets pin itself"}) {
+    EXPECT_TRUE(has(run.outcome.err, "warning: " + words));
+    EXPECT_TRUE(has(file_content(run.out / "report.html"), "Warning: " + words)) << words;
+  }
+  EXPECT_FALSE(has(run.outcome.err, "cloth.width"));
+}
+
+TEST(Strips, OfADumpedFileAskForNothingElse) {
+  const Folder folder;
+  const std::string dumped = folder.file("dumped.toml");
+  finished("cantilever --triangles 32 --device cpu --dump-scene " + dumped);
+  EXPECT_FALSE(has(strip_run(dumped).outcome.err, "is not used"));
 }
 
 }  // namespace

@@ -1,14 +1,12 @@
 // What --help prints: by group, no wider than the terminal.
 #include "experiments/workbench/app/help.h"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <map>
 #include <sstream>
 
 #include "experiments/workbench/app/command_line.h"
-#include "tests/sim/base/refusal.h"
+#include "tests/experiments/folder.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -25,8 +23,6 @@ std::vector<std::string> text_lines(const std::string& text) {
   for (std::string line; std::getline(stream, line);) lines.push_back(line);
   return lines;
 }
-
-bool has(const std::string& text, const std::string& part) { return text.find(part) != text.npos; }
 
 TEST(Help, OfAGroupHasItsOptionsAlone) {
   for (const auto& words :

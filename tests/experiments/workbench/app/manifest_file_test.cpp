@@ -1,10 +1,7 @@
 // A manifest as it stands on disk: names and order are a contract that scripts rely on.
 #include "experiments/workbench/app/manifest_file.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "tests/experiments/folder.h"
 

@@ -1,9 +1,4 @@
 // --max-memory ends a run that asks for more.
-#include <gtest/gtest.h>
-
-#include <filesystem>
-
-#include "tests/experiments/folder.h"
 #include "tests/experiments/program.h"
 
 namespace hysteron::experiments {
@@ -15,7 +10,7 @@ TEST(MaxMemory, EndsARunThatAsksForMoreInOneLine) {
   const auto swing = [&](const std::string& megabytes) {
     return program(
         "swing --triangles 20000 --seconds 0.005 --no-images --device cpu --threads 1 --quiet --max-memory " +
-        megabytes + " --out " + (folder.path() / megabytes).string());
+        megabytes + out_flag(folder.path() / megabytes));
   };
   EXPECT_EQ(swing("1000").exit_code, 0);
   const Outcome outcome = swing("30");
@@ -23,7 +18,7 @@ TEST(MaxMemory, EndsARunThatAsksForMoreInOneLine) {
   EXPECT_EQ(
       outcome.err,
       "hysteron swing: out of memory: use fewer triangles (--triangles), or allow more (--max-memory)\n");
-  EXPECT_FALSE(std::filesystem::exists(folder.path() / "30/manifest.json"));
+  EXPECT_FALSE(fs::exists(folder.path() / "30/manifest.json"));
 }
 #endif
 

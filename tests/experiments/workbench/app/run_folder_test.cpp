@@ -7,11 +7,9 @@
 
 #include "sim/base/error.h"
 #include "tests/experiments/folder.h"
-#include "tests/sim/base/refusal.h"
 
 namespace hysteron::experiments {
 namespace {
-namespace fs = std::filesystem;
 using test::refusal;
 
 void write(const fs::path& file, const std::string& text = "mine") { std::ofstream(file) << text; }
@@ -114,7 +112,7 @@ TEST(RunFolder, IsReservedBeforeFilesAreWritten) {
     const std::string message = refusal([&] {
       run.reserve({"table.csv", "plot_drape", "frames/0000.png", "mesh/0000.ply"});
     });
-    EXPECT_NE(message.find(folder.path() / name), std::string::npos) << message;
+    EXPECT_TRUE(has(message, folder.path() / name));
     EXPECT_EQ(refusal([&] { run.reserve({"sheet.png", "plot_tip", "frames/0000.ply"}); }), "(accepted)");
     EXPECT_EQ(file_content(folder.path() / name), "mine");
   }
@@ -125,7 +123,7 @@ TEST(RunFolder, KeepsAManifestThatIsNoRuns) {
     const Folder folder;
     const fs::path manifest = folder.path() / "manifest.json";
     write(manifest, text);
-    EXPECT_NE(refused_run(folder.path()).find("manifest.json is not of a run"), std::string::npos);
+    EXPECT_TRUE(has(refused_run(folder.path()), "manifest.json is not of a run"));
     EXPECT_EQ(file_content(manifest), text);
   }
 }
@@ -142,9 +140,8 @@ TEST(RunFolder, IsNotLeftThroughALink) {
   fs::create_directory_symlink(outside.path(), folder.path() / "frames");
   ExperimentRun run(drape_line(), setup_in(folder.path()));
   EXPECT_EQ(file_content(outside.path() / "0000.png"), "mine");
-  EXPECT_NE(refusal([&] { run.path("frames/0000.png"); }).find("would be written outside"),
-            std::string::npos);
-  EXPECT_NE(refusal([&] { run.path("../0000.png"); }).find("would be written outside"), std::string::npos);
+  EXPECT_TRUE(has(refusal([&] { run.path("frames/0000.png"); }), "would be written outside"));
+  EXPECT_TRUE(has(refusal([&] { run.path("../0000.png"); }), "would be written outside"));
 }
 
 TEST(RunFolder, IsNotWhereTheRunReads) {
@@ -160,7 +157,7 @@ TEST(RunFolder, IsNotWhereTheRunReads) {
   EXPECT_EQ(refused_run(folder.path(), fit),
             "--loop " + loops.string() + " is of the run in " + folder.path().string() +
                 ", which this one would replace: give another folder (--out)");
-  EXPECT_NE(refused_run(folder.path(), render).find("is of the run in"), std::string::npos);
+  EXPECT_TRUE(has(refused_run(folder.path(), render), "is of the run in"));
   EXPECT_EQ(file_content(loops), "mine");
 }
 

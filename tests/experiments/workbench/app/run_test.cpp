@@ -1,7 +1,6 @@
 #include "experiments/workbench/app/run.h"
 
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "sim/base/error.h"
@@ -9,7 +8,6 @@
 
 namespace hysteron::experiments {
 namespace {
-namespace fs = std::filesystem;
 
 std::vector<std::string> names_in(const fs::path& folder) {
   std::vector<std::string> names;
@@ -127,13 +125,10 @@ TEST(Run, NeverRemovesWhatAManifestNamesOutsideItsFolder) {
 TEST(Run, InAFolderThatCannotBeMadeIsAMachineErrorBeforeAnythingElse) {
   const Folder folder;
   std::ofstream(folder.path() / "file") << "no folder";
-  try {
-    ExperimentRun run(drape_line(), setup_in(folder.path() / "file" / "out"));
-    FAIL() << "a folder was made inside a file";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.exit_code(), 1);
-    EXPECT_NE(std::string(error.what()).find("cannot create the folder"), std::string::npos) << error.what();
-  }
+  const Error error =
+      test::thrown_error([&] { ExperimentRun(drape_line(), setup_in(folder.path() / "file" / "out")); });
+  EXPECT_EQ(error.exit_code(), 1);
+  EXPECT_TRUE(has(error.what(), "cannot create the folder"));
 }
 
 TEST(Run, OnAFullDiskIsAMachineErrorAndLeavesNothingHalfWritten) {

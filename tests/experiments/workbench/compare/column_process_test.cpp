@@ -1,9 +1,7 @@
 // Which columns share a process.
 #include "experiments/workbench/compare/column_process.h"
 
-#include <gtest/gtest.h>
-
-#include "sim/base/error.h"
+#include "tests/experiments/folder.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -31,25 +29,20 @@ TEST(Chunks, AreOfOneDeviceAndOfOneKindOfEndBySignals) {
 }
 
 std::string refusal(const ChildRun& of) {
-  try {
-    check_batch({of}, 8);
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
+  return test::refusal([&] { check_batch({of}, 8); });
 }
 
 TEST(Chunks, AreOfRunsWithoutPicturesThatStepACloth) {
-  EXPECT_EQ(refusal(column({})), "");
+  EXPECT_EQ(refusal(column({})), "(accepted)");
   ChildRun other = column({});
   other.line.experiment = "kes";
   EXPECT_EQ(refusal(other), "batch = 8 is of runs that step a cloth, not of kes (--batch)");
   other.line.experiment = "bench";
   EXPECT_EQ(refusal(other), "batch = 8 is of runs that step a cloth, not of bench (--batch)");
-  EXPECT_NE(refusal(column({{"errors", "true"}})).find("errors.batch"), std::string::npos);
+  EXPECT_TRUE(has(refusal(column({{"errors", "true"}})), "errors.batch"));
   ChildRun drawn = column({});
   drawn.line.flags.clear();
-  EXPECT_NE(refusal(drawn).find("no-images"), std::string::npos);
+  EXPECT_TRUE(has(refusal(drawn), "no-images"));
   EXPECT_NO_THROW(check_batch({drawn}, 1));
 }
 

@@ -1,9 +1,6 @@
 // Headline numbers with their errors: what is repeated, what is made of it, how it is written.
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <fstream>
-#include <nlohmann/json.hpp>
 
 #include "experiments/workbench/compare/errors.h"
 #include "experiments/workbench/pages/error_words.h"
@@ -11,12 +8,10 @@
 #include "experiments/workbench/pages/text_table.h"
 #include "sim/base/csv.h"
 #include "sim/base/error.h"
-#include "tests/experiments/folder.h"
 #include "tests/experiments/program.h"
 
 namespace hysteron::experiments {
 namespace {
-namespace fs = std::filesystem;
 
 Scene scene_on(const std::string& mesh, const std::string& shape) {
   Scene scene = default_scene();
@@ -96,7 +91,7 @@ TEST(Repeats, OfAClothFromAFileSubdivideItAndHaveNoOtherDraws) {
   EXPECT_EQ(errors.metrics["curvature_rms_per_m_step_error"].number(), 1);
   EXPECT_FALSE(errors.metrics["curvature_rms_per_m_draw_error"].is_known());
   ASSERT_EQ(errors.missing.size(), 1);
-  EXPECT_NE(errors.missing[0].find("from a file"), std::string::npos);
+  EXPECT_TRUE(has(errors.missing[0], "from a file"));
 }
 
 ErrorRunResult bent(const std::string& name, double length) {
@@ -147,7 +142,7 @@ TEST(Errors, ThatAreNotKnownAreNullAndSaidToBe) {
     EXPECT_FALSE(errors.metrics[std::string("bending_length_m") + ending].is_known()) << ending;
   ASSERT_EQ(errors.missing.size(), 3);
   EXPECT_EQ(errors.missing[0], "mesh (--seed=2) is not complete: no convergence");
-  EXPECT_NE(errors.missing[1].find("changes no bit"), std::string::npos);
+  EXPECT_TRUE(has(errors.missing[1], "changes no bit"));
   EXPECT_EQ(errors.missing[2], "draw-1 has no bending_length_m");
 }
 
@@ -184,10 +179,9 @@ TEST(HeadlineWords, WriteSmallNumbersInPowersOfTen) {
 
 TEST(MetricCards, ShowErrorsBesideTheirHeadline) {
   const std::string html = metric_cards(kDrape);
-  EXPECT_NE(html.find("<b>86.0 <small>% ± 0.10 step ± 0.6 mesh ± 0.8 draw</small></b>"), std::string::npos)
-      << html;
-  EXPECT_EQ(html.find("step error"), std::string::npos) << html;
-  EXPECT_NE(html.find("<b>0.25 <small>%</small></b>"), std::string::npos) << html;
+  EXPECT_TRUE(has(html, "<b>86.0 <small>% ± 0.10 step ± 0.6 mesh ± 0.8 draw</small></b>"));
+  EXPECT_FALSE(has(html, "step error"));
+  EXPECT_TRUE(has(html, "<b>0.25 <small>%</small></b>"));
 }
 
 TEST(MetricTable, ShowsErrorsInTheHeadlinesCell) {
@@ -195,9 +189,9 @@ TEST(MetricTable, ShowsErrorsInTheHeadlinesCell) {
   for (const auto& [key, value] : kDrape) all.set("prandtl." + key, value);
   all.set("linear.drape_coefficient_percent", 72.0);
   const std::string html = metric_table(all);
-  EXPECT_NE(html.find(">86.0 ± 0.10 step ± 0.6 mesh ± 0.8 draw<"), std::string::npos) << html;
-  EXPECT_NE(html.find(">72<"), std::string::npos) << html;
-  EXPECT_EQ(html.find("step error"), std::string::npos) << html;
+  EXPECT_TRUE(has(html, ">86.0 ± 0.10 step ± 0.6 mesh ± 0.8 draw<"));
+  EXPECT_TRUE(has(html, ">72<"));
+  EXPECT_FALSE(has(html, "step error"));
 }
 
 const std::string kSmall = " --triangles 60 --seconds 0.05 --fps 30 --device cpu --no-images --quiet";
@@ -206,25 +200,15 @@ double friction_in(const fs::path& folder) {
   return manifest_in(folder)["metrics"]["bending_friction_J"].get<double>();
 }
 
-// The working folder of the program while it exists.
-class WorkingFolder {
- public:
-  explicit WorkingFolder(const fs::path& folder) { fs::current_path(folder); }
-  ~WorkingFolder() { fs::current_path(before_); }
-
- private:
-  fs::path before_ = fs::current_path();
-};
-
 TEST(SwingWithErrors, FindsWhatSeparateRunsFind) {
   const Folder folder;
-  const WorkingFolder working(folder.path());
-  ASSERT_EQ(program("swing --errors --out run" + kSmall).exit_code, 0);
+  const InFolder here(folder.path());
+  finished("swing --errors --out run" + kSmall);
   const std::string swing = "swing --no-images --quiet --device cpu --seconds 0.05 --fps 30 ";
-  ASSERT_EQ(program(swing + "--triangles 60 --step 0.0020833333333333333 --out step").exit_code, 0);
-  ASSERT_EQ(program(swing + "--triangles 240 --out mesh").exit_code, 0);
-  ASSERT_EQ(program(swing + "--triangles 60 --mesh equilateral --out one").exit_code, 0);
-  ASSERT_EQ(program(swing + "--triangles 60 --mesh random --seed 2 --out two").exit_code, 0);
+  finished(swing + "--triangles 60 --step 0.0020833333333333333 --out step");
+  finished(swing + "--triangles 240 --out mesh");
+  finished(swing + "--triangles 60 --mesh equilateral --out one");
+  finished(swing + "--triangles 60 --mesh random --seed 2 --out two");
 
   const Json manifest = manifest_in("run"), metrics = manifest["metrics"];
   const double run = metrics["bending_friction_J"].get<double>();
@@ -245,19 +229,16 @@ TEST(SwingWithErrors, FindsWhatSeparateRunsFind) {
   ASSERT_EQ(table.rows.size(), 4);
   EXPECT_EQ(table.head.front(), "repeat");
   EXPECT_EQ(table.rows[0][1], "triangles=240");
-  EXPECT_NE(file_content("run/report.html").find(" step ± "), std::string::npos);
+  EXPECT_TRUE(has(file_content("run/report.html"), " step ± "));
 }
 
 TEST(SwingWithErrors, PassesFlagsOnButThoseThatItChanges) {
-  const Folder folder;
-  const std::string out = (folder.path() / "run").string();
-  ASSERT_EQ(program("swing --errors --errors.draws 1 --fabric.b2 4e-6 --mesh random --seed 5 --law prandtl "
-                    "--param stack=8 --json --out " +
-                    out + kSmall)
-                .exit_code,
-            0);
+  const FinishedRun run(
+      "swing --errors --errors.draws 1 --fabric.b2 4e-6 --mesh random --seed 5 --law prandtl "
+      "--param stack=8 --json" +
+      kSmall);
   for (const char* name : {"mesh", "step", "draw-1"}) {
-    const Json scene = manifest_in(fs::path(out) / "errors" / name)["scene"];
+    const Json scene = manifest_in(run.out / "errors" / name)["scene"];
     EXPECT_EQ(scene["fabric"]["b2"], 4e-6) << name;
     EXPECT_EQ(scene["param"]["stack"], "8") << name;
     EXPECT_EQ(scene["seed"], std::string(name) == "draw-1" ? 6 : 5) << name;
@@ -271,24 +252,22 @@ TEST(SwingWithErrors, SaysWhichRepeatFailed) {
   const Folder folder;
   fs::create_directories(folder.path() / "run/errors");
   std::ofstream(folder.path() / "run/errors/mesh") << "a file";
-  const Outcome outcome = program("swing --errors --out " + (folder.path() / "run").string() +
-                                  " --triangles 60 --seconds 0.05 --fps 30 --device cpu --no-images");
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const Outcome outcome = finished("swing --errors" + out_flag(folder.path() / "run") +
+                                   " --triangles 60 --seconds 0.05 --fps 30 --device cpu --no-images");
   const Json manifest = manifest_in(folder.path() / "run");
   EXPECT_TRUE(manifest["metrics"]["bending_friction_J_mesh_error"].is_null());
   EXPECT_TRUE(manifest["metrics"]["bending_friction_J_step_error"].is_number());
   ASSERT_EQ(manifest["errors_missing"].size(), 1);
   const std::string missing = manifest["errors_missing"][0].get<std::string>();
   EXPECT_EQ(manifest["warnings"].back(), "errors: " + missing);
-  EXPECT_NE(outcome.err.find("warning: errors: " + missing), std::string::npos) << outcome.err;
+  EXPECT_TRUE(has(outcome.err, "warning: errors: " + missing));
   EXPECT_TRUE(manifest["errors_missing"][0].get<std::string>().starts_with("mesh (--triangles=240) is not"));
   const Table table = read_table(folder.path() / "run/errors.csv");
   const auto complete = std::find(table.head.begin(), table.head.end(), "complete") - table.head.begin();
   EXPECT_EQ(table.rows[0][complete], "0");
   EXPECT_EQ(table.rows[1][complete], "1");
-  EXPECT_NE(file_content(folder.path() / "run/report.html").find("Errors that are not known: mesh"),
-            std::string::npos);
-  EXPECT_NE(outcome.err.find("mesh error unknown"), std::string::npos) << outcome.err;
+  EXPECT_TRUE(has(file_content(folder.path() / "run/report.html"), "Errors that are not known: mesh"));
+  EXPECT_TRUE(has(outcome.err, "mesh error unknown"));
 }
 
 // Otherwise every repeat would repeat itself.
@@ -297,36 +276,29 @@ TEST(SwingWithErrors, AsksForNoErrorsOfRepeatsWhereASceneFileDoes) {
   std::ofstream(folder.path() / "scene.toml") << "errors = true\nout = \"" +
                                                      (folder.path() / "run").string() +
                                                      "\"\ntriangles = 60\nseconds = 0.05\n";
-  ASSERT_EQ(
-      program("swing --no-images --quiet --device cpu --scene " + (folder.path() / "scene.toml").string())
-          .exit_code,
-      0);
+  finished("swing --no-images --quiet --device cpu --scene " + (folder.path() / "scene.toml").string());
   EXPECT_TRUE(manifest_in(folder.path() / "run")["metrics"].contains("bending_friction_J_draw_error"));
   EXPECT_TRUE(fs::exists(folder.path() / "run/errors/draw-2/manifest.json"));
   EXPECT_FALSE(fs::exists(folder.path() / "run/errors/draw-2/errors"));
 }
 
 TEST(Compare, GivesEachColumnItsErrors) {
-  const Folder folder;
-  const std::string out = (folder.path() / "out").string();
-  ASSERT_EQ(program("compare swing --laws linear,prandtl --errors --errors.draws 1 --out " + out + kSmall)
-                .exit_code,
-            0);
-  const Json metrics = manifest_in(out)["metrics"];
+  const FinishedRun run("compare swing --laws linear,prandtl --errors --errors.draws 1" + kSmall);
+  const Json metrics = run.manifest()["metrics"];
   EXPECT_EQ(metrics["linear.bending_friction_J_step_error"], 0);
   EXPECT_GT(metrics["prandtl.bending_friction_J_step_error"].get<double>(), 0);
-  EXPECT_NE(file_content(fs::path(out) / "report.html").find(" step ± "), std::string::npos);
+  EXPECT_TRUE(has(file_content(run.out / "report.html"), " step ± "));
 }
 
 TEST(RequestForErrors, IsRefusedWhereThereIsNone) {
   const Folder folder;
-  const std::string out = " --quiet --no-images --out " + (folder.path() / "out").string();
+  const std::string out = " --quiet --no-images" + out_flag(folder.path() / "out");
   const Outcome bench = program("bench --quick --errors" + out),
                 law = program("fold --fold.law-alone --errors" + out);
   EXPECT_EQ(bench.exit_code, 2);
-  EXPECT_NE(bench.err.find("bench has no headline"), std::string::npos) << bench.err;
+  EXPECT_TRUE(has(bench.err, "bench has no headline"));
   EXPECT_EQ(law.exit_code, 2);
-  EXPECT_NE(law.err.find("fold.law-alone"), std::string::npos) << law.err;
+  EXPECT_TRUE(has(law.err, "fold.law-alone"));
   EXPECT_FALSE(fs::exists(folder.path() / "out/manifest.json"));
 }
 

@@ -1,14 +1,7 @@
 // What a run says first and last: results with their errors, rest, places, time left.
-#include <fstream>
-
 #include "experiments/workbench/pages/closing_summary.h"
 
-#include <nlohmann/json.hpp>
-
-#include "experiments/workbench/app/run.h"
 #include "experiments/workbench/compare/sweep_columns.h"
-#include "gtest/gtest.h"
-#include "tests/experiments/folder.h"
 #include "tests/experiments/program.h"
 
 namespace hysteron::experiments {
@@ -24,37 +17,34 @@ Manifest manifest_with(const std::string& experiment, const Metrics& metrics) {
 
 Manifest drape_manifest(const Metrics& metrics) { return manifest_with("drape", metrics); }
 
-void expect_in(const std::string& text, const std::string& part) {
-  EXPECT_NE(text.find(part), std::string::npos) << part << " in\n" << text;
-}
-
 TEST(ResultWords, NameTheNumberItsUnitAndItsErrors) {
   const std::string words = result_words(drape_manifest({{"drape_coefficient_percent", 86.04},
                                                          {"drape_coefficient_percent_step_error", 0.8},
                                                          {"drape_coefficient_percent_mesh_error", 0.61},
                                                          {"node_count", 8},
                                                          {"settled", true}}));
-  expect_in(words, "drape coefficient             86.0 % ± 0.8 step ± 0.6 mesh, draw error unknown\n");
-  expect_in(words, "folds                         8\n");
-  expect_in(words, "at rest\n");
-  EXPECT_EQ(words.find("NOT"), std::string::npos);
+  EXPECT_TRUE(has(words, "drape coefficient             86.0 % ± 0.8 step ± 0.6 mesh, draw error unknown\n"));
+  EXPECT_TRUE(has(words, "folds                         8\n"));
+  EXPECT_TRUE(has(words, "at rest\n"));
+  EXPECT_FALSE(has(words, "NOT"));
 }
 
 TEST(ResultWords, OfAFitShowItsStandardError) {
   const Manifest manifest =
       manifest_with("swing", {{"decay_per_turn_percent", 2.0412}, {"decay_per_turn_percent_stderr", 0.0523}});
-  expect_in(result_words(manifest), "decay per turn                2.04 % ± 0.05\n");
+  EXPECT_TRUE(has(result_words(manifest), "decay per turn                2.04 % ± 0.05\n"));
 }
 
 TEST(ResultWords, SayAloudThatTheClothDidNotComeToRest) {
   const Metrics metrics = {{"settled", false}, {"fastest_m_per_s", 4.1e-3}, {"settling_limit_m_per_s", 2e-3}};
-  expect_in(result_words(drape_manifest(metrics)), "NOT at rest: fastest vertex 4.1 mm/s, limit 2 mm/s\n");
+  EXPECT_TRUE(
+      has(result_words(drape_manifest(metrics)), "NOT at rest: fastest vertex 4.1 mm/s, limit 2 mm/s\n"));
   // Nor is a number given as if it had: what was published is no result of the run.
   const std::string words = result_words(drape_manifest({{"drape_coefficient_percent", 86.04},
                                                          {"published_drape_coefficient_percent", 82.9},
                                                          {"settled", false}}));
-  expect_in(words, "drape coefficient             86.0 % (not at rest)\n");
-  expect_in(words, "published coefficient         82.9 %\n");
+  EXPECT_TRUE(has(words, "drape coefficient             86.0 % (not at rest)\n"));
+  EXPECT_TRUE(has(words, "published coefficient         82.9 %\n"));
   EXPECT_EQ(not_at_rest_warning({{"settled", true}}), "");
   EXPECT_EQ(not_at_rest_warning({}), "") << "where no rest is asked for";
 }
@@ -65,45 +55,39 @@ TEST(ResultWords, OfAComparisonHaveALineForEachColumn) {
                                                 {"prandtl.drape_coefficient_percent", 86.0}});
   manifest.keys = std::make_shared<const Json>(Json{{"compared", "drape"}});
   const std::string words = result_words(manifest);
-  expect_in(words, "  linear                        drape coefficient 72.2 % (not at rest); NOT at rest\n");
-  expect_in(words, "  prandtl                       drape coefficient 86.0 %\n");
+  EXPECT_TRUE(
+      has(words, "  linear                        drape coefficient 72.2 % (not at rest); NOT at rest\n"));
+  EXPECT_TRUE(has(words, "  prandtl                       drape coefficient 86.0 %\n"));
 }
 
 TEST(ResultWords, NameWhatASceneAsksFor) {
   Manifest manifest = manifest_with("run", {{"gap_m", 0.0125}, {"gap_m_step_error", 2e-5}, {"fold_deg", 40}});
   EXPECT_EQ(result_words(manifest), "");
   manifest.requested_metrics = {"fold_deg", "gap_m"};
-  expect_in(result_words(manifest),
-            "  fold                          40 °\n"
-            "  gap                           0.01250 m ± 2e-05 step, mesh and draw error unknown\n");
+  EXPECT_TRUE(has(result_words(manifest),
+                  "  fold                          40 °\n"
+                  "  gap                           0.01250 m ± 2e-05 step, mesh and draw error unknown\n"));
 }
 
 TEST(ResultWords, OfARunThatWasCutShortSaySo) {
   Manifest manifest = drape_manifest({});
   manifest.complete = false;
-  expect_in(result_words(manifest), "INCOMPLETE");
+  EXPECT_TRUE(has(result_words(manifest), "INCOMPLETE"));
 }
 
 TEST(LastWords, AreTheResultAndItsPlacesOnStdoutEvenIfQuiet) {
-  const Folder folder;
-  const std::string out = folder.path() / "c";
-  const Outcome outcome = program("cantilever --quick --no-images --quiet --triangles 32 --out " + out);
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_EQ(without_warnings(outcome.err), "");
+  const FinishedRun run("cantilever --quick --no-images --quiet --triangles 32");
+  EXPECT_EQ(without_warnings(run.outcome.err), "");
   for (const std::string part : {"cantilever: cotton-broad, law prandtl\n", "tip drop over length",
-                                 "bending length", " mm\n", "/c/report.html\n"})
-    expect_in(outcome.out, part);
-  EXPECT_EQ(outcome.out.find("sheet.png"), std::string::npos) << "there is none";
+                                 "bending length", " mm\n", "/out/report.html\n"})
+    EXPECT_TRUE(has(run.outcome.out, part));
+  EXPECT_FALSE(has(run.outcome.out, "sheet.png")) << "there is none";
 }
 
 TEST(LastWords, LeaveStdoutToTheManifestWithJson) {
-  const Folder folder;
-  const std::string out = folder.path() / "s";
-  const Outcome outcome =
-      program("swing --quick --no-images --seconds 0.05 --triangles 60 --json --out " + out);
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_EQ(json_in(outcome.out, "stdout").at("experiment"), "swing");
-  expect_in(outcome.err, "cotton-broad, law prandtl, ");
+  const FinishedRun run("swing --quick --no-images --seconds 0.05 --triangles 60 --json");
+  EXPECT_EQ(json_in(run.outcome.out, "stdout").at("experiment"), "swing");
+  EXPECT_TRUE(has(run.outcome.err, "cotton-broad, law prandtl, "));
 }
 
 TEST(TimeLeft, IsTheTimeSoFarTimesWhatIsLeftOverWhatIsDone) {
@@ -118,21 +102,18 @@ TEST(TimeLeft, IsTheTimeSoFarTimesWhatIsLeftOverWhatIsDone) {
 TEST(ColumnProgress, IsTheLastWholeMomentOfTheRunsTable) {
   const Folder folder;
   EXPECT_EQ(progress_in(folder.path()), "");
-  std::ofstream(folder.path() / "manifest.json") << R"({"hysteron": {}, "scene": {"seconds": 4}})";
-  std::ofstream(folder.path() / "metrics.csv.part") << "time [s],x\n0,1\n1.2,3\n2.";
+  folder.write("manifest.json", R"({"hysteron": {}, "scene": {"seconds": 4}})");
+  folder.write("metrics.csv.part", "time [s],x\n0,1\n1.2,3\n2.");
   EXPECT_EQ(progress_in(folder.path()), "1.20/4 s");
 }
 
 TEST(ReportOfMotion, SaysAtItsTopThatTheClothDidNotComeToRest) {
-  const Folder folder;
-  const Outcome outcome = program("drape --quick --no-images --quiet --triangles 100 --seconds 0.1 --out " +
-                                  folder.path().string());
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  expect_in(outcome.out, "NOT at rest: fastest vertex ");
-  expect_in(outcome.err, "warning: no state of rest was found: ");
-  const std::string page = file_content(folder.path() / "report.html");
-  expect_in(page, "NOT at rest: fastest vertex ");
-  expect_in(page, "% (not at rest)");
+  const FinishedRun run("drape --quick --no-images --quiet --triangles 100 --seconds 0.1");
+  EXPECT_TRUE(has(run.outcome.out, "NOT at rest: fastest vertex "));
+  EXPECT_TRUE(has(run.outcome.err, "warning: no state of rest was found: "));
+  const std::string page = file_content(run.out / "report.html");
+  EXPECT_TRUE(has(page, "NOT at rest: fastest vertex "));
+  EXPECT_TRUE(has(page, "% (not at rest)"));
 }
 
 }  // namespace

@@ -2,22 +2,17 @@
 
 #include "experiments/workbench/pages/gallery.h"
 
-#include <nlohmann/json.hpp>
-
 #include "experiments/workbench/app/manifest_file.h"
-#include "experiments/workbench/app/run.h"
 #include "experiments/workbench/pages/gallery_about.h"
 #include "experiments/workbench/pages/gallery_folders.h"
 #include "experiments/workbench/pages/report.h"
 #include "experiments/workbench/session/record.h"
 #include "render/image.h"
 #include "sim/base/error.h"
-#include "tests/experiments/folder.h"
-#include "tests/sim/base/refusal.h"
+#include "tests/experiments/program.h"
 
 namespace hysteron::experiments {
 namespace {
-namespace fs = std::filesystem;
 
 void write_text(const fs::path& file, const std::string& text) {
   fs::create_directories(file.parent_path());
@@ -86,7 +81,7 @@ TEST_F(Gallery, NamesTheCommandTheDeviceTheMetricAndTheManifest) {
   const std::string html = page();
   for (const char* part : {"hysteron drape --quick", "cpu: CPU, 2 threads", "49.8", "recovery angle",
                            "href=\"z-drape/manifest.json\"", "Cusick"}) {
-    EXPECT_NE(html.find(part), std::string::npos) << part;
+    EXPECT_TRUE(has(html, part));
   }
 }
 
@@ -143,7 +138,7 @@ TEST_F(Gallery, TakesTheRunsBelowARunAsItsParts) {
   const std::string html = page();
   EXPECT_EQ(occurrences(html, "href=\"z-drape/wong/manifest.json\""), 1);
   EXPECT_EQ(occurrences(html, "href=\"z-drape/wong/sheet.png\""), 1);
-  EXPECT_NE(html.find("Wong: contact sheet: "), std::string::npos);
+  EXPECT_TRUE(has(html, "Wong: contact sheet: "));
 }
 
 TEST_F(Gallery, PlaysFramesThatAreThere) {
@@ -173,7 +168,7 @@ TEST(Grouped, AreThousands) {
 TEST_F(Gallery, TakesCaptionsThatTheRunWrote) {
   write_text(results_ / "z-drape/README.md",
              "# Drape\n\n![The sheet](sheet.png)\n\n**The sheet.** Let down by `a plate`.\n");
-  EXPECT_NE(page().find("<figcaption>The sheet. Let down by a plate.</figcaption>"), std::string::npos);
+  EXPECT_TRUE(has(page(), "<figcaption>The sheet. Let down by a plate.</figcaption>"));
 }
 
 TEST_F(Gallery, OpensWithThePictureThatTheReadmeBesideItShowsFirst) {
@@ -199,23 +194,22 @@ TEST_F(Gallery, IsNotBrokenByOddNames) {
   write_run(results_ / "a <b> & \"c\" #1", "drape");
   const std::string html = page();
   EXPECT_EQ(occurrences(html, "<b> &"), 0);
-  EXPECT_NE(html.find("a &lt;b&gt; &amp; &quot;c&quot; #1"), std::string::npos);
-  EXPECT_NE(html.find("href=\"a%20%3Cb%3E%20%26%20%22c%22%20%231/manifest.json\""), std::string::npos);
+  EXPECT_TRUE(has(html, "a &lt;b&gt; &amp; &quot;c&quot; #1"));
+  EXPECT_TRUE(has(html, "href=\"a%20%3Cb%3E%20%26%20%22c%22%20%231/manifest.json\""));
 }
 
 TEST_F(Gallery, NamesABrokenPicture) {
   write_text(results_ / "a-kes/plot_loops.png", "\x89PNG\r\n\x1a\nhalf");
-  EXPECT_NE(refusal().find("results/a-kes/plot_loops.png: not a PNG picture"), std::string::npos)
-      << refusal();
+  EXPECT_TRUE(has(refusal(), "results/a-kes/plot_loops.png: not a PNG picture"));
 }
 
 TEST_F(Gallery, NamesABrokenManifest) {
   const std::string whole = file_content(results_ / "a-kes/manifest.json");
   write_text(results_ / "a-kes/manifest.json", whole.substr(0, whole.size() / 2));
-  EXPECT_NE(refusal().find("results/a-kes/manifest.json is no manifest"), std::string::npos) << refusal();
+  EXPECT_TRUE(has(refusal(), "results/a-kes/manifest.json is no manifest"));
   write_text(results_ / "a-kes/manifest.json",
              R"({"hysteron":{"version":"0","commit":"0"},"scene":{},"experiment":"kes","started":7})");
-  EXPECT_NE(refusal().find("results/a-kes/manifest.json is no manifest"), std::string::npos) << refusal();
+  EXPECT_TRUE(has(refusal(), "results/a-kes/manifest.json is no manifest"));
 }
 
 // A manifest that lacks a key, or has one of another type, is named with the key and in words.
@@ -256,13 +250,13 @@ TEST_F(Gallery, PassesOverLinksThatLeadNowhereAndRefusesThoseThatLeadBack) {
   fs::remove(results_ / "z-drape/above");
   fs::remove(results_ / "a-kes/manifest.json");
   fs::create_symlink("manifest.json", results_ / "a-kes/manifest.json");
-  EXPECT_EQ(page().find("a-kes/manifest.json"), std::string::npos);
+  EXPECT_FALSE(has(page(), "a-kes/manifest.json"));
 }
 
 TEST_F(Gallery, OfNothingIsAWrongRequest) {
   fs::remove_all(results_);
   fs::create_directories(results_ / "empty/frames");
-  EXPECT_NE(refusal().find("nothing to show in"), std::string::npos) << refusal();
+  EXPECT_TRUE(has(refusal(), "nothing to show in"));
 }
 
 std::vector<std::string> stale_names(const fs::path& folder) {
@@ -288,24 +282,15 @@ TEST_F(Gallery, ChecksThePagesOfItsRunsToo) {
   EXPECT_EQ(stale_names(results_), (std::vector<std::string>{"a-kes/report.html"}));
 }
 
-// Exit code and stderr of the program.
-std::pair<int, std::string> outcome(const std::string& arguments, const fs::path& folder) {
-  const fs::path err = folder / "err";
-  const int status =
-      std::system((HYSTERON_PROGRAM " " + arguments + " >/dev/null 2>" + err.string()).c_str());
-  return {WEXITSTATUS(status), file_content(err)};
-}
-
 TEST_F(Gallery, OfTheProgramSaysHowToRefreshAStalePage) {
   const std::string results = results_.string();
-  EXPECT_EQ(outcome("report " + results + "/", folder_.path()), std::pair(0, std::string()));
-  EXPECT_EQ(outcome("report --check " + results, folder_.path()), std::pair(0, std::string()));
+  EXPECT_EQ(finished("report " + results + "/").err, "");
+  EXPECT_EQ(finished("report --check " + results).err, "");
   write_run(results_ / "a-kes", "kes", 50.0);
-  EXPECT_EQ(
-      outcome("report --check " + results, folder_.path()),
-      std::pair(4, "hysteron report: " + results + "/index.html is not what its folder says now; write " +
-                       "it again: hysteron report " + results + "\n"));
-  EXPECT_EQ(outcome("report " + results + "/nowhere", folder_.path()).first, 2);
+  const Outcome stale = ended(4, "report --check " + results);
+  EXPECT_EQ(stale.err, "hysteron report: " + results + "/index.html is not what its folder says now; write " +
+                           "it again: hysteron report " + results + "\n");
+  refused("report " + results + "/nowhere");
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 #include <fstream>
 #include <regex>
 
-#include "experiments/workbench/app/run.h"
 #include "experiments/workbench/pages/gallery.h"
 #include "experiments/workbench/pages/page.h"
 #include "experiments/workbench/pages/pictures.h"
@@ -14,7 +13,6 @@
 
 namespace hysteron::experiments {
 namespace {
-namespace fs = std::filesystem;
 
 // Values of an attribute, in the order of the page.
 std::vector<std::string> attribute_values(const std::string& html, const std::string& name) {
@@ -41,7 +39,7 @@ bool leads_to_a_place(const std::string& url) { return url.starts_with('#'); }
 
 // Every picture is a file below the page, and so is every other link.
 void expect_all_there(const std::string& html, const fs::path& folder) {
-  ASSERT_EQ(html.find("=\"data:"), html.npos);
+  ASSERT_FALSE(has(html, "=\"data:"));
   for (const char* name : {"src", "href"}) {
     for (const std::string& url : attribute_values(html, name)) {
       if (leads_to_a_place(url)) continue;
@@ -55,8 +53,7 @@ void expect_alone(const std::string& html) {
   for (const std::string& url : attribute_values(html, "src"))
     EXPECT_TRUE(url.starts_with("data:image/")) << url;
   for (const std::string& url : attribute_values(html, "href")) EXPECT_TRUE(leads_to_a_place(url)) << url;
-  for (const char* part : {"<link", "<script src", "url(", "@import"})
-    EXPECT_EQ(html.find(part), html.npos) << part;
+  for (const char* part : {"<link", "<script src", "url(", "@import"}) EXPECT_FALSE(has(html, part));
 }
 
 void write_pictures(const fs::path& folder) {
@@ -114,22 +111,19 @@ TEST_F(PageForms, ASelfContainedGalleryHoldsPicturesShrunk) {
   EXPECT_EQ(sheet.width(), 900);
   EXPECT_EQ(sheet.height(), 150);
   const std::string html = gallery_page(results_, PageForm::self_contained);
-  EXPECT_NE(html.find("src=\"data:image/png;base64," + base64(small) + "\""), html.npos);
+  EXPECT_TRUE(has(html, "src=\"data:image/png;base64," + base64(small) + "\""));
 }
 
 TEST_F(PageForms, OfTheProgramAreLinkedUnlessAskedForAlone) {
   const std::string results = results_.string(), page = results + "/index.html";
-  const Outcome alone = program("report " + results + " --self-contained");
-  EXPECT_EQ(alone.exit_code, 0) << alone.err;
+  const Outcome alone = finished("report " + results + " --self-contained");
   EXPECT_EQ(alone.out, page + "\n");
   expect_alone(file_content(page));
-  EXPECT_EQ(program("report --check " + results).exit_code, 4) << "the default form is compared";
-  EXPECT_EQ(program("report " + results).exit_code, 0);
+  ended(4, "report --check " + results);  // the default form is compared
+  finished("report " + results);
   expect_all_there(file_content(page), results_);
-  EXPECT_EQ(program("report --check " + results).exit_code, 0);
-  const Outcome both = program("report --check --self-contained " + results);
-  EXPECT_EQ(both.exit_code, 2);
-  EXPECT_EQ(both.err,
+  finished("report --check " + results);
+  EXPECT_EQ(refused("report --check --self-contained " + results),
             "hysteron report: --check is of pages that link their pictures: leave out --self-contained\n");
 }
 

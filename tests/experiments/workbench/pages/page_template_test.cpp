@@ -1,8 +1,7 @@
 #include "experiments/workbench/pages/page_template.h"
 
-#include <gtest/gtest.h>
-
 #include "experiments/workbench/pages/page.h"
+#include "tests/experiments/folder.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -20,11 +19,10 @@ TEST(Template, OfADocumentHasItsScriptWhereSomethingMoves) {
   const std::string still = html_page("A & B", "<p>still</p>\n"),
                     moving = html_page("t", "<div class=\"player\"></div>\n", "gallery");
   EXPECT_TRUE(still.starts_with("<!doctype html>\n<html lang=\"en\">"));
-  EXPECT_NE(still.find("<title>A &amp; B</title>\n<style>\n:root"), std::string::npos);
-  EXPECT_NE(still.find("</style></head>\n<body>\n<p>still</p>\n</body></html>\n"), std::string::npos);
-  EXPECT_EQ(still.find("<script>"), std::string::npos);
-  EXPECT_NE(moving.find("<body class=\"gallery\">\n<div class=\"player\"></div>\n<script>\n"),
-            std::string::npos);
+  EXPECT_TRUE(has(still, "<title>A &amp; B</title>\n<style>\n:root"));
+  EXPECT_TRUE(has(still, "</style></head>\n<body>\n<p>still</p>\n</body></html>\n"));
+  EXPECT_FALSE(has(still, "<script>"));
+  EXPECT_TRUE(has(moving, "<body class=\"gallery\">\n<div class=\"player\"></div>\n<script>\n"));
 }
 
 }  // namespace

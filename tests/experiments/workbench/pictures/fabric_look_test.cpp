@@ -1,16 +1,10 @@
 #include "experiments/workbench/pictures/fabric_look.h"
 
-#include <gtest/gtest.h>
-#include <unistd.h>
-
-#include <filesystem>
-#include <fstream>
 #include <set>
-#include <string>
 
-#include "sim/base/error.h"
 #include "sim/scene/assets.h"
 #include "sim/scene/fabric_reader.h"
+#include "tests/experiments/folder.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -39,26 +33,19 @@ class FabricFileLook : public testing::Test {
  protected:
   // What is wrong with a fabric's table [look], which begins in line 3.
   std::string refusal(const std::string& lines) {
-    std::ofstream(file_) << "name = \"x\"\n\n[look]\n" << lines;
-    try {
-      dressed({}, file_.string());
-    } catch (const Error& error) {
-      EXPECT_EQ(error.exit_code(), 2);
-      return error.what();
-    }
-    return "";
+    folder_.write("look.toml", "name = \"x\"\n\n[look]\n" + lines);
+    return test::refusal([&] { dressed({}, file_); });
   }
-  void TearDown() override { std::filesystem::remove(file_); }
 
-  const std::filesystem::path file_ =
-      std::filesystem::temp_directory_path() / ("hysteron-look-" + std::to_string(::getpid()) + ".toml");
+  const Folder folder_;
+  const std::string file_ = folder_.file("look.toml");
 };
 
 TEST_F(FabricFileLook, ABackThatIsNotNamedIsThePalerFront) {
   ASSERT_EQ(refusal("colour = [100, 0, 255]\nweave = \"twill\"\nthreads = [25, 20]\nsheen = 0\n"
                     "source = \"assumed\"\n"),
-            "");
-  const render::Look look = dressed({}, file_.string());
+            "(accepted)");
+  const render::Look look = dressed({}, file_);
   EXPECT_EQ(look.weave_kind, render::Weave::twill);
   EXPECT_FLOAT_EQ(look.thread_spacing, 4e-4f);
   EXPECT_FLOAT_EQ(look.weft_spacing, 5e-4f);
@@ -66,15 +53,12 @@ TEST_F(FabricFileLook, ABackThatIsNotNamedIsThePalerFront) {
 }
 
 TEST_F(FabricFileLook, WhatIsWrongIsNamedWithItsLine) {
-  EXPECT_NE(refusal("color = [1, 2, 3]\n").find("unknown key look.color"), std::string::npos);
-  EXPECT_NE(refusal("colour = [1, 2, 300]\n").find(":4)"), std::string::npos);
-  EXPECT_NE(refusal("colour = [1, 2, 3]\nweave = \"felt\"\n").find("must be plain | twill | satin | knit"),
-            std::string::npos);
-  EXPECT_NE(refusal("colour = [1, 2, 3]\nweave = \"knit\"\nthreads = [0, 1]\n").find("look.threads"),
-            std::string::npos);
-  EXPECT_NE(
-      refusal("colour = [1, 2, 3]\nweave = \"knit\"\nsheen = 0\nsource = \"x\"\n").find("look needs threads"),
-      std::string::npos);
+  EXPECT_TRUE(has(refusal("color = [1, 2, 3]\n"), "unknown key look.color"));
+  EXPECT_TRUE(has(refusal("colour = [1, 2, 300]\n"), ":4)"));
+  EXPECT_TRUE(has(refusal("colour = [1, 2, 3]\nweave = \"felt\"\n"), "must be plain | twill | satin | knit"));
+  EXPECT_TRUE(has(refusal("colour = [1, 2, 3]\nweave = \"knit\"\nthreads = [0, 1]\n"), "look.threads"));
+  EXPECT_TRUE(has(refusal("colour = [1, 2, 3]\nweave = \"knit\"\nsheen = 0\nsource = \"x\"\n"),
+                  "look needs threads"));
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 #include <array>
 #include <cmath>
 #include <fstream>
-#include <nlohmann/json.hpp>
 
 #include "experiments/workbench/app/camera_file.h"
 #include "experiments/workbench/app/manifest_file.h"
@@ -13,7 +12,6 @@
 
 namespace hysteron::experiments {
 namespace {
-namespace fs = std::filesystem;
 
 const std::string kSmall = " --device cpu --threads 1 --size 240x135 --fps 10 --quiet ";
 
@@ -29,12 +27,9 @@ class PicturesOf : public testing::TestWithParam<Case> {};
 
 // Shares of each picture that its cloth reaches from and to: within, and not lost in it.
 TEST_P(PicturesOf, TheirClothIsWholeAndNotSmall) {
-  const Folder folder;
-  const fs::path out = folder.path() / "out";
-  const Outcome outcome = program(std::string(GetParam().line) + kSmall + kDraft + "--out " + out.string());
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_EQ(outcome.err.find("cut off"), std::string::npos) << outcome.err;
-  const Manifest manifest = read_manifest(out / "manifest.json");
+  const FinishedRun run(std::string(GetParam().line) + kSmall + kDraft);
+  EXPECT_FALSE(has(run.outcome.err, "cut off"));
+  const Manifest manifest = read_manifest(run.out / "manifest.json");
   double widest = 0, highest = 0;
   for (const Frames::Instant& instant : manifest.frames.value().instants) {
     const std::array<double, 4>& at = instant.cloth;
@@ -56,13 +51,11 @@ INSTANTIATE_TEST_SUITE_P(Experiments, PicturesOf,
 
 // The file that a run writes makes another run's pictures the same to the bit.
 TEST(CameraFile, GivesTheSamePicturesAgain) {
-  const Folder folder;
-  const std::string line = "swing --triangles 60 --seconds 0.2" + kSmall, a = (folder.path() / "a").string(),
-                    b = (folder.path() / "b").string();
-  ASSERT_EQ(program(line + "--out " + a + " --camera.direction 1,-1,0.3").exit_code, 0);
-  ASSERT_EQ(program(line + "--out " + b + " --camera " + a + "/camera.json").exit_code, 0);
-  const render::Image first = render::read_png(a + "/frames/0002.png"),
-                      second = render::read_png(b + "/frames/0002.png");
+  const std::string line = "swing --triangles 60 --seconds 0.2" + kSmall;
+  const FinishedRun a(line + " --camera.direction 1,-1,0.3"),
+      b(line + " --camera " + (a.out / "camera.json").string());
+  const render::Image first = render::read_png(a.out / "frames/0002.png"),
+                      second = render::read_png(b.out / "frames/0002.png");
   ASSERT_EQ(first.pixels().size(), second.pixels().size());
   int apart = 0;
   for (std::size_t i = 0; i < first.pixels().size(); ++i)

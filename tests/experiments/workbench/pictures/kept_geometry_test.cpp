@@ -1,14 +1,11 @@
 // What pictures are drawn from, packed and back.
 #include "experiments/workbench/pictures/kept_geometry.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <fstream>
 
 #include "experiments/workbench/pictures/subject.h"
 #include "tests/experiments/folder.h"
-#include "tests/sim/base/refusal.h"
 
 namespace hysteron::experiments {
 namespace {

@@ -1,15 +1,10 @@
 // What a simulation will write is refused before it begins where another's file of that name stands.
-#include <gtest/gtest.h>
-
-#include <nlohmann/json.hpp>
-
 #include <fstream>
 
 #include "tests/experiments/program.h"
 
 namespace hysteron::experiments {
 namespace {
-namespace fs = std::filesystem;
 
 // Few triangles, for a short time.
 class ForeignFiles : public testing::TestWithParam<const char*> {};
@@ -18,7 +13,7 @@ TEST_P(ForeignFiles, AreRefusedBeforeTheSimulation) {
   const std::string command =
       std::string(GetParam()) + " --size 64x48 --threads 1 --device cpu --quiet --out ";
   const Folder first;
-  ASSERT_EQ(program(command + (first.path() / "out").string()).exit_code, 0);
+  finished(command + (first.path() / "out").string());
   const auto manifest = manifest_in(first.path() / "out");
   ASSERT_GT(manifest["files"].size(), 3u);
   for (const std::string name : manifest["files"]) {
@@ -26,10 +21,8 @@ TEST_P(ForeignFiles, AreRefusedBeforeTheSimulation) {
     const fs::path foreign = folder.path() / name;
     fs::create_directories(foreign.parent_path());
     std::ofstream(foreign) << "mine";
-    const Outcome outcome = program(command + folder.path().string());
-    EXPECT_EQ(outcome.exit_code, 2) << name;
-    EXPECT_NE(outcome.err.find(foreign.string() + " is not of an earlier run"), std::string::npos)
-        << outcome.err;
+    EXPECT_TRUE(
+        has(refused(command + folder.path().string()), foreign.string() + " is not of an earlier run"));
     EXPECT_EQ(file_content(foreign), "mine");
     EXPECT_EQ(fs::exists(folder.path() / "metrics.csv"), name == "metrics.csv") << name;
   }
@@ -45,9 +38,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(RunThatIsNotOver, GetsNoReport) {
   const Folder folder;
   ExperimentRun run(drape_line(), setup_in(folder.path()));
-  const Outcome outcome = program("report " + folder.path().string());
-  EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_EQ(outcome.err,
+  EXPECT_EQ(refused("report " + folder.path().string()),
             "hysteron report: " + folder.path().string() + " is in use by another run: wait for its end\n");
   EXPECT_FALSE(fs::exists(folder.path() / "report.html"));
   run.finish();

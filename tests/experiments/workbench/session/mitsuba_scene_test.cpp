@@ -1,8 +1,6 @@
 // Scenes for a path tracer: well-formed, and from the pictures' own camera.
 #include "experiments/workbench/session/mitsuba_scene.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <numbers>
 #include <regex>
@@ -81,7 +79,7 @@ TEST(MitsubaScene, LooksFromThePicturesCamera) {
     EXPECT_NEAR(target[k] - eye[k], camera.forward()[k], 1e-6);
   }
   EXPECT_NEAR(numbers_after(xml, "\"fov\"", "value").at(0), setup.options.camera_fov, 1e-4);
-  EXPECT_NE(xml.find("name=\"width\" value=\"400\""), std::string::npos);
+  EXPECT_TRUE(has(xml, "name=\"width\" value=\"400\""));
 }
 
 TEST(MitsubaScene, BodiesAreWhereTheyAreAtThatTime) {
@@ -95,7 +93,7 @@ TEST(MitsubaScene, BodiesAreWhereTheyAreAtThatTime) {
   EXPECT_NEAR(placed[7], 0.2, 1e-6);
   EXPECT_NEAR(placed[11], 0.3, 1e-6);
   setup.scene.obstacle[0].from = 1;
-  EXPECT_EQ(exported_xml(setup, {}).find("bodies/"), std::string::npos);
+  EXPECT_FALSE(has(exported_xml(setup, {}), "bodies/"));
 }
 
 TEST(MitsubaScene, GroundIsThereWhereItIsPictured) {

@@ -4,7 +4,6 @@
 #include <csignal>
 #include <fstream>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <random>
 #include <thread>
 
@@ -12,7 +11,6 @@
 
 namespace hysteron::experiments {
 namespace {
-namespace fs = std::filesystem;
 
 const std::string kResumedSwing = "swing --quick --no-images --threads 1 --device cpu --fps 240";
 const std::string kResumedCrumple =
@@ -20,12 +18,7 @@ const std::string kResumedCrumple =
 
 // Starts the program, which gets a signal after some milliseconds.  Its wait status.
 int signalled(const std::string& arguments, int signal, int milliseconds, const fs::path& err) {
-  const pid_t child = fork();
-  if (child == 0) {
-    const std::string line = "exec " HYSTERON_PROGRAM " " + arguments + " >/dev/null 2>" + err.string();
-    execl("/bin/sh", "sh", "-c", line.c_str(), nullptr);
-    _exit(127);
-  }
+  const pid_t child = started(arguments + " >/dev/null 2>" + err.string());
   std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
   kill(child, signal);
   int status = 0;
@@ -38,12 +31,7 @@ int after_a_checkpoint(const std::string& arguments, const fs::path& out, const 
   const fs::path file = out / "checkpoint";
   std::error_code none;
   const auto before = fs::last_write_time(file, none);
-  const pid_t child = fork();
-  if (child == 0) {
-    const std::string line = "exec " HYSTERON_PROGRAM " " + arguments + " >/dev/null 2>" + err.string();
-    execl("/bin/sh", "sh", "-c", line.c_str(), nullptr);
-    _exit(127);
-  }
+  const pid_t child = started(arguments + " >/dev/null 2>" + err.string());
   int status = 0;
   for (bool requested = false; waitpid(child, &status, WNOHANG) == 0;) {
     if (!requested && fs::exists(file, none) && fs::last_write_time(file, none) != before) {
@@ -84,7 +72,7 @@ void expect_same_results(const fs::path& a, const fs::path& b) {
 // Runs the program into this folder; how long that took [ms].
 int time_of_whole(const std::string& arguments, const fs::path& out) {
   const auto start = std::chrono::steady_clock::now();
-  EXPECT_EQ(program(arguments + out_flag(out)).exit_code, 0);
+  finished(arguments + out_flag(out));
   const auto taken = std::chrono::steady_clock::now() - start;
   return static_cast<int>(std::chrono::duration_cast<std::chrono::milliseconds>(taken).count());
 }
@@ -99,8 +87,7 @@ std::size_t kill_often(const std::string& arguments, const fs::path& out, int ki
                        std::uniform_int_distribution(whole / 6, whole / 3)(random), out.string() + ".err");
     EXPECT_TRUE(WIFSIGNALED(status) || status == 0) << file_content(out.string() + ".err");
   }
-  const Outcome last = program(arguments + " --resume" + out_flag(out));
-  EXPECT_EQ(last.exit_code, 0) << last.err;
+  finished(arguments + " --resume" + out_flag(out));
   EXPECT_FALSE(fs::exists(out / "checkpoint"));
   return manifest_in(out).value("resumed_at_s", Json::array()).size();
 }
@@ -118,14 +105,12 @@ TEST_P(ResumingEvery, EndsInTheSameBits) {
   const Folder folder;
   const fs::path parts = folder.path() / "parts";
   const std::string line = std::string(GetParam()) + " --quick --no-images --threads 1 --device cpu";
-  const Outcome whole = program(line + out_flag(folder.path() / "whole"));
-  ASSERT_EQ(whole.exit_code, 0) << whole.err;
+  const FinishedRun whole(line);
   for (int k = 0; k < 2; ++k)
     ASSERT_EQ(after_a_checkpoint(line + " --checkpoint 1e-6 --resume" + out_flag(parts), parts), 3);
-  const Outcome last = program(line + " --resume" + out_flag(parts));
-  EXPECT_EQ(last.exit_code, 0) << last.err;
+  finished(line + " --resume" + out_flag(parts));
   EXPECT_EQ(manifest_in(parts)["resumed_at_s"].size(), 2u);
-  expect_same_results(folder.path() / "whole", parts);
+  expect_same_results(whole.out, parts);
 }
 
 // Which leaves no time for last words, and half-written files.
@@ -141,25 +126,25 @@ TEST(Resuming, PicturesAndMeshesGoOnWhereTheyWere) {
   const std::string line =
       "swing --quick --threads 1 --device cpu --fps 60 --size 96x64 --look cloth,curvature --export obj";
   const fs::path parts = folder.path() / "parts", said = folder.path() / "said";
-  ASSERT_EQ(program(line + out_flag(folder.path() / "whole")).exit_code, 0);
+  const FinishedRun whole(line);
   for (int k = 0; k < 2; ++k)
     ASSERT_EQ(after_a_checkpoint(line + " --checkpoint 1e-6 --resume" + out_flag(parts), parts, said), 3);
-  EXPECT_NE(file_content(said).find("the same command with --resume goes on"), std::string::npos);
+  EXPECT_TRUE(has(file_content(said), "the same command with --resume goes on"));
   EXPECT_EQ(manifest_in(parts)["complete"], false);
-  EXPECT_EQ(program(line + " --resume" + out_flag(parts)).exit_code, 0);
+  finished(line + " --resume" + out_flag(parts));
   EXPECT_EQ(manifest_in(parts)["resumed_at_s"].size(), 2u);
-  expect_same_results(folder.path() / "whole", parts);
+  expect_same_results(whole.out, parts);
 }
 
 TEST(Resuming, AnAnimationIsThereWhenARunEndsEarlyAndWholeInTheEnd) {
   const Folder folder;
   const fs::path parts = folder.path() / "parts", file = parts / "mesh" / "cloth.pc2";
   const std::string line = kResumedSwing + " --export pc2";
-  ASSERT_EQ(program(line + out_flag(folder.path() / "whole")).exit_code, 0);
+  finished(line + out_flag(folder.path() / "whole"));
   ASSERT_EQ(after_a_checkpoint(line + " --checkpoint 1e-6" + out_flag(parts), parts), 3);
   ASSERT_TRUE(fs::exists(file));
   EXPECT_LT(fs::file_size(file), fs::file_size(folder.path() / "whole" / "mesh" / "cloth.pc2"));
-  ASSERT_EQ(program(line + " --resume" + out_flag(parts)).exit_code, 0);
+  finished(line + " --resume" + out_flag(parts));
   expect_same_results(folder.path() / "whole", parts);
 }
 
@@ -175,14 +160,7 @@ TEST(Resuming, TwoSignalsAtOnceAreOneAndTwoApartEndTheProcess) {
   EXPECT_EQ(manifest_in(out)["complete"], false);
   // Seconds before the next instant.
   const std::string slow = "swing --no-images --quiet --threads 1 --device cpu --triangles 6000 --fps 1";
-  const pid_t child = fork();
-  if (child == 0) {
-    execl("/bin/sh", "sh", "-c",
-          ("exec " HYSTERON_PROGRAM " " + slow + " --checkpoint 1000" + out_flag(folder.path() / "slow"))
-              .c_str(),
-          nullptr);
-    _exit(127);
-  }
+  const pid_t child = started(slow + " --checkpoint 1000" + out_flag(folder.path() / "slow"));
   int status = 0;
   std::this_thread::sleep_for(std::chrono::milliseconds(700));
   kill(child, SIGTERM);
@@ -194,20 +172,15 @@ TEST(Resuming, TwoSignalsAtOnceAreOneAndTwoApartEndTheProcess) {
 }
 
 TEST(Resuming, ACompleteRunIsNotRepeatedAndOneWithoutCheckpointBeginsAnew) {
-  const Folder folder;
-  const fs::path out = folder.path() / "out";
-  const Outcome first = program(kResumedSwing + " --resume" + out_flag(out));
-  EXPECT_EQ(first.exit_code, 0);
-  EXPECT_NE(first.err.find("no checkpoint in " + out.string() + ": from the start"), std::string::npos);
-  const std::string manifest = file_content(out / "manifest.json");
-  const Outcome again = program(kResumedSwing + " --resume --threads 2" + out_flag(out));
-  EXPECT_EQ(again.exit_code, 0);
-  EXPECT_EQ(again.err, out.string() + " is complete\n");
-  EXPECT_EQ(program(kResumedSwing + " --resume --json" + out_flag(out)).out, manifest);
-  const Outcome other = program(kResumedSwing + " --resume --law linear" + out_flag(out));
-  EXPECT_EQ(other.exit_code, 2);
-  EXPECT_NE(other.err.find("has a complete run of other values (law"), std::string::npos) << other.err;
-  EXPECT_EQ(file_content(out / "manifest.json"), manifest);
+  const FinishedRun run(kResumedSwing + " --resume");
+  EXPECT_TRUE(has(run.outcome.err, "no checkpoint in " + run.out.string() + ": from the start"));
+  const std::string manifest = file_content(run.out / "manifest.json");
+  const Outcome again = finished(kResumedSwing + " --resume --threads 2" + out_flag(run.out));
+  EXPECT_EQ(again.err, run.out.string() + " is complete\n");
+  EXPECT_EQ(program(kResumedSwing + " --resume --json" + out_flag(run.out)).out, manifest);
+  EXPECT_TRUE(has(refused(kResumedSwing + " --resume --law linear" + out_flag(run.out)),
+                  "has a complete run of other values (law"));
+  EXPECT_EQ(file_content(run.out / "manifest.json"), manifest);
 }
 
 // One folder with a checkpoint for all of them: a refusal changes nothing in it.
@@ -218,10 +191,9 @@ class RefusedCheckpoint : public testing::Test {
     good_ = file_content(out_ / "checkpoint");
   }
   void expect_refusal(const std::string& why, const std::string& more = "") {
-    const Outcome outcome = program(kLine + more + " --resume" + out_flag(out_));
-    EXPECT_EQ(outcome.exit_code, 2);
-    EXPECT_EQ(outcome.err, "hysteron swing: cannot resume from " + (out_ / "checkpoint").string() + ": " +
-                               why + "; without --resume the run begins anew\n");
+    EXPECT_EQ(refused(kLine + more + " --resume" + out_flag(out_)),
+              "hysteron swing: cannot resume from " + (out_ / "checkpoint").string() + ": " + why +
+                  "; without --resume the run begins anew\n");
   }
   void put(const std::string& text) const { std::ofstream(out_ / "checkpoint", std::ios::binary) << text; }
 
@@ -262,30 +234,27 @@ TEST_F(RefusedCheckpoint, NamesWhatIsWrong) {
   expect_refusal("there is no manifest.json beside it");
   std::ofstream(out_ / "manifest.json") << manifest;
   std::ofstream(out_ / "checkpoint.part-1-0") << "half";  // a file half written beside it is not looked at
-  const Outcome outcome = program(kLine + " --resume" + out_flag(out_));
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  finished(kLine + " --resume" + out_flag(out_));
   EXPECT_FALSE(fs::exists(out_ / "checkpoint.part-1-0"));
 }
 
 TEST(Checkpoints, AreRefusedWhereSeveralRunsAreAskedFor) {
   const Folder folder;
-  const Outcome outcome =
-      program(kResumedCrumple + " --law linear,prandtl --checkpoint 1" + out_flag(folder.path() / "out"));
-  EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_EQ(outcome.err,
-            "hysteron crumple: --checkpoint is of single runs: name one law, fabric, integrator\n");
+  EXPECT_EQ(
+      refused(kResumedCrumple + " --law linear,prandtl --checkpoint 1" + out_flag(folder.path() / "out")),
+      "hysteron crumple: --checkpoint is of single runs: name one law, fabric, integrator\n");
 }
 
 TEST(Resuming, OfSeveralLawsKeepsThoseThatAreFinished) {
   const Folder folder;
   const fs::path out = folder.path() / "out";
   const std::string line = "crumple --quick --triangles 60 --seconds 0.02 --no-images --law linear,prandtl";
-  ASSERT_EQ(program(line + out_flag(out)).exit_code, 0);
+  finished(line + out_flag(out));
   const auto written = [&](const char* law) { return fs::last_write_time(out / law / "manifest.json"); };
   const auto first = written("linear");
   const auto second = written("prandtl");
   fs::remove(out / "prandtl" / "outcome.json");  // as if it had been interrupted
-  ASSERT_EQ(program(line + " --resume" + out_flag(out)).exit_code, 0);
+  finished(line + " --resume" + out_flag(out));
   EXPECT_EQ(written("linear"), first);
   EXPECT_GT(written("prandtl"), second);
 }
@@ -297,7 +266,7 @@ TEST(Resuming, ARunThatBeginsAnewRemovesTheCheckpoint) {
   signalled(kResumedSwing + " --triangles 1000 --checkpoint 1e-6" + out_flag(out), SIGKILL, 250,
             folder.path() / "err");
   ASSERT_TRUE(fs::exists(out / "checkpoint"));
-  EXPECT_EQ(program(kResumedSwing + out_flag(out)).exit_code, 0);
+  finished(kResumedSwing + out_flag(out));
   EXPECT_FALSE(fs::exists(out / "checkpoint"));
 }
 
