@@ -113,9 +113,8 @@ Run::Run(const CommandLine& line, const Setup& setup, const std::vector<std::str
   for (const std::string& change : changed_meshes(setup.recorded_meshes, manifest_.meshes)) warn(change);
 }
 
-Run::Run(const CommandLine& line, const Options& options, const Json& keys,
-         const std::vector<std::string>& kept)
-    : Run(first_entries(line, keys), line, options, kept) {}
+Run::Run(const CommandLine& line, const Options& options, const Json& keys)
+    : Run(first_entries(line, keys), line, options, {}) {}
 
 Run::Run(Manifest first, const CommandLine& line, const Options& options,
          const std::vector<std::string>& kept)

@@ -35,11 +35,10 @@ class Run {
  public:
   // Takes the folder as RunFolder does, out/<experiment> where none is named.  Throws Error::invalid_input,
   // Error::system.
-  // `kept`: files of a run that was interrupted and goes on as this one; visit() tells of the rest.
+  // `kept`: files of a run that was interrupted and goes on as this one; serialise() tells of the rest.
   Run(const CommandLine& line, const Setup& setup, const std::vector<std::string>& kept = {});
   // Of an experiment that simulates nothing; `keys` are what it resolved, as the manifest's `scene`.
-  Run(const CommandLine& line, const Options& options, const Json& keys,
-      const std::vector<std::string>& kept = {});
+  Run(const CommandLine& line, const Options& options, const Json& keys);
   ~Run();
   Run(const Run&) = delete;
   Run& operator=(const Run&) = delete;

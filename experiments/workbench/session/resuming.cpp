@@ -103,8 +103,6 @@ std::vector<std::string> Checkpoints::kept_files() const {
 void Checkpoints::begin(Session& session) {
   const Options& options = session.setup().options;
   if (options.checkpoint <= 0 && !options.resume) return;
-  if (!session.plan().serialise)
-    throw Error::invalid_input("--checkpoint and --resume: not built yet for " + session.line().experiment);
   Run& run = session.run();
   if (state_.empty()) {
     if (options.resume) run.progress("no checkpoint in " + run.folder().string() + ": from the start");

@@ -41,8 +41,8 @@ struct RunPlan {
   double wait = 0;  // then, for laws that relax: so long at rest, by steps that grow with the time passed [s]
   std::function<bool(const Snapshot&)> pictured;  // which instants are drawn and exported; empty: all of them
   std::function<std::string(const Snapshot&)> progress;
-  // What the experiment has collected in measure() and its like, for checkpoints; empty: it takes none.
-  std::function<void(Archive&)> serialise;
+  // What the experiment has collected in measure() and its like, for checkpoints.
+  std::function<void(Archive&)> serialise = [](Archive&) {};
 };
 
 // What watches a run: a series of numbers, pictures, a count, doubts.  The session calls all of them in the
