@@ -12,7 +12,6 @@ namespace hysteron::render {
 template <class Kind>
 class Handle {
  public:
-  Handle() = default;
   explicit Handle(const GlFunctions& gl) : gl_(&gl), name_(Kind::make(gl)) {}
   Handle(Handle&& other) noexcept : gl_(other.gl_), name_(std::exchange(other.name_, 0)) {}
   Handle& operator=(Handle&& other) noexcept {
@@ -25,7 +24,6 @@ class Handle {
   }
 
   GLuint name() const { return name_; }
-  explicit operator bool() const { return name_ != 0; }
 
  private:
   const GlFunctions* gl_ = nullptr;
