@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <vector>
 
+#include "sim/base/comma_list.h"
 #include "sim/base/error.h"
 
 namespace hysteron::render {
@@ -68,9 +68,8 @@ struct Line {
 
 std::vector<Line> set_lines(std::string_view text, float size, float width) {
   std::vector<Line> lines;
-  std::istringstream stream{std::string(text)};
   bool title = true;
-  for (std::string line; std::getline(stream, line);) {
+  for (const std::string& line : hysteron::split(std::string(text), '\n')) {
     const float letters = title ? kTitleGrowth * size : size;
     for (const std::string& part : broken(line, letters, width))
       lines.push_back({part, letters, text_width(part, letters)});

@@ -7,10 +7,10 @@
 
 namespace hysteron {
 
-inline std::vector<std::string> split(const std::string& list) {
+inline std::vector<std::string> split(const std::string& list, char separator = ',') {
   std::vector<std::string> words;
   std::istringstream stream(list);
-  for (std::string word; std::getline(stream, word, ',');) words.push_back(word);
+  for (std::string word; std::getline(stream, word, separator);) words.push_back(word);
   return words;
 }
 

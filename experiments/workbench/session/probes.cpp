@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <sstream>
 
 #include "render/plot.h"
 #include "sim/base/comma_list.h"
@@ -36,8 +35,7 @@ Eigen::Vector2d parsed_point(const std::string& text) {
 
 std::vector<Eigen::Vector2d> parsed_points(const std::string& text) {
   std::vector<Eigen::Vector2d> places;
-  std::istringstream stream(text);
-  for (std::string one; std::getline(stream, one, ';');) places.push_back(parsed_point(one));
+  for (const std::string& one : split(text, ';')) places.push_back(parsed_point(one));
   return places;
 }
 
