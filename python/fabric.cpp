@@ -32,6 +32,32 @@ py::dict provenance_dict(const Provenance& from) {
   return entry;
 }
 
+py::list key_names() {
+  py::list names;
+  for (const KeyDescription& key : scene_keys()) {
+    if (!key.path.starts_with(kPrefix)) continue;
+    names.append(python_name(key.path.substr(std::string(kPrefix).size())));
+  }
+  return names;
+}
+
+py::dict provenance(const FabricValue& of) {
+  py::dict all;
+  for (const auto& [key, from] : of.fabric().provenance) all[py::str(key)] = provenance_dict(from);
+  return all;
+}
+
+py::dict published(const FabricValue& of) {
+  py::dict all;
+  for (const auto& [name, number] : of.fabric().published) {
+    py::dict entry = provenance_dict(number.provenance);
+    entry["value"] = number.value;
+    entry["unit"] = number.unit;
+    all[py::str(name)] = entry;
+  }
+  return all;
+}
+
 }  // namespace
 
 FabricValue::FabricValue(const std::string& name_or_file, const py::dict& keys) {
@@ -64,32 +90,6 @@ void FabricValue::set(const std::string& name, py::handle value) {
   set_key(scene_, *key, to_value(value, key->description.path), kOfFabrics);
 }
 
-py::list FabricValue::names() {
-  py::list names;
-  for (const KeyDescription& key : scene_keys()) {
-    if (!key.path.starts_with(kPrefix)) continue;
-    names.append(python_name(key.path.substr(std::string(kPrefix).size())));
-  }
-  return names;
-}
-
-py::dict FabricValue::provenance() const {
-  py::dict all;
-  for (const auto& [key, from] : fabric().provenance) all[py::str(key)] = provenance_dict(from);
-  return all;
-}
-
-py::dict FabricValue::published() const {
-  py::dict all;
-  for (const auto& [name, number] : fabric().published) {
-    py::dict entry = provenance_dict(number.provenance);
-    entry["value"] = number.value;
-    entry["unit"] = number.unit;
-    all[py::str(name)] = entry;
-  }
-  return all;
-}
-
 Fabric fabric_from_python(py::handle fabric) {
   if (py::isinstance<FabricValue>(fabric)) return fabric.cast<const FabricValue&>().checked();
   return FabricValue(py::str(fabric), {}).fabric();
@@ -112,12 +112,12 @@ b1, b2: bending rigidity at first bending and once friction has saturated [N m];
       .def("__dir__",
            [](py::object self) {
              const py::object object = py::module_::import("builtins").attr("object");
-             return py::list(object.attr("__dir__")(self)) + FabricValue::names();
+             return py::list(object.attr("__dir__")(self)) + key_names();
            })
       .def("__repr__", [](const FabricValue& f) { return "Fabric(\"" + f.fabric().name + "\")"; })
-      .def("provenance", &FabricValue::provenance,
+      .def("provenance", &provenance,
            "Source, confidence and standard error (or None) of each number, by its key.")
-      .def("published", &FabricValue::published,
+      .def("published", &published,
            "What sources print besides (B, 2HB, drape-coefficient, ...): value, unit and source, by name.")
       .def(
           "friction_moment", [](const FabricValue& f) { return f.fabric().virgin_curve().friction_moment(); },

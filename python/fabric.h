@@ -20,9 +20,6 @@ class FabricValue {
   // "b1", "weft_bending", "bending_stops_thresholds".  AttributeError for what no fabric has.
   py::object get(const std::string& name) const;
   void set(const std::string& name, py::handle value);
-  static py::list names();  // of all keys
-  py::dict provenance() const;
-  py::dict published() const;
 
  private:
   Scene scene_;  // of which only the fabric is used: keys are a scene's

@@ -67,8 +67,6 @@ VectorXd stop_errors(const FrictionForm& form, const VectorXd& parameters,
 
 namespace {
 
-using Eigen::VectorXd;
-
 constexpr double kSpringSpread = 1;  // prior standard deviation of a logarithm: a factor of 2.7
 // HB/b2 that the prior of b2 is centred on [1/m]: the KES pairs of assets/fabrics have 18 to 53.
 constexpr double kFrictionOverSpring = 50;

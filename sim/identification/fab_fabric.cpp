@@ -7,7 +7,7 @@
 
 #include "sim/base/error.h"
 #include "sim/reference/kes_in_plane.h"
-#include "sim/scene/fabric_reader.h"
+#include "sim/scene/key_table.h"
 
 namespace hysteron {
 namespace {
@@ -187,10 +187,6 @@ FabFabric fab_fabric(const Fabric& fabric) {
   result.warp_tension = in_plane_law(fabric, Along::warp).tension;
   result.weft_tension = in_plane_law(fabric, Along::weft).tension;
   return result;
-}
-
-FabFabric read_fab_fabric(const std::string& name_or_file, const std::string& origin) {
-  return fab_fabric(read_fabric(name_or_file, origin).fabric);
 }
 
 }  // namespace hysteron

@@ -53,7 +53,5 @@ struct FabFabric {
 // Without stops of its own along weft, a fabric bends along weft and bias as weft-bending and bias-bending
 // say.
 FabFabric fab_fabric(const Fabric& fabric);
-// By name (assets/fabrics) or file.  Throws as read_fabric().
-FabFabric read_fab_fabric(const std::string& name_or_file, const std::string& origin);
 
 }  // namespace hysteron

@@ -14,13 +14,6 @@ double StopsLaw::friction() const {
   return std::inner_product(stiffnesses.begin(), stiffnesses.end(), thresholds.begin(), 0.0);
 }
 
-double StopsLaw::loop_area(double amplitude) const {
-  double area = 0;
-  for (int j = 0; j < stops(); ++j)
-    area += 4 * stiffnesses[j] * thresholds[j] * std::max(0.0, amplitude - thresholds[j]);
-  return area;
-}
-
 StopsPoint respond(const StopsLaw& law, const double* anchors, double x) {
   StopsPoint at{law.spring * x, law.spring, law.spring * x * x / 2, 0};
   for (int j = 0; j < law.stops(); ++j) {

@@ -17,8 +17,6 @@ struct StopsLaw {
   int stops() const { return static_cast<int>(thresholds.size()); }
   double initial_stiffness() const;  // b + sum p_j, also after each reversal
   double friction() const;           // sum p_j r_j: half the width of a loop on which every stop slips
-  // Enclosed by a cycle between +-amplitude: 4 p_j r_j (A - r_j) of each stop that slips.
-  double loop_area(double amplitude) const;
 };
 
 // One point of a body with that law.

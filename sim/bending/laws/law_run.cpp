@@ -5,7 +5,6 @@
 #include "sim/base/archive.h"
 #include "sim/bending/laws/law_commands.h"
 #include "sim/bending/laws/law_visit.h"
-#include "sim/bending/laws/recovery.h"
 
 namespace hysteron {
 
@@ -103,12 +102,6 @@ LawRun run_law(const LawRequest& request, const std::vector<LawRow>& rows) {
     }
   });
   return run;
-}
-
-double residual_after(const LawRequest& request, const std::vector<LawRow>& rows) {
-  LawWalk walk(request);
-  for (const LawRow& row : rows) walk.to(row);
-  return walk.residual();
 }
 
 LawWalk::LawWalk(const LawRequest& request) {

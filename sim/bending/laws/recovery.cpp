@@ -63,4 +63,10 @@ RecoveryCounts count_recoveries(const VirginCurve& curve, const std::vector<LawR
   return counts;
 }
 
+double residual_after(const LawRequest& request, const std::vector<LawRow>& rows) {
+  LawWalk walk(request);
+  for (const LawRow& row : rows) walk.to(row);
+  return walk.residual();
+}
+
 }  // namespace hysteron

@@ -52,7 +52,7 @@ TEST(FabFabric, IsOneOfScenesWithItsStopsOfBendingAndInThePlane) {
   EXPECT_TRUE(fabric.in_plane.shear.empty());
   EXPECT_EQ(fabric.weft, 30);
   EXPECT_EQ(fabric.provenance.at("membrane.stops.warp.thresholds").confidence, "fitted");
-  const FabFabric tested = read_fab_fabric(file, "test");
+  const FabFabric tested = fab_fabric(read_fabric(file, "test").fabric);
   EXPECT_EQ(tested.name, "mine");
   EXPECT_EQ(tested.density, 0.3);
   expect_same(tested.strip("L").bending, found.bending[0].law);
@@ -79,7 +79,7 @@ TEST(FabFabric, ThatNoSceneWouldTakeIsNotWritten) {
 // Friction uniform on [0, k0], of which the virgin curve is M0 (2u - u^2).
 TEST(FabFabric, WithoutStopsBendsAsItsThreeNumbersSay) {
   const VirginCurve curve = read_fabric("cotton-broad", "test").fabric.virgin_curve();
-  const StopsLaw law = read_fab_fabric("cotton-broad", "test").strip("warp").bending;
+  const StopsLaw law = fab_fabric(read_fabric("cotton-broad", "test").fabric).strip("warp").bending;
   constexpr double kRounding = 1e-12;
   EXPECT_EQ(law.spring, curve.b2);
   EXPECT_NEAR(law.initial_stiffness(), curve.b1, kRounding * curve.b1);
