@@ -8,10 +8,10 @@
 
 namespace hysteron {
 
-CouplingList::CouplingList(const Couplings& couplings) : below_(couplings.start.size() - 1) {
-  for (std::size_t i = 0; i < below_.size(); ++i)
-    below_[i].assign(couplings.item.begin() + couplings.start[i],
-                     couplings.item.begin() + couplings.start[i + 1]);
+CouplingList::CouplingList(const Adjacency& couplings) : below_(couplings.start.size() - 1) {
+  for (int i = 0; i < static_cast<int>(below_.size()); ++i)
+    for (int j = couplings.start[i]; j < couplings.start[i + 1]; ++j)
+      if (couplings.item[j] < i) below_[i].push_back(couplings.item[j]);
 }
 
 void CouplingList::add(std::span<const int> nodes) {
