@@ -38,10 +38,6 @@ std::string value_text(const Value& value) {
       value);
 }
 
-std::string with_unit(const std::string& value, const KeyDescription& key) {
-  return key.unit.empty() ? value : value + " " + key.unit;
-}
-
 // "fabric.b2 = -1 N m must be >= 0 (scene.toml:7)"
 Error refusal(const KeyDescription& key, const std::string& value, const std::string& must,
               const std::string& origin) {
@@ -67,7 +63,8 @@ Error wrong_type(const KeyDescription& key, const Value& value, const std::strin
 void check_number(const KeyDescription& key, double x, const std::string& shown, const std::string& origin) {
   const std::string allowed = std::isfinite(x) ? key.range.text() : "finite";
   if (std::isfinite(x) && key.range.contains(x)) return;
-  throw refusal(key, with_unit(shown, key), allowed, origin).with_key(key.path, shown);
+  const std::string unit = key.unit.empty() ? "" : " " + key.unit;
+  throw refusal(key, shown + unit, allowed, origin).with_key(key.path, shown);
 }
 
 void check_choice(const KeyDescription& key, const std::string& name, const std::string& origin) {
