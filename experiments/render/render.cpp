@@ -21,8 +21,8 @@
 #include "sim/base/comma_list.h"
 #include "sim/base/error.h"
 #include "sim/mesh/cloth_mesh.h"
-#include "sim/mesh/mesh_doubts.h"
 #include "sim/mesh/mesh_sequence.h"
+#include "sim/mesh/topology.h"
 
 namespace hysteron::experiments {
 namespace {

@@ -13,7 +13,6 @@
 #include "sim/base/error.h"
 #include "sim/base/number_in.h"
 #include "sim/base/whole_file.h"
-#include "sim/mesh/mesh_doubts.h"
 #include "sim/mesh/topology.h"
 
 namespace hysteron {
