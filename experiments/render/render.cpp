@@ -22,8 +22,8 @@
 #include "sim/base/error.h"
 #include "sim/base/number_in.h"
 #include "sim/mesh/cloth_mesh.h"
-#include "sim/mesh/mesh_doubts.h"
 #include "sim/mesh/mesh_sequence.h"
+#include "sim/mesh/topology.h"
 
 namespace hysteron::experiments {
 namespace {

@@ -60,6 +60,7 @@ class BlockRows {
   }
   // Position of block (row, column) among the off-diagonal blocks.
   int slot(int row, int column) const { return slot_in_row(pattern_, row, column); }
+  const Adjacency& pattern() const { return pattern_; }
   const std::vector<int>& row_ptr() const { return pattern_.start; }
   const std::vector<int>& col() const { return pattern_.item; }
   std::vector<Mat3<Real>> off_diagonal() const { return off_diagonal_.download(); }

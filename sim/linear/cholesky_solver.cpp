@@ -1,7 +1,6 @@
 #include "sim/linear/cholesky_solver.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace hysteron {
@@ -215,13 +214,9 @@ CholeskySolver<Real>::CholeskySolver(Cpu& device, const BlockRows<Real, Cpu>& pa
       pcg_(device, static_cast<int>(pattern.row_ptr().size()) - 1),
       bending_(std::move(bending)),
       self_contact_(std::move(self_contact)),
-      row_ptr_(pattern.row_ptr()),
-      col_(pattern.col()),
-      values_(3 * (row_ptr_.size() - 1)) {
-  const int rows = static_cast<int>(row_ptr_.size()) - 1;
-  CouplingList list(rows);
-  for (int i = 0; i < rows; ++i)
-    for (int j = row_ptr_[i]; j < row_ptr_[i + 1]; ++j) list.add(std::array{i, col_[j]});
+      pattern_(pattern.pattern()),
+      values_(3 * (pattern_.start.size() - 1)) {
+  CouplingList list(pattern_);
   if (bending_)
     for (int e = 0; e < bending_->elements(); ++e) list.add(bending_->vertices(e));
   always_ = list.take();
@@ -235,8 +230,8 @@ void CholeskySolver<Real>::take_couplings(Couplings couplings) {
   row_slot_.clear();
   bending_slot_.clear();
   for (int i = 0; i < matrix_.nodes(); ++i)
-    for (int j = row_ptr_[i]; j < row_ptr_[i + 1]; ++j)
-      row_slot_.push_back(col_[j] < i ? matrix_.slot(i, col_[j]) : -1);
+    for (int j = pattern_.start[i]; j < pattern_.start[i + 1]; ++j)
+      row_slot_.push_back(pattern_.item[j] < i ? matrix_.slot(i, pattern_.item[j]) : -1);
   if (bending_)
     for (int e = 0; e < bending_->elements(); ++e) matrix_.find_slots(bending_->vertices(e), bending_slot_);
 }
@@ -261,7 +256,7 @@ void CholeskySolver<Real>::assemble(const BlockRowsView<Real>& rows, const char*
   matrix_.set_zero();
   for (int i = 0; i < rows.rows; ++i) {
     matrix_.diagonal[i] = rows.diagonal[i].template cast<double>();
-    for (int j = row_ptr_[i]; j < row_ptr_[i + 1]; ++j)
+    for (int j = pattern_.start[i]; j < pattern_.start[i + 1]; ++j)
       if (row_slot_[j] >= 0) matrix_.below[row_slot_[j]] = rows.off_diagonal[j].template cast<double>();
   }
   const int* slots = bending_slot_.data();

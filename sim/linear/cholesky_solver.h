@@ -72,8 +72,8 @@ class CholeskySolver : public LinearSolver<Real, Cpu>, private Preconditioner<Re
   Cpu& device_;
   Pcg<Real, Cpu> pcg_;
   std::unique_ptr<ElementStiffness> bending_, self_contact_;
-  std::vector<int> row_ptr_, col_;  // of the systems' matrices
-  Couplings always_;                // of these and of bending
+  Adjacency pattern_;  // of the systems' matrices
+  Couplings always_;   // of these and of bending
   std::vector<int> row_slot_, bending_slot_;
   SymmetricBlocks matrix_;  // of which the factorisation is
   std::optional<SparseCholesky> factor_;

@@ -19,25 +19,12 @@ std::vector<DeviceInterpolation<Real>> device_form(const std::vector<Interpolati
 }
 
 // Rows: coarse nodes; items: the finer nodes that see them, ascending.
-Adjacency transposed(const RestLevel& level, std::vector<double>& weight) {
-  Adjacency rows;
-  rows.start.assign(level.nodes + 1, 0);
-  const auto each = [&](auto&& visit) {
-    for (std::size_t i = 0; i < level.finer.size(); ++i)
-      for (int k = 0; k < 3; ++k)
-        if (level.finer[i].weight[k] > 0)
-          visit(static_cast<int>(i), level.finer[i].node[k], level.finer[i].weight[k]);
-  };
-  each([&](int, int coarse, double) { ++rows.start[coarse + 1]; });
-  for (int c = 0; c < level.nodes; ++c) rows.start[c + 1] += rows.start[c];
-  rows.item.resize(rows.start.back());
-  weight.resize(rows.start.back());
-  std::vector<int> next(rows.start.begin(), rows.start.end() - 1);
-  each([&](int fine, int coarse, double w) {
-    rows.item[next[coarse]] = fine;
-    weight[next[coarse]++] = w;
-  });
-  return rows;
+Adjacency transposed(const RestLevel& level) {
+  std::vector<std::vector<int>> rows(level.nodes);
+  for (std::size_t i = 0; i < level.finer.size(); ++i)
+    for (int k = 0; k < 3; ++k)
+      if (level.finer[i].weight[k] > 0) rows[level.finer[i].node[k]].push_back(static_cast<int>(i));
+  return compressed(rows);
 }
 
 template <class Real>
@@ -50,7 +37,6 @@ std::vector<Real> rounded(const std::vector<double>& values) {
 template <class Real, class Device>
 CoarseLevel<Real, Device>::CoarseLevel(Device& device, const RestLevel& level)
     : nodes(level.nodes),
-      finer(device, device_form<Real>(level.finer)),
       row_ptr(device, level.pattern.start),
       col(device, level.pattern.item),
       upper(device, upper_blocks(level.pattern)),
@@ -63,11 +49,16 @@ CoarseLevel<Real, Device>::CoarseLevel(Device& device, const RestLevel& level)
       b(device, nodes),
       x(device, nodes),
       y(device, nodes) {
-  std::vector<double> weight;
-  const Adjacency rows = transposed(level, weight);
+  const std::vector<DeviceInterpolation<Real>> seen = device_form<Real>(level.finer);
+  const Adjacency rows = transposed(level);
+  std::vector<Real> weight;
+  for (int c = 0; c < nodes; ++c)
+    for (int j = rows.start[c]; j < rows.start[c + 1]; ++j)
+      weight.push_back(seen[rows.item[j]].interpolation_weight(c));
+  finer = Buffer<DeviceInterpolation<Real>, Device>(device, seen);
   gather_start = Buffer<int, Device>(device, rows.start);
   gather_item = Buffer<int, Device>(device, rows.item);
-  gather_weight = Buffer<Real, Device>(device, rounded<Real>(weight));
+  gather_weight = Buffer<Real, Device>(device, weight);
 }
 
 template <class Real, class Device>

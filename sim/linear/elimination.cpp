@@ -8,10 +8,10 @@
 
 namespace hysteron {
 
-CouplingList::CouplingList(const Couplings& couplings) : below_(couplings.start.size() - 1) {
-  for (std::size_t i = 0; i < below_.size(); ++i)
-    below_[i].assign(couplings.item.begin() + couplings.start[i],
-                     couplings.item.begin() + couplings.start[i + 1]);
+CouplingList::CouplingList(const Adjacency& couplings) : below_(couplings.start.size() - 1) {
+  for (int i = 0; i < static_cast<int>(below_.size()); ++i)
+    for (int j = couplings.start[i]; j < couplings.start[i + 1]; ++j)
+      if (couplings.item[j] < i) below_[i].push_back(couplings.item[j]);
 }
 
 void CouplingList::add(std::span<const int> nodes) {
@@ -80,32 +80,16 @@ void SymmetricBlocks::hold(const char* held) {
 
 namespace {
 
-// Both directions of the couplings, with where each stands below the diagonal.
-struct Graph {
-  std::vector<int> start, neighbour, slot;
-
-  explicit Graph(const Couplings& below) : start(below.start.size(), 0) {
-    const int nodes = size();
-    for (int i = 0; i < nodes; ++i)
-      for (int j = below.start[i]; j < below.start[i + 1]; ++j) {
-        ++start[i + 1];
-        ++start[below.item[j] + 1];
-      }
-    for (int i = 0; i < nodes; ++i) start[i + 1] += start[i];
-    neighbour.resize(start[nodes]);
-    slot.resize(start[nodes]);
-    std::vector<int> next(start.begin(), start.end() - 1);
-    for (int i = 0; i < nodes; ++i)
-      for (int j = below.start[i]; j < below.start[i + 1]; ++j) {
-        const int ends[2] = {i, below.item[j]};
-        for (int k = 0; k < 2; ++k) {
-          slot[next[ends[k]]] = j;
-          neighbour[next[ends[k]]++] = ends[1 - k];
-        }
-      }
-  }
-  int size() const { return static_cast<int>(start.size()) - 1; }
-};
+// The couplings in both directions, each node's in ascending order.
+Adjacency both_ways(const Couplings& below) {
+  std::vector<std::vector<int>> rows(below.start.size() - 1);
+  for (int i = 0; i < static_cast<int>(rows.size()); ++i)
+    for (int j = below.start[i]; j < below.start[i + 1]; ++j) {
+      rows[i].push_back(below.item[j]);
+      rows[below.item[j]].push_back(i);
+    }
+  return compressed(rows);
+}
 
 std::vector<int> ranks(const std::vector<int>& order) {
   std::vector<int> rank(order.size());
@@ -113,20 +97,21 @@ std::vector<int> ranks(const std::vector<int>& order) {
   return rank;
 }
 
-std::vector<int> minimum_degree_order(const Graph& graph) {
-  std::vector<int> order(graph.size());
-  if (amd_order(graph.size(), graph.start.data(), graph.neighbour.data(), order.data(), nullptr, nullptr) < 0)
+std::vector<int> minimum_degree_order(const Adjacency& graph) {
+  const int nodes = static_cast<int>(graph.start.size()) - 1;
+  std::vector<int> order(nodes);
+  if (amd_order(nodes, graph.start.data(), graph.item.data(), order.data(), nullptr, nullptr) < 0)
     throw Error::system("the linear system is too large to be factorised: linear-solver = multigrid");
   return order;
 }
 
 // For each column of the factor the row of its first entry below the diagonal, -1 without any (Liu 1990, 4).
-std::vector<int> elimination_tree(const Graph& graph, const std::vector<int>& order) {
+std::vector<int> elimination_tree(const Adjacency& graph, const std::vector<int>& order) {
   const std::vector<int> rank = ranks(order);
   std::vector<int> parent(order.size(), -1), ancestor(order.size(), -1);
-  for (int k = 0; k < graph.size(); ++k)
+  for (int k = 0; k < static_cast<int>(order.size()); ++k)
     for (int j = graph.start[order[k]]; j < graph.start[order[k] + 1]; ++j)
-      for (int i = rank[graph.neighbour[j]]; i >= 0 && i < k;) {
+      for (int i = rank[graph.item[j]]; i >= 0 && i < k;) {
         const int next = ancestor[i];
         ancestor[i] = k;
         if (next < 0) parent[i] = k;
@@ -153,13 +138,13 @@ std::vector<int> in_postorder(const std::vector<int>& order, const std::vector<i
 }
 
 // Rows of each column of the factor below its diagonal.
-std::vector<std::vector<int>> factor_columns(const Graph& graph, const std::vector<int>& order) {
+std::vector<std::vector<int>> factor_columns(const Adjacency& graph, const std::vector<int>& order) {
   const std::vector<int> rank = ranks(order), parent = elimination_tree(graph, order);
   std::vector<std::vector<int>> column(order.size());
-  for (int k = 0; k < graph.size(); ++k) {
+  for (int k = 0; k < static_cast<int>(order.size()); ++k) {
     std::vector<int>& rows = column[k];  // those of children are there already
     for (int j = graph.start[order[k]]; j < graph.start[order[k] + 1]; ++j)
-      rows.push_back(rank[graph.neighbour[j]]);
+      rows.push_back(rank[graph.item[j]]);
     std::sort(rows.begin(), rows.end());
     rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
     rows.erase(rows.begin(), std::upper_bound(rows.begin(), rows.end(), k));
@@ -232,7 +217,7 @@ void link_fronts(Elimination& plan) {
   }
 }
 
-void place_blocks(const Graph& graph, const Couplings& below, Elimination& plan) {
+void place_blocks(const Adjacency& graph, const Couplings& below, Elimination& plan) {
   const std::vector<int> rank = ranks(plan.order);
   std::vector<int> at(plan.order.size());
   for (Front& front : plan.front) {
@@ -242,8 +227,9 @@ void place_blocks(const Graph& graph, const Couplings& below, Elimination& plan)
       const int node = plan.order[front.first + k];
       plan.block.push_back({-1, k, k, false});
       for (int j = graph.start[node]; j < graph.start[node + 1]; ++j) {
-        const int other = rank[graph.neighbour[j]], slot = graph.slot[j];
-        if (other > front.first + k) plan.block.push_back({slot, at[other], k, below.item[slot] != node});
+        const auto [lower, higher] = std::minmax(node, graph.item[j]);
+        const int other = rank[graph.item[j]], slot = slot_in_row(below, higher, lower);
+        if (other > front.first + k) plan.block.push_back({slot, at[other], k, lower != node});
       }
     }
     front.block_end = static_cast<int>(plan.block.size());
@@ -276,7 +262,7 @@ std::size_t highest_stack(const std::vector<Front>& fronts) {
 }  // namespace
 
 Elimination plan_elimination(const Couplings& couplings) {
-  const Graph graph(couplings);
+  const Adjacency graph = both_ways(couplings);
   Elimination plan;
   plan.order = minimum_degree_order(graph);
   plan.order = in_postorder(plan.order, elimination_tree(graph, plan.order));

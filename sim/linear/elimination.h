@@ -21,8 +21,8 @@ using Couplings = Adjacency;
 class CouplingList {
  public:
   explicit CouplingList(int nodes) : below_(nodes) {}
-  explicit CouplingList(const Couplings& couplings);
-  void add(std::span<const int> nodes);  // any two of them
+  explicit CouplingList(const Adjacency& couplings);  // each in both directions, or in the lower row
+  void add(std::span<const int> nodes);               // any two of them
   Couplings take();
 
  private:

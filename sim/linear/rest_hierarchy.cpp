@@ -260,30 +260,24 @@ void couple(const Interpolation& a, const Interpolation& b, std::vector<std::vec
     }
 }
 
-// First level: what the vertices' matrix and the plate's hinges couple.
-Adjacency first_pattern(const ClothMesh& mesh, const Adjacency& couplings, const RestLevel& level) {
-  std::vector<std::vector<int>> rows(level.nodes);
-  for (int v = 0; v < mesh.vertices(); ++v) {
-    couple(level.finer[v], level.finer[v], rows);
-    for (int j = couplings.start[v]; j < couplings.start[v + 1]; ++j)
-      couple(level.finer[v], level.finer[couplings.item[j]], rows);
-  }
-  for (const Edge& e : mesh.edge) {
-    const int corner[4] = {e.p2, e.p3, e.p0, e.interior() ? e.p1 : e.p0};
-    for (int k = 0; k < 4; ++k)
-      for (int l = 0; l < k; ++l) couple(level.finer[corner[k]], level.finer[corner[l]], rows);
-  }
-  return compressed(rows);
-}
-
-Adjacency next_pattern(const Adjacency& fine, const RestLevel& level) {
+// What the finer nodes' matrix couples.
+std::vector<std::vector<int>> coarse_rows(const Adjacency& fine, const RestLevel& level) {
   std::vector<std::vector<int>> rows(level.nodes);
   for (std::size_t i = 0; i + 1 < fine.start.size(); ++i) {
     couple(level.finer[i], level.finer[i], rows);
     for (int j = fine.start[i]; j < fine.start[i + 1]; ++j)
       couple(level.finer[i], level.finer[fine.item[j]], rows);
   }
-  return compressed(rows);
+  return rows;
+}
+
+// First level: what the plate's hinges couple, too.
+void couple_hinges(const ClothMesh& mesh, const RestLevel& level, std::vector<std::vector<int>>& rows) {
+  for (const Edge& e : mesh.edge) {
+    const int corner[4] = {e.p2, e.p3, e.p0, e.interior() ? e.p1 : e.p0};
+    for (int k = 0; k < 4; ++k)
+      for (int l = 0; l < k; ++l) couple(level.finer[corner[k]], level.finer[corner[l]], rows);
+  }
 }
 
 struct Coefficient {
@@ -367,8 +361,9 @@ RestHierarchy make_rest_hierarchy(const ClothMesh& mesh, const Adjacency& coupli
     level.nodes = coarse.size();
     level.finer = interpolations(surface, root, cell, coarse);
     const bool first = hierarchy.empty();
-    level.pattern =
-        first ? first_pattern(mesh, couplings, level) : next_pattern(hierarchy.back().pattern, level);
+    auto rows = coarse_rows(first ? couplings : hierarchy.back().pattern, level);
+    if (first) couple_hinges(mesh, level, rows);
+    level.pattern = compressed(rows);
     level.plate_diagonal.assign(level.nodes, 0);
     level.plate_off_diagonal.assign(level.pattern.item.size(), 0);
     if (first)

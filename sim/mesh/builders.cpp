@@ -84,26 +84,22 @@ Flat random_cells(int nx, int ny, unsigned seed) {
   return flat;
 }
 
-// What a family's cells look like, for choosing their numbers: a row of n has 2 n + extra triangles.
-struct CellShape {
-  double height_over_width;
-  int extra;
-};
-
 // Numbers of cells for about `triangles` triangles: the pair that best weighs the count against the shape.
-std::pair<int, int> cell_counts(double length, double width, int triangles, const CellShape& shape) {
+std::pair<int, int> cell_counts(double length, double width, int triangles, MeshFamily family) {
+  const double height_over_width = row_height(family);
+  const int extra = in_rows(family) ? 1 : 0;  // a row of n cells has 2 n + extra triangles
   const auto at_least_one = [](double n) { return std::clamp(std::round(n), 1.0, 0.5 * kMaxTriangles); };
-  const auto columns = [&](double ny) { return at_least_one(0.5 * (triangles / ny - shape.extra)); };
-  const auto rows = [&](double nx) { return at_least_one(triangles / (2 * nx + shape.extra)); };
+  const auto columns = [&](double ny) { return at_least_one(0.5 * (triangles / ny - extra)); };
+  const auto rows = [&](double nx) { return at_least_one(triangles / (2 * nx + extra)); };
   std::pair<double, double> best{1, 1};
   double least = INFINITY;
   const auto consider = [&](double nx, double ny) {
-    const double aspect = (width / ny) / (length / nx * shape.height_over_width);
+    const double aspect = (width / ny) / (length / nx * height_over_width);
     const double cost =
-        4 * std::abs(std::log(ny * (2 * nx + shape.extra) / triangles)) + std::abs(std::log(aspect));
+        4 * std::abs(std::log(ny * (2 * nx + extra) / triangles)) + std::abs(std::log(aspect));
     if (cost < least) least = cost, best = {nx, ny};
   };
-  const double ideal = std::sqrt(0.5 * triangles * length / width * shape.height_over_width);
+  const double ideal = std::sqrt(0.5 * triangles * length / width * height_over_width);
   for (const double nx : {std::floor(ideal), std::ceil(ideal)})
     consider(at_least_one(nx), rows(at_least_one(nx)));
   for (const double ny : {std::floor(0.5 * triangles / ideal), std::ceil(0.5 * triangles / ideal)})
@@ -183,8 +179,7 @@ ClothMesh make_grid(double length, double width, int nx, int ny, MeshFamily fami
 ClothMesh make_rectangle(double length, double width, int triangles, MeshFamily family, unsigned seed) {
   check_size(length, width);
   check_triangles("rectangle", triangles);
-  const CellShape shape{row_height(family), in_rows(family) ? 1 : 0};
-  const auto [nx, ny] = cell_counts(length, width, triangles, shape);
+  const auto [nx, ny] = cell_counts(length, width, triangles, family);
   return make_grid(length, width, nx, ny, family, seed);
 }
 

@@ -117,7 +117,7 @@ ClothMesh copied_mesh(const ClothMesh& mesh, int copies, const Eigen::Vector3d& 
 // Reads a Wavefront OBJ of triangles and quads (quads are cut along the shorter diagonal) in that unit.
 // Texture coordinates, where every corner has one, become the pattern, or panels if they have seams.
 // weld > 0 merges each vertex into the first one closer than that distance [m].  Adds to `doubts`, where they
-// are asked for, those of mesh_doubts.h.
+// are asked for, those of mesh_doubts() (topology.h).
 // Throws Error::system for a file that cannot be read; Error::invalid_input, naming the file and the line,
 // for malformed lines, numbers that are not finite, quads that cross themselves, and all that build_topology
 // refuses.

@@ -125,8 +125,8 @@ std::array<int, 3> axes_by_spread(const std::vector<Bounds>& bounds) {
 }  // namespace
 
 std::vector<std::pair<int, int>> intersecting_triangles(const std::vector<Eigen::Vector3i>& face,
-                                                        const std::vector<Eigen::Vector3d>& position,
-                                                        std::size_t most) {
+                                                        const std::vector<Eigen::Vector3d>& position) {
+  constexpr std::size_t kMost = 1000000;
   std::vector<Bounds> bounds;
   for (const auto& f : face) bounds.push_back(triangle_bounds(f, position));
   const auto [first, second, third] = axes_by_spread(bounds);
@@ -138,7 +138,7 @@ std::vector<std::pair<int, int>> intersecting_triangles(const std::vector<Eigen:
   for (const int f : order) sorted.push_back(bounds[f]);
   const Crossing cross(face, position);
   std::vector<std::pair<int, int>> found;
-  for (std::size_t i = 0; i < order.size() && found.size() < most; ++i)
+  for (std::size_t i = 0; i < order.size() && found.size() < kMost; ++i)
     for (std::size_t j = i + 1; j < order.size() && sorted[j].low[first] <= sorted[i].high[first]; ++j) {
       if (!overlap(sorted[i], sorted[j], second) || !overlap(sorted[i], sorted[j], third)) continue;
       const auto [a, b] = std::minmax(order[i], order[j]);

@@ -10,9 +10,8 @@ namespace hysteron {
 
 // Pairs of triangles (first < second) that intersect at these positions, in ascending order; triangles that
 // share an edge count as neighbours and never do, those that share a vertex where they meet elsewhere as
-// well. `most` ends the search early.
+// well.  A million of them end the search.
 std::vector<std::pair<int, int>> intersecting_triangles(const std::vector<Eigen::Vector3i>& face,
-                                                        const std::vector<Eigen::Vector3d>& position,
-                                                        std::size_t most = 1000000);
+                                                        const std::vector<Eigen::Vector3d>& position);
 
 }  // namespace hysteron

@@ -1,5 +1,4 @@
-#include "sim/mesh/mesh_doubts.h"
-
+// What is doubtful about a cloth that a file holds.
 #include <algorithm>
 #include <cmath>
 

@@ -15,7 +15,6 @@
 
 #include "sim/base/error.h"
 #include "sim/base/whole_file.h"
-#include "sim/mesh/mesh_doubts.h"
 #include "sim/mesh/topology.h"
 
 namespace hysteron {

@@ -1,6 +1,4 @@
 // Source of the format: Autodesk 3ds Max, Point Cache 2.
-#include "sim/mesh/point_cache.h"
-
 #include <array>
 #include <bit>
 #include <cstdint>
@@ -8,6 +6,7 @@
 #include <fstream>
 
 #include "sim/base/error.h"
+#include "sim/mesh/mesh_export.h"
 
 namespace hysteron {
 namespace {

@@ -22,6 +22,20 @@ struct MeshNames {
 // As build_topology(mesh, what), with the file's lines in its messages.
 void build_topology(ClothMesh& mesh, const MeshNames& names);
 
+// What is doubtful about a cloth that a file holds, though it can be simulated: what looks like one surface
+// and is several.
+
+// A sentence for each of these that the mesh has, with how many there are and where the first one stands:
+//
+//   several parts, or no hinge    parts of the surface that share no edge; nothing of a lone triangle bends
+//   coincident boundary vertices  exporters write them along seams and between triangles of a "soup"
+//   T-junctions                   a boundary vertex within the boundary edge of a triangle, where that does
+//                                 not end
+//   fans that meet in a vertex    corners of the surface hang together by a point, about which both turn
+//
+// A slit, a second cloth or an eyelet may be meant: none of these is refused.  The mesh has its topology.
+std::vector<std::string> mesh_doubts(const ClothMesh& mesh, const MeshNames& names);
+
 // Joining vertices that lie on each other, as exporters leave them along seams.
 
 // For each point the lowest-numbered kept point closer than `distance` [m], or itself, which is then kept.

@@ -6,7 +6,7 @@
 #include "sim/base/atomic_file.h"
 #include "sim/base/error.h"
 #include "sim/base/number_in.h"
-#include "sim/mesh/vtk.h"
+#include "sim/mesh/mesh_export.h"
 
 namespace hysteron {
 namespace {

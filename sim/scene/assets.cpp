@@ -38,12 +38,12 @@ fs::path find_asset(const std::string& kind, const std::string& name, const std:
   std::error_code ignored;
   if (fs::is_regular_file(name, ignored)) return name;
   const fs::path folder = assets_folder() / kind;
-  const fs::path file = folder / (name + ".toml");
-  if (!name.empty() && fs::is_regular_file(file, ignored)) return file;
   std::string hyphenated = name;  // as others spell the same names
   std::replace(hyphenated.begin(), hyphenated.end(), '_', '-');
-  if (hyphenated != name && fs::is_regular_file(folder / (hyphenated + ".toml"), ignored))
-    return folder / (hyphenated + ".toml");
+  for (const std::string& spelled : {name, hyphenated})
+    if (const fs::path file = folder / (spelled + ".toml");
+        !spelled.empty() && fs::is_regular_file(file, ignored))
+      return file;
   const std::vector<std::string> names = list_assets(kind);
   throw Error::invalid_input("no file and none of the " + kind + " is called \"" + name + "\" (" + origin +
                              "); there are: " + join(names, ", ") + suggestion(name, names));

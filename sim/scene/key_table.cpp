@@ -39,10 +39,6 @@ std::string value_text(const Value& value) {
       value);
 }
 
-std::string with_unit(const std::string& value, const KeyDescription& key) {
-  return key.unit.empty() ? value : value + " " + key.unit;
-}
-
 // "fabric.b2 = -1 N m must be >= 0 (scene.toml:7)"
 Error refusal(const KeyDescription& key, const std::string& value, const std::string& must,
               const std::string& origin) {
@@ -68,7 +64,8 @@ Error wrong_type(const KeyDescription& key, const Value& value, const std::strin
 void check_number(const KeyDescription& key, double x, const std::string& shown, const std::string& origin) {
   const std::string allowed = std::isfinite(x) ? key.range.text() : "finite";
   if (std::isfinite(x) && key.range.contains(x)) return;
-  throw refusal(key, with_unit(shown, key), allowed, origin).with_key(key.path, shown);
+  const std::string unit = key.unit.empty() ? "" : " " + key.unit;
+  throw refusal(key, shown + unit, allowed, origin).with_key(key.path, shown);
 }
 
 void check_choice(const KeyDescription& key, const std::string& name, const std::string& origin) {
@@ -114,20 +111,18 @@ void assign_integer(const KeyDescription& key, Integer& target, const Value& val
   target = static_cast<Integer>(x);
 }
 
-void assign_vector(const KeyDescription& key, Eigen::Vector3d& target, const Value& value,
-                   const std::string& origin) {
-  const auto* components = std::get_if<std::vector<double>>(&value);
-  if (!components || components->size() != 3) throw wrong_type(key, value, origin);
-  for (double x : *components) check_number(key, x, value_text(value), origin);
-  target = {(*components)[0], (*components)[1], (*components)[2]};
+const Numbers& as_numbers(const KeyDescription& key, const Value& value, const std::string& origin) {
+  const auto* numbers = std::get_if<Numbers>(&value);
+  if (!numbers || (key.type == "vector" && numbers->size() != 3)) throw wrong_type(key, value, origin);
+  for (double x : *numbers) check_number(key, x, value_text(value), origin);
+  return *numbers;
 }
 
-void assign_numbers(const KeyDescription& key, Numbers& target, const Value& value,
-                    const std::string& origin) {
-  const auto* numbers = std::get_if<Numbers>(&value);
-  if (!numbers) throw wrong_type(key, value, origin);
-  for (double x : *numbers) check_number(key, x, value_text(value), origin);
-  target = *numbers;
+const std::string& as_text(const KeyDescription& key, const Value& value, const std::string& origin) {
+  const auto* text = std::get_if<std::string>(&value);
+  if (!text) throw wrong_type(key, value, origin);
+  check_choice(key, *text, origin);
+  return *text;
 }
 
 // The whole text as a number; false if anything is left over.
@@ -208,22 +203,17 @@ void assign(const BoundKey& key, const Value& value, const std::string& origin) 
                         check_number(what, x, value_text(value), origin);
                         *target = x;
                       },
-                      [&](Eigen::Vector3d* target) { assign_vector(what, *target, value, origin); },
-                      [&](std::string* target) {
-                        const auto* text = std::get_if<std::string>(&value);
-                        if (!text) throw wrong_type(what, value, origin);
-                        check_choice(what, *text, origin);
-                        *target = *text;
+                      [&](Eigen::Vector3d* target) {
+                        *target = Eigen::Vector3d::Map(as_numbers(what, value, origin).data());
                       },
+                      [&](std::string* target) { *target = as_text(what, value, origin); },
                       [&](Parameters* target) { assign_parameter(what, *target, value, origin); },
-                      [&](Numbers* target) { assign_numbers(what, *target, value, origin); },
+                      [&](Numbers* target) { *target = as_numbers(what, value, origin); },
                       [&](const NamedValue& target) {
-                        const auto* text = std::get_if<std::string>(&value);
-                        if (!text) throw wrong_type(what, value, origin);
-                        check_choice(what, *text, origin);
+                        const std::string& text = as_text(what, value, origin);
                         target.set(target.value,
                                    static_cast<std::size_t>(
-                                       std::find(target.names.begin(), target.names.end(), *text) -
+                                       std::find(target.names.begin(), target.names.end(), text) -
                                        target.names.begin()));
                       }},
              key.field);

@@ -1,8 +1,8 @@
 #include "sim/scene/scene_reader.h"
 
 #include <algorithm>
-#include <charconv>
 #include <filesystem>
+#include <optional>
 
 #include "sim/base/error.h"
 #include "sim/scene/assets.h"
@@ -251,14 +251,12 @@ double phase_time(const std::vector<Phase>& phases, const std::string& text, con
                                origin + ")");
   }
   if (sign == std::string::npos) return start;
-  const std::size_t digit = text.find_first_not_of(' ', sign + 1);
-  double more = 0;
-  const char* end = text.data() + text.size();
-  const bool digits = digit != std::string::npos;
-  if (!digits || std::from_chars(text.data() + digit, end, more).ptr != end)
+  const std::size_t digit = std::min(text.find_first_not_of(' ', sign + 1), text.size());
+  const std::optional<double> more = number_in(std::string_view(text).substr(digit));
+  if (!more)
     throw Error::invalid_input(
         "\"" + text + "\": after the phase, + or - and a number of seconds are expected (" + origin + ")");
-  return text[sign] == '-' ? start - more : start + more;
+  return text[sign] == '-' ? start - *more : start + *more;
 }
 
 std::string Scene::phase_at(double time) const {

@@ -47,6 +47,21 @@ class TomlWriter {
  public:
   TomlWriter(const Scene& scene, const std::set<std::string>& own) : scene_(scene), own_(own) {}
 
+  std::string whole(const std::vector<FurtherKey>& others) {
+    Scene copy = scene_;
+    text_ << "# A resolved scene: every key, its unit, and where its value comes from.\n";
+    keys(bind_scene(copy));
+    parameters();
+    if (!others.empty()) text_ << "\n";
+    for (const FurtherKey& key : others) line(key.path, key.value, "", "");
+    tables("phase", scene_.phase, bind_phase);
+    tables("pin", scene_.pin, bind_pin);
+    tables("obstacle", scene_.obstacle, bind_obstacle);
+    tables("command", scene_.command, bind_command);
+    return text_.str();
+  }
+
+ private:
   // "fabric.k0 = 50.0  # [1/m] --fabric.k0"
   void line(const std::string& path, const std::string& value, const std::string& unit,
             const std::string& origin) {
@@ -84,11 +99,6 @@ class TomlWriter {
     prefix_.clear();
   }
 
-  std::string text() const { return text_.str(); }
-  void comment(const std::string& words) { text_ << "# " << words << "\n"; }
-  void gap() { text_ << "\n"; }
-
- private:
   void keyframes(const Motion& motion) {
     if (motion.keys.empty()) return;
     text_ << prefix_ << "keys = [\n";
@@ -122,18 +132,7 @@ std::string fabric_to_read(const Scene& scene) {
 
 std::string scene_toml(const Scene& scene, const std::set<std::string>& own,
                        const std::vector<FurtherKey>& others) {
-  Scene copy = scene;
-  TomlWriter writer(scene, own);
-  writer.comment("A resolved scene: every key, its unit, and where its value comes from.");
-  writer.keys(bind_scene(copy));
-  writer.parameters();
-  if (!others.empty()) writer.gap();
-  for (const FurtherKey& key : others) writer.line(key.path, key.value, "", "");
-  writer.tables("phase", scene.phase, bind_phase);
-  writer.tables("pin", scene.pin, bind_pin);
-  writer.tables("obstacle", scene.obstacle, bind_obstacle);
-  writer.tables("command", scene.command, bind_command);
-  return writer.text();
+  return TomlWriter(scene, own).whole(others);
 }
 
 }  // namespace hysteron

@@ -30,12 +30,6 @@ bool all_numbers(const toml::array& array) {
   return std::all_of(array.begin(), array.end(), [](const toml::node& x) { return x.is_number(); });
 }
 
-bool is_list(const toml::array& array) {
-  const auto all = [&](bool (*is)(const toml::node&)) { return std::all_of(array.begin(), array.end(), is); };
-  return all([](const toml::node& x) { return x.is_string(); }) ||
-         all([](const toml::node& x) { return x.is_boolean(); });
-}
-
 // Keys and texts stand in messages of one line, in captions and in names of files.
 void throw_if_control_characters(const std::string& text, const std::string& file, int line) {
   const auto is_control = [](unsigned char c) { return (c < 0x20 && c != '\t') || c == 0x7F; };
@@ -66,7 +60,8 @@ ValueTree convert_array(const Source& from, const std::string& key, const toml::
     node.value = numbers;
     return node;
   }
-  const bool list = from.lists == Lists::allowed && is_list(source);
+  const bool list =
+      from.lists == Lists::allowed && (source.is_homogeneous<std::string>() || source.is_homogeneous<bool>());
   for (const toml::node& element : source) {
     if (!list && !element.is_table()) convert_value(from.file, key, source);
     node.children.push_back(convert(from, "", element));

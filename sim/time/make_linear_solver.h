@@ -32,9 +32,7 @@ std::unique_ptr<LinearSolver<Real, Device>> make_gradient_solver(const Body<Body
   const double rigidity = scene.is_implicit() ? body.bending.law().largest_stiffness() : 0;
   return std::make_unique<MultigridSolver<Real, Device>>(
       device, body.cloth.mesh,
-      make_rest_hierarchy(body.cloth.mesh, {body.matrix.row_ptr(), body.matrix.col()},
-                          body.cloth.held(scene, 0)),
-      rigidity);
+      make_rest_hierarchy(body.cloth.mesh, body.matrix.pattern(), body.cloth.held(scene, 0)), rigidity);
 }
 
 template <class Device>

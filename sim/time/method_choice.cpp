@@ -1,7 +1,6 @@
 #include "sim/time/method_choice.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "sim/base/error.h"
@@ -36,10 +35,7 @@ bool solves_with_newton(const Scene& scene) {
 }  // namespace
 
 double factorisation_work(const ClothMesh& mesh, const Adjacency& couplings, const CurvatureOperator& op) {
-  CouplingList list(mesh.vertices());
-  for (int v = 0; v < mesh.vertices(); ++v)
-    for (int j = couplings.start[v]; j < couplings.start[v + 1]; ++j)
-      list.add(std::array{v, couplings.item[j]});
+  CouplingList list(couplings);
   for (int e = 0; e < op.elements(); ++e) {
     std::vector<int> vertices;
     for (int j = op.hinge.start[e]; j < op.hinge.start[e + 1]; ++j) {

@@ -9,8 +9,7 @@
 #include "render/inset.h"
 #include "sim/base/atomic_file.h"
 #include "sim/bending/vertex_curvature.h"
-#include "sim/mesh/point_cache.h"
-#include "sim/mesh/vtk.h"
+#include "sim/mesh/mesh_export.h"
 
 namespace hysteron::experiments {
 namespace {

@@ -1,5 +1,5 @@
 // What is said about meshes that can be simulated and are hardly what was meant.
-#include "sim/mesh/mesh_doubts.h"
+#include "sim/mesh/topology.h"
 
 #include <gtest/gtest.h>
 

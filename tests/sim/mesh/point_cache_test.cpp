@@ -1,4 +1,4 @@
-#include "sim/mesh/point_cache.h"
+#include "sim/mesh/mesh_export.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,8 @@
-// Meshes with fields for ParaView and VTK: a .vtp file per instant, a .pvd file that gives each its time.
+// Meshes in motion for other programs.
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <string>
 #include <utility>
 #include <vector>
@@ -9,6 +10,8 @@
 #include "sim/mesh/cloth_mesh.h"
 
 namespace hysteron {
+
+// With fields for ParaView and VTK: a .vtp file per instant, a .pvd file that gives each its time.
 
 // Values of one field, `components` per vertex or per face.
 struct VtkField {
@@ -25,5 +28,14 @@ void write_vtp(const std::string& file, const ClothMesh& mesh, const std::vector
 
 // Names of .vtp files beside it with their times [s].
 void write_pvd(const std::string& file, const std::vector<std::pair<double, std::string>>& instants);
+
+// The positions as a point cache, which Blender's modifier Mesh Cache and Houdini's node Point Cache play on
+// the mesh of an OBJ file.
+
+// Writes the positions [m] of instant 0, 1, ... into a PC2 file, in single precision: instant 0 begins a new
+// file, each other one follows the one before it in the file.  A file that is cut short is whole up to its
+// last instant.  Throws Error::system.
+void write_to_point_cache(const std::string& file, std::size_t instant,
+                          const std::vector<Eigen::Vector3d>& position);
 
 }  // namespace hysteron
