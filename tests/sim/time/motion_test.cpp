@@ -42,8 +42,7 @@ TEST_P(TwoIntegrators, FreeFallGainsExactlyTheWeightsMomentum) {
     Scene scene = test::free_square();
     scene.integrator = value_named<Integrator>(GetParam());
     scene.law = law;
-    Trial trial(scene);
-    test::ripple(trial.cloth, 3e-3);
+    const Trial trial = test::rippled(scene, 3e-3);
     const auto simulation = trial.after(50);
     const Momenta sum = momenta(trial, *simulation);
     const Vector3d expected = sum.mass * scene.gravity * simulation->time();
@@ -69,8 +68,7 @@ TEST(ExplicitIntegrator, KeepsAngularMomentumOfATumblingCloth) {
   scene.integrator = Integrator::explicit_euler;
   scene.law = "prandtl";
   scene.gravity.setZero();
-  Trial trial(scene);
-  test::ripple(trial.cloth, 3e-3);
+  const Trial trial = test::rippled(scene, 3e-3);
   const auto simulation = trial.after(50);
   const Momenta sum = momenta(trial, *simulation);
   const double scale = 0.2 * sum.size;  // levers of the cloth's size
@@ -84,9 +82,8 @@ TEST(SemiImplicitIntegrator, AngularMomentumErrorShrinksWithTheStep) {
     Scene scene = test::free_square();
     scene.gravity.setZero();
     scene.step = step;
-    Trial trial(scene);
-    test::ripple(trial.cloth, 3e-3);
-    const auto simulation = trial.after(static_cast<int>(std::lround(0.02 / step)));
+    const Trial trial = test::rippled(scene, 3e-3);
+    const auto simulation = trial.at(0.02);
     const Momenta sum = momenta(trial, *simulation);
     return sum.angular.norm() / (0.2 * sum.size);
   };
@@ -101,8 +98,7 @@ TEST_P(TwoIntegrators, StepTurnsWithTheWorld) {
     Scene scene = test::hanging_square();
     scene.integrator = value_named<Integrator>(GetParam());
     scene.law = law;
-    Trial trial(scene);
-    test::ripple(trial.cloth, 3e-3);
+    const Trial trial = test::rippled(scene, 3e-3);
     Trial turned = trial;
     const Eigen::Matrix3d turn = Eigen::AngleAxisd(1.9, Vector3d(1, -2, 2).normalized()).toRotationMatrix();
     const auto move = [&](const Vector3d& x) { return Vector3d(turn * x + Vector3d(0.3, 0.1, -0.5)); };

@@ -21,8 +21,7 @@ Scene capped(int iterations) {
 
 // What the solve leaves unbalanced is a term of its own, so that the ledger closes nevertheless.
 TEST(UnconvergedSteps, CloseTheLedger) {
-  Trial one(capped(1));
-  test::ripple(one.cloth, 3e-3);
+  const Trial one = test::rippled(capped(1), 3e-3);
   const auto simulation = one.after(20);
   const Ledger ledger = simulation->ledger();
   EXPECT_EQ(simulation->counts().unbalanced, 20);
