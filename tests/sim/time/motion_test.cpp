@@ -10,28 +10,13 @@ namespace hysteron {
 namespace {
 
 using Eigen::Vector3d;
+using test::Momenta;
+using test::momenta;
 using test::Trial;
 
 constexpr double kMotionRounding = 1e-12;
 // Two correctly solved steps differ by the solver's tolerance, amplified over tens of steps.
 constexpr double kSolved = 1e-9;
-
-struct Momenta {
-  Vector3d linear = Vector3d::Zero(), angular = Vector3d::Zero();
-  double mass = 0, size = 0;  // size: of all vertices' momenta
-};
-
-Momenta momenta(const Trial& trial, Simulation& simulation) {
-  Momenta sum;
-  const auto x = simulation.positions(), v = simulation.velocities();
-  for (int i = 0; i < trial.cloth.mesh.vertices(); ++i) {
-    sum.linear += trial.mass(i) * v[i];
-    sum.angular += trial.mass(i) * x[i].cross(v[i]);
-    sum.mass += trial.mass(i);
-    sum.size += trial.mass(i) * v[i].norm();
-  }
-  return sum;
-}
 
 class TwoIntegrators : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Both, TwoIntegrators, testing::Values("semi-implicit", "explicit"),

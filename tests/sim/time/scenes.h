@@ -123,6 +123,24 @@ inline ScenePart scene_part(const Simulation& simulation, const std::string& nam
   throw std::out_of_range("no part named " + name);
 }
 
+// Sums over the vertices.
+struct Momenta {
+  Eigen::Vector3d linear = Eigen::Vector3d::Zero(), angular = Eigen::Vector3d::Zero();
+  double mass = 0, size = 0;  // size: of all vertices' momenta
+};
+
+inline Momenta momenta(const Trial& trial, Simulation& simulation) {
+  Momenta sum;
+  const auto x = simulation.positions(), v = simulation.velocities();
+  for (int i = 0; i < trial.cloth.mesh.vertices(); ++i) {
+    sum.linear += trial.mass(i) * v[i];
+    sum.angular += trial.mass(i) * x[i].cross(v[i]);
+    sum.mass += trial.mass(i);
+    sum.size += trial.mass(i) * v[i].norm();
+  }
+  return sum;
+}
+
 inline double farthest(const Positions& a, const Positions& b) {
   double result = 0;
   for (std::size_t i = 0; i < a.size(); ++i) result = std::max(result, (a[i] - b[i]).norm());
