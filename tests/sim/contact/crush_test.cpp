@@ -41,8 +41,7 @@ Trial pressed_sheet(const std::string& integrator, double lowest) {
 
 // Moves on until the plate is down; what ends the run.
 std::string press(const Trial& trial, Simulation& simulation) {
-  const int steps = static_cast<int>(std::lround(1.2 * kDown / trial.scene.step));
-  return test::refusal([&] { simulation.advance(steps); }, kCannotGoOn);
+  return test::refusal([&] { simulation.advance(trial.steps(1.2 * kDown)); }, kCannotGoOn);
 }
 
 // Between two plates h apart, both shells give in alike: each is sunk into by t - h/2.  At h = t that is half
@@ -137,8 +136,7 @@ TEST(Blow, ThatDrivesTheClothDeepIntoAnObstacleIsNoCrushing) {
   ball.motion.keys = {{0, {0, 0, 0}, 0}, {0.02, {0, 0, 0.1}, 0}};  // 7.5 m/s in its middle
   scene.obstacle = {ball};
   const Trial trial(scene);
-  const auto simulation = trial.simulation();
-  simulation->advance(250);
+  const auto simulation = trial.after(250);
   EXPECT_GT(simulation->counts().deep, 0);
   int top = 0;
   for (int i = 1; i < trial.cloth.mesh.vertices(); ++i)

@@ -66,7 +66,7 @@ struct Slide {
 
 Slide slide(const Trial& trial, double seconds) {
   std::vector<int> vertices = test::upper_vertices(trial);
-  const int half = static_cast<int>(std::lround(seconds / trial.scene.step / 2));
+  const int half = trial.steps(seconds / 2);
   const auto simulation = trial.after(half);
   const double displacement = mean_displacement(trial, *simulation, vertices),
                speed = average_speed(*simulation, vertices);

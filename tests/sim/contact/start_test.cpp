@@ -200,8 +200,7 @@ TEST(Obstacle, ThatAppearsWhereTheClothIsEndsTheRunWithPlaceAndTime) {
     trial.scene.integrator = value_named<Integrator>(integrator);
     trial.scene.gravity.setZero();
     trial.scene.obstacle[1].from = 0.02;
-    const auto simulation = trial.simulation();
-    simulation->advance(20);
+    const auto simulation = trial.after(20);
     const std::string failure = test::refusal([&] { simulation->advance(1); }, 3);
     EXPECT_TRUE(says(failure, "at t = 0.02 s", "10 mm inside obstacle[1] (box)", "vertex ", " at ("))
         << integrator;

@@ -69,8 +69,7 @@ TEST_P(Sweep, PlateOfAMillimetreAtFiveMetresASecondCarriesTheClothBeforeIt) {
   plate.motion.keys = {{0, {0, 0, 0}, 0}, {kSeconds, {0, 0, kTravel}, 0}};
   scene.obstacle = {plate};
   const Trial trial(scene);
-  const auto simulation = trial.simulation();
-  simulation->advance(static_cast<int>(std::lround(kSeconds / kStep)));
+  const auto simulation = trial.at(kSeconds);
   EXPECT_GT(lowest_over(*simulation, kTravel - below + kHalf), 0);
   EXPECT_EQ(simulation->counts().deep, 0);
   EXPECT_LT(simulation->ledger().remainder_relative, kSweptClosed);
@@ -101,8 +100,7 @@ TEST_P(SweepInMotion, TurningPlateTakesTheClothAlong) {
   plate.motion.keys = {{0, {0, 0, 0}, 0}, {kSeconds, {0, 0, 0}, -kDegrees}};
   scene.obstacle = {plate};
   const Trial trial(scene);
-  const auto simulation = trial.simulation();
-  simulation->advance(static_cast<int>(std::lround(kSeconds / kStep)));
+  const auto simulation = trial.at(kSeconds);
   const Eigen::AngleAxisd back(kDegrees * std::numbers::pi / 180, Vector3d::UnitY());
   for (const Vector3d& x : simulation->positions()) EXPECT_GT((back * x - plate.center).z(), kHalf);
   EXPECT_LT(simulation->ledger().remainder_relative, kSweptClosed);

@@ -68,8 +68,7 @@ class CudaToOpenGl : public testing::TestWithParam<std::string> {
     std::string reason;
     offscreen_ = context_of_the_gpu(reason);
     if (!offscreen_) GTEST_SKIP() << "no GPU that both simulates and draws: " << reason;
-    trial_ = std::make_unique<Trial>(hanging("cuda", GetParam()));
-    test::ripple(trial_->cloth, 5e-3);
+    trial_ = std::make_unique<Trial>(test::rippled(hanging("cuda", GetParam()), 5e-3));
     simulation_ = trial_->simulation();
   }
   testing::AssertionResult share_with(Drawing& drawing) {

@@ -32,8 +32,7 @@ struct Profile {
 
 Profile kernel_profile(const Scene& scene) {
   const test::Trial trial(scene);
-  const auto simulation = trial.simulation();
-  simulation->advance(1);  // scratch is allocated
+  const auto simulation = trial.after(1);  // scratch is allocated
   EXPECT_TRUE(simulation->kernel_costs().empty());
   simulation->profile();
   const DeviceCounts before = simulation->counts().device;

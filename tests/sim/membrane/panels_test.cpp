@@ -1,5 +1,8 @@
 // The membrane of panels that are sewn together.
 #include "sim/membrane/membrane.h"
+
+#include <gtest/gtest.h>
+
 #include "tests/sim/mesh/panel_tube.h"
 
 namespace hysteron {

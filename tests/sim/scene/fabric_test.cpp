@@ -1,6 +1,5 @@
 #include <cmath>
 #include <cstdlib>
-#include <fstream>
 
 #include "sim/base/whole_file.h"
 #include "sim/scene/assets.h"
@@ -332,14 +331,13 @@ const BadFabric kBadFabrics[] = {
 INSTANTIATE_TEST_SUITE_P(Fabrics, BadFabricFile, testing::ValuesIn(kBadFabrics), test::CaseName());
 
 TEST(Assets, AreTakenFromTheNamedFolderFirst) {
-  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "hysteron-assets";
-  std::filesystem::create_directories(folder / "fabrics");
-  std::ofstream(folder / "fabrics" / "mine.toml") << kMinimal << kThickness;
-  setenv("HYSTERON_ASSETS", folder.c_str(), 1);
+  const test::Folder folder;
+  std::filesystem::create_directories(folder.path() / "fabrics");
+  folder.write("fabrics/mine.toml", std::string(kMinimal) + kThickness);
+  setenv("HYSTERON_ASSETS", folder.path().c_str(), 1);
   const std::vector<std::string> names = list_assets("fabrics");
   const Fabric fabric = read_fabric("mine", "test").fabric;
   unsetenv("HYSTERON_ASSETS");
-  std::filesystem::remove_all(folder);
   EXPECT_EQ(names, std::vector<std::string>{"mine"});
   EXPECT_EQ(fabric.name, "mine");
 }

@@ -98,12 +98,11 @@ motion-axis = [0, 1, 0]
 }
 
 TEST(SceneFile, FindsAClothBesideItself) {
-  const TextFile cloth("", ".obj");
-  const std::string name = std::filesystem::path(cloth.path()).filename();
-  const TextFile file("mesh = \"" + name + "\"\n");
+  const test::Folder folder;
+  folder.write("cloth.obj", "");
   Scene scene = default_scene();
-  apply_scene_file(scene, file.path());
-  EXPECT_EQ(std::filesystem::path(scene.mesh), std::filesystem::path(cloth.path()));
+  apply_scene_file(scene, folder.write("scene.toml", "mesh = \"cloth.obj\"\n"));
+  EXPECT_EQ(std::filesystem::path(scene.mesh), folder.path() / "cloth.obj");
 }
 
 // However they are written.

@@ -166,8 +166,7 @@ TEST(History, IsCommittedOncePerSubstepAtThePositionsBeforeIt) {
       scene.integrator = value_named<Integrator>(integrator);
       scene.step = 1e-5;
       scene.fabric.damping = 0;
-      Trial trial(scene);
-      test::ripple(trial.cloth, 3e-3);
+      const Trial trial = test::rippled(scene, 3e-3);
       const auto simulation = trial.simulation();
       ASSERT_EQ(simulation->limits().substeps, 1);
       const CurvatureOperator op =

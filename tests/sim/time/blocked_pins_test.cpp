@@ -17,10 +17,6 @@ bool crosses(const Trial& trial, Simulation& simulation) {
   return !intersecting_triangles(trial.cloth.mesh.face, simulation.positions()).empty();
 }
 
-int steps_in(const Trial& trial, double seconds) {
-  return static_cast<int>(std::lround(seconds / trial.scene.step));
-}
-
 // The upper sheet, all of it or its part up to `most_x` [m], is led through the lower one, which is held, and
 // back.
 Trial led_through(double most_x, Integrator integrator = Integrator::implicit) {
@@ -64,14 +60,14 @@ TEST(BlockedPins, OfTwoRigidHandsLeadNothingThroughEachOtherAndReturn) {
     const Trial trial = led_through(most_x);
     const auto simulation = trial.simulation();
     for (int k = 0; k < 2; ++k) {
-      simulation->advance(steps_in(trial, kTime / 2));
+      simulation->advance(trial.steps(kTime / 2));
       EXPECT_FALSE(crosses(trial, *simulation)) << k;
     }
     EXPECT_GT(simulation->counts().blocked_pins, 0);
     EXPECT_GT(simulation->counts().saturated_pins, 0);
     EXPECT_EQ(simulation->counts().unbalanced, 0);
     EXPECT_NEAR(simulation->counts().pin_lag, kTravel - kGap, Fabric{}.thickness);
-    simulation->advance(steps_in(trial, 1.2 * kTime));
+    simulation->advance(trial.steps(1.2 * kTime));
     for (const auto& vertices : trial.cloth.pin_vertices)
       for (int i : vertices)
         EXPECT_NEAR((simulation->positions()[i] - trial.cloth.start[i]).norm(), 0, kRounding);
@@ -81,7 +77,7 @@ TEST(BlockedPins, OfTwoRigidHandsLeadNothingThroughEachOtherAndReturn) {
 // What no step can reach is not written as its end.
 TEST(BlockedPins, AreNotPutWhereTheyCouldNotGo) {
   const Trial trial = led_through(kAll);
-  const auto simulation = trial.after(steps_in(trial, kTime));
+  const auto simulation = trial.at(kTime);
   double lowest = kGap, highest = 0;
   const auto x = simulation->positions();
   for (int i : trial.cloth.pin_vertices[1]) lowest = std::min(lowest, x[i].z());
@@ -93,7 +89,7 @@ TEST(BlockedPins, AreNotPutWhereTheyCouldNotGo) {
 // Pressed by no more than ten times the pressure of the compression test, on both sheets alike.
 TEST(BlockedPins, PressWithTheirPressureOnTheAreaOfWhatTheyHold) {
   const Trial trial = led_through(kAll);
-  const auto simulation = trial.after(steps_in(trial, kTime));
+  const auto simulation = trial.at(kTime);
   const auto force = simulation->handle_forces();
   Vector3d sum = Vector3d::Zero();
   double area = 0;
@@ -109,7 +105,7 @@ TEST(BlockedPins, DoWorkThatTheBalanceCloses) {
   for (Integrator integrator : {Integrator::implicit, Integrator::bdf2, Integrator::tr_bdf2}) {
     Trial trial = led_through(kPart, integrator);
     trial.scene.newton_residual = 1e-9;
-    const auto simulation = trial.after(steps_in(trial, 2.2 * kTime));
+    const auto simulation = trial.at(2.2 * kTime);
     EXPECT_GT(simulation->counts().blocked_pins, 0);
     EXPECT_LT(std::abs(simulation->ledger().remainder_relative), 1e-9) << enum_name(integrator);
   }
@@ -118,7 +114,7 @@ TEST(BlockedPins, DoWorkThatTheBalanceCloses) {
 TEST(BlockedPins, AreRigidWhereNothingIsInTheirWay) {
   Trial trial = led_through(kPart);
   trial.scene.pin[1].motion.keys[1].position.z() = 3 * kTravel;  // up
-  const auto simulation = trial.after(steps_in(trial, kTime));
+  const auto simulation = trial.at(kTime);
   EXPECT_EQ(simulation->counts().blocked_pins, 0);
   EXPECT_EQ(simulation->counts().pin_lag, 0);
 }
@@ -127,7 +123,7 @@ TEST(BlockedPins, GiveWayInSemiImplicitStepsAndInSinglePrecisionToo) {
   for (const bool single : {false, true}) {
     Trial trial = led_through(kPart, single ? Integrator::implicit : Integrator::semi_implicit);
     if (single) trial.scene.precision = Precision::fp32;
-    const auto simulation = trial.after(steps_in(trial, kTime));
+    const auto simulation = trial.at(kTime);
     EXPECT_GT(simulation->counts().blocked_pins, 0);
     EXPECT_FALSE(crosses(trial, *simulation));
   }

@@ -158,7 +158,7 @@ TEST(PinsOfLimitedStrength, ThatPushTheClothThroughItselfLagBehind) {
   Trial trial = test::two_sheets(kGap, 60);
   const Motion down{{{0}, {kTime, {0, 0, -kTravel}}}};
   test::hold_upper(trial, {.strength = kStrength, .motion = down}, 0.7 * test::kUpperSide);
-  const auto simulation = trial.after(static_cast<int>(std::lround(1.5 * kTime / trial.scene.step)));
+  const auto simulation = trial.at(1.5 * kTime);
   EXPECT_EQ(simulation->counts().unbalanced, 0);
   EXPECT_GT(simulation->counts().saturated_pins, 0);
   EXPECT_GT(simulation->counts().pin_lag, kTravel - kGap);
@@ -180,7 +180,7 @@ TEST(PinsOfLimitedStrength, AgainstEachOtherDoNotTear) {
   trial.scene.pin[0].strength = 4;
   const Motion down{{{0}, {kTime, {0, 0, -kGap}}}};
   test::hold_upper(trial, {.strength = 1, .motion = down}, 1);  // all of it
-  const auto simulation = trial.after(static_cast<int>(std::lround(1.5 * kTime / trial.scene.step)));
+  const auto simulation = trial.at(1.5 * kTime);
   const auto x = simulation->positions();
   EXPECT_TRUE(intersecting_triangles(trial.cloth.mesh.face, x).empty());
   const double yield_distance = kYieldFractionOfThickness * trial.scene.fabric.thickness;

@@ -21,9 +21,7 @@ Trial rippled(const std::string& law, const LawParameters& parameters = {}) {
   scene.law = law;
   scene.param = parameters;
   scene.gravity.setZero();
-  Trial trial(scene);
-  test::ripple(trial.cloth, 3e-2);
-  return trial;
+  return test::rippled(scene, 3e-2);
 }
 
 class EveryLawInMotion : public testing::TestWithParam<std::string> {};

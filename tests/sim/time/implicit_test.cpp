@@ -32,9 +32,7 @@ Scene soft_sheet(const std::string& law, const std::string& integrator, double s
 }
 
 Positions shape_after(const Scene& scene, double seconds) {
-  Trial trial(scene);
-  test::ripple(trial.cloth, 5e-3);
-  return trial.after(static_cast<int>(std::lround(seconds / scene.step)))->positions();
+  return test::rippled(scene, 5e-3).at(seconds)->positions();
 }
 
 struct OrderCase {
@@ -107,9 +105,7 @@ TEST(NewtonIterations, BeyondTheToleranceDoNotMatter) {
   scene.newton_velocity = 0;
   const auto shape = [&](double residual) {
     scene.newton_residual = residual;
-    Trial trial(scene);
-    test::ripple(trial.cloth, 3e-3);
-    return trial.after(15)->positions();
+    return test::rippled(scene, 3e-3).after(15)->positions();
   };
   const Positions exact = shape(1e-12), usual = shape(1e-6), loose = shape(1e-3);
   EXPECT_LT(test::farthest(usual, exact), 1e-6);  // [m]
@@ -124,8 +120,7 @@ TEST(Friction, NeverGivesEnergyBackInAnyImplicitStep) {
     scene.integrator = Integrator::implicit;
     scene.step = 1.0 / 60;
     scene.fabric.k0 = 5;
-    Trial trial(scene);
-    test::ripple(trial.cloth, 5e-3);
+    const Trial trial = test::rippled(scene, 5e-3);
     const auto simulation = trial.simulation();
     double last = 0;
     for (int step = 0; step < 20; ++step) {
@@ -153,10 +148,8 @@ TEST(LinearSolvers, LeadToTheSameMotion) {
     scene.newton_residual = 1e-10;
     scene.newton_velocity = 0;
     scene.linear_solver = k == 0 ? Preconditioning::multigrid : Preconditioning::block_jacobi;
-    Trial trial(scene);
-    test::ripple(trial.cloth, 1e-3);
-    const auto simulation = trial.simulation();
-    simulation->advance(40);
+    const Trial trial = test::rippled(scene, 1e-3);
+    const auto simulation = trial.after(40);
     ends[k] = simulation->positions();
     EXPECT_GT(test::farthest(ends[k], trial.cloth.start), 1e-2);
   }
@@ -209,8 +202,7 @@ TEST(Turned, SceneMovesAlike) {
     scene.newton_residual = 1e-11;
     scene.newton_velocity = 0;
     scene.gravity = rotation * scene.gravity;
-    Trial trial(scene);
-    test::ripple(trial.cloth, 5e-3);
+    Trial trial = test::rippled(scene, 5e-3);
     for (Eigen::Vector3d& x : trial.cloth.start) x = rotation * x;
     return trial.after(12)->positions();
   };
@@ -229,8 +221,7 @@ TEST(Tolerance, TighterTakesMorePartsAndComesNearer) {
     for (double tolerance : {1e-4, 1e-5, 1e-6}) {
       Scene scene = soft_sheet("prandtl", integrator, 0.016);
       scene.tolerance = tolerance;
-      Trial trial(scene);
-      test::ripple(trial.cloth, 5e-3);
+      const Trial trial = test::rippled(scene, 5e-3);
       const auto simulation = trial.after(4);
       const double error = test::farthest(simulation->positions(), exact);
       EXPECT_LT(error, last_error) << integrator << " " << tolerance;
@@ -244,9 +235,7 @@ TEST(Tolerance, TighterTakesMorePartsAndComesNearer) {
 // The first step of bdf2 is backward Euler's; tr-bdf2 starts itself once it knows an acceleration.
 TEST(TrBdf2, LosesLessThanBdf2AtTwiceTheStep) {
   const auto loss = [](const std::string& integrator, double step) {
-    Trial trial(soft_sheet("linear", integrator, step));
-    test::ripple(trial.cloth, 5e-3);
-    return trial.after(static_cast<int>(std::lround(0.064 / step)))->ledger().integrator();
+    return test::rippled(soft_sheet("linear", integrator, step), 5e-3).at(0.064)->ledger().integrator();
   };
   EXPECT_GT(loss("tr-bdf2", 0.8e-3), 0);
   EXPECT_LT(loss("tr-bdf2", 0.8e-3), loss("bdf2", 0.4e-3));

@@ -37,8 +37,7 @@ INSTANTIATE_TEST_SUITE_P(Cases, Balance, testing::ValuesIn(kLedgerCases), test::
 TEST_P(Balance, ClosesForASwingingCloth) {
   Scene scene = law_scene(GetParam().law, GetParam().integrator);
   scene.fabric.damping = 0;
-  Trial trial(scene);
-  test::ripple(trial.cloth, 3e-3);
+  const Trial trial = test::rippled(scene, 3e-3);
   const Ledger ledger = trial.after(scene.is_implicit() ? 20 : 100)->ledger();
   if (scene.integrator != Integrator::quasi_static) {
     EXPECT_GT(ledger.kinetic, 0);
@@ -63,7 +62,7 @@ TEST_P(Balance, ClosesWithDampingAirMovingHandleMovingObstacleAndARelease) {
   sphere.motion.keys = {{0, {0, 0, 0}, 0}, {0.05, {0.01, 0, 0.02}, 30}};
   scene.obstacle = {sphere};
   const Trial trial(scene);
-  const Ledger ledger = trial.after(static_cast<int>(std::lround(0.06 / scene.step)))->ledger();
+  const Ledger ledger = trial.at(0.06)->ledger();
   EXPECT_GT(ledger.obstacle_work, 0);
   EXPECT_GT(ledger.contact_friction, 0);
   if (!statics) {
@@ -91,8 +90,7 @@ TEST(Ledger, ClosesForClothFallingOnTheGround) {
 // What has been moving is brought to rest: nothing moves any more, and what was kinetic energy is booked.
 TEST(Ledger, ClosesWhenAMotionIsEndedAtItsEquilibrium) {
   for (const char* integrator : {"implicit", "bdf2"}) {
-    Trial trial(law_scene("prandtl", integrator));
-    test::ripple(trial.cloth, 3e-3);
+    const Trial trial = test::rippled(law_scene("prandtl", integrator), 3e-3);
     const auto simulation = trial.after(20);
     ASSERT_GT(simulation->ledger().kinetic, 0);
     simulation->become_static();
@@ -137,7 +135,7 @@ double loss_order(const std::string& integrator, double step, double damping) {
     scene.fabric.damping = damping;
     scene.fabric.warp = scene.fabric.weft = 20;  // soft: the step resolves every wave
     scene.fabric.shear = 5;
-    loss[level] = Trial(scene).after(static_cast<int>(std::lround(0.1 / scene.step)))->ledger().integrator();
+    loss[level] = Trial(scene).at(0.1)->ledger().integrator();
   }
   EXPECT_NE(loss[1], 0);
   return std::log2(std::abs(loss[0] / loss[1]));
@@ -175,9 +173,7 @@ TEST(Ledger, SharesWhatWasDissipatedBetweenTheIntegratorAndTheCloth) {
     Scene scene = law_scene(law, "implicit");
     scene.step = step;
     scene.air_drag = scene.fabric.damping = 0;
-    Trial trial(scene);
-    test::ripple(trial.cloth, 3e-3);
-    return trial.after(std::lround(0.02 / step))->ledger().integrator_share();
+    return test::rippled(scene, 3e-3).at(0.02)->ledger().integrator_share();
   };
   EXPECT_EQ(fraction("linear", 1e-3), 1);
   const double coarse = fraction("prandtl", 1e-3), fine = fraction("prandtl", 2.5e-4);
@@ -189,9 +185,7 @@ TEST(Ledger, SharesWhatWasDissipatedBetweenTheIntegratorAndTheCloth) {
 
 TEST(Ledger, AccountsAreThoseOfTheLaw) {
   const auto of = [](const std::string& law) {
-    Trial trial(law_scene(law, "semi-implicit"));
-    test::ripple(trial.cloth, 3e-3);
-    return trial.after(50)->ledger();
+    return test::rippled(law_scene(law, "semi-implicit"), 3e-3).after(50)->ledger();
   };
   EXPECT_EQ(of("linear").bending_friction, 0);
   EXPECT_EQ(of("pabst").bending_friction, 0);

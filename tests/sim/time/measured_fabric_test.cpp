@@ -20,9 +20,7 @@ Trial rippled(const Method& method, const BendingParts& parts) {
   scene.fabric.bending = parts;
   scene.gravity.setZero();
   scene.step = 1e-3;
-  Trial trial(scene);
-  test::ripple(trial.cloth, 3e-2);
-  return trial;
+  return test::rippled(scene, 3e-2);
 }
 
 class MeasuredFabric : public testing::TestWithParam<Method> {};

@@ -10,28 +10,13 @@ namespace hysteron {
 namespace {
 
 using Eigen::Vector3d;
+using test::Momenta;
+using test::momenta;
 using test::Trial;
 
 constexpr double kMotionRounding = 1e-12;
 // Two correctly solved steps differ by the solver's tolerance, amplified over tens of steps.
 constexpr double kSolved = 1e-9;
-
-struct Momenta {
-  Vector3d linear = Vector3d::Zero(), angular = Vector3d::Zero();
-  double mass = 0, size = 0;  // size: of all vertices' momenta
-};
-
-Momenta momenta(const Trial& trial, Simulation& simulation) {
-  Momenta sum;
-  const auto x = simulation.positions(), v = simulation.velocities();
-  for (int i = 0; i < trial.cloth.mesh.vertices(); ++i) {
-    sum.linear += trial.mass(i) * v[i];
-    sum.angular += trial.mass(i) * x[i].cross(v[i]);
-    sum.mass += trial.mass(i);
-    sum.size += trial.mass(i) * v[i].norm();
-  }
-  return sum;
-}
 
 class TwoIntegrators : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Both, TwoIntegrators, testing::Values("semi-implicit", "explicit"),
@@ -42,8 +27,7 @@ TEST_P(TwoIntegrators, FreeFallGainsExactlyTheWeightsMomentum) {
     Scene scene = test::free_square();
     scene.integrator = value_named<Integrator>(GetParam());
     scene.law = law;
-    Trial trial(scene);
-    test::ripple(trial.cloth, 3e-3);
+    const Trial trial = test::rippled(scene, 3e-3);
     const auto simulation = trial.after(50);
     const Momenta sum = momenta(trial, *simulation);
     const Vector3d expected = sum.mass * scene.gravity * simulation->time();
@@ -69,8 +53,7 @@ TEST(ExplicitIntegrator, KeepsAngularMomentumOfATumblingCloth) {
   scene.integrator = Integrator::explicit_euler;
   scene.law = "prandtl";
   scene.gravity.setZero();
-  Trial trial(scene);
-  test::ripple(trial.cloth, 3e-3);
+  const Trial trial = test::rippled(scene, 3e-3);
   const auto simulation = trial.after(50);
   const Momenta sum = momenta(trial, *simulation);
   const double scale = 0.2 * sum.size;  // levers of the cloth's size
@@ -84,9 +67,8 @@ TEST(SemiImplicitIntegrator, AngularMomentumErrorShrinksWithTheStep) {
     Scene scene = test::free_square();
     scene.gravity.setZero();
     scene.step = step;
-    Trial trial(scene);
-    test::ripple(trial.cloth, 3e-3);
-    const auto simulation = trial.after(static_cast<int>(std::lround(0.02 / step)));
+    const Trial trial = test::rippled(scene, 3e-3);
+    const auto simulation = trial.at(0.02);
     const Momenta sum = momenta(trial, *simulation);
     return sum.angular.norm() / (0.2 * sum.size);
   };
@@ -101,8 +83,7 @@ TEST_P(TwoIntegrators, StepTurnsWithTheWorld) {
     Scene scene = test::hanging_square();
     scene.integrator = value_named<Integrator>(GetParam());
     scene.law = law;
-    Trial trial(scene);
-    test::ripple(trial.cloth, 3e-3);
+    const Trial trial = test::rippled(scene, 3e-3);
     Trial turned = trial;
     const Eigen::Matrix3d turn = Eigen::AngleAxisd(1.9, Vector3d(1, -2, 2).normalized()).toRotationMatrix();
     const auto move = [&](const Vector3d& x) { return Vector3d(turn * x + Vector3d(0.3, 0.1, -0.5)); };

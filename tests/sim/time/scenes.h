@@ -28,6 +28,8 @@ struct Trial {
     result->advance(steps);
     return result;
   }
+  int steps(double seconds) const { return static_cast<int>(std::lround(seconds / scene.step)); }
+  std::unique_ptr<Simulation> at(double seconds) const { return after(steps(seconds)); }
   double mass(int vertex) const { return scene.fabric.density * cloth.mesh.vertex_area[vertex]; }
 };
 
@@ -103,13 +105,15 @@ inline Scene hanging_square(int triangles = 200) {
   return scene;
 }
 
-// Starts from waves of some mm instead of flat, so that every force acts from the first step.
-inline void ripple(Cloth& cloth, double height) {
-  for (int i = 0; i < cloth.mesh.vertices(); ++i) {
-    const Eigen::Vector3d& x = cloth.mesh.rest[i];
-    cloth.start[i] += height * Eigen::Vector3d(0.3 * std::sin(60 * x.y()), 0.2 * std::cos(50 * x.x()),
-                                               std::sin(40 * x.x() + 25 * x.y()));
+// Of a scene whose cloth starts from waves of some mm instead of flat, so that every force acts at once.
+inline Trial rippled(const Scene& scene, double height) {
+  Trial trial(scene);
+  for (int i = 0; i < trial.cloth.mesh.vertices(); ++i) {
+    const Eigen::Vector3d& x = trial.cloth.mesh.rest[i];
+    trial.cloth.start[i] += height * Eigen::Vector3d(0.3 * std::sin(60 * x.y()), 0.2 * std::cos(50 * x.x()),
+                                                     std::sin(40 * x.x() + 25 * x.y()));
   }
+  return trial;
 }
 
 // What a simulation pays for under this name.
@@ -117,6 +121,24 @@ inline ScenePart scene_part(const Simulation& simulation, const std::string& nam
   for (const ScenePart& part : simulation.parts())
     if (part.name == name) return part;
   throw std::out_of_range("no part named " + name);
+}
+
+// Sums over the vertices.
+struct Momenta {
+  Eigen::Vector3d linear = Eigen::Vector3d::Zero(), angular = Eigen::Vector3d::Zero();
+  double mass = 0, size = 0;  // size: of all vertices' momenta
+};
+
+inline Momenta momenta(const Trial& trial, Simulation& simulation) {
+  Momenta sum;
+  const auto x = simulation.positions(), v = simulation.velocities();
+  for (int i = 0; i < trial.cloth.mesh.vertices(); ++i) {
+    sum.linear += trial.mass(i) * v[i];
+    sum.angular += trial.mass(i) * x[i].cross(v[i]);
+    sum.mass += trial.mass(i);
+    sum.size += trial.mass(i) * v[i].norm();
+  }
+  return sum;
 }
 
 inline double farthest(const Positions& a, const Positions& b) {

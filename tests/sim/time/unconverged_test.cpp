@@ -6,7 +6,6 @@
 namespace hysteron {
 namespace {
 
-using test::Positions;
 using test::Trial;
 
 constexpr double kUnconvergedRounding = 1e-10;
@@ -21,8 +20,7 @@ Scene capped(int iterations) {
 
 // What the solve leaves unbalanced is a term of its own, so that the ledger closes nevertheless.
 TEST(UnconvergedSteps, CloseTheLedger) {
-  Trial one(capped(1));
-  test::ripple(one.cloth, 3e-3);
+  const Trial one = test::rippled(capped(1), 3e-3);
   const auto simulation = one.after(20);
   const Ledger ledger = simulation->ledger();
   EXPECT_EQ(simulation->counts().unbalanced, 20);
@@ -95,15 +93,9 @@ TEST_P(FreeCloth, SolvesItsStepsAndKeepsItsMomentum) {
     trial.cloth.start[i].z() += 5e-5 * std::sin(20 * trial.cloth.mesh.rest[i].x());
   const auto simulation = trial.after(100);
   EXPECT_EQ(simulation->counts().retried, 0);
-  const Positions v = simulation->velocities();
-  Eigen::Vector3d momentum = Eigen::Vector3d::Zero();
-  double size = 0;
-  for (int i = 0; i < trial.cloth.mesh.vertices(); ++i) {
-    momentum += trial.mass(i) * v[i];
-    size += trial.mass(i) * v[i].norm();
-  }
-  EXPECT_GT(size, 0);
-  EXPECT_LT(momentum.norm(), 1e-5 * size);
+  const test::Momenta sum = test::momenta(trial, *simulation);
+  EXPECT_GT(sum.size, 0);
+  EXPECT_LT(sum.linear.norm(), 1e-5 * sum.size);
 }
 
 // Thrown by a hand that lets go: what rounding makes of forces is all that acts then.
