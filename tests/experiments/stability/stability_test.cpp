@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "experiments/stability/limit.h"
 #include "experiments/workbench/app/experiment.h"
 #include "sim/base/error.h"
 #include "sim/scene/scene_reader.h"
