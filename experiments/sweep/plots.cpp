@@ -102,15 +102,14 @@ class StudyPlots {
     std::map<double, std::pair<double, int>> sums;
     for (const std::size_t r : which) {
       if (std::isnan(numbers[r])) continue;
-      dots.x.push_back(axis_value(x, r));
-      dots.y.push_back(numbers[r]);
+      dots.add(axis_value(x, r), numbers[r]);
       auto& [sum, count] = sums[dots.x.back()];
       sum += numbers[r], ++count;
     }
     if (dots.x.empty()) return;
     if (!axis(x).sampled) {
       render::Series line{"", {}, {}, render::Series::Style::line, dots.color};
-      for (const auto& [at, sum] : sums) line.x.push_back(at), line.y.push_back(sum.first / sum.second);
+      for (const auto& [at, sum] : sums) line.add(at, sum.first / sum.second);
       series.push_back(std::move(line));
     }
     series.push_back(std::move(dots));

@@ -40,8 +40,7 @@ render::Plot folds_plot(const std::vector<CountedDrape>& drapes) {
   for (const auto& [column, all] : by_column(drapes)) {
     render::Series series{all.front().fabric + ", " + all.front().law, {}, {}, render::Series::Style::points};
     for (const CountedDrape& drape : all) {
-      series.x.push_back(drape.coefficient);
-      series.y.push_back(drape.folds);
+      series.add(drape.coefficient, drape.folds);
     }
     plot.series.push_back(series);
   }
