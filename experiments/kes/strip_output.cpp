@@ -1,4 +1,4 @@
-#include "experiments/kes/strip_output.h"
+#include "experiments/kes/output.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "experiments/accuracy/front.h"
+#include "experiments/accuracy/accuracy.h"
 #include "experiments/workbench/app/experiment.h"
 #include "sim/base/error.h"
 #include "tests/experiments/folder.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "experiments/kes/strip_output.h"
+#include "experiments/kes/output.h"
 #include "experiments/workbench/pages/closing_summary.h"
 #include "sim/base/error.h"
 #include "tests/experiments/folder.h"
