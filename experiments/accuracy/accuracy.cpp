@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "experiments/accuracy/front.h"
+#include "experiments/accuracy/accuracy.h"
 #include "experiments/workbench/app/experiment.h"
 #include "experiments/workbench/pages/report.h"
 #include "render/plot.h"
@@ -189,13 +189,11 @@ render::Plot solution_plot(const Solution& solution) {
                            [&](const render::Series& s) { return s.label == label; });
     if (at == plot.series.end())
       at = plot.series.insert(plot.series.end(), {label, {}, {}, render::Series::Style::points});
-    at->x.push_back(found.seconds);
-    at->y.push_back(std::max(found.error, kMinDrawn));
+    at->add(found.seconds, std::max(found.error, kMinDrawn));
   }
   render::Series front{"front", {}, {}, render::Series::Style::dashed, "#222222"};
   for (std::size_t i : pareto_front(solution)) {
-    front.x.push_back(solution.solved[i].found.seconds);
-    front.y.push_back(std::max(solution.solved[i].found.error, kMinDrawn));
+    front.add(solution.solved[i].found.seconds, std::max(solution.solved[i].found.error, kMinDrawn));
   }
   plot.series.push_back(front);
   return plot;

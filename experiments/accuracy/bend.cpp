@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "experiments/accuracy/accuracy.h"
-#include "experiments/kes/strip_output.h"
+#include "experiments/kes/output.h"
 
 namespace hysteron::experiments {
 namespace {

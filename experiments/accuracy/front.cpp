@@ -1,4 +1,4 @@
-#include "experiments/accuracy/front.h"
+#include "experiments/accuracy/accuracy.h"
 
 #include <fmt/core.h>
 

@@ -166,8 +166,7 @@ Series size_curve(const std::vector<Metrics>& rows, const Metrics& like, const c
   Series curve{std::move(label), {}, {}, style};
   for (const Metrics& row : rows) {
     if (row["integrator"] != like["integrator"]) continue;
-    curve.x.push_back(row.number("triangles"));
-    curve.y.push_back(row.number(key));
+    curve.add(row.number("triangles"), row.number(key));
   }
   return curve;
 }

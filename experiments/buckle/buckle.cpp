@@ -127,8 +127,7 @@ render::Series fitted(const Southwell& found, int power) {
   render::Series series{"extrapolated", {}, {}, render::Series::Style::dashed};
   for (int k = 0; k <= kPoints; ++k) {
     const double at = x(n - 3) + (critical - x(n - 3)) * k / kPoints;
-    series.x.push_back(at);
-    series.y.push_back((1 - at / critical) / (rest(n - 1) + slope * (at - x(n - 1))));
+    series.add(at, (1 - at / critical) / (rest(n - 1) + slope * (at - x(n - 1))));
   }
   return series;
 }

@@ -118,8 +118,8 @@ double shadow_coefficient(Session& session, const DrapeChoice& choice, double ra
 render::Series circle(double radius, const std::string& label) {
   render::Series series{label, {}, {}, render::Series::Style::dashed};
   for (int k = 0; k <= 360; ++k) {
-    series.x.push_back(100 * radius * std::cos(k * 3.14159265358979323846 / 180));
-    series.y.push_back(100 * radius * std::sin(k * 3.14159265358979323846 / 180));
+    series.add(100 * radius * std::cos(k * 3.14159265358979323846 / 180),
+               100 * radius * std::sin(k * 3.14159265358979323846 / 180));
   }
   return series;
 }
@@ -129,8 +129,7 @@ void plot_outline(Session& session, const DrapeChoice& choice, double radius, co
   const std::size_t n = outline.radius.size();
   for (std::size_t k = 0; k <= n; ++k) {
     const double angle = 2 * 3.14159265358979323846 * static_cast<double>(k) / static_cast<double>(n);
-    cloth.x.push_back(100 * outline.radius[k % n] * std::cos(angle));
-    cloth.y.push_back(100 * outline.radius[k % n] * std::sin(angle));
+    cloth.add(100 * outline.radius[k % n] * std::cos(angle), 100 * outline.radius[k % n] * std::sin(angle));
   }
   render::Plot plot{"Outline from above, " + session.scene().fabric.name, {"x [cm]"}, {"y [cm]"}};
   plot.series = {cloth, circle(choice.disc, "pedestal"), circle(radius, "flat specimen")};

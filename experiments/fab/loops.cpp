@@ -23,8 +23,7 @@ const char* cycle_color(int cycle) { return kCycleColors[cycle % std::size(kCycl
 void add_line(const std::vector<Eigen::Vector2d>& line, double up, render::Series& series) {
   const double middle = (line.front().x() + line.back().x()) / 2;
   for (const Eigen::Vector2d& point : line) {
-    series.x.push_back(kMillimetre * (point.x() - middle));
-    series.y.push_back(kMillimetre * up * point.y());
+    series.add(kMillimetre * (point.x() - middle), kMillimetre * up * point.y());
   }
 }
 
@@ -42,8 +41,7 @@ render::Series cycle_series(const FabLoops& loops, const BranchForces& force, in
   render::Series series{.label = "", .x = {}, .y = {}, .style = style, .color = cycle_color(cycle)};
   for (int b = 2 * cycle; b <= 2 * cycle + 1; ++b)
     for (std::size_t i = 0; i < force[b].size(); ++i) {
-      series.x.push_back(kMillimetre * loops.branches[b].distance[i]);
-      series.y.push_back(force[b][i]);
+      series.add(kMillimetre * loops.branches[b].distance[i], force[b][i]);
     }
   return series;
 }

@@ -53,8 +53,7 @@ void FlexingMachine::add_to_loops() {
   const auto add = [&](int cycle, bool begins) {
     if (cycle < 1 || cycle > fold_.cycles || !is_pictured(cycle, fold_.cycles)) return;
     if (begins) loops_.push_back({"cycle " + std::to_string(cycle), {}, {}});
-    loops_.back().x.push_back(curvature_);
-    loops_.back().y.push_back(1e3 * crown_.moment);
+    loops_.back().add(curvature_, 1e3 * crown_.moment);
   };
   const bool returned = count_ % period == 0;
   if (returned) add(count_ / period, false);

@@ -105,8 +105,7 @@ render::Series curve(const std::vector<double>& curvature, const std::vector<dou
     const bool turn = i > 0 && i + 1 < curvature.size() &&
                       (curvature[i] - curvature[i - 1]) * (curvature[i + 1] - curvature[i]) <= 0;
     if (i % stride && !turn && i + 1 < curvature.size()) continue;
-    series.x.push_back(curvature[i]);
-    series.y.push_back(kMilli * moment[i]);
+    series.add(curvature[i], kMilli * moment[i]);
   }
   return series;
 }

@@ -1,4 +1,4 @@
-#include "experiments/kes/strip_output.h"
+#include "experiments/kes/output.h"
 
 #include <algorithm>
 #include <cmath>
@@ -56,8 +56,7 @@ constexpr int kPictureWidth = 640, kGap = 16;                                 //
 render::Series series(const StripResult& result, const std::vector<double>& values, double factor) {
   render::Series series{.label = "", .x = {}, .y = {}, .color = kStripColor, .line_width = 1.6};
   for (std::size_t i = 0; i < values.size(); ++i) {
-    series.x.push_back(result.strip.walk.rows[i].curvature);
-    series.y.push_back(factor * values[i]);
+    series.add(result.strip.walk.rows[i].curvature, factor * values[i]);
   }
   return series;
 }

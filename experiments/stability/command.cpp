@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "experiments/stability/limit.h"
 #include "experiments/stability/stability.h"
 #include "experiments/workbench/app/experiment.h"
 #include "experiments/workbench/app/run.h"

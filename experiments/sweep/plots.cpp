@@ -1,11 +1,10 @@
-#include "experiments/sweep/plots.h"
-
+// Curves and maps of a study.
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
+#include <numeric>
 
 #include "experiments/sweep/tables.h"
 #include "experiments/workbench/app/headlines.h"
@@ -88,7 +87,7 @@ class StudyPlots {
 
   std::vector<std::size_t> all() const {
     std::vector<std::size_t> every(study_.runs.size());
-    for (std::size_t r = 0; r < every.size(); ++r) every[r] = r;
+    std::iota(every.begin(), every.end(), std::size_t{0});
     return every;
   }
 
@@ -103,15 +102,14 @@ class StudyPlots {
     std::map<double, std::pair<double, int>> sums;
     for (const std::size_t r : which) {
       if (std::isnan(numbers[r])) continue;
-      dots.x.push_back(axis_value(x, r));
-      dots.y.push_back(numbers[r]);
+      dots.add(axis_value(x, r), numbers[r]);
       auto& [sum, count] = sums[dots.x.back()];
       sum += numbers[r], ++count;
     }
     if (dots.x.empty()) return;
     if (!axis(x).sampled) {
       render::Series line{"", {}, {}, render::Series::Style::line, dots.color};
-      for (const auto& [at, sum] : sums) line.x.push_back(at), line.y.push_back(sum.first / sum.second);
+      for (const auto& [at, sum] : sums) line.add(at, sum.first / sum.second);
       series.push_back(std::move(line));
     }
     series.push_back(std::move(dots));
@@ -185,7 +183,7 @@ class StudyPlots {
       labels.push_back(name);
       values.emplace_back();
       for (const auto& [category, all_of_it] : categories)
-        values.back().push_back(mean(numbers, common(which, all_of_it)));
+        values.back().push_back(selected_mean(numbers, common(which, all_of_it)).value);
     }
     plot.series = render::grouped_bars(labels, values, plot.bar_width);
     run_.plot("plot_" + metric.name + "-" + axis(free_.back()).key, plot);
@@ -196,14 +194,6 @@ class StudyPlots {
     std::vector<std::size_t> both;
     std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(both));
     return both;
-  }
-
-  static double mean(const std::vector<double>& numbers, const std::vector<std::size_t>& which) {
-    double sum = 0;
-    int count = 0;
-    for (const std::size_t r : which)
-      if (!std::isnan(numbers[r])) sum += numbers[r], ++count;
-    return count ? sum / count : NAN;
   }
 
   void draw_map(const ShownMetric& metric, const std::vector<double>& numbers) {
@@ -231,7 +221,7 @@ class StudyPlots {
     page.cell_width = 70;
     std::vector<double> means;  // of the cells, by their kinds
     add_maps(page, runs, {{"panel"}, "x", "y"}, [&](const std::vector<std::size_t>& which) {
-      means.push_back(mean(numbers, which));
+      means.push_back(selected_mean(numbers, which).value);
       return render::HeatMapCell{static_cast<int>(means.size()) - 1, ""};
     });
     if (!color_cells(page, means)) return;

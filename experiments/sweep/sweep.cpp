@@ -12,7 +12,6 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "experiments/sweep/plots.h"
 #include "experiments/sweep/study.h"
 #include "experiments/sweep/tables.h"
 #include "experiments/workbench/app/ending.h"

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 
 #include "experiments/workbench/compare/comparison.h"
@@ -35,26 +34,6 @@ bool differs(const std::vector<ChildRun>& runs, const std::string& metric) {
   return !known.empty() && std::any_of(known.begin(), known.end(), [&](double x) { return x != known[0]; });
 }
 
-// Mean and its standard error of the numbers that are known.
-struct Mean {
-  int count = 0;
-  double value = std::numeric_limits<double>::quiet_NaN();
-  double error = std::numeric_limits<double>::quiet_NaN();
-};
-
-Mean selected_mean(const std::vector<double>& numbers, const std::vector<std::size_t>& which) {
-  Mean mean;
-  double sum = 0, squares = 0;
-  for (const std::size_t r : which)
-    if (!std::isnan(numbers[r])) sum += numbers[r], ++mean.count;
-  if (mean.count == 0) return mean;
-  mean.value = sum / mean.count;
-  for (const std::size_t r : which)
-    if (!std::isnan(numbers[r])) squares += (numbers[r] - mean.value) * (numbers[r] - mean.value);
-  if (mean.count > 1) mean.error = std::sqrt(squares / (mean.count - 1) / mean.count);
-  return mean;
-}
-
 // Numbers of the runs by their values but for the seed, in the order of the first.
 std::vector<std::pair<std::vector<std::string>, std::vector<std::size_t>>> study_points(const Study& study) {
   std::vector<std::pair<std::vector<std::string>, std::vector<std::size_t>>> points;
@@ -76,6 +55,19 @@ std::vector<double> metric_values(const std::vector<ChildRun>& runs, const std::
   std::vector<double> numbers;
   for (const ChildRun& run : runs) numbers.push_back(run.metrics().number(metric));
   return numbers;
+}
+
+Mean selected_mean(const std::vector<double>& numbers, const std::vector<std::size_t>& which) {
+  Mean mean;
+  double sum = 0, squares = 0;
+  for (const std::size_t r : which)
+    if (!std::isnan(numbers[r])) sum += numbers[r], ++mean.count;
+  if (mean.count == 0) return mean;
+  mean.value = sum / mean.count;
+  for (const std::size_t r : which)
+    if (!std::isnan(numbers[r])) squares += (numbers[r] - mean.value) * (numbers[r] - mean.value);
+  if (mean.count > 1) mean.error = std::sqrt(squares / (mean.count - 1) / mean.count);
+  return mean;
 }
 
 std::vector<std::string> metrics_shown(const Study& study, const std::vector<ChildRun>& runs) {

@@ -1,10 +1,12 @@
-// What a study has found, as tables: a row a run, and a row for each point of the axes over its repeated
-// draws.
+// What a study has found, as tables, a row a run and a row for each point of the axes over its repeated
+// draws; and as curves and maps.
 #pragma once
 
+#include <cmath>
 #include <span>
 
 #include "experiments/sweep/study.h"
+#include "experiments/workbench/app/run.h"
 #include "experiments/workbench/compare/sweep_columns.h"
 #include "sim/base/csv.h"
 
@@ -31,5 +33,19 @@ Table table_of_means(const Study& study, const std::vector<ChildRun>& runs,
 
 // The metric of each run; NaN where it is not known.
 std::vector<double> metric_values(const std::vector<ChildRun>& runs, const std::string& metric);
+
+// Mean and its standard error of those numbers that are known.
+struct Mean {
+  int count = 0;
+  double value = NAN;
+  double error = NAN;
+};
+Mean selected_mean(const std::vector<double>& numbers, const std::vector<std::size_t>& which);
+
+// Of each metric: plot_METRIC-KEY, a curve over each axis of numbers (dots: runs; lines: means over repeated
+// draws), one colour for each value of another axis, one panel for the others; plot_METRIC-map, a map over
+// the two longest axes of a grid.  Axes of texts alone become bars.
+void plot_study(Run& run, const Study& study, const std::vector<ChildRun>& runs,
+                const std::vector<std::string>& metrics);
 
 }  // namespace hysteron::experiments

@@ -98,14 +98,13 @@ void plot_decay(Session& session, const std::vector<Amplitude>& amplitudes, cons
                     {"time [s]"},
                     {"amplitude of the free end [mm]"}};
   render::Series measured{"measured", {}, {}, render::Series::Style::points};
-  for (const Amplitude& a : amplitudes) measured.x.push_back(a.time), measured.y.push_back(1e3 * a.value);
+  for (const Amplitude& a : amplitudes) measured.add(a.time, 1e3 * a.value);
   plot.series = {measured};
   if (decay.shape != DecayShape::unknown && !decay.fits.empty()) {
     render::Series fit{enum_name(decay.shape), {}, {}};
     const double from = amplitudes[decay.first].time, whole = amplitudes.back().time - from;
     for (int i = 0; i <= kDrawn; ++i) {
-      fit.x.push_back(from + whole * i / kDrawn);
-      fit.y.push_back(1e3 * decay.best().at(whole * i / kDrawn));
+      fit.add(from + whole * i / kDrawn, 1e3 * decay.best().at(whole * i / kDrawn));
     }
     plot.series.push_back(fit);
   }

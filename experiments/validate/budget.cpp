@@ -75,11 +75,9 @@ render::Plot budget_plot(const std::vector<BudgetRow>& rows) {
                single = !second && (i + 1 == rows.size() || rows[i + 1].number != rows[i].number);
     if (!second) plot.x.categories.push_back(rows[i].number);
     render::Series& series = second || single ? high : low;
-    series.x.push_back(static_cast<double>(plot.x.categories.size() - 1));
-    series.y.push_back(rows[i].coefficient);
+    series.add(static_cast<double>(plot.x.categories.size() - 1), rows[i].coefficient);
     for (const double sign : {-1., 1., double(NAN)}) {  // NaN: a gap between bars
-      errors.x.push_back(series.x.back());
-      errors.y.push_back(rows[i].coefficient + sign * rows[i].error);
+      errors.add(series.x.back(), rows[i].coefficient + sign * rows[i].error);
     }
   }
   const double last = static_cast<double>(plot.x.categories.size()) - 1, nominal = rows[0].coefficient,

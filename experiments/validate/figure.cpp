@@ -45,9 +45,8 @@ render::PagePlot loops_plot(const fs::path& csv) {
   render::Series model{"two numbers of friction", {}, {}, Style::line, kModelColor};
   for (std::size_t r = 0; r < table.rows.size(); ++r) {
     const double distance = 1e3 * table.number(r, "clamp_distance_m"), width = table.number(r, "width_m");
-    measured.x.push_back(distance), model.x.push_back(distance);
-    measured.y.push_back(table.number(r, "measured_force_N") / width);
-    model.y.push_back(table.number(r, "force_N") / width);
+    measured.add(distance, table.number(r, "measured_force_N") / width);
+    model.add(distance, table.number(r, "force_N") / width);
   }
   plot.series = {measured, model};
   return {plot, "top left"};
@@ -83,7 +82,7 @@ render::PagePlot decay_plot(const fs::path& swing) {
   const DecayFit two = decay.of(DecayShape::two_step);
   render::Plot plot{"Decay of a swing, cotton broad", {"time [s]"}, {"amplitude of the free end [mm]"}};
   render::Series points{"amplitudes", {}, {}, Style::points, kMeasuredColor};
-  for (const Amplitude& a : amplitudes) points.x.push_back(a.time), points.y.push_back(1e3 * a.value);
+  for (const Amplitude& a : amplitudes) points.add(a.time, 1e3 * a.value);
   const double start = amplitudes.front().time, end = amplitudes.back().time,
                fifth = 1e3 * kFifth * two.at(0);
   plot.series = {points,
@@ -119,8 +118,8 @@ render::PagePlot drapes_plot(const std::vector<PredictedDrape>& drapes) {
   for (std::size_t f = 0; f < drapes.size(); ++f) {
     const PredictedDrape& drape = drapes[f];
     plot.series.push_back(interval(drape, fabric_color(f), f == 0 ? "95 % interval" : ""));
-    for (render::Series* series : {&mean, &elastic}) series->x.push_back(drape.measured);
-    mean.y.push_back(drape.mean), elastic.y.push_back(drape.elastic);
+    mean.add(drape.measured, drape.mean);
+    elastic.add(drape.measured, drape.elastic);
     plot.marks.push_back(drape_mark(drape, 2 * f >= drapes.size(), fabric_color(f)));
   }
   plot.series.insert(plot.series.end(), {mean, elastic});
@@ -137,8 +136,7 @@ render::PagePlot fold_counts_plot(const std::vector<CountedDrape>& counted,
   for (std::size_t f = 0; f < order.size(); ++f) {
     render::Series series{order[f].fabric, {}, {}, Style::points, fabric_color(f)};
     for (const CountedDrape& drape : counted)
-      if (drape.fabric == order[f].fabric)
-        series.x.push_back(drape.coefficient), series.y.push_back(drape.folds);
+      if (drape.fabric == order[f].fabric) series.add(drape.coefficient, drape.folds);
     if (!series.x.empty()) plot.series.push_back(series);
   }
   return {plot, "top right"};

@@ -32,6 +32,21 @@ std::map<std::string, std::vector<CountedDrape>> by_column(const std::vector<Cou
   return columns;
 }
 
+// Each drape's coefficient and folds over the ranges of real ones.
+render::Plot folds_plot(const std::vector<CountedDrape>& drapes) {
+  render::Plot plot{
+      "Folds of drapes, simulated and real (Gong, Mao, Wang 2024)", {"drape coefficient [%]"}, {"folds"}};
+  plot.series = real_drape_boxes("584 real drapes");
+  for (const auto& [column, all] : by_column(drapes)) {
+    render::Series series{all.front().fabric + ", " + all.front().law, {}, {}, render::Series::Style::points};
+    for (const CountedDrape& drape : all) {
+      series.add(drape.coefficient, drape.folds);
+    }
+    plot.series.push_back(series);
+  }
+  return plot;
+}
+
 }  // namespace
 
 FoldRange real_folds(double coefficient) {
@@ -67,21 +82,6 @@ std::vector<render::Series> real_drape_boxes(const std::string& label) {
                      "#999999"});
   }
   return boxes;
-}
-
-render::Plot folds_plot(const std::vector<CountedDrape>& drapes) {
-  render::Plot plot{
-      "Folds of drapes, simulated and real (Gong, Mao, Wang 2024)", {"drape coefficient [%]"}, {"folds"}};
-  plot.series = real_drape_boxes("584 real drapes");
-  for (const auto& [column, all] : by_column(drapes)) {
-    render::Series series{all.front().fabric + ", " + all.front().law, {}, {}, render::Series::Style::points};
-    for (const CountedDrape& drape : all) {
-      series.x.push_back(drape.coefficient);
-      series.y.push_back(drape.folds);
-    }
-    plot.series.push_back(series);
-  }
-  return plot;
 }
 
 void compare_folds(Run& run, const std::vector<CountedDrape>& drapes, bool pictures) {

@@ -30,8 +30,6 @@ std::vector<CountedDrape> read_counted(const std::filesystem::path& csv);
 
 // What was counted on real drapes, a box for each fabric: its label on the first.
 std::vector<render::Series> real_drape_boxes(const std::string& label);
-// Each drape's coefficient and folds over the ranges of real ones.
-render::Plot folds_plot(const std::vector<CountedDrape>& drapes);
 
 // plot_folds; metrics: of each fabric and law the share of its drapes within.
 void compare_folds(Run& run, const std::vector<CountedDrape>& drapes, bool pictures);

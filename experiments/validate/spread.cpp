@@ -91,11 +91,9 @@ void draw_spread(Run& run, const DrapesOf& all) {
     const auto& [fabric, drapes] = all[f];
     plot.x.categories.push_back(fabric);
     for (const Drape& drape : drapes) {
-      predicted.x.push_back(static_cast<double>(f));
-      predicted.y.push_back(drape.coefficient());
+      predicted.add(static_cast<double>(f), drape.coefficient());
     }
-    measured.x.push_back(static_cast<double>(f));
-    measured.y.push_back(drapes.front().published());
+    measured.add(static_cast<double>(f), drapes.front().published());
   }
   plot.series = {predicted, measured};
   run.plot("plot_spread", plot);

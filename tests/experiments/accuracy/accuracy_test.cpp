@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "experiments/accuracy/front.h"
+#include "experiments/accuracy/accuracy.h"
 #include "sim/base/error.h"
 #include "tests/experiments/folder.h"
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "experiments/kes/strip_output.h"
+#include "experiments/kes/output.h"
 #include "experiments/workbench/pages/closing_summary.h"
 #include "sim/base/error.h"
 #include "tests/experiments/folder.h"
