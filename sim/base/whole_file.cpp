@@ -2,31 +2,16 @@
 
 #include <fcntl.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
+#include <memory>
 
 #include "sim/base/error.h"
 
 namespace hysteron {
 namespace {
-
-class Descriptor {
- public:
-  // What becomes a pipe after it was looked at does not wait for a writer.
-  explicit Descriptor(const std::filesystem::path& file)
-      : number_(open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)) {}
-  ~Descriptor() {
-    if (number_ >= 0) close(number_);
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  int number() const { return number_; }
-
- private:
-  int number_;
-};
 
 Error failure(const std::string& attempt, int code) {
   return Error::system(attempt + ": " + std::strerror(code ? code : EIO));
@@ -50,20 +35,22 @@ std::string whole_file(const std::filesystem::path& file, const std::string& att
   struct stat status {};
   if (stat(file.c_str(), &status) != 0) throw failure(attempt, errno);
   check_kind(status, attempt);
-  const Descriptor descriptor(file);
-  if (descriptor.number() < 0 || fstat(descriptor.number(), &status) != 0) throw failure(attempt, errno);
+  // What becomes a pipe after it was looked at does not wait for a writer.
+  const int number = open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> stream(number < 0 ? nullptr : fdopen(number, "rb"),
+                                                               &std::fclose);
+  if (!stream || fstat(number, &status) != 0) throw failure(attempt, errno);
   check_kind(status, attempt);
   check_size(static_cast<std::size_t>(status.st_size), attempt, most);
   std::string bytes;
   bytes.reserve(static_cast<std::size_t>(status.st_size));
-  for (char block[1 << 16];;) {
-    const ssize_t count = read(descriptor.number(), block, sizeof block);
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) throw failure(attempt, errno);
-    if (count == 0) return bytes;
-    bytes.append(block, static_cast<std::size_t>(count));
+  char block[1 << 16];
+  while (const std::size_t count = std::fread(block, 1, sizeof block, stream.get())) {
+    bytes.append(block, count);
     check_size(bytes.size(), attempt, most);
   }
+  if (std::ferror(stream.get())) throw failure(attempt, errno);
+  return bytes;
 }
 
 std::string file_named(const std::filesystem::path& file, const std::string& attempt) {

@@ -14,6 +14,8 @@ namespace hysteron {
 
 namespace {
 
+constexpr std::size_t kPending = 4096;  // profiled launches before the host has to look
+
 bool may_use_graphs() {
   const char* requested = std::getenv("HYSTERON_CUDA_GRAPHS");
   return !requested || std::string(requested) != "0";
@@ -54,10 +56,6 @@ std::string Cuda::description() const {
   cudaDeviceProp properties{};
   check_cuda(cudaGetDeviceProperties(&properties, index), "describe device");
   return std::string(properties.name);
-}
-
-namespace {
-constexpr std::size_t kPending = 4096;  // launches before the host has to look
 }
 
 KernelProfile<Cuda>::KernelProfile(Cuda& cuda) : cuda_(cuda) { pending_.reserve(kPending); }

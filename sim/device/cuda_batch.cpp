@@ -38,15 +38,11 @@ CudaBatch::~CudaBatch() {
 CudaBatch* CudaBatch::current() { return running; }
 
 void CudaBatch::run(const std::function<void(int)>& job) {
-  CudaBatch* before = std::exchange(running, this);
-  const auto end = [&] { running = before; };
-  try {
-    fibers_.run(static_cast<int>(member_.size()), job, [this] { launch_all(); });
-  } catch (...) {
-    end();
-    throw;
-  }
-  end();
+  struct Restored {
+    CudaBatch* before;
+    ~Restored() { running = before; }
+  } const restored{std::exchange(running, this)};
+  fibers_.run(static_cast<int>(member_.size()), job, [this] { launch_all(); });
 }
 
 // Where it does not fit, what was ordered is launched first.

@@ -79,8 +79,8 @@ Membrane<Real, Device>::Nodes::Nodes(Device& device, const ClothMesh& mesh, cons
       weight(device, node_weights<Real>(mesh, nodes)),
       area(device, std::vector<Real>(nodes.area.begin(), nodes.area.end())),
       of_face(device, nodes.of_face),
-      strains{faces, start.data(), item.data(), weight.data(), area.data()},
-      sites(device, strains, nodes.count(), split.nodes, fabric.damping, stops_of_nodes(fabric, split), false,
+      sites(device, {faces, start.data(), item.data(), weight.data(), area.data()}, nodes.count(),
+            split.nodes, fabric.damping, stops_of_nodes(fabric, split), false,
             {mesh.faces() * sizeof(Deformation<Real>) + total_bytes(start, item, weight, area),
              mesh.vertices() * sizeof(Vec3<Real>)}),
       stiffness(device, nodes, rows) {}
@@ -145,7 +145,7 @@ template <class Real, class Device>
 double Membrane<Real, Device>::largest_stretch(const Vec3<Real>* x) {
   const int sites = nodes_ ? nodes_->sites.count() : faces_.count();
   if (nodes_)
-    find_stretches(device_, nodes_->strains, sites, x, energy_.data());
+    find_stretches(device_, nodes_->sites.strains(), sites, x, energy_.data());
   else
     find_stretches(device_, face_strains(), sites, x, energy_.data());
   const std::vector<double> values = energy_.download();

@@ -38,8 +38,8 @@ struct MembraneForceView {
 template <class Real>
 struct MembraneBlocks {
   int off_diagonal;  // how many
-  const Eigen::Vector2i*
-      sum;                  // terms of each block off the diagonal: an edge has one triangle, then -1, or two
+  // Terms of each block off the diagonal: an edge has one triangle, then -1, or two.
+  const Eigen::Vector2i* sum;
   const int *start, *item;  // of each diagonal block: rows of 3 * face + corner
   const MembraneRest<Real>* rest;
 
@@ -144,7 +144,6 @@ class Membrane {
     Buffer<int, Device> start, item;
     Buffer<Real, Device> weight, area;
     Buffer<Eigen::Vector3i, Device> of_face;
-    NodeStrains<Real> strains;
     MembraneSites<NodeStrains<Real>, Device> sites;
     NodalStiffness<Real, Device> stiffness;
   };

@@ -44,10 +44,7 @@ void Membrane<Real, Device>::assemble(Real factor, Real geometric, BlockRowsView
     assemble_columns(factor, geometric, matrix);
   else
     assemble_blocks(factor, geometric, matrix);
-  if (nodes_)
-    nodes_->stiffness.add(nodes_->strains, nodes_->sites.stiffness(), factor,
-                          nodes_->sites.has_friction() ? nodes_->sites.friction_tangents() : nullptr,
-                          geometric, matrix);
+  if (nodes_) nodes_->stiffness.add(nodes_->sites, factor, geometric, matrix);
   if (softening.off_diagonal) assemble_softening(softening);
 }
 

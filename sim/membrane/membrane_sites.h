@@ -32,6 +32,7 @@ class MembraneSites {
                 double damping, const InPlaneStops& stops, bool is_last, Bytes bytes);
 
   int count() const { return sites_; }
+  const Strains& strains() const { return strains_; }
   const MembraneStiffness<Real>& stiffness() const { return stiffness_; }
   Real damping() const { return damping_; }  // viscous over elastic stiffness [s]
   const MembraneStress<Real>* stress() const { return stress_.data(); }
@@ -39,7 +40,7 @@ class MembraneSites {
   // Of elasticity and friction after update(), of the whole stress after evaluate(); its tensile part if
   // `is_last`.
   MembraneStress<Real>* tension() { return tension_.data(); }
-  // Of stops where update() or evaluate() was called last, by site [N/m].
+  // Of stops where update() or evaluate() was called last, by site [N/m]; null without stops.
   const Vec3<Real>* friction_tangents() const { return tangent_.data(); }
 
   void update(const Vec3<Real>* position, const Vec3<Real>* velocity);

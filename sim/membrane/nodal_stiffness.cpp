@@ -69,12 +69,12 @@ void NodalStiffness<Real, Device>::find_rates(const NodeStrains<Real>& strains) 
 }
 
 template <class Real, class Device>
-void NodalStiffness<Real, Device>::add(const NodeStrains<Real>& strains,
-                                       const MembraneStiffness<Real>& elastic, Real factor,
-                                       const Vec3<Real>* tangents, Real of_stops,
-                                       BlockRowsView<Real> matrix) {
-  find_rates(strains);
-  const Real* area = strains.size;
+void NodalStiffness<Real, Device>::add(const MembraneSites<NodeStrains<Real>, Device>& nodes, Real factor,
+                                       Real of_stops, BlockRowsView<Real> matrix) {
+  find_rates(nodes.strains());
+  const Real* area = nodes.strains().size;
+  const MembraneStiffness<Real>& elastic = nodes.stiffness();
+  const Vec3<Real>* tangents = nodes.friction_tangents();
   const MembraneStiffness<Real> c{factor * elastic.warp, factor * elastic.weft, factor * elastic.coupling, 0};
   const int *node = node_.data(), *start = pair_start_.data();
   const Eigen::Vector2i* pair = pair_.data();

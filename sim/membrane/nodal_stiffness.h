@@ -4,7 +4,7 @@
 
 #include "sim/linear/block_rows.h"
 #include "sim/membrane/membrane_nodes.h"
-#include "sim/membrane/strains.h"
+#include "sim/membrane/membrane_sites.h"
 
 namespace hysteron {
 
@@ -19,10 +19,10 @@ class NodalStiffness {
  public:
   NodalStiffness(Device& device, const MembraneNodes& nodes, const BlockRows<Real, Device>& rows);
 
-  // matrix += factor * that of `elastic` + of_stops * that of `tangents`, what stops add to warp and weft, by
-  // node; null without stops.  Where the triangles were evaluated last.
-  void add(const NodeStrains<Real>& strains, const MembraneStiffness<Real>& elastic, Real factor,
-           const Vec3<Real>* tangents, Real of_stops, BlockRowsView<Real> matrix);
+  // matrix += factor * elastic stiffness + of_stops * what stops add to warp and weft, where the triangles
+  // were evaluated last.
+  void add(const MembraneSites<NodeStrains<Real>, Device>& nodes, Real factor, Real of_stops,
+           BlockRowsView<Real> matrix);
   std::size_t bytes() const { return total_bytes(node_, corner_start_, corner_, rate_, pair_start_, pair_); }
 
   // The parts of add(); public because nvcc allows no device lambda in a private member function.

@@ -48,22 +48,10 @@ PotentialValue IncrementalPotential<Real, Device>::balance(const Vec3<Real>* x, 
 
 template <class Real, class Device>
 typename IncrementalPotential<Real, Device>::Energies IncrementalPotential<Real, Device>::energies() {
-  Energies result;
-  if (contact_) {
-    result.list[0] = contact_->energies();
-    result.count[0] = contact_->energies_count();
-  }
-  if (self_contact_) {
-    result.list[1] = self_contact_->energies();
-    result.count[1] = self_contact_->pairs();
-  }
-  result.list[2] = membrane_.energies();
-  result.count[2] = membrane_.energies_count();
-  if (!bending_lags_) {
-    result.list[3] = bending_.energies();
-    result.count[3] = bending_.elements();
-  }
-  return result;
+  return {{contact_ ? contact_->energies() : nullptr, self_contact_ ? self_contact_->energies() : nullptr,
+           membrane_.energies(), bending_lags_ ? nullptr : bending_.energies()},
+          {contact_ ? contact_->energies_count() : 0, self_contact_ ? self_contact_->pairs() : 0,
+           membrane_.energies_count(), bending_lags_ ? 0 : bending_.elements()}};
 }
 
 template <class Real, class Device>

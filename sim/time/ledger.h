@@ -39,9 +39,7 @@ struct Ledger {
   std::vector<std::pair<std::string, double>> rows() const;  // name, value, in the balance's order
 };
 
-// Running sums of one vertex.
-
-// All in joules; the sums' differences are the ledger's integrator terms.
+// Running sums of one vertex.  All in joules; the sums' differences are the ledger's integrator terms.
 struct VertexLedger {
   double bending_work = 0;   // of bending forces over the displacements
   double gravity_work = 0;   // of gravity

@@ -37,19 +37,15 @@ namespace hysteron {
 namespace {
 constexpr int kMaxIterations = 2000;
 
-// Of positions of this size, what need not be solved for [m].  Their rounding is a force of the stiffness
-// that holds them, another in each step; a hundredth of that moves a hanging cloth by less than single
-// precision does.  In double precision no solve comes near it.
+// Of cloth that starts so, what need not be solved for of positions [m].  Their rounding is a force of the
+// stiffness that holds them, another in each step; a hundredth of that moves a hanging cloth by less than
+// single precision does.  In double precision no solve comes near it.
 template <class Real>
-double rounding_allowance(double size) {
+double rounding_allowance(const std::vector<Eigen::Vector3d>& start) {
   constexpr double kRounding = sizeof(Real) == 8 ? 0 : 6e-8, kRoundingFraction = 0.01;
-  return kRoundingFraction * kRounding * size;
-}
-
-double largest_coordinate(const std::vector<Eigen::Vector3d>& x) {
   double reach = 0;
-  for (const Eigen::Vector3d& p : x) reach = std::max(reach, p.cwiseAbs().maxCoeff());
-  return reach;
+  for (const Eigen::Vector3d& p : start) reach = std::max(reach, p.cwiseAbs().maxCoeff());
+  return kRoundingFraction * kRounding * reach;
 }
 }  // namespace
 
@@ -57,7 +53,7 @@ template <class Real, class Device>
 SemiImplicit<Real, Device>::SemiImplicit(Body<Real, Device>& body, const StepLimits& limits)
     : TimeIntegrator<Real, Device>(body),
       limits_(limits),
-      blur_(rounding_allowance<Real>(largest_coordinate(body.cloth.start))),
+      blur_(rounding_allowance<Real>(body.cloth.start)),
       pcg_(*body.device, body.vertices),
       change_(*body.device, body.vertices),
       correction_(*body.device, body.vertices),

@@ -21,25 +21,18 @@ void throw_if_divergence(Body<Real, Device>& body, double time) {
                           " s: take a smaller step (step = " + std::to_string(body.scene.step) + " s)");
 }
 
-}  // namespace
-
+// The one that the body's scene names.
 template <class Real, class Device>
 std::unique_ptr<TimeIntegrator<Real, Device>> make_integrator(Body<Real, Device>& body,
                                                               const StepLimits& limits) {
-  switch (body.scene.integrator) {
-    case Integrator::explicit_euler:
-      return std::make_unique<ExplicitEuler<Real, Device>>(body, limits);
-    case Integrator::semi_implicit:
-      if (body.self_contact) return std::make_unique<ImplicitIntegrator<Real, Device>>(body, limits);
-      return std::make_unique<SemiImplicit<Real, Device>>(body, limits);
-    case Integrator::implicit:
-    case Integrator::bdf2:
-    case Integrator::tr_bdf2:
-    case Integrator::quasi_static:
-      return std::make_unique<ImplicitIntegrator<Real, Device>>(body, limits);
-  }
-  __builtin_unreachable();
+  const Integrator named = body.scene.integrator;
+  if (named == Integrator::explicit_euler) return std::make_unique<ExplicitEuler<Real, Device>>(body, limits);
+  if (named == Integrator::semi_implicit && !body.self_contact)
+    return std::make_unique<SemiImplicit<Real, Device>>(body, limits);
+  return std::make_unique<ImplicitIntegrator<Real, Device>>(body, limits);
 }
+
+}  // namespace
 
 template <class Real, class Device>
 Stepper<Real, Device>::Stepper(std::unique_ptr<Device> device, const Scene& scene, const Cloth& cloth,

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -40,11 +39,6 @@ class TimeIntegrator {
     throw Error::invalid_input("integrator = " + enum_name(body_.scene.integrator) + " " + why);
   }
 };
-
-// The one that the body's scene names.
-template <class Real, class Device>
-std::unique_ptr<TimeIntegrator<Real, Device>> make_integrator(Body<Real, Device>& body,
-                                                              const StepLimits& limits);
 
 // Lengths of the parts of adaptive steps.
 
