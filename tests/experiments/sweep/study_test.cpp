@@ -12,10 +12,7 @@
 namespace hysteron::experiments {
 namespace {
 
-Study parsed_study(const std::string& text) {
-  const Folder folder;
-  return read_study(folder.write("s.toml", text));
-}
+Study parsed_study(const std::string& text) { return read_study(Folder().write("s.toml", text)); }
 
 TEST(Study, RunsEveryCombinationTheLastAxisFirst) {
   const Study study = parsed_study(
