@@ -4,7 +4,6 @@
 #include "experiments/fit/report.h"
 #include "sim/base/atomic_file.h"
 #include "sim/base/csv.h"
-#include "sim/base/error.h"
 #include "sim/scene/fabric_reader.h"
 #include "tests/experiments/folder.h"
 #include "tests/sim/identification/synthetic.h"

@@ -5,7 +5,6 @@
 
 #include "experiments/fold/material.h"
 #include "sim/base/csv.h"
-#include "sim/base/error.h"
 #include "sim/bending/laws/law_parameters.h"
 #include "tests/experiments/program.h"
 

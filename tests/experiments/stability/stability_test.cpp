@@ -5,7 +5,6 @@
 #include <sstream>
 
 #include "experiments/stability/limit.h"
-#include "sim/base/error.h"
 #include "sim/scene/scene_reader.h"
 #include "tests/experiments/folder.h"
 

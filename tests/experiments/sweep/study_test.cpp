@@ -6,7 +6,6 @@
 
 #include "experiments/sweep/latin_hypercube.h"
 #include "experiments/sweep/tables.h"
-#include "sim/base/error.h"
 #include "tests/experiments/folder.h"
 
 namespace hysteron::experiments {

@@ -1,11 +1,8 @@
 // What a run does to its folder: it is alone there, takes away only what runs have left, and stays inside.
 #include "experiments/workbench/app/run_folder.h"
 
-#include <sys/stat.h>
-
 #include <fstream>
 
-#include "sim/base/error.h"
 #include "tests/experiments/folder.h"
 
 namespace hysteron::experiments {

@@ -1,4 +1,3 @@
-#include "sim/base/error.h"
 #include "tests/experiments/folder.h"
 
 namespace hysteron::experiments {

@@ -6,7 +6,6 @@
 #include "experiments/workbench/pages/metrics.h"
 #include "experiments/workbench/pages/text_table.h"
 #include "sim/base/csv.h"
-#include "sim/base/error.h"
 #include "tests/experiments/program.h"
 
 namespace hysteron::experiments {

@@ -1,7 +1,6 @@
 #include "experiments/workbench/pages/text_table.h"
 
 #include "sim/base/csv.h"
-#include "sim/base/error.h"
 #include "tests/experiments/folder.h"
 
 namespace hysteron::experiments {
