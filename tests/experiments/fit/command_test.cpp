@@ -1,6 +1,4 @@
 // `hysteron fit` from flags to its folder.
-#include <fstream>
-
 #include "experiments/fit/report.h"
 #include "sim/base/atomic_file.h"
 #include "sim/base/csv.h"
@@ -241,15 +239,14 @@ TEST_F(FitOfFab, TakesWarpBeforeWeftWhateverTheirOrderInTheFile) {
 }
 
 TEST_F(Fit, OfLoopsOfAFabTesterNeedsDensityAndTheRightUnits) {
-  const fs::path file = folder_.path() / "fab.csv";
-  std::ofstream(file) << "direction,test,branch,clamp_distance_m,force_N,gauge_length_m,width_m\n"
-                         "L,D1,0,0.018,0,0.021,0.04\n";
-  EXPECT_TRUE(has(refusal({{"fab", file.string()}}), "fabric.density"));
-  EXPECT_TRUE(
-      has(refusal({{"fab", file.string()}, {"units", "fab"}, {"fabric.density", "0.3"}}), "give --units si"));
-  EXPECT_TRUE(
-      has(refusal({{"fab", file.string()}, {"units", "kes"}, {"fabric.density", "0.3"}}), "fab (cm, gf)"));
-  EXPECT_TRUE(has(refusal({{"loop", file.string()}, {"units", "fab"}}), "--fab"));
+  const std::string file =
+      folder_.write("fab.csv",
+                    "direction,test,branch,clamp_distance_m,force_N,gauge_length_m,width_m\n"
+                    "L,D1,0,0.018,0,0.021,0.04\n");
+  EXPECT_TRUE(has(refusal({{"fab", file}}), "fabric.density"));
+  EXPECT_TRUE(has(refusal({{"fab", file}, {"units", "fab"}, {"fabric.density", "0.3"}}), "give --units si"));
+  EXPECT_TRUE(has(refusal({{"fab", file}, {"units", "kes"}, {"fabric.density", "0.3"}}), "fab (cm, gf)"));
+  EXPECT_TRUE(has(refusal({{"loop", file}, {"units", "fab"}}), "--fab"));
 }
 
 }  // namespace

@@ -194,24 +194,24 @@ TEST(MetricTable, ShowsErrorsInTheHeadlinesCell) {
 
 const std::string kSmall = " --triangles 60 --seconds 0.05 --fps 30 --device cpu --no-images --quiet";
 
-double friction_in(const fs::path& folder) { return metrics_of(folder)["bending_friction_J"]; }
+// What a run with these flags loses by friction.
+double friction_with(const std::string& flags) {
+  return FinishedRun("swing --no-images --quiet --device cpu --seconds 0.05 --fps 30 " + flags)
+      .metrics()["bending_friction_J"];
+}
 
 TEST(SwingWithErrors, FindsWhatSeparateRunsFind) {
   const Folder folder;
   const InFolder here(folder.path());
   finished("swing --errors --out run" + kSmall);
-  const std::string swing = "swing --no-images --quiet --device cpu --seconds 0.05 --fps 30 ";
-  finished(swing + "--triangles 60 --step 0.0020833333333333333 --out step");
-  finished(swing + "--triangles 240 --out mesh");
-  finished(swing + "--triangles 60 --mesh equilateral --out one");
-  finished(swing + "--triangles 60 --mesh random --seed 2 --out two");
-
   const Json manifest = manifest_in("run"), metrics = manifest["metrics"];
   const double run = metrics["bending_friction_J"].get<double>();
   ASSERT_GT(run, 0);
-  EXPECT_EQ(metrics["bending_friction_J_step_error"], std::abs(friction_in("step") - run));
-  EXPECT_EQ(metrics["bending_friction_J_mesh_error"], std::abs(friction_in("mesh") - run));
-  const double one = friction_in("one"), two = friction_in("two"), mean = (run + one + two) / 3;
+  EXPECT_EQ(metrics["bending_friction_J_step_error"],
+            std::abs(friction_with("--triangles 60 --step 0.0020833333333333333") - run));
+  EXPECT_EQ(metrics["bending_friction_J_mesh_error"], std::abs(friction_with("--triangles 240") - run));
+  const double one = friction_with("--triangles 60 --mesh equilateral"),
+               two = friction_with("--triangles 60 --mesh random --seed 2"), mean = (run + one + two) / 3;
   EXPECT_NE(one, run);
   EXPECT_NE(two, run);
   const double squares = std::pow(run - mean, 2) + std::pow(one - mean, 2) + std::pow(two - mean, 2);
