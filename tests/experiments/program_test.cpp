@@ -1,8 +1,5 @@
 // The program as a script meets it: exit codes, one line on stderr, results on stdout.
 #include <algorithm>
-#include <cctype>
-#include <cstdio>
-#include <fstream>
 #include <map>
 #include <sstream>
 

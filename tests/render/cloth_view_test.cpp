@@ -1,6 +1,5 @@
 #include "render/cloth_view.h"
 
-#include <cmath>
 #include <limits>
 
 #include "render/srgb.h"

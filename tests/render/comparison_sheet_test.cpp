@@ -1,9 +1,7 @@
 #include "render/comparison_sheet.h"
 
 #include <algorithm>
-#include <cmath>
 #include <set>
-#include <utility>
 
 #include "tests/render/test_scene.h"
 

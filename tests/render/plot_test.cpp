@@ -186,10 +186,8 @@ TEST_F(PlotTest, WithoutFontsIsRefused) {
 
 TEST(Plot, MissingGnuplotNamesThePackage) {
   const Folder folder;
-  const std::string before = std::getenv("PATH");
-  setenv("PATH", folder.file("empty").c_str(), 1);
+  const Setting path("PATH", folder.file("empty"));
   const Error error = thrown_error([&] { write_plot(folder.file("p"), parabola()); });
-  setenv("PATH", before.c_str(), 1);
   EXPECT_EQ(error.exit_code(), 1);
   EXPECT_TRUE(has(error.what(), "gnuplot-nox"));
   EXPECT_TRUE(folder.names().empty());

@@ -1,7 +1,5 @@
 #include "render/png_writer.h"
 
-#include <fstream>
-
 #include "tests/render/test_scene.h"
 
 namespace hysteron::render {

@@ -5,11 +5,9 @@
 
 #include <algorithm>
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "render/cloth_view.h"
-#include "sim/base/error.h"
 #include "sim/base/process.h"
 #include "tests/has.h"
 #include "tests/sim/base/folder.h"

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "experiments/accuracy/accuracy.h"
-#include "sim/base/error.h"
 #include "tests/experiments/folder.h"
 
 namespace hysteron::experiments {

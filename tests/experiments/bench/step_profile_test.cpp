@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "sim/scene/cloth.h"
 #include "sim/scene/scene_reader.h"
 

@@ -97,19 +97,18 @@ double threshold_ratio(const Scene& scene, Buckling kind, double stiffer = 1) {
   return gamma / (reference_gamma(kind, scene) * (1 + fraction_of_width(kind, scene, kLength)));
 }
 
+const auto kMeshes =
+    testing::Values("aligned", "aligned-45", "flipped", "unionjack", "equilateral", "random");
+
 class Upright : public testing::TestWithParam<const char*> {};
-INSTANTIATE_TEST_SUITE_P(Meshes, Upright,
-                         testing::Values("aligned", "aligned-45", "flipped", "unionjack", "equilateral",
-                                         "random"));
+INSTANTIATE_TEST_SUITE_P(Meshes, Upright, kMeshes);
 TEST_P(Upright, BucklesAtTheReference) {
   EXPECT_NEAR(threshold_ratio(buckling_scene(GetParam(), Buckling::upright), Buckling::upright), 1,
               kTarget / 4);
 }
 
 class OnEdge : public testing::TestWithParam<const char*> {};
-INSTANTIATE_TEST_SUITE_P(Meshes, OnEdge,
-                         testing::Values("aligned", "aligned-45", "flipped", "unionjack", "equilateral",
-                                         "random"));
+INSTANTIATE_TEST_SUITE_P(Meshes, OnEdge, kMeshes);
 TEST_P(OnEdge, BucklesAtTheReference) {
   EXPECT_NEAR(threshold_ratio(buckling_scene(GetParam(), Buckling::edge), Buckling::edge), 1, kTarget);
 }

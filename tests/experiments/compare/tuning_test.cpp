@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-#include "sim/base/error.h"
 #include "tests/experiments/program.h"
 
 namespace hysteron::experiments {

@@ -290,8 +290,7 @@ TEST_F(DiffOfFolders, RefusesToWriteWhereItReads) {
 
 // 64 of 64 x 48 pixels by 20 steps: mean_abs = 0.417.
 TEST_F(Diff, TakesLimitsFromAFileAndFlagsInTheirPlace) {
-  const std::string file = folder_.path() / "limits.toml";
-  std::ofstream(file) << "max-mean = 0.4\nmin-ssim = 0.5\n";
+  const std::string file = folder_.write("limits.toml", "max-mean = 0.4\nmin-ssim = 0.5\n");
   const Outcome outcome = diff(4, "--limits " + file);
   EXPECT_TRUE(one_line(outcome.err)) << outcome.err;
   EXPECT_TRUE(has(outcome.err, "must be <= 0.4 (" + file + ":1)"));
@@ -301,11 +300,9 @@ TEST_F(Diff, TakesLimitsFromAFileAndFlagsInTheirPlace) {
 }
 
 TEST_F(DiffOfFolders, TakesLimitsOfSomePicturesFromAFile) {
-  const std::string file = folder_.path() / "limits.toml";
   const auto limited = [&](int exit_code, const std::string& name, const std::string& mean) {
-    std::ofstream(file) << "max-mean = 0.1\n[[picture]]\nname = \"" << name << "\"\nmax-mean = " << mean
-                        << "\n";
-    diff(exit_code, "--limits " + file);
+    const std::string limits = "max-mean = 0.1\n[[picture]]\nname = \"" + name + "\"\nmax-mean = " + mean;
+    diff(exit_code, "--limits " + folder_.write("limits.toml", limits));
   };
   limited(0, "frames/*.png", "0.5");
   limited(4, "frames/*.png", "0.3");
@@ -324,7 +321,6 @@ TEST_F(DiffOfFolders, WritesATestCaseForEachPicture) {
 
 TEST(LimitsFile, RefusesInOneLineWhatIsNoLimit) {
   const Folder folder;
-  const std::string file = folder.path() / "limits.toml";
   const std::pair<const char*, const char*> kCases[] = {
       {"max-flop = 1", "unknown key max-flop"},
       {"max-flip = 2", "max-flip = 2 must be in [0, 1]"},
@@ -334,7 +330,7 @@ TEST(LimitsFile, RefusesInOneLineWhatIsNoLimit) {
       {"[[metric]]\nname = \"a\"", "needs max-difference"},
       {"[[metric]]\nname = \"a\"\nmax-difference = -1", "must be >= 0"}};
   for (const auto& [text, message] : kCases) {
-    std::ofstream(file) << text << "\n";
+    const std::string file = folder.write("limits.toml", text);
     const std::string said = refused("diff " + file + " " + file + " --limits " + file);
     EXPECT_TRUE(one_line(said)) << said;
     EXPECT_TRUE(has(said, message));

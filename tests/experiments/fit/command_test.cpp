@@ -1,10 +1,7 @@
 // `hysteron fit` from flags to its folder.
-#include <fstream>
-
 #include "experiments/fit/report.h"
 #include "sim/base/atomic_file.h"
 #include "sim/base/csv.h"
-#include "sim/base/error.h"
 #include "sim/scene/fabric_reader.h"
 #include "tests/experiments/folder.h"
 #include "tests/sim/identification/synthetic.h"
@@ -47,8 +44,10 @@ class Fit : public testing::Test {
   std::string said_, warned_;
 };
 
-TEST_F(Fit, OfALoopWritesWhatTheInterfaceNames) {
-  ASSERT_EQ(fit({{"loop", loop("prandtl", {250, -250, 250})}}), 0);
+TEST_F(Fit, OfALoopWritesWhatTheInterfaceNamesAndAFabricThatIsReadBack) {
+  ASSERT_EQ(
+      fit({{"loop", loop("prandtl", {250, -250, 250})}, {"name", "sample \"7\""}, {"fabric.density", "0.2"}}),
+      0);
   for (const char* name : {"fabric.toml", "fit.csv", "plot_fit.png", "plot_fit.svg", "plot_residual.png",
                            "plot_residual.svg", "manifest.json", "report.html"})
     EXPECT_TRUE(fs::exists(out() / name)) << name;
@@ -58,14 +57,7 @@ TEST_F(Fit, OfALoopWritesWhatTheInterfaceNames) {
     EXPECT_TRUE(m.at(key).is_number()) << key;
   EXPECT_EQ(m.at("undetermined"), Json::array());
   EXPECT_TRUE(has(said_, "undetermined: nothing"));
-}
-
-TEST_F(Fit, WritesAFabricThatIsReadBackWithItsStandardErrors) {
-  ASSERT_EQ(
-      fit({{"loop", loop("prandtl", {250, -250, 250})}, {"name", "sample \"7\""}, {"fabric.density", "0.2"}}),
-      0);
   const Fabric fabric = read_fabric((out() / "fabric.toml").string(), "--fabric").fabric;
-  const Json m = metrics();
   EXPECT_EQ(fabric.name, "sample \"7\"");
   EXPECT_EQ(fabric.b1, m.at("b1_N_m").get<double>());
   EXPECT_EQ(fabric.b2, m.at("b2_N_m").get<double>());
@@ -247,15 +239,14 @@ TEST_F(FitOfFab, TakesWarpBeforeWeftWhateverTheirOrderInTheFile) {
 }
 
 TEST_F(Fit, OfLoopsOfAFabTesterNeedsDensityAndTheRightUnits) {
-  const fs::path file = folder_.path() / "fab.csv";
-  std::ofstream(file) << "direction,test,branch,clamp_distance_m,force_N,gauge_length_m,width_m\n"
-                         "L,D1,0,0.018,0,0.021,0.04\n";
-  EXPECT_TRUE(has(refusal({{"fab", file.string()}}), "fabric.density"));
-  EXPECT_TRUE(
-      has(refusal({{"fab", file.string()}, {"units", "fab"}, {"fabric.density", "0.3"}}), "give --units si"));
-  EXPECT_TRUE(
-      has(refusal({{"fab", file.string()}, {"units", "kes"}, {"fabric.density", "0.3"}}), "fab (cm, gf)"));
-  EXPECT_TRUE(has(refusal({{"loop", file.string()}, {"units", "fab"}}), "--fab"));
+  const std::string file =
+      folder_.write("fab.csv",
+                    "direction,test,branch,clamp_distance_m,force_N,gauge_length_m,width_m\n"
+                    "L,D1,0,0.018,0,0.021,0.04\n");
+  EXPECT_TRUE(has(refusal({{"fab", file}}), "fabric.density"));
+  EXPECT_TRUE(has(refusal({{"fab", file}, {"units", "fab"}, {"fabric.density", "0.3"}}), "give --units si"));
+  EXPECT_TRUE(has(refusal({{"fab", file}, {"units", "kes"}, {"fabric.density", "0.3"}}), "fab (cm, gf)"));
+  EXPECT_TRUE(has(refusal({{"loop", file}, {"units", "fab"}}), "--fab"));
 }
 
 }  // namespace

@@ -1,4 +1,3 @@
-#include <cmath>
 
 #include "experiments/workbench/pictures/drawing.h"
 #include "render/compare.h"
@@ -11,13 +10,12 @@ class Scenes : public testing::Test {
  protected:
   // Metrics of a run of this scene.
   Json recorded_metrics(const std::string& scene, const std::string& flags = "--no-images") {
-    const Outcome outcome = run(scene, flags);
-    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    run(0, scene, flags);
     return metrics_of(out());
   }
-  Outcome run(const std::string& scene, const std::string& flags) {
-    return program("run " + folder_.write("mine.toml", scene) + " --quiet --threads 1 --device cpu " + flags +
-                   out_flag(out()));
+  Outcome run(int exit_code, const std::string& scene, const std::string& flags) {
+    return ended(exit_code, "run " + folder_.write("mine.toml", scene) +
+                                " --quiet --threads 1 --device cpu " + flags + out_flag(out()));
   }
   fs::path out() const { return folder_.path() / "out"; }
 
@@ -121,8 +119,7 @@ seconds = 0.05
 
 TEST_F(Scenes, FailWhereAPictureShowsNoCloth) {
   const Outcome outcome =
-      run(kSquare, "--fps 10 --size 160x120 --camera.box '0 0 5 0.2 0.2 5.2' --camera.direction '0 -1 0'");
-  EXPECT_EQ(outcome.exit_code, 3);
+      run(3, kSquare, "--fps 10 --size 160x120 --camera.box '0 0 5 0.2 0.2 5.2' --camera.direction '0 -1 0'");
   EXPECT_TRUE(has(outcome.err, "frames/0000.png shows no cloth at t = 0.000 s"));
   EXPECT_EQ(manifest_in(out())["complete"], false);
 }
@@ -130,8 +127,7 @@ TEST_F(Scenes, FailWhereAPictureShowsNoCloth) {
 // A quarter of the square is framed from above.
 TEST_F(Scenes, WarnWhereTheBorderOfThePicturesCutsOffCloth) {
   const Outcome outcome = run(
-      kSquare, "--fps 20 --size 160x120 --camera.box '0 0 -0.01 0.1 0.1 0.01' --camera.direction '0 0 1'");
-  EXPECT_EQ(outcome.exit_code, 0);
+      0, kSquare, "--fps 20 --size 160x120 --camera.box '0 0 -0.01 0.1 0.1 0.01' --camera.direction '0 0 1'");
   const std::string warning = "from t = 0.000 s on (frames/0000.png) the cloth is cut off at the border";
   EXPECT_TRUE(has(outcome.err, "warning: " + warning));
   const Json warnings = manifest_in(out())["warnings"];
@@ -171,7 +167,7 @@ TEST_F(Scenes, AreComparedInOneFrameAndWarnOfPlotsAndFilmsThatCannotBeMade) {
 
 // Two points of a cloth that falls freely stay as far apart as they are.
 TEST_F(Scenes, SayAtTheEndWhatTheyWereAskedFor) {
-  const Outcome outcome = run(kSquare + "[[metric]]\nname = \"side\"\nto = [0.2, 0, 0]\n", "--no-images");
+  const Outcome outcome = run(0, kSquare + "[[metric]]\nname = \"side\"\nto = [0.2, 0, 0]\n", "--no-images");
   EXPECT_TRUE(has(outcome.out, "  side                          0.2 m\n"));
   EXPECT_EQ(manifest_in(out())["asked_metrics"], Json({"side_m"}));
 }
@@ -192,8 +188,7 @@ TEST_F(Scenes, HaveTheErrorsOfTheirOwnMetrics) {
 }
 
 TEST_F(Scenes, WithoutMetricsHaveNoErrors) {
-  const Outcome outcome = run(kSquare, "--no-images --errors");
-  EXPECT_EQ(outcome.exit_code, 2);
+  const Outcome outcome = run(2, kSquare, "--no-images --errors");
   EXPECT_TRUE(has(outcome.err, "has no [[metric]] whose errors could be measured"));
 }
 
@@ -207,8 +202,7 @@ TEST_F(Scenes, RefuseInOneLineWhatCannotBeMeasured) {
       {"name = \"a\"\nkind = \"angle\"\nlow = [9, 9, 9]", "no element of the cloth"},
       {"name = \"a\"\nkind = \"force\"", "hand = 1 must be <= 0"}};
   for (const auto& [metric, message] : kCases) {
-    const Outcome outcome = run(kSquare + "[[metric]]\n" + metric + "\n", "--no-images");
-    EXPECT_EQ(outcome.exit_code, 2) << metric;
+    const Outcome outcome = run(2, kSquare + "[[metric]]\n" + metric + "\n", "--no-images");
     EXPECT_TRUE(has(outcome.err, message));
     const std::string said = without_warnings(outcome.err);
     EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << outcome.err;
@@ -240,8 +234,7 @@ TEST(Camera, KeepsABoxWholeAroundItsTarget) {
 
 TEST_F(Scenes, AreDrawnWithFewerSamplesAsADraft) {
   const auto picture_bytes = [&](const std::string& quality) {
-    const Outcome outcome = run(kSquare, "--fps 10 --size 64x48 --quality " + quality);
-    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    run(0, kSquare, "--fps 10 --size 64x48 --quality " + quality);
     const render::Image picture = render::read_png(out() / "frames" / "0001.png");
     fs::remove_all(out());
     return picture;

@@ -102,10 +102,10 @@ TEST_F(Recorded, FolderOfRunsIsWrittenAsAWorkflow) {
 }
 
 TEST_F(Recorded, SceneNeedsItsFileNoMore) {
-  std::ofstream(in("mine.toml"))
-      << "triangles = 64\nseconds = 0.05\n[[metric]]\nname = \"edge\"\nto = [0.5, 0, 0]\n";
-  record("run " + in("mine.toml") + " --no-images");
-  fs::remove(in("mine.toml"));
+  const std::string scene = folder_.write(
+      "mine.toml", "triangles = 64\nseconds = 0.05\n[[metric]]\nname = \"edge\"\nto = [0.5, 0, 0]\n");
+  record("run " + scene + " --no-images");
+  fs::remove(scene);
   finished("rerun " + manifest().string() + " --quiet --out " + in("again"));
   EXPECT_EQ(manifest_in(run())["state_hash"], manifest_in(in("again"))["state_hash"]);
   EXPECT_EQ(manifest_in(run())["metrics"]["edge_m"], manifest_in(in("again"))["metrics"]["edge_m"]);

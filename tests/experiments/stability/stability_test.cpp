@@ -4,7 +4,6 @@
 #include <cmath>
 #include <sstream>
 
-#include "sim/base/error.h"
 #include "sim/scene/scene_reader.h"
 #include "tests/experiments/folder.h"
 

@@ -1,7 +1,6 @@
 // Runs that share a process (--batch): each as by itself.
 #include <sys/prctl.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <csignal>
@@ -35,8 +34,8 @@ class SweepInABatch : public testing::Test {
     return "sweep " + study_.string() + " --no-images --jobs 2" + out_flag(folder_.path() / out) + " " +
            options;
   }
-  Outcome run(const std::string& out, const std::string& options) const {
-    return program(line(out, options));
+  Outcome run(int exit_code, const std::string& out, const std::string& options) const {
+    return ended(exit_code, line(out, options));
   }
   fs::path law_folder(const std::string& out, const std::string& law) const {
     return folder_.path() / out / "runs" / ("law=" + law + ",k0=40");
@@ -55,15 +54,14 @@ constexpr const char* kThree = "key = \"fabric.k0\"\nvalues = [20, 40, 80]\n";
 
 TEST_F(SweepInABatch, FindsTheTableOfRunsByThemselves) {
   write(kOnCpu, kThree);
-  ASSERT_EQ(run("alone", "").exit_code, 0);
-  const Outcome together = run("together", "--batch 4");
-  ASSERT_EQ(together.exit_code, 0) << together.err;
+  run(0, "alone", "");
+  run(0, "together", "--batch 4");
   EXPECT_EQ(table("alone").rows.size(), 6u);
   expect_same("alone", "together");
   for (const char* file : {"metrics.csv", "turns.csv"})
     EXPECT_EQ(file_content(law_folder("alone", "prandtl") / file),
               file_content(law_folder("together", "prandtl") / file));
-  ASSERT_EQ(run("together", "--batch 4 --resume").exit_code, 0);
+  run(0, "together", "--batch 4 --resume");
   EXPECT_EQ(metrics_of(folder_.path() / "together")["kept_count"], 6);
   expect_same("alone", "together");
 }
@@ -71,8 +69,8 @@ TEST_F(SweepInABatch, FindsTheTableOfRunsByThemselves) {
 // A rigidity above b1 is refused when a run sets up its scene.
 TEST_F(SweepInABatch, MarksWhatFailsAsAloneAndEndsTheOthers) {
   write(kOnCpu, "key = \"fabric.b2\"\nvalues = [1e-6, 1.0, 2e-6]\n");
-  EXPECT_EQ(run("alone", "").exit_code, 3);
-  EXPECT_EQ(run("together", "--batch 6").exit_code, 3);
+  run(3, "alone", "");
+  run(3, "together", "--batch 6");
   expect_same("alone", "together");
   const Table found = table("together");
   const auto failed = std::count_if(found.rows.begin(), found.rows.end(), [](const auto& row) {
@@ -85,15 +83,14 @@ TEST_F(SweepInABatch, GoesOnFromWhereItWasKilled) {
   ASSERT_EQ(prctl(PR_SET_CHILD_SUBREAPER, 1), 0);  // the batch outlives its study and comes to this process
   const std::string longer = "no-images = true\ndevice = \"cpu\"\nseconds = 0.5\nfps = 240\n";
   write(longer, kThree);
-  ASSERT_EQ(run("whole", "").exit_code, 0);
+  run(0, "whole", "");
   write(longer + "checkpoint = 1e-6\n", kThree);
   terminate_after(started(line("parts", "--batch 3 2>/dev/null")),
                   law_folder("parts", "linear") / "checkpoint");
   while (wait(nullptr) > 0) {
   }
   EXPECT_FALSE(fs::exists(folder_.path() / "parts/table.csv"));
-  const Outcome last = run("parts", "--batch 3 --resume");
-  ASSERT_EQ(last.exit_code, 0) << last.err;
+  run(0, "parts", "--batch 3 --resume");
   expect_same("whole", "parts");
   const Json resumed = manifest_in(law_folder("parts", "linear"));
   EXPECT_EQ(resumed.value("resumed_at_s", Json::array()).size(), 1u);
@@ -101,8 +98,7 @@ TEST_F(SweepInABatch, GoesOnFromWhereItWasKilled) {
 
 TEST_F(SweepInABatch, IsRefusedWhereRunsDraw) {
   write("seconds = 0.05\n", kThree);
-  const Outcome outcome = run("out", "--batch 4");
-  EXPECT_EQ(outcome.exit_code, 2);
+  const Outcome outcome = run(2, "out", "--batch 4");
   EXPECT_EQ(
       outcome.err,
       "hysteron sweep: batch = 4 is of runs without pictures, with no-images among their keys (--batch)\n");
@@ -114,8 +110,8 @@ TEST_F(SweepInABatch, OnAGpuEveryRunHasTheBitsThatItHasAlone) {
   if (gpu_count(reason) == 0) GTEST_SKIP() << "no GPU: " << reason;
   write("no-images = true\ndevice = \"cuda\"\nseconds = 0.05\n",
         "key = \"fabric.b2\"\nvalues = [1e-6, 1.0, 2e-6]\n");
-  EXPECT_EQ(run("alone", "").exit_code, 3);
-  EXPECT_EQ(run("together", "--batch 6").exit_code, 3);
+  run(3, "alone", "");
+  run(3, "together", "--batch 6");
   const Table alone = table("alone"), together = table("together");
   const auto at = std::find(alone.head.begin(), alone.head.end(), "state_hash") - alone.head.begin();
   for (std::size_t r = 0; r < alone.rows.size(); ++r) {

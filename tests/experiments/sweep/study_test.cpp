@@ -5,16 +5,12 @@
 #include <set>
 
 #include "experiments/sweep/tables.h"
-#include "sim/base/error.h"
 #include "tests/experiments/folder.h"
 
 namespace hysteron::experiments {
 namespace {
 
-Study parsed_study(const std::string& text) {
-  const Folder folder;
-  return read_study(folder.write("s.toml", text));
-}
+Study parsed_study(const std::string& text) { return read_study(Folder().write("s.toml", text)); }
 
 TEST(Study, RunsEveryCombinationTheLastAxisFirst) {
   const Study study = parsed_study(

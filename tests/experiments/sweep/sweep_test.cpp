@@ -17,9 +17,9 @@ class Sweep : public testing::Test {
  protected:
   Sweep() { write(kStudy); }
   void write(const std::string& text) { write_text(study_, text); }
-  Outcome run(const std::string& options, const std::string& out = "out") const {
-    return program("sweep " + study_.string() + " --no-images --jobs 2" + out_flag(folder_.path() / out) +
-                   " " + options);
+  Outcome run(int exit_code, const std::string& options = "", const std::string& out = "out") const {
+    return ended(exit_code, "sweep " + study_.string() + " --no-images --jobs 2" +
+                                out_flag(folder_.path() / out) + " " + options);
   }
   Table table(const std::string& out = "out") const { return read_table(folder_.path() / out / "table.csv"); }
   Json manifest(const fs::path& in) const { return manifest_in(folder_.path() / in); }
@@ -28,7 +28,7 @@ class Sweep : public testing::Test {
 };
 
 TEST_F(Sweep, TabulatesWhatEveryRunHasFoundInItsOwnFolderAndRepeatsNothingThatIsFinished) {
-  ASSERT_EQ(run("").exit_code, 0);
+  run(0);
   const Table whole = table();
   ASSERT_EQ(whole.rows.size(), 4u);
   const std::vector<std::string> first(whole.head.begin(), whole.head.begin() + 3);
@@ -43,7 +43,7 @@ TEST_F(Sweep, TabulatesWhatEveryRunHasFoundInItsOwnFolderAndRepeatsNothingThatIs
   EXPECT_NE(whole.rows[0][static_cast<std::size_t>(column)], whole.rows[3][static_cast<std::size_t>(column)]);
   fs::remove_all(folder_.path() / "out/runs" / whole.rows[1][0]);
   fs::remove(folder_.path() / "out/table.csv");
-  ASSERT_EQ(run("--resume").exit_code, 0);
+  run(0, "--resume");
   EXPECT_EQ(manifest("out")["metrics"]["kept_count"], 3);
   expect_same(table(), whole);
   EXPECT_EQ(table().rows[0], whole.rows[0]) << "kept with its time";
@@ -56,8 +56,7 @@ TEST_F(Sweep, WarnsOfWhatItsRunsWarnOf) {
       "0.02\n"
       "[[axis]]\nkey = \"law\"\nvalues = [\"linear\", \"dahl\"]\n");
   for (const char* how : {"--quiet", "--quiet --collect"}) {
-    const Outcome outcome = run(how);
-    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const Outcome outcome = run(0, how);
     const auto warnings = manifest("out")["warnings"];
     ASSERT_FALSE(warnings.empty());
     const std::string names = warnings[0].get<std::string>();
@@ -71,8 +70,7 @@ TEST_F(Sweep, ListsRunsThatFailGoesOnAndExitsWithThree) {
   std::string text = kStudy;
   text.replace(text.find("2e-6"), 4, "1.0 ");  // a rigidity above b1
   write(text);
-  const Outcome outcome = run("");
-  EXPECT_EQ(outcome.exit_code, 3);
+  const Outcome outcome = run(3);
   EXPECT_TRUE(has(outcome.err, "2 of 4 runs are not complete"));
   const Table found = table();
   for (std::size_t r = 0; r < 4; ++r) {
@@ -86,26 +84,25 @@ TEST_F(Sweep, ListsRunsThatFailGoesOnAndExitsWithThree) {
 // Which metrics there are is known once a run has ended.
 TEST_F(Sweep, RefusesMetricsThatNoRunHasFoundAndNamesTheNearest) {
   write(std::string("metrics = [\"B_N_m\", \"2HB_M\"]\n") + kStudy);
-  const Outcome outcome = run("--quiet");
-  EXPECT_EQ(outcome.exit_code, 2);
+  const Outcome outcome = run(2, "--quiet");
   const std::string unknown = "found no 2HB_M (did you mean 2HB_N?)",
                     place = " (" + study_.string() + ":1)\n";
   EXPECT_EQ(outcome.err.find("warning: metrics: the first run has " + unknown + place), 0u) << outcome.err;
   EXPECT_TRUE(has(outcome.err, "metrics: no run has found 2HB_M (did you mean 2HB_N?); the runs are kept"));
   EXPECT_EQ(table().rows.size(), 4u);
   write(std::string("metrics = [\"B_N_m\", \"2HB_N\"]\n") + kStudy);
-  EXPECT_EQ(run("--collect").exit_code, 0);
+  run(0, "--collect");
 }
 
 TEST_F(Sweep, InPartsFindsTheTableOfTheWhole) {
-  ASSERT_EQ(run("", "whole").exit_code, 0);
-  EXPECT_EQ(run("--collect").exit_code, 3) << "nothing has run";
-  for (const char* part : {"--part 3/3", "--part 1/3", "--part 2/3"}) EXPECT_EQ(run(part).exit_code, 0);
-  EXPECT_EQ(run("--only k0=80,b2=2e-06").exit_code, 0);
-  EXPECT_EQ(run("--collect").exit_code, 0);
+  run(0, "", "whole");
+  run(3, "--collect");  // nothing has run
+  for (const char* part : {"--part 3/3", "--part 1/3", "--part 2/3"}) run(0, part);
+  run(0, "--only k0=80,b2=2e-06");
+  run(0, "--collect");
   expect_same(table(), table("whole"));
-  EXPECT_EQ(run("--part 5/4").exit_code, 2);
-  EXPECT_EQ(run("--only k0=81").exit_code, 2);
+  run(2, "--part 5/4");
+  run(2, "--only k0=81");
 }
 
 // The corner, let go, falls further than the middle of the side that is held.
@@ -117,15 +114,14 @@ TEST_F(Sweep, OfASceneShowsTheMetricsThatItAsksFor) {
   write(
       "experiment = \"run\"\nseeds = 2\n[scene]\nscene = \"held.toml\"\nmesh = \"random\"\n"
       "no-images = true\ndevice = \"cpu\"\n[[axis]]\nkey = \"fabric.b2\"\nvalues = [1e-6, 2e-6]\n");
-  const Outcome outcome = run("");
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  run(0);
   EXPECT_EQ(read_table(folder_.path() / "out/means.csv").head,
             (std::vector<std::string>{"fabric.b2", "draws", "corner_m_mean", "corner_m_stderr"}));
 }
 
 TEST_F(Sweep, WritesAWorkflowOfAJobForEachRun) {
   const fs::path flow = folder_.path() / "flow";
-  ASSERT_EQ(run("--snakemake " + flow.string()).exit_code, 0);
+  run(0, "--snakemake " + flow.string());
   EXPECT_FALSE(fs::exists(folder_.path() / "out"));
   const auto config = read_json(flow / "config.json");
   EXPECT_EQ(config["jobs"].size(), 4u);
@@ -158,7 +154,7 @@ values = [5e-6, 6e-6]
 method = "latin"
 n = 3
 )");
-  ASSERT_EQ(run("").exit_code, 0);
+  run(0);
   ASSERT_TRUE(fs::remove(study_));
   const std::string folder = (folder_.path() / "out").string(), again = (folder_.path() / "again").string();
   finished("rerun " + folder + " --no-images --out " + again);
@@ -170,8 +166,7 @@ n = 3
   for (const char* keys : {R"({"law": "prandtl"})", R"({"shared": [1], "axes": [{"key": 2}]})"}) {
     other["scene"] = json_in(keys, "keys");
     write(other.dump());
-    const Outcome outcome = run("", "other");
-    EXPECT_EQ(outcome.exit_code, 2) << outcome.err;
+    const Outcome outcome = run(2, "", "other");
     EXPECT_TRUE(has(outcome.err, "is not the manifest of a sweep"));
   }
 }

@@ -2,7 +2,6 @@
 #include "experiments/validate/budget.h"
 
 #include <cmath>
-#include <fstream>
 
 #include "tests/experiments/program.h"
 
@@ -91,7 +90,7 @@ TEST(Budget, RowsAreMeansOfTheirDrapesAndChangesFromTheFirst) {
   constexpr double kDigits = 1e-4;  // of six in the table [%]
   const Folder folder;
   const auto out = folder.path() / "v";
-  std::ofstream(folder.path() / "one-unknown") << kOneUnknown;
+  folder.write("one-unknown", kOneUnknown);
   const InFolder here(folder.path());  // where the name is a file's
   finished(
       "validate --quick --quiet --no-images --fabrics one-unknown --parts budget --laws linear "
@@ -120,9 +119,7 @@ TEST(Budget, RowsAreMeansOfTheirDrapesAndChangesFromTheFirst) {
 
 TEST(Budget, OfAnotherTableIsRefused) {
   const Folder folder;
-  const auto csv = folder.path() / "budget.csv";
-  std::ofstream(csv) << "fabric,number\nwool,shear\n";
-  EXPECT_THROW(read_budget(csv), Error);
+  EXPECT_THROW(read_budget(folder.write("budget.csv", "fabric,number\nwool,shear\n")), Error);
 }
 
 }  // namespace

@@ -1,8 +1,6 @@
 // Folds of drapes against those of real cloth.
 #include "experiments/validate/folds.h"
 
-#include <fstream>
-
 #include "tests/experiments/folder.h"
 
 namespace hysteron::experiments {
@@ -46,16 +44,13 @@ TEST(ComparedFolds, ShareIsThatOfEachFabricAndLaw) {
 // A drape that came to no end has no coefficient.
 TEST(ComparedFolds, AreReadFromAStudysTable) {
   const Folder folder;
-  const auto csv = folder.path() / "table.csv";
-  std::ofstream(csv)
-      << "law,fabric,drape_coefficient_percent,node_count\nprandtl,wool,50.5,8\nlinear,wool,,\n";
-  const std::vector<CountedDrape> read = read_counted(csv);
+  const std::vector<CountedDrape> read = read_counted(folder.write(
+      "table.csv", "law,fabric,drape_coefficient_percent,node_count\nprandtl,wool,50.5,8\nlinear,wool,,\n"));
   ASSERT_EQ(read.size(), 1u);
   EXPECT_EQ(read[0].fabric, "wool");
   EXPECT_EQ(read[0].coefficient, 50.5);
   EXPECT_EQ(read[0].folds, 8);
-  std::ofstream(csv) << "law,fabric\nprandtl,wool\n";
-  EXPECT_THROW(read_counted(csv), Error);
+  EXPECT_THROW(read_counted(folder.write("table.csv", "law,fabric\nprandtl,wool\n")), Error);
 }
 
 }  // namespace

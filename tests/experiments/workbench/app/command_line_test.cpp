@@ -1,6 +1,5 @@
 #include "experiments/workbench/app/command_line.h"
 
-#include "sim/base/error.h"
 #include "tests/experiments/folder.h"
 
 namespace hysteron::experiments {

@@ -2,7 +2,6 @@
 #include "experiments/workbench/app/decided_keys.h"
 
 #include <algorithm>
-#include <fstream>
 
 #include "experiments/workbench/app/command_line.h"
 #include "experiments/workbench/app/manifest.h"

@@ -1,7 +1,6 @@
 // What --help prints: by group, no wider than the terminal.
 #include "experiments/workbench/app/help.h"
 
-#include <algorithm>
 #include <map>
 #include <sstream>
 

@@ -9,12 +9,6 @@
 namespace hysteron::experiments {
 namespace {
 
-std::vector<std::string> names_in(const fs::path& folder) {
-  std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(folder)) names.push_back(entry.path().filename().string());
-  return names;
-}
-
 TEST(Manifest, ReportsWhatTheRunFound) {
   const Folder folder;
   ExperimentRun run(drape_line(), setup_in(folder.path()));
@@ -98,19 +92,6 @@ TEST(Manifest, OfARunThatCouldNotGoOnIsKeptAndIncomplete) {
   EXPECT_EQ(manifest["metrics"]["steps_done"], 7);
 }
 
-TEST(Run, RemovesTheFilesOfTheRunBeforeItAndNoOthers) {
-  const Folder folder;
-  {
-    ExperimentRun first(drape_line(), setup_in(folder.path()));
-    std::ofstream(first.path("frames/0099.png")) << "old";
-    first.finish();
-  }
-  std::ofstream(folder.path() / "mine.txt") << "not from a run";
-  ExperimentRun second(drape_line(), setup_in(folder.path()));
-  EXPECT_FALSE(fs::exists(folder.path() / "frames/0099.png"));
-  EXPECT_TRUE(fs::exists(folder.path() / "mine.txt"));
-}
-
 TEST(Run, NeverRemovesWhatAManifestNamesOutsideItsFolder) {
   const Folder folder;
   const fs::path outside = folder.path() / "outside.txt", run_folder = folder.path() / "run";
@@ -142,7 +123,7 @@ TEST(Run, OnAFullDiskIsAMachineErrorAndLeavesNothingHalfWritten) {
     return 0;
   });
   EXPECT_EQ(exit_code, 1);
-  EXPECT_EQ(names_in(folder.path()), std::vector<std::string>{});
+  EXPECT_EQ(folder.names(), std::vector<std::string>{});
 }
 
 TEST(Run, PrintsItsManifestWhenAsked) {

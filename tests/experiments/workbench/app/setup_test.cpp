@@ -1,6 +1,3 @@
-#include <fstream>
-
-#include "sim/base/error.h"
 #include "tests/experiments/folder.h"
 
 namespace hysteron::experiments {
@@ -14,8 +11,7 @@ std::string setup_error(std::vector<Flag> flags) {
 
 TEST(Setup, PutsFlagsOverTheSceneFileOverTheExperimentsDefaults) {
   const Folder folder;
-  const std::string file = folder.path() / "scene.toml";
-  std::ofstream(file) << "triangles = 10\nseconds = 2\nfps = 12\nstarch = 3\n";
+  const std::string file = folder.write("scene.toml", "triangles = 10\nseconds = 2\nfps = 12\nstarch = 3\n");
   experiments::Setup defaults{default_scene(), {}};
   defaults.scene.step = 5e-4;
   defaults.scene.seconds = 9;
@@ -36,8 +32,8 @@ TEST(Setup, PutsFlagsOverTheSceneFileOverTheExperimentsDefaults) {
 
 TEST(Setup, PutsFlagsOverQuickOverTheSceneFile) {
   const Folder folder;
-  const std::string file = folder.path() / "scene.toml";
-  std::ofstream(file) << "triangles = 5000\nseconds = 9\nstarch = 7\nfps = 60\n";
+  const std::string file =
+      folder.write("scene.toml", "triangles = 5000\nseconds = 9\nstarch = 7\nfps = 60\n");
   double starch = 0;
   const Field field = &starch;
   const Keys own = {{describe("starch", field, "g", positive(), "", "the experiment's own key"), field}};
@@ -85,8 +81,7 @@ TEST(Setup, RefusesWhatNoPictureSequenceCanHave) {
 
 TEST(Setup, SaysWhoseAKeyOfItsFileIs) {
   const Folder folder;
-  const std::string file = folder.path() / "scene.toml";
-  std::ofstream(file) << "\n[crease]\nhold = 3\n";
+  const std::string file = folder.write("scene.toml", "\n[crease]\nhold = 3\n");
   EXPECT_EQ(setup_error({{"scene", file}}),
             "unknown key crease.hold (" + file + ":3); it is an option of crease");
 }

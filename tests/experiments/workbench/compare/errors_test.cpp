@@ -1,13 +1,11 @@
 // Headline numbers with their errors: what is repeated, what is made of it, how it is written.
 #include <cmath>
-#include <fstream>
 
 #include "experiments/workbench/compare/errors.h"
 #include "experiments/workbench/pages/error_words.h"
 #include "experiments/workbench/pages/metrics.h"
 #include "experiments/workbench/pages/text_table.h"
 #include "sim/base/csv.h"
-#include "sim/base/error.h"
 #include "tests/experiments/program.h"
 
 namespace hysteron::experiments {
@@ -196,26 +194,24 @@ TEST(MetricTable, ShowsErrorsInTheHeadlinesCell) {
 
 const std::string kSmall = " --triangles 60 --seconds 0.05 --fps 30 --device cpu --no-images --quiet";
 
-double friction_in(const fs::path& folder) {
-  return manifest_in(folder)["metrics"]["bending_friction_J"].get<double>();
+// What a run with these flags loses by friction.
+double friction_with(const std::string& flags) {
+  return FinishedRun("swing --no-images --quiet --device cpu --seconds 0.05 --fps 30 " + flags)
+      .metrics()["bending_friction_J"];
 }
 
 TEST(SwingWithErrors, FindsWhatSeparateRunsFind) {
   const Folder folder;
   const InFolder here(folder.path());
   finished("swing --errors --out run" + kSmall);
-  const std::string swing = "swing --no-images --quiet --device cpu --seconds 0.05 --fps 30 ";
-  finished(swing + "--triangles 60 --step 0.0020833333333333333 --out step");
-  finished(swing + "--triangles 240 --out mesh");
-  finished(swing + "--triangles 60 --mesh equilateral --out one");
-  finished(swing + "--triangles 60 --mesh random --seed 2 --out two");
-
   const Json manifest = manifest_in("run"), metrics = manifest["metrics"];
   const double run = metrics["bending_friction_J"].get<double>();
   ASSERT_GT(run, 0);
-  EXPECT_EQ(metrics["bending_friction_J_step_error"], std::abs(friction_in("step") - run));
-  EXPECT_EQ(metrics["bending_friction_J_mesh_error"], std::abs(friction_in("mesh") - run));
-  const double one = friction_in("one"), two = friction_in("two"), mean = (run + one + two) / 3;
+  EXPECT_EQ(metrics["bending_friction_J_step_error"],
+            std::abs(friction_with("--triangles 60 --step 0.0020833333333333333") - run));
+  EXPECT_EQ(metrics["bending_friction_J_mesh_error"], std::abs(friction_with("--triangles 240") - run));
+  const double one = friction_with("--triangles 60 --mesh equilateral"),
+               two = friction_with("--triangles 60 --mesh random --seed 2"), mean = (run + one + two) / 3;
   EXPECT_NE(one, run);
   EXPECT_NE(two, run);
   const double squares = std::pow(run - mean, 2) + std::pow(one - mean, 2) + std::pow(two - mean, 2);
@@ -250,36 +246,36 @@ TEST(SwingWithErrors, PassesFlagsOnButThoseThatItChanges) {
 // The second mesh's folder cannot be made.
 TEST(SwingWithErrors, SaysWhichRepeatFailed) {
   const Folder folder;
-  fs::create_directories(folder.path() / "run/errors");
-  std::ofstream(folder.path() / "run/errors/mesh") << "a file";
-  const Outcome outcome = finished("swing --errors" + out_flag(folder.path() / "run") +
-                                   " --triangles 60 --seconds 0.05 --fps 30 --device cpu --no-images");
-  const Json manifest = manifest_in(folder.path() / "run");
+  const fs::path run = folder.path() / "run";
+  fs::create_directories(run / "errors");
+  folder.write("run/errors/mesh", "a file");
+  const Outcome outcome = finished(
+      "swing --errors --triangles 60 --seconds 0.05 --fps 30 --device cpu --no-images" + out_flag(run));
+  const Json manifest = manifest_in(run);
   EXPECT_TRUE(manifest["metrics"]["bending_friction_J_mesh_error"].is_null());
   EXPECT_TRUE(manifest["metrics"]["bending_friction_J_step_error"].is_number());
   ASSERT_EQ(manifest["errors_missing"].size(), 1);
   const std::string missing = manifest["errors_missing"][0].get<std::string>();
   EXPECT_EQ(manifest["warnings"].back(), "errors: " + missing);
   EXPECT_TRUE(has(outcome.err, "warning: errors: " + missing));
-  EXPECT_TRUE(manifest["errors_missing"][0].get<std::string>().starts_with("mesh (--triangles=240) is not"));
-  const Table table = read_table(folder.path() / "run/errors.csv");
+  EXPECT_TRUE(missing.starts_with("mesh (--triangles=240) is not"));
+  const Table table = read_table(run / "errors.csv");
   const auto complete = std::find(table.head.begin(), table.head.end(), "complete") - table.head.begin();
   EXPECT_EQ(table.rows[0][complete], "0");
   EXPECT_EQ(table.rows[1][complete], "1");
-  EXPECT_TRUE(has(file_content(folder.path() / "run/report.html"), "Errors that are not known: mesh"));
+  EXPECT_TRUE(has(file_content(run / "report.html"), "Errors that are not known: mesh"));
   EXPECT_TRUE(has(outcome.err, "mesh error unknown"));
 }
 
 // Otherwise every repeat would repeat itself.
 TEST(SwingWithErrors, AsksForNoErrorsOfRepeatsWhereASceneFileDoes) {
   const Folder folder;
-  std::ofstream(folder.path() / "scene.toml") << "errors = true\nout = \"" +
-                                                     (folder.path() / "run").string() +
-                                                     "\"\ntriangles = 60\nseconds = 0.05\n";
-  finished("swing --no-images --quiet --device cpu --scene " + (folder.path() / "scene.toml").string());
-  EXPECT_TRUE(manifest_in(folder.path() / "run")["metrics"].contains("bending_friction_J_draw_error"));
-  EXPECT_TRUE(fs::exists(folder.path() / "run/errors/draw-2/manifest.json"));
-  EXPECT_FALSE(fs::exists(folder.path() / "run/errors/draw-2/errors"));
+  const fs::path run = folder.path() / "run";
+  const std::string scene = "errors = true\nout = \"" + run.string() + "\"\ntriangles = 60\nseconds = 0.05\n";
+  finished("swing --no-images --quiet --device cpu --scene " + folder.write("scene.toml", scene));
+  EXPECT_TRUE(metrics_of(run).contains("bending_friction_J_draw_error"));
+  EXPECT_TRUE(fs::exists(run / "errors/draw-2/manifest.json"));
+  EXPECT_FALSE(fs::exists(run / "errors/draw-2/errors"));
 }
 
 TEST(Compare, GivesEachColumnItsErrors) {
@@ -293,12 +289,8 @@ TEST(Compare, GivesEachColumnItsErrors) {
 TEST(RequestForErrors, IsRefusedWhereThereIsNone) {
   const Folder folder;
   const std::string out = " --quiet --no-images" + out_flag(folder.path() / "out");
-  const Outcome bench = program("bench --quick --errors" + out),
-                law = program("fold --fold.law-alone --errors" + out);
-  EXPECT_EQ(bench.exit_code, 2);
-  EXPECT_TRUE(has(bench.err, "bench has no headline"));
-  EXPECT_EQ(law.exit_code, 2);
-  EXPECT_TRUE(has(law.err, "fold.law-alone"));
+  EXPECT_TRUE(has(refused("bench --quick --errors" + out), "bench has no headline"));
+  EXPECT_TRUE(has(refused("fold --fold.law-alone --errors" + out), "fold.law-alone"));
   EXPECT_FALSE(fs::exists(folder.path() / "out/manifest.json"));
 }
 

@@ -8,7 +8,6 @@
 #include "experiments/workbench/pages/report.h"
 #include "experiments/workbench/session/record.h"
 #include "render/image.h"
-#include "sim/base/error.h"
 #include "tests/experiments/program.h"
 
 namespace hysteron::experiments {

@@ -1,5 +1,4 @@
 // Pages that link their pictures, and pages that hold them.
-#include <algorithm>
 #include <fstream>
 #include <regex>
 
@@ -8,7 +7,6 @@
 #include "experiments/workbench/pages/pictures.h"
 #include "experiments/workbench/pages/report.h"
 #include "render/image.h"
-#include "sim/base/error.h"
 #include "tests/experiments/program.h"
 
 namespace hysteron::experiments {

@@ -6,7 +6,6 @@
 #include "experiments/workbench/pages/page.h"
 #include "experiments/workbench/session/record.h"
 #include "render/image.h"
-#include "sim/base/error.h"
 #include "tests/experiments/folder.h"
 
 namespace hysteron::experiments {

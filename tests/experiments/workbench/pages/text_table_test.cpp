@@ -1,20 +1,12 @@
-#include <fstream>
-
 #include "experiments/workbench/pages/text_table.h"
 
 #include "sim/base/csv.h"
-#include "sim/base/error.h"
 #include "tests/experiments/folder.h"
 
 namespace hysteron::experiments {
 namespace {
 
-Table parsed_table(const std::string& text) {
-  const Folder folder;
-  const fs::path file = folder.path() / "table.csv";
-  std::ofstream(file, std::ios::binary) << text;
-  return read_table(file);
-}
+Table parsed_table(const std::string& text) { return read_table(Folder().write("table.csv", text)); }
 
 TEST(TextTable, ReadsWhatRowsAreWrittenAs) {
   const std::vector<std::vector<std::string>> rows = {

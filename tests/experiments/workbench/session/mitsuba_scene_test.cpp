@@ -2,7 +2,6 @@
 #include "experiments/workbench/session/mitsuba_scene.h"
 
 #include <cmath>
-#include <numbers>
 #include <regex>
 #include <sstream>
 #include <vector>

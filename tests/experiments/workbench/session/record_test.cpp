@@ -11,53 +11,51 @@ namespace {
 
 const std::vector<std::string> kColumns = {"time [s]", "drape_coefficient [%]"};
 
-TEST(Record, ReadsBackTheSameNumbers) {
-  const Folder folder;
-  const auto file = folder.path() / "metrics.csv";
-  Record record(file, kColumns);
+class RecordFile : public testing::Test {
+ protected:
+  const Folder folder_;
+  const fs::path file_ = folder_.path() / "metrics.csv";
+};
+
+TEST_F(RecordFile, ReadsBackTheSameNumbers) {
+  Record record(file_, kColumns);
   record.row({0.1, std::sqrt(2.0)});
   record.row({1.0 / 3, -1e-300});
   record.finish();
-  const Table table = read_csv(file, kColumns, {}, "test");
+  const Table table = read_csv(file_, kColumns, {}, "test");
   EXPECT_EQ(table.numbers("time [s]"), (std::vector<double>{0.1, 1.0 / 3}));
   EXPECT_EQ(table.numbers("drape_coefficient [%]"), (std::vector<double>{std::sqrt(2.0), -1e-300}));
 }
 
-TEST(Record, CanBeWatchedWhileItGrows) {
-  const Folder folder;
-  Record record(folder.path() / "metrics.csv", {"time [s]"});
+TEST_F(RecordFile, CanBeWatchedWhileItGrows) {
+  Record record(file_, {"time [s]"});
   record.row({1});
-  EXPECT_EQ(file_content(folder.path() / "metrics.csv.part"), "time [s]\n1\n");
-  EXPECT_FALSE(fs::exists(folder.path() / "metrics.csv"));
+  EXPECT_EQ(file_content(folder_.path() / "metrics.csv.part"), "time [s]\n1\n");
+  EXPECT_FALSE(fs::exists(file_));
 }
 
-TEST(Record, KeepsItsRowsWhenTheRunEndsEarly) {
-  const Folder folder;
+TEST_F(RecordFile, KeepsItsRowsWhenTheRunEndsEarly) {
   try {
-    Record record(folder.path() / "metrics.csv", {"time [s]"});
+    Record record(file_, {"time [s]"});
     record.row({1});
     throw Error::simulation("no convergence");
   } catch (const Error&) {
   }
-  EXPECT_EQ(file_content(folder.path() / "metrics.csv"), "time [s]\n1\n");
+  EXPECT_EQ(file_content(file_), "time [s]\n1\n");
 }
 
-TEST(Record, NeverTakesItsNameOnAFullDisk) {
-  const Folder folder;
-  const auto file = folder.path() / "metrics.csv";
-  fs::create_symlink("/dev/full", file.string() + ".part");
-  const Error error = test::thrown_error([&] { Record(file, kColumns); });
+TEST_F(RecordFile, NeverTakesItsNameOnAFullDisk) {
+  fs::create_symlink("/dev/full", file_.string() + ".part");
+  const Error error = test::thrown_error([&] { Record(file_, kColumns); });
   EXPECT_EQ(error.exit_code(), 1);
   EXPECT_TRUE(has(error.what(), "No space left on device"));
-  EXPECT_FALSE(fs::exists(fs::symlink_status(file)));
+  EXPECT_FALSE(fs::exists(fs::symlink_status(file_)));
 }
 
-TEST(Record, ThatFillsTheDiskLaterNeverTakesItsNameEither) {
-  const Folder folder;
-  const auto file = folder.path() / "metrics.csv";
+TEST_F(RecordFile, ThatFillsTheDiskLaterNeverTakesItsNameEither) {
   const int exit_code = on_a_disk_with(1000, [&] {
     try {
-      Record record(file, kColumns);
+      Record record(file_, kColumns);
       for (int row = 0; row < 1000; ++row) record.row({1.0 * row, 0});
     } catch (const Error& error) {
       return error.exit_code();
@@ -65,12 +63,11 @@ TEST(Record, ThatFillsTheDiskLaterNeverTakesItsNameEither) {
     return 0;
   });
   EXPECT_EQ(exit_code, 1);
-  EXPECT_FALSE(fs::exists(file));
+  EXPECT_FALSE(fs::exists(file_));
 }
 
-TEST(Record, RefusesARowThatDoesNotFitItsColumns) {
-  const Folder folder;
-  Record record(folder.path() / "metrics.csv", kColumns);
+TEST_F(RecordFile, RefusesARowThatDoesNotFitItsColumns) {
+  Record record(file_, kColumns);
   EXPECT_THROW(record.row({1}), Error);
 }
 
