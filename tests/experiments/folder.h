@@ -12,7 +12,6 @@
 #include "experiments/workbench/app/json_file.h"
 #include "experiments/workbench/app/run.h"
 #include "gtest/gtest.h"
-#include "tests/has.h"
 #include "tests/sim/base/folder.h"
 #include "tests/sim/base/refusal.h"
 #include "tests/sim/base/small_disk.h"
@@ -25,7 +24,7 @@ using ExperimentRun = Run;
 
 using test::file_content;
 using test::Folder;
-using test::has;
+using test::says;
 
 inline int occurrences(const std::string& text, const std::string& part) {
   int count = 0;

@@ -79,9 +79,9 @@ TEST(Program, ListsSourcesOfFabricsByTheirShortNames) {
     EXPECT_TRUE(by_its_short_name) << line;
   }
   for (const char* part : {"found such that", "assumed: assumed", "Kumari et al.", "2313"})
-    EXPECT_FALSE(has(table, part));
+    EXPECT_FALSE(says(table, part));
   for (const char* part : {"Kumari, Khurana 2016", "(fitted: Fashion and Textiles 2017)", "Wang et al. 2011"})
-    EXPECT_TRUE(has(table, part));
+    EXPECT_TRUE(says(table, part));
 }
 
 // Where EGL finds no driver, it is listed with what fails.
@@ -113,10 +113,10 @@ TEST(Program, ListsEveryNumberOfAFabricWithHowItIsKnown) {
   std::map<std::string, std::string> row;  // by its first word
   std::istringstream lines(outcome.out);
   for (std::string line; std::getline(lines, line);) row[line.substr(0, line.find(' '))] = line;
-  EXPECT_TRUE(has(row["b2"], "6.57e-06"));
-  EXPECT_TRUE(has(row["b2"], "published"));
-  EXPECT_TRUE(has(row["k0"], "assumed    12.5 to 50"));
-  EXPECT_TRUE(has(row["drape-coefficient"], "49.8"));
+  EXPECT_TRUE(says(row["b2"], "6.57e-06"));
+  EXPECT_TRUE(says(row["b2"], "published"));
+  EXPECT_TRUE(says(row["k0"], "assumed    12.5 to 50"));
+  EXPECT_TRUE(says(row["drape-coefficient"], "49.8"));
   refused("list fabrics silk-of-nowhere");
 }
 
@@ -134,7 +134,7 @@ TEST(Program, ListsAsJsonWhatItListsAsText) {
 
 TEST(Program, SaysItsVersionAndCommit) {
   const Outcome outcome = finished("--version");
-  EXPECT_TRUE(has(outcome.out, "(commit "));
+  EXPECT_TRUE(says(outcome.out, "(commit "));
   for (const char* words : {"drape --version", "list laws --version", "drape --quick --step 0.1 --version"})
     EXPECT_EQ(finished(words).out, outcome.out) << words;
 }
@@ -159,8 +159,8 @@ center = [0.05, 0.05, 0.02]
 keys = [{time = 0.1}, {time = 0.4, position = [0, 0, -0.012]}]
 )");
   const Outcome outcome = ended(3, "swing --no-images --quiet --fps 50 --scene " + scene + out_flag(out));
-  EXPECT_TRUE(has(outcome.err, "hysteron swing: at t = 0.3"));
-  EXPECT_TRUE(has(outcome.err, "the cloth is crushed: vertex "));
+  EXPECT_TRUE(says(outcome.err, "hysteron swing: at t = 0.3"));
+  EXPECT_TRUE(says(outcome.err, "the cloth is crushed: vertex "));
   const Json manifest = manifest_in(out);
   EXPECT_EQ(manifest["complete"], false);
   const std::string table = file_content(out / "metrics.csv");
@@ -186,7 +186,7 @@ TEST(Program, TakesTheTrianglesThatAreAskedForThoughItIsQuick) {
                                "buckle --triangles 600"};
   for (const std::string line : lines) {
     const std::string requested = program(line + " --no-images --explain --device cpu").out;
-    EXPECT_TRUE(has(requested, " triangles, ")) << line;
+    EXPECT_TRUE(says(requested, " triangles, ")) << line;
     EXPECT_EQ(program(line + " --quick --no-images --explain --device cpu").out, requested) << line;
   }
 }
@@ -215,7 +215,7 @@ TEST(Program, EndsADrapeAtRest) {
         "drape --triangles 200 --seconds 0.5 --drape.lowering 0.1 --device cpu --no-images --quiet "
         "--drape.release " +
         release);
-    EXPECT_TRUE(has(run.outcome.out, "at rest"));
+    EXPECT_TRUE(says(run.outcome.out, "at rest"));
     const Json manifest = run.manifest();
     EXPECT_TRUE(manifest["metrics"]["settled"].get<bool>()) << release;
     EXPECT_TRUE(manifest["metrics"]["rest_shift_percent"].is_number()) << release;

@@ -44,7 +44,7 @@ TEST_F(HeatMapTest, HasEveryCellInTheColourOfItsKindAtItsPlaceAndTextsAsTheyAre)
   const std::string svg = file_content(folder_.file("m.svg"));
   for (const char* text :
        {"Outcomes", "numbers: steps", "bending [N m]", "1e-4", "long", "right", "x_y", "diverged"})
-    EXPECT_TRUE(has(svg, text));
+    EXPECT_TRUE(says(svg, text));
 }
 
 TEST(HeatMap, WhatDoesNotFitItsAxesIsRefused) {

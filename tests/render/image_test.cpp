@@ -33,7 +33,7 @@ TEST(Png, AMissingFolderIsTheMachinesFailure) {
   const Folder folder;
   const Error error = thrown_error([&] { write_png(folder.file("none/a.png"), Image(2, 2)); });
   EXPECT_EQ(error.exit_code(), 1);
-  EXPECT_TRUE(has(error.what(), "none/a.png"));
+  EXPECT_TRUE(says(error.what(), "none/a.png"));
   EXPECT_TRUE(folder.names().empty());
 }
 
@@ -59,7 +59,7 @@ TEST(Png, WhatIsNoPictureIsRefused) {
   for (const char* name : {"text.png", "empty.png", "missing.png"}) {
     const Error error = thrown_error([&] { read_png(folder.file(name)); });
     EXPECT_EQ(error.exit_code(), 2);
-    EXPECT_TRUE(has(error.what(), name));
+    EXPECT_TRUE(says(error.what(), name));
   }
 }
 
@@ -105,7 +105,7 @@ TEST(Png, AWrongBitIsFound) {
     wrong[at] ^= 1;
     const Error error = thrown_error([&] { decode_png(wrong, "wrong.png"); });
     EXPECT_EQ(error.exit_code(), 2) << at;
-    EXPECT_TRUE(has(error.what(), "PNG picture"));
+    EXPECT_TRUE(says(error.what(), "PNG picture"));
   }
 }
 

@@ -25,7 +25,7 @@ TEST(Offscreen, AutomaticChoiceGivesAContextAndNamesIt) {
   GLint major = 0;
   offscreen->gl().GetIntegerv(GL_MAJOR_VERSION, &major);
   EXPECT_GE(major, 3);
-  EXPECT_TRUE(has(offscreen->description(), "GL "));
+  EXPECT_TRUE(says(offscreen->description(), "GL "));
 }
 
 TEST(Offscreen, EveryEglCandidateIsUsableOrSaysWhyNot) {
@@ -80,7 +80,7 @@ TEST(Offscreen, RendererNamesAreThoseOfTheInterface) {
   EXPECT_EQ(value_named<Renderer>("osmesa"), Renderer::osmesa);
   const Error error = thrown_error([] { value_named<Renderer>("vulkan"); });
   EXPECT_EQ(error.exit_code(), 2);
-  EXPECT_TRUE(has(error.what(), "auto, egl, osmesa"));
+  EXPECT_TRUE(says(error.what(), "auto, egl, osmesa"));
 }
 
 TEST(Offscreen, TwoContextsLiveSideBySide) {

@@ -27,7 +27,7 @@ TEST_F(PanelsTest, StandInRowsOfTheGivenLengthWithTheirTitlesAndTexts) {
   EXPECT_EQ(folder_.names(), (std::vector<std::string>{"p.pdf", "p.png", "p.svg"}));
   const std::string svg = file_content(folder_.file("p.svg"));
   for (const char* text : {"panel_0", "panel_3", "B = 1", "lower right", "Loops", "red: a line", "x [m]"})
-    EXPECT_TRUE(has(svg, text));
+    EXPECT_TRUE(says(svg, text));
   const Image image = read_png(folder_.file("p.png"));
   const int ends[] = {0, kLeft + kColumn, kLeft + 2 * kColumn, image.width()};
   std::vector<int> red;  // pixels of the lines, by column of the grid
@@ -46,8 +46,8 @@ TEST_F(PanelsTest, AxesAreCommonToAllPanels) {
   cut.y.low = -1, cut.y.high = 1;
   write_panels(folder_.file("wide"), wide);
   write_panels(folder_.file("cut"), cut);
-  EXPECT_TRUE(has(file_content(folder_.file("wide.svg")), "10"));
-  EXPECT_FALSE(has(file_content(folder_.file("cut.svg")), "> 10<"));
+  EXPECT_TRUE(says(file_content(folder_.file("wide.svg")), "10"));
+  EXPECT_FALSE(says(file_content(folder_.file("cut.svg")), "> 10<"));
 }
 
 TEST(Panels, NothingToDrawIsRefused) {

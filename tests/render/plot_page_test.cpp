@@ -27,7 +27,7 @@ TEST_F(PlotPageTest, HasItsPlotsBesideEachOtherWithTheirOwnAxesKeysAndMarks) {
     EXPECT_NE(at, std::string::npos) << text;
     EXPECT_EQ(svg.find(text, at + 1), std::string::npos) << text << " again";
   }
-  EXPECT_TRUE(has(svg, "a_1"));
+  EXPECT_TRUE(says(svg, "a_1"));
   const Image image = read_png(folder_.file("p.png"));
   const int middle = image.width() / 2;
   const auto is_red = [](const std::uint8_t* p) { return p[0] > 200 && p[1] < 60 && p[2] < 60; };
@@ -39,10 +39,10 @@ TEST_F(PlotPageTest, HasItsPlotsBesideEachOtherWithTheirOwnAxesKeysAndMarks) {
 }
 
 TEST_F(PlotPageTest, WithoutPlotsOrDataIsRefused) {
-  EXPECT_TRUE(has(thrown_error([&] { write_plot_page(folder_.file("p"), {}); }).what(), "nothing to draw"));
+  EXPECT_TRUE(says(thrown_error([&] { write_plot_page(folder_.file("p"), {}); }).what(), "nothing to draw"));
   PlotPage page = two_plots();
   page.plots[1].plot.series[0].y.pop_back();
-  EXPECT_TRUE(has(thrown_error([&] { write_plot_page(folder_.file("p"), page); }).what(), "series \"b\""));
+  EXPECT_TRUE(says(thrown_error([&] { write_plot_page(folder_.file("p"), page); }).what(), "series \"b\""));
 }
 
 }  // namespace

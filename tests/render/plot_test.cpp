@@ -39,8 +39,8 @@ TEST_F(PlotTest, IsAPngAnSvgAndAPdfThatDoesNotSayWhenItWasWritten) {
   EXPECT_EQ(image.height(), 400);
   EXPECT_GT(test::count_pixels(image, is_blue), 300) << "the curve is drawn in the palette's first colour";
   const std::string svg = file_content(folder_.file("p.svg"));
-  EXPECT_TRUE(has(svg, "mix_up ^this^"));
-  EXPECT_TRUE(has(svg, "curvature [1/m]"));
+  EXPECT_TRUE(says(svg, "mix_up ^this^"));
+  EXPECT_TRUE(says(svg, "curvature [1/m]"));
   const std::string pdf = file_content(folder_.file("p.pdf"));
   EXPECT_TRUE(pdf.starts_with("%PDF-"));
   const std::size_t date = pdf.find("/CreationDate (D:");
@@ -94,10 +94,10 @@ TEST_F(PlotTest, SmallNumbersTakeThePrefixOfTheirUnit) {
   plot.note = "zero throughout: linear";
   write_plot(folder_.file("p"), plot);
   const std::string svg = file_content(folder_.file("p.svg"));
-  EXPECT_TRUE(has(svg, "energy [mJ/m²]"));
-  EXPECT_TRUE(has(svg, "curvature [1/m]")) << "of which there are no prefixes";
-  EXPECT_TRUE(has(svg, "zero throughout: linear"));
-  EXPECT_FALSE(has(svg, ">0.001<"));
+  EXPECT_TRUE(says(svg, "energy [mJ/m²]"));
+  EXPECT_TRUE(says(svg, "curvature [1/m]")) << "of which there are no prefixes";
+  EXPECT_TRUE(says(svg, "zero throughout: linear"));
+  EXPECT_FALSE(says(svg, ">0.001<"));
 }
 
 TEST(SiPrefix, LeavesOneTo999) {
@@ -134,7 +134,7 @@ TEST_F(PlotTest, BarsHaveTheirCategoriesBelowAndTheirHeights) {
   plot.series = grouped_bars({""}, {{1, 4}}, plot.bar_width);
   write_plot(folder_.file("p"), plot);
   const std::string svg = file_content(folder_.file("p.svg"));
-  for (const std::string& name : plot.x.categories) EXPECT_TRUE(has(svg, name));
+  for (const std::string& name : plot.x.categories) EXPECT_TRUE(says(svg, name));
   const Image image = read_png(folder_.file("p.png"));
   std::vector<int> blue(image.width());  // pixels of the bars in each column
   for (int x = 0; x < image.width(); ++x) blue[x] = test::count_pixels(image, is_blue, x, 0, x + 1);
@@ -180,7 +180,7 @@ TEST_F(PlotTest, WithoutFontsIsRefused) {
   const Setting file("FONTCONFIG_FILE", own.file("fonts.conf"));
   const Error error = thrown_error([&] { write_plot(folder_.file("p"), parabola()); });
   EXPECT_EQ(error.exit_code(), 1);
-  EXPECT_TRUE(has(error.what(), "fonts-dejavu-core"));
+  EXPECT_TRUE(says(error.what(), "fonts-dejavu-core"));
   EXPECT_TRUE(folder_.names().empty());
 }
 
@@ -189,7 +189,7 @@ TEST(Plot, MissingGnuplotNamesThePackage) {
   const Setting path("PATH", folder.file("empty"));
   const Error error = thrown_error([&] { write_plot(folder.file("p"), parabola()); });
   EXPECT_EQ(error.exit_code(), 1);
-  EXPECT_TRUE(has(error.what(), "gnuplot-nox"));
+  EXPECT_TRUE(says(error.what(), "gnuplot-nox"));
   EXPECT_TRUE(folder.names().empty());
 }
 
@@ -216,9 +216,10 @@ TEST(SeriesFromCsv, BadFilesAreRefusedWithTheirPlace) {
   const Folder folder;
   std::ofstream(folder.file("m.csv")) << "t,y\n0,1\n1,oops\n";
   EXPECT_EQ(thrown_error([&] { series_from_csv(folder.file("none.csv"), "t", "y", ""); }).exit_code(), 2);
-  EXPECT_TRUE(has(thrown_error([&] { series_from_csv(folder.file("m.csv"), "t", "z", ""); }).what(), "t, y"));
   EXPECT_TRUE(
-      has(thrown_error([&] { series_from_csv(folder.file("m.csv"), "t", "y", ""); }).what(), "m.csv:3"));
+      says(thrown_error([&] { series_from_csv(folder.file("m.csv"), "t", "z", ""); }).what(), "t, y"));
+  EXPECT_TRUE(
+      says(thrown_error([&] { series_from_csv(folder.file("m.csv"), "t", "y", ""); }).what(), "m.csv:3"));
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ TEST(PngWriter, FinishReportsTheFirstErrorAndKeepsTheOtherPictures) {
   writer.write(folder.file("none/bad.png"), Image(4, 4));
   const Error error = thrown_error([&] { writer.finish(); });
   EXPECT_EQ(error.exit_code(), 1);
-  EXPECT_TRUE(has(error.what(), "none/bad.png"));
+  EXPECT_TRUE(says(error.what(), "none/bad.png"));
   EXPECT_EQ(folder.names(), std::vector<std::string>{"good.png"});
 }
 

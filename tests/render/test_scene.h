@@ -9,14 +9,14 @@
 
 #include "render/cloth_view.h"
 #include "sim/base/process.h"
-#include "tests/has.h"
 #include "tests/sim/base/folder.h"
+#include "tests/sim/base/refusal.h"
 
 namespace hysteron::render {
 
 using hysteron::test::file_content;
 using hysteron::test::Folder;  // removed with its content
-using hysteron::test::has;
+using hysteron::test::says;
 using hysteron::test::thrown_error;
 
 namespace test {

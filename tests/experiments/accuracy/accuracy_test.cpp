@@ -100,8 +100,8 @@ TEST(AccuracyCommand, WritesTablesOrdersAndTheCheapest) {
   const std::string table = file_content(out / "table.csv");
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'),
             1 + static_cast<long>(bend_problem(kQuick).settings.size()));
-  EXPECT_TRUE(has(file_content(out / "cheapest.csv"), "bend,"));
-  EXPECT_TRUE(has(file_content(out / "orders.csv"), "problem,in,group"));
+  EXPECT_TRUE(says(file_content(out / "cheapest.csv"), "bend,"));
+  EXPECT_TRUE(says(file_content(out / "orders.csv"), "problem,in,group"));
 }
 
 }  // namespace

@@ -80,7 +80,7 @@ TEST(TimesBySize, AreLeftOutWhereTheBudgetCannotHoldThem) {
   ASSERT_EQ(table.rows.size(), 2u);
   EXPECT_EQ(table.device, "");
   for (const Metrics& row : table.rows) {
-    EXPECT_TRUE(has(row["skipped"].text(), "budget"));
+    EXPECT_TRUE(says(row["skipped"].text(), "budget"));
     EXPECT_FALSE(row["ms_per_step"].is_number());
   }
 }

@@ -190,13 +190,13 @@ TEST(Compare, RefusesInstantsAfterTheEndOfTheRunBeforeItBegins) {
   EXPECT_EQ(compare_refusal(" --compare.times 0.05,0.11"),
             "hysteron compare: compare.times = 0.11 s must be in [0, 0.1] s, the time of the run "
             "(--compare.times)\n");
-  EXPECT_TRUE(has(compare_refusal(" --compare.times=-0.1"), "must be >= 0"));
+  EXPECT_TRUE(says(compare_refusal(" --compare.times=-0.1"), "must be >= 0"));
 }
 
 TEST(Compare, NamesTheColumnThatIsWrong) {
   const Folder folder;
   const std::string out = out_flag(folder.path() / "out") + kSmall;
-  EXPECT_TRUE(has(refused("compare swing --laws linear,prandle" + out), "prandle"));
+  EXPECT_TRUE(says(refused("compare swing --laws linear,prandle" + out), "prandle"));
   refused("compare" + out);
   refused("compare swing --laws linear --compare.to narain" + out);
 }
@@ -212,9 +212,9 @@ from = 0.04
 )");
   const Outcome outcome =
       program("compare swing --scene " + scene + " --laws linear" + out_flag(out) + kSmall);
-  EXPECT_TRUE(has(file_content(out / "table.csv"), "an obstacle appears where the cloth is"))
+  EXPECT_TRUE(says(file_content(out / "table.csv"), "an obstacle appears where the cloth is"))
       << outcome.out << outcome.err << file_content(out / "table.csv");
-  EXPECT_TRUE(has(outcome.err, "warning: linear: ")) << "though it is quiet";
+  EXPECT_TRUE(says(outcome.err, "warning: linear: ")) << "though it is quiet";
 }
 
 // Fabrics under the one law that the scene names, or the program's own.

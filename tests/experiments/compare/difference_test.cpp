@@ -53,7 +53,7 @@ TEST(Difference, OfARunToItselfIsNone) {
   EXPECT_EQ(run("empty", "--look difference --reference " + (folder.path() / "again").string()).exit_code, 2);
   const Outcome finer = run("finer", "--triangles 200" + less);
   EXPECT_EQ(finer.exit_code, 2);
-  EXPECT_TRUE(has(finer.err, "other triangles"));
+  EXPECT_TRUE(says(finer.err, "other triangles"));
 }
 
 }  // namespace

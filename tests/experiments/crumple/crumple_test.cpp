@@ -25,7 +25,7 @@ TEST(Crumple, LeavesWrinklesInClothThatRubsAndNoneInElasticCloth) {
   EXPECT_LT(elastic["metrics"]["residual_curvature_rms_per_m"], 1e-9);
   EXPECT_GT(hysteretic["metrics"]["residual_curvature_rms_per_m"], 5);
   EXPECT_GT(hysteretic["metrics"]["ridge_length_m"], 0.05);
-  EXPECT_TRUE(has(file_content(run.out / "table.csv"), "prandtl,"));
+  EXPECT_TRUE(says(file_content(run.out / "table.csv"), "prandtl,"));
 }
 
 // The right end of a strip is led over the left one, which is held, and 2 cm beyond it.
@@ -60,7 +60,7 @@ TEST(Crumple, ComesToItsEndWhereRigidPinsPullClothThroughClothAndTellsHowFarThey
   EXPECT_NEAR(metrics["hand_lag_m"].get<double>(), 0.02, 3 * Fabric{}.thickness);
   EXPECT_EQ(metrics["intersections"], 0);
   EXPECT_EQ(metrics.value("unbalanced_steps_count", 0), 0);
-  EXPECT_TRUE(has(run.outcome.err, "cloth barred the way of rigid pins"));
+  EXPECT_TRUE(says(run.outcome.err, "cloth barred the way of rigid pins"));
 }
 
 // Nothing holds this square, which falls by 1/2 g t^2 = 0.8 m.
@@ -83,7 +83,7 @@ TEST(Crumple, PicturesClothThatFallsToTheEnd) {
   const auto is_dark = [](const std::uint8_t* pixel) { return pixel[1] < 128; };
   for (const char* frame : {"0000.png", "0001.png", "0002.png"})
     EXPECT_GT(render::test::count_pixels(render::read_png(run.out / "frames" / frame), is_dark), 20) << frame;
-  EXPECT_FALSE(has(run.outcome.err, "cut off"));
+  EXPECT_FALSE(says(run.outcome.err, "cut off"));
 }
 
 // The camera of one law looks elsewhere; of what its run says the error counts, not the warning before it.
@@ -95,8 +95,8 @@ TEST(Crumple, WarnsOfALawThatIsMissingOnItsSheet) {
               " --law 'linear,prandtl+camera.target=9 9 9+camera.distance=1' --size 160x120 --fps 5 "
               "--threads 1 --quiet" +
               out_flag(out));
-  EXPECT_TRUE(has(outcome.err, "is missing on the page's sheet and plots: "));
-  EXPECT_TRUE(has(outcome.err, "shows no cloth at t = 0.000 s"));
+  EXPECT_TRUE(says(outcome.err, "is missing on the page's sheet and plots: "));
+  EXPECT_TRUE(says(outcome.err, "shows no cloth at t = 0.000 s"));
   EXPECT_TRUE(fs::exists(out / "sheet.png"));
 }
 

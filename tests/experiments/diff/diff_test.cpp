@@ -90,16 +90,16 @@ TEST_F(Diff, ExitsWithFourBeyondEachLimitAndNamesItTheValueAndBothFiles) {
         limited(4, m.least ? std::min(value + margin, m.value == &Measures::ssim ? 1 : 1e9) : value - margin);
     EXPECT_TRUE(one_line(outcome.err)) << outcome.err;
     for (const std::string& part : {a_, b_, std::string("--") + m.limit, std::string(m.name) + " = "})
-      EXPECT_TRUE(has(outcome.err, part));
-    EXPECT_TRUE(has(outcome.out, "pixels_over_8_percent ")) << "results are printed anyway";
+      EXPECT_TRUE(says(outcome.err, part));
+    EXPECT_TRUE(says(outcome.out, "pixels_over_8_percent ")) << "results are printed anyway";
   }
 }
 
 TEST_F(Diff, NamesAllLimitsThatAreBrokenInOneLine) {
   const Outcome outcome = diff(4, "--max-mean 0.1 --min-ssim 0.5 --max-pixels-over-8 1");
   EXPECT_TRUE(one_line(outcome.err)) << outcome.err;
-  EXPECT_TRUE(has(outcome.err, "must be <= 0.1 (--max-mean); pixels_over_8_percent = 2.08"));
-  EXPECT_FALSE(has(outcome.err, "ssim"));
+  EXPECT_TRUE(says(outcome.err, "must be <= 0.1 (--max-mean); pixels_over_8_percent = 2.08"));
+  EXPECT_FALSE(says(outcome.err, "ssim"));
 }
 
 TEST_F(Diff, WritesAHeatMapOfStepsOrOfFlip) {
@@ -130,7 +130,7 @@ TEST_F(Diff, RefusesWhatItCannotCompareInOneLine) {
     const Outcome outcome = ended(2, "diff " + arguments);
     EXPECT_EQ(outcome.out, "") << arguments;
     EXPECT_TRUE(one_line(outcome.err)) << outcome.err;
-    for (const std::string& part : parts) EXPECT_TRUE(has(outcome.err, part));
+    for (const std::string& part : parts) EXPECT_TRUE(says(outcome.err, part));
   };
   const auto in = [&](const char* name) { return (root / name).string(); };
   refused(a_ + " " + in("small.png"), {a_, "64 x 48", in("small.png"), "30 x 20"});
@@ -149,7 +149,7 @@ TEST_F(Diff, OfAPictureThatCannotBeReadIsAnErrorOfItsTestCase) {
   const std::string xml = folder_.path() / "tests.xml";
   for (const std::string& other : {folder_.path().string() + "/nowhere.png", xml}) {
     refused("diff " + a_ + " " + other + " --junit " + xml);
-    EXPECT_TRUE(has(file_content(xml), "failures=\"0\" errors=\"1\""));
+    EXPECT_TRUE(says(file_content(xml), "failures=\"0\" errors=\"1\""));
   }
 }
 
@@ -178,7 +178,7 @@ TEST_F(Diff, WritesOntoNeitherPicture) {
     const std::string before = file_content(picture);
     const Outcome outcome =
         diff(2, "--out " + folder_.path().string() + "/./" + fs::path(picture).filename().string());
-    EXPECT_TRUE(has(outcome.err, "which is compared: give another name"));
+    EXPECT_TRUE(says(outcome.err, "which is compared: give another name"));
     EXPECT_EQ(file_content(picture), before);
   }
 }
@@ -225,7 +225,7 @@ TEST_F(DiffOfFolders, HasARowForEachPictureAndTheWorst) {
 TEST_F(DiffOfFolders, HoldsEachPictureToTheLimits) {
   const Outcome outcome = diff(4, "--max-mean 0.1");
   EXPECT_TRUE(one_line(outcome.err)) << outcome.err;
-  EXPECT_TRUE(has(outcome.err, (b_ / "frames/0000.png").string()));
+  EXPECT_TRUE(says(outcome.err, (b_ / "frames/0000.png").string()));
   diff(0, "--max-mean 1");
 }
 
@@ -250,12 +250,12 @@ TEST_F(DiffOfFolders, HasAnErrorOfItsOwnForEachPictureThatCannotBeCompared) {
       return at == text.npos ? "" : text.substr(at, text.find('\n', at) - at);
     };
     for (const std::string& line : {printed_line(csv), printed_line(outcome.err), printed_line(tests)})
-      EXPECT_TRUE(has(line, reason)) << name << ": " << line;
-    EXPECT_TRUE(has(printed_line(tests), "<error ")) << name;
-    EXPECT_TRUE(has(printed_line(csv), ",,,,,,")) << name << ": no measures";
+      EXPECT_TRUE(says(line, reason)) << name << ": " << line;
+    EXPECT_TRUE(says(printed_line(tests), "<error ")) << name;
+    EXPECT_TRUE(says(printed_line(csv), ",,,,,,")) << name << ": no measures";
   }
-  EXPECT_TRUE(has(tests, "tests=\"6\" failures=\"1\" errors=\"4\""));
-  EXPECT_TRUE(has(csv, "\nsheet.png,0,0,,1,0,0,\n"));
+  EXPECT_TRUE(says(tests, "tests=\"6\" failures=\"1\" errors=\"4\""));
+  EXPECT_TRUE(says(csv, "\nsheet.png,0,0,,1,0,0,\n"));
   EXPECT_TRUE(fs::exists(out_ / "heat/frames/0000.png"));
   const Json json = json_in(diff(2, "--json").out, "stdout");
   EXPECT_EQ(json["pictures"].size(), 6u);
@@ -275,12 +275,12 @@ TEST_F(DiffOfFolders, WritesHeatMapsAndATable) {
   const std::string csv = file_content(out_ / "diff.csv");
   EXPECT_EQ(csv.substr(0, csv.find('\n')),
             "picture,mean_abs [steps],rmse [steps],psnr [dB],ssim,flip,pixels_over_8 [%],error");
-  EXPECT_TRUE(has(csv, "\nsheet.png,0,0,,1,0,0,\n"));
+  EXPECT_TRUE(says(csv, "\nsheet.png,0,0,,1,0,0,\n"));
 }
 
 TEST_F(DiffOfFolders, RefusesToWriteWhereItReads) {
   const Outcome outcome = diff(2, "--out " + (b_ / "difference").string());
-  EXPECT_TRUE(has(outcome.err, "must not be in"));
+  EXPECT_TRUE(says(outcome.err, "must not be in"));
   EXPECT_FALSE(fs::exists(b_ / "difference"));
   fs::rename(b_, folder_.path() / "heat");
   const std::string heat = folder_.path() / "heat", before = file_content(heat + "/sheet.png");
@@ -293,9 +293,9 @@ TEST_F(Diff, TakesLimitsFromAFileAndFlagsInTheirPlace) {
   const std::string file = folder_.write("limits.toml", "max-mean = 0.4\nmin-ssim = 0.5\n");
   const Outcome outcome = diff(4, "--limits " + file);
   EXPECT_TRUE(one_line(outcome.err)) << outcome.err;
-  EXPECT_TRUE(has(outcome.err, "must be <= 0.4 (" + file + ":1)"));
+  EXPECT_TRUE(says(outcome.err, "must be <= 0.4 (" + file + ":1)"));
   diff(0, "--limits " + file + " --max-mean 0.5");
-  EXPECT_TRUE(has(diff(4, "--limits " + file + " --max-mean 0.3").err, "<= 0.3 (--max-mean)"));
+  EXPECT_TRUE(says(diff(4, "--limits " + file + " --max-mean 0.3").err, "<= 0.3 (--max-mean)"));
   diff(4, "--limits pictures");  // those that come with the program
 }
 
@@ -316,7 +316,7 @@ TEST_F(DiffOfFolders, WritesATestCaseForEachPicture) {
   for (const char* part :
        {"tests=\"2\" failures=\"1\"", "<testcase name=\"sheet.png\" classname=\"hysteron.diff\"",
         "<failure message=\"mean_abs = 0.416667 must be &lt;= 0.1 (--max-mean)\""})
-    EXPECT_TRUE(has(xml, part));
+    EXPECT_TRUE(says(xml, part));
 }
 
 TEST(LimitsFile, RefusesInOneLineWhatIsNoLimit) {
@@ -333,8 +333,8 @@ TEST(LimitsFile, RefusesInOneLineWhatIsNoLimit) {
     const std::string file = folder.write("limits.toml", text);
     const std::string said = refused("diff " + file + " " + file + " --limits " + file);
     EXPECT_TRUE(one_line(said)) << said;
-    EXPECT_TRUE(has(said, message));
-    EXPECT_TRUE(has(said, "limits.toml:"));
+    EXPECT_TRUE(says(said, message));
+    EXPECT_TRUE(says(said, "limits.toml:"));
   }
 }
 

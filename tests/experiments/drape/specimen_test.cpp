@@ -49,12 +49,12 @@ TEST_F(Draped, DiscIsMeasuredWhereverItLies) {
 
 TEST_F(Draped, WhatIsNoFlatDiscIsRefused) {
   const ClothMesh square = make_grid(0.2, 0.2, 8, 8, MeshFamily::unionjack, 1);
-  EXPECT_TRUE(has(refusal(disc_scene(square, square.rest)), "is no disc: its edge is 0.1 to 0.141 m"));
+  EXPECT_TRUE(says(refusal(disc_scene(square, square.rest)), "is no disc: its edge is 0.1 to 0.141 m"));
   const ClothMesh disc = make_disc(kRadius, 300, MeshFamily::random, 1);
   std::vector<Eigen::Vector3d> upright;
   for (const Eigen::Vector3d& x : disc.rest) upright.emplace_back(x.x(), 0, x.y());
   Scene scene = disc_scene(disc, upright);
-  EXPECT_TRUE(has(refusal(scene), "m high and must lie flat"));
+  EXPECT_TRUE(says(refusal(scene), "m high and must lie flat"));
   scene.cloth.rotation = {90, 0, 0};
   EXPECT_NEAR(disc_specimen(scene, make_cloth(scene)).radius, kRadius, 1e-12);
 }
@@ -81,8 +81,8 @@ TEST_F(Draped, CoefficientRefersToTheFileThatIsRead) {
 TEST_F(Draped, DiscThatLiesOnThePedestalIsRefused) {
   const ClothMesh disc = make_disc(0.08, 200, MeshFamily::random, 1);
   disc_scene(disc, disc.rest);
-  EXPECT_TRUE(has(refused(drape("--cloth.shape file --cloth.file " + file())),
-                  "drape.disc = 0.09 m must be < 0.08 m, the radius of mesh " + file()));
+  EXPECT_TRUE(says(refused(drape("--cloth.shape file --cloth.file " + file())),
+                   "drape.disc = 0.09 m must be < 0.08 m, the radius of mesh " + file()));
   refused(drape("--cloth.shape square --cloth.length 0.3"));
 }
 
@@ -91,7 +91,7 @@ TEST_F(Draped, CoefficientThatNoShadowHasIsNoResult) {
   const Outcome outcome = ended(
       3, drape("--seconds 0.3 --drape.release dropped --fabric.friction 0 --gravity '60 0 0' --integrator "
                "semi-implicit"));
-  EXPECT_TRUE(has(outcome.err, "% of the ring, which must be 0 to 101"));
+  EXPECT_TRUE(says(outcome.err, "% of the ring, which must be 0 to 101"));
   const Json manifest = manifest_in(folder_.path() / "out");
   EXPECT_EQ(manifest["complete"], false);
   EXPECT_FALSE(manifest["metrics"].contains("drape_coefficient_percent"));

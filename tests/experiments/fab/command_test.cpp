@@ -54,9 +54,9 @@ TEST_F(FabCommand, OnItsOwnRecordMeetsWhatItRecorded) {
 TEST_F(FabCommand, SimulatesNoLoopsThatItWouldNotRead) {
   const auto said = [&](std::vector<Flag> flags) { return test::refusal([&] { fab(flags); }); };
   EXPECT_TRUE(
-      has(said({{"fab.slack", "0.0055"}, {"fab.compressions", "0.008"}}), "within 25 % of the gauge"));
-  EXPECT_TRUE(has(said({{"fab.width", "2"}}), "fab.width = 2 m must be in [0.001, 1]"));
-  EXPECT_TRUE(has(said({{"fab.test", "S1"}, {"fab.compressions", "0.05"}}), "do not fit a gauge"));
+      says(said({{"fab.slack", "0.0055"}, {"fab.compressions", "0.008"}}), "within 25 % of the gauge"));
+  EXPECT_TRUE(says(said({{"fab.width", "2"}}), "fab.width = 2 m must be in [0.001, 1]"));
+  EXPECT_TRUE(says(said({{"fab.test", "S1"}, {"fab.compressions", "0.05"}}), "do not fit a gauge"));
   ASSERT_EQ(fab({{"fabric", "gray-interlock"}}), 0) << "whose loops enclose nothing";
   EXPECT_EQ(read_fab(folder_.path() / "out" / "fab.csv", TesterUnits::si, "test").size(), 1u);
 }
@@ -79,9 +79,9 @@ TEST_F(FabCommand, FollowsStopsThatAFileStates) {
 }
 
 TEST_F(FabCommand, RefusesWhatNoTesterDoes) {
-  EXPECT_TRUE(has(test::refusal([&] { fab({{"fab.test", "X1"}}); }), "U.."));
-  EXPECT_TRUE(has(test::refusal([&] { fab({{"fab.direction", "Q"}}); }), "L | W | B"));
-  EXPECT_TRUE(has(test::refusal([&] { fab({{"fab.compressions", "0.02"}}); }), "0.8 of"));
+  EXPECT_TRUE(says(test::refusal([&] { fab({{"fab.test", "X1"}}); }), "U.."));
+  EXPECT_TRUE(says(test::refusal([&] { fab({{"fab.direction", "Q"}}); }), "L | W | B"));
+  EXPECT_TRUE(says(test::refusal([&] { fab({{"fab.compressions", "0.02"}}); }), "0.8 of"));
 }
 
 }  // namespace

@@ -83,8 +83,8 @@ TEST(ChapterFigures, HaveTheChaptersDistancesBetweenPoints) {
 }
 
 TEST(ChapterFigures, SayWhereTheChapterCannotHoldAsPrinted) {
-  EXPECT_TRUE(has(cotton_figures()[0].caption, "b1 ≥ b2"));
-  EXPECT_TRUE(has(cotton_figures()[3].caption, "disagree"));
+  EXPECT_TRUE(says(cotton_figures()[0].caption, "b1 ≥ b2"));
+  EXPECT_TRUE(says(cotton_figures()[3].caption, "disagree"));
 }
 
 TEST(ChapterFigures, OfAFabricWithoutFrictionAreRefused) {
@@ -106,9 +106,9 @@ TEST(FiguresCommand, WritesCurvesAndCaptionsWithoutPicturesToo) {
   const std::string captions = file_content(folder.path() / "README.md");
   for (const Figure& figure : cotton_figures()) {
     EXPECT_TRUE(fs::exists(folder.path() / (figure.name + ".csv"))) << figure.name;
-    EXPECT_TRUE(has(captions, figure.name + ".png")) << figure.name;
+    EXPECT_TRUE(says(captions, figure.name + ".png")) << figure.name;
   }
-  EXPECT_TRUE(has(captions, "wool-tropical"));
+  EXPECT_TRUE(says(captions, "wool-tropical"));
 }
 
 }  // namespace

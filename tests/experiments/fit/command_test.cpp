@@ -56,7 +56,7 @@ TEST_F(Fit, OfALoopWritesWhatTheInterfaceNamesAndAFabricThatIsReadBack) {
                           "residual_rms_N", "iterations"})
     EXPECT_TRUE(m.at(key).is_number()) << key;
   EXPECT_EQ(m.at("undetermined"), Json::array());
-  EXPECT_TRUE(has(said_, "undetermined: nothing"));
+  EXPECT_TRUE(says(said_, "undetermined: nothing"));
   const Fabric fabric = read_fabric((out() / "fabric.toml").string(), "--fabric").fabric;
   EXPECT_EQ(fabric.name, "sample \"7\"");
   EXPECT_EQ(fabric.b1, m.at("b1_N_m").get<double>());
@@ -74,13 +74,14 @@ TEST_F(Fit, SaysAloudWhoseDensityAndThicknessItFillsIn) {
   const std::string file = file_content(out() / "fabric.toml");
   const std::string kept = manifest_in(out()).at("warnings").dump();
   for (const std::string& text : {warned_, file, kept}) {
-    EXPECT_TRUE(has(text, "thickness was not given: fabric.toml holds that of another fabric, cotton-broad"));
-    EXPECT_FALSE(has(text, "density was not given"));
+    EXPECT_TRUE(
+        says(text, "thickness was not given: fabric.toml holds that of another fabric, cotton-broad"));
+    EXPECT_FALSE(says(text, "density was not given"));
   }
   const Fabric fabric = read_fabric((out() / "fabric.toml").string(), "--fabric").fabric;
   EXPECT_EQ(fabric.provenance.at("density").confidence, "given");
   EXPECT_EQ(fabric.provenance.at("thickness").confidence, "assumed");
-  EXPECT_TRUE(has(fabric.provenance.at("thickness").source, "cotton-broad"));
+  EXPECT_TRUE(says(fabric.provenance.at("thickness").source, "cotton-broad"));
 }
 
 TEST_F(Fit, ComparesLawsOnTheSameDataTheBestFirst) {
@@ -100,7 +101,7 @@ TEST_F(Fit, RefusesRequestsThatMakeNoSense) {
   const std::string file = loop("prandtl", {250, -250, 250});
   const auto says = [&](const std::vector<Flag>& flags, const char* part) {
     const std::string reason = refusal(flags);
-    EXPECT_TRUE(has(reason, part));
+    EXPECT_TRUE(says(reason, part));
   };
   says({}, "needs one of --loop");
   says({{"loop", file}, {"kes.b", "1e-5"}}, "not several");
@@ -122,8 +123,8 @@ TEST_F(Fit, WarnsOfALawThatDoesNotDescribeTheData) {
   }
   Table({curvature, moment}).write(file);
   ASSERT_EQ(fit({{"loop", file.string()}, {"law", "linear"}}), 0);
-  EXPECT_TRUE(has(warned_, "warning: linear does not describe these data: it misses them by "));
-  EXPECT_TRUE(has(manifest_in(out()).at("warnings").dump(), "linear does not"));
+  EXPECT_TRUE(says(warned_, "warning: linear does not describe these data: it misses them by "));
+  EXPECT_TRUE(says(manifest_in(out()).at("warnings").dump(), "linear does not"));
 }
 
 // The loops of a known law, as `fab` writes them, in the columns that are read.
@@ -188,9 +189,9 @@ TEST_F(FitOfFab, FarOutsideTheNoiseIsRefusedUnlessTheNoiseIsSaidToBeThatLarge) {
   std::vector<Flag> stops = flags(file);
   stops.push_back({"fab.friction", "stops"});
   const std::string reason = refusal(stops);
-  EXPECT_TRUE(has(reason, "along L the fit misses the forces by "));
-  EXPECT_TRUE(has(reason, "times their noise of 0.00075 N (rms), at most 3 times"));
-  EXPECT_TRUE(has(reason, "are fitted with --fab.noise 0.00"));
+  EXPECT_TRUE(says(reason, "along L the fit misses the forces by "));
+  EXPECT_TRUE(says(reason, "times their noise of 0.00075 N (rms), at most 3 times"));
+  EXPECT_TRUE(says(reason, "are fitted with --fab.noise 0.00"));
   std::vector<Flag> noisy = stops;
   noisy.push_back({"fab.noise", "7.5e-3"});
   EXPECT_EQ(fit(noisy), 0);
@@ -201,13 +202,13 @@ TEST_F(FitOfFab, OfForcesInAnotherUnitIsRefusedAsNoFabric) {
   const std::string file =
       changed([](std::vector<std::string>& row) { row[4] = number_text(std::stod(row[4]) / 9.80665e-3); });
   const std::string reason = refusal(flags(file));
-  EXPECT_TRUE(has(reason, "must be in [1e-08, 0.001] N m, as fabrics are"));
+  EXPECT_TRUE(says(reason, "must be in [1e-08, 0.001] N m, as fabrics are"));
 }
 
 TEST_F(FitOfFab, OfLoopsThatNoTesterRecordsIsRefusedBeforeAnythingIsWritten) {
   const auto says = [&](const auto& change, const char* part) {
     const std::string reason = refusal(flags(changed(change)));
-    EXPECT_TRUE(has(reason, part));
+    EXPECT_TRUE(says(reason, part));
   };
   using Row = std::vector<std::string>;
   says([](Row& row) { row[4] = "0"; }, "must vary");
@@ -228,14 +229,14 @@ TEST_F(FitOfFab, TakesWarpBeforeWeftWhateverTheirOrderInTheFile) {
     }
   table.write(file);
   ASSERT_EQ(fit(flags(file)), 0);
-  EXPECT_TRUE(has(file_content(out() / "fabric.toml"), "along L, W in both.csv"));
+  EXPECT_TRUE(says(file_content(out() / "fabric.toml"), "along L, W in both.csv"));
   std::vector<Flag> bias = flags(file);
   bias.push_back({"fab.directions", "L,B"});
-  EXPECT_TRUE(has(test::refusal([&] { fit(bias); }), "must begin with warp and weft"));
+  EXPECT_TRUE(says(test::refusal([&] { fit(bias); }), "must begin with warp and weft"));
   bias.back() = {"fab.cycles", "inf"};
-  EXPECT_TRUE(has(test::refusal([&] { fit(bias); }), "must be numbers > 0"));
+  EXPECT_TRUE(says(test::refusal([&] { fit(bias); }), "must be numbers > 0"));
   bias.back() = {"fab.cycles", "1.5"};
-  EXPECT_TRUE(has(test::refusal([&] { fit(bias); }), "must be whole numbers"));
+  EXPECT_TRUE(says(test::refusal([&] { fit(bias); }), "must be whole numbers"));
 }
 
 TEST_F(Fit, OfLoopsOfAFabTesterNeedsDensityAndTheRightUnits) {
@@ -243,10 +244,10 @@ TEST_F(Fit, OfLoopsOfAFabTesterNeedsDensityAndTheRightUnits) {
       folder_.write("fab.csv",
                     "direction,test,branch,clamp_distance_m,force_N,gauge_length_m,width_m\n"
                     "L,D1,0,0.018,0,0.021,0.04\n");
-  EXPECT_TRUE(has(refusal({{"fab", file}}), "fabric.density"));
-  EXPECT_TRUE(has(refusal({{"fab", file}, {"units", "fab"}, {"fabric.density", "0.3"}}), "give --units si"));
-  EXPECT_TRUE(has(refusal({{"fab", file}, {"units", "kes"}, {"fabric.density", "0.3"}}), "fab (cm, gf)"));
-  EXPECT_TRUE(has(refusal({{"loop", file}, {"units", "fab"}}), "--fab"));
+  EXPECT_TRUE(says(refusal({{"fab", file}}), "fabric.density"));
+  EXPECT_TRUE(says(refusal({{"fab", file}, {"units", "fab"}, {"fabric.density", "0.3"}}), "give --units si"));
+  EXPECT_TRUE(says(refusal({{"fab", file}, {"units", "kes"}, {"fabric.density", "0.3"}}), "fab (cm, gf)"));
+  EXPECT_TRUE(says(refusal({{"loop", file}, {"units", "fab"}}), "--fab"));
 }
 
 }  // namespace

@@ -178,7 +178,7 @@ TEST(Fold, OfALawThatCannotGoOnIsMarkedOnThePageOfTheOthers) {
       "fold --quick --fold.law-alone --law linear,nonsense,prandtl --fold.fatigue 0 --no-images --quiet");
   const Table table = read_table(run.out / "table.csv");
   ASSERT_EQ(table.rows.size(), 3u);
-  EXPECT_TRUE(has(table.rows[1].back(), "law = nonsense must be"));
+  EXPECT_TRUE(says(table.rows[1].back(), "law = nonsense must be"));
   for (const std::size_t row : {0, 2}) {
     EXPECT_EQ(table.rows[row].back(), "");
     EXPECT_NE(table.rows[row][1], "");

@@ -37,7 +37,7 @@ TEST_F(KesCommand, TestsEveryLawAndWritesItsTables) {
   for (const std::string& law : all_laws()) {
     for (const char* key : {"B_N_m", "2HB_N", "residual_curvature_per_m", "loop_area_J_per_m2"})
       EXPECT_TRUE(manifest["metrics"][law + "." + key].is_number()) << law << " " << key;
-    EXPECT_TRUE(has(summary, "\n  " + law + " "));
+    EXPECT_TRUE(says(summary, "\n  " + law + " "));
   }
   for (const char* file : {"loops.csv", "table.csv", "report.html"})
     EXPECT_TRUE(fs::exists(folder_.path() / file)) << file;

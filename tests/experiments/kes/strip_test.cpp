@@ -172,7 +172,7 @@ TEST(KesStrip, ThatCannotBeTestedIsRefusedInASentence) {
   EXPECT_THROW(clamped_strip(small("aligned"), cotton("prandtl"), fabric, round), Error);
   const LawRequest edited = cotton("grinspun-edit");
   EXPECT_TRUE(
-      has(test::refusal([&] { clamped_strip(small("aligned"), edited, fabric, kProtocol); }), "--on law"));
+      says(test::refusal([&] { clamped_strip(small("aligned"), edited, fabric, kProtocol); }), "--on law"));
 }
 
 TEST(KesStripCommand, PutsTheStripBesideTheLaw) {
@@ -185,7 +185,7 @@ TEST(KesStripCommand, PutsTheStripBesideTheLaw) {
        {"B_N_m", "strip_B_N_m", "strip_2HB_N", "strip_solve_s", "strip_loop_area_difference_percent"})
     EXPECT_TRUE(metrics[key].is_number()) << key;
   const std::string summary = closing_summary(folder.path());
-  EXPECT_TRUE(has(summary, "strip's B over the law's"));
+  EXPECT_TRUE(says(summary, "strip's B over the law's"));
   EXPECT_TRUE(fs::exists(folder.path() / "strip.csv"));
 }
 

@@ -44,25 +44,25 @@ TEST_F(LawCommand, WritesMomentTangentAndEnergiesForEveryRow) {
 }
 
 TEST_F(LawCommand, RefusesTheChaptersSignOfTheRigidities) {
-  EXPECT_TRUE(has(refusal({{"b1", "1e-5"}, {"b2", "2e-5"}}),
-                  "--b1 = 1e-05 N m must be finite and >= b2 = 2e-05 N m"));
+  EXPECT_TRUE(says(refusal({{"b1", "1e-5"}, {"b2", "2e-5"}}),
+                   "--b1 = 1e-05 N m must be finite and >= b2 = 2e-05 N m"));
 }
 
 TEST_F(LawCommand, RefusesWhatItCannotUnderstand) {
   EXPECT_TRUE(
-      has(refusal({{"param", "recovery=elastic"}}), "recovery = elastic must be masing or reversible"));
+      says(refusal({{"param", "recovery=elastic"}}), "recovery = elastic must be masing or reversible"));
   write("curvature [1/m],time [s]\n50,1\n100,0\n");
-  EXPECT_TRUE(has(refusal(), "k.csv:3: time = 0 s must be >= 1 s"));
+  EXPECT_TRUE(says(refusal(), "k.csv:3: time = 0 s must be >= 1 s"));
   write("curvature [1/m],edit\n50,2\n");
-  EXPECT_TRUE(has(refusal(), "k.csv:2: edit = 2 must be 0 or 1"));
+  EXPECT_TRUE(says(refusal(), "k.csv:2: edit = 2 must be 0 or 1"));
 }
 
 TEST_F(LawCommand, RefusesWhatNoNumberCanHold) {
   write("curvature [1/m]\n50\n1e300\n");
-  EXPECT_TRUE(has(refusal(), "k.csv:3: curvature = 1e+300 1/m must be within +-1e+06 1/m"));
+  EXPECT_TRUE(says(refusal(), "k.csv:3: curvature = 1e+300 1/m must be within +-1e+06 1/m"));
   write("curvature [1/m]\n1\n\n-1000\n");
-  EXPECT_TRUE(has(refusal({{"law", "linear"}, {"b1", "1e306"}, {"b2", "1e306"}}),
-                  "k.csv:4: at curvature = -1000 1/m the law's moment [N] is no finite number"));
+  EXPECT_TRUE(says(refusal({{"law", "linear"}, {"b1", "1e306"}, {"b2", "1e306"}}),
+                   "k.csv:4: at curvature = -1000 1/m the law's moment [N] is no finite number"));
 }
 
 TEST_F(LawCommand, GivesTimeAndCommandsToTheLawsThatTakeThem) {

@@ -17,36 +17,36 @@ class OneMore : public testing::Test {
 };
 
 TEST_F(OneMore, IsListedAndHelped) {
-  EXPECT_TRUE(has(said("--help"), "a cloth that nothing moves"));
-  EXPECT_TRUE(has(said("still --help"), "a cloth that nothing moves"));
-  EXPECT_TRUE(has(refused("compare"), "drape, still, "));
+  EXPECT_TRUE(says(said("--help"), "a cloth that nothing moves"));
+  EXPECT_TRUE(says(said("still --help"), "a cloth that nothing moves"));
+  EXPECT_TRUE(says(refused("compare"), "drape, still, "));
 }
 
 TEST_F(OneMore, IsRunWithErrorsShownAndVerified) {
   const std::string words = said("still --errors" + small_ + in("still") + " --errors.draws 1");
-  EXPECT_TRUE(has(words, "stillness"));
+  EXPECT_TRUE(says(words, "stillness"));
   const auto metrics = metrics_of(folder_.path() / "still");
   const double step = metrics["stillness_m"];
   EXPECT_GT(step, 0);
   EXPECT_DOUBLE_EQ(metrics["stillness_m_step_error"], step / 2);
   const std::string verdict = said("verify " + in("still") + " --out " + in("again"));
-  EXPECT_TRUE(has(verdict, "4 of 4 runs repeated: 4 the same"));
+  EXPECT_TRUE(says(verdict, "4 of 4 runs repeated: 4 the same"));
   said("report " + folder_.path().string());
   const std::string page = file_content(folder_.path() / "index.html");
-  EXPECT_TRUE(has(page, "cloth that nothing moves")) << "its question";
-  EXPECT_TRUE(has(page, "stillness")) << "its headline";
+  EXPECT_TRUE(says(page, "cloth that nothing moves")) << "its question";
+  EXPECT_TRUE(says(page, "stillness")) << "its headline";
 }
 
 TEST_F(OneMore, IsComparedByItsName) {
   said("compare still --laws linear,prandtl" + small_ + in("laws"));
-  EXPECT_TRUE(has(file_content(folder_.path() / "laws" / "table.csv"), "stillness_m"));
+  EXPECT_TRUE(says(file_content(folder_.path() / "laws" / "table.csv"), "stillness_m"));
 }
 
 TEST_F(OneMore, IsSweptWithItsHeadlines) {
   std::ofstream(in("study.toml")) << "experiment = \"still\"\n[scene]\nno-images = true\n"
                                      "[[axis]]\nkey = \"seed\"\nvalues = [1, 2]\n";
   said("sweep " + in("study.toml") + " --quiet --no-images --out " + in("sweep"));
-  EXPECT_TRUE(has(file_content(folder_.path() / "sweep" / "means.csv"), "stillness_m_mean"));
+  EXPECT_TRUE(says(file_content(folder_.path() / "sweep" / "means.csv"), "stillness_m_mean"));
 }
 
 }  // namespace

@@ -42,8 +42,8 @@ TEST(KeptPictures, ARecordedFolderGivesItsSheetOrWhatFlagsAskFor) {
   const Json manifest = manifest_in(swing.again);
   EXPECT_EQ(manifest.at("frames").at("looks").begin().key(), "curvature");
 
-  EXPECT_TRUE(has(refused(swing.drawing(swing.kept, " --look friction")),
-                  "look = friction needs values that were not kept"));
+  EXPECT_TRUE(says(refused(swing.drawing(swing.kept, " --look friction")),
+                   "look = friction needs values that were not kept"));
   refused(swing.drawing(swing.kept, " --render.ground 0"));
 }
 

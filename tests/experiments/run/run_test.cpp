@@ -120,7 +120,7 @@ seconds = 0.05
 TEST_F(Scenes, FailWhereAPictureShowsNoCloth) {
   const Outcome outcome =
       run(3, kSquare, "--fps 10 --size 160x120 --camera.box '0 0 5 0.2 0.2 5.2' --camera.direction '0 -1 0'");
-  EXPECT_TRUE(has(outcome.err, "frames/0000.png shows no cloth at t = 0.000 s"));
+  EXPECT_TRUE(says(outcome.err, "frames/0000.png shows no cloth at t = 0.000 s"));
   EXPECT_EQ(manifest_in(out())["complete"], false);
 }
 
@@ -129,7 +129,7 @@ TEST_F(Scenes, WarnWhereTheBorderOfThePicturesCutsOffCloth) {
   const Outcome outcome = run(
       0, kSquare, "--fps 20 --size 160x120 --camera.box '0 0 -0.01 0.1 0.1 0.01' --camera.direction '0 0 1'");
   const std::string warning = "from t = 0.000 s on (frames/0000.png) the cloth is cut off at the border";
-  EXPECT_TRUE(has(outcome.err, "warning: " + warning));
+  EXPECT_TRUE(says(outcome.err, "warning: " + warning));
   const Json warnings = manifest_in(out())["warnings"];
   EXPECT_EQ(std::count_if(warnings.begin(), warnings.end(),
                           [&](const Json& text) { return text.get<std::string>().starts_with(warning); }),
@@ -152,14 +152,14 @@ TEST_F(Scenes, AreComparedInOneFrameAndWarnOfPlotsAndFilmsThatCannotBeMade) {
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const Json linear = manifest_in(out() / "linear");
   const Json prandtl = manifest_in(out() / "prandtl");
-  EXPECT_TRUE(has(outcome.out, "linear                        side "));
+  EXPECT_TRUE(says(outcome.out, "linear                        side "));
   EXPECT_EQ(linear["experiment"], "run");
   EXPECT_EQ(linear["options"]["camera"]["box"].size(), 6u);
   EXPECT_EQ(linear["options"]["camera"], prandtl["options"]["camera"]);
   EXPECT_TRUE(prandtl["metrics"].contains("side_m"));
   const std::string film = "compare.video: there is no film.mp4: ffmpeg is not installed";
-  EXPECT_TRUE(has(outcome.err, "warning: " + film + "\n"));
-  EXPECT_TRUE(has(outcome.err, "warning: the plot plot_side is missing: "));
+  EXPECT_TRUE(says(outcome.err, "warning: " + film + "\n"));
+  EXPECT_TRUE(says(outcome.err, "warning: the plot plot_side is missing: "));
   const Json warnings = manifest_in(out())["warnings"];
   EXPECT_NE(std::find(warnings.begin(), warnings.end(), film), warnings.end()) << warnings;
   EXPECT_TRUE(fs::exists(out() / "sheet.png"));
@@ -168,7 +168,7 @@ TEST_F(Scenes, AreComparedInOneFrameAndWarnOfPlotsAndFilmsThatCannotBeMade) {
 // Two points of a cloth that falls freely stay as far apart as they are.
 TEST_F(Scenes, SayAtTheEndWhatTheyWereAskedFor) {
   const Outcome outcome = run(0, kSquare + "[[metric]]\nname = \"side\"\nto = [0.2, 0, 0]\n", "--no-images");
-  EXPECT_TRUE(has(outcome.out, "  side                          0.2 m\n"));
+  EXPECT_TRUE(says(outcome.out, "  side                          0.2 m\n"));
   EXPECT_EQ(manifest_in(out())["asked_metrics"], Json({"side_m"}));
 }
 
@@ -189,7 +189,7 @@ TEST_F(Scenes, HaveTheErrorsOfTheirOwnMetrics) {
 
 TEST_F(Scenes, WithoutMetricsHaveNoErrors) {
   const Outcome outcome = run(2, kSquare, "--no-images --errors");
-  EXPECT_TRUE(has(outcome.err, "has no [[metric]] whose errors could be measured"));
+  EXPECT_TRUE(says(outcome.err, "has no [[metric]] whose errors could be measured"));
 }
 
 TEST_F(Scenes, RefuseInOneLineWhatCannotBeMeasured) {
@@ -203,10 +203,10 @@ TEST_F(Scenes, RefuseInOneLineWhatCannotBeMeasured) {
       {"name = \"a\"\nkind = \"force\"", "hand = 1 must be <= 0"}};
   for (const auto& [metric, message] : kCases) {
     const Outcome outcome = run(2, kSquare + "[[metric]]\n" + metric + "\n", "--no-images");
-    EXPECT_TRUE(has(outcome.err, message));
+    EXPECT_TRUE(says(outcome.err, message));
     const std::string said = without_warnings(outcome.err);
     EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << outcome.err;
-    EXPECT_TRUE(has(said, "mine.toml:")) << outcome.err;
+    EXPECT_TRUE(says(said, "mine.toml:")) << outcome.err;
   }
 }
 

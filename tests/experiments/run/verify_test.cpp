@@ -65,11 +65,11 @@ TEST_F(Recorded, RunWithAnotherStateIsRepeatedWithAWarningThoughItIsQuiet) {
   edit([](Json& json) { json["state_hash"] = "0123456789abcdef"; });
   const Outcome outcome = finished("rerun " + run().string() + " --quiet --out " + in("again"));
   const std::string words = " differs from the recorded 0123456789abcdef";
-  EXPECT_TRUE(has(outcome.err, "warning: state "));
-  EXPECT_TRUE(has(outcome.err, words));
+  EXPECT_TRUE(says(outcome.err, "warning: state "));
+  EXPECT_TRUE(says(outcome.err, words));
   const Json warnings = manifest_in(in("again"))["warnings"];
-  EXPECT_TRUE(has(warnings.back().get<std::string>(), words)) << warnings;
-  EXPECT_TRUE(has(file_content(fs::path(in("again")) / "report.html"), words));
+  EXPECT_TRUE(says(warnings.back().get<std::string>(), words)) << warnings;
+  EXPECT_TRUE(says(file_content(fs::path(in("again")) / "report.html"), words));
 }
 
 TEST_F(Recorded, FolderOfRunsIsWrittenAsAWorkflow) {
@@ -86,7 +86,7 @@ TEST_F(Recorded, FolderOfRunsIsWrittenAsAWorkflow) {
   const auto config = [&](const std::string& more) {
     const Outcome outcome =
         finished("rerun " + in("runs") + " --out " + in("again") + " --snakemake " + in("flow") + more);
-    EXPECT_TRUE(has(outcome.out, "left out: stopped is not complete"));
+    EXPECT_TRUE(says(outcome.out, "left out: stopped is not complete"));
     return read_json(folder_.path() / "flow" / "config.json");
   };
   const Json jobs = config("")["jobs"];
@@ -151,7 +151,7 @@ TEST_F(RecordedMesh, ThatHasChangedIsNamed) {
   const std::string out = (folder_.path() / "again").string();
   const Outcome again = run("rerun " + (project_ / "run").string() + " --out " + out);
   const std::string words = "mesh " + mesh_.string() + " (cloth.file) has changed since it was recorded";
-  EXPECT_TRUE(has(again.err, "warning: " + words));
+  EXPECT_TRUE(says(again.err, "warning: " + words));
   EXPECT_EQ(manifest_in(out)["warnings"][0].get<std::string>().substr(0, words.size()), words);
   finished("verify " + (project_ / "run").string());  // the same cloth
 }
@@ -183,11 +183,11 @@ TEST_F(Recorded, RunIsVerified) {
   const std::string verify = "verify " + in("runs") + " --out " + in("check");
   const Outcome same = finished(verify);
   for (const char* words : {"same    one", "same state", "1 the same, 0 within errors, 0 differ"})
-    EXPECT_TRUE(has(same.out, words));
+    EXPECT_TRUE(says(same.out, words));
 
   edit([](Json& json) { move(json, "drape_coefficient_percent", 1); });
   const Outcome beyond = ended(4, verify);
-  EXPECT_TRUE(has(beyond.out, "beyond: drape_coefficient_percent"));
+  EXPECT_TRUE(says(beyond.out, "beyond: drape_coefficient_percent"));
 
   edit([](Json& json) {
     json["metrics"]["drape_coefficient_percent_step_error"] = 2.0;
@@ -198,7 +198,7 @@ TEST_F(Recorded, RunIsVerified) {
   const Outcome within = finished(verify);
   for (const char* words : {"within  one", "state differs", "within their errors: drape_coefficient_percent",
                             "program 0123456", "device cpu: another, 1 threads, now"})
-    EXPECT_TRUE(has(within.out, words));
+    EXPECT_TRUE(says(within.out, words));
   ended(4, verify + " --exact");
 }
 
@@ -210,11 +210,11 @@ TEST_F(Recorded, RunWithOtherBitsDiffersOnlyWhereTheyAreDue) {
   ended(4, verify);
   const Json here = manifest_in(run())["hysteron"];
   edit([](Json& json) { json["hysteron"]["instructions"] = "x86-64-v9"; });
-  EXPECT_TRUE(has(finished(verify).out, "instructions x86-64-v9, now x86-64"));
+  EXPECT_TRUE(says(finished(verify).out, "instructions x86-64-v9, now x86-64"));
   edit([](Json& json) { json["hysteron"].erase("instructions"); });
   finished(verify);  // older programs did not note them
   edit([&](Json& json) { json["hysteron"] = here, json["hysteron"]["compiler"] = "cc 1"; });
-  EXPECT_TRUE(has(finished(verify).out, "compiler cc 1, now "));
+  EXPECT_TRUE(says(finished(verify).out, "compiler cc 1, now "));
 }
 
 // A mathematical library without fused multiplication stands for that of another processor.
@@ -227,7 +227,7 @@ TEST_F(Recorded, RunOnAnotherProcessorIsTheSameWithinRoundOff) {
     const Outcome outcome = finished(verify);
     unsetenv("GLIBC_TUNABLES");
     if (outcome.out.find("same state") == std::string::npos) {
-      EXPECT_TRUE(has(outcome.out, "within round-off"));
+      EXPECT_TRUE(says(outcome.out, "within round-off"));
     }
   }
 }
@@ -244,11 +244,11 @@ TEST_F(Recorded, RunIsHeldToLimitsFromAFile) {
                    " --out " + in("check"));
   };
   EXPECT_EQ(verified("0.5").exit_code, 0);
-  EXPECT_TRUE(has(file_content(in("tests.xml")), "tests=\"1\" failures=\"0\" errors=\"0\""));
+  EXPECT_TRUE(says(file_content(in("tests.xml")), "tests=\"1\" failures=\"0\" errors=\"0\""));
   EXPECT_EQ(verified("0.3").exit_code, 4);
   const std::string xml = file_content(in("tests.xml"));
-  EXPECT_TRUE(has(xml, "<testcase name=\"one\" classname=\"hysteron.verify\""));
-  EXPECT_TRUE(has(xml, "<failure message=\"same state; "));
+  EXPECT_TRUE(says(xml, "<testcase name=\"one\" classname=\"hysteron.verify\""));
+  EXPECT_TRUE(says(xml, "<failure message=\"same state; "));
 }
 
 Manifest with_steps(const std::string& integrator, double newton_residual) {
@@ -288,7 +288,7 @@ TEST_F(Recorded, RunThatTookLongIsLeftOut) {
   record(kDrape);
   edit([](Json& json) { json["wall_seconds"]["total"] = 5.0; });
   const Outcome outcome = program("verify " + in("runs") + " --quick --out " + in("check"));
-  EXPECT_TRUE(has(outcome.out, "took 5 s, more than 4 s"));
+  EXPECT_TRUE(says(outcome.out, "took 5 s, more than 4 s"));
   EXPECT_EQ(outcome.exit_code, 2) << "nothing was compared";
 }
 

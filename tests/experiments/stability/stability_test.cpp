@@ -42,7 +42,7 @@ TEST(Attempt, ThatTheProgramRefusesKeepsItsReason) {
   attempt.scene.fabric.k0 = 0;
   const Finding f = find_out(attempt, kShort);
   EXPECT_EQ(f.outcome, Outcome::refused);
-  EXPECT_TRUE(has(f.message, "fabric.k0 = 0"));
+  EXPECT_TRUE(says(f.message, "fabric.k0 = 0"));
   EXPECT_EQ(f.steps, 0);
 }
 
@@ -209,7 +209,7 @@ TEST_F(StabilityCommand, WritesARowForEachCellAndCountsThem) {
   const auto refused = std::find_if(rows.begin(), rows.end(),
                                     [](const std::string& row) { return row.find(",refused,") != row.npos; });
   ASSERT_NE(refused, rows.end());
-  EXPECT_TRUE(has(*refused, "fabric.k0 = 0")) << "the message stands in the last column";
+  EXPECT_TRUE(says(*refused, "fabric.k0 = 0")) << "the message stands in the last column";
 }
 
 TEST_F(StabilityCommand, MeasuresTheExplicitLimitOnEveryMesh) {

@@ -122,7 +122,7 @@ TEST(Study, RefusesInOneLineWithFileLineKeyAndRange) {
     const std::string file = folder.write("s.toml", text);
     std::string said = test::refusal([&] { read_study(file); });
     if (const auto at = said.find(file); at != said.npos) said.replace(at, file.size(), "s.toml");
-    EXPECT_TRUE(has(said, message)) << text;
+    EXPECT_TRUE(says(said, message)) << text;
   }
 }
 

@@ -61,8 +61,8 @@ TEST_F(Sweep, WarnsOfWhatItsRunsWarnOf) {
     ASSERT_FALSE(warnings.empty());
     const std::string names = warnings[0].get<std::string>();
     for (const char* part : {"linear", "dahl", ": cloth.copies = 2 ("})
-      EXPECT_TRUE(has(names, part)) << warnings;
-    EXPECT_TRUE(has(outcome.err, "warning: "));
+      EXPECT_TRUE(says(names, part)) << warnings;
+    EXPECT_TRUE(says(outcome.err, "warning: "));
   }
 }
 
@@ -71,14 +71,14 @@ TEST_F(Sweep, ListsRunsThatFailGoesOnAndExitsWithThree) {
   text.replace(text.find("2e-6"), 4, "1.0 ");  // a rigidity above b1
   write(text);
   const Outcome outcome = run(3);
-  EXPECT_TRUE(has(outcome.err, "2 of 4 runs are not complete"));
+  EXPECT_TRUE(says(outcome.err, "2 of 4 runs are not complete"));
   const Table found = table();
   for (std::size_t r = 0; r < 4; ++r) {
     const bool fails = r % 2 == 1;
     EXPECT_EQ(found.rows[r].back().empty(), !fails);
     EXPECT_EQ(found.rows[r][found.rows[r].size() - 2], fails ? "2" : "0");
   }
-  EXPECT_TRUE(has(file_content(folder_.path() / "out/report.html"), "Not complete"));
+  EXPECT_TRUE(says(file_content(folder_.path() / "out/report.html"), "Not complete"));
 }
 
 // Which metrics there are is known once a run has ended.
@@ -88,7 +88,7 @@ TEST_F(Sweep, RefusesMetricsThatNoRunHasFoundAndNamesTheNearest) {
   const std::string unknown = "found no 2HB_M (did you mean 2HB_N?)",
                     place = " (" + study_.string() + ":1)\n";
   EXPECT_EQ(outcome.err.find("warning: metrics: the first run has " + unknown + place), 0u) << outcome.err;
-  EXPECT_TRUE(has(outcome.err, "metrics: no run has found 2HB_M (did you mean 2HB_N?); the runs are kept"));
+  EXPECT_TRUE(says(outcome.err, "metrics: no run has found 2HB_M (did you mean 2HB_N?); the runs are kept"));
   EXPECT_EQ(table().rows.size(), 4u);
   write(std::string("metrics = [\"B_N_m\", \"2HB_N\"]\n") + kStudy);
   run(0, "--collect");
@@ -167,7 +167,7 @@ n = 3
     other["scene"] = json_in(keys, "keys");
     write(other.dump());
     const Outcome outcome = run(2, "", "other");
-    EXPECT_TRUE(has(outcome.err, "is not the manifest of a sweep"));
+    EXPECT_TRUE(says(outcome.err, "is not the manifest of a sweep"));
   }
 }
 

@@ -83,7 +83,7 @@ TEST(Validate, TakesPartsThatItHasAndOneLaw) {
   for (const auto& [arguments, reason] :
        {std::pair{"--parts spread,pairs", "parts = pairs must be spread | "},
         std::pair{"--laws prandtl,linear", "must be one law"}}) {
-    EXPECT_TRUE(has(refused(std::string("validate ") + arguments), reason));
+    EXPECT_TRUE(says(refused(std::string("validate ") + arguments), reason));
   }
 }
 

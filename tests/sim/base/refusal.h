@@ -23,12 +23,12 @@ std::string refusal(const Body& body, int exit_code = 2) {
   return kAccepted;
 }
 
-// Whether the text has all these parts; if not, the failure shows it.
+// Whether the text has all these parts; the failure shows it.
 template <class... Parts>
 ::testing::AssertionResult says(const std::string& text, const Parts&... parts) {
   for (const std::string& part : {std::string(parts)...})
     if (text.find(part) == text.npos) return ::testing::AssertionFailure() << text << "\n  lacks " << part;
-  return ::testing::AssertionSuccess();
+  return ::testing::AssertionSuccess() << text;
 }
 
 }  // namespace hysteron::test

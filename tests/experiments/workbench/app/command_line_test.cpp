@@ -123,7 +123,7 @@ TEST(CommandLine, SaysWhoseAnOptionIs) {
 
 TEST(CommandLine, RefusesAFlagWithoutItsValueInOneLine) {
   const std::string message = refusal({"drape", "--step"});
-  EXPECT_TRUE(has(message, "drape: --step"));
+  EXPECT_TRUE(says(message, "drape: --step"));
   EXPECT_EQ(message.find('\n'), std::string::npos);
 }
 

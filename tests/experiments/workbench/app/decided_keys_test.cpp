@@ -99,17 +99,17 @@ TEST(Strips, WarnOfWhatAFileAsksForAndDoesNotGet) {
        {"cloth.copies = 2 (" + scene + ":3) is not used: cantilever does not use cloth.copies",
         "seconds = 9.0 (" + scene + ":1) is not used: cantilever sets seconds itself",
         "[[pin]] (" + scene + ":5) is not used: cantilever sets pin itself"}) {
-    EXPECT_TRUE(has(run.outcome.err, "warning: " + words));
-    EXPECT_TRUE(has(file_content(run.out / "report.html"), "Warning: " + words)) << words;
+    EXPECT_TRUE(says(run.outcome.err, "warning: " + words));
+    EXPECT_TRUE(says(file_content(run.out / "report.html"), "Warning: " + words)) << words;
   }
-  EXPECT_FALSE(has(run.outcome.err, "cloth.width"));
+  EXPECT_FALSE(says(run.outcome.err, "cloth.width"));
 }
 
 TEST(Strips, OfADumpedFileAskForNothingElse) {
   const Folder folder;
   const std::string dumped = folder.file("dumped.toml");
   finished("cantilever --triangles 32 --device cpu --dump-scene " + dumped);
-  EXPECT_FALSE(has(strip_run(dumped).outcome.err, "is not used"));
+  EXPECT_FALSE(says(strip_run(dumped).outcome.err, "is not used"));
 }
 
 }  // namespace

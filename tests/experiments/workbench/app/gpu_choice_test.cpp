@@ -62,9 +62,9 @@ TEST_F(GpuChoice, IsRefusedInOneLineWhereThereIsNoSuchGpu) {
       choose_gpu(line);
     });
   };
-  EXPECT_TRUE(has(refused("cuda:2"), "leaves 2, numbered from 0 on"));
+  EXPECT_TRUE(says(refused("cuda:2"), "leaves 2, numbered from 0 on"));
   for (const char* device : {"cuda:", "cuda:x", "cuda:-1", "cuda:1.5", "cuda:99999"})
-    EXPECT_TRUE(has(refused(device), "the number of a GPU")) << device;
+    EXPECT_TRUE(says(refused(device), "the number of a GPU")) << device;
   EXPECT_EQ(allowed(), "4,7");
 }
 

@@ -112,7 +112,7 @@ TEST_F(RunFolder, IsReservedBeforeFilesAreWritten) {
     const std::string message = refusal([&] {
       run.reserve({"table.csv", "plot_drape", "frames/0000.png", "mesh/0000.ply"});
     });
-    EXPECT_TRUE(has(message, folder.path() / name));
+    EXPECT_TRUE(says(message, folder.path() / name));
     EXPECT_EQ(refusal([&] { run.reserve({"sheet.png", "plot_tip", "frames/0000.ply"}); }), "(accepted)");
     EXPECT_EQ(file_content(folder.path() / name), "mine");
   }
@@ -123,7 +123,7 @@ TEST_F(RunFolder, KeepsAManifestThatIsNoRuns) {
     const Folder folder;
     const fs::path manifest = folder.path() / "manifest.json";
     write(manifest, text);
-    EXPECT_TRUE(has(refused_run(folder.path()), "manifest.json is not of a run"));
+    EXPECT_TRUE(says(refused_run(folder.path()), "manifest.json is not of a run"));
     EXPECT_EQ(file_content(manifest), text);
   }
 }
@@ -136,8 +136,8 @@ TEST_F(RunFolder, IsNotLeftThroughALink) {
   fs::create_directory_symlink(outside.path(), out_ / "frames");
   ExperimentRun run(drape_line(), setup_in(out_));
   EXPECT_EQ(file_content(outside.path() / "0000.png"), "mine");
-  EXPECT_TRUE(has(refusal([&] { run.path("frames/0000.png"); }), "would be written outside"));
-  EXPECT_TRUE(has(refusal([&] { run.path("../0000.png"); }), "would be written outside"));
+  EXPECT_TRUE(says(refusal([&] { run.path("frames/0000.png"); }), "would be written outside"));
+  EXPECT_TRUE(says(refusal([&] { run.path("../0000.png"); }), "would be written outside"));
 }
 
 TEST_F(RunFolder, IsNotWhereTheRunReads) {
@@ -147,7 +147,7 @@ TEST_F(RunFolder, IsNotWhereTheRunReads) {
                     render = {"render", "hysteron render", {}, {out_.string()}};
   EXPECT_EQ(refused_run(out_, fit), "--loop " + loops.string() + " is of the run in " + out_.string() +
                                         ", which this one would replace: give another folder (--out)");
-  EXPECT_TRUE(has(refused_run(out_, render), "is of the run in"));
+  EXPECT_TRUE(says(refused_run(out_, render), "is of the run in"));
   EXPECT_EQ(file_content(loops), "mine");
 }
 

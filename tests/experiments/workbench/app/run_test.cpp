@@ -109,7 +109,7 @@ TEST(Run, InAFolderThatCannotBeMadeIsAMachineErrorBeforeAnythingElse) {
   const Error error =
       test::thrown_error([&] { ExperimentRun(drape_line(), setup_in(folder.path() / "file" / "out")); });
   EXPECT_EQ(error.exit_code(), 1);
-  EXPECT_TRUE(has(error.what(), "cannot create the folder"));
+  EXPECT_TRUE(says(error.what(), "cannot create the folder"));
 }
 
 TEST(Run, OnAFullDiskIsAMachineErrorAndLeavesNothingHalfWritten) {

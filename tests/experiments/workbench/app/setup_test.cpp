@@ -74,9 +74,9 @@ TEST(Setup, OfExperimentsWithoutASceneLetsFlagsWinOverQuickToo) {
 
 TEST(Setup, RefusesWhatNoPictureSequenceCanHave) {
   EXPECT_EQ(setup_error({{"fps", "0"}}), "fps = 0 1/s must be in (0, 10000] (--fps)");
-  EXPECT_TRUE(has(setup_error({{"renderer", "vulkan"}}), "auto | egl | osmesa"));
-  EXPECT_TRUE(has(setup_error({{"export", "stl"}}), "none | ply | obj | vtk | pc2"));
-  EXPECT_TRUE(has(setup_error({{"camera.direction", "0 0 0"}}), "must not be zero"));
+  EXPECT_TRUE(says(setup_error({{"renderer", "vulkan"}}), "auto | egl | osmesa"));
+  EXPECT_TRUE(says(setup_error({{"export", "stl"}}), "none | ply | obj | vtk | pc2"));
+  EXPECT_TRUE(says(setup_error({{"camera.direction", "0 0 0"}}), "must not be zero"));
 }
 
 TEST(Setup, SaysWhoseAKeyOfItsFileIs) {
@@ -88,7 +88,7 @@ TEST(Setup, SaysWhoseAKeyOfItsFileIs) {
 
 TEST(Setup, ChecksTheSceneAsAWhole) {
   EXPECT_TRUE(
-      has(setup_error({{"fabric.b1", "1e-9"}}), "fabric.b1 = 1e-09 N m (--fabric.b1) must be >= fabric.b2"));
+      says(setup_error({{"fabric.b1", "1e-9"}}), "fabric.b1 = 1e-09 N m (--fabric.b1) must be >= fabric.b2"));
 }
 
 }  // namespace

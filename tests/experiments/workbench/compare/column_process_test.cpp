@@ -39,10 +39,10 @@ TEST(Chunks, AreOfRunsWithoutPicturesThatStepACloth) {
   EXPECT_EQ(refusal(other), "batch = 8 is of runs that step a cloth, not of kes (--batch)");
   other.line.experiment = "bench";
   EXPECT_EQ(refusal(other), "batch = 8 is of runs that step a cloth, not of bench (--batch)");
-  EXPECT_TRUE(has(refusal(column({{"errors", "true"}})), "errors.batch"));
+  EXPECT_TRUE(says(refusal(column({{"errors", "true"}})), "errors.batch"));
   ChildRun drawn = column({});
   drawn.line.flags.clear();
-  EXPECT_TRUE(has(refusal(drawn), "no-images"));
+  EXPECT_TRUE(says(refusal(drawn), "no-images"));
   EXPECT_NO_THROW(check_batch({drawn}, 1));
 }
 

@@ -89,7 +89,7 @@ TEST(Repeats, OfAClothFromAFileSubdivideItAndHaveNoOtherDraws) {
   EXPECT_EQ(errors.metrics["curvature_rms_per_m_step_error"].number(), 1);
   EXPECT_FALSE(errors.metrics["curvature_rms_per_m_draw_error"].is_known());
   ASSERT_EQ(errors.missing.size(), 1);
-  EXPECT_TRUE(has(errors.missing[0], "from a file"));
+  EXPECT_TRUE(says(errors.missing[0], "from a file"));
 }
 
 ErrorRunResult bent(const std::string& name, double length) {
@@ -140,7 +140,7 @@ TEST(Errors, ThatAreNotKnownAreNullAndSaidToBe) {
     EXPECT_FALSE(errors.metrics[std::string("bending_length_m") + ending].is_known()) << ending;
   ASSERT_EQ(errors.missing.size(), 3);
   EXPECT_EQ(errors.missing[0], "mesh (--seed=2) is not complete: no convergence");
-  EXPECT_TRUE(has(errors.missing[1], "changes no bit"));
+  EXPECT_TRUE(says(errors.missing[1], "changes no bit"));
   EXPECT_EQ(errors.missing[2], "draw-1 has no bending_length_m");
 }
 
@@ -177,9 +177,9 @@ TEST(HeadlineWords, WriteSmallNumbersInPowersOfTen) {
 
 TEST(MetricCards, ShowErrorsBesideTheirHeadline) {
   const std::string html = metric_cards(kDrape);
-  EXPECT_TRUE(has(html, "<b>86.0 <small>% ± 0.10 step ± 0.6 mesh ± 0.8 draw</small></b>"));
-  EXPECT_FALSE(has(html, "step error"));
-  EXPECT_TRUE(has(html, "<b>0.25 <small>%</small></b>"));
+  EXPECT_TRUE(says(html, "<b>86.0 <small>% ± 0.10 step ± 0.6 mesh ± 0.8 draw</small></b>"));
+  EXPECT_FALSE(says(html, "step error"));
+  EXPECT_TRUE(says(html, "<b>0.25 <small>%</small></b>"));
 }
 
 TEST(MetricTable, ShowsErrorsInTheHeadlinesCell) {
@@ -187,9 +187,9 @@ TEST(MetricTable, ShowsErrorsInTheHeadlinesCell) {
   for (const auto& [key, value] : kDrape) all.set("prandtl." + key, value);
   all.set("linear.drape_coefficient_percent", 72.0);
   const std::string html = metric_table(all);
-  EXPECT_TRUE(has(html, ">86.0 ± 0.10 step ± 0.6 mesh ± 0.8 draw<"));
-  EXPECT_TRUE(has(html, ">72<"));
-  EXPECT_FALSE(has(html, "step error"));
+  EXPECT_TRUE(says(html, ">86.0 ± 0.10 step ± 0.6 mesh ± 0.8 draw<"));
+  EXPECT_TRUE(says(html, ">72<"));
+  EXPECT_FALSE(says(html, "step error"));
 }
 
 const std::string kSmall = " --triangles 60 --seconds 0.05 --fps 30 --device cpu --no-images --quiet";
@@ -225,7 +225,7 @@ TEST(SwingWithErrors, FindsWhatSeparateRunsFind) {
   ASSERT_EQ(table.rows.size(), 4);
   EXPECT_EQ(table.head.front(), "repeat");
   EXPECT_EQ(table.rows[0][1], "triangles=240");
-  EXPECT_TRUE(has(file_content("run/report.html"), " step ± "));
+  EXPECT_TRUE(says(file_content("run/report.html"), " step ± "));
 }
 
 TEST(SwingWithErrors, PassesFlagsOnButThoseThatItChanges) {
@@ -257,14 +257,14 @@ TEST(SwingWithErrors, SaysWhichRepeatFailed) {
   ASSERT_EQ(manifest["errors_missing"].size(), 1);
   const std::string missing = manifest["errors_missing"][0].get<std::string>();
   EXPECT_EQ(manifest["warnings"].back(), "errors: " + missing);
-  EXPECT_TRUE(has(outcome.err, "warning: errors: " + missing));
+  EXPECT_TRUE(says(outcome.err, "warning: errors: " + missing));
   EXPECT_TRUE(missing.starts_with("mesh (--triangles=240) is not"));
   const Table table = read_table(run / "errors.csv");
   const auto complete = std::find(table.head.begin(), table.head.end(), "complete") - table.head.begin();
   EXPECT_EQ(table.rows[0][complete], "0");
   EXPECT_EQ(table.rows[1][complete], "1");
-  EXPECT_TRUE(has(file_content(run / "report.html"), "Errors that are not known: mesh"));
-  EXPECT_TRUE(has(outcome.err, "mesh error unknown"));
+  EXPECT_TRUE(says(file_content(run / "report.html"), "Errors that are not known: mesh"));
+  EXPECT_TRUE(says(outcome.err, "mesh error unknown"));
 }
 
 // Otherwise every repeat would repeat itself.
@@ -283,14 +283,14 @@ TEST(Compare, GivesEachColumnItsErrors) {
   const Json metrics = run.manifest()["metrics"];
   EXPECT_EQ(metrics["linear.bending_friction_J_step_error"], 0);
   EXPECT_GT(metrics["prandtl.bending_friction_J_step_error"].get<double>(), 0);
-  EXPECT_TRUE(has(file_content(run.out / "report.html"), " step ± "));
+  EXPECT_TRUE(says(file_content(run.out / "report.html"), " step ± "));
 }
 
 TEST(RequestForErrors, IsRefusedWhereThereIsNone) {
   const Folder folder;
   const std::string out = " --quiet --no-images" + out_flag(folder.path() / "out");
-  EXPECT_TRUE(has(refused("bench --quick --errors" + out), "bench has no headline"));
-  EXPECT_TRUE(has(refused("fold --fold.law-alone --errors" + out), "fold.law-alone"));
+  EXPECT_TRUE(says(refused("bench --quick --errors" + out), "bench has no headline"));
+  EXPECT_TRUE(says(refused("fold --fold.law-alone --errors" + out), "fold.law-alone"));
   EXPECT_FALSE(fs::exists(folder.path() / "out/manifest.json"));
 }
 

@@ -23,28 +23,29 @@ TEST(ResultWords, NameTheNumberItsUnitAndItsErrors) {
                                                          {"drape_coefficient_percent_mesh_error", 0.61},
                                                          {"node_count", 8},
                                                          {"settled", true}}));
-  EXPECT_TRUE(has(words, "drape coefficient             86.0 % ± 0.8 step ± 0.6 mesh, draw error unknown\n"));
-  EXPECT_TRUE(has(words, "folds                         8\n"));
-  EXPECT_TRUE(has(words, "at rest\n"));
-  EXPECT_FALSE(has(words, "NOT"));
+  EXPECT_TRUE(
+      says(words, "drape coefficient             86.0 % ± 0.8 step ± 0.6 mesh, draw error unknown\n"));
+  EXPECT_TRUE(says(words, "folds                         8\n"));
+  EXPECT_TRUE(says(words, "at rest\n"));
+  EXPECT_FALSE(says(words, "NOT"));
 }
 
 TEST(ResultWords, OfAFitShowItsStandardError) {
   const Manifest manifest =
       manifest_with("swing", {{"decay_per_turn_percent", 2.0412}, {"decay_per_turn_percent_stderr", 0.0523}});
-  EXPECT_TRUE(has(result_words(manifest), "decay per turn                2.04 % ± 0.05\n"));
+  EXPECT_TRUE(says(result_words(manifest), "decay per turn                2.04 % ± 0.05\n"));
 }
 
 TEST(ResultWords, SayAloudThatTheClothDidNotComeToRest) {
   const Metrics metrics = {{"settled", false}, {"fastest_m_per_s", 4.1e-3}, {"settling_limit_m_per_s", 2e-3}};
   EXPECT_TRUE(
-      has(result_words(drape_manifest(metrics)), "NOT at rest: fastest vertex 4.1 mm/s, limit 2 mm/s\n"));
+      says(result_words(drape_manifest(metrics)), "NOT at rest: fastest vertex 4.1 mm/s, limit 2 mm/s\n"));
   // Nor is a number given as if it had: what was published is no result of the run.
   const std::string words = result_words(drape_manifest({{"drape_coefficient_percent", 86.04},
                                                          {"published_drape_coefficient_percent", 82.9},
                                                          {"settled", false}}));
-  EXPECT_TRUE(has(words, "drape coefficient             86.0 % (not at rest)\n"));
-  EXPECT_TRUE(has(words, "published coefficient         82.9 %\n"));
+  EXPECT_TRUE(says(words, "drape coefficient             86.0 % (not at rest)\n"));
+  EXPECT_TRUE(says(words, "published coefficient         82.9 %\n"));
   EXPECT_EQ(not_at_rest_warning({{"settled", true}}), "");
   EXPECT_EQ(not_at_rest_warning({}), "") << "where no rest is asked for";
 }
@@ -56,23 +57,23 @@ TEST(ResultWords, OfAComparisonHaveALineForEachColumn) {
   manifest.keys = std::make_shared<const Json>(Json{{"compared", "drape"}});
   const std::string words = result_words(manifest);
   EXPECT_TRUE(
-      has(words, "  linear                        drape coefficient 72.2 % (not at rest); NOT at rest\n"));
-  EXPECT_TRUE(has(words, "  prandtl                       drape coefficient 86.0 %\n"));
+      says(words, "  linear                        drape coefficient 72.2 % (not at rest); NOT at rest\n"));
+  EXPECT_TRUE(says(words, "  prandtl                       drape coefficient 86.0 %\n"));
 }
 
 TEST(ResultWords, NameWhatASceneAsksFor) {
   Manifest manifest = manifest_with("run", {{"gap_m", 0.0125}, {"gap_m_step_error", 2e-5}, {"fold_deg", 40}});
   EXPECT_EQ(result_words(manifest), "");
   manifest.requested_metrics = {"fold_deg", "gap_m"};
-  EXPECT_TRUE(has(result_words(manifest),
-                  "  fold                          40 °\n"
-                  "  gap                           0.01250 m ± 2e-05 step, mesh and draw error unknown\n"));
+  EXPECT_TRUE(says(result_words(manifest),
+                   "  fold                          40 °\n"
+                   "  gap                           0.01250 m ± 2e-05 step, mesh and draw error unknown\n"));
 }
 
 TEST(ResultWords, OfARunThatWasCutShortSaySo) {
   Manifest manifest = drape_manifest({});
   manifest.complete = false;
-  EXPECT_TRUE(has(result_words(manifest), "INCOMPLETE"));
+  EXPECT_TRUE(says(result_words(manifest), "INCOMPLETE"));
 }
 
 TEST(LastWords, AreTheResultAndItsPlacesOnStdoutEvenIfQuiet) {
@@ -80,14 +81,14 @@ TEST(LastWords, AreTheResultAndItsPlacesOnStdoutEvenIfQuiet) {
   EXPECT_EQ(without_warnings(run.outcome.err), "");
   for (const std::string part : {"cantilever: cotton-broad, law prandtl\n", "tip drop over length",
                                  "bending length", " mm\n", "/out/report.html\n"})
-    EXPECT_TRUE(has(run.outcome.out, part));
-  EXPECT_FALSE(has(run.outcome.out, "sheet.png")) << "there is none";
+    EXPECT_TRUE(says(run.outcome.out, part));
+  EXPECT_FALSE(says(run.outcome.out, "sheet.png")) << "there is none";
 }
 
 TEST(LastWords, LeaveStdoutToTheManifestWithJson) {
   const FinishedRun run("swing --quick --no-images --seconds 0.05 --triangles 60 --json");
   EXPECT_EQ(json_in(run.outcome.out, "stdout").at("experiment"), "swing");
-  EXPECT_TRUE(has(run.outcome.err, "cotton-broad, law prandtl, "));
+  EXPECT_TRUE(says(run.outcome.err, "cotton-broad, law prandtl, "));
 }
 
 TEST(TimeLeft, IsTheTimeSoFarTimesWhatIsLeftOverWhatIsDone) {
@@ -109,11 +110,11 @@ TEST(ColumnProgress, IsTheLastWholeMomentOfTheRunsTable) {
 
 TEST(ReportOfMotion, SaysAtItsTopThatTheClothDidNotComeToRest) {
   const FinishedRun run("drape --quick --no-images --quiet --triangles 100 --seconds 0.1");
-  EXPECT_TRUE(has(run.outcome.out, "NOT at rest: fastest vertex "));
-  EXPECT_TRUE(has(run.outcome.err, "warning: no state of rest was found: "));
+  EXPECT_TRUE(says(run.outcome.out, "NOT at rest: fastest vertex "));
+  EXPECT_TRUE(says(run.outcome.err, "warning: no state of rest was found: "));
   const std::string page = file_content(run.out / "report.html");
-  EXPECT_TRUE(has(page, "NOT at rest: fastest vertex "));
-  EXPECT_TRUE(has(page, "% (not at rest)"));
+  EXPECT_TRUE(says(page, "NOT at rest: fastest vertex "));
+  EXPECT_TRUE(says(page, "% (not at rest)"));
 }
 
 }  // namespace

@@ -80,7 +80,7 @@ TEST_F(Gallery, NamesTheCommandTheDeviceTheMetricAndTheManifest) {
   const std::string html = page();
   for (const char* part : {"hysteron drape --quick", "cpu: CPU, 2 threads", "49.8", "recovery angle",
                            "href=\"z-drape/manifest.json\"", "Cusick"}) {
-    EXPECT_TRUE(has(html, part));
+    EXPECT_TRUE(says(html, part));
   }
 }
 
@@ -137,7 +137,7 @@ TEST_F(Gallery, TakesTheRunsBelowARunAsItsParts) {
   const std::string html = page();
   EXPECT_EQ(occurrences(html, "href=\"z-drape/wong/manifest.json\""), 1);
   EXPECT_EQ(occurrences(html, "href=\"z-drape/wong/sheet.png\""), 1);
-  EXPECT_TRUE(has(html, "Wong: contact sheet: "));
+  EXPECT_TRUE(says(html, "Wong: contact sheet: "));
 }
 
 TEST_F(Gallery, PlaysFramesThatAreThere) {
@@ -167,7 +167,7 @@ TEST(Grouped, AreThousands) {
 TEST_F(Gallery, TakesCaptionsThatTheRunWrote) {
   write_text(results_ / "z-drape/README.md",
              "# Drape\n\n![The sheet](sheet.png)\n\n**The sheet.** Let down by `a plate`.\n");
-  EXPECT_TRUE(has(page(), "<figcaption>The sheet. Let down by a plate.</figcaption>"));
+  EXPECT_TRUE(says(page(), "<figcaption>The sheet. Let down by a plate.</figcaption>"));
 }
 
 TEST_F(Gallery, OpensWithThePictureThatTheReadmeBesideItShowsFirst) {
@@ -193,22 +193,22 @@ TEST_F(Gallery, IsNotBrokenByOddNames) {
   write_run(results_ / "a <b> & \"c\" #1", "drape");
   const std::string html = page();
   EXPECT_EQ(occurrences(html, "<b> &"), 0);
-  EXPECT_TRUE(has(html, "a &lt;b&gt; &amp; &quot;c&quot; #1"));
-  EXPECT_TRUE(has(html, "href=\"a%20%3Cb%3E%20%26%20%22c%22%20%231/manifest.json\""));
+  EXPECT_TRUE(says(html, "a &lt;b&gt; &amp; &quot;c&quot; #1"));
+  EXPECT_TRUE(says(html, "href=\"a%20%3Cb%3E%20%26%20%22c%22%20%231/manifest.json\""));
 }
 
 TEST_F(Gallery, NamesABrokenPicture) {
   write_text(results_ / "a-kes/plot_loops.png", "\x89PNG\r\n\x1a\nhalf");
-  EXPECT_TRUE(has(refusal(), "results/a-kes/plot_loops.png: not a PNG picture"));
+  EXPECT_TRUE(says(refusal(), "results/a-kes/plot_loops.png: not a PNG picture"));
 }
 
 TEST_F(Gallery, NamesABrokenManifest) {
   const std::string whole = file_content(results_ / "a-kes/manifest.json");
   write_text(results_ / "a-kes/manifest.json", whole.substr(0, whole.size() / 2));
-  EXPECT_TRUE(has(refusal(), "results/a-kes/manifest.json is no manifest"));
+  EXPECT_TRUE(says(refusal(), "results/a-kes/manifest.json is no manifest"));
   write_text(results_ / "a-kes/manifest.json",
              R"({"hysteron":{"version":"0","commit":"0"},"scene":{},"experiment":"kes","started":7})");
-  EXPECT_TRUE(has(refusal(), "results/a-kes/manifest.json is no manifest"));
+  EXPECT_TRUE(says(refusal(), "results/a-kes/manifest.json is no manifest"));
 }
 
 // A manifest that lacks a key, or has one of another type, is named with the key and in words.
@@ -249,13 +249,13 @@ TEST_F(Gallery, PassesOverLinksThatLeadNowhereAndRefusesThoseThatLeadBack) {
   fs::remove(results_ / "z-drape/above");
   fs::remove(results_ / "a-kes/manifest.json");
   fs::create_symlink("manifest.json", results_ / "a-kes/manifest.json");
-  EXPECT_FALSE(has(page(), "a-kes/manifest.json"));
+  EXPECT_FALSE(says(page(), "a-kes/manifest.json"));
 }
 
 TEST_F(Gallery, OfNothingIsAWrongRequest) {
   fs::remove_all(results_);
   fs::create_directories(results_ / "empty/frames");
-  EXPECT_TRUE(has(refusal(), "nothing to show in"));
+  EXPECT_TRUE(says(refusal(), "nothing to show in"));
 }
 
 std::vector<std::string> stale_names(const fs::path& folder) {

@@ -37,7 +37,7 @@ bool leads_to_a_place(const std::string& url) { return url.starts_with('#'); }
 
 // Every picture is a file below the page, and so is every other link.
 void expect_all_there(const std::string& html, const fs::path& folder) {
-  ASSERT_FALSE(has(html, "=\"data:"));
+  ASSERT_FALSE(says(html, "=\"data:"));
   for (const char* name : {"src", "href"}) {
     for (const std::string& url : attribute_values(html, name)) {
       if (leads_to_a_place(url)) continue;
@@ -51,7 +51,7 @@ void expect_alone(const std::string& html) {
   for (const std::string& url : attribute_values(html, "src"))
     EXPECT_TRUE(url.starts_with("data:image/")) << url;
   for (const std::string& url : attribute_values(html, "href")) EXPECT_TRUE(leads_to_a_place(url)) << url;
-  for (const char* part : {"<link", "<script src", "url(", "@import"}) EXPECT_FALSE(has(html, part));
+  for (const char* part : {"<link", "<script src", "url(", "@import"}) EXPECT_FALSE(says(html, part));
 }
 
 void write_pictures(const fs::path& folder) {
@@ -109,7 +109,7 @@ TEST_F(PageForms, ASelfContainedGalleryHoldsPicturesShrunk) {
   EXPECT_EQ(sheet.width(), 900);
   EXPECT_EQ(sheet.height(), 150);
   const std::string html = gallery_page(results_, PageForm::self_contained);
-  EXPECT_TRUE(has(html, "src=\"data:image/png;base64," + base64(small) + "\""));
+  EXPECT_TRUE(says(html, "src=\"data:image/png;base64," + base64(small) + "\""));
 }
 
 TEST_F(PageForms, OfTheProgramAreLinkedUnlessAskedForAlone) {

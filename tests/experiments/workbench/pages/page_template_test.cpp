@@ -19,10 +19,10 @@ TEST(Template, OfADocumentHasItsScriptWhereSomethingMoves) {
   const std::string still = html_page("A & B", "<p>still</p>\n"),
                     moving = html_page("t", "<div class=\"player\"></div>\n", "gallery");
   EXPECT_TRUE(still.starts_with("<!doctype html>\n<html lang=\"en\">"));
-  EXPECT_TRUE(has(still, "<title>A &amp; B</title>\n<style>\n:root"));
-  EXPECT_TRUE(has(still, "</style></head>\n<body>\n<p>still</p>\n</body></html>\n"));
-  EXPECT_FALSE(has(still, "<script>"));
-  EXPECT_TRUE(has(moving, "<body class=\"gallery\">\n<div class=\"player\"></div>\n<script>\n"));
+  EXPECT_TRUE(says(still, "<title>A &amp; B</title>\n<style>\n:root"));
+  EXPECT_TRUE(says(still, "</style></head>\n<body>\n<p>still</p>\n</body></html>\n"));
+  EXPECT_FALSE(says(still, "<script>"));
+  EXPECT_TRUE(says(moving, "<body class=\"gallery\">\n<div class=\"player\"></div>\n<script>\n"));
 }
 
 }  // namespace

@@ -53,8 +53,8 @@ TEST_F(Report, ShowsTheSheetThePlotOnceAndPlaysItsFrames) {
   EXPECT_EQ(occurrences(page, "alt=\"plot_energy\""), 1);
   EXPECT_EQ(occurrences(page, "class=\"player\""), 1);
   EXPECT_EQ(occurrences(page, "alt=\"frames/"), 24);
-  EXPECT_TRUE(has(page, "alt=\"frames/1000.png\""));
-  EXPECT_TRUE(has(page, "alt=\"frames/1049.png\""));
+  EXPECT_TRUE(says(page, "alt=\"frames/1000.png\""));
+  EXPECT_TRUE(says(page, "alt=\"frames/1049.png\""));
 }
 
 TEST_F(Report, OpensWithTheQuestionTheNumberAndThePictureThatAnswerIt) {
@@ -126,7 +126,7 @@ TEST(ReportOfSeveralLaws, OpensWithWhatEachAnswers) {
 
 TEST(ReportOfAFolderWithoutARun, IsAWrongRequest) {
   const Folder folder;
-  EXPECT_TRUE(has(test::refusal([&] { write_report(folder.path()); }), "no manifest.json"));
+  EXPECT_TRUE(says(test::refusal([&] { write_report(folder.path()); }), "no manifest.json"));
 }
 
 TEST(HtmlText, CannotBreakOutOfThePage) {

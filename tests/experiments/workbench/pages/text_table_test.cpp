@@ -27,7 +27,7 @@ TEST(TextTable, ToleratesCarriageReturnsAndAMissingLastEnd) {
 TEST(TextTable, NamesTheLineOfABrokenRow) {
   for (const auto& [text, where] : {std::pair{"a,b\n\"x\ny\",2\n1,2,3\n", ":4: 3 fields, must be 2"},
                                     std::pair{"a,b\n1,2\n3,\"4\n5\n", ":3: a quote is not closed"}})
-    EXPECT_TRUE(has(test::refusal([&, &broken = text] { parsed_table(broken); }), where));
+    EXPECT_TRUE(says(test::refusal([&, &broken = text] { parsed_table(broken); }), where));
 }
 
 TEST(TextTable, SaysOnceWhatEveryRowSays) {
@@ -43,7 +43,7 @@ TEST(TextTable, SetsNumbersToTheRightWithSixDigits) {
   const std::string html =
       text_table_html(parsed_table("law,2HB_N,count\nwong,0.00012345678,1170\ndahl,1e-8,\n"));
   for (const char* part : {"<th>law<th>2HB [N]", "<td>0.000123457<", "<td>1e-8<", "<td>1170\n", "<td>wong<"})
-    EXPECT_TRUE(has(html, part));
+    EXPECT_TRUE(says(html, part));
 }
 
 // All but the first column are numbers unless a class says otherwise.
@@ -51,7 +51,7 @@ TEST(TextTable, MarksTextsBesideTheFirstColumnAndNumbersInIt) {
   const std::string html = text_table_html(parsed_table("count,note\n12,\"cut, twice\"\n7,\n"));
   for (const char* part : {"<th class=\"n\">count", "<td class=\"n\">12<", "<th class=\"t\">note",
                            "<td class=\"t\">cut, twice\n"})
-    EXPECT_TRUE(has(html, part));
+    EXPECT_TRUE(says(html, part));
 }
 
 }  // namespace

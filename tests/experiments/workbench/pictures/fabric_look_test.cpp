@@ -53,12 +53,13 @@ TEST_F(FabricFileLook, ABackThatIsNotNamedIsThePalerFront) {
 }
 
 TEST_F(FabricFileLook, WhatIsWrongIsNamedWithItsLine) {
-  EXPECT_TRUE(has(refusal("color = [1, 2, 3]\n"), "unknown key look.color"));
-  EXPECT_TRUE(has(refusal("colour = [1, 2, 300]\n"), ":4)"));
-  EXPECT_TRUE(has(refusal("colour = [1, 2, 3]\nweave = \"felt\"\n"), "must be plain | twill | satin | knit"));
-  EXPECT_TRUE(has(refusal("colour = [1, 2, 3]\nweave = \"knit\"\nthreads = [0, 1]\n"), "look.threads"));
-  EXPECT_TRUE(has(refusal("colour = [1, 2, 3]\nweave = \"knit\"\nsheen = 0\nsource = \"x\"\n"),
-                  "look needs threads"));
+  EXPECT_TRUE(says(refusal("color = [1, 2, 3]\n"), "unknown key look.color"));
+  EXPECT_TRUE(says(refusal("colour = [1, 2, 300]\n"), ":4)"));
+  EXPECT_TRUE(
+      says(refusal("colour = [1, 2, 3]\nweave = \"felt\"\n"), "must be plain | twill | satin | knit"));
+  EXPECT_TRUE(says(refusal("colour = [1, 2, 3]\nweave = \"knit\"\nthreads = [0, 1]\n"), "look.threads"));
+  EXPECT_TRUE(says(refusal("colour = [1, 2, 3]\nweave = \"knit\"\nsheen = 0\nsource = \"x\"\n"),
+                   "look needs threads"));
 }
 
 }  // namespace

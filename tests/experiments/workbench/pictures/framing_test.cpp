@@ -28,7 +28,7 @@ class PicturesOf : public testing::TestWithParam<Case> {};
 // Shares of each picture that its cloth reaches from and to: within, and not lost in it.
 TEST_P(PicturesOf, TheirClothIsWholeAndNotSmall) {
   const FinishedRun run(std::string(GetParam().line) + kSmall + kDraft);
-  EXPECT_FALSE(has(run.outcome.err, "cut off"));
+  EXPECT_FALSE(says(run.outcome.err, "cut off"));
   const Manifest manifest = read_manifest(run.out / "manifest.json");
   double widest = 0, highest = 0;
   for (const Frames::Instant& instant : manifest.frames.value().instants) {

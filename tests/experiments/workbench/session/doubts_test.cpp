@@ -14,7 +14,7 @@ using test::Trial;
 
 void expect_one(const std::vector<std::string>& texts, const std::string& part) {
   ASSERT_EQ(texts.size(), 1U);
-  EXPECT_TRUE(has(texts[0], part));
+  EXPECT_TRUE(says(texts[0], part));
 }
 
 TEST(Integrator, ThatTakesMoreThanAQuarterIsSaidWithTheStepThatWouldDo) {
@@ -22,15 +22,15 @@ TEST(Integrator, ThatTakesMoreThanAQuarterIsSaidWithTheStepThatWouldDo) {
   // The step over the rest's share is to the one taken as 1/3 is to s/(1 - s).
   for (const double fraction : {0.5, 0.75, 0.9}) {
     const std::string text = integrator_words(fraction, 1e-3);
-    EXPECT_TRUE(has(text, fmt::format("{:.2g} s would take 25 %", 1e-3 / 3 * (1 - fraction) / fraction)));
+    EXPECT_TRUE(says(text, fmt::format("{:.2g} s would take 25 %", 1e-3 / 3 * (1 - fraction) / fraction)));
   }
 }
 
 TEST(Integrator, ThatTakesNearlyAllGetsNoAdvice) {
   for (const double fraction : {0.98, 0.9999999, 1 - 1e-12}) {
     const std::string text = integrator_words(fraction, 1.0 / 120);
-    EXPECT_TRUE(has(text, fmt::format("took {:.0f} %", 100 * fraction)));
-    EXPECT_FALSE(has(text, "steps of"));
+    EXPECT_TRUE(says(text, fmt::format("took {:.0f} %", 100 * fraction)));
+    EXPECT_FALSE(says(text, "steps of"));
   }
   EXPECT_EQ(integrator_words(1, 1e-3), "") << "of cloth that dissipates nothing itself";
 }
@@ -71,8 +71,8 @@ keys = [{time = 0}, {time = 0.2, position = [5, 0, 0]}]
 TEST(End, WithClothTornApartIsSaidWithQuietToo) {
   const TextFile scene(kTorn);
   const FinishedRun run("run " + scene.path() + " --no-images --quiet");
-  EXPECT_TRUE(has(run.outcome.err, "warning: the cloth was stretched by up to "));
-  EXPECT_TRUE(has(file_content(run.out / "manifest.json"), "\"the cloth was stretched by up to "));
+  EXPECT_TRUE(says(run.outcome.err, "warning: the cloth was stretched by up to "));
+  EXPECT_TRUE(says(file_content(run.out / "manifest.json"), "\"the cloth was stretched by up to "));
 }
 
 TEST(Drawing, FarFromTheOriginIsSaidToBeRounded) {
@@ -80,7 +80,7 @@ TEST(Drawing, FarFromTheOriginIsSaidToBeRounded) {
   EXPECT_EQ(drawing_words(scene, Trial(scene).cloth), "");
   scene.cloth.position.x() = 1e4;
   const std::string text = drawing_words(scene, Trial(scene).cloth);
-  EXPECT_TRUE(has(text, fmt::format("round positions to {:.2g} m", 1e4 * std::pow(2.0, -23))));
+  EXPECT_TRUE(says(text, fmt::format("round positions to {:.2g} m", 1e4 * std::pow(2.0, -23))));
 }
 
 // A float has 24 bits: its distance from the next is up to 2^-23 of it.

@@ -22,7 +22,7 @@ TEST_P(ForeignFiles, AreRefusedBeforeTheSimulation) {
     fs::create_directories(foreign.parent_path());
     std::ofstream(foreign) << "mine";
     EXPECT_TRUE(
-        has(refused(command + folder.path().string()), foreign.string() + " is not of an earlier run"));
+        says(refused(command + folder.path().string()), foreign.string() + " is not of an earlier run"));
     EXPECT_EQ(file_content(foreign), "mine");
     EXPECT_EQ(fs::exists(folder.path() / "metrics.csv"), name == "metrics.csv") << name;
   }

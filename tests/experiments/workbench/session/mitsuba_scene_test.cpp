@@ -78,7 +78,7 @@ TEST(MitsubaScene, LooksFromThePicturesCamera) {
     EXPECT_NEAR(target[k] - eye[k], camera.forward()[k], 1e-6);
   }
   EXPECT_NEAR(numbers_after(xml, "\"fov\"", "value").at(0), setup.options.camera_fov, 1e-4);
-  EXPECT_TRUE(has(xml, "name=\"width\" value=\"400\""));
+  EXPECT_TRUE(says(xml, "name=\"width\" value=\"400\""));
 }
 
 TEST(MitsubaScene, BodiesAreWhereTheyAreAtThatTime) {
@@ -92,7 +92,7 @@ TEST(MitsubaScene, BodiesAreWhereTheyAreAtThatTime) {
   EXPECT_NEAR(placed[7], 0.2, 1e-6);
   EXPECT_NEAR(placed[11], 0.3, 1e-6);
   setup.scene.obstacle[0].from = 1;
-  EXPECT_FALSE(has(exported_xml(setup, {}), "bodies/"));
+  EXPECT_FALSE(says(exported_xml(setup, {}), "bodies/"));
 }
 
 TEST(MitsubaScene, GroundIsThereWhereItIsPictured) {

@@ -79,8 +79,8 @@ TEST(Probes, BesideTheClothAreRefusedWithWhereItLies) {
             "[0, 0.5] m (--probe)\n");
   EXPECT_EQ(refusal("swing", " --probe '0.02;0.03'"),
             "hysteron swing: probe = 0.02 must be x,y[;x,y...], numbers in m (--probe)\n");
-  EXPECT_TRUE(has(refusal("swing", " --probe 0.02,0.01 --cloth.shape tube"), "flat at rest"));
-  EXPECT_TRUE(has(refusal("fold", " --probe 0.02,0.01 --fold.law-alone"), "no cloth"));
+  EXPECT_TRUE(says(refusal("swing", " --probe 0.02,0.01 --cloth.shape tube"), "flat at rest"));
+  EXPECT_TRUE(says(refusal("fold", " --probe 0.02,0.01 --fold.law-alone"), "no cloth"));
 }
 
 }  // namespace

@@ -48,7 +48,7 @@ TEST_F(RecordFile, NeverTakesItsNameOnAFullDisk) {
   fs::create_symlink("/dev/full", file_.string() + ".part");
   const Error error = test::thrown_error([&] { Record(file_, kColumns); });
   EXPECT_EQ(error.exit_code(), 1);
-  EXPECT_TRUE(has(error.what(), "No space left on device"));
+  EXPECT_TRUE(says(error.what(), "No space left on device"));
   EXPECT_FALSE(fs::exists(fs::symlink_status(file_)));
 }
 

@@ -111,7 +111,7 @@ TEST_P(ResumingEvery, EndsInTheSameBits) {
   const FinishedRun whole(line);
   for (int k = 0; k < 2; ++k)
     ASSERT_EQ(after_a_checkpoint(line + " --checkpoint 1e-6 --resume" + out_flag(parts), parts, said), 3);
-  EXPECT_TRUE(has(file_content(said), "the same command with --resume goes on"));
+  EXPECT_TRUE(says(file_content(said), "the same command with --resume goes on"));
   EXPECT_EQ(manifest_in(parts)["complete"], false);
   finished(line + " --resume" + out_flag(parts));
   EXPECT_EQ(manifest_in(parts)["resumed_at_s"].size(), 2u);
@@ -163,13 +163,13 @@ TEST(Resuming, TwoSignalsAtOnceAreOneAndTwoApartEndTheProcess) {
 
 TEST(Resuming, ACompleteRunIsNotRepeatedAndOneWithoutCheckpointBeginsAnew) {
   const FinishedRun run(kResumedSwing + " --resume");
-  EXPECT_TRUE(has(run.outcome.err, "no checkpoint in " + run.out.string() + ": from the start"));
+  EXPECT_TRUE(says(run.outcome.err, "no checkpoint in " + run.out.string() + ": from the start"));
   const std::string manifest = file_content(run.out / "manifest.json");
   const Outcome again = finished(kResumedSwing + " --resume --threads 2" + out_flag(run.out));
   EXPECT_EQ(again.err, run.out.string() + " is complete\n");
   EXPECT_EQ(program(kResumedSwing + " --resume --json" + out_flag(run.out)).out, manifest);
-  EXPECT_TRUE(has(refused(kResumedSwing + " --resume --law linear" + out_flag(run.out)),
-                  "has a complete run of other values (law"));
+  EXPECT_TRUE(says(refused(kResumedSwing + " --resume --law linear" + out_flag(run.out)),
+                   "has a complete run of other values (law"));
   EXPECT_EQ(file_content(run.out / "manifest.json"), manifest);
 }
 
