@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/workbench/app/headlines.h"
-#include "experiments/workbench/compare/column_warnings.h"
+#include "experiments/workbench/compare/comparison.h"
 #include "experiments/workbench/pages/error_words.h"
 #include "sim/base/csv.h"
 #include "sim/base/error.h"
