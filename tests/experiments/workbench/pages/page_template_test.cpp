@@ -1,8 +1,6 @@
-#include "experiments/workbench/pages/page_template.h"
+#include "experiments/workbench/pages/page.h"
 
 #include <gtest/gtest.h>
-
-#include "experiments/workbench/pages/page.h"
 
 namespace hysteron::experiments {
 namespace {
