@@ -5,7 +5,6 @@
 #include <sstream>
 
 #include "experiments/workbench/pages/error_words.h"
-#include "experiments/workbench/pages/gallery_about.h"
 #include "experiments/workbench/pages/manifest.h"
 #include "experiments/workbench/pages/metrics.h"
 #include "experiments/workbench/pages/pictures.h"

@@ -5,7 +5,6 @@
 
 #include "experiments/workbench/app/manifest_file.h"
 #include "experiments/workbench/pages/closing_summary.h"
-#include "experiments/workbench/pages/gallery_about.h"
 #include "experiments/workbench/pages/manifest.h"
 #include "experiments/workbench/pages/metrics.h"
 #include "experiments/workbench/pages/page.h"
