@@ -7,7 +7,6 @@
 #include <cstdlib>
 #include <utility>
 
-
 namespace hysteron::experiments {
 namespace {
 
