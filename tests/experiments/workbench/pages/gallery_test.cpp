@@ -6,7 +6,7 @@
 
 #include "experiments/workbench/app/manifest_file.h"
 #include "experiments/workbench/app/run.h"
-#include "experiments/workbench/pages/gallery_folders.h"
+#include "experiments/workbench/pages/gallery_exhibit.h"
 #include "experiments/workbench/pages/manifest.h"
 #include "experiments/workbench/pages/report.h"
 #include "experiments/workbench/session/record.h"
