@@ -125,6 +125,20 @@ void draw_page(Run& run, const CommandLine& line, const std::string& experiment,
   plot_comparison(run, page, plan.columns);
 }
 
+// Throws Error::invalid_input for a name that is no metric of any column, with those that there are; of
+// columns none of which is complete, not all that would be there are known, and none is refused.
+void check_metrics(const std::vector<ChildRun>& columns, const std::vector<std::string>& names) {
+  if (std::none_of(columns.begin(), columns.end(), [](const ChildRun& c) { return c.stopped.empty(); }))
+    return;
+  const std::vector<std::string> known =
+      metrics_in(columns, [](const MetricValue& value) { return value.is_numeric() || value.is_text(); });
+  for (const std::string& name : names)
+    if (!std::count(known.begin(), known.end(), name))
+      throw Error::invalid_input("compare.metrics = " + name + " must be among " + join(known, ", ") +
+                                 "; --resume keeps the columns that have run (--compare.metrics)")
+          .with_key("compare.metrics", name);
+}
+
 int run_compare(const CommandLine& line) {
   if (line.positionals.size() != 1) {
     std::string known;

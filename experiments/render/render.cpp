@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "experiments/render/kept_pictures.h"
 #include "experiments/workbench/app/experiment.h"
@@ -57,25 +58,12 @@ const KeyRow<F> kRows[] = {
 constexpr int kCells = 12, kInstants = 5;  // pictures on the sheet of one sequence; of each of several
 
 Keys option_keys(F& flags) {
-  static const std::vector<std::string> kNames = {"size",
-                                                  "quality",
-                                                  "renderer",
-                                                  "look",
-                                                  "light",
-                                                  "background",
-                                                  "camera.direction",
-                                                  "camera.fov",
-                                                  "camera.target",
-                                                  "camera.distance",
-                                                  "camera.box",
-                                                  "out",
-                                                  "quiet",
-                                                  "json"};
+  static const std::set<std::string> kNames = {"size",       "quality", "renderer", "look", "light",
+                                               "background", "out",     "quiet",    "json"};
   Keys keys = bind(kRows, flags);
   for (BoundKey& key : bind_options(flags.options)) {
-    KeyDescription& what = key.description;
-    if (!std::count(kNames.begin(), kNames.end(), what.path)) continue;
-    keys.push_back(std::move(key));
+    const std::string& path = key.description.path;
+    if (kNames.contains(path) || path.starts_with("camera.")) keys.push_back(std::move(key));
   }
   return keys;
 }

@@ -8,7 +8,7 @@
 #include "experiments/stability/stability.h"
 #include "experiments/workbench/app/experiment.h"
 #include "experiments/workbench/app/run.h"
-#include "experiments/workbench/compare/table_maps.h"
+#include "experiments/workbench/compare/table_plot.h"
 #include "experiments/workbench/pages/report.h"
 #include "sim/base/comma_list.h"
 #include "sim/base/csv.h"

@@ -8,7 +8,7 @@
 
 #include "experiments/sweep/tables.h"
 #include "experiments/workbench/app/headlines.h"
-#include "experiments/workbench/compare/table_maps.h"
+#include "experiments/workbench/compare/table_plot.h"
 #include "experiments/workbench/pages/manifest.h"
 #include "render/color_map.h"
 #include "render/panels.h"

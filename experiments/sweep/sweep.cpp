@@ -18,7 +18,7 @@
 #include "experiments/workbench/app/gpu_choice.h"
 #include "experiments/workbench/app/run.h"
 #include "experiments/workbench/app/run_folder.h"
-#include "experiments/workbench/compare/column_warnings.h"
+#include "experiments/workbench/compare/comparison.h"
 #include "experiments/workbench/pages/report.h"
 #include "sim/base/error.h"
 #include "sim/base/number_in.h"

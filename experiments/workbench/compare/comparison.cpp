@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "experiments/workbench/compare/column_warnings.h"
 #include "sim/base/csv.h"
 #include "sim/base/error.h"
 #include "sim/scene/key_table.h"
@@ -11,14 +10,44 @@ namespace hysteron::experiments {
 namespace {
 
 bool is_numeric(const MetricValue& value) { return value.is_numeric(); }
-bool is_number_or_text(const MetricValue& value) { return value.is_numeric() || value.is_text(); }
 
 Cell metric_field(const MetricValue& value) {
   if (value.is_text()) return value.text();
   return value.is_number() ? Cell(value.number()) : Cell("");
 }
 
+constexpr std::size_t kMaxTexts = 20, kMaxNames = 4;
+
+// "linear, dahl, kim, wong and 3 others"
+std::string listed_names(const std::vector<std::string>& names) {
+  if (names.size() <= kMaxNames) return join(names, ", ");
+  const std::vector<std::string> first(names.begin(), names.begin() + kMaxNames);
+  const std::size_t others = names.size() - kMaxNames;
+  return join(first, ", ") + " and " + std::to_string(others) + (others == 1 ? " other" : " others");
+}
+
 }  // namespace
+
+void ColumnWarnings::hear(const ChildRun& column) {
+  if (column.manifest) hear(column.name, column.manifest->warnings);
+  if (!column.stopped.empty()) hear(column.name, {column.stopped});
+}
+
+void ColumnWarnings::hear(const std::string& name, const std::vector<std::string>& texts) {
+  for (const std::string& text : texts) {
+    auto known = std::find_if(heard_.begin(), heard_.end(), [&](const Heard& h) { return h.text == text; });
+    if (known == heard_.end()) known = heard_.insert(heard_.end(), {text, {}});
+    known->names.push_back(name);
+  }
+}
+
+void ColumnWarnings::say(Run& run) const {
+  for (std::size_t i = 0; i < std::min(heard_.size(), kMaxTexts); ++i)
+    run.warn(listed_names(heard_[i].names) + ": " + heard_[i].text);
+  if (heard_.size() > kMaxTexts)
+    run.warn("the runs give " + std::to_string(heard_.size() - kMaxTexts) +
+             " more warnings, each in the manifest of its run");
+}
 
 std::vector<std::string> metrics_in(const std::vector<ChildRun>& columns,
                                     bool (*wanted)(const MetricValue&)) {
@@ -36,17 +65,6 @@ void run_columns(Run& run, std::vector<ChildRun>& columns, const SweepJobs& jobs
   ColumnWarnings warnings;
   for (const ChildRun& column : columns) warnings.hear(column);
   warnings.say(run);
-}
-
-void check_metrics(const std::vector<ChildRun>& columns, const std::vector<std::string>& names) {
-  if (std::none_of(columns.begin(), columns.end(), [](const ChildRun& c) { return c.stopped.empty(); }))
-    return;
-  const std::vector<std::string> known = metrics_in(columns, is_number_or_text);
-  for (const std::string& name : names)
-    if (!std::count(known.begin(), known.end(), name))
-      throw Error::invalid_input("compare.metrics = " + name + " must be among " + join(known, ", ") +
-                                 "; --resume keeps the columns that have run (--compare.metrics)")
-          .with_key("compare.metrics", name);
 }
 
 void write_comparison_table(Run& run, const std::string& varied, const std::vector<ChildRun>& columns,

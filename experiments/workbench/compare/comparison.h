@@ -9,16 +9,30 @@
 
 namespace hysteron::experiments {
 
+// What the runs that a page sets side by side warn of, as warnings of the page itself.
+class ColumnWarnings {
+ public:
+  // What the run's manifest warns of, and why it could not go on.
+  void hear(const ChildRun& column);
+  void hear(const std::string& name, const std::vector<std::string>& texts);
+  // Each text once, with the names of the runs that give it: "linear, dahl: in 3 parts of steps ...".  Of
+  // many texts the first, and how many there are.
+  void say(Run& run) const;
+
+ private:
+  struct Heard {
+    std::string text;
+    std::vector<std::string> names;
+  };
+  std::vector<Heard> heard_;  // as they came
+};
+
 // Runs the columns; how far they are and how they end is the run's progress.  Throws what run_columns() of
 // sweep_columns.h throws.
 void run_columns(Run& run, std::vector<ChildRun>& columns, const SweepJobs& jobs);
 
 // Names of the metrics that are `wanted`, each once.
 std::vector<std::string> metrics_in(const std::vector<ChildRun>& columns, bool (*wanted)(const MetricValue&));
-
-// Throws Error::invalid_input for a name that is no metric of any column, with those that there are; of
-// columns none of which is complete, not all that would be there are known, and none is refused.
-void check_metrics(const std::vector<ChildRun>& columns, const std::vector<std::string>& names);
 
 // table.csv: `varied` heads the first column, "law", "fabric".  Then one for each of the metrics, numbers and
 // texts, or of all numbers that any column of the comparison has, in the order in which they come, and

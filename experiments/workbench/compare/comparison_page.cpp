@@ -82,18 +82,16 @@ class PageTable {
       sheet_.columns.push_back({"all, outlined", {}, {}, "", {}});
   }
 
-  Crop crop_at(double time) const {
+  Crop crop_at(std::initializer_list<double> times) const {
     Crop crop;
     for (const ChildRun& c : columns_)
-      if (has_frames(c)) crop.include(instants(c)[frame_at(c, time)]);
+      for (const double time : times)
+        if (has_frames(c)) crop.include(instants(c)[frame_at(c, time)]);
     return crop;
   }
   // Whether every column looks the same at both times.
   bool look_alike(double a, double b) const {
-    Crop both;
-    for (const ChildRun& c : columns_)
-      for (const double time : {a, b})
-        if (has_frames(c)) both.include(instants(c)[frame_at(c, time)]);
+    const Crop both = crop_at({a, b});
     return std::all_of(columns_.begin(), columns_.end(), [&](const ChildRun& c) {
       return !has_frames(c) || frame_at(c, a) == frame_at(c, b) ||
              render::look_alike(both.of(picture_at(c, a)), both.of(picture_at(c, b)));
@@ -229,7 +227,7 @@ PageTable columns_table(const ComparisonPage& page, const std::vector<ChildRun>&
                         const std::vector<double>& times) {
   PageTable table(page, columns);
   std::vector<Crop> crops;
-  for (double time : times) crops.push_back(table.crop_at(time));
+  for (double time : times) crops.push_back(table.crop_at({time}));
   const double onion = std::min(page.onion, times.back());
   if (onion > 0) crops.push_back(table.crop_until(onion));
   double widest = 0;

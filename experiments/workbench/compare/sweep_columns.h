@@ -55,6 +55,12 @@ inline constexpr char kBatchDoc[] =
 // `errors`, is timed, or steps no cloth of its own.
 void check_batch(const std::vector<ChildRun>& columns, int batch);
 
+// Columns that share a process, by their places.
+using Chunk = std::vector<std::size_t>;
+// In the order of the columns, `largest` in each or what is left.  Those of a chunk name the same device, and
+// all of them or none take checkpoints; the column `first` is by itself.
+std::vector<Chunk> batch_chunks(const std::vector<ChildRun>& columns, int largest, int first);
+
 // Takes what the same program has left of a column that it has finished: it is then `kept`.  False if it has
 // not.
 bool recall(ChildRun& column);

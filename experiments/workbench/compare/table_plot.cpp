@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <tuple>
 
 #include "experiments/workbench/compare/column_view.h"
 #include "render/color_map.h"
@@ -61,6 +63,14 @@ void unite_equal(std::vector<render::Series>& all) {
     }
 }
 
+// Where a value stands among those that came before it, of which it becomes the last if it is new.
+std::size_t place_in(std::vector<std::string>& values, const std::string& value) {
+  const auto at = std::find(values.begin(), values.end(), value);
+  const auto place = static_cast<std::size_t>(at - values.begin());
+  if (at == values.end()) values.push_back(value);
+  return place;
+}
+
 }  // namespace
 
 void draw(Run& run, TablePlot plot, const std::string& label) {
@@ -84,6 +94,28 @@ void draw(Run& run, TablePlot plot, const std::vector<ChildRun>& columns) {
   if (!nothing.empty()) plot.plot.note = "zero throughout: " + join(nothing, ", ");
   plot.plot.series.insert(plot.plot.series.end(), own.begin(), own.end());
   run.plot(plot.name, plot.plot);
+}
+
+void add_maps(render::HeatMaps& page, const Table& table, const MapColumns& columns,
+              const std::function<render::HeatMapCell(const std::vector<std::size_t>& rows)>& cell) {
+  std::vector<std::string> titles;
+  std::map<std::tuple<std::size_t, std::size_t, std::size_t>, std::vector<std::size_t>> cells;
+  for (std::size_t r = 0; r < table.rows.size(); ++r) {
+    std::string title;
+    for (const std::string& column : columns.panels)
+      title += (title.empty() ? "" : ", ") + table.word(r, column);
+    cells[{place_in(titles, title), place_in(page.y.ticks, table.word(r, columns.y)),
+           place_in(page.x.ticks, table.word(r, columns.x))}]
+        .push_back(r);
+  }
+  for (std::size_t m = 0; m < titles.size(); ++m) {
+    const std::vector<render::HeatMapCell> blank(page.x.ticks.size());
+    page.maps.push_back({titles[m], std::vector(page.y.ticks.size(), blank)});
+  }
+  for (const auto& [place, rows] : cells) {
+    const auto& [map, y, x] = place;
+    page.maps[map].rows[y][x] = cell(rows);
+  }
 }
 
 }  // namespace hysteron::experiments

@@ -1,12 +1,16 @@
-// A plot of what runs have written: two columns of a table in each run's folder.
+// What runs have written, drawn: two columns of a table in each run's folder as a line, the rows of a table
+// by the values of an x and a y column as maps, a panel for those of others.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "experiments/workbench/app/run.h"
 #include "experiments/workbench/compare/sweep_columns.h"
+#include "render/heat_map.h"
 #include "render/plot.h"
+#include "sim/base/csv.h"
 
 namespace hysteron::experiments {
 
@@ -24,5 +28,15 @@ void draw(Run& run, TablePlot plot, const std::string& label);
 // are named below the title instead, and lines that lie on each other are one; a plot without lines is not
 // drawn.
 void draw(Run& run, TablePlot plot, const std::vector<ChildRun>& columns);
+
+struct MapColumns {
+  std::vector<std::string> panels;  // whose values title a map: "implicit, prandtl"
+  std::string x, y;
+};
+
+// Adds the table's maps and its values along both axes to a page, in the order in which they come; `cell`
+// makes one of the numbers of its rows.
+void add_maps(render::HeatMaps& page, const Table& table, const MapColumns& columns,
+              const std::function<render::HeatMapCell(const std::vector<std::size_t>& rows)>& cell);
 
 }  // namespace hysteron::experiments

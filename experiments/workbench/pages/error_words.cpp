@@ -7,8 +7,6 @@
 #include <cstdlib>
 #include <utility>
 
-#include "experiments/workbench/pages/gallery_about.h"
-
 namespace hysteron::experiments {
 namespace {
 

@@ -6,8 +6,8 @@
 
 #include "experiments/workbench/app/experiment.h"
 #include "experiments/workbench/app/manifest_file.h"
-#include "experiments/workbench/pages/gallery_about.h"
 #include "experiments/workbench/pages/gallery_exhibit.h"
+#include "experiments/workbench/pages/manifest.h"
 #include "experiments/workbench/pages/pictures.h"
 #include "experiments/workbench/pages/report.h"
 #include "sim/base/atomic_file.h"

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "experiments/workbench/pages/page_template.h"
+#include "experiments/workbench/pages/page.h"
 #include "sim/base/atomic_file.h"
 #include "sim/base/error.h"
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <set>
 
-#include "experiments/workbench/pages/gallery_about.h"
 #include "experiments/workbench/pages/manifest.h"
 #include "experiments/workbench/pages/page.h"
 #include "sim/scene/key_table.h"

@@ -5,7 +5,6 @@
 
 #include "experiments/workbench/app/manifest_file.h"
 #include "experiments/workbench/pages/closing_summary.h"
-#include "experiments/workbench/pages/gallery_about.h"
 #include "experiments/workbench/pages/manifest.h"
 #include "experiments/workbench/pages/metrics.h"
 #include "experiments/workbench/pages/page.h"
@@ -204,10 +203,7 @@ std::string study_runs(const fs::path& folder) {
 std::string report_page(const fs::path& folder, PageForm form) {
   if (!has_manifest(folder))
     throw Error::invalid_input("no run in " + folder.string() + ": it has no manifest.json");
-  return report_page(folder, read_manifest(folder / "manifest.json"), form);
-}
-
-std::string report_page(const fs::path& folder, const Manifest& manifest, PageForm form) {
+  const Manifest manifest = read_manifest(folder / "manifest.json");
   const Metrics& metrics = manifest.metrics;
   const bool study = manifest.experiment == "sweep";
   if (study) form = PageForm::self_contained;  // plots and tables only, made to be sent
@@ -244,9 +240,9 @@ fs::path write_report(const fs::path& folder, PageForm form) {
 }
 
 void finish_with_report(Run& run) {
-  const fs::path page = run.path("report.html");
+  run.path("report.html");
   run.finish();
-  write_text(page, report_page(run.folder(), run.manifest()));
+  write_report(run.folder());
 }
 
 }  // namespace hysteron::experiments

@@ -13,8 +13,6 @@ namespace hysteron::experiments {
 // are linked, or embedded, frames of a sequence as thumbnails.  The same folder gives the same bytes.  Throws
 // Error::invalid_input if the folder holds no run, or a picture of it is broken.
 std::string report_page(const std::filesystem::path& folder, PageForm form = PageForm::linked);
-std::string report_page(const std::filesystem::path& folder, const Manifest& manifest,
-                        PageForm form = PageForm::linked);
 
 // Writes it as FOLDER/report.html and returns that path.  Throws Error::system if it cannot be written.
 std::filesystem::path write_report(const std::filesystem::path& folder, PageForm form = PageForm::linked);

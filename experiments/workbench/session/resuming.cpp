@@ -7,7 +7,7 @@
 
 #include "experiments/workbench/app/json_file.h"
 #include "experiments/workbench/app/manifest_file.h"
-#include "experiments/workbench/pages/gallery_about.h"
+#include "experiments/workbench/pages/manifest.h"
 #include "experiments/workbench/session/checkpoint.h"
 #include "experiments/workbench/session/interrupts.h"
 #include "sim/base/fnv1a.h"

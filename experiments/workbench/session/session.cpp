@@ -9,7 +9,7 @@
 
 #include "experiments/workbench/app/decided_keys.h"
 #include "experiments/workbench/app/scene_source.h"
-#include "experiments/workbench/pages/gallery_about.h"
+#include "experiments/workbench/pages/manifest.h"
 #include "experiments/workbench/pages/report.h"
 #include "experiments/workbench/pictures/framing.h"
 #include "experiments/workbench/session/doubts.h"

@@ -3,8 +3,8 @@
 #include "experiments/workbench/pages/gallery.h"
 
 #include "experiments/workbench/app/manifest_file.h"
-#include "experiments/workbench/pages/gallery_about.h"
-#include "experiments/workbench/pages/gallery_folders.h"
+#include "experiments/workbench/pages/gallery_exhibit.h"
+#include "experiments/workbench/pages/manifest.h"
 #include "experiments/workbench/pages/report.h"
 #include "experiments/workbench/session/record.h"
 #include "render/image.h"

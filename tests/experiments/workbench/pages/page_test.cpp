@@ -1,6 +1,5 @@
-#include "experiments/workbench/pages/page_template.h"
-
 #include "experiments/workbench/pages/page.h"
+
 #include "tests/experiments/folder.h"
 
 namespace hysteron::experiments {

@@ -1,5 +1,5 @@
 // What columns warn of, as warnings of the page.
-#include "experiments/workbench/compare/column_warnings.h"
+#include "experiments/workbench/compare/comparison.h"
 
 #include "tests/experiments/folder.h"
 

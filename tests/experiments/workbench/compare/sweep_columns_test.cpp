@@ -1,5 +1,5 @@
 // Which columns share a process.
-#include "experiments/workbench/compare/column_process.h"
+#include "experiments/workbench/compare/sweep_columns.h"
 
 #include "tests/experiments/folder.h"
 
