@@ -449,7 +449,7 @@ std::uint64_t ClothView::counted(const GlQuery& samples) const {
   return count;
 }
 
-double ClothView::hidden_share() const {
+double ClothView::hidden_fraction() const {
   if (cloth_alone_ == 0) return 0;
   return 1 - static_cast<double>(cloth_seen_) / static_cast<double>(cloth_alone_);
 }

@@ -97,7 +97,7 @@ class ClothView {
   // Whether the last picture shows some of the cloth: neither beside the picture nor behind obstacles.
   bool shows_cloth() const { return cloth_seen_ > 0; }
   // Share of the cloth in the last picture that obstacles hide.
-  double hidden_share() const;
+  double hidden_fraction() const;
 
  private:
   struct Obstacle {

@@ -26,7 +26,7 @@ struct SelfPair {
 // The pairs that can matter while vertices go from x by a step along `direction`, and anywhere within `reach`
 // of a point of that path: all that come nearer to each other than their shells.  Rows: vertices, then edges
 // by rank in their tree.  Pairs that share a vertex are none, nor are those whose vertices are all held; of
-// those alone whose vertices are held by different hands there is a list of its own (PinSweep).
+// those alone whose vertices are held by different pins there is a list of its own (PinSweep).
 //
 // A pair's shell is the cloth's thickness, or half its distance at rest if that is less: what is near on
 // the flat cloth is no contact.  On flat layers one upon the other the areas of vertices right above
@@ -39,8 +39,8 @@ class SelfPairs {
   SelfPairs(Device& device, const ClothMesh& mesh, double thickness);
 
   // Makes the list anew; what is kept of pairs that stay is the caller's to carry over: `old_start`, of as
-  // many rows, and old_pairs() are those of the list before.  With the number of the hand at each vertex
-  // `pin`: the pairs whose vertices are all held, but not all by one hand.
+  // many rows, and old_pairs() are those of the list before.  With the number of the pin at each vertex
+  // `pin`: the pairs whose vertices are all held, but not all by one pin.
   void find(const Vec3<Real>* x, const Vec3<Real>* direction, Real step_length, const char* held, Real reach,
             const int* pin = nullptr);
   // The list; boxes and the list before are made anew by find().
@@ -74,7 +74,7 @@ class SelfPairs {
   Buffer<Vec3<double>, Device> sum_;
 };
 
-// Whether hands lead the layers that they hold through each other: vertices that are all held are in no pair
+// Whether pins lead the layers that they hold through each other: vertices that are all held are in no pair
 // of self-contact.
 template <class Real, class Device>
 class PinSweep {
@@ -82,7 +82,7 @@ class PinSweep {
   PinSweep(Device& device, const ClothMesh& mesh, double thickness)
       : device_(device), pairs_(device, mesh, thickness), fraction_(device) {}
 
-  // Whether layers that different hands hold stay as far apart as pressure could press them while held
+  // Whether layers that different pins hold stay as far apart as pressure could press them while held
   // vertices go from x along `displacement` [m], which is 0 of free ones; `pin` is the number of the one at
   // each vertex.
   bool is_free(const Vec3<Real>* x, const Vec3<Real>* displacement, const char* held, const int* pin);

@@ -69,7 +69,7 @@ Placement placement(const Motion& motion, double time) {
   return result;
 }
 
-double home_share(const Pin& pin, double time) {
+double home_fraction(const Pin& pin, double time) {
   if (!(pin.home > 0)) return 0;
   const double u = std::clamp((time - pin.from) / pin.home, 0.0, 1.0);
   return u * u * (3 - 2 * u);

@@ -26,6 +26,6 @@ Keyframe state_at(const Motion& motion, double time);
 Motion steady_from(const Motion& motion, double time, const Eigen::Vector3d& velocity, double spin);
 
 // Share of the way home that a pin has brought its vertices by then, smoothly from 0 to 1; 0 if it does not.
-double home_share(const Pin& pin, double time);
+double home_fraction(const Pin& pin, double time);
 
 }  // namespace hysteron

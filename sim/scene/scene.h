@@ -262,7 +262,7 @@ struct Scene {
   }
   // The linear systems of Newton's method, all else in double.
   bool solves_in_float() const { return precision == Precision::fp64 && linear_precision == Precision::fp32; }
-  // A step ends in equilibrium with contact and hands.
+  // A step ends in equilibrium with contact and pins.
   bool finds_equilibrium() const { return is_implicit() || self_contact; }
 };
 

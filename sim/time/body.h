@@ -45,14 +45,14 @@ struct Body {
   Buffer<VertexLedger, Device> ledger;
   Pins<Real, Device> pins;
   Diagnostics counts;
-  // Hands, obstacles or commands have changed forces at once since the stage accepted last.
+  // Pins, obstacles or commands have changed forces at once since the stage accepted last.
   bool forces_discontinuous = false;
 
   // A stage from `start` over h: what is held and how it moves, where obstacles go, where the cloth was.
   void begin_stage(double start, Real h);
   // Accepts the positions at the end of a stage for contact's history.
   void end_stage(double time);
-  // Hands and obstacles that are due.
+  // Pins and obstacles that are due.
   void apply_due_events(double start, Real h);
   // Commands that are due in a step, on the state accepted last.
   void carry_out_commands(double start, double end);

@@ -1,10 +1,10 @@
-// Hands of limited strength: each pulls its vertices towards where it wants them, by a spring that gives way
+// Pins of limited strength: each pulls its vertices towards where it holds them, by a spring that gives way
 // by `yield_distance` under the vertex's share of the strength, and beyond that with no more than this share.
 // The energy of a vertex that lags by r is
 //
 //   strength r^2/(2 give)  for r <= give,  strength (r - give/2)  beyond,
 //
-// and the hand's work is that of an outer force.  Gripped vertices are free: contact keeps them apart like
+// and the pin's work is that of an outer force.  Its vertices are free: contact keeps them apart like
 // any others, and no motion of a hand is impossible.
 #pragma once
 
@@ -17,7 +17,7 @@ namespace hysteron {
 template <class Real>
 struct CompliantPins {
   const Vec3<Real>* place = nullptr;  // at the end of the stage [m]
-  const Real* strength = nullptr;     // each vertex's share [N], 0 where nothing grips it; null: no hand does
+  const Real* strength = nullptr;     // each vertex's fraction [N], 0 where no pin holds it; null: none does
   Real yield_distance = 0;            // [m]
 
   HYST_HD bool any_at(int i) const { return strength && strength[i] > 0; }

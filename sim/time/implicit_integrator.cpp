@@ -20,7 +20,7 @@ ImplicitIntegrator<Real, Device>::ImplicitIntegrator(Body<Real, Device>& body, c
 // Statics let the weight grow over the scene's `ramp` and fall over its `unload`: the cloth passes through
 // states of equilibrium.
 template <class Real, class Device>
-double ImplicitIntegrator<Real, Device>::load_share(double time) const {
+double ImplicitIntegrator<Real, Device>::load_fraction(double time) const {
   const Scene& scene = body_.scene;
   if (scene.integrator != Integrator::quasi_static) return 1;
   if (scene.ramp > time) return time / scene.ramp;
@@ -47,7 +47,7 @@ NewtonOutcome ImplicitIntegrator<Real, Device>::attempt(double start, double h, 
 template <class Real, class Device>
 NewtonOutcome ImplicitIntegrator<Real, Device>::solve(double start, double h, bool is_first_stage) {
   body_.clock.begin(Stage::solve);
-  const NewtonOutcome outcome = solver_.solve(h, load_share(start + h), is_first_stage);
+  const NewtonOutcome outcome = solver_.solve(h, load_fraction(start + h), is_first_stage);
   body_.clock.end(Stage::solve);
   body_.counts.newton += outcome.iterations;
   body_.counts.linear += outcome.linear_iterations;

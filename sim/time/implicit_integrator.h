@@ -48,7 +48,7 @@ class ImplicitIntegrator : public TimeIntegrator<Real, Device> {
   NewtonOutcome attempt(double start, double h, bool is_first_stage, bool is_last_resort);
   NewtonOutcome solve(double start, double h, bool is_first_stage);
   void accept(double end);
-  double load_share(double time) const;
+  double load_fraction(double time) const;
 
   ImplicitStep<Real, Device> solver_;
   int substeps_;                // of bending that lags

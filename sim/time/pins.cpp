@@ -144,9 +144,9 @@ PinPlacements<Real> Pins<Real, Device>::placements(const Scene& scene, double st
     const Motion& motion = scene.pin[p].motion;
     const Placement from = placement(motion, start), at = placement(motion, start + h);
     const Eigen::AngleAxisd turn(at.rotation * from.rotation.transpose());
-    const double home = home_share(scene.pin[p], start + h);
+    const double home = home_fraction(scene.pin[p], start + h);
     result.home[p] = static_cast<Real>(home);
-    result.homewards[p] = static_cast<Real>(home - home_share(scene.pin[p], start));
+    result.homewards[p] = static_cast<Real>(home - home_fraction(scene.pin[p], start));
     result.rotation[p] = (at.scale * at.rotation).template cast<Real>();
     result.translation[p] = at.translation.template cast<Real>();
     result.turn[p] = (turn.angle() * turn.axis()).template cast<Real>();

@@ -1,4 +1,4 @@
-// Hands: which vertices are held, and how those move.
+// Pins: which vertices are held, and how those move.
 //
 // A rigid hand brings its vertices exactly to their place.  Where cloth bars its way, it gives way for the
 // stage: its vertices are free, and it pulls as a hand of limited strength does (compliant_pins.h), with ten
@@ -38,7 +38,7 @@ class Pins {
   // with_arcs: for integrators that ask for the way along the hands' arcs.
   Pins(Device& device, const Scene& scene, const Cloth& cloth, bool with_arcs);
 
-  // Hands take hold and let go where that is due at `start`; Error::simulation where cloth is let go in an
+  // Pins take hold and let go where that is due at `start`; Error::simulation where cloth is let go in an
   // obstacle. Says whether any did.  What gave way is held again.
   bool attach_and_release(Body<Real, Device>& body, double start);
   // From now on the hand of that pin goes on from where it is with this velocity [m/s] and spin about its

@@ -12,7 +12,7 @@ namespace hysteron {
 // told.
 template <class Real, class Device>
 void throw_if_arrival(Body<Real, Device>& body, double met, double time);
-// Hands release cloth inside an obstacle.
+// Pins release cloth inside an obstacle.
 template <class Real, class Device>
 void throw_if_release(Body<Real, Device>& body, const std::vector<char>& held, double time);
 // Something drives the cloth into an obstacle from the other side.

@@ -74,10 +74,10 @@ TEST_F(ClothViewTest, ABoardBeforeHalfOfTheClothHidesHalfOfIt) {
   const int board =
       view->add_obstacle(box_mesh({0.1f, 0.01f, 0.1f}, 0.001f), placed({-0.1f, -0.3f, 0.125f}, {0, 0, 1}));
   view->draw(camera);
-  EXPECT_NEAR(view->hidden_share(), 0.5, 0.1);
+  EXPECT_NEAR(view->hidden_fraction(), 0.5, 0.1);
   view->show_obstacle(board, false);
   view->draw(camera);
-  EXPECT_EQ(view->hidden_share(), 0);
+  EXPECT_EQ(view->hidden_fraction(), 0);
 }
 
 // Closed convex cloth lit from above must not speckle itself: neighbouring pixels of a flat sheet are equal.

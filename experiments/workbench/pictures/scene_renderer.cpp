@@ -144,7 +144,7 @@ render::Image SceneRenderer::draw(const render::Look& look, const render::Camera
 render::Image SceneRenderer::draw_with_ghosts(const render::Look& look, const render::Camera& camera,
                                               const Shown& shown) {
   render::Image whole = draw(look, camera, shown);
-  if (view_->hidden_share() <= kMuch) return whole;
+  if (view_->hidden_fraction() <= kMuch) return whole;
   place_obstacles(shown.time, false);
   return between(view_->draw(camera), whole, kGhost);
 }
