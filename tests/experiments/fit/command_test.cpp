@@ -99,17 +99,17 @@ TEST_F(Fit, ComparesLawsOnTheSameDataTheBestFirst) {
 
 TEST_F(Fit, RefusesRequestsThatMakeNoSense) {
   const std::string file = loop("prandtl", {250, -250, 250});
-  const auto says = [&](const std::vector<Flag>& flags, const char* part) {
+  const auto refuses = [&](const std::vector<Flag>& flags, const char* part) {
     const std::string reason = refusal(flags);
     EXPECT_TRUE(says(reason, part));
   };
-  says({}, "needs one of --loop");
-  says({{"loop", file}, {"kes.b", "1e-5"}}, "not several");
-  says({{"kes.b", "1e-5"}}, "needs both --kes.b and --kes.2hb");
-  says({{"virgin.b1", "1e-5"}}, "needs both --virgin.b1 and --virgin.c1");
-  says({{"kes.b", "1e-5"}, {"kes.2hb", "1e-3"}, {"law", "wong"}}, "go with --loop");
-  says({{"loop", file}, {"law", "wongg"}}, "wongg");
-  says({{"kes.b", "0"}, {"kes.2hb", "1e-3"}}, "must be > 0");
+  refuses({}, "needs one of --loop");
+  refuses({{"loop", file}, {"kes.b", "1e-5"}}, "not several");
+  refuses({{"kes.b", "1e-5"}}, "needs both --kes.b and --kes.2hb");
+  refuses({{"virgin.b1", "1e-5"}}, "needs both --virgin.b1 and --virgin.c1");
+  refuses({{"kes.b", "1e-5"}, {"kes.2hb", "1e-3"}, {"law", "wong"}}, "go with --loop");
+  refuses({{"loop", file}, {"law", "wongg"}}, "wongg");
+  refuses({{"kes.b", "0"}, {"kes.2hb", "1e-3"}}, "must be > 0");
 }
 
 // Friction of 1 mN beside a spring that it exceeds tenfold.
@@ -206,16 +206,16 @@ TEST_F(FitOfFab, OfForcesInAnotherUnitIsRefusedAsNoFabric) {
 }
 
 TEST_F(FitOfFab, OfLoopsThatNoTesterRecordsIsRefusedBeforeAnythingIsWritten) {
-  const auto says = [&](const auto& change, const char* part) {
+  const auto refuses = [&](const auto& change, const char* part) {
     const std::string reason = refusal(flags(changed(change)));
     EXPECT_TRUE(says(reason, part));
   };
   using Row = std::vector<std::string>;
-  says([](Row& row) { row[4] = "0"; }, "must vary");
-  says([](Row& row) { row[4] = number_text(-std::stod(row[4])); }, "turn the sign of the forces");
+  refuses([](Row& row) { row[4] = "0"; }, "must vary");
+  refuses([](Row& row) { row[4] = number_text(-std::stod(row[4])); }, "turn the sign of the forces");
   int place = 0;
-  says([&](Row& row) { row[3] = number_text(0.0195 - 0.004 * (place++ * 7 % 13) / 13); },
-       "lie back by more than");
+  refuses([&](Row& row) { row[3] = number_text(0.0195 - 0.004 * (place++ * 7 % 13) / 13); },
+          "lie back by more than");
 }
 
 TEST_F(FitOfFab, TakesWarpBeforeWeftWhateverTheirOrderInTheFile) {
