@@ -93,14 +93,14 @@ void upload_color_map(const GlFunctions& gl, const GlTexture& texture, ColorMap 
 // The size with parts that the driver can hold.
 PictureSize checked(Offscreen& offscreen, PictureSize size) {
   const int largest = std::min(size.width, size.height) < 1 ? 0 : std::max(size.width, size.height);
-  if (largest < 1 || largest > kLargestSide || size.samples < 1 || size.tile < 2)
+  if (largest < 1 || largest > kLargestSide || size.samples < 1 || size.supersample < 1 || size.tile < 2)
     throw Error::invalid_input("picture of " + std::to_string(size.width) + " x " +
                                std::to_string(size.height) + " pixels: 1 to " + std::to_string(kLargestSide) +
                                " a side are allowed");
   offscreen.make_current();
   GLint most = 0;
   offscreen.gl().GetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &most);
-  size.tile = std::clamp(most, 2, size.tile);
+  size.tile = std::clamp(most / size.supersample, 2, size.tile);
   return size;
 }
 
@@ -133,14 +133,15 @@ ClothView::ClothView(Offscreen& offscreen, const PictureSize& size)
       size_(checked(offscreen, size)),
       part_width_(part_side(size.width, size_.tile)),
       part_height_(part_side(size.height, size_.tile)),
-      target_(gl_, part_width_, part_height_,
+      target_(gl_, part_width_ * size.supersample, part_height_ * size.supersample,
               size.figure_passes > 0 ? kFigureSamples : std::min(size.samples, kSamplesAtOnce)),
       shadows_(gl_),
       figure_light_(size.figure_passes > 0
                         ? std::optional<FigureLight>(std::in_place, gl_, size.figure_passes)
                         : std::nullopt),
       lit_pixels_(size.figure_passes == 0
-                      ? std::optional<LitPixels>(std::in_place, gl_, part_width_, part_height_)
+                      ? std::optional<LitPixels>(std::in_place, gl_, part_width_ * size.supersample,
+                                                 part_height_ * size.supersample)
                       : std::nullopt),
       backdrop_program_(gl_, {.vertex = "backdrop.vert", .fragment = "backdrop.frag", .defines = ""}),
       matte_program_(gl_, {.vertex = "surface.vert",
@@ -161,8 +162,9 @@ void ClothView::resize(const PictureSize& size) {
   size_ = checked(offscreen_, size);
   part_width_ = part_side(size.width, size_.tile);
   part_height_ = part_side(size.height, size_.tile);
-  target_ = FrameTarget(gl_, part_width_, part_height_, std::min(size.samples, kSamplesAtOnce));
-  lit_pixels_.emplace(gl_, part_width_, part_height_);
+  const int across = part_width_ * size_.supersample, up = part_height_ * size_.supersample;
+  target_ = FrameTarget(gl_, across, up, std::min(size.samples, kSamplesAtOnce));
+  lit_pixels_.emplace(gl_, across, up);
 }
 
 // The members' names must be deleted in their own context.
@@ -346,7 +348,7 @@ void ClothView::update_body_sky() const {
 
 // The part of the picture whose upper left pixel is at (left, top).
 Image ClothView::draw_part(const Camera& camera, int left, int top) {
-  Exposure exposure(part_width_, part_height_);
+  Exposure exposure(part_width_, part_height_, size_.supersample);
   const bool lit = is_figure() && look_.show != Show::silhouette;
   const int passes =
       is_figure() ? figure_light_->passes() : (size_.samples + target_.samples() - 1) / target_.samples();
@@ -376,14 +378,16 @@ Image ClothView::draw_part(const Camera& camera, int left, int top) {
 
 ClothView::View ClothView::camera_view(const Camera& camera, int left, int top, const Shift& shift) const {
   const double width = size_.width, height = size_.height, bottom = height - top - part_height_;
-  const Window window{(left + shift.x) / width, (bottom + shift.y) / height,
-                      (left + part_width_ + shift.x) / width, (bottom + part_height_ + shift.y) / height};
+  const double dx = shift.x / size_.supersample, dy = shift.y / size_.supersample;
+  const Window window{(left + dx) / width, (bottom + dy) / height, (left + part_width_ + dx) / width,
+                      (bottom + part_height_ + dy) / height};
+  const auto scale = static_cast<float>(size_.supersample);
   return {camera.projection(static_cast<float>(width / height), window) * camera.view(),
           camera.eye(),
           camera.forward(),
           camera.is_orthographic(),
-          {static_cast<float>(left), static_cast<float>(bottom)},
-          camera.metres_per_pixel(size_.height)};
+          scale * Eigen::Vector2f(static_cast<float>(left), static_cast<float>(bottom)),
+          camera.metres_per_pixel(size_.height * size_.supersample)};
 }
 
 // The placement of a body that is drawn smaller by `inset` [m] on all sides, stretched upright so that one
@@ -466,8 +470,8 @@ bool ClothView::has_backdrop() const {
 void ClothView::set_backdrop(const Program& program, const View& view) const {
   program.set("backdrop_top", linear(has_backdrop() ? look_.backdrop_top : kPageWhite));
   program.set("backdrop_bottom", linear(has_backdrop() ? look_.backdrop_bottom : kPageWhite));
-  program.set("picture_size",
-              Eigen::Vector2f(static_cast<float>(size_.width), static_cast<float>(size_.height)));
+  const Eigen::Vector2i drawn = size_.supersample * Eigen::Vector2i(size_.width, size_.height);
+  program.set("picture_size", Eigen::Vector2f(drawn.cast<float>()));
   program.set("origin", view.origin);
 }
 

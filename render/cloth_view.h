@@ -34,6 +34,7 @@ struct PictureSize {
   // Of every edge, a pixel.  They are drawn four at a time, which every driver puts at the same places; the
   // picture is drawn again, shifted by a fraction of a pixel, until there are as many.
   int samples = 8;
+  int supersample = 1;  // 2: drawn twice as large and averaged, where pictures of two drivers are compared
   // Largest side drawn at once [pixels]; larger pictures are drawn in parts, which bounds the driver's
   // memory.
   int tile = 2048;
@@ -123,8 +124,8 @@ class ClothView {
     Eigen::Matrix4f view_projection;
     Eigen::Vector3f eye, forward;
     bool orthographic;
-    Eigen::Vector2f origin;  // lower left corner of the part in the picture [pixels]
-    float pixel;             // metres across one, where clip space's w is 1
+    Eigen::Vector2f origin;  // lower left corner of the part in the picture [drawn pixels]
+    float pixel;             // metres across a drawn one, where clip space's w is 1
     bool first = true;       // of a picture's passes
   };
 

@@ -50,22 +50,28 @@ Shift bell_shift(int pass, int passes) {
   return {radius * std::cos(angle), radius * std::sin(angle)};
 }
 
-Exposure::Exposure(int width, int height)
-    : width_(width), height_(height), sum_(4 * static_cast<size_t>(width) * height, 0.0f) {}
+Exposure::Exposure(int width, int height, int supersample)
+    : width_(width),
+      height_(height),
+      supersample_(supersample),
+      sum_(4 * static_cast<size_t>(width) * height, 0.0f) {}
 
 void Exposure::add(std::span<const float> rgba) {
-  const size_t row_floats = 4 * static_cast<size_t>(width_);
-  for (int row = 0; row < height_; ++row) {
-    const float* from = &rgba[(height_ - 1 - row) * row_floats];
-    float* to = &sum_[row * row_floats];
-    for (size_t i = 0; i < row_floats; ++i) to[i] += from[i];
+  const int s = supersample_, drawn_rows = height_ * s;
+  const size_t row_floats = 4 * static_cast<size_t>(width_) * s;
+  for (int row = 0; row < drawn_rows; ++row) {
+    const float* from = &rgba[(drawn_rows - 1 - row) * row_floats];
+    float* to = &sum_[4 * static_cast<size_t>(row / s) * width_];
+    for (int x = 0; x < width_; ++x, to += 4)
+      for (int i = 0; i < s; ++i, from += 4)
+        for (int c = 0; c < 4; ++c) to[c] += from[c];
   }
   ++passes_;
 }
 
 Image Exposure::image(bool alpha, int left, int top) const {
   Image result(width_, height_, alpha ? 4 : 3);
-  const float weight = 1 / static_cast<float>(passes_);
+  const float weight = 1 / static_cast<float>(passes_ * supersample_ * supersample_);
   const float* from = sum_.data();
   for (int y = 0; y < height_; ++y)
     for (int x = 0; x < width_; ++x, from += 4) {

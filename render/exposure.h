@@ -10,7 +10,8 @@ namespace hysteron::render {
 
 class Exposure {
  public:
-  Exposure(int width, int height);  // [pixels]
+  // [pixels] of the picture; `supersample`: drawn pixels a side of each.
+  Exposure(int width, int height, int supersample);
 
   // One pass: RGBA rows from the bottom, as GL reads them, linear light multiplied by alpha.
   void add(std::span<const float> rgba);
@@ -21,7 +22,7 @@ class Exposure {
   Image image(bool alpha, int left = 0, int top = 0) const;
 
  private:
-  int width_, height_, passes_ = 0;
+  int width_, height_, supersample_, passes_ = 0;
   std::vector<float> sum_;  // linear light, 4 a pixel, rows from the top
 };
 

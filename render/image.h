@@ -46,7 +46,7 @@ class Image {
 // transparent source is blended over the target's colours as viewers do it, in encoded values.
 void paste(Image& target, const Image& source, int x, int y);
 
-// Averages over exact pixel footprints in linear light: for thumbnails and contact sheets.  Only shrinks;
+// Averages over exact pixel footprints in linear light: for supersampling and contact sheets.  Only shrinks;
 // Error::invalid_input if a side grows.
 Image shrink(const Image& source, int width, int height);
 // Pixels that shrink() has read on this thread so far: what a page of pictures costs, on any machine.

@@ -15,7 +15,7 @@ using Light = std::vector<float>;
 float light(int step) { return linear_of_srgb8()[static_cast<std::size_t>(step)]; }
 
 TEST(Exposure, AveragesPassesInLinearLight) {
-  Exposure exposure(64, 64);
+  Exposure exposure(64, 64, 1);
   Light dark, bright;
   for (int i = 0; i < 64 * 64; ++i) {
     dark.insert(dark.end(), {0, 0, light(100), 1});
@@ -36,7 +36,7 @@ TEST(Exposure, AveragesPassesInLinearLight) {
 }
 
 TEST(Exposure, OnePassKeepsEveryValueToAStepAndTurnsRowsOver) {
-  Exposure exposure(16, 16);
+  Exposure exposure(16, 16, 1);
   Light drawn;
   for (int i = 0; i < 256; ++i) drawn.insert(drawn.end(), {light(i), light(i), light(i), 1});
   exposure.add(drawn);
@@ -50,7 +50,7 @@ TEST(Exposure, OnePassKeepsEveryValueToAStepAndTurnsRowsOver) {
 // A ramp of a step in 100 pixels: rounded alone it would be a plateau of 100 pixels.
 TEST(Exposure, GradientsHaveNoPlateaus) {
   constexpr int kWidth = 1000, kRows = 16;
-  Exposure exposure(kWidth, kRows);
+  Exposure exposure(kWidth, kRows, 1);
   Light drawn;
   for (int y = 0; y < kRows; ++y)
     for (int x = 0; x < kWidth; ++x) {
@@ -70,9 +70,19 @@ TEST(Exposure, GradientsHaveNoPlateaus) {
   EXPECT_LE(plateaus / runs, 0.05);
 }
 
+TEST(Exposure, SupersamplingAveragesBlocks) {
+  Exposure exposure(2, 1, 2);
+  const float grey = light(9);
+  exposure.add(Light{0, 0, 0, 1, 1, 1, 1, 1, grey, grey, grey, 1, grey, grey, grey, 1,  //
+                     1, 1, 1, 1, 0, 0, 0, 1, grey, grey, grey, 1, grey, grey, grey, 1});
+  const Image image = exposure.image(false);
+  EXPECT_NEAR(image.at(0, 0)[0], srgb8_of_linear(0.5f), 1);
+  EXPECT_NEAR(image.at(1, 0)[0], 9, 1);
+}
+
 // Half covered by a colour: the colour itself at half the alpha, not the colour darkened.
 TEST(Exposure, ColoursOfTransparentPicturesAreNotMultipliedByAlpha) {
-  Exposure exposure(2, 1);
+  Exposure exposure(2, 1, 1);
   exposure.add(Light{light(200), light(100), light(50), 1, 0, 0, 0, 0});
   exposure.add(Light{0, 0, 0, 0, 0, 0, 0, 0});
   const Image image = exposure.image(true);
