@@ -156,8 +156,8 @@ void draw_panels(Run& run, const std::vector<Identification>& fits, const std::s
   data.y = axis("moment per width [mN]", milli(fits[0].moment));
   left.y = axis("residual [mN]", all_left);
   data.columns = left.columns = static_cast<int>(fits.size() > 4 ? (fits.size() + 2) / 3 : fits.size());
-  run.plot("plot_fit", [data](const std::filesystem::path& base) { render::write_panels(base, data); });
-  run.plot("plot_residual", [left](const std::filesystem::path& base) { render::write_panels(base, left); });
+  run.plot("plot_fit", data, render::write_panels);
+  run.plot("plot_residual", left, render::write_panels);
 }
 
 // plot_fit and plot_residual; a panel for each of several laws.

@@ -217,7 +217,7 @@ void write_tables(Run& run, const KesTests& tests, const KesProtocol& protocol) 
 
 void write_plots(Run& run, const KesTests& tests, const KesProtocol& p) {
   const auto write = [&](const std::string& name, const render::Panels& grid) {
-    run.plot(name, [grid](const std::filesystem::path& base) { render::write_panels(base, grid); });
+    run.plot(name, grid, render::write_panels);
   };
   for (const KesResult& result : tests.results)
     if (result.strip && result.strip->failure.empty())

@@ -149,8 +149,7 @@ void draw_maps(Run& run, const std::vector<Sweep>& sweeps, const Table& cells) {
     page.cell_width = page.x.ticks.size() > 10 ? 40 : 46;
     page.cell_height = page.y.ticks.size() > 10 ? 24 : 34;
     page.columns = static_cast<int>(page.maps.size() / sweep.variants.size());
-    run.plot("plot_" + sweep.name,
-             [&](const std::filesystem::path& base) { render::write_heat_maps(base, page); });
+    run.plot("plot_" + sweep.name, page, render::write_heat_maps);
   }
 }
 

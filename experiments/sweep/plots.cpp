@@ -154,7 +154,7 @@ class StudyPlots {
     if (page.panels.empty()) return;
     if (page.panels.size() == 1) return draw_one(name, page);
     page.columns = static_cast<int>(std::min<std::size_t>(page.panels.size(), 3));
-    run_.plot(name, [page](const std::filesystem::path& base) { render::write_panels(base, page); });
+    run_.plot(name, page, render::write_panels);
   }
 
   static std::size_t group_index(const Groups& groups, const std::string& name) {
@@ -229,7 +229,7 @@ class StudyPlots {
       std::reverse(page.y.ticks.begin(), page.y.ticks.end());
       for (render::HeatMap& map : page.maps) std::reverse(map.rows.begin(), map.rows.end());
     }
-    run_.plot(name, [page](const std::filesystem::path& base) { render::write_heat_maps(base, page); });
+    run_.plot(name, page, render::write_heat_maps);
   }
 
   // Cells whose kinds are places in `means`, by equal parts of the range of all; light colours, so that

@@ -180,7 +180,7 @@ render::PlotPage validation_page(const fs::path& recorded) {
 
 void draw_recorded(const fs::path& recorded, Run& run) {
   const render::PlotPage page = validation_page(recorded);
-  run.plot("plot_validation", [page](const fs::path& base) { render::write_plot_page(base, page); });
+  run.plot("plot_validation", page, render::write_plot_page);
   compare_folds(run, read_counted(recorded / kFolds), true);
   const std::vector<BudgetRow> budget = read_budget(recorded / kBudget);
   run.plot("plot_budget_" + budget.at(0).fabric, budget_plot(budget));

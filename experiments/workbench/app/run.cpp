@@ -195,7 +195,7 @@ void Run::serialise(Archive& archive) {
 
 void Run::add_seconds(const std::string& stage, double seconds) { seconds_[stage] += seconds; }
 
-void Run::plot(const std::string& name, std::function<void(const fs::path&)> draw) {
+void Run::draw_beside(const std::string& name, std::function<void(const fs::path&)> draw) {
   for (const char* ending : kPlotEndings) path(name + ending);
   plots_.push_back(
       {name, std::async(std::launch::async, [this, draw = std::move(draw), base = folder() / name] {
@@ -205,7 +205,7 @@ void Run::plot(const std::string& name, std::function<void(const fs::path&)> dra
 }
 
 void Run::plot(const std::string& name, const render::Plot& plot) {
-  this->plot(name, [plot](const fs::path& base) { render::write_plot(base, plot); });
+  this->plot(name, plot, render::write_plot);
 }
 
 void Run::finish_plots() {

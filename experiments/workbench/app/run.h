@@ -93,10 +93,14 @@ class Run {
   };
   [[nodiscard]] Stage stage(const std::string& name) { return {*this, name}; }
 
-  // Has `draw` write NAME.png and NAME.svg from the path without ending that it is given, one after the other
-  // beside what the run does next.  Where that fails, as without gnuplot, the run goes on, and the manifest's
-  // `plots_missing` says why.
-  void plot(const std::string& name, std::function<void(const std::filesystem::path& base)> draw);
+  // Has `write` draw a copy of the page, as NAME.png and NAME.svg from the path without ending that it is
+  // given, one after the other beside what the run does next.  Where that fails, as without gnuplot, the run
+  // goes on, and the manifest's `plots_missing` says why.
+  template <class Page>
+  void plot(const std::string& name, const Page& page,
+            void (*write)(const std::filesystem::path& base, const Page& page)) {
+    draw_beside(name, [page, write](const std::filesystem::path& base) { write(base, page); });
+  }
   void plot(const std::string& name, const render::Plot& plot);
   // Waits for them.
   void finish_plots();
@@ -121,6 +125,7 @@ class Run {
   void note_seconds(Manifest& manifest) const;
   // Whether no file of that name or, of a sequence, of its kind is in the manifest on disk; now it is known.
   bool is_new(const std::filesystem::path& name);
+  void draw_beside(const std::string& name, std::function<void(const std::filesystem::path& base)> draw);
 
   struct PendingPlot {
     std::string name;

@@ -177,9 +177,10 @@ TEST_P(ExplicitLimit, LiesAboveTheBoundByItsMargin) {
 
 class StabilityCommand : public testing::Test {
  protected:
-  int run(std::vector<Flag> flags) {
-    flags.push_back({"quick", "true"});
-    return run_into(folder_.path(), "stability", std::move(flags));
+  int run(std::vector<Flag> flags, bool with_plots = false) {
+    flags.insert(flags.end(), {{"quick", "true"}, {"quiet", "true"}, {"out", folder_.path().string()}});
+    if (!with_plots) flags.push_back({"no-images", "true"});
+    return experiment_named("stability").run({"stability", "hysteron stability", std::move(flags), {}});
   }
   Json manifest() const { return manifest_in(folder_.path()); }
   std::vector<std::string> lines(const char* file) const {
@@ -191,8 +192,11 @@ class StabilityCommand : public testing::Test {
   Folder folder_;
 };
 
-TEST_F(StabilityCommand, WritesARowForEachCellAndCountsThem) {
-  ASSERT_EQ(run({{"sweep", "bending-step,scenes"}, {"integrator", "semi-implicit"}}), 0);
+TEST_F(StabilityCommand, WritesARowForEachCellCountsThemAndDrawsAMapOfEachSweep) {
+  const std::vector<Flag> flags = {{"sweep", "bending-step,scenes"}, {"integrator", "semi-implicit"}};
+  ASSERT_EQ(run(flags, true), 0);
+  for (const char* map : {"plot_bending-step.png", "plot_scenes.png"})
+    EXPECT_EQ(fs::exists(folder_.path() / map), manifest()["plots_missing"].empty()) << map;
   const std::vector<std::string> rows = lines("cells.csv");
   EXPECT_TRUE(
       rows.front().starts_with("sweep,integrator,variant,x,y,law,element,precision,step [s],outcome,"))
