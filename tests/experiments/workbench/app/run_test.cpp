@@ -50,8 +50,11 @@ TEST(Manifest, OfAnExperimentWithoutASceneHoldsItsOwnKeysAsTheScene) {
 TEST(Run, GoesOnWithoutAPlotThatFailsAndSaysSo) {
   const Folder folder;
   ExperimentRun run(drape_line(), setup_in(folder.path()));
-  run.plot("plot_a", [](const fs::path&) { throw Error::system("no gnuplot"); });
-  run.plot("plot_b", [](const fs::path& base) { EXPECT_EQ(base.filename(), "plot_b"); });
+  const std::string page = "plot_b";
+  run.plot(
+      "plot_a", page, +[](const fs::path&, const std::string&) { throw Error::system("no gnuplot"); });
+  run.plot(
+      page, page, +[](const fs::path& base, const std::string& its) { EXPECT_EQ(base.filename(), its); });
   run.finish();
   const Json manifest = manifest_in(folder.path());
   EXPECT_EQ(manifest["plots_missing"], Json::array({"plot_a: no gnuplot"}));
