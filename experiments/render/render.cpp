@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "experiments/render/instants.h"
 #include "experiments/render/kept_pictures.h"
 #include "experiments/workbench/app/experiment.h"
 #include "experiments/workbench/app/manifest_file.h"
@@ -40,7 +41,7 @@ struct RenderFlags {
 using F = RenderFlags;
 // clang-format off
 const KeyRow<F> kRows[] = {
-    {"fps", at<&F::fps>, "", any(), "", "frames per second of the files, one number for all sequences or one for each, separated by commas; without it pictures carry the frame's number"},
+    {"fps", at<&F::fps>, "", any(), "", "frames per second of the files, one number for all sequences or one for each, separated by commas; files are frames by the numbers in their names; without it pictures carry the frame's number"},
     {"render.unit", at<&F::unit>, "", any(), "", "unit of length in the files: metre | centimetre | millimetre | inch, for all or for each"},
     {"render.up", at<&F::up>, "", any(), "", "the files' upward axis: z | y, for all or for each"},
     {"render.range", at<&F::range>, "1/m", positive(), "", "curvature at the ends of the colour bar; 100, as in runs of the shipped fabrics; of kept geometry without it that of its run"},
@@ -84,15 +85,13 @@ std::optional<float> ground_height(const F& flags) {
 }
 
 // A sequence with how its files are to be taken, and which of its frames the sheet shows.
-struct Column : MeshSequence {
+struct Column : TimedSequence {
   FileAxes axes;
-  double fps = 0;  // [1/s], 0: unknown
-  std::vector<int> shown;
 
   // "t = 0.50 s", or "frame 12" where the rate is unknown; nothing for a picture alone.
-  std::string instant(std::size_t frame) const {
-    if (fps > 0) return fmt::format("t = {:.2f} s", static_cast<double>(frame) / fps);
-    return files.size() > 1 ? fmt::format("frame {}", frame) : "";
+  std::string instant(std::size_t file) const {
+    if (fps > 0) return fmt::format("t = {:.2f} s", static_cast<double>(frame[file]) / fps);
+    return files.size() > 1 ? fmt::format("frame {}", frame[file]) : "";
   }
 };
 
@@ -127,24 +126,6 @@ double frame_rate(const std::string& fps) {
   return rate;
 }
 
-// Sequences beside each other show the same instants as long as all of them last: the same times, or the same
-// numbers where a rate is unknown.
-void choose_instants(std::vector<Column>& columns) {
-  const bool timed = std::all_of(columns.begin(), columns.end(), [](const Column& c) { return c.fps > 0; });
-  const Column* shortest = &columns.front();
-  const auto length = [&](const Column& c) {
-    return static_cast<double>(c.files.size() - 1) / (timed ? c.fps : 1);
-  };
-  for (const Column& column : columns)
-    if (length(column) < length(*shortest)) shortest = &column;
-  const double rate = timed ? shortest->fps : 1;
-  const std::vector<int> frames =
-      render::spread(static_cast<int>(shortest->files.size()), columns.size() > 1 ? kInstants : kCells);
-  for (Column& column : columns)
-    for (const int k : frames)
-      column.shown.push_back(static_cast<int>(std::lround(k * (timed ? column.fps : 1) / rate)));
-}
-
 std::vector<Column> rendered_columns(const F& flags, const std::vector<std::string>& words) {
   std::vector<Column> columns;
   if (words.empty()) throw Error::invalid_input("needs mesh files or folders: hysteron render FILES...");
@@ -153,12 +134,14 @@ std::vector<Column> rendered_columns(const F& flags, const std::vector<std::stri
     const auto value = [&](const char* key, const std::string& list) {
       return listed_value(key, list, i, sequences.size());
     };
-    columns.push_back({sequences[i],
-                       {parsed_unit(value("render.unit", flags.unit)), is_y_up(value("render.up", flags.up))},
-                       frame_rate(value("fps", flags.fps)),
-                       {}});
+    columns.push_back(
+        {{{sequences[i]}, frame_rate(value("fps", flags.fps)), {}, {}},
+         {parsed_unit(value("render.unit", flags.unit)), is_y_up(value("render.up", flags.up))}});
   }
-  choose_instants(columns);
+  std::vector<TimedSequence*> timed;
+  for (Column& column : columns) timed.push_back(&column);
+  number_frames(timed);
+  choose_instants(timed, columns.size() > 1 ? kInstants : kCells);
   return columns;
 }
 
@@ -231,11 +214,14 @@ std::string joined_names(const std::vector<Column>& columns) {
 }
 
 void note_sequences(const std::vector<Column>& columns, Run& run) {
+  std::vector<const TimedSequence*> timed;
+  for (const Column& column : columns) timed.push_back(&column);
+  for (const std::string& warning : frame_warnings(timed)) run.warn(warning);
   Json notes = Json::array();
   for (const Column& column : columns) {
     Json files = Json::array();
     for (const auto& file : column.files) files.push_back(file.string());
-    notes.push_back({{"name", column.name}, {"files", files}});
+    notes.push_back({{"name", column.name}, {"files", files}, {"frames", column.frame}});
   }
   run.note("sequences", notes);
 }

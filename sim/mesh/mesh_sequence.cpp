@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "sim/base/error.h"
 #include "sim/mesh/file_ending.h"
@@ -42,6 +43,47 @@ bool natural_less(const std::string& a, const std::string& b) {
   return a < b;
 }
 
+// A name cut into its numbers and what stands between them: text, number, text, number, text.
+std::vector<std::string> cut_at_numbers(const std::string& name) {
+  std::vector<std::string> parts(1);
+  for (const char c : name) {
+    const bool in_number = parts.size() % 2 == 0;
+    if (is_digit(c) != in_number) parts.emplace_back();
+    parts.back() += c;
+  }
+  return parts;
+}
+
+// The place of the only number in which the names differ; none where they differ elsewhere, or in several.
+std::optional<std::size_t> place_of_number(const std::vector<std::vector<std::string>>& names) {
+  std::optional<std::size_t> found;
+  for (const auto& parts : names) {
+    if (parts.size() != names.front().size()) return {};
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      if (parts[i] == names.front()[i] || found == i) continue;
+      if (found || i % 2 == 0) return {};
+      found = i;
+    }
+  }
+  return found;
+}
+
+std::vector<std::int64_t> file_numbers(const std::vector<fs::path>& files) {
+  constexpr std::size_t kMostDigits = 18;  // what 64 bits hold
+  std::vector<std::vector<std::string>> names;
+  names.reserve(files.size());
+  for (const fs::path& file : files) names.push_back(cut_at_numbers(file.stem().string()));
+  const auto place = place_of_number(names);
+  if (!place) return {};
+  std::vector<std::int64_t> numbers;
+  for (const auto& parts : names) {
+    if (parts[*place].size() > kMostDigits) return {};
+    numbers.push_back(std::stoll(parts[*place]));
+    if (numbers.size() > 1 && numbers.back() <= numbers[numbers.size() - 2]) return {};
+  }
+  return numbers;
+}
+
 std::vector<fs::path> meshes_in(const fs::path& folder) {
   std::vector<fs::path> files;
   std::error_code failure;
@@ -62,7 +104,7 @@ std::string sequence_name(const fs::path& path) {
 }
 
 MeshSequence folder_sequence(const fs::path& folder) {
-  MeshSequence sequence{sequence_name(folder), meshes_in(folder)};
+  MeshSequence sequence{sequence_name(folder), meshes_in(folder), {}};
   if (sequence.files.empty() && fs::is_directory(folder / "mesh"))
     sequence.files = meshes_in(folder / "mesh");
   if (sequence.files.empty())
@@ -146,7 +188,10 @@ std::vector<MeshSequence> mesh_sequences(const std::vector<std::string>& words) 
     sequences[loose].files.push_back(path);
   }
   if (loose >= 0) name_files(sequences[loose]);
-  for (const MeshSequence& sequence : sequences) check_format(sequence);
+  for (MeshSequence& sequence : sequences) {
+    check_format(sequence);
+    sequence.number = file_numbers(sequence.files);
+  }
   tell_apart(sequences);
   return sequences;
 }

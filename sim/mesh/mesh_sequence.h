@@ -1,6 +1,7 @@
 // Sequences of mesh files, from this program or another.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -13,6 +14,9 @@ namespace hysteron {
 struct MeshSequence {
   std::string name;
   std::vector<std::filesystem::path> files;  // one a frame, all of one format
+  // The numbers that tell the files apart, ascending: 1, 5, 6 of f1.obj, f5.obj, f6.obj.  Empty where the
+  // names differ in more than one number, or the files do not stand in the order of it.
+  std::vector<std::int64_t> number;
 };
 
 // From the words of a command line: each folder is a sequence, its *.obj or *.ply in the order of their names

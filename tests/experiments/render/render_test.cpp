@@ -190,6 +190,48 @@ TEST(RenderedFiles, AnInstantThatLooksLikeOneBeforeIsNotOnTheSheet) {
   }
 }
 
+// Files 0, 1, 5, 6 of ten frames a second are the instants 0, 0.1, 0.5 and 0.6 s, beside those of a complete
+// sequence.
+TEST(RenderedFiles, AreTheFramesThatTheirNumbersSay) {
+  const Folder folder;
+  const fs::path whole = folder.path() / "whole", gap = folder.path() / "gap",
+                 first = folder.path() / "first";
+  sequence(whole, 8, 10, metres);
+  for (const int k : {0, 1, 5, 6}) {
+    const std::string name = "frame" + std::to_string(k) + ".obj";
+    write(gap / name, swaying(k / 10., metres));
+    if (k != 5) write(first / name, swaying(k / 10., metres));
+  }
+  const auto sheet = [&](const std::vector<std::string>& names, const FlagList& flags, const char* out) {
+    FlagList all = {{"render.title", "a title"}};
+    all.insert(all.end(), flags.begin(), flags.end());
+    EXPECT_EQ(rendered(folder.path() / out, names, all), 0);
+    return manifest_in(folder.path() / out);
+  };
+  const Json both = sheet({whole.string(), gap.string()}, {{"fps", "10"}}, "both");
+  EXPECT_EQ(both["sequences"][1]["frames"], (std::vector<int>{0, 1, 5, 6}));
+  ASSERT_EQ(both["warnings"].size(), 1u);
+  EXPECT_EQ(
+      both["warnings"][0],
+      "the sequence gap has no file for 3 of its frames 0 to 6, the first after frame1.obj: its files are "
+      "frames by the numbers in their names");
+  // Equal pictures of equal files: 5 beside 5, as file 2 of the second folder.
+  EXPECT_EQ(without_name(folder.path() / "both/whole/0005.png"),
+            without_name(folder.path() / "both/gap/0002.png"));
+  EXPECT_EQ(sheet({first.string(), whole.string()}, {}, "none")["sequences"][0]["frames"],
+            (std::vector<int>{0, 1, 6}));
+}
+
+TEST(RenderedFiles, WithoutAnInstantInCommonAreRefused) {
+  const Folder folder;
+  for (const int k : {1, 2, 5, 6})
+    write(folder.path() / (k < 4 ? "early" : "late") / (std::to_string(k) + ".obj"), swaying(0, metres));
+  EXPECT_EQ(
+      refusal({(folder.path() / "early").string(), (folder.path() / "late").string()}),
+      "the sequences have no instant in common: of frames, early has 1 to 2, late has 5 to 6; rename the "
+      "files, or render each sequence alone");
+}
+
 // The last frame from there stands below, and the frames' own pictures are as without it.
 TEST(RenderedFiles, AFurtherDirectionIsAFurtherRowOfTheSheet) {
   const Folder folder;

@@ -30,6 +30,20 @@ TEST(MeshSequences, FoldersAreInNaturalOrderAndNamedApart) {
   EXPECT_EQ(names, (std::vector<std::string>{"f9.obj", "f10.obj", "f0100.obj"}));
 }
 
+TEST(MeshSequences, NumbersAreThoseThatTellTheFilesApart) {
+  const auto numbers = [](const std::vector<const char*>& names) {
+    const test::Folder folder;
+    for (const char* name : names) touch(folder, std::string("s/") + name);
+    return mesh_sequences({folder.file("s")})[0].number;
+  };
+  using Numbers = std::vector<std::int64_t>;
+  EXPECT_EQ(numbers({"v2_f0001_a.obj", "v2_f0005_a.obj", "v2_f12_a.obj"}), (Numbers{1, 5, 12}));
+  EXPECT_EQ(numbers({"a1.obj", "b2.obj"}), Numbers{});
+  EXPECT_EQ(numbers({"t0.9.obj", "t1.0.obj"}), Numbers{});
+  EXPECT_EQ(numbers({"f1.obj", "f01.obj"}), Numbers{});
+  EXPECT_EQ(numbers({"f12345678901234567890.obj", "f2.obj"}), Numbers{});
+}
+
 TEST(MeshSequences, FilesAreOneSequenceInTheOrderGiven) {
   const test::Folder folder;
   const std::string a = touch(folder, "set/a.obj"), b = touch(folder, "set/b.obj");

@@ -1,0 +1,164 @@
+#include "experiments/render/instants.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+#include "render/contact_sheet.h"
+#include "sim/base/error.h"
+
+namespace hysteron::experiments {
+namespace {
+
+using Sequences = std::vector<TimedSequence*>;
+
+// A sequence of one file has no number to be told apart by.
+bool have_numbers(const Sequences& sequences) {
+  return std::none_of(sequences.begin(), sequences.end(),
+                      [](const TimedSequence* s) { return s->number.empty(); });
+}
+
+// The number that is frame 0.
+std::int64_t first_number(const Sequences& sequences) {
+  const std::int64_t first = sequences.front()->number.front();
+  const bool common = std::all_of(sequences.begin(), sequences.end(),
+                                  [&](const TimedSequence* s) { return s->number.front() == first; });
+  return common ? first : 0;
+}
+
+std::int64_t common_step(const Sequences& sequences, std::int64_t origin) {
+  std::int64_t step = 0;
+  for (const TimedSequence* s : sequences)
+    for (const std::int64_t number : s->number) step = std::gcd(step, number - origin);
+  return std::max<std::int64_t>(step, 1);
+}
+
+void number_by_names(const Sequences& sequences, std::int64_t origin) {
+  const std::int64_t step = common_step(sequences, origin);
+  for (TimedSequence* s : sequences) {
+    s->frame = s->number;
+    for (std::int64_t& frame : s->frame) frame = (frame - origin) / step;
+  }
+}
+
+void number_by_order(TimedSequence& sequence) {
+  sequence.frame.resize(sequence.files.size());
+  std::iota(sequence.frame.begin(), sequence.frame.end(), 0);
+}
+
+std::int64_t missing_frames(const TimedSequence& s) {
+  return s.frame.back() - s.frame.front() + 1 - static_cast<std::int64_t>(s.frame.size());
+}
+
+// The file before the first gap.
+std::string last_before_gap(const TimedSequence& s) {
+  std::size_t i = 1;
+  while (i < s.frame.size() && s.frame[i] == s.frame[i - 1] + 1) ++i;
+  return s.files[i - 1].filename().string();
+}
+
+// Times of one unit: seconds where every rate is known, else frames.
+class Clock {
+ public:
+  explicit Clock(const Sequences& sequences)
+      : timed_(std::all_of(sequences.begin(), sequences.end(),
+                           [](const TimedSequence* s) { return s->fps > 0; })) {}
+
+  double rate(const TimedSequence& s) const { return timed_ ? s.fps : 1; }
+  double time(const TimedSequence& s, std::size_t file) const {
+    return static_cast<double>(s.frame[file]) / rate(s);
+  }
+  double duration(const TimedSequence& s) const { return time(s, s.frame.size() - 1) - time(s, 0); }
+
+  // The file within half a frame of that time.
+  std::optional<int> file_at(const TimedSequence& s, double time) const {
+    constexpr double kHalf = 0.5 + 1e-9;  // of a frame; times are quotients that are rounded
+    const double frame = time * rate(s);
+    const auto after =
+        std::lower_bound(s.frame.begin(), s.frame.end(), static_cast<std::int64_t>(std::lround(frame)));
+    if (after == s.frame.end() || std::abs(static_cast<double>(*after) - frame) > kHalf) return {};
+    return static_cast<int>(after - s.frame.begin());
+  }
+
+ private:
+  bool timed_;
+};
+
+// The sequence whose frames are the instants: that of the lowest rate, so that the others have a frame near
+// each; of equal rates the shortest.
+const TimedSequence& coarsest(const Sequences& sequences, const Clock& clock) {
+  return **std::min_element(sequences.begin(), sequences.end(),
+                            [&](const TimedSequence* a, const TimedSequence* b) {
+                              if (clock.rate(*a) != clock.rate(*b)) return clock.rate(*a) < clock.rate(*b);
+                              return clock.duration(*a) < clock.duration(*b);
+                            });
+}
+
+Error no_common_instant(const Sequences& sequences) {
+  std::string ranges;
+  for (const TimedSequence* s : sequences)
+    ranges += fmt::format("{}{} has {} to {}", ranges.empty() ? "" : ", ", s->name, s->frame.front(),
+                          s->frame.back());
+  return Error::invalid_input("the sequences have no instant in common: of frames, " + ranges +
+                              "; rename the files, or render each sequence alone");
+}
+
+}  // namespace
+
+void number_frames(const Sequences& sequences) {
+  if (!have_numbers(sequences)) {
+    for (TimedSequence* s : sequences) number_by_order(*s);
+    return;
+  }
+  const std::int64_t origin = first_number(sequences);
+  const bool one_rate = std::all_of(sequences.begin(), sequences.end(),
+                                    [&](const TimedSequence* s) { return s->fps == sequences.front()->fps; });
+  if (one_rate) return number_by_names(sequences, origin);
+  for (TimedSequence* s : sequences) number_by_names({s}, origin);
+}
+
+std::vector<std::string> frame_warnings(const std::vector<const TimedSequence*>& sequences) {
+  std::vector<std::string> warnings;
+  for (const TimedSequence* s : sequences)
+    if (s->number.empty() && s->files.size() > 1 && sequences.size() > 1)
+      warnings.push_back(
+          fmt::format("the names of the files of {} tell no numbers: frames of all sequences are "
+                      "counted in the order of their files",
+                      s->name));
+  for (const TimedSequence* s : sequences)
+    if (const std::int64_t missing = missing_frames(*s); missing > 0)
+      warnings.push_back(fmt::format(
+          "the sequence {} has no file for {} of its frames {} to {}, the first after {}: its files "
+          "are frames by the numbers in their names",
+          s->name, missing, s->frame.front(), s->frame.back(), last_before_gap(*s)));
+  for (const TimedSequence* s : sequences) {
+    const TimedSequence& first = *sequences.front();
+    if (s->frame.front() == first.frame.front()) continue;
+    warnings.push_back(
+        fmt::format("the sequences begin at different numbers, {} with {} and {} with {}: frames "
+                    "beside each other have the same number, and number 0 is t = 0",
+                    first.name, first.number.front(), s->name, s->number.front()));
+    break;
+  }
+  return warnings;
+}
+
+void choose_instants(const Sequences& sequences, int most) {
+  const Clock clock(sequences);
+  const TimedSequence& base = coarsest(sequences, clock);
+  std::vector<std::vector<int>> instants;  // the file of each sequence
+  for (std::size_t k = 0; k < base.frame.size(); ++k) {
+    std::vector<int> files;
+    for (const TimedSequence* s : sequences)
+      if (const auto file = clock.file_at(*s, clock.time(base, k))) files.push_back(*file);
+    if (files.size() == sequences.size()) instants.push_back(std::move(files));
+  }
+  if (instants.empty()) throw no_common_instant(sequences);
+  for (const int i : render::spread(static_cast<int>(instants.size()), most))
+    for (std::size_t s = 0; s < sequences.size(); ++s) sequences[s]->shown.push_back(instants[i][s]);
+}
+
+}  // namespace hysteron::experiments

@@ -1,0 +1,76 @@
+// Which files of several sequences stand beside each other.
+#include "experiments/render/instants.h"
+
+#include <gtest/gtest.h>
+
+namespace hysteron::experiments {
+namespace {
+
+using Numbers = std::vector<std::int64_t>;
+using Files = std::vector<int>;
+
+TimedSequence numbered(const std::string& name, const Numbers& numbers, double fps) {
+  TimedSequence sequence;
+  sequence.name = name;
+  sequence.fps = fps;
+  sequence.number = numbers;
+  for (const std::int64_t n : numbers) sequence.files.emplace_back(name + std::to_string(n) + ".obj");
+  return sequence;
+}
+
+// After both functions, with as many instants as there are.
+void choose(TimedSequence& a, TimedSequence& b) {
+  number_frames({&a, &b});
+  choose_instants({&a, &b}, 100);
+}
+
+TEST(Instants, PairEqualNumbersWhereFilesAreMissing) {
+  TimedSequence a = numbered("a", {0, 1, 2, 3, 4, 5, 6, 7}, 10), gap = numbered("gap", {0, 1, 5, 6}, 10);
+  choose(a, gap);
+  EXPECT_EQ(a.shown, (Files{0, 1, 5, 6}));
+  EXPECT_EQ(gap.shown, (Files{0, 1, 2, 3}));
+}
+
+TEST(Instants, PairEqualTimesWhereRatesDiffer) {
+  // At 10 and 20 frames per second the second one's files 0 and 4 are 0 and 0.2 s; 0.1 s is missing.
+  TimedSequence slow = numbered("slow", {0, 1, 2}, 10), fast = numbered("fast", {0, 1, 4, 5}, 20);
+  choose(slow, fast);
+  EXPECT_EQ(slow.shown, (Files{0, 2}));
+  EXPECT_EQ(fast.shown, (Files{0, 2}));
+  // The slower one's files decide, whichever lasts shorter.
+  TimedSequence brief = numbered("brief", {0, 1, 2}, 20), lasting = numbered("lasting", {0, 1, 2, 3}, 10);
+  choose(brief, lasting);
+  EXPECT_EQ(brief.shown, (Files{0, 2}));
+  EXPECT_EQ(lasting.shown, (Files{0, 1}));
+}
+
+TEST(Instants, CountFromTheCommonFirstNumberInStepsOfTheFiles) {
+  TimedSequence a = numbered("a", {1, 11, 21}, 0), b = numbered("b", {1, 21}, 0);
+  choose(a, b);
+  EXPECT_EQ(a.frame, (Numbers{0, 1, 2}));
+  EXPECT_EQ(b.frame, (Numbers{0, 2}));
+  EXPECT_EQ(a.shown, (Files{0, 2}));
+}
+
+TEST(Instants, OfSequencesThatBeginDifferentlyAreWarnedOf) {
+  TimedSequence a = numbered("a", {0, 1, 2}, 10), b = numbered("b", {1, 2, 3}, 10);
+  choose(a, b);
+  EXPECT_EQ(a.shown, (Files{1, 2}));
+  EXPECT_EQ(b.shown, (Files{0, 1}));
+  EXPECT_EQ(
+      frame_warnings({&a, &b}),
+      (std::vector<std::string>{
+          "the sequences begin at different numbers, a with 0 and b with 1: frames beside each other have "
+          "the same number, and number 0 is t = 0"}));
+}
+
+TEST(Instants, GoByTheOrderOfFilesWhereNamesTellNoNumbers) {
+  TimedSequence a = numbered("a", {0, 5}, 10), b = numbered("b", {0, 1}, 10);
+  b.number.clear();
+  choose(a, b);
+  EXPECT_EQ(a.shown, (Files{0, 1}));
+  EXPECT_EQ(frame_warnings({&a, &b}).size(), 1u);
+}
+
+}  // namespace
+}  // namespace hysteron::experiments
