@@ -180,9 +180,11 @@ int run_swing(const CommandLine& line) {
   plan.bounds = {{-0.7f * length, 0, low}, {length, width, 0.15f * length}};
   plan.columns = {"tip_x [m]", "tip_height [m]"};
   plan.measure = [&](const Snapshot& m) -> std::vector<double> {
+    return {m.x[tip].x(), m.x[tip].z() - m.x[0].z()};
+  };
+  plan.each_step = [&](const Snapshot& m) {
     times.push_back(m.time);
     swing.push_back(m.x[tip].x());
-    return {m.x[tip].x(), m.x[tip].z() - m.x[0].z()};
   };
   plan.serialise = [&](Archive& archive) {
     archive(times);

@@ -17,6 +17,15 @@ ImplicitIntegrator<Real, Device>::ImplicitIntegrator(Body<Real, Device>& body, c
       substeps_(limits.substeps),
       tolerance_(body.scene.tolerance) {}
 
+template <class Real, class Device>
+void ImplicitIntegrator<Real, Device>::step(double start, double h) {
+  const bool finds_equilibria = body_.scene.integrator == Integrator::quasi_static || solver_.is_static();
+  if (!finds_equilibria) this->refuse_longer(h);
+  if (bending_lags()) return take_lagged_step(start, h);
+  if (tolerance_ > 0) return take_adaptive_step(start, h);
+  take_interval(start, h, 0);
+}
+
 // Statics let the weight grow over the scene's `ramp` and fall over its `unload`: the cloth passes through
 // states of equilibrium.
 template <class Real, class Device>
@@ -119,8 +128,8 @@ bool ImplicitIntegrator<Real, Device>::stiffen_parallel_edges() {
 
 // Parts whose estimated error stays below the tolerance; one that does not is taken again, shorter.
 template <class Real, class Device>
-void ImplicitIntegrator<Real, Device>::take_adaptive_step(double start) {
-  const double whole = body_.scene.step, end = start + whole, least = whole / (1 << kMaxHalvings);
+void ImplicitIntegrator<Real, Device>::take_adaptive_step(double start, double whole) {
+  const double end = start + whole, least = whole / (1 << kMaxHalvings);
   if (part_ <= 0) part_ = whole / 16;
   for (double now = start; end - now > least / 2;) {
     const double h = equal_part(end - now, part_);
@@ -144,8 +153,7 @@ void ImplicitIntegrator<Real, Device>::take_adaptive_step(double start) {
 // Bending is explicit with its substeps, the rest solved to the end: layers are kept apart by the line
 // search. Bending's force is that at the start of a stage, also where the stage is then taken in parts.
 template <class Real, class Device>
-void ImplicitIntegrator<Real, Device>::take_lagged_step(double start) {
-  const double whole = body_.scene.step;
+void ImplicitIntegrator<Real, Device>::take_lagged_step(double start, double whole) {
   for (int k = 0; k < substeps_; ++k) {
     const double from = start + whole * k / substeps_;
     const Real h = static_cast<Real>(whole / substeps_);

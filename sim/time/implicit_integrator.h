@@ -13,15 +13,7 @@ template <class Real, class Device>
 class ImplicitIntegrator : public TimeIntegrator<Real, Device> {
  public:
   ImplicitIntegrator(Body<Real, Device>& body, const StepLimits& limits);
-  void step(double start) override {
-    if (bending_lags()) return take_lagged_step(start);
-    tolerance_ > 0 ? take_adaptive_step(start) : take_interval(start, body_.scene.step, 0);
-  }
-  void step_by(double start, double h) override {
-    if (body_.scene.integrator != Integrator::quasi_static && !solver_.is_static())
-      TimeIntegrator<Real, Device>::step_by(start, h);
-    take_interval(start, h, 0);
-  }
+  void step(double start, double h) override;
   void become_static() override {
     if (bending_lags()) return TimeIntegrator<Real, Device>::become_static();
     solver_.become_static();
@@ -37,10 +29,10 @@ class ImplicitIntegrator : public TimeIntegrator<Real, Device> {
  private:
   using TimeIntegrator<Real, Device>::body_;
   bool bending_lags() const { return body_.scene.integrator == Integrator::semi_implicit; }
-  void take_lagged_step(double start);
+  void take_lagged_step(double start, double whole);
   // From start to start + h, in halves if it does not converge.
   void take_interval(double start, double h, int halvings);
-  void take_adaptive_step(double start);
+  void take_adaptive_step(double start, double whole);
   void finish(double start, double h, int halvings);
   void take_halves(double start, double h, int halvings, const NewtonOutcome& outcome);
   bool stiffen_parallel_edges();

@@ -62,12 +62,12 @@ SemiImplicit<Real, Device>::SemiImplicit(Body<Real, Device>& body, const StepLim
       size_(*body.device, 1) {}
 
 template <class Real, class Device>
-void SemiImplicit<Real, Device>::step(double start) {
-  if (body_.scene.implicit_every == ImplicitEvery::step) return take_chapter_step(start);
-  if (body_.scene.tolerance > 0) return take_adaptive_step(start);
-  const double whole = body_.scene.step;
+void SemiImplicit<Real, Device>::step(double start, double h) {
+  this->refuse_longer(h);
+  if (body_.scene.implicit_every == ImplicitEvery::step) return take_chapter_step(start, h);
+  if (body_.scene.tolerance > 0) return take_adaptive_step(start, h);
   const int stages = limits_.substeps;
-  for (int k = 0; k < stages; ++k) stage(start + whole * k / stages, static_cast<Real>(whole / stages));
+  for (int k = 0; k < stages; ++k) stage(start + h * k / stages, static_cast<Real>(h / stages));
 }
 
 template <class Real, class Device>
@@ -80,10 +80,10 @@ void SemiImplicit<Real, Device>::stage(double start, Real h) {
 
 // Steps that cannot be taken back: the error of one sets the length of the next.
 template <class Real, class Device>
-void SemiImplicit<Real, Device>::take_adaptive_step(double start) {
+void SemiImplicit<Real, Device>::take_adaptive_step(double start, double whole) {
   const Scene& scene = body_.scene;
-  const double end = start + scene.step, largest = limits_.substep, least = scene.step / (1 << kMaxHalvings);
-  if (part_ <= 0) part_ = std::min(largest, scene.step / 16);
+  const double end = start + whole, largest = limits_.substep, least = whole / (1 << kMaxHalvings);
+  if (part_ <= 0) part_ = std::min(largest, whole / 16);
   for (double now = start; end - now > least / 2;) {
     const double h = equal_part(end - now, std::min(part_, largest));
     stage(now, static_cast<Real>(h));
@@ -116,8 +116,8 @@ void SemiImplicit<Real, Device>::gather_impulses(Real h) {
 }
 
 template <class Real, class Device>
-void SemiImplicit<Real, Device>::take_chapter_step(double start) {
-  const Real h = static_cast<Real>(body_.scene.step);
+void SemiImplicit<Real, Device>::take_chapter_step(double start, double whole) {
+  const Real h = static_cast<Real>(whole);
   body_.begin_stage(start, h);
   for (int k = 0; k < limits_.substeps; ++k) substep(h / limits_.substeps);
   solve(h, nullptr);
@@ -298,8 +298,9 @@ ExplicitEuler<Real, Device>::ExplicitEuler(Body<Real, Device>& body, const StepL
     : TimeIntegrator<Real, Device>(body), substeps_(limits.substeps), force_(*body.device, body.vertices) {}
 
 template <class Real, class Device>
-void ExplicitEuler<Real, Device>::step(double start) {
-  const Real h = static_cast<Real>(body_.scene.step);
+void ExplicitEuler<Real, Device>::step(double start, double whole) {
+  this->refuse_longer(whole);
+  const Real h = static_cast<Real>(whole);
   body_.begin_stage(start, h);
   for (int k = 0; k < substeps_; ++k) substep(h / substeps_);
   body_.end_stage(start + static_cast<double>(h));

@@ -12,7 +12,7 @@ template <class Real, class Device>
 class SemiImplicit : public TimeIntegrator<Real, Device> {
  public:
   SemiImplicit(Body<Real, Device>& body, const StepLimits& limits);
-  void step(double start) override;
+  void step(double start, double h) override;
   void serialise(Archive& archive) override {
     archive(part_);
     pcg_.serialise(archive);
@@ -34,8 +34,8 @@ class SemiImplicit : public TimeIntegrator<Real, Device> {
  private:
   using TimeIntegrator<Real, Device>::body_;
   void stage(double start, Real h);
-  void take_adaptive_step(double start);
-  void take_chapter_step(double start);
+  void take_adaptive_step(double start, double whole);
+  void take_chapter_step(double start, double whole);
   // The implicit stage of both: M dv = impulse + h (f_m + f_d + f_c)(x + h dv, v + dv), one Newton step of
   // it, with obstacles a few.  From where the explicit forces left the cloth, over h.  `impulse`: of explicit
   // forces that act in this stage too [N s]; null where they have acted before.
@@ -56,7 +56,7 @@ template <class Real, class Device>
 class ExplicitEuler : public TimeIntegrator<Real, Device> {
  public:
   ExplicitEuler(Body<Real, Device>& body, const StepLimits& limits);
-  void step(double start) override;
+  void step(double start, double h) override;
   void serialise(Archive&) override {}  // forces are those of each substep's start
   std::size_t bytes() const override { return force_.bytes(); }
 

@@ -25,8 +25,8 @@ class Simulation {
   // Error::simulation when the state is no longer finite, no equilibrium is found, or an obstacle crushes the
   // cloth.
   virtual void advance(int steps) = 0;
-  // One step of this length instead of the scene's: to the equilibrium after a rest, however long [s].
-  // Error::invalid_input for integrators but `quasi-static`, Error::simulation as advance().
+  // One step of this length instead of the scene's [s].  One that is longer leads to the equilibrium after a
+  // rest: Error::invalid_input for integrators but `quasi-static`.  Error::simulation as advance().
   virtual void advance_by(double seconds) = 0;
   // From now on every step looks for equilibrium: inertia, drag and viscosity are left out, and what moves
   // stands still.  Where there is none, the step is taken as it is and counted as unbalanced.

@@ -47,7 +47,7 @@ void Stepper<Real, Device>::advance(int steps) {
   const DeviceCounts before = device_counts;
   for (int s = 0; s < steps; ++s) {
     body_.carry_out_commands(time(), time() + body_.scene.step);
-    integrator_->step(time());
+    integrator_->step(time(), body_.scene.step);
     ++body_.counts.steps;
   }
   throw_if_divergence(body_, time());
@@ -58,7 +58,7 @@ template <class Real, class Device>
 void Stepper<Real, Device>::advance_by(double seconds) {
   const DeviceCounts before = device_counts;
   body_.carry_out_commands(time(), time() + seconds);
-  integrator_->step_by(time(), seconds);
+  integrator_->step(time(), seconds);
   ++body_.counts.steps;
   extra_time_ += seconds - body_.scene.step;
   throw_if_divergence(body_, time());

@@ -17,11 +17,9 @@ class TimeIntegrator {
  public:
   explicit TimeIntegrator(Body<Real, Device>& body) : body_(body) {}
   virtual ~TimeIntegrator() = default;
-  virtual void step(double start) = 0;  // of the scene's length
-  // Of a length of its own [s]; Error::invalid_input where steps do not lead from equilibrium to equilibrium.
-  virtual void step_by(double /*start*/, double /*h*/) {
-    refuse("has steps of one length only: use quasi-static");
-  }
+  // Goes from `start` to `start` + `h` [s].  A step that is longer than the scene's is
+  // Error::invalid_input where steps do not lead from equilibrium to equilibrium (refuse_longer()).
+  virtual void step(double start, double h) = 0;
   // Steps are equilibria from now on; Error::invalid_input where there is no equilibrium solve.
   virtual void become_static() {
     refuse("has no equilibrium solve: use implicit | bdf2 | tr-bdf2 | quasi-static");
@@ -33,6 +31,10 @@ class TimeIntegrator {
 
  protected:
   Body<Real, Device>& body_;
+
+  void refuse_longer(double h) const {
+    if (h > body_.scene.step) refuse("has no steps that are longer than the scene's: use quasi-static");
+  }
 
  private:
   [[noreturn]] void refuse(const std::string& why) const {

@@ -19,7 +19,7 @@ const KeyRow<Options> kRows[] = {
     {"scene", at<&O::scene>, "", any(), "", "a scene of assets/scenes or a TOML file"},
     {"out", at<&O::out>, "", any(), "", "folder of the results; default out/<experiment>"},
     {"size", at<&O::size>, "", any(), "", "size of the pictures, WIDTHxHEIGHT pixels"},
-    {"fps", at<&O::fps>, "1/s", {0, 10000, true}, "", "pictures per simulated second"},
+    {"fps", at<&O::fps>, "1/s", between(0, 10000), "", "pictures and rows of series per simulated second, at the ends of steps; 0: of the start and the end alone; no result depends on it"},
     {"quality", at<&O::quality>, "", any(), "draft | final | figure", "of the pictures: a draft is drawn with 4 samples a pixel in place of 8; a figure, for pictures that are published, is lit from 192 directions and takes seconds"},
     {"renderer", at<&O::renderer>, "", any(), "", "how pictures are drawn"},
     {"no-images", at<&O::no_images>, "", any(), "", "draw no pictures"},

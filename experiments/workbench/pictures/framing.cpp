@@ -6,11 +6,13 @@
 
 #include "sim/base/error.h"
 #include "sim/time/simulation.h"
+#include "sim/time/timetable.h"
 
 namespace hysteron::experiments {
 namespace {
 
 constexpr int kTriangles = 400;
+constexpr double kRate = 30;  // of the instants that are looked at [1/s]
 // Of the box's diagonal: a fine mesh passes a little beside a coarse one.
 constexpr float kRoom = 0.03f;
 
@@ -56,20 +58,15 @@ std::unique_ptr<Trial> framing_trial(const Scene& scene) {
 
 }  // namespace
 
-int steps_per_frame(const Setup& setup) {
-  return std::max(1, static_cast<int>(std::lround(1 / (setup.options.fps * setup.scene.step))));
-}
-
 Framing scene_framing(const Setup& setup, const render::Box& known) {
   const Scene& scene = setup.scene;
   const auto trial = framing_trial(scene);
   Simulation& simulation = *trial->simulation;
   Framing framing{bounding_box(trial->cloth.start), trial->cloth.mesh.faces()};
-  const long steps = std::lround(scene.seconds / scene.step);
+  const Timetable timetable(scene.seconds, scene.step);
   try {
-    while (simulation.steps() < steps) {
-      simulation.advance(
-          static_cast<int>(std::min<long>(steps_per_frame(setup), steps - simulation.steps())));
+    for (long n = 0; n < timetable.steps(); n = simulation.steps()) {
+      advance_along(timetable, simulation, timetable.next_instant(n, kRate));
       framing.box = framing.box.merged(bounding_box(simulation.positions()));
     }
   } catch (const Error& error) {

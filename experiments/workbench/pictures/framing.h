@@ -10,9 +10,6 @@
 
 namespace hysteron::experiments {
 
-// Steps between two recorded instants; at least one.
-int steps_per_frame(const Setup& setup);
-
 struct Framing {
   render::Box box;        // [m]
   int triangles = 0;      // of the trial that it was found by
@@ -20,8 +17,8 @@ struct Framing {
 };
 
 // Simulates the scene on a coarse mesh, or on its own where that is a file, and frames `known`, which the
-// cloth is expected to pass through; where it leaves that at the times of pictures, with some room, what it
-// passes through as well.  Throws what make_cloth() and make_simulation() do.
+// cloth is expected to pass through; where it leaves that at some of its instants, which --fps does not move,
+// with some room, what it passes through as well.  Throws what make_cloth() and make_simulation() do.
 Framing scene_framing(const Setup& setup, const render::Box& known);
 // The same before the run, so that several have one; nothing where it draws no pictures or its options say
 // what they frame.

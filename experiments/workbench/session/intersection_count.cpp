@@ -18,7 +18,7 @@ IntersectionCount::Found IntersectionCount::found_in(double time,
                       found.size(), time, a, b, at.x(), at.y(), at.z())};
 }
 
-void IntersectionCount::record(Session& session, const Snapshot& instant) {
+void IntersectionCount::watch(Session& session, const Snapshot& instant) {
   const auto stage = session.run().stage("intersections");
   see(instant.time, instant.x);
 }

@@ -1,4 +1,4 @@
-// Counts the triangles that pass through each other, at every recorded instant of a run.
+// Counts the triangles that pass through each other, at every watched instant of a run.
 #pragma once
 
 #include <functional>
@@ -21,7 +21,7 @@ class IntersectionCount : public Observer {
                     std::function<void(const std::string&)> tell)
       : face_(std::move(face)), behind_a_gpu_(behind_a_gpu), tell_(std::move(tell)) {}
 
-  void record(Session& session, const Snapshot& instant) override;
+  void watch(Session& session, const Snapshot& instant) override;
   void finish(Session& session, const std::string& title) override;
   void see(double time, const std::vector<Eigen::Vector3d>& x);
   // Pairs of all instants seen; waits for the last of them.

@@ -78,14 +78,14 @@ class Drawing : public Observer {
 class Account : public Observer {
  public:
   void begin(Session& session) override;
-  void record(Session& session, const Snapshot&) override {
+  void watch(Session& session, const Snapshot&) override {
     stretched_ = std::max(stretched_, session.simulation().largest_stretch());
   }
   void finish(Session& session, const std::string& title) override;
   void serialise(Archive& archive) override { archive(stretched_); }
 
  private:
-  double stretched_ = 0;  // largest principal stretch minus 1, of the instants recorded
+  double stretched_ = 0;  // largest principal stretch minus 1, of the instants watched
 };
 
 void Account::begin(Session& session) {
@@ -185,7 +185,7 @@ void Account::finish(Session& session, const std::string&) {
 class Folds : public Observer {
  public:
   explicit Folds(const ClothMesh& mesh) : mesh_(mesh), rest_angle_(rest_angles(mesh)) {}
-  void record(Session&, const Snapshot& instant) override {
+  void watch(Session&, const Snapshot& instant) override {
     const std::vector<double> angle = hinge_angles(mesh_, instant.x);
     long sharp = 0;
     for (std::size_t e = 0; e < angle.size(); ++e) sharp += std::abs(angle[e] - rest_angle_[e]) > kSharp;

@@ -13,7 +13,7 @@ Recoveries::Recoveries(const Scene& scene) : curve_(scene.fabric.virgin_curve())
   counts_ = has_residual_formula(choose_law(scene.law, curve_, scene.param));
 }
 
-void Recoveries::record(Session& session, const Snapshot&) {
+void Recoveries::watch(Session& session, const Snapshot&) {
   if (counts()) see(session.simulation().moment(), session.simulation().dimension());
 }
 

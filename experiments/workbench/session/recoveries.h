@@ -11,7 +11,7 @@
 
 namespace hysteron::experiments {
 
-// Sees the cloth at recorded instants only: a peak between two of them is missed, and nothing is kept on the
+// Sees the cloth at watched instants only: a peak between two of them is missed, and nothing is kept on the
 // device.  The reversal that counts is the last one from past Ma; its moment is the largest of the time spent
 // there; the tremor of a crease at rest has smaller ones, which lie on its recovery branch.
 class Recoveries : public Observer {
@@ -19,7 +19,7 @@ class Recoveries : public Observer {
   explicit Recoveries(const Scene& scene);
 
   bool counts() const { return counts_; }  // does the law have the three cases?
-  void record(Session& session, const Snapshot& instant) override;
+  void watch(Session& session, const Snapshot& instant) override;
   // Elements by how far they were bent before they were let go, and the curvature they would keep if let go
   // now: found on the law, and by the closed form for a first reversal from the virgin curve (which a longer
   // history only resembles).

@@ -71,7 +71,11 @@ bool Session::find_rest() {
   const Rest rest = seek_rest(*simulation_, setup_.scene.fabric.thickness);
   if (rest.failure.empty()) {
     if (plan_->wait > 0) wait_at_rest(*simulation_, plan_->wait, setup_.scene.step);
-    record(simulation_->positions(), rest.moved / setup_.scene.step, "");
+    const std::vector<Eigen::Vector3d> x = simulation_->positions();
+    const Snapshot instant{simulation_->time(), x, rest.moved / setup_.scene.step};
+    if (plan_->each_step) plan_->each_step(instant);
+    watch(instant);
+    record(instant, "");
     return true;
   }
   run_->warn(fmt::format("no state of rest was found: {}; results are of the cloth in motion at t = {:.4g} s",

@@ -26,6 +26,12 @@ const Setup& checked(const Setup& setup) {
   return setup;
 }
 
+// Instants that are watched in a second, unless the experiment's plan says otherwise [1/s].
+double default_rate(const CommandLine& line) {
+  const Experiment& experiment = experiment_named(line.experiment);
+  return experiment.defaults ? experiment.defaults().options.fps : Options{}.fps;
+}
+
 }  // namespace
 
 void explain(const Cloth& cloth, const Simulation& simulation) {
@@ -116,46 +122,71 @@ void Session::reserve(const std::vector<std::string>& files, const std::vector<s
   if (!setup_.options.no_images) run_->reserve(drawn);
 }
 
-bool Session::record(const std::vector<Eigen::Vector3d>& x, double fastest, const std::string& left) {
-  const Snapshot instant{simulation_->time(), x, fastest};
-  for (const auto& observer : observers_) observer->record(*this, instant);
-  ++recorded_;
-  run_->progress(plan_->progress(instant) + left);
+bool Session::watch(const Snapshot& instant) {
+  if (plan_->watch) plan_->watch(instant);
+  for (const auto& observer : observers_) observer->watch(*this, instant);
   if (!plan_->settled) return false;
   run_->metric("fastest_m_per_s", instant.fastest);
   return plan_->settled(instant);
+}
+
+void Session::record(const Snapshot& instant, const std::string& left) {
+  for (const auto& observer : observers_) observer->record(*this, instant);
+  run_->progress(plan_->progress(instant) + left);
 }
 
 // "cotton-broad, law prandtl, 6,000 triangles, 4 s in 480 steps on cpu"
 std::string Session::opening_words() const {
   const Scene& scene = setup_.scene;
   return scene.fabric.name + ", law " + scene.law + ", " + grouped(cloth_.mesh.faces()) + " triangles, " +
-         number_text(scene.seconds) + " s in " + grouped(steps()) + " steps on " + simulation_->device();
+         number_text(scene.seconds) + " s in " + grouped(timetable_.steps()) + " steps on " +
+         simulation_->device();
 }
 
-long Session::steps() const {
-  return plan_->time_steps.empty() ? std::lround(setup_.scene.seconds / setup_.scene.step)
-                                   : static_cast<long>(plan_->time_steps.size());
+// Instants of --fps that lie beside their times are told, with by how much.
+void Session::note_rounded_instants() {
+  constexpr double kNoticed = 1e-3;  // of a step
+  const double fps = setup_.options.fps, step = setup_.scene.step;
+  if (fps * step > 1 + kNoticed) {
+    run_->progress(fmt::format(
+        "fps = {:g} 1/s is more than the {:g} steps of a second: every step is recorded", fps, 1 / step));
+    return;
+  }
+  const double shift = timetable_.largest_shift(fps);
+  if (shift <= kNoticed * step) return;
+  run_->note("instants_rounded_by_s", shift);
+  run_->progress(
+      fmt::format("instants of fps = {:g} 1/s are recorded at the ends of steps, up to {:.2g} s "
+                  "beside their times; metrics.csv has the true ones",
+                  fps, shift));
 }
 
-// Returns how far it is [s].
-double Session::go_to_next_instant() {
-  const double step = setup_.scene.step;
-  const std::vector<double>& time_steps = plan_->time_steps;
-  const long left = steps() - simulation_->steps();
-  const int stride = static_cast<int>(std::min<long>(steps_per_frame(setup_), left));
-  if (time_steps.empty()) {
-    simulation_->advance(stride);
-    return steps_per_frame(setup_) * step;
-  }
-  double passed = 0;
-  double length = step;
-  for (int s = 0; s < stride && length <= step; ++s) {
-    length = time_steps[simulation_->steps()];
-    length == step ? simulation_->advance(1) : simulation_->advance_by(length);
-    passed += length;
-  }
-  return passed;
+double Session::fastest_since(Before& before, const std::vector<Eigen::Vector3d>& x) const {
+  const long now = simulation_->steps();
+  const double moved = before.x.empty() ? 0 : farthest_moved(x, before.x);
+  const double passed = now > before.step ? timetable_.between(before.step, now) : setup_.scene.step;
+  before = {now, x};
+  return moved / passed;
+}
+
+void Session::go_on() {
+  const long now = simulation_->steps();
+  const long next = plan_->each_step ? now + 1
+                                     : std::min(timetable_.next_instant(now, setup_.options.fps),
+                                                timetable_.next_instant(now, watch_rate_));
+  advance_along(timetable_, *simulation_, next);
+}
+
+bool Session::look(const std::string& left) {
+  const long now = simulation_->steps();
+  const double time = simulation_->time();
+  const std::vector<Eigen::Vector3d> x = simulation_->positions();
+  if (plan_->each_step) plan_->each_step({time, x, fastest_since(stepped_, x)});
+  bool settled = false;
+  if (timetable_.is_instant(now, watch_rate_)) settled = watch({time, x, fastest_since(watched_, x)});
+  if (settled || timetable_.is_instant(now, setup_.options.fps))
+    record({time, x, fastest_since(recorded_, x)}, left);
+  return settled;
 }
 
 // All instants; those before a checkpoint have been recorded.  Returns whether the question is settled.
@@ -163,22 +194,16 @@ bool Session::run_to_end() {
   std::optional<Interrupts> interrupts;
   if (setup_.options.checkpoint > 0) interrupts.emplace();
   for (const auto& observer : observers_) observer->begin(*this);
-  std::vector<Eigen::Vector3d> before = simulation_->positions();
   const auto start = std::chrono::steady_clock::now();
-  const long first_step = simulation_->steps(), left = steps() - first_step;
-  const auto look = [&](double passed) {
-    std::vector<Eigen::Vector3d> x = simulation_->positions();
-    const double spent = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    const bool settled = record(x, farthest_moved(x, before) / passed,
-                                time_left(simulation_->steps() - first_step, left, spent, !!plan_->settled));
-    before = std::move(x);
-    return settled;
-  };
-  if (recorded_ == 0) look(setup_.scene.step);
+  const long first_step = simulation_->steps(), steps = timetable_.steps(), left = steps - first_step;
+  if (!has_begun_) look("");
+  has_begun_ = true;
   bool settled = false;
-  while (!settled && simulation_->steps() < steps()) {
+  while (!settled && simulation_->steps() < steps) {
     for (const auto& observer : observers_) observer->step(*this);
-    settled = look(go_to_next_instant());
+    go_on();
+    const double spent = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    settled = look(time_left(simulation_->steps() - first_step, left, spent, !!plan_->settled));
   }
   return settled;
 }
@@ -198,7 +223,12 @@ render::Box Session::framed() {
 
 bool Session::simulate(const RunPlan& plan) {
   plan_ = &plan;
+  const Scene& scene = setup_.scene;
+  timetable_ =
+      plan.time_steps.empty() ? Timetable(scene.seconds, scene.step) : Timetable(plan.time_steps, scene.step);
+  watch_rate_ = plan.watch_rate > 0 ? plan.watch_rate : default_rate(line_);
   run_->progress(opening_words());
+  if (plan.time_steps.empty()) note_rounded_instants();
   bounds_ = framed();
   bool settled = run_to_end();
   if (plan.to_rest && setup_.scene.is_implicit()) settled = find_rest();
@@ -214,7 +244,12 @@ void Session::finish(const std::string& title) {
 
 void Session::serialise(Archive& archive) {
   run_->serialise(archive);
-  archive(recorded_);
+  archive(has_begun_);
+  for (Before* before : {&recorded_, &watched_, &stepped_}) {
+    archive(before->step);
+    before->x.resize(archive.size(before->x.size()));
+    archive.bytes(before->x.data(), before->x.size() * sizeof(Eigen::Vector3d));
+  }
   for (const auto& observer : observers_) observer->serialise(archive);
   plan_->serialise(archive);
   std::string state;

@@ -13,6 +13,7 @@
 #include "render/camera.h"
 #include "render/plot.h"
 #include "sim/time/simulation.h"
+#include "sim/time/timetable.h"
 
 namespace hysteron::experiments {
 
@@ -20,28 +21,40 @@ class Checkpoints;
 class Probes;
 class Session;
 
-// What is known of an instant that is recorded.
+// What is known of an instant that is recorded, watched, or the end of a step.
 struct Snapshot {
   double time;                            // [s]
   const std::vector<Eigen::Vector3d>& x;  // positions [m]
-  double fastest;  // largest displacement since the last instant over the time between [m/s]
+  double fastest;  // largest displacement since the last instant of its kind over the time between [m/s]
 };
 
 // The experiment's own part of a run.
+//
+// Three functions are called while it is simulated, each of them at the start and at the end, too:
+//   measure     at the instants of --fps, for the row of metrics.csv that belongs to a picture
+//   watch       at instants of the experiment's own, `watch_rate`, which --fps does not move
+//   each_step   after every step
+// No result may depend on the rate of pictures: all that becomes a metric, or ends the run, is collected in
+// watch() or each_step(), or read from the simulation when simulate() has returned; measure() only shows it.
+// Where several are due at one instant, each_step() is called first and measure() last.  What they collect is
+// named in serialise().  each_step() costs a copy of all positions a step: of a GPU that is felt.
 struct RunPlan {
   render::Box bounds;                // framed by the pictures [m]
   bool wanders = false;              // the scene may lead the cloth beyond: a trial widens them
   std::optional<float> floor;        // height of the visible ground [m]
   std::vector<std::string> columns;  // own columns of metrics.csv, with units
   std::function<std::vector<double>(const Snapshot&)> measure;
-  std::function<bool(const Snapshot&)> settled;  // ends the run early
+  std::function<void(const Snapshot&)> watch;
+  double watch_rate = 0;  // [1/s]; 0: the default of --fps of this experiment, whatever fps is
+  std::function<void(const Snapshot&)> each_step;
+  std::function<bool(const Snapshot&)> settled;  // ends the run early; asked when it is watched
   // Of every step, where they are not all the scene's [s]; one that is longer ends in an instant of its own.
   std::vector<double> time_steps;
   bool to_rest = false;  // at the end, without inertia, on to the equilibrium nearby, where that can be
   double wait = 0;  // then, for laws that relax: so long at rest, by steps that grow with the time passed [s]
   std::function<bool(const Snapshot&)> pictured;  // which instants are drawn and exported; empty: all of them
   std::function<std::string(const Snapshot&)> progress;
-  // What the experiment has collected in measure() and its like, for checkpoints.
+  // What the experiment has collected in watch() and its like, for checkpoints.
   std::function<void(Archive&)> serialise = [](Archive&) {};
 };
 
@@ -52,7 +65,8 @@ class Observer {
   virtual ~Observer() = default;
   virtual void begin(Session&) {}                    // before the first instant
   virtual void step(Session&) {}                     // before the steps to the next one
-  virtual void record(Session&, const Snapshot&) {}  // an instant
+  virtual void watch(Session&, const Snapshot&) {}   // an instant that --fps does not move, for results
+  virtual void record(Session&, const Snapshot&) {}  // an instant of --fps, for series and pictures
   virtual void close() {}                            // after the last one: its series can be read
   // After the experiment's own results: metrics, warnings and entries of the manifest.
   virtual void finish(Session&, const std::string& /*title*/) {}
@@ -97,7 +111,7 @@ class Session {
 
   // Refuses what Run::reserve() does: the experiment's own files, and what it draws, if it draws.
   void reserve(const std::vector<std::string>& files, const std::vector<std::string>& drawn = {});
-  // Simulates, records and draws, an instant per 1/fps, until the time is over or the question is settled,
+  // Simulates, watches, records and draws, until the time is over or the question is settled,
   // and then to rest if the question asks for it.  Returns whether it is settled or, then, at rest.
   bool simulate(const RunPlan& plan);
   void plot(const std::string& name, const render::Plot& plot) { run_->plot(name, plot); }
@@ -108,11 +122,23 @@ class Session {
 
  private:
   void describe_start();
-  // An instant of the series.  Returns whether the question is settled.
-  bool record(const std::vector<Eigen::Vector3d>& x, double fastest, const std::string& left);
+  // Where the cloth was at the last instant of a kind.
+  struct Before {
+    long step = 0;
+    std::vector<Eigen::Vector3d> x;  // [m]
+  };
+
+  double fastest_since(Before& before, const std::vector<Eigen::Vector3d>& x) const;
+  // An instant at which results are made.  Returns whether the question is settled.
+  bool watch(const Snapshot& instant);
+  // An instant of the series and its picture.
+  void record(const Snapshot& instant, const std::string& left);
+  void note_rounded_instants();
   render::Box framed();
-  long steps() const;
-  double go_to_next_instant();
+  // Takes the steps to the next instant of any kind.
+  void go_on();
+  // Calls what is due after these steps.  Returns whether the question is settled.
+  bool look(const std::string& left);
   bool run_to_end();
   bool find_rest();
   std::string opening_words() const;
@@ -127,7 +153,10 @@ class Session {
   Observers observers_;
   const RunPlan* plan_ = nullptr;
   render::Box bounds_;
-  long recorded_ = 0;  // instants
+  Timetable timetable_{0, 1};
+  double watch_rate_ = 0;  // [1/s]
+  bool has_begun_ = false;
+  Before recorded_, watched_, stepped_;
 };
 
 }  // namespace hysteron::experiments
