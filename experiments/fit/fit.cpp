@@ -166,6 +166,16 @@ Answer from_kes(const FitFlags& flags) {
   return {{identify_kes(flags.kes, flags.assume)}, "B and 2HB of KES-FB2"};
 }
 
+// "" of a law that is near the data.
+std::string misses_warning(const Identification& found) {
+  const double share = found.residual_rms() / found.largest_moment();
+  if (share <= kDoubtfulMiss) return "";
+  const std::string miss = " them by " + rounded(100 * share) + " % of the largest moment (rms)";
+  if (!(share <= kMisses)) return found.law + " does not describe these data: it misses" + miss;
+  return found.law + " is not near these data: it misses" + miss +
+         "; another law may be nearer (--law all), and plot_residual shows where";
+}
+
 void throw_if_without_loop(const FitFlags& flags) {
   if (!flags.loop.empty()) return;
   if (flags.law != "prandtl" || !flags.param.empty() || flags.offset)
@@ -248,7 +258,7 @@ std::string report_decay(Run& run, const DecayFlags& flags, double density, doub
   answer.found.from = notes.from;
   answer.forms = {even_forms(series, question)};
   const FabBending& b = answer.found.bending[0];
-  if (!b.converged) run.warn("the fit did not converge");
+  for (const std::string& warning : bending_warnings(b, answer.forms[0])) run.warn(warning);
   if (!(b.law.spring > 0))
     throw Error::invalid_input(
         "decay: the friction that is found is steeper than kes.b = " + number_text(rigidity) +
@@ -310,10 +320,7 @@ int run_fit(const CommandLine& line) {
   Run run(line, flags.options, resolved(keys));
   const FabricNotes notes{flags.name, answer.from, if_given(flags.density), if_given(flags.thickness)};
   report_fits(run, answer.fits, notes);
-  const Identification& best = answer.fits[0];
-  if (const double fraction = best.residual_rms() / best.largest_moment(); !(fraction <= kMisses))
-    run.warn(best.law + " does not describe these data: it misses them by " + rounded(100 * fraction) +
-             " % of the largest moment (rms)");
+  if (const std::string warning = misses_warning(answer.fits[0]); !warning.empty()) run.warn(warning);
   finish(run, flags, summary(answer.fits), notes);
   return 0;
 }

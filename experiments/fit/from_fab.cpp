@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <thread>
 
 #include "experiments/fab/loops.h"
 #include "render/plot.h"
@@ -17,11 +19,12 @@
 namespace hysteron::experiments {
 namespace {
 
-constexpr int kThreads = 2;
-
 // Farther from the data, what was fitted is not what was measured: rms over the noise of bending, and over
 // the largest force of stretch, which no law of stops follows to less than some percent.
 constexpr double kMaxOverNoise = 3, kMaxOfStretch = 0.1;
+
+// Of HB: that most of a shape lies within the data is what makes it theirs.
+constexpr double kMostBeyondReach = 0.5;
 
 std::vector<double> parsed_numbers(const std::string& text, const std::string& key) {
   std::vector<double> numbers;
@@ -111,6 +114,22 @@ std::vector<FabLoops> requested(const FabAnswer& answer, const std::string& dire
   }
   return loops;
 }
+
+// What is identified along one direction; fits that nobody asked for have no rows.
+struct DirectionFits {
+  FabBending bending, free, one;  // as asked, by free stops beside it, by one stop
+  std::vector<FabForm> even;
+  FabTension stretch;
+
+  // Other forms of friction than the one asked for.
+  std::vector<FabForm> forms(const std::string& name_of_free) const {
+    std::vector<FabForm> all;
+    if (free.rows > 0) all.push_back({name_of_free, free});
+    all.push_back({"one stop at " + number_text(one.law.thresholds[0]) + "/m", one});
+    all.insert(all.end(), even.begin(), even.end());
+    return all;
+  }
+};
 
 std::string where_from(const FabFlags& flags, const std::vector<std::string>& directions) {
   return "cycle " + flags.cycles + " of " + flags.tests + " along " + join(directions, ", ") + " in " +
@@ -344,33 +363,36 @@ FabAnswer fit_fab(const FabFlags& flags, const std::string& units, double densit
   FabTensionQuestion tension;
   tension.cycles = answer.cycles;
   tension.noise = std::max(tension.noise, flags.noise);
-  std::vector<FabBending> stops(directions.size()), one(directions.size());
-  std::vector<FabTension> stretched(directions.size());
-  std::vector<std::vector<FabForm>> forms(directions.size());
-  in_parallel(directions.size(), kThreads, [&](std::size_t i) {
-    if (const auto loops = requested(answer, directions[i], true); !loops.empty()) {
-      stops[i] = identify_fab_bending(loops, main);
-      check_fit(stops[i], flags.noise);
-      one[i] = identify_one_stop(loops, bending);
-      forms[i] = even_forms(loops, bending);
-      forms[i].insert(forms[i].begin(),
-                      {"one stop at " + number_text(one[i].law.thresholds[0]) + "/m", one[i]});
-      if (main.form)
-        forms[i].insert(forms[i].begin(),
-                        {free_stops(bending.thresholds).name, identify_fab_bending(loops, bending)});
-    }
-    if (const auto loops = requested(answer, directions[i], false); !loops.empty()) {
-      stretched[i] = identify_fab_tension(loops, tension);
-      check_fit(stretched[i], loops[0].width, tension.noise);
-    }
-  });
+  std::vector<DirectionFits> fits(directions.size());
+  std::vector<std::function<void()>> requests, others;  // what is asked for; forms that are compared with it
   for (std::size_t i = 0; i < directions.size(); ++i) {
-    if (stops[i].rows > 0) {
-      answer.found.bending.push_back(stops[i]);
-      answer.one_stop.push_back(one[i]);
-      answer.forms.push_back(forms[i]);
+    DirectionFits& fit = fits[i];
+    if (const auto loops = requested(answer, directions[i], true); !loops.empty()) {
+      requests.emplace_back([=, &fit] {
+        fit.bending = identify_fab_bending(loops, main);
+        check_fit(fit.bending, bending.noise);
+      });
+      if (main.form) others.emplace_back([=, &fit] { fit.free = identify_fab_bending(loops, bending); });
+      others.emplace_back([=, &fit] { fit.even = even_forms(loops, bending); });
+      others.emplace_back([=, &fit] { fit.one = identify_one_stop(loops, bending); });
     }
-    if (stretched[i].rows > 0) answer.found.tension.push_back(stretched[i]);
+    if (const auto loops = requested(answer, directions[i], false); !loops.empty())
+      requests.emplace_back([=, &fit] {
+        fit.stretch = identify_fab_tension(loops, tension);
+        check_fit(fit.stretch, loops[0].width, tension.noise);
+      });
+  }
+  for (const auto& jobs : {requests, others})
+    in_parallel(jobs.size(), static_cast<int>(std::max(1U, std::thread::hardware_concurrency())),
+                [&](std::size_t j) { jobs[j](); });
+  for (DirectionFits& fit : fits) {
+    if (fit.bending.rows > 0) {
+      answer.forms.push_back(fit.forms(free_stops(bending.thresholds).name));
+      answer.found.bending.push_back(fit.bending);
+      answer.found.bending.back().widen_by(answer.forms.back());
+      answer.one_stop.push_back(fit.one);
+    }
+    if (fit.stretch.rows > 0) answer.found.tension.push_back(fit.stretch);
   }
   if (answer.found.bending.empty())
     throw Error::invalid_input("needs a test that bends (U.., D..) among --fab.tests for b1, b2 and k0")
@@ -378,9 +400,59 @@ FabAnswer fit_fab(const FabFlags& flags, const std::string& units, double densit
   return answer;
 }
 
+namespace {
+
+// A form that describes the loops better than the one asked for, by more than chance.
+std::string better_form_warning(const FabBending& b, const std::vector<FabForm>& forms) {
+  const FabForm* best = nullptr;
+  for (const FabForm& form : forms)
+    if (!best || form.found.residual_rms < best->found.residual_rms) best = &form;
+  if (!best || !(best->misfit(b) < -kLikelihoodFall)) return "";
+  return fmt::format(
+      "along {} another form of friction describes the loops better: {} leave {:.2g} of the noise (rms), and "
+      "the form asked for {:.2g} (misfit {:.3g}; below {:g} is not by chance): {}",
+      b.direction, best->name, best->found.residual_rms, b.residual_rms, best->misfit(b), -kLikelihoodFall,
+      b.is_shaped() && best->found.law.stops() > 1 && best->name.ends_with("stops")
+          ? "give --fab.friction stops"
+          : "forms.csv has its numbers");
+}
+
+// Friction that the loops do not reach is the form's, not the data's.
+std::string beyond_reach_warning(const FabBending& b) {
+  const double beyond = 1 - b.friction_within_reach() / b.law.friction();
+  if (!(beyond > kMostBeyondReach)) return "";
+  return fmt::format(
+      "along {} {:.0f} % of HB slips at curvatures that differ by more than {:.3g}/m from those at the "
+      "start, "
+      "which the fitted cycles do not reach: the form asked for supposes it; fit a larger compression",
+      b.direction, 100 * beyond, b.reach);
+}
+
+// The numbers may mean little where the law stays this far from the data.
+std::string misses_warning(const FabBending& b) {
+  if (!(b.residual_share > kDoubtfulMiss)) return "";
+  return fmt::format(
+      "along {} the fit misses the fitted loops by {:.2g} % of the range of their forces (rms): see plots "
+      "and "
+      "predictions.csv; other cycles, gauge, width and density may be nearer",
+      b.direction, 100 * b.residual_share);
+}
+
+}  // namespace
+
+std::vector<std::string> bending_warnings(const FabBending& b, const std::vector<FabForm>& forms) {
+  std::vector<std::string> warnings;
+  for (const std::string& warning :
+       {misses_warning(b), better_form_warning(b, forms), beyond_reach_warning(b)})
+    if (!warning.empty()) warnings.push_back(warning);
+  if (!b.converged) warnings.push_back("along " + b.direction + " the fit of bending did not converge");
+  return warnings;
+}
+
 void report_fab(Run& run, const FabAnswer& answer, const FabricNotes& notes) {
-  for (const FabBending& b : answer.found.bending)
-    if (!b.converged) run.warn("along " + b.direction + " the fit of bending did not converge");
+  for (std::size_t i = 0; i < answer.found.bending.size(); ++i)
+    for (const std::string& warning : bending_warnings(answer.found.bending[i], answer.forms[i]))
+      run.warn(warning);
   for (const FabTension& t : answer.found.tension)
     if (!t.converged) run.warn("along " + t.direction + " the fit of stretch did not converge");
   FabIdentification one{answer.one_stop, {}, answer.found.from + ", by one stop"};

@@ -9,6 +9,9 @@
 
 namespace hysteron::experiments {
 
+// Of the data's range: instruments repeat to some percent, and a fit that is farther off has another shape.
+inline constexpr double kDoubtfulMiss = 0.08;
+
 struct FabFlags {
   std::string file, directions, tests = "D1", cycles = "2", friction = "shaped",
                                 thresholds = "1,2,4,8,16,32,64,128,256";
@@ -36,6 +39,9 @@ void report_fab(Run& run, const FabAnswer& answer, const FabricNotes& notes);
 void write_forms(Run& run, const FabAnswer& answer);
 // Median and spread, where friction was sought in that form; names begin with `prefix`.
 void add_shape(Run& run, const FabBending& found, const std::string& prefix);
+
+// What is doubtful about a fit of bending, beside the other forms.
+std::vector<std::string> bending_warnings(const FabBending& found, const std::vector<FabForm>& forms);
 
 // What a reader is told.
 std::string summary(const FabAnswer& answer);

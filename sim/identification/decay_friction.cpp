@@ -92,6 +92,24 @@ class DecayModel {
     return all;
   }
 
+  // From nothing known and from each start of the form; of minima as deep, the first.
+  LeastSquares deepest_minimum(const VectorXd& low, const VectorXd& high) const {
+    const auto from = [&](const VectorXd& start, SearchLimits limits = {}) {
+      return minimize([&](const VectorXd& p) { return residuals(p); }, start, low, high, limits);
+    };
+    LeastSquares best = from(VectorXd::Zero(numbers() + 1));
+    for (const VectorXd& friction : form_.starts) {
+      VectorXd start = VectorXd::Zero(numbers() + 1);
+      start.head(numbers()) = friction;
+      const LeastSquares other = from(start, {20, 1e-3});
+      if (is_deeper(other, best)) best = from(other.parameters);
+    }
+    return best;
+  }
+
+  // The largest curvature that the strip has at its first amplitude [1/m].
+  double reach() const { return series_.amplitude[0] * mode_.curvature.maxCoeff(); }
+
   VectorXd residuals(const VectorXd& p) const {
     const std::vector<double> all = amplitudes(stops(p), series_.amplitude[0] * std::exp(p[numbers()]));
     VectorXd result(rows() + numbers());
@@ -146,8 +164,8 @@ FabBending identify_decay(const DecaySeries& series, const DecayQuestion& questi
   const int n = model.numbers();
   VectorXd low = VectorXd::Constant(n + 1, -kFarthestNumber), high = -low;
   low[n] = -0.5, high[n] = 0.5;
-  const LeastSquares best =
-      minimize([&](const VectorXd& p) { return model.residuals(p); }, VectorXd::Zero(n + 1), low, high);
+  if (model.form().largest) high.head(n) = model.form().largest(model.reach());
+  const LeastSquares best = model.deepest_minimum(low, high);
   const Eigen::MatrixXd c = posterior(best, model.rows());
   const VectorXd left = best.residuals.head(model.rows());
   const VectorXd of_stops = stop_errors(model.form(), best.parameters.head(n), c.topLeftCorner(n, n));
@@ -164,6 +182,8 @@ FabBending identify_decay(const DecaySeries& series, const DecayQuestion& questi
   found.friction_error = of_stops[found.law.stops()] * found.law.friction();
   found.rows = model.rows();
   found.residual_rms = std::sqrt(left.squaredNorm() / model.rows());
+  found.residual_share = found.residual_rms * question.noise / series.amplitude[0];
+  found.reach = model.reach();
   found.correlation = left.head(left.size() - 1).dot(left.tail(left.size() - 1)) / left.squaredNorm();
   found.iterations = best.iterations;
   found.converged = best.converged;

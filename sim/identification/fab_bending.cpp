@@ -14,8 +14,14 @@ namespace {
 
 using Eigen::VectorXd;
 
+double square(double x) { return x * x; }
+
 constexpr double kMomentSpread = 1.5;  // prior standard deviation of a logarithm: a factor of 4.5
 constexpr double kMedianSpread = 1.5, kShapeSpread = 0.7;
+constexpr double kMedianStarts[] = {5, 20, 80};              // [1/m]: fabrics' measured spectra lie between
+constexpr double kSpreadStarts[] = {0.4, 1.5};               // of one stop, nearly, and of measured spectra
+constexpr double kLargestMedian = 1000, kLargestSpread = 4;  // [1/m], 1: that fabrics' files may have
+constexpr double kFarthest = 9;                              // of a logarithm from its prior
 
 }  // namespace
 
@@ -35,9 +41,19 @@ FrictionShape friction_shape(const VectorXd& p) {
 }
 
 FrictionForm shaped_friction() {
-  return {"shaped", {kMomentSpread, kMedianSpread, kShapeSpread}, [](const VectorXd& p, double moment) {
-            return shaped_stops(friction_shape(p), std::exp(p[0]) * moment);
-          }};
+  FrictionForm form{
+      "shaped", {kMomentSpread, kMedianSpread, kShapeSpread}, [](const VectorXd& p, double moment) {
+        return shaped_stops(friction_shape(p), std::exp(p[0]) * moment);
+      }};
+  for (const double median : kMedianStarts)
+    for (const double spread : kSpreadStarts)
+      form.starts.emplace_back(
+          Eigen::Vector3d(0, std::log(median / kUsualMedian), std::log(spread / kUsualSpread)));
+  form.largest = [](double reach) -> VectorXd {
+    return Eigen::Vector3d(kFarthest, std::log(std::min(reach, kLargestMedian) / kUsualMedian),
+                           std::log(kLargestSpread / kUsualSpread));
+  };
+  return form;
 }
 
 FrictionForm even_friction(double k0) {
@@ -71,8 +87,9 @@ constexpr double kSpringSpread = 1;  // prior standard deviation of a logarithm:
 // HB/b2 that the prior of b2 is centred on [1/m]: the KES pairs of assets/fabrics have 18 to 53.
 constexpr double kFrictionOverSpring = 50;
 constexpr double kSaturations[] = {3.125, 6.25, 12.5, 25, 50, 100};  // k0 [1/m]
-constexpr double kFarthest = 9;                                      // of a logarithm from its prior
-constexpr double kLargestZero = 10;                                  // [N/m]
+// Strips of fabrics need fewer than 40 (gauges of 15 to 50 mm); one that needs more takes seconds.
+constexpr long kMostHalvings = 100;
+constexpr double kLargestZero = 10;  // [N/m]
 
 // Up to the turn before which a branch still goes the other way, and on the way of settling after it.
 bool is_settling(const FabLoops& loops, int branch, std::size_t index, double settling) {
@@ -97,6 +114,20 @@ double friction_of_loop(const FabLoops& loops, int cycle, double noise) {
   return work / (2 * (elastica.bend() - before));
 }
 
+// Largest change of curvature from the first distance to the innermost one of the cycles [1/m]: that of the
+// elastica without weight, whatever its rigidity.
+double curvature_reach(const FabLoops& loops, const std::vector<int>& cycles) {
+  double innermost = kInfinity;
+  for (const int cycle : cycles)
+    for (int b = 2 * cycle - 2; b < 2 * cycle; ++b)
+      for (const double distance : loops.branches[b].distance) innermost = std::min(innermost, distance);
+  BuckledStripTest elastica({{1, {}, {}}, loops.gauge, 0, 32}, loops.branches[0].distance.front(),
+                            BuckledStripTest::Start::relaxed);
+  const double before = elastica.peak_curvature();
+  elastica.go_to(innermost, 0.02);
+  return std::abs(elastica.peak_curvature() - before);
+}
+
 // Parameters: the logarithm of b2 over its prior, those of friction, then the zeros of force.
 class BendingModel {
  public:
@@ -107,6 +138,7 @@ class BendingModel {
         numbers_(static_cast<int>(form_.spreads.size())),
         rows_(branch_rows(loops, question.cycles)) {
     double friction = 0;
+    for (const FabLoops& one : loops) reach_ = std::max(reach_, curvature_reach(one, question.cycles));
     for (const FabLoops& one : loops)
       for (const int cycle : question.cycles)
         friction += friction_of_loop(one, cycle - 1, question.noise / one.width);
@@ -127,8 +159,9 @@ class BendingModel {
   VectorXd residuals(const VectorXd& p) const {
     VectorXd result(size());
     try {
-      result.head(rows()) = row_residuals(loops_, question_.cycles, rows_, {law(p), {}, question_.density},
-                                          p.tail(loops_.size()));
+      result.head(rows()) =
+          row_residuals(loops_, question_.cycles, rows_, {law(p), {}, question_.density, kMostHalvings},
+                        p.tail(loops_.size()));
     } catch (const Error&) {
       return VectorXd::Constant(size(), kNone);
     }
@@ -137,8 +170,10 @@ class BendingModel {
     return result;
   }
 
-  VectorXd start() const {
+  // Where nothing is known, the friction being as said.
+  VectorXd start(const VectorXd& friction) const {
     VectorXd p = VectorXd::Zero(parameters());
+    p.segment(1, numbers_) = friction;
     for (int i = 0; i < rows(); ++i) p[1 + numbers_ + rows_[i].loops] += rows_[i].force;
     for (std::size_t l = 0; l < loops_.size(); ++l)
       p[1 + numbers_ + l] /= static_cast<double>(
@@ -146,8 +181,18 @@ class BendingModel {
     return p;
   }
 
+  // From there to the next minimum.
+  LeastSquares minimum(const VectorXd& start, SearchLimits limits = {}) const {
+    VectorXd low = VectorXd::Constant(parameters(), -kFarthest), high = -low;
+    if (form_.largest) high.segment(1, numbers_) = form_.largest(reach_);
+    low.tail(loops_.size()).setConstant(-kLargestZero);
+    high.tail(loops_.size()).setConstant(kLargestZero);
+    return minimize([&](const VectorXd& p) { return residuals(p); }, start, low, high, limits);
+  }
+
   int rows() const { return static_cast<int>(rows_.size()); }
   int numbers() const { return numbers_; }
+  double reach() const { return reach_; }
   const FrictionForm& form() const { return form_; }
   int parameters() const { return 1 + numbers_ + static_cast<int>(loops_.size()); }
   int size() const { return rows() + 1 + numbers_; }
@@ -160,7 +205,51 @@ class BendingModel {
   int numbers_;  // of friction
   std::vector<FabRow> rows_;
   double prior_friction_ = 0;  // [N]
+  double reach_ = 0;           // [1/m]
 };
+
+// Every start is followed to its minimum on few rows of each branch, which costs little.
+constexpr std::size_t kCoarseRows = 12;
+constexpr SearchLimits kCoarseSearch = {20, 1e-3};
+
+// The same loops with at most so many rows of a branch, the first and the last among them.
+FabLoops thinned(FabLoops loops, std::size_t most) {
+  for (FabBranch& branch : loops.branches) {
+    const std::size_t rows = branch.distance.size();
+    if (rows <= most) continue;
+    FabBranch few;
+    for (std::size_t i = 0; i < most; ++i) {
+      const std::size_t row = i * (rows - 1) / (most - 1);
+      few.distance.push_back(branch.distance[row]);
+      few.force.push_back(branch.force[row]);
+    }
+    branch = few;
+  }
+  return loops;
+}
+
+// The deepest of the minima that the form's starts lead to; of those that are as deep, the first.
+LeastSquares deepest_minimum(const BendingModel& model, const std::vector<FabLoops>& loops,
+                             const FabBendingQuestion& question) {
+  const VectorXd none = VectorXd::Zero(model.numbers());
+  LeastSquares best = model.minimum(model.start(none));
+  if (model.form().starts.empty()) return best;
+  std::vector<FabLoops> few;
+  for (const FabLoops& one : loops) few.push_back(thinned(one, kCoarseRows));
+  const auto few_rows = static_cast<double>(branch_rows(few, question.cycles).size());
+  FabBendingQuestion coarse_question = question;
+  coarse_question.noise *= std::sqrt(few_rows / model.rows());
+  const BendingModel coarse(few, coarse_question);
+  const LeastSquares known = coarse.minimum(best.parameters, kCoarseSearch);
+  LeastSquares other = known;
+  for (const VectorXd& start : model.form().starts) {
+    const LeastSquares found = coarse.minimum(coarse.start(start), kCoarseSearch);
+    if (is_deeper(found, other)) other = found;
+  }
+  if (!is_deeper(other, known)) return best;
+  const LeastSquares found = model.minimum(other.parameters);
+  return is_deeper(found, best) ? found : best;
+}
 
 void set_bending_errors(const BendingModel& model, const LeastSquares& best, FabBending& found) {
   const int n = model.numbers();
@@ -176,12 +265,25 @@ void set_bending_errors(const BendingModel& model, const LeastSquares& best, Fab
 
 }  // namespace
 
+double FabBending::friction_within_reach() const {
+  double friction = 0;
+  for (int j = 0; j < law.stops(); ++j)
+    if (law.thresholds[j] <= reach) friction += law.stiffnesses[j] * law.thresholds[j];
+  return friction;
+}
+
+bool FabBending::knows_friction() const {
+  return is_determined(friction_error / law.friction()) &&
+         kWidestFactor * friction_within_reach() >= law.friction();
+}
+
 std::vector<std::string> FabBending::undetermined() const {
   std::vector<std::string> names;
   if (is_shaped()) {
     if (!determined[0]) names.push_back("b2");
     if (!is_determined(form_errors[1])) names.push_back("median");
     if (!is_determined(form_errors[2])) names.push_back("spread");
+    if (!knows_friction()) names.push_back("HB");
     return names;
   }
   for (std::size_t i = 0; i < determined.size(); ++i)
@@ -189,14 +291,23 @@ std::vector<std::string> FabBending::undetermined() const {
   return names;
 }
 
+namespace {
+
+// Largest less smallest force of the fitted cycles, of the whole strip [N]; of several tests the largest.
+double largest_force_range(const std::vector<FabLoops>& loops, const std::vector<int>& cycles) {
+  double range = 0;
+  for (const FabLoops& one : loops)
+    for (const int cycle : cycles)
+      range = std::max(range, one.width * force_range(branch_forces(one), cycle - 1));
+  return range;
+}
+
+}  // namespace
+
 FabBending identify_fab_bending(const std::vector<FabLoops>& loops, const FabBendingQuestion& question) {
   check_cycles(loops, question.cycles);
   const BendingModel model(loops, question);
-  VectorXd low = VectorXd::Constant(model.parameters(), -kFarthest), high = -low;
-  low.tail(loops.size()).setConstant(-kLargestZero);
-  high.tail(loops.size()).setConstant(kLargestZero);
-  const LeastSquares best =
-      minimize([&](const VectorXd& p) { return model.residuals(p); }, model.start(), low, high);
+  const LeastSquares best = deepest_minimum(model, loops, question);
   if (!best.residuals.allFinite())
     throw Error::simulation("along " + loops[0].direction +
                             " no equilibrium is found of a strip as stiff as its loops' " +
@@ -206,7 +317,9 @@ FabBending identify_fab_bending(const std::vector<FabLoops>& loops, const FabBen
   found.take(best, loops, model.rows());
   found.law = model.law(best.parameters);
   found.form = best.parameters.segment(1, model.numbers());
+  found.reach = model.reach();
   found.residual_rms = std::sqrt(best.residuals.head(model.rows()).squaredNorm() / model.rows());
+  found.residual_share = found.residual_rms * question.noise / largest_force_range(loops, question.cycles);
   const VectorXd left = best.residuals.head(model.rows());
   found.correlation = left.head(model.rows() - 1).dot(left.tail(model.rows() - 1)) / left.squaredNorm();
   set_bending_errors(model, best, found);
@@ -216,6 +329,19 @@ FabBending identify_fab_bending(const std::vector<FabLoops>& loops, const FabBen
 double FabForm::misfit(const FabBending& best) const {
   const double r = std::max(0.0, best.correlation), rows = best.rows * (1 - r) / (1 + r);
   return 2 * rows * std::log(found.residual_rms / best.residual_rms);
+}
+
+void FabBending::widen_by(const std::vector<FabForm>& forms) {
+  double weights = 1, of_spring = 0, of_friction = 0;  // the form asked for has the weight 1
+  for (const FabForm& form : forms) {
+    const double weight = std::exp(-form.misfit(*this) / 2);
+    weights += weight;
+    of_spring += weight * square(std::log(form.found.law.spring / law.spring));
+    of_friction += weight * square(std::log(form.found.law.friction() / law.friction()));
+  }
+  spring_error = std::hypot(spring_error, law.spring * std::sqrt(of_spring / weights));
+  friction_error = std::hypot(friction_error, law.friction() * std::sqrt(of_friction / weights));
+  determined[0] = is_determined(spring_error / law.spring);
 }
 
 std::vector<FabForm> even_form_fits(const std::function<FabBending(const FrictionForm&)>& identify) {

@@ -15,6 +15,7 @@
 
 #include "sim/bending/laws/friction_shape.h"
 #include "sim/identification/fab_cycles.h"
+#include "sim/scene/key_table.h"
 
 namespace hysteron {
 
@@ -26,13 +27,17 @@ struct FrictionForm {
   std::string name;
   std::vector<double> spreads;
   std::function<Spectrum(const Eigen::VectorXd& parameters, double friction_moment)> stops;
+  // The search begins from 0 and from each of these: their least squares may have several minima.
+  std::vector<Eigen::VectorXd> starts = {};
+  // Largest parameters with which the form describes data that reach so far [1/m]; none: all do.
+  std::function<Eigen::VectorXd(double reach)> largest = {};
 };
 
 // Stops at thresholds that are given [1/m]: logarithms of their moments, shared alike.
 FrictionForm free_stops(const std::vector<double>& thresholds);
 
 // Of two numbers (friction_shape.h): logarithms of HB, of median and spread over kUsualMedian and
-// kUsualSpread.
+// kUsualSpread.  Half of the friction slips within what the data reach: more than that no data can tell.
 inline constexpr double kUsualMedian = 10, kUsualSpread = 1.5;  // 1/m, 1: between measured spectra
 FrictionForm shaped_friction();
 FrictionShape friction_shape(const Eigen::VectorXd& parameters);
@@ -55,16 +60,26 @@ struct FabBendingQuestion {
   double trust = 0.3;      // ... and their weight there
 };
 
+struct FabForm;
+
 struct FabBending : FabStops {
   double friction_error = kNone;      // of law.friction() [N]
   double first = kNone;               // of a decay: its first amplitude [m]
   Eigen::VectorXd form, form_errors;  // parameters of the friction's form and standard errors
   std::vector<double> zero_errors;    // standard errors [N/m]
   double residual_rms = 0;            // over the noise, unreliable rows weighted
+  double residual_share = 0;          // over the range of the fitted data
+  double reach = kInfinity;           // largest change of curvature in the fitted data [1/m]
   double correlation = 0;             // of what is left in neighbouring rows
 
+  // Widens the errors of b2 and HB by what other forms find, each by its likelihood beside this one: that
+  // friction has the form asked for is supposed, and the data may not tell (Hoeting et al. 1999, Eq. 3).
+  void widen_by(const std::vector<FabForm>& forms);
   bool is_shaped() const { return form.size() == 3 && law.stops() == kShapedStops; }
-  std::vector<std::string> undetermined() const;  // "b2", "stop 128/m", ...; of a shape "median", "spread"
+  double friction_within_reach() const;  // of the stops that have slipped [N]
+  bool knows_friction() const;           // most of HB has slipped, and its error is small
+  std::vector<std::string> undetermined()
+      const;  // "b2", "stop 128/m", ...; of a shape "median", "spread", "HB"
 };
 
 // From loops of one direction that bend.  Throws Error::invalid_input if a cycle is not there.

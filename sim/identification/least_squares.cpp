@@ -17,7 +17,6 @@ namespace {
 
 // Of a parameter of order one: central differences then lose about 1e-8 to truncation and 1e-12 to rounding.
 constexpr double kDifference = 1e-4;
-constexpr int kMaxIterations = 500;
 
 Eigen::MatrixXd numerical_jacobian(const Residuals& residuals, const Eigen::VectorXd& at) {
   Eigen::MatrixXd jacobian;
@@ -71,7 +70,7 @@ class Cost : public ceres::CostFunction {
 }  // namespace
 
 LeastSquares minimize(const Residuals& residuals, const Eigen::VectorXd& start, const Eigen::VectorXd& low,
-                      const Eigen::VectorXd& high) {
+                      const Eigen::VectorXd& high, SearchLimits limits) {
   keep_ceres_quiet();
   LeastSquares result;
   result.parameters = start.cwiseMax(low).cwiseMin(high);
@@ -84,8 +83,8 @@ LeastSquares minimize(const Residuals& residuals, const Eigen::VectorXd& start, 
   }
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
-  options.max_num_iterations = kMaxIterations;
-  options.function_tolerance = 1e-12;
+  options.max_num_iterations = limits.iterations;
+  options.function_tolerance = limits.change;
   options.parameter_tolerance = 1e-10;
   options.gradient_tolerance = 1e-14;
   options.logging_type = ceres::SILENT;
@@ -96,6 +95,11 @@ LeastSquares minimize(const Residuals& residuals, const Eigen::VectorXd& start, 
   result.residuals = residuals(result.parameters);
   result.jacobian = numerical_jacobian(residuals, result.parameters);
   return result;
+}
+
+bool is_deeper(const LeastSquares& a, const LeastSquares& b) {
+  constexpr double kDeeper = 0.01;  // of the sum of squares, or of one: searches end no nearer to a minimum
+  return a.sum() < b.sum() - kDeeper * std::max(1.0, b.sum());
 }
 
 Eigen::VectorXd linear_least_squares(const Eigen::MatrixXd& a, const Eigen::VectorXd& b) {

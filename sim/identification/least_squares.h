@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <functional>
 
 namespace hysteron {
@@ -13,15 +14,27 @@ struct LeastSquares {
   Eigen::MatrixXd jacobian;   // there: rows = residuals, columns = parameters
   int iterations = 0;         // steps of Levenberg and Marquardt that were tried
   bool converged = false;
+
+  // Of squared residuals; infinite where the model has no meaning.
+  double sum() const { return residuals.allFinite() ? residuals.squaredNorm() : INFINITY; }
 };
 
 // Residuals at given parameters; always as many.  Smooth, of order one, in parameters of
 // order one; not a number where the model has no meaning.
 using Residuals = std::function<Eigen::VectorXd(const Eigen::VectorXd&)>;
 
+// When a search ends.
+struct SearchLimits {
+  int iterations = 500;
+  double change = 1e-12;  // of the sum of squares in an iteration, relative
+};
+
 // Least sum of squares from `start` within [low, high] (all of one length, at least one parameter).
 LeastSquares minimize(const Residuals& residuals, const Eigen::VectorXd& start, const Eigen::VectorXd& low,
-                      const Eigen::VectorXd& high);
+                      const Eigen::VectorXd& high, SearchLimits limits = {});
+
+// Whether `a` has found another minimum than `b`, a deeper one.  Residuals are over their noise.
+bool is_deeper(const LeastSquares& a, const LeastSquares& b);
 
 // The shortest x with the least |a x - b|; of as many numbers as a has columns.
 Eigen::VectorXd linear_least_squares(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);

@@ -181,7 +181,8 @@ void BuckledStripTest::go_to(double distance, double step) {
       accept();
       distance_ = next;
       size = std::min(2 * size, step * strip_.length);
-    } else if ((size = std::min(size, std::abs(left)) / 2) < kShortestStep * strip_.length) {
+    } else if ((size = std::min(size, std::abs(left)) / 2) < kShortestStep * strip_.length ||
+               ++halvings_ > strip_.most_halvings) {
       throw Error::simulation("no equilibrium of the strip was found at " + std::to_string(next) +
                               " m between the clamps");
     }

@@ -25,6 +25,9 @@ struct BuckledStrip {
   double length = 0;  // L [m]
   double weight = 0;  // w per area [N/m^2], against the side to which the strip buckles; < 0: towards it
   int elements = 32;  // of half the strip; second order in their length
+  // Steps of the clamps that may fail and be halved, in all, before no equilibrium is said to be found: a
+  // search among laws goes on to another one rather than creep.
+  long most_halvings = 1'000'000'000;
 };
 
 class BuckledStripTest {
@@ -62,6 +65,7 @@ class BuckledStripTest {
   Eigen::VectorXd angle_;    // at the nodes between clamp and middle
   Eigen::MatrixXd anchors_;  // of the stops: a column for each element [1/m]
   double distance_ = 0, force_ = 0, dissipated_ = 0;
+  long halvings_ = 0;
 };
 
 }  // namespace hysteron

@@ -64,8 +64,9 @@ FabRun bent(const FabLoops& loops, const FabStrip& strip, int branches) {
   const double weight = kStandardGravity * strip.density;
   const int elements =
       std::clamp(static_cast<int>(std::lround(loops.gauge / 2 / kElement)), kFewestElements, kMaxElements);
-  BuckledStripTest test({strip.bending, loops.gauge, loops.bends_up() ? weight : -weight, elements},
-                        loops.branches[0].distance[0], BuckledStripTest::Start::relaxed);
+  BuckledStripTest test(
+      {strip.bending, loops.gauge, loops.bends_up() ? weight : -weight, elements, strip.most_halvings},
+      loops.branches[0].distance[0], BuckledStripTest::Start::relaxed);
   FabRun run;
   const double before = test.energy();
   run.shapes.push_back(test.line());

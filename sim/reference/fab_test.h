@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "sim/reference/buckled_strip.h"
 #include "sim/reference/fab_loops.h"
 #include "sim/reference/stops_law.h"
 
@@ -37,6 +38,7 @@ struct FabStrip {
   StopsLaw bending;    // [N m] against curvature; of the direction along which the strip is cut
   StopsLaw stretch;    // [N/m] against strain
   double density = 0;  // weight bears on a strip that bends [kg/m^2]
+  long most_halvings = BuckledStrip{}.most_halvings;
 };
 
 struct FabRun {

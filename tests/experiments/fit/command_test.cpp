@@ -1,4 +1,5 @@
 // `hysteron fit` from flags to its folder.
+#include "experiments/fit/from_fab.h"
 #include "experiments/fit/report.h"
 #include "sim/base/atomic_file.h"
 #include "sim/base/csv.h"
@@ -125,6 +126,45 @@ TEST_F(Fit, WarnsOfALawThatDoesNotDescribeTheData) {
   ASSERT_EQ(fit({{"loop", file.string()}, {"law", "linear"}}), 0);
   EXPECT_TRUE(says(warned_, "warning: linear does not describe these data: it misses them by "));
   EXPECT_TRUE(says(manifest_in(out()).at("warnings").dump(), "linear does not"));
+}
+
+// M = B K + c K^3: a line misses a curve that stiffens by some ten percent of the largest moment.
+TEST_F(Fit, WarnsOfALawThatIsNotNearTheData) {
+  const fs::path file = folder_.path() / "stiffens.csv";
+  Column curvature{"curvature [1/m]", {}}, moment{"moment [N]", {}};
+  for (int i = 0; i <= 40; ++i) {
+    const double k = 5.0 * i;
+    curvature.values.push_back(k);
+    moment.values.push_back(1e-6 * k + 5e-5 * std::pow(k / 100, 3));
+  }
+  Table({curvature, moment}).write(file);
+  ASSERT_EQ(fit({{"loop", file.string()}, {"law", "linear"}}), 0);
+  const double share = metrics().at("residual_rms_percent");
+  EXPECT_GT(share, 8);
+  EXPECT_LT(share, 25);
+  EXPECT_TRUE(says(warned_, "warning: linear is not near these data: it misses them by "));
+  EXPECT_TRUE(says(warned_, "(--law all)"));
+}
+
+// What is doubtful of a fit of loops, beside another form.
+TEST(FitWarnings, NameAFormThatDescribesTheLoopsFarBetterAndFrictionBeyondTheirReach) {
+  FabBending found;
+  found.direction = "L";
+  found.law = {1e-5, {10, 1000}, {2e-5, 1e-6}};  // HB = 2e-4 + 1e-3 N
+  found.rows = 50;
+  found.converged = true;
+  found.residual_rms = 1.2;
+  found.residual_share = 0.12;
+  found.reach = 200;
+  FabBending stops = found;
+  stops.residual_rms = 0.14;
+  const std::vector<std::string> warnings = bending_warnings(found, {{"9 stops", stops}});
+  ASSERT_EQ(warnings.size(), 3u);
+  EXPECT_TRUE(says(warnings[0], "misses the fitted loops by 12 % of the range"));
+  EXPECT_TRUE(says(warnings[1], "9 stops leave 0.14 of the noise (rms), and the form asked for 1.2"));
+  EXPECT_TRUE(says(warnings[2], "83 % of HB slips")) << "1e-3 of 1.2e-3 N";
+  found.residual_rms = 0.14, found.residual_share = 0.01, found.reach = 2000;
+  EXPECT_TRUE(bending_warnings(found, {{"9 stops", stops}}).empty());
 }
 
 // The loops of a known law, as `fab` writes them, in the columns that are read.

@@ -96,6 +96,78 @@ TEST(FabBending, OfAStripWithoutFrictionFindsItsRigidity) {
   EXPECT_LT(found.law.friction(), kNoise / kWidth * 0.021) << "the noise over the gauge";
 }
 
+// A form whose 0 lies where the least squares have a false minimum: friction that slips about 700/m, beyond
+// what the loops reach, with a spread that brings some of it back.
+TEST(FabBending, TakesTheDeepestOfTheMinimaThatItsStartsLeadTo) {
+  const Eigen::Vector3d far(1.2, std::log(70), std::log(2.2));
+  FrictionForm form = shaped_friction();
+  form.stops = [=](const Eigen::VectorXd& p, double moment) {
+    return shaped_friction().stops(p + far, moment);
+  };
+  form.largest = {};
+  const std::vector<Eigen::VectorXd> starts = form.starts;
+  FabBendingQuestion one_start = bending_question();
+  form.starts = {};
+  one_start.form = form;
+  const Spectrum even = even_stops(3e-5, 40);
+  const FabLoops loops = recorded({1e-5, even.thresholds, even.stiffnesses}, "D1", 1, 0);
+  EXPECT_GT(identify_fab_bending({loops}, one_start).residual_rms, 0.5);
+  FabBendingQuestion several = one_start;
+  several.form->starts = {starts[2] - far};
+  const FabBending found = identify_fab_bending({loops}, several);
+  EXPECT_LT(found.residual_rms, 0.25);
+  EXPECT_NEAR(found.law.friction() / even.friction_moment(), 1, 0.1) << "of another form of friction";
+}
+
+// Half of the friction of the shape slips within the largest change of curvature, and its spread is one that
+// a fabric's file may have: the bounds of the search.
+TEST(FabBending, SeeksNoFrictionBeyondWhatItsLoopsReach) {
+  const FabBending found = [] {
+    FabBendingQuestion shaped = bending_question();
+    shaped.form = shaped_friction();
+    shaped.form->starts = {};
+    return identify_fab_bending({recorded({6e-6, {900}, {4e-5}}, "D1", 1)}, shaped);
+  }();
+  EXPECT_GT(found.reach, 100);
+  EXPECT_LT(found.reach, 300) << "2 pi sqrt(slack)/(L/2) at 0.0064 m, less that at 0.0015 m, is 189/m";
+  EXPECT_LE(friction_shape(found.form).median, 1.0001 * found.reach);
+  EXPECT_LE(friction_shape(found.form).spread, 4.0001);
+}
+
+FabBending found_with(double friction, double residual_rms) {
+  FabBending found;
+  found.direction = "L";
+  found.law = {1e-5, {10, 1000}, {friction / 20, friction / 2000}};  // half of HB at each
+  found.spring_error = 1e-6;
+  found.friction_error = 0.1 * friction;
+  found.determined = {true, true, true};
+  found.rows = 50;
+  found.residual_rms = residual_rms;
+  return found;
+}
+
+TEST(FabBending, KnowsFrictionOnlyAsFarAsItsLoopsReach) {
+  FabBending found = found_with(1e-3, 1);
+  found.reach = 2000;
+  EXPECT_NEAR(found.friction_within_reach(), 1e-3, 1e-15);
+  EXPECT_TRUE(found.knows_friction());
+  found.reach = 100;
+  EXPECT_NEAR(found.friction_within_reach(), 5e-4, 1e-15);
+  found.law.stiffnesses[1] *= 4;  // a fifth of HB is within reach, and kWidestFactor is 3
+  EXPECT_FALSE(found.knows_friction());
+}
+
+// Of one other form, as likely, the weight is a half; of one that is excluded, none.
+TEST(FabBending, WidensItsErrorsByWhatEquallyLikelyFormsFind) {
+  FabBending found = found_with(1e-3, 1);
+  found.widen_by({{"another", found_with(2e-3, 1)}, {"excluded", found_with(9e-3, 10)}});
+  EXPECT_NEAR(found.friction_error / 1e-3, std::hypot(0.1, std::log(2) / std::sqrt(2)), 1e-6);
+  EXPECT_NEAR(found.spring_error, 1e-6, 1e-12) << "all find the same b2";
+  FabBending worse = found_with(1e-3, 10);
+  worse.widen_by({{"far better", found_with(2e-3, 1)}});
+  EXPECT_NEAR(worse.friction_error / 1e-3, std::hypot(0.1, std::log(2)), 1e-6);
+}
+
 TEST(FabBending, RefusesACycleThatIsNotThere) {
   FabBendingQuestion beyond = bending_question();
   beyond.cycles = {4};
