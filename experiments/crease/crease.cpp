@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "experiments/crease/specimen.h"
 #include "experiments/workbench/app/decided_keys.h"
@@ -63,6 +64,7 @@ std::vector<DecidedKey> decided() {
       "the specimen is one flat strip");
   keys.insert(keys.end(), {{"cloth.shape", "the specimen is a strip"},
                            {"cloth.position", "the specimen lies where it is folded"},
+                           {"cloth.rotation", "the specimen lies along x, where it is folded"},
                            {"mesh", "its mesh has its finest columns along the crease", true},
                            {"seconds", "crease.hold, crease.lift and crease.recovery say how long it takes"},
                            {"pin", "a clamp and a hand hold the specimen"},
@@ -96,13 +98,42 @@ double Recovered::angle_at(double since) const {
   return angle[i - 1] + fraction * (angle[i] - angle[i - 1]);
 }
 
-// Curvature along the strip that was largest in each triangle, with its sign [1/m].
-void keep_largest(Simulation& simulation, std::vector<double>& largest) {
+// What makes of a curvature tensor (K_xx, K_yy, sqrt2 K_xy) along warp and weft the curvature along the
+// strip.
+Eigen::Vector3d strip_component(const Scene& scene) {
+  const double angle = scene.cloth.warp_angle * std::numbers::pi / 180;
+  const double warp = std::cos(angle), weft = -std::sin(angle);  // components of the strip's direction
+  return {warp * warp, weft * weft, std::numbers::sqrt2 * warp * weft};
+}
+
+// Curvature along the strip that was largest in each element, with its sign [1/m].
+void keep_largest(const Scene& scene, Simulation& simulation, std::vector<double>& largest) {
   const int d = simulation.dimension();
   const std::vector<double> curvature = simulation.curvature();
+  const Eigen::Vector3d component = strip_component(scene);
   largest.resize(curvature.size() / d);
-  for (std::size_t e = 0; e < largest.size(); ++e)
-    if (std::abs(curvature[d * e]) > std::abs(largest[e])) largest[e] = curvature[d * e];
+  for (std::size_t e = 0; e < largest.size(); ++e) {
+    const double along =
+        d == 1 ? curvature[e] : component.dot(Eigen::Map<const Eigen::Vector3d>(&curvature[3 * e]));
+    if (std::abs(along) > std::abs(largest[e])) largest[e] = along;
+  }
+}
+
+// The plate is on the specimen at that time, and about to go at its end.
+bool plate_is_on(const Crease& crease, double time) {
+  return time > crease.times.folded && time <= crease.times.released + crease.scene.step / 2;
+}
+
+// Collects what is read off the specimen at the instant.
+void read_specimen(const Crease& crease, const Snapshot& m, Simulation& simulation,
+                   std::vector<double>& largest, Recovered& recovered) {
+  const double half_step = crease.scene.step / 2;
+  if (plate_is_on(crease, m.time)) recovered.force = crease.plate_force(m.x, m.time);
+  if (m.time <= crease.times.released + half_step) keep_largest(crease.scene, simulation, largest);
+  recovered.opening = crease.opening(m.x);
+  if (m.time <= crease.times.lifted + half_step) return;
+  recovered.seconds.push_back(m.time - crease.times.lifted);
+  recovered.angle.push_back(recovered.opening);
 }
 
 RunPlan run_plan(Session& session, const Crease& crease, std::vector<double>& largest, Recovered& recovered) {
@@ -116,21 +147,12 @@ RunPlan run_plan(Session& session, const Crease& crease, std::vector<double>& la
   plan.floor = low;
   plan.time_steps = crease.time_steps;
   plan.columns = {"opening [degree]", "plate_force [N]"};
+  plan.watch = [&](const Snapshot& m) { read_specimen(crease, m, session.simulation(), largest, recovered); };
   plan.measure = [&](const Snapshot& m) -> std::vector<double> {
-    const bool plate =
-        m.time > crease.times.folded && m.time <= crease.times.released + crease.scene.step / 2;
-    const double force = plate ? crease.plate_force(m.x, m.time) : 0;
-    if (plate) recovered.force = force;
-    if (m.time <= crease.times.released + crease.scene.step / 2) keep_largest(session.simulation(), largest);
-    recovered.opening = crease.opening(m.x);
-    if (m.time > crease.times.lifted + crease.scene.step / 2) {
-      recovered.seconds.push_back(m.time - crease.times.lifted);
-      recovered.angle.push_back(recovered.opening);
-    }
-    return {recovered.opening, force};
+    return {crease.opening(m.x), plate_is_on(crease, m.time) ? crease.plate_force(m.x, m.time) : 0};
   };
   plan.progress = [&](const Snapshot& m) {
-    return fmt::format("t = {:.3f} s  opening {:.1f} degree", m.time, recovered.opening);
+    return fmt::format("t = {:.3f} s  opening {:.1f} degree", m.time, crease.opening(m.x));
   };
   plan.serialise = [&](Archive& archive) {
     archive(largest);
@@ -234,7 +256,7 @@ void crease_once(const CommandLine& line) {
   Recovered recovered;
   std::vector<double> largest, left;
   session.simulate(run_plan(session, crease, largest, recovered));
-  keep_largest(session.simulation(), left);
+  keep_largest(crease.scene, session.simulation(), left);
   Run& run = session.run();
   run.metric("recovery_angle_deg", recovered.opening);
   run.metric("law_recovery_angle_deg",

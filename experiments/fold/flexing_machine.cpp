@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 namespace hysteron::experiments {
@@ -34,7 +35,18 @@ std::vector<std::string> FlexingMachine::columns() {
   return {"clamp_distance [m]", "crown_curvature [1/m]", "crown_moment [N]"};
 }
 
-std::vector<double> FlexingMachine::measure(const Snapshot& instant) {
+// Between two watched instants the law goes on to here for the row alone.
+std::vector<double> FlexingMachine::measure(const Snapshot& instant) const {
+  const double curvature = gauge_.crown(session_.simulation().curvature());
+  LawPoint crown = crown_;
+  if (instant.time > time_) {
+    LawWalk walk = material_;
+    crown = walk.to({curvature, instant.time - time_});
+  }
+  return {fold_.distance(instant.time), curvature, crown.moment};
+}
+
+void FlexingMachine::watch(const Snapshot& instant) {
   curvature_ = gauge_.crown(session_.simulation().curvature());
   largest_ = std::max(largest_, curvature_);
   if (instant.time > 0) crown_ = material_.to({curvature_, instant.time - time_});
@@ -44,7 +56,6 @@ std::vector<double> FlexingMachine::measure(const Snapshot& instant) {
   const int period = 2 * fold_.half, cycle = count_ / period;
   if (cycle > 0 && cycle <= fold_.cycles && count_ % period == 0) end_cycle(cycle);
   ++count_;
-  return {fold_.distance(instant.time), curvature_, crown_.moment};
 }
 
 // A return ends one cycle and begins the next.
@@ -79,11 +90,13 @@ void FlexingMachine::end_cycle(int cycle) {
   largest_ = curvature_;
 }
 
-bool FlexingMachine::pictured() const {
-  const int instant = count_ - 1;  // `measure` has counted it
-  if (session_.simulation().time() >= fold_.scene.seconds - fold_.scene.step / 2) return true;
-  if (instant == 0 || instant % fold_.half != 0 || instant > 2 * fold_.half * fold_.cycles) return false;
-  return is_pictured((instant - 1) / (2 * fold_.half) + 1, fold_.cycles);
+bool FlexingMachine::pictured(double time) const {
+  const double half_step = fold_.scene.step / 2, stroke = fold_.period / 2;
+  if (time >= fold_.scene.seconds - half_step) return true;
+  const int strokes = static_cast<int>(std::lround(time / stroke));
+  if (strokes == 0 || strokes > 2 * fold_.cycles || std::abs(time - strokes * stroke) > half_step)
+    return false;
+  return is_pictured((strokes - 1) / 2 + 1, fold_.cycles);
 }
 
 std::string FlexingMachine::progress(const Snapshot& instant) const {

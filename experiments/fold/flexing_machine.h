@@ -19,8 +19,8 @@ struct FoldReading {
   MaterialReading material;     // of the crown, at the last chosen cycle
 };
 
-// Watches every recorded instant; writes a row of cycles.csv at each return and of material.csv at the chosen
-// ones.
+// Watches instants that --fps does not move; writes a row of cycles.csv at each return and of material.csv at
+// the chosen ones.
 class FlexingMachine {
  public:
   FlexingMachine(const Fold& fold, Session& session);
@@ -28,9 +28,10 @@ class FlexingMachine {
   // Columns of metrics.csv: distance between the clamps; curvature of the crown; the law's moment there,
   // driven alone through the crown's curvatures.
   static std::vector<std::string> columns();
-  std::vector<double> measure(const Snapshot& instant);
+  std::vector<double> measure(const Snapshot& instant) const;
+  void watch(const Snapshot& instant);
   // Both ends of the stroke in cycles 1, 10, 100, ... and the last; the end.
-  bool pictured() const;
+  bool pictured(double time) const;
   std::string progress(const Snapshot& instant) const;
   void finish();
   void serialise(Archive& archive);  // all that has been read
@@ -47,13 +48,13 @@ class FlexingMachine {
   FoldGauge gauge_;
   LawWalk material_;
   Record cycles_, materials_;
-  int count_ = 0;          // instants so far
+  int count_ = 0;          // watched instants so far
   LawPoint crown_;         // the law's, at the crown
   double curvature_ = 0;   // of the crown now [1/m]
   double largest_ = 0;     // in this cycle [1/m]
   double lost_ = 0;        // by bending friction before this cycle [J]
   double crown_lost_ = 0;  // by the law at the crown before this cycle [J/m^2]
-  double time_ = 0;        // of the last instant [s]
+  double time_ = 0;        // of the last watched instant [s]
   FoldReading reading_;
   int ended_ = 0;  // cycles
   std::vector<render::Series> loops_;

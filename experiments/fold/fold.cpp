@@ -52,7 +52,9 @@ Setup defaults() {
 std::vector<DecidedKey> decided() {
   std::vector<DecidedKey> keys = decided_by_clamped_strips();
   keys.insert(keys.end(),
-              {{"seconds", "fold.cycles of fold.period and the time after them say how long it takes"},
+              {{"cloth.position", "the clamps lie along x from the origin"},
+               {"cloth.rotation", "the clamps lie along x, one over against the other"},
+               {"seconds", "fold.cycles of fold.period and the time after them say how long it takes"},
                {"phase", "cycles are its phases"},
                {"obstacle", "the clamps are its obstacles"}});
   return keys;
@@ -136,8 +138,10 @@ RunPlan run_plan(const Fold& fold, FlexingMachine& folding) {
   RunPlan plan;
   plan.bounds = {{-clamp_length, 0, -free}, {free + clamp_length, width, clamp_length / 2}};
   plan.columns = FlexingMachine::columns();
+  plan.watch = [&](const Snapshot& m) { folding.watch(m); };
+  plan.watch_rate = fold.rate;
   plan.measure = [&](const Snapshot& m) { return folding.measure(m); };
-  plan.pictured = [&](const Snapshot&) { return folding.pictured(); };
+  plan.pictured = [&](const Snapshot& m) { return folding.pictured(m.time); };
   plan.progress = [&](const Snapshot& m) { return folding.progress(m); };
   plan.serialise = [&](Archive& archive) { folding.serialise(archive); };
   return plan;
@@ -151,9 +155,9 @@ void plot(Session& session, const FlexingMachine& folding) {
 }
 
 void fold_cloth(const CommandLine& line, Request& request) {
-  const Fold fold = folded(request.setup.scene, request.choice, request.setup.options.fps);
+  const Fold fold = folded(request.setup.scene, request.choice, defaults().options.fps);
   request.setup.scene = fold.scene;
-  request.setup.options.fps = fold.fps;
+  request.setup.options.fps = stroke_rate(request.setup.options.fps, request.choice.period);
   probe_unless_told(request.setup.options, {fold.scene.cloth.length / 2, fold.scene.cloth.width / 2});
   Session session(line, request.setup, fold.cloth);
   if (session.is_over()) return;

@@ -75,7 +75,12 @@ bool is_chosen(int cycle, int last) {
 
 bool is_pictured(int cycle, int last) { return cycle == last || cycle == cycle_decade(cycle); }
 
-Fold folded(const Scene& given, const FoldChoice& choice, double fps) {
+double stroke_rate(double fps, double period) {
+  if (fps <= 0) return 0;
+  return std::max(1.0, std::round(period / 2 * fps)) / (period / 2);
+}
+
+Fold folded(const Scene& given, const FoldChoice& choice, double rate) {
   if (given.element != BendingElement::shape)
     throw Error::invalid_input("element = " + enum_name(given.element) +
                                " must be shape: recovery is read from the curvature tensors of faces")
@@ -84,10 +89,11 @@ Fold folded(const Scene& given, const FoldChoice& choice, double fps) {
   Fold fold{given, {}};
   Scene& scene = fold.scene;
   fold.free_length = (1 - 2 * kClampPart) * scene.cloth.length;
-  fold.half = std::max(1, static_cast<int>(std::lround(choice.period / 2 * fps)));
+  fold.half = std::max(1, static_cast<int>(std::lround(choice.period / 2 * rate)));
   const double apart = choice.period / 2 / fold.half;
   scene.step = apart / std::max(1.0, std::round(apart / scene.step));
-  fold.fps = 1 / apart;
+  fold.rate = 1 / apart;
+  fold.period = choice.period;
   fold.cycles = choice.cycles;
   const double released = choice.cycles * choice.period;  // the moving clamp lets go [s]
   scene.seconds = released + std::round(kHang / apart) * apart;

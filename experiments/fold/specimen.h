@@ -22,8 +22,9 @@ struct Fold {
   Scene scene;  // its phases name what each picture shows
   Cloth cloth;
   double free_length = 0;  // between the clamps' middles on the flat cloth [m]
-  double fps = 0;          // recorded instants per second
-  int half = 0;            // recorded instants from one end of the stroke to the other
+  double rate = 0;         // instants that are watched in a second
+  int half = 0;            // watched instants from one end of the stroke to the other
+  double period = 0;       // of a cycle [s]
   int cycles = 0;
 
   // Between the clamps' middles [m].
@@ -32,9 +33,13 @@ struct Fold {
 
 // A specimen of scene.cloth.length by scene.cloth.width, a tenth of which is in either clamp.  The clamps
 // never return quite to the length of the cloth between them: it is not stretched, and sags.  After the last
-// return the moving clamp lets go.  The step and `fps` [1/s] are changed so that half a cycle has a whole
-// number of either.  Error::invalid_input for element `hinge`: recovery is read from the tensors of faces.
-Fold folded(const Scene& scene, const FoldChoice& choice, double fps);
+// return the moving clamp lets go.  The step and the `rate` of watched instants [1/s] are changed so that
+// half a cycle has a whole number of either.  Error::invalid_input for element `hinge`: recovery is read from
+// the tensors of faces.
+Fold folded(const Scene& scene, const FoldChoice& choice, double rate);
+
+// The nearest rate of pictures with which both ends of every stroke are pictured; 0 stays 0 [1/s].
+double stroke_rate(double fps, double period);
 
 // fatigue.dc as chosen, for a law that knows it and has not been given one.
 void give_fatigue(Scene& scene, const FoldChoice& choice);

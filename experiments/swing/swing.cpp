@@ -6,19 +6,18 @@
 #include <optional>
 
 #include "experiments/specimens/clamped_mesh.h"
+#include "experiments/swing/clamped_sheet.h"
 #include "experiments/workbench/app/decided_keys.h"
 #include "experiments/workbench/session/probes.h"
 #include "experiments/workbench/session/record.h"
 #include "experiments/workbench/session/session.h"
 #include "sim/identification/decay_shape.h"
-#include "sim/scene/mesh_files.h"
 
 namespace hysteron::experiments {
 namespace {
 
 constexpr double kOnion = 0.5;    // of the swing, in one picture: there and back [s]
 constexpr double kProbed = 0.06;  // of the length, from the clamp to where pictures show moment and curvature
-constexpr double kClamp = 0.01;   // clamped length [m]: the rest of cloth.length swings
 
 Setup defaults() {
   Setup setup;
@@ -132,59 +131,43 @@ void limit_to_quick(Setup& setup) {
   setup.options.fps = std::min(setup.options.fps, 20.0);
 }
 
-bool is_flat_rectangle(const Scene& scene) {
-  return (scene.cloth.shape == "strip" || scene.cloth.shape == "square") && rest_file(scene).empty();
-}
-
 // Meshes that are built here have a column of vertices on either side of the clamp's end; of others, all
-// vertices up to there are held.  None where the scene has pins of its own.
+// vertices up to there are held.  There is no clamp where the scene has pins of its own.
 std::optional<Cloth> clamp(const CommandLine& line, Setup& setup) {
   Scene& scene = setup.scene;
   if (!scene.pin.empty()) return {};
   if (is_flat_rectangle(scene)) {
     decide(line, setup, unused_by_clamped_meshes());
-    return clamp_at(scene, kClamp);
+    Cloth cloth = clamp_at(scene, kClampedLength);
+    throw_if_gravity_bends_nothing(scene, cloth.mesh);
+    return cloth;
   }
-  scene.pin.push_back(held_between(-1, kClamp));
+  clamp_low_end(scene);
   return {};
-}
-
-// Along x and y; a strip that is built ends where the scene says, though its clamp is a little longer.
-Eigen::Vector2d sheet_sides(const Scene& scene, const ClothMesh& mesh) {
-  if (rest_file(scene).empty()) return {scene.cloth.length, scene.cloth.width};
-  Eigen::AlignedBox3d box;
-  for (const Eigen::Vector3d& x : mesh.rest) box.extend(x);
-  return box.max().head<2>();
 }
 
 int run_swing(const CommandLine& line) {
   Setup setup = set_up(line, defaults(), {}, limit_to_quick);
+  const bool has_own_pins = !setup.scene.pin.empty();
   std::optional<Cloth> clamped = clamp(line, setup);
   if (is_flat_rectangle(setup.scene))
     probe_unless_told(setup.options,
-                      {kClamp + kProbed * setup.scene.cloth.length, setup.scene.cloth.width / 2});
+                      {kClampedLength + kProbed * setup.scene.cloth.length, setup.scene.cloth.width / 2});
   Session session(line, setup, std::move(clamped));
   if (session.is_over()) return 0;
   session.reserve({"turns.csv"}, {"plot_decay", "plot_decay_log", "plot_tip", "plot_energy"});
-  const Eigen::Vector2d sides = sheet_sides(setup.scene, session.cloth().mesh);
-  const float length = static_cast<float>(sides.x()), width = static_cast<float>(sides.y());
-
-  int tip = 0;
-  const auto& rest = session.cloth().mesh.rest;
-  for (std::size_t i = 0; i < rest.size(); ++i)
-    if (rest[i].x() - std::abs(rest[i].y() - width / 2) > rest[tip].x() - std::abs(rest[tip].y() - width / 2))
-      tip = static_cast<int>(i);
+  const SheetPlacement sheet = sheet_placement(setup.scene, session.cloth(), !has_own_pins);
+  const int tip = sheet.tip;
   std::vector<double> times, swing;
   RunPlan plan;
-  const float low = -length;
-  plan.bounds = {{-0.7f * length, 0, low}, {length, width, 0.15f * length}};
+  plan.bounds = sheet.bounds();
   plan.columns = {"tip_x [m]", "tip_height [m]"};
   plan.measure = [&](const Snapshot& m) -> std::vector<double> {
-    return {m.x[tip].x(), m.x[tip].z() - m.x[0].z()};
+    return {m.x[tip].x(), m.x[tip].z() - m.x[sheet.clamp].z()};
   };
   plan.each_step = [&](const Snapshot& m) {
     times.push_back(m.time);
-    swing.push_back(m.x[tip].x());
+    swing.push_back(sheet.swing(m.x));
   };
   plan.serialise = [&](Archive& archive) {
     archive(times);
@@ -196,10 +179,10 @@ int run_swing(const CommandLine& line) {
   session.simulate(plan);
   const Ledger ledger = session.simulation().ledger();
   Run& run = session.run();
-  const auto turns = turning_points(times, swing, kMinTurn * sides.x());
+  const auto turns = turning_points(times, swing, kMinTurn * sheet.length);
   const std::vector<Amplitude> amplitudes =
-      turning_amplitudes(turning_points(times, swing, kMinTurn * sides.x(), kSwingRipple));
-  const Decay decay = decay_between_amplitudes(amplitudes, kSmallSwing * (sides.x() - kClamp));
+      turning_amplitudes(turning_points(times, swing, kMinTurn * sheet.length, kSwingRipple));
+  const Decay decay = decay_between_amplitudes(amplitudes, kSmallSwing * (sheet.length - kClampedLength));
   run.metric("turns", turns.size());
   note_decay(run, amplitudes, decay);
   write_turns(run, amplitudes);

@@ -124,6 +124,18 @@ Eigen::Vector2d vertex_of_parabola(double before, double at, double after) {
   return {where, at + slope * where / 2};
 }
 
+Eigen::Vector2d vertex_of_parabola(double before, double after, const Eigen::Vector3d& x) {
+  constexpr double kEqual = 1e-9;  // difference of two intervals that rounding makes, over their size
+  if (std::abs(after - before) < kEqual * after) {
+    const Eigen::Vector2d vertex = vertex_of_parabola(x[0], x[1], x[2]);
+    return {vertex.x() * after, vertex.y()};
+  }
+  const double rise = (x[1] - x[0]) / before, fall = (x[2] - x[1]) / after, whole = before + after;
+  const double slope = (rise * after + fall * before) / whole, bend = 2 * (fall - rise) / whole;
+  const double where = bend != 0 ? -slope / bend : 0;
+  return {where, x[1] + slope * where / 2};
+}
+
 std::vector<TurningPoint> turning_points(const std::vector<double>& time, const std::vector<double>& x,
                                          double least, double fraction) {
   std::vector<TurningPoint> found;
@@ -132,8 +144,9 @@ std::vector<TurningPoint> turning_points(const std::vector<double>& time, const 
   const auto note = [&](std::size_t i) {
     const bool inside = i > 0 && i + 1 < x.size();
     const Eigen::Vector2d vertex =
-        inside ? vertex_of_parabola(x[i - 1], x[i], x[i + 1]) : Eigen::Vector2d(0, x[i]);
-    found.push_back({time[i] + (inside ? vertex.x() * (time[i + 1] - time[i]) : 0), vertex.y()});
+        inside ? vertex_of_parabola(time[i] - time[i - 1], time[i + 1] - time[i], {x[i - 1], x[i], x[i + 1]})
+               : Eigen::Vector2d(0, x[i]);
+    found.push_back({time[i] + vertex.x(), vertex.y()});
   };
   for (std::size_t i = 0; i < x.size(); ++i) {
     if (direction >= 0 && x[i] > x[extreme]) extreme = i, direction = 1;

@@ -22,6 +22,10 @@
 
 namespace hysteron {
 
+// Extreme of the parabola through three samples: its time from the middle one, and its value.  The middle one
+// where they lie on a line.  `before` and `after` are the times to the neighbours [s], both positive.
+Eigen::Vector2d vertex_of_parabola(double before, double after, const Eigen::Vector3d& x);
+
 // Extreme of the parabola through three equally spaced samples: where, in samples from the middle one, and
 // its value.  The middle one where they lie on a line.
 Eigen::Vector2d vertex_of_parabola(double before, double at, double after);
@@ -31,7 +35,7 @@ struct TurningPoint {
   double value;  // of the series
 };
 
-// Where a series of equally spaced `time`s turns and goes back by more than `least` and, once it has swung,
+// Where a series in `time` turns and goes back by more than `least` and, once it has swung,
 // by more than the `fraction` of its last swing; by the parabola through the samples around.  Both of one
 // length; the start is none.
 std::vector<TurningPoint> turning_points(const std::vector<double>& time, const std::vector<double>& x,

@@ -73,7 +73,7 @@ bool Session::find_rest() {
     if (plan_->wait > 0) wait_at_rest(*simulation_, plan_->wait, setup_.scene.step);
     const std::vector<Eigen::Vector3d> x = simulation_->positions();
     const Snapshot instant{simulation_->time(), x, rest.moved / setup_.scene.step};
-    if (plan_->each_step) plan_->each_step(instant);
+    if (plan_->each_step) plan_->each_step({instant.time, x, NAN});
     watch(instant);
     record(instant, "");
     return true;

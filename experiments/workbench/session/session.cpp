@@ -181,7 +181,7 @@ bool Session::look(const std::string& left) {
   const long now = simulation_->steps();
   const double time = simulation_->time();
   const std::vector<Eigen::Vector3d> x = simulation_->positions();
-  if (plan_->each_step) plan_->each_step({time, x, fastest_since(stepped_, x)});
+  if (plan_->each_step) plan_->each_step({time, x, NAN});
   bool settled = false;
   if (timetable_.is_instant(now, watch_rate_)) settled = watch({time, x, fastest_since(watched_, x)});
   if (settled || timetable_.is_instant(now, setup_.options.fps))
@@ -245,7 +245,7 @@ void Session::finish(const std::string& title) {
 void Session::serialise(Archive& archive) {
   run_->serialise(archive);
   archive(has_begun_);
-  for (Before* before : {&recorded_, &watched_, &stepped_}) {
+  for (Before* before : {&recorded_, &watched_}) {
     archive(before->step);
     before->x.resize(archive.size(before->x.size()));
     archive.bytes(before->x.data(), before->x.size() * sizeof(Eigen::Vector3d));

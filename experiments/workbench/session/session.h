@@ -25,7 +25,8 @@ class Session;
 struct Snapshot {
   double time;                            // [s]
   const std::vector<Eigen::Vector3d>& x;  // positions [m]
-  double fastest;  // largest displacement since the last instant of its kind over the time between [m/s]
+  // Largest displacement since the last instant of its kind over the time between [m/s]; NaN in each_step().
+  double fastest;
 };
 
 // The experiment's own part of a run.
@@ -156,7 +157,7 @@ class Session {
   Timetable timetable_{0, 1};
   double watch_rate_ = 0;  // [1/s]
   bool has_begun_ = false;
-  Before recorded_, watched_, stepped_;
+  Before recorded_, watched_;
 };
 
 }  // namespace hysteron::experiments

@@ -46,8 +46,8 @@ TEST(FoldSpecimen, HasAWholeNumberOfStepsAndMomentsInHalfACycle) {
   FoldChoice choice;
   choice.period = 0.9;
   const Fold fold = folded(scene, choice, 33);
-  EXPECT_NEAR(fold.half / fold.fps, 0.45, 1e-12);
-  const double steps = 1 / (fold.fps * fold.scene.step);
+  EXPECT_NEAR(fold.half / fold.rate, 0.45, 1e-12);
+  const double steps = 1 / (fold.rate * fold.scene.step);
   EXPECT_NEAR(steps, std::round(steps), 1e-9);
 }
 

@@ -43,6 +43,15 @@ TEST(TurningPoints, OfASineAreItsExtremesBetweenTheSamples) {
   }
 }
 
+// x = 2 - (t - 0.12)^2 at 0, 0.1 and 0.13 s, a parabola itself.
+TEST(TurningPoints, OfUnequalSamplesAreThoseOfTheParabolaThroughThem) {
+  constexpr double kRounding = 1e-12;
+  const auto x = [](double t) { return 2 - std::pow(t - 0.12, 2); };
+  const Eigen::Vector2d vertex = vertex_of_parabola(0.1, 0.03, {x(0), x(0.1), x(0.13)});
+  EXPECT_NEAR(vertex.x(), 0.02, kRounding);
+  EXPECT_NEAR(vertex.y(), 2, kRounding);
+}
+
 TEST(TurningPoints, PassOverWavesSmallerThanTheLeast) {
   std::vector<double> time, x;
   for (int i = 0; i < 400; ++i) {

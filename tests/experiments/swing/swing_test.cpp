@@ -1,0 +1,111 @@
+// Swinging sheets, wherever they lie: what holds them and along what they swing.
+#include <fstream>
+
+#include "experiments/swing/clamped_sheet.h"
+#include "tests/experiments/program.h"
+
+namespace hysteron::experiments {
+namespace {
+
+constexpr double kRotated = 1e-3;  // of what friction takes: rounding that other axes make, after a second
+const std::vector<Flag> kShort = {{"triangles", "60"}, {"seconds", "1.2"}, {"device", "cpu"}};
+
+Json swing_with(std::vector<Flag> flags) {
+  flags.insert(flags.end(), kShort.begin(), kShort.end());
+  return metrics_with("swing", flags);
+}
+
+// A strip of 0.1 m by 0.03 m in 10 by 3 squares, from `low` on; `up_y`: as modellers lay it whose y is up.
+fs::path strip_file(const fs::path& folder, const Eigen::Vector2d& low, bool up_y = false) {
+  const fs::path file = folder / "strip.obj";
+  std::ofstream obj(file);
+  for (int j = 0; j <= 3; ++j)
+    for (int i = 0; i <= 10; ++i) {
+      const double x = low.x() + 0.01 * i, y = low.y() + 0.01 * j;
+      obj << "v " << x << ' ' << (up_y ? 0 : y) << ' ' << (up_y ? -y : 0) << '\n';
+    }
+  for (int j = 0; j < 3; ++j)
+    for (int i = 0; i < 10; ++i) {
+      const int a = 11 * j + i + 1;
+      obj << "f " << a << ' ' << a + 1 << ' ' << a + 12 << "\nf " << a << ' ' << a + 12 << ' ' << a + 11
+          << '\n';
+    }
+  return file;
+}
+
+void expect_same_swing(const Json& a, const Json& b) {
+  EXPECT_GE(a["turns"], 4);
+  EXPECT_EQ(a["turns"], b["turns"]);
+  const double lost = a["bending_friction_J"];
+  EXPECT_GT(lost, 0);
+  EXPECT_NEAR(b["bending_friction_J"], lost, kRotated * lost);
+}
+
+TEST(Swing, IsTheSameWhereverTheStripPoints) {
+  const Json along_x = swing_with({});
+  for (const char* rotation : {"0 0 90", "0 0 180", "0 0 -30"})
+    expect_same_swing(along_x, swing_with({{"cloth.rotation", rotation}}));
+}
+
+TEST(Swing, OfAMeshIsClampedAtItsOwnLowEnd) {
+  const Folder folder;
+  const Json from_zero =
+      swing_with({{"cloth.file", strip_file(folder.path(), {0, 0})}, {"cloth.shape", "file"}});
+  const fs::path centred = strip_file(folder.path(), {-0.05, -0.015});
+  expect_same_swing(from_zero, swing_with({{"cloth.file", centred}, {"cloth.shape", "file"}}));
+  Scene scene;
+  scene.cloth.shape = "file";
+  scene.cloth.file = centred;
+  clamp_low_end(scene);
+  const Cloth cloth = make_cloth(scene);
+  EXPECT_EQ(cloth.pin_vertices.at(0).size(), 2u * 4);  // the columns at -0.05 and -0.04 m
+}
+
+TEST(Swing, OfAMeshWhoseYIsUpIsRefusedUntilItIsLaidLevel) {
+  const Folder folder;
+  const std::string file = strip_file(folder.path(), {0, 0}, true);
+  const std::string line = "swing --seconds 1.2 --no-images --cloth.shape file --cloth.file " + file +
+                           out_flag(folder.path() / "out");
+  EXPECT_TRUE(says(refused(line), "gravity acts in that plane"));
+  EXPECT_TRUE(says(refused(line), "--cloth.rotation \"90 0 0\" lays it level"));
+  const Json level =
+      swing_with({{"cloth.file", file}, {"cloth.shape", "file"}, {"cloth.rotation", "90 0 0"}});
+  const Json flat = swing_with({{"cloth.file", strip_file(folder.path(), {0, 0})}, {"cloth.shape", "file"}});
+  expect_same_swing(flat, level);
+}
+
+TEST(Swing, OfAStripOnItsEdgeOrHangingDownIsRefused) {
+  const Folder folder;
+  for (const char* rotation : {"90 0 0", "0 90 0"}) {
+    const std::string said = refused("swing --no-images --cloth.rotation \"" + std::string(rotation) + "\"" +
+                                     out_flag(folder.path() / "out"));
+    EXPECT_TRUE(says(said, "--cloth.rotation \"0 0 0\" lays it level")) << said;
+  }
+}
+
+// It turns about the line y = 0.5 m through the corners that are held.
+TEST(Swing, OfASheetThatHangsByTwoCornersIsAcrossTheirLine) {
+  constexpr double kRounding = 1e-9;
+  Scene scene;
+  scene.cloth.length = 0.5;
+  scene.triangles = 64;
+  Pin left, right;
+  left.select = right.select = "nearest";
+  left.point = {0, 0.5, 0};
+  right.point = {0.5, 0.5, 0};
+  scene.pin = {left, right};
+  const Cloth cloth = make_cloth(scene);
+  const SheetPlacement sheet = sheet_placement(scene, cloth, false);
+  EXPECT_NEAR((sheet.along - Eigen::Vector3d(0, -1, 0)).norm(), 0, kRounding);
+  EXPECT_NEAR((sheet.corner - Eigen::Vector3d(0.25, 0.5, 0)).norm(), 0, kRounding);
+  EXPECT_NEAR(cloth.start[sheet.tip].y(), 0, kRounding);
+}
+
+TEST(Specimens, ThatLieWhereTheirMachineIsAreNotTurned) {
+  EXPECT_TRUE(says(refused("fold --cloth.rotation \"0 0 90\""), "fold sets cloth.rotation itself"));
+  EXPECT_TRUE(says(refused("fold --cloth.position \"0 0 1\""), "fold sets cloth.position itself"));
+  EXPECT_TRUE(says(refused("crease --cloth.rotation \"0 0 90\""), "crease sets cloth.rotation itself"));
+}
+
+}  // namespace
+}  // namespace hysteron::experiments
