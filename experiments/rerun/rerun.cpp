@@ -12,6 +12,7 @@
 #include "experiments/workbench/app/manifest_file.h"
 #include "experiments/workbench/app/recorded_command.h"
 #include "experiments/workbench/app/run.h"
+#include "experiments/workbench/app/set_aside.h"
 #include "experiments/workbench/compare/workflow.h"
 #include "experiments/workbench/pages/report.h"
 #include "sim/base/atomic_file.h"
@@ -90,7 +91,9 @@ std::vector<fs::path> manifests_below(const fs::path& folder) {
   for (auto entry = fs::recursive_directory_iterator(folder, failure);
        entry != fs::recursive_directory_iterator(); entry.increment(failure)) {
     const fs::path& path = entry->path();
-    if (entry->is_directory() && has_manifest(path)) {
+    if (is_set_aside(path)) {
+      entry.disable_recursion_pending();
+    } else if (entry->is_directory() && has_manifest(path)) {
       found.insert(path / "manifest.json");
       entry.disable_recursion_pending();
     } else if (path.extension() == ".json" && is_manifest(json_or_none(path))) {

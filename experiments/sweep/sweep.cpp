@@ -41,8 +41,8 @@ const KeyRow<S> kRows[] = {
     {"jobs", at<&S::jobs>, "", between(0, 1024), "", "how many runs at a time; 0: one for each GPU, or for each --threads of the cores"},
     {"batch", at<&S::batch>, "", between(1, kLargestBatch), "", kBatchDoc},
     {"threads", at<&S::threads>, "", between(1, 1024), "", "of each run on the CPU"},
-    {"resume", at<&S::resume>, "", any(), "", "go on with a study: runs that the same program has finished are kept, interrupted ones go on from their checkpoints"},
-    {"collect", at<&S::collect>, "", any(), "", "run nothing: table, plots and page of the runs that are there"},
+    {"resume", at<&S::resume>, "", any(), "", "go on with a study: finished runs are kept whose request, program and files are the same, interrupted ones go on from their checkpoints, and all others run"},
+    {"collect", at<&S::collect>, "", any(), "", "run nothing: table, plots and page of the runs that are there; one whose request, program or files have changed since counts as not run"},
     {"only", at<&S::only>, "", any(), "", "the run of this name alone, without table and page; a finished one is kept"},
     {"part", at<&S::part>, "", any(), "", "K/N: only the K-th of N equal parts of the runs, without table and page; finished ones are kept"},
     {"snakemake", at<&S::snakemake>, "", any(), "", "folder: write the study as a Snakemake workflow there, and run nothing"},
@@ -177,6 +177,7 @@ void run_all(Run& run, const Study& study, std::vector<ChildRun>& runs, const Sw
   Progress progress(run, runs.size());
   bool none_complete = true;
   ColumnWarnings warnings;
+  for (const ChildRun& column : runs) run.add_part(column.folder, jobs.resume);
   run_columns(
       runs, jobs,
       [&](ChildRun& column) {
@@ -187,6 +188,7 @@ void run_all(Run& run, const Study& study, std::vector<ChildRun>& runs, const Sw
         drop_scene(column);
       },
       [&](const std::string& line) { progress.running(line); });
+  run.keep_from_here();
   warnings.say(run);
   progress.stop();
   progress.note(run, processes_at_once(runs, jobs));

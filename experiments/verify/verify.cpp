@@ -11,6 +11,7 @@
 #include "experiments/workbench/app/manifest_file.h"
 #include "experiments/workbench/app/recorded_command.h"
 #include "experiments/workbench/app/run.h"
+#include "experiments/workbench/app/set_aside.h"
 #include "experiments/workbench/compare/sweep_columns.h"
 #include "experiments/workbench/pages/junit.h"
 #include "sim/base/error.h"
@@ -64,7 +65,9 @@ std::vector<fs::path> folders_below(const fs::path& folder) {
   std::set<fs::path> found;
   std::error_code failure;
   for (const auto& entry : fs::recursive_directory_iterator(folder, failure))
-    if (entry.path().filename() == "manifest.json") found.insert(entry.path().parent_path());
+    if (const fs::path inner = entry.path().parent_path();
+        entry.path().filename() == "manifest.json" && (inner == folder || !is_set_aside(inner)))
+      found.insert(inner);
   if (failure) throw Error::system("cannot read the folder " + folder.string() + ": " + failure.message());
   if (found.empty())
     throw Error::invalid_input("there is no manifest.json in " + folder.string() + " or below");

@@ -6,6 +6,8 @@
 #include <future>
 #include <vector>
 
+#include "sim/base/job.h"
+
 namespace hysteron {
 
 // body(i) for i in [0, n), in this order but `threads` at a time.  An exception of a body ends its thread and
@@ -13,7 +15,9 @@ namespace hysteron {
 template <class Body>
 void in_parallel(std::size_t n, int threads, const Body& body) {
   std::atomic<std::size_t> next = 0;
+  Job* const job = Job::current();
   const auto work = [&] {
+    const WorkingFor working(job);
     for (std::size_t i = next++; i < n; i = next++) body(i);
   };
   std::vector<std::future<void>> workers;

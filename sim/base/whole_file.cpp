@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "sim/base/error.h"
+#include "sim/base/job.h"
 
 namespace hysteron {
 namespace {
@@ -50,6 +51,7 @@ std::string whole_file(const std::filesystem::path& file, const std::string& att
     check_size(bytes.size(), attempt, most);
   }
   if (std::ferror(stream.get())) throw failure(attempt, errno);
+  if (Job* const job = Job::current()) job->has_read(file, bytes);
   return bytes;
 }
 

@@ -1,4 +1,4 @@
-// Every file that a user names is read here.
+// Every file that a user names is read here, and entered in the job of the thread (job.h).
 #pragma once
 
 #include <cstddef>

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "sim/base/error.h"
+#include "sim/base/job.h"
 #include "sim/device/device_counts.h"
 
 namespace hysteron {
@@ -29,10 +30,12 @@ ExceptionState& exception_state() { return *reinterpret_cast<ExceptionState*>(ab
 struct OfThread {
   DeviceCounts counts = {};
   ExceptionState exceptions = {};
+  Job* job = nullptr;
 };
 void exchange_with_thread(OfThread& other) {
   std::swap(device_counts, other.counts);
   std::swap(exception_state(), other.exceptions);
+  other.job = Job::exchange(other.job);
 }
 
 // One that grows beyond its end meets the guard, which nobody may touch, and not another's memory.

@@ -5,6 +5,7 @@
 #include <new>
 
 #include "sim/base/error.h"
+#include "sim/base/job.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -13,9 +14,7 @@ Ending failed(const std::string& experiment, const std::string& message, int exi
   return {exit_code, "hysteron" + (experiment.empty() ? "" : " " + experiment) + ": " + message};
 }
 
-}  // namespace
-
-Ending run_ending(const std::string& experiment, const std::function<int()>& body) {
+Ending ending_of(const std::string& experiment, const std::function<int()>& body) {
   try {
     return {body()};
   } catch (const Error& error) {
@@ -29,6 +28,15 @@ Ending run_ending(const std::string& experiment, const std::function<int()>& bod
   } catch (const std::exception& error) {
     return failed(experiment, std::string("unexpected failure: ") + error.what(), 1);
   }
+}
+
+}  // namespace
+
+Ending run_ending(const std::string& experiment, const std::function<int()>& body) {
+  Job job;
+  Ending ending = ending_of(experiment, body);
+  job.end(ending.exit_code);
+  return ending;
 }
 
 }  // namespace hysteron::experiments

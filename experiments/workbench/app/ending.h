@@ -7,6 +7,7 @@
 namespace hysteron::experiments {
 
 inline constexpr int kMachineFailed = 1;
+inline constexpr int kRefused = 2;
 inline constexpr int kCouldNotGoOn = 3;  // those below it: sim/base/error.h
 inline constexpr int kDiffers = 4;
 
@@ -18,7 +19,7 @@ struct ExitCode {
 inline constexpr ExitCode kExitCodes[] = {
     {0, "done"},
     {kMachineFailed, "the machine failed (file, disk, GPU, renderer)"},
-    {2, "the request is wrong"},
+    {kRefused, "the request is wrong"},
     {kCouldNotGoOn, "the run could not go on; what was written so far is kept and marked incomplete"}};
 
 struct Ending {
@@ -26,8 +27,8 @@ struct Ending {
   std::string error{};  // its line on stderr; "": none
 };
 
-// What `body` returns or throws.  The error names the experiment, which `body` may set before it throws:
-// "hysteron drape: fabric.b2 = -1 N m must be >= 0 (drape.toml:7)".
+// What `body`, a job (sim/base/job.h), returns or throws.  The error names the experiment, which `body` may
+// set before it throws: "hysteron drape: fabric.b2 = -1 N m must be >= 0 (drape.toml:7)".
 Ending run_ending(const std::string& experiment, const std::function<int()>& body);
 
 }  // namespace hysteron::experiments

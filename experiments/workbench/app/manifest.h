@@ -138,8 +138,15 @@ struct RunSpec {
   std::vector<std::pair<std::string, std::string>> flags{};  // path and text, in their order
 };
 
+// A file that a run has read.
+struct InputRecord {
+  std::string file;  // as it was named, or assets/...
+  std::string hash;  // of its bytes
+};
+
 struct Manifest {
   std::string version, commit;
+  std::string build;     // of the executable, which tells two of one commit apart; "": not noted
   std::string isa;       // that the program was built for, "x86-64-v3"; "": not noted
   std::string compiler;  // with its major version, "g++ 12"; "": not noted
   bool dirty = false;
@@ -151,6 +158,7 @@ struct Manifest {
   std::shared_ptr<const Json> requested;  // merge patch that turns `keys` into the scene before its
                                           // experiment changed it; null: not noted
   std::vector<MeshRecord> meshes;         // files that its cloth was read from
+  std::vector<InputRecord> inputs;        // every file that it has read but its own
   std::optional<std::string> device, renderer, positions, precision, element, law;
   std::optional<std::int64_t> triangles, hinges, steps;
   std::optional<double> seconds_simulated;

@@ -58,6 +58,12 @@ Json to_json(const std::vector<MeshRecord>& meshes) {
   return object;
 }
 
+Json to_json(const std::vector<InputRecord>& inputs) {
+  Json object = Json::object();
+  for (const InputRecord& input : inputs) object[input.file] = input.hash;
+  return object;
+}
+
 Json to_json(const Curve& curve) {
   return {{"plot", curve.plot},
           {"file", curve.file},
@@ -105,6 +111,7 @@ void visit_program(M& m, const Visit& visit) {
   visit("dirty", m.dirty, Where::always);
   visit("instructions", m.isa, Where::if_there);
   visit("compiler", m.compiler, Where::if_there);
+  visit("build", m.build, Where::if_there);
 }
 
 template <class M, class Visit, class VisitOwn>
@@ -117,6 +124,7 @@ void visit_fields(M& m, const Visit& visit, const VisitOwn& visit_own) {
   visit("options", m.options, Where::if_there);
   visit("asked", m.requested, Where::if_there);
   visit("meshes", m.meshes, Where::if_there);
+  visit("inputs", m.inputs, Where::if_there);
   visit("device", m.device, Where::always);
   visit("renderer", m.renderer, Where::always);
   visit("positions", m.positions, Where::always);
@@ -256,6 +264,12 @@ void take(const Json& json, std::vector<MeshRecord>& meshes) {
   if (!json.is_object()) return;
   for (const auto& [key, mesh] : json.items())
     meshes.push_back({key, text_at(mesh, "file"), text_at(mesh, "hash")});
+}
+
+void take(const Json& json, std::vector<InputRecord>& inputs) {
+  if (!json.is_object()) return;
+  for (const auto& [file, hash] : json.items())
+    if (hash.is_string()) inputs.push_back({file, hash.get<std::string>()});
 }
 
 void take(const Json& json, std::vector<Statements>& statements) {

@@ -43,7 +43,7 @@ const KeyRow<Options> kRows[] = {
     {"errors.jobs", at<&O::errors_jobs>, "", between(0, 64), "", "how many repeats run at a time; 0: one for each GPU, or for each core"},
     {"errors.batch", at<&O::errors_batch>, "", between(1, 64), "", "up to so many repeats share a process and, on a GPU, its launches"},
     {"checkpoint", at<&O::checkpoint>, "s", at_least(0), "", "wall clock between two checkpoints: OUT/checkpoint, at a recorded instant, also on SIGINT and SIGTERM, which then end the run (exit code 3); 0: none"},
-    {"resume", at<&O::resume>, "", any(), "", "go on from OUT/checkpoint with the same command, to the same bits on the same device; begins anew where there is none; a complete run is not repeated; of several laws, fabrics or integrators, and of compare: keep the columns that the same program has finished"},
+    {"resume", at<&O::resume>, "", any(), "", "go on from OUT/checkpoint with the same command, to the same bits on the same device; begins anew where there is none; a complete run is repeated only where request, program or a file that it has read have changed; of several laws, fabrics or integrators, and of compare: so is each column"},
     {"max-memory", at<&O::max_memory>, "MB", at_least(0), "", "of the host, that the process may take; a run that asks for more ends (exit code 1); 0: no limit"},
     {"quick", at<&O::quick>, "", any(), "", "a small version of the same question; flags that are given take precedence"},
     {"dump-scene", at<&O::dump_scene>, "", any(), "", "write the resolved scene to this TOML file, with where each value comes from, and stop"},

@@ -7,8 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/workbench/app/manifest_file.h"
+#include "experiments/workbench/app/same_request.h"
 #include "experiments/workbench/app/scene_source.h"
-#include "experiments/workbench/app/version.h"
+#include "experiments/workbench/app/this_program.h"
 #include "render/plot.h"
 #include "sim/base/archive.h"
 #include "sim/base/atomic_file.h"
@@ -31,41 +32,6 @@ std::string utc_now() {
   char text[32];
   std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
   return text;
-}
-
-// That this program was built for: sums of vectors of another width round differently.
-constexpr const char* kIsa =
-#if defined(__AVX512F__)
-    "x86-64-v4";
-#elif defined(__AVX2__) && defined(__FMA__)
-    "x86-64-v3";
-#elif defined(__SSE4_2__)
-    "x86-64-v2";
-#elif defined(__x86_64__)
-    "x86-64";
-#else
-    "others";
-#endif
-
-// Compilers vectorise differently, and the last bits with them.
-std::string compiler_name() {
-#if defined(__clang__)
-  return "clang++ " + std::to_string(__clang_major__);
-#elif defined(__GNUC__)
-  return "g++ " + std::to_string(__GNUC__);
-#else
-  return "others";
-#endif
-}
-
-Manifest this_program() {
-  Manifest manifest;
-  manifest.version = kVersion;
-  manifest.commit = kGitCommit;
-  manifest.isa = kIsa;
-  manifest.compiler = compiler_name();
-  manifest.dirty = kGitDirty;
-  return manifest;
 }
 
 // What is known at the start.
@@ -102,12 +68,6 @@ Manifest first_entries(const CommandLine& line, const Setup& setup) {
 
 }  // namespace
 
-std::string program_version(const Manifest& m) {
-  return m.version + " (commit " + m.commit + (m.dirty ? ", modified)" : ")");
-}
-
-std::string program_version() { return program_version(this_program()); }
-
 Run::Run(const CommandLine& line, const Setup& setup, const std::vector<std::string>& kept)
     : Run(first_entries(line, setup), line, setup.options, kept) {
   for (const std::string& change : changed_meshes(setup.recorded_meshes, manifest_.meshes)) warn(change);
@@ -118,12 +78,13 @@ Run::Run(const CommandLine& line, const Options& options, const Json& keys)
 
 Run::Run(Manifest first, const CommandLine& line, const Options& options,
          const std::vector<std::string>& kept)
-    : folder_(options.out.empty() ? "out/" + line.experiment : options.out, line, kept),
+    : folder_(options.out.empty() ? "out/" + line.experiment : options.out, line),
       json_(options.json),
       quiet_(options.quiet),
       manifest_(std::move(first)) {
   if (!std::exchange(any_has_begun_, true) && !json_) first_folder_ = folder();
   manifest_.files = kept;
+  folder_.set_run_before_aside(kept);
   reserve({"report.html"});  // every run ends with it, or `hysteron report` writes it later
   for (const std::string& name : kept) is_new(name);
   keep();
@@ -249,18 +210,21 @@ void Run::note_seconds(Manifest& manifest) const {
 void Run::keep() const {
   Manifest manifest = manifest_;
   note_seconds(manifest);
+  manifest.inputs = inputs_of_job(folder());
   write_text(folder() / "manifest.json", to_json(manifest).dump(2) + "\n");
 }
 
 void Run::finish() {
   finish_plots();
   note_seconds(manifest_);
+  manifest_.inputs = inputs_of_job(folder());
   manifest_.complete = true;
   const Json json = to_json(manifest_);
   const std::string text = json.dump(2) + "\n";
   write_text(folder() / "manifest.json", text);
   manifest_ = parsed_manifest(json);
   finished_ = true;
+  folder_.is_complete();
   if (json_) std::cout << text << std::flush;
 }
 

@@ -30,7 +30,8 @@ std::string program_version(const Manifest& manifest);
 
 // Keeps what a run is and has found, and writes it as OUT/manifest.json: at the start (so that an unwritable
 // folder is known before any simulation), and at the end.  A run that is destroyed without finish(), because
-// of an exception, keeps its files and a manifest with "complete": false.
+// of an exception, keeps its files and a manifest with "complete": false; RunFolder says what becomes of a
+// run that stood there before.
 class Run {
  public:
   // Takes the folder as RunFolder does, out/<experiment> where none is named.  Throws Error::invalid_input,
@@ -61,6 +62,11 @@ class Run {
   void reserve(const std::vector<std::string>& names) const;
   // The file of that name could not be written: what there is of it goes, and it is not listed.
   void forget(const std::string& name);
+
+  // Of a page: a folder of a run that it has started.  `goes_on`: what is there may be its result already.
+  void add_part(const std::filesystem::path& folder, bool goes_on) { folder_.add_part(folder, goes_on); }
+  // From here on what was written stays, even if the request turns out to be wrong.
+  void keep_from_here() { folder_.keep_from_here(); }
 
   // What is known so far; after finish() as it is read from disk.  Its wall_seconds, plots_missing, files and
   // complete are the run's own.

@@ -7,18 +7,23 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <iostream>
+#include <optional>
 #include <set>
+#include <utility>
 #include <vector>
 
+#include "experiments/workbench/app/ending.h"
 #include "experiments/workbench/app/manifest_file.h"
+#include "experiments/workbench/app/set_aside.h"
 #include "sim/base/comma_list.h"
 #include "sim/base/error.h"
+#include "sim/base/job.h"
 
 namespace hysteron::experiments {
 namespace {
 namespace fs = std::filesystem;
 
-constexpr const char* kManifest = "manifest.json";
 constexpr const char* kElsewhere = ": give another folder (--out)";
 
 fs::path made(const fs::path& folder) {
@@ -30,32 +35,9 @@ fs::path made(const fs::path& folder) {
   return folder;
 }
 
-bool stands(const fs::path& file) {
-  std::error_code ignored;
-  return fs::exists(fs::symlink_status(file, ignored));
-}
-
-bool is_plain(const fs::path& file) {
-  std::error_code ignored;
-  return fs::is_regular_file(fs::symlink_status(file, ignored));
-}
-
-bool stays_inside(const fs::path& name) {
-  return name.is_relative() && !name.empty() && std::find(name.begin(), name.end(), "..") == name.end();
-}
-
-// One of the folders on the way from `folder` to the file of that name is a link.
-bool is_behind_a_link(const fs::path& folder, const fs::path& name) {
-  std::error_code ignored;
-  fs::path path_part = folder;
-  for (const fs::path& part : name.parent_path())
-    if (fs::is_symlink(fs::symlink_status(path_part /= part, ignored))) return true;
-  return false;
-}
-
 // The run before, by its manifest.
-std::optional<Manifest> run_before(const fs::path& folder) {
-  const fs::path file = folder / kManifest;
+std::optional<Manifest> run_before_in(const fs::path& folder) {
+  const fs::path file = folder / kManifestFile;
   if (!stands(file)) return {};
   std::optional<Manifest> manifest;
   if (is_plain(file)) manifest = manifest_or_none(file);
@@ -64,81 +46,11 @@ std::optional<Manifest> run_before(const fs::path& folder) {
   return manifest;
 }
 
-// Names of its files, and of the page that `hysteron report` may have written since.
-std::vector<fs::path> recorded_files(const std::optional<Manifest>& manifest, const fs::path& folder) {
-  if (!manifest) return {};
-  std::vector<fs::path> names = {"report.html"};
-  for (const fs::path name : manifest->files)
-    if (stays_inside(name) && !is_behind_a_link(folder, name)) names.push_back(name);
-  return names;
-}
-
-// "metrics.csv" of "metrics.csv.part" and "metrics.csv.part-71-3"; "" of other names.
-std::string half_written(const std::string& name) {
-  const std::size_t part = name.rfind(".part");
-  if (part == name.npos || part == 0) return "";
-  const std::string end = name.substr(part + 5);
-  return end.find_first_not_of("-0123456789") == end.npos ? name.substr(0, part) : "";
-}
-
-// "frames/0013.png" of "frames/0012.png".
-fs::path next_in_sequence(const fs::path& name) {
-  std::string digits = name.stem().string();
-  const std::size_t grows = digits.find_last_not_of('9');
-  if (grows == digits.npos) digits.insert(0, 1, '0');
-  const std::size_t at = grows == digits.npos ? 0 : grows;
-  ++digits[at];
-  std::fill(digits.begin() + static_cast<std::ptrdiff_t>(at) + 1, digits.end(), '0');
-  return name.parent_path() / (digits + name.extension().string());
-}
-
-// An interrupted run lists the first file of a sequence only: the others follow it without a gap, up to the
-// one that was about to be written.  Files behind a gap are another's.
-std::set<fs::path> with_their_sequences(const fs::path& folder, const std::vector<fs::path>& listed) {
-  std::set<fs::path> names(listed.begin(), listed.end());
-  for (const fs::path& first : listed)
-    if (is_numbered(first))
-      for (fs::path name = next_in_sequence(first); names.insert(name).second && stands(folder / name);)
-        name = next_in_sequence(name);
-  return names;
-}
-
-void remove_interrupted(const fs::path& folder, const std::vector<fs::path>& listed,
-                        const std::set<fs::path>& kept) {
-  std::set<fs::path> names = with_their_sequences(folder, listed), folders = {""};
-  for (const fs::path& name : listed) folders.insert(name.parent_path());
-  names.insert(kManifest);
-  std::error_code ignored;
-  for (const fs::path& inner : folders) {
-    std::vector<fs::path> found;
-    for (const auto& entry : fs::directory_iterator(folder / inner, ignored))
-      found.push_back(inner / entry.path().filename());
-    for (const fs::path& name : found) {
-      const std::string target = half_written(name.filename().string());
-      const bool left =
-          target.empty() ? is_numbered(name) && names.contains(name) : names.contains(inner / target);
-      if (left && !kept.contains(name) && is_plain(folder / name)) fs::remove(folder / name, ignored);
-    }
-  }
-}
-
-void remove_run(const std::optional<Manifest>& manifest, const fs::path& folder,
-                const std::set<fs::path>& kept) {
-  const std::vector<fs::path> names = recorded_files(manifest, folder);
-  std::error_code ignored;
-  for (const fs::path& name : names)
-    if (!kept.contains(name) && is_plain(folder / name)) fs::remove(folder / name, ignored);
-  if (manifest && !manifest->complete) remove_interrupted(folder, names, kept);
-  for (const fs::path& name : names)
-    if (name.has_parent_path() && fs::is_empty(folder / name.parent_path(), ignored))
-      fs::remove(folder / name.parent_path(), ignored);
-}
-
 bool is_within(const fs::path& inner, const fs::path& outer) {
   return std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end()).first == outer.end();
 }
 
-// `what`, "--loop", names files: one of them would be removed before the run, or replaced by it.
+// `what`, "--loop", names files: one of them would be moved away before the run, or replaced by it.
 void throw_if_input(const std::string& what, const std::string& text, const fs::path& folder,
                     const std::vector<fs::path>& names) {
   std::error_code missing;
@@ -159,6 +71,25 @@ void throw_if_inputs(const CommandLine& line, const fs::path& folder, const std:
   for (const std::string& text : line.positionals) throw_if_input("", text, folder, names);
 }
 
+// The same of files that a scene or a study names.
+void throw_if_read(const fs::path& folder, const std::vector<fs::path>& names,
+                   const std::vector<std::string>& kept) {
+  if (!Job::current()) return;
+  for (const FileRead& read : Job::current()->files_read()) {
+    const std::string name = fs::proximate(fs::weakly_canonical(read.file), fs::weakly_canonical(folder));
+    if (!std::count(kept.begin(), kept.end(), name)) throw_if_input("", read.file, folder, names);
+  }
+}
+
+// The first folder on the way there that is not there yet; "" if it is there.
+fs::path first_missing(const fs::path& folder) {
+  fs::path missing;
+  for (fs::path path = fs::absolute(folder).lexically_normal(); !path.empty() && !stands(path);
+       path = path.parent_path())
+    missing = path;
+  return missing;
+}
+
 }  // namespace
 
 FolderLock::FolderLock(const fs::path& folder, const std::string& otherwise)
@@ -173,11 +104,94 @@ FolderLock::FolderLock(const fs::path& folder, const std::string& otherwise)
 
 FolderLock::~FolderLock() { ::close(handle_); }
 
-RunFolder::RunFolder(const fs::path& path, const CommandLine& line, const std::vector<std::string>& kept)
-    : path_(made(path)), lock_(path, ", or give another folder (--out)") {
-  const std::optional<Manifest> before = run_before(path_);
-  throw_if_inputs(line, path_, recorded_files(before, path_));
-  remove_run(before, path_, {kept.begin(), kept.end()});
+// What outlives the object until the job has ended: only then is it known whether the request was refused.
+struct RunFolder::Held {
+  Held(const fs::path& path, const CommandLine& line)
+      : path(path),
+        missing(first_missing(path)),
+        lock(made(path), ", or give another folder (--out)"),
+        run_before(run_before_in(path)),
+        aside(path, Successor::run) {
+    throw_if_inputs(line, path, names());
+  }
+
+  // Of what this run replaces when it is complete.
+  std::vector<fs::path> names() const {
+    std::vector<fs::path> all = recorded_files(run_before, path);
+    const fs::path waiting = fs::proximate(aside.place(), path);
+    for (const fs::path& name :
+         recorded_files(manifest_or_none(aside.place() / kManifestFile), aside.place()))
+      all.push_back(waiting / name);
+    return all;
+  }
+  void settle(int exit_code);
+  void take_back();
+
+  fs::path path, missing;
+  FolderLock lock;
+  std::optional<Manifest> run_before;
+  SetAside aside;
+  std::vector<SetAside> parts;
+  bool complete = false, stays = false;
+};
+
+// All is as it was before the run.
+void RunFolder::Held::take_back() {
+  for (auto part = parts.rbegin(); part != parts.rend(); ++part) {
+    part->restore();
+    remove_empty_folders(path, {fs::proximate(part->place(), path)});
+  }
+  aside.restore();
+  // Folders that were made for it, if nobody else has written into them.
+  std::error_code ignored;
+  for (fs::path folder = fs::absolute(path).lexically_normal();
+       !missing.empty() && is_within(folder, missing); folder = folder.parent_path())
+    if (!fs::remove(folder, ignored)) return;
+}
+
+// A wrong request leaves the run before, and so does a machine that fails before there is a result.
+void RunFolder::Held::settle(int exit_code) {
+  if (complete) return;
+  const bool nothing_since = aside.has_run() && !aside.has_results_since();
+  if (!stays && (exit_code == kRefused || nothing_since)) {
+    take_back();
+    return;
+  }
+  for (SetAside& part : parts) part.keep_if_complete();
+  aside.keep_if_complete();
+  if (aside.has_complete_run())
+    std::cerr << "the complete run before is kept in " << aside.place().string() << std::endl;
+}
+
+RunFolder::RunFolder(const fs::path& path, const CommandLine& line)
+    : path_(path), held_(std::make_shared<Held>(path, line)) {}
+
+RunFolder::~RunFolder() {
+  if (held_->complete) return;
+  if (Job* const job = Job::current())
+    job->at_end([held = std::move(held_)](int exit_code) { held->settle(exit_code); });
+}
+
+void RunFolder::set_run_before_aside(const std::vector<std::string>& kept) {
+  throw_if_read(path_, held_->names(), kept);
+  held_->aside.move({kept.begin(), kept.end()});
+}
+
+void RunFolder::add_part(const fs::path& folder, bool goes_on) {
+  SetAside& part = held_->parts.emplace_back(folder, Successor::page);
+  if (goes_on) return;
+  std::error_code ignored;
+  std::optional<FolderLock> free;
+  if (fs::is_directory(folder, ignored)) free.emplace(folder, ", or give another folder (--out)");
+  part.move();
+}
+
+void RunFolder::keep_from_here() { held_->stays = true; }
+
+void RunFolder::is_complete() {
+  held_->complete = true;
+  for (SetAside& part : held_->parts) part.remove();
+  held_->aside.remove();
 }
 
 void RunFolder::check_place(const fs::path& name) const {
@@ -208,11 +222,6 @@ fs::path RunFolder::place_for(const std::string& name) const {
   const fs::path file = path_ / name;
   made(file.parent_path());
   return file;
-}
-
-bool is_numbered(const fs::path& name) {
-  const std::string stem = name.stem().string();
-  return stem.size() >= 4 && stem.find_first_not_of("0123456789") == stem.npos;
 }
 
 }  // namespace hysteron::experiments

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "experiments/workbench/app/experiment.h"
+#include "experiments/workbench/app/run_files.h"
 
 namespace hysteron::experiments {
 
@@ -26,15 +28,33 @@ class FolderLock {
   int handle_;
 };
 
+// What stood there of an earlier run waits beside the new one until that is complete (set_aside.h).  How the
+// job ends decides what becomes of both:
+//   complete                  the earlier run is removed
+//   refused (exit code 2)     the folder is again what it was, byte for byte
+//   otherwise                 the new run keeps what it has written, and an earlier one that was complete
+//   stays
+//                             in OUT/.before; without any result of the new one the folder is what it was
 class RunFolder {
  public:
-  // Makes the folder, holds it and removes what the run before has left there: the files in its manifest and,
-  // if it was interrupted, the rest of its sequences and files half written.  Throws Error::system;
-  // Error::invalid_input where another run is in the folder, where its manifest.json is not a run's, and
-  // where the line names one of those files as an input. `kept`: files of that run which are not removed,
-  // since this one goes on from them.
-  RunFolder(const std::filesystem::path& path, const CommandLine& line,
-            const std::vector<std::string>& kept = {});
+  // Makes the folder and holds it; nothing in it is touched.  Throws Error::system; Error::invalid_input
+  // where another run is in the folder, where its manifest.json is not a run's, and where the line names one
+  // of that run's files as an input.
+  RunFolder(const std::filesystem::path& path, const CommandLine& line);
+  ~RunFolder();
+  RunFolder(const RunFolder&) = delete;
+  RunFolder& operator=(const RunFolder&) = delete;
+
+  // `kept`: files of an interrupted run which stay, since this one goes on from them.  Throws
+  // Error::invalid_input where the job has read one of those that do not, Error::system.
+  void set_run_before_aside(const std::vector<std::string>& kept);
+  // A folder inside of a run that this one, a page, has started; where the page does not go on with what it
+  // finds there, that is set aside like its own files.  Throws Error::invalid_input where another run is in
+  // it.
+  void add_part(const std::filesystem::path& folder, bool goes_on);
+  // From here on what was written stays, even if the request turns out to be wrong.
+  void keep_from_here();
+  void is_complete();
 
   const std::filesystem::path& path() const { return path_; }
   // Throws Error::invalid_input where place_for(name) would; of a sequence ("frames/0000.png") where any of
@@ -47,11 +67,10 @@ class RunFolder {
  private:
   void check_place(const std::filesystem::path& name) const;
 
-  std::filesystem::path path_;
-  FolderLock lock_;
-};
+  struct Held;
 
-// "frames/0012.png", one of a sequence, whose files are numbered.
-bool is_numbered(const std::filesystem::path& name);
+  std::filesystem::path path_;
+  std::shared_ptr<Held> held_;
+};
 
 }  // namespace hysteron::experiments

@@ -59,9 +59,11 @@ std::vector<std::string> metrics_in(const std::vector<ChildRun>& columns,
 }
 
 void run_columns(Run& run, std::vector<ChildRun>& columns, const SweepJobs& jobs) {
+  for (const ChildRun& column : columns) run.add_part(column.folder, jobs.resume);
   run_columns(
       columns, jobs, [&](const ChildRun& c) { run.progress(c.name + ": " + run_outcome(c)); },
       [&](const std::string& line) { run.progress(line); });
+  run.keep_from_here();
   ColumnWarnings warnings;
   for (const ChildRun& column : columns) warnings.hear(column);
   warnings.say(run);

@@ -263,7 +263,10 @@ void measure_errors(Run& run, const CommandLine& line, const Setup& setup) {
   const std::vector<ErrorRun> error_runs = planned_error_runs(
       line.experiment, setup.scene, noted_release(run, headlines), setup.options.errors_draws);
   std::vector<ChildRun> columns;
-  for (const ErrorRun& error_run : error_runs) columns.push_back(child_run(run, line, error_run));
+  for (const ErrorRun& error_run : error_runs) {
+    columns.push_back(child_run(run, line, error_run));
+    run.add_part(columns.back().folder, false);
+  }
   SweepJobs jobs;
   jobs.at_once = setup.options.errors_jobs;
   jobs.batch = setup.options.errors_batch;

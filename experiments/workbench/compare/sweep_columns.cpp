@@ -9,16 +9,22 @@
 #include <exception>
 #include <fstream>
 #include <iostream>
+#include <iterator>
 #include <map>
 #include <mutex>
 #include <set>
 #include <thread>
 #include <utility>
 
+#include "experiments/workbench/app/command_line.h"
 #include "experiments/workbench/app/ending.h"
 #include "experiments/workbench/app/gpu_choice.h"
 #include "experiments/workbench/app/json_file.h"
 #include "experiments/workbench/app/manifest_file.h"
+#include "experiments/workbench/app/run.h"
+#include "experiments/workbench/app/run_files.h"
+#include "experiments/workbench/app/same_request.h"
+#include "experiments/workbench/app/this_program.h"
 #include "experiments/workbench/app/version.h"
 #include "experiments/workbench/compare/variants.h"
 #include "sim/base/atomic_file.h"
@@ -33,8 +39,6 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-// What was asked of a column that has ended, of which program, and how it ended: it stands in its folder.
-constexpr const char* kOutcome = "outcome.json";
 constexpr int kNotRun = -1;  // as an exit code
 
 // Words after `hysteron`.
@@ -45,8 +49,69 @@ std::vector<std::string> line_arguments(const CommandLine& line) {
   return words;
 }
 
+// What a page keeps for itself of the flags of its columns, and adds to them: no part of what they are asked.
+const std::set<std::string>& page_flags() {
+  static const std::set<std::string> kPageFlags = {"out", "json", "quiet", "resume", "threads"};
+  return kPageFlags;
+}
+
+// What was asked of a column that has ended; how stands beside it in its folder.
 Json requested(const ChildRun& column) {
-  return {{"commit", kGitCommit}, {"dirty", kGitDirty}, {"words", line_arguments(column.line)}};
+  return {{"commit", kGitCommit},
+          {"dirty", kGitDirty},
+          {"build", program_build()},
+          {"words", line_arguments(column.line)}};
+}
+
+std::vector<std::string> words_in(const Json& list) {
+  std::vector<std::string> words;
+  for (const Json& word : list)
+    if (word.is_string()) words.push_back(word);
+  return words;
+}
+
+// As a run's manifest has it.
+std::vector<std::string> noted_words(const RunSpec& spec, const std::string& experiment) {
+  CommandLine line{experiment, "", {}, spec.positionals};
+  for (const auto& [path, text] : spec.flags)
+    if (!page_flags().contains(path)) line.flags.push_back({path, text});
+  return line_arguments(line);
+}
+
+// As the manifest of the column's run will have it: in the parser's order.
+std::vector<std::string> words_to_note(const ChildRun& column) {
+  std::vector<std::string> words = line_arguments(column.line);
+  words.insert(words.begin(), "hysteron");
+  const auto line = parse_command_line(words, {experiment_named(column.line.experiment)});
+  return line ? line_arguments(*line) : words;
+}
+
+// "--gravity differs"
+void add_differing_words(const std::vector<std::string>& then, const std::vector<std::string>& now,
+                         std::vector<std::string>& changes) {
+  for (const std::string& name : changed_words(then, now)) changes.push_back(name + " differs");
+}
+
+// What has changed since a run that was interrupted before the page could note how it ended.
+std::vector<std::string> changes_since(const ChildRun& column, const Manifest& manifest) {
+  std::vector<std::string> changes;
+  if (manifest.spec)
+    add_differing_words(noted_words(*manifest.spec, manifest.experiment), words_to_note(column), changes);
+  std::ranges::copy(input_changes(manifest.inputs), std::back_inserter(changes));
+  if (const std::string program = program_change(manifest); !program.empty()) changes.push_back(program);
+  return changes;
+}
+
+// Since one that has ended; a run that was refused has read its files, but its manifest is not there.
+std::vector<std::string> changes_since(const ChildRun& column, const Manifest* manifest,
+                                       const Json& outcome) {
+  std::vector<std::string> changes;
+  const Json& asked = json_at(outcome, "asked");
+  add_differing_words(words_in(json_at(asked, "words")), line_arguments(column.line), changes);
+  if (manifest) std::ranges::copy(input_changes(manifest->inputs), std::back_inserter(changes));
+  if (json_at(asked, "build") != Json(program_build()))
+    changes.push_back("its program is another build of " + program_version());
+  return changes;
 }
 
 // What a process gets of the machine.
@@ -76,7 +141,8 @@ std::vector<std::string> child_arguments(const ChildRun& column, const SweepJobs
   words.push_back("--out=" + column.folder.string());
   if (experiment_named(column.line.experiment).simulates)
     words.push_back("--threads=" + std::to_string(threads));
-  if (jobs.checkpoints && takes_checkpoints(column)) words.push_back("--resume=true");
+  if (jobs.checkpoints && takes_checkpoints(column) && column.changed.empty())
+    words.push_back("--resume=true");
   return words;
 }
 
@@ -93,7 +159,7 @@ void write_outcome(const ChildRun& column, bool make_folder) {
   if (!fs::is_directory(column.folder, ignored)) return;
   const Json outcome = {
       {"asked", requested(column)}, {"exit_code", column.exit_code}, {"stopped", column.stopped}};
-  write_text(column.folder / kOutcome, outcome.dump(2) + "\n");
+  write_text(column.folder / kOutcomeFile, outcome.dump(2) + "\n");
 }
 
 // What the run has left.
@@ -105,7 +171,7 @@ void take_back(ChildRun& column, const SweepJobs& jobs, int exit_code, const std
     throw exit_code == 2 ? Error::invalid_input(why) : Error::system(why);
   }
   if (exit_code != 0) column.stopped = ending_reason(exit_code, error);
-  if (has_results) column.manifest = manifest_or_none(column.folder / "manifest.json");
+  if (has_results) column.manifest = manifest_or_none(column.folder / kManifestFile);
   write_outcome(column, jobs.keep_reasons);
 }
 
@@ -126,8 +192,6 @@ std::string why_not_batchable(const CommandLine& line) {
 // the errors of run_columns() are thrown after their end.
 void run_chunk(std::vector<ChildRun>& columns, const Chunk& chunk, const SweepJobs& jobs,
                ProcessShare process_share, const std::function<void(std::size_t)>& ended) {
-  std::error_code ignored;
-  for (const std::size_t i : chunk) fs::remove(columns[i].folder / kOutcome, ignored);
   std::set<std::size_t> waiting(chunk.begin(), chunk.end());
   Clock::time_point begun = Clock::now();
   std::exception_ptr failure;
@@ -258,9 +322,8 @@ Division divided(const std::vector<ChildRun>& columns, const SweepJobs& jobs) {
 
 ChildRun child_run(const std::string& name, const CommandLine& line, const std::vector<Flag>& own,
                    const fs::path& out) {
-  static const std::set<std::string> kPageFlags = {"out", "json", "quiet", "resume", "threads"};
   ChildRun column{name, line, out / name};
-  std::erase_if(column.line.flags, [](const Flag& flag) { return kPageFlags.contains(flag.path); });
+  std::erase_if(column.line.flags, [](const Flag& flag) { return page_flags().contains(flag.path); });
   column.line.flags = with_later(column.line.flags, own);
   return column;
 }
@@ -273,34 +336,48 @@ void explain_columns(const std::vector<ChildRun>& columns) {
 }
 
 std::string run_outcome(const ChildRun& column) {
-  return column.kept ? "kept" : column.stopped.empty() ? "done" : column.stopped;
+  if (column.kept) return "kept";
+  if (!column.stopped.empty()) return column.stopped;
+  return column.changed.empty() ? "done" : "done again: " + column.changed;
 }
 
 std::string progress_in(const fs::path& folder) {
   const std::string row = last_row(folder / "metrics.csv.part");
-  const std::optional<Manifest> manifest = manifest_or_none(folder / "manifest.json");
+  const std::optional<Manifest> manifest = manifest_or_none(folder / kManifestFile);
   if (row.empty() || !manifest) return "";
   return fmt::format("{:.2f}/{:.4g} s", std::strtod(row.c_str(), nullptr), manifest->number("seconds"));
 }
 
 bool recall(ChildRun& column) {
-  std::optional<Manifest> manifest = manifest_or_none(column.folder / "manifest.json");
-  const Json outcome = json_or_none(column.folder / kOutcome);
-  column.kept = manifest && manifest->complete && outcome.is_object() &&
-                outcome.value("asked", Json()) == requested(column);
+  std::optional<Manifest> manifest = manifest_or_none(column.folder / kManifestFile);
+  const Json outcome = json_or_none(column.folder / kOutcomeFile);
+  column.kept = false;
+  column.changed.clear();
+  if (!outcome.is_object()) {
+    if (manifest) column.changed = join(changes_since(column, *manifest), ", ");
+    return false;
+  }
+  const int exit_code = outcome.value("exit_code", kNotRun);
+  const bool has_results = exit_code == 0 || exit_code == kCouldNotGoOn;
+  column.changed = join(changes_since(column, has_results && manifest ? &*manifest : nullptr, outcome), ", ");
+  column.kept = exit_code == 0 && manifest && manifest->complete && column.changed.empty();
   if (column.kept) column.manifest = std::move(manifest);
   return column.kept;
 }
 
 void recall_outcome(ChildRun& column) {
   if (recall(column)) return;
-  const Json outcome = json_or_none(column.folder / kOutcome);
-  const bool known = outcome.is_object() && outcome.value("exit_code", Json()).is_number_integer() &&
+  const Json outcome = json_or_none(column.folder / kOutcomeFile);
+  const bool known = column.changed.empty() && outcome.is_object() &&
+                     outcome.value("exit_code", Json()).is_number_integer() &&
                      outcome.value("stopped", Json()).is_string();
   column.exit_code = known ? outcome["exit_code"].get<int>() : kNotRun;
   column.stopped = known ? outcome["stopped"].get<std::string>() : "";
-  if (column.stopped.empty()) column.stopped = "not run", column.exit_code = kNotRun;
-  if (column.exit_code == kCouldNotGoOn) column.manifest = manifest_or_none(column.folder / "manifest.json");
+  if (column.stopped.empty()) {
+    column.stopped = column.changed.empty() ? "not run" : "not run: " + column.changed;
+    column.exit_code = kNotRun;
+  }
+  if (column.exit_code == kCouldNotGoOn) column.manifest = manifest_or_none(column.folder / kManifestFile);
 }
 
 void check_batch(const std::vector<ChildRun>& columns, int batch) {

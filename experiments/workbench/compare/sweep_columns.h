@@ -24,6 +24,9 @@ struct ChildRun {
   double seconds =
       0;  // of wall clock that its process took; of several in one, since the one before it ended
   std::optional<Manifest> manifest{};
+  // What has changed since the run that its folder holds, which is therefore no result of it; "": nothing, or
+  // there is no run.
+  std::string changed{};
 
   Metrics metrics() const { return manifest ? manifest->metrics : Metrics(); }
 };
@@ -61,16 +64,18 @@ using Chunk = std::vector<std::size_t>;
 // all of them or none take checkpoints; the column `first` is by itself.
 std::vector<Chunk> batch_chunks(const std::vector<ChildRun>& columns, int largest, int first);
 
-// Takes what the same program has left of a column that it has finished: it is then `kept`.  False if it has
-// not.
+// Takes the finished run that the column's folder holds, if it was asked for the same by the same words, of
+// the same program, and every file that it has read is the same: it is then `kept`.  Else false, and
+// `changed` says why.
 bool recall(ChildRun& column);
-// The same, or how the column ended, whoever ran it; "not run" where nothing is left of it.
+// The same, or how the column ended, whoever ran it; "not run" where nothing is left of it that was asked for
+// the same.
 void recall_outcome(ChildRun& column);
 
 // How many processes the columns take at a time.
 int processes_at_once(const std::vector<ChildRun>& columns, const SweepJobs& jobs);
 
-// "kept", "done", or why it stopped.
+// "kept", "done", "done again: fabric.toml has changed", or why it stopped.
 std::string run_outcome(const ChildRun& column);
 
 // "1.20/4 s": how far a run has come that is not finished, by its folder; "" before its first instant.

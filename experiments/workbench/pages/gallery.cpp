@@ -6,6 +6,7 @@
 
 #include "experiments/workbench/app/experiment.h"
 #include "experiments/workbench/app/manifest_file.h"
+#include "experiments/workbench/app/set_aside.h"
 #include "experiments/workbench/pages/gallery_exhibit.h"
 #include "experiments/workbench/pages/manifest.h"
 #include "experiments/workbench/pages/pictures.h"
@@ -97,7 +98,8 @@ std::vector<fs::path> reports_below(const fs::path& folder) {
   std::vector<fs::path> found;
   std::error_code failure;
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder, failure)) {
-    if (entry.path().filename() == "report.html" && entry.path().parent_path() != folder)
+    const fs::path inner = entry.path().parent_path();
+    if (entry.path().filename() == "report.html" && inner != folder && !is_set_aside(inner))
       found.push_back(entry.path().parent_path());
   }
   if (failure) throw Error::system("cannot read the folder " + folder.string() + ": " + failure.message());

@@ -5,28 +5,20 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "experiments/workbench/app/json_file.h"
 #include "experiments/workbench/app/manifest_file.h"
+#include "experiments/workbench/app/same_request.h"
+#include "experiments/workbench/app/this_program.h"
 #include "experiments/workbench/pages/manifest.h"
 #include "experiments/workbench/session/checkpoint.h"
 #include "experiments/workbench/session/interrupts.h"
 #include "sim/base/fnv1a.h"
 #include "sim/base/whole_file.h"
-#include "sim/scene/keys.h"
 
 namespace hysteron::experiments {
 namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kFile = "checkpoint";
-
-// Without what no result depends on: threads, and where values come from.
-Json comparable(Json scene) {
-  if (!scene.is_object()) return Json::object();
-  for (const char* key : {"threads", "origin"}) scene.erase(key);
-  if (scene.contains("fabric") && scene["fabric"].is_object()) scene["fabric"].erase("provenance");
-  return scene;
-}
 
 std::uint64_t cloth_hash(const Cloth& cloth) {
   std::uint64_t hash = kFnv1aStart;
@@ -43,24 +35,17 @@ CheckpointOwner checkpoint_owner(const Cloth& cloth, const Simulation& simulatio
   return {simulation.device(), cloth_hash(cloth)};
 }
 
-std::string other_values(const Manifest& before, const Setup& setup) {
-  return differing_keys(comparable(*before.keys), comparable(to_json(setup.scene)));
-}
-
 // The run that left the checkpoint is this one, by its manifest.
 void throw_if_another(const fs::path& file, const std::optional<Manifest>& before, const CommandLine& line,
                       const Setup& setup) {
   if (!before) refuse_checkpoint(file, "there is no manifest.json beside it");
-  const auto compare = [&](const char* what, const std::string& there, const std::string& here) {
-    if (there != here) refuse_checkpoint(file, fmt::format("its {} is {}, not {}", what, there, here));
-  };
-  compare("program", program_version(*before), program_version());
-  compare("experiment", before->experiment, line.experiment);
-  const Json none = Json::object();
-  const std::string options =
-      differing_keys(before->options ? *before->options : none, setup.resolved ? *setup.resolved : none);
-  const std::string keys = joined({other_values(*before, setup), options}, ", ");
+  if (const std::string program = program_change(*before); !program.empty()) refuse_checkpoint(file, program);
+  if (before->experiment != line.experiment)
+    refuse_checkpoint(file, "its experiment is " + before->experiment + ", not " + line.experiment);
+  const std::string keys = changed_keys(*before, setup);
   if (!keys.empty()) refuse_checkpoint(file, "other values of " + keys);
+  const std::vector<std::string> files = input_changes(before->inputs, inputs_of_job(file.parent_path()));
+  if (!files.empty()) refuse_checkpoint(file, joined(files, ", "));
 }
 
 }  // namespace
@@ -78,11 +63,13 @@ Checkpoints::Checkpoints(const CommandLine& line, const Setup& setup, const Clot
     state_ = *state;
     return;
   }
-  const std::string keys = other_values(*before, setup);
-  if (before->experiment != line.experiment || !keys.empty())
-    throw Error::invalid_input(folder.string() + " has a complete run of other values" +
-                               (keys.empty() ? "" : " (" + keys + ")") + ": give another folder (--out)")
-        .with_key("resume", folder.string());
+  const std::string why = why_another_request(*before, line, setup);
+  if (!why.empty()) {
+    if (!options.quiet)
+      std::cerr << folder.string() << " is complete, but " << why << ": from the start" << std::endl;
+    is_repeated_ = true;
+    return;
+  }
   is_complete_ = true;
   if (options.json)
     std::cout << whole_file(folder / "manifest.json", "cannot read the manifest") << std::flush;
@@ -105,7 +92,8 @@ void Checkpoints::begin(Session& session) {
   if (options.checkpoint <= 0 && !options.resume) return;
   Run& run = session.run();
   if (state_.empty()) {
-    if (options.resume) run.progress("no checkpoint in " + run.folder().string() + ": from the start");
+    if (options.resume && !is_repeated_)
+      run.progress("no checkpoint in " + run.folder().string() + ": from the start");
     return;
   }
   Archive archive{state_};

@@ -12,8 +12,9 @@ namespace hysteron::experiments {
 // The last of the observers: a run that goes on does so when all others have begun.
 class Checkpoints : public Observer {
  public:
-  // With --resume a run that is complete is not repeated; of one that is not, its checkpoint is read.  Throws
-  // Error::invalid_input for a run of other values.
+  // With --resume a run that is complete and was asked for the same is not repeated; one that was asked for
+  // something else is, and stderr says what differs.  Of one that is not complete the checkpoint is read.
+  // Throws Error::invalid_input for a checkpoint of another request.
   Checkpoints(const CommandLine& line, const Setup& setup, const Cloth& cloth, const Simulation& simulation);
 
   bool is_complete() const { return is_complete_; }  // the run of --resume
@@ -31,7 +32,7 @@ class Checkpoints : public Observer {
 
   void take(Session& session);
 
-  bool is_complete_ = false;
+  bool is_complete_ = false, is_repeated_ = false;
   std::string state_;                       // to go on from; empty: none, or gone on
   std::vector<double> resumed_at_;          // [s]
   Clock::time_point taken_ = Clock::now();  // or begun

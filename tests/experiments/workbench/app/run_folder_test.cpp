@@ -2,7 +2,11 @@
 #include "experiments/workbench/app/run_folder.h"
 
 #include <fstream>
+#include <map>
 
+#include "experiments/workbench/app/ending.h"
+#include "sim/base/error.h"
+#include "sim/base/whole_file.h"
 #include "tests/experiments/folder.h"
 
 namespace hysteron::experiments {
@@ -149,6 +153,118 @@ TEST_F(RunFolder, IsNotWhereTheRunReads) {
                                         ", which this one would replace: give another folder (--out)");
   EXPECT_TRUE(says(refused_run(out_, render), "is of the run in"));
   EXPECT_EQ(file_content(loops), "mine");
+}
+
+// A complete run in a folder, and another one there that ends in different ways.
+class SuccessorOfARun : public RunFolder {
+ protected:
+  SuccessorOfARun() {
+    earlier_run(out_, "frames/0000.png");
+    write(out_ / "report.html", "the earlier page");
+    write(out_ / "notes.txt");
+  }
+  // Of every file below by its name.
+  std::map<std::string, std::string> contents() const {
+    std::map<std::string, std::string> files;
+    for (const auto& entry : fs::recursive_directory_iterator(out_))
+      if (entry.is_regular_file()) files[fs::relative(entry.path(), out_)] = file_content(entry.path());
+    return files;
+  }
+  // Its exit code; `end` may write and throw.
+  int run(const std::function<void(ExperimentRun&)>& end) const {
+    return run_ending("drape",
+                      [&] {
+                        ExperimentRun run(drape_line(), setup_in(out_));
+                        end(run);
+                        return 0;
+                      })
+        .exit_code;
+  }
+};
+
+TEST_F(SuccessorOfARun, ThatIsRefusedLeavesEveryByteAsItWas) {
+  const auto before = contents();
+  EXPECT_EQ(run([](ExperimentRun& run) {
+              write(run.path("table.csv"), "new");
+              write(run.path("frames/0000.png"), "new");
+              run.path("mesh/0000.obj");
+              throw Error::invalid_input("no");
+            }),
+            2);
+  EXPECT_EQ(contents(), before);
+  EXPECT_FALSE(fs::exists(out_ / "mesh"));
+  EXPECT_FALSE(fs::exists(out_ / ".before"));
+}
+
+TEST_F(SuccessorOfARun, ThatFailsBeforeItsFirstResultLeavesEveryByteAsItWas) {
+  const auto before = contents();
+  EXPECT_EQ(run([](ExperimentRun& run) {
+              run.path("table.csv");
+              throw Error::system("no GPU");
+            }),
+            1);
+  EXPECT_EQ(contents(), before);
+}
+
+TEST_F(SuccessorOfARun, ThatCannotGoOnKeepsItsFilesAndTheRunBeforeBesideThem) {
+  const auto before = contents();
+  const auto fail = [](ExperimentRun& run) {
+    write(run.path("table.csv"), "new");
+    throw Error::simulation("no feasible state");
+  };
+  for (int k = 0; k < 2; ++k) {  // the second one replaces the first, which was not complete
+    EXPECT_EQ(run(fail), 3);
+    EXPECT_EQ(manifest_in(out_)["complete"], false);
+    EXPECT_EQ(file_content(out_ / "table.csv"), "new");
+    for (const char* name : {"manifest.json", "report.html", "frames/0000.png"})
+      EXPECT_EQ(file_content(out_ / ".before" / name), before.at(name)) << name;
+    EXPECT_FALSE(fs::exists(out_ / ".stopped"));
+  }
+  const auto stopped = contents();
+  EXPECT_EQ(run([](ExperimentRun&) { throw Error::invalid_input("no"); }), 2);
+  EXPECT_EQ(contents(), stopped);
+  EXPECT_EQ(run([](ExperimentRun& run) { run.finish(); }), 0);
+  EXPECT_EQ(manifest_in(out_)["complete"], true);
+  EXPECT_FALSE(fs::exists(out_ / ".before"));
+  EXPECT_EQ(file_content(out_ / "notes.txt"), "mine");
+}
+
+TEST_F(SuccessorOfARun, ThatIsKilledLeavesTheRunBeforeBesideIt) {
+  const std::string manifest = file_content(out_ / "manifest.json");
+  killed([&] {
+    auto* run = new ExperimentRun(drape_line(), setup_in(out_));
+    write(run->path("table.csv"));
+  });
+  EXPECT_EQ(file_content(out_ / ".before" / "manifest.json"), manifest);
+  EXPECT_EQ(run([](ExperimentRun& run) { run.finish(); }), 0);
+  EXPECT_FALSE(fs::exists(out_ / ".before"));
+  EXPECT_FALSE(fs::exists(out_ / "table.csv"));
+}
+
+TEST_F(SuccessorOfARun, MayNotReadWhatItReplaces) {
+  const std::string frame = out_ / "frames/0000.png";
+  const auto before = contents();
+  const Ending ending = run_ending("drape", [&] {
+    whole_file(frame, "");  // as a scene may name it
+    ExperimentRun(drape_line(), setup_in(out_));
+    return 0;
+  });
+  EXPECT_TRUE(says(ending.error, frame + " is of the run in " + out_.string())) << ending.error;
+  EXPECT_EQ(contents(), before);
+}
+
+TEST_F(RunFolder, ThatWasNotThereIsNotThereAfterARefusal) {
+  const fs::path out = out_ / "new" / "run";
+  EXPECT_EQ(run_ending("drape",
+                       [&] {
+                         ExperimentRun run(drape_line(), setup_in(out));
+                         write(run.path("frames/0000.png"));
+                         throw Error::invalid_input("no");
+                         return 0;
+                       })
+                .exit_code,
+            2);
+  EXPECT_FALSE(fs::exists(out_ / "new"));
 }
 
 }  // namespace

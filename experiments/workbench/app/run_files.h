@@ -1,0 +1,43 @@
+// The files that a run has left in its folder, by its manifest: all that may be moved or removed there.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <set>
+#include <vector>
+
+#include "experiments/workbench/app/manifest.h"
+
+namespace hysteron::experiments {
+
+inline constexpr const char* kManifestFile = "manifest.json";
+// How a run ended that a page has started, beside what the run itself has written.
+inline constexpr const char* kOutcomeFile = "outcome.json";
+
+// Whether anything has that name, a link that leads nowhere included.
+bool stands(const std::filesystem::path& file);
+bool is_plain(const std::filesystem::path& file);
+// Of a name in a folder.
+bool stays_inside(const std::filesystem::path& name);
+// One of the folders on the way from `folder` to the file of that name is a link.
+bool is_behind_a_link(const std::filesystem::path& folder, const std::filesystem::path& name);
+// "frames/0012.png", one of a sequence, whose files are numbered.
+bool is_numbered(const std::filesystem::path& name);
+
+// Names that the manifest lists, and those of the page and the outcome that were written since; whether they
+// are there or not.
+std::vector<std::filesystem::path> recorded_files(const std::optional<Manifest>& manifest,
+                                                  const std::filesystem::path& folder);
+
+// Names of the plain files that are there of the run: those that are recorded and, if it was interrupted, the
+// rest of its sequences and what is half written; without its manifest.
+std::set<std::filesystem::path> files_left(const std::optional<Manifest>& manifest,
+                                           const std::filesystem::path& folder);
+
+// Removes them, and folders that are empty then.
+void remove_files(const std::filesystem::path& folder, const std::set<std::filesystem::path>& names);
+// Removes the folders of these files inside `folder` that are empty.
+void remove_empty_folders(const std::filesystem::path& folder,
+                          const std::vector<std::filesystem::path>& names);
+
+}  // namespace hysteron::experiments

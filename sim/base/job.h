@@ -1,0 +1,65 @@
+// One command line while it is answered: which files it has read, and what is settled when it has ended.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <unordered_set>
+#include <vector>
+
+namespace hysteron {
+
+struct FileRead {
+  std::filesystem::path file;  // as it was named
+  std::uint64_t hash;          // of its bytes when it was first read
+};
+
+// The job of a thread.  A process has one, or one for each of the runs that share it.  Every file that a user
+// names passes whole_file(), which enters it here, so that no reader can forget to say what it has read.
+class Job {
+ public:
+  // Becomes the job of this thread until it is destroyed; the one before waits.
+  Job();
+  ~Job();
+  Job(const Job&) = delete;
+  Job& operator=(const Job&) = delete;
+
+  // Null where there is none, as in other programs that use the library.
+  static Job* current() { return current_; }
+  // Gives the thread another one and returns its own: of threads and fibers that work for a job.
+  static Job* exchange(Job* job);
+
+  void has_read(const std::filesystem::path& file, std::string_view bytes);
+  // Each file once, in the order in which they were read.
+  std::vector<FileRead> files_read() const;
+
+  // Has end() call `settle` with the exit code, the last one first.
+  void at_end(std::function<void(int exit_code)> settle);
+  void end(int exit_code);
+
+ private:
+  static inline thread_local Job* current_ = nullptr;
+
+  Job* const before_;
+  mutable std::mutex mutex_;
+  std::vector<FileRead> files_;
+  std::unordered_set<std::string> known_;  // their names
+  std::vector<std::function<void(int)>> settlements_;
+};
+
+// Lets a thread work for a job.
+class WorkingFor {
+ public:
+  explicit WorkingFor(Job* job) : own_(Job::exchange(job)) {}
+  ~WorkingFor() { Job::exchange(own_); }
+  WorkingFor(const WorkingFor&) = delete;
+  WorkingFor& operator=(const WorkingFor&) = delete;
+
+ private:
+  Job* const own_;
+};
+
+}  // namespace hysteron
