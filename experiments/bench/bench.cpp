@@ -247,13 +247,20 @@ std::vector<DecidedKey> left_out_by(const BenchOptions& own) {
   return keys;
 }
 
-int run_bench(const CommandLine& line) {
+int run_bench(const CommandLine& given) {
   BenchOptions own;
+  CommandLine line = given;
+  // The table has rows of several, each of which reads keys of its own.
+  if (last_text(line.flags, "sizes", "false") == "true") line.listed = {"integrator"};
   const Setup setup = set_up(line, defaults(), bind(kRows, own), [&](Setup&) {
     own.sizes_triangles = {200, 800};
   });
   if (setup.options.checkpoint > 0 || setup.options.resume)
     throw Error::invalid_input("--checkpoint and --resume: bench measures runs from their start");
+  if (!setup.options.dump_scene.empty() || setup.options.explain)
+    throw Error::invalid_input(
+        "--dump-scene and --explain: bench only times steps; `hysteron run` of the same scene takes them")
+        .with_key(setup.options.explain ? "explain" : "dump-scene", "");
   if (own.sizes && own.profile) throw Error::invalid_input("--sizes and --profile: bench does one at a time");
   throw_if_flags(line, left_out_by(own));
   const Request request{line, setup, own};
@@ -275,7 +282,8 @@ Experiment bench() {
           .simulates = true,
           .own_keys = own_key_descriptions<kRows>,
           .defaults = defaults,
-          .timed = true};
+          .timed = true,
+          .conditions = {{"sizes-triangles | sizes-integrators | budget", "sizes"}}};
 }
 
 }  // namespace hysteron::experiments

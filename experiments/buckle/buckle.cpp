@@ -192,6 +192,7 @@ Experiment buckle() {
           .own_keys = own_key_descriptions<kRows>,
           .defaults = defaults,
           .decided = decided,
+          .conditions = {{"seed", "mesh = random"}},
           .headlines = {.all = {{"critical_gamma", "critical gamma", "", "{:.3f}"},
                                 {"reference_gamma", "that of theory", "", "{:.3f}", 1, kNoErrors}},
                         .equilibria = true}};

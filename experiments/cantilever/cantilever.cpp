@@ -149,6 +149,7 @@ Experiment cantilever() {
       .own_keys = own_key_descriptions<kRows>,
       .defaults = defaults,
       .decided = decided,
+      .conditions = {{"seed", "mesh = random"}},
       .headlines = {.all = {{"tip_drop_over_length", "tip drop over length", "", "{:.4f}"},
                             {"elastica_drop_over_length", "that of the elastica", "", "{:.4f}", 1, kNoErrors},
                             {"bending_length_m", "bending length", "mm", "{:.2f}", 1e3}}}};

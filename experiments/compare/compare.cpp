@@ -11,6 +11,7 @@
 #include "experiments/compare/plan.h"
 #include "experiments/compare/tuning.h"
 #include "experiments/workbench/app/command_line.h"
+#include "experiments/workbench/app/key_conditions.h"
 #include "experiments/workbench/compare/comparison.h"
 #include "experiments/workbench/compare/comparison_page.h"
 #include "experiments/workbench/pages/report.h"
@@ -102,6 +103,9 @@ void read_flags(const CommandLine& line, CompareChoice& choice, Options& options
       for (const BoundKey& key : *keys)
         if (key.description.path == flag.path)
           assign(key, parse_text(key.description, flag.text), "--" + flag.path);
+  KeyValues values = key_values(own);
+  values.merge(key_values(general));
+  refuse_unread_flags(line, values);
   if (options.out.empty())
     options.out = "out/compare-" + std::filesystem::path(line.positionals[0]).stem().string();
   if (!choice.to.empty()) choice.to = column_name(choice.to);
@@ -186,7 +190,11 @@ Experiment compare() {
           .run = run_compare,
           .simulates = true,
           .own_keys = own_keys,
-          .positionals = "EXPERIMENT|SCENE"};
+          .positionals = "EXPERIMENT|SCENE",
+          .conditions = {{"compare.difference", "compare.to"},
+                         {"compare.rows", "not compare.times"},
+                         {"compare.match-curvature", "compare.match = energy"},
+                         {"compare.tune-metric", "compare.tune"}}};
 }
 
 }  // namespace hysteron::experiments

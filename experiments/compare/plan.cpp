@@ -21,15 +21,6 @@ bool is_own(const Flag& flag) {
          flag.path == "integrators" || flag.path == "batch";
 }
 
-LawRequest requested_law(const Fabric& fabric, const CommandLine& line, const std::string& law) {
-  LawRequest request{law, fabric.virgin_curve(), {}};
-  for (const Flag& flag : line.flags)
-    if (flag.path == "param")
-      request.parameters[flag.text.substr(0, flag.text.find('='))] =
-          flag.text.substr(flag.text.find('=') + 1);
-  return request;
-}
-
 // Flags for the stiffnesses of the parts that a fabric has.
 void add_parts(const BendingParts& parts, std::vector<Flag>& flags) {
   const auto add = [&](const char* table, const std::vector<double>& stiffnesses) {
@@ -43,35 +34,79 @@ void add_parts(const BendingParts& parts, std::vector<Flag>& flags) {
   if (parts.set.on()) flags.push_back({"fabric.bending.set.hardening", number_text(parts.set.hardening)});
 }
 
-// The fabric of a column before any matching, and its law.
-struct ColumnFabric {
-  Fabric fabric;
-  std::string law;
+// Keys that a scene's file may have and that say nothing of how cloth bends: of an experiment, read and
+// dropped.
+class DroppedKeys {
+ public:
+  explicit DroppedKeys(const std::vector<KeyDescription>& descriptions) {
+    for (const KeyDescription& key : descriptions) keys_.push_back({key, field(key.type)});
+  }
+  const Keys& keys() const { return keys_; }
+
+ private:
+  Field field(const std::string& type) {
+    if (type == "flag") return &flag_;
+    if (type == "integer") return &integer_;
+    if (type == "number") return &number_;
+    if (type == "vector") return &vector_;
+    if (type == "numbers") return &numbers_;
+    if (type == "name=value") return &parameters_;
+    return &text_;
+  }
+
+  bool flag_ = false;
+  int integer_ = 0;
+  double number_ = 0;
+  Eigen::Vector3d vector_ = Eigen::Vector3d::Zero();
+  Numbers numbers_;
+  Parameters parameters_;
+  std::string text_;
+  Keys keys_;
 };
 
-ColumnFabric column_fabric(const CommandLine& line) {
-  Setup setup{default_scene(), {}};
+// The scene of a column before any matching, as far as it says how cloth bends: by the experiment's defaults,
+// the scene's file and the flags, as the column's run resolves it.
+Scene bending_scene(const CommandLine& line) {
+  const Experiment& experiment = experiment_named(line.experiment);
+  Setup setup = experiment.defaults ? experiment.defaults() : Setup{default_scene(), {}};
   setup.own_tables = {"metric"};
-  const std::string file = last_text(line.flags, "scene", "");
-  // The fabric of a manifest is the same for every experiment.
-  if (!file.empty()) apply_scene(setup, "", file, bind_options(setup.options));
-  std::vector<Flag> of_fabric;
+  const DroppedKeys own(experiment.own_keys());
+  Keys extra = bind_options(setup.options);
+  extra.insert(extra.end(), own.keys().begin(), own.keys().end());
+  const std::string file = last_text(line.flags, "scene", setup.options.scene);
+  if (!file.empty()) apply_scene(setup, line.experiment, file, extra);
+  std::vector<Flag> bending;
   for (const Flag& flag : line.flags)
-    if (flag.path.starts_with("fabric")) of_fabric.push_back(flag);
-  apply_flags(setup.scene, of_fabric);
-  return {setup.scene.fabric, last_text(line.flags, "law", setup.scene.law)};
+    if (flag.path.starts_with("fabric") || flag.path == "law" || flag.path == "param")
+      bending.push_back(flag);
+  apply_flags(setup.scene, bending);
+  return setup.scene;
 }
 
-// Flags that make the column as stiff as `to` on the same fabric.  Its viscosity, fabric.damping times b1,
-// goes with it.
-std::vector<Flag> matched(const CommandLine& inner, const Variant& variant, const std::string& to,
-                          const CompareChoice& choice, double& scale) {
+LawRequest requested_law(const Scene& scene) { return {scene.law, scene.fabric.virgin_curve(), scene.param}; }
+
+// The column that has the law, on the same fabric where there is one.
+const Scene& reference_scene(const std::vector<Scene>& columns, const std::string& law,
+                             const std::string& fabric) {
+  const auto find = [&](bool on_fabric) {
+    return std::find_if(columns.begin(), columns.end(), [&](const Scene& scene) {
+      return scene.law == law && (!on_fabric || scene.fabric.name == fabric);
+    });
+  };
+  const auto same = find(true);
+  return same != columns.end() ? *same : *find(false);
+}
+
+// Flags that make the column as stiff as the law of `reference` on the same fabric.  Its viscosity,
+// fabric.damping times b1, goes with it.
+std::vector<Flag> matched(const Scene& column, const Scene& reference, const CompareChoice& choice,
+                          double& scale) {
   scale = 1;
   if (choice.match == Match::fabric) return {};
-  const CommandLine line = with_variant(inner, variant);
-  const auto [fabric, law] = column_fabric(line);
-  scale = matching_scale(requested_law(fabric, line, law), requested_law(fabric, line, to), choice.match,
-                         choice.match_curvature);
+  const Fabric& fabric = column.fabric;
+  LawRequest wanted = requested_law(reference);
+  wanted.curve = fabric.virgin_curve();
+  scale = matching_scale(requested_law(column), wanted, choice.match, choice.match_curvature);
   const auto scaled = [&](const char* key, double value) { return Flag{key, number_text(scale * value)}; };
   BendingParts parts = stiffened(fabric.bending, scale);
   std::vector<Flag> flags = {scaled("fabric.b1", fabric.b1), scaled("fabric.b2", fabric.b2)};
@@ -85,10 +120,9 @@ std::vector<Flag> matched(const CommandLine& inner, const Variant& variant, cons
 }
 
 // Colours mean the same in all columns, though fabrics have different transition curvatures.
-Flag shared_range(const CommandLine& inner, const std::vector<Variant>& variants) {
+Flag shared_range(const CommandLine& inner, const std::vector<Scene>& columns) {
   double most = 0;
-  for (const Variant& variant : variants)
-    most = std::max(most, column_fabric(with_variant(inner, variant)).fabric.friction_curvature());
+  for (const Scene& column : columns) most = std::max(most, column.fabric.friction_curvature());
   return {"curvature-range", last_text(inner.flags, "curvature-range", number_text(2 * most))};
 }
 
@@ -130,20 +164,23 @@ CommandLine line_of_columns(const CommandLine& line, const CompareChoice& choice
 Plan comparison_plan(const CommandLine& inner, const std::vector<Variant>& variants,
                      const CompareChoice& choice, const std::filesystem::path& out) {
   Plan plan;
+  std::vector<Scene> scenes;
+  for (const Variant& variant : variants) scenes.push_back(bending_scene(with_variant(inner, variant)));
   std::set<std::string> laws;
-  for (const Variant& variant : variants) {
-    const std::string law = column_fabric(with_variant(inner, variant)).law;
-    if (plan.reference != "prandtl") plan.reference = law;
-    laws.insert(law);
+  for (const Scene& scene : scenes) {
+    if (plan.reference != "prandtl") plan.reference = scene.law;
+    laws.insert(scene.law);
   }
   plan.laws = laws.size();
-  const Flag range = shared_range(inner, variants);
+  const Flag range = shared_range(inner, scenes);
   const std::vector<Flag> framing = shared_framing(inner, variants);
   plan.varied = varied_key(variants);
-  for (const Variant& variant : variants) {
+  for (std::size_t v = 0; v < variants.size(); ++v) {
+    const Variant& variant = variants[v];
     double scale = 1;
     std::vector<Flag> own = variant.flags;
-    for (const Flag& flag : matched(inner, variant, plan.reference, choice, scale)) own.push_back(flag);
+    const Scene& reference = reference_scene(scenes, plan.reference, scenes[v].fabric.name);
+    for (const Flag& flag : matched(scenes[v], reference, choice, scale)) own.push_back(flag);
     const std::string name = variant.name.empty() ? inner.experiment : variant.name;
     if (name == choice.to) plan.to = static_cast<int>(plan.columns.size());
     own.push_back(range);

@@ -66,6 +66,7 @@ std::vector<DecidedKey> decided() {
                            {"cloth.position", "the specimen lies where it is folded"},
                            {"cloth.rotation", "the specimen lies along x, where it is folded"},
                            {"mesh", "its mesh has its finest columns along the crease", true},
+                           {"seed", "no part of its mesh is drawn at random", true},
                            {"seconds", "crease.hold, crease.lift and crease.recovery say how long it takes"},
                            {"pin", "a clamp and a hand hold the specimen"},
                            {"obstacle", "crease.fold says what it is folded with"}});
@@ -304,6 +305,10 @@ Experiment crease() {
           .defaults = defaults,
           .decided = decided,
           .compared = true,
+          .conditions = {{"crease.force", "crease.fold = plate"},
+                         {"crease.lift", "crease.fold = plate and crease.release = slow"},
+                         {"crease.radius", "crease.fold = rod"},
+                         {"crease.pleat", "crease.fold = pleat"}},
           .headlines = {
               .all = {{"recovery_angle_deg", "recovery angle", "degree", "{:.1f}"},
                       {"release_angle_deg", "at once after release", "degree", "{:.1f}"},

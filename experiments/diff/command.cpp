@@ -205,6 +205,7 @@ int diff_folders(const fs::path& a, const fs::path& b, const DiffFlags& flags) {
     for (const Measure& m : all_measures()) head.push_back(m.name);
     print_row("picture", width, head);
   }
+  flags.from_file.refuse_unused_pictures(names);
   const FolderDiff diff = compare_folders(a, b, flags, names, width);
   if (flags.json) {
     std::cout << diff_json(diff).dump(2) << std::endl;

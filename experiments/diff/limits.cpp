@@ -2,6 +2,7 @@
 
 #include <fnmatch.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "sim/base/csv.h"
@@ -47,7 +48,10 @@ class LimitsFile {
       if (node.key == "picture")
         for (const ValueTree& table : tables(node, file_)) limits.pictures.push_back(picture(table));
       else if (node.key == "metric")
-        for (const ValueTree& table : tables(node, file_)) limits.metrics.push_back(metric(table));
+        for (const ValueTree& table : tables(node, file_)) {
+          limits.metrics.push_back(metric(table));
+          limits.metric_tables.push_back(place(file_, table));
+        }
       else
         read_limit(node, limits.all);
     }
@@ -62,6 +66,7 @@ class LimitsFile {
 
   std::pair<std::string, PictureLimits> picture(const ValueTree& table) const {
     PictureLimits limits;
+    limits.table = place(file_, table);
     for (const ValueTree& node : table.children)
       if (node.key != "name") read_limit(node, limits);
     return {limit_name(table), limits};
@@ -127,6 +132,29 @@ std::optional<double> Limits::of_metric(const std::string& name) const {
   for (const auto& [pattern, most] : metrics)
     if (matches(pattern, name)) limit = most;
   return limit;
+}
+
+namespace {
+
+void refuse_unused(const std::string& pattern, const std::vector<std::string>& names, const std::string& kind,
+                   const std::string& place) {
+  if (std::any_of(names.begin(), names.end(), [&](const auto& name) { return matches(pattern, name); }))
+    return;
+  throw Error::invalid_input("a limit is for the " + kind + " " + pattern + ", and none is called so" +
+                             suggestion(pattern, names))
+      .with_origin(place)
+      .with_key("name", pattern);
+}
+
+}  // namespace
+
+void Limits::refuse_unused_pictures(const std::vector<std::string>& names) const {
+  for (const auto& [pattern, own] : pictures) refuse_unused(pattern, names, "picture", own.table);
+}
+
+void Limits::refuse_unused_metrics(const std::vector<std::string>& names) const {
+  for (std::size_t i = 0; i < metrics.size(); ++i)
+    refuse_unused(metrics[i].first, names, "metric", metric_tables.at(i));
 }
 
 Limits read_limits(const std::string& name_or_file) {

@@ -45,6 +45,7 @@ Keys bind_limits(Measures& limits);
 struct PictureLimits {
   Measures values = no_limits();
   std::map<std::string, std::string> places{};  // where a file sets them, by key: "limits.toml:3"
+  std::string table{};                          // where the table stands that says whose they are
 
   // Those of `over` stand in place of these.
   void set(const PictureLimits& over);
@@ -65,9 +66,13 @@ struct Limits {
   PictureLimits all;
   std::vector<std::pair<std::string, PictureLimits>> pictures;  // by name
   std::vector<std::pair<std::string, double>> metrics;          // largest difference, by name
+  std::vector<std::string> metric_tables;                       // where these stand
 
   PictureLimits of_picture(const std::string& name) const;
   std::optional<double> of_metric(const std::string& name) const;
+  // Throws Error::invalid_input, with its place, for a name that none of these pictures or metrics has.
+  void refuse_unused_pictures(const std::vector<std::string>& names) const;
+  void refuse_unused_metrics(const std::vector<std::string>& names) const;
 };
 
 // Of a file, or of assets/limits by its name.  Throws Error::system, Error::invalid_input with file and line.

@@ -173,7 +173,7 @@ void limit_to_quick(Setup& setup) {
 
 // A standard stands for the defaults of the other keys.
 Setup set_up_drape(const CommandLine& line, D& choice) {
-  const auto with = [&](D of) {
+  const auto with = [&](const D& of, const CommandLine& line) {
     Setup default_setup = defaults();
     default_setup.scene.cloth.radius = specimen_radius(of.standard);
     choice = of;
@@ -182,8 +182,10 @@ Setup set_up_drape(const CommandLine& line, D& choice) {
       choice.lowering = std::min(choice.lowering, kQuickLowering);
     });
   };
-  Setup setup = with({});
-  return choice.standard == "iso9073" ? setup : with(drape_by_standard(choice.standard));
+  CommandLine undecided = line;
+  undecided.listed.push_back("drape.release");  // which the standard may say
+  with({}, undecided);
+  return with(drape_by_standard(choice.standard), line);
 }
 
 int run_drape(const CommandLine& line) {
@@ -265,6 +267,9 @@ Experiment drape() {
           .defaults = defaults,
           .decided = decided,
           .compared = true,
+          .conditions = {{"drape.folds", "drape.release = dropped"},
+                         {"drape.lowering", "drape.release != dropped"},
+                         {"drape.shakes | drape.stroke | drape.period", "drape.release = shaken"}},
           .headlines = {.all = {{"drape_coefficient_percent", "drape coefficient", "%", "{:.1f}"},
                                 {"published_drape_coefficient_percent", "published coefficient", "%",
                                  "{:.1f}", 1, kNoErrors},

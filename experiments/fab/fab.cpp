@@ -129,7 +129,10 @@ Experiment fab() {
   return {.name = "fab",
           .question = "virtual FAB loop test: a strip buckled or stretched between clamps, in growing cycles",
           .run = run_test,
-          .own_keys = own_key_descriptions<option_keys>};
+          .own_keys = own_key_descriptions<option_keys>,
+          .conditions = {{"fab.gauge | fab.slack | fab.compressions | fab.width | fab.steps", "not fab.data"},
+                         {"fab.slack", "fab.test != S*", "a test that bends"},
+                         {"units", "fab.data"}}};
 }
 
 }  // namespace hysteron::experiments

@@ -7,6 +7,7 @@
 #include "experiments/fit/from_fab.h"
 #include "experiments/fit/report.h"
 #include "experiments/workbench/app/experiment.h"
+#include "experiments/workbench/app/key_conditions.h"
 #include "experiments/workbench/pages/report.h"
 #include "render/plot.h"
 #include "sim/base/csv.h"
@@ -176,36 +177,17 @@ std::string misses_warning(const Identification& found) {
          "; another law may be nearer (--law all), and plot_residual shows where";
 }
 
-void throw_if_without_loop(const FitFlags& flags) {
-  if (!flags.loop.empty()) return;
-  if (flags.law != "prandtl" || !flags.param.empty() || flags.offset)
-    throw Error::invalid_input("--law, --param and --offset go with --loop: only a loop tells laws apart")
-        .with_key("loop", "");
-}
-
-// Of what is not of a FAB tester.
+// Units of its own have the tester that measures a loop of bending, and the one that buckles strips.
 void check_units(const FitFlags& flags) {
-  if (flags.units == "si" || (flags.units == "kes" && !flags.loop.empty())) return;
-  throw Error::invalid_input("units = " + flags.units +
-                             " must be si; kes goes with --loop (1/cm, gf cm/cm), fab with --fab (cm, gf)")
-      .with_key("units", flags.units);
+  const std::string other = flags.loop.empty() ? "kes" : "fab";
+  if (flags.units == other)
+    throw Error::invalid_input("units = " + flags.units +
+                               " must be si or the tester's own: kes goes with --loop (1/cm, gf cm/cm), fab "
+                               "with --fab (cm, gf)")
+        .with_key("units", flags.units);
 }
 
-Answer identify(const FitFlags& flags) {
-  std::vector<Answer (*)(const FitFlags&)> requested;
-  if (!flags.loop.empty()) requested.push_back(from_loop);
-  if (flags.virgin.b1.given() || flags.virgin.c1.given() || !flags.virgin_file.empty())
-    requested.push_back(from_virgin);
-  if (flags.kes.b.given() || flags.kes.two_hb.given()) requested.push_back(from_kes);
-  check_units(flags);
-  if (requested.size() != 1)
-    throw Error::invalid_input(
-        "needs one of --loop FILE.csv, --virgin.b1 with --virgin.c1, --kes.b with --kes.2hb, "
-        "--fab FILE.csv, --decay FILE.csv" +
-        std::string(requested.empty() ? "" : ", not several"));
-  throw_if_without_loop(flags);
-  return requested[0](flags);
-}
+using WayIn = void (*)(const CommandLine&, const FitFlags&, const Keys&);
 
 std::optional<double> if_given(double x) { return std::isnan(x) ? std::nullopt : std::optional(x); }
 
@@ -300,6 +282,36 @@ void fit_decay(const CommandLine& line, const FitFlags& flags, const Keys& keys)
   finish(run, flags, report_decay(run, flags.decay, flags.density, flags.kes.b.value, notes), notes);
 }
 
+template <Answer (*identified)(const FitFlags&)>
+void fit_curve(const CommandLine& line, const FitFlags& flags, const Keys& keys) {
+  const Answer answer = identified(flags);
+  Run run(line, flags.options, resolved(keys));
+  const FabricNotes notes{flags.name, answer.from, if_given(flags.density), if_given(flags.thickness)};
+  report_fits(run, answer.fits, notes);
+  if (const std::string warning = misses_warning(answer.fits[0]); !warning.empty()) run.warn(warning);
+  finish(run, flags, summary(answer.fits), notes);
+}
+
+// The one that the flags ask for.
+WayIn way_in(const FitFlags& flags) {
+  std::vector<WayIn> requested;
+  const auto add = [&](bool is_requested, WayIn way) {
+    if (is_requested) requested.push_back(way);
+  };
+  add(!flags.loop.empty(), fit_curve<from_loop>);
+  add(flags.virgin.b1.given() || flags.virgin.c1.given() || !flags.virgin_file.empty(),
+      fit_curve<from_virgin>);
+  const bool with_decay = !flags.decay.file.empty();  // which takes a rigidity for itself
+  add(flags.kes.two_hb.given() || (flags.kes.b.given() && !with_decay), fit_curve<from_kes>);
+  add(!flags.fab.file.empty(), fit_loops_of_fab);
+  add(with_decay, fit_decay);
+  if (requested.size() == 1) return requested[0];
+  throw Error::invalid_input(
+      "needs one of --loop FILE.csv, --virgin.b1 with --virgin.c1, --kes.b with --kes.2hb, "
+      "--fab FILE.csv, --decay FILE.csv" +
+      std::string(requested.empty() ? "" : ", not several"));
+}
+
 int run_fit(const CommandLine& line) {
   FitFlags flags;
   flags.options.out = "out/" + line.experiment;
@@ -307,21 +319,9 @@ int run_fit(const CommandLine& line) {
   for (const Flag& flag : line.flags) assign_text(keys, flag.path, flag.text, "--" + flag.path);
   if (flags.name.empty())
     throw Error::invalid_input("name = \"\" must be the fabric's (--name)").with_key("name", "");
-  if (!flags.fab.file.empty()) {
-    fit_loops_of_fab(line, flags, keys);
-    return 0;
-  }
-  if (!flags.decay.file.empty()) {
-    fit_decay(line, flags, keys);
-    return 0;
-  }
-  const Answer answer = identify(flags);
-
-  Run run(line, flags.options, resolved(keys));
-  const FabricNotes notes{flags.name, answer.from, if_given(flags.density), if_given(flags.thickness)};
-  report_fits(run, answer.fits, notes);
-  if (const std::string warning = misses_warning(answer.fits[0]); !warning.empty()) run.warn(warning);
-  finish(run, flags, summary(answer.fits), notes);
+  refuse_unread_flags(line, key_values(keys));
+  check_units(flags);
+  way_in(flags)(line, flags, keys);
   return 0;
 }
 
@@ -331,7 +331,17 @@ Experiment fit() {
   return {.name = "fit",
           .question = "identify a fabric from a measured loop, virgin curve, KES pair or free vibration",
           .run = run_fit,
-          .own_keys = own_key_descriptions<bind_flags>};
+          .own_keys = own_key_descriptions<bind_flags>,
+          .conditions = {{"law | param | offset | ripple", "loop"},
+                         {"units", "loop or fab"},
+                         {"fab.", "fab"},
+                         {"decay.", "decay"},
+                         {"virgin.b1-stderr", "virgin.b1"},
+                         {"virgin.c1-stderr", "virgin.c1"},
+                         {"kes.b-stderr | kes.2hb-stderr | kes.k0", "kes.2hb"},
+                         {"kes.k0-stderr", "kes.k0"},
+                         {"assume.ratio", "loop or virgin.b1 or virgin.file"},
+                         {"assume.k0", "loop or kes.2hb and not kes.k0"}}};
 }
 
 }  // namespace hysteron::experiments

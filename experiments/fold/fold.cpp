@@ -60,12 +60,31 @@ std::vector<DecidedKey> decided() {
   return keys;
 }
 
+bool tires(const std::string& law) {
+  const std::vector<std::string> known = law_parameter_names(law);
+  return std::find(known.begin(), known.end(), "fatigue.dc") != known.end();
+}
+
 struct Request {
   Setup setup;
   C choice;
   bool own_fatigue = false;  // fatigue.dc is given as a parameter of the law
   Json keys;
 };
+
+// A dissipation that is asked for needs a law that tires by it.
+void check_fatigue(const CommandLine& line, const Request& request) {
+  const std::string given = last_text(line.flags, "fold.fatigue", "");
+  if (given.empty() || request.choice.fatigue == 0) return;
+  const std::string& law = request.setup.scene.law;
+  const bool listed = std::count(line.listed.begin(), line.listed.end(), "law") > 0;
+  std::string why;
+  if (request.own_fatigue) why = "fatigue.dc is a parameter of the law already (--param)";
+  if (!listed && !tires(law)) why = "law " + law + " knows no fatigue";
+  if (!why.empty())
+    throw Error::invalid_input("--fold.fatigue " + given + " is not used: " + why)
+        .with_key("fold.fatigue", given);
+}
 
 Request read(const CommandLine& line) {
   Request request;
@@ -77,6 +96,7 @@ Request read(const CommandLine& line) {
   });
   Scene& scene = request.setup.scene;
   request.own_fatigue = scene.param.contains("fatigue.dc");
+  check_fatigue(line, request);
   give_fatigue(scene, request.choice);
   request.keys = to_json(own);
   return request;
@@ -214,17 +234,17 @@ void fold_once(const CommandLine& line) {
   request.choice.law_alone ? fold_law(line, request) : fold_cloth(line, request);
 }
 
-// Laws that know fatigue come twice: without it, and with it as NAME-fatigue.
+// Laws that know fatigue come twice: without it, and with it as NAME-fatigue.  Where the line has a flag for
+// it (`has_flag`), others are told to leave it out.
 std::vector<Variant> with_and_without_fatigue(const std::vector<Variant>& laws,
-                                              const std::string& default_law) {
+                                              const std::string& default_law, bool has_flag) {
   std::vector<Variant> all;
   for (const Variant& law : laws) {
-    const std::vector<std::string> known = law_parameter_names(last_text(law.flags, "law", default_law));
-    const bool tires = std::find(known.begin(), known.end(), "fatigue.dc") != known.end();
+    const bool twice = tires(last_text(law.flags, "law", default_law));
     Variant sound = law;
-    if (tires) sound.flags.push_back({"fold.fatigue", "0"});
+    if (twice || has_flag) sound.flags.push_back({"fold.fatigue", "0"});
     all.push_back(sound);
-    if (tires) all.push_back({law.name + "-fatigue", law.flags});
+    if (twice) all.push_back({law.name + "-fatigue", law.flags});
   }
   return all;
 }
@@ -233,7 +253,8 @@ VariantPage variants_page(const CommandLine& line, std::vector<Variant>& variant
   const Request request = read(line);
   const bool alone = request.choice.law_alone;
   if (!request.own_fatigue && request.choice.fatigue != 0)
-    variants = with_and_without_fatigue(variants, request.setup.scene.law);
+    variants = with_and_without_fatigue(variants, request.setup.scene.law,
+                                        !last_text(line.flags, "fold.fatigue", "").empty());
   VariantPage page{"Repeated folding", request.setup, request.keys, {}, fold_plots(alone, "")};
   for (const auto& [name, value] : alone ? cycle_numbers(BendingCycle{}) : cycle_numbers(FoldReading{}))
     page.metrics.push_back(name);
@@ -253,6 +274,13 @@ Experiment fold() {
           .defaults = defaults,
           .decided = decided,
           .compared = true,
+          .conditions =
+              {{"fold.curvature", "fold.law-alone"},
+               {"fold.stroke | cloth. | mesh | triangles | element | membrane. | force | integrator | "
+                "step | substeps | implicit-every | solver-tolerance | newton- | tolerance | linear- | "
+                "gravity | air-drag | self-contact | contact-stiffness | fps | export | errors. | dump-scene",
+                "not fold.law-alone"},
+               {"seed", "mesh = random and not fold.law-alone"}},
           .headlines = {.all = {{"recovery_angle_deg", "recovery angle", "degree", "{:.1f}"},
                                 {"2HB_N", "2HB", "mN", "{:.4g}", 1e3},
                                 {"set_curvature_per_m", "set", "1/m", "{:.4g}"}}}};

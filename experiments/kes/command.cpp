@@ -10,6 +10,7 @@
 #include "experiments/kes/in_plane.h"
 #include "experiments/kes/output.h"
 #include "experiments/workbench/app/experiment.h"
+#include "experiments/workbench/app/key_conditions.h"
 #include "experiments/workbench/app/run.h"
 #include "experiments/workbench/pages/report.h"
 #include "experiments/workbench/pictures/pictures.h"
@@ -89,14 +90,6 @@ LawParameters accepted_parameters(const std::string& law, const std::vector<std:
           .with_key("param", name + "=" + value);
   }
   return own;
-}
-
-void throw_if_strip_keys(const CommandLine& line) {
-  for (const Flag& flag : line.flags)
-    for (const KeyRow<KesFlags>& row : kStripRows)
-      if (flag.path == row.path)
-        throw Error::invalid_input("--" + flag.path + " is of strips: it needs --on strip")
-            .with_key(flag.path, flag.text);
 }
 
 constexpr double kJawLength = 2.5e-3;                            // [m]
@@ -239,14 +232,14 @@ Json resolved(KesFlags& flags, const std::vector<std::string>& laws, const Fabri
 
 int run_kes(const CommandLine& line) {
   KesFlags flags;
-  if (last_text(line.flags, "test", flags.test) != flags.test) return run_in_plane(line);
-  throw_if_other_tests(line, option_keys(flags), flags.test);
+  const std::string test = last_text(line.flags, "test", flags.test);
+  refuse_unread_flags(line, {{"test", test}, {"on", last_text(line.flags, "on", flags.on)}});
+  if (test != flags.test) return run_in_plane(line);
   set_keys(line, option_keys(flags), [&] {
     flags.protocol.steps = std::min(flags.protocol.steps, kQuickSteps);
     flags.protocol.minor_loops = false;
     flags.strip.steps = std::min(flags.strip.steps, kQuickStripSteps);
   });
-  if (flags.on == "law") throw_if_strip_keys(line);
   check_protocol(flags.protocol);
   const std::vector<std::string> laws = chosen_laws(flags.law, flags.on == "strip");
   if (laws.empty()) throw Error::invalid_input("--law names none").with_key("law", flags.law);
@@ -281,6 +274,18 @@ Experiment kes() {
       .question = "virtual KES tests: bending (B, 2HB, residual curvature), shear (G, 2HG), tension (WT, RT)",
       .run = run_kes,
       .own_keys = own_key_descriptions<option_keys, fabric_keys, in_plane_keys>,
+      .conditions = {{"law | param | amplitude | rate | slope-from | slope-to | width-at | steps | cycles",
+                      "test = bending"},
+                     {"mesh | triangles | strip-steps", "on = strip"},
+                     {"element | cloth.width | renderer", "test = bending and on = strip"},
+                     {"along", "test = shear | tension"},
+                     {"load", "test = tension"},
+                     {"fabric.b1 | fabric.b2 | fabric.k0 | fabric.kes-b | fabric.kes-2hb | "
+                      "fabric.stops-median | fabric.stops-spread | fabric.bending.",
+                      "test = bending"},
+                     {"fabric.warp | fabric.weft | fabric.membrane.stops.warp. | fabric.membrane.stops.weft.",
+                      "test = tension or on = strip"},
+                     {"fabric.shear | fabric.membrane.stops.shear.", "test = shear or on = strip"}},
       .headlines = {
           .all = {reading("B_N_m", "B", "µN m", 1e6), reading("2HB_N", "2HB", "mN", 1e3),
                   reading("residual_curvature_per_m", "residual curvature", "1/m"),

@@ -353,19 +353,8 @@ Json resolved(InPlaneFlags& flags, const Fabric& fabric) {
 
 }  // namespace
 
-void throw_if_other_tests(const CommandLine& line, const Keys& keys, const std::string& test) {
-  for (const Flag& flag : line.flags) {
-    if (flag.path.starts_with("fabric")) continue;
-    const auto is_it = [&](const BoundKey& key) { return key.description.path == flag.path; };
-    if (std::none_of(keys.begin(), keys.end(), is_it))
-      throw Error::invalid_input("--" + flag.path + " is not of --test " + test)
-          .with_key(flag.path, flag.text);
-  }
-}
-
 int run_in_plane(const CommandLine& line) {
   InPlaneFlags flags;
-  throw_if_other_tests(line, option_keys(flags), last_text(line.flags, "test", flags.test));
   set_keys(line, option_keys(flags),
            [&] { flags.specimen.triangles = std::min(flags.specimen.triangles, kQuickTriangles); });
   const auto test = value_named<InPlaneTest>(flags.test);

@@ -414,6 +414,7 @@ Experiment render_files() {
           .run = run_render,
           .own_keys = own_key_descriptions<option_keys>,
           .positionals = "FILES|DIR",
+          .conditions = {{"render.range | render.curvature", "look = curvature"}},
           .headlines = {.all = {{"frames_count", "frames", "", "{:.0f}", 1, kNoErrors}}}};
 }
 

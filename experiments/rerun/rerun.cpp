@@ -114,10 +114,8 @@ std::string workflow_name(const fs::path& manifest, const fs::path& folder) {
 // Why it cannot be repeated; "" if it can.
 std::string why_left_out(const RecordedRun& run, const CommandLine& line) {
   if (!run.manifest.complete) return "is not complete";
-  for (const Flag& flag : line.flags)
-    if (flag.text.ends_with(".csv") && !fs::exists(flag.text))
-      return "needs " + flag.text + ", which is not here";
-  return "";
+  const std::string input = missing_input(line);
+  return input.empty() ? "" : "needs " + input + ", which is not here";
 }
 
 // On a GPU, or a page of runs one of which was.

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/run/metrics.h"
+#include "experiments/workbench/app/manifest_file.h"
 #include "experiments/workbench/pictures/drawing.h"
 #include "experiments/workbench/pictures/framing.h"
 #include "experiments/workbench/session/session.h"
@@ -12,6 +13,8 @@
 
 namespace hysteron::experiments {
 namespace {
+
+constexpr const char* kSceneName = "scene_name";  // in the manifest
 
 Setup defaults() {
   Setup setup;
@@ -42,6 +45,22 @@ Setup set_up_run(const CommandLine& line) { return set_up(line, defaults(), {}, 
 std::string scene_stem(const std::string& scene) {
   const std::filesystem::path path(scene);
   return path.filename() == "manifest.json" ? path.parent_path().filename().string() : path.stem().string();
+}
+
+// For titles, which a repetition in another folder shares: of a manifest the scene that its run was first
+// asked for, or the experiment that has changed it since.
+std::string scene_name(const std::string& scene) {
+  if (!scene.ends_with(".json")) return scene_stem(scene);
+  const Manifest manifest = read_manifest(scene);
+  for (const auto& [key, value] : manifest.own)
+    if (key == kSceneName && value->is_string()) return value->get<std::string>();
+  std::string first;
+  if (manifest.experiment == "run" && manifest.spec) {
+    for (const auto& [path, text] : manifest.spec->flags)
+      if (path == "scene") first = text;
+    if (!manifest.spec->positionals.empty()) first = manifest.spec->positionals.front();
+  }
+  return first.empty() || first.ends_with(".json") ? manifest.experiment : scene_stem(first);
 }
 
 render::Box box_at_start(const Scene&, const Cloth& cloth) {
@@ -96,13 +115,15 @@ int run_scene(const CommandLine& given) {
   std::vector<RequestedMetric> metrics;
   for (const MetricRequest& request : requests)
     metrics.emplace_back(request, session.scene(), session.cloth(), session.simulation().dimension());
+  const std::string name = scene_name(scene);
+  session.run().note(kSceneName, name);
   std::vector<double> last;
   session.simulate(run_plan(session, metrics, last));
   for (std::size_t i = 0; i < metrics.size(); ++i)
     session.run().metric(metrics[i].request().metric(), last[i]);
   if (session.pictures())
     for (const RequestedMetric& metric : metrics) plot(session, metric);
-  session.finish(scene_stem(scene) + ": " + setup.scene.fabric.name + ", law " + setup.scene.law);
+  session.finish(name + ": " + setup.scene.fabric.name + ", law " + setup.scene.law);
   return 0;
 }
 

@@ -209,7 +209,9 @@ Experiment stability() {
   return {.name = "stability",
           .question = "maps of what stays stable, over stiffness, step, mesh and extreme scenes",
           .run = run_stability,
-          .own_keys = own_key_descriptions<option_keys>};
+          .own_keys = own_key_descriptions<option_keys>,
+          .conditions = {{"limit-steps", "sweep = all | explicit-limit"},
+                         {"integrator | law | seconds | work", "sweep != explicit-limit"}}};
 }
 
 }  // namespace hysteron::experiments

@@ -133,6 +133,9 @@ CommandLine run_command_line(const Study& study, const StudyRun& run) {
   CommandLine line{study.experiment, "hysteron " + study.experiment, study.shared, {}};
   for (std::size_t a = 0; a < study.axes.size(); ++a)
     line.flags.push_back(flag_of(study.axes[a].key, run.values[a]));
+  // A structured mesh is the same in every repetition.
+  if (last_text(line.flags, "mesh", "random") != "random")
+    std::erase_if(line.flags, [](const Flag& flag) { return flag.path == kSeedKey; });
   return line;
 }
 

@@ -306,6 +306,11 @@ Experiment sweep() {
           .run = run_sweep,
           .own_keys = own_keys,
           .positionals = "STUDY",
+          .conditions = {{"jobs | threads | batch", "not collect"},
+                         {"resume", "not collect and not only and not part"},
+                         {"threads | jobs | resume | collect | only | part", "not snakemake"},
+                         {"part", "not only"},
+                         {"collect", "not only and not part"}},
           .headlines = {.all = {{"runs_count", "runs", "", "{:.0f}", 1, kNoErrors},
                                 {"failed_count", "of them not complete", "", "{:.0f}", 1, kNoErrors}}}};
 }

@@ -68,7 +68,12 @@ Experiment validate() {
   return {.name = "validate",
           .question = "the model against measurements: loops, decay, drapes, folds",
           .run = run_validate,
-          .own_keys = own_key_descriptions<option_keys>};
+          .own_keys = own_key_descriptions<option_keys>,
+          .conditions = {{"recorded", "parts = figure"},
+                         {"standard | fabrics | laws | device | triangles | step | tolerance | seconds",
+                          "parts = spread | budget"},
+                         {"samples | seed", "parts = spread"},
+                         {"draws", "parts = budget"}}};
 }
 
 }  // namespace hysteron::experiments

@@ -5,9 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "experiments/diff/diff.h"
+#include "experiments/workbench/app/headlines.h"
 #include "experiments/workbench/app/json_file.h"
+#include "experiments/workbench/pages/error_words.h"
 #include "sim/base/error.h"
 
 namespace hysteron::experiments {
@@ -24,15 +27,41 @@ bool is_duration(const std::string& name) {
          name.ends_with("ms_per_step");
 }
 
-bool is_error(const std::string& name) {
-  return name.ends_with("_error") || name.ends_with("_stderr") || has_part(name, "_draw_");
+// What --errors adds to a metric that the run has, and a repetition without it does not: an ending of its
+// name.
+bool is_error(const std::string& name, const Metrics& metrics) {
+  for (const std::string ending :
+       {kStepError, kMeshError, kDrawError, kDrawMean, kDrawMeanError, kPathDifference}) {
+    if (!name.ends_with(ending)) continue;
+    const std::string base = name.substr(0, name.size() - ending.size());
+    const bool of_draws = ending == kDrawMean || ending == kDrawMeanError;
+    if (metrics.contains(base) && (!of_draws || metrics.contains(base + kDrawError))) return true;
+  }
+  return false;
 }
 
-// The solver's work, and what it left over.
+// The solver's work and what it left over, by their whole names; on a page behind a column's, "prandtl.".
 bool is_effort(const std::string& name) {
-  return has_part(name, "iterations") || has_part(name, "newton_") || name.ends_with("_steps_count") ||
-         name.ends_with("energy_remainder_relative") || name.ends_with("fastest_m_per_s");
+  static const std::set<std::string> kNames = {"solver_iterations_per_step",
+                                               "newton_iterations_per_step",
+                                               "newton_residual_largest",
+                                               "newton_velocity_largest_m_per_s",
+                                               "newton_velocity_mean_m_per_s",
+                                               "unbalanced_steps_count",
+                                               "retried_steps_count",
+                                               "deep_contact_steps_count",
+                                               "slack_hand_steps_count",
+                                               "barred_hand_steps_count",
+                                               "energy_remainder_relative",
+                                               "fastest_m_per_s",
+                                               "strip_newton_iterations_per_step",
+                                               "strip_retried_steps_count",
+                                               "iterations"};
+  return kNames.contains(name.substr(name.rfind('.') + 1));
 }
+
+// Metrics that are read off pictures.
+bool is_drawn(const std::string& name) { return name == "shadow_drape_coefficient_percent"; }
 
 // Of a metric, as the run itself has measured it; 0 where it has not.
 double stated_error(const Metrics& metrics, const std::string& name) {
@@ -94,6 +123,19 @@ bool share_bits(const Manifest& recorded, const Manifest& now) {
          without_threads(recorded.device.value_or("")) == without_threads(now.device.value_or(""));
 }
 
+// What the repetition has found and the manifest does not hold.  Programs of later commits may measure more,
+// but they hash the state and find the headlines that every program does.
+void add_unrecorded(const Manifest& recorded, const Manifest& now, Repetition& repetition) {
+  if (now.state_hash && !recorded.state_hash) repetition.unrecorded.push_back("the state");
+  const std::vector<std::string>& requested = now.requested_metrics;
+  const bool all_are_due = recorded.commit == now.commit || recorded.metrics.empty();
+  for (const auto& [name, value] : now.metrics) {
+    if (recorded.metrics.contains(name) || is_duration(name)) continue;
+    const bool is_headline = std::count(requested.begin(), requested.end(), name) > 0 || is_asked_for(name);
+    if (all_are_due || is_headline) repetition.unrecorded.push_back(name);
+  }
+}
+
 Json without_origins(Json scene) {
   for (const char* key : {"threads", "device", "origin"}) scene.erase(key);
   if (scene.contains("fabric") && scene["fabric"].is_object()) scene["fabric"].erase("provenance");
@@ -103,7 +145,8 @@ Json without_origins(Json scene) {
 }  // namespace
 
 Agreement Repetition::agreement() const {
-  if (!beyond.empty() || !pictures_beyond.empty()) return Agreement::none;
+  if (!beyond.empty() || !pictures_beyond.empty() || !missing.empty() || !unrecorded.empty())
+    return Agreement::none;
   if (same_state == has_state && rounded.empty() && effort.empty() && within.empty()) return Agreement::bits;
   return bits_are_due ? Agreement::none : Agreement::errors;
 }
@@ -128,15 +171,18 @@ Repetition compare_runs(const Manifest& recorded, const Manifest& now, const Lim
   Repetition repetition;
   repetition.has_state = recorded.state_hash.has_value();
   repetition.same_state = repetition.has_state && recorded.state_hash == now.state_hash;
+  if (repetition.has_state && !now.state_hash) repetition.missing.push_back("the state");
   repetition.bits_are_due = exact || share_bits(recorded, now);
   repetition.round_off = round_off_bound(recorded);
+  const bool drawn = !now.renderer.value_or("").empty();
   for (const auto& [name, value] : recorded.metrics) {
-    if (is_duration(name) || is_error(name)) continue;
+    if (is_duration(name) || is_error(name, recorded.metrics)) continue;
     if (now.metrics.contains(name))
       compare_metric(name, recorded.metrics, now.metrics[name], limits, repetition);
-    else
+    else if (drawn || !is_drawn(name))
       repetition.missing.push_back(name);
   }
+  add_unrecorded(recorded, now, repetition);
   return repetition;
 }
 

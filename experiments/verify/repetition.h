@@ -14,16 +14,17 @@ namespace hysteron::experiments {
 enum class Agreement { bits, errors, none };
 
 struct Repetition {
-  bool has_state = false;            // positions and velocities were hashed
-  bool same_state = false;           // and are the same, bit for bit
-  bool bits_are_due = false;         // other bits are a failure
-  int metrics = 0;                   // numbers that both have
-  double round_off = 0;              // what may lie between two builds, of a number's size
-  std::vector<std::string> rounded;  // metrics that differ by no more than that, by name
-  std::vector<std::string> effort;   // that say how steps were solved, and differ, by name
-  std::vector<std::string> within;   // that differ by no more than stated errors or limits, in words
-  std::vector<std::string> beyond;   // that differ by more, in words
-  std::vector<std::string> missing;  // that are no longer measured
+  bool has_state = false;               // positions and velocities were hashed
+  bool same_state = false;              // and are the same, bit for bit
+  bool bits_are_due = false;            // other bits are a failure
+  int metrics = 0;                      // numbers that both have
+  double round_off = 0;                 // what may lie between two builds, of a number's size
+  std::vector<std::string> rounded;     // metrics that differ by no more than that, by name
+  std::vector<std::string> effort;      // that say how steps were solved, and differ, by name
+  std::vector<std::string> within;      // that differ by no more than stated errors or limits, in words
+  std::vector<std::string> beyond;      // that differ by more, in words
+  std::vector<std::string> missing;     // that are no longer measured: a difference
+  std::vector<std::string> unrecorded;  // that are measured, and the manifest does not hold: likewise
   int pictures = 0;
   std::vector<std::string> pictures_beyond;  // in words
 
@@ -42,8 +43,10 @@ double round_off_bound(const Manifest& run);
 double metric_scale(const std::string& name, double number);
 
 // Numbers are compared exactly, then with the limits of `limits` or else the errors that --errors has stated
-// of them, then with round-off; counts, texts and truths exactly.  How often a solver iterated, and what it
-// left over, says nothing of the cloth and is only counted.  Durations are not compared.
+// of them, then with round-off; counts, texts and truths exactly.  What only one of them has is a difference,
+// but for what a newer program measures besides, and for the errors themselves, which are not repeated.  How
+// often a solver iterated, and what it left over, says nothing of the cloth and is only counted.  Durations
+// are not compared.
 //
 // The same bits are due where one compiler's same instructions ran on the same device, and where `exact` asks
 // for them.

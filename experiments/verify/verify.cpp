@@ -105,6 +105,7 @@ std::string repetition_words(const Repetition& r, const std::string& reasons) {
   if (!r.within.empty()) parts.push_back("within their errors: " + join(r.within, ", "));
   if (!r.beyond.empty()) parts.push_back("beyond: " + join(r.beyond, ", "));
   if (!r.missing.empty()) parts.push_back("no longer measured: " + join(r.missing, ", "));
+  if (!r.unrecorded.empty()) parts.push_back("not in the manifest: " + join(r.unrecorded, ", "));
   if (r.pictures > 0 && r.pictures_beyond.empty())
     parts.push_back(fmt::format("{} picture{} the same", r.pictures, r.pictures == 1 ? "" : "s"));
   if (!r.pictures_beyond.empty()) parts.push_back("pictures differ: " + join(r.pictures_beyond, ", "));
@@ -132,7 +133,8 @@ Line compared(const RepeatedRun& run, const ChildRun& now, const VerifyChoice& c
   const Manifest& before = run.recorded.manifest;
   Repetition repetition = compare_runs(before, now.manifest.value(), limits, choice.exact);
   compare_pictures(run.pictures, run.recorded.file.parent_path(), now.folder, limits, repetition);
-  if (!repetition.has_state && repetition.metrics + repetition.pictures == 0)
+  if (!repetition.has_state && repetition.metrics + repetition.pictures == 0 &&
+      repetition.agreement() != Agreement::none)
     return {Outcome::skipped, "skipped: it holds nothing that could be compared"};
   return {verified_outcome(repetition.agreement()),
           repetition_words(repetition, reasons_between(before, *now.manifest))};
@@ -153,7 +155,12 @@ std::vector<ChildRun> repeated_columns(std::vector<RepeatedRun>& runs, const Ver
     if (run.pictures.empty()) later.push_back({"no-images", "true"});
     if (!choice.device.empty()) later.push_back({"device", choice.device});
     try {
-      columns.push_back(child_run(run.name, line_that_repeats(run.recorded, later, false), {}, options.out));
+      const CommandLine line = line_that_repeats(run.recorded, later, false);
+      if (const std::string input = missing_input(line); !input.empty()) {
+        run.said = {Outcome::skipped, "skipped: needs " + input + ", which is not here"};
+        continue;
+      }
+      columns.push_back(child_run(run.name, line, {}, options.out));
     } catch (const Error& error) {
       run.said = {Outcome::failed, std::string("could not be repeated: ") + error.what()};
     }
@@ -172,6 +179,27 @@ TestCase test_case(const std::string& name, const Line& said, double seconds) {
   return {name, kCases[static_cast<int>(said.outcome)], said.words, seconds};
 }
 
+// A limit that no run below the folder has anything for was meant for something else.
+void refuse_unused_limits(const Limits& limits, const std::vector<RepeatedRun>& runs) {
+  std::vector<std::string> metrics, pictures;
+  for (const RepeatedRun& run : runs) {
+    for (const auto& [name, value] : run.recorded.manifest.metrics) metrics.push_back(name);
+    for (const std::string& name : run.recorded.manifest.files)
+      if (name.ends_with(".png")) pictures.push_back(name);
+  }
+  limits.refuse_unused_metrics(metrics);
+  limits.refuse_unused_pictures(pictures);
+}
+
+// One line, with the first reason.
+[[noreturn]] void throw_first_failure(const std::vector<RepeatedRun>& runs, int count) {
+  const RepeatedRun& first = *std::find_if(runs.begin(), runs.end(), [](const RepeatedRun& run) {
+    return run.said && run.said->outcome == Outcome::failed;
+  });
+  throw Error::simulation(fmt::format("{} of {} runs could not be repeated, the first {}: {}", count,
+                                      runs.size(), first.name, first.said->words));
+}
+
 int run_verify(const CommandLine& line) {
   if (line.positionals.size() != 1)
     throw Error::invalid_input("needs a run's folder, or a folder of many runs");
@@ -184,6 +212,7 @@ int run_verify(const CommandLine& line) {
   std::vector<RepeatedRun> runs;
   for (const fs::path& folder : folders_below(root))
     runs.push_back({fs::relative(folder, root).string(), recorded_run(folder.string()), {}});
+  refuse_unused_limits(limits, runs);
   int count[5] = {};
   std::vector<TestCase> cases;
   const auto say = [&] {  // in the order of their names, as far as they are known
@@ -216,6 +245,7 @@ int run_verify(const CommandLine& line) {
       << std::endl;
   if (!choice.junit.empty()) write_junit(choice.junit, "verify", root.string(), cases);
   if (differs > 0) return kDiffers;
+  if (failed > 0) throw_first_failure(runs, failed);
   if (same + within == 0)
     throw Error::invalid_input("nothing was compared: no run in " + root.string() + " could be repeated");
   return 0;

@@ -76,8 +76,17 @@ class TomlWriter {
       if (std::holds_alternative<Parameters*>(key.field)) continue;
       const std::string value =
           path == "fabric.name" ? in_quotes(fabric_to_read(scene_)) : field_text(key.field);
+      if (path == "mesh" && has_triangles_of_cloth_file()) {
+        line("# " + path, value, "", "the triangles are those of cloth.file");
+        continue;
+      }
       line(path, value, key.description.unit, own_.contains(path) ? kOwn : key_origin(scene_, path));
     }
+  }
+
+  bool has_triangles_of_cloth_file() const {
+    const ClothShape& cloth = scene_.cloth;
+    return (cloth.shape == "file" || cloth.shape == "pattern") && !cloth.file.empty();
   }
 
   void parameters() {

@@ -56,4 +56,29 @@ std::vector<std::string> lost_words(const CommandLine& line, const Setup& setup)
   return words;
 }
 
+std::vector<std::string> late_table_warnings(const Scene& scene) {
+  std::vector<std::string> warnings;
+  const auto add = [&](const auto& tables, const std::string& list) {
+    for (std::size_t i = 0; i < tables.size(); ++i) {
+      const std::string path = list + "[" + std::to_string(i) + "]";
+      if (!is_given(scene, path) || tables[i].from < scene.seconds) continue;
+      warnings.push_back(path + ".from = " + number_text(tables[i].from) + " s (" +
+                         key_origin(scene, path + ".from", key_origin(scene, path)) +
+                         ") is not used: the scene is over at " +
+                         shown(scene, "seconds", scene.seconds, "s"));
+    }
+  };
+  if (scene.seconds > 0) {
+    add(scene.pin, "pin");
+    add(scene.obstacle, "obstacle");
+  }
+  return warnings;
+}
+
+void refuse_late_tables(const Setup& setup) {
+  const std::vector<std::string> late = late_table_warnings(setup.scene);
+  if (late.empty() || setup.options.quick || key_origin(setup.scene, "seconds") == "--seconds") return;
+  throw Error::invalid_input(late.front()).with_key("from", "");
+}
+
 }  // namespace hysteron::experiments

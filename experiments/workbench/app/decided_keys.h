@@ -24,4 +24,10 @@ void decide(const CommandLine& line, Setup& setup, const std::vector<DecidedKey>
 // place.  `setup` is as the experiment has changed it.
 std::vector<std::string> lost_words(const CommandLine& line, const Setup& setup);
 
+// Pins and obstacles of the scene that come when it is over: a sentence for each.
+std::vector<std::string> late_table_warnings(const Scene& scene);
+// Throws Error::invalid_input for the first of them, unless --seconds or --quick has made the scene shorter
+// than its file has it.
+void refuse_late_tables(const Setup& setup);
+
 }  // namespace hysteron::experiments

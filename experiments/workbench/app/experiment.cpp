@@ -8,6 +8,7 @@
 
 #include "experiments/workbench/app/camera_file.h"
 #include "experiments/workbench/app/decided_keys.h"
+#include "experiments/workbench/app/key_conditions.h"
 #include "experiments/workbench/app/scene_source.h"
 #include "sim/base/comma_list.h"
 #include "sim/base/error.h"
@@ -112,6 +113,13 @@ std::shared_ptr<const nlohmann::ordered_json> resolved_options(Keys keys) {
   return std::make_shared<const nlohmann::ordered_json>(to_json(keys));
 }
 
+// Of the scene, and of keys beside it.
+KeyValues all_values(Scene& scene, const Keys& extra) {
+  KeyValues values = key_values(bind_scene(scene));
+  values.merge(key_values(extra));
+  return values;
+}
+
 }  // namespace
 
 Setup set_up(const CommandLine& line, Setup setup, const Keys& own,
@@ -119,6 +127,7 @@ Setup set_up(const CommandLine& line, Setup setup, const Keys& own,
   decide(line, setup, experiment_named(line.experiment).decided());
   Keys extra = bind_options(setup.options);
   extra.insert(extra.end(), own.begin(), own.end());
+  const KeyValues usual = all_values(setup.scene, extra);
   setup.options.scene = last_text(line.flags, "scene", setup.options.scene);
   try {
     if (!setup.options.scene.empty()) apply_scene(setup, line.experiment, setup.options.scene, extra);
@@ -128,6 +137,8 @@ Setup set_up(const CommandLine& line, Setup setup, const Keys& own,
   const std::string camera = last_text(line.flags, "camera", setup.options.camera);
   if (!camera.empty()) read_camera(camera, setup.options);
   apply_flags(setup.scene, line.flags, extra);
+  if (!setup.options.scene.empty() && !setup.options.scene.ends_with(".json"))
+    setup.unread = unread_key_warnings(line, all_values(setup.scene, extra), usual);
   if (setup.options.quick && quick) {
     quick(setup);  // which may ask what the flags say
     // As large as sheets show them: full pictures would take most of a quick run's time.
@@ -138,6 +149,7 @@ Setup set_up(const CommandLine& line, Setup setup, const Keys& own,
   make_mesh_paths_absolute(setup.scene);
   check_scene(setup.scene);
   check_options(setup.options);
+  refuse_unread_flags(line, all_values(setup.scene, extra));
   limit_memory(setup.options.max_memory);
   if (setup.options.errors) check_errors(line.experiment);
   setup.resolved = resolved_options(extra);
@@ -175,9 +187,11 @@ void set_keys(const CommandLine& line, const Keys& keys, const std::function<voi
         assign_text(keys, flag.path, flag.text, "--" + flag.path);
   };
   apply();
-  if (!quick || !*std::get<bool*>(find_key(keys, "quick", "--quick").field)) return;
-  quick();
-  apply();
+  if (quick && *std::get<bool*>(find_key(keys, "quick", "--quick").field)) {
+    quick();
+    apply();
+  }
+  refuse_unread_flags(line, key_values(keys));
 }
 
 std::vector<KeyDescription> fabric_keys() {

@@ -26,6 +26,9 @@ struct CommandLine {
   std::string command;      // the whole line, quoted for a shell, for the manifest
   std::vector<Flag> flags;  // {"fabric.b2", "1e-5"}, in the order of the keys; bare flags have text "true"
   std::vector<std::string> positionals;  // arguments that are no flags: files, folders
+  // Keys that name several of something on the page that this line is set up for: each of its runs has one of
+  // them, and checks what depends on it.
+  std::vector<std::string> listed = {};
 };
 
 // What the last flag of that path says; `otherwise` without one.
@@ -38,6 +41,14 @@ struct DecidedKey {
   std::string path;     // "cloth.position"; of an array of tables its name: "pin"
   std::string why;      // "the specimen lies on the pedestal"
   bool unused = false;  // it stays in the scene as it was given, and changes nothing
+};
+
+// Keys that are read only while a condition on other keys holds (key_conditions.h): a flag that sets one of
+// them without it is refused, and --help shows the condition.
+struct KeyCondition {
+  const char* keys;   // "crease.radius", several as "fab.gauge | fab.slack", all that begin so as "virgin."
+  const char* needs;  // "crease.fold = rod"
+  const char* text = "";  // what that is for a reader; "": the condition in terms of flags
 };
 
 struct Experiment {
@@ -60,6 +71,7 @@ struct Experiment {
   bool compared = false;         // `compare NAME` takes it by its name, other scenes by their files
   double onion = 0;    // a comparison shows all instants up to then in one picture first [s]; 0: none
   bool timed = false;  // its results are durations: it shares no process, and no two runs agree
+  std::vector<KeyCondition> conditions = {};  // beside those that all simulations have
   Headlines headlines = {};
 };
 
@@ -90,6 +102,7 @@ struct Setup {
   std::vector<std::string> requested_metrics =
       {};  // of the scene file: said at the end, and --errors finds theirs, beside the headlines'
   std::vector<DecidedKey> decided = {};  // by the experiment: what a file says of them is not done
+  std::vector<std::string> unread = {};  // sentences about keys of the scene's file that nothing reads
 };
 Setup set_up(const CommandLine& line, Setup defaults, const Keys& own = {},
              const std::function<void(Setup&)>& quick = {});

@@ -11,6 +11,7 @@
 
 #include "experiments/workbench/app/command_line.h"
 #include "experiments/workbench/app/ending.h"
+#include "experiments/workbench/app/key_conditions.h"
 #include "sim/base/error.h"
 #include "sim/base/number_in.h"
 
@@ -116,19 +117,22 @@ std::string entries(const std::vector<std::pair<std::string, std::string>>& all,
 }
 
 // "radius of the pedestal [m], > 0, default 0.09"
-std::string option_help(const KeyDescription& key) {
+std::string option_help(const KeyDescription& key, const std::string& condition) {
   std::string text = key.doc;
   if (!key.choices.empty()) text += ": " + join(key.choices, " | ");
   if (!key.unit.empty()) text += " [" + key.unit + "]";
   if (key.range.text() != "finite") text += ", " + key.range.text();
   if (!key.default_text.empty()) text += ", default " + key.default_text;
+  if (!condition.empty()) text += "; " + condition;
   return text;
 }
 
-std::string options_text(const std::vector<KeyDescription>& keys, int width) {
+std::string options_text(const Experiment& experiment, const std::vector<KeyDescription>& keys, int width) {
+  const std::vector<KeyCondition> conditions = key_conditions(experiment);
   std::vector<std::pair<std::string, std::string>> all;
   for (const KeyDescription& key : keys)
-    all.emplace_back(option_name(key) + (key.type == "flag" ? "" : " " + key.type), option_help(key));
+    all.emplace_back(option_name(key) + (key.type == "flag" ? "" : " " + key.type),
+                     option_help(key, condition_text(conditions, key.path)));
   return entries(all, width);
 }
 
@@ -139,7 +143,7 @@ std::string counted_options(std::size_t count) {
 std::string group_text(const Experiment& experiment, const OptionGroup& group, int width) {
   const bool own = group.name == experiment.name;
   const std::string title = own ? "Options of " + group.name : "Options: " + group.about;
-  return wrapped(title, width, 0, 0) + "\n" + options_text(group.keys, width);
+  return wrapped(title, width, 0, 0) + "\n" + options_text(experiment, group.keys, width);
 }
 
 // Those that every subcommand has and, unless it is "", what 4 says.

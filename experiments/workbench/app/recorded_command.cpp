@@ -72,6 +72,13 @@ RecordedRun recorded_run(const std::string& folder_or_manifest) {
   return {file, read_manifest(file)};
 }
 
+std::string missing_input(const CommandLine& line) {
+  std::error_code ignored;
+  for (const Flag& flag : line.flags)
+    if (flag.text.ends_with(".csv") && !fs::exists(flag.text, ignored)) return flag.text;
+  return "";
+}
+
 CommandLine line_that_repeats(const RecordedRun& run, const std::vector<Flag>& later, bool with_errors) {
   const Manifest& m = run.manifest;
   CommandLine line = recorded_line(run);

@@ -23,4 +23,7 @@ RecordedRun recorded_run(const std::string& folder_or_manifest);
 CommandLine line_that_repeats(const RecordedRun& run, const std::vector<Flag>& later = {},
                               bool with_errors = true);
 
+// The first CSV that a flag of the line names and that is not there; "" where all are.
+std::string missing_input(const CommandLine& line);
+
 }  // namespace hysteron::experiments

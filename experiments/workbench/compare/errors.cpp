@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/workbench/app/headlines.h"
+#include "experiments/workbench/app/key_conditions.h"
 #include "experiments/workbench/compare/comparison.h"
 #include "experiments/workbench/pages/error_words.h"
 #include "sim/base/csv.h"
@@ -55,10 +56,16 @@ ChildRun child_run(const Run& run, const CommandLine& line, const ErrorRun& erro
                          {"json", "false"},
                          {"no-images", "true"},
                          {"look", "cloth"},
+                         {"reference", ""},
                          {"export", "none"},
                          {"checkpoint", "0"},
                          {"resume", "false"}});
-  return child_run(error_run.name, line, own, run.folder() / "errors");
+  CommandLine once = line;
+  for (const Flag& change : error_run.changes)
+    if (change.path == experiment_headlines(line.experiment).release)
+      once.flags = without_unread_flags(once, change.path, change.text);
+  std::erase_if(once.flags, [](const Flag& flag) { return flag.path.starts_with("errors"); });
+  return child_run(error_run.name, once, own, run.folder() / "errors");
 }
 
 // How the run's cloth was let go, from what it noted: "drape.release" is `release` of "drape".

@@ -14,8 +14,11 @@
 namespace hysteron::experiments {
 namespace {
 
-// What the flag sets.
-std::string flag_key(const Flag& flag) { return flag.path == "fabric.name" ? "fabric" : flag.path; }
+// What the flag sets: of parameters one.
+std::string flag_key(const Flag& flag) {
+  if (flag.path == "param") return "param." + flag.text.substr(0, flag.text.find('='));
+  return flag.path == "fabric.name" ? "fabric" : flag.path;
+}
 
 bool is_list(const Flag& flag) {
   const std::string key = flag_key(flag);
@@ -136,6 +139,8 @@ CommandLine with_variant(CommandLine line, const Variant& variant) {
 
 CommandLine without_lists(const CommandLine& line) {
   CommandLine one = line;
+  for (const Flag& flag : line.flags)
+    if (is_list(flag)) one.listed.push_back(flag_key(flag));
   std::erase_if(one.flags, is_list);
   return one;
 }

@@ -23,6 +23,7 @@ namespace {
 
 const Setup& checked(const Setup& setup) {
   check_duration(setup.scene);
+  refuse_late_tables(setup);
   return setup;
 }
 
@@ -101,6 +102,8 @@ Session::Session(const CommandLine& line, const Setup& setup, std::optional<Clot
   describe_start();
   observers_ = session_observers(*this, std::move(probes), std::move(checkpoints));
   for (const std::string& words : lost_words(line, setup)) run_->warn(words);
+  for (const std::string& warning : setup.unread) run_->warn(warning);
+  for (const std::string& warning : late_table_warnings(setup.scene)) run_->warn(warning);
 }
 
 void Session::describe_start() {

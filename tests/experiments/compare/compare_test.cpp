@@ -234,6 +234,27 @@ TEST(Compare, SetsFabricsOfASceneSideBySide) {
   }
 }
 
+// By the same scene that it runs: parameters of its file, and those that only one column has.
+TEST(Compare, MatchesTheLawThatItRuns) {
+  const Folder folder;
+  const auto scene = [&](const std::string& parameters) {
+    return folder.write("held.toml", "law = \"bridson\"\ntriangles = 20\nstep = 0.01\nseconds = 0.02\n" +
+                                         parameters + "[cloth]\nlength = 0.1\n");
+  };
+  const auto stiffness = [&](const std::string& parameters, const std::string& flags) {
+    return first_stiffness(
+        FinishedRun("compare " + scene(parameters) + " --no-images --device cpu --quiet --laws " + flags));
+  };
+  const std::string both = "bridson,spring";
+  const double in_file = stiffness("[param]\nheight = 0.05\n", both),
+               as_flag = stiffness("", both + " --param height=0.05");
+  EXPECT_EQ(in_file, as_flag);
+  EXPECT_NE(in_file, stiffness("", both)) << "the parameter matters";
+  const double weaker = stiffness("", "obrien+param=yield=20,prandtl"),
+               stronger = stiffness("", "obrien,prandtl");
+  EXPECT_GT(std::abs(weaker / stronger - 1), 0.01) << "obrien yields elsewhere without its parameter";
+}
+
 TEST(Compare, LeavesLawsTheFabricsNumbersIfToldSo) {
   EXPECT_EQ(first_stiffness(FinishedRun(
                 "compare swing --laws linear,prandtl --no-images --compare.match fabric" + kSmall)),

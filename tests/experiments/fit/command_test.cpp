@@ -108,8 +108,16 @@ TEST_F(Fit, RefusesRequestsThatMakeNoSense) {
   refuses({{"loop", file}, {"kes.b", "1e-5"}}, "not several");
   refuses({{"kes.b", "1e-5"}}, "needs both --kes.b and --kes.2hb");
   refuses({{"virgin.b1", "1e-5"}}, "needs both --virgin.b1 and --virgin.c1");
-  refuses({{"kes.b", "1e-5"}, {"kes.2hb", "1e-3"}, {"law", "wong"}}, "go with --loop");
+  refuses({{"kes.b", "1e-5"}, {"kes.2hb", "1e-3"}, {"law", "wong"}}, "law needs --loop (no --loop)");
   refuses({{"loop", file}, {"law", "wongg"}}, "wongg");
+  refuses({{"fab", file}, {"fabric.density", "0.1"}, {"loop", file}}, "not several");
+  refuses({{"fab", file}, {"fabric.density", "0.1"}, {"kes.2hb", "1e-3"}}, "not several");
+  refuses({{"decay", file},
+           {"decay.length", "0.1"},
+           {"fabric.density", "0.1"},
+           {"kes.b", "1e-5"},
+           {"loop", file}},
+          "not several");
   refuses({{"kes.b", "0"}, {"kes.2hb", "1e-3"}}, "must be > 0");
 }
 

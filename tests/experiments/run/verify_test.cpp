@@ -269,7 +269,7 @@ TEST(RoundOff, IsATenthOfTheToleranceThatStepsWereSolvedToAndAtLeastAMillionth) 
 TEST(RoundOff, IsAShareOfTheNumberOrOfTheWhole) {
   Manifest before = with_steps("bdf2", 1e-6), now = before;
   before.metrics = {
-      {"energy_J", 1e-7}, {"share_percent", 0.1}, {"node_count", 7}, {"newton_iterations", 3.5}};
+      {"energy_J", 1e-7}, {"share_percent", 0.1}, {"node_count", 7}, {"newton_iterations_per_step", 3.5}};
   const auto agreement = [&](const char* name, MetricValue value) {
     now.metrics = before.metrics;
     now.metrics.set(name, value);
@@ -281,7 +281,98 @@ TEST(RoundOff, IsAShareOfTheNumberOrOfTheWhole) {
   EXPECT_EQ(agreement("share_percent", 0.1 + 0.9e-4), Agreement::errors);
   EXPECT_EQ(agreement("share_percent", 0.1 + 1.1e-4), Agreement::none);
   EXPECT_EQ(agreement("node_count", 8), Agreement::none) << "counts are exact";
-  EXPECT_EQ(agreement("newton_iterations", 4.5), Agreement::errors) << "work of the solver";
+  EXPECT_EQ(agreement("newton_iterations_per_step", 4.5), Agreement::errors) << "work of the solver";
+}
+
+TEST(Repetition, HasNamesOfASolversWorkAndOfErrorsAsTheyAreNotAsTheyBegin) {
+  Manifest before = with_steps("bdf2", 1e-6), now = before;
+  const auto agreement = [&](const Metrics& recorded, const Metrics& repeated) {
+    before.metrics = recorded, now.metrics = repeated;
+    return compare_runs(before, now, {}, false).agreement();
+  };
+  for (const char* own :
+       {"newton_tip_m", "my_iterations_m", "a_draw_b_m", "tip_m_error", "falls_steps_count"})
+    EXPECT_EQ(agreement({{own, -0.07}}, {{own, 12.0}}), Agreement::none) << own;
+  EXPECT_EQ(
+      agreement({{"prandtl.newton_residual_largest", 1e-7}}, {{"prandtl.newton_residual_largest", 2e-7}}),
+      Agreement::errors)
+      << "a column's";
+  EXPECT_EQ(agreement({{"tip_m", 0.1}, {"tip_m_step_error", 0.01}, {"tip_m_path_difference", 0.2}},
+                      {{"tip_m", 0.1}}),
+            Agreement::bits)
+      << "errors are not repeated";
+}
+
+TEST(Repetition, DiffersWhereOneOfThemHasANumberThatTheOtherHasNot) {
+  Manifest before = with_steps("bdf2", 1e-6), now = before;
+  before.metrics = {{"tip_m", 0.1}};
+  now.metrics = {{"tip_m", 0.1}, {"drape_coefficient_percent", 60}, {"energy_J", 1}};
+  before.commit = "1", now.commit = "2";
+  EXPECT_EQ(compare_runs(before, now, {}, false).unrecorded,
+            (std::vector<std::string>{"drape_coefficient_percent"}))
+      << "a newer program may measure more, but a headline is found by all";
+  before.commit = now.commit;
+  EXPECT_EQ(compare_runs(before, now, {}, false).unrecorded.size(), 2u);
+  EXPECT_EQ(compare_runs(now, before, {}, false).missing.size(), 2u);
+  EXPECT_EQ(compare_runs(now, before, {}, false).agreement(), Agreement::none);
+  now.state_hash = "1";
+  EXPECT_EQ(compare_runs(before, now, {}, false).unrecorded.front(), "the state");
+}
+
+TEST_F(Recorded, RunWhoseManifestHoldsLessThanItFindsDiffers) {
+  record(kDrape);
+  const Json whole = manifest_in(run());
+  const std::string verify = "verify " + in("runs") + " --out " + in("check");
+  const auto without = [&](const std::function<void(Json&)>& change) {
+    std::ofstream(manifest()) << whole.dump();
+    edit(change);
+    return ended(4, verify).out;
+  };
+  EXPECT_TRUE(
+      says(without([](Json& json) { json["state_hash"] = nullptr; }), "not in the manifest: the state"));
+  EXPECT_TRUE(says(without([](Json& json) { json["metrics"] = Json::object(); }),
+                   "not in the manifest: drape_coefficient_percent"));
+  EXPECT_TRUE(says(without([](Json& json) { json["metrics"].erase("node_count"); }),
+                   "not in the manifest: node_count"));
+  EXPECT_TRUE(says(without([](Json& json) { json["metrics"]["gone_m"] = 1; }), "no longer measured: gone_m"));
+}
+
+TEST_F(Recorded, RunThatCannotBeRepeatedIsAFailureBesideOthers) {
+  record(kDrape);
+  Json other = manifest_in(run());
+  other["scene"]["law"] = "of-no-one";
+  fs::create_directories(folder_.path() / "runs" / "other");
+  std::ofstream(folder_.path() / "runs" / "other" / "manifest.json") << other.dump();
+  const Outcome outcome = ended(3, "verify " + in("runs") + " --out " + in("check"));
+  EXPECT_TRUE(says(outcome.out, "1 the same, 0 within errors, 0 differ; 1 could not be"));
+  EXPECT_TRUE(says(outcome.err, "1 of 2 runs could not be repeated, the first other: "));
+}
+
+TEST_F(Recorded, RunIsHeldToNoLimitThatIsForNothing) {
+  record(kDrape);
+  const auto refusal_of = [&](const std::string& limits) {
+    return refused("verify " + in("runs") + " --out " + in("check") + " --limits " +
+                   folder_.write("limits.toml", limits));
+  };
+  EXPECT_TRUE(says(refusal_of("[[metric]]\nname = \"node_counts\"\nmax-difference = 1\n"),
+                   "a limit is for the metric node_counts, and none is called so; did you mean node_count?"));
+  EXPECT_TRUE(says(refusal_of("[[picture]]\nname = \"shadows*.png\"\nmax-mean = 0\n"),
+                   "a limit is for the picture shadows*.png, and none is called so"));
+}
+
+// In another folder, whose name is no part of its pictures.
+TEST_F(Recorded, RunOfASceneOfOnesOwnIsRepeatedWithItsPictures) {
+  const std::string scene = folder_.write(
+      "mine.toml",
+      "seconds = 0.02\nstep = 0.01\ntriangles = 20\n[[metric]]\nname = \"tip\"\nto = [0.5, 0, 0]\n");
+  record("run " + scene + " --size 160x120 --fps 50");
+  EXPECT_EQ(manifest_in(run())["scene_name"], "mine");
+  const std::string verify = "verify " + in("runs") + " --limits " +
+                             folder_.write("limits.toml", "max-mean = 0\n") + " --out " + in("check");
+  EXPECT_TRUE(says(finished(verify).out, "2 pictures the same"));
+  EXPECT_EQ(manifest_in(folder_.path() / "check" / "one")["scene_name"], "mine");
+  edit([](Json& json) { json.erase("scene_name"); });  // as older programs wrote it
+  finished(verify);
 }
 
 TEST_F(Recorded, RunThatTookLongIsLeftOut) {

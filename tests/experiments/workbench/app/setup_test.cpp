@@ -1,3 +1,7 @@
+#include <sstream>
+
+#include "experiments/workbench/app/scene_source.h"
+#include "sim/scene/assets.h"
 #include "tests/experiments/folder.h"
 
 namespace hysteron::experiments {
@@ -89,6 +93,45 @@ TEST(Setup, SaysWhoseAKeyOfItsFileIs) {
 TEST(Setup, ChecksTheSceneAsAWhole) {
   EXPECT_TRUE(
       says(setup_error({{"fabric.b1", "1e-9"}}), "fabric.b1 = 1e-09 N m (--fabric.b1) must be >= fabric.b2"));
+}
+
+// What a scene that was dumped says, without the comments, which tell where each value comes from.
+std::string dumped_values(const std::string& file) {
+  std::istringstream lines(file_content(file));
+  std::string values;
+  for (std::string line; std::getline(lines, line);) values += line.substr(0, line.find("  # ")) + "\n";
+  return values;
+}
+
+// Resolves the scene as `run` does and dumps it.
+void dump_as(const std::string& scene, const std::string& file) {
+  experiments::Setup defaults{default_scene(), {}};
+  defaults.own_tables = {"metric"};
+  dump_scene(set_up({"run", "hysteron run", {{"scene", scene}, {"dump-scene", file}}, {}}, defaults));
+}
+
+TEST(DumpedScene, IsReadAgainAndSaysTheSame) {
+  const Folder folder;
+  const std::string mesh = folder.write("m.obj",
+                                        "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n"),
+                    once = folder.file("once.toml"), again = folder.file("again.toml");
+  std::vector<std::string> scenes = list_assets("scenes");
+  ASSERT_GT(scenes.size(), 5u);
+  const std::string cloth = "[cloth]\nshape = \"file\"\nfile = \"" + mesh + "\"\n";
+  const std::string rest =
+      "seconds = 2\nlaw = \"grinspun-edit\"\n" + cloth + "start = \"" + mesh +
+      "\"\nunit = \"cm\"\nweld = 1e-4\n"
+      "[[phase]]\nname = \"hang\"\n[[phase]]\nname = \"fall\"\n"
+      "[[pin]]\nselect = \"nearest\"\nuntil = \"fall\"\nkeys = [{time = 0.5, position = [0, 0, 1]}]\n"
+      "[[obstacle]]\nkind = \"torus\"\nfrom = 1\n[[command]]\nkind = \"edit\"\ntime = 1\n";
+  scenes.push_back(folder.write("file.toml", rest));
+  scenes.push_back(folder.write("pattern.toml", "[cloth]\nshape = \"pattern\"\nfile = \"" + mesh + "\"\n"));
+  scenes.push_back(folder.write("mesh.toml", "mesh = \"" + mesh + "\"\n[param]\nmemory = \"stops\"\n"));
+  for (const std::string& scene : scenes) {
+    dump_as(scene, once);
+    dump_as(once, again);
+    EXPECT_EQ(dumped_values(once), dumped_values(again)) << scene;
+  }
 }
 
 }  // namespace
