@@ -3,23 +3,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <string_view>
+#include <utility>
 
 #include "sim/base/atomic_file.h"
 #include "sim/base/comma_list.h"
 #include "sim/base/number_in.h"
+#include "sim/base/plain_text.h"
 #include "sim/base/whole_file.h"
 
 namespace hysteron {
 namespace {
-
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view kBlank = " \t\r";
-  const size_t first = text.find_first_not_of(kBlank);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
-}
 
 // What separates the fields of a table with this head: a semicolon or a tab that stands there outside of
 // quotes, else the comma.
@@ -58,22 +54,24 @@ Error error_at(const std::string& file, int line, const std::string& what) {
 // Walks through the text of a file, row by row.
 class Rows {
  public:
-  Rows(const std::string& text, const std::string& file) : text_(text), file_(file) {
-    if (text.starts_with("\xEF\xBB\xBF")) at_ = 3;
-    const std::size_t head = std::min(text.find_first_not_of(" \t\r\n", at_), text.size());
-    separator_ = separator_in(std::string_view(text).substr(head, text.find('\n', head) - head));
-  }
+  Rows(const std::string& text, const std::string& file) : text_(text), file_(file) { find_head(); }
 
-  // The next row that is not blank; false at the end.
+  char separator() const { return separator_; }
+  // Names in a comment above the first row, where that has numbers alone; empty: the first row is the head.
+  const std::vector<std::string>& head_in_comment() const { return head_; }
+
+  // The next row that is neither blank nor a comment; false at the end.
   bool next(std::vector<std::string>& fields) {
     while (at_ < text_.size()) {
       line_ += lines_read_;
       lines_read_ = 0;
-      fields = read();
+      const bool comment = is_comment(line_at(at_));
+      if (comment)
+        at_ = std::min(text_.find('\n', at_), text_.size());
+      else
+        fields = read();
       ++at_, ++lines_read_;
-      if (fields.size() == 1 && trimmed(fields[0]).empty()) continue;
-      if (separator_ != ',')
-        for (std::string& field : fields) field = with_decimal_point(std::move(field));
+      if (comment || (fields.size() == 1 && trimmed(fields[0]).empty())) continue;
       return true;
     }
     return false;
@@ -82,6 +80,46 @@ class Rows {
   int line() const { return line_; }
 
  private:
+  static bool is_comment(std::string_view line) { return trimmed(line).starts_with('#'); }
+
+  std::string_view line_at(std::size_t at) const {
+    return std::string_view(text_).substr(at, std::min(text_.find('\n', at), text_.size()) - at);
+  }
+
+  std::vector<std::string> fields_of(std::string_view line, char separator) const {
+    std::vector<std::string> fields(1);
+    for (const char c : line) {
+      if (c == separator)
+        fields.emplace_back();
+      else
+        fields.back() += c;
+    }
+    return fields;
+  }
+
+  // The separator, from the first line that is neither blank nor a comment; or from the comment above it, if
+  // that names the columns of a line of numbers, as numpy.savetxt writes it.
+  void find_head() {
+    std::string_view comment, first;
+    for (std::size_t at = 0; at < text_.size() && first.empty(); at += line_at(at).size() + 1) {
+      const std::string_view line = trimmed(line_at(at));
+      if (is_comment(line))
+        comment = line;
+      else
+        first = line;
+    }
+    separator_ = separator_in(first);
+    comment.remove_prefix(std::min(comment.find_first_not_of('#'), comment.size()));
+    const char separator = separator_in(comment);
+    const std::vector<std::string> names = fields_of(comment, separator),
+                                   numbers = fields_of(first, separator);
+    if (trimmed(comment).empty() || names.size() != numbers.size()) return;
+    for (const std::string& field : numbers)
+      if (!vector_component(separator == ',' ? field : with_decimal_point(field))) return;
+    separator_ = separator;
+    head_ = names;
+  }
+
   std::string quoted() {
     std::string field;
     const int start = line_ + lines_read_;
@@ -100,7 +138,7 @@ class Rows {
         fields.back() += quoted();
       } else if (const char c = text_[at_++]; c == separator_) {
         fields.emplace_back();
-      } else if (c != '\r') {
+      } else {
         fields.back() += c;
       }
     }
@@ -109,10 +147,64 @@ class Rows {
 
   const std::string& text_;
   const std::string& file_;
+  std::vector<std::string> head_;
   std::size_t at_ = 0;
   int line_ = 1, lines_read_ = 0;
   char separator_ = ',';
 };
+
+// Up to three digits, this mark, and three digits: "1,000" and "-12.500", but not "0,125" and "1,5".
+bool may_be_thousands(std::string_view field, char mark) {
+  field = without_plus(field);
+  if (field.starts_with('-')) field.remove_prefix(1);
+  const std::size_t at = field.find(mark);
+  if (at == field.npos || at == 0 || at > 3 || field.size() - at != 4 || field.front() == '0') return false;
+  std::string digits(field);
+  digits.erase(at, 1);
+  return digits.find_first_not_of("0123456789") == digits.npos;
+}
+
+// Whether the field is a number with this mark before its decimals, and cannot be one with thousands.
+bool shows_decimals(const std::string& field, char mark) {
+  if (field.find(mark) == field.npos || may_be_thousands(field, mark)) return false;
+  return field.find(mark == ',' ? '.' : ',') == field.npos && vector_component(with_decimal_point(field));
+}
+
+// The marks of thousands or decimals that this table, whose columns no comma separates, leaves open.  Other
+// numbers of the table can show that a comma stands before decimals; points do unless commas do.
+std::string doubtful_marks(const Table& table) {
+  bool comma = false, point = false;
+  for (const std::vector<std::string>& row : table.rows)
+    for (const std::string& field : row) {
+      comma = comma || shows_decimals(field, ',');
+      point = point || shows_decimals(field, '.');
+    }
+  return std::string(comma && !point ? "" : ",") + (comma ? "." : "");
+}
+
+// Decimal commas become points where they are certain.  "1,125" becomes "1.1250", which cannot be thousands.
+void read_decimal_commas(Table& table) {
+  table.doubtful_marks = doubtful_marks(table);
+  const bool certain = table.doubtful_marks.find(',') == table.doubtful_marks.npos;
+  for (std::vector<std::string>& row : table.rows)
+    for (std::string& field : row) {
+      const bool open = may_be_thousands(field, ',');
+      if (open && !certain) continue;
+      field = with_decimal_point(std::string(trimmed(field)) + (open ? "0" : ""));
+    }
+}
+
+// Why a field that may have thousands is not read.
+std::string thousands_message(const std::string& column, std::string_view field, char mark) {
+  std::string whole(field);
+  std::replace(whole.begin(), whole.end(), mark, ' ');
+  whole.erase(whole.find(' '), 1);
+  std::string decimal(field);
+  return fmt::format(
+      "{} = '{}' may have {} decimals or thousands: write {}, or {}0 if these are decimals, and one "
+      "mark before all decimals of the table",
+      column, field, mark == ',' ? "a comma before" : "a point before", whole, decimal);
+}
 
 // Why a column is not the one that is wanted: another name would not change its numbers.
 std::string other_unit(std::string_view column, const std::string& wanted) {
@@ -121,26 +213,27 @@ std::string other_unit(std::string_view column, const std::string& wanted) {
   if (unit.empty())
     return fmt::format("column '{}' names no unit; its numbers must be in {}, as '{}' says", name, must,
                        wanted);
-  if (unit == must) return fmt::format("column '{}' must be written '{}'", trimmed(column), wanted);
   return fmt::format("column '{}' is in {} and must be in {}: convert its numbers, not its name", name, unit,
                      must);
 }
 
-// Refuses a column that stands twice or is there in another unit, or one of words.
-void check_column(const Table& table, const std::string& wanted, bool needed) {
+// Gives the column its wanted name; refuses one that stands twice or is there in another unit, or one of
+// words.
+void name_column(Table& table, const std::string& wanted, bool needed) {
   bool found = false;
-  for (const std::string& name : table.head) {
+  for (std::string& name : table.head) {
     if (quantity_in(name) != quantity_in(wanted)) continue;
-    if (name != wanted) throw error_at(table.file, 1, other_unit(name, wanted));
+    if (unit_in(name) != unit_in(wanted)) throw error_at(table.file, 1, other_unit(name, wanted));
     if (found) throw error_at(table.file, 1, "column '" + wanted + "' stands twice");
     found = true;
+    name = wanted;
   }
   if (!found && needed)
     throw error_at(table.file, 1, "column '" + wanted + "' is missing; the header names it with its unit");
 }
 
 std::string quoted_where_needed(const std::string& text) {
-  if (text.find_first_of(",\"\n") == text.npos) return text;
+  if (text.find_first_of(",\"\n") == text.npos && !text.starts_with('#')) return text;
   std::string quoted = "\"";
   for (char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
   return quoted + "\"";
@@ -150,14 +243,30 @@ std::string exact_field(double value) { return fmt::format("{:.17g}", value); }
 
 }  // namespace
 
+namespace {
+
+// Where the unit of a column's name stands, "[1/m]" or "(1/m)" at its end.
+std::pair<std::size_t, std::size_t> unit_place(std::string_view column) {
+  const std::size_t open = column.find('['), close = column.rfind(']');
+  if (open != column.npos && close != column.npos && close > open) return {open, close};
+  const std::size_t round = column.rfind('(');
+  if (round != column.npos && trimmed(column).ends_with(')')) return {round, column.rfind(')')};
+  return {std::min(open, column.size()), column.npos};
+}
+
+}  // namespace
+
 std::string quantity_in(std::string_view column) {
-  return std::string(trimmed(column.substr(0, column.find('['))));
+  std::string quantity;
+  for (const char c : trimmed(column.substr(0, unit_place(column).first)))
+    if (c != ' ' || quantity.back() != ' ')
+      quantity += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return quantity;
 }
 
 std::string unit_in(std::string_view column) {
-  const std::size_t open = column.find('['), close = column.rfind(']');
-  if (open == column.npos || close == column.npos || close < open) return "";
-  return std::string(trimmed(column.substr(open + 1, close - open - 1)));
+  const auto [open, close] = unit_place(column);
+  return close == column.npos ? "" : plain_unit(column.substr(open + 1, close - open - 1));
 }
 
 Table::Table(const std::string& names) : head(split(names)) {}
@@ -194,10 +303,19 @@ std::size_t Table::at(const std::string& column) const {
 }
 
 double Table::number(std::size_t row, const std::string& column) const {
-  return vector_component(word(row, column)).value_or(NAN);
+  const std::string& field = word(row, column);
+  return doubtful_mark(field) ? NAN : vector_component(field).value_or(NAN);
+}
+
+char Table::doubtful_mark(std::string_view field) const {
+  for (const char mark : doubtful_marks)
+    if (may_be_thousands(field, mark)) return mark;
+  return 0;
 }
 
 double Table::finite(std::size_t row, std::size_t column) const {
+  if (const char mark = doubtful_mark(rows[row][column]))
+    throw refusal(row, thousands_message(head[column], trimmed(rows[row][column]), mark));
   const std::optional<double> value = vector_component(rows[row][column]);
   if (!value || !std::isfinite(*value))
     throw refusal(
@@ -250,13 +368,18 @@ Error Table::refusal(std::size_t row, const std::string& what) const {
   return reader.empty() ? error : error.with_experiment(reader);
 }
 
-Table table_in(const std::string& text, const std::string& file) {
+Table table_in(const std::string& bytes, const std::string& file) {
+  const std::string text = plain_text(bytes);
   Table table;
   table.file = file;
   Rows rows(text, file);
+  const auto take_head = [&](const std::vector<std::string>& names) {
+    for (const std::string& name : names) table.head.emplace_back(trimmed(name));
+  };
+  take_head(rows.head_in_comment());
   for (std::vector<std::string> row; rows.next(row);) {
     if (table.head.empty()) {
-      for (const std::string& name : row) table.head.emplace_back(trimmed(name));
+      take_head(row);
       continue;
     }
     if (row.size() != table.head.size())
@@ -264,6 +387,7 @@ Table table_in(const std::string& text, const std::string& file) {
     table.rows.push_back(std::move(row));
     table.lines.push_back(rows.line());
   }
+  if (rows.separator() != ',') read_decimal_commas(table);
   return table;
 }
 
@@ -275,8 +399,8 @@ Table read_csv(const std::filesystem::path& file, const std::vector<std::string>
                const std::vector<std::string>& optional, const std::string& reader) {
   try {
     Table table = read_table(file);
-    for (const std::string& name : required) check_column(table, name, true);
-    for (const std::string& name : optional) check_column(table, name, false);
+    for (const std::string& name : required) name_column(table, name, true);
+    for (const std::string& name : optional) name_column(table, name, false);
     if (table.rows.empty()) throw error_at(table.file, 1, "no rows, at least one is needed");
     for (const auto* names : {&required, &optional})
       for (const std::string& name : *names)

@@ -1,7 +1,8 @@
 // The one table of words and numbers: named columns, with units in their names, `curvature [1/m],moment [N]`;
 // written as CSV and read back (RFC 4180: a field that needs it stands in quotes).  Read are also tables
-// whose head is separated by semicolons or tabs, with decimal points or commas; a byte order mark, carriage
-// returns and blank lines are tolerated.
+// whose head is separated by semicolons or tabs, with decimal points or commas, in every encoding that
+// plain_text() knows.  Blank lines and comments, which begin with #, are passed over; a comment above rows of
+// numbers is their head.
 #pragma once
 
 #include <concepts>
@@ -15,7 +16,8 @@
 
 namespace hysteron {
 
-// Of "curvature [1/m]" the quantity is "curvature" and the unit "1/m"; "" without one.
+// The quantity of "Curvature (1/m)" and "curvature [m^-1]" is "curvature", its unit "1/m" (plain_unit()); ""
+// without one.
 std::string quantity_in(std::string_view column);
 std::string unit_in(std::string_view column);
 
@@ -44,6 +46,8 @@ struct Table {
   std::vector<std::vector<std::string>> rows{};  // each as long as the head
   std::vector<int> lines{};                      // where each row stands in the file it was read from
   std::string file{}, reader{};                  // that it was read from, and on whose behalf ("law")
+  // Of "," and ".", those that stand before decimals or between thousands: "1,000" is then no number.
+  std::string doubtful_marks{};
 
   Table() = default;
   // "fabric,law,step [s]"
@@ -60,6 +64,8 @@ struct Table {
   std::size_t at(const std::string& column) const;
   const std::string& word(std::size_t row, const std::string& column) const { return rows[row][at(column)]; }
   double number(std::size_t row, const std::string& column) const;  // NaN of a cell that is none
+  // The mark for which a field may be one number or another; 0 if it is certain.
+  char doubtful_mark(std::string_view field) const;
   // Error::invalid_input, with file and line, of a cell that is no finite number.
   double finite(std::size_t row, std::size_t column) const;
   // The same, of all rows.
@@ -80,8 +86,8 @@ struct Table {
 // Throws Error::system if the file cannot be read, Error::invalid_input (with file:line) if a row has another
 // number of fields or a quote is not closed.
 Table read_table(const std::filesystem::path& csv);
-// The same of the text of a file of that name.
-Table table_in(const std::string& text, const std::string& file);
+// The same of the bytes of a file of that name.
+Table table_in(const std::string& bytes, const std::string& file);
 // A table of which the columns `required` and, where present, `optional` are numbers.  `reader` says on whose
 // behalf ("law"), for errors.  Throws also Error::invalid_input if one of them is missing, named twice, in
 // another unit or has a cell that is no finite number, or if there are no rows.

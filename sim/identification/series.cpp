@@ -5,6 +5,7 @@
 
 #include "sim/base/csv.h"
 #include "sim/base/error.h"
+#include "sim/base/plain_text.h"
 #include "sim/identification/identification.h"
 #include "sim/reference/tester_table.h"
 #include "sim/scene/fabric_reader.h"
@@ -172,7 +173,7 @@ class CurveFile {
 
   void check_units(const std::string& curvature, const std::string& moment) const {
     const auto are = [&](const CurveUnits& units) {
-      return curvature == units.curvature && moment == units.moment;
+      return curvature == plain_unit(units.curvature) && moment == plain_unit(units.moment);
     };
     if (are(units_)) return;
     const auto said = [](const CurveUnits& units) {
@@ -182,7 +183,7 @@ class CurveFile {
       if (are(other))
         throw refusal("curvature is in " + curvature + " and moment in " + moment + ": give --units " +
                       other.flag + ", which reads these (" + said(units_) + ")");
-    const bool first = curvature != units_.curvature;
+    const bool first = curvature != plain_unit(units_.curvature);
     const std::string quantity = first ? "curvature" : "moment", unit = first ? curvature : moment;
     const std::string must = first ? units_.curvature : units_.moment;
     throw refusal(quantity + (unit.empty() ? " names no unit" : " is in " + unit) + " and must be in " +

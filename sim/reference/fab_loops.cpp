@@ -184,6 +184,17 @@ struct Columns {
   std::size_t direction, test, branch, distance, force, gauge, width;
 };
 
+// "clamp_distance_m" of "Clamp distance [m]" and "Clamp_distance_m": names are compared in small letters,
+// units as they are.
+std::string fab_column(const std::string& field) {
+  std::string name = quantity_in(field), unit = unit_in(field);
+  std::replace(name.begin(), name.end(), ' ', '_');
+  if (!unit.empty()) return name + "_" + unit;
+  const std::size_t ending = field.rfind('_');
+  if (ending == field.npos || name.size() != field.size()) return name;
+  return name.substr(0, ending) + field.substr(ending);
+}
+
 // "m" of "clamp_distance_m"; none unless the column is of that quantity.
 std::optional<std::string> column_unit(const std::string& column, const std::string& quantity) {
   if (!column.starts_with(quantity)) return std::nullopt;
@@ -257,9 +268,10 @@ std::pair<double, double> extremes(const BranchForces& force, int cycle) {
 std::vector<FabLoops> read_fab(const fs::path& file, TesterUnits units, const std::string& reader) {
   const UnitNames& unit = units == TesterUnits::si ? kSi : kFab;
   const std::string distance = "clamp_distance";
-  const Table table = read_tester_table(
-      file, [&](const std::string& field) { return column_unit(field, distance).has_value(); },
+  Table table = read_tester_table(
+      file, [&](const std::string& field) { return column_unit(fab_column(field), distance).has_value(); },
       "a column " + distance + unit.length, reader);
+  for (std::string& column : table.head) column = fab_column(column);
   const Columns c = loop_columns(table, unit);
   std::vector<FabLoops> all;
   for (std::size_t row = 0; row < table.rows.size(); ++row) {

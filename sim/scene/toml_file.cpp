@@ -8,6 +8,7 @@
 #include <toml++/toml.h>
 
 #include "sim/base/error.h"
+#include "sim/base/plain_text.h"
 #include "sim/base/whole_file.h"
 #include "sim/scene/assets.h"
 
@@ -94,7 +95,7 @@ Error malformed(const std::string& why, const std::string& file, int line) {
 }  // namespace
 
 ValueTree read_toml(const std::string& file, Lists lists) {
-  const std::string text = whole_file(file, "cannot read " + file, kMaxTomlBytes);
+  const std::string text = utf8_text(whole_file(file, "cannot read " + file, kMaxTomlBytes));
   if (const std::optional<TomlFault> fault = fault_before_parsing(text))
     throw malformed(fault->what, file, fault->line);
   try {

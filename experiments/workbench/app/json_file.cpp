@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "sim/base/error.h"
+#include "sim/base/plain_text.h"
 #include "sim/base/whole_file.h"
 
 namespace hysteron::experiments {
@@ -27,7 +28,7 @@ Json json_in(const std::string& text, const std::filesystem::path& file, const s
 }
 
 Json read_json(const std::filesystem::path& file, const std::string& kind) {
-  return json_in(whole_file(file, "cannot read " + file.string(), kMaxJsonBytes), file, kind);
+  return json_in(utf8_text(whole_file(file, "cannot read " + file.string(), kMaxJsonBytes)), file, kind);
 }
 
 Json json_or_none(const std::filesystem::path& file) {

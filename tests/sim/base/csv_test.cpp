@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "sim/base/error.h"
+#include "sim/base/plain_text.h"
 #include "tests/sim/base/folder.h"
 #include "tests/sim/base/refusal.h"
 
@@ -57,6 +58,70 @@ TEST_F(Csv, TellsSemicolonsAndTabsFromCommasByTheHead) {
     EXPECT_EQ(words.rows[0][0], "a;b") << text;
     EXPECT_EQ(words.rows[1][0], "1,2,3") << text;
   }
+}
+
+// A mark before three digits may stand before decimals or between thousands; other numbers of the table tell
+// it, or nothing does.
+TEST_F(Csv, RefusesNumbersThatMayHaveThousands) {
+  EXPECT_TRUE(
+      says(refusal("curvature [1/m];time [s]\n0;0,0\n1.000;2,5\n"),
+           "in.csv:3: curvature [1/m] = '1.000' may have a point before decimals or thousands: write 1000, "
+           "or 1.0000 if these are decimals"));
+  EXPECT_TRUE(
+      says(refusal("curvature [1/m]\ttime [s]\n500.5\t1\n-1,000\t2\n"),
+           "in.csv:3: curvature [1/m] = '-1,000' may have a comma before decimals or thousands: write -1000, "
+           "or -1,0000 if these are decimals"));
+  EXPECT_TRUE(says(refusal("curvature [1/m];time [s]\n1,000;0\n1,500;1\n"), "'1,000' may have"));
+  const auto read = [&](const std::string& rows) {
+    return read_csv(file("curvature [1/m];time [s]\n" + rows), {"curvature [1/m]"}, {}, "law")
+        .numbers("curvature [1/m]");
+  };
+  EXPECT_EQ(read("1,125;0,5\n"), std::vector<double>{1.125});  // the time shows the comma
+  EXPECT_EQ(read("1,1250;0\n"), std::vector<double>{1.125});   // four digits are decimals
+  EXPECT_EQ(read("0,125;0\n1,125;0\n"), (std::vector<double>{0.125, 1.125}));
+  EXPECT_EQ(read("1.125;0\n"), std::vector<double>{1.125});  // no comma anywhere
+  // Columns that are not asked for may have such numbers.
+  EXPECT_EQ(read_csv(file("note;curvature [1/m]\n1,000;2\n"), {"curvature [1/m]"}, {}, "law").rows[0][0],
+            "1,000");
+}
+
+TEST_F(Csv, ReadsWhatSpreadsheetsAndTestersWrite) {
+  const std::string rows = "curvature [1/m]\n1.5\n-2\n";
+  const auto utf16 = [](const std::string& text, bool big_endian) {
+    std::string bytes = big_endian ? "\xFE\xFF" : "\xFF\xFE";
+    for (const char c : text) bytes += big_endian ? std::string{'\0', c} : std::string{c, '\0'};
+    return bytes;
+  };
+  for (const std::string& text :
+       {utf16(rows, false), utf16(rows, true), std::string("curvature [1/m]\r1.5\r-2\r"),
+        std::string("Curvature (1/m)\n1.5\n-2\n"),
+        std::string("CURVATURE\xC2\xA0[m^-1]\n\xC2\xA0"
+                    "1.5\n-2\xC2\xA0\n"),
+        std::string("# a tester\ncurvature [1/m]\n1.5\n # between rows\n-2\n"),
+        std::string("# a tester\n# curvature [1/m]\n1.5\n-2\n"),  // numpy.savetxt
+        std::string("curvature [1/m],note\n1.5,\xB7\n-2,Latin-1\n")})
+    EXPECT_EQ(read_csv(file(text), {"curvature [1/m]"}, {}, "law").numbers("curvature [1/m]"),
+              (std::vector<double>{1.5, -2}))
+        << text;
+  EXPECT_TRUE(says(refusal("# \"\ncurvature [1/m]\n# a\n\ntwo\n"), "in.csv:5: curvature [1/m] = 'two'"));
+  // Words that begin like a comment are written in quotes.
+  Table("name").write(folder_.file("words.csv"));
+  EXPECT_EQ(csv_row({"#1", "a"}), "\"#1\",a\n");
+}
+
+TEST(PlainUnit, IsTheProgramsSpellingOfTheSameUnit) {
+  for (const char* unit : {"gf cm/cm",
+                           "gf\xC2\xB7"
+                           "cm/cm",
+                           "gf.cm/cm", "gf*cm / cm", " gf  cm/cm "})
+    EXPECT_EQ(plain_unit(unit), "gf cm/cm") << unit;
+  EXPECT_EQ(plain_unit("gf cm\xC2\xB2/cm"), plain_unit("gf cm^2/cm"));
+  for (const char* unit : {"1/m", "m^-1", "m-1", "m\xE2\x81\xBB\xC2\xB9"})
+    EXPECT_EQ(plain_unit(unit), "1/m") << unit;
+  for (const char* unit : {"N", "N m/m", "N\xC2\xB7m/m"}) EXPECT_EQ(plain_unit(unit), "N") << unit;
+  for (const char* unit : {"", "1", "-"}) EXPECT_EQ(plain_unit(unit), "") << unit;
+  EXPECT_EQ(plain_unit("mm"), "mm");
+  EXPECT_EQ(plain_unit("0.1 N"), "0.1 N");
 }
 
 TEST_F(Csv, RefusesAFileThatIsNotThereAsAFailureOfTheMachine) {
