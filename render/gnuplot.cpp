@@ -1,8 +1,11 @@
 #include "render/gnuplot.h"
 
 #include <fmt/core.h>
+#include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <cstdint>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <string_view>
@@ -97,6 +100,30 @@ bool has_content(const std::string& file) {
   return std::filesystem::file_size(file, error) > 0 && !error;
 }
 
+// Whether this stands in the last bytes of the file: gnuplot ends well where it could not write all of one.
+bool has_end(const std::string& file, std::string_view end) {
+  constexpr std::streamoff kTail = 64;
+  std::ifstream in(file, std::ios::binary | std::ios::ate);
+  in.seekg(-std::min<std::streamoff>(kTail, in.tellg()), std::ios::end);
+  const std::string tail{std::istreambuf_iterator<char>(in), {}};
+  return tail.find(end) != tail.npos;
+}
+
+// A gnuplot that cannot write PDF leaves that empty, and so does a disk without room for it.
+bool is_full(const std::filesystem::path& folder) {
+  constexpr std::uintmax_t kLeast = 1 << 16;  // [byte] of a page
+  std::error_code failure;
+  const auto room = std::filesystem::space(folder.empty() ? "." : folder, failure);
+  return !failure && room.available < kLeast;
+}
+
+void require_complete(const std::filesystem::path& base, const AtomicFile& file, const char* ending,
+                      std::string_view end) {
+  if (has_end(file.temporary(), end)) return;
+  throw Error::system("plot " + base.string() + ": gnuplot did not write all of " + base.filename().string() +
+                      ending + (is_full(base.parent_path()) ? ": the disk is full" : ", is the disk full?"));
+}
+
 }  // namespace
 
 std::string number(double value) { return std::isfinite(value) ? fmt::format("{:.17g}", value) : "NaN"; }
@@ -187,7 +214,8 @@ void forget_when(const std::filesystem::path& pdf) {
   for (std::size_t i = at + kKey.size(); i < text.size() && std::isdigit(static_cast<unsigned char>(text[i]));
        ++i)
     text[i] = '0';
-  std::ofstream(pdf, std::ios::binary) << text;
+  std::ofstream out(pdf, std::ios::binary | std::ios::in);  // in place, which needs no room
+  if (!(out << text).flush()) throw Error::system("cannot write " + pdf.string() + ": is the disk full?");
 }
 
 // The SVG gets the same page in its own units, so that both look alike.
@@ -205,13 +233,18 @@ void write_both(const std::filesystem::path& base, int width, int height, const 
     throw Error::system("plot " + base.string() +
                         ": gnuplot finds no fonts and would leave all letters out; install fontconfig and "
                         "fonts-dejavu-core");
-  if (result.exit_code != 0 || !has_content(png.temporary()) || !has_content(svg.temporary()))
+  if (result.exit_code != 0 && !is_full(base.parent_path()))
     throw Error::system("plot " + base.string() + ": gnuplot fails: " + result.first_error_line);
+  require_complete(base, png, ".png", "IEND");
+  require_complete(base, svg, ".svg", "</svg>");
+  const bool has_pdf = has_content(pdf.temporary()) || is_full(base.parent_path());
+  if (has_pdf) {
+    require_complete(base, pdf, ".pdf", "%%EOF");
+    forget_when(pdf.temporary());
+  }
   png.commit();
   svg.commit();
-  if (!has_content(pdf.temporary())) return;
-  forget_when(pdf.temporary());
-  pdf.commit();
+  if (has_pdf) pdf.commit();
 }
 
 std::string PanelPage::point(double x, double y) const {

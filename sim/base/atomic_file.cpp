@@ -68,6 +68,35 @@ void AtomicFile::commit() {
   committed_ = true;
 }
 
+namespace {
+
+// The first part of the path that is a link to nothing; empty if there is none.
+fs::path dangling_link(const fs::path& path) {
+  std::error_code ignored;
+  fs::path part;
+  for (const fs::path& name : path) {
+    part /= name;
+    if (fs::is_symlink(fs::symlink_status(part, ignored)) && !fs::exists(part, ignored)) return part;
+  }
+  return {};
+}
+
+}  // namespace
+
+void make_folders(const fs::path& folder) {
+  std::error_code failure, ignored;
+  fs::create_directories(folder, failure);
+  if (!failure && !fs::is_directory(folder, failure) && !failure)
+    failure = std::make_error_code(std::errc::not_a_directory);
+  if (!failure) return;
+  const fs::path link = dangling_link(folder);
+  throw Error::system("cannot create the folder " + folder.string() + ": " +
+                      (link.empty()
+                           ? failure.message()
+                           : link.string() + " is a link to " + fs::read_symlink(link, ignored).string() +
+                                 ", which does not exist"));
+}
+
 void write_text(const std::filesystem::path& file, const std::string& text) {
   AtomicFile target(file.string());
   target.stream() << text;

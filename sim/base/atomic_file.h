@@ -32,6 +32,10 @@ class AtomicFile {
   bool committed_ = false;
 };
 
+// The folder and those it lies in.  Throws Error::system, which says so where a link on the way leads to
+// nothing.
+void make_folders(const std::filesystem::path& folder);
+
 // A whole file at once.
 void write_text(const std::filesystem::path& file, const std::string& text);
 

@@ -9,6 +9,7 @@
 
 #include "render/image.h"
 #include "tests/render/test_scene.h"
+#include "tests/sim/base/small_disk.h"
 
 namespace hysteron::render {
 namespace {
@@ -191,6 +192,18 @@ TEST(Plot, MissingGnuplotNamesThePackage) {
   EXPECT_EQ(error.exit_code(), 1);
   EXPECT_TRUE(says(error.what(), "gnuplot-nox"));
   EXPECT_TRUE(folder.names().empty());
+}
+
+// gnuplot ends well where a file could not be written to its end.
+TEST_F(PlotTest, OnAFullDiskLeavesNoHalfOfAFile) {
+  Error error = Error::system("");
+  {
+    const hysteron::test::SmallDisk disk(8192);
+    error = thrown_error([&] { write_plot(folder_.file("plot"), parabola()); });
+  }
+  EXPECT_EQ(error.exit_code(), 1);
+  EXPECT_TRUE(says(error.what(), "gnuplot did not write all of plot.", "is the disk full?"));
+  EXPECT_TRUE(folder_.names().empty());
 }
 
 TEST(Plot, NothingToDrawIsRefused) {

@@ -16,6 +16,7 @@
 #include "experiments/workbench/app/ending.h"
 #include "experiments/workbench/app/manifest_file.h"
 #include "experiments/workbench/app/set_aside.h"
+#include "sim/base/atomic_file.h"
 #include "sim/base/comma_list.h"
 #include "sim/base/error.h"
 #include "sim/base/job.h"
@@ -27,11 +28,7 @@ namespace fs = std::filesystem;
 constexpr const char* kElsewhere = ": give another folder (--out)";
 
 fs::path made(const fs::path& folder) {
-  std::error_code failure;
-  fs::create_directories(folder, failure);
-  if (!failure && !fs::is_directory(folder, failure) && !failure)
-    failure = std::make_error_code(std::errc::not_a_directory);
-  if (failure) throw Error::system("cannot create the folder " + folder.string() + ": " + failure.message());
+  make_folders(folder);
   return folder;
 }
 

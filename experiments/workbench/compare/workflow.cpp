@@ -4,24 +4,16 @@
 
 #include "experiments/workbench/app/manifest.h"
 #include "sim/base/atomic_file.h"
-#include "sim/base/error.h"
 #include "sim/base/whole_file.h"
 #include "sim/scene/assets.h"
 
 namespace hysteron::experiments {
 namespace {
 namespace fs = std::filesystem;
-
-void make(const fs::path& folder) {
-  std::error_code failure;
-  fs::create_directories(folder, failure);
-  if (failure) throw Error::system("cannot create the folder " + folder.string() + ": " + failure.message());
-}
-
 }  // namespace
 
 void write_workflow(const fs::path& folder, const Workflow& workflow) {
-  make(folder / "slurm");
+  make_folders(folder / "slurm");
   const fs::path shipped = assets_folder() / "snakemake";
   for (const char* name : {"Snakefile", "slurm/config.yaml"})
     write_text(folder / name, whole_file(shipped / name, "cannot read " + (shipped / name).string()));

@@ -6,7 +6,6 @@
 
 #include "experiments/workbench/pages/page.h"
 #include "sim/base/atomic_file.h"
-#include "sim/base/error.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -54,9 +53,7 @@ std::string junit_text(const std::string& subcommand, const std::string& suite,
 
 void write_junit(const std::filesystem::path& file, const std::string& subcommand, const std::string& suite,
                  const std::vector<TestCase>& cases) {
-  std::error_code failure;
-  if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path(), failure);
-  if (failure) throw Error::system("cannot create the folder of " + file.string() + ": " + failure.message());
+  if (file.has_parent_path()) make_folders(file.parent_path());
   write_text(file, junit_text(subcommand, suite, cases));
 }
 

@@ -90,5 +90,16 @@ TEST(AtomicFile, FullDiskKeepsTheOldFileAndNothingElse) {
   }
 }
 
+TEST(Folders, BehindALinkToNothingAreRefusedByItsName) {
+  const Folder folder;
+  std::filesystem::create_symlink("nowhere", folder.file("link"));
+  for (const char* name : {"link", "link/inner"})
+    EXPECT_EQ(test::thrown_error([&] { make_folders(folder.file(name)); }).what(),
+              "cannot create the folder " + folder.file(name) + ": " + folder.file("link") +
+                  " is a link to nowhere, which does not exist");
+  make_folders(folder.file("a/b"));
+  EXPECT_NO_THROW(make_folders(folder.file("a/b")));
+}
+
 }  // namespace
 }  // namespace hysteron
