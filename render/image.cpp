@@ -181,6 +181,7 @@ struct Opened {
     header.version = PNG_IMAGE_VERSION;
     if (!png_image_begin_read_from_memory(&header, bytes.data(), bytes.size()))
       throw Error::invalid_input(reading + "not a PNG picture (" + header.message + ")");
+    header.flags |= PNG_IMAGE_FLAG_16BIT_sRGB;  // where no gAMA or sRGB chunk says otherwise, as of 8 bits
     const std::string excess = announced_excess(header.width, header.height, bytes.size());
     if (excess.empty() && has_end(bytes)) return;
     png_image_free(&header);

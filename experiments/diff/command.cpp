@@ -8,8 +8,10 @@
 #include "experiments/workbench/app/ending.h"
 #include "experiments/workbench/app/experiment.h"
 #include "experiments/workbench/pages/junit.h"
+#include "sim/base/atomic_file.h"
 #include "sim/base/csv.h"
 #include "sim/base/error.h"
+#include "sim/mesh/file_ending.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -61,9 +63,7 @@ TestCase case_not_compared(const std::string& name, const std::string& why) {
 }
 
 void make_parent_folder(const fs::path& file) {
-  std::error_code failure;
-  if (file.has_parent_path()) fs::create_directories(file.parent_path(), failure);
-  if (failure) throw Error::system("cannot create the folder of " + file.string() + ": " + failure.message());
+  if (file.has_parent_path()) make_folders(file.parent_path());
 }
 
 // Inputs are not written onto.
@@ -88,7 +88,7 @@ Comparison compared_files(const fs::path& a, const fs::path& b, const DiffFlags&
 }
 
 int diff_pictures(const fs::path& a, const fs::path& b, const DiffFlags& flags) {
-  if (!flags.out.empty() && (fs::path(flags.out).extension() != ".png" || fs::is_directory(flags.out)))
+  if (!flags.out.empty() && (file_extension(flags.out) != ".png" || fs::is_directory(flags.out)))
     throw Error::invalid_input("--out " + flags.out + " must be a file *.png: the heat map of two pictures")
         .with_key("out", flags.out);
   for (const fs::path& picture : {a, b}) require_other(flags.out, picture);

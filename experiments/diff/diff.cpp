@@ -7,6 +7,7 @@
 #include "render/compare.h"
 #include "render/plane.h"
 #include "sim/base/error.h"
+#include "sim/mesh/file_ending.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -16,16 +17,37 @@ std::string size_text(const render::Image& image) {
   return std::to_string(image.width()) + " x " + std::to_string(image.height());
 }
 
-std::set<std::string> pictures_under(const fs::path& folder) {
-  std::set<std::string> names;
-  std::error_code failure;
-  for (fs::recursive_directory_iterator i(folder, failure), end; !failure && i != end; i.increment(failure)) {
-    if (i->path().extension() == ".png" && !i->is_directory())
-      names.insert(i->path().lexically_relative(folder).generic_string());
+// Names of pictures are collected below a folder and the folders that links lead to.  A link to a folder that
+// it stands in is not followed again.
+class PicturesUnder {
+ public:
+  explicit PicturesUnder(fs::path top) : top_(std::move(top)) { visit(top_); }
+
+  std::set<std::string> take_names() { return std::move(names_); }
+
+ private:
+  void visit(const fs::path& folder) {
+    std::error_code failure;
+    const fs::path real = fs::canonical(folder, failure);
+    if (std::find(open_.begin(), open_.end(), real) != open_.end()) return;
+    open_.push_back(real);
+    for (fs::directory_iterator i(folder, failure), end; !failure && i != end; i.increment(failure)) {
+      std::error_code dangling;
+      if (i->is_directory(dangling))
+        visit(i->path());
+      else if (file_extension(i->path()) == ".png")
+        names_.insert(i->path().lexically_relative(top_).generic_string());
+    }
+    if (failure) throw Error::system("cannot list the folder " + folder.string() + ": " + failure.message());
+    open_.pop_back();
   }
-  if (failure) throw Error::system("cannot list the folder " + folder.string() + ": " + failure.message());
-  return names;
-}
+
+  fs::path top_;
+  std::vector<fs::path> open_;  // the folders that lead to the one that is visited
+  std::set<std::string> names_;
+};
+
+std::set<std::string> pictures_under(const fs::path& folder) { return PicturesUnder(folder).take_names(); }
 
 bool is_opaque(const render::Image& image) {
   if (image.channels() < 4) return true;

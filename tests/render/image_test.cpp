@@ -63,6 +63,42 @@ TEST(Png, WhatIsNoPictureIsRefused) {
   }
 }
 
+// A PNG of one row of grey 16-bit pixels, without any chunk that says what their values mean.
+std::vector<std::uint8_t> grey16(const std::vector<std::uint8_t>& values) {
+  std::vector<std::uint8_t> bytes = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
+  const auto number = [](std::vector<std::uint8_t>& to, std::uint32_t n) {
+    for (int i = 3; i >= 0; --i) to.push_back(static_cast<std::uint8_t>(n >> 8 * i));
+  };
+  const auto chunk = [&](const char* name, const std::vector<std::uint8_t>& data) {
+    number(bytes, static_cast<std::uint32_t>(data.size()));
+    const std::size_t begin = bytes.size();
+    bytes.insert(bytes.end(), name, name + 4);
+    bytes.insert(bytes.end(), data.begin(), data.end());
+    number(bytes,
+           static_cast<std::uint32_t>(crc32(0, &bytes[begin], static_cast<uInt>(bytes.size() - begin))));
+  };
+  std::vector<std::uint8_t> header, row = {0};  // no filter
+  number(header, static_cast<std::uint32_t>(values.size()));
+  number(header, 1);
+  for (const int b : {16, 0, 0, 0, 0}) header.push_back(static_cast<std::uint8_t>(b));
+  for (const std::uint8_t v : values) row.insert(row.end(), {v, v});  // 257 v of 65535 is v of 255
+  std::vector<std::uint8_t> packed(compressBound(row.size()));
+  uLongf size = packed.size();
+  compress(packed.data(), &size, row.data(), row.size());
+  packed.resize(size);
+  chunk("IHDR", header);
+  chunk("IDAT", packed);
+  chunk("IEND", {});
+  return bytes;
+}
+
+TEST(Png, SixteenBitsAreTheSameColoursAsEight) {
+  const std::vector<std::uint8_t> values = {0, 1, 40, 128, 188, 254, 255};
+  const Image image = decode_png(grey16(values), "deep.png");
+  for (std::size_t x = 0; x < values.size(); ++x)
+    for (int c = 0; c < 3; ++c) EXPECT_EQ(image.at(static_cast<int>(x), 0)[c], values[x]);
+}
+
 TEST(Png, ATruncatedPictureIsRefused) {
   auto half = encode_png(gradient(60, 60, 3));
   half.resize(half.size() / 2);

@@ -222,6 +222,25 @@ TEST_F(DiffOfFolders, HasARowForEachPictureAndTheWorst) {
   EXPECT_EQ(means[2], means[0]);
 }
 
+// Names in capitals, and pictures in a folder that a link leads to; a link to where it stands is not
+// followed.
+TEST_F(DiffOfFolders, OverlooksNoPicture) {
+  const fs::path elsewhere = folder_.path() / "elsewhere";
+  for (const fs::path& top : {a_, b_}) {
+    fs::create_directories(elsewhere / top.filename());
+    fs::create_directory_symlink(elsewhere / top.filename(), top / "linked");
+    fs::create_directory_symlink("..", top / "linked" / "up");
+    render::write_png(top / "SHOT.PNG", top == a_ ? ramp() : marked(8, 20));
+    render::write_png(top / "linked" / "c.png", top == a_ ? ramp() : marked(8, 20));
+  }
+  const std::vector<std::string> names = pictures_in_either(a_, b_);
+  for (const char* name : {"SHOT.PNG", "linked/c.png"})
+    EXPECT_TRUE(std::count(names.begin(), names.end(), name)) << name;
+  EXPECT_EQ(std::count(names.begin(), names.end(), "linked/up/linked/c.png"), 0);
+  const Outcome outcome = ended(4, "diff " + a_.string() + " " + b_.string() + " --max-mean 0");
+  for (const char* name : {"SHOT.PNG", "linked/c.png"}) EXPECT_TRUE(says(outcome.err, name)) << outcome.err;
+}
+
 TEST_F(DiffOfFolders, HoldsEachPictureToTheLimits) {
   const Outcome outcome = diff(4, "--max-mean 0.1");
   EXPECT_TRUE(one_line(outcome.err)) << outcome.err;
