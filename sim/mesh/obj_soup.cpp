@@ -14,6 +14,7 @@
 #include <string_view>
 
 #include "sim/base/error.h"
+#include "sim/base/plain_text.h"
 #include "sim/base/whole_file.h"
 #include "sim/mesh/topology.h"
 
@@ -99,10 +100,20 @@ void check_record(std::string_view word, const std::string& what, int line) {
   throw bad_line(what, line, "\"" + std::string(word) + "\" must be plain \"" + letters + "\"");
 }
 
+// "v x y z w": points of a triangle have the weight 1; readers differ in what they make of others.
+void check_weight(const std::vector<std::string_view>& word, const std::string& what, int line) {
+  if (word.size() != 5 || finite_number(word[4], what, line) == 1) return;
+  throw bad_line(
+      what, line,
+      "weight w = " + std::string(word[4]) +
+          " of the vertex must be 1 or be left out: divide its coordinates by it, if they are homogeneous");
+}
+
 void scan_line(const std::vector<std::string_view>& word, const std::string& what, int line, Lines& lines) {
   if (word.empty()) return;
   if (word[0] == "v") {
     if (word.size() < 4) throw bad_line(what, line, "a vertex needs three coordinates");
+    check_weight(word, what, line);
     lines.vertex.emplace_back(finite_number(word[1], what, line), finite_number(word[2], what, line),
                               finite_number(word[3], what, line));
     lines.vertex_line.push_back(line);
@@ -126,27 +137,65 @@ void scan_line(const std::vector<std::string_view>& word, const std::string& wha
   }
 }
 
-// Text may begin with a byte order mark.
 std::string file_text(const std::string& file, const std::string& what) {
-  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-  std::string text = whole_file(file, "cannot read mesh " + file);
+  std::string text = plain_text(whole_file(file, "cannot read mesh " + file));
   if (text.find('\0') != text.npos)
     throw Error::invalid_input(what + ": not an OBJ: it holds bytes that are no text");
-  return text.starts_with(kByteOrderMark) ? text.substr(kByteOrderMark.size()) : text;
+  return text;
 }
 
 Error no_such_index(const std::string& what, int line, const std::string& which, std::size_t count) {
   return bad_line(what, line, "the face uses " + which + "; the file has " + std::to_string(count));
 }
 
+// Walks through the lines of a text.  A vertex or a face goes on in the next line where its line ends in a
+// backslash.
+class TextLines {
+ public:
+  explicit TextLines(std::string_view text) : text_(text) {}
+
+  // The next line, joined with those that continue it; false at the end.
+  bool next(std::string& line) {
+    if (at_ >= text_.size()) return false;
+    first_ = read_ + 1;
+    line = physical();
+    while (at_ < text_.size() && goes_on(line)) {
+      line.resize(line.find_last_of('\\'));
+      line.append(" ").append(physical());
+    }
+    return true;
+  }
+  // The number of the line that next() has read, of its first where it is joined.
+  int number() const { return first_; }
+
+ private:
+  std::string_view physical() {
+    const std::size_t end = std::min(text_.find('\n', at_), text_.size());
+    const std::string_view line = text_.substr(at_, end - at_);
+    at_ = end + 1;
+    ++read_;
+    return line;
+  }
+
+  // Names of materials and comments may end in a backslash, too.
+  static bool goes_on(std::string_view line) {
+    const std::vector<std::string_view> word = words(line);
+    if (word.empty() || !word.back().ends_with('\\') || line.find('#') != line.npos) return false;
+    const std::string_view record = word[0].ends_with('\\') ? word[0].substr(0, word[0].size() - 1) : word[0];
+    return record == "v" || record == "vt" || record == "vn" || record == "f" || record == "fo";
+  }
+
+  std::string_view text_;
+  std::size_t at_ = 0;
+  int read_ = 0, first_ = 0;
+};
+
 Lines scan(const std::string& text, const std::string& what) {
   Lines lines;
-  int number = 0;
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t end = std::min(text.find_first_of("\r\n", at), text.size());
-    scan_line(words(std::string_view(text).substr(at, end - at)), what, ++number, lines);
+  TextLines all(text);
+  for (std::string line; all.next(line);) {
+    scan_line(words(line), what, all.number(), lines);
     lines.resolved += '\n';
-    at = end + (text.compare(end, 2, "\r\n") == 0 ? 2 : 1);
   }
   if (const auto& before = lines.before_first)
     throw no_such_index(
@@ -220,6 +269,14 @@ class Faces {
 
 }  // namespace
 
+namespace {
+
+bool has_texture(const std::array<Uv, 3>& corners) {
+  return std::all_of(corners.begin(), corners.end(), [](const Uv& at) { return at.has_value(); });
+}
+
+}  // namespace
+
 ObjSoup read_obj_soup(const std::string& file, const std::string& what) {
   Lines lines = scan(file_text(file, what), what);
   if (lines.vertex.empty() && lines.face_line.empty())
@@ -228,14 +285,13 @@ ObjSoup read_obj_soup(const std::string& file, const std::string& what) {
   ObjSoup soup = Faces(what, lines).take_soup();
   soup.vertex = std::move(lines.vertex);
   soup.vertex_line = std::move(lines.vertex_line);
+  share_texture(soup);
   return soup;
 }
 
 bool has_texture(const ObjSoup& soup) {
-  for (const auto& corners : soup.uv)
-    for (const Uv& at : corners)
-      if (!at) return false;
-  return true;
+  return std::all_of(soup.uv.begin(), soup.uv.end(),
+                     [](const std::array<Uv, 3>& corners) { return has_texture(corners); });
 }
 
 std::vector<Eigen::Vector2d> vertex_texture(const ObjSoup& soup, const std::vector<Eigen::Vector3i>& face,
@@ -289,6 +345,27 @@ void weld_vertices(double distance, const ObjSoup& soup, ClothMesh& mesh, MeshNa
   for (auto& face : mesh.face) face = {number[face[0]], number[face[1]], number[face[2]]};
 }
 
+// "the face has no texture coordinates, nor have 3 further triangles"
+std::string without_texture(const std::string& what, const std::vector<int>& lines) {
+  return what + ": line " + std::to_string(lines.front()) + ": the face has no texture coordinates" +
+         (lines.size() > 1 ? ", nor have " + std::to_string(lines.size() - 1) + " further triangles" : "");
+}
+
+// Faces of which some have texture coordinates, which `continued` ones got from their neighbours, and others
+// none.
+std::string texture_doubt(const ObjSoup& soup, const std::vector<int>& continued, const std::string& what) {
+  std::vector<int> without;
+  for (std::size_t f = 0; f < soup.uv.size(); ++f)
+    if (!has_texture(soup.uv[f])) without.push_back(soup.face_line[f]);
+  if (without.size() == soup.uv.size()) return "";
+  if (!without.empty())
+    return without_texture(what, without) + ", and no neighbour to tell them, while " +
+           std::to_string(soup.uv.size() - without.size()) +
+           " others have: none are used, and warp is along x at rest; give them to all faces";
+  if (continued.empty()) return "";
+  return without_texture(what, continued) + ": those of neighbours go on there, and warp with them";
+}
+
 // Texture coordinates become the pattern where each vertex has one.  Along seams it has several: then each
 // triangle keeps those of its own corners.
 void take_pattern(const ObjSoup& soup, ClothMesh& mesh) {
@@ -305,6 +382,7 @@ ClothMesh read_obj(const std::string& file, double weld, LengthUnit unit, std::v
   check_weld(weld, names.what);
   ObjSoup soup = read_obj_soup(file, names.what);
   check_quads(soup, names.what);
+  const std::vector<int> continued = continue_texture(soup);
   for (Eigen::Vector3d& x : soup.vertex)
     for (double& length : x) length = in_metres(length, unit);
   ClothMesh mesh;
@@ -313,6 +391,8 @@ ClothMesh read_obj(const std::string& file, double weld, LengthUnit unit, std::v
   weld_vertices(weld, soup, mesh, names);
   take_pattern(soup, mesh);
   build_topology(mesh, names);
+  if (const std::string doubt = texture_doubt(soup, continued, names.what); doubts && !doubt.empty())
+    doubts->push_back(doubt);
   if (doubts)
     for (const std::string& doubt : mesh_doubts(mesh, names)) doubts->push_back(doubt);
   return mesh;

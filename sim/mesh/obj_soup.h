@@ -47,7 +47,9 @@ struct ObjSoup {
   std::vector<Eigen::Vector3d> vertex;
   std::vector<int> vertex_line;
   std::vector<Eigen::Vector3i> face;  // quads are cut
-  std::vector<std::array<Uv, 3>> uv;  // texture coordinates at each triangle's corners
+  // Texture coordinates at each triangle's corners; one that the file leaves out is that of its vertex in
+  // other faces, where these have one alone.
+  std::vector<std::array<Uv, 3>> uv;
   std::vector<int> face_line;
   std::vector<int> crossed_line;  // of quads with two sides that cross
 };
@@ -57,6 +59,12 @@ struct ObjSoup {
 // neither triangles nor quads.
 ObjSoup read_obj_soup(const std::string& file, const std::string& what);
 
+// Corners without a texture coordinate take that of their vertex in other triangles, where it has one alone.
+// read_obj_soup() does so.
+void share_texture(ObjSoup& soup);
+// Triangles that still lack some continue the texture of a neighbour beyond the edge between them, as if they
+// lay in its plane.  Returns the lines of those that do.
+std::vector<int> continue_texture(ObjSoup& soup);
 // Whether every corner has a texture coordinate.
 bool has_texture(const ObjSoup& soup);
 // The texture coordinate of each vertex of `face` (which may be numbered otherwise than the soup); zero where

@@ -85,6 +85,7 @@ Surface read_obj_surface(const std::string& file) {
   ObjSoup soup = read_obj_soup(file, what);
   if (soup.face.empty()) throw Error::invalid_input(what + ": no faces");
   Surface surface;
+  continue_texture(soup);
   if (has_texture(soup)) surface.pattern = vertex_texture(soup, soup.face, soup.vertex.size());
   surface.vertex = std::move(soup.vertex);
   surface.face = std::move(soup.face);

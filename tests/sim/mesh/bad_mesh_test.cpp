@@ -56,6 +56,13 @@ TEST_F(BadObj, CoordinateThatIsNoFiniteNumber) {
 
 TEST_F(BadObj, VertexWithTwoCoordinates) { expect("v 0 0\n", "line 1: a vertex needs three coordinates"); }
 
+TEST_F(BadObj, WeightOfAVertexThatIsNotOne) {
+  expect("v 0 0 0 1\nv 2 0 0 2\nv 0 1 0\nf 1 2 3\n",
+         "line 2: weight w = 2 of the vertex must be 1 or be left out: divide its coordinates by it, if they "
+         "are "
+         "homogeneous");
+}
+
 TEST_F(BadObj, IndicesOutOfRange) {
   expect(std::string(kTriangle) + "f 1 2 4\n", "line 4: the face uses vertex 4; the file has 3");
   expect(std::string(kTriangle) + "f 1 2 -9\n",

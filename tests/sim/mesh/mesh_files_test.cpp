@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "sim/mesh/surface.h"
 #include "tests/sim/base/folder.h"
 #include "tests/sim/base/refusal.h"
 #include "tests/sim/mesh/mesh_measures.h"
@@ -77,6 +78,72 @@ TEST(ObjFile, ByteOrderMarkAndCommentsBehindRecordsAreNoPartOfThem) {
   EXPECT_EQ(mesh.vertices(), 4);
   EXPECT_EQ(mesh.rest[0], Eigen::Vector3d(5, 5, 5));
   EXPECT_EQ(test::total_area(mesh), 1);
+}
+
+TEST(ObjFile, RecordsGoOnBehindABackslash) {
+  const Folder folder;
+  const std::string comments = "# C:\\meshes\\\nusemtl C:\\red\\\n";
+  const ClothMesh mesh =
+      read_obj(folder.write("continued.obj",
+                            comments + "v 0 0 0\nv 1 \\\n 0 \\\r\n0\nv 0 1 0\nv 1 1 0\nf 1 2\\\n4 3\n"),
+               0);
+  EXPECT_EQ(mesh.rest[1], Eigen::Vector3d(1, 0, 0));
+  EXPECT_EQ(test::total_area(mesh), 1);
+  // Lines count as the file has them.
+  EXPECT_TRUE(
+      test::says(test::refusal([&] { read_obj(folder.write("bad.obj", "v 0 0 \\\n0\nv 1 0 x\n"), 0); }),
+                 "line 3: coordinate"));
+}
+
+// A square of four triangles around its middle, whose texture is turned by 90 degrees; `uncovered` faces have
+// none.
+std::string partly_covered(int uncovered) {
+  std::string text =
+      "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0.5 0.5 0\nvt 0 0\nvt 0 1\nvt -1 1\nvt -1 0\nvt -0.5 0.5\n";
+  for (int i = 1; i <= 4; ++i) {
+    const std::string a = std::to_string(i), b = std::to_string(i % 4 + 1);
+    text +=
+        i > 4 - uncovered ? "f " + a + " " + b + " 5\n" : "f " + a + "/" + a + " " + b + "/" + b + " 5/5\n";
+  }
+  return text;
+}
+
+TEST(ObjFile, FacesWithoutTextureTakeThatOfTheirNeighbours) {
+  const Folder folder;
+  const std::string file = folder.file("mixed.obj");
+  for (const int uncovered :
+       {1, 3}) {  // the vertices of one have coordinates in other faces, those of three have none
+    std::vector<std::string> doubts;
+    const ClothMesh mesh =
+        read_obj(folder.write("mixed.obj", partly_covered(uncovered)), 0, LengthUnit::metre, &doubts);
+    ASSERT_EQ(mesh.pattern.size(), 5u);
+    EXPECT_NEAR((mesh.pattern[3] - Eigen::Vector2d(-1, 0)).norm(), 0, 1e-12);
+    for (int f = 0; f < mesh.faces(); ++f)
+      EXPECT_NEAR((mesh.face_axes(f)[0] - Eigen::Vector3d(0, -1, 0)).norm(), 0, 1e-12) << f;
+    EXPECT_EQ(read_surface(file).pattern.size(), 5u);
+    if (uncovered == 1)
+      EXPECT_TRUE(doubts.empty());
+    else
+      EXPECT_EQ(doubts,
+                std::vector<std::string>{
+                    "mesh " + file +
+                    ": line 12: the face has no texture coordinates, nor have 2 further triangles: those of "
+                    "neighbours go on there, and warp with them"});
+  }
+}
+
+TEST(ObjFile, FacesWhoseTextureNoNeighbourTellsAreWarnedOf) {
+  const Folder folder;
+  std::vector<std::string> doubts;
+  const std::string file =
+      folder.write("mixed.obj", partly_covered(0) + "v 5 0 0\nv 6 0 0\nv 5 1 0\nf 6 7 8\n");
+  const ClothMesh mesh = read_obj(file, 0, LengthUnit::metre, &doubts);
+  EXPECT_TRUE(mesh.pattern.empty());
+  ASSERT_FALSE(doubts.empty());
+  EXPECT_EQ(doubts[0],
+            "mesh " + file +
+                ": line 18: the face has no texture coordinates, and no neighbour to tell them, while 4 "
+                "others have: none are used, and warp is along x at rest; give them to all faces");
 }
 
 // Of OBJ before 3.0.

@@ -109,7 +109,10 @@ TEST(ObjSurface, TextureBecomesThePatternUnlessItHasSeams) {
   const Surface whole = read_surface(folder.write("a.obj", start + "f 1/1 2/2 3/3\nf 1/1 3/3 4/4\n"));
   EXPECT_EQ(whole.pattern, (std::vector<Eigen::Vector2d>{{0, 0}, {2, 0}, {2, 2}, {0, 2}}));
   EXPECT_TRUE(read_surface(folder.write("b.obj", start + "f 1/1 2/2 3/3\nf 1/2 3/3 4/4\n")).pattern.empty());
-  EXPECT_TRUE(read_surface(folder.write("c.obj", start + "f 1/1 2/2 3/3\nf 1 3 4\n")).pattern.empty());
+  // A face without texture continues that of its neighbour.
+  const Surface partly = read_surface(folder.write("c.obj", start + "f 1/1 2/2 3/3\nf 1 3 4\n"));
+  ASSERT_EQ(partly.pattern.size(), 4u);
+  for (int v = 0; v < 4; ++v) EXPECT_NEAR((partly.pattern[v] - whole.pattern[v]).norm(), 0, 1e-12) << v;
 }
 
 class BadSurface : public testing::Test {
