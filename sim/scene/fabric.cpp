@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "sim/base/error.h"
+#include "sim/scene/fabric_reader.h"
 #include "sim/scene/scene_reader.h"
 #include "sim/scene/shown_key.h"
 
@@ -56,6 +57,20 @@ void Fabric::follow_kes() {
   provenance["k0"] = {"2 HB/(b1 - b2) of the stops", "derived"};
 }
 
+void follow_stops(Fabric& fabric) {
+  const Spectrum& stops = fabric.bending.stops;
+  if (stops.empty() || stops.thresholds.size() != stops.stiffnesses.size()) return;
+  fabric.b1 = fabric.b2 + stops.stiffness();
+  fabric.k0 = 2 * stops.friction_moment() / stops.stiffness();
+  fabric.provenance["b1"] = {"b2 and the stops' stiffnesses", "derived"};
+  fabric.provenance["k0"] = {"2 HB/(b1 - b2) of the stops", "derived"};
+}
+
+void follow_weft(Fabric& fabric) {
+  fabric.bias_bending = (1 + fabric.weft_bending) / 2;
+  fabric.provenance["bias-bending"] = {"the mean of warp and weft", "assumed"};
+}
+
 double Fabric::friction_curvature() const { return kes.on() ? KesWindow().slope_from : k0; }
 
 VirginCurve Fabric::virgin_curve() const {
@@ -66,6 +81,28 @@ VirginCurve Fabric::virgin_curve() const {
   return curve;
 }
 
+namespace {
+
+// Laws without stops take b1 and k0: they must say the friction of the stops, or laws would differ by it.
+void check_numbers_of_stops(const Scene& scene) {
+  constexpr double kDigits = 0.01;  // numbers in a file may be rounded to two digits
+  if (scene.fabric.bending.stops.empty()) return;
+  Fabric follows = scene.fabric;
+  follow_stops(follows);
+  const auto check = [&](const std::string& key, double value, double must, const std::string& unit) {
+    if (std::abs(value - must) <= kDigits * must) return;
+    const std::string stops = "fabric.bending.stops.thresholds";
+    throw Error::invalid_input(shown(scene, key, value, unit) + " must be " + number_text(must, 6) + " " +
+                               unit + ", as fabric.bending.stops say (" + key_origin(scene, stops) +
+                               "): leave b1 and k0 out, which then follow from the stops, or the stops")
+        .with_key(key, number_text(value));
+  };
+  check("fabric.b1", scene.fabric.b1, follows.b1, "N m");
+  check("fabric.k0", scene.fabric.k0, follows.k0, "1/m");
+}
+
+}  // namespace
+
 void check_fabric_lists(const Scene& scene) {
   const BendingParts& b = scene.fabric.bending;
   check_stops(scene, "bending.stops", b.stops);
@@ -75,6 +112,7 @@ void check_fabric_lists(const Scene& scene) {
     throw Error::invalid_input(weft + " has " + std::to_string(b.weft_stops.size()) +
                                " numbers and must have as many as fabric.bending.stops.thresholds, " +
                                std::to_string(b.stops.size()) + " (" + key_origin(scene, weft) + ")");
+  check_numbers_of_stops(scene);
   check_pairs(scene, {"bending.branches", "times", "stiffnesses", b.branches.times, b.branches.stiffnesses,
                       kMaxBranches});
   if (b.set.on() != (b.set.yield > 0))

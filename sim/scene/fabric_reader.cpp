@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "sim/base/error.h"
+#include "sim/base/plain_text.h"
 #include "sim/scene/assets.h"
 #include "sim/scene/keys.h"
 #include "sim/scene/scene_reader.h"
@@ -18,8 +20,16 @@ const std::vector<std::string> kRequired = {"b1", "b2", "k0", "density", "thickn
 const std::vector<std::string> kRequiredOfShaped = {"kes-b", "kes-2hb", "stops-spread", "density",
                                                     "thickness"};
 const std::vector<std::string> kSaidByStops = {"b1", "k0"};
+const std::vector<std::string> kTables = {"name",    "description", "sources",   "parameters",
+                                          "bending", "membrane",    "published", "look"};
 constexpr const char* kPartTables[] = {"bending", "membrane"};
 constexpr const char* kOptional[] = {"fabric.bending.", "fabric.membrane.", "fabric.kes-", "fabric.stops-"};
+
+bool is_parameter(const std::string& name) {
+  const std::vector<KeyDescription> keys = scene_keys();
+  return std::any_of(keys.begin(), keys.end(),
+                     [&](const KeyDescription& key) { return key.path == "fabric." + name; });
+}
 
 struct Reader {
   std::string file;
@@ -31,6 +41,9 @@ struct Reader {
   void only_known(const ValueTree& table, const std::vector<std::string>& names) const {
     for (const ValueTree& child : table.children) {
       if (std::count(names.begin(), names.end(), child.key)) continue;
+      if (&names == &kTables && is_parameter(child.key))
+        throw refusal(child.key + " is one of the fabric's parameters and must stand below [parameters]",
+                      child);
       const std::string nearest = nearest_name(child.key, names);
       throw refusal("unknown key " + child.key + (nearest.empty() ? "" : ", did you mean " + nearest + "?"),
                     child);
@@ -133,7 +146,7 @@ void read_parameter(const Reader& reader, const ValueTree& node, const ValueTree
   const Keys keys = bind_scene(scene);
   const BoundKey& key = find_key(keys, "fabric." + node.key, origin);
   const PublishedNumber number = reader.quantity(node, sources);
-  if (number.unit != key.description.unit) {
+  if (plain_unit(number.unit) != plain_unit(key.description.unit)) {
     throw Error::invalid_input("fabric." + node.key + " has unit \"" + number.unit + "\" and must have \"" +
                                key.description.unit + "\" (" + origin + ")");
   }
@@ -164,25 +177,27 @@ void read_lists(const Reader& reader, const ValueTree& table, const std::string&
   }
 }
 
-// b1 and k0 that have the first slope and the friction moment of the stops, for laws that do not take these,
-// where the file leaves them out.
+// Where the file leaves them out.
 void note_three_numbers(Fabric& fabric) {
-  const Spectrum& stops = fabric.bending.stops;
-  if (stops.empty()) return;
-  if (fabric.provenance.try_emplace("b1", Provenance{"b2 and the stops' stiffnesses", "derived"}).second)
-    fabric.b1 = fabric.b2 + stops.stiffness();
-  if (fabric.provenance.try_emplace("k0", Provenance{"2 HB/(b1 - b2) of the stops", "derived"}).second)
-    fabric.k0 = 2 * stops.friction_moment() / stops.stiffness();
+  Fabric follows = fabric;
+  follow_stops(follows);
+  for (auto [name, number] : {std::pair("b1", &Fabric::b1), std::pair("k0", &Fabric::k0)}) {
+    if (fabric.bending.stops.empty() || fabric.provenance.contains(name)) continue;
+    fabric.*number = follows.*number;
+    fabric.provenance[name] = follows.provenance[name];
+  }
 }
 
 void read_parts(const Reader& reader, const ValueTree& table, const ValueTree* sources, Scene& scene) {
   read_lists(reader, table, table.key, sources, scene);
+  if (scene.fabric.bending.stops.thresholds.size() == scene.fabric.bending.stops.stiffnesses.size())
+    note_three_numbers(scene.fabric);
   check_fabric_lists(scene);
-  note_three_numbers(scene.fabric);
 }
 
 // What the file leaves out keeps the program's default and says so.
 void note_defaults(Fabric& fabric) {
+  if (!fabric.provenance.contains("bias-bending") && fabric.weft_bending != 1) follow_weft(fabric);
   for (const KeyDescription& key : scene_keys()) {
     if (!key.path.starts_with("fabric.") || key.path == "fabric.name") continue;
     if (std::any_of(std::begin(kOptional), std::end(kOptional),
@@ -202,8 +217,7 @@ const std::string& FabricFile::shown(const Provenance& from) const {
 FabricFile read_fabric(const std::string& name_or_file, const std::string& origin) {
   const Reader reader{find_asset("fabrics", name_or_file, origin).string()};
   const ValueTree root = read_toml(reader.file);
-  reader.only_known(
-      root, {"name", "description", "sources", "parameters", "bending", "membrane", "published", "look"});
+  reader.only_known(root, kTables);
   const ValueTree* sources = root.find("sources");
   const ValueTree& parameters = reader.required(root, "parameters");
 

@@ -51,6 +51,12 @@ inline constexpr double kGramForceCentimetrePerCentimetre = 9.80665e-3;        /
 // keys, wrong units, missing sources, values out of range.
 FabricFile read_fabric(const std::string& name_or_file, const std::string& origin);
 
+// b1 and k0 become those that have the first slope and the friction moment of the stops; without stops
+// nothing changes.
+void follow_stops(Fabric& fabric);
+// bias_bending becomes the mean of warp and weft, as where none is stated.
+void follow_weft(Fabric& fabric);
+
 // All fabrics of the assets folder, by name.
 std::vector<FabricFile> list_fabrics();
 

@@ -44,7 +44,7 @@ const KeyRow<Scene> kSceneRows[] = {
     {"fabric.stops-median", at<&S::fabric, &F::kes, &KesFriction::shape, &FrictionShape::median>, "1/m", between(0, 1000), "", "curvature at which half of the friction has slipped; 0: as b1, b2 and k0 or bending.stops say"},
     {"fabric.stops-spread", at<&S::fabric, &F::kes, &KesFriction::shape, &FrictionShape::spread>, "", between(0, 4), "", "standard deviation of the logarithm of that curvature"},
     {"fabric.weft-bending", at<&S::fabric, &F::weft_bending>, "", positive(), "", "bending rigidity along weft over that along warp"},
-    {"fabric.bias-bending", at<&S::fabric, &F::bias_bending>, "", positive(), "", "bending rigidity at 45 degrees over that along warp; 4 times it >= 1 + weft-bending"},
+    {"fabric.bias-bending", at<&S::fabric, &F::bias_bending>, "", positive(), "", "bending rigidity at 45 degrees over that along warp; 4 times it >= 1 + weft-bending; where it is not stated, or only assumed, the mean of 1 and weft-bending"},
     {"fabric.density", at<&S::fabric, &F::density>, "kg/m^2", positive(), "", "mass per area"},
     {"fabric.thickness", at<&S::fabric, &F::thickness>, "m", positive(), "", "thickness"},
     {"fabric.warp", at<&S::fabric, &F::warp>, "N/m", positive(), "", "membrane stiffness along warp"},
@@ -196,16 +196,47 @@ void load_fabric(Scene& scene, const std::string& name, const std::string& origi
   scene.origin["fabric.name"] = origin;
 }
 
+// The file or the command line that an origin names, without its line.
+std::string source_of(const std::string& origin) {
+  return origin.starts_with("--") ? "--" : origin.substr(0, origin.rfind(':'));
+}
+
+bool stand_together(const Scene& scene, const std::string& key, const std::string& other) {
+  const auto a = scene.origin.find("fabric." + key), b = scene.origin.find("fabric." + other);
+  return a != scene.origin.end() && b != scene.origin.end() && source_of(a->second) == source_of(b->second);
+}
+
+// Of a fabric without a shape: b1 or k0 takes the place of stops that were set elsewhere, and stops that of
+// b1 and k0. What one file states of both is left to check_fabric_lists().
+void reconcile_stops(const std::string& set, Scene& scene) {
+  Fabric& fabric = scene.fabric;
+  const bool stops = set == "bending.stops.thresholds" || set == "bending.stops.stiffnesses";
+  if (fabric.bending.stops.empty()) return;
+  if (set == "b1" || set == "k0") {
+    const double given = set == "b1" ? fabric.b1 : fabric.k0;
+    Fabric follows = fabric;
+    follow_stops(follows);
+    if (stand_together(scene, set, "bending.stops.thresholds") ||
+        given == (set == "b1" ? follows.b1 : follows.k0))
+      return;
+    fabric.bending.stops = fabric.bending.weft_stops = {};
+  } else if (stops || set == "b2") {
+    if (!stand_together(scene, set, "b1") && !stand_together(scene, set, "k0")) follow_stops(fabric);
+  }
+}
+
 // Friction is said by one of kes-b ... stops-spread, b1 with b2 and k0, or stops: by what was set last.  A
 // number that follows from what is said already, as in a scene that was written out, changes nothing.
-void keep_friction_whole(bool was_shaped, const std::string& set, Fabric& fabric) {
+void keep_friction_whole(bool was_shaped, const std::string& set, Scene& scene) {
+  Fabric& fabric = scene.fabric;
   if (set.starts_with("kes-") || set == "stops-median" || set == "stops-spread") {
     if (was_shaped && !fabric.kes.on()) fabric.bending.stops = {};
     return fabric.follow_kes();
   }
   const bool numbers = set == "b1" || set == "b2" || set == "k0";
   const bool stops = set == "bending.stops.thresholds" || set == "bending.stops.stiffnesses";
-  if (!fabric.kes.on() || !(numbers || stops)) return;
+  if (!numbers && !stops) return;
+  if (!fabric.kes.on()) return reconcile_stops(set, scene);
   Fabric follows = fabric;
   follows.follow_kes();
   if (follows.b1 == fabric.b1 && follows.b2 == fabric.b2 && follows.k0 == fabric.k0 &&
@@ -216,6 +247,14 @@ void keep_friction_whole(bool was_shaped, const std::string& set, Fabric& fabric
   }
   fabric.kes.shape = {};
   if (numbers) fabric.bending.stops = {};
+  if (stops) reconcile_stops(set, scene);
+}
+
+// The bias follows weft unless someone has stated it; a fabric's file that only assumes it has not.
+void keep_bias_between(const std::string& set, Fabric& fabric) {
+  if (set != "weft-bending") return;
+  const auto bias = fabric.provenance.find("bias-bending");
+  if (bias == fabric.provenance.end() || bias->second.confidence == "assumed") follow_weft(fabric);
 }
 
 // The laws are listed once, where they are written.
@@ -251,8 +290,10 @@ void set_key(Scene& scene, const BoundKey& key, const Value& value, const std::s
   assign(key, value, origin);
   if (path == "fabric.name") return load_fabric(scene, std::string(scene.fabric.name), origin);
   note_origin(scene, path, origin);
-  if (path.starts_with(kFabricPrefix))
-    keep_friction_whole(was_shaped, path.substr(kFabricPrefix.size()), scene.fabric);
+  if (!path.starts_with(kFabricPrefix)) return;
+  const std::string set = path.substr(kFabricPrefix.size());
+  keep_friction_whole(was_shaped, set, scene);
+  keep_bias_between(set, scene.fabric);
 }
 
 void set_key(Scene& scene, const std::string& path, const std::string& text, const std::string& origin) {

@@ -176,6 +176,16 @@ TEST(FabricFiles, MayLeaveOutTheMembraneWhichThenSaysThatItIsADefault) {
   EXPECT_EQ(fabric.provenance.at("warp").source, "the program's default");
 }
 
+// kMinimal without b1 and k0, which follow from stops.
+std::string without_own_friction() {
+  std::string text = std::string(kMinimal) + kThickness;
+  for (const char* name : {"b1 = ", "k0 = "}) {
+    const std::size_t line = text.find(name);
+    text.erase(line, text.find('\n', line) + 1 - line);
+  }
+  return text;
+}
+
 constexpr const char* kParts = R"([bending.stops]
 thresholds = [5, 20, 60]
 stiffnesses = [8e-6, 4e-6, 1e-6]
@@ -193,7 +203,7 @@ hardening = 5e-6
 )";
 
 TEST(FabricFiles, MayStateStopsBranchesAndSet) {
-  const TextFile file(std::string(kMinimal) + kThickness + kParts);
+  const TextFile file(without_own_friction() + kParts);
   const FabricFile read = read_fabric(file.path(), "test");
   const BendingParts& parts = read.fabric.bending;
   EXPECT_EQ(parts.stops.thresholds, (std::vector<double>{5, 20, 60}));
@@ -204,8 +214,7 @@ TEST(FabricFiles, MayStateStopsBranchesAndSet) {
   EXPECT_EQ(read.fabric.provenance.at("bending.stops.thresholds").source, "lab");
   EXPECT_EQ(read.fabric.provenance.at("bending.stops.thresholds").confidence, "fitted");
   EXPECT_EQ(read.fabric.provenance.at("bending.set.yield").confidence, "given");
-  EXPECT_EQ(read.place.at("bending.stops.stiffnesses"), file.line(11));
-  EXPECT_EQ(read.fabric.b1, 2e-5) << "which the file states";
+  EXPECT_EQ(read.place.at("bending.stops.stiffnesses"), file.line(9));
 }
 
 TEST(FabricFiles, MayGiveASourceAShortName) {
@@ -240,12 +249,7 @@ stiffnesses = [3e3]
 }
 
 TEST(FabricFiles, WithStopsLeaveTheThreeNumbersOfOtherLawsToThem) {
-  std::string text = std::string(kMinimal) + kThickness + kParts;
-  for (const char* name : {"b1 = ", "k0 = "}) {
-    const std::size_t line = text.find(name);
-    text.erase(line, text.find('\n', line) + 1 - line);
-  }
-  const TextFile file(text);
+  const TextFile file(without_own_friction() + kParts);
   const Fabric fabric = read_fabric(file.path(), "test").fabric;
   const double hb = 5 * 8e-6 + 20 * 4e-6 + 60 * 1e-6;
   EXPECT_NEAR(fabric.b1, 1e-5 + 13e-6, kRounding * 1e-5);
@@ -255,13 +259,37 @@ TEST(FabricFiles, WithStopsLeaveTheThreeNumbersOfOtherLawsToThem) {
 
 // The metric has multiplied the curvature of a bend along weft by its root before the law sees it.
 TEST(FabricFiles, WithStopsAlongWeftRubAsTheySayBehindTheMetric) {
-  const TextFile file(std::string(kMinimal) + kThickness + kParts);
+  const TextFile file(without_own_friction() + kParts);
   Fabric fabric = read_fabric(file.path(), "test").fabric;
   fabric.weft_bending = 4;
   const Spectrum& stops = fabric.bending.weft_stops;
   const Spectrum seen = fabric.virgin_curve().parts.weft_stops;
   for (double k : {3.0, 20.0, 100.0})
     EXPECT_NEAR(2 * seen.friction_at(2 * k), stops.friction_at(k), kRounding * stops.friction_moment());
+}
+
+TEST(FabricFiles, MayStateTheFrictionOfTheirStopsButNoOther) {
+  const auto with = [](const char* b1, const char* k0) {
+    return TextFile(without_own_friction() + "b1 = {value = " + b1 +
+                    ", unit = \"N m\", source = \"s\", confidence = \"given\"}\nk0 = {value = " + k0 +
+                    ", unit = \"1/m\", source = \"s\", confidence = \"given\"}\n" + kParts);
+  };
+  const double hb = 5 * 8e-6 + 20 * 4e-6 + 60 * 1e-6, k0 = 2 * hb / 13e-6;  // 27.69/m
+  const TextFile same = with("2.3e-5", "27.7");
+  EXPECT_EQ(read_fabric(same.path(), "test").fabric.k0, 27.7);
+  EXPECT_NEAR(27.7, k0, 0.01 * k0);
+  const TextFile other = with("2.3e-5", "40");
+  EXPECT_TRUE(says(refusal([&] { read_fabric(other.path(), "test"); }),
+                   "fabric.k0 = 40 1/m (" + other.line(8), "must be 27.6923 1/m, as fabric.bending.stops say",
+                   "leave b1 and k0 out"));
+}
+
+TEST(FabricFiles, WithoutABiasHaveTheMeanOfWarpAndWeft) {
+  const char* weft = "weft-bending = {value = 0.5, unit = \"1\", source = \"s\", confidence = \"given\"}\n";
+  const TextFile file(std::string(kMinimal) + kThickness + weft);
+  EXPECT_EQ(read_fabric(file.path(), "test").fabric.bias_bending, 0.75);
+  EXPECT_EQ(read_fabric("navy-sparkle-sweat", "test").fabric.bias_bending, 0.673819)
+      << "which the file states";
 }
 
 struct BadFabric {
@@ -325,6 +353,8 @@ const BadFabric kBadFabrics[] = {
      "fabric.membrane.stops.warp.thresholds must be ascending: 0.01 follows 0.02"},
     {"UnknownComponent", "[membrane.stops.bias]\nthresholds = [1]\n", 9,
      "unknown key fabric.membrane.stops.bias.thresholds"},
+    {"ParameterAtTheTop", "[sources]\ns = \"s\"\n[membrane]\n[density]\n", 11,
+     "density is one of the fabric's parameters and must stand below [parameters]"},
     {"UnknownParameter", "b3 = {value = 0, unit = \"m\", source = \"s\", confidence = \"assumed\"}", 8,
      "unknown key fabric.b3"}};
 

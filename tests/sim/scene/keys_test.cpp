@@ -52,6 +52,36 @@ TEST(FrictionOfAFabric, IsWhatWasSetLast) {
   EXPECT_EQ(scene.fabric.k0, shaped.k0);
 }
 
+// Stops and the three numbers that laws without stops take are one friction.
+TEST(FrictionOfAFabric, OfStopsIsThatOfItsThreeNumbers) {
+  Scene scene = default_scene("cotton-broad-k50");
+  set_key(scene, "fabric.bending.stops.thresholds", "10 50", "--fabric.bending.stops.thresholds");
+  set_key(scene, "fabric.bending.stops.stiffnesses", "8e-6 2e-6", "--fabric.bending.stops.stiffnesses");
+  EXPECT_DOUBLE_EQ(scene.fabric.b1, scene.fabric.b2 + 1e-5);
+  EXPECT_DOUBLE_EQ(scene.fabric.k0, 2 * (10 * 8e-6 + 50 * 2e-6) / 1e-5);
+  EXPECT_NO_THROW(check_scene(scene));
+  set_key(scene, "fabric.b2", "1e-5", "--fabric.b2");
+  EXPECT_DOUBLE_EQ(scene.fabric.b1, 2e-5);
+  Scene both = scene;
+  set_key(both, "fabric.k0", "20", "--fabric.k0");
+  EXPECT_TRUE(
+      test::says(test::refusal([&] { check_scene(both); }), "fabric.k0 = 20 1/m (--fabric.k0) must be 36"));
+  set_key(scene, "fabric.k0", "20", "scene.toml:3");
+  EXPECT_TRUE(scene.fabric.bending.stops.empty()) << "which were set before, elsewhere";
+}
+
+TEST(BiasBending, IsTheMeanOfWarpAndWeftUnlessItIsStated) {
+  Scene scene = default_scene("cotton-broad");  // whose file assumes 1 of both
+  set_key(scene, "fabric.weft-bending", "0.5", "--fabric.weft-bending");
+  EXPECT_EQ(scene.fabric.bias_bending, 0.75);
+  set_key(scene, "fabric.bias-bending", "1", "--fabric.bias-bending");
+  set_key(scene, "fabric.weft-bending", "0.6", "--fabric.weft-bending");
+  EXPECT_EQ(scene.fabric.bias_bending, 1);
+  set_key(scene, "fabric.name", "navy-sparkle-sweat", "--fabric");  // whose file derives both
+  set_key(scene, "fabric.weft-bending", "0.6", "--fabric.weft-bending");
+  EXPECT_EQ(scene.fabric.bias_bending, 0.673819);
+}
+
 TEST(FrictionOfAFabric, LeavesElasticityBesideIt) {
   Scene scene = default_scene("cotton-broad");
   set_key(scene, "fabric.kes-2hb", "0.03", "--fabric.kes-2hb");
