@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "render/context_probe.h"
 #include "render/contexts.h"
 #include "sim/base/error.h"
 
@@ -56,6 +57,7 @@ std::vector<Candidate> Offscreen::candidates(Renderer renderer, int preferred_cu
 }
 
 std::unique_ptr<Offscreen> Offscreen::create(const Candidate& candidate) {
+  require_no_crash(candidate);
   if (candidate.kind == Candidate::Kind::osmesa) return create_osmesa_context(candidate);
   return create_egl_context(candidate);
 }

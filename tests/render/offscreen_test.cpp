@@ -3,10 +3,12 @@
 #include <sys/wait.h>
 
 #include <algorithm>
+#include <csignal>
 #include <cstdlib>
 #include <fstream>
 #include <string>
 
+#include "render/context_probe.h"
 #include "sim/base/enum_names.h"
 #include "tests/render/test_scene.h"
 
@@ -91,6 +93,33 @@ TEST(Offscreen, TwoContextsLiveSideBySide) {
   const Image before = view->draw(test::draped_camera(16.0f / 9));
   second->make_current();
   EXPECT_EQ(view->draw(test::draped_camera(16.0f / 9)), before);
+}
+
+TEST(ContextProbe, TellsACrashFromAnErrorAndFromNone) {
+  EXPECT_NO_THROW(try_in_child([] {}));
+  EXPECT_NO_THROW(try_in_child([] { throw Error::system("no context"); }));
+  const Error error = thrown_error([] { try_in_child([] { std::raise(SIGSEGV); }); });
+  EXPECT_EQ(error.exit_code(), 1);
+  EXPECT_EQ(error.what(), std::string("it ends by a signal (Segmentation fault)"));
+}
+
+// zink needs a window system, and OSMesa has none.
+TEST(ContextProbe, ADriverThatCrashesIsAnErrorThatNamesIt) {
+  const char* before = std::getenv("GALLIUM_DRIVER");
+  const std::string kept = before ? before : "";
+  setenv("GALLIUM_DRIVER", "softpipe", 1);
+  EXPECT_EQ(named_driver(), "");
+  setenv("GALLIUM_DRIVER", "zink", 1);
+  EXPECT_EQ(named_driver(), "GALLIUM_DRIVER = zink");
+  try {
+    Offscreen::create(Candidate{.kind = Candidate::Kind::osmesa});  // a Mesa that can is no fault
+  } catch (const Error& error) {
+    EXPECT_EQ(error.exit_code(), 1);
+  }
+  if (before)
+    setenv("GALLIUM_DRIVER", kept.c_str(), 1);
+  else
+    unsetenv("GALLIUM_DRIVER");
 }
 
 }  // namespace
