@@ -13,6 +13,7 @@
 #include "sim/base/csv.h"
 #include "sim/base/error.h"
 #include "sim/bending/laws/law_run.h"
+#include "sim/device/visible_gpus.h"
 #include "sim/reference/kes.h"
 #include "sim/scene/assets.h"
 #include "sim/scene/fabric_reader.h"
@@ -208,7 +209,7 @@ void try_gpus(std::vector<TriedDevice>& devices) {
   const int gpus = gpu_count(reason);
   for (int i = 0; i < gpus; ++i)
     devices.push_back(tried("cuda", "cuda:" + std::to_string(i), [i] { return gpu_description(i); }));
-  if (gpus == 0) devices.push_back({"cuda", "cuda", "none", reason});
+  if (gpus == 0) devices.push_back({"cuda", "cuda", "none", no_gpu_message(reason)});
 }
 
 void try_renderers(std::vector<TriedDevice>& devices) {

@@ -9,6 +9,7 @@
 #include "sim/contact/compression.h"
 #include "sim/contact/obstacle_set.h"
 #include "sim/contact/start_checks.h"
+#include "sim/device/visible_gpus.h"
 #include "sim/membrane/membrane.h"
 #include "sim/scene/scene_reader.h"
 #include "sim/time/back_end.h"
@@ -93,7 +94,7 @@ int usable_gpus(const Scene& scene) {
   std::string reason;
   const int count = gpu_count(reason);
   if (count == 0 && scene.device == DeviceChoice::cuda)
-    throw Error::system("device = cuda: " + reason + "; use --device cpu");
+    throw Error::system("device = cuda: " + no_gpu_message(reason) + "; use --device cpu");
   return count;
 }
 
@@ -144,7 +145,7 @@ std::vector<std::string> device_list() {
   std::vector<std::string> list{cpu_description()};
   const int count = gpu_count(reason);
   for (int i = 0; i < count; ++i) list.push_back(gpu_description(i));
-  if (count == 0) list.push_back("cuda: none (" + reason + ")");
+  if (count == 0) list.push_back("cuda: none (" + no_gpu_message(reason) + ")");
   return list;
 }
 

@@ -4,16 +4,16 @@
 
 #include "sim/base/comma_list.h"
 #include "sim/base/error.h"
+#include "sim/device/visible_gpus.h"
 
 namespace hysteron::experiments {
 namespace {
 
-constexpr char kAllowed[] = "CUDA_VISIBLE_DEVICES";
 constexpr std::string_view kGpu = "cuda:";
 constexpr std::size_t kMaxDigits = 4;
 
 std::vector<std::string> allowed_gpus() {
-  const char* allowed = std::getenv(kAllowed);
+  const char* allowed = std::getenv(kVisibleGpus);
   return split(allowed ? allowed : "");
 }
 
@@ -24,7 +24,7 @@ std::string visible_gpu(int gpu) {
   return gpu < static_cast<int>(names.size()) ? names[gpu] : std::to_string(gpu);
 }
 
-void choose_gpu(CommandLine& line) {
+void choose_gpu(CommandLine& line, int of_machine) {
   for (Flag& flag : line.flags) {
     if (flag.path != "device" || !flag.text.starts_with(kGpu)) continue;
     const auto refuse = [&](const std::string& why) {
@@ -37,8 +37,10 @@ void choose_gpu(CommandLine& line) {
       refuse("after cuda: comes the number of a GPU, from 0 on");
     const int gpu = std::stoi(number), allowed = static_cast<int>(allowed_gpus().size());
     if (allowed > 0 && gpu >= allowed)
-      refuse(std::string(kAllowed) + " leaves " + std::to_string(allowed) + ", numbered from 0 on");
-    setenv(kAllowed, visible_gpu(gpu).c_str(), 1);
+      refuse(std::string(kVisibleGpus) + " = " + std::getenv(kVisibleGpus) + " leaves " + gpus_text(allowed));
+    if (allowed == 0 && of_machine > 0 && gpu >= of_machine)
+      refuse("this machine has " + gpus_text(of_machine));
+    setenv(kVisibleGpus, visible_gpu(gpu).c_str(), 1);
     flag.text = "cuda";
   }
 }

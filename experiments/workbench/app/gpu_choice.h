@@ -4,6 +4,7 @@
 #include <string>
 
 #include "experiments/workbench/app/command_line.h"
+#include "sim/device/visible_gpus.h"
 
 namespace hysteron::experiments {
 
@@ -11,8 +12,9 @@ namespace hysteron::experiments {
 std::string visible_gpu(int gpu);
 
 // `--device cuda:N` becomes `cuda`, for which this process and those that it starts see GPU N alone.  To be
-// called before anything asks for GPUs.
-void choose_gpu(CommandLine& line);
+// called before anything asks for GPUs.  Error::invalid_input where CUDA_VISIBLE_DEVICES or, without it, the
+// machine has fewer (0: it is not known how many).
+void choose_gpu(CommandLine& line, int of_machine = gpus_of_machine());
 
 // The line simulates, and its --device or its experiment's own does not name the CPU.
 bool may_use_gpu(const CommandLine& line);

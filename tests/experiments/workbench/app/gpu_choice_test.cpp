@@ -37,7 +37,7 @@ TEST_F(GpuChoice, LeavesTheChosenOneOfThoseThatAreAllowed) {
   for (const auto& [gpus, seen] : cases) {
     allow(gpus);
     CommandLine line = on("cuda:1");
-    choose_gpu(line);
+    choose_gpu(line, 2);
     EXPECT_EQ(line.flags[1].text, "cuda");
     EXPECT_EQ(line.command, "hysteron swing");
     EXPECT_EQ(allowed(), seen);
@@ -62,10 +62,20 @@ TEST_F(GpuChoice, IsRefusedInOneLineWhereThereIsNoSuchGpu) {
       choose_gpu(line);
     });
   };
-  EXPECT_TRUE(says(refused("cuda:2"), "leaves 2, numbered from 0 on"));
+  EXPECT_TRUE(says(refused("cuda:2"), "CUDA_VISIBLE_DEVICES = 4,7 leaves 2 GPUs, cuda:0 to cuda:1"));
   for (const char* device : {"cuda:", "cuda:x", "cuda:-1", "cuda:1.5", "cuda:99999"})
     EXPECT_TRUE(says(refused(device), "the number of a GPU")) << device;
   EXPECT_EQ(allowed(), "4,7");
+}
+
+TEST_F(GpuChoice, IsRefusedWhereTheMachineHasFewer) {
+  allow(std::nullopt);
+  CommandLine line = on("cuda:3");
+  EXPECT_EQ(test::refusal([&] { choose_gpu(line, 1); }),
+            "swing: --device cuda:3: this machine has 1 GPU, cuda:0");
+  EXPECT_EQ(allowed(), std::nullopt);
+  choose_gpu(line, 0);  // where it is not known how many there are, CUDA says it
+  EXPECT_EQ(allowed(), "3");
 }
 
 }  // namespace
