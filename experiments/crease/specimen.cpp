@@ -6,6 +6,7 @@
 
 #include "experiments/specimens/clamped_mesh.h"
 #include "sim/base/error.h"
+#include "sim/base/number_in.h"
 #include "sim/contact/compression.h"
 #include "sim/scene/motion.h"
 #include "sim/time/simulation.h"
@@ -149,20 +150,38 @@ double Crease::opening(const std::vector<Eigen::Vector3d>& x) const {
   return std::acos(std::clamp(far.normalized().dot(near.normalized()), -1.0, 1.0)) * 180 / std::numbers::pi;
 }
 
+namespace {
+
+// The fold springs up against a plate that has not begun to press.
+Error too_small_force(double asked, double found, double underside, double thickness) {
+  return Error::simulation(
+             "crease.force = " + number_text(asked) + " N must be > " + number_text(found, 3) +
+             " N: so much the fold itself presses against a plate " + number_text(1e3 * underside, 3) +
+             " mm above the plane, " + number_text(underside / thickness, 2) +
+             " thicknesses of the cloth, where it waits; a smaller force does not close the fold")
+      .with_key("crease.force", number_text(asked))
+      .with_experiment("crease");
+}
+
+}  // namespace
+
 double loaded_plate(const Scene& scene, const CreaseChoice& choice) {
   const double thickness = scene.fabric.thickness, lowest = 2.05 * thickness;
   const Crease crease = creased(scene, choice, lowest);
   const auto simulation = make_simulation(crease.scene, crease.cloth);
   const Obstacle& plate = crease.scene.obstacle[1];
   double before = 0, above = 0;  // force at the end of the step before, and where the underside was then
+  bool waits = true;             // the plate has not yet moved onto the fold
   while (simulation->time() < crease.times.pressed) {
     simulation->advance(1);
     const double time = simulation->time();
     const double underside = placement(plate.motion, time)(plate.center).z() - plate.size.z();
-    const double force =
-        time > crease.times.folded + kSettle ? crease.plate_force(simulation->positions(), time) : 0;
+    const bool settled = time > crease.times.folded + kSettle - crease.scene.step / 2;
+    const double force = settled ? crease.plate_force(simulation->positions(), time) : 0;
+    if (force >= choice.force && waits) throw too_small_force(choice.force, force, underside, thickness);
     if (force >= choice.force)
       return above + (underside - above) * (choice.force - before) / (force - before);
+    waits = !settled;
     before = force, above = underside;
   }
   throw Error::simulation("the plate reaches the plane before it bears " + std::to_string(choice.force) +

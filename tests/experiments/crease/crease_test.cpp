@@ -46,6 +46,17 @@ TEST(CreaseSpecimen, FeelsThePlateByItsShell) {
   EXPECT_NEAR(crease.plate_force(x, crease.times.pressed) / (pressure * covered), 1, 0.1);
 }
 
+// The fold springs up against the plate before that moves: what it presses there is the least that a plate
+// can bear.
+TEST(CreaseSpecimen, IsNotPressedByLessThanItBearsOpen) {
+  CreaseChoice choice;
+  choice.force = 1e-5;
+  const Error error = test::thrown_error([&] { loaded_plate(small_scene(), choice); });
+  EXPECT_EQ(error.exit_code(), 3);
+  EXPECT_TRUE(
+      says(error.what(), "crease.force = 1e-05 N must be > ", "a smaller force does not close the fold"));
+}
+
 // Bent to a curvature K over all its length and let go, a law keeps M0/b2 at most.
 TEST(CreaseSpecimen, KnowsWhatTheLawAloneKeeps) {
   Crease crease = creased(small_scene(), {}, 1.4e-3);
