@@ -25,7 +25,7 @@ constexpr double kSag = 2e-3;      // bending rigidity out of the plane over tha
 // Slope of the law at rest over b2.
 double stiffness_at_rest(const Scene& scene) {
   constexpr double kSmall = 1e-6;  // [1/m]
-  const LawRun run = run_law({scene.law, scene.fabric.virgin_curve(), scene.param}, {{0}, {kSmall}});
+  const LawRun run = run_law({scene.law, strip_curve(scene), scene.param}, {{0}, {kSmall}});
   return run.moment[1] / (kSmall * scene.fabric.b2);
 }
 

@@ -1,19 +1,51 @@
 #include "experiments/specimens/cantilever_strip.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "experiments/specimens/clamped_mesh.h"
+#include "sim/base/error.h"
 #include "sim/bending/curvature_operator.h"
-#include "sim/time/simulation.h"
+#include "sim/scene/motion.h"
+#include "sim/scene/shown_key.h"
 
 namespace hysteron::experiments {
 namespace {
 
 constexpr double kDegree = 3.14159265358979323846 / 180;
 constexpr double kSlope = 41.5 * kDegree;  // of the chord, ASTM D1388 and ISO 9073-7
+// Along the strip: a weight that is tilted by 48.5 degrees towards the free end pulls no chord to 41.5.
+constexpr double kMostTilt = 30 * kDegree;
+constexpr double kSideways = 1e-6;    // of the weight, which is rounding
+constexpr double kMostLengths = 100;  // overhang over the bending length: 10 segments of the elastica bend
+constexpr double kWhole = 1e-4;     // of the weight; a timetable ends so near to the time that was asked for
+constexpr double kMostSteps = 1e6;  // in which the weight grows, or goes
+constexpr int kMaxTrials = 30;      // overhangs that a search measures
+constexpr double kSlopeFound =
+    0.01;  // how far from 41.5 degrees the chord of the found overhang may be [rad]
 
 double areal_weight(const Scene& scene) { return scene.fabric.density * scene.gravity.norm(); }
+
+// The weight's direction in the strip's axes: x along it, z up from its face.
+Eigen::Vector3d direction_of_weight(const Scene& scene) {
+  return start_rotation(scene.cloth).transpose() * scene.gravity.normalized();
+}
+
+// From straight down towards the free end [rad].
+double tilt_of_weight(const Scene& scene) {
+  const Eigen::Vector3d down = direction_of_weight(scene);
+  return std::atan2(down.x(), -down.z());
+}
+
+// (B/w)^(1/3), which is half the overhang of the test without friction (Peirce 1930) [m].
+double natural_length(const Scene& scene) {
+  const Fabric& fabric = scene.fabric;
+  const double rigidity = rigidity_along(scene) * (fabric.b2 > 0 ? fabric.b2 : fabric.b1);
+  return std::cbrt(rigidity / areal_weight(scene));
+}
 
 // Slope of the chord of a strip with this overhang under its whole weight.
 double slope_of_elastica(const Scene& scene, double length) {
@@ -25,22 +57,62 @@ double slope_of_elastica(const Scene& scene, double length) {
 double slope_of_cloth(const Scene& scene, double length) {
   const CantileverStrip strip = overhang(scene, length);
   const auto simulation = make_simulation(strip.scene, strip.cloth);
-  simulation->advance(static_cast<int>(std::lround(scene.ramp / scene.step)));
+  load_wholly(scene, *simulation);
   const Eigen::Vector2d end = strip.free_end(simulation->positions());
   return std::atan2(end.y(), end.x());
 }
 
-// CantileverStrip at which `slope` reaches 41.5 degrees, by the secant method from `first`; slopes grow with
-// it.
+// The overhang at which `slope`, which grows with it, reaches 41.5 degrees: by the secant method from
+// `first`, kept between the longest one known to be too short and the shortest one known to be too long.
 template <class Slope>
 double critical_overhang(double first, double precision, const Slope& slope) {
-  double a = first, fa = slope(a) - kSlope, b = a * (1 - fa / 2), fb = slope(b) - kSlope;
-  for (int i = 0; i < 20 && std::abs(b - a) > precision * b; ++i) {
-    const double next = std::clamp(b - fb * (b - a) / (fb - fa), b / 2, 2 * b);
-    a = b, fa = fb;
-    b = next, fb = slope(b) - kSlope;
+  double low = 0, high = std::numeric_limits<double>::infinity();
+  const auto excess = [&](double length) {
+    const double found = slope(length) - kSlope;
+    if (found < 0)
+      low = std::max(low, length);
+    else
+      high = std::min(high, length);
+    return found;
+  };
+  double a = first, fa = excess(a), b = a * std::clamp(1 - fa / 2, 0.5, 2.0), fb = excess(b);
+  for (int trials = 2; std::abs(b - a) > precision * b; ++trials) {
+    double next = std::clamp(b - fb * (b - a) / (fb - fa), b / 2, 2 * b);
+    if (!(next > low && next < high)) next = low == 0 ? high / 2 : std::min(2 * low, std::sqrt(low * high));
+    if (trials >= kMaxTrials || !(low < high)) break;
+    a = b;
+    fa = fb;
+    b = next;
+    fb = excess(b);
   }
-  return b;
+  if (std::abs(fb) < kSlopeFound) return b;
+  throw Error::simulation(fmt::format(
+      "no bending length was found: the chord of a strip that hangs over by {:.4g} m falls by {:.1f} "
+      "degree, and must by {:.1f}",
+      b, (fb + kSlope) / kDegree, kSlope / kDegree));
+}
+
+void check_weight(const Scene& scene) {
+  const Eigen::Vector3d& g = scene.gravity;
+  std::string gravity = shown(scene, "gravity", fmt::format("{:g} {:g} {:g}", g.x(), g.y(), g.z()), "m/s^2");
+  const Eigen::Vector3d& turn = scene.cloth.rotation;
+  if (!turn.isZero(0))
+    gravity += " with " + shown(scene, "cloth.rotation",
+                                fmt::format("{:g} {:g} {:g}", turn.x(), turn.y(), turn.z()), "degree");
+  const auto refusal = [&](const std::string& fault) {
+    return Error::invalid_input(gravity + " " + fault).with_key("gravity", number_text(g.norm()));
+  };
+  if (!(g.norm() > 0)) throw refusal("makes no strip sag: it must be more than 0");
+  if (std::abs(direction_of_weight(scene).y()) > kSideways)
+    throw refusal(
+        "pulls the strip sideways: it must lie in the plane of its length and its normal, where the elastica "
+        "bends");
+  const double tilt = tilt_of_weight(scene);
+  if (std::abs(tilt) > kMostTilt)
+    throw refusal(
+        fmt::format("pulls {:.0f} degree away from straight down out of the strip, which must be <= "
+                    "{:.0f}: beyond, no overhang need fall to {:.1f} degree",
+                    std::abs(tilt) / kDegree, kMostTilt / kDegree, kSlope / kDegree));
 }
 
 }  // namespace
@@ -50,7 +122,8 @@ Eigen::Vector2d CantileverStrip::free_end(const std::vector<Eigen::Vector3d>& x)
   int count = 0;
   for (std::size_t i = 0; i < x.size(); ++i)
     if (cloth.mesh.rest[i].x() > scene.cloth.length * (1 - 1e-9)) sum += x[i] - cloth.start[i], ++count;
-  return {length + sum.x() / count, -sum.z() / count};
+  const Eigen::Vector3d own = start_rotation(scene.cloth).transpose() * sum;
+  return {length + own.x() / count, -own.z() / count};
 }
 
 CantileverStrip overhang(Scene scene, double length) {
@@ -63,11 +136,27 @@ CantileverStrip overhang(Scene scene, double length) {
   return {std::move(scene), std::move(cloth), length};
 }
 
+VirginCurve strip_curve(const Scene& scene) {
+  VirginCurve curve = scene.fabric.virgin_curve();
+  const bool follows_stops = scene.law == "prandtl" || scene.law == "chapman";
+  if (curve.parts.weft_stops.empty() || !follows_stops) return curve;
+  const double angle = scene.cloth.warp_angle, turns = angle / 90;
+  if (std::abs(std::remainder(angle, 90)) > 1e-9)
+    throw Error::invalid_input(
+        shown(scene, "cloth.warp-angle", angle, "degree") +
+        " must be a multiple of 90: a strip between warp and weft of a fabric with stops along both "
+        "(fabric.bending.stops.weft) has no reference")
+        .with_key("cloth.warp-angle", number_text(angle));
+  if (std::lround(turns) % 2 != 0) curve.parts.stops = curve.parts.weft_stops;
+  return curve;
+}
+
 HeavyStrip strip_elastica(const Scene& scene, double length) {
   HeavyStrip strip;
-  strip.law = {scene.law, scene.fabric.virgin_curve(), scene.param};
+  strip.law = {scene.law, strip_curve(scene), scene.param};
   strip.rigidity = rigidity_along(scene);
   strip.weight = areal_weight(scene);
+  strip.tilt = tilt_of_weight(scene);
   strip.length = length;
   return strip;
 }
@@ -78,13 +167,45 @@ double rigidity_along(const Scene& scene) {
   return strip_rigidity(scene.fabric.weft_bending, scene.fabric.bias_bending, angle);
 }
 
+void check_cantilever(const Scene& scene) {
+  check_weight(scene);
+  strip_curve(scene);
+  if (!(scene.ramp > 0))
+    throw Error::invalid_input(shown(scene, "ramp", scene.ramp, "s") + " must be > 0: the weight grows in it")
+        .with_key("ramp", number_text(scene.ramp));
+  if (std::max(scene.ramp, scene.unload) > kMostSteps * scene.step)
+    throw Error::invalid_input(
+        shown(scene, "step", scene.step, "s") + " makes more than a million steps of " +
+        shown(scene, "ramp", scene.ramp, "s") + " or " + shown(scene, "unload", scene.unload, "s"))
+        .with_key("step", number_text(scene.step));
+  const double longest = kMostLengths * natural_length(scene);
+  if (scene.cloth.length > longest)
+    throw Error::invalid_input(
+        fmt::format(
+            "{} must be <= {:.3g} m, {:g} times the length (B/weight)^(1/3) over which this fabric bends: "
+            "a longer strip hangs straight down",
+            shown(scene, "cloth.length", scene.cloth.length, "m"), longest, kMostLengths))
+        .with_key("cloth.length", number_text(scene.cloth.length));
+}
+
 double load_at(const Scene& scene, double time) {
   if (time < scene.ramp) return time / scene.ramp;
   return scene.unload > 0 ? std::max(0.0, 1 - (time - scene.ramp) / scene.unload) : 1;
 }
 
+Timetable loading(const Scene& scene) { return {scene.ramp, scene.step}; }
+
+void load_wholly(const Scene& scene, Simulation& simulation) {
+  const Timetable steps = loading(scene);
+  advance_along(steps, simulation, steps.steps());
+  if (std::abs(load_at(scene, simulation.time()) - 1) > kWhole)
+    throw Error::simulation(
+        fmt::format("at t = {:.6g} s, the end of the ramp, only {:.6g} of the weight is on",
+                    simulation.time(), load_at(scene, simulation.time())));
+}
+
 double elastica_bending_length(const Scene& scene) {
-  const double first = 2 * std::cbrt(rigidity_along(scene) * scene.fabric.b2 / areal_weight(scene));
+  const double first = 2 * natural_length(scene);
   return critical_overhang(first, 1e-6, [&](double length) { return slope_of_elastica(scene, length); }) / 2;
 }
 

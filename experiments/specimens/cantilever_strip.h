@@ -4,6 +4,7 @@
 
 #include "sim/reference/elastica.h"
 #include "sim/scene/cloth.h"
+#include "sim/time/timetable.h"
 
 namespace hysteron::experiments {
 
@@ -12,7 +13,7 @@ struct CantileverStrip {
   Cloth cloth;
   double length = 0;  // that hangs over, from the middle of the clamp's columns [m]
 
-  // Middle of the free end seen from the clamp: forward, down [m].
+  // Middle of the free end seen from the clamp, in the strip's own axes: forward, down [m].
   Eigen::Vector2d free_end(const std::vector<Eigen::Vector3d>& x) const;
 };
 
@@ -23,15 +24,28 @@ CantileverStrip overhang(Scene scene, double length);
 
 // Bending rigidity of the scene's strip, which lies along x, over that along warp.
 double rigidity_along(const Scene& scene);
+// The virgin curve of the strip's direction: that along weft has stops of its own where the fabric does.
+// Error::invalid_input for a strip between warp and weft of such a fabric.
+VirginCurve strip_curve(const Scene& scene);
 
 // The same strip as a curve, with its law, its rigidity and weight.
 HeavyStrip strip_elastica(const Scene& scene, double length);
 
-// Share of the weight at a time of quasi-static runs (Scene::ramp, Scene::unload).
+// Error::invalid_input for what no elastica is compared with: a weight that does not pull the strip towards
+// its underside, within 30 degrees along it; one that does not grow, or by too many steps; a strip that hangs
+// straight down.
+void check_cantilever(const Scene& scene);
+
+// Fraction of the weight at a time of quasi-static runs (Scene::ramp, Scene::unload).
 double load_at(const Scene& scene, double time);
+// Steps from the start to the whole weight, at which one of them ends.
+Timetable loading(const Scene& scene);
+// Takes them.  Error::simulation unless the weight is whole then.
+void load_wholly(const Scene& scene, Simulation& simulation);
 
 // Half the overhang at which the chord of the sagging strip falls to 41.5 degrees below the clamp (ASTM
 // D1388, ISO 9073-7) [m]: of the curve, and of the cloth, whose search starts at `first` [m].
+// Error::simulation where a bounded search finds none.
 double elastica_bending_length(const Scene& scene);
 double cloth_bending_length(const Scene& scene, double first);
 

@@ -45,10 +45,13 @@ ClampedMesh clamped_mesh(const std::string& family, double free_length, double w
   const MeshFamily kind = mesh_family(family);
   const double height = row_height(kind), cell = 2 * free_length * width / triangles;
   // Half a column of every clamp bends.
-  const int columns =
-      std::max(2, static_cast<int>(std::lround(free_length / std::sqrt(cell / height) - clamps / 2.0)));
+  const long wished = std::lround(free_length / std::sqrt(cell / height) - clamps / 2.0);
+  // A strip that is far longer than wide has one row of cells, one that is far wider than long two columns:
+  // of either no more than triangles are asked for.
+  const int columns = static_cast<int>(std::clamp<long>(wished, 2, std::max(2, triangles)));
   const double d = free_length / (columns + clamps / 2.0);
-  const int rows = std::max(1, static_cast<int>(std::lround(width / (d * height))));
+  const int rows =
+      static_cast<int>(std::clamp<long>(std::lround(width / (d * height)), 1, std::max(1, triangles)));
   const double between = columns * d;
   const ClothMesh mesh = make_grid(between, width, columns, rows, kind, seed);
   Growth growth;

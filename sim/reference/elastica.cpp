@@ -1,6 +1,6 @@
 // Weight w per area, length L: at distance s from the clamp the law's moment balances the weight beyond,
-//   M(K(s)) = load * w * int_s^L (x(t) - x(s)) dt,   x' = cos theta, y' = sin theta, theta' = K, theta(0) =
-//   0.
+//   M(K(s)) = load * w * int_s^L [(x(t) - x(s)) cos(tilt) - (y(t) - y(s)) sin(tilt)] dt,
+//   x' = cos theta, y' = sin theta, theta' = K, theta(0) = 0.
 // Curvatures sit at the segments' middles; Newton's method over all of them with the whole Jacobian.
 #include "sim/reference/elastica.h"
 
@@ -20,6 +20,7 @@ using Eigen::VectorXd;
 constexpr double kSeconds = 1;       // of a step, for laws with a clock
 constexpr double kBalanced = 1e-12;  // unbalanced moment over w L^2 load
 constexpr int kMaxNewtonSteps = 60, kMaxHalvings = 30;
+constexpr int kMaxLoadSteps = 5000;  // from one load to the next
 
 // The law at `count` points with a history each.
 class Points {
@@ -63,6 +64,19 @@ class Points {
   std::vector<double> energy_;
 };
 
+// Sums over the segments beyond a place, along one axis: their first moment, and its derivative by the
+// curvatures.
+struct Beyond {
+  double first = 0;
+  Eigen::RowVectorXd moves;
+
+  explicit Beyond(int n) : moves(Eigen::RowVectorXd::Zero(n)) {}
+  void add(double length, double middle, const Eigen::RowVectorXd& middle_moves) {
+    first += length * middle;
+    moves += length * middle_moves;
+  }
+};
+
 // The curve and the moments of its weight for load 1, with their derivatives by the curvatures.
 struct Curve {
   VectorXd node_angle;
@@ -71,34 +85,42 @@ struct Curve {
   MatrixXd by_curvature;
 };
 
-Curve deflection_curve(const VectorXd& h, const VectorXd& curvature, double weight) {
+Curve deflection_curve(const VectorXd& h, const VectorXd& curvature, double weight, double tilt) {
   const int n = static_cast<int>(h.size());
   Curve c{VectorXd::Zero(n + 1), {{0, 0}}, VectorXd(n), MatrixXd(n, n)};
-  MatrixXd turn = MatrixXd::Zero(n, n), middle_moves(n, n);  // of angles and places at the middles
-  VectorXd middle(n), middle_angle(n);
-  Eigen::RowVectorXd node_moves = Eigen::RowVectorXd::Zero(n);
+  // Derivatives of the angles at the segments' middles, and of these middles, forward and down.
+  MatrixXd turn = MatrixXd::Zero(n, n), forward_moves(n, n), down_moves(n, n);
+  VectorXd forward(n), down(n), middle_angle(n);
+  Eigen::RowVectorXd node_forward = Eigen::RowVectorXd::Zero(n), node_down = node_forward;
   for (int i = 0; i < n; ++i) {
     middle_angle[i] = c.node_angle[i] + h[i] / 2 * curvature[i];
     c.node_angle[i + 1] = c.node_angle[i] + h[i] * curvature[i];
     turn.row(i).head(i) = h.head(i).transpose();
     turn(i, i) = h[i] / 2;
     const double cosine = std::cos(middle_angle[i]), sine = std::sin(middle_angle[i]);
-    middle[i] = c.node[i].x() + h[i] / 2 * cosine;
-    middle_moves.row(i) = node_moves - h[i] / 2 * sine * turn.row(i);
-    node_moves -= h[i] * sine * turn.row(i);
+    forward[i] = c.node[i].x() + h[i] / 2 * cosine;
+    down[i] = c.node[i].y() + h[i] / 2 * sine;
+    forward_moves.row(i) = node_forward - h[i] / 2 * sine * turn.row(i);
+    down_moves.row(i) = node_down + h[i] / 2 * cosine * turn.row(i);
+    node_forward -= h[i] * sine * turn.row(i);
+    node_down += h[i] * cosine * turn.row(i);
     c.node.push_back(c.node[i] + h[i] * Eigen::Vector2d(cosine, sine));
   }
-  // From the free end: length, first moment of the segments beyond, and its derivative.
-  double length = 0, first = 0;
-  Eigen::RowVectorXd first_moves = Eigen::RowVectorXd::Zero(n);
+  // From the free end: the length beyond, and its first moments.
+  const double across = weight * std::cos(tilt), along = weight * std::sin(tilt);
+  double length = 0;
+  Beyond ahead(n), below(n);
   for (int i = n - 1; i >= 0; --i) {
     const double own = h[i] * h[i] / 8;  // of the outer half of the segment itself, about its middle
-    c.moment[i] = weight * (first - length * middle[i] + own * std::cos(middle_angle[i]));
+    const double cosine = std::cos(middle_angle[i]), sine = std::sin(middle_angle[i]);
+    c.moment[i] = across * (ahead.first - length * forward[i] + own * cosine) -
+                  along * (below.first - length * down[i] + own * sine);
     c.by_curvature.row(i) =
-        weight * (first_moves - length * middle_moves.row(i) - own * std::sin(middle_angle[i]) * turn.row(i));
+        across * (ahead.moves - length * forward_moves.row(i) - own * sine * turn.row(i)) -
+        along * (below.moves - length * down_moves.row(i) + own * cosine * turn.row(i));
     length += h[i];
-    first += h[i] * middle[i];
-    first_moves += h[i] * middle_moves.row(i);
+    ahead.add(h[i], forward[i], forward_moves.row(i));
+    below.add(h[i], down[i], down_moves.row(i));
   }
   return c;
 }
@@ -120,22 +142,23 @@ class Solver {
   // From the accepted load to another.
   void go_to(double load, double longest) {
     double step = longest;
-    for (int halvings = 0; load_ != load;) {
-      const double newton_step = std::clamp(load - load_, -step, step);
-      const double next = std::abs(load - load_) <= step ? load : load_ + newton_step;
+    for (int steps = 0, halvings = 0; load_ != load; ++steps) {
+      const double next =
+          std::abs(load - load_) <= step ? load : load_ + std::clamp(load - load_, -step, step);
       if (solve(next)) {
         load_ = next;
-        continue;
+      } else {
+        step /= 2;
+        ++halvings;
       }
-      step /= 2;
-      if (++halvings > kMaxHalvings)
+      if (load_ != load && (halvings > kMaxHalvings || steps > kMaxLoadSteps))
         throw Error::simulation("no equilibrium of the heavy strip was found at load " +
                                 std::to_string(next));
     }
   }
 
   SaggingStrip state() const {
-    const Curve c = deflection_curve(h_, curvature_, strip_.weight);
+    const Curve c = deflection_curve(h_, curvature_, strip_.weight, strip_.tilt);
     SaggingStrip result;
     result.load = load_;
     result.arc = {0};
@@ -151,7 +174,7 @@ class Solver {
   bool solve(double load) {
     const double scale = kBalanced * strip_.weight * strip_.length * strip_.length * std::max(1.0, load);
     VectorXd k = curvature_, moment, tangent;
-    Curve c = deflection_curve(h_, k, strip_.weight);
+    Curve c = deflection_curve(h_, k, strip_.weight, strip_.tilt);
     points_.look(k, moment, tangent);
     VectorXd residual = moment - load * c.moment;
     for (int iteration = 0; iteration < kMaxNewtonSteps; ++iteration) {
@@ -167,7 +190,7 @@ class Solver {
       bool lower = false;
       for (double fraction = 1; !lower && fraction > 1e-4; fraction /= 2) {
         const VectorXd tried = k + fraction * newton_step;
-        c = deflection_curve(h_, tried, strip_.weight);
+        c = deflection_curve(h_, tried, strip_.weight, strip_.tilt);
         points_.look(tried, moment, tangent);
         residual = moment - load * c.moment;
         lower = residual.norm() < before;

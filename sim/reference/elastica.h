@@ -15,6 +15,7 @@ struct HeavyStrip {
   LawRequest law;
   double rigidity = 1;  // q, that of the strip's direction over the law's: M = sqrt(q) M_law(sqrt(q) K)
   double weight = 1;    // per area, of load 1 [N/m^2]
+  double tilt = 0;      // of the load: from straight down towards the free end [rad]
   double length = 1;    // [m]
   int segments = 200;   // shorter towards the clamp
 };
@@ -33,7 +34,7 @@ struct SaggingStrip {
 // The strip's equilibria under `loads`, one after the other, from rest: the law's history is accepted at each
 // load and on the way there (steps of at most 1/steps of the largest load; continuation, halved where
 // Newton's method fails).  Second order in the segments' lengths.  Laws with a clock take 1 s for each step.
-// Error::simulation if no equilibrium is found.
+// Error::simulation if no equilibrium is found, or none within a bounded number of steps.
 std::vector<SaggingStrip> sagging_strips(const HeavyStrip& strip, const std::vector<double>& loads,
                                          int steps = 50);
 

@@ -1,6 +1,5 @@
 #include "sim/scene/cloth.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,6 +8,7 @@
 #include "sim/mesh/builders.h"
 #include "sim/mesh/file_ending.h"
 #include "sim/mesh/garment.h"
+#include "sim/scene/motion.h"
 #include "sim/scene/shown_key.h"
 #include "sim/scene/start_shape.h"
 
@@ -78,11 +78,7 @@ Cloth placed(const Scene& scene, ClothMesh mesh, std::vector<Eigen::Vector3d> st
   cloth.start = std::move(start);
   const double warp = scene.cloth.warp_angle * kDegree;
   cloth.mesh.warp_axis = {std::cos(warp), std::sin(warp), 0};
-  const Eigen::Vector3d angle = scene.cloth.rotation * kDegree;
-  const Eigen::Matrix3d rotation = (Eigen::AngleAxisd(angle.z(), Eigen::Vector3d::UnitZ()) *
-                                    Eigen::AngleAxisd(angle.y(), Eigen::Vector3d::UnitY()) *
-                                    Eigen::AngleAxisd(angle.x(), Eigen::Vector3d::UnitX()))
-                                       .toRotationMatrix();
+  const Eigen::Matrix3d rotation = start_rotation(scene.cloth);
   for (Eigen::Vector3d& x : cloth.start) x = rotation * x + scene.cloth.position;
   cloth.pin.assign(cloth.mesh.vertices(), -1);
   for (std::size_t p = 0; p < scene.pin.size(); ++p) {

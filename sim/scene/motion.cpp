@@ -75,4 +75,13 @@ double home_fraction(const Pin& pin, double time) {
   return u * u * (3 - 2 * u);
 }
 
+Eigen::Matrix3d start_rotation(const ClothShape& shape) {
+  constexpr double kDegree = 3.14159265358979323846 / 180;
+  const Eigen::Vector3d angle = kDegree * shape.rotation;
+  return (Eigen::AngleAxisd(angle.z(), Eigen::Vector3d::UnitZ()) *
+          Eigen::AngleAxisd(angle.y(), Eigen::Vector3d::UnitY()) *
+          Eigen::AngleAxisd(angle.x(), Eigen::Vector3d::UnitX()))
+      .toRotationMatrix();
+}
+
 }  // namespace hysteron

@@ -1,4 +1,4 @@
-// Prescribed motions of pins and obstacles.
+// Prescribed motions of pins and obstacles, and how the cloth is turned at the start.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -24,6 +24,9 @@ Keyframe state_at(const Motion& motion, double time);
 // The motion that is where this one is at `time` [s] and goes on from there with this velocity [m/s] and spin
 // about its axis [degree/s].
 Motion steady_from(const Motion& motion, double time, const Eigen::Vector3d& velocity, double spin);
+
+// Of the cloth as it is placed: about x, y and z in this order.
+Eigen::Matrix3d start_rotation(const ClothShape& shape);
 
 // Share of the way home that a pin has brought its vertices by then, smoothly from 0 to 1; 0 if it does not.
 double home_fraction(const Pin& pin, double time);

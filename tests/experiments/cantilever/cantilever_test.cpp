@@ -1,5 +1,9 @@
 // The sagging strip against the elastica.
+#include "experiments/specimens/cantilever_strip.h"
+#include "experiments/specimens/clamped_mesh.h"
 #include "experiments/workbench/session/recoveries.h"
+#include "sim/scene/motion.h"
+#include "sim/scene/scene_reader.h"
 #include "tests/experiments/folder.h"
 
 namespace hysteron::experiments {
@@ -138,6 +142,96 @@ TEST(Recoveries, GoByTheLastReversalFromPastTheElasticLimit) {
   EXPECT_EQ(of({1.5, 2.5, 1.2, 0, -0.1, 0.1, 0}), 3);  // trembles at rest
   EXPECT_EQ(of({2.5, 0, -1.5, 0}), 2);
   EXPECT_EQ(of({2.5, -1.5, 0}), 2);
+}
+
+// Statics without friction do not remember their steps: the whole weight is on when its drop is read.
+TEST(Cantilever, IsReadUnderItsWholeWeightWhateverStepsAndPicturesThereAre) {
+  constexpr double kSearched = 2e-4;  // twice the precision of the search for an overhang
+  const std::vector<Flag> common = {{"gamma", "10"}, {"triangles", "32"}};
+  const auto with = [&](std::vector<Flag> further) {
+    further.insert(further.end(), common.begin(), common.end());
+    return recorded_metrics(std::move(further));
+  };
+  const auto usual = with({});
+  const std::vector<std::vector<Flag>> cases = {{{"ramp", "0.12"}, {"fps", "7"}},
+                                                {{"step", "0.3"}, {"fps", "0"}, {"unload", "0"}}};
+  for (const std::vector<Flag>& further : cases) {
+    const std::string what = further.front().path + " " + further.front().text;
+    const auto metrics = with(further);
+    for (const char* key : {"tip_drop_over_length", "elastica_drop_over_length", "bending_length_m"})
+      EXPECT_NEAR(metrics[key].get<double>() / usual[key].get<double>(), 1, kSearched) << what << ", " << key;
+    EXPECT_EQ(metrics.contains("residual_drop_over_length"), further.back().path != "unload") << what;
+  }
+}
+
+std::string cantilever_refusal(const std::vector<Flag>& flags) {
+  const Folder folder;
+  return test::refusal([&] { run_into(folder.path() / "out", "cantilever", flags); });
+}
+
+TEST(Cantilever, RefusesWhatHasNoAnswer) {
+  const std::pair<std::vector<Flag>, const char*> cases[] = {
+      {{{"ramp", "0"}}, "ramp = 0 s"},
+      {{{"ramp", "1e9"}}, "makes more than a million steps of ramp = 1e+09 s"},
+      {{{"integrator", "implicit"}}, "cantilever sets integrator itself"},
+      {{{"gravity", "0 0 0"}}, "makes no strip sag"},
+      {{{"gravity", "0 0 9.81"}}, "pulls 180 degree away"},
+      {{{"gravity", "9.81 0 0"}}, "pulls 90 degree away"},
+      {{{"gravity", "0 4 -9"}}, "pulls the strip sideways"},
+      {{{"cloth.rotation", "0 90 0"}}, "with cloth.rotation = 0 90 0 degree"},
+      {{{"cloth.length", "100"}}, "cloth.length = 100 m"}};
+  for (const auto& [flags, message] : cases)
+    EXPECT_TRUE(says(cantilever_refusal(flags), message)) << message << ": " << cantilever_refusal(flags);
+}
+
+TEST(Cantilever, ComparesATiltedWeightWithTheElasticaUnderIt) {
+  const auto metrics =
+      recorded_metrics({{"gamma", "10"}, {"triangles", "128"}, {"gravity", "3.355 0 -9.218"}});
+  EXPECT_NEAR(metrics["elastica_drop_over_length"].get<double>() / 0.5890758, 1, 4e-4)
+      << "20 degree, by shooting";
+  EXPECT_LT(std::abs(metrics["error_percent"].get<double>()), 100 * kWithin);
+  EXPECT_NEAR(metrics["bending_length_m"].get<double>() / metrics["elastica_bending_length_m"].get<double>(),
+              1, kWithin);
+}
+
+// Turned about y, the free end goes down, and the weight pulls towards it.
+TEST(Cantilever, MeasuresInTheAxesOfAStripThatIsTurned) {
+  constexpr double kDegrees = 3.14159265358979323846 / 180, kRounding = 1e-12;
+  Scene scene = default_scene();
+  scene.cloth.rotation = {0, 20, 50};
+  EXPECT_NEAR(strip_elastica(scene, 0.1).tilt, 20 * kDegrees, kRounding);
+  const CantileverStrip strip = overhang(scene, 0.1);
+  EXPECT_NEAR(strip.free_end(strip.cloth.start).x(), 0.1, kRounding);
+  std::vector<Eigen::Vector3d> moved = strip.cloth.start;
+  for (Eigen::Vector3d& x : moved) x += start_rotation(scene.cloth) * Eigen::Vector3d(-0.01, 0.3, -0.02);
+  EXPECT_NEAR(strip.free_end(moved).x(), 0.09, kRounding);
+  EXPECT_NEAR(strip.free_end(moved).y(), 0.02, kRounding);
+}
+
+// Stops along weft are not those along warp: the strip's reference has those of its own direction.
+TEST(Cantilever, AlongWeftFollowsTheStopsOfWeft) {
+  const auto metrics = recorded_metrics({{"law", "prandtl"},
+                                         {"triangles", "128"},
+                                         {"fabric.density", "0.0122"},
+                                         {"fabric.weft-bending", "0.5"},
+                                         {"fabric.bias-bending", "0.7"},
+                                         {"fabric.bending.stops.thresholds", "10 40"},
+                                         {"fabric.bending.stops.stiffnesses", "3e-5 2e-5"},
+                                         {"fabric.bending.stops.weft.thresholds", "5 20"},
+                                         {"fabric.bending.stops.weft.stiffnesses", "1e-5 4e-6"},
+                                         {"cloth.warp-angle", "90"}});
+  EXPECT_LT(std::abs(metrics["error_percent"].get<double>()), 100 * kWithin);
+  EXPECT_NEAR(metrics["bending_length_m"].get<double>() / metrics["elastica_bending_length_m"].get<double>(),
+              1, kWithin);
+}
+
+// Two columns at least, and the clamp's.
+TEST(Cantilever, HasNotManyMoreCellsThanAreAskedForHoweverLongOrShortItIs) {
+  constexpr int kTriangles = 128;
+  for (const double length : {1e-8, 1e-4, 0.1, 10.0, 1e6}) {
+    const ClampedMesh clamped = clamped_mesh("unionjack", length, 0.025, kTriangles, 1, 1);
+    EXPECT_LE(clamped.mesh.faces(), 2 * 3 * kTriangles) << length;
+  }
 }
 
 TEST(Cantilever, ComesBackWithoutFriction) {

@@ -35,6 +35,16 @@ TEST(Elastica, DropsAsFarAsTheTableSays) {
   for (const Known& known : kKnown) EXPECT_NEAR(drop(known.gamma, 200) / known.drop, 1, 4e-4) << known.gamma;
 }
 
+// Drop of a strip of heaviness 10 whose load is tilted towards the free end, by the same shooting.
+TEST(Elastica, DropsUnderATiltedLoadAsShootingSays) {
+  constexpr std::pair<double, double> kTilted[] = {{20, 0.5890758}, {-20, 0.7775139}, {30, 0.5214700}};
+  for (const auto& [degrees, drop] : kTilted) {
+    HeavyStrip strip = linear_strip(10);
+    strip.tilt = degrees * 3.14159265358979323846 / 180;
+    EXPECT_NEAR(sagging_strips(strip, {1}, 20).back().drop() / drop, 1, 4e-4) << degrees;
+  }
+}
+
 // The number of threads is for a run to say: those that dense algebra would start by itself stay alive.
 TEST(Elastica, StartsNoThreads) {
   const auto threads = [] {
