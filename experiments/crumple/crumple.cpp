@@ -49,7 +49,7 @@ Setup defaults() {
 
 struct RidgeMetrics {
   double ridges = 0;     // length [m]
-  double curvature = 0;  // of the shape, root mean square [1/m]
+  double curvature = 0;  // of the shape, root mean square over the area [1/m]
   double residual = 0;   // what would be left without load, likewise [1/m]
 };
 
@@ -58,12 +58,13 @@ RidgeMetrics measured_ridges(Session& session, const C& choice) {
   Simulation& simulation = session.simulation();
   const int d = simulation.dimension();
   const std::vector<double> size = curvature_size(simulation.residual_curvature(), d);
+  const std::vector<double> area = element_areas(mesh, d);
   double edges = 0;
   for (const Edge& e : mesh.edge) edges += (mesh.rest[e.p3] - mesh.rest[e.p2]).norm();
   const double spacing = kLines * edges / static_cast<double>(mesh.edge.size());
   return {ridge_length(mesh, unrolled(mesh, session.scene().cloth),
                        vertex_average(session.cloth().mesh, size, d), choice.ridge, spacing),
-          root_mean_square(curvature_size(simulation.curvature(), d)), root_mean_square(size)};
+          root_mean_square(simulation.curvature(), area), root_mean_square(size, area)};
 }
 
 // Where the cloth reaches that hangs from its only pin in the end.
@@ -111,14 +112,8 @@ RunPlan run_plan(Session& session, const C& choice, RidgeMetrics& last) {
 
 // residual.csv: share of the area by the curvature that it would keep.
 void write_histogram(Session& session) {
-  const ClothMesh& mesh = session.cloth().mesh;
   const int dimension = session.simulation().dimension();
-  std::vector<double> area = mesh.face_area;
-  if (dimension == 1) {
-    area.clear();
-    for (int e = 0; e < mesh.interior_edges; ++e)
-      area.push_back(mesh.face_area[mesh.edge[e].face0] + mesh.face_area[mesh.edge[e].face1]);
-  }
+  const std::vector<double> area = element_areas(session.cloth().mesh, dimension);
   const double bin = 2 * session.scene().fabric.friction_curvature() / kBins;
   const std::vector<double> fraction =
       area_fractions(curvature_size(session.simulation().residual_curvature(), dimension), area, bin, kBins);

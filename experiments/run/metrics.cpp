@@ -11,6 +11,8 @@
 
 #include "experiments/workbench/app/json_file.h"
 #include "sim/base/error.h"
+#include "sim/base/root_mean_square.h"
+#include "sim/bending/vertex_curvature.h"
 #include "sim/scene/assets.h"
 #include "sim/scene/toml_file.h"
 
@@ -21,7 +23,7 @@ using M = MetricRequest;
 // clang-format off
 const KeyRow<M> kRows[] = {
     {"name", at<&M::name>, "", any(), "", "of the column in metrics.csv and, with its unit, of the metric: small letters, digits and _"},
-    {"kind", at<&M::kind>, "", any(), "distance | height | angle | force | residual-curvature", "distance of point and to; height of point; angle between the mean normals of two parts, 0 when they are parallel; force of a hand on the cloth; root mean square in a part"},
+    {"kind", at<&M::kind>, "", any(), "distance | height | angle | force | residual-curvature", "distance of point and to; height of point; angle between the mean normals of two parts, 0 when they are parallel; force of a hand on the cloth; root mean square over the area of a part"},
     {"point", at<&M::point>, "m", any(), "", "distance, height: of the vertex nearest to this on the flat cloth"},
     {"to", at<&M::to>, "m", any(), "", "distance: to the vertex nearest to this"},
     {"low", at<&M::low>, "m", any(), "", "angle, residual-curvature: corner of the box that contains the part, on the flat cloth"},
@@ -179,10 +181,13 @@ double RequestedMetric::force(Simulation& simulation) const {
 double RequestedMetric::residual_curvature(Simulation& simulation) const {
   const std::vector<double> k = simulation.residual_curvature();
   const int d = simulation.dimension();
-  double sum = 0;
-  for (const int i : items_)
-    for (int c = 0; c < d; ++c) sum += std::pow(k[i * d + c], 2);
-  return std::sqrt(sum / static_cast<double>(items_.size()));
+  const std::vector<double> all = element_areas(cloth_.mesh, d);
+  std::vector<double> part, area;
+  for (const int i : items_) {
+    part.insert(part.end(), &k[i * d], &k[i * d] + d);
+    area.push_back(all[i]);
+  }
+  return root_mean_square(part, area);
 }
 
 }  // namespace hysteron::experiments

@@ -1,17 +1,28 @@
+// The root mean square of a field over a cloth, each value by the area that it stands for.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <vector>
 
 namespace hysteron {
 
-// Of no values: 0.
+// `area` has one number for each element or vertex [m^2], `values` equally many components for each of them:
+// the mean is over the cloth, whatever its mesh.  Of no area: 0.
 template <class Number>
-double root_mean_square(const std::vector<Number>& values) {
-  double square = 0;
-  for (const Number value : values) square += static_cast<double>(value) * value;
-  return std::sqrt(square / static_cast<double>(std::max<std::size_t>(1, values.size())));
+double root_mean_square(const std::vector<Number>& values, const std::vector<double>& area) {
+  const std::size_t components = area.empty() ? 1 : values.size() / area.size();
+  double square = 0, sum = 0;
+  for (std::size_t i = 0; i < area.size(); ++i) {
+    double own = 0;
+    for (std::size_t c = 0; c < components; ++c) {
+      const double value = values[i * components + c];
+      own += value * value;
+    }
+    square += area[i] * own;
+    sum += area[i];
+  }
+  return sum > 0 ? std::sqrt(square / sum) : 0;
 }
 
 }  // namespace hysteron

@@ -4,6 +4,14 @@
 
 namespace hysteron {
 
+std::vector<double> element_areas(const ClothMesh& mesh, int dimension) {
+  if (dimension == 3) return mesh.face_area;
+  std::vector<double> area;
+  for (int e = 0; e < mesh.interior_edges; ++e)
+    area.push_back((mesh.face_area[mesh.edge[e].face0] + mesh.face_area[mesh.edge[e].face1]) / 2);
+  return area;
+}
+
 std::vector<float> vertex_average(const ClothMesh& mesh, const std::vector<double>& element, int dimension) {
   std::vector<float> sum(mesh.vertices(), 0), weight(mesh.vertices(), 0);
   const auto add = [&](int vertex, double value, double area) {

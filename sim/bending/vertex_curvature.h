@@ -1,4 +1,4 @@
-// Curvature at the vertices, as pictures show it.
+// Curvature at the vertices, as pictures show it, and the weights of means over the cloth.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,6 +8,10 @@
 #include "sim/mesh/cloth_mesh.h"
 
 namespace hysteron {
+
+// The area that each bending element stands for in means over the cloth [m^2]: a face its own, a hinge half
+// that of its two faces.
+std::vector<double> element_areas(const ClothMesh& mesh, int dimension);
 
 // Average of one number per element over the elements at each vertex, weighted by their areas.  `dimension`:
 // of the elements' curvature, 1: hinges, 3: faces.

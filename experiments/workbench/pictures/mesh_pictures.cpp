@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "experiments/workbench/pictures/fabric_look.h"
+#include "experiments/workbench/pictures/subject.h"
 #include "sim/base/error.h"
 #include "sim/base/root_mean_square.h"
 #include "sim/bending/vertex_curvature.h"
@@ -70,6 +71,7 @@ render::Image MeshPictures::picture(const Surface& frame, const std::string& wha
       curvature_.assign(frame.curvature.begin(), frame.curvature.end());
     else
       curvature_ = surface_curvature(frame.vertex, frame.face, what);
+    area_ = vertex_areas(flat_triangles(face_), flat_points(frame.vertex));
     view_.set_values(curvature_);
   }
   render::Image image = view_.draw(camera());
@@ -92,7 +94,7 @@ std::optional<render::ColorBar> MeshPictures::color_bar() const {
 
 std::optional<double> MeshPictures::curvature_rms() const {
   if (curvature_.empty()) return {};
-  return root_mean_square(curvature_);
+  return root_mean_square(curvature_, area_);
 }
 
 }  // namespace hysteron::experiments

@@ -51,7 +51,8 @@ class MeshPictures {
   render::ClothView view_;
   std::vector<Eigen::Vector3i> face_;  // of the cloth that the view has; empty: none of this sequence
   std::size_t vertices_ = 0;
-  std::vector<float> curvature_;
+  std::vector<float> curvature_;  // of each vertex [1/m]
+  std::vector<double> area_;      // likewise [m^2]
 };
 
 }  // namespace hysteron::experiments

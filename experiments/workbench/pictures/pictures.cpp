@@ -198,7 +198,8 @@ void Pictures::frame(Run& run, const std::vector<float>& xyz, const render::Path
   std::optional<double> difference;
   for (Order& order : orders) {
     if (order.shown.values.empty()) continue;
-    if (order.look == "difference") difference = root_mean_square(order.shown.values);
+    if (order.look == "difference")
+      difference = root_mean_square(order.shown.values, subject_->vertex_areas());
     order.shown.values = rounded(order.shown.values, kept_frames_.quantum(order.look));
     instant.values[order.look] = order.shown.values;
   }

@@ -118,6 +118,7 @@ class SimulatedSubject : public Subject {
     std::transform(curvature.begin(), curvature.end(), other.begin(), curvature.begin(), std::minus<>());
     return curvature;
   }
+  std::vector<double> vertex_areas() const override { return cloth_.mesh.vertex_area; }
   int cuda_device() const override { return simulation_.cuda_device(); }
   std::unique_ptr<GlPositions> share_positions(unsigned gl_buffer, int gl_device,
                                                std::string& reason) override {
@@ -138,6 +139,20 @@ DrawnMesh drawn_mesh(const ClothMesh& mesh, const ClothShape& shape) {
                   mean_edge(mesh) / kStepsAnEdge};
   drawn.pattern = rounded(drawn.pattern, drawn.quantum);
   return drawn;
+}
+
+std::vector<double> vertex_areas(const std::vector<int>& triangles, const std::vector<float>& xyz) {
+  const auto point = [&](int vertex) {
+    const float* x = &xyz[3 * static_cast<std::size_t>(vertex)];
+    return Eigen::Vector3d(x[0], x[1], x[2]);
+  };
+  std::vector<double> area(xyz.size() / 3, 0);
+  for (std::size_t t = 0; t + 2 < triangles.size(); t += 3) {
+    const Eigen::Vector3d a = point(triangles[t]);
+    const double whole = (point(triangles[t + 1]) - a).cross(point(triangles[t + 2]) - a).norm() / 2;
+    for (std::size_t k = 0; k < 3; ++k) area[triangles[t + k]] += whole / 3;
+  }
+  return area;
 }
 
 std::unique_ptr<Subject> simulated(const Scene& scene, const Cloth& cloth, Simulation& simulation,

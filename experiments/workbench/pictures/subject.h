@@ -21,6 +21,8 @@ class Subject {
   virtual std::vector<float> positions() = 0;  // x, y, z of each vertex [m]
   // One a vertex, in looks that show a value; none in others.
   virtual std::vector<float> values(const std::string& look) = 0;
+  // That each vertex stands for in means over the cloth [m^2].
+  virtual std::vector<double> vertex_areas() const = 0;
   virtual int cuda_device() const { return -1; }
   // As Simulation::share_positions().
   virtual std::unique_ptr<GlPositions> share_positions(unsigned gl_buffer, int gl_device,
@@ -29,6 +31,9 @@ class Subject {
 
 // As pictures draw it; its quantum is a fraction of the mean edge.
 DrawnMesh drawn_mesh(const ClothMesh& mesh, const ClothShape& shape);
+
+// A third of the triangles around each vertex, as they lie now [m^2].
+std::vector<double> vertex_areas(const std::vector<int>& triangles, const std::vector<float>& xyz);
 
 // `reference`: the folder of the run that look "difference" subtracts; "": none.  Cloth and simulation must
 // outlive it.
@@ -49,6 +54,10 @@ class KeptSubject : public Subject {
   // Curvature that was not kept is that of the shape.  Throws Error::invalid_input for other values that were
   // not.
   std::vector<float> values(const std::string& look) override;
+  // Those of the first instant: the cloth at rest was not kept.
+  std::vector<double> vertex_areas() const override {
+    return experiments::vertex_areas(mesh_.triangles, instants_.front().xyz);
+  }
   std::unique_ptr<GlPositions> share_positions(unsigned, int, std::string& reason) override {
     reason = "kept geometry";
     return nullptr;

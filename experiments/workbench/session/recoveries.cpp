@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/base/root_mean_square.h"
 #include "sim/bending/laws/recovery.h"
+#include "sim/bending/vertex_curvature.h"
 
 namespace hysteron::experiments {
 
@@ -24,23 +26,21 @@ void Recoveries::finish(Session& session, const std::string&) {
   const LawChoice law = choose_law(scene.law, curve_, scene.param);
   const int d = simulation.dimension();
   const std::vector<double> root = simulation.residual_curvature();
-  double by_root = 0;
-  for (double k : root) by_root += k * k;
-  const double elements = static_cast<double>(root.size()) / d;
-  run.metric("residual_curvature_rms_per_m", std::sqrt(by_root / elements));
+  const std::vector<double> area = element_areas(session.cloth().mesh, d);
+  run.metric("residual_curvature_rms_per_m", root_mean_square(root, area));
   if (!counts()) return;
   const std::vector<double> k = simulation.curvature(), m = simulation.moment();
-  double by_formula = 0;
+  std::vector<double> by_formula;
   for (std::size_t i = 0; i < k.size(); i += d) {
     const Eigen::Map<const Eigen::VectorXd> curvature(&k[i], d), moment(&m[i], d);
     const double size = curvature.norm(), along = size > 0 ? moment.dot(curvature) / size : 0;
-    by_formula += std::pow(residual_by_formula(law, size, std::max(along, 0.0)), 2);
+    by_formula.push_back(residual_by_formula(law, size, std::max(along, 0.0)));
   }
   const std::array<long, 3> count = cases();
   run.metric("recovery_elastic_count", count[0]);
   run.metric("recovery_partial_count", count[1]);
   run.metric("recovery_full_slip_count", count[2]);
-  run.metric("residual_curvature_formula_rms_per_m", std::sqrt(by_formula / elements));
+  run.metric("residual_curvature_formula_rms_per_m", root_mean_square(by_formula, area));
 }
 
 void Recoveries::see(const std::vector<double>& moment, int dimension) {

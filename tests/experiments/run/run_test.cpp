@@ -1,4 +1,8 @@
 
+#include <fmt/core.h>
+
+#include <cmath>
+
 #include "experiments/workbench/pictures/drawing.h"
 #include "render/compare.h"
 #include "tests/experiments/program.h"
@@ -99,6 +103,60 @@ high = [0.03, 0.2, 1]
 other-low = [0.17, 0, -1]
 )");
   EXPECT_NEAR(metrics["fold_deg"], 40, kRounding * 40);
+}
+
+// An OBJ of a strip of 0.2 m by 0.04 m whose halves have cells of these lengths [m], its second half rolled
+// to a curvature of 20/m: flat, or as it starts.
+std::string half_rolled(double first, double second, bool flat) {
+  constexpr double kHalf = 0.1, kRadius = 0.05, kWidth = 0.04;
+  constexpr int kRows = 4;
+  std::vector<double> along;
+  for (int i = 0; i < std::lround(kHalf / first); ++i) along.push_back(i * first);
+  for (int i = 0; i <= std::lround(kHalf / second); ++i) along.push_back(kHalf + i * second);
+  std::string text;
+  for (const double s : along)
+    for (int j = 0; j <= kRows; ++j) {
+      const double angle = flat || s < kHalf ? 0 : (s - kHalf) / kRadius;
+      const double x = angle > 0 ? kHalf + kRadius * std::sin(angle) : s;
+      text +=
+          fmt::format("v {:.12g} {:.12g} {:.12g}\n", x, kWidth * j / kRows, kRadius * (1 - std::cos(angle)));
+    }
+  for (std::size_t i = 0; i + 1 < along.size(); ++i)
+    for (int j = 1; j <= kRows; ++j) {
+      const auto a = static_cast<int>(i) * (kRows + 1) + j, b = a + kRows + 1;
+      text += fmt::format("f {} {} {}\nf {} {} {}\n", a, b, b + 1, a, b + 1, a + 1);
+    }
+  return text;
+}
+
+// Half of the cloth keeps a curvature: how many triangles it has there is no matter of the mean.
+TEST_F(Scenes, KeepAMeanCurvatureThatDoesNotDependOnWhereTheMeshIsFine) {
+  constexpr double kCells = 0.05;  // of the mean, by the cells where the curvature begins and at free edges
+  const auto kept = [&](double first, double second) {
+    folder_.write("flat.obj", half_rolled(first, second, true));
+    folder_.write("rolled.obj", half_rolled(first, second, false));
+    const Json metrics = recorded_metrics(R"(gravity = [0, 0, 0]
+step = 1e-4
+seconds = 1e-4
+[cloth]
+shape = "file"
+file = "flat.obj"
+start = "rolled.obj"
+[[pin]]
+low = [-1, -1, -1]
+high = [1, 1, 1]
+[[metric]]
+name = "kept"
+kind = "residual-curvature"
+)");
+    return std::pair<double, double>(metrics["kept_per_m"], metrics["residual_curvature_rms_per_m"]);
+  };
+  const auto even = kept(0.01, 0.01), graded = kept(0.02, 0.005), other = kept(0.005, 0.02);
+  EXPECT_GT(even.first, 1) << "friction holds a curvature";
+  for (const auto& [requested, recorded] : {graded, other}) {
+    EXPECT_NEAR(requested / even.first, 1, kCells);
+    EXPECT_NEAR(recorded / even.second, 1, kCells);
+  }
 }
 
 TEST_F(Scenes, ArePicturedWithTheirPhases) {

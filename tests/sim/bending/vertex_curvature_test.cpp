@@ -7,7 +7,9 @@
 #include <numbers>
 #include <set>
 
+#include "sim/base/root_mean_square.h"
 #include "sim/bending/curvature_operator.h"
+#include "sim/mesh/builders.h"
 #include "tests/sim/base/refusal.h"
 #include "tests/sim/mesh/mesh_measures.h"
 
@@ -138,6 +140,43 @@ TEST(SurfaceCurvature, AtFreeEdgesIsWholeAlongThemAndPartAcrossThem) {
   }
   EXPECT_GT(along, 50);
   EXPECT_GT(across, 20);
+}
+
+// A square of two triangles beside one of eight, in which alone the field is not zero: half of the area.
+TEST(RootMeanSquare, IsOverTheAreaNotOverTheElements) {
+  std::vector<Eigen::Vector2d> points = {{0, 0}, {0, 1}};
+  for (int i = 0; i <= 2; ++i)
+    for (int j = 0; j <= 2; ++j) points.emplace_back(1 + i / 2.0, j / 2.0);
+  const ClothMesh mesh = flat_mesh(points,
+                                   {{0, 2, 3},
+                                    {0, 3, 1},
+                                    {3, 4, 1},
+                                    {2, 5, 6},
+                                    {2, 6, 3},
+                                    {3, 6, 7},
+                                    {3, 7, 4},
+                                    {5, 8, 9},
+                                    {5, 9, 6},
+                                    {6, 9, 10},
+                                    {6, 10, 7}},
+                                   "two squares");
+  constexpr double kSize = 4;
+  std::vector<double> field;
+  double bent = 0, whole = 0;
+  for (int f = 0; f < mesh.faces(); ++f) {
+    const auto corners = mesh.corners(f);
+    const bool right = (corners[0] + corners[1] + corners[2]).x() > 3;
+    field.insert(field.end(), {0, right ? kSize : 0, 0});
+    whole += mesh.face_area[f];
+    if (right) bent += mesh.face_area[f];
+  }
+  EXPECT_NEAR(bent / whole, 0.5, 1e-12);
+  EXPECT_NEAR(root_mean_square(field, element_areas(mesh, 3)), kSize * std::sqrt(0.5), 1e-12);
+  EXPECT_EQ(root_mean_square(std::vector<double>(), {}), 0);
+  const std::vector<double> hinges = element_areas(mesh, 1);
+  ASSERT_EQ(hinges.size(), static_cast<std::size_t>(mesh.interior_edges));
+  for (int e = 0; e < mesh.interior_edges; ++e)
+    EXPECT_EQ(hinges[e], (mesh.face_area[mesh.edge[e].face0] + mesh.face_area[mesh.edge[e].face1]) / 2);
 }
 
 TEST(SurfaceCurvature, NeedsASurfaceWithAFront) {
