@@ -111,6 +111,48 @@ DrapeChoice drape_by_standard(const std::string& standard) {
   return choice;
 }
 
+bool is_own_tester(const PublishedNumber& number, const DrapeChoice& choice, double specimen_radius) {
+  if (number.tester != choice.standard) return false;
+  const auto is_near = [](double size, double standard) {
+    return std::abs(size - standard) <= kRound * standard;
+  };
+  return is_near(choice.disc, drape_by_standard(number.tester).disc) &&
+         is_near(specimen_radius, experiments::specimen_radius(number.tester));
+}
+
+std::string other_tester_message(const Fabric& fabric, const DrapeChoice& choice, double specimen_radius) {
+  for (const char* name : {"drape-coefficient", "node-count"}) {
+    const auto found = fabric.published.find(name);
+    if (found == fabric.published.end()) continue;
+    const PublishedNumber& number = found->second;
+    if (number.tester.empty()) return "the fabric's file names no tester of it (tester = iso9073 | jis)";
+    if (number.tester != choice.standard) return "is of another tester: --drape.standard " + number.tester;
+    if (!is_own_tester(number, choice, specimen_radius))
+      return "is of other sizes: --drape.standard " + number.tester + " without drape.disc and cloth.radius";
+  }
+  return "";
+}
+
+std::string tilt_warning(const Scene& scene) {
+  constexpr double kMost = 45, kNoticed = 0.1;  // [degree]
+  const Eigen::Vector3d& g = scene.gravity;
+  const std::string gravity =
+      shown(scene, "gravity", fmt::format("{:g} {:g} {:g}", g.x(), g.y(), g.z()), "m/s^2");
+  const double tilt = std::atan2(g.head<2>().norm(), -g.z()) * 180 / std::numbers::pi;
+  if (!(g.norm() > 0) || tilt > kMost)
+    throw Error::invalid_input(
+        gravity + fmt::format(" does not pull the specimen onto the pedestal: it must be more than 0, and "
+                              "within {:g} degree of straight down (0 0 -9.81)",
+                              kMost))
+        .with_key("gravity", number_text(g.norm()));
+  if (tilt <= kNoticed) return "";
+  return fmt::format(
+      "{} pulls {:.1f} degree away from straight down: the specimen hangs to one side, and no drape tester "
+      "does "
+      "so",
+      gravity, tilt);
+}
+
 void add_apparatus(Scene& scene, const DrapeChoice& choice, const Specimen& specimen) {
   // The discs press the specimen by a few times its own weight: both contacts stay closed, as in the
   // apparatus, and the plate throws nothing up when it goes down.

@@ -2,6 +2,8 @@
 // specimen, the plate that lets its ring down, and the shaking of the Japanese test; and the disc of cloth.
 #pragma once
 
+#include <string>
+
 #include "sim/scene/cloth.h"
 
 namespace hysteron::experiments {
@@ -41,6 +43,17 @@ struct DrapeChoice {
 // Japanese teaching page on the tester; stroke and period, which no source states, are chosen here).
 double specimen_radius(const std::string& standard);
 DrapeChoice drape_by_standard(const std::string& standard);
+
+// Whether a published number was measured on this tester: the standard that its fabric's file names, with the
+// sizes of that standard.
+bool is_own_tester(const PublishedNumber& number, const DrapeChoice& choice, double specimen_radius);
+// Why the drape that is published for the fabric is not set beside this one, and which tester to ask for; ""
+// where it is, and where none is published.
+std::string other_tester_message(const Fabric& fabric, const DrapeChoice& choice, double specimen_radius);
+
+// Error::invalid_input unless gravity pulls the specimen onto the pedestal, within 45 degrees of straight
+// down.  Returns the warning of any tilt, "" without one.
+std::string tilt_warning(const Scene& scene);
 
 inline constexpr double kPedestalHeight = 0.14;  // [m]
 

@@ -121,11 +121,13 @@ Json stated_numbers(const FabricFile& file) {
 // With the numbers as published.
 Json fabric_json(const FabricFile& file) {
   Json published = Json::object();
-  for (const auto& [name, number] : file.fabric.published)
+  for (const auto& [name, number] : file.fabric.published) {
     published[name] = {{"value", number.value},
                        {"unit", number.unit},
                        {"known", number.provenance.confidence},
                        {"source", number.provenance.source}};
+    if (!number.tester.empty()) published[name]["tester"] = number.tester;
+  }
   return {{"name", file.fabric.name},
           {"description", file.description},
           {"numbers", stated_numbers(file)},

@@ -82,15 +82,14 @@ render::Plot budget_plot(const std::vector<BudgetRow>& rows) {
   }
   const double last = static_cast<double>(plot.x.categories.size()) - 1, nominal = rows[0].coefficient,
                measured = rows[0].published;
-  plot.series = {{"as its file says", {0, last}, {nominal, nominal}},
-                 {"measured", {0, last}, {measured, measured}, render::Series::Style::dashed, "#000000"},
-                 errors,
-                 low,
-                 high};
+  plot.series = {
+      {"as its file says", {0, last}, {nominal, nominal}}, {"measured", {}, {}}, errors, low, high};
+  if (!std::isnan(measured))
+    plot.series[1] = {"measured", {0, last}, {measured, measured}, render::Series::Style::dashed, "#000000"};
   std::erase_if(plot.series, [](const render::Series& series) { return series.x.empty(); });
   plot.key_inside = true;
   constexpr double kRoomForTheKey = 10, kAir = 2;  // [%]
-  plot.y.low = plot.y.high = measured;
+  plot.y.low = plot.y.high = std::isnan(measured) ? nominal : measured;
   for (const BudgetRow& row : rows) {
     plot.y.low = std::min(plot.y.low, row.coefficient);
     plot.y.high = std::max(plot.y.high, row.coefficient + kAir);
@@ -109,12 +108,12 @@ void write_budget(const ValidateFlags& flags, Run& run) {
     run_drapes(all, flags, run);
     std::vector<BudgetRow> rows;
     for (const Trial& trial : trials) {
+      const Drape* drapes = &all[rows.size() * static_cast<std::size_t>(flags.draws)];
       std::vector<double> coefficients;
-      for (int draw = 0; draw < flags.draws; ++draw)
-        coefficients.push_back(all[rows.size() * static_cast<std::size_t>(flags.draws) + draw].coefficient());
+      for (int draw = 0; draw < flags.draws; ++draw) coefficients.push_back(drapes[draw].coefficient());
       BudgetRow& row = rows.emplace_back(
           BudgetRow{fabric, trial.number, trial.value, flags.draws, mean_value(coefficients),
-                    sample_deviation(coefficients) / std::sqrt(flags.draws), NAN, all.back().published()});
+                    sample_deviation(coefficients) / std::sqrt(flags.draws), NAN, drapes->published()});
       row.change = row.coefficient - rows[0].coefficient;
       table.row(
           {fabric, row.number, row.value, row.meshes, row.coefficient, row.error, row.change, row.published});

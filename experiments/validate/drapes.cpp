@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <cmath>
+
 #include "experiments/workbench/compare/comparison.h"
 #include "sim/base/error.h"
 #include "sim/base/number_in.h"
@@ -52,9 +54,11 @@ void run_drapes(std::vector<Drape>& drapes, const ValidateFlags& flags, Run& run
     if (!column.stopped.empty()) throw Error::simulation(column.name + ": " + column.stopped);
     drape.metrics = column.manifest.value().metrics;
     drape.seconds = column.manifest->total_seconds();
-    run.progress(fmt::format("{}: drape coefficient {:.1f} % (published {:.1f}), {:.0f} nodes, {:.1f} s",
-                             drape.name(), drape.coefficient(), drape.published(), drape.number("node_count"),
-                             drape.seconds));
+    const double published = drape.published();
+    run.progress(fmt::format("{}: drape coefficient {:.1f} %{}, {:.0f} nodes, {:.1f} s", drape.name(),
+                             drape.coefficient(),
+                             std::isnan(published) ? "" : fmt::format(" (published {:.1f})", published),
+                             drape.number("node_count"), drape.seconds));
   }
 }
 

@@ -42,6 +42,7 @@ struct Drape {
   }
   double number(const std::string& key) const { return metrics.number(key); }
   double coefficient() const { return number("drape_coefficient_percent"); }
+  // NaN where its fabric's was measured on another tester.
   double published() const { return number("published_drape_coefficient_percent"); }
 };
 

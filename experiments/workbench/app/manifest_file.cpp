@@ -446,9 +446,11 @@ std::vector<SourcedNumber> Manifest::fabric_numbers() const {
 
 std::vector<SourcedNumber> Manifest::published_numbers() const {
   std::vector<SourcedNumber> numbers;
-  for (const auto& [name, number] : at_path(keys, "fabric.published").items())
+  for (const auto& [name, number] : at_path(keys, "fabric.published").items()) {
+    const std::string tester = number.contains("tester") ? ", tester " + shown_at(number, "tester") : "";
     numbers.push_back({name, metric_value(at(number, "value")), shown_at(number, "unit"),
-                       shown_at(number, "confidence"), shown_at(number, "source")});
+                       shown_at(number, "confidence"), shown_at(number, "source") + tester});
+  }
   return numbers;
 }
 

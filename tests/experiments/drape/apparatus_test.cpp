@@ -47,6 +47,51 @@ TEST(ShakenDrape, GoesUpAndDownAndStops) {
   EXPECT_EQ(scene.obstacle[2].until, choice.lowered());
 }
 
+// A published drape is one of its own tester: of that standard, with its sizes.
+TEST(PublishedDrape, StandsBesideDrapesOfItsOwnTesterOnly) {
+  const DrapeChoice iso = drape_by_standard("iso9073"), jis = drape_by_standard("jis");
+  Fabric fabric;
+  EXPECT_EQ(other_tester_message(fabric, iso, 0.15), "") << "none is published";
+  fabric.published["drape-coefficient"] = {82.9, "%", {}, "jis"};
+  const PublishedNumber& number = fabric.published["drape-coefficient"];
+  EXPECT_TRUE(is_own_tester(number, jis, 0.127));
+  EXPECT_EQ(other_tester_message(fabric, jis, 0.127), "");
+  EXPECT_FALSE(is_own_tester(number, iso, 0.15));
+  EXPECT_TRUE(says(other_tester_message(fabric, iso, 0.15), "--drape.standard jis"));
+  EXPECT_FALSE(is_own_tester(number, jis, 0.15)) << "another specimen";
+  EXPECT_TRUE(says(other_tester_message(fabric, jis, 0.15), "without drape.disc and cloth.radius"));
+  fabric.published["drape-coefficient"].tester = "";
+  EXPECT_FALSE(is_own_tester(number, iso, 0.15));
+  EXPECT_TRUE(says(other_tester_message(fabric, iso, 0.15), "names no tester"));
+}
+
+TEST(PublishedDrape, IsNoResultOfADrapeOnAnotherTester) {
+  const Folder folder;
+  const std::vector<Flag> small = {{"triangles", "60"}, {"drape.shakes", "1"}, {"seconds", "0.8"}};
+  const Metrics default_metrics = quick_drape(folder, small);
+  EXPECT_FALSE(default_metrics.contains("published_drape_coefficient_percent"));
+  EXPECT_FALSE(default_metrics.contains("published_node_count"));
+  EXPECT_TRUE(says(default_metrics["published_drape"].text(), "--drape.standard jis"));
+  std::vector<Flag> shaken = small;
+  shaken.insert(shaken.end(), {{"drape.standard", "jis"}, {"drape.wait", "0"}});
+  const Metrics jis_metrics = quick_drape(folder, shaken);
+  EXPECT_EQ(jis_metrics["published_drape_coefficient_percent"].number(), 82.9);
+  EXPECT_FALSE(jis_metrics.contains("published_drape"));
+}
+
+TEST(Drape, RefusesGravityThatPullsTheSpecimenOffAndWarnsOfATilt) {
+  Scene scene = default_scene();
+  EXPECT_EQ(tilt_warning(scene), "");
+  scene.gravity = {0, 1, -9.81};
+  EXPECT_TRUE(says(tilt_warning(scene), "pulls 5.8 degree away from straight down"));
+  for (const Eigen::Vector3d& g : {Eigen::Vector3d(0, 0, 9.81), Eigen::Vector3d(9.81, 0, 0),
+                                   Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(6, 0, -5)}) {
+    scene.gravity = g;
+    EXPECT_TRUE(says(test::refusal([&] { tilt_warning(scene); }), "does not pull the specimen onto"))
+        << g.transpose();
+  }
+}
+
 TEST(LoweredDrape, DoesNotShake) {
   for (const char* release : {"lowered", "relifted", "dropped"}) {
     DrapeChoice choice;
