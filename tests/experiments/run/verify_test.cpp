@@ -331,7 +331,7 @@ TEST_F(Recorded, RunWhoseManifestHoldsLessThanItFindsDiffers) {
   EXPECT_TRUE(
       says(without([](Json& json) { json["state_hash"] = nullptr; }), "not in the manifest: the state"));
   EXPECT_TRUE(says(without([](Json& json) { json["metrics"] = Json::object(); }),
-                   "not in the manifest: drape_coefficient_percent"));
+                   "0 of 0 metrics the same; not in the manifest: ", "drape_coefficient_percent"));
   EXPECT_TRUE(says(without([](Json& json) { json["metrics"].erase("node_count"); }),
                    "not in the manifest: node_count"));
   EXPECT_TRUE(says(without([](Json& json) { json["metrics"]["gone_m"] = 1; }), "no longer measured: gone_m"));
@@ -369,7 +369,7 @@ TEST_F(Recorded, RunOfASceneOfOnesOwnIsRepeatedWithItsPictures) {
   EXPECT_EQ(manifest_in(run())["scene_name"], "mine");
   const std::string verify = "verify " + in("runs") + " --limits " +
                              folder_.write("limits.toml", "max-mean = 0\n") + " --out " + in("check");
-  EXPECT_TRUE(says(finished(verify).out, "2 pictures the same"));
+  EXPECT_TRUE(says(finished(verify).out, "3 pictures the same"));
   EXPECT_EQ(manifest_in(folder_.path() / "check" / "one")["scene_name"], "mine");
   edit([](Json& json) { json.erase("scene_name"); });  // as older programs wrote it
   finished(verify);
@@ -381,6 +381,10 @@ TEST_F(Recorded, RunThatTookLongIsLeftOut) {
   const Outcome outcome = program("verify " + in("runs") + " --quick --out " + in("check"));
   EXPECT_TRUE(says(outcome.out, "took 5 s, more than 4 s"));
   EXPECT_EQ(outcome.exit_code, 2) << "nothing was compared";
+  edit([](Json& json) { json["experiment"] = "sweep", json["wall_seconds"]["total"] = 0.1; });
+  EXPECT_TRUE(says(program("verify " + in("runs") + " --quick --out " + in("check")).out,
+                   "was collected from runs that are not here"))
+      << "whose time it does not say";
 }
 
 }  // namespace

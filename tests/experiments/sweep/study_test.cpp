@@ -134,6 +134,20 @@ ChildRun found(const Metrics& metrics) {
   return column;
 }
 
+TEST(Study, GivesARunASeedOnlyWhereItsMeshIsDrawn) {
+  const Study study = parsed_study(
+      "experiment = \"swing\"\nseeds = 2\n[[axis]]\nkey = \"mesh\"\nvalues = [\"random\", \"aligned\"]\n");
+  ASSERT_EQ(study.runs.size(), 4u);
+  int drawn = 0;
+  for (const StudyRun& run : study.runs) {
+    const CommandLine line = run_command_line(study, run);
+    const bool has_seed = !last_text(line.flags, "seed", "").empty();
+    EXPECT_EQ(has_seed, last_text(line.flags, "mesh", "") == "random") << run.name;
+    drawn += has_seed;
+  }
+  EXPECT_EQ(drawn, 2);
+}
+
 TEST(Study, TellsTheMeanOfRepeatedDrawsWithItsStandardError) {
   constexpr double kRounding = 1e-12;
   const Study study = parsed_study(
