@@ -25,9 +25,28 @@ constexpr std::string_view kAssets = "assets/";
 
 std::string hash_text(std::uint64_t hash) { return fmt::format("{:016x}", hash); }
 
+// Without links; as it is named where that cannot be found out.
+fs::path canonical_or_same(const fs::path& path) {
+  std::error_code failure;
+  fs::path canonical = fs::weakly_canonical(path, failure);
+  return failure ? path : canonical;
+}
+
+// Both without links.
 bool is_inside(const fs::path& file, const fs::path& folder) {
-  const fs::path inner = fs::weakly_canonical(file), outer = fs::weakly_canonical(folder);
-  return std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end()).first == outer.end();
+  return std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end();
+}
+
+// assets/..., or from the working folder what lies below it, however its path was made absolute; else as it
+// was named.
+std::string input_name(const fs::path& file, const fs::path& canonical, const fs::path& here) {
+  std::string name = file.lexically_normal().string();
+  try {
+    name = asset_name(name);
+  } catch (const Error&) {  // an installation without assets
+  }
+  const bool is_below = fs::path(name).is_absolute() && is_inside(canonical, here);
+  return is_below ? canonical.lexically_relative(here).string() : name;
 }
 
 // Where a recorded file is on this machine.
@@ -80,12 +99,11 @@ std::vector<InputRecord> inputs_of_job(const fs::path& own) {
   const Job* const job = Job::current();
   if (!job) return inputs;
   std::error_code ignored;
-  const fs::path here = fs::current_path(ignored);
+  const fs::path here = canonical_or_same(fs::current_path(ignored)), outputs = canonical_or_same(own);
   for (const FileRead& read : job->files_read()) {
-    if (is_inside(read.file, own)) continue;
-    std::string name = asset_name(read.file.lexically_normal());
-    // What lies below the working folder is named from there, however its path was made absolute.
-    if (fs::path(name).is_absolute() && is_inside(name, here)) name = fs::proximate(name, here).string();
+    const fs::path canonical = canonical_or_same(read.file);
+    if (is_inside(canonical, outputs)) continue;
+    const std::string name = input_name(read.file, canonical, here);
     if (!find_file(inputs, name)) inputs.push_back({name, hash_text(read.hash)});
   }
   return inputs;
