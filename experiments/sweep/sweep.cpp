@@ -306,9 +306,9 @@ Experiment sweep() {
           .run = run_sweep,
           .own_keys = own_keys,
           .positionals = "STUDY",
-          .conditions = {{"jobs | threads | batch", "not collect"},
-                         {"resume", "not collect and not only and not part"},
-                         {"threads | jobs | resume | collect | only | part", "not snakemake"},
+          // How runs share the machine may be said of a study whichever way it is worked off.
+          .conditions = {{"resume", "not collect and not only and not part"},
+                         {"resume | collect | only | part", "not snakemake"},
                          {"part", "not only"},
                          {"collect", "not only and not part"}},
           .headlines = {.all = {{"runs_count", "runs", "", "{:.0f}", 1, kNoErrors},

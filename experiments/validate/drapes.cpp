@@ -34,7 +34,8 @@ std::vector<Flag> drape_flags(const Drape& drape, const ValidateFlags& flags) {
                            {"device", flags.device}};
   if (flags.seconds > 0) own.push_back({"seconds", number_text(flags.seconds)});
   if (flags.options.quick) {
-    own.insert(own.end(), {{"drape.lowering", "0.3"}, {"drape.shakes", "1"}});
+    if (drape.release != "dropped") own.push_back({"drape.lowering", "0.3"});
+    if (drape.release == "shaken") own.push_back({"drape.shakes", "1"});
     if (!(flags.seconds > 0)) own.push_back({"seconds", "1.4"});
   }
   own.insert(own.end(), drape.further.begin(), drape.further.end());

@@ -11,8 +11,7 @@ const std::map<std::string, std::vector<Flag>> kQuickest = {
     {"drape",  // settles before its time is over
      {{"triangles", "60"}, {"drape.lowering", "0.1"}, {"seconds", "1.5"}, {"drape.still", "0.4"}}},
     {"swing", {{"triangles", "60"}, {"seconds", "1.2"}}},
-    {"crease",
-     {{"triangles", "60"}, {"crease.fold", "pleat"}, {"crease.lift", "0.2"}, {"crease.recovery", "0.1"}}},
+    {"crease", {{"triangles", "60"}, {"crease.fold", "pleat"}, {"crease.recovery", "0.1"}}},
     {"fold", {{"triangles", "60"}, {"fold.cycles", "2"}}},
     {"crumple", {{"triangles", "100"}, {"seconds", "0.1"}}},
     {"buckle", {{"triangles", "60"}}},

@@ -50,9 +50,9 @@ TEST(Outline, IsTheEdgeOfTheSilhouetteOnly) {
   EXPECT_THROW(render::draw_outline(target, render::Image(10, 10), color, 1), Error);
 }
 
-const std::string kSmall =
-    " --triangles 60 --seconds 0.1 --fps 30 --device cpu --size 160x120 --compare.rows 2 --quality draft "
-    "--quiet";
+const std::string kSmallWithTimes =
+    " --triangles 60 --seconds 0.1 --fps 30 --device cpu --size 160x120 --quality draft --quiet";
+const std::string kSmall = kSmallWithTimes + " --compare.rows 2";
 
 double first_stiffness(const FinishedRun& run) {
   return run.manifest()["scene"]["columns"][0]["stiffness_times"];
@@ -159,8 +159,8 @@ TEST(ComparisonTable, HasAColumnForEveryMetricOfAnyRow) {
 
 std::string compare_refusal(const std::string& more) {
   const Folder folder;
-  const std::string said = without_warnings(
-      refused("compare swing --laws linear,prandtl" + out_flag(folder.path() / "out") + kSmall + more));
+  const std::string said = without_warnings(refused(
+      "compare swing --laws linear,prandtl" + out_flag(folder.path() / "out") + kSmallWithTimes + more));
   EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << said;
   return said;
 }
@@ -169,7 +169,7 @@ TEST(Compare, ShowsTheInstantsAndTheMetricsThatItIsAskedForInTheirOrder) {
   const FinishedRun run(
       "compare swing --laws linear,prandtl --compare.times 0.1,0.035 --compare.metrics "
       "max_stretch_percent,decay_shape,bending_friction_J" +
-      kSmall);
+      kSmallWithTimes);
   const std::string table = file_content(run.out / "table.csv");
   EXPECT_EQ(table.substr(0, table.find('\n')),
             "law,max_stretch_percent,decay_shape,bending_friction_J,stopped");

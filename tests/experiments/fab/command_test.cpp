@@ -66,7 +66,7 @@ TEST_F(FabCommand, FollowsStopsThatAFileStates) {
   std::ifstream shipped(find_asset("fabrics", "cotton-broad-k50", "test"));
   std::ofstream text(file);
   for (std::string line; std::getline(shipped, line);)  // b1 and k0 follow from the stops
-    if (!line.starts_with("b1 =") && !line.starts_with("k0 =")) text << line << "\n";
+    if (!line.starts_with("b1 = {") && !line.starts_with("k0 = {")) text << line << "\n";
   text << "\n[bending.stops]\nthresholds = [10, 50]\nstiffnesses = [8e-6, 1e-6]\n"
           "[bending.stops.weft]\nthresholds = [10, 50]\nstiffnesses = [4e-6, 1e-6]\n";
   text.close();

@@ -8,9 +8,10 @@ namespace hysteron::experiments {
 namespace {
 
 constexpr double kRotated = 1e-3;  // of what friction takes: rounding that other axes make, after a second
-const std::vector<Flag> kShort = {{"triangles", "60"}, {"seconds", "1.2"}, {"device", "cpu"}};
+const std::vector<Flag> kShort = {{"seconds", "1.2"}, {"device", "cpu"}};
 
 Json swing_with(std::vector<Flag> flags) {
+  if (last_text(flags, "cloth.file", "").empty()) flags.push_back({"triangles", "60"});
   flags.insert(flags.end(), kShort.begin(), kShort.end());
   return metrics_with("swing", flags);
 }

@@ -77,7 +77,7 @@ TEST(Setup, OfExperimentsWithoutASceneLetsFlagsWinOverQuickToo) {
 }
 
 TEST(Setup, RefusesWhatNoPictureSequenceCanHave) {
-  EXPECT_EQ(setup_error({{"fps", "0"}}), "fps = 0 1/s must be in (0, 10000] (--fps)");
+  EXPECT_EQ(setup_error({{"fps", "-1"}}), "fps = -1 1/s must be in [0, 10000] (--fps)");
   EXPECT_TRUE(says(setup_error({{"renderer", "vulkan"}}), "auto | egl | osmesa"));
   EXPECT_TRUE(says(setup_error({{"export", "stl"}}), "none | ply | obj | vtk | pc2"));
   EXPECT_TRUE(says(setup_error({{"camera.direction", "0 0 0"}}), "must not be zero"));
@@ -120,7 +120,7 @@ TEST(DumpedScene, IsReadAgainAndSaysTheSame) {
   const std::string cloth = "[cloth]\nshape = \"file\"\nfile = \"" + mesh + "\"\n";
   const std::string rest =
       "seconds = 2\nlaw = \"grinspun-edit\"\n" + cloth + "start = \"" + mesh +
-      "\"\nunit = \"cm\"\nweld = 1e-4\n"
+      "\"\nunit = \"centimetre\"\nweld = 1e-4\n"
       "[[phase]]\nname = \"hang\"\n[[phase]]\nname = \"fall\"\n"
       "[[pin]]\nselect = \"nearest\"\nuntil = \"fall\"\nkeys = [{time = 0.5, position = [0, 0, 1]}]\n"
       "[[obstacle]]\nkind = \"torus\"\nfrom = 1\n[[command]]\nkind = \"edit\"\ntime = 1\n";
