@@ -49,12 +49,12 @@ TEST(CreaseSpecimen, FeelsThePlateByItsShell) {
 // The fold springs up against the plate before that moves: what it presses there is the least that a plate
 // can bear.
 TEST(CreaseSpecimen, IsNotPressedByLessThanItBearsOpen) {
-  CreaseChoice choice;
-  choice.force = 1e-5;
-  const Error error = test::thrown_error([&] { loaded_plate(small_scene(), choice); });
-  EXPECT_EQ(error.exit_code(), 3);
-  EXPECT_TRUE(
-      says(error.what(), "crease.force = 1e-05 N must be > ", "a smaller force does not close the fold"));
+  const Folder folder;
+  const Outcome outcome = ended(
+      3, "crease --quick --triangles 60 --crease.force 1e-5 --no-images --device cpu --threads 1 --quiet" +
+             out_flag(folder.path() / "out"));
+  EXPECT_TRUE(says(outcome.err, "crease.force = 1e-05 N must be > "));
+  EXPECT_TRUE(says(outcome.err, "a smaller force does not close the fold"));
 }
 
 // Bent to a curvature K over all its length and let go, a law keeps M0/b2 at most.
