@@ -105,10 +105,15 @@ int run_test(const CommandLine& line) {
   const Fabric fabric = read_fabric(flags.fabric, "--fabric").fabric;
   const FabStrip strip = fab_fabric(fabric).strip(flags.direction);
   const bool measured = !flags.data.empty();
-  const FabLoops loops = measured ? find_loops(read_fab(flags.data, tester_units(flags.units), "fab"),
-                                               flags.direction, flags.test)
-                                  : loops_without_data(flags);
+  const auto asks_for = [&](const FabLoops& one) {
+    return one.direction == flags.direction && one.test == flags.test;
+  };
+  const FabLoops loops = measured
+                             ? find_loops(read_fab(flags.data, tester_units(flags.units), "fab", {asks_for}),
+                                          flags.direction, flags.test)
+                             : loops_without_data(flags);
   Run run(line, flags.options, to_json(keys));
+  for (const std::string& doubt : loops.doubts) run.warn(doubt);
   run.reserve({"fab.csv"});
   const ComparedLoops compared(loops, run_fab(loops, strip), measured);
   const std::string title = fabric.name + ", " + loops.name();

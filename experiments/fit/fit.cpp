@@ -15,6 +15,9 @@
 #include "sim/identification/curve.h"
 #include "sim/identification/decay_friction.h"
 #include "sim/identification/published.h"
+#include "sim/identification/series.h"
+#include "sim/scene/fabric_limits.h"
+#include "sim/scene/fabric_reader.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -200,6 +203,11 @@ Json resolved(Keys keys) {
 
 void finish(Run& run, const FitFlags& flags, const std::string& summary, const FabricNotes& notes) {
   for (const std::string& warning : borrowed_warnings(notes)) run.warn(warning);
+  Scene written;
+  written.fabric = read_fabric((run.folder() / "fabric.toml").string(), "fit").fabric;
+  for (const auto& [parameter, from] : written.fabric.provenance)
+    written.origin["fabric." + parameter] = from.confidence == "given" ? "--fabric." + parameter : "found";
+  for (const std::string& warning : fabric_warnings(written)) run.warn(warning);
   finish_with_report(run);
   if (flags.options.json) return;
   std::cout << summary;
@@ -230,24 +238,37 @@ void draw_decay(Run& run, const DecaySeries& series, const std::vector<double>& 
   run.plot("plot_decay", plot);
 }
 
-// fabric.toml, forms.csv, decay.csv (measured and by the fit), a plot and metrics; what a reader is told.
-std::string report_decay(Run& run, const DecayFlags& flags, double density, double rigidity,
-                         const FabricNotes& notes) {
-  const DecaySeries series = read_decay(flags.file, "fit");
-  const DecayQuestion question{flags.length, density, rigidity, flags.noise};
-  FabAnswer answer;
-  answer.found.bending = {identify_decay(series, question)};
-  answer.found.from = notes.from;
-  answer.forms = {even_forms(series, question)};
-  const FabBending& b = answer.found.bending[0];
-  for (const std::string& warning : bending_warnings(b, answer.forms[0])) run.warn(warning);
-  if (!(b.law.spring > 0))
+// A free vibration and what was identified from it.
+struct DecayAnswer {
+  DecaySeries series;
+  DecayQuestion question;
+  FabAnswer found;
+};
+
+DecayAnswer identify_vibration(const FitFlags& flags, const std::string& from) {
+  check_rigidity(flags.kes.b.value, "kes.b");
+  DecayAnswer answer{read_decay(flags.decay.file, "fit"),
+                     {flags.decay.length, flags.density, flags.kes.b.value, flags.decay.noise},
+                     {}};
+  check_decay(answer.series, answer.question, flags.decay.file);
+  FabBending found = identify_decay(answer.series, answer.question);
+  if (!(found.law.spring > 0))
     throw Error::invalid_input(
-        "decay: the friction that is found is steeper than kes.b = " + number_text(rigidity) +
+        "decay: the friction that is found is steeper than kes.b = " + number_text(flags.kes.b.value) +
         " N m where a tester reads it: check kes.b, fabric.density and decay.length")
-        .with_key("kes.b", number_text(rigidity));
-  write_fab_fabric(run.path("fabric.toml"), answer.found, notes);
-  write_forms(run, answer);
+        .with_key("kes.b", number_text(flags.kes.b.value));
+  answer.found.forms = {even_forms(answer.series, answer.question)};
+  found.widen_by(answer.found.forms[0]);
+  answer.found.found = {{found}, {}, from};
+  return answer;
+}
+
+// fabric.toml, forms.csv, decay.csv (measured and by the fit), a plot and metrics; what a reader is told.
+std::string report_decay(Run& run, const DecayAnswer& answer, const FabricNotes& notes) {
+  const FabBending& b = answer.found.found.bending[0];
+  for (const std::string& warning : bending_warnings(b, answer.found.forms[0])) run.warn(warning);
+  write_fab_fabric(run.path("fabric.toml"), answer.found.found, notes);
+  write_forms(run, answer.found);
   add_shape(run, b, "");
   run.metric("HB_N", b.law.friction());
   run.metric("HB_N_stderr", b.friction_error);
@@ -257,16 +278,17 @@ std::string report_decay(Run& run, const DecayFlags& flags, double density, doub
   run.metric("undetermined", b.undetermined());
 
   const auto by = [&](const FabBending& form) {
-    return decay_by(series, question, {form.law.thresholds, form.law.stiffnesses}, form.first);
+    return decay_by(answer.series, answer.question, {form.law.thresholds, form.law.stiffnesses}, form.first);
   };
-  const std::vector<double> found = by(b);
+  const std::vector<double> fitted = by(b);
   std::vector<double> saturated;
-  for (const FabForm& form : answer.forms[0])
+  for (const FabForm& form : answer.found.forms[0])
     if (form.name == "k0 = 50/m") saturated = by(form.found);
-  Table({{"time [s]", series.time}, {"amplitude [m]", series.amplitude}, {"fitted [m]", found}})
+  Table(
+      {{"time [s]", answer.series.time}, {"amplitude [m]", answer.series.amplitude}, {"fitted [m]", fitted}})
       .write(run.path("decay.csv"));
-  draw_decay(run, series, found, saturated);
-  return summary(answer);
+  draw_decay(run, answer.series, fitted, saturated);
+  return summary(answer.found);
 }
 
 void fit_decay(const CommandLine& line, const FitFlags& flags, const Keys& keys) {
@@ -276,10 +298,11 @@ void fit_decay(const CommandLine& line, const FitFlags& flags, const Keys& keys)
   for (int i = 0; i < 3; ++i)
     if (!(given[i] > 0))
       throw Error::invalid_input(std::string("--decay needs --") + names[i]).with_key(names[i], "");
+  const std::string from = "a free vibration in " + file_name(flags.decay.file);
+  const DecayAnswer answer = identify_vibration(flags, from);
   Run run(line, flags.options, resolved(keys));
-  const FabricNotes notes{flags.name, "a free vibration in " + file_name(flags.decay.file),
-                          if_given(flags.density), if_given(flags.thickness)};
-  finish(run, flags, report_decay(run, flags.decay, flags.density, flags.kes.b.value, notes), notes);
+  const FabricNotes notes{flags.name, from, if_given(flags.density), if_given(flags.thickness)};
+  finish(run, flags, report_decay(run, answer, notes), notes);
 }
 
 template <Answer (*identified)(const FitFlags&)>
@@ -320,6 +343,10 @@ int run_fit(const CommandLine& line) {
   if (flags.name.empty())
     throw Error::invalid_input("name = \"\" must be the fabric's (--name)").with_key("name", "");
   refuse_unread_flags(line, key_values(keys));
+  if (!std::isnan(flags.density))
+    check_fabric_number("density", flags.density, "fabric.density", "--fabric.density");
+  if (!std::isnan(flags.thickness))
+    check_fabric_number("thickness", flags.thickness, "fabric.thickness", "--fabric.thickness");
   check_units(flags);
   way_in(flags)(line, flags, keys);
   return 0;

@@ -238,6 +238,7 @@ struct FabPrediction {
 std::vector<FabPrediction> predict(const FabAnswer& answer, double density) {
   std::vector<FabPrediction> predictions;
   for (const FabLoops& loops : answer.loops) {
+    if (!loops.is_usable) continue;
     const std::string& along = loops.direction;
     const FabIdentification& found = answer.found;
     if (loops.bends() ? !can_predict(found.bending, along) : !can_predict(found.tension, along)) continue;
@@ -348,9 +349,16 @@ void add_shape(Run& run, const FabBending& b, const std::string& prefix) {
 
 FabAnswer fit_fab(const FabFlags& flags, const std::string& units, double density) {
   FabAnswer answer;
-  answer.loops = read_fab(flags.file, tester_units(units), "fit");
   answer.tests = split(flags.tests);
   answer.cycles = parsed_cycles(flags.cycles);
+  const auto among = [](const std::vector<std::string>& names, const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  const std::vector<std::string> asked = split(flags.directions);
+  const auto asks_for = [&](const FabLoops& one) {
+    return (asked.empty() || among(asked, one.direction)) && among(answer.tests, one.test);
+  };
+  answer.loops = read_fab(flags.file, tester_units(units), "fit", {asks_for, answer.cycles, flags.noise});
   const std::vector<std::string> directions = requested_directions(flags.directions, answer.loops);
   answer.found.from = where_from(flags, directions);
   FabBendingQuestion bending;
@@ -450,6 +458,8 @@ std::vector<std::string> bending_warnings(const FabBending& b, const std::vector
 }
 
 void report_fab(Run& run, const FabAnswer& answer, const FabricNotes& notes) {
+  for (const FabLoops& loops : answer.loops)
+    for (const std::string& doubt : loops.doubts) run.warn(doubt);
   for (std::size_t i = 0; i < answer.found.bending.size(); ++i)
     for (const std::string& warning : bending_warnings(answer.found.bending[i], answer.forms[i]))
       run.warn(warning);

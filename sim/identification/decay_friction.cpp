@@ -6,6 +6,7 @@
 
 #include "sim/base/csv.h"
 #include "sim/base/error.h"
+#include "sim/scene/key_table.h"
 
 namespace hysteron {
 namespace {
@@ -152,6 +153,43 @@ DecaySeries read_decay(const std::filesystem::path& file, const std::string& rea
     if (!(series.amplitude[i] > 0)) throw table.refusal(i, "amplitude must be > 0");
   }
   return series;
+}
+
+namespace {
+
+constexpr double kShortestStrip = 5e-3, kLongestStrip = 2;  // [m] below a clamp in a laboratory
+constexpr double kMillimetre = 1e-3;                        // [m]
+
+// What the amplitude would be in millimetres, or as half of the way from peak to peak.
+std::string amplitude_hint(double amplitude, double length) {
+  if (amplitude * kMillimetre >= kMillimetre && amplitude * kMillimetre < length)
+    return "; millimetres given as metres? Then it is " + rounded(amplitude * kMillimetre) + " m";
+  if (amplitude / 2 < length)
+    return "; from peak to peak? An amplitude is half of that, " + rounded(amplitude / 2) + " m";
+  return "";
+}
+
+}  // namespace
+
+void check_decay(const DecaySeries& series, const DecayQuestion& question, const std::string& file) {
+  const double length = question.length, first = series.amplitude.front(), last = series.amplitude.back();
+  if (!(length >= kShortestStrip && length <= kLongestStrip))
+    throw Error::invalid_input("decay.length = " + number_text(length) + " m must be in [" +
+                               number_text(kShortestStrip) + ", " + number_text(kLongestStrip) +
+                               "] m, as strips below a clamp are")
+        .with_key("decay.length", number_text(length));
+  for (const double amplitude : series.amplitude)
+    if (!(amplitude < length))
+      throw Error::invalid_input(file + ": amplitude = " + number_text(amplitude) +
+                                 " m must be < decay.length = " + number_text(length) +
+                                 " m, the strip's: its free end cannot swing farther" +
+                                 amplitude_hint(amplitude, length))
+          .with_key("decay", file);
+  if (!(last < first + question.noise))
+    throw Error::invalid_input(file + ": amplitudes rise from " + rounded(first) + " m to " + rounded(last) +
+                               " m, and must fall, since friction takes energy: do the rows run backwards "
+                               "in time?")
+        .with_key("decay", file);
 }
 
 std::vector<double> decay_by(const DecaySeries& series, const DecayQuestion& question, const Spectrum& stops,

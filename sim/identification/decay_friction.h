@@ -31,6 +31,10 @@ struct DecayQuestion {
   std::optional<FrictionForm> form = {};  // none: shaped_friction()
 };
 
+// Throws Error::invalid_input of amplitudes that such a strip cannot have: as large as it is long (in another
+// unit, or from peak to peak), or not falling.
+void check_decay(const DecaySeries& series, const DecayQuestion& question, const std::string& file);
+
 // The friction; `spring` is B without what KES-FB2 reads of the friction in it, and `rows` the amplitudes.
 FabBending identify_decay(const DecaySeries& series, const DecayQuestion& question);
 // Other forms: friction that saturates at k0 of a grid [1/m].

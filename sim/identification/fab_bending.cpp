@@ -339,7 +339,8 @@ void FabBending::widen_by(const std::vector<FabForm>& forms) {
     of_spring += weight * square(std::log(form.found.law.spring / law.spring));
     of_friction += weight * square(std::log(form.found.law.friction() / law.friction()));
   }
-  spring_error = std::hypot(spring_error, law.spring * std::sqrt(of_spring / weights));
+  if (spring_error > 0)  // of a decay it is given
+    spring_error = std::hypot(spring_error, law.spring * std::sqrt(of_spring / weights));
   friction_error = std::hypot(friction_error, law.friction() * std::sqrt(of_friction / weights));
   determined[0] = is_determined(spring_error / law.spring);
 }

@@ -18,7 +18,9 @@ constexpr double kMaxStretch = 3;                 // of the gauge
 constexpr int kFewestRows = 4;                    // of a branch
 constexpr double kRipple = 0.05;  // of a branch's way that the clamps may come back: they turn late
 constexpr double kGap = 0.3;      // of a branch's way between its first row and the last of the branch before
-constexpr double kWorkOfNoise = 0.05;    // of force range times way, that noise around no loop may give back
+constexpr double kWorkOfNoise = 0.05;  // of force range times way, that noise around no loop may give back
+constexpr const char* kWithinDrift =
+    ", by no more than they drift, or than another cycle contradicts: their sign is doubtful";
 constexpr double kFallOfFriction = 0.2;  // of the force range over the way: friction alone makes it flat
 
 class Checks {
@@ -62,7 +64,8 @@ class Checks {
                          distance, 100 * kLargestStart, loops_.gauge));
   }
 
-  void forces(int cycle) const {
+  // What is doubtful of the forces of a cycle, whose noise is that [N]; "" where nothing is.
+  std::string forces(int cycle, double noise) const {
     const BranchForces force = branch_forces(loops_);
     const double range = force_range(force, cycle);
     const std::string first = line(2 * static_cast<std::size_t>(cycle), 0);
@@ -73,18 +76,20 @@ class Checks {
     const double longest = std::max(clamp_travel(2 * cycle), clamp_travel(2 * cycle + 1));
     const double area = loop_area(loops_, force, cycle) / (range * longest);
     const double rise = slope(force, cycle) * longest / range;
+    const double unsure = drift(force, cycle) / range + noise / loops_.width / range;
     // Weight makes a strip that bends up push less as it goes on.
-    const bool falls = rise < -kFallOfFriction && (!loops_.bends_up() || area < -kWorkOfNoise);
-    if (falls)
-      refuse(fmt::format("in cycle {} forces fall as the clamps part, and must rise, tension being positive: "
-                         "turn the sign of the forces",
-                         cycle + 1),
-             first);
-    if (area < -kWorkOfNoise)
-      refuse(fmt::format("over cycle {} the strip gives back more work than it takes: its rows run backwards "
-                         "in time, or the sign of the forces is turned",
-                         cycle + 1),
-             first);
+    if (rise < -kFallOfFriction && (!loops_.bends_up() || area < -kWorkOfNoise)) {
+      const std::string falls = fmt::format("in cycle {} forces fall as the clamps part", cycle + 1);
+      if (-rise > unsure && !rises_elsewhere(force, cycle))
+        refuse(falls + ", and must rise, tension being positive: turn the sign of the forces", first);
+      return falls + kWithinDrift;
+    }
+    if (area >= -kWorkOfNoise) return "";
+    const std::string gives =
+        fmt::format("over cycle {} the strip gives back more work than it takes", cycle + 1);
+    if (-area > unsure / 2)
+      refuse(gives + ": its rows run backwards in time, or the sign of the forces is turned", first);
+    return gives + kWithinDrift;
   }
 
  private:
@@ -136,6 +141,22 @@ class Checks {
                     "rows must stand in the order in which they were measured",
                     distance[row], 100 * kRipple, b, must),
         line(b, row));
+  }
+
+  // By how much the cycle ends elsewhere than it began: by the instrument's drift, and by friction [N/m].
+  static double drift(const BranchForces& force, int cycle) {
+    return std::abs(force[2 * cycle + 1].back() - force[2 * cycle].front());
+  }
+
+  // A tester's sign is one for the whole record.
+  bool rises_elsewhere(const BranchForces& force, int cycle) const {
+    for (int other = 0; other < loops_.cycles(); ++other) {
+      const double range = force_range(force, other);
+      if (other != cycle && range > 0 &&
+          slope(force, other) * clamp_travel(2 * other) > kFallOfFriction * range)
+        return true;
+    }
+    return false;
   }
 
   // Of the straight line of force against distance through the cycle [N/m^2].
@@ -265,7 +286,34 @@ std::pair<double, double> extremes(const BranchForces& force, int cycle) {
 
 }  // namespace
 
-std::vector<FabLoops> read_fab(const fs::path& file, TesterUnits units, const std::string& reader) {
+namespace {
+
+// Of a test that is asked for, its cycles that count; of others, whether their way can be followed at all.
+void check_loops(FabLoops& loops, const FabRequest& request, const std::string& file,
+                 const std::string& reader) {
+  if (request.asks_for && !request.asks_for(loops)) {
+    try {
+      check_clamp_path(loops, file, reader);
+    } catch (const Error& error) {
+      loops.is_usable = false;
+      loops.doubts.push_back(std::string("not predicted: ") + error.what());
+    }
+    return;
+  }
+  check_clamp_path(loops, file, reader);
+  const Checks checks(loops, file, reader);
+  for (int cycle = 0; cycle < loops.cycles(); ++cycle) {
+    const std::vector<int>& cycles = request.cycles;
+    if (!cycles.empty() && std::find(cycles.begin(), cycles.end(), cycle + 1) == cycles.end()) continue;
+    const std::string doubt = checks.forces(cycle, request.noise);
+    if (!doubt.empty()) loops.doubts.push_back(loops.name() + ": " + doubt);
+  }
+}
+
+}  // namespace
+
+std::vector<FabLoops> read_fab(const fs::path& file, TesterUnits units, const std::string& reader,
+                               const FabRequest& request) {
   const UnitNames& unit = units == TesterUnits::si ? kSi : kFab;
   const std::string distance = "clamp_distance";
   Table table = read_tester_table(
@@ -303,11 +351,7 @@ std::vector<FabLoops> read_fab(const fs::path& file, TesterUnits units, const st
     loops.branches.back().distance.push_back(unit.metre * number(c.distance));
     loops.branches.back().force.push_back(unit.newton * number(c.force) / loops.width);
   }
-  for (const FabLoops& loops : all) {
-    check_clamp_path(loops, table.file, reader);
-    const Checks checks(loops, table.file, reader);
-    for (int cycle = 0; cycle < loops.cycles(); ++cycle) checks.forces(cycle);
-  }
+  for (FabLoops& loops : all) check_loops(loops, request, table.file, reader);
   return all;
 }
 

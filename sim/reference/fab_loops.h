@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -15,11 +16,13 @@ struct FabBranch {                      // one way, out or back
 };
 
 struct FabLoops {
-  std::string direction;            // "L", "W", "B": along which the strip was cut
-  std::string test;                 // "U1" bends up, "D1" down, "S1" stretches; gauges 1, 2
-  double gauge = 0;                 // length of the strip between the clamps [m]
-  double width = 0;                 // [m]
-  std::vector<FabBranch> branches;  // out, back, out, back, ...
+  std::string direction;                 // "L", "W", "B": along which the strip was cut
+  std::string test;                      // "U1" bends up, "D1" down, "S1" stretches; gauges 1, 2
+  double gauge = 0;                      // length of the strip between the clamps [m]
+  double width = 0;                      // [m]
+  std::vector<FabBranch> branches;       // out, back, out, back, ...
+  std::vector<std::string> doubts = {};  // sentences on what may be wrong with the record
+  bool is_usable = true;                 // a test that nobody asked for may be none
 
   int cycles() const { return static_cast<int>(branches.size()) / 2; }
   bool bends() const { return test.front() != 'S'; }
@@ -33,10 +36,16 @@ enum class TesterUnits { si, fab };
 // as endings: _m and _N (si), or _cm and _gf (fab: the tester's own; lines before the head, semicolons and
 // decimal commas are read, too).  Force is of the whole width.  Throws Error::system, Error::invalid_input
 // with file and line: other units than said, a column or a number that is missing, branches out of order,
-// another gauge or width within a test; as check_clamp_path(); and of forces that do not vary, do not rise as
-// the clamps part (tension > 0), or by which a cycle gives back work.  The zero of force does not matter.
+// another gauge or width within a test.  Of what is asked for also: as check_clamp_path(), and forces that do
+// not vary, do not rise as the clamps part (tension > 0), or by which a cycle gives back work, beyond drift
+// and noise; within these it is a doubt.  The zero of force does not matter.
+struct FabRequest {
+  std::function<bool(const FabLoops&)> asks_for = {};  // none: for every test
+  std::vector<int> cycles = {};                        // that count, the first being 1; none: all
+  double noise = 0;                                    // of forces of the whole width [N]
+};
 std::vector<FabLoops> read_fab(const std::filesystem::path& file, TesterUnits units,
-                               const std::string& reader);
+                               const std::string& reader, const FabRequest& request = {});
 
 // Of the loops in a file; Error::invalid_input names what there is.
 const FabLoops& find_loops(const std::vector<FabLoops>& all, const std::string& direction,

@@ -8,6 +8,7 @@
 #include "sim/base/error.h"
 #include "sim/base/plain_text.h"
 #include "sim/scene/assets.h"
+#include "sim/scene/fabric_limits.h"
 #include "sim/scene/keys.h"
 #include "sim/scene/scene_reader.h"
 #include "sim/scene/toml_file.h"
@@ -155,6 +156,7 @@ void read_parameter(const Reader& reader, const ValueTree& node, const ValueTree
     ranges[node.key] = *range;
   }
   assign(key, number.value, origin);
+  check_fabric_number(node.key, number.value, "fabric." + node.key, origin);
   scene.fabric.provenance[node.key] = number.provenance;
   scene.origin["fabric." + node.key] = origin;
 }

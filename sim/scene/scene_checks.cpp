@@ -5,6 +5,7 @@
 #include "sim/base/error.h"
 #include "sim/bending/laws/law_parameters.h"
 #include "sim/mesh/file_ending.h"
+#include "sim/scene/fabric_limits.h"
 #include "sim/scene/mesh_files.h"
 #include "sim/scene/motion.h"
 #include "sim/scene/scene_reader.h"
@@ -40,6 +41,7 @@ void check_fabric(const Scene& scene) {
                shown(scene, "fabric.kes-2hb", f.kes.read.loop_width, "N") + " steeper than " +
                shown(scene, "fabric.kes-b", f.kes.read.rigidity, "N m") +
                " where the tester reads: no elasticity is left beside it");
+  check_fabric_numbers(scene);
   if (f.b1 < f.b2) refuse("fabric.b1", f.b1, "N m", "must be >= " + shown(scene, "fabric.b2", f.b2, "N m"));
   if (f.k0 == 0 && f.b1 > f.b2) refuse("fabric.k0", f.k0, "1/m", "must be > 0 while fabric.b1 > fabric.b2");
   if (4 * f.bias_bending < 1 + f.weft_bending)

@@ -74,5 +74,19 @@ TEST(DecayFriction, IsRefusedOfSeriesThatCannotBeOne) {
   EXPECT_TRUE(says(reason("0,1\n1,0.9\n2,0.8\n3,0\n4,0.6\n5,0.5\n"), "amplitude must be > 0"));
 }
 
+// 5 cm in millimetres, 10 cm from peak to peak, both on 8 cm, and rows that run backwards.
+TEST(DecayFriction, IsRefusedOfAmplitudesThatNoSuchStripHas) {
+  const auto reason = [](double scale, bool backwards) {
+    DecaySeries series = turns(12);
+    for (int i = 0; i < 12; ++i) series.amplitude[i] = scale * 0.05 * std::exp(-0.08 * (backwards ? -i : i));
+    return test::refusal([&] { check_decay(series, question(), "decay.csv"); });
+  };
+  EXPECT_EQ(reason(1, false), test::kAccepted);
+  EXPECT_TRUE(says(reason(1000, false), "decay.csv: amplitude = 50 m must be < decay.length = 0.08 m"));
+  EXPECT_TRUE(says(reason(1000, false), "millimetres given as metres? Then it is 0.05 m"));
+  EXPECT_TRUE(says(reason(2, false), "from peak to peak? An amplitude is half of that, 0.05 m"));
+  EXPECT_TRUE(says(reason(0.2, true), "amplitudes rise from 0.01 m"));
+}
+
 }  // namespace
 }  // namespace hysteron

@@ -125,6 +125,9 @@ class FabRecord : public testing::Test {
   }
   // What reading the file says of these loops.
   std::string said() const {
+    return refusal([&] { read_fab(folder_.write("a.csv", text()), TesterUnits::si, "t"); });
+  }
+  std::string text() const {
     std::string text = kHeadSi;
     for (std::size_t b = 0; b < loops_.branches.size(); ++b)
       for (std::size_t i = 0; i < loops_.branches[b].distance.size(); ++i)
@@ -132,7 +135,7 @@ class FabRecord : public testing::Test {
                 std::to_string(loops_.branches[b].distance[i]) + "," +
                 std::to_string(loops_.branches[b].force[i] * loops_.width) + "," +
                 std::to_string(loops_.gauge) + "," + std::to_string(loops_.width) + "\n";
-    return refusal([&] { read_fab(folder_.write("a.csv", text), TesterUnits::si, "t"); });
+    return text;
   }
   template <class Change>
   void change_forces(const Change& change) {
@@ -159,6 +162,24 @@ TEST_F(FabRecord, OfForcesThatDoNotVaryIsRefused) {
 TEST_F(FabRecord, WithTheSignOfForceTurnedIsRefused) {
   change_forces([](double force) { return -force; });
   EXPECT_TRUE(says(said(), "turn the sign of the forces"));
+}
+
+// Light fabrics: the zero of force drifts in the first cycle by more than the strip pushes.
+TEST_F(FabRecord, WhoseZeroDriftsIsReadWithADoubtAndOnlyWhereItIsAskedFor) {
+  double drift = 0;
+  for (double& force : loops_.branches[0].force) force += (drift += 0.5);
+  for (std::size_t b = 1; b < loops_.branches.size(); ++b)
+    for (double& force : loops_.branches[b].force) force += drift;
+  const std::string file = folder_.write("drift.csv", text());
+  const auto read = [&](const FabRequest& request) { return read_fab(file, TesterUnits::si, "t", request); };
+  ASSERT_EQ(read({}).size(), 1u);
+  ASSERT_EQ(read({})[0].doubts.size(), 1u);
+  EXPECT_TRUE(says(read({})[0].doubts[0], "L D1: in cycle 1 forces fall as the clamps part, by no more"));
+  EXPECT_TRUE(read({{}, {2}, 0})[0].doubts.empty());
+  change_forces([](double force) { return -force; });
+  const FabRequest another{[](const FabLoops& one) { return one.direction == "W"; }, {}, 0};
+  const std::string turned = folder_.write("turned.csv", text());
+  EXPECT_EQ(refusal([&] { read_fab(turned, TesterUnits::si, "t", another); }), test::kAccepted);
 }
 
 // Branches in their order, but each from its end to its beginning and the last first.

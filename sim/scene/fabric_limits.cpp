@@ -1,0 +1,131 @@
+#include "sim/scene/fabric_limits.h"
+
+#include <cstdio>
+
+#include "sim/base/error.h"
+#include "sim/scene/fabric_reader.h"
+#include "sim/scene/shown_key.h"
+
+namespace hysteron {
+namespace {
+
+// Another unit in which a number may have been given, and one of it in the parameter's own.
+struct UnitSlip {
+  const char* unit;
+  double factor;
+};
+
+struct FabricLimit {
+  const char* parameter;
+  const char* unit;
+  double (*value)(const Fabric&);
+  Range possible, usual;  // zero, which stands for "none" of a rigidity or of friction, is always usual
+  UnitSlip slip;
+};
+
+constexpr UnitSlip kKesRigidity = {"gf cm^2/cm", kGramForceSquareCentimetrePerCentimetre};
+constexpr UnitSlip kKesWidth = {"gf cm/cm", kGramForceCentimetrePerCentimetre};
+constexpr UnitSlip kKesStiffness = {"gf/cm", 0.980665};
+constexpr UnitSlip kGramsPerSquareMetre = {"g/m^2", 1e-3};
+constexpr UnitSlip kMillimetres = {"mm", 1e-3};
+constexpr UnitSlip kPerCentimetre = {"1/cm", 100};
+constexpr UnitSlip kNoSlip = {nullptr, 1};
+
+// From voile of 10 g/m^2 to felt and carpet; rigidities from silk's to leather's, a steel foil of 0.1 mm
+// having 0.02 N m; stiffnesses from a knit's to a coated weave's.
+const FabricLimit kLimits[] = {
+    {"density", "kg/m^2", [](const Fabric& f) { return f.density; }, between(1e-3, 20), between(0.01, 1.5),
+     kGramsPerSquareMetre},
+    {"thickness", "m", [](const Fabric& f) { return f.thickness; }, between(1e-6, 0.1), between(2e-5, 0.01),
+     kMillimetres},
+    {"b1", "N m", [](const Fabric& f) { return f.b1; }, between(0, 0.02), between(1e-8, 1e-3), kKesRigidity},
+    {"b2", "N m", [](const Fabric& f) { return f.b2; }, between(0, 0.02), between(1e-8, 1e-3), kKesRigidity},
+    {"k0", "1/m", [](const Fabric& f) { return f.k0; }, between(0, 1e7), between(1, 1e3), kPerCentimetre},
+    {"kes-b", "N m", [](const Fabric& f) { return f.kes.read.rigidity; }, between(0, 0.02),
+     between(1e-8, 1e-3), kKesRigidity},
+    {"kes-2hb", "N", [](const Fabric& f) { return f.kes.read.loop_width; }, between(0, 0.1),
+     between(1e-6, 0.02), kKesWidth},
+    {"weft-bending", "", [](const Fabric& f) { return f.weft_bending; }, between(1e-3, 1e3),
+     between(0.02, 50), kNoSlip},
+    {"bias-bending", "", [](const Fabric& f) { return f.bias_bending; }, between(1e-3, 1e3),
+     between(0.02, 50), kNoSlip},
+    {"warp", "N/m", [](const Fabric& f) { return f.warp; }, between(0, 1e8), between(1, 1e6), kKesStiffness},
+    {"weft", "N/m", [](const Fabric& f) { return f.weft; }, between(0, 1e8), between(1, 1e6), kKesStiffness},
+    {"shear", "N/m", [](const Fabric& f) { return f.shear; }, between(0, 1e8), between(0, 1e6),
+     kKesStiffness},
+    {"damping", "s", [](const Fabric& f) { return f.damping; }, between(0, 1e3), between(0, 1), kNoSlip},
+    {"friction", "", [](const Fabric& f) { return f.friction; }, between(0, 100), between(0, 3), kNoSlip},
+};
+
+const FabricLimit* limit_of(const std::string& parameter) {
+  for (const FabricLimit& limit : kLimits)
+    if (limit.parameter == parameter) return &limit;
+  return nullptr;
+}
+
+std::string three_digits(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", x);
+  return text;
+}
+
+std::string with_unit(const std::string& number, const FabricLimit& limit) {
+  return *limit.unit ? number + " " + limit.unit : number;
+}
+
+// "; g/m^2 given? Then it is 0.124 kg/m^2", where that would be usual.  A ratio that is as small as a
+// rigidity is one.
+std::string slip_text(const FabricLimit& limit, double value) {
+  const std::string parameter = limit.parameter;
+  if (parameter.ends_with("-bending") && between(1e-8, 1e-3).contains(value))
+    return "; a rigidity in N m given? It is a ratio, over the rigidity along warp";
+  if (!limit.slip.unit || !limit.usual.contains(value * limit.slip.factor)) return "";
+  return std::string("; ") + limit.slip.unit + " given? Then it is " +
+         with_unit(three_digits(value * limit.slip.factor), limit);
+}
+
+std::string shown_number(const FabricLimit& limit, double value, const std::string& key) {
+  return key + " = " + with_unit(number_text(value), limit);
+}
+
+}  // namespace
+
+void check_fabric_number(const std::string& parameter, double value, const std::string& key,
+                         const std::string& origin) {
+  const FabricLimit* limit = limit_of(parameter);
+  if (!limit || limit->possible.contains(value)) return;
+  throw Error::invalid_input(shown_number(*limit, value, key) + " must be " +
+                             with_unit(limit->possible.text(), *limit) + ", as fabrics can be" +
+                             slip_text(*limit, value))
+      .with_origin(origin)
+      .with_key(key, number_text(value));
+}
+
+std::string fabric_number_warning(const std::string& parameter, double value, const std::string& key,
+                                  const std::string& origin) {
+  const FabricLimit* limit = limit_of(parameter);
+  if (!limit || value == 0 || limit->usual.contains(value)) return "";
+  return shown_number(*limit, value, key) + " (" + origin + ") is unusual: fabrics have " +
+         with_unit(three_digits(limit->usual.low) + " to " + three_digits(limit->usual.high), *limit) +
+         slip_text(*limit, value);
+}
+
+void check_fabric_numbers(const Scene& scene) {
+  for (const FabricLimit& limit : kLimits) {
+    const std::string key = std::string("fabric.") + limit.parameter;
+    check_fabric_number(limit.parameter, limit.value(scene.fabric), key, key_origin(scene, key));
+  }
+}
+
+std::vector<std::string> fabric_warnings(const Scene& scene) {
+  std::vector<std::string> warnings;
+  for (const FabricLimit& limit : kLimits) {
+    const std::string key = std::string("fabric.") + limit.parameter;
+    const std::string warning =
+        fabric_number_warning(limit.parameter, limit.value(scene.fabric), key, key_origin(scene, key));
+    if (!warning.empty()) warnings.push_back(warning);
+  }
+  return warnings;
+}
+
+}  // namespace hysteron

@@ -1,0 +1,86 @@
+// Numbers that no fabric has are refused wherever they enter, unusual ones are warned of, and shipped fabrics
+// pass.
+#include "sim/scene/fabric_limits.h"
+
+#include <gtest/gtest.h>
+
+#include "sim/scene/cloth.h"
+#include "sim/scene/fabric_reader.h"
+#include "sim/scene/scene_reader.h"
+#include "tests/sim/base/folder.h"
+#include "tests/sim/base/refusal.h"
+
+namespace hysteron {
+namespace {
+
+using test::says;
+
+std::string refusal_of(const std::string& key, const std::string& value) {
+  Scene scene = default_scene();
+  return test::refusal([&] {
+    apply_flags(scene, {{key, value}});
+    check_scene(scene);
+  });
+}
+
+TEST(FabricLimits, RefuseWhatNoFabricHasAndNameTheUnitThatWasProbablyMeant) {
+  const std::string density = refusal_of("fabric.density", "124");
+  EXPECT_TRUE(says(density, "fabric.density = 124 kg/m^2 must be in [0.001, 20] kg/m^2"));
+  EXPECT_TRUE(says(density, "g/m^2 given? Then it is 0.124 kg/m^2"));
+  EXPECT_TRUE(says(density, "(--fabric.density)"));
+  EXPECT_TRUE(says(refusal_of("fabric.thickness", "0.4"), "mm given? Then it is 0.0004 m"));
+  // 0.118 gf cm^2/cm times 9.80665e-5 N m.
+  EXPECT_TRUE(says(refusal_of("fabric.kes-b", "0.118"), "gf cm^2/cm given? Then it is 1.16e-05 N m"));
+  EXPECT_TRUE(says(refusal_of("fabric.weft-bending", "1e-5"), "It is a ratio"));
+}
+
+TEST(FabricLimits, RefuseThemInAFabricsFileAtTheirLine) {
+  const test::Folder folder;
+  std::string text = "name = \"f\"\ndescription = \"d\"\n[parameters]\n";
+  for (const char* entry : {"b1 = {value = 4e-5, unit = \"N m\"", "b2 = {value = 1e-5, unit = \"N m\"",
+                            "k0 = {value = 40, unit = \"1/m\"", "density = {value = 124, unit = \"kg/m^2\"",
+                            "thickness = {value = 4e-4, unit = \"m\""})
+    text += std::string(entry) + ", source = \"x\", confidence = \"given\"}\n";
+  const std::string file = folder.write("f.toml", text);
+  const std::string said = test::refusal([&] { read_fabric(file, "test"); });
+  EXPECT_TRUE(says(said, "fabric.density = 124 kg/m^2 must be"));
+  EXPECT_TRUE(says(said, "f.toml:7")) << "the line of density";
+}
+
+TEST(FabricLimits, WarnOfTheUnusualWhichRuns) {
+  Scene scene = default_scene();
+  EXPECT_TRUE(fabric_warnings(scene).empty());
+  apply_flags(scene, {{"fabric.k0", "0.5"}, {"fabric.density", "3"}});
+  EXPECT_NO_THROW(check_scene(scene));
+  const std::vector<std::string> warnings = fabric_warnings(scene);
+  ASSERT_EQ(warnings.size(), 2u);
+  EXPECT_EQ(warnings[0],
+            "fabric.density = 3 kg/m^2 (--fabric.density) is unusual: fabrics have 0.01 to 1.5 kg/m^2");
+  EXPECT_TRUE(says(warnings[1], "1/cm given? Then it is 50 1/m"));
+}
+
+TEST(FabricLimits, PassEveryFabricThatIsShipped) {
+  for (const FabricFile& file : list_fabrics()) {
+    Scene scene = default_scene();
+    scene.fabric = file.fabric;
+    EXPECT_TRUE(fabric_warnings(scene).empty()) << file.fabric.name << ": " << fabric_warnings(scene)[0];
+    EXPECT_NO_THROW(check_fabric_numbers(scene)) << file.fabric.name;
+  }
+}
+
+// Studies of extremes run: no bending, no friction, and bending of 1e-12 N m.
+TEST(FabricLimits, LeaveExtremesToStudies) {
+  Scene scene = default_scene();
+  scene.fabric.kes.shape = {};
+  scene.fabric.bending.stops = {};
+  scene.fabric.b1 = scene.fabric.b2 = 0;
+  scene.fabric.friction = 0;
+  EXPECT_NO_THROW(check_scene(scene));
+  EXPECT_TRUE(fabric_warnings(scene).empty()) << "zero stands for none";
+  scene.fabric.b1 = scene.fabric.b2 = 1e-12;
+  EXPECT_NO_THROW(check_scene(scene));
+  EXPECT_EQ(fabric_warnings(scene).size(), 2u);
+}
+
+}  // namespace
+}  // namespace hysteron
