@@ -173,6 +173,10 @@ int run_compare(const CommandLine& line) {
   for (std::size_t c = 0; c < plan.columns.size(); ++c)
     keys["columns"].push_back({{"name", plan.columns[c].name}, {"stiffness_times", plan.scales[c]}});
   Run run(line, options, keys);
+  constexpr double kMissed = 1;  // [%]
+  if (keys.contains("tuned") && std::abs(keys["tuned"]["missed_percent"].get<double>()) > kMissed)
+    run.warn(fmt::format("compare.tune: the nearest number that was tried misses the target by {:.2g} %",
+                         keys["tuned"]["missed_percent"].get<double>()));
   claim_files(run, !options.no_images);
   run_columns(run, plan.columns, jobs);
   check_metrics(plan.columns, split(choice.metrics));

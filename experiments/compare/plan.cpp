@@ -119,6 +119,20 @@ std::vector<Flag> matched(const Scene& column, const Scene& reference, const Com
   return flags;
 }
 
+// A column that names its own stiffness would run with another one.
+void refuse_rescaled(const Variant& variant, double scale, const CompareChoice& choice) {
+  constexpr const char* kStiffnesses[] = {"fabric.b1", "fabric.b2", "fabric.k0", "fabric.kes-b",
+                                          "fabric.kes-2hb"};
+  if (scale == 1) return;
+  for (const Flag& flag : variant.flags)
+    if (std::ranges::find(kStiffnesses, flag.path) != std::end(kStiffnesses))
+      throw Error::invalid_input("column " + variant.name + ": " + flag.path + " = " + flag.text +
+                                 " would be multiplied by " + number_text(scale, 4) +
+                                 ", since compare.match = " + enum_name(choice.match) +
+                                 " gives the column a stiffness: --compare.match fabric leaves it as it is")
+          .with_key("compare.match", enum_name(choice.match));
+}
+
 // Colours mean the same in all columns, though fabrics have different transition curvatures.
 Flag shared_range(const CommandLine& inner, const std::vector<Scene>& columns) {
   double most = 0;
@@ -181,6 +195,7 @@ Plan comparison_plan(const CommandLine& inner, const std::vector<Variant>& varia
     std::vector<Flag> own = variant.flags;
     const Scene& reference = reference_scene(scenes, plan.reference, scenes[v].fabric.name);
     for (const Flag& flag : matched(scenes[v], reference, choice, scale)) own.push_back(flag);
+    refuse_rescaled(variant, scale, choice);
     const std::string name = variant.name.empty() ? inner.experiment : variant.name;
     if (name == choice.to) plan.to = static_cast<int>(plan.columns.size());
     own.push_back(range);

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <iostream>
+#include <map>
 
 #include "sim/base/error.h"
 #include "sim/base/number_in.h"
@@ -73,12 +74,19 @@ std::string tuned(const Tuning& tuning, const Excess& excess) {
                                " = " + tuning.low + ":" + tuning.high +
                                ": widen the bracket (--compare.tune)")
         .with_key("compare.tune", tuning.key + "=" + tuning.low + ":" + tuning.high);
-  std::string low = tuning.low, high = tuning.high, middle;
+  std::string low = tuning.low, high = tuning.high, best = low;
+  double least = std::abs(at_low);
+  const auto keep_best = [&](const std::string& number, double found) {
+    if (std::abs(found) <= least) best = number, least = std::abs(found);
+  };
+  keep_best(high, at_high);
   for (int i = 0; i < kBisections; ++i) {
-    middle = geometric_middle(low, high);
-    ((excess(middle) < 0) == (at_low < 0) ? low : high) = middle;
+    const std::string middle = geometric_middle(low, high);
+    const double found = excess(middle);
+    ((found < 0) == (at_low < 0) ? low : high) = middle;
+    keep_best(middle, found);
   }
-  return middle;
+  return best;
 }
 
 Json tune_first_column(const CommandLine& inner, std::vector<Variant>& variants, CompareChoice choice,
@@ -94,6 +102,7 @@ Json tune_first_column(const CommandLine& inner, std::vector<Variant>& variants,
   CommandLine line = inner;
   line.flags = with_later(line.flags, {{"no-images", "true"}});
   choice.to.clear();
+  std::map<std::string, double> missed;  // by how much of the target, with each number
   const Excess excess = [&](const std::string& number) {
     Plan plan = comparison_plan(line, {with_key(variants[0], tuning.key, number), variants[1]}, choice,
                                 std::filesystem::path(options.out) / "tries");
@@ -104,16 +113,14 @@ Json tune_first_column(const CommandLine& inner, std::vector<Variant>& variants,
                  target = metric_in(plan.columns[1], tuning.target);
     say(tuning.key + "=" + number + ": " + tuning.metric + " " + four_digits(own) + ", target " +
         four_digits(target));
+    missed[number] = 100 * (own - target) / std::abs(target);
     return own - target;
   };
   const std::string number = tuned(tuning, excess);
   variants[0] = with_key(variants[0], tuning.key, number);
   (options.json ? std::cerr : std::cout) << tuning.key << "=" << number << std::endl;
-  return {{"column", variants[0].name},
-          {"key", tuning.key},
-          {"value", *number_in(number)},
-          {"metric", tuning.metric},
-          {"target", tuning.target}};
+  return {{"column", variants[0].name}, {"key", tuning.key},       {"value", *number_in(number)},
+          {"metric", tuning.metric},    {"target", tuning.target}, {"missed_percent", missed[number]}};
 }
 
 }  // namespace hysteron::experiments

@@ -25,8 +25,8 @@ Tuning parsed_tuning(const std::string& key_and_bracket, const std::string& metr
 using Excess = std::function<double(const std::string& number)>;
 
 // Bisects the bracket in the logarithm kBisections times, to numbers of four significant digits, and returns
-// the last of them, as it was tried.  Throws Error::invalid_input if the excess has the same sign at both
-// ends.
+// the one that came nearest, as it was tried: where the metric jumps that need not be the last.  Throws
+// Error::invalid_input if the excess has the same sign at both ends.
 inline constexpr int kBisections = 9;  // four decades to 1.8 %
 std::string tuned(const Tuning& tuning, const Excess& excess);
 

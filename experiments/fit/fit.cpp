@@ -266,6 +266,7 @@ DecayAnswer identify_vibration(const FitFlags& flags, const std::string& from) {
 // fabric.toml, forms.csv, decay.csv (measured and by the fit), a plot and metrics; what a reader is told.
 std::string report_decay(Run& run, const DecayAnswer& answer, const FabricNotes& notes) {
   const FabBending& b = answer.found.found.bending[0];
+  for (const std::string& warning : decay_warnings(answer.series, answer.question)) run.warn(warning);
   for (const std::string& warning : bending_warnings(b, answer.found.forms[0])) run.warn(warning);
   write_fab_fabric(run.path("fabric.toml"), answer.found.found, notes);
   write_forms(run, answer.found);

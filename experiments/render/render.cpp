@@ -414,7 +414,9 @@ Experiment render_files() {
           .run = run_render,
           .own_keys = own_key_descriptions<option_keys>,
           .positionals = "FILES|DIR",
-          .conditions = {{"render.range | render.curvature", "look = curvature"}},
+          .conditions = {{"render.range | render.curvature", "look = curvature"},
+                         {"render.low", "render.high"},
+                         {"render.high", "render.low"}},
           .headlines = {.all = {{"frames_count", "frames", "", "{:.0f}", 1, kNoErrors}}}};
 }
 

@@ -46,6 +46,10 @@ Error refusal(const MetricRequest& request, const std::string& what) {
   return Error::invalid_input("metric " + request.name + ": " + what + " (" + request.origin + ")");
 }
 
+// Results of every run whose names end as those of requests do.
+const std::set<std::string> kOwnResults = {"hand_lag_m", "residual_curvature_rms_per_m",
+                                           "residual_curvature_formula_rms_per_m"};
+
 void check_names(const std::vector<MetricRequest>& requests) {
   std::set<std::string> seen = {"time", "fastest"};  // columns that every series has
   for (const auto& [name, joules] : Ledger{}.rows()) seen.insert(name);
@@ -58,6 +62,8 @@ void check_names(const std::vector<MetricRequest>& requests) {
                                  "\" must be small letters, digits and _ (" + request.origin + ")")
           .with_key("metric.name", request.name);
     if (!seen.insert(request.name).second) throw refusal(request, "there is a column of this name already");
+    if (kOwnResults.contains(request.metric()))
+      throw refusal(request, "every run has a result " + request.metric() + " of its own");
   }
 }
 
@@ -81,11 +87,33 @@ ValueTree metric_tables(const std::string& file) {
   return tables ? *tables : ValueTree{ValueTree::Kind::array, "metric", 0, {}, {}};
 }
 
-int nearest_vertex(const ClothMesh& mesh, const Eigen::Vector3d& point) {
+// No point of a triangle is farther from its nearest corner than its longest side is long.
+double longest_edge(const ClothMesh& mesh) {
+  double longest = 0;
+  for (const Edge& e : mesh.edge) longest = std::max(longest, (mesh.rest[e.p3] - mesh.rest[e.p2]).norm());
+  return longest;
+}
+
+bool lies_level(const ClothMesh& mesh) {
+  return std::ranges::all_of(mesh.rest,
+                             [&](const Eigen::Vector3d& x) { return x.z() == mesh.rest.front().z(); });
+}
+
+int nearest_vertex(const ClothMesh& mesh, const MetricRequest& request, const char* key,
+                   const Eigen::Vector3d& point) {
   const auto closer = [&](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
     return (a - point).squaredNorm() < (b - point).squaredNorm();
   };
-  return static_cast<int>(std::min_element(mesh.rest.begin(), mesh.rest.end(), closer) - mesh.rest.begin());
+  const auto nearest = std::min_element(mesh.rest.begin(), mesh.rest.end(), closer);
+  Eigen::Vector3d beside = *nearest - point;
+  if (lies_level(mesh)) beside.z() = 0;  // a flat cloth's height is where its file has it
+  const double distance = beside.norm();
+  if (distance > longest_edge(mesh))
+    throw refusal(request, std::string(key) + " lies " + number_text(distance, 3) +
+                               " m beside the flat cloth, whose nearest vertex is at " +
+                               number_text(nearest->x(), 4) + ", " + number_text(nearest->y(), 4) + ", " +
+                               number_text(nearest->z(), 4) + " m");
+  return static_cast<int>(nearest - mesh.rest.begin());
 }
 
 std::vector<int> in_box(const std::vector<Eigen::Vector3d>& centers, const Eigen::Vector3d& low,
@@ -134,9 +162,10 @@ RequestedMetric::RequestedMetric(const MetricRequest& request, const Scene& scen
                                  int dimension)
     : request_(request), scene_(scene), cloth_(cloth) {
   const std::string& kind = request.kind;
-  if (kind == "distance" || kind == "height") items_ = {nearest_vertex(cloth.mesh, request.point)};
+  if (kind == "distance" || kind == "height")
+    items_ = {nearest_vertex(cloth.mesh, request, "point", request.point)};
   if (kind == "distance") {
-    others_ = {nearest_vertex(cloth.mesh, request.to)};
+    others_ = {nearest_vertex(cloth.mesh, request, "to", request.to)};
     if (items_ == others_) throw refusal(request, "the same vertex is nearest to point and to to");
   }
   if (kind == "angle" || kind == "residual-curvature")

@@ -1,6 +1,7 @@
 #include "sim/identification/decay_friction.h"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -190,6 +191,38 @@ void check_decay(const DecaySeries& series, const DecayQuestion& question, const
                                " m, and must fall, since friction takes energy: do the rows run backwards "
                                "in time?")
         .with_key("decay", file);
+}
+
+std::vector<std::string> decay_warnings(const DecaySeries& series, const DecayQuestion& question) {
+  // First modes: of a cantilever without weight, and of a chain that hangs (half of the first zero of J0).
+  constexpr double kCantilever = 3.516, kChain = 1.2024, kGravity = 9.81;
+  // Large amplitudes slow a strip down; friction that has not slipped makes it up to so much stiffer.
+  constexpr double kSlowest = 0.6, kStiffest = 2.5, kLongest = 1.6;
+  std::vector<double> turns;
+  for (std::size_t i = 1; i < series.time.size(); ++i) turns.push_back(series.time[i] - series.time[i - 1]);
+  std::vector<double> sorted = turns;
+  std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2),
+                   sorted.end());
+  const double usual = sorted[sorted.size() / 2], length = question.length;
+  const double elastic = kCantilever / (length * length) * std::sqrt(question.rigidity / question.density),
+               weight = kChain * std::sqrt(kGravity / length);
+  const double longest = std::numbers::pi / (kSlowest * std::hypot(elastic, weight)),
+               shortest = std::numbers::pi / std::hypot(kStiffest * elastic, weight);
+  std::vector<std::string> warnings;
+  if (usual > longest || usual < shortest)
+    warnings.push_back(
+        "a turn takes " + rounded(usual) + " s, and half a period of a hanging strip of this length, " +
+        "weight and rigidity takes " + rounded(shortest) + " to " + rounded(longest) +
+        " s: HB goes with the inverse square of the time; are the times in seconds, and is there an "
+        "amplitude of every turn, on both sides?");
+  for (std::size_t i = 0; i < turns.size(); ++i)
+    if (turns[i] > kLongest * usual) {
+      warnings.push_back("the turn from t = " + number_text(series.time[i]) + " s takes " +
+                         rounded(turns[i]) + " s, and the others some " + rounded(usual) +
+                         " s: is an amplitude missing?");
+      break;
+    }
+  return warnings;
 }
 
 std::vector<double> decay_by(const DecaySeries& series, const DecayQuestion& question, const Spectrum& stops,

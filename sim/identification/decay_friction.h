@@ -35,6 +35,10 @@ struct DecayQuestion {
 // unit, or from peak to peak), or not falling.
 void check_decay(const DecaySeries& series, const DecayQuestion& question, const std::string& file);
 
+// What is doubtful about the times of the turns: a strip of this length, weight and rigidity swings at
+// another pace, or one turn takes much longer than the others.
+std::vector<std::string> decay_warnings(const DecaySeries& series, const DecayQuestion& question);
+
 // The friction; `spring` is B without what KES-FB2 reads of the friction in it, and `rows` the amplitudes.
 FabBending identify_decay(const DecaySeries& series, const DecayQuestion& question);
 // Other forms: friction that saturates at k0 of a grid [1/m].

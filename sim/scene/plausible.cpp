@@ -6,7 +6,6 @@
 
 #include "sim/mesh/file_ending.h"
 #include "sim/scene/cloth.h"
-#include "sim/scene/fabric_limits.h"
 #include "sim/scene/mesh_files.h"
 #include "sim/scene/shown_key.h"
 
@@ -119,7 +118,7 @@ std::string stretch_doubt(const Scene& scene, const ClothMesh& mesh,
 
 std::vector<std::string> cloth_doubts(const Scene& scene, const ClothMesh& mesh,
                                       const std::vector<Eigen::Vector3d>& start) {
-  std::vector<std::string> doubts = fabric_warnings(scene);
+  std::vector<std::string> doubts;
   const auto add = [&](const std::string& doubt) {
     if (!doubt.empty()) doubts.push_back(doubt);
   };

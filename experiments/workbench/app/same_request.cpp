@@ -175,6 +175,9 @@ std::string why_another_request(const Manifest& before, const CommandLine& line,
   std::vector<std::string> reasons = {keys.empty() ? "" : "it has other values of " + keys};
   for (const std::string& change : input_changes(before.inputs, inputs_of_job(setup.options.out)))
     reasons.push_back(change);
+  for (const std::string& file : before.files)
+    if (std::error_code ignored; !fs::exists(fs::path(setup.options.out) / file, ignored))
+      reasons.push_back("its " + file + " is not there any more");
   reasons.push_back(program_change(before));
   return joined_parts(reasons, ", ");
 }

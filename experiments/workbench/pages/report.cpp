@@ -81,12 +81,27 @@ bool is_loop(const fs::path& file) {
   return name == "plot_probe_moment" || name.find("_moment") != name.npos || name.find("loop") != name.npos;
 }
 
+// Files of the run itself: what lies beside them is another's.  Early programs listed none.
+std::vector<fs::path> own_files(const fs::path& folder, const Manifest& manifest, const std::string& ending) {
+  std::vector<fs::path> files = files_ending(folder, ending);
+  const auto& own = manifest.files;
+  std::erase_if(files, [&](const fs::path& file) {
+    return !own.empty() && !std::count(own.begin(), own.end(), file.filename().string());
+  });
+  return files;
+}
+
+bool has_frames(const Manifest& manifest) {
+  const auto is_frame = [](const std::string& file) { return file.starts_with("frames/"); };
+  return manifest.files.empty() || std::ranges::any_of(manifest.files, is_frame);
+}
+
 // SVG where there is one.
-std::string plots(const fs::path& folder, bool loops, PageForm form) {
+std::string plots(const fs::path& folder, const Manifest& manifest, bool loops, PageForm form) {
   std::string html;
-  for (const fs::path& file : files_ending(folder, ".svg"))
+  for (const fs::path& file : own_files(folder, manifest, ".svg"))
     if (is_loop(file) == loops) html += picture(file, file.stem().string(), form);
-  for (const fs::path& file : files_ending(folder, ".png")) {
+  for (const fs::path& file : own_files(folder, manifest, ".png")) {
     if (is_plot(file) && is_loop(file) == loops && !is_there(fs::path(file).replace_extension(".svg")))
       html += picture(file, file.stem().string(), form);
   }
@@ -94,9 +109,9 @@ std::string plots(const fs::path& folder, bool loops, PageForm form) {
 }
 
 // What else was drawn.
-std::string pictures(const fs::path& folder, PageForm form) {
+std::string pictures(const fs::path& folder, const Manifest& manifest, PageForm form) {
   std::string html;
-  for (const fs::path& file : files_ending(folder, ".png")) {
+  for (const fs::path& file : own_files(folder, manifest, ".png")) {
     if (!is_plot(file) && file.filename() != "sheet.png")
       html += picture(file, file.filename().string(), form);
   }
@@ -115,11 +130,13 @@ std::string turning_cloth(const fs::path& folder) {
 
 // The question, the numbers and the picture that answer it.
 std::string answer(const fs::path& folder, const Manifest& manifest, PageForm form) {
+  const std::vector<fs::path> drawn = own_files(folder, manifest, ".png");
   const fs::path sheet = folder / "sheet.png";
+  const bool has_sheet = std::count(drawn.begin(), drawn.end(), sheet) > 0;
   return "<div class=\"answer\">" +
          filled("answer.html", {{"question", experiment_named(manifest.experiment).question},
                                 {"numbers", answer_cards(manifest) + missing_errors(manifest)},
-                                {"picture", is_there(sheet) ? picture(sheet, "contact sheet", form) : ""},
+                                {"picture", has_sheet ? picture(sheet, "contact sheet", form) : ""},
                                 {"turn", turning_cloth(folder)}}) +
          "</div>\n";
 }
@@ -209,13 +226,13 @@ std::string report_page(const fs::path& folder, PageForm form) {
   if (study) form = PageForm::self_contained;  // plots and tables only, made to be sent
   const std::pair<const char*, std::string> sections[] = {
       {"Not complete", study ? study_failures(folder) : ""},
-      {"Loop", plots(folder, true, form)},
-      {"Plots", plots(folder, false, form)},
+      {"Loop", plots(folder, manifest, true, form)},
+      {"Plots", plots(folder, manifest, false, form)},
       {"Results", metric_cards(further_metrics(manifest)) + metric_table(metrics)},
-      {"Pictures", pictures(folder, form)},
+      {"Pictures", pictures(folder, manifest, form)},
       {"Means", study ? study_means(folder) : ""},
       {"Runs", study ? study_runs(folder) : ""},
-      {"Sequence", player(folder, "", kMaxFrames, form)},
+      {"Sequence", has_frames(manifest) ? player(folder, "", kMaxFrames, form) : ""},
       {"Study", study ? study_keys(manifest) : ""},
       {"Fabric", study ? "" : fabric_table(manifest)}};
   std::string all = answer(folder, manifest, form);

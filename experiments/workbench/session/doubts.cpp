@@ -9,6 +9,8 @@
 
 #include "sim/membrane/locking.h"
 #include "sim/scene/cloth.h"
+#include "sim/scene/fabric_limits.h"
+#include "sim/scene/shown_key.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -65,6 +67,27 @@ std::string memory_words(const Scene& scene) {
   return "";
 }
 
+// A command acts on the elements whose centres lie in its box.
+std::string command_warning(const Scene& scene, const Cloth& cloth, int dimension) {
+  const std::vector<Eigen::Vector3d> centers = cloth.element_centers(dimension);
+  for (std::size_t c = 0; c < scene.command.size(); ++c) {
+    const Command& command = scene.command[c];
+    const auto is_inside = [&](const Eigen::Vector3d& x) { return is_in_box(x, command.low, command.high); };
+    if (std::none_of(centers.begin(), centers.end(), is_inside))
+      return "[[command]] " + std::to_string(c + 1) +
+             " acts on nothing: no element of the flat cloth lies between its low and high";
+  }
+  return "";
+}
+
+std::string phases_warning(const Scene& scene) {
+  double phases = 0;  // [s]
+  for (const Phase& phase : scene.phase) phases += phase.seconds;
+  if (scene.phase.empty() || std::abs(phases - scene.seconds) <= scene.step / 2) return "";
+  return shown(scene, "seconds", scene.seconds, "s") +
+         " is how long the scene is simulated, and its phases take " + number_text(phases, 4) + " s";
+}
+
 std::vector<std::string> said(std::vector<std::string> texts) {
   std::erase(texts, "");
   return texts;
@@ -73,8 +96,12 @@ std::vector<std::string> said(std::vector<std::string> texts) {
 }  // namespace
 
 std::vector<std::string> doubts_at_start(const Scene& scene, const Cloth& cloth, Simulation& simulation) {
-  return said(
-      {memory_words(scene), locking_words(scene, cloth.mesh), pressed_words(scene, cloth, simulation)});
+  std::vector<std::string> doubts = fabric_warnings(scene);
+  for (const std::string& doubt :
+       {memory_words(scene), locking_words(scene, cloth.mesh), pressed_words(scene, cloth, simulation),
+        command_warning(scene, cloth, simulation.dimension()), phases_warning(scene)})
+    doubts.push_back(doubt);
+  return said(doubts);
 }
 
 std::vector<std::string> doubts_at_end(const Scene& scene, const Cloth& cloth,

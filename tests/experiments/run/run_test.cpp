@@ -257,6 +257,10 @@ TEST_F(Scenes, RefuseInOneLineWhatCannotBeMeasured) {
       {"name = \"a\"\nknid = \"height\"", "unknown key metric.knid"},
       {"name = \"a\"\nkind = \"heigth\"", "did you mean height?"},
       {"name = \"a\"", "the same vertex is nearest"},
+      {"name = \"residual_curvature_rms\"\nkind = \"residual-curvature\"",
+       "every run has a result residual_curvature_rms_per_m of its own"},
+      {"name = \"a\"\nkind = \"height\"\npoint = [9, 0, 0]",
+       "point lies 8.8 m beside the flat cloth, whose nearest vertex is at 0.2, 0, 0 m"},
       {"name = \"a\"\nkind = \"angle\"\nlow = [9, 9, 9]", "no element of the cloth"},
       {"name = \"a\"\nkind = \"force\"", "hand = 1 must be <= 0"}};
   for (const auto& [metric, message] : kCases) {

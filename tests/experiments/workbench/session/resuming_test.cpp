@@ -170,6 +170,11 @@ TEST(Resuming, ACompleteRunIsNotRepeatedAndOneWithoutCheckpointBeginsAnew) {
   EXPECT_EQ(again.err, run.out.string() + " is complete\n");
   EXPECT_EQ(program(kResumedSwing + " --resume --json" + out_flag(run.out)).out, manifest);
   EXPECT_EQ(file_content(run.out / "manifest.json"), manifest);
+  fs::remove(run.out / "turns.csv");
+  EXPECT_TRUE(
+      says(finished(kResumedSwing + " --resume" + out_flag(run.out)).err,
+           run.out.string() + " is complete, but its turns.csv is not there any more: from the start"));
+  EXPECT_TRUE(fs::exists(run.out / "turns.csv"));
   EXPECT_TRUE(says(finished(kResumedSwing + " --resume --law linear" + out_flag(run.out)).err,
                    run.out.string() + " is complete, but it has other values of law: from the start"));
   EXPECT_EQ(manifest_in(run.out)["law"], "linear");
