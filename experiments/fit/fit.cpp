@@ -111,7 +111,22 @@ std::vector<std::string> requested_laws(const std::string& text) {
 struct Answer {
   std::vector<Identification> fits;  // the best first
   std::string from;
+  std::string warning = {};  // of the data; "": none
 };
+
+// A tester that bends to opposite curvatures finds opposite moments.  Where the moments are opposite and the
+// curvatures are not, the zero of curvature is off.
+std::string curvature_zero_warning(const MomentSeries& series) {
+  constexpr double kNoticed = 0.02;  // of the half range of curvature
+  const auto [low, high] = std::ranges::minmax(series.curvature);
+  const auto [least, most] = std::ranges::minmax(series.moment);
+  const double middle = (low + high) / 2, half = (high - low) / 2;
+  const double beside = std::abs(middle) / half, of_moment = std::abs(least + most) / (most - least);
+  if (!(beside > kNoticed && of_moment < beside / 2 && low < 0 && high > 0)) return "";
+  return "curvatures go from " + number_text(low, 4) + " to " + number_text(high, 4) +
+         " 1/m, while the moments at their ends are opposite: the zero of curvature seems to be off by " +
+         number_text(middle, 3) + " 1/m, which b1 and k0 do not stand; subtract it from the column";
+}
 
 // The best first; laws that the data do not tell apart stay in the order in which they were asked for.
 void rank(std::vector<Identification>& fits) {
@@ -137,7 +152,7 @@ void rank(std::vector<Identification>& fits) {
 Answer from_loop(const FitFlags& flags) {
   const MomentSeries series = flags.units == "kes" ? read_kes_series(flags.loop, flags.ripple, "fit")
                                                    : read_series(flags.loop, flags.ripple, "fit");
-  Answer answer{{}, series.name};
+  Answer answer{{}, series.name, curvature_zero_warning(series)};
   for (const std::string& law : requested_laws(flags.law)) {
     CurveQuestion question;
     question.law.name = law;
@@ -312,6 +327,7 @@ void fit_curve(const CommandLine& line, const FitFlags& flags, const Keys& keys)
   Run run(line, flags.options, resolved(keys));
   const FabricNotes notes{flags.name, answer.from, if_given(flags.density), if_given(flags.thickness)};
   report_fits(run, answer.fits, notes);
+  if (!answer.warning.empty()) run.warn(answer.warning);
   if (const std::string warning = misses_warning(answer.fits[0]); !warning.empty()) run.warn(warning);
   finish(run, flags, summary(answer.fits), notes);
 }

@@ -34,18 +34,19 @@ constexpr UnitSlip kNoSlip = {nullptr, 1};
 // From voile of 10 g/m^2 to felt and carpet; rigidities from silk's to leather's, a steel foil of 0.1 mm
 // having 0.02 N m, which a bending tester reads at most; studies of stability go beyond.  Stiffnesses from a
 // knit's to a coated weave's.
+// Numbers from which others follow come before them, so that a refusal names what was given.
 const FabricLimit kLimits[] = {
     {"density", "kg/m^2", [](const Fabric& f) { return f.density; }, between(1e-3, 20), between(0.01, 1.5),
      kGramsPerSquareMetre},
     {"thickness", "m", [](const Fabric& f) { return f.thickness; }, between(1e-6, 0.1), between(2e-5, 0.01),
      kMillimetres},
-    {"b1", "N m", [](const Fabric& f) { return f.b1; }, between(0, 10), between(1e-8, 1e-3), kKesRigidity},
-    {"b2", "N m", [](const Fabric& f) { return f.b2; }, between(0, 10), between(1e-8, 1e-3), kKesRigidity},
-    {"k0", "1/m", [](const Fabric& f) { return f.k0; }, between(0, 1e7), between(1, 1e3), kPerCentimetre},
     {"kes-b", "N m", [](const Fabric& f) { return f.kes.read.rigidity; }, between(0, 0.02),
      between(1e-8, 1e-3), kKesRigidity},
     {"kes-2hb", "N", [](const Fabric& f) { return f.kes.read.loop_width; }, between(0, 0.1),
      between(1e-6, 0.02), kKesWidth},
+    {"b1", "N m", [](const Fabric& f) { return f.b1; }, between(0, 10), between(1e-8, 1e-3), kKesRigidity},
+    {"b2", "N m", [](const Fabric& f) { return f.b2; }, between(0, 10), between(1e-8, 1e-3), kKesRigidity},
+    {"k0", "1/m", [](const Fabric& f) { return f.k0; }, between(0, 1e7), between(1, 1e3), kPerCentimetre},
     {"weft-bending", "", [](const Fabric& f) { return f.weft_bending; }, between(1e-3, 1e3),
      between(0.02, 50), kNoSlip},
     {"bias-bending", "", [](const Fabric& f) { return f.bias_bending; }, between(1e-3, 1e3),

@@ -193,6 +193,14 @@ TEST(Compare, RefusesInstantsAfterTheEndOfTheRunBeforeItBegins) {
   EXPECT_TRUE(says(compare_refusal(" --compare.times=-0.1"), "must be >= 0"));
 }
 
+TEST(Compare, RefusesAStiffnessThatItsMatchingWouldChange) {
+  const Folder folder;
+  const std::string said = refused("compare swing --laws linear+fabric.b2=1e-5,prandtl" +
+                                   out_flag(folder.path() / "out") + kSmall);
+  EXPECT_TRUE(says(said, "column linear+fabric.b2=1e-5: fabric.b2 = 1e-5 would be multiplied by "));
+  EXPECT_TRUE(says(said, "--compare.match fabric leaves it as it is"));
+}
+
 TEST(Compare, NamesTheColumnThatIsWrong) {
   const Folder folder;
   const std::string out = out_flag(folder.path() / "out") + kSmall;

@@ -154,6 +154,23 @@ TEST_F(Fit, WarnsOfALawThatIsNotNearTheData) {
   EXPECT_TRUE(says(warned_, "(--law all)"));
 }
 
+// A bilinear loop between -150 and 150/m, whose tester's zero is 20/m off.
+TEST_F(Fit, WarnsOfACurvatureWhoseZeroIsOff) {
+  for (const double offset : {0.0, 20.0}) {
+    const fs::path file = folder_.path() / "off.csv";
+    Column curvature{"curvature [1/m]", {}}, moment{"moment [N]", {}};
+    for (int i = 0; i <= 150; ++i) {
+      const double k = i <= 30 ? 5.0 * i : i <= 90 ? 150 - 5.0 * (i - 30) : -150 + 5.0 * (i - 90);
+      const double sign = i <= 30 || i > 90 ? 1 : -1;
+      curvature.values.push_back(k + offset);
+      moment.values.push_back(i == 0 ? 0 : 1e-5 * k + sign * 2e-4);
+    }
+    Table({curvature, moment}).write(file);
+    ASSERT_EQ(fit({{"loop", file.string()}, {"law", "bilinear"}}, offset > 0 ? "off" : "out"), 0);
+    EXPECT_EQ(says(warned_, "the zero of curvature seems to be off by 20 1/m"), offset > 0) << warned_;
+  }
+}
+
 // What is doubtful of a fit of loops, beside another form.
 TEST(FitWarnings, NameAFormThatDescribesTheLoopsFarBetterAndFrictionBeyondTheirReach) {
   FabBending found;

@@ -75,6 +75,26 @@ TEST(DecayFriction, IsRefusedOfSeriesThatCannotBeOne) {
 }
 
 // 5 cm in millimetres, 10 cm from peak to peak, both on 8 cm, and rows that run backwards.
+// First modes of a cantilever and of a hanging chain, 3.516/L^2 sqrt(B/sigma) and 1.2024 sqrt(g/L), together.
+TEST(DecayFriction, IsDoubtedWhereTheTimesAreNotThoseOfSuchAStrip) {
+  DecayQuestion question;
+  question.length = 0.08, question.density = 0.12, question.rigidity = 1.2e-5;
+  const double omega = std::hypot(3.516 / 0.0064 * 0.01, 1.2024 * std::sqrt(9.81 / 0.08));
+  DecaySeries series;
+  for (int i = 0; i < 8; ++i)
+    series.time.push_back(M_PI / omega * i), series.amplitude.push_back(0.02 - 0.001 * i);
+  EXPECT_TRUE(decay_warnings(series, question).empty());
+  for (const double factor : {1e3, 2.0, 1e-3}) {  // milliseconds, every second turn, a wrong unit
+    DecaySeries other = series;
+    for (double& time : other.time) time *= factor;
+    ASSERT_EQ(decay_warnings(other, question).size(), 1u) << factor;
+    EXPECT_TRUE(says(decay_warnings(other, question)[0], "are the times in seconds")) << factor;
+  }
+  series.time.erase(series.time.begin() + 3), series.amplitude.pop_back();
+  ASSERT_EQ(decay_warnings(series, question).size(), 1u);
+  EXPECT_TRUE(says(decay_warnings(series, question)[0], "is an amplitude missing?"));
+}
+
 TEST(DecayFriction, IsRefusedOfAmplitudesThatNoSuchStripHas) {
   const auto reason = [](double scale, bool backwards) {
     DecaySeries series = turns(12);

@@ -30,6 +30,7 @@ TEST(FabricLimits, RefuseWhatNoFabricHasAndNameTheUnitThatWasProbablyMeant) {
   EXPECT_TRUE(says(density, "(--fabric.density)"));
   EXPECT_TRUE(says(refusal_of("fabric.thickness", "0.4"), "mm given? Then it is 0.0004 m"));
   // 0.118 gf cm^2/cm times 9.80665e-5 N m.
+  EXPECT_TRUE(says(refusal_of("fabric.kes-b", "0.118"), "fabric.kes-b = 0.118 N m must be"));
   EXPECT_TRUE(says(refusal_of("fabric.kes-b", "0.118"), "gf cm^2/cm given? Then it is 1.16e-05 N m"));
   EXPECT_TRUE(says(refusal_of("fabric.weft-bending", "1e-5"), "It is a ratio"));
 }
