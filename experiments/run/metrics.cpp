@@ -87,28 +87,13 @@ ValueTree metric_tables(const std::string& file) {
   return tables ? *tables : ValueTree{ValueTree::Kind::array, "metric", 0, {}, {}};
 }
 
-// No point of a triangle is farther from its nearest corner than its longest side is long.
-double longest_edge(const ClothMesh& mesh) {
-  double longest = 0;
-  for (const Edge& e : mesh.edge) longest = std::max(longest, (mesh.rest[e.p3] - mesh.rest[e.p2]).norm());
-  return longest;
-}
-
-bool lies_level(const ClothMesh& mesh) {
-  return std::ranges::all_of(mesh.rest,
-                             [&](const Eigen::Vector3d& x) { return x.z() == mesh.rest.front().z(); });
-}
-
 int nearest_vertex(const ClothMesh& mesh, const MetricRequest& request, const char* key,
                    const Eigen::Vector3d& point) {
   const auto closer = [&](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
     return (a - point).squaredNorm() < (b - point).squaredNorm();
   };
   const auto nearest = std::min_element(mesh.rest.begin(), mesh.rest.end(), closer);
-  Eigen::Vector3d beside = *nearest - point;
-  if (lies_level(mesh)) beside.z() = 0;  // a flat cloth's height is where its file has it
-  const double distance = beside.norm();
-  if (distance > longest_edge(mesh))
+  if (const double distance = distance_beside(mesh, point); distance > 0)
     throw refusal(request, std::string(key) + " lies " + number_text(distance, 3) +
                                " m beside the flat cloth, whose nearest vertex is at " +
                                number_text(nearest->x(), 4) + ", " + number_text(nearest->y(), 4) + ", " +

@@ -184,6 +184,9 @@ int run_swing(const CommandLine& line) {
       turning_amplitudes(turning_points(times, swing, kMinTurn * sheet.length, kSwingRipple));
   const Decay decay = decay_between_amplitudes(amplitudes, kSmallSwing * (sheet.length - kClampedLength));
   run.metric("turns", turns.size());
+  const Scene& scene = setup.scene;
+  if (scene.gravity.isZero(0) || scene.integrator == Integrator::quasi_static)
+    run.warn("nothing swings without gravity and inertia (gravity, integrator = bdf2)");
   note_decay(run, amplitudes, decay);
   write_turns(run, amplitudes);
   run.manifest().curves = {{"plot_decay", "turns.csv", "time [s]", "amplitude [mm]", false, kDecayCaption}};

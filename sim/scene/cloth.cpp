@@ -94,6 +94,20 @@ Cloth placed(const Scene& scene, ClothMesh mesh, std::vector<Eigen::Vector3d> st
 
 }  // namespace
 
+double distance_beside(const ClothMesh& mesh, const Eigen::Vector3d& point) {
+  double longest = 0, nearest = std::numeric_limits<double>::infinity();
+  for (const Edge& e : mesh.edge) longest = std::max(longest, (mesh.rest[e.p3] - mesh.rest[e.p2]).norm());
+  const double height = mesh.rest.front().z();
+  const bool is_level =
+      std::ranges::all_of(mesh.rest, [&](const Eigen::Vector3d& x) { return x.z() == height; });
+  for (const Eigen::Vector3d& x : mesh.rest) {
+    Eigen::Vector3d between = x - point;
+    if (is_level) between.z() = 0;  // a flat cloth's height is where its file has it
+    nearest = std::min(nearest, between.norm());
+  }
+  return nearest > longest ? nearest : 0;
+}
+
 bool is_in_box(const Eigen::Vector3d& x, const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
   return ((x - low).array() >= -kSelectionSlack).all() && ((high - x).array() >= -kSelectionSlack).all();
 }

@@ -127,6 +127,14 @@ std::vector<std::string> fabric_warnings(const Scene& scene) {
         fabric_number_warning(limit.parameter, limit.value(scene.fabric), key, key_origin(scene, key));
     if (!warning.empty()) warnings.push_back(warning);
   }
+  // Friction that saturates below all bending that a tester sees, or beyond all that cloth bears.
+  const Range kUsualThresholds = between(2, 1e4);  // [1/m]; the largest, the smallest
+  for (const Spectrum* stops : {&scene.fabric.bending.stops, &scene.fabric.bending.weft_stops})
+    if (!stops->empty() && (stops->thresholds.back() < kUsualThresholds.low ||
+                            stops->thresholds.front() > kUsualThresholds.high))
+      warnings.push_back("thresholds of bending stops from " + three_digits(stops->thresholds.front()) +
+                         " to " + three_digits(stops->thresholds.back()) +
+                         " 1/m are unusual: are they in 1/m, not in 1/cm?");
   return warnings;
 }
 

@@ -80,6 +80,23 @@ std::string command_warning(const Scene& scene, const Cloth& cloth, int dimensio
   return "";
 }
 
+// Pins that hold something else than they seem to.
+std::vector<std::string> pin_warnings(const Scene& scene, const Cloth& cloth) {
+  std::vector<std::string> warnings;
+  for (std::size_t p = 0; p < scene.pin.size() && p < cloth.pin_vertices.size(); ++p) {
+    const Pin& pin = scene.pin[p];
+    const std::string name = "[[pin]] " + std::to_string(p + 1);
+    const double beside = pin.select == "nearest" ? distance_beside(cloth.mesh, pin.point) : 0;
+    if (beside > 0)
+      warnings.push_back(name + " holds the vertex that is nearest to its point, which lies " +
+                         number_text(beside, 3) + " m beside the flat cloth: is it in metres?");
+    const auto is_own = [&](int vertex) { return cloth.pin[vertex] == static_cast<int>(p); };
+    if (!(pin.from > 0) && std::ranges::none_of(cloth.pin_vertices[p], is_own))
+      warnings.push_back(name + " holds nothing at the start: later pins take all of its vertices");
+  }
+  return warnings;
+}
+
 std::string phases_warning(const Scene& scene) {
   double phases = 0;  // [s]
   for (const Phase& phase : scene.phase) phases += phase.seconds;
@@ -101,6 +118,7 @@ std::vector<std::string> doubts_at_start(const Scene& scene, const Cloth& cloth,
        {memory_words(scene), locking_words(scene, cloth.mesh), pressed_words(scene, cloth, simulation),
         command_warning(scene, cloth, simulation.dimension()), phases_warning(scene)})
     doubts.push_back(doubt);
+  for (const std::string& warning : pin_warnings(scene, cloth)) doubts.push_back(warning);
   return said(doubts);
 }
 

@@ -250,6 +250,29 @@ TEST_F(Scenes, WithoutMetricsHaveNoErrors) {
   EXPECT_TRUE(says(outcome.err, "has no [[metric]] whose errors could be measured"));
 }
 
+TEST_F(Scenes, WarnOfPinsCommandsAndPhasesThatDoOtherThanTheySeemTo) {
+  const Outcome outcome = run(0, "law = \"grinspun-edit\"\n" + kSquare + R"(
+[[phase]]
+name = "only"
+seconds = 0.3
+[[pin]]
+select = "nearest"
+point = [0, 15, 0]
+[[pin]]
+high = [0.01, 1, 1]
+[[command]]
+kind = "iron"
+low = [5, 5, 5]
+high = [6, 6, 6]
+)",
+                              "--no-images");
+  EXPECT_TRUE(
+      says(outcome.err, "[[pin]] 1 holds the vertex that is nearest to its point, which lies 14.8 m"));
+  EXPECT_TRUE(says(outcome.err, "[[pin]] 1 holds nothing at the start: later pins take all"));
+  EXPECT_TRUE(says(outcome.err, "[[command]] 1 acts on nothing"));
+  EXPECT_TRUE(says(outcome.err, "its phases take 0.3 s"));
+}
+
 TEST_F(Scenes, RefuseInOneLineWhatCannotBeMeasured) {
   const std::pair<const char*, const char*> kCases[] = {
       {"name = \"a b\"", "metric.name = \"a b\" must be small letters"},
