@@ -54,7 +54,7 @@ bool names_law(const CommandLine& line) {
   return std::any_of(line.flags.begin(), line.flags.end(), [](const Flag& f) { return f.path == "law"; });
 }
 
-// Of the free end over the strip's length, as the cloth has it.
+// Drops of the cloth's free end over the strip's length.
 struct Drops {
   double loaded = 0;  // under the whole weight
   double last = 0;
@@ -91,7 +91,7 @@ class Reference {
   std::vector<double> drop_ = {0};
 };
 
-// Of every step, where the weight does not grow and go in whole ones; empty where it does.
+// The length of every step [s], where the weight does not grow and go in whole ones; empty where it does.
 std::vector<double> uneven_steps(const Scene& scene) {
   std::vector<double> lengths;
   for (const Timetable& steps : {loading(scene), Timetable(scene.unload, scene.step)})

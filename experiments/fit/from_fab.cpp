@@ -23,7 +23,7 @@ namespace {
 // the largest force of stretch, which no law of stops follows to less than some percent.
 constexpr double kMaxOverNoise = 3, kMaxOfStretch = 0.1;
 
-// Of HB: that most of a shape lies within the data is what makes it theirs.
+// This is a fraction of HB: the data must hold most of a shape to determine it.
 constexpr double kMostBeyondReach = 0.5;
 
 std::vector<double> parsed_numbers(const std::string& text, const std::string& key) {
@@ -115,7 +115,7 @@ std::vector<FabLoops> requested(const FabAnswer& answer, const std::string& dire
   return loops;
 }
 
-// What is identified along one direction; fits that nobody asked for have no rows.
+// These fits are of one direction; fits that nobody asked for have no rows.
 struct DirectionFits {
   FabBending bending, free, one;  // as asked, by free stops beside it, by one stop
   std::vector<FabForm> even;

@@ -9,7 +9,8 @@
 
 namespace hysteron::experiments {
 
-// Of the data's range: instruments repeat to some percent, and a fit that is farther off has another shape.
+// This is a fraction of the data's range: instruments repeat to some percent, and a fit that is farther off
+// has another shape.
 inline constexpr double kDoubtfulMiss = 0.08;
 
 struct FabFlags {
@@ -40,7 +41,7 @@ void write_forms(Run& run, const FabAnswer& answer);
 // Median and spread, where friction was sought in that form; names begin with `prefix`.
 void add_shape(Run& run, const FabBending& found, const std::string& prefix);
 
-// What is doubtful about a fit of bending, beside the other forms.
+// These warnings say what is doubtful about a fit of bending, beside the other forms.
 std::vector<std::string> bending_warnings(const FabBending& found, const std::vector<FabForm>& forms);
 
 // What a reader is told.

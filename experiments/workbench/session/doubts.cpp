@@ -69,6 +69,7 @@ std::string memory_words(const Scene& scene) {
 
 // A command acts on the elements whose centres lie in its box.
 std::string command_warning(const Scene& scene, const Cloth& cloth, int dimension) {
+  if (scene.command.empty()) return "";
   const std::vector<Eigen::Vector3d> centers = cloth.element_centers(dimension);
   for (std::size_t c = 0; c < scene.command.size(); ++c) {
     const Command& command = scene.command[c];
@@ -114,11 +115,11 @@ std::vector<std::string> said(std::vector<std::string> texts) {
 
 std::vector<std::string> doubts_at_start(const Scene& scene, const Cloth& cloth, Simulation& simulation) {
   std::vector<std::string> doubts = fabric_warnings(scene);
-  for (const std::string& doubt :
-       {memory_words(scene), locking_words(scene, cloth.mesh), pressed_words(scene, cloth, simulation),
-        command_warning(scene, cloth, simulation.dimension()), phases_warning(scene)})
-    doubts.push_back(doubt);
-  for (const std::string& warning : pin_warnings(scene, cloth)) doubts.push_back(warning);
+  doubts.insert(doubts.end(), {memory_words(scene), locking_words(scene, cloth.mesh),
+                               pressed_words(scene, cloth, simulation),
+                               command_warning(scene, cloth, simulation.dimension()), phases_warning(scene)});
+  const std::vector<std::string> of_pins = pin_warnings(scene, cloth);
+  doubts.insert(doubts.end(), of_pins.begin(), of_pins.end());
   return said(doubts);
 }
 
