@@ -15,7 +15,6 @@ namespace {
 
 using Sequences = std::vector<TimedSequence*>;
 
-// A sequence of one file has no number to be told apart by.
 bool have_numbers(const Sequences& sequences) {
   return std::none_of(sequences.begin(), sequences.end(),
                       [](const TimedSequence* s) { return s->number.empty(); });
@@ -36,12 +35,20 @@ std::int64_t common_step(const Sequences& sequences, std::int64_t origin) {
   return std::max<std::int64_t>(step, 1);
 }
 
-void number_by_names(const Sequences& sequences, std::int64_t origin) {
+void number_from(std::int64_t origin, const Sequences& sequences) {
   const std::int64_t step = common_step(sequences, origin);
   for (TimedSequence* s : sequences) {
     s->frame = s->number;
     for (std::int64_t& frame : s->frame) frame = (frame - origin) / step;
   }
+}
+
+void number_by_names(const Sequences& sequences) {
+  const std::int64_t origin = first_number(sequences);
+  const bool one_rate = std::all_of(sequences.begin(), sequences.end(),
+                                    [&](const TimedSequence* s) { return s->fps == sequences.front()->fps; });
+  if (one_rate) return number_from(origin, sequences);
+  for (TimedSequence* s : sequences) number_from(origin, {s});
 }
 
 void number_by_order(TimedSequence& sequence) {
@@ -58,6 +65,38 @@ std::string last_before_gap(const TimedSequence& s) {
   std::size_t i = 1;
   while (i < s.frame.size() && s.frame[i] == s.frame[i - 1] + 1) ++i;
   return s.files[i - 1].filename().string();
+}
+
+std::string unnumbered_warning(const TimedSequence& s, bool among_others) {
+  return fmt::format(
+      "the names of the files of {} tell no numbers ({}): frames{} are counted in the order of {}", s.name,
+      s.unnumbered, among_others ? " of all sequences" : "", among_others ? "their files" : "the files");
+}
+
+// Where frames of a known rate may not be at the instants that their files were written at.
+void add_clock_warnings(const TimedSequence& s, std::vector<std::string>& warnings) {
+  const std::int64_t step = (s.number[1] - s.number[0]) / std::max<std::int64_t>(s.frame[1] - s.frame[0], 1);
+  if (step > 1)
+    warnings.push_back(fmt::format(
+        "the numbers of the files of {} go in steps of {}, which are taken as frames that are {:.4g} s apart "
+        "(--fps {:.6g}); if files between them are missing, give --fps {:.6g}",
+        s.name, step, 1 / s.fps, s.fps, s.fps / static_cast<double>(step)));
+  const std::int64_t first = s.number.front();
+  if (s.frame.front() == 0 && first > 1 && first != step)
+    warnings.push_back(fmt::format("the sequence {} begins with {}, whose number is {}: t = 0 is that file",
+                                   s.name, s.files.front().filename().string(), first));
+}
+
+std::string different_first_warning(const std::vector<const TimedSequence*>& sequences) {
+  const TimedSequence& first = *sequences.front();
+  for (const TimedSequence* s : sequences)
+    if (s->frame.front() != first.frame.front())
+      return fmt::format(
+          "the sequences begin at different numbers, {} with {} and {} with {}: frames beside each other "
+          "have "
+          "the same number, and number 0 is t = 0",
+          first.name, first.number.front(), s->name, s->number.front());
+  return "";
 }
 
 // Times of one unit: seconds where every rate is known, else frames.
@@ -109,40 +148,37 @@ Error no_common_instant(const Sequences& sequences) {
 }  // namespace
 
 void number_frames(const Sequences& sequences) {
-  if (!have_numbers(sequences)) {
+  Sequences single, several;
+  for (TimedSequence* s : sequences) (s->files.size() == 1 ? single : several).push_back(s);
+  if (!have_numbers(several)) {
     for (TimedSequence* s : sequences) number_by_order(*s);
     return;
   }
-  const std::int64_t origin = first_number(sequences);
-  const bool one_rate = std::all_of(sequences.begin(), sequences.end(),
-                                    [&](const TimedSequence* s) { return s->fps == sequences.front()->fps; });
-  if (one_rate) return number_by_names(sequences, origin);
-  for (TimedSequence* s : sequences) number_by_names({s}, origin);
+  if (!several.empty()) number_by_names(several);
+  std::int64_t first_common = 0;
+  for (const TimedSequence* s : several) first_common = std::max(first_common, s->frame.front());
+  for (TimedSequence* s : single) s->frame = {first_common};
 }
 
 std::vector<std::string> frame_warnings(const std::vector<const TimedSequence*>& sequences) {
   std::vector<std::string> warnings;
-  for (const TimedSequence* s : sequences)
-    if (s->number.empty() && s->files.size() > 1 && sequences.size() > 1)
-      warnings.push_back(
-          fmt::format("the names of the files of {} tell no numbers: frames of all sequences are "
-                      "counted in the order of their files",
-                      s->name));
-  for (const TimedSequence* s : sequences)
+  const bool frames_are_numbers = std::ranges::all_of(
+      sequences, [](const TimedSequence* s) { return s->files.size() < 2 || !s->number.empty(); });
+  for (const TimedSequence* s : sequences) {
+    if (s->files.size() < 2) continue;
+    if (s->number.empty()) {
+      warnings.push_back(unnumbered_warning(*s, sequences.size() > 1));
+      continue;
+    }
     if (const std::int64_t missing = missing_frames(*s); missing > 0)
       warnings.push_back(fmt::format(
           "the sequence {} has no file for {} of its frames {} to {}, the first after {}: its files "
           "are frames by the numbers in their names",
           s->name, missing, s->frame.front(), s->frame.back(), last_before_gap(*s)));
-  for (const TimedSequence* s : sequences) {
-    const TimedSequence& first = *sequences.front();
-    if (s->frame.front() == first.frame.front()) continue;
-    warnings.push_back(
-        fmt::format("the sequences begin at different numbers, {} with {} and {} with {}: frames "
-                    "beside each other have the same number, and number 0 is t = 0",
-                    first.name, first.number.front(), s->name, s->number.front()));
-    break;
+    if (s->fps > 0 && frames_are_numbers) add_clock_warnings(*s, warnings);
   }
+  if (const std::string warning = different_first_warning(sequences); !warning.empty())
+    warnings.push_back(warning);
   return warnings;
 }
 

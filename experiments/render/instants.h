@@ -18,10 +18,13 @@ struct TimedSequence : MeshSequence {
 // Numbers the frames of all sequences by the numbers in their files' names, so that a file that is missing
 // leaves a gap.  Numbers are counted from the first one where all sequences begin with the same, else from 0,
 // and in steps of their greatest common divisor: files 0, 10, 20 are frames 0, 1, 2.  Sequences of one rate
-// have one step.  Where the names of a sequence tell no numbers, every file of every sequence is a frame.
+// have one step.  A sequence of one file, which has no number, stands at the first frame of all others. Where
+// the names of a longer one tell no numbers, every file of every sequence is a frame.
 void number_frames(const std::vector<TimedSequence*>& sequences);
 
-// A line for each sequence that lacks frames, and one where the sequences begin at different numbers.
+// A line for each sequence that lacks frames, whose files have no numbers, or, where the rate is known, whose
+// numbers leave open when its files were written: in steps of more than one, or beginning with more than one
+// step.  One more where the sequences begin at different numbers.
 std::vector<std::string> frame_warnings(const std::vector<const TimedSequence*>& sequences);
 
 // Fills `shown` with at most so many instants at which every sequence has a file: the same frames, or the

@@ -1,8 +1,11 @@
 #include "sim/mesh/mesh_sequence.h"
 
+#include <fmt/core.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 
 #include "sim/base/error.h"
@@ -68,20 +71,64 @@ std::optional<std::size_t> place_of_number(const std::vector<std::vector<std::st
   return found;
 }
 
-std::vector<std::int64_t> file_numbers(const std::vector<fs::path>& files) {
+// The file whose name has other text around its numbers than more than half of the names have, and one of
+// those.
+struct OddFile {
+  std::string name, usual_name;
+};
+
+std::optional<OddFile> odd_file(const std::vector<fs::path>& files) {
+  const auto text_of = [](const fs::path& file) {
+    std::vector<std::string> parts = cut_at_numbers(file.stem().string());
+    for (std::size_t i = 1; i < parts.size(); i += 2) parts[i] = "#";
+    return parts;
+  };
+  std::map<std::vector<std::string>, std::vector<fs::path>> alike;
+  for (const fs::path& file : files) alike[text_of(file)].push_back(file);
+  const auto& [text, usual] =
+      *std::ranges::max_element(alike, {}, [](const auto& entry) { return entry.second.size(); });
+  if (text.size() == 1 || usual.size() == files.size() || 2 * usual.size() <= files.size()) return {};
+  for (const fs::path& file : files)
+    if (text_of(file) != text) return OddFile{file.filename().string(), usual.front().filename().string()};
+  return {};
+}
+
+// Fills in the numbers, or why there are none.
+void number_files(MeshSequence& sequence) {
   constexpr std::size_t kMostDigits = 18;  // what 64 bits hold
+  if (sequence.files.size() < 2) return;
   std::vector<std::vector<std::string>> names;
-  names.reserve(files.size());
-  for (const fs::path& file : files) names.push_back(cut_at_numbers(file.stem().string()));
+  for (const fs::path& file : sequence.files) names.push_back(cut_at_numbers(file.stem().string()));
+  const auto name = [&](std::size_t i) { return sequence.files[i].filename().string(); };
   const auto place = place_of_number(names);
-  if (!place) return {};
-  std::vector<std::int64_t> numbers;
-  for (const auto& parts : names) {
-    if (parts[*place].size() > kMostDigits) return {};
-    numbers.push_back(std::stoll(parts[*place]));
-    if (numbers.size() > 1 && numbers.back() <= numbers[numbers.size() - 2]) return {};
+  if (!place) {
+    const std::optional<OddFile> odd = odd_file(sequence.files);
+    sequence.unnumbered = odd ? odd->name + " is not named like " + odd->usual_name
+                              : "their names differ by more than one number";
+    return;
   }
-  return numbers;
+  std::vector<std::int64_t> numbers;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (names[i][*place].size() > kMostDigits) {
+      sequence.unnumbered = fmt::format("the number of {} has more than {} digits", name(i), kMostDigits);
+      return;
+    }
+    numbers.push_back(std::stoll(names[i][*place]));
+    if (i > 0 && numbers[i] <= numbers[i - 1]) {
+      sequence.unnumbered = name(i) + " stands behind " + name(i - 1);
+      return;
+    }
+  }
+  sequence.number = numbers;
+}
+
+// Frames of a folder are numbered by their names: one that has none of its own would take the numbers of all.
+void refuse_odd_file(const fs::path& folder, const std::vector<fs::path>& files) {
+  if (const std::optional<OddFile> odd = odd_file(files))
+    throw Error::invalid_input(
+        "sequence " + folder.string() + ": " + odd->name + " is not named like " + odd->usual_name +
+        ", whose number is its frame: take it out of the folder, or name the files one by "
+        "one in their order");
 }
 
 std::vector<fs::path> meshes_in(const fs::path& folder) {
@@ -104,11 +151,12 @@ std::string sequence_name(const fs::path& path) {
 }
 
 MeshSequence folder_sequence(const fs::path& folder) {
-  MeshSequence sequence{sequence_name(folder), meshes_in(folder), {}};
+  MeshSequence sequence{sequence_name(folder), meshes_in(folder), {}, {}};
   if (sequence.files.empty() && fs::is_directory(folder / "mesh"))
     sequence.files = meshes_in(folder / "mesh");
   if (sequence.files.empty())
     throw Error::invalid_input("the folder " + folder.string() + " holds no .obj and no .ply");
+  refuse_odd_file(folder, sequence.files);
   if (sequence.name == "mesh") sequence.name = sequence_name(fs::weakly_canonical(folder).parent_path());
   return sequence;
 }
@@ -190,7 +238,7 @@ std::vector<MeshSequence> mesh_sequences(const std::vector<std::string>& words) 
   if (loose >= 0) name_files(sequences[loose]);
   for (MeshSequence& sequence : sequences) {
     check_format(sequence);
-    sequence.number = file_numbers(sequence.files);
+    number_files(sequence);
   }
   tell_apart(sequences);
   return sequences;

@@ -17,6 +17,7 @@ struct MeshSequence {
   // The numbers that tell the files apart, ascending: 1, 5, 6 of f1.obj, f5.obj, f6.obj.  Empty where the
   // names differ in more than one number, or the files do not stand in the order of it.
   std::vector<std::int64_t> number;
+  std::string unnumbered;  // why several files have no numbers: "rest.obj is not named like f1.obj"
 };
 
 // From the words of a command line: each folder is a sequence, its *.obj or *.ply in the order of their names
@@ -24,7 +25,7 @@ struct MeshSequence {
 // A folder without meshes that has a folder mesh/ of them, as a run leaves it with --export, stands for that.
 // Sequences are named after their folder (of mesh/ the one above), a single file after itself; equal names
 // get numbers.  Throws Error::invalid_input for words that are no mesh file or folder, folders without
-// meshes, and sequences of both formats.
+// meshes or with a file that is named unlike most others of it, and sequences of both formats.
 std::vector<MeshSequence> mesh_sequences(const std::vector<std::string>& words);
 
 // How a file's coordinates stand to metres with z up.

@@ -72,5 +72,42 @@ TEST(Instants, GoByTheOrderOfFilesWhereNamesTellNoNumbers) {
   EXPECT_EQ(frame_warnings({&a, &b}).size(), 1u);
 }
 
+TEST(Instants, OfASequenceAloneWithoutNumbersAreWarnedOf) {
+  TimedSequence alone = numbered("alone", {0, 1, 5}, 10);
+  alone.number.clear();
+  alone.unnumbered = "rest.obj is not named like f0.obj";
+  number_frames({&alone});
+  EXPECT_EQ(
+      frame_warnings({&alone}),
+      (std::vector<std::string>{
+          "the names of the files of alone tell no numbers (rest.obj is not named like f0.obj): frames are "
+          "counted in the order of the files"}));
+}
+
+// Without every other file of 0 to 6 the remaining ones would be twice as fast in silence.
+TEST(Instants, OfNumbersInStepsOfMoreThanOneAreWarnedOf) {
+  TimedSequence halved = numbered("halved", {0, 2, 4, 6}, 10), late = numbered("late", {5, 6, 7}, 10);
+  number_frames({&halved});
+  EXPECT_EQ(halved.frame, (Numbers{0, 1, 2, 3}));
+  EXPECT_EQ(
+      frame_warnings({&halved}),
+      (std::vector<std::string>{
+          "the numbers of the files of halved go in steps of 2, which are taken as frames that are 0.1 s "
+          "apart (--fps 10); if files between them are missing, give --fps 5"}));
+  number_frames({&late});
+  EXPECT_EQ(frame_warnings({&late}),
+            (std::vector<std::string>{
+                "the sequence late begins with late5.obj, whose number is 5: t = 0 is that file"}));
+}
+
+TEST(Instants, OfSeveralFilesKeepTheirGapsBesideASingleFile) {
+  TimedSequence gap = numbered("gap", {3, 4, 9}, 10), single = numbered("single", {0}, 10);
+  single.number.clear();
+  choose(gap, single);
+  EXPECT_EQ(gap.frame, (Numbers{0, 1, 6}));
+  EXPECT_EQ(gap.shown, (Files{0}));
+  EXPECT_EQ(single.shown, (Files{0}));
+}
+
 }  // namespace
 }  // namespace hysteron::experiments

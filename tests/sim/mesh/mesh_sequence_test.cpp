@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/sim/base/folder.h"
+#include "tests/sim/base/refusal.h"
 
 namespace hysteron {
 namespace {
@@ -42,6 +43,21 @@ TEST(MeshSequences, NumbersAreThoseThatTellTheFilesApart) {
   EXPECT_EQ(numbers({"t0.9.obj", "t1.0.obj"}), Numbers{});
   EXPECT_EQ(numbers({"f1.obj", "f01.obj"}), Numbers{});
   EXPECT_EQ(numbers({"f12345678901234567890.obj", "f2.obj"}), Numbers{});
+}
+
+// Without its numbers the files 0, 1, 5 would be frames 0, 1, 2.
+TEST(MeshSequences, AnOddNameInAFolderIsRefusedAndAmongFilesSaid) {
+  const test::Folder folder;
+  std::vector<std::string> files;
+  for (const char* name : {"s/f0.obj", "s/f1.obj", "s/f5.obj", "s/rest.obj"})
+    files.push_back(touch(folder, name));
+  EXPECT_EQ(
+      test::refusal([&] { mesh_sequences({folder.file("s")}); }),
+      "sequence " + folder.file("s") +
+          ": rest.obj is not named like f0.obj, whose number is its frame: take it out of the folder, or "
+          "name the files one by one in their order");
+  EXPECT_EQ(mesh_sequences(files)[0].unnumbered, "rest.obj is not named like f0.obj");
+  EXPECT_EQ(mesh_sequences({files[1], files[0]})[0].unnumbered, "f0.obj stands behind f1.obj");
 }
 
 TEST(MeshSequences, FilesAreOneSequenceInTheOrderGiven) {
