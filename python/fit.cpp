@@ -51,12 +51,13 @@ MomentSeries moment_series(const Numbers& curvature, const Numbers& moment,
 }
 
 Identification fit(const Numbers& curvature, const Numbers& moment, const std::optional<Numbers>& time,
-                   const std::string& law, const std::string& units, bool offset, double ripple,
-                   const py::kwargs& parameters) {
+                   const std::string& law, const std::string& units, bool offset, bool curvature_offset,
+                   double ripple, const py::kwargs& parameters) {
   const MomentSeries series = moment_series(curvature, moment, time, ripple, units);
   CurveQuestion question;
   question.law.name = law;
   question.offset = offset;
+  question.curvature_offset = curvature_offset;
   question.law.parameters = law_parameters(law, parameters);
   Identification found;
   unlocked([&] { found = identify_curve(series, question); });
@@ -128,11 +129,12 @@ What else a cloth needs (membrane, damping, friction) is cotton broad's, and mar
            py::arg("thickness"), "Writes it as a fabric file, with sources and standard errors.");
   module.def("fit", &fit, py::arg("curvature"), py::arg("moment"), py::arg("time") = py::none(),
              py::arg("law") = "prandtl", py::arg("units") = "si", py::arg("offset") = false,
-             py::arg("ripple") = 0.05,
+             py::arg("curvature_offset") = false, py::arg("ripple") = 0.05,
              R"(A fabric from a measured moment-curvature loop, by least squares of its moments.
 
 curvature [1/m], moment [N], time [s]: arrays of shape (n,) in the order of measurement; units "kes": 1/cm and
-gf cm/cm.  Further arguments are the law's parameters.  offset: the instrument's zero is sought, too.
+gf cm/cm.  Further arguments are the law's parameters.  offset, curvature_offset: the instrument's zero of moment, of
+curvature is sought, too.
 ripple: curvature that comes back by less than this share of its range is noise.  RequestError for what is no
 moment-curvature curve.)");
 }

@@ -34,7 +34,7 @@ struct FitFlags {
   KesNumbers kes;
   std::string law = "prandtl";
   Parameters param;
-  bool offset = false;
+  bool offset = false, curvature_offset = false;
   double ripple = 0.05;
   Assumptions assume;
   std::string name = "fitted";
@@ -57,6 +57,7 @@ const KeyRow<FitFlags> kRows[] = {
     {"law", at<&F::law>, "", any(), "", "of the loop: a name, names separated by commas, or all, to compare"},
     {"param", at<&F::param>, "", any(), "", "parameters of that law"},
     {"offset", at<&F::offset>, "", any(), "", "find the zero of the measured moments, too"},
+    {"curvature-offset", at<&F::curvature_offset>, "", any(), "", "find the zero of the measured curvatures, too"},
     {"ripple", at<&F::ripple>, "", between(0, 0.5), "", "curvature that comes back by less than this share of its range is noise"},
     {"fab", at<&F::fab, &FabFlags::file>, "", any(), "", "loops of a FAB tester, strips buckled between clamps: CSV with direction, test, branch, clamp_distance_m, force_N, gauge_length_m, width_m; needs fabric.density"},
     {"fab.directions", at<&F::fab, &FabFlags::directions>, "", any(), "", "of these loops, separated by commas: the first is warp, the second weft; none: all"},
@@ -125,7 +126,7 @@ std::string curvature_zero_warning(const MomentSeries& series) {
   if (!(beside > kNoticed && of_moment < beside / 2 && low < 0 && high > 0)) return "";
   return "curvatures go from " + number_text(low, 4) + " to " + number_text(high, 4) +
          " 1/m, while the moments at their ends are opposite: the zero of curvature seems to be off by " +
-         number_text(middle, 3) + " 1/m, which b1 and k0 do not stand; subtract it from the column";
+         number_text(middle, 3) + " 1/m, which b1 and k0 do not stand; --curvature-offset finds it";
 }
 
 // The best first; laws that the data do not tell apart stay in the order in which they were asked for.
@@ -152,12 +153,13 @@ void rank(std::vector<Identification>& fits) {
 Answer from_loop(const FitFlags& flags) {
   const MomentSeries series = flags.units == "kes" ? read_kes_series(flags.loop, flags.ripple, "fit")
                                                    : read_series(flags.loop, flags.ripple, "fit");
-  Answer answer{{}, series.name, curvature_zero_warning(series)};
+  Answer answer{{}, series.name, flags.curvature_offset ? "" : curvature_zero_warning(series)};
   for (const std::string& law : requested_laws(flags.law)) {
     CurveQuestion question;
     question.law.name = law;
     for (const auto& [name, value] : flags.param) question.law.parameters[name] = value;
     question.offset = flags.offset;
+    question.curvature_offset = flags.curvature_offset;
     question.assumptions = flags.assume;
     answer.fits.push_back(identify_curve(series, question));
   }
@@ -376,7 +378,7 @@ Experiment fit() {
           .question = "identify a fabric from a measured loop, virgin curve, KES pair or free vibration",
           .run = run_fit,
           .own_keys = own_key_descriptions<bind_flags>,
-          .conditions = {{"law | param | offset | ripple", "loop"},
+          .conditions = {{"law | param | offset | curvature-offset | ripple", "loop"},
                          {"units", "loop or fab"},
                          {"fab.", "fab"},
                          {"decay.", "decay"},

@@ -142,6 +142,7 @@ def fit(
     law: str = "prandtl",
     units: str = "si",
     offset: bool = False,
+    curvature_offset: bool = False,
     ripple: float = 0.05,
     **parameters: Any,
 ) -> Fit: ...

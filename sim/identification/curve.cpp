@@ -243,8 +243,50 @@ constexpr double kClearlyBetter = 0.95;
 // errors).
 constexpr double kClearOffset = 16;
 
-void say_how(const MomentSeries& series, const Solution& solution, bool cycling, bool offset,
-             Identification& result) {
+// The history before the first row is the virgin cloth's or that of the same cycles.
+struct Reading {
+  MomentModel model;
+  Solution solution;
+  bool cycling;
+};
+
+Reading better_reading(const MomentSeries& series, const CurveQuestion& question, SoughtZeros zeros) {
+  const MomentModel virgin(series, question.law, zeros, false);
+  Reading best{virgin, solve(virgin), false};
+  if (series.reversals == 0) return best;
+  const MomentModel cycle(series, question.law, zeros, true);
+  const Solution other = solve(cycle);
+  if (other.best.sum < kClearlyBetter * kClearlyBetter * best.solution.best.sum) best = {cycle, other, true};
+  return best;
+}
+
+// Data that a law does not follow ask for a zero of curvature where it raises twice the logarithm of the
+// likelihood clearly, and lowers the residual clearly below what a zero of moment leaves.
+bool asks_for_curvature_offset(const MomentSeries& series, const CurveQuestion& question,
+                               const Solution& without) {
+  if (question.curvature_offset || without.covariance.widening <= 1) return false;
+  const Solution with = better_reading(series, question, {question.offset, true}).solution;
+  const double rows = series.rows() / (with.covariance.widening * with.covariance.widening);
+  if (!(rows * std::log(without.best.sum / with.best.sum) > kClearOffset)) return false;
+  const double of_moment = better_reading(series, question, {true, false}).solution.best.sum;
+  return with.best.sum < kClearlyBetter * kClearlyBetter * of_moment;
+}
+
+// The instrument's zero that is not sought and that the data ask for.
+void say_offset(const MomentSeries& series, const CurveQuestion& question, const Solution& solution,
+                Identification& result) {
+  const auto say = [&](const char* quantity, const char* flag) {
+    result.statements.push_back(std::string("the data lie off the law by a constant ") + quantity +
+                                ": the instrument's zero? " + flag + " seeks it, too");
+  };
+  if (asks_for_curvature_offset(series, question, solution)) {
+    say("curvature", "--curvature-offset");
+  } else if (!question.offset && solution.rise_with_offset() > kClearOffset) {
+    say("moment", "--offset");
+  }
+}
+
+void say_how(const MomentSeries& series, const Solution& solution, bool cycling, Identification& result) {
   if (series.reversals == 0) {
     result.statements.push_back(
         "the curve has no way back: that it returns by another one, 2HB = (b1 - b2) k0 apart, is the law's "
@@ -261,33 +303,28 @@ void say_how(const MomentSeries& series, const Solution& solution, bool cycling,
                                 "standard errors are widened " +
                                 rounded(solution.covariance.widening) + " times");
   }
-  if (!offset && solution.rise_with_offset() > kClearOffset) {
-    result.statements.push_back(
-        "the data lie off the law by a constant moment: the instrument's zero? --offset seeks it, too");
-  }
 }
 
-void add_offset(const MomentSeries& series, const Solution& solution, Identification& result) {
-  const double largest = series.largest_moment();
-  result.further.emplace_back("offset_N", solution.used.nuisance[0] * largest);
-  result.further.emplace_back("offset_N_stderr", largest * std::sqrt(solution.covariance.matrix(3, 3)));
+void add_offsets(const MomentSeries& series, const CurveQuestion& question, const Solution& solution,
+                 Identification& result) {
+  int sought = 0;
+  const auto add = [&](const std::string& name, double unit) {
+    const int parameter = 3 + sought;  // after b2, g and k0
+    result.further.emplace_back(name, solution.used.nuisance[sought] * unit);
+    result.further.emplace_back(name + "_stderr",
+                                unit * std::sqrt(solution.covariance.matrix(parameter, parameter)));
+    ++sought;
+  };
+  if (question.offset) add("offset_N", series.largest_moment());
+  if (question.curvature_offset) add("curvature_offset_per_m", series.largest_curvature());
 }
 
 }  // namespace
 
 Identification identify_curve(const MomentSeries& series, const CurveQuestion& question) {
-  MomentModel model(series, question.law, question.offset, false);
-  Solution solution = solve(model);
-  bool cycling = false;
-  if (series.reversals > 0) {
-    const MomentModel cycle(series, question.law, question.offset, true);
-    const Solution other = solve(cycle);
-    cycling = other.best.sum < kClearlyBetter * kClearlyBetter * solution.best.sum;
-    if (cycling) {
-      model = cycle;
-      solution = other;
-    }
-  }
+  const auto [model, found, cycling] =
+      better_reading(series, question, {question.offset, question.curvature_offset});
+  Solution solution = found;
   Identification result;
   result.law = question.law.name;
   result.iterations = solution.iterations;
@@ -297,8 +334,9 @@ Identification identify_curve(const MomentSeries& series, const CurveQuestion& q
            "least squares of the moments in " + series.name + ", law " + result.law, solution, result);
   const Eigen::VectorXd moments = model.moments(solution.used);
   result.model.assign(moments.begin(), moments.end());
-  if (question.offset) add_offset(series, solution, result);
-  say_how(series, solution, cycling, question.offset, result);
+  add_offsets(series, question, solution, result);
+  say_how(series, solution, cycling, result);
+  say_offset(series, question, solution, result);
   return result;
 }
 

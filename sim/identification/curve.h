@@ -8,8 +8,9 @@ namespace hysteron {
 
 struct CurveQuestion {
   LawRequest law;       // whose name and parameters are taken; its curve is sought
-  bool offset = false;  // the instrument's zero is sought, too
+  bool offset = false;  // the instrument's zero of moment is sought, too
   Assumptions assumptions;
+  bool curvature_offset = false;  // and that of curvature
 };
 
 // Least squares of moments: a scan over k0 (on which alone the shape depends, so that it finds the best

@@ -40,11 +40,11 @@ Eigen::VectorXd nonnegative_solution(const Eigen::MatrixXd& columns, const Eigen
 
 }  // namespace
 
-MomentModel::MomentModel(const MomentSeries& series, const LawRequest& law, bool offset, bool cycling)
+MomentModel::MomentModel(const MomentSeries& series, const LawRequest& law, SoughtZeros zeros, bool cycling)
     : law_(law),
       rows_(law_rows(series, cycling)),
       moment_(Eigen::Map<const Eigen::VectorXd>(series.moment.data(), series.rows())),
-      offset_(offset),
+      zeros_(zeros),
       largest_(series.largest_moment()),
       curvature_(series.largest_curvature()),
       slope_(largest_ / curvature_) {
@@ -53,44 +53,78 @@ MomentModel::MomentModel(const MomentSeries& series, const LawRequest& law, bool
   run_law(request, {LawRow{}});
 }
 
-Eigen::VectorXd MomentModel::moments(const CurvePoint& point) const {
+Eigen::VectorXd MomentModel::law_moments(const CurvePoint& point) const {
   LawRequest request = law_;
   request.curve = point.curve();
   std::vector<double> all(rows_.size(), kNone);
   try {
-    all = run_law(request, rows_).moment;
+    if (zeros_.curvature) {
+      std::vector<LawRow> rows = rows_;
+      for (LawRow& row : rows) row.curvature -= point.nuisance.tail<1>()[0] * curvature_;
+      all = run_law(request, rows).moment;
+    } else {
+      all = run_law(request, rows_).moment;
+    }
   } catch (const Error&) {
     // The law has bounds on its numbers: there it describes nothing.
   }
   const Eigen::Map<const Eigen::VectorXd> moments(all.data(), static_cast<int>(all.size()));
-  return moments.tail(moment_.size()).array() + (offset_ ? point.nuisance[0] * largest_ : 0);
+  return moments.tail(moment_.size());
+}
+
+Eigen::VectorXd MomentModel::moments(const CurvePoint& point) const {
+  return law_moments(point).array() + (zeros_.moment ? point.nuisance[0] * largest_ : 0);
 }
 
 Eigen::VectorXd MomentModel::residuals(const CurvePoint& point) const {
   return (moments(point) - moment_) / largest_;
 }
 
-CurvePoint MomentModel::best_at(double k0, int& iterations) const {
-  const Eigen::VectorXd zero = no_offset(), elastic = moments({slope_, 0, k0, zero, 0});
-  Eigen::MatrixXd columns(moment_.size(), offset_ ? 3 : 2);
-  columns.col(0) = elastic / largest_;
-  columns.col(1) = (moments({slope_, slope_, k0, zero, 0}) - elastic) / largest_;
-  if (offset_) columns.col(2).setOnes();
-  if (!columns.allFinite()) return {slope_, slope_, k0, zero, INFINITY};
-  Eigen::VectorXd best = nonnegative_solution(columns, moment_ / largest_);
-  best.head<2>() = best.head<2>().cwiseMax(kSmallestRigidity);
-  CurvePoint point{best[0] * slope_, best[1] * slope_, k0, best.tail(best.size() - 2), 0};
-  point.sum = residuals(point).squaredNorm();
-  const double foreseen = (columns * best - moment_ / largest_).squaredNorm();
-  if (std::abs(point.sum - foreseen) <= kSameModel * static_cast<double>(moment_.size())) return point;
-  const CurvePoint other = searched_at(k0, iterations);
-  return other.sum < point.sum ? other : point;
+Eigen::VectorXd MomentModel::zeros_at(double curvature_zero) const {
+  Eigen::VectorXd zeros = Eigen::VectorXd::Zero(zeros_.count());
+  if (zeros_.curvature) zeros.tail<1>()[0] = curvature_zero;
+  return zeros;
 }
 
-CurvePoint MomentModel::searched_at(double k0, int& iterations) const {
-  const CurvePoint begin{slope_ / 2, slope_ / 2, k0, no_offset(), 0};
+std::vector<double> MomentModel::curvature_zeros() const {
+  if (!zeros_.curvature) return {0};
+  const auto [low, high] = std::minmax_element(
+      rows_.begin(), rows_.end(), [](const LawRow& a, const LawRow& b) { return a.curvature < b.curvature; });
+  return {0, (low->curvature + high->curvature) / 2 / curvature_, rows_.front().curvature / curvature_};
+}
+
+MomentModel::LinearSolution MomentModel::linear_at(double k0, double curvature_zero) const {
+  const Eigen::VectorXd zeros = zeros_at(curvature_zero), elastic = moments({slope_, 0, k0, zeros, 0});
+  Eigen::MatrixXd columns(moment_.size(), zeros_.moment ? 3 : 2);
+  columns.col(0) = elastic / largest_;
+  columns.col(1) = (moments({slope_, slope_, k0, zeros, 0}) - elastic) / largest_;
+  if (zeros_.moment) columns.col(2).setOnes();
+  if (!columns.allFinite()) return {{slope_, slope_, k0, zeros, INFINITY}, true};
+  Eigen::VectorXd best = nonnegative_solution(columns, moment_ / largest_);
+  best.head<2>() = best.head<2>().cwiseMax(kSmallestRigidity);
+  CurvePoint point{best[0] * slope_, best[1] * slope_, k0, zeros, 0};
+  if (zeros_.moment) point.nuisance[0] = best[2];
+  point.sum = residuals(point).squaredNorm();
+  const double foreseen = (columns * best - moment_ / largest_).squaredNorm();
+  return {point, std::abs(point.sum - foreseen) <= kSameModel * static_cast<double>(moment_.size())};
+}
+
+CurvePoint MomentModel::best_at(double k0, int& iterations) const {
+  LinearSolution best = linear_at(k0, 0);
+  if (zeros_.curvature) {
+    for (const double zero : curvature_zeros())
+      if (const LinearSolution other = linear_at(k0, zero); other.point.sum < best.point.sum) best = other;
+    const CurvePoint found = searched_from(best.point, iterations);
+    return found.sum < best.point.sum ? found : best.point;
+  }
+  if (best.holds) return best.point;
+  const CurvePoint other = searched_from({slope_ / 2, slope_ / 2, k0, zeros_at(0), 0}, iterations);
+  return other.sum < best.point.sum ? other : best.point;
+}
+
+CurvePoint MomentModel::searched_from(const CurvePoint& begin, int& iterations) const {
   const auto numbers = [&](const Eigen::VectorXd& factor) {
-    return CurvePoint{begin.b2 * factor[0], begin.g * factor[1], k0, {}, 0};
+    return CurvePoint{begin.b2 * factor[0], begin.g * factor[1], begin.k0, {}, 0};
   };
   const Tied tied = fit_tied(*this, numbers, 2, begin);
   iterations += tied.iterations;

@@ -10,11 +10,18 @@
 
 namespace hysteron {
 
-// b2, g = b1 - b2, k0, and the instrument's zero where it is sought, too.
+// The instrument's zeros that are sought, too.
+struct SoughtZeros {
+  bool moment = false, curvature = false;
+
+  int count() const { return (moment ? 1 : 0) + (curvature ? 1 : 0); }
+};
+
+// b2, g = b1 - b2, k0, and the instrument's zeros where they are sought, too.
 struct CurvePoint {
   double b2 = 0, g = 0;      // [N m], >= 0
   double k0 = 0;             // [1/m]
-  Eigen::VectorXd nuisance;  // none, or the zero over the largest moment
+  Eigen::VectorXd nuisance;  // zeros that are sought: of moment, of curvature, over the largest of the data
   double sum = 0;            // of squared residuals
 
   VirginCurve curve() const { return {b2 + g, b2, k0}; }
@@ -23,17 +30,16 @@ struct CurvePoint {
 // A law's moments along a measured series.
 class MomentModel {
  public:
-  // `law`: its curve is ignored.  `offset`: the instrument's zero is sought.  `cycling`: as law_rows().
-  // Throws Error::invalid_input as run_law() does.
-  MomentModel(const MomentSeries& series, const LawRequest& law, bool offset, bool cycling);
+  // `law`: its curve is ignored.  `cycling`: as law_rows().  Throws Error::invalid_input as run_law() does.
+  MomentModel(const MomentSeries& series, const LawRequest& law, SoughtZeros zeros, bool cycling);
 
-  // Moments of the law at the series' rows [N], the offset added; not a number where the law does not take
-  // the numbers.
+  // Moments of the law at the series' rows [N] less the zero of curvature, the zero of moment added; not a
+  // number where the law does not take the numbers.
   Eigen::VectorXd moments(const CurvePoint& point) const;
   // Model minus measurement over the largest moment.
   Eigen::VectorXd residuals(const CurvePoint& point) const;
   // Best b2, g and nuisance at one k0.  Solved at once for laws whose moment is linear in b2 and g: all whose
-  // friction is a fixed shape.
+  // friction is a fixed shape, unless the zero of curvature is sought.
   CurvePoint best_at(double k0, int& iterations) const;
 
   // Parameters of the whole fit: logarithms of b2, g, k0 over their scales, then the nuisance.
@@ -48,14 +54,24 @@ class MomentModel {
   double largest_curvature() const { return curvature_; }
 
  private:
-  Eigen::VectorXd no_offset() const { return Eigen::VectorXd::Zero(offset_ ? 1 : 0); }
-  // The same by iterations, from an elastic and a frictional part of half the slope each.
-  CurvePoint searched_at(double k0, int& iterations) const;
+  struct LinearSolution {
+    CurvePoint point;
+    bool holds;  // the law is linear in b2 and g
+  };
+  // Moments without the zero of moment [N].
+  Eigen::VectorXd law_moments(const CurvePoint& point) const;
+  Eigen::VectorXd zeros_at(double curvature_zero) const;  // that of moment being 0
+  // Best b2, g and zero of moment, if they enter linearly, at a zero of curvature over the largest one.
+  LinearSolution linear_at(double k0, double curvature_zero) const;
+  // Where the zero of curvature may be, over the largest curvature.
+  std::vector<double> curvature_zeros() const;
+  // Best at one k0 by iterations, from a point there.
+  CurvePoint searched_from(const CurvePoint& begin, int& iterations) const;
 
   LawRequest law_;
   std::vector<LawRow> rows_;
   Eigen::VectorXd moment_;  // measured [N]
-  bool offset_;
+  SoughtZeros zeros_;
   double largest_;            // moment [N]
   double curvature_, slope_;  // scales: largest curvature [1/m], moment over curvature [N m]
 };

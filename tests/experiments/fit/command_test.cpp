@@ -155,7 +155,7 @@ TEST_F(Fit, WarnsOfALawThatIsNotNearTheData) {
 }
 
 // A bilinear loop between -150 and 150/m, whose tester's zero is 20/m off.
-TEST_F(Fit, WarnsOfACurvatureWhoseZeroIsOff) {
+TEST_F(Fit, WarnsOfACurvatureWhoseZeroIsOffAndFindsItOnRequest) {
   for (const double offset : {0.0, 20.0}) {
     const fs::path file = folder_.path() / "off.csv";
     Column curvature{"curvature [1/m]", {}}, moment{"moment [N]", {}};
@@ -168,6 +168,10 @@ TEST_F(Fit, WarnsOfACurvatureWhoseZeroIsOff) {
     Table({curvature, moment}).write(file);
     ASSERT_EQ(fit({{"loop", file.string()}, {"law", "bilinear"}}), 0);
     EXPECT_EQ(says(warned_, "the zero of curvature seems to be off by 20 1/m"), offset > 0) << warned_;
+    ASSERT_EQ(fit({{"loop", file.string()}, {"law", "bilinear"}, {"curvature-offset", "true"}}), 0);
+    EXPECT_FALSE(says(warned_, "the zero of curvature"));
+    EXPECT_NEAR(metrics().at("curvature_offset_per_m"), offset, 0.1) << "of an amplitude of 150/m";
+    EXPECT_NEAR(metrics().at("b2_N_m"), 1e-5, 1e-8) << "the slope beyond the knee";
   }
 }
 

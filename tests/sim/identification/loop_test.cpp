@@ -127,6 +127,50 @@ TEST(Loop, WithAShiftedZeroGivesTheShiftBack) {
   EXPECT_LE(std::abs(with.further[0].second - shift), 3 * with.further[1].second);
   EXPECT_LE(std::abs(with.b1.value - kCotton.b1), 3 * with.b1.standard_error);
   EXPECT_TRUE(states(without, "--offset"));
+  EXPECT_FALSE(states(without, "--curvature-offset"));
+}
+
+// A noisy loop of cotton from its virgin state, whose curvatures are read `shift` too high [1/m].
+Identification identified_shifted(double shift, bool sought) {
+  MomentSeries series = measured("prandtl", kCotton, {250, -250, 250}, kLoopNoise, 5);
+  for (double& k : series.curvature) k += shift;
+  prepare(series, kRipple);
+  CurveQuestion question;
+  question.curvature_offset = sought;
+  return identify_curve(series, question);
+}
+
+double further(const Identification& found, const std::string& name) {
+  for (const auto& [key, value] : found.further)
+    if (key == name) return value;
+  return kNone;
+}
+
+TEST(Loop, WithAShiftedZeroOfCurvatureGivesTheShiftAndTheUnshiftedNumbersBack) {
+  constexpr double kSolver = 0.05;  // of a standard error: searches from other places end so near each other
+  const Identification unshifted = identified_shifted(0, true);
+  for (const double shift : {0.0, 0.1, 0.3, 20.0}) {
+    const Identification found = identified_shifted(shift, true);
+    const double error = further(found, "curvature_offset_per_m_stderr");
+    EXPECT_LT(error, 3) << "a hundredth of the amplitude";
+    EXPECT_LE(std::abs(further(found, "curvature_offset_per_m") - shift), 3 * error);
+    EXPECT_LE(std::abs(found.b1.value - kCotton.b1), 3 * found.b1.standard_error) << shift;
+    EXPECT_LE(std::abs(found.b2.value - kCotton.b2), 3 * found.b2.standard_error) << shift;
+    EXPECT_LE(std::abs(found.k0.value - kCotton.k0), 3 * found.k0.standard_error) << shift;
+    EXPECT_NEAR(found.b1.value, unshifted.b1.value, kSolver * found.b1.standard_error) << shift;
+    EXPECT_NEAR(found.b2.value, unshifted.b2.value, kSolver * found.b2.standard_error) << shift;
+    const double hb = unshifted.curve().friction_moment();
+    EXPECT_NEAR(found.curve().friction_moment() / hb, 1, kSolver * found.k0.standard_error / found.k0.value)
+        << shift;
+  }
+}
+
+TEST(Loop, WithAShiftedZeroOfCurvatureIsWrongAndSaysSoUnlessItIsSought) {
+  const Identification found = identified_shifted(20, false);
+  EXPECT_GT(std::abs(found.b1.value / kCotton.b1 - 1), 0.2);
+  EXPECT_TRUE(states(found, "--curvature-offset"));
+  EXPECT_FALSE(states(identified_shifted(0, false), "offset"));
+  EXPECT_FALSE(states(identified_shifted(20, true), "offset"));
 }
 
 // The law is too simple for the data: what is left hangs together, and independent rows are fewer than rows.
