@@ -148,6 +148,11 @@ bool encode(png_structp png, png_infop header, const Image& image, PngEffort eff
                image.channels() == 4 ? PNG_COLOR_TYPE_RGBA : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
                PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
   png_set_sRGB(png, header, PNG_sRGB_INTENT_PERCEPTUAL);
+  png_text software{};
+  software.compression = PNG_TEXT_COMPRESSION_NONE;
+  software.key = const_cast<char*>("Software");  // libpng copies both
+  software.text = const_cast<char*>("hysteron");
+  png_set_text(png, header, &software, 1);
   choose_effort(png, effort);
   png_write_info(png, header);
   for (int y = 0; y < image.height(); ++y) png_write_row(png, image.at(0, y));

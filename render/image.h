@@ -60,6 +60,9 @@ enum class PngEffort {
 // PNG file in memory.
 std::vector<std::uint8_t> encode_png(const Image& image, PngEffort effort = PngEffort::fast);
 
+// A chunk of text that every PNG of this program holds.
+inline const std::string kPngMark{"tEXtSoftware\0hysteron", 21};
+
 // Writes a temporary file beside `path` and renames it, so that `path` is either whole or not there.
 // Error::system if the folder cannot be written or the disk is full.
 void write_png(const std::filesystem::path& path, const Image& image, PngEffort effort = PngEffort::fast);

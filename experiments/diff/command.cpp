@@ -7,6 +7,7 @@
 #include "experiments/diff/diff.h"
 #include "experiments/workbench/app/ending.h"
 #include "experiments/workbench/app/experiment.h"
+#include "experiments/workbench/app/run_files.h"
 #include "experiments/workbench/pages/junit.h"
 #include "sim/base/atomic_file.h"
 #include "sim/base/csv.h"
@@ -92,6 +93,7 @@ int diff_pictures(const fs::path& a, const fs::path& b, const DiffFlags& flags) 
     throw Error::invalid_input("--out " + flags.out + " must be a file *.png: the heat map of two pictures")
         .with_key("out", flags.out);
   for (const fs::path& picture : {a, b}) require_other(flags.out, picture);
+  require_own_file(flags.out, render::kPngMark, "a picture", "out");
   const std::string name = a.filename().string();
   const Comparison comparison = compared_files(a, b, flags);
   const std::vector<std::string> broken = broken_limits(comparison.measures, flags.picture_limits(name));
@@ -196,6 +198,8 @@ int diff_folders(const fs::path& a, const fs::path& b, const DiffFlags& flags) {
     require_outside(flags.out, a);
     require_outside(flags.out, b);
     for (const fs::path& folder : {a, b}) require_other(fs::path(flags.out) / kHeatFolder, folder);
+    require_own_file(fs::path(flags.out) / kDiffTable, std::string("picture,") + all_measures()[0].column,
+                     "a table of differences", "out");
   }
   const std::vector<std::string> names = pictures_in_either(a, b);
   std::size_t width = std::string("picture").size();
@@ -212,7 +216,7 @@ int diff_folders(const fs::path& a, const fs::path& b, const DiffFlags& flags) {
   } else {
     print_row("worst", width, diff.compared() > 0 ? cells(diff.worst) : no_cells());
   }
-  if (!flags.out.empty()) write_table(fs::path(flags.out) / "diff.csv", diff);
+  if (!flags.out.empty()) write_table(fs::path(flags.out) / kDiffTable, diff);
   std::vector<TestCase> cases;
   int exit_code = 0;  // what could not be compared weighs more than what differs
   for (const FolderDiff::Row& row : diff.rows) {
@@ -234,6 +238,7 @@ int run_diff(const CommandLine& line) {
     throw Error::invalid_input("needs two pictures or two folders: hysteron diff A.png B.png; " +
                                std::to_string(line.positionals.size()) + " given");
   const fs::path a = line.positionals[0], b = line.positionals[1];
+  require_own_junit(flags.junit);
   if (!flags.limits_file.empty()) flags.from_file = read_limits(flags.limits_file);
   if (!fs::is_directory(a) && !fs::is_directory(b)) return diff_pictures(a, b, flags);
   for (const fs::path& path : {a, b})

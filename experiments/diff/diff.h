@@ -13,6 +13,7 @@ namespace hysteron::experiments {
 
 // In the folder of --out, for the heat maps of two folders' pictures.
 inline constexpr const char* kHeatFolder = "heat";
+inline constexpr const char* kDiffTable = "diff.csv";
 
 struct DiffFlags {
   Measures limits = no_limits();

@@ -7,6 +7,7 @@
 #include <iostream>
 
 #include "experiments/workbench/app/experiment.h"
+#include "experiments/workbench/app/run_files.h"
 #include "sim/base/csv.h"
 #include "sim/base/error.h"
 #include "sim/bending/laws/law_run.h"
@@ -149,6 +150,9 @@ void drop_stops_unless_asked_for(const CommandLine& line, LawFlags& flags) {
   if (by_hand) flags.curve.parts.stops = flags.curve.parts.weft_stops = {};
 }
 
+// What stands in the first line of every table of results.
+constexpr const char* kResultsMark = ",moment [N],tangent [N m],stored [J/m2],dissipated [J/m2]";
+
 // The flags over the fabric's numbers.
 LawFlags read_flags(const CommandLine& line) {
   LawFlags flags;
@@ -164,6 +168,7 @@ LawFlags read_flags(const CommandLine& line) {
   if (std::filesystem::equivalent(flags.in, flags.out, missing))
     throw Error::invalid_input("--out " + flags.out + " is the input: give another file")
         .with_key("out", flags.out);
+  require_own_file(flags.out, kResultsMark, "a table of moments", "out");
   return flags;
 }
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <set>
 
 #include "experiments/diff/diff.h"
 #include "experiments/workbench/app/headlines.h"
@@ -20,13 +19,6 @@ namespace fs = std::filesystem;
 constexpr double kMinRoundOff = 1e-6;
 constexpr double kSolverToleranceFraction = 0.1;  // times its tolerance
 
-bool has_part(const std::string& name, const char* part) { return name.find(part) != name.npos; }
-
-bool is_duration(const std::string& name) {
-  return name.ends_with("setup_seconds") || name.ends_with("solve_s") || name.ends_with("computing_s") ||
-         name.ends_with("ms_per_step");
-}
-
 // What --errors adds to a metric that the run has, and a repetition without it does not: an ending of its
 // name.
 bool is_error(const std::string& name, const Metrics& metrics) {
@@ -40,74 +32,74 @@ bool is_error(const std::string& name, const Metrics& metrics) {
   return false;
 }
 
-// The solver's work and what it left over, by their whole names; on a page behind a column's, "prandtl.".
-bool is_effort(const std::string& name) {
-  static const std::set<std::string> kNames = {"solver_iterations_per_step",
-                                               "newton_iterations_per_step",
-                                               "newton_residual_largest",
-                                               "newton_velocity_largest_m_per_s",
-                                               "newton_velocity_mean_m_per_s",
-                                               "unbalanced_steps_count",
-                                               "retried_steps_count",
-                                               "deep_contact_steps_count",
-                                               "slack_hand_steps_count",
-                                               "barred_hand_steps_count",
-                                               "energy_remainder_relative",
-                                               "fastest_m_per_s",
-                                               "strip_newton_iterations_per_step",
-                                               "strip_retried_steps_count",
-                                               "iterations"};
-  return kNames.contains(name.substr(name.rfind('.') + 1));
-}
-
 // Metrics that are read off pictures.
 bool is_drawn(const std::string& name) { return name == "shadow_drape_coefficient_percent"; }
-
-// Of a metric, as the run itself has measured it; 0 where it has not.
-double stated_error(const Metrics& metrics, const std::string& name) {
-  double sum = 0;
-  for (const char* cause : {"_step_error", "_mesh_error", "_draw_error"}) {
-    const MetricValue& error = metrics[name + cause];
-    if (error.is_number()) sum += std::abs(error.number());
-  }
-  return sum;
-}
-
-std::string metric_change(const std::string& name, double before, double now) {
-  constexpr double kSmall = 1e-4;  // below, the digits that are printed are the same
-  const double part = std::abs(now - before) / std::max(std::abs(before), std::abs(now));
-  return part < kSmall ? fmt::format("{} by {:.1e} of itself", name, part)
-                       : fmt::format("{} {:.6g} -> {:.6g}", name, before, now);
-}
-
-void compare_numbers(const std::string& name, double before, double now, std::optional<double> limit,
-                     double error, bool counts, Repetition& repetition) {
-  const double difference = std::abs(now - before);
-  const double size = std::max(metric_scale(name, before), metric_scale(name, now));
-  std::string words = metric_change(name, before, now);
-  if (limit)
-    words += fmt::format(" (limit {:.2g})", *limit);
-  else if (error > 0)
-    words += fmt::format(" (stated error {:.2g})", error);
-  if (!limit && !counts && difference <= repetition.round_off * size)
-    repetition.rounded.push_back(name);
-  else
-    (difference <= limit.value_or(error) ? repetition.within : repetition.beyond).push_back(words);
-}
 
 void compare_metric(const std::string& name, const Metrics& recorded, const MetricValue& now,
                     const Limits& limits, Repetition& repetition) {
   const MetricValue& before = recorded[name];
-  ++repetition.metrics;
+  ComparedNumbers& found = repetition.metrics;
+  ++found.count;
   if (before == now || (before.is_number() && now.is_number() && before.number() == now.number())) return;
   if (is_effort(name)) {
-    repetition.effort.push_back(name);
+    found.effort.push_back(name);
   } else if (before.is_number() && now.is_number()) {
-    compare_numbers(name, before.number(), now.number(), limits.of_metric(name), stated_error(recorded, name),
-                    before.is_integer() && now.is_integer(), repetition);
+    const double size = std::max(metric_scale(name, before.number()), metric_scale(name, now.number()));
+    compare_numbers({.name = name,
+                     .before = before.number(),
+                     .now = now.number(),
+                     .round_off = repetition.round_off * size,
+                     .limit = limits.of_metric(name),
+                     .stated_error = stated_error(recorded, name),
+                     .counts = before.is_integer() && now.is_integer()},
+                    found);
   } else if (before.is_known() || now.is_known()) {
-    repetition.beyond.push_back(name);
+    found.beyond.push_back(name);
   }
+}
+
+using EnergyTerms = std::vector<std::pair<std::string, double>>;
+
+const double* find_term(const EnergyTerms& terms, const std::string& name) {
+  const auto found = std::ranges::find(terms, name, [](const auto& term) { return term.first; });
+  return found == terms.end() ? nullptr : &found->second;
+}
+
+// The terms of one balance share one round-off: that of the largest.
+void compare_energies(const Manifest& recorded, const Manifest& now, const Limits& limits,
+                      Repetition& repetition) {
+  double largest = 0;
+  for (const EnergyTerms* terms : {&recorded.energy, &now.energy})
+    for (const auto& [name, joules] : *terms) largest = std::max(largest, std::abs(joules));
+  for (const auto& [name, before] : recorded.energy) {
+    const double* const joules = find_term(now.energy, name);
+    if (joules == nullptr) {
+      repetition.missing.push_back(energy_name(name));
+      continue;
+    }
+    ++repetition.energies.count;
+    if (*joules == before) continue;
+    if (is_effort(name))
+      repetition.energies.effort.push_back(energy_name(name));
+    else
+      compare_numbers({.name = energy_name(name),
+                       .before = before,
+                       .now = *joules,
+                       .round_off = repetition.round_off * largest,
+                       .limit = limits.of_metric(energy_name(name))},
+                      repetition.energies);
+  }
+  if (recorded.energy.empty() && !now.energy.empty()) repetition.unrecorded.push_back("the energy balance");
+  if (recorded.energy.empty() || recorded.commit != now.commit) return;
+  for (const auto& [name, joules] : now.energy)
+    if (find_term(recorded.energy, name) == nullptr) repetition.unrecorded.push_back(energy_name(name));
+}
+
+// Whether a file of a run is a picture of its cloth, or a table that a repetition without --errors has, too.
+bool is_picture(const std::string& file) { return file.ends_with(".png") && !file.starts_with("plot_"); }
+// The cheapest settings of `accuracy` are chosen by durations.
+bool is_table(const std::string& file) {
+  return file.ends_with(".csv") && file != "errors.csv" && file != "cheapest.csv";
 }
 
 // On the CPU the number of threads changes no bits.
@@ -144,10 +136,15 @@ Json without_origins(Json scene) {
 
 }  // namespace
 
+std::string energy_name(const std::string& term) { return "energy." + term; }
+
 Agreement Repetition::agreement() const {
-  if (!beyond.empty() || !pictures_beyond.empty() || !missing.empty() || !unrecorded.empty())
+  for (const ComparedNumbers* numbers : {&metrics, &energies, &series})
+    if (!numbers->beyond.empty()) return Agreement::none;
+  if (!pictures_beyond.empty() || !missing.empty() || !unrecorded.empty() || !lost.empty())
     return Agreement::none;
-  if (same_state == has_state && rounded.empty() && effort.empty() && within.empty()) return Agreement::bits;
+  if (same_state == has_state && metrics.all_same() && energies.all_same() && series.all_same())
+    return Agreement::bits;
   return bits_are_due ? Agreement::none : Agreement::errors;
 }
 
@@ -156,15 +153,6 @@ double round_off_bound(const Manifest& run) {
   if (integrator.empty() || integrator == "explicit") return kMinRoundOff;
   const double tolerance = run.number(integrator == "semi-implicit" ? "solver-tolerance" : "newton-residual");
   return std::max(kMinRoundOff, kSolverToleranceFraction * tolerance);
-}
-
-double metric_scale(const std::string& name, double number) {
-  double whole = 0;
-  if (name.ends_with("_percent")) whole = 100;
-  if (name.ends_with("_relative") || has_part(name, "_over_")) whole = 1;
-  if (name.ends_with("_deg")) whole = 180;
-  if (has_part(name, "curvature") && name.ends_with("_per_m")) whole = 1;
-  return std::max(std::abs(number), whole);
 }
 
 Repetition compare_runs(const Manifest& recorded, const Manifest& now, const Limits& limits, bool exact) {
@@ -182,17 +170,38 @@ Repetition compare_runs(const Manifest& recorded, const Manifest& now, const Lim
     else if (drawn || !is_drawn(name))
       repetition.missing.push_back(name);
   }
+  compare_energies(recorded, now, limits, repetition);
   add_unrecorded(recorded, now, repetition);
   return repetition;
 }
 
-std::vector<std::string> pictures_in(const Manifest& recorded, const fs::path& folder) {
-  std::vector<std::string> names;
-  std::error_code ignored;
-  for (const std::string& name : recorded.files)
-    if (name.ends_with(".png") && !name.starts_with("plot_") && fs::is_regular_file(folder / name, ignored))
-      names.push_back(name);
-  return names;
+ComparableFiles comparable_files(const Manifest& recorded, const fs::path& folder, bool with_pictures) {
+  const auto is_there = [&](const std::string& name) {
+    std::error_code ignored;
+    return fs::is_regular_file(folder / name, ignored);
+  };
+  constexpr const char* kPage = "report.html";
+  const bool is_whole = std::ranges::find(recorded.files, kPage) == recorded.files.end() || is_there(kPage);
+  ComparableFiles files;
+  for (const std::string& name : recorded.files) {
+    if (!is_table(name) && !(with_pictures && is_picture(name))) continue;
+    if (is_there(name))
+      (is_table(name) ? files.tables : files.pictures).push_back(name);
+    else if (is_whole)
+      files.lost.push_back(name);
+    else
+      ++files.trimmed;
+  }
+  return files;
+}
+
+void add_unlisted_files(const Manifest& recorded, const Manifest& now, bool with_pictures,
+                        Repetition& repetition) {
+  if (recorded.commit != now.commit) return;
+  for (const std::string& name : now.files)
+    if ((is_table(name) || (with_pictures && is_picture(name))) &&
+        std::ranges::find(recorded.files, name) == recorded.files.end())
+      repetition.unrecorded.push_back(name);
 }
 
 void compare_pictures(const std::vector<std::string>& names, const fs::path& recorded, const fs::path& now,

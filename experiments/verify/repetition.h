@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "experiments/diff/limits.h"
+#include "experiments/verify/compared_numbers.h"
 #include "experiments/workbench/app/manifest.h"
 
 namespace hysteron::experiments {
@@ -17,14 +18,14 @@ struct Repetition {
   bool has_state = false;               // positions and velocities were hashed
   bool same_state = false;              // and are the same, bit for bit
   bool bits_are_due = false;            // other bits are a failure
-  int metrics = 0;                      // numbers that both have
   double round_off = 0;                 // what may lie between two builds, of a number's size
-  std::vector<std::string> rounded;     // metrics that differ by no more than that, by name
-  std::vector<std::string> effort;      // that say how steps were solved, and differ, by name
-  std::vector<std::string> within;      // that differ by no more than stated errors or limits, in words
-  std::vector<std::string> beyond;      // that differ by more, in words
+  ComparedNumbers metrics;              // that both have
+  ComparedNumbers energies;             // terms of the closing balance, "energy.kinetic"
+  ComparedNumbers series;               // columns of tables, "metrics.csv:plate_force [N]"
   std::vector<std::string> missing;     // that are no longer measured: a difference
   std::vector<std::string> unrecorded;  // that are measured, and the manifest does not hold: likewise
+  std::vector<std::string> lost;        // files of the manifest that its folder lacks: likewise
+  int trimmed_files = 0;                // those of a folder that keeps only a part of its run: no difference
   int pictures = 0;
   std::vector<std::string> pictures_beyond;  // in words
 
@@ -38,9 +39,9 @@ struct Repetition {
 // multiplication in the mathematical library and with the simulation built for AVX-512: at most 2e-5 where
 // the tolerance is 1e-3, but 1.03e-4 of the integrator's share in `crease --quick`; 5e-8 where it is 1e-6.)
 double round_off_bound(const Manifest& run);
-// What round-off is a share of: the number itself, or, if it is less, the whole of what has one: 100 % of a
-// percentage, 1 of a ratio, half a turn of an angle; and 1/m of a curvature, below which cloth is flat.
-double metric_scale(const std::string& name, double number);
+
+// The name of a term of the closing energy balance, as limits have it: "energy.kinetic".
+std::string energy_name(const std::string& term);
 
 // Numbers are compared exactly, then with the limits of `limits` or else the errors that --errors has stated
 // of them, then with round-off; counts, texts and truths exactly.  What only one of them has is a difference,
@@ -51,11 +52,22 @@ double metric_scale(const std::string& name, double number);
 // The same bits are due where one compiler's same instructions ran on the same device, and where `exact` asks
 // for them.
 Repetition compare_runs(const Manifest& recorded, const Manifest& now, const Limits& limits, bool exact);
-// Pictures that both folders have.  Plots are none: they belong to gnuplot's version.
+
+// A run's folder holds every picture and table that its manifest lists, as long as its page stands in it.
+// One without its page keeps only a part, which is compared.
+struct ComparableFiles {
+  std::vector<std::string> pictures;  // that are there; plots are none: they belong to gnuplot's version
+  std::vector<std::string> tables;    // series and others, but for those of --errors, which are not repeated
+  std::vector<std::string> lost;      // that are not there, although the page is
+  int trimmed = 0;                    // that are not there, and the page is not either
+};
+ComparableFiles comparable_files(const Manifest& recorded, const std::filesystem::path& folder,
+                                 bool with_pictures);
 void compare_pictures(const std::vector<std::string>& names, const std::filesystem::path& recorded,
                       const std::filesystem::path& now, const Limits& limits, Repetition& repetition);
-// Those of a run that are still in its folder.
-std::vector<std::string> pictures_in(const Manifest& recorded, const std::filesystem::path& folder);
+// Pictures and tables of the repetition that a manifest of the same program does not list.
+void add_unlisted_files(const Manifest& recorded, const Manifest& now, bool with_pictures,
+                        Repetition& repetition);
 
 // What else differs between the two and may be why: program, device, keys of the scene; "" for nothing.
 std::string reasons_between(const Manifest& recorded, const Manifest& now);

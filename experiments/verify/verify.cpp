@@ -6,6 +6,7 @@
 #include <optional>
 #include <set>
 
+#include "experiments/verify/recorded_tables.h"
 #include "experiments/verify/repetition.h"
 #include "experiments/workbench/app/ending.h"
 #include "experiments/workbench/app/manifest_file.h"
@@ -98,22 +99,43 @@ std::string why_skipped(const Manifest& m, const fs::path& folder, const VerifyC
   return "";
 }
 
-std::string repetition_words(const Repetition& r, const std::string& reasons) {
+// What all three kinds of numbers have in one of their lists.
+std::vector<std::string> listed(const Repetition& r, std::vector<std::string> ComparedNumbers::*list) {
+  std::vector<std::string> all;
+  for (const ComparedNumbers* numbers : {&r.metrics, &r.energies, &r.series})
+    all.insert(all.end(), (numbers->*list).begin(), (numbers->*list).end());
+  return all;
+}
+
+// "3 pictures the same", where there are any and all are.
+std::string all_same_text(int count, bool all_same, const std::string& thing) {
+  return count > 0 && all_same ? fmt::format("{} {} the same", count, thing + (count == 1 ? "" : "s")) : "";
+}
+
+std::string repetition_text(const Repetition& r, const std::string& reasons) {
+  using N = ComparedNumbers;
   std::vector<std::string> parts;
+  const auto add = [&](const std::string& before, const std::vector<std::string>& list) {
+    if (!list.empty()) parts.push_back(before + join(list, ", "));
+  };
   const std::string state = r.same_state ? "same state" : r.has_state ? "state differs" : "no state is kept";
-  parts.push_back(fmt::format(
-      "{}; {} of {} metrics the same", state,
-      r.metrics - r.rounded.size() - r.effort.size() - r.within.size() - r.beyond.size(), r.metrics));
-  if (!r.rounded.empty())
-    parts.push_back(fmt::format("{} within round-off, {:.0e} of their size", r.rounded.size(), r.round_off));
-  if (!r.effort.empty()) parts.push_back(fmt::format("{} of the solver's work", r.effort.size()));
-  if (!r.within.empty()) parts.push_back("within their errors: " + join(r.within, ", "));
-  if (!r.beyond.empty()) parts.push_back("beyond: " + join(r.beyond, ", "));
-  if (!r.missing.empty()) parts.push_back("no longer measured: " + join(r.missing, ", "));
-  if (!r.unrecorded.empty()) parts.push_back("not in the manifest: " + join(r.unrecorded, ", "));
-  if (r.pictures > 0 && r.pictures_beyond.empty())
-    parts.push_back(fmt::format("{} picture{} the same", r.pictures, r.pictures == 1 ? "" : "s"));
-  if (!r.pictures_beyond.empty()) parts.push_back("pictures differ: " + join(r.pictures_beyond, ", "));
+  parts.push_back(fmt::format("{}; {} of {} metrics the same", state, r.metrics.same(), r.metrics.count));
+  if (const auto rounded = listed(r, &N::rounded); !rounded.empty())
+    parts.push_back(fmt::format("{} within round-off, {:.0e} of their size", rounded.size(), r.round_off));
+  if (const auto effort = listed(r, &N::effort); !effort.empty())
+    parts.push_back(fmt::format("{} of the solver's work", effort.size()));
+  add("within their errors: ", listed(r, &N::within));
+  add("beyond: ", listed(r, &N::beyond));
+  add("no longer measured: ", r.missing);
+  add("not in the manifest: ", r.unrecorded);
+  add("no longer in the folder: ", r.lost);
+  for (const std::string& text :
+       {all_same_text(r.energies.count, r.energies.all_same(), "energy term"),
+        all_same_text(r.series.count, r.series.all_same(), "table column"),
+        all_same_text(r.pictures, r.pictures_beyond.empty(), "picture"),
+        r.trimmed_files > 0 ? fmt::format("files not kept: {}", r.trimmed_files) : ""})
+    if (!text.empty()) parts.push_back(text);
+  add("pictures differ: ", r.pictures_beyond);
   if (r.agreement() != Agreement::bits && !reasons.empty())
     parts.push_back("recorded by another: " + reasons);
   return join(parts, "; ");
@@ -128,7 +150,7 @@ Outcome verified_outcome(Agreement agreement) {
 struct RepeatedRun {
   std::string name;
   RecordedRun recorded;
-  std::vector<std::string> pictures;
+  ComparableFiles files;
   std::optional<Line> said{};
   double seconds = 0;
 };
@@ -137,12 +159,19 @@ Line compared(const RepeatedRun& run, const ChildRun& now, const VerifyChoice& c
   if (!now.stopped.empty()) return {Outcome::failed, "could not be repeated: " + now.stopped};
   const Manifest& before = run.recorded.manifest;
   Repetition repetition = compare_runs(before, now.manifest.value(), limits, choice.exact);
-  compare_pictures(run.pictures, run.recorded.file.parent_path(), now.folder, limits, repetition);
-  if (!repetition.has_state && repetition.metrics + repetition.pictures == 0 &&
+  const fs::path folder = run.recorded.file.parent_path();
+  const bool with_pictures = !run.files.pictures.empty();
+  compare_tables(run.files.tables, folder, now.folder, before, limits, repetition);
+  compare_pictures(run.files.pictures, folder, now.folder, limits, repetition);
+  add_unlisted_files(before, *now.manifest, with_pictures, repetition);
+  repetition.lost = run.files.lost;
+  repetition.trimmed_files = run.files.trimmed;
+  if (!repetition.has_state &&
+      repetition.metrics.count + repetition.series.count + repetition.pictures == 0 &&
       repetition.agreement() != Agreement::none)
     return {Outcome::skipped, "skipped: it holds nothing that could be compared"};
   return {verified_outcome(repetition.agreement()),
-          repetition_words(repetition, reasons_between(before, *now.manifest))};
+          repetition_text(repetition, reasons_between(before, *now.manifest))};
 }
 
 // The runs that are repeated as columns below OUT; of the others it is said why they are not.
@@ -155,9 +184,9 @@ std::vector<ChildRun> repeated_columns(std::vector<RepeatedRun>& runs, const Ver
       run.said = {Outcome::skipped, "skipped: " + why};
       continue;
     }
-    if (!options.no_images) run.pictures = pictures_in(run.recorded.manifest, folder);
+    run.files = comparable_files(run.recorded.manifest, folder, !options.no_images);
     std::vector<Flag> later;
-    if (run.pictures.empty()) later.push_back({"no-images", "true"});
+    if (run.files.pictures.empty()) later.push_back({"no-images", "true"});
     if (!choice.device.empty()) later.push_back({"device", choice.device});
     try {
       const CommandLine line = line_that_repeats(run.recorded, later, false);
@@ -188,9 +217,15 @@ TestCase test_case(const std::string& name, const Line& said, double seconds) {
 void refuse_unused_limits(const Limits& limits, const std::vector<RepeatedRun>& runs) {
   std::vector<std::string> metrics, pictures;
   for (const RepeatedRun& run : runs) {
-    for (const auto& [name, value] : run.recorded.manifest.metrics) metrics.push_back(name);
-    for (const std::string& name : run.recorded.manifest.files)
+    const Manifest& manifest = run.recorded.manifest;
+    for (const std::string& name : manifest.files)
       if (name.ends_with(".png")) pictures.push_back(name);
+    if (limits.metrics.empty()) continue;
+    for (const auto& [name, value] : manifest.metrics) metrics.push_back(name);
+    for (const auto& [term, joules] : manifest.energy) metrics.push_back(energy_name(term));
+    const fs::path folder = run.recorded.file.parent_path();
+    for (std::string& name : table_columns(comparable_files(manifest, folder, false).tables, folder))
+      metrics.push_back(std::move(name));
   }
   limits.refuse_unused_metrics(metrics);
   limits.refuse_unused_pictures(pictures);
@@ -212,6 +247,7 @@ int run_verify(const CommandLine& line) {
   Options options;
   options.out = "out/verify";
   set_keys(line, bind_verify(choice, options), [&] { choice.at_most = kQuickSeconds; });
+  require_own_junit(choice.junit);
   const fs::path root = line.positionals.front();
   const Limits limits = read_limits(choice.limits);
   std::vector<RepeatedRun> runs;

@@ -49,7 +49,7 @@ class TomlWriter {
 
   std::string whole(const std::vector<FurtherKey>& others) {
     Scene copy = scene_;
-    text_ << "# A resolved scene: every key, its unit, and where its value comes from.\n";
+    text_ << kResolvedSceneMark << " every key, its unit, and where its value comes from.\n";
     keys(bind_scene(copy));
     parameters();
     if (!others.empty()) text_ << "\n";

@@ -17,6 +17,9 @@ struct FurtherKey {
   std::string path, value;
 };
 
+// The beginning of every resolved scene's file.
+inline constexpr const char* kResolvedSceneMark = "# A resolved scene:";
+
 // Every key with its unit and where its value comes from as a comment.  `own`: keys that the experiment has
 // set itself.  Tables that it has added are commented out: it will add them again.
 std::string scene_toml(const Scene& scene, const std::set<std::string>& own = {},

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "sim/base/error.h"
+#include "sim/base/whole_file.h"
+
 namespace hysteron::experiments {
 namespace {
 namespace fs = std::filesystem;
@@ -110,6 +113,17 @@ void remove_empty_folders(const fs::path& folder, const std::vector<fs::path>& n
   for (const fs::path& name : names)
     for (fs::path inner = name.parent_path(); !inner.empty(); inner = inner.parent_path())
       if (fs::is_empty(folder / inner, ignored)) fs::remove(folder / inner, ignored);
+}
+
+void require_own_file(const fs::path& file, const std::string& mark, const std::string& what,
+                      const std::string& key) {
+  std::error_code ignored;
+  if (!fs::is_regular_file(file, ignored) || fs::file_size(file, ignored) == 0) return;
+  if (whole_file(file, "cannot read " + file.string()).find(mark) != std::string::npos) return;
+  throw Error::invalid_input("--" + key + " " + file.string() +
+                             " is a file that is there already and is not " + what +
+                             " of this program: give another name, or remove it")
+      .with_key(key, file.string());
 }
 
 }  // namespace hysteron::experiments

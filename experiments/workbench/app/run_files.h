@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <set>
+#include <string>
 #include <vector>
 
 #include "experiments/workbench/app/manifest.h"
@@ -23,6 +24,12 @@ bool stays_inside(const std::filesystem::path& name);
 bool is_behind_a_link(const std::filesystem::path& folder, const std::filesystem::path& name);
 // "frames/0012.png", one of a sequence, whose files are numbered.
 bool is_numbered(const std::filesystem::path& name);
+
+// Refuses to replace a file that `--key` names and the program has not written itself, which it knows by a
+// `mark` in it: `what` says what it writes there, "a resolved scene".  An empty file is no one's.  Throws
+// Error::invalid_input.
+void require_own_file(const std::filesystem::path& file, const std::string& mark, const std::string& what,
+                      const std::string& key);
 
 // Names that the manifest lists, and those of the page and the outcome that were written since; whether they
 // are there or not.

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/workbench/app/manifest.h"
+#include "experiments/workbench/app/run_files.h"
 #include "sim/base/atomic_file.h"
 #include "sim/base/whole_file.h"
 #include "sim/scene/assets.h"
@@ -10,9 +11,15 @@
 namespace hysteron::experiments {
 namespace {
 namespace fs = std::filesystem;
+
+// The files of a workflow, and what stands in each.
+constexpr std::pair<const char*, const char*> kFiles[] = {{"Snakefile", "# Runs of hysteron as jobs"},
+                                                          {"slurm/config.yaml", "# Snakemake's profile"},
+                                                          {"config.json", "\"working_folder\""}};
 }  // namespace
 
 void write_workflow(const fs::path& folder, const Workflow& workflow) {
+  for (const auto& [name, mark] : kFiles) require_own_file(folder / name, mark, "a workflow's", "snakemake");
   make_folders(folder / "slurm");
   const fs::path shipped = assets_folder() / "snakemake";
   for (const char* name : {"Snakefile", "slurm/config.yaml"})

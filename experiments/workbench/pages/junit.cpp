@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "experiments/workbench/app/run_files.h"
 #include "experiments/workbench/pages/page.h"
 #include "sim/base/atomic_file.h"
 
@@ -11,6 +12,8 @@ namespace hysteron::experiments {
 namespace {
 
 using Outcome = TestCase::Outcome;
+
+constexpr const char* kOwnClasses = "hysteron.";  // before the subcommand
 
 // XML 1.0 has no control characters but white space, not even escaped.
 std::string attribute(const std::string& name, std::string text) {
@@ -47,8 +50,12 @@ std::string junit_text(const std::string& subcommand, const std::string& suite,
   std::string text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites" + name + numbers +
                      ">\n  <testsuite" + name + numbers +
                      fmt::format(" skipped=\"{}\">\n", count(Outcome::skipped));
-  for (const TestCase& c : cases) text += case_text("hysteron." + subcommand, c);
+  for (const TestCase& c : cases) text += case_text(kOwnClasses + subcommand, c);
   return text + "  </testsuite>\n</testsuites>\n";
+}
+
+void require_own_junit(const std::filesystem::path& file) {
+  require_own_file(file, std::string(" classname=\"") + kOwnClasses, "a JUnit file", "junit");
 }
 
 void write_junit(const std::filesystem::path& file, const std::string& subcommand, const std::string& suite,

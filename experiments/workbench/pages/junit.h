@@ -20,6 +20,8 @@ struct TestCase {
 std::string junit_text(const std::string& subcommand, const std::string& suite,
                        const std::vector<TestCase>& cases);
 // Writes it, and the file's folder where it is missing.  Throws Error::system.
+// Refuses to replace a file that is no such file of this program.  Throws Error::invalid_input.
+void require_own_junit(const std::filesystem::path& file);
 void write_junit(const std::filesystem::path& file, const std::string& subcommand, const std::string& suite,
                  const std::vector<TestCase>& cases);
 

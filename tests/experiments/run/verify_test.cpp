@@ -1,5 +1,6 @@
 #include <fstream>
 
+#include "experiments/verify/recorded_tables.h"
 #include "experiments/verify/repetition.h"
 #include "sim/mesh/cloth_mesh.h"
 #include "tests/experiments/program.h"
@@ -335,6 +336,94 @@ TEST_F(Recorded, RunWhoseManifestHoldsLessThanItFindsDiffers) {
   EXPECT_TRUE(says(without([](Json& json) { json["metrics"].erase("node_count"); }),
                    "not in the manifest: node_count"));
   EXPECT_TRUE(says(without([](Json& json) { json["metrics"]["gone_m"] = 1; }), "no longer measured: gone_m"));
+}
+
+TEST(Repetition, HoldsTheClosingEnergiesToRoundOffOfTheirLargest) {
+  Manifest before = with_steps("bdf2", 1e-6), now = before;
+  before.energy = {{"kinetic", 1e-9}, {"bending", 1e-3}, {"remainder", 1e-18}};
+  const auto agreement = [&](const std::string& term, double joules) {
+    now.energy = before.energy;
+    for (auto& [name, value] : now.energy)
+      if (name == term) value = joules;
+    return compare_runs(before, now, {}, false).agreement();
+  };
+  EXPECT_EQ(agreement("bending", 1e-3), Agreement::bits);
+  EXPECT_EQ(agreement("kinetic", 1e-9 + 0.9e-9), Agreement::errors) << "1e-6 of 1 mJ is 1 nJ";
+  EXPECT_EQ(agreement("kinetic", 1e-9 + 1.1e-9), Agreement::none);
+  EXPECT_EQ(agreement("remainder", 1e-6), Agreement::errors) << "what the solver left over";
+  now.energy = {{"kinetic", 1e-9}};
+  EXPECT_EQ(compare_runs(before, now, {}, false).missing,
+            (std::vector<std::string>{"energy.bending", "energy.remainder"}));
+  EXPECT_EQ(compare_runs({}, before, {}, false).unrecorded, (std::vector<std::string>{"the energy balance"}));
+}
+
+TEST(Repetition, HoldsEveryColumnOfATableToItsLimitOrToRoundOff) {
+  const Folder folder;
+  for (const char* name : {"before", "now"}) fs::create_directories(folder.path() / name);
+  Manifest run = with_steps("bdf2", 1e-6);
+  run.metrics = {{"tip_m", 0.5}, {"tip_m_step_error", 0.01}};
+  const auto compared = [&](const std::string& before, const std::string& now, const Limits& limits = {}) {
+    folder.write("before/metrics.csv", before);
+    folder.write("now/metrics.csv", now);
+    Repetition repetition;
+    repetition.round_off = round_off_bound(run);
+    compare_tables({"metrics.csv"}, folder.file("before"), folder.file("now"), run, limits, repetition);
+    return repetition;
+  };
+  const std::string head = "time [s],width [m],wall [s]\n0,2.0000000,1\n";
+  EXPECT_EQ(compared(head, head).series.same(), 2u) << "durations are passed over";
+  EXPECT_TRUE(compared(head, "time [s],width [m],wall [s]\n0,2.0000000,7\n").series.all_same());
+  EXPECT_EQ(compared(head, "time [s],width [m],wall [s]\n0,2.0000019,1\n").series.rounded.size(), 1u);
+  const std::string other = "time [s],width [m],wall [s]\n0,2.0000021,1\n";
+  EXPECT_EQ(compared(head, other).series.beyond.size(), 1u);
+  Limits limits;
+  limits.metrics = {{"metrics.csv:width*", 1e-5}};
+  EXPECT_EQ(compared(head, other, limits).series.within.size(), 1u);
+  EXPECT_EQ(compared(head, head + "1,2,1\n").series.beyond,
+            (std::vector<std::string>{"metrics.csv with 1 rows, now 2"}));
+  EXPECT_EQ(compared(head, "time [s]\n0\n").missing, (std::vector<std::string>{"metrics.csv:width [m]"}));
+  // The stated error of the metric whose history it is.
+  EXPECT_EQ(compared("tip [m]\n0.5000000\n", "tip [m]\n0.5090000\n").series.within.size(), 1u);
+  EXPECT_EQ(compared("tip [m]\n0.5000000\n", "tip [m]\n0.5110000\n").series.beyond.size(), 1u);
+  // Six digits of a table may end in another one.
+  EXPECT_EQ(compared("width [m]\n0.300001\n", "width [m]\n0.300002\n").series.rounded.size(), 1u);
+}
+
+TEST_F(Recorded, RunWhoseEnergyOrSeriesIsNotThatOfItsRepetitionDiffers) {
+  record("run " + folder_.write("mine.toml", "seconds = 0.02\nstep = 0.01\ntriangles = 20\n") + " --no-images");
+  const std::string verify = "verify " + in("runs") + " --out " + in("check");
+  EXPECT_TRUE(says(finished(verify).out, "21 energy terms the same", "table columns the same"));
+  edit([](Json& json) { json["energy"]["bending"] = 1.0; });
+  const std::string series = file_content(run() / "metrics.csv");
+  std::ofstream(run() / "metrics.csv") << series.substr(0, series.rfind('\n', series.size() - 2) + 1);
+  EXPECT_TRUE(says(ended(4, verify).out, "beyond: energy.bending 1 -> ", "metrics.csv with "));
+}
+
+// A folder that its page stands in has all that its manifest lists; without it a part, which is compared.
+TEST(Repetition, MissesPicturesAndTablesThatOneOfTheTwoHasNot) {
+  const Folder folder;
+  Manifest run;
+  run.files = {"report.html", "metrics.csv",   "errors.csv",     "frames/0000.png",
+               "sheet.png",   "plot_time.png", "frames/0001.png"};
+  fs::create_directories(folder.path() / "frames");
+  for (const char* file : {"report.html", "metrics.csv", "frames/0000.png", "sheet.png"}) folder.write(file, "");
+  const ComparableFiles whole = comparable_files(run, folder.path(), true);
+  EXPECT_EQ(whole.tables, (std::vector<std::string>{"metrics.csv"}));
+  EXPECT_EQ(whole.pictures, (std::vector<std::string>{"frames/0000.png", "sheet.png"}));
+  EXPECT_EQ(whole.lost, (std::vector<std::string>{"frames/0001.png"}));
+  EXPECT_TRUE(comparable_files(run, folder.path(), false).lost.empty());
+  fs::remove(folder.path() / "report.html");
+  const ComparableFiles part = comparable_files(run, folder.path(), true);
+  EXPECT_TRUE(part.lost.empty());
+  EXPECT_EQ(part.trimmed, 1);
+
+  Repetition repetition;
+  Manifest now = run;
+  now.files.insert(now.files.end(), {"frames/0002.png", "probes.csv", "plot_more.png"});
+  add_unlisted_files(run, now, true, repetition);
+  EXPECT_EQ(repetition.unrecorded, (std::vector<std::string>{"frames/0002.png", "probes.csv"}));
+  repetition.lost = whole.lost;
+  EXPECT_EQ(repetition.agreement(), Agreement::none);
 }
 
 TEST_F(Recorded, RunThatCannotBeRepeatedIsAFailureBesideOthers) {

@@ -1,0 +1,187 @@
+#include "experiments/verify/recorded_tables.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+
+#include "experiments/workbench/pages/manifest.h"
+#include "sim/base/csv.h"
+#include "sim/base/error.h"
+#include "sim/base/number_in.h"
+
+namespace hysteron::experiments {
+namespace {
+namespace fs = std::filesystem;
+
+std::string column_name(const std::string& file, const std::string& column) { return file + ":" + column; }
+
+// The metric of the run whose history the column is: plate_force_N of "plate_force [N]"; a page's columns are
+// metrics by their own names.  "" where there is none.
+std::string metric_of_column(const Metrics& metrics, const std::string& column) {
+  if (metrics.contains(column)) return column;
+  for (const auto& [name, value] : metrics)
+    if (const NamedUnit parts = split_unit(name);
+        quantity_in(column) == quantity_in(parts.text()) && unit_in(column) == unit_in(parts.text()))
+      return name;
+  return "";
+}
+
+// Part of a number that its last printed digit is: a table of words and numbers has six digits, a series all.
+double printed_round_off(const std::string& text) {
+  constexpr int kTableDigits = 6;
+  const std::size_t first = std::min(text.find_first_of("123456789"), text.size());
+  const std::string mantissa = text.substr(first, text.find_first_of("eE", first) - first);
+  const auto digits =
+      std::count_if(mantissa.begin(), mantissa.end(), [](unsigned char c) { return c >= '0' && c <= '9'; });
+  return digits > kTableDigits ? 0 : std::pow(10., 1 - kTableDigits);
+}
+
+// The column's name without what makes a mean or a standard error of draws of a metric.
+std::string drawn_metric(const std::string& column) {
+  for (const std::string ending : {"_mean", "_stderr"})
+    if (column.ends_with(ending)) return column.substr(0, column.size() - ending.size());
+  return column;
+}
+
+// Durations, and what goes with the machine's load as they do: memory, and the front of the cheapest
+// settings.
+bool is_duration_column(const std::string& column) {
+  static const std::set<std::string> kNames = {"computing", "wall", "memory", "on front"};
+  return is_duration(drawn_metric(column)) || kNames.contains(quantity_in(column));
+}
+
+// Two columns of one name, as they stand in the tables.
+class ColumnPair {
+ public:
+  ColumnPair(const Table& before, const Table& now, const std::string& column)
+      : before_(before), now_(now), i_(before.at(column)), j_(now.at(column)) {
+    for (std::size_t row = 0; row < before_.rows.size(); ++row) compare_row(row);
+  }
+
+  bool is_same() const { return !differs_; }
+  // The row of the first pair of which one is no number; none where all that differ are numbers.
+  std::optional<std::size_t> word_row() const { return word_row_; }
+  std::size_t worst_row() const { return worst_row_; }
+  double before() const { return *number_in(before_.rows[worst_row_][i_]); }
+  double now() const { return *number_in(now_.rows[worst_row_][j_]); }
+  double largest() const { return largest_; }
+  double printed() const { return printed_; }
+
+ private:
+  void compare_row(std::size_t row) {
+    const std::string &a = before_.rows[row][i_], &b = now_.rows[row][j_];
+    const std::optional<double> x = number_in(a), y = number_in(b);
+    if (x && std::isfinite(*x)) largest_ = std::max(largest_, std::abs(*x));
+    if (a == b) return;
+    differs_ = true;
+    if (!x || !y || !std::isfinite(*x) || !std::isfinite(*y)) {
+      if (!word_row_) word_row_ = row;
+      return;
+    }
+    printed_ = std::max(printed_, std::min(printed_round_off(a), printed_round_off(b)));
+    if (const double difference = std::abs(*x - *y); difference >= worst_)
+      worst_row_ = row, worst_ = difference;
+  }
+
+  const Table &before_, &now_;
+  std::size_t i_, j_, worst_row_ = 0;
+  bool differs_ = false;
+  std::optional<std::size_t> word_row_;
+  double largest_ = 0, printed_ = 0, worst_ = 0;
+};
+
+class TablePair {
+ public:
+  TablePair(std::string file, const Table& before, const Table& now)
+      : file_(std::move(file)), before_(before), now_(now) {
+    for (const std::string& column : before_.head)
+      if (unit_in(column) == "J" && now_.find(column))
+        largest_energy_ = std::max(largest_energy_, ColumnPair(before_, now_, column).largest());
+  }
+
+  void compare(const Manifest& manifest, const Limits& limits, Repetition& repetition) const {
+    for (const std::string& column : before_.head) {
+      if (is_duration_column(column)) continue;
+      const std::string name = column_name(file_, column);
+      if (!now_.find(column)) {
+        repetition.missing.push_back(name);
+        continue;
+      }
+      ++repetition.series.count;
+      const ColumnPair pair(before_, now_, column);
+      if (!pair.is_same()) compare_column(column, pair, manifest, limits, repetition);
+    }
+  }
+
+ private:
+  void compare_column(const std::string& column, const ColumnPair& pair, const Manifest& manifest,
+                      const Limits& limits, Repetition& repetition) const {
+    const std::string name = column_name(file_, column), metric = metric_of_column(manifest.metrics, column);
+    ComparedNumbers& found = repetition.series;
+    if (is_effort(drawn_metric(column)) || quantity_in(column) == "remainder")
+      found.effort.push_back(name);
+    else if (column == "state_hash")  // of each run of a study: other bits, no more
+      found.rounded.push_back(name);
+    else if (const auto row = pair.word_row())
+      found.beyond.push_back(fmt::format("{} in row {}", name, *row + 1));
+    else
+      compare_numbers({.name = fmt::format("{} in row {}", name, pair.worst_row() + 1),
+                       .before = pair.before(),
+                       .now = pair.now(),
+                       .round_off = (repetition.round_off + pair.printed()) * size(column, metric, pair),
+                       .limit = limit(limits, name, metric),
+                       .stated_error = metric.empty() ? 0 : stated_error(manifest.metrics, metric)},
+                      found);
+  }
+
+  double size(const std::string& column, const std::string& metric, const ColumnPair& pair) const {
+    if (unit_in(column) == "J") return largest_energy_;
+    return metric_scale(metric.empty() ? column : metric, pair.largest());
+  }
+
+  static std::optional<double> limit(const Limits& limits, const std::string& name,
+                                     const std::string& metric) {
+    const std::optional<double> own = limits.of_metric(name);
+    return own || metric.empty() ? own : limits.of_metric(metric);
+  }
+
+  const std::string file_;
+  const Table &before_, &now_;
+  double largest_energy_ = 0;  // [J]
+};
+
+}  // namespace
+
+void compare_tables(const std::vector<std::string>& names, const fs::path& recorded, const fs::path& now,
+                    const Manifest& manifest, const Limits& limits, Repetition& repetition) {
+  std::error_code ignored;
+  for (const std::string& name : names) {
+    if (!fs::is_regular_file(now / name, ignored)) {
+      repetition.missing.push_back(name);
+      continue;
+    }
+    try {
+      const Table before = read_table(recorded / name), after = read_table(now / name);
+      if (before.rows.size() != after.rows.size())
+        repetition.series.beyond.push_back(
+            fmt::format("{} with {} rows, now {}", name, before.rows.size(), after.rows.size()));
+      else
+        TablePair(name, before, after).compare(manifest, limits, repetition);
+    } catch (const Error& error) {
+      repetition.series.beyond.push_back(name + ": " + error.what());
+    }
+  }
+}
+
+std::vector<std::string> table_columns(const std::vector<std::string>& names, const fs::path& folder) {
+  std::vector<std::string> columns;
+  for (const std::string& name : names)
+    for (const std::string& column : read_table(folder / name).head)
+      columns.push_back(column_name(name, column));
+  return columns;
+}
+
+}  // namespace hysteron::experiments
