@@ -7,11 +7,13 @@
 
 #include <algorithm>
 #include <iostream>
+#include <nlohmann/json.hpp>
 
 #include "experiments/compare/plan.h"
 #include "experiments/compare/tuning.h"
 #include "experiments/workbench/app/command_line.h"
 #include "experiments/workbench/app/key_conditions.h"
+#include "experiments/workbench/app/scene_source.h"
 #include "experiments/workbench/compare/comparison.h"
 #include "experiments/workbench/compare/comparison_page.h"
 #include "experiments/workbench/pages/report.h"
@@ -111,6 +113,20 @@ void read_flags(const CommandLine& line, CompareChoice& choice, Options& options
   if (!choice.to.empty()) choice.to = column_name(choice.to);
 }
 
+// Whether pictures are drawn, and how, is said by the scene's file where no flag does.
+void take_scene_options(CommandLine& inner, Options& options) {
+  const Options of_scene = setup_of_file(inner).options;
+  const bool draws = last_text(inner.flags, "no-images", of_scene.no_images ? "true" : "false") != "true";
+  options.no_images = !draws;
+  if (!draws) inner.flags.push_back({"no-images", "true"});
+  if (last_text(inner.flags, "look", "").empty() && of_scene.look != options.look) {
+    options.look = of_scene.look;
+    inner.flags.push_back({"look", of_scene.look});
+  }
+  if (last_text(inner.flags, "size", "").empty() && of_scene.size != options.size)
+    inner.flags.push_back({"size", of_scene.size});
+}
+
 void draw_page(Run& run, const CommandLine& line, const std::string& experiment, const CompareChoice& choice,
                const Options& options, const Plan& plan) {
   const ComparisonPage page{.title = comparison_title(line, plan.columns),
@@ -153,31 +169,33 @@ int run_compare(const CommandLine& line) {
   CompareChoice choice;
   Options options;
   read_flags(line, choice, options);
-  const CommandLine inner = line_of_columns(line, choice);
+  CommandLine inner = line_of_columns(line, choice);
+  take_scene_options(inner, options);
   std::vector<Variant> variants = named_variants(inner);
   if (options.explain)
     return explain_columns(comparison_plan(inner, variants, choice, options.out).columns), 0;
-  check_batch({{inner.experiment, inner, options.out}}, choice.batch);
-  if (!options.no_images && !choice.times.empty())
-    check_times(choice.times, comparison_plan(inner, variants, choice, options.out).columns);
+  Plan plan = comparison_plan(inner, variants, choice, options.out);
+  check_batch(plan.columns, choice.batch);
+  check_columns(plan.columns);
+  if (!options.no_images && !choice.times.empty()) check_times(choice.times, plan.columns);
   SweepJobs jobs{choice.jobs, std::stoi(last_text(line.flags, "threads", "0")), options.resume,
                  last_text(inner.flags, "device", "auto") != "cpu", -1};
   jobs.batch = choice.batch;
   Json keys = {{"compared", inner.experiment}, {"match", enum_name(choice.match)}};
   if (!choice.times.empty()) keys["times"] = choice.times;
   if (!choice.metrics.empty()) keys["metrics"] = split(choice.metrics);
-  if (!choice.tune.empty() || !choice.tune_metric.empty())
-    keys["tuned"] = tune_first_column(inner, variants, choice, jobs, options);
-  Plan plan = comparison_plan(inner, variants, choice, options.out);
+  const bool tunes = !choice.tune.empty() || !choice.tune_metric.empty();
+  if (tunes) check_tuning(inner, variants, choice, options);
+  Run run(line, options, keys);
+  claim_files(run, !options.no_images);
+  if (tunes) {
+    keys["tuned"] = tune_first_column(run, inner, variants, choice, jobs, options);
+    plan = comparison_plan(inner, variants, choice, options.out);
+  }
   if (choice.difference == "curvature") jobs.first = plan.to;
   for (std::size_t c = 0; c < plan.columns.size(); ++c)
     keys["columns"].push_back({{"name", plan.columns[c].name}, {"stiffness_times", plan.scales[c]}});
-  Run run(line, options, keys);
-  constexpr double kMissed = 1;  // [%]
-  if (keys.contains("tuned") && std::abs(keys["tuned"]["missed_percent"].get<double>()) > kMissed)
-    run.warn(fmt::format("compare.tune: the nearest number that was tried misses the target by {:.2g} %",
-                         keys["tuned"]["missed_percent"].get<double>()));
-  claim_files(run, !options.no_images);
+  run.manifest().keys = std::make_shared<const Json>(keys);
   run_columns(run, plan.columns, jobs);
   check_metrics(plan.columns, split(choice.metrics));
   write_comparison_table(run, plan.varied, plan.columns, split(choice.metrics));

@@ -34,47 +34,10 @@ void add_parts(const BendingParts& parts, std::vector<Flag>& flags) {
   if (parts.set.on()) flags.push_back({"fabric.bending.set.hardening", number_text(parts.set.hardening)});
 }
 
-// Keys that a scene's file may have and that say nothing of how cloth bends: of an experiment, read and
-// dropped.
-class DroppedKeys {
- public:
-  explicit DroppedKeys(const std::vector<KeyDescription>& descriptions) {
-    for (const KeyDescription& key : descriptions) keys_.push_back({key, field(key.type)});
-  }
-  const Keys& keys() const { return keys_; }
-
- private:
-  Field field(const std::string& type) {
-    if (type == "flag") return &flag_;
-    if (type == "integer") return &integer_;
-    if (type == "number") return &number_;
-    if (type == "vector") return &vector_;
-    if (type == "numbers") return &numbers_;
-    if (type == "name=value") return &parameters_;
-    return &text_;
-  }
-
-  bool flag_ = false;
-  int integer_ = 0;
-  double number_ = 0;
-  Eigen::Vector3d vector_ = Eigen::Vector3d::Zero();
-  Numbers numbers_;
-  Parameters parameters_;
-  std::string text_;
-  Keys keys_;
-};
-
 // The scene of a column before any matching, as far as it says how cloth bends: by the experiment's defaults,
 // the scene's file and the flags, as the column's run resolves it.
 Scene bending_scene(const CommandLine& line) {
-  const Experiment& experiment = experiment_named(line.experiment);
-  Setup setup = experiment.defaults ? experiment.defaults() : Setup{default_scene(), {}};
-  setup.own_tables = {"metric"};
-  const DroppedKeys own(experiment.own_keys());
-  Keys extra = bind_options(setup.options);
-  extra.insert(extra.end(), own.keys().begin(), own.keys().end());
-  const std::string file = last_text(line.flags, "scene", setup.options.scene);
-  if (!file.empty()) apply_scene(setup, line.experiment, file, extra);
+  Setup setup = setup_of_file(line);
   std::vector<Flag> bending;
   for (const Flag& flag : line.flags)
     if (flag.path.starts_with("fabric") || flag.path == "law" || flag.path == "param")

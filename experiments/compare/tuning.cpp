@@ -6,6 +6,7 @@
 #include <iostream>
 #include <map>
 
+#include "experiments/workbench/compare/comparison.h"
 #include "sim/base/error.h"
 #include "sim/base/number_in.h"
 
@@ -34,6 +35,16 @@ double metric_in(const ChildRun& column, const std::string& metric) {
                                " that is a number (--compare.tune-metric)")
         .with_key("compare.tune-metric", metric);
   return value;
+}
+
+// The first column with a number for the key that is tuned, and the second one.
+Plan tried_columns(const CommandLine& inner, const std::vector<Variant>& variants, CompareChoice choice,
+                   const Options& options, const std::string& key, const std::string& number) {
+  CommandLine line = inner;
+  line.flags = with_later(line.flags, {{"no-images", "true"}});
+  choice.to.clear();
+  return comparison_plan(line, {with_key(variants[0], key, number), variants[1]}, choice,
+                         std::filesystem::path(options.out) / "tries");
 }
 
 }  // namespace
@@ -89,23 +100,25 @@ std::string tuned(const Tuning& tuning, const Excess& excess) {
   return best;
 }
 
-Json tune_first_column(const CommandLine& inner, std::vector<Variant>& variants, CompareChoice choice,
-                       SweepJobs jobs, const Options& options) {
+void check_tuning(const CommandLine& inner, const std::vector<Variant>& variants, const CompareChoice& choice,
+                  const Options& options) {
   const Tuning tuning = parsed_tuning(choice.tune, choice.tune_metric);
   if (variants.size() < 2)
     throw Error::invalid_input(
         "compare.tune needs two columns, the one to tune and its target (--compare.tune)")
         .with_key("compare.tune", choice.tune);
-  const auto say = [&](const std::string& line) {
-    if (!options.quiet) std::cerr << line << std::endl;
-  };
-  CommandLine line = inner;
-  line.flags = with_later(line.flags, {{"no-images", "true"}});
-  choice.to.clear();
+  for (const std::string& number : {tuning.low, tuning.high})
+    check_columns(tried_columns(inner, variants, choice, options, tuning.key, number).columns);
+}
+
+Json tune_first_column(Run& run, const CommandLine& inner, std::vector<Variant>& variants,
+                       const CompareChoice& choice, SweepJobs jobs, const Options& options) {
+  const Tuning tuning = parsed_tuning(choice.tune, choice.tune_metric);
+  const auto say = [&](const std::string& line) { run.progress(line); };
   std::map<std::string, double> missed;  // by how much of the target, with each number
   const Excess excess = [&](const std::string& number) {
-    Plan plan = comparison_plan(line, {with_key(variants[0], tuning.key, number), variants[1]}, choice,
-                                std::filesystem::path(options.out) / "tries");
+    Plan plan = tried_columns(inner, variants, choice, options, tuning.key, number);
+    for (const ChildRun& column : plan.columns) run.add_part(column.folder, jobs.resume);
     run_columns(
         plan.columns, jobs, [](const ChildRun&) {}, say);
     jobs.resume = true;  // the second column is the same in every try
@@ -119,6 +132,10 @@ Json tune_first_column(const CommandLine& inner, std::vector<Variant>& variants,
   const std::string number = tuned(tuning, excess);
   variants[0] = with_key(variants[0], tuning.key, number);
   (options.json ? std::cerr : std::cout) << tuning.key << "=" << number << std::endl;
+  constexpr double kMissed = 1;  // [%]
+  if (std::abs(missed[number]) > kMissed)
+    run.warn(fmt::format("compare.tune: the nearest number that was tried misses the target by {:.2g} %",
+                         missed[number]));
   return {{"column", variants[0].name}, {"key", tuning.key},       {"value", *number_in(number)},
           {"metric", tuning.metric},    {"target", tuning.target}, {"missed_percent", missed[number]}};
 }

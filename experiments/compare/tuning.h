@@ -30,11 +30,16 @@ using Excess = std::function<double(const std::string& number)>;
 inline constexpr int kBisections = 9;  // four decades to 1.8 %
 std::string tuned(const Tuning& tuning, const Excess& excess);
 
-// Does so for the choice's compare.tune: the first two columns run without pictures in OUT/tries with each
-// number, then the first variant gets the last number, which goes to stdout, "fabric.damping=0.004839".
-// Returns what the manifest keeps.  Throws Error::invalid_input, Error::simulation where a try could not go
-// on, and what running throws.
-Json tune_first_column(const CommandLine& inner, std::vector<Variant>& variants, CompareChoice choice,
-                       SweepJobs jobs, const Options& options);
+// Throws what is wrong with the choice's compare.tune, and what its first tries would refuse before their
+// first step.
+void check_tuning(const CommandLine& inner, const std::vector<Variant>& variants, const CompareChoice& choice,
+                  const Options& options);
+
+// Tunes by the choice's compare.tune: the first two columns run without pictures in OUT/tries with each
+// number, as parts of the page's run, then the first variant gets the number that came nearest, which goes to
+// stdout, "fabric.damping=0.004839".  A miss of more than a percent is warned of.  Returns what the manifest
+// keeps. Throws Error::invalid_input, Error::simulation where a try could not go on, and what running throws.
+Json tune_first_column(Run& run, const CommandLine& inner, std::vector<Variant>& variants,
+                       const CompareChoice& choice, SweepJobs jobs, const Options& options);
 
 }  // namespace hysteron::experiments

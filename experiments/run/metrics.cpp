@@ -87,18 +87,16 @@ ValueTree metric_tables(const std::string& file) {
   return tables ? *tables : ValueTree{ValueTree::Kind::array, "metric", 0, {}, {}};
 }
 
-int nearest_vertex(const ClothMesh& mesh, const MetricRequest& request, const char* key,
-                   const Eigen::Vector3d& point) {
-  const auto closer = [&](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-    return (a - point).squaredNorm() < (b - point).squaredNorm();
-  };
-  const auto nearest = std::min_element(mesh.rest.begin(), mesh.rest.end(), closer);
-  if (const double distance = distance_beside(mesh, point); distance > 0)
-    throw refusal(request, std::string(key) + " lies " + number_text(distance, 3) +
+int requested_vertex(const ClothMesh& mesh, const MetricRequest& request, const char* key,
+                     const Eigen::Vector3d& point) {
+  const auto [vertex, beside] = nearest_vertex(mesh, point);
+  const Eigen::Vector3d& nearest = mesh.rest[vertex];
+  if (beside > 0)
+    throw refusal(request, std::string(key) + " lies " + number_text(beside, 3) +
                                " m beside the flat cloth, whose nearest vertex is at " +
-                               number_text(nearest->x(), 4) + ", " + number_text(nearest->y(), 4) + ", " +
-                               number_text(nearest->z(), 4) + " m");
-  return static_cast<int>(nearest - mesh.rest.begin());
+                               number_text(nearest.x(), 4) + ", " + number_text(nearest.y(), 4) + ", " +
+                               number_text(nearest.z(), 4) + " m");
+  return vertex;
 }
 
 std::vector<int> in_box(const std::vector<Eigen::Vector3d>& centers, const Eigen::Vector3d& low,
@@ -148,9 +146,9 @@ RequestedMetric::RequestedMetric(const MetricRequest& request, const Scene& scen
     : request_(request), scene_(scene), cloth_(cloth) {
   const std::string& kind = request.kind;
   if (kind == "distance" || kind == "height")
-    items_ = {nearest_vertex(cloth.mesh, request, "point", request.point)};
+    items_ = {requested_vertex(cloth.mesh, request, "point", request.point)};
   if (kind == "distance") {
-    others_ = {nearest_vertex(cloth.mesh, request, "to", request.to)};
+    others_ = {requested_vertex(cloth.mesh, request, "to", request.to)};
     if (items_ == others_) throw refusal(request, "the same vertex is nearest to point and to to");
   }
   if (kind == "angle" || kind == "residual-curvature")

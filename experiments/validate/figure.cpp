@@ -19,6 +19,8 @@ using Style = render::Series::Style;
 // What is recorded where, below one folder.
 constexpr const char* kLoops = "fab-shirley/loops_L_D1.csv";
 constexpr const char* kSwing = "swing-cotton-broad";
+constexpr const char* kTurns = "swing-cotton-broad/turns.csv";
+constexpr const char* kSwingManifest = "swing-cotton-broad/manifest.json";
 constexpr const char* kDrapes = "drapes-jis-h100/means.csv";
 constexpr const char* kElastic = "drapes-laws-h100/means.csv";  // without friction, 6,000 triangles
 constexpr const char* kSpread = "spread-h100";
@@ -176,6 +178,15 @@ render::PlotPage validation_page(const fs::path& recorded) {
           "friction fitted on one loop of a knit; its shape, with B and 2HB of each fabric, gives the rest",
           {loops_plot(recorded / kLoops), decay_plot(recorded / kSwing), drapes_plot(drapes),
            fold_counts_plot(read_counted(recorded / kFolds), drapes)}};
+}
+
+void check_recorded(const fs::path& recorded) {
+  std::error_code ignored;
+  for (const char* file : {kLoops, kTurns, kSwingManifest, kDrapes, kElastic, kFolds, kBudget})
+    if (!fs::is_regular_file(recorded / file, ignored))
+      throw Error::invalid_input("recorded = " + recorded.string() + " has no " + file +
+                                 ": the figure is drawn from a folder of all recorded results (--recorded)")
+          .with_key("recorded", recorded.string());
 }
 
 void draw_recorded(const fs::path& recorded, Run& run) {

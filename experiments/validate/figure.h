@@ -25,6 +25,9 @@ std::vector<PredictedDrape> read_drapes(const std::filesystem::path& means,
 // Error::invalid_input where one of their files is missing or another than it was.
 render::PlotPage validation_page(const std::filesystem::path& recorded);
 
+// Throws Error::invalid_input, naming the first of these files that is missing.
+void check_recorded(const std::filesystem::path& recorded);
+
 // plot_validation; plot_folds, and plot_budget_<fabric> as the part `budget` draws it.
 void draw_recorded(const std::filesystem::path& recorded, Run& run);
 

@@ -58,10 +58,7 @@ ClothMesh rest_mesh(const Scene& scene, std::vector<std::string>& doubts) {
 std::vector<int> selected(const ClothMesh& mesh, const Pin& pin) {
   std::vector<int> vertices;
   if (pin.select == "nearest") {
-    int nearest = 0;
-    for (int i = 1; i < mesh.vertices(); ++i)
-      if ((mesh.rest[i] - pin.point).norm() < (mesh.rest[nearest] - pin.point).norm()) nearest = i;
-    vertices.push_back(nearest);
+    vertices.push_back(nearest_vertex(mesh, pin.point).vertex);
   } else if (pin.select == "all-boundary") {
     for (std::size_t e = mesh.interior_edges; e < mesh.edge.size(); ++e)
       vertices.insert(vertices.end(), {mesh.edge[e].p2, mesh.edge[e].p3});
@@ -94,18 +91,18 @@ Cloth placed(const Scene& scene, ClothMesh mesh, std::vector<Eigen::Vector3d> st
 
 }  // namespace
 
-double distance_beside(const ClothMesh& mesh, const Eigen::Vector3d& point) {
-  double longest = 0, nearest = std::numeric_limits<double>::infinity();
+NearestVertex nearest_vertex(const ClothMesh& mesh, const Eigen::Vector3d& point) {
+  const auto nearest = std::ranges::min_element(
+      mesh.rest, {}, [&](const Eigen::Vector3d& x) { return (x - point).squaredNorm(); });
+  double longest = 0;
   for (const Edge& e : mesh.edge) longest = std::max(longest, (mesh.rest[e.p3] - mesh.rest[e.p2]).norm());
   const double height = mesh.rest.front().z();
   const bool is_level =
       std::ranges::all_of(mesh.rest, [&](const Eigen::Vector3d& x) { return x.z() == height; });
-  for (const Eigen::Vector3d& x : mesh.rest) {
-    Eigen::Vector3d between = x - point;
-    if (is_level) between.z() = 0;  // a flat cloth's height is where its file has it
-    nearest = std::min(nearest, between.norm());
-  }
-  return nearest > longest ? nearest : 0;
+  Eigen::Vector3d between = *nearest - point;
+  if (is_level) between.z() = 0;  // a flat cloth's height is where its file has it
+  const double distance = between.norm();
+  return {static_cast<int>(nearest - mesh.rest.begin()), distance > longest ? distance : 0};
 }
 
 bool is_in_box(const Eigen::Vector3d& x, const Eigen::Vector3d& low, const Eigen::Vector3d& high) {

@@ -25,10 +25,14 @@ struct Cloth {
   std::vector<Eigen::Vector3d> element_centers(int dimension) const;
 };
 
+// The vertex of the flat cloth that is nearest to a point, and how far the point lies beside the cloth [m]; 0
+// on it: no point of a triangle is farther from its nearest corner than its longest side is long.
+struct NearestVertex {
+  int vertex = 0;
+  double beside = 0;
+};
+NearestVertex nearest_vertex(const ClothMesh& mesh, const Eigen::Vector3d& point);
 // With a slack of 1 nm, so that corners meet grid vertices in spite of rounding.
-// How far a point of the flat cloth lies beside it [m]; 0 on it.  No point of a triangle is farther from its
-// nearest corner than its longest side is long.
-double distance_beside(const ClothMesh& mesh, const Eigen::Vector3d& point);
 bool is_in_box(const Eigen::Vector3d& x, const Eigen::Vector3d& low, const Eigen::Vector3d& high);
 
 // Builds or reads the mesh, places it and resolves the pins.  Error::invalid_input for impossible meshes and

@@ -54,6 +54,11 @@ Manifest first_entries(const CommandLine& line, const Json& scene) {
   return manifest;
 }
 
+fs::path accepted_folder(const CommandLine& line, const Options& options) {
+  if (Run::only_checks_requests) throw RequestAccepted{};
+  return options.out.empty() ? "out/" + line.experiment : options.out;
+}
+
 // All that --resume asks a run for that is interrupted as soon as it has begun.
 Manifest first_entries(const CommandLine& line, const Setup& setup) {
   Manifest manifest = first_entries(line, to_json(setup.scene));
@@ -78,7 +83,7 @@ Run::Run(const CommandLine& line, const Options& options, const Json& keys)
 
 Run::Run(Manifest first, const CommandLine& line, const Options& options,
          const std::vector<std::string>& kept)
-    : folder_(options.out.empty() ? "out/" + line.experiment : options.out, line),
+    : folder_(accepted_folder(line, options), line),
       json_(options.json),
       quiet_(options.quiet),
       manifest_(std::move(first)) {

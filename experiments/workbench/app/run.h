@@ -28,6 +28,10 @@ namespace hysteron::experiments {
 std::string program_version();
 std::string program_version(const Manifest& manifest);
 
+// Ends an experiment that is only asked whether it accepts a request, before it builds a cloth or takes its
+// folder; Run::only_checks_requests says so for this thread.
+struct RequestAccepted {};
+
 // Keeps what a run is and has found, and writes it as OUT/manifest.json: at the start (so that an unwritable
 // folder is known before any simulation), and at the end.  A run that is destroyed without finish(), because
 // of an exception, keeps its files and a manifest with "complete": false; RunFolder says what becomes of a
@@ -45,6 +49,7 @@ class Run {
   Run& operator=(const Run&) = delete;
 
   const std::filesystem::path& folder() const { return folder_.path(); }
+  static inline thread_local bool only_checks_requests = false;
   // Of the first run of this process, which was asked for; those of its parts lie in it.  "": none, or its
   // manifest goes to stdout.
   static const std::filesystem::path& first_folder() { return first_folder_; }

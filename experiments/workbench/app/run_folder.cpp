@@ -132,9 +132,11 @@ struct RunFolder::Held {
   bool complete = false, stays = false;
 };
 
-// All is as it was before the run.
+// All is as it was before the run, but for parts that are complete and have replaced nothing: work that the
+// page, asked rightly, takes again with --resume.
 void RunFolder::Held::take_back() {
   for (auto part = parts.rbegin(); part != parts.rend(); ++part) {
+    if (part->has_new_complete_run()) continue;
     part->restore();
     remove_empty_folders(path, {fs::proximate(part->place(), path)});
   }

@@ -31,7 +31,8 @@ class FolderLock {
 // What stood there of an earlier run waits beside the new one until that is complete (set_aside.h).  How the
 // job ends decides what becomes of both:
 //   complete                  the earlier run is removed
-//   refused (exit code 2)     the folder is again what it was, byte for byte
+//   refused (exit code 2)     the folder is again what it was, byte for byte; a page's complete runs stay
+//                             where there were none before
 //   otherwise                 the new run keeps what it has written, and an earlier one that was complete
 //   stays
 //                             in OUT/.before; without any result of the new one the folder is what it was

@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "experiments/workbench/app/manifest_file.h"
+#include "experiments/workbench/app/run.h"
+#include "experiments/workbench/app/run_files.h"
 #include "sim/base/atomic_file.h"
 #include "sim/base/error.h"
 #include "sim/scene/scene_reader.h"
@@ -57,6 +59,35 @@ void collect_leaves(const Json& tree, const std::string& path, std::vector<Furth
   }
 }
 
+// Keys of an experiment that a scene's file may have: they are read and dropped.
+class DroppedKeys {
+ public:
+  explicit DroppedKeys(const std::vector<KeyDescription>& descriptions) {
+    for (const KeyDescription& key : descriptions) keys_.push_back({key, field(key.type)});
+  }
+  const Keys& keys() const { return keys_; }
+
+ private:
+  Field field(const std::string& type) {
+    if (type == "flag") return &flag_;
+    if (type == "integer") return &integer_;
+    if (type == "number") return &number_;
+    if (type == "vector") return &vector_;
+    if (type == "numbers") return &numbers_;
+    if (type == "name=value") return &parameters_;
+    return &text_;
+  }
+
+  bool flag_ = false;
+  int integer_ = 0;
+  double number_ = 0;
+  Eigen::Vector3d vector_ = Eigen::Vector3d::Zero();
+  Numbers numbers_;
+  Parameters parameters_;
+  std::string text_;
+  Keys keys_;
+};
+
 }  // namespace
 
 void apply_scene(Setup& setup, const std::string& experiment, const std::string& name, const Keys& extra) {
@@ -72,6 +103,31 @@ void apply_scene(Setup& setup, const std::string& experiment, const std::string&
   apply_recorded_scene(setup.scene, std::move(tree), name, extra, setup.own_tables);
   find_meshes(setup.scene, manifest.meshes, name);
   setup.recorded_meshes = manifest.meshes;
+}
+
+Setup setup_of_file(const CommandLine& line) {
+  const Experiment& experiment = experiment_named(line.experiment);
+  Setup setup = experiment.defaults ? experiment.defaults() : Setup{default_scene(), {}};
+  setup.own_tables = {"metric"};
+  const std::string file = last_text(line.flags, "scene", setup.options.scene);
+  if (file.empty()) return setup;
+  const DroppedKeys own(experiment.own_keys());
+  Keys extra = bind_options(setup.options);
+  extra.insert(extra.end(), own.keys().begin(), own.keys().end());
+  apply_scene(setup, line.experiment, file, extra);
+  return setup;
+}
+
+void check_request(const CommandLine& line) {
+  struct Checking {
+    Checking() { Run::only_checks_requests = true; }
+    ~Checking() { Run::only_checks_requests = false; }
+  };
+  const Checking checking;
+  try {
+    experiment_named(line.experiment).run(line);
+  } catch (const RequestAccepted&) {
+  }
 }
 
 Json requested_patch(const Json& simulated, const Json& requested) {
@@ -91,6 +147,7 @@ Json requested_patch(const Json& simulated, const Json& requested) {
 // What was asked for, since the experiment will change it once more; but the time and the steps that it has
 // set, which it sets only where they are not given, and all hands and obstacles.
 void dump_scene(const Setup& setup) {
+  require_own_file(setup.options.dump_scene, kResolvedSceneMark, "a resolved scene", "dump-scene");
   Scene scene = *setup.requested;
   std::set<std::string> own;
   const auto keep = [&](const char* key, auto Scene::*member) {

@@ -13,6 +13,14 @@ namespace hysteron::experiments {
 // Error::invalid_input, Error::system.
 void apply_scene(Setup& setup, const std::string& experiment, const std::string& name, const Keys& extra);
 
+// What an experiment's defaults and the scene's file of a line say, without its flags: scene and options;
+// keys of the experiment's own are not kept.  Throws as apply_scene() does.
+Setup setup_of_file(const CommandLine& line);
+
+// Throws what the experiment of that line refuses before it builds a cloth or takes its folder, and does
+// neither.
+void check_request(const CommandLine& line);
+
 // The merge patch that turns the scene as it was simulated into the one that was asked for.
 Json requested_patch(const Json& simulated, const Json& requested);
 

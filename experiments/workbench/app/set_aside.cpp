@@ -84,6 +84,11 @@ void SetAside::move(const std::set<fs::path>& kept) {
   remove_empty_folders(folder_, moved_);
 }
 
+bool SetAside::has_new_complete_run() const {
+  const auto manifest = manifest_or_none(folder_ / kManifestFile);
+  return slot_.empty() && manifest && manifest->complete;
+}
+
 bool SetAside::has_complete_run() const {
   const auto waiting = manifest_or_none(place() / kManifestFile);
   return waiting && waiting->complete;

@@ -30,6 +30,8 @@ class SetAside {
   void move(const std::set<std::filesystem::path>& kept = {});
 
   bool has_run() const { return !slot_.empty(); }
+  // Whether the folder holds a complete run now, which has replaced none.
+  bool has_new_complete_run() const;
   // Where complete runs wait, and whether one does, whoever has set it aside.
   std::filesystem::path place() const { return folder_ / before_name_; }
   bool has_complete_run() const;

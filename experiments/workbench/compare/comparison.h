@@ -27,6 +27,9 @@ class ColumnWarnings {
   std::vector<Heard> heard_;  // as they came
 };
 
+// Throws what a column would refuse before its first step, as far as its keys say it, with its name.
+void check_columns(const std::vector<ChildRun>& columns);
+
 // Runs the columns; how far they are and how they end is the run's progress.  Throws what run_columns() of
 // sweep_columns.h throws.
 void run_columns(Run& run, std::vector<ChildRun>& columns, const SweepJobs& jobs);

@@ -24,6 +24,7 @@
 #include "experiments/workbench/app/run.h"
 #include "experiments/workbench/app/run_files.h"
 #include "experiments/workbench/app/same_request.h"
+#include "experiments/workbench/app/scene_source.h"
 #include "experiments/workbench/app/this_program.h"
 #include "experiments/workbench/app/version.h"
 #include "experiments/workbench/compare/variants.h"
@@ -182,7 +183,8 @@ std::string why_not_batchable(const CommandLine& line) {
     return "is of runs that step a cloth, not of " + line.experiment;
   if (last_text(line.flags, "errors", "") == "true")
     return "is of runs without errors, whose repeats are processes of their own (errors.batch)";
-  if (last_text(line.flags, "no-images", "") != "true")
+  const std::string flag = last_text(line.flags, "no-images", "");
+  if (flag.empty() ? !setup_of_file(line).options.no_images : flag != "true")
     return "is of runs without pictures, with no-images among their keys";
   return "";
 }

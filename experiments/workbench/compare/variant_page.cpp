@@ -86,6 +86,7 @@ int run_variants(const CommandLine& given, void (*once)(const CommandLine&),
     columns.push_back(child_run(variant.name, line, variant.flags, page.setup.options.out));
   if (page.setup.options.explain) return explain_columns(columns), 0;
   check_batch(columns, jobs.batch);
+  check_columns(columns);
   page.keys["fabric"] = to_json(scene)["fabric"];  // of variants that name none
   for (const Variant& variant : variants) page.keys["variants"].push_back(variant.name);
   Run run(line, page.setup.options, page.keys);

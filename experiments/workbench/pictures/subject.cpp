@@ -155,6 +155,10 @@ std::vector<double> vertex_areas(const std::vector<int>& triangles, const std::v
   return area;
 }
 
+void check_reference(const std::string& reference, const ClothMesh& mesh) {
+  if (!reference.empty()) ReferenceRun(reference).curvature(mesh, 0);
+}
+
 std::unique_ptr<Subject> simulated(const Scene& scene, const Cloth& cloth, Simulation& simulation,
                                    const std::string& reference) {
   return std::make_unique<SimulatedSubject>(scene, cloth, simulation, reference);

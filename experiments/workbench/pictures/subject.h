@@ -40,6 +40,10 @@ std::vector<double> vertex_areas(const std::vector<int>& triangles, const std::v
 std::unique_ptr<Subject> simulated(const Scene& scene, const Cloth& cloth, Simulation& simulation,
                                    const std::string& reference);
 
+// Throws Error::invalid_input where `reference` is no such folder, or of a run with other triangles; of ""
+// never.
+void check_reference(const std::string& reference, const ClothMesh& mesh);
+
 // Cloth as it was kept, one instant after the other.  What was kept must outlive it.
 class KeptSubject : public Subject {
  public:

@@ -87,7 +87,7 @@ std::vector<std::string> pin_warnings(const Scene& scene, const Cloth& cloth) {
   for (std::size_t p = 0; p < scene.pin.size() && p < cloth.pin_vertices.size(); ++p) {
     const Pin& pin = scene.pin[p];
     const std::string name = "[[pin]] " + std::to_string(p + 1);
-    const double beside = pin.select == "nearest" ? distance_beside(cloth.mesh, pin.point) : 0;
+    const double beside = pin.select == "nearest" ? nearest_vertex(cloth.mesh, pin.point).beside : 0;
     if (beside > 0)
       warnings.push_back(name + " holds the vertex that is nearest to its point, which lies " +
                          number_text(beside, 3) + " m beside the flat cloth: is it in metres?");

@@ -24,6 +24,7 @@ namespace {
 const Setup& checked(const Setup& setup) {
   check_duration(setup.scene);
   refuse_late_tables(setup);
+  if (Run::only_checks_requests) throw RequestAccepted{};
   return setup;
 }
 
@@ -95,6 +96,7 @@ Session::Session(const CommandLine& line, const Setup& setup, std::optional<Clot
     dump_scene(setup);
     return;
   }
+  check_reference(setup.options.reference, cloth_.mesh);
   auto checkpoints = std::make_unique<Checkpoints>(line, setup, cloth_, *simulation_);
   if (checkpoints->is_complete()) return;
   run_ = std::make_unique<Run>(line, setup, checkpoints->kept_files());

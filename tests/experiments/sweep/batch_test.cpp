@@ -66,6 +66,26 @@ TEST_F(SweepInABatch, FindsTheTableOfRunsByThemselves) {
   expect_same("alone", "together");
 }
 
+// As the scene's file may have no-images in place of a flag.
+TEST_F(SweepInABatch, AndAComparisonTakeFromTheSceneThatNothingIsDrawn) {
+  const std::string scene = folder_.path() / "plain.toml", drawn = folder_.path() / "drawn.toml";
+  const std::string keys = "triangles = 20\nstep = 0.01\nseconds = 0.02\ndevice = \"cpu\"\n";
+  write_text(scene, "no-images = true\n" + keys);
+  write_text(drawn, keys);
+  const auto study = [&](const std::string& file) {
+    write_text(study_, "experiment = \"run\"\n[scene]\nscene = \"" + file +
+                           "\"\n[[axis]]\nkey = \"law\"\nvalues = [\"linear\", \"prandtl\"]\n");
+  };
+  study(scene);
+  run(0, "sweep", "--batch 2");
+  study(drawn);
+  EXPECT_TRUE(says(run(2, "none", "--batch 2").err, "with no-images among their keys"));
+  const std::string laws = " --laws linear,prandtl --quiet" + out_flag(folder_.path() / "page");
+  finished("compare " + scene + laws + " --batch 2");
+  EXPECT_EQ(manifest_in(folder_.path() / "page")["renderer"], nullptr);
+  EXPECT_FALSE(fs::exists(folder_.path() / "page" / "sheet.png"));
+}
+
 // A rigidity above b1 is refused when a run sets up its scene.
 TEST_F(SweepInABatch, MarksWhatFailsAsAloneAndEndsTheOthers) {
   write(kOnCpu, "key = \"fabric.b2\"\nvalues = [1e-6, 1.0, 2e-6]\n");

@@ -159,5 +159,19 @@ const BadStart kBadStarts[] = {
 
 INSTANTIATE_TEST_SUITE_P(Starts, BadStartShape, testing::ValuesIn(kBadStarts), test::CaseName());
 
+// One answer for pins, metrics and their warnings: a level cloth's height is where its file has it.
+TEST(NearestVertex, IsThatOfTheFlatClothAndSaysHowFarAPointLiesBesideIt) {
+  constexpr double kRounding = 1e-15;  // [m]
+  const ClothMesh mesh = make_grid(0.2, 0.1, 2, 1, MeshFamily::unionjack, 1);
+  for (int i = 0; i < mesh.vertices(); ++i) {
+    const NearestVertex above = nearest_vertex(mesh, mesh.rest[i] + Eigen::Vector3d(0.001, 0.002, 5));
+    EXPECT_EQ(above.vertex, i);
+    EXPECT_EQ(above.beside, 0) << "a point above the cloth is not beside it";
+  }
+  const NearestVertex beside = nearest_vertex(mesh, {0.2 + 0.3, 0.1 + 0.4, 0});
+  EXPECT_NEAR((mesh.rest[beside.vertex] - Eigen::Vector3d(0.2, 0.1, 0)).norm(), 0, kRounding);
+  EXPECT_NEAR(beside.beside, 0.5, kRounding);
+}
+
 }  // namespace
 }  // namespace hysteron

@@ -2,6 +2,7 @@
 #include <fstream>
 #include <map>
 
+#include "render/image.h"
 #include "sim/base/atomic_file.h"
 #include "tests/experiments/program.h"
 
@@ -42,6 +43,37 @@ class RefusedRequest : public testing::Test {
   const fs::path out_ = folder_.path() / "out";
 };
 
+// A file of one's own is not replaced by one that a flag names; one that the program wrote before is.
+TEST_F(RefusedRequest, ReplacesNoFileButTheProgramsOwn) {
+  const std::string notes = "my notes\n";
+  const std::string curvatures = file("K.csv", "curvature [1/m]\n0\n50\n0\n");
+  const std::string picture = file("a.png", "");
+  render::write_png(picture, render::Image(8, 8));
+  const fs::path own = folder_.path() / "own", own_png = folder_.path() / "own.png";
+  const auto expect_kept = [&](const std::string& line, const fs::path& target) {
+    write_text(target, notes);
+    EXPECT_TRUE(says(refused(line + target.string()), target.string() + " is a file that is there already"))
+        << line;
+    EXPECT_EQ(file_content(target), notes) << line;
+    fs::remove(target);
+    finished(line + target.string());
+    finished(line + target.string());
+    write_text(target, "");
+    finished(line + target.string());
+    fs::remove(target);
+  };
+  expect_kept("law --in " + curvatures + " --out ", own);
+  expect_kept("drape --quick --triangles 40 --dump-scene ", own);
+  expect_kept("diff " + picture + " " + picture + " --junit ", own);
+  expect_kept("diff " + picture + " " + picture + " --out ", own_png);
+  expect_kept("verify " + out_.string() + " --quiet" + " --no-images" + out_flag(folder_.path() / "check") +
+                  " --junit ",
+              own);
+  write_text(folder_.path() / "flow" / "Snakefile", notes);
+  EXPECT_TRUE(says(refused("rerun " + out_.string() + " --snakemake " + (folder_.path() / "flow").string()),
+                   "Snakefile is a file that is there already"));
+}
+
 TEST_F(RefusedRequest, LeavesEveryByteOfTheRunThatWasThere) {
   expect_untouched("run " + file("bad.toml", kNoSuchElement));
   const std::string decay = file("decay.csv", "time [s],amplitude [mm]\n0,3\n1,2\n2,1.5\n");
@@ -51,7 +83,7 @@ TEST_F(RefusedRequest, LeavesEveryByteOfTheRunThatWasThere) {
   expect_untouched("law --in " + decay);
   expect_untouched("render " + folder_.path().string());
   expect_untouched("figures --fabric none-such");
-  expect_untouched("validate --parts figure --recorded " + (folder_.path() / "none").string(), 1);
+  expect_untouched("validate --parts figure --recorded " + (folder_.path() / "none").string());
   expect_untouched("kes --law none-such");
   expect_untouched("sweep " +
                    file("study.toml",
@@ -68,6 +100,49 @@ TEST_F(RefusedRequest, OfAComparisonLeavesItsColumnsToo) {
   const fs::path nowhere = folder_.path() / "nowhere";
   refused(second_is_wrong + good + out_flag(nowhere));
   EXPECT_FALSE(fs::exists(nowhere));
+}
+
+// A probe beside the cloth is found out when the cloth is there: the first column has run by then.
+TEST_F(RefusedRequest, OfANewComparisonKeepsTheColumnsThatAreComplete) {
+  const fs::path page = folder_.path() / "page";
+  const std::string line =
+      " --no-images --quiet --threads 1 --triangles 40 --seconds 0.02 --compare.jobs 1" + out_flag(page);
+  refused("compare swing --laws linear,dahl+probe=7" + line);
+  EXPECT_TRUE(manifest_in(page / "linear")["complete"].get<bool>());
+  EXPECT_FALSE(fs::exists(page / "manifest.json"));
+  EXPECT_TRUE(says(finished("compare swing --laws linear,dahl --resume" + line).out, "linear"));
+}
+
+TEST_F(RefusedRequest, OfATuningWritesNothing) {
+  const fs::path page = folder_.path() / "page";
+  refused(
+      "compare swing --laws linear,linear+triangles=1 --compare.tune fabric.damping=1e-3:4e-3 "
+      "--compare.tune-metric viscous_J --compare.match fabric --no-images --quiet --triangles 40 --seconds "
+      "0.02" +
+      out_flag(page));
+  EXPECT_FALSE(fs::exists(page));
+}
+
+TEST_F(RefusedRequest, OfAReferenceThatIsNoRunIsFoundWithoutPicturesToo) {
+  const std::string line =
+      "swing --quick --triangles 40 --seconds 0.02 --no-images --look difference --reference ";
+  EXPECT_TRUE(says(refused(line + (folder_.path() / "none").string() + out_flag(folder_.path() / "run")),
+                   "must be the folder of a run with pictures and --export ply"));
+  EXPECT_FALSE(fs::exists(folder_.path() / "run"));
+}
+
+TEST_F(RefusedRequest, OfAValidationWithoutMeasurementsIsFoundAtItsStart) {
+  const std::string without =
+      refused("validate --fabrics denim-c-friction" + out_flag(folder_.path() / "run"));
+  EXPECT_TRUE(
+      says(without, "fabrics = denim-c-friction has no published drape coefficient", "polyester-faille"));
+  EXPECT_EQ(
+      refused("validate --parts figure --recorded " + folder_.path().string() +
+              out_flag(folder_.path() / "run")),
+      "hysteron validate: recorded = " + folder_.path().string() +
+          " has no fab-shirley/loops_L_D1.csv: the figure is drawn from a folder of all recorded results "
+          "(--recorded)\n");
+  EXPECT_FALSE(fs::exists(folder_.path() / "run"));
 }
 
 }  // namespace

@@ -78,6 +78,23 @@ TEST_F(Report, FoldsTheSolversFiguresAway) {
   EXPECT_EQ(occurrences(page, "2.60106e-16"), 0);
 }
 
+// Pictures and plots that lie in the folder and that the manifest does not list are another's.
+TEST_F(Report, ShowsNoPictureThatIsNotTheRuns) {
+  const std::string own = html();
+  render::write_png(folder_.path() / "holiday.png", render::Image(64, 32));
+  render::write_png(folder_.path() / "plot_holiday.png", render::Image(64, 32));
+  std::ofstream(folder_.path() / "plot_journey.svg") << "<svg xmlns=\"http://www.w3.org/2000/svg\"/>";
+  EXPECT_EQ(html(), own);
+  // Of the same names, as pictures of the run they are shown.
+  Json manifest = manifest_in(folder_.path());
+  for (const char* name : {"holiday.png", "plot_holiday.png", "plot_journey.svg"})
+    manifest["files"].push_back(name);
+  std::ofstream(folder_.path() / "manifest.json") << manifest.dump();
+  const std::string page = html();
+  for (const char* alt : {"alt=\"holiday.png\"", "alt=\"plot_holiday\"", "alt=\"plot_journey\""})
+    EXPECT_EQ(occurrences(page, alt), 1) << alt;
+}
+
 TEST_F(Report, HasTheClothInItThatTheRunKept) {
   EXPECT_EQ(occurrences(html(), "class=\"turn\""), 0);
   std::ofstream(folder_.path() / "sheet.hyg") << "foobar";
