@@ -390,7 +390,8 @@ TEST(Repetition, HoldsEveryColumnOfATableToItsLimitOrToRoundOff) {
 }
 
 TEST_F(Recorded, RunWhoseEnergyOrSeriesIsNotThatOfItsRepetitionDiffers) {
-  record("run " + folder_.write("mine.toml", "seconds = 0.02\nstep = 0.01\ntriangles = 20\n") + " --no-images");
+  record("run " + folder_.write("mine.toml", "seconds = 0.02\nstep = 0.01\ntriangles = 20\n") +
+         " --no-images");
   const std::string verify = "verify " + in("runs") + " --out " + in("check");
   EXPECT_TRUE(says(finished(verify).out, "21 energy terms the same", "table columns the same"));
   edit([](Json& json) { json["energy"]["bending"] = 1.0; });
@@ -406,7 +407,8 @@ TEST(Repetition, MissesPicturesAndTablesThatOneOfTheTwoHasNot) {
   run.files = {"report.html", "metrics.csv",   "errors.csv",     "frames/0000.png",
                "sheet.png",   "plot_time.png", "frames/0001.png"};
   fs::create_directories(folder.path() / "frames");
-  for (const char* file : {"report.html", "metrics.csv", "frames/0000.png", "sheet.png"}) folder.write(file, "");
+  for (const char* file : {"report.html", "metrics.csv", "frames/0000.png", "sheet.png"})
+    folder.write(file, "");
   const ComparableFiles whole = comparable_files(run, folder.path(), true);
   EXPECT_EQ(whole.tables, (std::vector<std::string>{"metrics.csv"}));
   EXPECT_EQ(whole.pictures, (std::vector<std::string>{"frames/0000.png", "sheet.png"}));
