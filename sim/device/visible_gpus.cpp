@@ -35,6 +35,7 @@ std::string no_gpu_message(const std::string& reason, int of_machine, const char
 }
 
 std::string no_gpu_message(const std::string& reason) {
+  if (!is_built_with_cuda()) return reason;
   return no_gpu_message(reason, gpus_of_machine(), std::getenv(kVisibleGpus));
 }
 

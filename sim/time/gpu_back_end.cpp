@@ -1,4 +1,5 @@
 // Compiled by nvcc only.
+#include "sim/device/visible_gpus.h"
 #include "sim/time/back_end.h"
 #include "sim/time/stepper.h"
 
@@ -13,6 +14,8 @@ std::unique_ptr<Simulation> make_gpu_simulation(const Scene& scene, const Cloth&
 }
 
 void run_on_gpu_together(int count, const std::function<void(int)>& job) { CudaBatch(0, count).run(job); }
+
+bool is_built_with_cuda() { return true; }
 
 int gpu_count(std::string& reason) { return cuda_device_count(reason); }
 

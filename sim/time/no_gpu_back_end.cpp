@@ -1,5 +1,6 @@
 // Stands in for gpu_back_end.cpp in a build without CUDA.
 #include "sim/base/error.h"
+#include "sim/device/visible_gpus.h"
 #include "sim/time/back_end.h"
 
 namespace hysteron {
@@ -20,6 +21,8 @@ std::unique_ptr<Simulation> make_gpu_simulation(const Scene&, const Cloth&, cons
 }
 
 void run_on_gpu_together(int, const std::function<void(int)>&) { refuse(); }
+
+bool is_built_with_cuda() { return false; }
 
 int gpu_count(std::string& reason) {
   reason = "this build has no CUDA back end";

@@ -24,7 +24,7 @@ std::string visible_gpu(int gpu) {
   return gpu < static_cast<int>(names.size()) ? names[gpu] : std::to_string(gpu);
 }
 
-void choose_gpu(CommandLine& line, int of_machine) {
+void choose_gpu(CommandLine& line, int of_machine, bool with_cuda) {
   for (Flag& flag : line.flags) {
     if (flag.path != "device" || !flag.text.starts_with(kGpu)) continue;
     const auto refuse = [&](const std::string& why) {
@@ -35,6 +35,10 @@ void choose_gpu(CommandLine& line, int of_machine) {
     const std::string number = flag.text.substr(kGpu.size());
     if (number.empty() || number.size() > kMaxDigits || number.find_first_not_of("0123456789") != number.npos)
       refuse("after cuda: comes the number of a GPU, from 0 on");
+    if (!with_cuda) {
+      flag.text = "cuda";
+      continue;
+    }
     const int gpu = std::stoi(number), allowed = static_cast<int>(allowed_gpus().size());
     if (allowed > 0 && gpu >= allowed)
       refuse(std::string(kVisibleGpus) + " = " + std::getenv(kVisibleGpus) + " leaves " + gpus_text(allowed));

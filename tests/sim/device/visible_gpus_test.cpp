@@ -26,5 +26,13 @@ TEST(VisibleGpus, ThatAreNotThereAreSaidWithTheirNumberAndTheVariable) {
   EXPECT_EQ(no_gpu_message(reason, 0, nullptr), reason);
 }
 
+// A variable that the program does not read is no reason of it.
+TEST(VisibleGpus, AreNotSpokenOfByAProgramWithoutCuda) {
+  if (is_built_with_cuda()) GTEST_SKIP() << "built with CUDA";
+  setenv(kVisibleGpus, "3", 1);
+  EXPECT_EQ(no_gpu_message("this build has no CUDA back end"), "this build has no CUDA back end");
+  unsetenv(kVisibleGpus);
+}
+
 }  // namespace
 }  // namespace hysteron

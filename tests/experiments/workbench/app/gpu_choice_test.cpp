@@ -37,7 +37,7 @@ TEST_F(GpuChoice, LeavesTheChosenOneOfThoseThatAreAllowed) {
   for (const auto& [gpus, seen] : cases) {
     allow(gpus);
     CommandLine line = on("cuda:1");
-    choose_gpu(line, 2);
+    choose_gpu(line, 2, true);
     EXPECT_EQ(line.flags[1].text, "cuda");
     EXPECT_EQ(line.command, "hysteron swing");
     EXPECT_EQ(allowed(), seen);
@@ -59,7 +59,7 @@ TEST_F(GpuChoice, IsRefusedInOneLineWhereThereIsNoSuchGpu) {
   const auto refused = [](const char* device) {
     return test::refusal([&] {
       CommandLine line = on(device);
-      choose_gpu(line);
+      choose_gpu(line, 2, true);
     });
   };
   EXPECT_TRUE(says(refused("cuda:2"), "CUDA_VISIBLE_DEVICES = 4,7 leaves 2 GPUs, cuda:0 to cuda:1"));
@@ -71,11 +71,19 @@ TEST_F(GpuChoice, IsRefusedInOneLineWhereThereIsNoSuchGpu) {
 TEST_F(GpuChoice, IsRefusedWhereTheMachineHasFewer) {
   allow(std::nullopt);
   CommandLine line = on("cuda:3");
-  EXPECT_EQ(test::refusal([&] { choose_gpu(line, 1); }),
+  EXPECT_EQ(test::refusal([&] { choose_gpu(line, 1, true); }),
             "swing: --device cuda:3: this machine has 1 GPU, cuda:0");
   EXPECT_EQ(allowed(), std::nullopt);
-  choose_gpu(line, 0);  // where it is not known how many there are, CUDA says it
+  choose_gpu(line, 0, true);  // where it is not known how many there are, CUDA says it
   EXPECT_EQ(allowed(), "3");
+}
+
+TEST_F(GpuChoice, IsLeftToWhoSimulatesInAProgramWithoutCuda) {
+  allow("4");
+  CommandLine line = on("cuda:3");
+  choose_gpu(line, 0, false);
+  EXPECT_EQ(line.flags[1].text, "cuda");
+  EXPECT_EQ(allowed(), "4");
 }
 
 }  // namespace
