@@ -258,7 +258,8 @@ Experiment diff() {
           .run = run_diff,
           .own_keys = own_key_descriptions<bind_diff>,
           .positionals = "A.png B.png",
-          .differs = "a picture is beyond a limit"};
+          .differs = "a picture is beyond a limit",
+          .conditions = {{"map", "out"}}};
 }
 
 }  // namespace hysteron::experiments

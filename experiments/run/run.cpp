@@ -10,6 +10,7 @@
 #include "experiments/workbench/pictures/framing.h"
 #include "experiments/workbench/session/session.h"
 #include "sim/base/error.h"
+#include "sim/scene/shown_key.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -23,8 +24,10 @@ Setup defaults() {
   return setup;
 }
 
+constexpr int kQuickTriangles = 500;
+
 void limit_to_quick(Setup& setup) {
-  setup.scene.triangles = std::min(setup.scene.triangles, 500);
+  setup.scene.triangles = std::min(setup.scene.triangles, kQuickTriangles);
   setup.options.fps = std::min(setup.options.fps, 10.0);
 }
 
@@ -40,7 +43,26 @@ CommandLine with_scene(CommandLine line) {
   return line;
 }
 
-Setup set_up_run(const CommandLine& line) { return set_up(line, defaults(), {}, limit_to_quick); }
+bool has_built_mesh(const Scene& scene) {
+  const bool from_file = scene.cloth.shape == "file" || scene.cloth.shape == "pattern";
+  return !from_file && !scene.mesh.ends_with(".obj");
+}
+
+// --quick that leaves the simulation as long as it was is said to do so.
+Setup set_up_run(const CommandLine& line) {
+  int asked = 0;  // triangles without --quick
+  Setup setup = set_up(line, defaults(), {}, [&](Setup& quick) {
+    asked = quick.scene.triangles;
+    limit_to_quick(quick);
+  });
+  const bool is_built = has_built_mesh(setup.scene);
+  if (setup.options.quick && (!is_built || setup.scene.triangles == asked))
+    setup.unread.push_back("--quick simulates no less: " +
+                           (is_built ? shown(setup.scene, "triangles", asked, "") + " is kept"
+                                     : std::string("the triangles of a file are kept")) +
+                           ", and only pictures and recorded instants are fewer and smaller");
+  return setup;
+}
 
 std::string scene_stem(const std::string& scene) {
   const std::filesystem::path path(scene);

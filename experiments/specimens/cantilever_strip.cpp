@@ -23,7 +23,9 @@ constexpr double kSideways = 1e-6;    // of the weight, which is rounding
 constexpr double kMostLengths = 100;  // overhang over the bending length: 10 segments of the elastica bend
 constexpr double kWhole = 1e-4;     // of the weight; a timetable ends so near to the time that was asked for
 constexpr double kMostSteps = 1e6;  // in which the weight grows, or goes
-constexpr int kMaxTrials = 30;      // overhangs that a search measures
+// Rounded in-plane forces over the weight of a step: equilibria are found at 6e-3, and not at 2e-2.
+constexpr double kMostRounding = 1e-2;
+constexpr int kMaxTrials = 30;  // overhangs that a search measures
 constexpr double kSlopeFound =
     0.01;  // how far from 41.5 degrees the chord of the found overhang may be [rad]
 
@@ -115,6 +117,29 @@ void check_weight(const Scene& scene) {
                     std::abs(tilt) / kDegree, kMostTilt / kDegree, kSlope / kDegree));
 }
 
+// Weight over stiffness, w L^3/B.
+double gamma_of(const Scene& scene) { return std::pow(scene.cloth.length / natural_length(scene), 3); }
+
+// Rounding of positions makes in-plane forces of its own, which the weight of a step must not be lost in.
+void check_weight_is_resolved(const Scene& scene) {
+  const Fabric& fabric = scene.fabric;
+  const double length = scene.cloth.length, width = scene.cloth.width;
+  const double cell = std::sqrt(2 * length * width / scene.triangles);  // [m]
+  const double rounding = std::max({fabric.warp, fabric.weft, fabric.shear}) * width *
+                          std::numeric_limits<double>::epsilon() * length / cell;  // [N]
+  const double weight = areal_weight(scene) * length * width;                      // [N]
+  const double least = rounding / kMostRounding * std::max(1.0, scene.ramp / scene.step);
+  if (weight >= least) return;
+  throw Error::invalid_input(
+      fmt::format("the strip weighs {:.3g} N (density {:.3g} kg/m^2, gamma {:.3g}) and must weigh at least "
+                  "{:.3g} N (gamma "
+                  "{:.3g}): in-plane stiffnesses up to {:.4g} N/m make forces of {:.1g} N of the rounding of "
+                  "positions; it "
+                  "sags by gamma/8 of its length",
+                  weight, fabric.density, gamma_of(scene), least, gamma_of(scene) * least / weight,
+                  std::max({fabric.warp, fabric.weft, fabric.shear}), rounding));
+}
+
 }  // namespace
 
 Eigen::Vector2d CantileverStrip::free_end(const std::vector<Eigen::Vector3d>& x) const {
@@ -178,6 +203,7 @@ void check_cantilever(const Scene& scene) {
         shown(scene, "step", scene.step, "s") + " makes more than a million steps of " +
         shown(scene, "ramp", scene.ramp, "s") + " or " + shown(scene, "unload", scene.unload, "s"))
         .with_key("step", number_text(scene.step));
+  check_weight_is_resolved(scene);
   const double longest = kMostLengths * natural_length(scene);
   if (scene.cloth.length > longest)
     throw Error::invalid_input(

@@ -38,6 +38,18 @@ TEST_P(OnAMesh, DropsAsTheElastica) {
   EXPECT_NEAR(metrics["bending_length_m"].get<double>() / (0.1 / std::cbrt(10)), 1, kWithin);
 }
 
+// Rounded in-plane forces hide the weight of a strip that is next to weightless.
+TEST(Cantilever, RefusesAStripWhoseWeightRoundingHides) {
+  const Folder folder;
+  const auto said = [&](const char* gamma) {
+    return test::refusal([&] {
+      run_into(folder.path() / "out", "cantilever", {{"gamma", gamma}, {"explain", "true"}});
+    });
+  };
+  EXPECT_EQ(said("1e-2"), test::kAccepted);
+  EXPECT_TRUE(says(said("1e-5"), "gamma 1e-05) and must weigh at least", "it sags by gamma/8 of its length"));
+}
+
 // The same weight on a rigidity that is 5 % too large.
 TEST(Cantilever, ShowsAWrongRigidity) {
   constexpr double kB = 1e-5, kLength = 0.1, kGravity = 9.81;

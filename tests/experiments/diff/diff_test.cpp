@@ -106,6 +106,7 @@ TEST_F(Diff, WritesAHeatMapOfStepsOrOfFlip) {
   const fs::path heat = folder_.path() / "new" / "heat.png";
   diff(4, "--max-mean 0" + out_flag(heat));
   EXPECT_EQ(render::read_png(heat), render::heat_map(ramp(), marked(8, 20)));
+  EXPECT_TRUE(says(diff(2, "--map flip").err, "--map flip is not used: map needs --out (no --out)"));
   diff(0, "--map flip" + out_flag(heat));
   EXPECT_EQ(render::read_png(heat), render::heat_map(render::flip_map(ramp(), marked(8, 20))));
 }

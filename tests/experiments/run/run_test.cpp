@@ -36,6 +36,15 @@ shape = "square"
 length = 0.2
 )";
 
+TEST_F(Scenes, ThatAreSmallAlreadyAreNoSmallerByQuick) {
+  const std::string few = run(0, kSquare, "--no-images --quick").err;
+  EXPECT_TRUE(says(few, "warning: --quick simulates no less: triangles = 64", "is kept"));
+  std::string larger = kSquare;
+  larger.replace(larger.find("= 64"), 4, "= 600");
+  const std::string many = run(0, larger, "--no-images --quick --seconds 0.01").err;
+  EXPECT_EQ(many.find("--quick"), many.npos) << many;
+}
+
 TEST_F(Scenes, FallFreelyAsImplicitEulerHasIt) {
   constexpr double kRounding = 1e-9;
   const Json metrics = recorded_metrics(kSquare + R"([[metric]]
