@@ -477,16 +477,22 @@ void report_fab(Run& run, const FabAnswer& answer, const FabricNotes& notes) {
   draw_predictions(run, notes.name, predictions);
 }
 
+// A free vibration's rigidity is given, without an error of it.
+std::string rigidity_text(const FabBending& b) {
+  if (b.spring_error == 0) return fmt::format("{:.3g} N m (of kes.b, taken as exact)", b.law.spring);
+  return fmt::format("{:.3g} +- {:.2g} N m", b.law.spring, b.spring_error);
+}
+
 std::string summary(const FabAnswer& answer) {
   std::string text;
   for (std::size_t i = 0; i < answer.found.bending.size(); ++i) {
     const FabBending& b = answer.found.bending[i];
     const std::vector<std::string> open = b.undetermined();
     text += fmt::format(
-        "along {}: b2 = {:.3g} +- {:.2g} N m, HB = {:.3g} +- {:.2g} N, b1 = {:.3g} N m; rms {:.2g} "
+        "along {}: b2 = {}, HB = {:.3g} +- {:.2g} N, b1 = {:.3g} N m; rms {:.2g} "
         "of the noise, {} iterations\n",
-        b.direction, b.law.spring, b.spring_error, b.law.friction(), b.friction_error,
-        b.law.initial_stiffness(), b.residual_rms, b.iterations);
+        b.direction, rigidity_text(b), b.law.friction(), b.friction_error, b.law.initial_stiffness(),
+        b.residual_rms, b.iterations);
     if (b.is_shaped()) {
       const FrictionShape shape = friction_shape(b.form);
       text += fmt::format(

@@ -56,9 +56,11 @@ std::string percent_text(const Identification& fit) {
 
 std::string with_error(const Row& row) {
   const Estimate& e = *row.estimate;
-  const std::string error =
-      std::isfinite(e.standard_error) ? fmt::format(" +- {:.2g}", e.standard_error) : "";
-  return fmt::format("  {} = {:.4g}{} {}{}\n", row.name, e.value, error, row.unit,
+  const std::string error = e.standard_error > 0 && std::isfinite(e.standard_error)
+                                ? fmt::format(" +- {:.2g}", e.standard_error)
+                                : "";
+  const std::string exact = e.standard_error == 0 ? " (taken as exact)" : "";
+  return fmt::format("  {} = {:.4g}{} {}{}{}\n", row.name, e.value, error, row.unit, exact,
                      e.determined ? "" : "  (" + e.confidence + "; the data do not determine it)");
 }
 

@@ -86,6 +86,12 @@ Identification three_numbers(const FabIdentification& found) {
   numbers.law = "stops";
   numbers.b2 = {b.law.spring, b.spring_error, static_cast<bool>(b.determined[0]),
                 "elasticity beside the stops, identified from " + found.from};
+  if (b.spring_error == 0)  // of a free vibration, whose rigidity is given
+    numbers.b2 = {
+        b.law.spring, kNone, true,
+        "the given B, taken as exact, without what KES-FB2 reads of the stops, which are identified "
+        "from " +
+            found.from};
   const double b1 = b.law.initial_stiffness();
   numbers.b1 = derived(b1, "b2 and the sum of the stops' stiffnesses");
   numbers.k0 = derived(2 * b.law.friction() / (b1 - b.law.spring),
