@@ -12,6 +12,7 @@
 #include "sim/base/number_in.h"
 #include "sim/identification/fab_fabric.h"
 #include "sim/reference/fab_loops.h"
+#include "sim/scene/fabric_limits.h"
 #include "sim/scene/fabric_reader.h"
 
 namespace hysteron::experiments {
@@ -102,6 +103,7 @@ int run_test(const CommandLine& line) {
   set_keys(line, keys, [&] { flags.steps = std::min(flags.steps, kQuickSteps); });
   flags.fabric = last_text(line.flags, "fabric", flags.fabric);
   check_test(flags.test);
+  const std::vector<std::string> doubts = checked_fabric_warnings(flags.fabric);
   const Fabric fabric = read_fabric(flags.fabric, "--fabric").fabric;
   const FabStrip strip = fab_fabric(fabric).strip(flags.direction);
   const bool measured = !flags.data.empty();
@@ -113,7 +115,8 @@ int run_test(const CommandLine& line) {
                                           flags.direction, flags.test)
                              : loops_without_data(flags);
   Run run(line, flags.options, to_json(keys));
-  for (const std::string& doubt : loops.doubts) run.warn(doubt);
+  for (const auto* texts : {&doubts, &loops.doubts})
+    for (const std::string& text : *texts) run.warn(text);
   run.reserve({"fab.csv"});
   const ComparedLoops compared(loops, run_fab(loops, strip), measured);
   const std::string title = fabric.name + ", " + loops.name();

@@ -12,6 +12,7 @@
 #include "render/plot.h"
 #include "sim/base/csv.h"
 #include "sim/base/error.h"
+#include "sim/bending/laws/unused_parameters.h"
 #include "sim/identification/curve.h"
 #include "sim/identification/decay_friction.h"
 #include "sim/identification/published.h"
@@ -47,6 +48,7 @@ struct FitFlags {
 
 constexpr double kSameResidual = 1e-4;  // relative: what numerical differences leave
 constexpr double kNoResidual = 1e-9;    // residuals below this share of the largest moment are none
+const VirginCurve kAnyCurve = {2e-5, 1e-5, 50, {}};  // in place of the one that is sought
 constexpr double kMisses = 0.25;  // of the largest moment: a law farther from the data (rms) is another's
 
 using F = FitFlags;
@@ -112,7 +114,7 @@ std::vector<std::string> requested_laws(const std::string& text) {
 struct Answer {
   std::vector<Identification> fits;  // the best first
   std::string from;
-  std::string warning = {};  // of the data; "": none
+  std::vector<std::string> warnings = {};  // of the data and the request
 };
 
 // A tester that bends to opposite curvatures finds opposite moments.  Where the moments are opposite and the
@@ -127,6 +129,29 @@ std::string curvature_zero_warning(const MomentSeries& series) {
   return "curvatures go from " + number_text(low, 4) + " to " + number_text(high, 4) +
          " 1/m, while the moments at their ends are opposite: the zero of curvature seems to be off by " +
          number_text(middle, 3) + " 1/m, which b1 and k0 do not stand; --curvature-offset finds it";
+}
+
+// Laws that take time, from data that do not say it.
+std::string time_warning(const MomentSeries& series, const std::vector<LawRequest>& laws) {
+  const bool measured = !series.seconds.empty();
+  const auto passes = [](double seconds) { return seconds > 0; };
+  if (std::ranges::any_of(series.seconds, passes)) return "";
+  std::vector<std::string> timed;
+  for (const LawRequest& law : laws)
+    if (takes_time(law)) timed.push_back(law.name);
+  if (timed.empty()) return "";
+  return series.name + (measured ? " has a column time [s] that does not rise" : " has no column time [s]") +
+         ", and " + join(timed, ", ") + (timed.size() == 1 ? " takes" : " take") +
+         " time: every row is taken as a step of " + (measured ? "0 s" : "1 s");
+}
+
+std::vector<std::string> loop_warnings(const MomentSeries& series, const std::vector<LawRequest>& laws) {
+  std::vector<std::string> warnings = {time_warning(series, laws)};
+  for (const LawRequest& law : laws)
+    for (const std::string& warning :
+         unused_parameter_warnings(law.name, law.curve, law.parameters, LawUse::alone, "the fabric"))
+      warnings.push_back(warning);
+  return warnings;
 }
 
 // The best first; laws that the data do not tell apart stay in the order in which they were asked for.
@@ -153,17 +178,22 @@ void rank(std::vector<Identification>& fits) {
 Answer from_loop(const FitFlags& flags) {
   const MomentSeries series = flags.units == "kes" ? read_kes_series(flags.loop, flags.ripple, "fit")
                                                    : read_series(flags.loop, flags.ripple, "fit");
-  Answer answer{{}, series.name, flags.curvature_offset ? "" : curvature_zero_warning(series)};
-  for (const std::string& law : requested_laws(flags.law)) {
+  Answer answer{{}, series.name};
+  std::vector<LawRequest> laws;
+  for (const std::string& name : requested_laws(flags.law)) {
+    laws.push_back({name, kAnyCurve, {}});
+    for (const auto& [parameter, value] : flags.param) laws.back().parameters[parameter] = value;
     CurveQuestion question;
-    question.law.name = law;
-    for (const auto& [name, value] : flags.param) question.law.parameters[name] = value;
+    question.law = laws.back();
     question.offset = flags.offset;
     question.curvature_offset = flags.curvature_offset;
     question.assumptions = flags.assume;
     answer.fits.push_back(identify_curve(series, question));
   }
   rank(answer.fits);
+  answer.warnings = loop_warnings(series, laws);
+  if (!flags.curvature_offset) answer.warnings.push_back(curvature_zero_warning(series));
+  std::erase(answer.warnings, "");
   return answer;
 }
 
@@ -329,7 +359,7 @@ void fit_curve(const CommandLine& line, const FitFlags& flags, const Keys& keys)
   Run run(line, flags.options, resolved(keys));
   const FabricNotes notes{flags.name, answer.from, if_given(flags.density), if_given(flags.thickness)};
   report_fits(run, answer.fits, notes);
-  if (!answer.warning.empty()) run.warn(answer.warning);
+  for (const std::string& warning : answer.warnings) run.warn(warning);
   if (const std::string warning = misses_warning(answer.fits[0]); !warning.empty()) run.warn(warning);
   finish(run, flags, summary(answer.fits), notes);
 }

@@ -16,6 +16,7 @@
 #include "sim/base/csv.h"
 #include "sim/base/error.h"
 #include "sim/bending/laws/law_parameters.h"
+#include "sim/bending/laws/unused_parameters.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -221,6 +222,9 @@ void fold_law(const CommandLine& line, const Request& request) {
   Json keys = to_json(scene);
   keys.update(request.keys);
   Run run(line, request.setup.options, keys);
+  for (const std::string& warning : unused_parameter_warnings(scene.law, scene.fabric.virgin_curve(),
+                                                              scene.param, LawUse::alone, scene.fabric.name))
+    run.warn(warning);
   const std::vector<BendingCycle> all = bend_repeatedly(scene, request.choice);
   write_cycles(run, all);
   note(run, cycle_numbers(all.back()));
@@ -276,6 +280,8 @@ Experiment fold() {
           .compared = true,
           .conditions =
               {{"fold.curvature", "fold.law-alone"},
+               {"fold.period", "not fold.law-alone or law = all | chapman | gong | kim | terzopoulos",
+                "cloth, or a law that takes time: --law chapman, gong, kim or terzopoulos"},
                {"fold.stroke | cloth. | mesh | triangles | element | membrane. | force | integrator | "
                 "step | substeps | implicit-every | solver-tolerance | newton- | tolerance | linear- | "
                 "gravity | air-drag | self-contact | contact-stiffness | fps | export | errors. | dump-scene",

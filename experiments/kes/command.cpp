@@ -16,7 +16,9 @@
 #include "experiments/workbench/pictures/pictures.h"
 #include "render/look.h"
 #include "sim/base/error.h"
+#include "sim/bending/laws/unused_parameters.h"
 #include "sim/reference/kes.h"
+#include "sim/scene/fabric_limits.h"
 #include "sim/scene/keys.h"
 
 namespace hysteron::experiments {
@@ -193,6 +195,22 @@ StripResult strip_tested(const Fabric& fabric, const KesFlags& flags, const LawR
   return result;
 }
 
+// Parameters that neither the laws alone read nor, where there are strips, those of the cloth.
+void warn_of_parameters(const KesTests& tests, const std::vector<std::string>& laws, const KesFlags& flags,
+                        Run& run) {
+  const VirginCurve curve = tests.fabric.virgin_curve();
+  for (const std::string& law : laws) {
+    const LawParameters own = accepted_parameters(law, laws, flags.param);
+    const auto warnings = [&](LawUse use) {
+      return unused_parameter_warnings(law, curve, own, use, tests.fabric.name);
+    };
+    const std::vector<std::string> alone = warnings(LawUse::alone);
+    const std::vector<std::string> in_cloth = flags.on == "strip" ? warnings(LawUse::cloth) : alone;
+    for (const std::string& warning : alone)
+      if (std::count(in_cloth.begin(), in_cloth.end(), warning)) run.warn(warning);
+  }
+}
+
 // Their strips are missing in the tables.
 void warn_of_failures(const KesTests& tests, Run& run) {
   for (const KesResult& result : tests.results)
@@ -206,6 +224,20 @@ void throw_if_all_failed(const KesTests& tests) {
   for (const KesResult& result : tests.results)
     if (!result.strip || result.strip->failure.empty()) return;
   throw Error::simulation(tests.results.back().strip->failure);
+}
+
+// Branches that relax are the fabric's: without them `chapman` takes no time.
+void check_rate(const CommandLine& line, const KesFlags& flags, const std::vector<std::string>& laws,
+                const Fabric& fabric) {
+  const std::string rate = last_text(line.flags, "rate", "");
+  const auto timed = [&](const std::string& law) {
+    return takes_time({law, fabric.virgin_curve(), accepted_parameters(law, laws, flags.param)});
+  };
+  if (rate.empty() || std::any_of(laws.begin(), laws.end(), timed)) return;
+  throw Error::invalid_input("--rate " + rate + " is not used: law " + join(laws, ", ") +
+                             " takes no time, fabric " + fabric.name +
+                             " having no branches that relax (fabric.bending.branches)")
+      .with_key("rate", rate);
 }
 
 KesTests tested(const Fabric& fabric, const KesFlags& flags, const std::vector<std::string>& laws) {
@@ -243,11 +275,15 @@ int run_kes(const CommandLine& line) {
   check_protocol(flags.protocol);
   const std::vector<std::string> laws = chosen_laws(flags.law, flags.on == "strip");
   if (laws.empty()) throw Error::invalid_input("--law names none").with_key("law", flags.law);
-  const Fabric fabric = resolved_fabric(last_text(line.flags, "fabric", Fabric{}.name), line.flags);
+  const std::string name = last_text(line.flags, "fabric", Fabric{}.name);
+  const Fabric fabric = resolved_fabric(name, line.flags);
+  check_rate(line, flags, laws, fabric);
   const KesTests tests = tested(fabric, flags, laws);
   throw_if_all_failed(tests);
 
   Run run(line, flags.options, resolved(flags, laws, fabric));
+  for (const std::string& warning : checked_fabric_warnings(name, line.flags)) run.warn(warning);
+  warn_of_parameters(tests, laws, flags, run);
   warn_of_failures(tests, run);
   write_metrics(run, tests);
   write_tables(run, tests, flags.protocol);
@@ -276,6 +312,8 @@ Experiment kes() {
       .own_keys = own_key_descriptions<option_keys, fabric_keys, in_plane_keys>,
       .conditions = {{"law | param | amplitude | rate | slope-from | slope-to | width-at | steps | cycles",
                       "test = bending"},
+                     {"rate", "law = all | chapman | gong | kim | terzopoulos",
+                      "a law that takes time: --law chapman, gong, kim, terzopoulos or all"},
                      {"mesh | triangles | strip-steps", "on = strip"},
                      {"element | cloth.width | renderer", "test = bending and on = strip"},
                      {"along", "test = shear | tension"},

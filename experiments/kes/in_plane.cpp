@@ -13,6 +13,7 @@
 #include "sim/base/error.h"
 #include "sim/reference/kes_in_plane.h"
 #include "sim/scene/cloth.h"
+#include "sim/scene/fabric_limits.h"
 #include "sim/scene/keys.h"
 #include "sim/time/simulation.h"
 
@@ -358,9 +359,11 @@ int run_in_plane(const CommandLine& line) {
   set_keys(line, option_keys(flags),
            [&] { flags.specimen.triangles = std::min(flags.specimen.triangles, kQuickTriangles); });
   const auto test = value_named<InPlaneTest>(flags.test);
-  const Fabric fabric = resolved_fabric(last_text(line.flags, "fabric", Fabric{}.name), line.flags);
+  const std::string name = last_text(line.flags, "fabric", Fabric{}.name);
+  const Fabric fabric = resolved_fabric(name, line.flags);
   const InPlaneResult result = tested(fabric, test, flags);
   Run run(line, flags.options, resolved(flags, fabric));
+  for (const std::string& warning : checked_fabric_warnings(name, line.flags)) run.warn(warning);
   write_in_plane_metrics(run, result);
   write_in_plane_tables(run, result, test);
   if (!flags.options.no_images) write_in_plane_plot(run, result, test);

@@ -12,7 +12,9 @@
 #include "sim/base/error.h"
 #include "sim/bending/laws/law_run.h"
 #include "sim/bending/laws/recovery.h"
+#include "sim/bending/laws/unused_parameters.h"
 #include "sim/reference/kes.h"
+#include "sim/scene/fabric_limits.h"
 #include "sim/scene/fabric_reader.h"
 
 namespace hysteron::experiments {
@@ -36,7 +38,7 @@ const KeyRow<LawFlags> kRows[] = {
     {"b2", at<&L::curve, &VirginCurve::b2>, "N m", at_least(0), "", "bending rigidity of the straight branch"},
     {"k0", at<&L::curve, &VirginCurve::k0>, "1/m", at_least(0), "", "curvature at which friction saturates"},
     {"param", at<&L::param>, "", any(), "", "parameters of the law"},
-    {"in", at<&L::in>, "", any(), "", "CSV with column `curvature [1/m]`"},
+    {"in", at<&L::in>, "", any(), "", "CSV with column `curvature [1/m]`, optional `time [s]` and `edit`"},
     {"out", at<&L::out>, "", any(), "", "CSV with moments and energies"},
 };
 // clang-format on
@@ -44,6 +46,25 @@ const KeyRow<LawFlags> kRows[] = {
 constexpr const char* kCurvature = "curvature [1/m]";
 constexpr const char* kTime = "time [s]";
 constexpr const char* kEdit = "edit";
+
+void warn(const std::string& text) {
+  if (!text.empty()) std::cerr << "warning: " << text << std::endl;
+}
+
+// Of the fabric, and of what is given in place of its numbers.
+void check_numbers(const CommandLine& line, const LawFlags& flags) {
+  std::vector<std::string> warnings = checked_fabric_warnings(flags.fabric);
+  const std::pair<const char*, double> numbers[] = {
+      {"b1", flags.curve.b1}, {"b2", flags.curve.b2}, {"k0", flags.curve.k0}};
+  for (const auto& [name, value] : numbers) {
+    const std::string key = name;
+    if (last_text(line.flags, key, "").empty()) continue;
+    check_fabric_number(key, value, key, "--" + key);
+    std::erase_if(warnings, [&](const std::string& text) { return text.starts_with("fabric." + key + " "); });
+    warnings.push_back(fabric_number_warning(key, value, key, "--" + key));
+  }
+  for (const std::string& text : warnings) warn(text);
+}
 
 std::string with_unit(double value, const char* unit) { return fmt::format("{:g} {}", value, unit); }
 
@@ -120,6 +141,21 @@ std::vector<LawRow> law_table_rows(const Table& table) {
   return rows;
 }
 
+// Laws that take time need to know it: from rows whose times never rise no time passes.
+void check_time_passes(const Table& table, const LawRequest& request) {
+  const std::vector<double> time = metric_values(table, kTime);
+  if (time.size() < 2 || time.back() > time.front() || !takes_time(request)) return;
+  throw table.refusal(time.size() - 1, "time = " + with_unit(time.back(), "s") +
+                                           " must rise from the first row to the last: law " + request.name +
+                                           " takes time");
+}
+
+std::string time_warning(const Table& table, const LawRequest& request) {
+  if (table.find(kTime) || !takes_time(request)) return "";
+  return table.file + " has no column time [s], and law " + request.name +
+         " takes time: every row is taken as a step of 1 s";
+}
+
 // What a bending tester would read of the fabric's stops.
 std::string stops_summary(const LawRequest& request) {
   if (request.curve.parts.stops.empty()) return "";
@@ -173,17 +209,24 @@ LawFlags read_flags(const CommandLine& line) {
 }
 
 // The first row is the first curvature visited from rest, every row is one accepted step, which takes the
-// difference of the two times (the first row: 0 s), or 1 s where there is no `time`; it must not fall.
+// difference of the two times (the first row: 0 s), or 1 s where there is no `time`, which laws that take
+// time are warned of; it must not fall.
 // `edit` = 1 sets the rest curvature to that of the row (grinspun-edit; others ignore it).  Prints the
 // reversals by recovery case, and the residual curvature after the last row.
 int run_law_command(const CommandLine& line) {
   const LawFlags flags = read_flags(line);
   check_curve(flags.curve);
+  check_numbers(line, flags);
   const LawRequest request{flags.law, flags.curve, flags.param};
   const Table table = read_csv(flags.in, {kCurvature}, {kTime, kEdit}, "law");
   check_curvature(table);
   check_time(table);
   check_edit(table);
+  check_time_passes(table, request);
+  warn(time_warning(table, request));
+  for (const std::string& text : unused_parameter_warnings(request.name, request.curve, request.parameters,
+                                                           LawUse::alone, flags.fabric))
+    warn(text);
   const std::vector<LawRow> rows = law_table_rows(table);
   const LawRun run = run_law(request, rows);
   std::vector<Column> results = {{kCurvature, table.numbers(kCurvature)},

@@ -254,6 +254,12 @@ std::pair<std::size_t, std::size_t> unit_place(std::string_view column) {
   return {std::min(open, column.size()), column.npos};
 }
 
+// Testers call time "t [s]"; "t [mm]" is a thickness.
+bool may_be_of_time(const std::string& unit) {
+  constexpr const char* kUnits[] = {"", "s", "sec", "ms", "us", "min", "h"};
+  return std::find(std::begin(kUnits), std::end(kUnits), unit) != std::end(kUnits);
+}
+
 }  // namespace
 
 std::string quantity_in(std::string_view column) {
@@ -261,7 +267,7 @@ std::string quantity_in(std::string_view column) {
   for (const char c : trimmed(column.substr(0, unit_place(column).first)))
     if (c != ' ' || quantity.back() != ' ')
       quantity += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return quantity;
+  return quantity == "t" && may_be_of_time(unit_in(column)) ? "time" : quantity;
 }
 
 std::string unit_in(std::string_view column) {

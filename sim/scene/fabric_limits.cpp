@@ -4,6 +4,7 @@
 
 #include "sim/base/error.h"
 #include "sim/scene/fabric_reader.h"
+#include "sim/scene/scene_reader.h"
 #include "sim/scene/shown_key.h"
 
 namespace hysteron {
@@ -18,9 +19,15 @@ struct UnitSlip {
 struct FabricLimit {
   const char* parameter;
   const char* unit;
-  double (*value)(const Fabric&);
+  double (*value)(const Fabric&);  // null of a list
   Range possible, usual;  // zero, which stands for "none" of a rigidity or of friction, is always usual
   UnitSlip slip;
+};
+
+// A list that a fabric may have beyond its parameters, each of whose numbers has these limits.
+struct FabricListLimit {
+  FabricLimit each;
+  const std::vector<double>& (*values)(const Fabric&);
 };
 
 constexpr UnitSlip kKesRigidity = {"gf cm^2/cm", kGramForceSquareCentimetrePerCentimetre};
@@ -28,6 +35,8 @@ constexpr UnitSlip kKesWidth = {"gf cm/cm", kGramForceCentimetrePerCentimetre};
 constexpr UnitSlip kKesStiffness = {"gf/cm", 0.980665};
 constexpr UnitSlip kGramsPerSquareMetre = {"g/m^2", 1e-3};
 constexpr UnitSlip kMillimetres = {"mm", 1e-3};
+constexpr UnitSlip kPercent = {"%", 0.01};
+constexpr UnitSlip kMinutes = {"min", 60};
 constexpr UnitSlip kPerCentimetre = {"1/cm", 100};
 constexpr UnitSlip kNoSlip = {nullptr, 1};
 
@@ -57,6 +66,40 @@ const FabricLimit kLimits[] = {
      kKesStiffness},
     {"damping", "s", [](const Fabric& f) { return f.damping; }, between(0, 1e3), between(0, 1), kNoSlip},
     {"friction", "", [](const Fabric& f) { return f.friction; }, between(0, 100), between(0, 3), kNoSlip},
+    {"bending.set.yield", "1/m", [](const Fabric& f) { return f.bending.set.yield; }, between(0, 1e7),
+     between(1, 1e4), kPerCentimetre},
+    {"bending.set.hardening", "N m", [](const Fabric& f) { return f.bending.set.hardening; }, between(0, 10),
+     between(0, 1e-2), kKesRigidity},
+};
+
+// A fit may leave a stop next to nothing, so that stiffnesses have no least usual one; thresholds of stops of
+// bending are judged together (threshold_warning()).
+const Range kUsualStrains = between(1e-5, 0.3);
+const FabricListLimit kListLimits[] = {
+    {{"bending.stops.thresholds", "1/m", nullptr, between(0, 1e7), between(0, 1e7), kPerCentimetre},
+     [](const Fabric& f) -> const std::vector<double>& { return f.bending.stops.thresholds; }},
+    {{"bending.stops.stiffnesses", "N m", nullptr, between(0, 10), between(0, 1e-3), kKesRigidity},
+     [](const Fabric& f) -> const std::vector<double>& { return f.bending.stops.stiffnesses; }},
+    {{"bending.stops.weft.thresholds", "1/m", nullptr, between(0, 1e7), between(0, 1e7), kPerCentimetre},
+     [](const Fabric& f) -> const std::vector<double>& { return f.bending.weft_stops.thresholds; }},
+    {{"bending.stops.weft.stiffnesses", "N m", nullptr, between(0, 10), between(0, 1e-3), kKesRigidity},
+     [](const Fabric& f) -> const std::vector<double>& { return f.bending.weft_stops.stiffnesses; }},
+    {{"bending.branches.times", "s", nullptr, between(0, 1e12), between(1e-3, 1e8), kMinutes},
+     [](const Fabric& f) -> const std::vector<double>& { return f.bending.branches.times; }},
+    {{"bending.branches.stiffnesses", "N m", nullptr, between(0, 10), between(0, 1e-3), kKesRigidity},
+     [](const Fabric& f) -> const std::vector<double>& { return f.bending.branches.stiffnesses; }},
+    {{"membrane.stops.warp.thresholds", "", nullptr, between(0, 10), kUsualStrains, kPercent},
+     [](const Fabric& f) -> const std::vector<double>& { return f.in_plane.warp.thresholds; }},
+    {{"membrane.stops.warp.stiffnesses", "N/m", nullptr, between(0, 1e8), between(0, 1e6), kKesStiffness},
+     [](const Fabric& f) -> const std::vector<double>& { return f.in_plane.warp.stiffnesses; }},
+    {{"membrane.stops.weft.thresholds", "", nullptr, between(0, 10), kUsualStrains, kPercent},
+     [](const Fabric& f) -> const std::vector<double>& { return f.in_plane.weft.thresholds; }},
+    {{"membrane.stops.weft.stiffnesses", "N/m", nullptr, between(0, 1e8), between(0, 1e6), kKesStiffness},
+     [](const Fabric& f) -> const std::vector<double>& { return f.in_plane.weft.stiffnesses; }},
+    {{"membrane.stops.shear.thresholds", "", nullptr, between(0, 10), kUsualStrains, kPercent},
+     [](const Fabric& f) -> const std::vector<double>& { return f.in_plane.shear.thresholds; }},
+    {{"membrane.stops.shear.stiffnesses", "N/m", nullptr, between(0, 1e8), between(0, 1e6), kKesStiffness},
+     [](const Fabric& f) -> const std::vector<double>& { return f.in_plane.shear.stiffnesses; }},
 };
 
 const FabricLimit* limit_of(const std::string& parameter) {
@@ -90,52 +133,85 @@ std::string shown_number(const FabricLimit& limit, double value, const std::stri
   return key + " = " + with_unit(number_text(value), limit);
 }
 
+void check_number(const FabricLimit& limit, double value, const std::string& key, const std::string& origin) {
+  if (limit.possible.contains(value)) return;
+  throw Error::invalid_input(shown_number(limit, value, key) + " must be " +
+                             with_unit(limit.possible.text(), limit) + ", as fabrics can be" +
+                             slip_text(limit, value))
+      .with_origin(origin)
+      .with_key(key, number_text(value));
+}
+
+// "" where the value is usual.
+std::string number_warning(const FabricLimit& limit, double value, const std::string& key,
+                           const std::string& origin) {
+  if (value == 0 || limit.usual.contains(value)) return "";
+  return shown_number(limit, value, key) + " (" + origin + ") is unusual: fabrics have " +
+         with_unit(three_digits(limit.usual.low) + " to " + three_digits(limit.usual.high), limit) +
+         slip_text(limit, value);
+}
+
+// Calls visit(limit, value, key) with every number of the fabric that has limits.
+template <class Visit>
+void for_each_number(const Fabric& fabric, const Visit& visit) {
+  for (const FabricLimit& limit : kLimits)
+    visit(limit, limit.value(fabric), std::string("fabric.") + limit.parameter);
+  for (const FabricListLimit& list : kListLimits)
+    for (const double value : list.values(fabric))
+      visit(list.each, value, std::string("fabric.") + list.each.parameter);
+}
+
+// Friction that saturates below all bending that a tester sees, or beyond all that cloth bears.
+std::string threshold_warning(const Spectrum& stops) {
+  const Range usual = between(2, 1e4);  // [1/m]; the largest, the smallest
+  if (stops.empty() || (stops.thresholds.back() >= usual.low && stops.thresholds.front() <= usual.high))
+    return "";
+  return "thresholds of bending stops from " + three_digits(stops.thresholds.front()) + " to " +
+         three_digits(stops.thresholds.back()) + " 1/m are unusual: are they in 1/m, not in 1/cm?";
+}
+
 }  // namespace
 
 void check_fabric_number(const std::string& parameter, double value, const std::string& key,
                          const std::string& origin) {
-  const FabricLimit* limit = limit_of(parameter);
-  if (!limit || limit->possible.contains(value)) return;
-  throw Error::invalid_input(shown_number(*limit, value, key) + " must be " +
-                             with_unit(limit->possible.text(), *limit) + ", as fabrics can be" +
-                             slip_text(*limit, value))
-      .with_origin(origin)
-      .with_key(key, number_text(value));
+  if (const FabricLimit* limit = limit_of(parameter)) check_number(*limit, value, key, origin);
 }
 
 std::string fabric_number_warning(const std::string& parameter, double value, const std::string& key,
                                   const std::string& origin) {
   const FabricLimit* limit = limit_of(parameter);
-  if (!limit || value == 0 || limit->usual.contains(value)) return "";
-  return shown_number(*limit, value, key) + " (" + origin + ") is unusual: fabrics have " +
-         with_unit(three_digits(limit->usual.low) + " to " + three_digits(limit->usual.high), *limit) +
-         slip_text(*limit, value);
+  return limit ? number_warning(*limit, value, key, origin) : "";
 }
 
 void check_fabric_numbers(const Scene& scene) {
-  for (const FabricLimit& limit : kLimits) {
-    const std::string key = std::string("fabric.") + limit.parameter;
-    check_fabric_number(limit.parameter, limit.value(scene.fabric), key, key_origin(scene, key));
-  }
+  for_each_number(scene.fabric, [&](const FabricLimit& limit, double value, const std::string& key) {
+    check_number(limit, value, key, key_origin(scene, key));
+  });
 }
 
 std::vector<std::string> fabric_warnings(const Scene& scene) {
   std::vector<std::string> warnings;
-  for (const FabricLimit& limit : kLimits) {
-    const std::string key = std::string("fabric.") + limit.parameter;
-    const std::string warning =
-        fabric_number_warning(limit.parameter, limit.value(scene.fabric), key, key_origin(scene, key));
-    if (!warning.empty()) warnings.push_back(warning);
-  }
-  // Friction that saturates below all bending that a tester sees, or beyond all that cloth bears.
-  const Range kUsualThresholds = between(2, 1e4);  // [1/m]; the largest, the smallest
+  std::string warned;  // the key of the last one: of a list one number says it
+  for_each_number(scene.fabric, [&](const FabricLimit& limit, double value, const std::string& key) {
+    const std::string warning = number_warning(limit, value, key, key_origin(scene, key));
+    if (warning.empty() || warned == key) return;
+    warnings.push_back(warning);
+    warned = key;
+  });
   for (const Spectrum* stops : {&scene.fabric.bending.stops, &scene.fabric.bending.weft_stops})
-    if (!stops->empty() && (stops->thresholds.back() < kUsualThresholds.low ||
-                            stops->thresholds.front() > kUsualThresholds.high))
-      warnings.push_back("thresholds of bending stops from " + three_digits(stops->thresholds.front()) +
-                         " to " + three_digits(stops->thresholds.back()) +
-                         " 1/m are unusual: are they in 1/m, not in 1/cm?");
+    if (const std::string warning = threshold_warning(*stops); !warning.empty()) warnings.push_back(warning);
   return warnings;
+}
+
+std::vector<std::string> checked_fabric_warnings(const std::string& name_or_file,
+                                                 const std::vector<Flag>& flags) {
+  std::vector<Flag> own = {{"fabric", name_or_file}};
+  for (const Flag& flag : flags)
+    if (flag.path.starts_with("fabric.")) own.push_back(flag);
+  Scene scene;
+  apply_flags(scene, own);
+  check_fabric_numbers(scene);
+  return fabric_warnings(scene);
 }
 
 }  // namespace hysteron

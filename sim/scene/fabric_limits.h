@@ -23,5 +23,9 @@ std::string fabric_number_warning(const std::string& parameter, double value, co
 // The same of all numbers of the scene's fabric.
 void check_fabric_numbers(const Scene& scene);
 std::vector<std::string> fabric_warnings(const Scene& scene);
+// Both of a fabric by its name or file, with flags fabric.* in place of its own numbers: for who has no
+// scene.
+std::vector<std::string> checked_fabric_warnings(const std::string& name_or_file,
+                                                 const std::vector<Flag>& flags = {});
 
 }  // namespace hysteron

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numeric>
 
+#include "sim/bending/laws/unused_parameters.h"
 #include "sim/membrane/locking.h"
 #include "sim/scene/cloth.h"
 #include "sim/scene/fabric_limits.h"
@@ -52,19 +53,6 @@ std::string resolution_words(const Scene& scene, const Cloth& cloth, const std::
       "fabric.thickness = {:.4g} m: {}",
       step, 100 * kCoarsest, scene.fabric.thickness,
       scene.precision == Precision::fp32 ? "take precision = double" : "let it start nearer");
-}
-
-// Parameters that stand for the law's memory where the fabric has one of its own.
-std::string memory_words(const Scene& scene) {
-  if (scene.law != "prandtl" || scene.fabric.bending.stops.empty()) return "";
-  for (const char* name : {"memory", "stops", "stack"})
-    if (scene.param.count(name))
-      return fmt::format(
-          "param {} is not used: the {} stops of {} are the law's memory; fabric.stops-median = 0, or a "
-          "fabric without "
-          "stops, leaves it to the parameter",
-          name, scene.fabric.bending.stops.size(), scene.fabric.name);
-  return "";
 }
 
 // A command acts on the elements whose centres lie in its box.
@@ -115,8 +103,10 @@ std::vector<std::string> said(std::vector<std::string> texts) {
 
 std::vector<std::string> doubts_at_start(const Scene& scene, const Cloth& cloth, Simulation& simulation) {
   std::vector<std::string> doubts = fabric_warnings(scene);
-  doubts.insert(doubts.end(), {memory_words(scene), locking_words(scene, cloth.mesh),
-                               pressed_words(scene, cloth, simulation),
+  const std::vector<std::string> of_parameters = unused_parameter_warnings(
+      scene.law, scene.fabric.virgin_curve(), scene.param, LawUse::cloth, scene.fabric.name);
+  doubts.insert(doubts.end(), of_parameters.begin(), of_parameters.end());
+  doubts.insert(doubts.end(), {locking_words(scene, cloth.mesh), pressed_words(scene, cloth, simulation),
                                command_warning(scene, cloth, simulation.dimension()), phases_warning(scene)});
   const std::vector<std::string> of_pins = pin_warnings(scene, cloth);
   doubts.insert(doubts.end(), of_pins.begin(), of_pins.end());

@@ -153,6 +153,9 @@ LawChoice choose_law(const LawEntry& law, const VirginCurve& curve, const LawPar
     }
     known->read({law.name, key, text, use}, choice);
   }
+  // A law whose memory can be no stack has the stops that it is given.
+  const std::vector<std::string> names = parameter_names(law.parameters);
+  if (given.contains("stops") && !std::ranges::count(names, "stack")) choice.stack = false;
   check_fatigue(choice);
   if (law.check) law.check(choice, use);
   return choice;

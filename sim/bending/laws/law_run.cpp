@@ -80,6 +80,17 @@ struct Drive final : LawWalk::State {
   }
 };
 
+// Whether set_step_time() reaches the law, or one inside it.
+template <class Law>
+constexpr bool has_step_time() {
+  if constexpr (TimedLaw<Law>)
+    return true;
+  else if constexpr (requires(Law law) { law.law; })
+    return has_step_time<decltype(Law::law)>();
+  else
+    return false;
+}
+
 template <class Visit>
 void with_law(const LawRequest& request, const Visit& visit) {
   const LawChoice choice = choose_law(request.name, request.curve, request.parameters, LawUse::alone);
@@ -102,6 +113,12 @@ LawRun run_law(const LawRequest& request, const std::vector<LawRow>& rows) {
     }
   });
   return run;
+}
+
+bool takes_time(const LawRequest& request) {
+  bool timed = false;
+  with_law(request, [&]<class Law>(const Law&) { timed = has_step_time<Law>(); });
+  return timed;
 }
 
 LawWalk::LawWalk(const LawRequest& request) {

@@ -37,6 +37,10 @@ struct LawRun {
 // Laws that cannot be edited ignore `edit`.  Throws Error::invalid_input as choose_law() does.
 LawRun run_law(const LawRequest& request, const std::vector<LawRow>& rows);
 
+// Whether the time of its steps changes what the law does: it creeps, ages with the time it is held, or has
+// branches that relax.  Throws as run_law() does.
+bool takes_time(const LawRequest& request);
+
 // What an accepted step leaves.
 struct LawPoint {
   double moment = 0;      // [N]

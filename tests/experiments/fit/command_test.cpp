@@ -3,6 +3,7 @@
 #include "experiments/fit/report.h"
 #include "sim/base/atomic_file.h"
 #include "sim/base/csv.h"
+#include "sim/identification/decay_friction.h"
 #include "sim/scene/fabric_reader.h"
 #include "tests/experiments/folder.h"
 #include "tests/sim/identification/synthetic.h"
@@ -152,6 +153,37 @@ TEST_F(Fit, WarnsOfALawThatIsNotNearTheData) {
   EXPECT_LT(share, 25);
   EXPECT_TRUE(says(warned_, "warning: linear is not near these data: it misses them by "));
   EXPECT_TRUE(says(warned_, "(--law all)"));
+}
+
+TEST_F(Fit, WarnsOfALoopWithoutTimesForLawsThatTakeTime) {
+  const std::string file = loop("gong", {150, -150, 150});
+  ASSERT_EQ(fit({{"loop", file}, {"law", "prandtl,gong"}}), 0);
+  EXPECT_TRUE(says(warned_,
+                   "loop.csv has no column time [s], and gong takes time: every row is taken as a "
+                   "step of 1 s"));
+  ASSERT_EQ(fit({{"loop", file}, {"param", "stops=8"}}), 0);
+  EXPECT_TRUE(says(warned_, "param stops is not used: the law remembers by a stack"));
+  EXPECT_EQ(warned_.find("takes time"), warned_.npos);
+}
+
+// B is given to a free vibration, without an error of it.
+TEST_F(Fit, OfAFreeVibrationTakesTheGivenRigidityAsExact) {
+  DecaySeries series;
+  for (int i = 0; i < 10; ++i) series.time.push_back(0.15 * i);
+  series.amplitude.assign(10, 0.02);
+  const DecayQuestion question = {0.08, 0.1238, 1.16e-5, 5e-4};
+  const Spectrum stops = friction_from_kes({1.16e-5, 4e-4}, {12, 1.6}).stops;
+  const fs::path file = folder_.path() / "decay.csv";
+  Table({{"time [s]", series.time}, {"amplitude [m]", decay_by(series, question, stops, 0.03)}}).write(file);
+  ASSERT_EQ(fit({{"decay", file.string()},
+                 {"decay.length", "0.08"},
+                 {"fabric.density", "0.1238"},
+                 {"kes.b", "1.16e-5"}}),
+            0);
+  EXPECT_TRUE(says(said_, " N m (of kes.b, taken as exact), HB = "));
+  EXPECT_EQ(said_.find("+- 0 "), said_.npos) << said_;
+  const Fabric fabric = read_fabric((out() / "fabric.toml").string(), "--fabric").fabric;
+  EXPECT_FALSE(fabric.provenance.at("b2").standard_error.has_value());
 }
 
 // A bilinear loop between -150 and 150/m, whose tester's zero is 20/m off.

@@ -43,6 +43,16 @@ TEST_F(KesCommand, TestsEveryLawAndWritesItsTables) {
     EXPECT_TRUE(fs::exists(folder_.path() / file)) << file;
 }
 
+TEST_F(KesCommand, WarnsOfUnusualFabricsAndOfParametersThatChangeNothing) {
+  EXPECT_TRUE(run({}).value("warnings", Json::array()).empty());
+  const std::string unusual = run({{"fabric.b1", "0.3"}})["warnings"].dump();
+  EXPECT_TRUE(says(unusual, "fabric.b1 = 0.3 N m (--fabric.b1) is unusual"));
+  const std::string unused = run({{"param", "stops=4"}})["warnings"].dump();
+  EXPECT_TRUE(says(unused, "param stops is not used: the 8 stops of cotton-broad are the law's memory"));
+  const std::string tension = run({{"test", "tension"}, {"fabric.warp", "2e6"}})["warnings"].dump();
+  EXPECT_TRUE(says(tension, "fabric.warp = 2e+06 N/m (--fabric.warp) is unusual"));
+}
+
 TEST_F(KesCommand, TakesAFabricsNumbersFromFlags) {
   const Json manifest = run({{"fabric", "cotton_broad"}, {"fabric.b2", "2e-5"}, {"law", "linear"}});
   EXPECT_NEAR(manifest["metrics"]["B_N_m"].get<double>(), 2e-5, kRounding * 2e-5);

@@ -21,6 +21,12 @@ class LawCommand : public ::testing::Test {
     all.insert(all.end(), flags.begin(), flags.end());
     return experiment_named("law").run({"law", "hysteron law", all, {}});
   }
+  // What is said on stderr to a request that is answered.
+  std::string warnings(const std::vector<Flag>& flags = {}) {
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(run(flags), 0);
+    return testing::internal::GetCapturedStderr();
+  }
   std::string refusal(const std::vector<Flag>& flags = {}) {
     const std::string message = test::refusal([&] { run(flags); });
     EXPECT_FALSE(std::filesystem::exists(out_));
@@ -57,12 +63,42 @@ TEST_F(LawCommand, RefusesWhatItCannotUnderstand) {
   EXPECT_TRUE(says(refusal(), "k.csv:2: edit = 2 must be 0 or 1"));
 }
 
-TEST_F(LawCommand, RefusesWhatNoNumberCanHold) {
+TEST_F(LawCommand, RefusesWhatNoFabricHas) {
   write("curvature [1/m]\n50\n1e300\n");
   EXPECT_TRUE(says(refusal(), "k.csv:3: curvature = 1e+300 1/m must be within +-1e+06 1/m"));
-  write("curvature [1/m]\n1\n\n-1000\n");
-  EXPECT_TRUE(says(refusal({{"law", "linear"}, {"b1", "1e306"}, {"b2", "1e306"}}),
-                   "k.csv:4: at curvature = -1000 1/m the law's moment [N] is no finite number"));
+  write("curvature [1/m]\n1\n");
+  EXPECT_TRUE(says(refusal({{"b1", "20"}}), "b1 = 20 N m must be in [0, 10] N m, as fabrics can be"));
+}
+
+TEST_F(LawCommand, WarnsOfUnusualNumbersWithTheUnitThatWasProbablyMeant) {
+  EXPECT_EQ(warnings(), "");
+  // 0.3 gf cm^2/cm times 9.80665e-5 N m.
+  EXPECT_TRUE(says(warnings({{"b1", "0.3"}}),
+                   "warning: b1 = 0.3 N m (--b1) is unusual: fabrics have 1e-08 to 0.001 N m; gf cm^2/cm "
+                   "given? Then it is 2.94e-05 N m"));
+}
+
+TEST_F(LawCommand, WarnsOfParametersThatChangeNothing) {
+  EXPECT_TRUE(says(warnings({{"law", "prandtl"}, {"param", "stops=8"}}), "param stops is not used"));
+  EXPECT_EQ(warnings({{"law", "prandtl"}, {"param", "stack=8"}}), "");
+}
+
+// Gong's friction slips at a limit that grows with the time held, and the second row releases it.
+TEST_F(LawCommand, TakesTimeFromTheColumnTAndSaysWhereThereIsNone) {
+  const std::string rows = "\n100,0\n100,100\n60,101\n";
+  const auto moment = [&](const std::string& head) {
+    write(head + rows);
+    EXPECT_EQ(warnings({{"law", "gong"}}), "");
+    return read_csv(out_, {"moment [N]"}, {}, "law").numbers("moment [N]").back();
+  };
+  EXPECT_EQ(moment("curvature [1/m],t [s]"), moment("curvature [1/m],time [s]"));
+  write("curvature [1/m]\n100\n100\n60\n");
+  EXPECT_TRUE(says(warnings({{"law", "gong"}}),
+                   "has no column time [s], and law gong takes time: every row is taken as a step of 1 s"));
+  EXPECT_EQ(warnings({{"law", "wong"}}), "");
+  std::filesystem::remove(out_);
+  write("curvature [1/m],time [s]\n100,5\n100,5\n60,5\n");
+  EXPECT_TRUE(says(refusal({{"law", "gong"}}), "k.csv:4: time = 5 s must rise from the first row"));
 }
 
 TEST_F(LawCommand, GivesTimeAndCommandsToTheLawsThatTakeThem) {

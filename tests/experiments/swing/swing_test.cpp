@@ -48,6 +48,21 @@ TEST(Swing, IsTheSameWhereverTheStripPoints) {
     expect_same_swing(along_x, swing_with({{"cloth.rotation", rotation}}));
 }
 
+TEST(Swing, WithoutGravityOrInertiaIsSaidToStandStill) {
+  const std::vector<Flag> few = {{"seconds", "0.1"}, {"triangles", "60"}, {"device", "cpu"}};
+  for (const Flag& still :
+       {Flag{"gravity", "0 0 0"}, Flag{"integrator", "quasi-static"}, Flag{"fps", "30"}}) {
+    const Folder folder;
+    std::vector<Flag> flags = few;
+    flags.push_back(still);
+    EXPECT_EQ(run_into(folder.path(), "swing", flags), 0);
+    const std::string warnings = manifest_in(folder.path()).value("warnings", Json::array()).dump();
+    EXPECT_EQ(occurrences(warnings, "nothing swings without gravity and inertia"),
+              still.path == "fps" ? 0 : 1)
+        << still.path << " " << warnings;
+  }
+}
+
 TEST(Swing, OfAMeshIsClampedAtItsOwnLowEnd) {
   const Folder folder;
   const Json from_zero =

@@ -33,6 +33,17 @@ TEST_F(Csv, FindsColumnsByNameInAnyOrderAndIgnoresOthers) {
   EXPECT_EQ(table.lines, (std::vector<int>{2, 4}));
 }
 
+TEST_F(Csv, ReadsTInSecondsAsTimeAndALengthOfThatNameAsNone) {
+  const auto read = [&](const char* text) {
+    return read_csv(file(text), {"curvature [1/m]"}, {"time [s]"}, "law");
+  };
+  EXPECT_EQ(read("curvature [1/m],t [s]\n1,5\n2,7\n").numbers("time [s]"), (std::vector<double>{5, 7}));
+  EXPECT_FALSE(read("curvature [1/m],t [mm]\n1,5\n2,7\n").find("time [s]"));
+  EXPECT_TRUE(says(refusal("curvature [1/m],t\n1,5\n"), "names no unit; its numbers must be in s"));
+  EXPECT_TRUE(says(refusal("curvature [1/m],t [min]\n1,5\n"), "is in min and must be in s"));
+  EXPECT_TRUE(says(refusal("curvature [1/m],t [s],time [s]\n1,5,5\n"), "column 'time [s]' stands twice"));
+}
+
 TEST_F(Csv, RefusesBadInputWithFileAndLine) {
   EXPECT_TRUE(says(refusal(""), "in.csv:1: column 'curvature [1/m]' is missing"));
   EXPECT_TRUE(says(refusal("curvature [1/cm]\n1\n"), "column 'curvature' is in 1/cm and must be in 1/m"));

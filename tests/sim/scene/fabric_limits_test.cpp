@@ -60,6 +60,50 @@ TEST(FabricLimits, WarnOfTheUnusualWhichRuns) {
   EXPECT_TRUE(says(warnings[1], "1/cm given? Then it is 50 1/m"));
 }
 
+TEST(FabricLimits, HoldForWhatAFabricHasBeyondItsParameters) {
+  Scene scene = default_scene();
+  const auto warned = [&](const char* key) {
+    for (const std::string& warning : fabric_warnings(scene))
+      if (warning.starts_with(key)) return warning;
+    return std::string();
+  };
+  scene.fabric.bending.branches = {{0.5, 1e9}, {0.118, 0.2}};
+  scene.fabric.bending.set = {0.5, 1e-5};
+  scene.fabric.in_plane.shear = {{0.02, 2}, {30, 3e6}};
+  EXPECT_TRUE(says(warned("fabric.bending.branches.times"), "= 1e+09 s", "is unusual"));
+  EXPECT_TRUE(says(warned("fabric.bending.branches.stiffnesses"), "= 0.118 N m",
+                   "gf cm^2/cm given? Then it is 1.16e-05 N m"));
+  EXPECT_TRUE(says(warned("fabric.bending.set.yield"), "1/cm given? Then it is 50 1/m"));
+  EXPECT_TRUE(says(warned("fabric.membrane.stops.shear.thresholds"), "= 2 ", "% given? Then it is 0.02"));
+  EXPECT_TRUE(says(warned("fabric.membrane.stops.shear.stiffnesses"), "= 3e+06 N/m"));
+  EXPECT_EQ(fabric_warnings(scene).size(), 5u) << "one of a list";
+  scene.fabric.bending.stops = {{20}, {0.5}};
+  EXPECT_TRUE(says(warned("fabric.bending.stops.stiffnesses"), "= 0.5 N m"));
+  scene.fabric.in_plane.warp = {{20}, {30}};
+  EXPECT_TRUE(says(test::refusal([&] { check_fabric_numbers(scene); }),
+                   "fabric.membrane.stops.warp.thresholds = 20 must be in [0, 10]"));
+}
+
+// 20 to 60/m in 1/cm, and in 1/km.
+TEST(FabricLimits, WarnOfThresholdsInAnotherUnit) {
+  Scene scene = default_scene();
+  for (const double factor : {0.01, 1.0, 1000.0}) {
+    scene.fabric.bending.stops = {{20 * factor, 60 * factor}, {2e-5, 1e-5}};
+    const std::vector<std::string> warnings = fabric_warnings(scene);
+    ASSERT_EQ(warnings.size(), factor == 1 ? 0u : 1u) << factor;
+    if (factor != 1) EXPECT_TRUE(says(warnings[0], "thresholds of bending stops from ", "not in 1/cm?"));
+  }
+}
+
+TEST(FabricLimits, AreAskedByWhoHasNoScene) {
+  EXPECT_TRUE(checked_fabric_warnings("cotton-broad").empty());
+  EXPECT_EQ(checked_fabric_warnings("cotton-broad", {{"fabric.density", "3"}, {"out", "x"}}).size(), 1u);
+  EXPECT_TRUE(says(test::refusal([&] {
+                     checked_fabric_warnings("cotton-broad", {{"fabric.density", "124"}});
+                   }),
+                   "fabric.density = 124 kg/m^2 must be"));
+}
+
 TEST(FabricLimits, PassEveryFabricThatIsShipped) {
   for (const FabricFile& file : list_fabrics()) {
     Scene scene = default_scene();

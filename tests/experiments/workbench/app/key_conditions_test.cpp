@@ -6,6 +6,7 @@
 
 #include "experiments/workbench/app/command_line.h"
 #include "sim/base/comma_list.h"
+#include "sim/bending/laws/law_run.h"
 #include "tests/experiments/program.h"
 
 namespace hysteron::experiments {
@@ -97,6 +98,18 @@ TEST(KeyConditions, RefuseFlagsThatNothingReadsWithWhatWouldReadThem) {
        {{"test", "shear"}, {"fabric.b1", "1e-5"}},
        "--fabric.b1 1e-5 is not used: fabric.b1 needs --test bending (test = shear)"},
       {"kes", {{"mesh", "random"}}, "--mesh random is not used: mesh needs --on strip (on = law)"},
+      {"kes",
+       {{"rate", "5"}},
+       "--rate 5 is not used: rate needs a law that takes time: --law chapman, gong, kim, terzopoulos or all "
+       "(law = prandtl)"},
+      {"kes",
+       {{"rate", "5"}, {"law", "linear,chapman"}},
+       "--rate 5 is not used: law linear, chapman takes no time, fabric cotton-broad having no branches that "
+       "relax (fabric.bending.branches)"},
+      {"fold",
+       {{"fold.law-alone", "true"}, {"fold.period", "3"}},
+       "--fold.period 3 is not used: fold.period needs cloth, or a law that takes time: --law chapman, gong, "
+       "kim or terzopoulos (fold.law-alone = true, law = prandtl)"},
       {"fab", {{"units", "fab"}}, "--units fab is not used: units needs --fab.data (no --fab.data)"},
       {"fab",
        {{"fab.test", "S1"}, {"fab.slack", "0.001"}},
@@ -121,6 +134,24 @@ TEST(KeyConditions, RefuseFlagsThatNothingReadsWithWhatWouldReadThem) {
        {{"loop", "f.csv"}, {"fab.noise", "0.1"}},
        "--fab.noise 0.1 is not used: fab.noise needs --fab (no --fab)"}};
   for (const auto& [experiment, flags, message] : cases) EXPECT_EQ(said_to(experiment, flags), message);
+}
+
+// The conditions name the laws that take time, which the laws themselves know.
+TEST(UnreadFlags, OfTimeAreReadByEveryLawThatTakesIt) {
+  VirginCurve relaxing = Fabric{}.virgin_curve();
+  relaxing.parts.branches = {{1.0}, {1e-5}};
+  for (const LawEntry& law : law_catalogue())
+    for (const auto& [experiment, key] : {std::pair{"kes", "rate"}, {"fold", "fold.period"}}) {
+      const CommandLine line = {experiment, "", {{key, "5"}}, {}};
+      const std::string said = test::refusal(
+          [&, key = key] {
+            refuse_unread_flags(
+                line, {{"law", law.name}, {"fold.law-alone", true}, {"test", "bending"}, {key, 5.0}});
+          },
+          2);
+      EXPECT_EQ(said == test::kAccepted, takes_time({law.name, relaxing, {}}))
+          << experiment << " " << law.name;
+    }
 }
 
 TEST(KeyConditions, RefuseKeysOfABuiltMeshBesideOneOfAFile) {

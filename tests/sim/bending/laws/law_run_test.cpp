@@ -8,6 +8,7 @@
 #include "sim/base/error.h"
 #include "sim/bending/laws/prandtl_stack.h"
 #include "sim/bending/laws/recovery.h"
+#include "sim/bending/laws/unused_parameters.h"
 #include "tests/sim/base/refusal.h"
 #include "tests/sim/bending/laws/law_fixtures.h"
 
@@ -83,6 +84,55 @@ TEST(LawRun, ParametersChooseTheMemoryAndTheRecovery) {
   constexpr double kRounding = 1e-16;
   EXPECT_NEAR(run_law({"wong", kCotton, {{"recovery", "reversible"}}}, path).moment[1], 0, kRounding);
   EXPECT_LT(run_law({"wong", kCotton, {}}, path).moment[1], -0.1 * m0);
+}
+
+// `chapman` by its fabric's branches alone.
+TEST(LawRun, TakesTimeWhereALawCreepsAgesOrRelaxes) {
+  VirginCurve relaxing = kCotton;
+  relaxing.parts.branches = {{1.0}, {1e-5}};
+  std::vector<std::string> timed;
+  for (const LawEntry& law : law_catalogue())
+    if (takes_time({law.name, relaxing, {}})) timed.push_back(law.name);
+  EXPECT_EQ(timed, (std::vector<std::string>{"terzopoulos", "kim", "gong", "chapman"}));
+  EXPECT_FALSE(takes_time({"chapman", kCotton, {}}));
+  relaxing.parts.set = {50, 1e-5};
+  EXPECT_TRUE(takes_time({"chapman", relaxing, {}})) << "branches within a set";
+  for (const std::string& name : timed) {
+    const std::vector<LawRow> quick = {{150, 1e-3}, {150, 1e-3}}, slow = {{150, 1}, {150, 100}};
+    const LawRequest law = {name, relaxing, {}};
+    EXPECT_NE(run_law(law, quick).moment[1], run_law(law, slow).moment[1]) << name;
+  }
+}
+
+// A law alone remembers by a stack, of which `stops` is none; `chapman` has stops alone.
+TEST(LawRun, TakesTheStopsThatALawWithoutAStackIsGiven) {
+  const std::vector<LawRow> rows = {{0.3 * kCotton.k0}};
+  EXPECT_NE(run_law({"chapman", kCotton, {{"stops", "4"}}}, rows).moment,
+            run_law({"chapman", kCotton, {{"stops", "32"}}}, rows).moment);
+  EXPECT_EQ(run_law({"chapman", kCotton, {}}, rows).moment,
+            run_law({"chapman", kCotton, {{"stops", "32"}}}, rows).moment);
+}
+
+TEST(LawParameters, ThatChangeNothingAreSaid) {
+  VirginCurve own_stops = kCotton;
+  own_stops.parts.stops = even_stops(kCotton.b1 - kCotton.b2, kCotton.k0, 6);
+  const auto said = [](const std::string& law, const VirginCurve& curve, const LawParameters& given,
+                       LawUse use) {
+    const std::vector<std::string> texts = unused_parameter_warnings(law, curve, given, use, "linen");
+    return texts.empty() ? "" : texts[0];
+  };
+  EXPECT_TRUE(says(said("prandtl", own_stops, {{"stops", "8"}}, LawUse::cloth),
+                   "param stops is not used: the 6 stops of linen are the law's memory"));
+  EXPECT_TRUE(says(said("chapman", own_stops, {{"stops", "8"}}, LawUse::alone), "the 6 stops of linen"));
+  EXPECT_TRUE(says(said("prandtl", kCotton, {{"stops", "8"}}, LawUse::alone), "by a stack"));
+  EXPECT_TRUE(says(said("prandtl", kCotton, {{"stack", "8"}}, LawUse::cloth), "remembers by stops"));
+  EXPECT_TRUE(
+      says(said("wong", kCotton, {{"fatigue.m-inf", "0"}}, LawUse::cloth), "without param fatigue.dc"));
+  EXPECT_EQ(said("prandtl", kCotton, {{"stops", "8"}}, LawUse::cloth), "");
+  EXPECT_EQ(said("prandtl", kCotton, {{"stops", "8"}, {"memory", "stops"}}, LawUse::alone), "");
+  EXPECT_EQ(said("prandtl", kCotton, {{"stack", "8"}}, LawUse::alone), "");
+  EXPECT_EQ(said("chapman", kCotton, {{"stops", "8"}}, LawUse::alone), "");
+  EXPECT_EQ(said("wong", kCotton, {{"fatigue.m-inf", "0"}, {"fatigue.dc", "1"}}, LawUse::cloth), "");
 }
 
 TEST(LawWalk, TakesTheStepsOfARunAndItsCopiesGoOnByThemselves) {

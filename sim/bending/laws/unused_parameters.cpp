@@ -1,0 +1,50 @@
+#include "sim/bending/laws/unused_parameters.h"
+
+namespace hysteron {
+namespace {
+
+std::string unused(const std::string& parameter, const std::string& why) {
+  return "param " + parameter + " is not used: " + why;
+}
+
+// The memory of a law whose fabric has stops of its own.
+std::string stops_text(const BendingParts& parts, const std::string& fabric) {
+  return "the " + std::to_string(parts.stops.size()) + " stops of " + fabric +
+         " are the law's memory; fabric.stops-median = 0, or a fabric without stops, leaves it to the "
+         "parameter";
+}
+
+// Why a number of the memory is not read; "" where it is.
+std::string memory_text(const LawChoice& choice, const std::string& parameter, const std::string& fabric) {
+  const BendingParts& parts = choice.curve.parts;
+  if (parameter != "memory" && parameter != "stops" && parameter != "stack") return "";
+  if (!parts.stops.empty()) return stops_text(parts, fabric);
+  if (choice.name != "prandtl") return "";
+  if (parameter == "stops" && choice.stack)
+    return "the law remembers by a stack of reversal points; --param memory=stops takes stops";
+  if (parameter == "stack" && parts.set.on())
+    return "the law of a fabric with a set (fabric.bending.set) remembers by stops";
+  if (parameter == "stack" && !choice.stack)
+    return "the law remembers by stops; --param memory=stack takes a stack of reversal points";
+  return "";
+}
+
+std::string fatigue_text(const LawChoice& choice, const std::string& parameter) {
+  const bool follows = parameter == "fatigue.m-inf" || parameter == "fatigue.set";
+  return follows && !choice.fatigue.on() ? "friction does not weaken without param fatigue.dc" : "";
+}
+
+}  // namespace
+
+std::vector<std::string> unused_parameter_warnings(const std::string& law, const VirginCurve& curve,
+                                                   const LawParameters& given, LawUse use,
+                                                   const std::string& fabric) {
+  const LawChoice choice = choose_law(law, curve, given, use);
+  std::vector<std::string> warnings;
+  for (const auto& [parameter, text] : given)
+    for (const std::string& why : {memory_text(choice, parameter, fabric), fatigue_text(choice, parameter)})
+      if (!why.empty()) warnings.push_back(unused(parameter, why));
+  return warnings;
+}
+
+}  // namespace hysteron
