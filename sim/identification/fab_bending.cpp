@@ -58,7 +58,7 @@ FrictionForm shaped_friction() {
 
 FrictionForm even_friction(double k0) {
   return {"k0 = " + number_text(k0) + "/m", {kMomentSpread}, [=](const VectorXd& p, double moment) {
-            return even_stops(2 * std::exp(p[0]) * moment / k0, k0);
+            return parabola_stops(2 * std::exp(p[0]) * moment / k0, k0);
           }};
 }
 

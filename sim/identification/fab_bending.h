@@ -42,7 +42,7 @@ inline constexpr double kUsualMedian = 10, kUsualSpread = 1.5;  // 1/m, 1: betwe
 FrictionForm shaped_friction();
 FrictionShape friction_shape(const Eigen::VectorXd& parameters);
 
-// Friction that saturates at k0 [1/m] as even stops: the logarithm of HB.
+// Friction that saturates at k0 [1/m] along the chapter's parabola: the logarithm of HB.
 FrictionForm even_friction(double k0);
 
 // Standard errors of the logarithms of the stops' stiffnesses and, last, of their friction moment, from the

@@ -124,10 +124,10 @@ std::string further_parameters(const FabIdentification& found) {
   return text;
 }
 
-// Friction uniform on [0, k0] as even stops.
+// The parabola of b1, b2 and k0 as stops.
 StopsLaw of_three_numbers(const VirginCurve& curve) {
   if (!(curve.b1 > curve.b2)) return {curve.b2, {}, {}};
-  const Spectrum stops = even_stops(curve.b1 - curve.b2, curve.k0);
+  const Spectrum stops = parabola_stops(curve.b1 - curve.b2, curve.k0);
   return {curve.b2, stops.thresholds, stops.stiffnesses};
 }
 

@@ -71,7 +71,7 @@ void follow_weft(Fabric& fabric) {
   fabric.provenance["bias-bending"] = {"the mean of warp and weft", "assumed"};
 }
 
-double Fabric::friction_curvature() const { return kes.on() ? KesWindow().slope_from : k0; }
+double Fabric::friction_curvature() const { return std::max(k0, KesWindow().slope_from); }
 
 VirginCurve Fabric::virgin_curve() const {
   VirginCurve curve{b1, b2, k0, bending};

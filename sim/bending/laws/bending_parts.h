@@ -56,13 +56,24 @@ struct Spectrum {
 // Most of them that a law takes.
 inline constexpr int kMaxStops = 32, kMaxBranches = 4;
 
-// Friction that saturates at k0 [1/m] as b1, b2 and k0 have it: stops spread evenly over [0, k0], alike,
-// which together have this stiffness, b1 - b2 [N m] (prandtl_stops.h).  None without k0.
-inline Spectrum even_stops(double stiffness, double k0, int count = kMaxStops) {
+// The stop j = 0..count - 1 of as many as make the parabola of b1, b2 and k0 (prandtl_stops.h): its threshold
+// over k0 and its stiffness over b1 - b2.
+struct ParabolaStop {
+  double threshold, stiffness;
+};
+constexpr ParabolaStop parabola_stop(int j, int count) {
+  const double squared = static_cast<double>(count) * count;
+  return {(j * (j + 1) + 0.5) / squared, (2 * j + 1) / squared};
+}
+
+// Friction that saturates at k0 [1/m] as b1, b2 and k0 have it: stops that together have this stiffness,
+// b1 - b2 [N m].  None without k0.
+inline Spectrum parabola_stops(double stiffness, double k0, int count = kMaxStops) {
   Spectrum stops;
   for (int j = 0; k0 > 0 && j < count; ++j) {
-    stops.thresholds.push_back((j + 0.5) * k0 / count);
-    stops.stiffnesses.push_back(stiffness / count);
+    const ParabolaStop stop = parabola_stop(j, count);
+    stops.thresholds.push_back(stop.threshold * k0);
+    stops.stiffnesses.push_back(stop.stiffness * stiffness);
   }
   return stops;
 }

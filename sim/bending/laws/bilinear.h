@@ -12,7 +12,7 @@ template <class Real, int D>
 PrandtlStops<Real, D, 1> make_bilinear(const VirginCurve& curve) {
   PrandtlStops<Real, D, 1> law = PrandtlStops<Real, D, 1>::make(curve);
   if (curve.k0 > 0) {
-    law.p = Real(curve.friction_moment() / curve.k0);
+    law.p[0] = Real(curve.friction_moment() / curve.k0);
     law.limit[0] = Real(curve.k0);
   }
   return law;

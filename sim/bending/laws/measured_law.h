@@ -308,7 +308,7 @@ struct Relaxing {
 // have, the most where it would remember by a stack.
 inline Spectrum measured_stops(const LawChoice& c) {
   if (!c.curve.parts.stops.empty()) return c.curve.parts.stops;
-  return even_stops(c.curve.b1 - c.curve.b2, c.curve.k0, c.stack ? kMaxStops : c.stops);
+  return parabola_stops(c.curve.b1 - c.curve.b2, c.curve.k0, c.stack ? kMaxStops : c.stops);
 }
 
 // The law for few stops or for the most.

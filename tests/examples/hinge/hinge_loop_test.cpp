@@ -6,7 +6,7 @@ namespace {
 
 constexpr double kB1 = 3e-5, kB2 = 1e-5, kK0 = 50;  // [N m], [1/m]
 constexpr double kM0 = (kB1 - kB2) * kK0 / 2;       // friction moment [N]
-constexpr double kStops = kM0 / (4 * 8 * 8);        // by which 8 stops miss the virgin curve [N]
+constexpr double kStops = kM0 / (8 * 8);            // by which 8 stops miss the virgin curve [N]
 constexpr double kLength = 0.01, kHeight = 0.005;   // [m]
 constexpr double kRounding = 1e-12;
 
@@ -37,9 +37,9 @@ TEST(HingeLoopExample, LosesTheAreaOfItsLoopInACycle) {
   const double before = cloth.lost;
   cloth.moment_at(-kAmplitude);
   cloth.moment_at(kAmplitude);
-  double area = 0;  // of 8 stops with p = (b1 - b2)/8, r = (j + 1/2) K0/8: each loses 4 p r (A - r)
-  for (int j = 0; j < 8; ++j) {
-    const double p = (kB1 - kB2) / 8, r = (j + 0.5) * kK0 / 8;
+  double area = 0;  // of 8 stops (prandtl_stops.h), each of which loses 4 p r (A - r)
+  for (int j = 1; j <= 8; ++j) {
+    const double p = (kB1 - kB2) * (2 * j - 1) / 64, r = (j * j - j + 0.5) * kK0 / 64;
     area += 4 * p * r * (kAmplitude - r);
   }
   EXPECT_NEAR(cloth.lost - before, area * kLength * kHeight, kRounding * area);

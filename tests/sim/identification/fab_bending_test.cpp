@@ -109,7 +109,7 @@ TEST(FabBending, TakesTheDeepestOfTheMinimaThatItsStartsLeadTo) {
   FabBendingQuestion one_start = bending_question();
   form.starts = {};
   one_start.form = form;
-  const Spectrum even = even_stops(3e-5, 40);
+  const Spectrum even = parabola_stops(3e-5, 40);
   const FabLoops loops = recorded({1e-5, even.thresholds, even.stiffnesses}, "D1", 1, 0);
   EXPECT_GT(identify_fab_bending({loops}, one_start).residual_rms, 0.5);
   FabBendingQuestion several = one_start;

@@ -42,14 +42,14 @@ TEST(Spectrum, HasTheWidthOfItsClosedFormAtEveryCurvature) {
   }
 }
 
-TEST(Spectrum, OfEvenThresholdsIsTheDefaultLaw) {
-  Spectrum even;
-  for (int j = 0; j < 8; ++j) {
-    even.thresholds.push_back((j + 0.5) * kCotton.k0 / 8);
-    even.stiffnesses.push_back((kCotton.b1 - kCotton.b2) / 8);
+TEST(Spectrum, OfTheParabolasStopsIsTheDefaultLaw) {
+  Spectrum parabola;
+  for (int j = 1; j <= 8; ++j) {
+    parabola.thresholds.push_back((j * j - j + 0.5) * kCotton.k0 / 64);
+    parabola.stiffnesses.push_back((2 * j - 1) * (kCotton.b1 - kCotton.b2) / 64);
   }
   Driven usual(PrandtlStops<double, 3, 8>::make(kCotton));
-  Driven cloth(Sheet::make(kCotton.b2, even, {}));
+  Driven cloth(Sheet::make(kCotton.b2, parabola, {}));
   for (const auto& k : random_tensors(200, 2 * kCotton.k0, 11)) {
     usual.to(k), cloth.to(k);
     ASSERT_LE((usual.last.moment - cloth.last.moment).norm(), kSpectrumRounding * kCotton.b1 * kCotton.k0);
