@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <optional>
 
 #include "experiments/crease/specimen.h"
 #include "experiments/workbench/app/decided_keys.h"
@@ -85,7 +86,9 @@ void let_go_quickly(Scene& scene) {
 struct Recovered {
   double opening = NAN;                // [degree]
   double force = 0;                    // of the plate before it goes [N]
+  double time = 0;                     // when it was read last [s]
   std::vector<double> seconds, angle;  // since it was let go [s]; the opening then [degree]
+  std::optional<LawOfCrease> law;      // of triangles alone
 
   double angle_at(double since) const;
 };
@@ -107,17 +110,22 @@ Eigen::Vector3d strip_component(const Scene& scene) {
   return {warp * warp, weft * weft, std::numbers::sqrt2 * warp * weft};
 }
 
-// Curvature along the strip that was largest in each element, with its sign [1/m].
-void keep_largest(const Scene& scene, Simulation& simulation, std::vector<double>& largest) {
-  const int d = simulation.dimension();
-  const std::vector<double> curvature = simulation.curvature();
+// Curvature along the strip of each triangle [1/m].
+std::vector<double> along_strip(const Scene& scene, const std::vector<double>& tensors) {
   const Eigen::Vector3d component = strip_component(scene);
-  largest.resize(curvature.size() / d);
-  for (std::size_t e = 0; e < largest.size(); ++e) {
-    const double along =
-        d == 1 ? curvature[e] : component.dot(Eigen::Map<const Eigen::Vector3d>(&curvature[3 * e]));
-    if (std::abs(along) > std::abs(largest[e])) largest[e] = along;
-  }
+  std::vector<double> along(tensors.size() / 3);
+  for (std::size_t f = 0; f < along.size(); ++f)
+    along[f] = component.dot(Eigen::Map<const Eigen::Vector3d>(&tensors[3 * f]));
+  return along;
+}
+
+// Largest curvature of an element, along the strip where it is a triangle's [1/m].
+double largest_curvature(const Scene& scene, Simulation& simulation) {
+  std::vector<double> curvature = simulation.curvature();
+  if (simulation.dimension() == 3) curvature = along_strip(scene, curvature);
+  double largest = 0;
+  for (const double k : curvature) largest = std::max(largest, std::abs(k));
+  return largest;
 }
 
 // The plate is on the specimen at that time, and about to go at its end.
@@ -126,18 +134,20 @@ bool plate_is_on(const Crease& crease, double time) {
 }
 
 // Collects what is read off the specimen at the instant.
-void read_specimen(const Crease& crease, const Snapshot& m, Simulation& simulation,
-                   std::vector<double>& largest, Recovered& recovered) {
-  const double half_step = crease.scene.step / 2;
+void read_specimen(const Crease& crease, const Snapshot& m, Simulation& simulation, Recovered& recovered) {
+  const double half_step = crease.scene.step / 2, passed = m.time - recovered.time;
+  const bool let_go = m.time > crease.times.lifted + half_step;
+  recovered.time = m.time;
   if (plate_is_on(crease, m.time)) recovered.force = crease.plate_force(m.x, m.time);
-  if (m.time <= crease.times.released + half_step) keep_largest(crease.scene, simulation, largest);
+  if (recovered.law && !let_go) recovered.law->bend(along_strip(crease.scene, simulation.curvature()), passed);
+  if (recovered.law && let_go) recovered.law->let_go(passed);
   recovered.opening = crease.opening(m.x);
-  if (m.time <= crease.times.lifted + half_step) return;
+  if (!let_go) return;
   recovered.seconds.push_back(m.time - crease.times.lifted);
   recovered.angle.push_back(recovered.opening);
 }
 
-RunPlan run_plan(Session& session, const Crease& crease, std::vector<double>& largest, Recovered& recovered) {
+RunPlan run_plan(Session& session, const Crease& crease, Recovered& recovered) {
   RunPlan plan;
   const float length = static_cast<float>(crease.scene.cloth.length),
               width = static_cast<float>(crease.scene.cloth.width);
@@ -148,7 +158,7 @@ RunPlan run_plan(Session& session, const Crease& crease, std::vector<double>& la
   plan.floor = low;
   plan.time_steps = crease.time_steps;
   plan.columns = {"opening [degree]", "plate_force [N]"};
-  plan.watch = [&](const Snapshot& m) { read_specimen(crease, m, session.simulation(), largest, recovered); };
+  plan.watch = [&](const Snapshot& m) { read_specimen(crease, m, session.simulation(), recovered); };
   plan.measure = [&](const Snapshot& m) -> std::vector<double> {
     return {crease.opening(m.x), plate_is_on(crease, m.time) ? crease.plate_force(m.x, m.time) : 0};
   };
@@ -156,11 +166,12 @@ RunPlan run_plan(Session& session, const Crease& crease, std::vector<double>& la
     return fmt::format("t = {:.3f} s  opening {:.1f} degree", m.time, crease.opening(m.x));
   };
   plan.serialise = [&](Archive& archive) {
-    archive(largest);
     archive(recovered.opening);
     archive(recovered.force);
+    archive(recovered.time);
     archive(recovered.seconds);
     archive(recovered.angle);
+    if (recovered.law) recovered.law->serialise(archive);
   };
   return plan;
 }
@@ -255,18 +266,15 @@ void crease_once(const CommandLine& line) {
   session.reserve({}, {"plot_opening"});
   if (choice.grow_after > 0) session.reserve({"recovery.csv"}, {"plot_recovery"});
   Recovered recovered;
-  std::vector<double> largest, left;
-  session.simulate(run_plan(session, crease, largest, recovered));
-  keep_largest(crease.scene, session.simulation(), left);
+  if (session.simulation().dimension() == 3) recovered.law.emplace(crease);
+  session.simulate(run_plan(session, crease, recovered));
   Run& run = session.run();
   run.metric("recovery_angle_deg", recovered.opening);
-  run.metric("law_recovery_angle_deg",
-             session.simulation().dimension() == 3 ? crease.opening_of_law(largest) : NAN);
+  run.metric("law_recovery_angle_deg", recovered.law ? recovered.law->opening() : NAN);
   if (!recovered.angle.empty()) run.metric("release_angle_deg", recovered.angle.front());
   if (choice.standard != "none") run.metric("recovery_angle_15_s_deg", recovered.angle_at(15));
   if (choice.grow_after > 0) write_recovery(run, recovered);
-  const auto [least, most] = std::minmax_element(left.begin(), left.end());
-  run.metric("residual_curvature_per_m", std::max(-*least, *most));
+  run.metric("residual_curvature_per_m", largest_curvature(crease.scene, session.simulation()));
   if (pressed) {
     run.metric("plate_force_N", recovered.force);
     run.metric("plate_height_m", plate);

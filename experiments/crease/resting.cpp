@@ -1,17 +1,15 @@
 // Rests of the crease specimen, under the load and after release: how long the standards make them, by which
-// steps they are passed, and what the law alone makes of them.
+// steps they are passed, and what the law alone makes of a crease.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "experiments/crease/specimen.h"
-#include "sim/bending/laws/recovery.h"
 
 namespace hysteron::experiments {
 namespace {
 
 constexpr double kRounding = 1e-9;  // of times, in steps
-constexpr int kSteps = 40;          // of the law's way to its largest curvature
 constexpr int kParts = 4;           // of a step, in which it is let go
 
 // Equal steps as long as the scene's, or nearly.
@@ -27,30 +25,6 @@ void add_growing(std::vector<double>& lengths, double seconds, double step, doub
     lengths.push_back(remainder > 2 * grown ? grown : remainder > grown ? remainder / 2 : remainder);
     passed += lengths.back();
   }
-}
-
-// Of a law bent to `size` and let go, with the rests in between: after release it is brought, several times a
-// step, to where its moment was zero before.
-double kept_in_time(const LawRequest& law, double size, const Crease& crease) {
-  LawWalk walk(law);
-  for (int k = 1; k <= kSteps; ++k) walk.to({size * k / kSteps, crease.times.folded / kSteps});
-  double time = 0;
-  for (const double length : crease.time_steps) {
-    time += length;
-    if (time <= crease.times.folded + kRounding) continue;
-    if (time <= crease.times.released + kRounding) {
-      walk.to({size, length});
-      continue;
-    }
-    for (int part = 0; part < kParts; ++part) walk.to({walk.residual(), length / kParts});
-  }
-  return walk.residual();
-}
-
-double kept_at_once(const LawRequest& law, double size, double released) {
-  std::vector<LawRow> rows;
-  for (int k = 1; k <= kSteps; ++k) rows.push_back({size * k / kSteps, released / kSteps});
-  return residual_after(law, rows);
 }
 
 }  // namespace
@@ -74,17 +48,29 @@ std::vector<double> growing_steps(const CreaseTimes& times, double step, double 
   return lengths;
 }
 
-double Crease::opening_of_law(const std::vector<double>& largest) const {
-  const LawRequest law{scene.law, scene.fabric.virgin_curve(), scene.param};
+LawOfCrease::LawOfCrease(const Crease& crease)
+    : crease_(crease),
+      triangles_(crease.cloth.mesh.faces(),
+                 LawWalk({crease.scene.law, crease.scene.fabric.virgin_curve(), crease.scene.param})) {}
+
+void LawOfCrease::bend(const std::vector<double>& along, double seconds) {
+  for (std::size_t f = 0; f < triangles_.size(); ++f) triangles_[f].to({along[f], seconds});
+}
+
+void LawOfCrease::let_go(double seconds) {
+  for (LawWalk& law : triangles_)
+    for (int part = 0; part < kParts; ++part) law.to({law.residual(), seconds / kParts});
+}
+
+double LawOfCrease::opening() const {
   double bent = 0;
-  for (int f = 0; f < cloth.mesh.faces(); ++f) {
-    const double size = std::abs(largest[f]);
-    if (size == 0) continue;
-    const double kept =
-        time_steps.empty() ? kept_at_once(law, size, times.released) : kept_in_time(law, size, *this);
-    bent += std::copysign(cloth.mesh.face_area[f], largest[f]) * kept;
-  }
-  return 180 - rest_turn - bent / scene.cloth.width * 180 / std::numbers::pi;
+  for (std::size_t f = 0; f < triangles_.size(); ++f)
+    bent += crease_.cloth.mesh.face_area[static_cast<int>(f)] * triangles_[f].residual();
+  return 180 - crease_.rest_turn - bent / crease_.scene.cloth.width * 180 / std::numbers::pi;
+}
+
+void LawOfCrease::serialise(Archive& archive) {
+  for (LawWalk& law : triangles_) law.serialise(archive);
 }
 
 }  // namespace hysteron::experiments

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "experiments/workbench/app/experiment.h"
+#include "sim/bending/laws/law_run.h"
 #include "sim/scene/cloth.h"
 
 namespace hysteron::experiments {
@@ -45,9 +46,24 @@ struct Crease {
   double plate_force(const std::vector<Eigen::Vector3d>& x, double time) const;
   // Angle between the limbs: 0 folded flat, 180 straight [degree].
   double opening(const std::vector<Eigen::Vector3d>& x) const;
-  // What the law alone makes of it: the opening if each triangle had only been bent along the strip to its
-  // `largest` curvature, of either sign [1/m], and let go [degree].
-  double opening_of_law(const std::vector<double>& largest) const;
+};
+
+// What the law alone makes of a crease: each triangle is bent along the strip as the specimen was until its
+// load had gone, and then let go, so that it carries no moment.  Bends that the rising load makes in the
+// limbs are among what is kept.
+class LawOfCrease {
+ public:
+  explicit LawOfCrease(const Crease& crease);  // which must outlive it
+
+  // A step [s] in which every triangle is bent to a curvature along the strip [1/m], one for each.
+  void bend(const std::vector<double>& along, double seconds);
+  void let_go(double seconds);  // a step in which no triangle carries a moment
+  double opening() const;       // of the limbs, if it were let go now [degree]
+  void serialise(Archive& archive);
+
+ private:
+  const Crease& crease_;
+  std::vector<LawWalk> triangles_;
 };
 
 // Lengths of the steps from the start to the end: the scene's while anything moves; under the load and after
