@@ -139,7 +139,8 @@ void read_specimen(const Crease& crease, const Snapshot& m, Simulation& simulati
   const bool let_go = m.time > crease.times.lifted + half_step;
   recovered.time = m.time;
   if (plate_is_on(crease, m.time)) recovered.force = crease.plate_force(m.x, m.time);
-  if (recovered.law && !let_go) recovered.law->bend(along_strip(crease.scene, simulation.curvature()), passed);
+  if (recovered.law && !let_go)
+    recovered.law->bend(along_strip(crease.scene, simulation.curvature()), passed);
   if (recovered.law && let_go) recovered.law->let_go(passed);
   recovered.opening = crease.opening(m.x);
   if (!let_go) return;

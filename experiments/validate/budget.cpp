@@ -39,7 +39,7 @@ std::vector<Drape> trial_drapes(const Trial& trial, std::size_t number, int draw
 std::vector<Trial> budget_trials(const FabricFile& file, const ValidateFlags& flags) {
   const Drape nominal = nominal_drape(file.fabric.name, flags);
   std::vector<Trial> trials = {{"as its file says", "", nominal}};
-  for (const auto& [key, range] : file.range)
+  for (const auto& [key, range] : uncertain_numbers(file))
     for (const double end : {range.low, range.high}) {
       Sample sample = {{key, end}};
       keep_what_was_measured(file.fabric, sample);

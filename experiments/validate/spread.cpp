@@ -112,6 +112,31 @@ double sample_deviation(const std::vector<double>& values) {
   return std::sqrt(squares / static_cast<double>(values.size() - 1));
 }
 
+namespace {
+
+double number_or(const Sample& sample, const std::string& key, double otherwise) {
+  const auto found = sample.find(key);
+  return found == sample.end() ? otherwise : found->second;
+}
+
+// Nothing of a sample changes bending along warp.
+bool unstated(const Sample& sample) {
+  return !sample.count("k0") && !sample.count("B") && !sample.count("2HB") && !sample.count("weft-bending");
+}
+
+}  // namespace
+
+std::map<std::string, Range> uncertain_numbers(const FabricFile& file) {
+  std::map<std::string, Range> all = file.range;
+  if (file.fabric.kes.on()) return all;
+  for (const auto& [key, printed] : file.published_range) {
+    const double si = key == "B" ? file.fabric.b2 : 2 * file.fabric.virgin_curve().friction_moment();
+    const double unit = si / file.fabric.published.at(key).value;
+    all[key] = between(unit * printed.low, unit * printed.high);
+  }
+  return all;
+}
+
 void keep_what_was_measured(const Fabric& fabric, Sample& sample) {
   const double weft = sample.count("weft-bending") ? sample["weft-bending"] : fabric.weft_bending;
   const double warp = (1 + fabric.weft_bending) / (1 + weft);
@@ -119,10 +144,13 @@ void keep_what_was_measured(const Fabric& fabric, Sample& sample) {
   if (fabric.kes.on() && sample.count("weft-bending")) {
     sample["kes-b"] = warp * fabric.kes.read.rigidity;
     sample["kes-2hb"] = warp * fabric.kes.read.loop_width;
-  } else if (!fabric.kes.on() && (sample.count("k0") || sample.count("weft-bending"))) {
-    const double k0 = sample.count("k0") ? sample["k0"] : fabric.k0;
-    sample["b2"] = warp * fabric.b2;
-    sample["b1"] = warp * (fabric.b2 + 2 * fabric.virgin_curve().friction_moment() / k0);
+  } else if (!fabric.kes.on() && !unstated(sample)) {
+    const double k0 = number_or(sample, "k0", fabric.k0), b = number_or(sample, "B", fabric.b2),
+                 two_hb = number_or(sample, "2HB", 2 * fabric.virgin_curve().friction_moment());
+    sample["b2"] = warp * b;
+    sample["b1"] = warp * (b + two_hb / k0);
+    sample.erase("B");
+    sample.erase("2HB");
   }
 }
 
@@ -135,7 +163,7 @@ std::vector<Flag> drape_flags(const Sample& sample) {
 std::vector<Sample> fabric_samples(const FabricFile& file, int count, unsigned seed) {
   std::vector<Sample> samples(count);
   Uniform uniform(seed);
-  for (const auto& [key, range] : file.range) {
+  for (const auto& [key, range] : uncertain_numbers(file)) {
     if (!(range.low > 0))
       throw Error::invalid_input("validate: the range of " + key + " in " + file.fabric.name + " must be > 0")
           .with_key("fabrics", file.fabric.name);

@@ -208,7 +208,7 @@ bool is_straight(const MomentModel& model, const Assumptions& assumptions, Solut
   result.b1.determined = is_determined(std::sqrt(c.with_floor(0, 0)));
   result.b1.standard_error = result.b1.determined ? line.best.b2 * std::sqrt(c.matrix(0, 0)) : kNone;
   result.b2 = {line.best.b2, kNone, false, "b2 = b1: the data show no bend", "assumed"};
-  result.k0 = {assumptions.k0, kNone, false, assumptions.k0_source(), "assumed"};
+  result.k0 = assumptions.assumed_k0();
   const std::string range = " up to " + rounded(model.largest_curvature()) + " 1/m; b2 = b1 is taken";
   result.statements.push_back(solution.covariance.widening > 1
                                   ? "the law describes these data no better with friction than without it" +

@@ -66,6 +66,8 @@ std::string fabric_entry(const std::string& name, const std::string& unit, const
   std::string text = name + " = {value = " + number_text(from.value);
   if (!unit.empty()) text += ", unit = " + quoted(unit);
   if (std::isfinite(from.standard_error)) text += ", stderr = " + number_text(from.standard_error);
+  if (std::isfinite(from.low))
+    text += ", range = [" + number_text(from.low) + ", " + number_text(from.high) + "]";
   return text + ", source = " + quoted(from.source) + ", confidence = " + quoted(from.confidence) + "}\n";
 }
 

@@ -33,12 +33,19 @@ std::string rounded(double x) { return fmt::format("{:.4g}", x); }
 
 std::string Assumptions::ratio_source() const {
   return "assumed: b2/b1 = " + number_text(ratio) +
-         " (the four shipped fabrics with KES pairs have 0.32 to 0.58 at k0 = 50/m)";
+         " (no source gives it: the four shipped fabrics with KES pairs have 0.07 to 0.18 at k0 = 8/m, "
+         "0.32 to 0.58 at 50/m)";
 }
 
 std::string Assumptions::k0_source() const {
   return "assumed: k0 = " + number_text(k0) +
-         "/m (50/m is the largest value that leaves the window of KES-FB2, 0.5 to 1.5 per cm, straight)";
+         "/m (8/m agrees with the loops of one knit and with how vibrations of cloth are reported to fall; 4 "
+         "to 25/m are possible)";
+}
+
+Estimate Assumptions::assumed_k0() const {
+  constexpr double kLow = 4, kHigh = 25;  // [1/m]
+  return {k0, kNone, false, k0_source(), "assumed", std::min(k0, kLow), std::max(k0, kHigh)};
 }
 
 }  // namespace hysteron

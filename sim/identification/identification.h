@@ -20,6 +20,7 @@ struct Estimate {
   bool determined = true;         // the data fix it within a factor of kWidestFactor
   std::string source;             // for the fabric's file
   std::string confidence = "fitted";
+  double low = kNone, high = kNone;  // between which it may lie where it is assumed
 };
 
 struct Identification {
@@ -48,11 +49,12 @@ inline constexpr double kLikelihoodFall = 3.84;
 
 // What stands in where the data cannot decide.
 struct Assumptions {
-  double ratio = 0.5;  // b2/b1: the four fabrics of assets/fabrics with KES pairs have 0.32 to 0.58
-  double k0 = 50;      // [1/m] largest that leaves the window of KES-FB2, 0.5 to 1.5 per cm, straight
+  double ratio = 0.5;  // b2/b1: no source gives it
+  double k0 = 8;       // [1/m] that of the shipped fabrics, whose files say where it comes from
 
   std::string ratio_source() const;
   std::string k0_source() const;
+  Estimate assumed_k0() const;  // with the range of the shipped fabrics
 };
 
 }  // namespace hysteron

@@ -192,8 +192,7 @@ Identification identify_kes(const KesNumbers& numbers, const Assumptions& assump
   Identification result;
   result.law = "prandtl";
   result.b2 = given(numbers.b, "B of KES-FB2");
-  result.k0 = known ? given(numbers.k0, "k0 with B and 2HB")
-                    : Estimate{k0, kNone, false, assumptions.k0_source(), "assumed"};
+  result.k0 = known ? given(numbers.k0, "k0 with B and 2HB") : assumptions.assumed_k0();
   result.b1 = {b1, known ? stiffness_error(numbers, k0) : kNone, known,
                "b1 = B + 2HB/k0, so that the friction moment (b1 - b2) k0/2 is HB; k0 " + result.k0.source,
                known ? "derived" : "assumed"};
@@ -206,8 +205,7 @@ Identification identify_kes(const KesNumbers& numbers, const Assumptions& assump
   if (!known) {
     result.statements.push_back(
         "B and 2HB fix b2 and the friction moment HB and leave open how fast friction saturates: any k0 up "
-        "to "
-        "about 50/m goes with b1 = B + 2HB/k0; " +
+        "to about 50/m goes with b1 = B + 2HB/k0; " +
         assumptions.k0_source());
   } else if (k0 > kWindow.slope_from) {
     result.statements.push_back(

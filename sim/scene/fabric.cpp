@@ -44,6 +44,13 @@ void check_stops(const Scene& scene, const char* table, const Spectrum& of) {
 }  // namespace
 
 void Fabric::follow_kes() {
+  if (kes.gives_numbers()) {
+    b2 = kes.read.rigidity;
+    b1 = b2 + (k0 > 0 ? kes.read.loop_width / k0 : 0);
+    bending.stops = bending.weft_stops = {};
+    provenance["b2"] = {"kes-b", "derived"};
+    provenance["b1"] = {"kes-b + kes-2hb/k0", "derived"};
+  }
   if (!kes.on()) return;
   const ShapedFriction friction = friction_from_kes(kes.read, kes.shape);
   const double first_slope = friction.stops.stiffness();

@@ -20,6 +20,7 @@ const std::vector<std::string> kConfidences = {"published", "fitted", "derived",
 const std::vector<std::string> kRequired = {"b1", "b2", "k0", "density", "thickness"};
 const std::vector<std::string> kRequiredOfShaped = {"kes-b", "kes-2hb", "stops-spread", "density",
                                                     "thickness"};
+const std::vector<std::string> kRequiredOfPair = {"kes-b", "kes-2hb", "k0", "density", "thickness"};
 const std::vector<std::string> kSaidByStops = {"b1", "k0"};
 const std::vector<std::string> kTables = {"name",    "description", "sources",   "parameters",
                                           "bending", "membrane",    "published", "look"};
@@ -232,27 +233,32 @@ FabricFile read_fabric(const std::string& name_or_file, const std::string& origi
     read_parameter(reader, node, sources, scene, result.range);
   for (const char* table : kPartTables)
     if (const ValueTree* parts = root.find(table)) read_parts(reader, *parts, sources, scene);
-  const bool shaped = scene.fabric.kes.on();
-  for (const std::string& name : shaped ? kRequiredOfShaped : kRequired) {
+  const bool shaped = scene.fabric.kes.on(), pair = !shaped && parameters.find("kes-b");
+  for (const std::string& name : shaped ? kRequiredOfShaped : pair ? kRequiredOfPair : kRequired) {
     const bool said =
         !scene.fabric.bending.stops.empty() && std::count(kSaidByStops.begin(), kSaidByStops.end(), name);
     if (!said) reader.required(parameters, name);
   }
-  if (shaped) {
-    for (const char* name : {"b1", "b2", "k0"})
+  if (shaped || pair) {
+    const std::string last = shaped ? "stops-median" : "k0";
+    for (const char* name : {"b1", "b2", "k0"}) {
+      if (name == last) continue;
       if (const ValueTree* node = parameters.find(name))
-        throw reader.refusal(std::string(name) + " follows from kes-b, kes-2hb and stops-median", *node);
-    if (!scene.fabric.bending.stops.empty())
-      throw reader.refusal("bending.stops follow from stops-median", *root.find("bending"));
-    scene.fabric.follow_kes();
-    for (const char* name : {"b1", "b2", "k0"})
+        throw reader.refusal(std::string(name) + " follows from kes-b, kes-2hb and " + last, *node);
       scene.origin["fabric." + std::string(name)] = scene.origin.at("fabric.kes-b");
+    }
+    if (!scene.fabric.bending.stops.empty())
+      throw reader.refusal("bending.stops follow from kes-b, kes-2hb and " + last, *root.find("bending"));
+    scene.fabric.follow_kes();
   }
   if (const ValueTree* published = root.find("published")) {
     for (const ValueTree& node : published->children) {
       scene.fabric.published[node.key] = reader.quantity(node, sources);
-      if (const ValueTree* range = node.find("range"))
-        throw reader.refusal(node.key + ": a range belongs to [parameters]", *range);
+      if (const auto range = reader.range(node, scene.fabric.published[node.key].value)) {
+        if (node.key != "B" && node.key != "2HB")
+          throw reader.refusal(node.key + ": a range belongs to [parameters], or to B and 2HB", node);
+        result.published_range[node.key] = *range;
+      }
     }
   }
   note_defaults(scene.fabric);

@@ -9,7 +9,7 @@
 //   b2 = {value = 1.157e-5, unit = "N m", source = "kes", confidence = "published"}
 //                        optional: stderr = 2e-7, the standard error in the same unit
 //                        optional: range = [8e-6, 1.5e-5], between which the number may lie
-//                        kes-b, kes-2hb, stops-median and stops-spread stand for b1, b2, k0 and stops
+//                        kes-b and kes-2hb may stand for b1 and b2, with stops-median and stops-spread for k0
 //   [bending.stops]      optional: friction elements; also [bending.stops.weft], [bending.branches],
 //   [bending.set] thresholds = [5, 20, 60]           1/m, ascending stiffnesses = [8e-6, 4e-6, 1e-6]   N m
 //   source = "kes"                     optional, as is confidence: of the whole table
@@ -18,6 +18,7 @@
 //   stiffnesses = [200, 50]            N/m
 //   [published]          what the source prints besides, in its own units
 //   B = {value = 0.118, unit = "gf cm^2/cm", source = "kes", confidence = "published"}
+//                        B and 2HB may state a range: between which numbers the print rounds to them
 //   [look]               for pictures only, which read it: experiments/workbench/pictures/fabric_look.h
 #pragma once
 
@@ -35,6 +36,7 @@ struct FabricFile {
   std::string description;
   std::map<std::string, std::string> place;        // of each parameter: "assets/fabrics/cotton-broad.toml:12"
   std::map<std::string, Range> range;              // of each parameter that states one, in its unit
+  std::map<std::string, Range> published_range;    // of B and 2HB as printed, in their own units
   std::map<std::string, std::string> short_names;  // of sources, by their texts
 
   // The source's short name, or its text.

@@ -39,9 +39,9 @@ const KeyRow<Scene> kSceneRows[] = {
     {"fabric.b1", at<&S::fabric, &F::b1>, "N m", at_least(0), "", "bending rigidity at first bending, >= fabric.b2"},
     {"fabric.b2", at<&S::fabric, &F::b2>, "N m", at_least(0), "", "bending rigidity B, slope of the straight branch of the KES-FB2 curve"},
     {"fabric.k0", at<&S::fabric, &F::k0>, "1/m", at_least(0), "", "curvature at which bending friction saturates"},
-    {"fabric.kes-b", at<&S::fabric, &F::kes, &KesFriction::read, &KesPair::rigidity>, "N m", at_least(0), "", "B of KES-FB2, where stops-median has the friction's shape: b1, b2, k0 and bending.stops then follow"},
-    {"fabric.kes-2hb", at<&S::fabric, &F::kes, &KesFriction::read, &KesPair::loop_width>, "N", at_least(0), "", "2HB of KES-FB2, likewise"},
-    {"fabric.stops-median", at<&S::fabric, &F::kes, &KesFriction::shape, &FrictionShape::median>, "1/m", between(0, 1000), "", "curvature at which half of the friction has slipped; 0: as b1, b2 and k0 or bending.stops say"},
+    {"fabric.kes-b", at<&S::fabric, &F::kes, &KesFriction::read, &KesPair::rigidity>, "N m", at_least(0), "", "B of KES-FB2, with kes-2hb in place of b1 and b2: b2 = B, b1 = B + 2HB/k0"},
+    {"fabric.kes-2hb", at<&S::fabric, &F::kes, &KesFriction::read, &KesPair::loop_width>, "N", at_least(0), "", "2HB of KES-FB2, with kes-b"},
+    {"fabric.stops-median", at<&S::fabric, &F::kes, &KesFriction::shape, &FrictionShape::median>, "1/m", between(0, 1000), "", "with kes-b and kes-2hb: curvature at which half of the friction has slipped, in place of k0; 0: as k0 or bending.stops say"},
     {"fabric.stops-spread", at<&S::fabric, &F::kes, &KesFriction::shape, &FrictionShape::spread>, "", between(0, 4), "", "standard deviation of the logarithm of that curvature"},
     {"fabric.weft-bending", at<&S::fabric, &F::weft_bending>, "", positive(), "", "bending rigidity along weft over that along warp"},
     {"fabric.bias-bending", at<&S::fabric, &F::bias_bending>, "", positive(), "", "bending rigidity at 45 degrees over that along warp; 4 times it >= 1 + weft-bending; where it is not stated, or only assumed, the mean of 1 and weft-bending"},
@@ -225,28 +225,33 @@ void reconcile_stops(const std::string& set, Scene& scene) {
   }
 }
 
-// Friction is said by one of kes-b ... stops-spread, b1 with b2 and k0, or stops: by what was set last.  A
-// number that follows from what is said already, as in a scene that was written out, changes nothing.
+// Does what was set say nothing else than what follows from KES-FB2's pair, as in a scene that was written
+// out?
+bool follows_from_pair(const Fabric& fabric) {
+  Fabric follows = fabric;
+  follows.follow_kes();
+  return follows.b1 == fabric.b1 && follows.b2 == fabric.b2 && follows.k0 == fabric.k0 &&
+         follows.bending.stops.thresholds == fabric.bending.stops.thresholds &&
+         follows.bending.stops.stiffnesses == fabric.bending.stops.stiffnesses;
+}
+
+// Friction is said by KES-FB2's pair, with k0 or a shape, or by b1 with b2 and k0, or by stops: by what was
+// set last.  A number that follows from what is said already changes nothing.
 void keep_friction_whole(bool was_shaped, const std::string& set, Scene& scene) {
   Fabric& fabric = scene.fabric;
   if (set.starts_with("kes-") || set == "stops-median" || set == "stops-spread") {
     if (was_shaped && !fabric.kes.on()) fabric.bending.stops = {};
     return fabric.follow_kes();
   }
+  if (set == "k0" && fabric.kes.gives_numbers()) return fabric.follow_kes();
   const bool numbers = set == "b1" || set == "b2" || set == "k0";
   const bool stops = set == "bending.stops.thresholds" || set == "bending.stops.stiffnesses";
   if (!numbers && !stops) return;
-  if (!fabric.kes.on()) return reconcile_stops(set, scene);
-  Fabric follows = fabric;
-  follows.follow_kes();
-  if (follows.b1 == fabric.b1 && follows.b2 == fabric.b2 && follows.k0 == fabric.k0 &&
-      follows.bending.stops.thresholds == fabric.bending.stops.thresholds &&
-      follows.bending.stops.stiffnesses == fabric.bending.stops.stiffnesses) {
-    fabric = follows;
-    return;
-  }
-  fabric.kes.shape = {};
-  if (numbers) fabric.bending.stops = {};
+  if (!fabric.kes.on() && !fabric.kes.gives_numbers()) return reconcile_stops(set, scene);
+  if (follows_from_pair(fabric)) return fabric.follow_kes();
+  const bool shaped = fabric.kes.on();
+  fabric.kes = {};
+  if (numbers && shaped) fabric.bending.stops = {};
   if (stops) reconcile_stops(set, scene);
 }
 

@@ -80,13 +80,14 @@ struct InPlaneStops {
   bool empty() const { return warp.empty() && weft.empty() && shear.empty(); }
 };
 
-// What KES-FB2 printed of a fabric, and the shape of friction that is assumed behind it (friction_shape.h).
-// Where it is on, b1, b2, k0 and bending.stops follow from it.
+// What KES-FB2 printed of a fabric, where it is stated in place of b1 and b2, which follow from it: b2 = B
+// and b1 = B + 2HB/k0, or with a shape of friction b1, b2, k0 and bending.stops (friction_shape.h).
 struct KesFriction {
   KesPair read = {};
   FrictionShape shape = {};
 
   bool on() const { return shape.on(); }
+  bool gives_numbers() const { return !shape.on() && read.rigidity > 0 && read.loop_width > 0; }
 };
 
 // Physics of a cloth.  Every number has its source in the fabric's file.
@@ -112,7 +113,7 @@ struct Fabric {
   std::map<std::string, Provenance> provenance;      // of each parameter above that it has, by its key
   std::map<std::string, PublishedNumber> published;  // B, 2HB, drape-coefficient, node-count, ... as printed
 
-  void follow_kes();                 // b1, b2, k0 and stops from `kes`, with their provenance, where it is on
+  void follow_kes();                 // what follows from `kes`, with its provenance
   VirginCurve virgin_curve() const;  // along warp; stops along weft as laws see them behind the metric
   // Half of what pictures and histograms span [1/m]: k0, or of shaped friction, which has none, where the
   // window of KES-FB2 begins.

@@ -63,8 +63,7 @@ struct PrandtlStops : StopMemory<Real, D, N> {
                                    const History<Real, kHistory>& before) const {
     const Stretch now = stretch(curvature, before);
     const PerStop slipping = stiffnesses() * turning(now);
-    Tangent<Real, D> result =
-        (b2 + sum(PerStop(stiffnesses() * now.scale))) * Tangent<Real, D>::Identity();
+    Tangent<Real, D> result = (b2 + sum(PerStop(stiffnesses() * now.scale))) * Tangent<Real, D>::Identity();
     for (int a = 0; a < D; ++a)
       for (int b = 0; b < D; ++b) result(a, b) -= sum(PerStop(slipping * now.offset[a] * now.offset[b]));
     return result;

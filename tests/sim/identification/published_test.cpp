@@ -31,9 +31,11 @@ TEST(Kes, WithoutK0LeavesB1AndK0OpenAndSaysWhatIsAssumed) {
   const double two_hb = 2 * kCotton.friction_moment();
   const Identification found = identify_kes({{kCotton.b2}, {two_hb}, {}}, {});
   EXPECT_EQ(found.undetermined(), (Names{"b1", "k0"}));
-  EXPECT_EQ(found.k0.value, 50);
+  EXPECT_EQ(found.k0.value, 8);
+  EXPECT_EQ(found.k0.low, 4);
+  EXPECT_EQ(found.k0.high, 25);
   EXPECT_NEAR(found.curve().friction_moment(), two_hb / 2, kRounding);
-  EXPECT_TRUE(says(found.statements.at(0), "k0 = 50/m"));
+  EXPECT_TRUE(says(found.statements.at(0), "k0 = 8/m"));
   EXPECT_TRUE(says(found.k0.source, "assumed"));
 }
 

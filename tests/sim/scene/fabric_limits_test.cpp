@@ -116,8 +116,6 @@ TEST(FabricLimits, PassEveryFabricThatIsShipped) {
 // Studies of extremes run: no bending, no friction, and bending of 1e-12 N m.
 TEST(FabricLimits, LeaveExtremesToStudies) {
   Scene scene = default_scene();
-  scene.fabric.kes.shape = {};
-  scene.fabric.bending.stops = {};
   scene.fabric.b1 = scene.fabric.b2 = 0;
   scene.fabric.friction = 0;
   EXPECT_NO_THROW(check_scene(scene));

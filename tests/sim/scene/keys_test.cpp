@@ -24,32 +24,36 @@ TEST(ResolvedScene, HoldsEveryKey) {
   for (const KeyDescription& key : scene_keys()) EXPECT_NO_THROW(at_path(tree, key.path)) << key.path;
 }
 
-// Friction is what was said last: the shape of the fabric's file, three numbers, stops, or a shape again.
+// Friction is what was said last: the fabric's three numbers, a tester's pair with k0 or with a shape, or
+// stops.
 TEST(FrictionOfAFabric, IsWhatWasSetLast) {
+  const auto set = [](Scene& scene, const std::string& key, const std::string& text) {
+    set_key(scene, "fabric." + key, text, "--fabric." + key);
+  };
   Scene scene = default_scene("cotton-broad");
-  const Fabric shaped = scene.fabric;
-  ASSERT_TRUE(shaped.kes.on());
-  EXPECT_EQ(shaped.bending.stops.size(), 8u);
-  EXPECT_DOUBLE_EQ(shaped.k0, 2 * shaped.bending.stops.friction_moment() / (shaped.b1 - shaped.b2));
-
-  set_key(scene, "fabric.k0", "20", "--fabric.k0");
-  EXPECT_FALSE(scene.fabric.kes.on());
-  EXPECT_TRUE(scene.fabric.bending.stops.empty());
-  EXPECT_EQ(scene.fabric.b1, shaped.b1);
-  set_key(scene, "fabric.stops-median", "10", "--fabric.stops-median");
-  EXPECT_TRUE(scene.fabric.kes.on());
-  EXPECT_NE(scene.fabric.k0, 20);
-  set_key(scene, "fabric.stops-median", "17", "--fabric.stops-median");
-  set_key(scene, "fabric.stops-spread", "2", "--fabric.stops-spread");
-  EXPECT_EQ(scene.fabric.b2, shaped.b2);
-  EXPECT_EQ(scene.fabric.bending.stops.thresholds, shaped.bending.stops.thresholds);
-  set_key(scene, "fabric.bending.stops.thresholds", "3 4 5 6 7 8 9 10", "--fabric.bending.stops.thresholds");
+  const Fabric cotton = scene.fabric;
+  set(scene, "k0", "20");
+  EXPECT_EQ(scene.fabric.b1, cotton.b1);
+  set(scene, "kes-b", "1e-5");
+  EXPECT_EQ(scene.fabric.b1, cotton.b1);
+  EXPECT_THROW(check_scene(scene), Error) << "half of a pair";
+  set(scene, "kes-2hb", "8e-4");
+  EXPECT_EQ(scene.fabric.b2, 1e-5);
+  EXPECT_DOUBLE_EQ(scene.fabric.b1, 1e-5 + 8e-4 / 20);
+  set(scene, "k0", "10");
+  EXPECT_DOUBLE_EQ(scene.fabric.b1, 1e-5 + 8e-4 / 10) << "the pair stays";
+  set(scene, "stops-median", "17");
+  set(scene, "stops-spread", "2");
+  ASSERT_TRUE(scene.fabric.kes.on());
+  EXPECT_EQ(scene.fabric.bending.stops.size(), 8u);
+  EXPECT_DOUBLE_EQ(scene.fabric.k0,
+                   2 * scene.fabric.bending.stops.friction_moment() / (scene.fabric.b1 - scene.fabric.b2));
+  set(scene, "bending.stops.thresholds", "3 4 5 6 7 8 9 10");
   EXPECT_FALSE(scene.fabric.kes.on());
   EXPECT_EQ(scene.fabric.bending.stops.thresholds.back(), 10);
-  set_key(scene, "fabric.name", "cotton-broad", "--fabric");
-  set_key(scene, "fabric.stops-median", "0", "--fabric.stops-median");
+  set(scene, "b1", "5e-5");
   EXPECT_TRUE(scene.fabric.bending.stops.empty());
-  EXPECT_EQ(scene.fabric.k0, shaped.k0);
+  EXPECT_EQ(scene.fabric.b1, 5e-5);
 }
 
 // Stops and the three numbers that laws without stops take are one friction.
