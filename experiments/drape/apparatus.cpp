@@ -9,6 +9,7 @@
 
 #include "sim/base/error.h"
 #include "sim/contact/compression.h"
+#include "sim/mesh/random_points.h"
 #include "sim/scene/mesh_files.h"
 #include "sim/scene/shown_key.h"
 
@@ -159,7 +160,7 @@ void add_apparatus(Scene& scene, const DrapeChoice& choice, const Specimen& spec
   constexpr double kOwnWeights = 4;
   const double pressure = kOwnWeights * scene.fabric.density * scene.gravity.norm();
   const double shell = distance_under(obstacle_shell(scene), pressure);
-  scene.cloth.position += Eigen::Vector3d(0, 0, shell) - specimen.middle;
+  scene.cloth.position += Eigen::Vector3d(choice.offset, 0, shell) - specimen.middle;
   Obstacle pedestal;
   pedestal.kind = ObstacleKind::cylinder;
   pedestal.radius = choice.disc;
@@ -181,6 +182,46 @@ void add_apparatus(Scene& scene, const DrapeChoice& choice, const Specimen& spec
     plate.motion.keys.push_back({k * choice.lowering, {0, 0, k % 2 ? -choice.plate : 0}});
   plate.until = choice.lowered();
   scene.obstacle.push_back(plate);
+}
+
+namespace {
+
+// A Gaussian field of mean 0 and variance 1 by random waves (Shinozuka & Deodatis 1991): wave numbers of both
+// axes are normal with the standard deviation 1/l.
+std::vector<double> random_field(const std::vector<Eigen::Vector2d>& at, double length, unsigned seed) {
+  constexpr int kWaves = 400;
+  Uniform uniform(seed);
+  std::vector<double> field(at.size());
+  for (int wave = 0; wave < kWaves; ++wave) {
+    const double size = std::sqrt(-2 * std::log1p(-uniform(0, 1))) / length;  // Box & Muller 1958
+    const double angle = uniform(0, 2 * std::numbers::pi), phase = uniform(0, 2 * std::numbers::pi);
+    const Eigen::Vector2d number(size * std::cos(angle), size * std::sin(angle));
+    for (std::size_t i = 0; i < at.size(); ++i)
+      field[i] += std::sqrt(2. / kWaves) * std::cos(number.dot(at[i]) + phase);
+  }
+  return field;
+}
+
+}  // namespace
+
+void make_uneven(ClothMesh& mesh, const DrapeChoice& choice, unsigned seed) {
+  if (choice.uneven > 0) {
+    const double log_deviation = std::sqrt(std::log1p(choice.uneven * choice.uneven));
+    std::vector<Eigen::Vector2d> middle(mesh.faces());
+    for (int f = 0; f < mesh.faces(); ++f) {
+      const auto [a, b, c] = mesh.corners(f);
+      middle[f] = (a + b + c).head<2>() / 3;
+    }
+    mesh.bending_factor = random_field(middle, choice.uneven_length, seed);
+    for (double& factor : mesh.bending_factor)
+      factor = std::exp(log_deviation * factor - log_deviation * log_deviation / 2);
+  }
+  if (choice.curl == 0) return;
+  for (Eigen::Vector3d& x : mesh.rest) {
+    const double along = x.x();
+    x.x() = std::sin(choice.curl * along) / choice.curl;
+    x.z() += (1 - std::cos(choice.curl * along)) / choice.curl;
+  }
 }
 
 void seed_folds(std::vector<Eigen::Vector3d>& start, const DrapeChoice& choice, double radius) {

@@ -32,6 +32,10 @@ struct DrapeChoice {
   double wait = 0;                   // at rest, until the shadow is read [s]
   double still = 2e-3;               // settled when no vertex moves faster [m/s]
   double plate = 0.12;               // how far the plate sinks [m]
+  double offset = 0;                 // of the specimen's middle from the pedestal's axis, along warp [m]
+  double curl = 0;                   // curvature along warp with which the specimen is at rest [1/m]
+  double uneven = 0;                 // standard deviation of the rigidity along the cloth, over its mean
+  double uneven_length = 0.02;       // over which the rigidity stays alike [m]
 
   int strokes() const { return release == "dropped" ? 0 : release == "relifted" ? 3 : 1; }  // of the plate
   double lowered() const { return strokes() * lowering; }  // when nothing carries the ring any more [s]
@@ -63,6 +67,11 @@ void add_apparatus(Scene& scene, const DrapeChoice& choice, const Specimen& spec
 
 // Six folds of this height [m] strain the rim by 0.2 % at most; of half a millimetre, folds merge.
 inline constexpr double kFoldSeed = 2e-3;
+// What real specimens have and an even disc does not: rigidities that vary along the cloth, drawn by the seed
+// from a lognormal field whose correlation falls as exp(-d^2/(2 l^2)) with the distance d, l = uneven_length,
+// and a curl, which makes the rest shape a cylinder, concave above where it is positive.
+void make_uneven(ClothMesh& mesh, const DrapeChoice& choice, unsigned seed);
+
 // Raises the ring in as many waves as the choice has folds, highest at the rim by `kFoldSeed`: equilibria
 // under different methods are then compared with the same folds.
 void seed_folds(std::vector<Eigen::Vector3d>& start, const DrapeChoice& choice, double radius);

@@ -29,6 +29,10 @@ const KeyRow<DrapeChoice> kRows[] = {
     {"drape.stroke", at<&D::stroke>, "m", positive(), "", "shaken: how far up"},
     {"drape.period", at<&D::period>, "s", positive(), "", "shaken: time of one up and down"},
     {"drape.wait", at<&D::wait>, "s", at_least(0), "", "time at rest until the shadow is read, in which laws relax that do"},
+    {"drape.offset", at<&D::offset>, "m", at_least(0), "", "of the specimen's middle from the pedestal's axis"},
+    {"drape.curl", at<&D::curl>, "1/m", between(-20, 20), "", "curvature along warp with which the specimen is at rest, positive where its rim stands up"},
+    {"drape.uneven", at<&D::uneven>, "", between(0, 0.5), "", "standard deviation over the mean of a rigidity in bending that varies along the cloth, drawn by the seed"},
+    {"drape.uneven-length", at<&D::uneven_length>, "m", between(1e-3, 1), "", "over which that rigidity stays alike"},
     {"drape.still", at<&D::still>, "m/s", positive(), "", "the motion ends when no vertex moves faster from one look at it to the next, thirty a second; then the equilibrium nearby is sought"},
 };
 // clang-format on
@@ -213,6 +217,7 @@ int run_drape(const CommandLine& line) {
   const std::string tilt = tilt_warning(setup.scene);
   Cloth cloth = make_cloth(setup.scene);
   const double radius = lay_on_pedestal(setup.scene, choice, cloth).radius;
+  make_uneven(cloth.mesh, choice, static_cast<unsigned>(setup.scene.seed));
   Session session(line, setup, std::move(cloth));
   if (session.is_over()) return 0;
   if (!tilt.empty()) session.run().warn(tilt);
@@ -291,6 +296,7 @@ Experiment drape() {
           .decided = decided,
           .compared = true,
           .conditions = {{"drape.folds", "drape.release = dropped"},
+                         {"drape.uneven-length", "drape.uneven > 0"},
                          {"drape.lowering", "drape.release != dropped"},
                          {"drape.shakes | drape.stroke | drape.period", "drape.release = shaken"}},
           .headlines = {.all = {{"drape_coefficient_percent", "drape coefficient", "%", "{:.1f}"},

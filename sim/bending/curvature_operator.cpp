@@ -141,7 +141,15 @@ void set_directions(CurvatureOperator& op, const ClothMesh& mesh, double weft, d
 
 CurvatureOperator make_curvature_operator(BendingElement element, const ClothMesh& mesh,
                                           const std::vector<char>& held) {
-  return element == BendingElement::hinge ? make_hinge_operator(mesh) : make_shape_operator(mesh, held);
+  CurvatureOperator op =
+      element == BendingElement::hinge ? make_hinge_operator(mesh) : make_shape_operator(mesh, held);
+  if (mesh.bending_factor.empty()) return op;
+  for (int i = 0; i < op.elements(); ++i) {
+    const Edge& hinge = mesh.edge[element == BendingElement::hinge ? i : 0];
+    const auto factor = [&](int face) { return mesh.bending_factor[face]; };
+    op.area[i] *= element == BendingElement::hinge ? (factor(hinge.face0) + factor(hinge.face1)) / 2 : factor(i);
+  }
+  return op;
 }
 
 namespace {

@@ -14,7 +14,7 @@ namespace hysteron {
 // frame).
 struct CurvatureOperator {
   int dimension = 1;                // D
-  std::vector<double> area;         // A per element [m^2]
+  std::vector<double> area;         // A per element [m^2], times the mesh's bending_factor
   std::vector<double> rest_angle;   // theta0 per hinge [rad]
   Adjacency hinge;                  // rows: elements; items: hinges
   std::vector<double> coefficient;  // D numbers for each item [1/m], component by component within an item

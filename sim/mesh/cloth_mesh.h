@@ -49,6 +49,7 @@ struct ClothMesh {
       pattern;  // per vertex texture coordinates; empty: none, or several along seams
   std::vector<std::array<Eigen::Vector2d, 3>> panel;  // then those of the triangles' corners; else empty
   bool sewn = false;  // panels [m] are the cloth at rest, and `rest` is only where their seams hold them
+  std::vector<double> bending_factor;  // of each triangle: its bending moments over the fabric's; empty: 1
   Eigen::Vector3d warp_axis{1, 0, 0};  // warp direction in texture coordinates; without any, in space
 
   // Filled by build_topology():
