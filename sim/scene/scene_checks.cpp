@@ -41,6 +41,7 @@ void check_fabric(const Scene& scene) {
                shown(scene, "fabric.kes-2hb", f.kes.read.loop_width, "N") + " steeper than " +
                shown(scene, "fabric.kes-b", f.kes.read.rigidity, "N m") +
                " where the tester reads: no elasticity is left beside it");
+  check_fabric_numbers(scene);
   if (!f.kes.on() && (f.kes.read.rigidity > 0) != (f.kes.read.loop_width > 0)) {
     const bool rigidity = f.kes.read.rigidity > 0;
     refuse(rigidity ? "fabric.kes-b" : "fabric.kes-2hb",
@@ -48,7 +49,6 @@ void check_fabric(const Scene& scene) {
            rigidity ? "needs fabric.kes-2hb beside it: both stand for b1 and b2"
                     : "needs fabric.kes-b beside it: both stand for b1 and b2");
   }
-  check_fabric_numbers(scene);
   if (f.b1 < f.b2) refuse("fabric.b1", f.b1, "N m", "must be >= " + shown(scene, "fabric.b2", f.b2, "N m"));
   if (f.k0 == 0 && f.b1 > f.b2) refuse("fabric.k0", f.k0, "1/m", "must be > 0 while fabric.b1 > fabric.b2");
   if (4 * f.bias_bending < 1 + f.weft_bending)
