@@ -147,7 +147,8 @@ CurvatureOperator make_curvature_operator(BendingElement element, const ClothMes
   for (int i = 0; i < op.elements(); ++i) {
     const Edge& hinge = mesh.edge[element == BendingElement::hinge ? i : 0];
     const auto factor = [&](int face) { return mesh.bending_factor[face]; };
-    op.area[i] *= element == BendingElement::hinge ? (factor(hinge.face0) + factor(hinge.face1)) / 2 : factor(i);
+    op.area[i] *=
+        element == BendingElement::hinge ? (factor(hinge.face0) + factor(hinge.face1)) / 2 : factor(i);
   }
   return op;
 }

@@ -43,7 +43,8 @@ TEST(UnevenSpecimen, HasTheMeanDeviationAndLengthAskedFor) {
   EXPECT_NEAR(mean / count, 1, 0.01);
   EXPECT_NEAR(std::sqrt(square / count), choice.uneven, 0.1 * choice.uneven);
   // Middles of neighbours are some 5 mm apart: 2 s^2 (1 - exp(-d^2/(2 l^2))).
-  const double side = std::sqrt(4 / std::sqrt(3.) * 3.14159 * 0.15 * 0.15 / 2000), apart = side / std::sqrt(3.);
+  const double side = std::sqrt(4 / std::sqrt(3.) * 3.14159 * 0.15 * 0.15 / 2000),
+               apart = side / std::sqrt(3.);
   const double expected = 2 * std::pow(choice.uneven, 2) * -std::expm1(-apart * apart / 2e-4);
   EXPECT_NEAR(near / pairs / expected, 1, 0.15);
 }

@@ -88,7 +88,7 @@ TEST(FrictionOfAFabric, LeavesElasticityBesideIt) {
   set_key(scene, "fabric.stops-median", "17", "--fabric.stops-median");
   set_key(scene, "fabric.stops-spread", "2", "--fabric.stops-spread");
   set_key(scene, "fabric.kes-b", "1.2e-5", "--fabric.kes-b");
-  set_key(scene, "fabric.kes-2hb", "0.03", "--fabric.kes-2hb");
+  set_key(scene, "fabric.kes-2hb", "0.04", "--fabric.kes-2hb");
   EXPECT_TRUE(test::says(test::refusal([&] { check_scene(scene); }), "no elasticity is left"));
   set_key(scene, "fabric.kes-2hb", "0", "--fabric.kes-2hb");
   EXPECT_NO_THROW(check_scene(scene));
