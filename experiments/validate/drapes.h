@@ -26,6 +26,8 @@ struct ValidateFlags {
   int samples = 8;     // of each fabric's uncertain numbers
   int draws = 3;       // meshes for the mean of a drape in a budget
   unsigned seed = 1;   // of the samples
+  int batch = 1;       // drapes that share a process
+  bool resume = false;
   Options options;
 };
 

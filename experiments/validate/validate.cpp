@@ -6,6 +6,7 @@
 
 #include "experiments/validate/budget.h"
 #include "experiments/validate/figure.h"
+#include "experiments/workbench/compare/sweep_columns.h"
 #include "experiments/workbench/pages/report.h"
 #include "sim/base/comma_list.h"
 #include "sim/base/error.h"
@@ -29,6 +30,8 @@ const KeyRow<F> kRows[] = {
     {"samples", at<&F::samples>, "", between(2, 1000), "", "of a fabric's uncertain numbers, from the ranges that its file states"},
     {"draws", at<&F::draws>, "", between(2, 1000), "", "meshes of each drape in a budget"},
     {"seed", at<&F::seed>, "", any(), "", "of the samples"},
+    {"batch", at<&F::batch>, "", between(1, kLargestBatch), "", kBatchDoc},
+    {"resume", at<&F::resume>, "", any(), "", "keeps the drapes that have run whose request, program and files are the same"},
     {"seconds", at<&F::seconds>, "s", at_least(0), "", "longest simulated time of a drape; 0: as drape has it"},
 };
 // clang-format on
@@ -88,11 +91,12 @@ Experiment validate() {
           .question = "the model against measurements: loops, decay, drapes, folds",
           .run = run_validate,
           .own_keys = own_key_descriptions<option_keys>,
-          .conditions = {{"recorded", "parts = figure"},
-                         {"standard | fabrics | laws | device | triangles | step | tolerance | seconds",
-                          "parts = spread | budget"},
-                         {"samples | seed", "parts = spread"},
-                         {"draws", "parts = budget"}}};
+          .conditions = {
+              {"recorded", "parts = figure"},
+              {"standard | fabrics | laws | device | triangles | step | tolerance | seconds | batch | resume",
+               "parts = spread | budget"},
+              {"samples | seed", "parts = spread"},
+              {"draws", "parts = budget"}}};
 }
 
 }  // namespace hysteron::experiments
