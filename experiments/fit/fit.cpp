@@ -1,4 +1,6 @@
 // `hysteron fit`: a fabric from measurements, with standard errors and with what they leave open.
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <iostream>
@@ -305,9 +307,25 @@ DecayAnswer identify_vibration(const FitFlags& flags, const std::string& from) {
         " N m where a tester reads it: check kes.b, fabric.density and decay.length")
         .with_key("kes.b", number_text(flags.kes.b.value));
   answer.found.forms = {even_forms(answer.series, answer.question)};
-  found.widen_by(answer.found.forms[0]);
   answer.found.found = {{found}, {}, from};
   return answer;
+}
+
+// b1, b2 and k0 of the friction that was found beside the rigidity that was given.
+Identification three_numbers(const FabBending& found, double rigidity, const std::string& from) {
+  Identification numbers;
+  const double k0 = saturation_curvature(found.form), stiffness = 2 * found.law.friction() / k0;
+  const std::vector<std::string> open = found.undetermined();
+  const auto is_open = [&](const char* name) { return std::count(open.begin(), open.end(), name) > 0; };
+  numbers.law = "prandtl";
+  numbers.b2 = {rigidity, kNone, true, "B, given to the fit as --kes.b", "given"};
+  numbers.k0 = {k0, found.form_errors[1] * k0, !is_open("k0"), from};
+  numbers.b1 = {rigidity + stiffness, found.stiffness_errors[0] / found.law.stiffnesses[0] * stiffness,
+                open.empty(), "B + 2 HB/k0 of " + from};
+  numbers.statements.push_back(fmt::format(
+      "HB = {:.3g} +- {:.2g} N, k0 = {:.3g} +- {:.2g} 1/m; rms {:.2g} of the noise", found.law.friction(),
+      found.friction_error, k0, numbers.k0.standard_error, found.residual_rms));
+  return numbers;
 }
 
 // fabric.toml, forms.csv, decay.csv (measured and by the fit), a plot and metrics; what a reader is told.
@@ -315,12 +333,16 @@ std::string report_decay(Run& run, const DecayAnswer& answer, const FabricNotes&
   const FabBending& b = answer.found.found.bending[0];
   for (const std::string& warning : decay_warnings(answer.series, answer.question)) run.warn(warning);
   for (const std::string& warning : bending_warnings(b, answer.found.forms[0])) run.warn(warning);
-  write_fab_fabric(run.path("fabric.toml"), answer.found.found, notes);
+  const Identification numbers = three_numbers(b, answer.question.rigidity, answer.found.found.from);
+  write_fabric(run.path("fabric.toml"), numbers, notes);
   write_forms(run, answer.found);
-  add_shape(run, b, "");
+  run.metric("k0_per_m", numbers.k0.value);
+  run.metric("k0_per_m_stderr", numbers.k0.standard_error);
   run.metric("HB_N", b.law.friction());
   run.metric("HB_N_stderr", b.friction_error);
-  run.metric("b2_N_m", b.law.spring);
+  run.metric("b1_N_m", numbers.b1.value);
+  run.metric("b1_N_m_stderr", numbers.b1.standard_error);
+  run.metric("b2_N_m", numbers.b2.value);
   run.metric("residual_over_noise", b.residual_rms);
   run.metric("iterations", b.iterations);
   run.metric("undetermined", b.undetermined());
@@ -336,7 +358,7 @@ std::string report_decay(Run& run, const DecayAnswer& answer, const FabricNotes&
       {{"time [s]", answer.series.time}, {"amplitude [m]", answer.series.amplitude}, {"fitted [m]", fitted}})
       .write(run.path("decay.csv"));
   draw_decay(run, answer.series, fitted, saturated);
-  return summary(answer.found);
+  return numbers.statements[0] + "\n" + summary(answer.found);
 }
 
 void fit_decay(const CommandLine& line, const FitFlags& flags, const Keys& keys) {

@@ -326,7 +326,10 @@ void write_forms(Run& run, const FabAnswer& answer) {
   Table table("direction,form,numbers,rms over noise,misfit,excluded (95 %),b2 [N m],HB [N]");
   for (std::size_t i = 0; i < answer.found.bending.size(); ++i) {
     const FabBending& best = answer.found.bending[i];
-    std::vector<FabForm> all = {{best.is_shaped() ? "shaped" : "stops", best}};
+    std::vector<FabForm> all = {{best.is_shaped()     ? "shaped"
+                                 : best.is_parabola() ? "chapter's"
+                                                      : "stops",
+                                 best}};
     all.insert(all.end(), answer.forms[i].begin(), answer.forms[i].end());
     for (const FabForm& form : all) {
       const double misfit = form.misfit(best);

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "experiments/specimens/clamped_mesh.h"
 #include "experiments/swing/clamped_sheet.h"
@@ -38,7 +39,10 @@ Setup defaults() {
   return setup;
 }
 
-constexpr double kMinTurn = 0.01;  // of the length: smaller ones are not counted
+// The resolution of a swing from turn to turn, of the length: smaller ones are not counted, so that
+// amplitudes end at half of it, 0.45 mm of the strip by default.  Time steps leave some 1e-6 of a turning
+// point; below its lowest threshold a law of eight stops with k0 = 8/m rings at 0.1 mm.
+constexpr double kMinTurn = 0.01;
 // Of the free length: with viscosity alone, whose decay is exponential when small, larger amplitudes fall
 // with exponents of 1.5 and more; below, with 1.1.
 constexpr double kSmallSwing = 0.5;
@@ -46,9 +50,8 @@ constexpr double kSmallSwing = 0.5;
 constexpr const char* kDecayCaption =
     "Amplitude of the free end against time: half of a turning point's distance to the mean of its "
     "neighbours, and "
-    "the shape that describes it best. Saturated friction in bending makes a line, friction that has not "
-    "saturated a "
-    "hyperbola, viscosity an exponential.";
+    "the shape that describes it best. Friction that saturates makes a line that ends in a hyperbola, "
+    "saturated friction a line, friction that has not saturated a hyperbola, viscosity an exponential.";
 // turns.csv: a row for each amplitude.
 void write_turns(Run& run, const std::vector<Amplitude>& amplitudes) {
   Record file(run.path("turns.csv"), {"turn", "time [s]", "amplitude [mm]"});
@@ -57,7 +60,8 @@ void write_turns(Run& run, const std::vector<Amplitude>& amplitudes) {
 }
 
 // By how far amplitudes down to a fifth of the first are from the line that is nearest to them, at most and
-// over the first: cloth's swings fall along one so far (Matsudaira & Zhang 1996).  NaN for fewer than three.
+// over the first: cloth's swings are reported to fall along one so far (Matsudaira & Zhang 1996).  NaN for
+// fewer than three.
 double line_departure(const std::vector<Amplitude>& amplitudes, const Decay& decay) {
   constexpr double kFifth = 0.2;
   std::vector<Amplitude> large;
@@ -76,10 +80,20 @@ void note_decay(Run& run, const std::vector<Amplitude>& amplitudes, const Decay&
   run.metric("decay_shape", enum_name(decay.shape));
   run.metric("decay_amplitudes_count", decay.used);
   if (decay.used >= kMinAmplitudes) run.metric("decay_per_turn_percent", 100 * decay.per_turn);
+  for (const auto& [percent, key] : {std::pair{50, "decay_per_half_period_percent_at_50"},
+                                     std::pair{10, "decay_per_half_period_percent_at_10"}}) {
+    const double loss = half_period_loss(amplitudes, decay.first, percent / 100.0);
+    if (std::isfinite(loss)) run.metric(key, 100 * loss);
+  }
   if (decay.fits.empty()) return;
   run.metric("decay_margin", decay.margin);
   const double first = amplitudes[decay.first].value;
   run.metric("decay_rms_percent", 100 * decay.best().rms / first);
+  if (decay.shape == DecayShape::saturating) {
+    run.metric("decay_knee_fraction", decay.knee_fraction());
+    run.metric("decay_saturated_rate_mm_per_s", 1e3 * decay.best().rate);
+    run.metric("decay_stiffening", decay.best().stiffening);
+  }
   if (decay.shape == DecayShape::two_step) {
     run.metric("decay_step_fraction", decay.step_fraction());
     run.metric("decay_first_rate_mm_per_s", 1e3 * decay.best().rate);
@@ -212,12 +226,18 @@ Experiment swing() {
           .defaults = defaults,
           .compared = true,
           .onion = kOnion,
-          .headlines = {.all = {{"decay_shape", "decay", "", "", 1, kNoErrors},
-                                {"decay_per_turn_percent", "decay per turn", "%", "{:.1f}"},
-                                {"decay_step_fraction", "second line of decay begins at", "%", "{:.0f}", 100},
-                                {"turns", "turns", "", "{:.0f}", 1, kNoErrors},
-                                {"bending_friction_J", "lost to friction in bending", "mJ", "{:.4g}", 1e3},
-                                {"viscous_J", "lost to viscosity", "mJ", "{:.4g}", 1e3, kNoErrors}}}};
+          .headlines = {
+              .all = {{"decay_shape", "decay", "", "", 1, kNoErrors},
+                      {"decay_knee_fraction", "friction saturates above", "%", "{:.0f}", 100},
+                      {"decay_per_half_period_percent_at_50",
+                       "lost in half a period at a half of the amplitude", "%", "{:.1f}"},
+                      {"decay_per_half_period_percent_at_10",
+                       "lost in half a period at a tenth of the amplitude", "%", "{:.1f}"},
+                      {"decay_per_turn_percent", "mean loss in half a period of the run", "%", "{:.1f}"},
+                      {"decay_step_fraction", "second line of decay begins at", "%", "{:.0f}", 100},
+                      {"turns", "turns", "", "{:.0f}", 1, kNoErrors},
+                      {"bending_friction_J", "lost to friction in bending", "mJ", "{:.4g}", 1e3},
+                      {"viscous_J", "lost to viscosity", "mJ", "{:.4g}", 1e3, kNoErrors}}}};
 }
 
 }  // namespace hysteron::experiments

@@ -1,12 +1,12 @@
 #include "sim/identification/decay_friction.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "sim/base/csv.h"
 #include "sim/base/error.h"
+#include "sim/identification/swinging_strip.h"
 #include "sim/scene/key_table.h"
 
 namespace hysteron {
@@ -14,64 +14,28 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr int kElements = 24;          // of the beam, cubic: its first mode to 1e-6
 constexpr int kParts = 8;              // of a turn
 constexpr double kFarthestNumber = 9;  // of a logarithm from its prior
 constexpr std::size_t kFewest = 6;
-
-// The first mode of a hanging beam: |phi''| and weights at two points of each element, and int phi^2 ds.
-struct Mode {
-  VectorXd curvature, weight;  // [1/m^2], [m]
-  double square = 0;           // [m]
-};
-
-// Shape functions of a cubic element of length h at x in [0, 1]: value, slope, second derivative.
-void hermite(double x, double h, Eigen::Vector4d& f, Eigen::Vector4d& f1, Eigen::Vector4d& f2) {
-  f << 1 - 3 * x * x + 2 * x * x * x, h * x * (1 - x) * (1 - x), x * x * (3 - 2 * x), h * x * x * (x - 1);
-  f1 << (-6 * x + 6 * x * x) / h, 1 - 4 * x + 3 * x * x, (6 * x - 6 * x * x) / h, x * (3 * x - 2);
-  f2 << (-6 + 12 * x) / (h * h), (-4 + 6 * x) / h, (6 - 12 * x) / (h * h), (6 * x - 2) / h;
-}
-
-Mode first_mode(const DecayQuestion& q) {
-  const double h = q.length / kElements, load = q.density * kStandardGravity;
-  const int n = 2 * (kElements + 1);
-  Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(n, n), mass = stiffness;
-  const double gauss[] = {0.0694318442029737, 0.3300094782075719, 0.6699905217924281, 0.9305681557970263};
-  const double fraction[] = {0.1739274225687269, 0.3260725774312731, 0.3260725774312731, 0.1739274225687269};
-  Eigen::Vector4d f, f1, f2;
-  for (int e = 0; e < kElements; ++e)
-    for (int g = 0; g < 4; ++g) {
-      hermite(gauss[g], h, f, f1, f2);
-      const double tension = load * (q.length - (e + gauss[g]) * h);
-      stiffness.block<4, 4>(2 * e, 2 * e) +=
-          fraction[g] * h * (q.rigidity * f2 * f2.transpose() + tension * f1 * f1.transpose());
-      mass.block<4, 4>(2 * e, 2 * e) += fraction[g] * h * f * f.transpose();
-    }
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(
-      stiffness.bottomRightCorner(n - 2, n - 2), mass.bottomRightCorner(n - 2, n - 2));
-  VectorXd phi = VectorXd::Zero(n);
-  phi.tail(n - 2) = modes.eigenvectors().col(0);
-  phi /= phi[n - 2];
-  Mode mode{VectorXd(2 * kElements), VectorXd::Constant(2 * kElements, h / 2), phi.dot(mass * phi)};
-  for (int e = 0; e < kElements; ++e)
-    for (int g = 0; g < 2; ++g) {
-      hermite(0.5 + (g - 0.5) / std::sqrt(3.0), h, f, f1, f2);
-      mode.curvature[2 * e + g] = std::abs(f2.dot(phi.segment<4>(2 * e)));
-    }
-  return mode;
-}
+constexpr int kTabulated = 20;  // amplitudes at which the strip's fall is computed
+// Elasticity beside the friction that is tried is at least this part of B: stops that a tester reads as
+// steeper than B are refused once they are found.
+constexpr double kLeastSpring = 0.05;
 
 class DecayModel {
  public:
   DecayModel(const DecaySeries& series, const DecayQuestion& question)
       : series_(series),
         question_(question),
-        form_(question.form ? *question.form : shaped_friction()),
-        mode_(first_mode(question)) {
+        form_(question.form ? *question.form : parabola_friction()),
+        strip_(question.length, question.density),
+        elastic_(strip_.at({series.amplitude[0]}, question.rigidity, {}).front()) {
     double fall = 0;
-    for (std::size_t i = 1; i < series.amplitude.size(); ++i)
-      fall = std::max(fall, stiffness(i - 1) * (series.amplitude[i - 1] - series.amplitude[i]));
-    prior_friction_ = std::max(fall, question.noise * stiffness(0)) / (2 * mode_.curvature.dot(mode_.weight));
+    for (std::size_t i = 1; i < series.amplitude.size(); ++i) {
+      const double omega = omega_of_turn(i - 1), k = question.density * omega * omega * elastic_.square;
+      fall = std::max(fall, k * std::max(series.amplitude[i - 1] - series.amplitude[i], question.noise));
+    }
+    prior_friction_ = fall / (2 * elastic_.bend);
   }
 
   int numbers() const { return static_cast<int>(form_.spreads.size()); }
@@ -80,14 +44,14 @@ class DecayModel {
   Spectrum stops(const VectorXd& p) const { return form_.stops(p.head(numbers()), prior_friction_); }
 
   std::vector<double> amplitudes(const Spectrum& stops, double first) const {
+    const FallTable table = falls(stops, first);
     std::vector<double> all = {first};
     for (int i = 0; i + 1 < rows(); ++i) {
       double a = all.back();
-      const double stiff = stiffness(i), h = 1.0 / kParts;
-      const auto slope = [&](double at) { return at > 0 ? -lost(stops, at) / (2 * stiff * at) : 0.0; };
+      const double h = 1.0 / kParts, omega = omega_of_turn(i);
       for (int part = 0; part < kParts; ++part) {
-        const double middle = a + h / 2 * slope(a);
-        a = std::max(0.0, a + h * slope(middle));
+        const double middle = a - h / 2 * a * table.at(a) / (omega * omega);
+        a = std::max(0.0, a - h * middle * table.at(middle) / (omega * omega));
       }
       all.push_back(a);
     }
@@ -110,7 +74,7 @@ class DecayModel {
   }
 
   // The largest curvature that the strip has at its first amplitude [1/m].
-  double reach() const { return series_.amplitude[0] * mode_.curvature.maxCoeff(); }
+  double reach() const { return elastic_.curvature; }
 
   VectorXd residuals(const VectorXd& p) const {
     const std::vector<double> all = amplitudes(stops(p), series_.amplitude[0] * std::exp(p[numbers()]));
@@ -121,22 +85,54 @@ class DecayModel {
   }
 
  private:
-  // K of the turn after amplitude i [N/m^2 m].
-  double stiffness(std::size_t i) const {
-    const double omega = std::numbers::pi / (series_.time[i + 1] - series_.time[i]);
-    return question_.density * omega * omega * mode_.square;
+  // By amplitude: omega^2 times the loss of amplitude in half a period over the amplitude [1/s^2].
+  struct FallTable {
+    std::vector<double> logarithm, fall;
+
+    // Between amplitudes by their logarithms; beyond the table's ends as there.
+    double at(double amplitude) const {
+      const double x = std::log(std::max(amplitude, 1e-300));
+      if (x <= logarithm.front()) return fall.front();
+      if (x >= logarithm.back()) return fall.back();
+      const auto i = std::upper_bound(logarithm.begin(), logarithm.end(), x) - logarithm.begin();
+      const double part = (x - logarithm[i - 1]) / (logarithm[i] - logarithm[i - 1]);
+      return fall[i - 1] + part * (fall[i] - fall[i - 1]);
+    }
+  };
+
+  // From `first` down to what is a fraction of the smallest measured amplitude.
+  FallTable falls(const Spectrum& stops, double first) const {
+    constexpr double kBelow = 0.5, kAbove = 1.01;
+    const double spring =
+        std::max(kLeastSpring * question_.rigidity, question_.rigidity - kes_pair(0, stops).rigidity);
+    const double least = kBelow * *std::min_element(series_.amplitude.begin(), series_.amplitude.end());
+    const double high = std::log(kAbove * first), low = std::min(std::log(least), high - 1);
+    std::vector<double> amplitudes;
+    for (int i = 0; i < kTabulated; ++i)
+      amplitudes.push_back(std::exp(low + (high - low) * i / (kTabulated - 1)));
+    const std::vector<SwingState> states = strip_.at(amplitudes, spring, stops);
+    FallTable table;
+    for (int i = 0; i < kTabulated; ++i) {
+      const SwingState &before = states[std::max(i - 1, 0)], &after = states[std::min(i + 1, kTabulated - 1)],
+                       &here = states[i];
+      // A dE/dA, from the power of A with which E rises.
+      const double power =
+          std::log(after.stored / before.stored) / std::log(after.amplitude / before.amplitude);
+      table.logarithm.push_back(std::log(here.amplitude));
+      table.fall.push_back(here.lost / 2 / (power * here.stored) * here.omega * here.omega);
+    }
+    return table;
   }
-  double lost(const Spectrum& stops, double amplitude) const {
-    double sum = 0;
-    for (int g = 0; g < mode_.curvature.size(); ++g)
-      sum += mode_.weight[g] * stops.loop_area(amplitude * mode_.curvature[g]);
-    return sum;
+  // As measured between the amplitude i and the next [rad/s].
+  double omega_of_turn(std::size_t i) const {
+    return std::numbers::pi / (series_.time[i + 1] - series_.time[i]);
   }
 
   const DecaySeries& series_;
   const DecayQuestion& question_;
   FrictionForm form_;
-  Mode mode_;
+  SwingingStrip strip_;
+  SwingState elastic_;         // at the first amplitude, as if there were no friction
   double prior_friction_ = 0;  // [N]
 };
 

@@ -1,15 +1,13 @@
 // Friction of bending from a free vibration: a strip hangs from a clamp, is let go, and the amplitudes of its
 // free end are written down turn by turn.
 //
-// The strip moves in its first mode phi(s), that of a beam of rigidity B under its own weight, phi = 1 at the
-// free end.  Between two turns it loses half of what its friction elements enclose in a cycle of amplitude A
-// phi'',
+// The strip moves in its first mode, which follows the amplitude A as friction saturates near the clamp
+// (swinging_strip.h).  Between two turns it loses half of what its friction encloses in a cycle,
 //
-//   K A dA/dn = -1/2 D(A),   D(A) = int sum_j 4 p_j r_j (A |phi''| - r_j)+ ds,   K = sigma omega^2 int phi^2
-//   ds,
+//   dE/dA dA/dn = -1/2 D(A) (omega/omega_m)^2,   omega_m = pi over the time of the turn, as it was measured:
 //
-// with omega = pi over the time of the turn, as it was measured.  Chosen here; exact for small amplitudes,
-// and for friction that is small beside K A.
+// a strip that swings faster than its mode is stiffer or lighter, and its friction moves it as much less.
+// Chosen here; exact for small amplitudes, and for friction that is small beside what is stored.
 #pragma once
 
 #include "sim/identification/fab_bending.h"
@@ -28,7 +26,7 @@ struct DecayQuestion {
   double density = 0;                     // [kg/m^2]
   double rigidity = 0;                    // B [N m]
   double noise = 5e-4;                    // of the amplitudes [m]
-  std::optional<FrictionForm> form = {};  // none: shaped_friction()
+  std::optional<FrictionForm> form = {};  // none: parabola_friction()
 };
 
 // Throws Error::invalid_input of amplitudes that such a strip cannot have: as large as it is long (in another

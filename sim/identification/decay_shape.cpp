@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "sim/identification/least_squares.h"
+#include "sim/identification/saturating_decay.h"
 
 namespace hysteron {
 namespace {
@@ -81,6 +82,33 @@ DecayFit curve(DecayShape shape, const Series& series) {
     }
   }
   return best;
+}
+
+DecayFit saturating(const Series& series) {
+  const auto list = [](const Eigen::VectorXd& x) { return std::vector<double>(x.begin(), x.end()); };
+  const SaturatingDecay found = fit_saturating_decay(list(series.time), list(series.amplitude));
+  DecayFit fit{DecayShape::saturating, found.first, found.rate};
+  fit.knee = found.knee;
+  fit.stiffening = found.stiffening;
+  return judged(fit, 4, series);
+}
+
+// Whether `wider` becomes `narrow` at some of its numbers, so that it describes the same series as well.
+bool is_limit(DecayShape narrow, DecayShape wider) {
+  if (wider == DecayShape::two_step) return narrow == DecayShape::linear;
+  return wider == DecayShape::saturating &&
+         (narrow == DecayShape::linear || narrow == DecayShape::hyperbolic);
+}
+
+// In the order of the criterion, but a shape that is not clearly better than its limit comes behind it.
+void rank(std::vector<DecayFit>& fits) {
+  std::stable_sort(fits.begin(), fits.end(),
+                   [](const DecayFit& a, const DecayFit& b) { return a.criterion < b.criterion; });
+  const DecayFit best = fits.front();
+  const auto limit = std::find_if(fits.begin(), fits.end(),
+                                  [&](const DecayFit& fit) { return is_limit(fit.shape, best.shape); });
+  if (limit != fits.end() && limit->criterion - best.criterion < kClearMargin)
+    std::rotate(fits.begin(), limit, limit + 1);
 }
 
 // Behind the last turn that a single mode does not make.
@@ -178,6 +206,8 @@ double DecayFit::at(double t) const {
       return first * std::exp(-rate * t);
     case DecayShape::hyperbolic:
       return first / (1 + rate * t);
+    case DecayShape::saturating:
+      return SaturatingDecay{first, rate, knee, stiffening}.at(t);
     case DecayShape::two_step:
       return first - rate * std::min(t, step) - last_rate * std::max(t - step, 0.0);
     default:
@@ -208,25 +238,29 @@ Decay decay_between_amplitudes(const std::vector<Amplitude>& all, double largest
   if (!take_from(std::max(first, first_small(all, largest)))) return decay;
   const Series series = series_from(all, decay.first);
   decay.fits = {line(series), two_lines(series), curve(DecayShape::exponential, series),
-                curve(DecayShape::hyperbolic, series)};
-  std::stable_sort(decay.fits.begin(), decay.fits.end(),
-                   [](const DecayFit& a, const DecayFit& b) { return a.criterion < b.criterion; });
-  // Two lines describe one line as well, at a place of their choice: they have to be clearly better, and are
-  // no rival.
-  const auto has_shape = [](DecayShape shape) {
-    return [=](const DecayFit& fit) { return fit.shape == shape; };
-  };
-  const auto one = std::find_if(decay.fits.begin(), decay.fits.end(), has_shape(DecayShape::linear));
-  if (decay.best().shape == DecayShape::two_step && one->criterion - decay.best().criterion < kClearMargin)
-    std::rotate(decay.fits.begin(), one, one + 1);
-  const bool one_line = decay.best().shape == DecayShape::linear;
+                curve(DecayShape::hyperbolic, series), saturating(series)};
+  rank(decay.fits);
   const auto rival = std::find_if(decay.fits.begin() + 1, decay.fits.end(), [&](const DecayFit& fit) {
-    return !(one_line && fit.shape == DecayShape::two_step);
+    return !is_limit(decay.best().shape, fit.shape);
   });
   decay.margin = rival->criterion - decay.best().criterion;
   if (decay.margin >= kMinMargin && all.back().value <= (1 - kMinFall) * all[decay.first].value)
     decay.shape = decay.best().shape;
   return decay;
+}
+
+double half_period_loss(const std::vector<Amplitude>& all, std::size_t first, double fraction) {
+  if (first >= all.size()) return NAN;
+  const double at = std::log(fraction * all[first].value);
+  double before = 0, loss_before = 0;  // of the pair of amplitudes before
+  for (std::size_t i = first + 1; i < all.size(); ++i) {
+    const double here = std::log((all[i - 1].value + all[i].value) / 2);
+    const double loss = 1 - all[i].value / all[i - 1].value;
+    if (here <= at && i == first + 1) return here == at ? loss : NAN;
+    if (here <= at) return loss_before + (loss - loss_before) * (before - at) / (before - here);
+    before = here, loss_before = loss;
+  }
+  return NAN;
 }
 
 }  // namespace hysteron

@@ -1,17 +1,19 @@
 // What takes the amplitude of a swing, read from how it falls in time: turning points, amplitudes, and the
-// one of four shapes that describes them best.
+// one of five shapes that describes them best.
 //
 //   linear       A = a - b t          friction that is saturated: its moment is constant
-//   two-step     two such lines       friction that saturates early, and what is left below: cloth
-//                                     (Matsudaira & Zhang 1996)
+//   two-step     two such lines       friction that saturates early, and another one below
 //   exponential  A = a exp(-b t)      viscosity
 //   hyperbolic   A = a/(1 + b t)      dA/dn = -c A^2: friction whose small loops have areas growing as A^3,
-//   as those of
-//                                     Rayleigh and of every law that is a parabola up to its elastic limit
-//                                     (Masing 1926; here free_decay.h)
+//                                     as those of Rayleigh and of every law that is a parabola up to its
+//                                     elastic limit (Masing 1926)
+//   saturating                        the chapter's friction, a line above its knee and a hyperbola below
+//                                     (saturating_decay.h)
 //
 // Chosen by Schwarz's criterion n ln(s^2) + k ln n (1978), s^2 the mean square of what a shape of k numbers
-// leaves, no smaller than that of kBestAccuracy of the largest amplitude.
+// leaves, no smaller than that of kBestAccuracy of the largest amplitude.  Two lines and the saturating shape
+// have four numbers, the others two.  A shape of four that is not clearly better than one of its limits (a
+// line; of the saturating shape also the hyperbola) gives way to it.
 #pragma once
 
 #include <Eigen/Core>
@@ -54,11 +56,12 @@ enum class DecayShape {
   two_step,
   exponential,
   hyperbolic,
+  saturating,
   plateau,  // a turn takes less than kPlateau: nothing brakes
   unknown,  // too few amplitudes, they fall by less than kMinFall, or two shapes describe them alike
 };
-constexpr std::array<const char*, 6> names(DecayShape) {
-  return {"linear", "two-step", "exponential", "hyperbolic", "plateau", "unknown"};
+constexpr std::array<const char*, 7> names(DecayShape) {
+  return {"linear", "two-step", "exponential", "hyperbolic", "saturating", "plateau", "unknown"};
 }
 
 constexpr double kPlateau = 0.01;          // of the amplitude, in a turn
@@ -73,11 +76,13 @@ constexpr double kSwingRipple = 0.25;
 // One shape, fitted by least squares of the amplitudes.  t is time since the first one [s].
 struct DecayFit {
   DecayShape shape = DecayShape::unknown;
-  double first = 0;      // a: amplitude at t = 0 [m]
-  double rate = 0;       // b: of a line [m/s], of the other shapes [1/s]
-  double step = 0;       // of two lines: where the second begins [s] ...
-  double last_rate = 0;  // ... and its b [m/s]
-  double rms = 0;        // of what is left [m]
+  double first = 0;       // a: amplitude at t = 0 [m]
+  double rate = 0;        // b: of lines and of saturated friction [m/s], of the other shapes [1/s]
+  double step = 0;        // of two lines: where the second begins [s] ...
+  double last_rate = 0;   // ... and its b [m/s]
+  double knee = 0;        // of the saturating shape: the amplitude at its knee [m] ...
+  double stiffening = 1;  // ... and how much stiffer the smallest swings are
+  double rms = 0;         // of what is left [m]
   double criterion = 0;
 
   double at(double t) const;
@@ -90,10 +95,9 @@ struct Decay {
   DecayShape shape = DecayShape::unknown;
   std::size_t first = 0;  // of the amplitudes: those before are of several modes or too large
   std::size_t used = 0;
-  double per_turn = 0;  // mean loss over the amplitude: 1 - (A_last/A_first)^(1/turns)
-  std::vector<DecayFit>
-      fits;           // of all four shapes, the best first; none of a plateau or of too few amplitudes
-  double margin = 0;  // of the criterion, from the best to the next that is another kind of shape
+  double per_turn = 0;         // mean loss over the amplitude: 1 - (A_last/A_first)^(1/turns)
+  std::vector<DecayFit> fits;  // of all shapes, the best first; none of a plateau or of too few amplitudes
+  double margin = 0;           // of the criterion, from the best to the next that is another kind of shape
 
   const DecayFit& best() const { return fits.front(); }
   const DecayFit& of(DecayShape shape) const;  // that shape, which was fitted
@@ -101,11 +105,17 @@ struct Decay {
   double step_fraction() const {
     return of(DecayShape::two_step).at(of(DecayShape::two_step).step) / best().first;
   }
+  // Amplitude at the knee of the saturating shape over its first one.
+  double knee_fraction() const { return of(DecayShape::saturating).knee / of(DecayShape::saturating).first; }
 };
 
 // Amplitudes in the order of time, as turning_amplitudes() gives them; those above `largest` [m] are left
 // out, and what comes before the last turn that one mode alone would not make: one that grows, or that falls
 // by much more than those around it.
 Decay decay_between_amplitudes(const std::vector<Amplitude>& amplitudes, double largest);
+
+// Loss in half a period over the amplitude where that is `fraction` of the one numbered `first`: between
+// neighbouring pairs, interpolated in the logarithm of their mean amplitude.  NaN where they do not reach it.
+double half_period_loss(const std::vector<Amplitude>& amplitudes, std::size_t first, double fraction);
 
 }  // namespace hysteron

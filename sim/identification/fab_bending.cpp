@@ -56,6 +56,25 @@ FrictionForm shaped_friction() {
   return form;
 }
 
+double saturation_curvature(const VectorXd& p) { return kUsualSaturation * std::exp(p[1]); }
+
+FrictionForm parabola_friction() {
+  // Of a parabola that saturates at so many times the reach, half of the friction moment is in reach:
+  // 2 x - x^2 = 1/2 at x = 1 - sqrt(1/2).
+  constexpr double kHalfInReach = 3.41;
+  FrictionForm form{"chapter's", {kMomentSpread, kMedianSpread}, [](const VectorXd& p, double moment) {
+                      const double k0 = saturation_curvature(p);
+                      return parabola_stops(2 * std::exp(p[0]) * moment / k0, k0);
+                    }};
+  for (const double k0 : kMedianStarts)
+    form.starts.emplace_back(Eigen::Vector2d(0, std::log(k0 / kUsualSaturation)));
+  form.largest = [](double reach) -> VectorXd {
+    return Eigen::Vector2d(kFarthest,
+                           std::log(std::min(kHalfInReach * reach, kLargestMedian) / kUsualSaturation));
+  };
+  return form;
+}
+
 FrictionForm even_friction(double k0) {
   return {"k0 = " + number_text(k0) + "/m", {kMomentSpread}, [=](const VectorXd& p, double moment) {
             return parabola_stops(2 * std::exp(p[0]) * moment / k0, k0);
@@ -283,6 +302,11 @@ std::vector<std::string> FabBending::undetermined() const {
     if (!determined[0]) names.push_back("b2");
     if (!is_determined(form_errors[1])) names.push_back("median");
     if (!is_determined(form_errors[2])) names.push_back("spread");
+    if (!knows_friction()) names.push_back("HB");
+    return names;
+  }
+  if (is_parabola()) {
+    if (!is_determined(form_errors[1])) names.push_back("k0");
     if (!knows_friction()) names.push_back("HB");
     return names;
   }

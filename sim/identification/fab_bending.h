@@ -42,6 +42,11 @@ inline constexpr double kUsualMedian = 10, kUsualSpread = 1.5;  // 1/m, 1: betwe
 FrictionForm shaped_friction();
 FrictionShape friction_shape(const Eigen::VectorXd& parameters);
 
+// The chapter's, of two numbers: logarithms of HB and of k0 over kUsualSaturation.
+inline constexpr double kUsualSaturation = 10;  // 1/m
+FrictionForm parabola_friction();
+double saturation_curvature(const Eigen::VectorXd& parameters);  // k0 [1/m]
+
 // Friction that saturates at k0 [1/m] along the chapter's parabola: the logarithm of HB.
 FrictionForm even_friction(double k0);
 
@@ -76,10 +81,11 @@ struct FabBending : FabStops {
   // friction has the form asked for is supposed, and the data may not tell (Hoeting et al. 1999, Eq. 3).
   void widen_by(const std::vector<FabForm>& forms);
   bool is_shaped() const { return form.size() == 3 && law.stops() == kShapedStops; }
+  bool is_parabola() const { return form.size() == 2 && law.stops() != 2; }
   double friction_within_reach() const;  // of the stops that have slipped [N]
   bool knows_friction() const;           // most of HB has slipped, and its error is small
   std::vector<std::string> undetermined()
-      const;  // "b2", "stop 128/m", ...; of a shape "median", "spread", "HB"
+      const;  // "b2", "stop 128/m", ...; of a shape "median", "spread", "HB"; of the parabola "k0", "HB"
 };
 
 // From loops of one direction that bend.  Throws Error::invalid_input if a cycle is not there.

@@ -28,6 +28,7 @@ constexpr std::pair<const char*, const char*> kShownNumbers[] = {{"drape_coeffic
                                                                  {"set_curvature_per_m", "κ"},
                                                                  {"decay_shape", ""},
                                                                  {"turns", "turns"},
+                                                                 {"decay_knee_fraction", "knee at"},
                                                                  {"decay_step_fraction", "step at"},
                                                                  {"bending_friction_J", ""},
                                                                  {"residual_curvature_rms_per_m", "κ"},

@@ -99,6 +99,34 @@ TEST_F(Fit, ComparesLawsOnTheSameDataTheBestFirst) {
       read_csv(out() / "fit.csv", {"curvature [1/m]", "model_prandtl [N]", "residual_linear [N]"}, {}, "t"));
 }
 
+// A strip of 8 cm whose amplitudes follow from k0 = 8/m and HB = 0.6 mN.
+TEST_F(Fit, OfAFreeVibrationWritesTheThreeNumbersOfAFabric) {
+  constexpr double kTenth = 0.1, kB = 1.16e-5, kHB = 6e-4, kK0 = 8;
+  DecaySeries series;
+  for (int i = 0; i < 15; ++i) series.time.push_back(0.15 * i);
+  series.amplitude.assign(15, 0.03);
+  series.amplitude = decay_by(series, {0.08, 0.1238, kB}, parabola_stops(2 * kHB / kK0, kK0), 0.03);
+  const fs::path file = folder_.path() / "decay.csv";
+  Table({{"time [s]", series.time}, {"amplitude [m]", series.amplitude}}).write(file);
+  ASSERT_EQ(fit({{"decay", file.string()},
+                 {"decay.length", "0.08"},
+                 {"fabric.density", "0.1238"},
+                 {"fabric.thickness", "3e-4"},
+                 {"kes.b", "1.16e-5"}}),
+            0);
+  const Json m = metrics();
+  EXPECT_NEAR(m.at("k0_per_m").get<double>() / kK0, 1, kTenth);
+  EXPECT_NEAR(m.at("HB_N").get<double>() / kHB, 1, kTenth);
+  EXPECT_GT(m.at("k0_per_m_stderr"), 0);
+  EXPECT_GT(m.at("HB_N_stderr"), 0);
+  EXPECT_EQ(m.at("undetermined"), Json::array());
+  const Fabric fabric = read_fabric((out() / "fabric.toml").string(), "t").fabric;
+  EXPECT_EQ(fabric.b2, kB);
+  EXPECT_DOUBLE_EQ(fabric.k0, m.at("k0_per_m"));
+  EXPECT_NEAR(fabric.virgin_curve().friction_moment() / m.at("HB_N").get<double>(), 1, 1e-9);
+  EXPECT_TRUE(fabric.bending.stops.empty());
+}
+
 TEST_F(Fit, RefusesRequestsThatMakeNoSense) {
   const std::string file = loop("prandtl", {250, -250, 250});
   const auto refuses = [&](const std::vector<Flag>& flags, const char* part) {

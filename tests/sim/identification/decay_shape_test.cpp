@@ -6,6 +6,8 @@
 #include <cmath>
 #include <random>
 
+#include "sim/identification/saturating_decay.h"
+
 namespace hysteron {
 namespace {
 
@@ -93,6 +95,10 @@ const Closed kClosed[] = {
     {"two-step", DecayShape::two_step, [](int n) { return n < 8 ? 1 - 0.1 * n : 0.2 - 0.008 * (n - 8); }},
     {"exponential", DecayShape::exponential, [](int n) { return std::exp(-0.1 * n); }},
     {"hyperbolic", DecayShape::hyperbolic, [](int n) { return 1 / (1 + 0.2 * n); }},
+    {"saturating", DecayShape::saturating,
+     [](int n) {
+       return SaturatingDecay{1, 0.4, 0.3, 3}.at(n);
+     }},
 };
 
 TEST(DecayShape, OfEveryClosedLawIsItsOwn) {
@@ -100,7 +106,7 @@ TEST(DecayShape, OfEveryClosedLawIsItsOwn) {
     const Decay decay = decay_between_amplitudes(decaying(closed.law), kAny);
     EXPECT_EQ(enum_name(decay.shape), closed.name);
     EXPECT_EQ(decay.shape, closed.shape);
-    ASSERT_EQ(decay.fits.size(), 4u);
+    ASSERT_EQ(decay.fits.size(), 5u);
     EXPECT_GT(decay.margin, 20) << closed.name;
     EXPECT_NEAR(decay.per_turn, 1 - std::pow(closed.law(kTurns - 1), 1.0 / (kTurns - 1)), 1e-12);
     for (int n = 0; n < kTurns; ++n)  // the beginning of a second line is found to 1/400 of the time
@@ -113,6 +119,38 @@ TEST(DecayShape, OfTwoLinesSaysWhereTheSecondBegins) {
   EXPECT_NEAR(decay.step_fraction(), 0.2, 2e-3);
   EXPECT_NEAR(decay.best().rate, 0.1 * 0.06 / 0.1, 1e-3 * 0.06);
   EXPECT_NEAR(decay.best().last_rate, 0.008 * 0.06 / 0.1, 1e-3 * 0.06);
+}
+
+TEST(DecayShape, ThatSaturatesSaysWhereItsKneeIs) {
+  const Decay decay = decay_between_amplitudes(decaying(kClosed[4].law), kAny);
+  EXPECT_NEAR(decay.knee_fraction(), 0.3, 1e-3);
+  EXPECT_NEAR(decay.best().rate, 0.4 * 0.06 / 0.1, 1e-2 * 0.24);
+}
+
+// With its knee far below all amplitudes the saturating shape is a line, with its knee above them and one
+// stiffness a hyperbola.
+TEST(DecayShape, ThatSaturatesGivesWayToItsLimits) {
+  const auto named = [](const SaturatingDecay& law) {
+    std::vector<double> values;
+    for (int n = 0; n < kTurns; ++n) values.push_back(law.at(n));
+    return decay_between_amplitudes(amplitude_series(values), kAny).shape;
+  };
+  EXPECT_EQ(named({1, 0.055, 1e-4, 3}), DecayShape::linear);
+  EXPECT_EQ(named({1, 9.6, 4, 1}), DecayShape::hyperbolic);
+}
+
+// a = 2^-n loses a half in each half period; a line of steps of 0.1 loses 0.1/A at its amplitudes.
+TEST(HalfPeriodLoss, IsReadBetweenTheAmplitudesAround) {
+  constexpr double kRounding = 1e-12, kInterpolated = 0.02;
+  std::vector<double> halves, line;
+  for (int n = 0; n < 6; ++n) halves.push_back(std::pow(2.0, -n)), line.push_back(1 - 0.1 * n);
+  EXPECT_NEAR(half_period_loss(amplitude_series(halves), 0, 0.3), 0.5, kRounding);
+  EXPECT_NEAR(half_period_loss(amplitude_series(halves), 1, 0.3), 0.5, kRounding);
+  EXPECT_NEAR(half_period_loss(amplitude_series(line), 0, 0.7), 0.1 / 0.75, kInterpolated);
+  EXPECT_NEAR(half_period_loss(amplitude_series(line), 0, 0.65), 0.1 / 0.7, kRounding);
+  EXPECT_TRUE(std::isnan(half_period_loss(amplitude_series(line), 0, 0.1))) << "never so small";
+  EXPECT_TRUE(std::isnan(half_period_loss(amplitude_series({1, 0.2, 0.1}), 0, 0.7))) << "nothing before";
+  EXPECT_TRUE(std::isnan(half_period_loss({}, 0, 0.5)));
 }
 
 // Noise of 1 % of the first amplitude, the same for all.

@@ -1,0 +1,58 @@
+// A hanging strip that swings in its first mode with friction in bending: what it stores and loses at an
+// amplitude.
+//
+// The mode is that of a beam of length L under its own weight, with the rigidity of each place that of a
+// cycle of its curvature k = A |phi''| (harmonic balance; Caughey 1960),
+//
+//   (B(k) phi'')'' - (T phi')' = sigma omega^2 phi,   T = sigma g (L - s),   phi(L) = 1
+//   B(k) = B0 + sum_j p_j f(r_j/k),   f(u) = (theta - sin theta cos theta)/pi,   cos theta = 1 - 2 u;
+//   f = 1 of stops that do not slip.
+//
+// Friction that has slipped leaves a strip as limp as B0 near its clamp, where curvature then gathers, and
+// the same strip swings as stiffly as B0 + sum p_j when it moves little: modes follow the amplitude.
+//
+//   stored at a turn  E = int B0 k^2/2 + sum_j p_j min(k, r_j)^2/2 ds + A^2/2 int T phi'^2 ds
+//   lost in a cycle   D = int sum_j 4 p_j r_j (k - r_j)+ ds
+//
+// Exact for small deflections and a loss in a cycle that is small beside what is stored.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "sim/bending/laws/bending_parts.h"
+
+namespace hysteron {
+
+struct SwingState {
+  double amplitude = 0;  // A, of the free end [m]
+  double stored = 0;     // E, per width [N]
+  double lost = 0;       // D, per width [N]
+  double omega = 0;      // [rad/s]
+  double square = 0;     // int phi^2 ds [m]
+  double bend = 0;       // int |phi''| ds [1/m]
+  double curvature = 0;  // the largest k [1/m]
+};
+
+class SwingingStrip {
+ public:
+  // Length below the clamp [m] and density [kg/m^2].
+  SwingingStrip(double length, double density);
+
+  // At each of the amplitudes [m], which rise; `spring` is B0 > 0 [N m].
+  std::vector<SwingState> at(const std::vector<double>& amplitudes, double spring,
+                             const Spectrum& stops) const;
+
+ private:
+  // One that begins from phi, which becomes its mode.
+  SwingState state(double amplitude, double spring, const Spectrum& stops, Eigen::VectorXd& phi) const;
+  // omega [rad/s], and phi from a guess of it, where the rigidity at the points is as given [N m].
+  double iterate_mode(const Eigen::VectorXd& rigidity, Eigen::VectorXd& phi) const;
+
+  double density_;                  // [kg/m^2]
+  Eigen::MatrixXd mass_, tension_;  // int phi^2 ds [m] and int T phi'^2 ds [N/m] by the free nodes' values
+  Eigen::MatrixXd second_;          // phi'' at the points by these values
+  Eigen::VectorXd weight_;          // of the points [m]
+};
+
+}  // namespace hysteron
