@@ -17,7 +17,7 @@ using Eigen::VectorXd;
 constexpr int kParts = 8;              // of a turn
 constexpr double kFarthestNumber = 9;  // of a logarithm from its prior
 constexpr std::size_t kFewest = 6;
-constexpr int kTabulated = 20;  // amplitudes at which the strip's fall is computed
+constexpr int kTabulated = 16;  // amplitudes at which the strip's fall is computed
 // Elasticity beside the friction that is tried is at least this part of B: stops that a tester reads as
 // steeper than B are refused once they are found.
 constexpr double kLeastSpring = 0.05;
@@ -44,14 +44,14 @@ class DecayModel {
   Spectrum stops(const VectorXd& p) const { return form_.stops(p.head(numbers()), prior_friction_); }
 
   std::vector<double> amplitudes(const Spectrum& stops, double first) const {
-    const FallTable table = falls(stops, first);
+    const FallTable& table = falls(stops, first);
     std::vector<double> all = {first};
     for (int i = 0; i + 1 < rows(); ++i) {
       double a = all.back();
       const double h = 1.0 / kParts, omega = omega_of_turn(i);
       for (int part = 0; part < kParts; ++part) {
-        const double middle = a - h / 2 * a * table.at(a) / (omega * omega);
-        a = std::max(0.0, a - h * middle * table.at(middle) / (omega * omega));
+        const double middle = a - h / 2 * table.at(a) / (omega * omega);
+        a = std::max(0.0, a - h * table.at(middle) / (omega * omega));
       }
       all.push_back(a);
     }
@@ -60,7 +60,7 @@ class DecayModel {
 
   // From nothing known and from each start of the form; of minima as deep, the first.
   LeastSquares deepest_minimum(const VectorXd& low, const VectorXd& high) const {
-    const auto from = [&](const VectorXd& start, SearchLimits limits = {}) {
+    const auto from = [&](const VectorXd& start, SearchLimits limits = {100, 1e-8}) {
       return minimize([&](const VectorXd& p) { return residuals(p); }, start, low, high, limits);
     };
     LeastSquares best = from(VectorXd::Zero(numbers() + 1));
@@ -85,28 +85,38 @@ class DecayModel {
   }
 
  private:
-  // By amplitude: omega^2 times the loss of amplitude in half a period over the amplitude [1/s^2].
+  // By amplitude: omega^2 times the loss of amplitude in half a period [m/s^2].
   struct FallTable {
     std::vector<double> logarithm, fall;
 
-    // Between amplitudes by their logarithms; beyond the table's ends as there.
+    // Between amplitudes as a power, which a line (0) and a hyperbola (2) are; below them as a hyperbola.
     double at(double amplitude) const {
       const double x = std::log(std::max(amplitude, 1e-300));
-      if (x <= logarithm.front()) return fall.front();
+      if (x <= logarithm.front()) return fall.front() * std::exp(2 * (x - logarithm.front()));
       if (x >= logarithm.back()) return fall.back();
       const auto i = std::upper_bound(logarithm.begin(), logarithm.end(), x) - logarithm.begin();
       const double part = (x - logarithm[i - 1]) / (logarithm[i] - logarithm[i - 1]);
-      return fall[i - 1] + part * (fall[i] - fall[i - 1]);
+      if (!(fall[i - 1] > 0)) return part * fall[i];
+      return fall[i - 1] * std::pow(fall[i] / fall[i - 1], part);
     }
   };
 
-  // From `first` down to what is a fraction of the smallest measured amplitude.
-  FallTable falls(const Spectrum& stops, double first) const {
-    constexpr double kBelow = 0.5, kAbove = 1.01;
+  // From above the largest amplitude down to a fraction of it; the last table is kept, since a search asks
+  // for several first amplitudes of the same stops.
+  const FallTable& falls(const Spectrum& stops, double first) const {
+    if (table_.logarithm.empty() || std::log(first) > table_.logarithm.back() ||
+        stops.thresholds != tabulated_.thresholds || stops.stiffnesses != tabulated_.stiffnesses) {
+      table_ = computed_falls(stops, first);
+      tabulated_ = stops;
+    }
+    return table_;
+  }
+  FallTable computed_falls(const Spectrum& stops, double first) const {
+    constexpr double kAbove = 1.2, kSpan = 80;
     const double spring =
         std::max(kLeastSpring * question_.rigidity, question_.rigidity - kes_pair(0, stops).rigidity);
-    const double least = kBelow * *std::min_element(series_.amplitude.begin(), series_.amplitude.end());
-    const double high = std::log(kAbove * first), low = std::min(std::log(least), high - 1);
+    const double most = *std::max_element(series_.amplitude.begin(), series_.amplitude.end()),
+                 high = std::log(kAbove * std::max(most, first)), low = high - std::log(kSpan);
     std::vector<double> amplitudes;
     for (int i = 0; i < kTabulated; ++i)
       amplitudes.push_back(std::exp(low + (high - low) * i / (kTabulated - 1)));
@@ -119,7 +129,7 @@ class DecayModel {
       const double power =
           std::log(after.stored / before.stored) / std::log(after.amplitude / before.amplitude);
       table.logarithm.push_back(std::log(here.amplitude));
-      table.fall.push_back(here.lost / 2 / (power * here.stored) * here.omega * here.omega);
+      table.fall.push_back(here.amplitude * here.lost / 2 / (power * here.stored) * here.omega * here.omega);
     }
     return table;
   }
@@ -134,6 +144,8 @@ class DecayModel {
   SwingingStrip strip_;
   SwingState elastic_;         // at the first amplitude, as if there were no friction
   double prior_friction_ = 0;  // [N]
+  mutable FallTable table_;    // of the stops tabulated_
+  mutable Spectrum tabulated_;
 };
 
 }  // namespace

@@ -66,8 +66,6 @@ FrictionForm parabola_friction() {
                       const double k0 = saturation_curvature(p);
                       return parabola_stops(2 * std::exp(p[0]) * moment / k0, k0);
                     }};
-  for (const double k0 : kMedianStarts)
-    form.starts.emplace_back(Eigen::Vector2d(0, std::log(k0 / kUsualSaturation)));
   form.largest = [](double reach) -> VectorXd {
     return Eigen::Vector2d(kFarthest,
                            std::log(std::min(kHalfInReach * reach, kLargestMedian) / kUsualSaturation));

@@ -18,7 +18,7 @@ using Eigen::VectorXd;
 constexpr int kElements = 10;        // cubic, shorter near the clamp: the first mode to 1e-4
 constexpr double kGrading = 1.5;     // node i stands at L (i/n)^kGrading
 constexpr int kMostIterations = 16;  // of rigidities and mode in turn
-constexpr double kSameMode = 3e-4;   // change of phi'' over its largest, at which they agree
+constexpr double kSameMode = 1e-3;   // change of phi'' over its largest, at which they agree
 constexpr double kRelaxed = 0.7;     // part of each new mode that is taken over
 
 // Abscissae and weights of Gauss on [0, 1].
@@ -40,8 +40,8 @@ struct Hermite {
 // Of a stop's stiffness, what a cycle feels that is 1/u times as large as the threshold.
 double felt_part(double u) {
   if (u >= 1) return 1;
-  const double theta = std::acos(1 - 2 * u);
-  return (theta - std::sin(theta) * std::cos(theta)) / std::numbers::pi;
+  const double cosine = 1 - 2 * u, sine = 2 * std::sqrt(u * (1 - u));
+  return (std::acos(cosine) - sine * cosine) / std::numbers::pi;
 }
 
 double cycle_rigidity(double curvature, double spring, const Spectrum& stops) {

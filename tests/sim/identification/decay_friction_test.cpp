@@ -65,7 +65,7 @@ TEST(DecayFriction, ComesBackFromNoisyAmplitudesAndExcludesLateSaturation) {
   EXPECT_GT(forms.back().misfit(found), 10) << forms.back().name;
 }
 
-// Noise of 2 % of each amplitude; ten draws of it scatter k0 and HB by some 3 %.
+// Noise of 2 % of each amplitude.
 TEST(DecayFriction, ReturnsK0AndHBWithinATenthFromAmplitudesWithNoise) {
   constexpr double kTenth = 0.1, kK0 = 8, kHB = 6e-4;
   std::mt19937 random(5);
