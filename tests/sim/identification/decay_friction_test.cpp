@@ -31,7 +31,7 @@ std::vector<double> falls(const std::vector<double>& amplitude) {
 
 // dA/dt is constant where all friction has saturated, and nothing is lost where none has slipped.
 TEST(DecayFriction, OfSaturatedFrictionFallsAlongALine) {
-  const std::vector<double> fall = falls(decay_by(turns(8), question(), {{1e-3}, {0.05}}, 0.02));
+  const std::vector<double> fall = falls(decay_by(turns(8), question(), {{1e-5}, {5}}, 0.02));
   for (const double one : fall) EXPECT_NEAR(one / fall[0], 1, 1e-3);
   for (const double one : falls(decay_by(turns(8), question(), {{1e3}, {1e-6}}, 0.02))) EXPECT_EQ(one, 0);
 }
