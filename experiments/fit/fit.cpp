@@ -67,7 +67,7 @@ const KeyRow<FitFlags> kRows[] = {
     {"fab.directions", at<&F::fab, &FabFlags::directions>, "", any(), "", "of these loops, separated by commas: the first is warp, the second weft; none: all"},
     {"fab.tests", at<&F::fab, &FabFlags::tests>, "", any(), "", "that are fitted, separated by commas; others are predicted. U1 D1 bend, S1 stretches"},
     {"fab.cycles", at<&F::fab, &FabFlags::cycles>, "", any(), "", "that are fitted, separated by commas, the first being 1"},
-    {"fab.friction", at<&F::fab, &FabFlags::friction>, "", any(), "shaped | stops", "what is sought: median and spread of the curvatures at which friction slips; or a stiffness at each of fab.thresholds"},
+    {"fab.friction", at<&F::fab, &FabFlags::friction>, "", any(), "chapter | shaped | stops", "what is sought: the curvature k0 at which friction saturates; median and spread of a lognormal distribution of curvatures at which it slips; or a stiffness at each of fab.thresholds"},
     {"fab.thresholds", at<&F::fab, &FabFlags::thresholds>, "", any(), "", "of stops, separated by commas [1/m]"},
     {"fab.noise", at<&F::fab, &FabFlags::noise>, "N", positive(), "", "of the measured forces, standard deviation; a fit that misses them by more than three times as much (rms) is refused"},
     {"decay", at<&F::decay, &DecayFlags::file>, "", any(), "", "amplitudes of the free end of a hanging strip that was let go, turn by turn: CSV with `time [s]`, `amplitude [m]`; needs decay.length, fabric.density and kes.b"},

@@ -117,7 +117,7 @@ std::vector<FabLoops> requested(const FabAnswer& answer, const std::string& dire
 
 // These fits are of one direction; fits that nobody asked for have no rows.
 struct DirectionFits {
-  FabBending bending, free, one;  // as asked, by free stops beside it, by one stop
+  FabBending bending, free, shaped, one;  // as asked; beside it by free stops, by a shape, by one stop
   std::vector<FabForm> even;
   FabTension stretch;
 
@@ -125,8 +125,15 @@ struct DirectionFits {
   std::vector<FabForm> forms(const std::string& name_of_free) const {
     std::vector<FabForm> all;
     if (free.rows > 0) all.push_back({name_of_free, free});
+    if (shaped.rows > 0) all.push_back({"shaped", shaped});
     all.push_back({"one stop at " + number_text(one.law.thresholds[0]) + "/m", one});
     all.insert(all.end(), even.begin(), even.end());
+    return all;
+  }
+  // Without those of the family that was asked for: a parabola's own error says how far k0 may lie.
+  std::vector<FabForm> other_families(std::vector<FabForm> all) const {
+    if (bending.is_parabola())
+      std::erase_if(all, [](const FabForm& f) { return f.name.starts_with("k0 = "); });
     return all;
   }
 };
@@ -153,6 +160,20 @@ void write_spectrum(Run& run, const FabIdentification& found) {
   table.write(run.path("spectrum.csv"));
 }
 
+// k0 of all directions together: of its logarithms the mean, each by its error.
+void add_common_saturation(Run& run, const std::vector<FabBending>& bending) {
+  double weights = 0, sum = 0;
+  for (const FabBending& b : bending) {
+    if (!b.is_parabola()) return;
+    const double weight = 1 / (b.form_errors[1] * b.form_errors[1]);
+    weights += weight;
+    sum += weight * std::log(saturation_curvature(b.form));
+  }
+  const double k0 = std::exp(sum / weights);
+  run.metric("k0_per_m", k0);
+  run.metric("k0_per_m_stderr", k0 / std::sqrt(weights));
+}
+
 void add_fab_metrics(Run& run, const FabAnswer& answer) {
   std::vector<std::string> open;
   for (std::size_t i = 0; i < answer.found.bending.size(); ++i) {
@@ -173,6 +194,7 @@ void add_fab_metrics(Run& run, const FabAnswer& answer) {
     run.metric(p + "one_stop.residual_over_noise", answer.one_stop[i].residual_rms);
     for (const std::string& name : b.undetermined()) open.push_back(b.direction + " " + name);
   }
+  add_common_saturation(run, answer.found.bending);
   for (const FabTension& t : answer.found.tension) {
     const std::string p = t.direction + ".tension.";
     run.metric(p + "spring_N_per_m", t.law.spring);
@@ -342,6 +364,11 @@ void write_forms(Run& run, const FabAnswer& answer) {
 }
 
 void add_shape(Run& run, const FabBending& b, const std::string& prefix) {
+  if (b.is_parabola()) {
+    const double k0 = saturation_curvature(b.form);
+    run.metric(prefix + "k0_per_m", k0);
+    run.metric(prefix + "k0_per_m_stderr", b.form_errors[1] * k0);
+  }
   if (!b.is_shaped()) return;
   const FrictionShape shape = friction_shape(b.form);
   run.metric(prefix + "median_per_m", shape.median);
@@ -371,6 +398,7 @@ FabAnswer fit_fab(const FabFlags& flags, const std::string& units, double densit
   bending.noise = flags.noise;
   FabBendingQuestion main = bending;
   if (flags.friction == "shaped") main.form = shaped_friction();
+  if (flags.friction == "chapter") main.form = parabola_friction();
   FabTensionQuestion tension;
   tension.cycles = answer.cycles;
   tension.noise = std::max(tension.noise, flags.noise);
@@ -384,6 +412,11 @@ FabAnswer fit_fab(const FabFlags& flags, const std::string& units, double densit
         check_fit(fit.bending, bending.noise);
       });
       if (main.form) others.emplace_back([=, &fit] { fit.free = identify_fab_bending(loops, bending); });
+      if (flags.friction == "chapter") {
+        FabBendingQuestion shaped = bending;
+        shaped.form = shaped_friction();
+        others.emplace_back([=, &fit] { fit.shaped = identify_fab_bending(loops, shaped); });
+      }
       others.emplace_back([=, &fit] { fit.even = even_forms(loops, bending); });
       others.emplace_back([=, &fit] { fit.one = identify_one_stop(loops, bending); });
     }
@@ -400,7 +433,7 @@ FabAnswer fit_fab(const FabFlags& flags, const std::string& units, double densit
     if (fit.bending.rows > 0) {
       answer.forms.push_back(fit.forms(free_stops(bending.thresholds).name));
       answer.found.bending.push_back(fit.bending);
-      answer.found.bending.back().widen_by(answer.forms.back());
+      answer.found.bending.back().widen_by(fit.other_families(answer.forms.back()));
       answer.one_stop.push_back(fit.one);
     }
     if (fit.stretch.rows > 0) answer.found.tension.push_back(fit.stretch);
@@ -423,7 +456,7 @@ std::string better_form_warning(const FabBending& b, const std::vector<FabForm>&
       "along {} another form of friction describes the loops better: {} leave {:.2g} of the noise (rms), and "
       "the form asked for {:.2g} (misfit {:.3g}; below {:g} is not by chance): {}",
       b.direction, best->name, best->found.residual_rms, b.residual_rms, best->misfit(b), -kLikelihoodFall,
-      b.is_shaped() && best->found.law.stops() > 1 && best->name.ends_with("stops")
+      (b.is_shaped() || b.is_parabola()) && best->found.law.stops() > 1 && best->name.ends_with("stops")
           ? "give --fab.friction stops"
           : "forms.csv has its numbers");
 }
@@ -496,6 +529,9 @@ std::string summary(const FabAnswer& answer) {
         "of the noise, {} iterations\n",
         b.direction, rigidity_text(b), b.law.friction(), b.friction_error, b.law.initial_stiffness(),
         b.residual_rms, b.iterations);
+    if (b.is_parabola())
+      text += fmt::format("  k0 = {:.3g} +- {:.2g} 1/m\n", saturation_curvature(b.form),
+                          b.form_errors[1] * saturation_curvature(b.form));
     if (b.is_shaped()) {
       const FrictionShape shape = friction_shape(b.form);
       text += fmt::format(

@@ -14,7 +14,7 @@ namespace hysteron::experiments {
 inline constexpr double kDoubtfulMiss = 0.08;
 
 struct FabFlags {
-  std::string file, directions, tests = "D1", cycles = "2", friction = "shaped",
+  std::string file, directions, tests = "D1", cycles = "2", friction = "chapter",
                                 thresholds = "1,2,4,8,16,32,64,128,256";
   double noise = 7.5e-4;
 };
@@ -38,7 +38,7 @@ void report_fab(Run& run, const FabAnswer& answer, const FabricNotes& notes);
 
 // forms.csv: what every form of friction leaves of the data, and how surely that excludes it.
 void write_forms(Run& run, const FabAnswer& answer);
-// Median and spread, where friction was sought in that form; names begin with `prefix`.
+// k0, or median and spread, where friction was sought in that form; names begin with `prefix`.
 void add_shape(Run& run, const FabBending& found, const std::string& prefix);
 
 // These warnings say what is doubtful about a fit of bending, beside the other forms.

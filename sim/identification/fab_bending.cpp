@@ -19,6 +19,7 @@ double square(double x) { return x * x; }
 constexpr double kMomentSpread = 1.5;  // prior standard deviation of a logarithm: a factor of 4.5
 constexpr double kMedianSpread = 1.5, kShapeSpread = 0.7;
 constexpr double kMedianStarts[] = {5, 20, 80};              // [1/m]: fabrics' measured spectra lie between
+constexpr double kSaturationStarts[] = {4, 25, 60};          // [1/m]
 constexpr double kSpreadStarts[] = {0.4, 1.5};               // of one stop, nearly, and of measured spectra
 constexpr double kLargestMedian = 1000, kLargestSpread = 4;  // [1/m], 1: that fabrics' files may have
 constexpr double kFarthest = 9;                              // of a logarithm from its prior
@@ -67,6 +68,8 @@ FrictionForm parabola_friction() {
                       const double k0 = saturation_curvature(p);
                       return parabola_stops(2 * std::exp(p[0]) * moment / k0, k0, kStops);
                     }};
+  for (const double k0 : kSaturationStarts)
+    form.starts.emplace_back(Eigen::Vector2d(0, std::log(k0 / kUsualSaturation)));
   form.largest = [](double reach) -> VectorXd {
     return Eigen::Vector2d(kFarthest,
                            std::log(std::min(kHalfInReach * reach, kLargestMedian) / kUsualSaturation));

@@ -54,13 +54,23 @@ std::string shape_words(const FabBending& b) {
       shape.median, std::exp(b.form_errors[1]), shape.spread, std::exp(b.form_errors[2]));
 }
 
+std::string saturation_text(const FabBending& b) {
+  const double k0 = saturation_curvature(b.form);
+  return fmt::format(
+      ";\n# of friction that saturates at k0 = {:.3g} +- {:.2g} 1/m (standard error) along the chapter's "
+      "parabola;\n# its stops' thresholds [1/m] and stiffnesses [N m] follow:\n",
+      k0, b.form_errors[1] * k0);
+}
+
 std::string bending_tables(const FabIdentification& found) {
   std::string text;
+  if (found.bending.size() == 1 && found.bending[0].is_parabola()) return text;  // b1, b2 and k0 say it
   for (std::size_t i = 0; i < std::min<std::size_t>(2, found.bending.size()); ++i) {
     const FabBending& b = found.bending[i];
     text += "\n# Bends along " + b.direction + ", identified from " + found.from +
-            (b.is_shaped() ? shape_words(b)
-                           : "; thresholds [1/m] are a grid that was given, stiffnesses [N m]:\n") +
+            (b.is_shaped()     ? shape_words(b)
+             : b.is_parabola() ? saturation_text(b)
+                               : "; thresholds [1/m] are a grid that was given, stiffnesses [N m]:\n") +
             stops_table(i == 0 ? "bending.stops" : "bending.stops.weft", b, "/m", "N m", found.from);
   }
   return text;
@@ -96,6 +106,12 @@ Identification three_numbers(const FabIdentification& found) {
   numbers.b1 = derived(b1, "b2 and the sum of the stops' stiffnesses");
   numbers.k0 = derived(2 * b.law.friction() / (b1 - b.law.spring),
                        "2 HB/(b1 - b2) of the stops, so that M0 is their friction moment");
+  if (found.bending.size() == 1 && b.is_parabola()) {
+    numbers.b1 = derived(b1, "b2 + 2 HB/k0, identified from " + found.from);
+    const double k0 = saturation_curvature(b.form);
+    numbers.k0 = {k0, b.form_errors[1] * k0, is_determined(b.form_errors[1]),
+                  "identified from " + found.from};
+  }
   for (const FabBending& one : found.bending) {
     std::vector<std::string> open = one.undetermined();
     numbers.statements.push_back(

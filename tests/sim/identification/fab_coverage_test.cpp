@@ -61,7 +61,7 @@ FabLoops noisy_loops(const DrawnFabric& fabric, unsigned seed) {
   FabLoops loops = made_up_loops("D1", fabric.gauge, kSlack * fabric.gauge, compressions, kBranchRows);
   loops.direction = "L";
   loops.width = kStripWidth;
-  const Spectrum stops = even_stops(2 * fabric.friction / fabric.k0, fabric.k0);
+  const Spectrum stops = parabola_stops(2 * fabric.friction / fabric.k0, fabric.k0);
   const StopsLaw law{fabric.b2, stops.thresholds, stops.stiffnesses};
   const BranchForces force = run_fab(loops, {law, law, fabric.density}).force;
   std::mt19937 random(seed);
@@ -70,20 +70,6 @@ FabLoops noisy_loops(const DrawnFabric& fabric, unsigned seed) {
     for (std::size_t i = 0; i < force[b].size(); ++i)
       loops.branches[b].force[i] = force[b][i] + normal(random);
   return loops;
-}
-
-// Even stops whose k0 is sought, too: the truth of these fabrics is of this form.
-FrictionForm saturating_friction() {
-  FrictionForm form{"saturating", {1.5, 1.5}, [](const Eigen::VectorXd& p, double moment) {
-                      const double k0 = kUsualMedian * std::exp(p[1]);
-                      return even_stops(2 * std::exp(p[0]) * moment / k0, k0);
-                    }};
-  for (const double k0 : {4.0, 20.0, 80.0})
-    form.starts.emplace_back(Eigen::Vector2d(0, std::log(k0 / kUsualMedian)));
-  form.largest = [](double reach) -> Eigen::VectorXd {
-    return Eigen::Vector2d(9, std::log(reach / kUsualMedian));
-  };
-  return form;
 }
 
 // What other forms find in the same loops, as `fit --fab` compares them.
@@ -217,7 +203,7 @@ TEST(FabCoverage, OfDrawnFabricsIsThatOfTheirIntervals) {
   const Widening widening = !many                                ? Widening::none
                             : std::getenv("HYSTERON_FAB_OTHERS") ? Widening::of_all
                                                                  : Widening::of_misses;
-  std::vector<TestedForm> forms = {{"saturating", saturating_friction()}};
+  std::vector<TestedForm> forms = {{"chapter's", parabola_friction()}};
   if (many) {
     forms.push_back({"shaped", shaped_friction()});
   } else {
