@@ -104,9 +104,9 @@ VectorXd stop_errors(const FrictionForm& form, const VectorXd& parameters,
 
 namespace {
 
-constexpr double kSpringSpread = 1;  // prior standard deviation of a logarithm: a factor of 2.7
-// HB/b2 that the prior of b2 is centred on [1/m]: the KES pairs of assets/fabrics have 18 to 53.
-constexpr double kFrictionOverSpring = 50;
+// Prior of HB/b2, centred on the middle of the KES pairs of assets/fabrics, which have 18 to 53 [1/m]: the
+// standard deviation of its logarithm is a factor of 2.7.
+constexpr double kFrictionOverSpring = 31, kSpringSpread = 1;
 constexpr double kSaturations[] = {3.125, 6.25, 12.5, 25, 50, 100};  // k0 [1/m]
 // Strips of fabrics need fewer than 40 (gauges of 15 to 50 mm); one that needs more takes seconds.
 constexpr long kMostHalvings = 100;
@@ -149,7 +149,8 @@ double curvature_reach(const FabLoops& loops, const std::vector<int>& cycles) {
   return std::abs(elastica.peak_curvature() - before);
 }
 
-// Parameters: the logarithm of b2 over its prior, those of friction, then the zeros of force.
+// Parameters: the logarithm of b2 over what the loops' work suggests, those of friction, then the zeros of
+// force.
 class BendingModel {
  public:
   BendingModel(const std::vector<FabLoops>& loops, const FabBendingQuestion& question)
@@ -186,7 +187,8 @@ class BendingModel {
     } catch (const Error&) {
       return VectorXd::Constant(size(), kNone);
     }
-    result[rows()] = p[0] / kSpringSpread;
+    const StopsLaw sought = law(p);
+    result[rows()] = std::log(kFrictionOverSpring * sought.spring / sought.friction()) / kSpringSpread;
     for (int j = 0; j < numbers_; ++j) result[rows() + 1 + j] = p[1 + j] / form_.spreads[j];
     return result;
   }

@@ -115,7 +115,7 @@ TEST(LawRun, TakesTheStopsThatALawWithoutAStackIsGiven) {
 
 TEST(LawParameters, ThatChangeNothingAreSaid) {
   VirginCurve own_stops = kCotton;
-  own_stops.parts.stops = even_stops(kCotton.b1 - kCotton.b2, kCotton.k0, 6);
+  own_stops.parts.stops = parabola_stops(kCotton.b1 - kCotton.b2, kCotton.k0, 6);
   const auto said = [](const std::string& law, const VirginCurve& curve, const LawParameters& given,
                        LawUse use) {
     const std::vector<std::string> texts = unused_parameter_warnings(law, curve, given, use, "linen");
