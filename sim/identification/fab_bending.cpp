@@ -104,9 +104,9 @@ VectorXd stop_errors(const FrictionForm& form, const VectorXd& parameters,
 
 namespace {
 
-// Prior of HB/b2, centred on the middle of the KES pairs of assets/fabrics, which have 18 to 53 [1/m]: the
-// standard deviation of its logarithm is a factor of 2.7.
-constexpr double kFrictionOverSpring = 31, kSpringSpread = 1;
+// HB/b2 that the prior of b2 is centred on [1/m]: the middle of the KES pairs of assets/fabrics, which have
+// 18 to 53.  Its standard deviation is a factor of 2.7 in that ratio and, independently, kMomentSpread in HB.
+constexpr double kFrictionOverSpring = 31, kSpringSpread = 1.8;
 constexpr double kSaturations[] = {3.125, 6.25, 12.5, 25, 50, 100};  // k0 [1/m]
 // Strips of fabrics need fewer than 40 (gauges of 15 to 50 mm); one that needs more takes seconds.
 constexpr long kMostHalvings = 100;
@@ -187,8 +187,7 @@ class BendingModel {
     } catch (const Error&) {
       return VectorXd::Constant(size(), kNone);
     }
-    const StopsLaw sought = law(p);
-    result[rows()] = std::log(kFrictionOverSpring * sought.spring / sought.friction()) / kSpringSpread;
+    result[rows()] = p[0] / kSpringSpread;
     for (int j = 0; j < numbers_; ++j) result[rows() + 1 + j] = p[1 + j] / form_.spreads[j];
     return result;
   }
