@@ -20,6 +20,7 @@ Scene with(const Setting& setting, Scene scene) {
   scene.law = setting.law;
   scene.integrator = setting.integrator;
   scene.implicit_every = setting.implicit_every;
+  scene.force = setting.force;
   scene.precision = setting.precision;
   scene.device = setting.device;
   scene.threads = 1;

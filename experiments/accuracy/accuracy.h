@@ -23,6 +23,7 @@ struct Setting {
   BendingElement element = BendingElement::shape;
   Integrator integrator = Integrator::quasi_static;
   ImplicitEvery implicit_every = ImplicitEvery::substep;
+  ForceConvention force = ForceConvention::energy;
   Precision precision = Precision::fp64;
   DeviceChoice device = DeviceChoice::cpu;
   int triangles = 0;               // asked for; the mesh may have a few others

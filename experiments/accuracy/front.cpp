@@ -18,15 +18,21 @@ std::string duration(double seconds) {
   return fmt::format("{:.2g} ms", 1e3 * seconds);
 }
 
+// "the chapter's method" is that of assets/scenes/chapter-method.toml, "the chapter's splitting" its order of
+// stages with another law, element or force.
+std::string method_name(const Setting& s) {
+  if (s.integrator != Integrator::semi_implicit || s.implicit_every != ImplicitEvery::step)
+    return enum_name(s.integrator);
+  return s.force == ForceConvention::chapter ? "the chapter's method" : "the chapter's splitting";
+}
+
 std::vector<std::string> setting_words(const Solution& solution, const Setting& s) {
   const Setting& base = solution.problem.settings.front();
   std::vector<std::string> words;
   if (is_static(base)) {
     words = {enum_name(s.element), s.mesh};
   } else {
-    words = {s.integrator == Integrator::semi_implicit && s.implicit_every == ImplicitEvery::step
-                 ? "the chapter's"
-                 : enum_name(s.integrator)};
+    words = {method_name(s)};
     if (s.tolerance > 0) words.back() += " adaptive";
     if (s.element != base.element) words.push_back(enum_name(s.element));
     if (s.mesh != base.mesh) words.push_back(s.mesh);

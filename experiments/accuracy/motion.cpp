@@ -50,6 +50,7 @@ Trajectory reference_run(const MotionQuestion& question, const Setting& setting,
   Setting tiny = setting;
   tiny.integrator = Integrator::bdf2;
   tiny.implicit_every = ImplicitEvery::substep;
+  tiny.force = ForceConvention::energy;  // the printed one has no potential
   tiny.step = step;
   tiny.tolerance = 0;
   tiny.precision = Precision::fp64;

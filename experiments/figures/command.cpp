@@ -14,12 +14,13 @@ namespace hysteron::experiments {
 namespace {
 
 // The curves and named points of a figure, one point per row.
-void write_curves(const std::filesystem::path& path, const render::Plot& plot) {
+void write_curves(const std::filesystem::path& path, const Figure& figure) {
+  const render::Plot& plot = figure.plot;
   AtomicFile file(path.string());
   const auto row = [&](const std::string& name, double x, double y) {
     file.stream() << fmt::format("\"{}\",{:.12g},{:.12g}\n", name, x, y);
   };
-  file.stream() << "curve,curvature [1/m],moment [mN]\n";
+  file.stream() << "curve," << figure.columns << "\n";
   for (const render::Series& series : plot.series)
     for (std::size_t i = 0; i < series.x.size() && !series.label.empty(); ++i)
       row(series.label, series.x[i], series.y[i]);
@@ -44,7 +45,7 @@ int run_figures(const CommandLine& line) {
   const std::vector<Figure> all = chapter_figures(scene.fabric);
   Run run(line, options, {{"fabric", to_json(scene)["fabric"]}});
   for (const Figure& figure : all) {
-    write_curves(run.path(figure.name + ".csv"), figure.plot);
+    write_curves(run.path(figure.name + ".csv"), figure);
     if (options.no_images) continue;
     for (const char* ending : {".png", ".svg"}) run.path(figure.name + ending);
     render::write_plot(run.folder() / figure.name, figure.plot);
@@ -65,7 +66,7 @@ int run_figures(const CommandLine& line) {
 
 Experiment figures() {
   return {.name = "figures",
-          .question = "the chapter's Figures 4.2(b), 4.3 and 4.4 from the program's own laws",
+          .question = "the chapter's Figures 4.2 to 4.4 and its Eq. 4.3 from the program's own laws",
           .run = run_figures,
           .own_keys = own_key_descriptions<bind_output_options, fabric_keys>};
 }

@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "sim/base/error.h"
@@ -150,6 +151,88 @@ Figure figure_4_2b(const Chapter& c) {
           plot};
 }
 
+// A bending element in its own plane: the triangles (p2, p3, p0) and (p3, p2, p1), the wing of p1 turned by
+// theta about the edge, seen at a slant so that the dihedral angle shows.  Lengths in cm.
+Figure figure_4_2a(const Chapter& c) {
+  constexpr double kTurn = 50, kDegree = 3.14159265358979323846 / 180, kSlant = 0.45;
+  const double s = std::sin(kTurn * kDegree), cosine = std::cos(kTurn * kDegree);
+  struct Point {
+    double x, y, z;
+  };
+  const auto seen = [&](const Point& p) { return std::array{p.x + kSlant * p.y, 0.6 * kSlant * p.y + p.z}; };
+  const Point p0{-1.0, 0.9, 0}, p1{1.1 * cosine, 1.3, 1.1 * s}, p2{0, 0, 0}, p3{0, 2.4, 0};
+  const Point flat{1.1, 1.3, 0}, foot0{0, 0.9, 0}, foot1{0, 1.3, 0};
+  Plot plot{.title = "Figure 4.2(a): a bending element",
+            .x = {"[cm]", false, -1.2, 2.4},
+            .y = {"[cm]", false, -1, 1.5}};
+  plot.width = 1100;
+  plot.height = 760;
+  plot.equal_scales = plot.key_inside = true;
+  const auto line = [&](const std::string& label, const std::vector<Point>& points, const std::string& color,
+                        Series::Style style = Series::Style::line) {
+    Series series{.label = label, .x = {}, .y = {}, .style = style, .color = color};
+    for (const Point& p : points) series.add(seen(p)[0], seen(p)[1]);
+    plot.series.push_back(std::move(series));
+  };
+  line("triangle of p0", {p2, p3, p0, p2}, kBlue);
+  line("triangle of p1", {p3, p2, p1, p3}, kOrange);
+  line("the same, flat", {p2, flat, p3}, kGrey, Series::Style::dashed);
+  line("", {flat, foot1}, kGrey, Series::Style::dashed);
+  line("heights h0, h1", {p0, foot0}, kGreen, Series::Style::dashed);
+  line("", {p1, foot1}, kGreen, Series::Style::dashed);
+  line("common edge e", {p2, p3}, "#222222");
+  const auto name = [&](const std::string& text, const Point& p, double dx, double dy) {
+    plot.marks.push_back({text, seen(p)[0], seen(p)[1], dx, dy});
+  };
+  name("p₀", p0, -0.8, 0.4);
+  name("p₁", p1, 0.8, 0.4);
+  name("p₂", p2, 0.6, -0.8);
+  name("p₃", p3, -0.8, 0.7);
+  const Point between{0.3 * flat.x + 0.15 * p1.x, foot1.y,
+                      0.15 * p1.z};  // the heights of p1, flat and turned
+  plot.marks.push_back({"θ", seen(between)[0], seen(between)[1], 0, 0, "#555555", false});
+  return {
+      "figure-4-2a",
+      "A bending element: two triangles with the common edge e = p3 − p2, turned against each other by the "
+      "dihedral angle θ about it; h0 and h1 are their heights over the edge. Its curvature is K = (θ − θ0)/h "
+      "with h the mean of the heights at rest (Eq. 4.1). The element does not depend on the fabric (" +
+          c.fabric + " in the other figures).",
+      plot, "x [cm],y [cm]"};
+}
+
+// Eq. 4.3 by difference quotients of the law's own moments.
+Figure stiffness_figure(const Chapter& c) {
+  const double end = 2.2 * c.curve.k0;
+  const Trace up = trace("pabst", c.curve, {end});
+  constexpr double kMicro = 1e6;
+  Plot plot = empty_plot("Eq. 4.3: bending stiffness B(K), " + c.fabric, -1.1 * end, 1.1 * end, 0, 1);
+  plot.y = {"bending stiffness B = dM/dK [µN m]", false, 0, 1.15 * kMicro * c.curve.b1};
+  Series b{.label = "B(K) of the law pabst", .x = {}, .y = {}, .color = kBlue};
+  const auto add = [&](double sign, std::size_t i) {
+    const double dk = up.curvature[i] - up.curvature[i - 1], dm = up.moment[i] - up.moment[i - 1];
+    b.add(sign * (up.curvature[i] + up.curvature[i - 1]) / 2, kMicro * dm / dk);
+  };
+  for (std::size_t i = up.moment.size() - 1; i >= 1; --i) add(-1, i);
+  for (std::size_t i = 1; i < up.moment.size(); ++i) add(1, i);
+  plot.series = {b};
+  for (const double sign : {1.0, -1.0}) {
+    Series limit{
+        .label = "", .x = {}, .y = {}, .style = Series::Style::dashed, .color = kGrey, .line_width = 1.2};
+    limit.add(sign * c.curve.k0, 0);
+    limit.add(sign * c.curve.k0, kMicro * c.curve.b2);
+    plot.series.push_back(limit);
+    plot.marks.push_back({sign > 0 ? "K₀" : "−K₀", sign * c.curve.k0, kMicro * c.curve.b2 / 2, 0.6 * sign, 0,
+                          sign > 0 ? kGreen : kRed, false});
+  }
+  plot.marks.push_back({"b₁", 0, kMicro * c.curve.b1, 0.8, 0.4});
+  plot.marks.push_back({"b₂", c.curve.k0, kMicro * c.curve.b2, 0.8, 0.7});
+  return {"equation-4-3",
+          "The bending stiffness of Eq. 4.3, B(K) = dM/dK of the virgin curve: b1 + 2 c1 |K| up to K0, b2 "
+          "beyond. "
+          "It falls from b1 to b2, which is why b1 ≥ b2 must hold where the chapter prints b1 ≤ b2.",
+          plot, "curvature [1/m],bending stiffness [µN m]"};
+}
+
 Figure figure_4_3(const Chapter& c) {
   const double k0 = c.curve.k0, km = c.full, mm = c.line(km), inner = km - 2 * k0;
   const double m_inner = mm - 2 * c.ma, f = c.residual("prandtl", km, mm);
@@ -260,8 +343,8 @@ Figure figure_4_4b(const Chapter& c) {
           "remain. Its quadratic branch (4.3.2) does not do that. " +
           residuals(c, km) +
           "So sections 4.3.2 and 4.3.3 disagree for small bends. The program keeps the branch "
-          "(`recovery = masing`); `wong` with `recovery = reversible` goes back to o as 4.3.3 has it, with "
-          "some loss on the way.",
+          "(`recovery = masing`); `wong` with `recovery = reversible` goes back to o as 4.3.3 has it, on a "
+          "path that is ours and loses |c1| K³/3, of which the chapter says nothing.",
       plot};
 }
 
@@ -310,7 +393,8 @@ std::vector<Figure> chapter_figures(const Fabric& fabric) {
   }
   const double m0 = curve.friction_moment();
   const Chapter c{fabric.name, curve, m0, curve.elastic_limit_moment(), 2.5 * curve.k0 + m0 / curve.b2};
-  return {figure_4_2b(c), figure_4_3(c), figure_4_4a(c), figure_4_4b(c), figure_4_4c(c), figure_4_4d(c)};
+  return {figure_4_2a(c), figure_4_2b(c), stiffness_figure(c), figure_4_3(c),
+          figure_4_4a(c), figure_4_4b(c), figure_4_4c(c),      figure_4_4d(c)};
 }
 
 }  // namespace hysteron::experiments

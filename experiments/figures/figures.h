@@ -13,9 +13,11 @@ struct Figure {
   std::string name;     // of the files: "figure-4-3"
   std::string caption;  // what is drawn, and where the chapter's text cannot hold as printed
   render::Plot plot;    // series' labels name the curves; marks carry the chapter's letters
+  std::string columns = "curvature [1/m],moment [mN]";  // of the points in its CSV file
 };
 
-// Figures 4.2(b), 4.3, 4.4(a), (b), (c), (d).  Moments in mN, curvatures in 1/m.  Throws Error::invalid_input
+// Figures 4.2(a), 4.2(b), the stiffness of Eq. 4.3, Figures 4.3, 4.4(a), (b), (c), (d).  Moments in mN,
+// curvatures in 1/m.  Throws Error::invalid_input
 // for a fabric without friction (b1 = b2) or without b2: it has no loop, or no residual curvature to draw.
 std::vector<Figure> chapter_figures(const Fabric& fabric);
 

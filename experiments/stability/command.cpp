@@ -2,9 +2,12 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "experiments/stability/ripple.h"
 #include "experiments/stability/stability.h"
 #include "experiments/workbench/app/experiment.h"
 #include "experiments/workbench/app/run.h"
@@ -18,7 +21,7 @@
 namespace hysteron::experiments {
 namespace {
 
-constexpr const char* kLimitSweep = "explicit-limit";
+constexpr const char *kLimitSweep = "explicit-limit", *kRippleSweep = "ripple";
 
 struct StabilityFlags {
   std::string device = "cpu";
@@ -33,7 +36,7 @@ using F = StabilityFlags;
 const KeyRow<F> kRows[] = {
     {"device", at<&F::device>, "", any(), "cpu | cuda", "where cells are simulated"},
     {"integrator", at<&F::integrator>, "", any(), "", "NAME, several separated by commas, or all"},
-    {"law", at<&F::law>, "", any(), "", "of all sweeps; default: linear, prandtl and wong in maps, all in scenes"},
+    {"law", at<&F::law>, "", any(), "", "of all sweeps but chapter-method; default: linear, prandtl and wong in maps, all in scenes"},
     {"sweep", at<&F::sweep>, "", any(), "", "NAME, several separated by commas, or all"},
     {"seconds", at<&F::effort, &CellEffort::seconds>, "s", positive(), "", "simulated time of a cell"},
     {"work", at<&F::effort, &CellEffort::work>, "", positive(), "", "explicit substeps after which a cell's time is cut short; a step of implicit or bdf2 counts 20"},
@@ -179,6 +182,59 @@ void measure_limits(const F& flags, Run& run) {
   if (least_resonant < kMaxRatio) run.metric("undamped_resonance_smallest_ratio", least_resonant);
 }
 
+// plot_ripple-INTEGRATOR: amplitudes over the first against time, of the largest first amplitude.
+void draw_ripples(Run& run, const std::vector<Ripple>& ripples) {
+  std::map<Integrator, render::Plot> plots;
+  for (const Ripple& r : ripples) {
+    if (r.of.amplitude != ripples.front().of.amplitude || r.times.size() < 2) continue;
+    const std::string integrator = enum_name(r.of.integrator);
+    render::Plot& plot = plots[r.of.integrator];
+    plot.title = "Ripple at the highest frequency, " + integrator;
+    plot.x = {"time [s]"};
+    plot.y = {"amplitude over the first", true};
+    plot.series.push_back(
+        {fmt::format("{}, {:g} steps a period", r.of.law, r.of.steps_per_period), r.times, r.amplitudes});
+  }
+  for (const auto& [integrator, plot] : plots) run.plot("plot_ripple-" + enum_name(integrator), plot);
+}
+
+// ripple.csv: a row for each case; ripple-amplitudes.csv: what is drawn of them.  ripple_verdict: whether
+// hysteresis damps what is left at short steps.
+void measure_ripples(const F& flags, Run& run) {
+  const SweepChoice choice = sweep_choice(flags);
+  std::vector<std::string> laws = choice.laws;
+  if (laws.empty()) laws = {"prandtl", "wong"};
+  const std::vector<RippleCase> cases = ripple_cases(choice.integrators, laws, choice.quick);
+  std::vector<Ripple> ripples(cases.size());
+  in_parallel(cases.size(), thread_choice(flags),
+              [&](std::size_t i) { ripples[i] = measure_ripple(cases[i]); });
+  Table table(
+      "integrator,law,amplitude over k0,steps per period,step [s],decay per period [%],with half the step "
+      "[%],"
+      "closed form [%],failed");
+  Table drawn("integrator,law,amplitude over k0,steps per period,time [s],amplitude over the first");
+  for (const Ripple& r : ripples) {
+    const std::string integrator = enum_name(r.of.integrator);
+    table.row({integrator, r.of.law, r.of.amplitude, r.of.steps_per_period, r.step, 100 * r.decay,
+               100 * r.control, std::isfinite(r.closed_form) ? Cell(100 * r.closed_form) : Cell(""),
+               r.failed});
+    for (std::size_t i = 0; i < r.times.size(); ++i)
+      drawn.row({integrator, r.of.law, r.of.amplitude, r.of.steps_per_period, r.times[i], r.amplitudes[i]});
+    if (r.of.amplitude == 1 && r.failed.empty())
+      run.metric(
+          fmt::format("ripple.{}.{}.{:g}_steps_decay_percent", integrator, r.of.law, r.of.steps_per_period),
+          100 * r.decay);
+  }
+  table.write(run.path("ripple.csv"));
+  drawn.write(run.path("ripple-amplitudes.csv"));
+  if (const RippleVerdict verdict = ripple_verdict(ripples); std::isfinite(verdict.excess)) {
+    run.metric("ripple_excess_least_percent", 100 * verdict.excess);
+    run.metric("ripple_control_percent", 100 * verdict.control);
+    run.metric("ripple_verdict", std::string(verdict.damps() ? "hysteresis damps" : "no difference shown"));
+  }
+  if (!flags.options.no_images) draw_ripples(run, ripples);
+}
+
 int run_stability(const CommandLine& line) {
   F flags;
   set_keys(line, option_keys(flags), [&] {
@@ -187,11 +243,13 @@ int run_stability(const CommandLine& line) {
   });
   std::vector<std::string> names = split(flags.sweep);
   const bool with_limit = std::erase(names, kLimitSweep) > 0 || flags.sweep == "all";
+  const bool with_ripple = std::erase(names, kRippleSweep) > 0 || flags.sweep == "all";
   const std::vector<Sweep> sweeps = named_sweeps(names, sweep_choice(flags));
 
   Run run(line, flags.options, to_json(bind(kRows, flags)));
   if (!sweeps.empty()) run.reserve({"cells.csv"});
   if (with_limit) run.reserve({"limit.csv"});
+  if (with_ripple) run.reserve({"ripple.csv", "ripple-amplitudes.csv"});
   if (!sweeps.empty()) {
     const Table cells = cell_table(tried(flags, sweeps, run));
     cells.write(run.path("cells.csv"));
@@ -199,6 +257,7 @@ int run_stability(const CommandLine& line) {
     if (!flags.options.no_images) draw_maps(run, sweeps, cells);
   }
   if (with_limit) measure_limits(flags, run);
+  if (with_ripple) measure_ripples(flags, run);
   finish_with_report(run);
   return 0;
 }

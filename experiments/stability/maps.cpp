@@ -67,8 +67,10 @@ Scene falling_square() {
   return scene;
 }
 
-Sweep against_step(const NumberSweep& of, const SweepChoice& choice) {
-  Sweep sweep{of.name, of.title, {of.label, {}}, {"step", {}}, choice.few_laws(), {}};
+// A map for each variant, of which `vary` makes a scene that has its value and its step.
+Sweep against_step(const NumberSweep& of, const SweepChoice& choice, const std::vector<std::string>& variants,
+                   const std::function<void(Scene& scene, int variant)>& vary) {
+  Sweep sweep{of.name, of.title, {of.label, {}}, {"step", {}}, variants, {}};
   std::vector<double> values, steps;
   for (int e = of.from; e <= of.to; e += choice.quick ? of.to - of.from : 1) {
     values.push_back(std::pow(10.0, e));
@@ -79,13 +81,27 @@ Sweep against_step(const NumberSweep& of, const SweepChoice& choice) {
     steps.push_back(step.seconds);
     sweep.y.ticks.push_back(step.name);
   }
-  sweep.at = [set = of.set, values, steps, laws = sweep.variants](int variant, int column, int row) {
+  sweep.at = [set = of.set, values, steps, vary](int variant, int column, int row) {
     Attempt attempt{falling_square()};
     set(attempt.scene, values[column]);
     attempt.scene.step = steps[row];
-    attempt.scene.law = laws[variant];
+    vary(attempt.scene, variant);
     return attempt;
   };
+  return sweep;
+}
+
+// The chapter's method, as printed and with the force that does the work of the moment.
+Sweep chapter_sweep(const SweepChoice& choice) {
+  NumberSweep of = kNumberSweeps[0];
+  of.name = "chapter-method";
+  of.title = "The chapter's method: bending rigidity b2 (b1 = 3.1 b2) against the step";
+  Sweep sweep =
+      against_step(of, choice, {"printed force", "force of the energy"}, [](Scene& scene, int variant) {
+        apply_scene_file(scene, "chapter-method");
+        if (variant == 1) scene.force = ForceConvention::energy;
+      });
+  sweep.integrators = {enum_name(Integrator::semi_implicit)};
   return sweep;
 }
 
@@ -93,7 +109,11 @@ Sweep against_step(const NumberSweep& of, const SweepChoice& choice) {
 
 std::vector<Sweep> number_sweeps(const SweepChoice& choice) {
   std::vector<Sweep> sweeps;
-  for (const NumberSweep& of : kNumberSweeps) sweeps.push_back(against_step(of, choice));
+  const std::vector<std::string> laws = choice.few_laws();
+  for (const NumberSweep& of : kNumberSweeps)
+    sweeps.push_back(
+        against_step(of, choice, laws, [laws](Scene& scene, int variant) { scene.law = laws[variant]; }));
+  sweeps.push_back(chapter_sweep(choice));
   return sweeps;
 }
 

@@ -89,6 +89,15 @@ std::string names_of(const std::vector<Sweep>& sweeps) {
   return join(names, ", ");
 }
 
+std::vector<std::string> integrators_of(const Sweep& sweep, const SweepChoice& choice) {
+  if (sweep.integrators.empty()) return choice.integrators;
+  std::vector<std::string> common;
+  for (const std::string& integrator : choice.integrators)
+    if (std::count(sweep.integrators.begin(), sweep.integrators.end(), integrator))
+      common.push_back(integrator);
+  return common;
+}
+
 }  // namespace
 
 std::vector<std::string> SweepChoice::few_laws() const {
@@ -117,12 +126,21 @@ Finding find_out(const Attempt& attempt, const CellEffort& effort) {
 std::vector<Sweep> named_sweeps(const std::vector<std::string>& names, const SweepChoice& choice) {
   std::vector<Sweep> all = number_sweeps(choice), sweeps;
   for (Sweep& sweep : scene_sweeps(choice)) all.push_back(std::move(sweep));
-  if (names == std::vector<std::string>{"all"}) return all;
+  if (names == std::vector<std::string>{"all"}) {
+    std::erase_if(all, [&](const Sweep& sweep) { return integrators_of(sweep, choice).empty(); });
+    return all;
+  }
   for (const std::string& name : names) {
     const auto found =
         std::find_if(all.begin(), all.end(), [&](const Sweep& sweep) { return name == sweep.name; });
     if (found == all.end())
-      throw Error::invalid_input("--sweep " + name + " must be of " + names_of(all)).with_key("sweep", name);
+      throw Error::invalid_input("--sweep " + name + " must be of " + names_of(all) +
+                                 ", explicit-limit, ripple")
+          .with_key("sweep", name);
+    if (integrators_of(*found, choice).empty())
+      throw Error::invalid_input("--sweep " + name + " needs --integrator " + join(found->integrators, ", ") +
+                                 ", not " + join(choice.integrators, ", "))
+          .with_key("integrator", join(choice.integrators, ","));
     sweeps.push_back(*found);
   }
   return sweeps;
@@ -132,7 +150,7 @@ std::vector<SweepCell> untried_cells(const std::vector<Sweep>& sweeps, const Swe
   std::vector<SweepCell> cells;
   for (const Sweep& sweep : sweeps)
     for (std::size_t v = 0; v < sweep.variants.size(); ++v)
-      for (const std::string& integrator : choice.integrators)
+      for (const std::string& integrator : integrators_of(sweep, choice))
         for (std::size_t row = 0; row < sweep.y.ticks.size(); ++row)
           for (std::size_t column = 0; column < sweep.x.ticks.size(); ++column) {
             cells.push_back({sweep.name, integrator, sweep.variants[v], sweep.x.ticks[column],

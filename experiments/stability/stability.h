@@ -66,6 +66,7 @@ struct Sweep {
   render::CellAxis x, y;
   std::vector<std::string> variants;  // "prandtl", "hinge"
   std::function<Attempt(int variant, int column, int row)> at;
+  std::vector<std::string> integrators = {};  // that it is about; empty: any
 };
 
 // What the sweeps cover.
@@ -79,7 +80,8 @@ struct SweepChoice {
 };
 std::vector<Sweep> number_sweeps(const SweepChoice& choice);  // maps.cpp
 std::vector<Sweep> scene_sweeps(const SweepChoice& choice);   // scenes.cpp
-// Of both those named, in this order, or "all"; Error::invalid_input for an unknown name.
+// Of both those named, in this order, or "all" that are about one of the choice's integrators.
+// Error::invalid_input for an unknown name, and for one that is about none of these integrators.
 std::vector<Sweep> named_sweeps(const std::vector<std::string>& names, const SweepChoice& choice);
 
 // A cell of a map with what was found in it.

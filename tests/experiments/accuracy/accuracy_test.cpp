@@ -54,6 +54,24 @@ TEST(ObservedOrders, AreThoseOfTheErrors) {
 
 const Effort kQuick{true, DeviceChoice::cpu};
 
+// Of the crease: law, element, force and order of stages, beside the same splitting of the default model.
+TEST(Crease, HasTheChaptersMethodAsPrintedUnderItsOwnName) {
+  Solution solution{crease_problem(kQuick), {}};
+  std::vector<std::string> names;
+  for (const Setting& s : solution.problem.settings) {
+    names.push_back(describe(solution, s));
+    if (s.force != ForceConvention::chapter) continue;
+    EXPECT_EQ(s.law, "wong");
+    EXPECT_EQ(s.element, BendingElement::hinge);
+    EXPECT_EQ(s.implicit_every, ImplicitEvery::step);
+    EXPECT_FALSE(solution.comparable(s)) << "it answers another model's question";
+  }
+  for (const char* name : {"the chapter's splitting, 60 triangles, 1/60 s",
+                           "the chapter's method, hinge, wong, 60 triangles, 1/60 s",
+                           "the chapter's splitting, hinge, wong, 60 triangles, 1/60 s"})
+    EXPECT_EQ(std::count(names.begin(), names.end(), name), 1) << name;
+}
+
 // Second order: a quarter of the triangles has four times the error.
 TEST(Sag, ConvergesWithTheMesh) {
   const Problem problem = sag_problem(kQuick);

@@ -39,22 +39,24 @@ double distance_to_curves(const Figure& figure, double curvature, double moment)
   return nearest;
 }
 
-TEST(ChapterFigures, AreTheSixWithTheLettersOfTheChapter) {
+TEST(ChapterFigures, AreAllOfTheChapterWithItsLetters) {
   std::vector<std::string> names;
   std::set<std::string> letters;
   for (const Figure& figure : cotton_figures()) {
     names.push_back(figure.name);
     for (const render::Mark& mark : figure.plot.marks) letters.insert(mark.text);
   }
-  EXPECT_EQ(names, (std::vector<std::string>{"figure-4-2b", "figure-4-3", "figure-4-4a", "figure-4-4b",
-                                             "figure-4-4c", "figure-4-4d"}));
-  for (const char* letter : {"a", "a′", "b", "b′", "c", "d", "f", "g", "h", "o", "K₀", "M₀", "Mₐ", "Kₘ"})
+  EXPECT_EQ(names, (std::vector<std::string>{"figure-4-2a", "figure-4-2b", "equation-4-3", "figure-4-3",
+                                             "figure-4-4a", "figure-4-4b", "figure-4-4c", "figure-4-4d"}));
+  for (const char* letter : {"p₀", "p₁", "p₂", "p₃", "θ", "b₁", "b₂", "a",  "a′", "b", "b′",
+                             "c",  "d",  "f",  "g",  "h", "o",  "K₀", "M₀", "Mₐ", "Kₘ"})
     EXPECT_TRUE(letters.count(letter)) << letter;
 }
 
 TEST(ChapterFigures, HaveTheirPointsOnTheirCurves) {
   int points = 0;
   for (const Figure& figure : cotton_figures()) {
+    if (figure.name == "equation-4-3") continue;  // its marks name stiffnesses
     for (const render::Mark& mark : figure.plot.marks) {
       const bool letter = std::string("abcdfgh").find(mark.text[0]) != std::string::npos;
       if (!mark.dot || !letter || (figure.name == "figure-4-4b" && mark.text == "a")) continue;
@@ -82,9 +84,31 @@ TEST(ChapterFigures, HaveTheChaptersDistancesBetweenPoints) {
   }
 }
 
+const Figure& figure_named(const std::string& name) {
+  for (const Figure& figure : cotton_figures())
+    if (figure.name == name) return figure;
+  throw Error::invalid_input("no figure " + name);
+}
+
 TEST(ChapterFigures, SayWhereTheChapterCannotHoldAsPrinted) {
-  EXPECT_TRUE(says(cotton_figures()[0].caption, "b1 ≥ b2"));
-  EXPECT_TRUE(says(cotton_figures()[3].caption, "disagree"));
+  EXPECT_TRUE(says(figure_named("figure-4-2b").caption, "b1 ≥ b2"));
+  EXPECT_TRUE(says(figure_named("figure-4-4b").caption, "disagree"));
+}
+
+// Eq. 4.3 of Eq. 4.2: b1 + 2 c1 |K| up to K0, then b2.  Its points are middles of the law's sampled legs,
+// where the difference quotient of a parabola is exact; the one leg that K0 lies in is left out.
+TEST(ChapterFigures, HaveTheStiffnessThatIsTheSlopeOfTheVirginCurve) {
+  const VirginCurve curve = read_fabric("cotton-broad-k50", "test").fabric.virgin_curve();
+  const render::Series& b = figure_named("equation-4-3").plot.series[0];
+  const double leg = b.x[b.x.size() - 1] - b.x[b.x.size() - 2];
+  constexpr double kRounding =
+      1e-9;  // of the largest stiffness: differences of moments over a 200th of the leg
+  for (std::size_t i = 0; i < b.x.size(); ++i) {
+    const double k = std::abs(b.x[i]);
+    if (std::abs(k - curve.k0) < leg) continue;
+    const double expected = k < curve.k0 ? curve.b1 + 2 * curve.c1() * k : curve.b2;
+    EXPECT_NEAR(b.y[i], 1e6 * expected, kRounding * 1e6 * curve.b1) << b.x[i];
+  }
 }
 
 TEST(ChapterFigures, OfAFabricWithoutFrictionAreRefused) {
