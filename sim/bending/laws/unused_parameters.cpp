@@ -10,7 +10,7 @@ std::string unused(const std::string& parameter, const std::string& why) {
 // The memory of a law whose fabric has stops of its own.
 std::string stops_text(const BendingParts& parts, const std::string& fabric) {
   return "the " + std::to_string(parts.stops.size()) + " stops of " + fabric +
-         " are the law's memory; fabric.stops-median = 0, or a fabric without stops, leaves it to the "
+         " are the law's memory; a fabric without stops leaves it to the "
          "parameter";
 }
 

@@ -173,16 +173,16 @@ TEST(Fold, RepeatsWithoutFatigueAndWeakensAndSetsWithIt) {
   EXPECT_TRUE(std::is_sorted(set.begin(), set.end()));
 }
 
-TEST(Fold, OfALawThatCannotGoOnIsMarkedOnThePageOfTheOthers) {
-  const FinishedRun run(
-      "fold --quick --fold.law-alone --law linear,nonsense,prandtl --fold.fatigue 0 --no-images --quiet");
-  const Table table = read_table(run.out / "table.csv");
-  ASSERT_EQ(table.rows.size(), 3u);
-  EXPECT_TRUE(says(table.rows[1].back(), "law = nonsense must be"));
-  for (const std::size_t row : {0, 2}) {
-    EXPECT_EQ(table.rows[row].back(), "");
-    EXPECT_NE(table.rows[row][1], "");
-  }
+// Before any of the others has run.
+TEST(Fold, OfSeveralLawsRefusesTheOneThatIsNone) {
+  const Folder folder;
+  const Outcome outcome =
+      ended(2,
+            "fold --quick --fold.law-alone --law linear,nonsense,prandtl --fold.fatigue 0 "
+            "--no-images --quiet" +
+                out_flag(folder.path() / "out"));
+  EXPECT_TRUE(says(outcome.err, "nonsense: law = nonsense must be"));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "out" / "table.csv"));
 }
 
 TEST(Fold, OfTheLawAloneWritesItsCyclesAndMetrics) {

@@ -47,8 +47,11 @@ TEST_F(KesCommand, WarnsOfUnusualFabricsAndOfParametersThatChangeNothing) {
   EXPECT_TRUE(run({}).value("warnings", Json::array()).empty());
   const std::string unusual = run({{"fabric.b1", "0.3"}})["warnings"].dump();
   EXPECT_TRUE(says(unusual, "fabric.b1 = 0.3 N m (--fabric.b1) is unusual"));
-  const std::string unused = run({{"param", "stops=4"}})["warnings"].dump();
-  EXPECT_TRUE(says(unused, "param stops is not used: the 8 stops of cotton-broad are the law's memory"));
+  const std::string unused = run({{"param", "stops=4"},
+                                  {"fabric.bending.stops.thresholds", "4 20"},
+                                  {"fabric.bending.stops.stiffnesses", "3e-5 5e-6"}})["warnings"]
+                                 .dump();
+  EXPECT_TRUE(says(unused, "param stops is not used: the 2 stops of cotton-broad are the law's memory"));
   const std::string tension = run({{"test", "tension"}, {"fabric.warp", "2e6"}})["warnings"].dump();
   EXPECT_TRUE(says(tension, "fabric.warp = 2e+06 N/m (--fabric.warp) is unusual"));
 }

@@ -33,7 +33,7 @@ TEST(ResultWords, NameTheNumberItsUnitAndItsErrors) {
 TEST(ResultWords, OfAFitShowItsStandardError) {
   const Manifest manifest =
       manifest_with("swing", {{"decay_per_turn_percent", 2.0412}, {"decay_per_turn_percent_stderr", 0.0523}});
-  EXPECT_TRUE(says(result_words(manifest), "decay per turn                2.04 % ± 0.05\n"));
+  EXPECT_TRUE(says(result_words(manifest), "mean loss in half a period of the run 2.04 % ± 0.05\n"));
 }
 
 TEST(ResultWords, SayAloudThatTheClothDidNotComeToRest) {
