@@ -188,5 +188,26 @@ TEST(Kes, ReadsTheStopsOfAFabricByTheirClosedForms) {
   EXPECT_NEAR(kes_pair(fabric).loop_width, (up - down + back - lower) / 2, kKesRounding * read.loop_width);
 }
 
+// A comparison of these laws is one of memory: the tester reads the same B and 2HB of all of them.
+TEST(KesFabric, ReadsItsPublishedPairUnderEveryLawOfThreeNumbers) {
+  constexpr double kRead = 5e-3;  // relative; dahl nears its friction moment exponentially
+  KesProtocol protocol;
+  protocol.cycles = 1;
+  protocol.minor_loops = false;
+  const KesWalk walk = walk_to({250, -250, 250}, protocol);
+  for (const char* name :
+       {"cotton-broad", "wool-tropical", "polyester-tropical", "polyester-faille", "denim-c-friction"}) {
+    const Fabric fabric = read_fabric(name, "test").fabric;
+    const double b = fabric.published.at("B").value * kGramForceSquareCentimetrePerCentimetre,
+                 width = fabric.published.at("2HB").value * kGramForceCentimetrePerCentimetre;
+    for (const char* law : {"prandtl", "wong", "bilinear", "dahl", "chapman"}) {
+      const KesReading read =
+          read_loop(protocol, walk, run_law({law, fabric.virgin_curve(), {}}, walk.rows).moment);
+      EXPECT_NEAR(read.rigidity / b, 1, kRead) << name << " " << law;
+      EXPECT_NEAR(read.loop_width / width, 1, kRead) << name << " " << law;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace hysteron
