@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "experiments/crease/specimen.h"
+#include "experiments/specimens/cantilever_strip.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -51,7 +52,7 @@ std::vector<double> growing_steps(const CreaseTimes& times, double step, double 
 LawOfCrease::LawOfCrease(const Crease& crease)
     : crease_(crease),
       triangles_(crease.cloth.mesh.faces(),
-                 LawWalk({crease.scene.law, crease.scene.fabric.virgin_curve(), crease.scene.param})) {}
+                 LawWalk({crease.scene.law, curve_along(crease.scene), crease.scene.param})) {}
 
 void LawOfCrease::bend(const std::vector<double>& along, double seconds) {
   for (std::size_t f = 0; f < triangles_.size(); ++f) triangles_[f].to({along[f], seconds});

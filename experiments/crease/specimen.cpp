@@ -137,11 +137,16 @@ double Crease::opening(const std::vector<Eigen::Vector3d>& x) const {
   const auto along = [&](std::size_t i) {
     return mesh.pattern.empty() ? mesh.rest[i].x() : mesh.pattern[i].x();
   };
+  // Of the columns between the two, or of the nearest one where none is.
   const auto middle = [&](double from, double to) {
+    constexpr double kSameColumn = 1e-9;  // [m]
+    const auto beside = [&](std::size_t i) { return std::max({0.0, from - along(i), along(i) - to}); };
+    double nearest = beside(0);
+    for (std::size_t i = 1; i < x.size(); ++i) nearest = std::min(nearest, beside(i));
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     int count = 0;
     for (std::size_t i = 0; i < x.size(); ++i)
-      if (along(i) >= from && along(i) <= to) sum += x[i], ++count;
+      if (beside(i) <= nearest + (nearest > 0 ? kSameColumn : 0)) sum += x[i], ++count;
     return Eigen::Vector3d(sum / count);
   };
   const Eigen::Vector3d far =

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "experiments/specimens/cantilever_strip.h"
 #include "sim/reference/kes.h"
 
 namespace hysteron::experiments {
@@ -18,7 +19,8 @@ LawPoint bend(LawWalk& walk, double from, double to, int steps, double seconds) 
   return end;
 }
 
-LawRequest scene_law(const Scene& scene) { return {scene.law, scene.fabric.virgin_curve(), scene.param}; }
+// Along the strip, whatever the angle of its warp.
+LawRequest scene_law(const Scene& scene) { return {scene.law, curve_along(scene), scene.param}; }
 
 }  // namespace
 

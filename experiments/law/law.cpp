@@ -5,11 +5,13 @@
 #include <cmath>
 #include <filesystem>
 #include <iostream>
+#include <optional>
 
 #include "experiments/workbench/app/experiment.h"
 #include "experiments/workbench/app/run_files.h"
 #include "sim/base/csv.h"
 #include "sim/base/error.h"
+#include "sim/base/number_in.h"
 #include "sim/bending/laws/law_run.h"
 #include "sim/bending/laws/recovery.h"
 #include "sim/bending/laws/unused_parameters.h"
@@ -196,7 +198,14 @@ LawFlags read_flags(const CommandLine& line) {
   const auto apply = [&](const Flag& flag) { assign_text(keys, flag.path, flag.text, "--" + flag.path); };
   for (const Flag& flag : line.flags)
     if (flag.path == "fabric") apply(flag);
-  flags.curve = read_fabric(flags.fabric, "--fabric").fabric.virgin_curve();
+  Fabric fabric = read_fabric(flags.fabric, "--fabric").fabric;
+  for (const Flag& flag : line.flags) {
+    const std::optional<double> k0 = flag.path == "k0" ? number_in(flag.text) : std::nullopt;
+    if (!k0 || !fabric.kes.gives_numbers()) continue;
+    fabric.k0 = *k0;
+    fabric.follow_kes();  // B and 2HB stay
+  }
+  flags.curve = fabric.virgin_curve();
   for (const Flag& flag : line.flags) apply(flag);
   drop_stops_unless_asked_for(line, flags);
   if (flags.in.empty() || flags.out.empty()) throw Error::invalid_input("needs --in K.csv and --out M.csv");

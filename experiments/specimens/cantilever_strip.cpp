@@ -176,6 +176,21 @@ VirginCurve strip_curve(const Scene& scene) {
   return curve;
 }
 
+VirginCurve curve_along(const Scene& scene) {
+  VirginCurve curve = strip_curve(scene);
+  const double q = rigidity_along(scene), root = std::sqrt(q);  // M = q^1/2 M_law(q^1/2 K)
+  curve.b1 *= q;
+  curve.b2 *= q;
+  curve.k0 /= root;
+  BendingParts& parts = curve.parts;
+  for (double& threshold : parts.stops.thresholds) threshold /= root;
+  for (double& stiffness : parts.stops.stiffnesses) stiffness *= q;
+  for (double& stiffness : parts.branches.stiffnesses) stiffness *= q;
+  parts.set.yield /= root;
+  parts.set.hardening *= q;
+  return curve;
+}
+
 HeavyStrip strip_elastica(const Scene& scene, double length) {
   HeavyStrip strip;
   strip.law = {scene.law, strip_curve(scene), scene.param};

@@ -200,6 +200,11 @@ std::vector<std::string> fabric_warnings(const Scene& scene) {
   });
   for (const Spectrum* stops : {&scene.fabric.bending.stops, &scene.fabric.bending.weft_stops})
     if (const std::string warning = threshold_warning(*stops); !warning.empty()) warnings.push_back(warning);
+  const Fabric& fabric = scene.fabric;
+  if (fabric.kes.gives_numbers() && fabric.k0 > KesWindow().slope_from)
+    warnings.push_back(shown(scene, "fabric.k0", fabric.k0, "1/m") + " lies in the window of KES-FB2, from " +
+                       number_text(KesWindow().slope_from) +
+                       " 1/m: it reads another B and 2HB than fabric.kes-b and fabric.kes-2hb");
   return warnings;
 }
 

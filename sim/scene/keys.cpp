@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "sim/base/error.h"
 #include "sim/bending/laws/law_parameters.h"
 #include "sim/scene/fabric_reader.h"
 
@@ -235,12 +236,31 @@ bool follows_from_pair(const Fabric& fabric) {
          follows.bending.stops.stiffnesses == fabric.bending.stops.stiffnesses;
 }
 
+// One source that states the pair and other numbers than follow from it says two things at once.
+void refuse_numbers_beside_pair(const Scene& scene) {
+  const Fabric& fabric = scene.fabric;
+  if (!fabric.kes.gives_numbers()) return;
+  Fabric follows = fabric;
+  follows.follow_kes();
+  const auto refuse = [&](const std::string& key) {
+    throw Error::invalid_input("fabric." + key + " and fabric.kes-b with fabric.kes-2hb say two frictions: " +
+                               "b1 and b2 follow from the pair and k0 (" +
+                               key_origin(scene, "fabric." + key) + ")")
+        .with_key("fabric." + key, "");
+  };
+  if (fabric.b1 != follows.b1 && stand_together(scene, "b1", "kes-b")) refuse("b1");
+  if (fabric.b2 != follows.b2 && stand_together(scene, "b2", "kes-b")) refuse("b2");
+  if (!fabric.bending.stops.empty() && stand_together(scene, "bending.stops.thresholds", "kes-b"))
+    refuse("bending.stops.thresholds");
+}
+
 // Friction is said by KES-FB2's pair, with k0 or a shape, or by b1 with b2 and k0, or by stops: by what was
 // set last.  A number that follows from what is said already changes nothing.
 void keep_friction_whole(bool was_shaped, const std::string& set, Scene& scene) {
   Fabric& fabric = scene.fabric;
   if (set.starts_with("kes-") || set == "stops-median" || set == "stops-spread") {
     if (was_shaped && !fabric.kes.on()) fabric.bending.stops = {};
+    refuse_numbers_beside_pair(scene);
     return fabric.follow_kes();
   }
   if (set == "k0" && fabric.kes.gives_numbers()) return fabric.follow_kes();
@@ -249,6 +269,7 @@ void keep_friction_whole(bool was_shaped, const std::string& set, Scene& scene) 
   if (!numbers && !stops) return;
   if (!fabric.kes.on() && !fabric.kes.gives_numbers()) return reconcile_stops(set, scene);
   if (follows_from_pair(fabric)) return fabric.follow_kes();
+  refuse_numbers_beside_pair(scene);
   const bool shaped = fabric.kes.on();
   fabric.kes = {};
   if (numbers && shaped) fabric.bending.stops = {};

@@ -74,6 +74,35 @@ TEST(CreaseSpecimen, KnowsWhatTheLawAloneKeeps) {
   EXPECT_NEAR(opening({1000}), 180, 1e-9);
 }
 
+// A strip along weft bends by the rigidity of weft, q: that is M = q^1/2 M_law(q^1/2 K), the law of other
+// numbers.
+TEST(CreaseSpecimen, AlongWeftKeepsWhatTheLawOfWeftKeeps) {
+  constexpr double kRounding = 1e-9;
+  const auto opening = [](const Scene& scene) {
+    const Crease crease = creased(scene, {}, 1.4e-3);
+    LawOfCrease law(crease);
+    law.bend(std::vector<double>(crease.cloth.mesh.faces(), 30), 0.1);
+    return law.opening();
+  };
+  Scene across = small_scene(), numbers = small_scene();
+  const double q = across.fabric.weft_bending = 0.4;
+  across.cloth.warp_angle = 90;
+  numbers.fabric.b1 *= q;
+  numbers.fabric.b2 *= q;
+  numbers.fabric.k0 /= std::sqrt(q);
+  EXPECT_NEAR(opening(across), opening(numbers), kRounding);
+  EXPECT_GT(std::abs(opening(across) - opening(small_scene())), 1);
+}
+
+// The windows at the ends of the limbs are narrower than the columns of a long limb.
+TEST(CreaseSpecimen, HasAnOpeningWhereNoColumnLiesInAWindow) {
+  Scene scene = small_scene();
+  scene.cloth.length = 0.12;
+  scene.triangles = 60;
+  const Crease crease = creased(scene, {}, 1.4e-3);
+  EXPECT_NEAR(crease.opening(crease.cloth.start), 180, 1e-6);
+}
+
 // Both laws by one command.
 TEST(Crease, OpensWithoutAnIntersectionAndKeepsWhatTheLawKeeps) {
   const FinishedRun run(

@@ -53,6 +53,22 @@ TEST(FrictionOfAFabric, IsWhatWasSetLast) {
   EXPECT_EQ(scene.fabric.bending.stops.thresholds.back(), 10);
 }
 
+// In any order: what one command line says twice is refused.
+TEST(FrictionOfAFabric, IsNotSaidTwiceByOneSource) {
+  using Flags = std::vector<Flag>;
+  const Flags pair = {{"fabric.kes-b", "1e-5"}, {"fabric.kes-2hb", "1e-3"}};
+  for (const Flags& other : {Flags{{"fabric.b1", "5e-5"}}, Flags{{"fabric.b2", "2e-5"}},
+                             Flags{{"fabric.bending.stops.thresholds", "4 15"},
+                                   {"fabric.bending.stops.stiffnesses", "9e-6 5e-6"}}})
+    for (const bool pair_first : {true, false}) {
+      Flags flags = pair_first ? pair : other;
+      const Flags& rest = pair_first ? other : pair;
+      flags.insert(flags.end(), rest.begin(), rest.end());
+      Scene scene = default_scene("cotton-broad");
+      EXPECT_TRUE(says(refusal([&] { apply_flags(scene, flags); }), "say two frictions")) << other[0].path;
+    }
+}
+
 // Stops and the three numbers that laws without stops take are one friction.
 TEST(FrictionOfAFabric, OfStopsIsThatOfItsThreeNumbers) {
   Scene scene = default_scene("cotton-broad-k50");
