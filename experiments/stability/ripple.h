@@ -35,12 +35,14 @@ inline constexpr int kRipplePeriods = 10;
 // thrown.
 Ripple measure_ripple(const RippleCase& of);
 
-// Whether hysteresis damps: at the shortest step, for each integrator and amplitude, the least by which the
-// decay of a law with friction exceeds that of `linear`, and what half the step changes in both.
+// Whether hysteresis damps at the shortest step: of each integrator, amplitude and law with friction, by how
+// much its decay exceeds that of `linear`, beside what half the step changes in that.  Of all the one that
+// shows least.
 struct RippleVerdict {
   double excess = 0;   // parts of an amplitude per period
-  double control = 0;  // largest change by half the step, of the two decays together
-  bool damps() const { return excess > control; }
+  double control = 0;  // change of the excess by half the step
+  double margin() const { return excess - control; }
+  bool damps() const { return margin() > 0; }
 };
 RippleVerdict ripple_verdict(const std::vector<Ripple>& ripples);
 

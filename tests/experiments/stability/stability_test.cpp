@@ -176,11 +176,11 @@ TEST(Ripple, VerdictIsOnlyGivenAboveItsControl) {
   };
   const Ripple coarse = made_up("linear", 20, 0.9, 0.1);
   const RippleVerdict shown =
-      ripple_verdict({coarse, made_up("linear", 80, 0.02, 0.01), made_up("prandtl", 80, 0.2, 0.19)});
+      ripple_verdict({coarse, made_up("linear", 80, 0.02, 0.01), made_up("prandtl", 80, 0.2, 0.17)});
   EXPECT_NEAR(shown.excess, 0.18, 1e-12);
   EXPECT_NEAR(shown.control, 0.02, 1e-12);
   EXPECT_TRUE(shown.damps());
-  EXPECT_FALSE(ripple_verdict({made_up("linear", 80, 0.18, 0.1), made_up("prandtl", 80, 0.2, 0.1)}).damps());
+  EXPECT_FALSE(ripple_verdict({made_up("linear", 80, 0.18, 0.1), made_up("prandtl", 80, 0.2, 0.15)}).damps());
 }
 
 // A hollow sphere closes on a sheet of 128 triangles to 0.3 of its radius, with friction.
