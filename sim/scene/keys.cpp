@@ -236,22 +236,25 @@ bool follows_from_pair(const Fabric& fabric) {
          follows.bending.stops.stiffnesses == fabric.bending.stops.stiffnesses;
 }
 
-// One source that states the pair and other numbers than follow from it says two things at once.
-void refuse_numbers_beside_pair(const Scene& scene) {
+// One source that states the pair and other numbers than follow from it says two things at once:
+// check_scene() refuses it, unless a shape, which may be set later, makes these numbers follow.
+void note_numbers_beside_pair(Scene& scene) {
   const Fabric& fabric = scene.fabric;
+  if (fabric.kes.on()) scene.origin.erase(kSaidTwice);
   if (!fabric.kes.gives_numbers()) return;
   Fabric follows = fabric;
   follows.follow_kes();
-  const auto refuse = [&](const std::string& key) {
-    throw Error::invalid_input("fabric." + key + " and fabric.kes-b with fabric.kes-2hb say two frictions: " +
-                               "b1 and b2 follow from the pair and k0 (" +
-                               key_origin(scene, "fabric." + key) + ")")
-        .with_key("fabric." + key, "");
+  const auto note = [&](const std::string& key) {
+    scene.origin[kSaidTwice] =
+        "fabric." + key +
+        " and fabric.kes-b with fabric.kes-2hb say two frictions: b1 and b2 follow from "
+        "the pair and k0 (" +
+        key_origin(scene, "fabric." + key) + ")";
   };
-  if (fabric.b1 != follows.b1 && stand_together(scene, "b1", "kes-b")) refuse("b1");
-  if (fabric.b2 != follows.b2 && stand_together(scene, "b2", "kes-b")) refuse("b2");
   if (!fabric.bending.stops.empty() && stand_together(scene, "bending.stops.thresholds", "kes-b"))
-    refuse("bending.stops.thresholds");
+    note("bending.stops.thresholds");
+  if (fabric.b2 != follows.b2 && stand_together(scene, "b2", "kes-b")) note("b2");
+  if (fabric.b1 != follows.b1 && stand_together(scene, "b1", "kes-b")) note("b1");
 }
 
 // Friction is said by KES-FB2's pair, with k0 or a shape, or by b1 with b2 and k0, or by stops: by what was
@@ -260,7 +263,7 @@ void keep_friction_whole(bool was_shaped, const std::string& set, Scene& scene) 
   Fabric& fabric = scene.fabric;
   if (set.starts_with("kes-") || set == "stops-median" || set == "stops-spread") {
     if (was_shaped && !fabric.kes.on()) fabric.bending.stops = {};
-    refuse_numbers_beside_pair(scene);
+    note_numbers_beside_pair(scene);
     return fabric.follow_kes();
   }
   if (set == "k0" && fabric.kes.gives_numbers()) return fabric.follow_kes();
@@ -269,7 +272,7 @@ void keep_friction_whole(bool was_shaped, const std::string& set, Scene& scene) 
   if (!numbers && !stops) return;
   if (!fabric.kes.on() && !fabric.kes.gives_numbers()) return reconcile_stops(set, scene);
   if (follows_from_pair(fabric)) return fabric.follow_kes();
-  refuse_numbers_beside_pair(scene);
+  note_numbers_beside_pair(scene);
   const bool shaped = fabric.kes.on();
   fabric.kes = {};
   if (numbers && shaped) fabric.bending.stops = {};

@@ -42,6 +42,8 @@ void check_fabric(const Scene& scene) {
                shown(scene, "fabric.kes-b", f.kes.read.rigidity, "N m") +
                " where the tester reads: no elasticity is left beside it");
   check_fabric_numbers(scene);
+  if (const auto twice = scene.origin.find(kSaidTwice); twice != scene.origin.end())
+    throw Error::invalid_input(twice->second).with_key("fabric.kes-b", "");
   if (!f.kes.on() && (f.kes.read.rigidity > 0) != (f.kes.read.loop_width > 0)) {
     const bool rigidity = f.kes.read.rigidity > 0;
     refuse(rigidity ? "fabric.kes-b" : "fabric.kes-2hb",

@@ -8,6 +8,9 @@
 
 namespace hysteron {
 
+// Stands in a scene's `origin` where one source has said its fabric's friction in two ways, with the message.
+inline constexpr const char* kSaidTwice = "friction said twice";
+
 // Whether a file, a flag or a program has set this key or table, "pin[0]"; else it is as the program or the
 // experiment has it by itself.
 inline bool is_given(const Scene& scene, const std::string& key) { return scene.origin.contains(key); }
