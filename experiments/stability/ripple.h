@@ -15,7 +15,7 @@ struct RippleCase {
   Integrator integrator = Integrator::semi_implicit;
   std::string law = "linear";    // `linear` is the fabric without its friction: the same b2
   double amplitude = 1;          // largest curvature of a hinge at the start over k0
-  double steps_per_period = 20;  // period: of the mode with rigidity b1
+  double steps_per_period = 20;  // of small ripples: rigidity b1, `linear` b2
 };
 
 struct Ripple {
