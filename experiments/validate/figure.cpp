@@ -44,7 +44,7 @@ render::PagePlot loops_plot(const fs::path& csv) {
                     {"distance of the clamps [mm]"},
                     {"force per width [N/m]"}};
   render::Series measured{"measured", {}, {}, Style::points, kMeasuredColor};
-  render::Series model{"two numbers of friction", {}, {}, Style::line, kModelColor};
+  render::Series model{"the chapter's friction", {}, {}, Style::line, kModelColor};
   for (std::size_t r = 0; r < table.rows.size(); ++r) {
     const double distance = 1e3 * table.number(r, "clamp_distance_m"), width = table.number(r, "width_m");
     measured.add(distance, table.number(r, "measured_force_N") / width);
@@ -175,7 +175,7 @@ render::PlotPage validation_page(const fs::path& recorded) {
     for (PredictedDrape& drape : drapes)
       if (drape.fabric == other.fabric) drape.elastic = other.elastic;
   return {"From the raw loop to decay, drape and folds",
-          "friction fitted on one loop of a knit; its shape, with B and 2HB of each fabric, gives the rest",
+          "friction of the chapter's form, fitted on one loop of a knit; B and 2HB of each fabric",
           {loops_plot(recorded / kLoops), decay_plot(recorded / kSwing), drapes_plot(drapes),
            fold_counts_plot(read_counted(recorded / kFolds), drapes)}};
 }
