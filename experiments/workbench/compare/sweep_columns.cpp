@@ -367,6 +367,24 @@ bool recall(ChildRun& column) {
   return column.kept;
 }
 
+namespace {
+
+// What a complete run wrote and is not there any more: a study that goes on runs it again, while one that is
+// collected needs none of it.
+bool lacks_a_file(ChildRun& column) {
+  for (const std::string& file : column.manifest->files) {
+    std::error_code ignored;
+    if (std::filesystem::exists(column.folder / file, ignored)) continue;
+    column.changed = "its " + file + " is not there any more";
+    column.kept = false;
+    column.manifest.reset();
+    return true;
+  }
+  return false;
+}
+
+}  // namespace
+
 void recall_outcome(ChildRun& column) {
   if (recall(column)) return;
   const Json outcome = json_or_none(column.folder / kOutcomeFile);
@@ -431,7 +449,7 @@ void run_columns(std::vector<ChildRun>& columns, const SweepJobs& jobs,
   };
   const auto finish = [&](Chunk chunk, int its_threads) {
     std::erase_if(chunk, [&](std::size_t i) {
-      if (!jobs.resume || !recall(columns[i])) return false;
+      if (!jobs.resume || !recall(columns[i]) || lacks_a_file(columns[i])) return false;
       tell(i);
       return true;
     });

@@ -47,6 +47,13 @@ TEST_F(Sweep, TabulatesWhatEveryRunHasFoundInItsOwnFolderAndRepeatsNothingThatIs
   EXPECT_EQ(manifest("out")["metrics"]["kept_count"], 3);
   expect_same(table(), whole);
   EXPECT_EQ(table().rows[0], whole.rows[0]) << "kept with its time";
+  const auto files = manifest(fs::path("out/runs") / whole.rows[2][0])["files"];
+  ASSERT_FALSE(files.empty());
+  const fs::path lost = folder_.path() / "out/runs" / whole.rows[2][0] / files[0].get<std::string>();
+  fs::remove(lost);
+  run(0, "--resume");
+  EXPECT_EQ(manifest("out")["metrics"]["kept_count"], 3) << "a run whose file is gone runs again";
+  EXPECT_TRUE(fs::exists(lost));
 }
 
 TEST_F(Sweep, WarnsOfWhatItsRunsWarnOf) {
