@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "experiments/crease/specimen.h"
+#include "experiments/specimens/cantilever_strip.h"
 #include "experiments/workbench/app/decided_keys.h"
 #include "experiments/workbench/compare/variant_page.h"
 #include "experiments/workbench/session/probes.h"
@@ -267,9 +268,7 @@ void crease_once(const CommandLine& line) {
   session.reserve({}, {"plot_opening"});
   if (choice.grow_after > 0) session.reserve({"recovery.csv"}, {"plot_recovery"});
   Recovered recovered;
-  const bool has_curve = crease.scene.fabric.bending.weft_stops.empty() ||
-                         std::abs(std::remainder(crease.scene.cloth.warp_angle, 90)) < 1e-9;
-  if (session.simulation().dimension() == 3 && has_curve) recovered.law.emplace(crease);
+  if (session.simulation().dimension() == 3 && has_strip_curve(crease.scene)) recovered.law.emplace(crease);
   session.simulate(run_plan(session, crease, recovered));
   Run& run = session.run();
   run.metric("recovery_angle_deg", recovered.opening);

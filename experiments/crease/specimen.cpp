@@ -137,7 +137,7 @@ double Crease::opening(const std::vector<Eigen::Vector3d>& x) const {
   const auto along = [&](std::size_t i) {
     return mesh.pattern.empty() ? mesh.rest[i].x() : mesh.pattern[i].x();
   };
-  // Of the columns between the two, or of the nearest one where none is.
+  // The mean takes the columns between the two, or the nearest one where none is.
   const auto middle = [&](double from, double to) {
     constexpr double kSameColumn = 1e-9;  // [m]
     const auto beside = [&](std::size_t i) { return std::max({0.0, from - along(i), along(i) - to}); };

@@ -48,7 +48,7 @@ struct Crease {
   double opening(const std::vector<Eigen::Vector3d>& x) const;
 };
 
-// What the law alone makes of a crease: each triangle is bent along the strip as the specimen was until its
+// The crease that the law alone makes: each triangle is bent along the strip as the specimen was until its
 // load had gone, and then let go, so that it carries no moment.  Bends that the rising load makes in the
 // limbs are among what is kept.
 class LawOfCrease {

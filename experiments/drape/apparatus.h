@@ -67,9 +67,9 @@ void add_apparatus(Scene& scene, const DrapeChoice& choice, const Specimen& spec
 
 // Six folds of this height [m] strain the rim by 0.2 % at most; of half a millimetre, folds merge.
 inline constexpr double kFoldSeed = 2e-3;
-// What real specimens have and an even disc does not: rigidities that vary along the cloth, drawn by the seed
-// from a lognormal field whose correlation falls as exp(-d^2/(2 l^2)) with the distance d, l = uneven_length,
-// and a curl, which makes the rest shape a cylinder, concave above where it is positive.
+// Real specimens are uneven where the disc is not.  Their rigidities vary along the cloth, drawn by the seed
+// from a lognormal field whose correlation falls as exp(-d^2/(2 l^2)) with the distance d, l = uneven_length;
+// and they curl: the rest shape is a cylinder, concave above where the curl is positive.
 void make_uneven(ClothMesh& mesh, const DrapeChoice& choice, unsigned seed);
 
 // Raises the ring in as many waves as the choice has folds, highest at the rim by `kFoldSeed`: equilibria

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "experiments/specimens/clamped_mesh.h"
+#include "experiments/workbench/compare/matching.h"
 #include "sim/base/error.h"
 #include "sim/bending/curvature_operator.h"
 #include "sim/scene/motion.h"
@@ -162,12 +163,23 @@ CantileverStrip overhang(Scene scene, double length) {
   return {std::move(scene), std::move(cloth), length};
 }
 
+namespace {
+
+bool follows_weft_stops(const Scene& scene) {
+  return !scene.fabric.bending.weft_stops.empty() && (scene.law == "prandtl" || scene.law == "chapman");
+}
+
+}  // namespace
+
+bool has_strip_curve(const Scene& scene) {
+  return !follows_weft_stops(scene) || std::abs(std::remainder(scene.cloth.warp_angle, 90)) <= 1e-9;
+}
+
 VirginCurve strip_curve(const Scene& scene) {
   VirginCurve curve = scene.fabric.virgin_curve();
-  const bool follows_stops = scene.law == "prandtl" || scene.law == "chapman";
-  if (curve.parts.weft_stops.empty() || !follows_stops) return curve;
+  if (!follows_weft_stops(scene)) return curve;
   const double angle = scene.cloth.warp_angle, turns = angle / 90;
-  if (std::abs(std::remainder(angle, 90)) > 1e-9)
+  if (!has_strip_curve(scene))
     throw Error::invalid_input(
         shown(scene, "cloth.warp-angle", angle, "degree") +
         " must be a multiple of 90: a strip between warp and weft of a fabric with stops along both "
@@ -183,12 +195,9 @@ VirginCurve curve_along(const Scene& scene) {
   curve.b1 *= q;
   curve.b2 *= q;
   curve.k0 /= root;
-  BendingParts& parts = curve.parts;
-  for (double& threshold : parts.stops.thresholds) threshold /= root;
-  for (double& stiffness : parts.stops.stiffnesses) stiffness *= q;
-  for (double& stiffness : parts.branches.stiffnesses) stiffness *= q;
-  parts.set.yield /= root;
-  parts.set.hardening *= q;
+  curve.parts = stiffened(curve.parts, q);
+  for (double& threshold : curve.parts.stops.thresholds) threshold /= root;
+  curve.parts.set.yield /= root;
   return curve;
 }
 

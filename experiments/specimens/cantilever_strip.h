@@ -27,6 +27,8 @@ double rigidity_along(const Scene& scene);
 // The virgin curve of the strip's direction: that along weft has stops of its own where the fabric does.
 // Error::invalid_input for a strip between warp and weft of such a fabric.
 VirginCurve strip_curve(const Scene& scene);
+// Whether it has one: not between warp and weft of a fabric with stops along both.
+bool has_strip_curve(const Scene& scene);
 // The same with the rigidity of that direction in its numbers: moments and curvatures are the strip's own.
 VirginCurve curve_along(const Scene& scene);
 

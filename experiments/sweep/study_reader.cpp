@@ -10,6 +10,7 @@
 #include "experiments/workbench/app/command_line.h"
 #include "experiments/workbench/app/decided_keys.h"
 #include "experiments/workbench/app/manifest_file.h"
+#include "experiments/workbench/app/scene_source.h"
 #include "sim/base/error.h"
 #include "sim/base/number_in.h"
 #include "sim/scene/assets.h"
@@ -33,27 +34,6 @@ bool can_be_repeated(const Experiment& experiment) {
   const std::vector<KeyDescription> keys = experiment_options(experiment, Defaults::left_out);
   return has_key(keys, "out") && has_key(keys, "quiet");
 }
-
-// A place for a value of each type, which is only checked.
-struct Scratch {
-  bool flag = false;
-  int integer = 0;
-  double number = 0;
-  Eigen::Vector3d vector;
-  std::string text;
-  Parameters parameters;
-  Numbers numbers;
-
-  Field field(const std::string& type) {
-    if (type == "flag") return &flag;
-    if (type == "integer") return &integer;
-    if (type == "number") return &number;
-    if (type == "vector") return &vector;
-    if (type == "name=value") return &parameters;
-    if (type == "numbers") return &numbers;
-    return &text;
-  }
-};
 
 // "fabric.k0=12", "param=stack=8".
 ValueTree shared_node(std::string flag) {

@@ -144,11 +144,13 @@ CurvatureOperator make_curvature_operator(BendingElement element, const ClothMes
   CurvatureOperator op =
       element == BendingElement::hinge ? make_hinge_operator(mesh) : make_shape_operator(mesh, held);
   if (mesh.bending_factor.empty()) return op;
+  const std::vector<double>& factor = mesh.bending_factor;
   for (int i = 0; i < op.elements(); ++i) {
-    const Edge& hinge = mesh.edge[element == BendingElement::hinge ? i : 0];
-    const auto factor = [&](int face) { return mesh.bending_factor[face]; };
-    op.area[i] *=
-        element == BendingElement::hinge ? (factor(hinge.face0) + factor(hinge.face1)) / 2 : factor(i);
+    if (element == BendingElement::hinge) {
+      op.area[i] *= (factor[mesh.edge[i].face0] + factor[mesh.edge[i].face1]) / 2;
+    } else {
+      op.area[i] *= factor[i];
+    }
   }
   return op;
 }

@@ -62,15 +62,18 @@ std::string saturation_text(const FabBending& b) {
       k0, b.form_errors[1] * k0);
 }
 
+std::string form_text(const FabBending& b) {
+  if (b.is_shaped()) return shape_words(b);
+  if (b.is_parabola()) return saturation_text(b);
+  return "; thresholds [1/m] are a grid that was given, stiffnesses [N m]:\n";
+}
+
 std::string bending_tables(const FabIdentification& found) {
   std::string text;
   if (found.bending.size() == 1 && found.bending[0].is_parabola()) return text;  // b1, b2 and k0 say it
   for (std::size_t i = 0; i < std::min<std::size_t>(2, found.bending.size()); ++i) {
     const FabBending& b = found.bending[i];
-    text += "\n# Bends along " + b.direction + ", identified from " + found.from +
-            (b.is_shaped()     ? shape_words(b)
-             : b.is_parabola() ? saturation_text(b)
-                               : "; thresholds [1/m] are a grid that was given, stiffnesses [N m]:\n") +
+    text += "\n# Bends along " + b.direction + ", identified from " + found.from + form_text(b) +
             stops_table(i == 0 ? "bending.stops" : "bending.stops.weft", b, "/m", "N m", found.from);
   }
   return text;

@@ -168,6 +168,14 @@ std::vector<std::string> changed_words(const std::vector<std::string>& then,
   return names;
 }
 
+std::vector<std::string> lost_files(const Manifest& run, const fs::path& folder) {
+  std::vector<std::string> lost;
+  for (const std::string& file : run.files)
+    if (std::error_code ignored; !fs::exists(folder / file, ignored))
+      lost.push_back("its " + file + " is not there any more");
+  return lost;
+}
+
 std::string why_another_request(const Manifest& before, const CommandLine& line, const Setup& setup) {
   if (before.experiment != line.experiment) return "it is of " + before.experiment;
   const std::string keys =
@@ -175,9 +183,7 @@ std::string why_another_request(const Manifest& before, const CommandLine& line,
   std::vector<std::string> reasons = {keys.empty() ? "" : "it has other values of " + keys};
   for (const std::string& change : input_changes(before.inputs, inputs_of_job(setup.options.out)))
     reasons.push_back(change);
-  for (const std::string& file : before.files)
-    if (std::error_code ignored; !fs::exists(fs::path(setup.options.out) / file, ignored))
-      reasons.push_back("its " + file + " is not there any more");
+  for (const std::string& lost : lost_files(before, setup.options.out)) reasons.push_back(lost);
   reasons.push_back(program_change(before));
   return joined_parts(reasons, ", ");
 }

@@ -32,6 +32,9 @@ std::string changed_error_flags(const Manifest& before, const CommandLine& line)
 std::vector<std::string> changed_words(const std::vector<std::string>& then,
                                        const std::vector<std::string>& now);
 
+// "its metrics.csv is not there any more", for each file that the run wrote into the folder and that is gone.
+std::vector<std::string> lost_files(const Manifest& run, const std::filesystem::path& folder);
+
 // Why the complete run of that manifest is no answer to the line and its set-up; "": it is one.
 std::string why_another_request(const Manifest& before, const CommandLine& line, const Setup& setup);
 

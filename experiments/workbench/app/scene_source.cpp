@@ -63,28 +63,12 @@ void collect_leaves(const Json& tree, const std::string& path, std::vector<Furth
 class DroppedKeys {
  public:
   explicit DroppedKeys(const std::vector<KeyDescription>& descriptions) {
-    for (const KeyDescription& key : descriptions) keys_.push_back({key, field(key.type)});
+    for (const KeyDescription& key : descriptions) keys_.push_back({key, scratch_.field(key.type)});
   }
   const Keys& keys() const { return keys_; }
 
  private:
-  Field field(const std::string& type) {
-    if (type == "flag") return &flag_;
-    if (type == "integer") return &integer_;
-    if (type == "number") return &number_;
-    if (type == "vector") return &vector_;
-    if (type == "numbers") return &numbers_;
-    if (type == "name=value") return &parameters_;
-    return &text_;
-  }
-
-  bool flag_ = false;
-  int integer_ = 0;
-  double number_ = 0;
-  Eigen::Vector3d vector_ = Eigen::Vector3d::Zero();
-  Numbers numbers_;
-  Parameters parameters_;
-  std::string text_;
+  Scratch scratch_;
   Keys keys_;
 };
 

@@ -6,6 +6,27 @@
 
 namespace hysteron::experiments {
 
+// A place for a value of each type, which is only checked, or read and dropped.
+struct Scratch {
+  bool flag = false;
+  int integer = 0;
+  double number = 0;
+  Eigen::Vector3d vector = Eigen::Vector3d::Zero();
+  std::string text;
+  Parameters parameters;
+  Numbers numbers;
+
+  Field field(const std::string& type) {
+    if (type == "flag") return &flag;
+    if (type == "integer") return &integer;
+    if (type == "number") return &number;
+    if (type == "vector") return &vector;
+    if (type == "name=value") return &parameters;
+    if (type == "numbers") return &numbers;
+    return &text;
+  }
+};
+
 // Applies what `--scene` names.  Of a manifest that is the scene that its run resolved: if it is of this
 // experiment, as it was asked of it, since it will change it once more, with the keys `extra`; else as it was
 // simulated.  Programs that did not note what was asked have noted which keys were given: of their manifests

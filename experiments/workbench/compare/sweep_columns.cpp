@@ -372,15 +372,12 @@ namespace {
 // What a complete run wrote and is not there any more: a study that goes on runs it again, while one that is
 // collected needs none of it.
 bool lacks_a_file(ChildRun& column) {
-  for (const std::string& file : column.manifest->files) {
-    std::error_code ignored;
-    if (std::filesystem::exists(column.folder / file, ignored)) continue;
-    column.changed = "its " + file + " is not there any more";
-    column.kept = false;
-    column.manifest.reset();
-    return true;
-  }
-  return false;
+  const std::vector<std::string> lost = lost_files(*column.manifest, column.folder);
+  if (lost.empty()) return false;
+  column.changed = lost.front();
+  column.kept = false;
+  column.manifest.reset();
+  return true;
 }
 
 }  // namespace
