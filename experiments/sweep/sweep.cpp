@@ -208,21 +208,26 @@ void collect(Run& run, std::vector<ChildRun>& runs) {
   run.metric("failed_count", failed);
 }
 
+bool is_not_complete(const ChildRun& run) { return !run.stopped.empty(); }
+
+// The manifest of a study that lacks runs is not complete, either.
 void write_results(Run& run, const Study& study, const std::vector<ChildRun>& runs, bool with_plots) {
   table_of_runs(study, runs).write(run.path("table.csv"));
   const std::vector<std::string> metrics = metrics_shown(study, runs);
   const bool repeated = std::any_of(study.axes.begin(), study.axes.end(), is_seed);
   if (repeated && !metrics.empty()) table_of_means(study, runs, metrics).write(run.path("means.csv"));
   if (with_plots) plot_study(run, study, runs, metrics);
-  finish_with_report(run);
+  if (std::ranges::any_of(runs, is_not_complete))
+    finish_incomplete_with_report(run);
+  else
+    finish_with_report(run);
 }
 
 // The study cannot be said to be done where runs are missing: exit code 3, with the first reason.
 void throw_if_failed(const Run& run, const std::vector<ChildRun>& runs) {
-  const auto failed = [](const ChildRun& column) { return !column.stopped.empty(); };
-  const auto count = std::count_if(runs.begin(), runs.end(), failed);
+  const auto count = std::ranges::count_if(runs, is_not_complete);
   if (count == 0) return;
-  const ChildRun& first = *std::find_if(runs.begin(), runs.end(), failed);
+  const ChildRun& first = *std::ranges::find_if(runs, is_not_complete);
   throw Error::simulation(fmt::format("{} of {} runs are not complete ({}), the first {}: {}", count,
                                       runs.size(), (run.folder() / "table.csv").string(), first.name,
                                       first.stopped));

@@ -220,16 +220,22 @@ void Run::keep() const {
 }
 
 void Run::finish() {
+  write_last_manifest(true);
+  folder_.is_complete();
+}
+
+void Run::finish_incomplete() { write_last_manifest(false); }
+
+void Run::write_last_manifest(bool complete) {
   finish_plots();
   note_seconds(manifest_);
   manifest_.inputs = inputs_of_job(folder());
-  manifest_.complete = true;
+  manifest_.complete = complete;
   const Json json = to_json(manifest_);
   const std::string text = json.dump(2) + "\n";
   write_text(folder() / "manifest.json", text);
   manifest_ = parsed_manifest(json);
   finished_ = true;
-  folder_.is_complete();
   if (json_) std::cout << text << std::flush;
 }
 

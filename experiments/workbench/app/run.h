@@ -130,10 +130,14 @@ class Run {
   void keep() const;
   // Writes the complete manifest, and prints it on stdout with --json.  Throws Error::system.
   void finish();
+  // The same of a page that lacks some of its runs: its manifest says "complete": false, and what stood in
+  // the folder before is kept beside it.
+  void finish_incomplete();
 
  private:
   Run(Manifest first, const CommandLine& line, const Options& options, const std::vector<std::string>& kept);
   void note_seconds(Manifest& manifest) const;
+  void write_last_manifest(bool complete);
   // Whether no file of that name or, of a sequence, of its kind is in the manifest on disk; now it is known.
   bool is_new(const std::filesystem::path& name);
   void draw_beside(const std::string& name, std::function<void(const std::filesystem::path& base)> draw);

@@ -48,6 +48,14 @@ std::string one_line(const Manifest& manifest, const Metrics& metrics) {
   return text + (text.empty() || rest_warning.empty() ? "" : "; ") + rest_warning;
 }
 
+// A study counts its runs (experiments/sweep).
+std::string incomplete_reason(const Metrics& metrics) {
+  const MetricValue &all = metrics["runs_count"], &failed = metrics["failed_count"];
+  if (!all.is_number() || !failed.is_number() || failed.number() == 0)
+    return "the run did not come to its end";
+  return fmt::format("{:.0f} of {:.0f} runs did not come to their end", failed.number(), all.number());
+}
+
 }  // namespace
 
 std::string not_at_rest_warning(const Metrics& metrics) {
@@ -71,7 +79,7 @@ std::string result_words(const Manifest& manifest) {
   const std::string rest_warning = not_at_rest_warning(metrics);
   if (!rest_warning.empty()) text += "  " + rest_warning + "\n";
   if (metrics["settled"].is(true)) text += "  at rest\n";
-  if (!manifest.complete) text += "  INCOMPLETE: the run did not come to its end\n";
+  if (!manifest.complete) text += "  INCOMPLETE: " + incomplete_reason(metrics) + "\n";
   return text;
 }
 

@@ -262,4 +262,10 @@ void finish_with_report(Run& run) {
   write_report(run.folder());
 }
 
+void finish_incomplete_with_report(Run& run) {
+  run.path("report.html");
+  run.finish_incomplete();
+  write_report(run.folder());
+}
+
 }  // namespace hysteron::experiments

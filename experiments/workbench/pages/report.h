@@ -19,5 +19,7 @@ std::filesystem::path write_report(const std::filesystem::path& folder, PageForm
 
 // Ends a run with its page.
 void finish_with_report(Run& run);
+// The same of a page that lacks some of its runs (Run::finish_incomplete()).
+void finish_incomplete_with_report(Run& run);
 
 }  // namespace hysteron::experiments

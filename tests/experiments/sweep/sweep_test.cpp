@@ -59,7 +59,7 @@ TEST_F(Sweep, TabulatesWhatEveryRunHasFoundInItsOwnFolderAndRepeatsNothingThatIs
 TEST_F(Sweep, WarnsOfWhatItsRunsWarnOf) {
   write_text(folder_.path() / "scene.toml", "cloth.copies = 2\n");
   write(
-      "experiment = \"swing\"\n[scene]\nscene = \"scene.toml\"\nno-images = true\ntriangles = 40\nseconds = "
+      "experiment = \"swing\"\n[scene]\nscene = \"scene.toml\"\nno-images = true\ntriangles = 128\nseconds = "
       "0.02\n"
       "[[axis]]\nkey = \"law\"\nvalues = [\"linear\", \"dahl\"]\n");
   for (const char* how : {"--quiet", "--quiet --collect"}) {
@@ -86,6 +86,22 @@ TEST_F(Sweep, ListsRunsThatFailGoesOnAndExitsWithThree) {
     EXPECT_EQ(found.rows[r][found.rows[r].size() - 2], fails ? "2" : "0");
   }
   EXPECT_TRUE(says(file_content(folder_.path() / "out/report.html"), "Not complete"));
+}
+
+// A rigidity above b1 is refused by each run that has it.
+TEST_F(Sweep, IsNotCompleteWhileARunIsMissingAndSaysHowMany) {
+  std::string text = kStudy;
+  text.replace(text.find("2e-6"), 4, "1.0 ");
+  write(text);
+  for (const char* how : {"", "--collect"}) {
+    const Outcome outcome = run(3, how);
+    EXPECT_TRUE(says(outcome.out, "INCOMPLETE: 2 of 4 runs did not come to their end"));
+    EXPECT_EQ(manifest("out")["complete"], false);
+    EXPECT_EQ(manifest("out")["metrics"]["failed_count"], 2);
+  }
+  write(kStudy);
+  EXPECT_FALSE(says(run(0, "--resume").out, "INCOMPLETE"));
+  EXPECT_EQ(manifest("out")["complete"], true);
 }
 
 // Which metrics there are is known once a run has ended.
