@@ -233,8 +233,9 @@ std::string reasons_between(const Manifest& recorded, const Manifest& now) {
                       now.isa);
   if (compiler_of(recorded) != compiler_of(now))
     reasons.push_back("compiler " + compiler_of(recorded) + ", now " + compiler_of(now));
-  if (recorded.device != now.device)
-    reasons.push_back("device " + recorded.device.value_or("none") + ", now " + now.device.value_or("none"));
+  const std::string device = without_threads(recorded.device.value_or("none")),
+                    device_now = without_threads(now.device.value_or("none"));
+  if (device != device_now) reasons.push_back("device " + device + ", now " + device_now);
   const std::string keys = differing_keys(without_origins(*recorded.keys), without_origins(*now.keys));
   if (!keys.empty()) reasons.push_back("keys " + keys);
   for (const std::string& change : changed_meshes(recorded.meshes, now.meshes)) reasons.push_back(change);

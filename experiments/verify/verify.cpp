@@ -79,7 +79,7 @@ std::vector<fs::path> folders_below(const fs::path& folder) {
 bool has_runs_inside(const fs::path& folder) {
   std::error_code ignored;
   for (const auto& entry : fs::directory_iterator(folder, ignored))
-    if (has_manifest(entry.path())) return true;
+    if (has_manifest(entry.path()) && !is_set_aside(entry.path())) return true;
   return false;
 }
 
@@ -155,6 +155,17 @@ struct RepeatedRun {
   double seconds = 0;
 };
 
+// A run whose manifest is damaged has failed; the others are repeated.
+RepeatedRun run_in(const fs::path& folder, const std::string& name) {
+  try {
+    return {name, recorded_run(folder.string()), {}};
+  } catch (const Error& error) {
+    RepeatedRun damaged{name, {folder / "manifest.json", {}}, {}};
+    damaged.said = {Outcome::failed, error.what()};
+    return damaged;
+  }
+}
+
 Line compared(const RepeatedRun& run, const ChildRun& now, const VerifyChoice& choice, const Limits& limits) {
   if (!now.stopped.empty()) return {Outcome::failed, "could not be repeated: " + now.stopped};
   const Manifest& before = run.recorded.manifest;
@@ -179,6 +190,7 @@ std::vector<ChildRun> repeated_columns(std::vector<RepeatedRun>& runs, const Ver
                                        const Options& options) {
   std::vector<ChildRun> columns;
   for (RepeatedRun& run : runs) {
+    if (run.said) continue;
     const fs::path folder = run.recorded.file.parent_path();
     if (const std::string why = why_skipped(run.recorded.manifest, folder, choice); !why.empty()) {
       run.said = {Outcome::skipped, "skipped: " + why};
@@ -252,7 +264,7 @@ int run_verify(const CommandLine& line) {
   const Limits limits = read_limits(choice.limits);
   std::vector<RepeatedRun> runs;
   for (const fs::path& folder : folders_below(root))
-    runs.push_back({fs::relative(folder, root).string(), recorded_run(folder.string()), {}});
+    runs.push_back(run_in(folder, fs::relative(folder, root).string()));
   refuse_unused_limits(limits, runs);
   int count[5] = {};
   std::vector<TestCase> cases;

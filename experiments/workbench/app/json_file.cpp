@@ -12,6 +12,18 @@ namespace {
 constexpr int kDeepest = 64;  // its texts are put together by recursion
 constexpr std::size_t kMaxJsonBytes = std::size_t{256} << 20;
 
+std::string json_text(const std::filesystem::path& file) {
+  return utf8_text(whole_file(file, "cannot read " + file.string(), kMaxJsonBytes));
+}
+
+// What has happened to a text that is no JSON but may have been some: "is empty", "was cut off or edited";
+// "" of a text that does not begin as one.
+std::string damage_of(const std::string& text) {
+  const std::string_view content = trimmed(text);
+  if (content.empty()) return "is empty";
+  return content.front() == '{' || content.front() == '[' ? "was cut off or edited" : "";
+}
+
 }  // namespace
 
 Json json_in(const std::string& text, const std::filesystem::path& file, const std::string& kind) {
@@ -23,12 +35,24 @@ Json json_in(const std::string& text, const std::filesystem::path& file, const s
     return true;
   };
   Json json = Json::parse(text, watch_depth, false);
-  if (json.is_discarded()) refuse("was cut off or edited");
+  if (!json.is_discarded()) return json;
+  if (const std::string damage = damage_of(text); !damage.empty())
+    throw Error::invalid_input(file.string() + " is damaged: it " + damage);
+  refuse("was cut off or edited");
   return json;
 }
 
 Json read_json(const std::filesystem::path& file, const std::string& kind) {
-  return json_in(utf8_text(whole_file(file, "cannot read " + file.string(), kMaxJsonBytes)), file, kind);
+  return json_in(json_text(file), file, kind);
+}
+
+std::string json_damage(const std::filesystem::path& file) {
+  try {
+    const std::string text = json_text(file);
+    return parsed_json(text).is_discarded() ? damage_of(text) : "";
+  } catch (const Error&) {
+    return "";
+  }
 }
 
 Json json_or_none(const std::filesystem::path& file) {

@@ -10,11 +10,13 @@
 
 namespace hysteron::experiments {
 
-// Throws Error::system if the file cannot be read; Error::invalid_input, naming it as no `kind`, if it is no
-// JSON or nests deeper than anything this program writes.
+// Throws Error::system if the file cannot be read; Error::invalid_input, naming it as damaged if it is empty
+// or breaks off, and as no `kind` if it is no JSON or nests deeper than anything this program writes.
 Json read_json(const std::filesystem::path& file, const std::string& kind = "JSON");
 // The same of the text in that file.
 Json json_in(const std::string& text, const std::filesystem::path& file, const std::string& kind = "JSON");
+// "is empty" or "was cut off or edited" of a file that begins as JSON and is none; "" of any other.
+std::string json_damage(const std::filesystem::path& file);
 // Discarded (Json::is_discarded) where read_json would throw.
 Json json_or_none(const std::filesystem::path& file);
 // Discarded where the text is no JSON.  Here and not where it is read: its parser takes a second to compile.

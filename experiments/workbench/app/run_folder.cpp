@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "experiments/workbench/app/ending.h"
+#include "experiments/workbench/app/json_file.h"
 #include "experiments/workbench/app/manifest_file.h"
 #include "experiments/workbench/app/set_aside.h"
 #include "sim/base/atomic_file.h"
@@ -38,9 +39,13 @@ std::optional<Manifest> run_before_in(const fs::path& folder) {
   if (!stands(file)) return {};
   std::optional<Manifest> manifest;
   if (is_plain(file)) manifest = manifest_or_none(file);
-  if (!manifest)
-    throw Error::invalid_input(file.string() + " is not of a run and is not replaced" + kElsewhere);
-  return manifest;
+  if (manifest) return manifest;
+  const std::string damage = is_plain(file) ? json_damage(file) : "";
+  if (!damage.empty())
+    throw Error::invalid_input(file.string() + " is damaged: it " + damage +
+                               ", and what its run has left is not known and not replaced" + kElsewhere +
+                               ", or remove this file");
+  throw Error::invalid_input(file.string() + " is not of a run and is not replaced" + kElsewhere);
 }
 
 bool is_within(const fs::path& inner, const fs::path& outer) {

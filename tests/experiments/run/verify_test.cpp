@@ -198,9 +198,31 @@ TEST_F(Recorded, RunIsVerified) {
   });
   const Outcome within = finished(verify);
   for (const char* words : {"within  one", "state differs", "within their errors: drape_coefficient_percent",
-                            "program 0123456", "device cpu: another, 1 threads, now"})
+                            "program 0123456", "device cpu: another, now cpu: "})
     EXPECT_TRUE(says(within.out, words));
   ended(4, verify + " --exact");
+}
+
+// What stood in its folder before and is kept there makes no page of it.
+TEST_F(Recorded, RunBesideOneThatIsSetAsideIsVerified) {
+  finished("kes --quick --no-images --quiet" + out_flag(run()));
+  const fs::path aside = run() / ".page-before";
+  fs::create_directories(aside);
+  fs::copy(manifest(), aside / "manifest.json");
+  EXPECT_TRUE(says(finished("verify " + in("runs") + " --out " + in("check")).out, "1 the same, 0 within"));
+}
+
+// Results do not depend on the number of threads, which is no reason of a difference.
+TEST_F(Recorded, RunThatDiffersIsSaidToBeOfAnotherProgramNotOfOtherThreads) {
+  record(kDrape);
+  edit([](Json& json) {
+    json["hysteron"]["commit"] = "0123456789";
+    json["state_hash"] = "0123456789abcdef";
+  });
+  const std::string verify = "verify " + in("runs") + " --out " + in("check") + " --threads 2";
+  const std::string out = ended(4, verify).out;
+  EXPECT_TRUE(says(out, "recorded by another: program 0123456"));
+  for (const char* same : {"threads", "device", "instructions", "compiler"}) EXPECT_FALSE(says(out, same));
 }
 
 // The program promises them of one build on one device.
@@ -437,6 +459,22 @@ TEST_F(Recorded, RunThatCannotBeRepeatedIsAFailureBesideOthers) {
   const Outcome outcome = ended(3, "verify " + in("runs") + " --out " + in("check"));
   EXPECT_TRUE(says(outcome.out, "1 the same, 0 within errors, 0 differ; 1 could not be"));
   EXPECT_TRUE(says(outcome.err, "1 of 2 runs could not be repeated, the first other: "));
+}
+
+TEST_F(Recorded, RunWhoseManifestIsDamagedIsAFailureBesideOthers) {
+  record(kDrape);
+  const std::string whole = file_content(manifest());
+  const std::pair<const char*, std::string> damaged[] = {{"empty", ""},
+                                                         {"torn", whole.substr(0, whole.size() / 2)}};
+  for (const auto& [name, text] : damaged) {
+    fs::create_directories(folder_.path() / "runs" / name);
+    std::ofstream(folder_.path() / "runs" / name / "manifest.json") << text;
+  }
+  const Outcome outcome = ended(3, "verify " + in("runs") + " --out " + in("check"));
+  EXPECT_TRUE(says(outcome.out, "empty/manifest.json is damaged: it is empty"));
+  EXPECT_TRUE(says(outcome.out, "torn/manifest.json is damaged: it was cut off or edited"));
+  EXPECT_TRUE(says(outcome.out, "1 the same, 0 within errors, 0 differ; 2 could not be"));
+  EXPECT_TRUE(says(outcome.err, "2 of 3 runs could not be repeated, the first empty: "));
 }
 
 TEST_F(Recorded, RunIsHeldToNoLimitThatIsForNothing) {

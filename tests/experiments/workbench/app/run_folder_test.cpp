@@ -132,6 +132,19 @@ TEST_F(RunFolder, KeepsAManifestThatIsNoRuns) {
   }
 }
 
+TEST_F(RunFolder, KeepsAManifestThatIsDamagedAndSaysWhatHasHappenedToIt) {
+  const std::pair<const char*, const char*> cases[] = {
+      {"", "manifest.json is damaged: it is empty"},
+      {R"({"hysteron": {"version": "0.1.0", "comm)", "manifest.json is damaged: it was cut off or edited"}};
+  for (const auto& [text, message] : cases) {
+    const Folder folder;
+    const fs::path manifest = folder.path() / "manifest.json";
+    write(manifest, text);
+    EXPECT_TRUE(says(refused_run(folder.path()), message));
+    EXPECT_EQ(file_content(manifest), text);
+  }
+}
+
 TEST_F(RunFolder, IsNotLeftThroughALink) {
   const Folder outside;
   write(outside.path() / "0000.png");

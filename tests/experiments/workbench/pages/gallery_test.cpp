@@ -205,7 +205,7 @@ TEST_F(Gallery, NamesABrokenPicture) {
 TEST_F(Gallery, NamesABrokenManifest) {
   const std::string whole = file_content(results_ / "a-kes/manifest.json");
   write_text(results_ / "a-kes/manifest.json", whole.substr(0, whole.size() / 2));
-  EXPECT_TRUE(says(refusal(), "results/a-kes/manifest.json is no manifest"));
+  EXPECT_TRUE(says(refusal(), "results/a-kes/manifest.json is damaged: it was cut off"));
   write_text(results_ / "a-kes/manifest.json",
              R"({"hysteron":{"version":"0","commit":"0"},"scene":{},"experiment":"kes","started":7})");
   EXPECT_TRUE(says(refusal(), "results/a-kes/manifest.json is no manifest"));
