@@ -29,7 +29,7 @@ const KeyRow<DrapeChoice> kRows[] = {
     {"drape.stroke", at<&D::stroke>, "m", positive(), "", "shaken: how far up"},
     {"drape.period", at<&D::period>, "s", positive(), "", "shaken: time of one up and down"},
     {"drape.wait", at<&D::wait>, "s", at_least(0), "", "time at rest until the shadow is read, in which laws relax that do"},
-    {"drape.offset", at<&D::offset>, "m", at_least(0), "", "of the specimen's middle from the pedestal's axis"},
+    {"drape.offset", at<&D::offset>, "m", at_least(0), "", "of the specimen's middle from the pedestal's axis, less than drape.disc and than the width of the ring"},
     {"drape.curl", at<&D::curl>, "1/m", between(-20, 20), "", "curvature along warp with which the specimen is at rest, positive where its rim stands up"},
     {"drape.uneven", at<&D::uneven>, "", between(0, 0.5), "", "standard deviation over the mean of a rigidity in bending that varies along the cloth, drawn by the seed"},
     {"drape.uneven-length", at<&D::uneven_length>, "m", between(1e-3, 1), "", "over which that rigidity stays alike"},
@@ -88,10 +88,24 @@ void check_disc(const Scene& scene, const DrapeChoice& choice, const Specimen& s
       .with_key("drape.disc", number_text(choice.disc));
 }
 
+// The specimen's middle lies on the pedestal, and its rim hangs over it all around: otherwise it slips off,
+// or parts of the ring are missing.
+void check_offset(const DrapeChoice& choice, const Specimen& specimen) {
+  const double ring = specimen.radius - choice.disc;
+  if (choice.offset < std::min(choice.disc, ring)) return;
+  const std::string why = choice.disc <= ring
+                              ? "drape.disc: the specimen's middle would lie beside the pedestal"
+                              : "the width of its ring: the pedestal would stand out from under the specimen";
+  throw Error::invalid_input("drape.offset = " + number_text(choice.offset) + " m must be < " +
+                             number_text(std::min(choice.disc, ring), 4) + " m, " + why)
+      .with_key("drape.offset", number_text(choice.offset));
+}
+
 // The specimen lies on the pedestal, and scene and cloth say so.
 Specimen lay_on_pedestal(Scene& scene, const DrapeChoice& choice, Cloth& cloth) {
   const Specimen specimen = disc_specimen(scene, cloth);
   check_disc(scene, choice, specimen);
+  check_offset(choice, specimen);
   const Eigen::Vector3d before = scene.cloth.position;
   add_apparatus(scene, choice, specimen);
   for (Eigen::Vector3d& x : cloth.start) x += scene.cloth.position - before;

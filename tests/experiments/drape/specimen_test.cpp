@@ -86,6 +86,16 @@ TEST_F(Draped, DiscThatLiesOnThePedestalIsRefused) {
   refused(drape("--cloth.shape square --cloth.length 0.3"));
 }
 
+// The ring is 6 cm wide, and the pedestal has a radius of 9 cm; on one of 5 cm the ring is wider.
+TEST_F(Draped, SpecimenThatLiesBesideThePedestalIsRefused) {
+  EXPECT_TRUE(says(refused(drape("--drape.offset 0.06 --triangles 100")),
+                   "drape.offset = 0.06 m must be < 0.06 m, the width of its ring"));
+  EXPECT_TRUE(
+      says(refused(drape("--drape.offset 0.2 --drape.disc 0.05 --triangles 100")),
+           "drape.offset = 0.2 m must be < 0.05 m, drape.disc: the specimen's middle would lie beside"));
+  finished("drape --drape.offset 0.055 --triangles 100 --explain");
+}
+
 // Without friction and on a steep slope, the specimen slides off the pedestal.
 TEST_F(Draped, CoefficientThatNoShadowHasIsNoResult) {
   const Outcome outcome = ended(
