@@ -25,7 +25,7 @@ void run_on_gpu_together(int, const std::function<void(int)>&) { refuse(); }
 bool is_built_with_cuda() { return false; }
 
 int gpu_count(std::string& reason) {
-  reason = "this build has no CUDA back end";
+  reason = "this program was built without CUDA";
   return 0;
 }
 

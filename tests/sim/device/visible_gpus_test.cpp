@@ -30,7 +30,7 @@ TEST(VisibleGpus, ThatAreNotThereAreSaidWithTheirNumberAndTheVariable) {
 TEST(VisibleGpus, AreNotSpokenOfByAProgramWithoutCuda) {
   if (is_built_with_cuda()) GTEST_SKIP() << "built with CUDA";
   setenv(kVisibleGpus, "3", 1);
-  EXPECT_EQ(no_gpu_message("this build has no CUDA back end"), "this build has no CUDA back end");
+  EXPECT_EQ(no_gpu_message("this program was built without CUDA"), "this program was built without CUDA");
   unsetenv(kVisibleGpus);
 }
 

@@ -3,7 +3,7 @@
 #include <cstdlib>
 #include <optional>
 
-#include "tests/experiments/folder.h"
+#include "tests/experiments/program.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -84,6 +84,15 @@ TEST_F(GpuChoice, IsLeftToWhoSimulatesInAProgramWithoutCuda) {
   choose_gpu(line, 0, false);
   EXPECT_EQ(line.flags[1].text, "cuda");
   EXPECT_EQ(allowed(), "4");
+}
+
+// Whatever the variable says that such a program does not read.
+TEST_F(GpuChoice, IsRefusedByAProgramWithoutCudaWithThatReason) {
+  if (is_built_with_cuda()) GTEST_SKIP() << "built with CUDA";
+  allow("4");
+  for (const char* device : {"cuda", "cuda:7"})
+    EXPECT_EQ(ended(1, std::string("swing --triangles 40 --explain --device ") + device).err,
+              "hysteron swing: device = cuda: this program was built without CUDA; use --device cpu\n");
 }
 
 }  // namespace
