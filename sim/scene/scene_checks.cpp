@@ -29,12 +29,61 @@ void check_each(const Scene& scene, const std::vector<Item>& items, const std::s
   for (std::size_t i = 0; i < items.size(); ++i) check(scene, items[i], path_in(list, i));
 }
 
+bool is_flag(const std::string& origin) { return origin.starts_with("--"); }
+
+// A number of KES-FB2's friction that says nothing without another one.
+[[noreturn]] void refuse_kes_number(const Scene& scene, const std::string& key, double value,
+                                    const std::string& unit, const std::string& what) {
+  throw Error::invalid_input(shown(scene, key, value, unit) + " " + what).with_key(key, number_text(value));
+}
+
+// The pair B and 2HB, where no shape of friction stands beside it: both, or neither.
+void check_kes_pair(const Scene& scene) {
+  const KesPair& read = scene.fabric.kes.read;
+  const bool has_stops =
+      is_flag(key_origin(scene, "fabric.bending.stops.thresholds"));  // in place of the pair
+  const auto check_zero = [&](const std::string& key, double value, double other, const std::string& unit,
+                              const std::string& instead) {
+    const bool is_meant = other > 0 || (is_flag(key_origin(scene, key)) && !has_stops);
+    if (value == 0 && is_given(scene, key) && is_meant)
+      refuse_kes_number(scene, key, value, unit, "must be > 0" + instead);
+  };
+  check_zero("fabric.kes-2hb", read.loop_width, read.rigidity, "N",
+             ": for a fabric without friction take law = linear, or fabric.b1 = fabric.b2");
+  check_zero("fabric.kes-b", read.rigidity, read.loop_width, "N m", "");
+  const std::string both = " beside it: both stand for b1 and b2";
+  if (read.rigidity > 0 && read.loop_width == 0)
+    refuse_kes_number(scene, "fabric.kes-b", read.rigidity, "N m", "needs fabric.kes-2hb" + both);
+  if (read.loop_width > 0 && read.rigidity == 0)
+    refuse_kes_number(scene, "fabric.kes-2hb", read.loop_width, "N", "needs fabric.kes-b" + both);
+}
+
+// The shape of friction has a median and a spread, and the pair says how much friction has it.
+void check_kes_shape(const Scene& scene) {
+  const KesFriction& kes = scene.fabric.kes;
+  const double median = kes.shape.median, spread = kes.shape.spread;
+  if (!kes.on()) {
+    if (spread > 0 && !is_given(scene, "fabric.stops-median"))
+      refuse_kes_number(scene, "fabric.stops-spread", spread, "",
+                        "needs fabric.stops-median beside it, the curvature that it spreads around");
+    return;
+  }
+  const auto need = [&](const std::string& key, double value, const std::string& why) {
+    if (value == 0 && !is_given(scene, key))
+      refuse_kes_number(scene, "fabric.stops-median", median, "1/m", "needs " + key + " beside it" + why);
+  };
+  need("fabric.stops-spread", spread, ", the standard deviation of its logarithm");
+  need("fabric.kes-b", kes.read.rigidity, " and fabric.kes-2hb, whose friction it shapes");
+  need("fabric.kes-2hb", kes.read.loop_width, ", whose friction it shapes");
+}
+
 void check_fabric(const Scene& scene) {
   const Fabric& f = scene.fabric;
   const auto refuse = [&](const std::string& key, double value, const std::string& unit,
                           const std::string& what) {
     throw Error::invalid_input(shown(scene, key, value, unit) + " " + what).with_key(key, number_text(value));
   };
+  check_kes_shape(scene);
   if (f.kes.on() && !(f.b2 > 0))
     refuse("fabric.stops-median", f.kes.shape.median, "1/m",
            "and " + shown(scene, "fabric.stops-spread", f.kes.shape.spread, "") + " make friction of " +
@@ -44,13 +93,7 @@ void check_fabric(const Scene& scene) {
   check_fabric_numbers(scene);
   if (const auto twice = scene.origin.find(kSaidTwice); twice != scene.origin.end())
     throw Error::invalid_input(twice->second).with_key("fabric.kes-b", "");
-  if (!f.kes.on() && (f.kes.read.rigidity > 0) != (f.kes.read.loop_width > 0)) {
-    const bool rigidity = f.kes.read.rigidity > 0;
-    refuse(rigidity ? "fabric.kes-b" : "fabric.kes-2hb",
-           rigidity ? f.kes.read.rigidity : f.kes.read.loop_width, rigidity ? "N m" : "N",
-           rigidity ? "needs fabric.kes-2hb beside it: both stand for b1 and b2"
-                    : "needs fabric.kes-b beside it: both stand for b1 and b2");
-  }
+  if (!f.kes.on()) check_kes_pair(scene);
   if (f.b1 < f.b2) refuse("fabric.b1", f.b1, "N m", "must be >= " + shown(scene, "fabric.b2", f.b2, "N m"));
   if (f.k0 == 0 && f.b1 > f.b2) refuse("fabric.k0", f.k0, "1/m", "must be > 0 while fabric.b1 > fabric.b2");
   if (4 * f.bias_bending < 1 + f.weft_bending)

@@ -112,6 +112,36 @@ TEST(FrictionOfAFabric, LeavesElasticityBesideIt) {
   EXPECT_EQ(scene.fabric.b1, scene.fabric.b2);
 }
 
+// Half of what the tester reads says nothing: the other half is named.
+TEST(FrictionOfAFabric, OfATesterNamesWhatIsMissing) {
+  const auto said_to = [](const std::vector<Flag>& flags) {
+    Scene scene = default_scene("cotton-broad-k50");
+    apply_flags(scene, flags);
+    return test::refusal([&] { check_scene(scene); });
+  };
+  const Flag rigidity = {"fabric.kes-b", "1e-5"}, width = {"fabric.kes-2hb", "1e-3"},
+             median = {"fabric.stops-median", "17"}, spread = {"fabric.stops-spread", "2"},
+             no_width = {"fabric.kes-2hb", "0"};
+  const std::pair<std::vector<Flag>, const char*> cases[] = {
+      {{no_width},
+       "fabric.kes-2hb = 0 N (--fabric.kes-2hb) must be > 0: for a fabric without friction take law = "
+       "linear, "
+       "or fabric.b1 = fabric.b2"},
+      {{rigidity, no_width}, "fabric.kes-2hb = 0 N (--fabric.kes-2hb) must be > 0: "},
+      {{{"fabric.kes-b", "0"}, width}, "fabric.kes-b = 0 N m (--fabric.kes-b) must be > 0"},
+      {{rigidity}, "fabric.kes-b = 1e-05 N m (--fabric.kes-b) needs fabric.kes-2hb beside it"},
+      {{width}, "fabric.kes-2hb = 0.001 N (--fabric.kes-2hb) needs fabric.kes-b beside it"},
+      {{spread}, "fabric.stops-spread = 2 (--fabric.stops-spread) needs fabric.stops-median beside it"},
+      {{median, rigidity, width}, "(--fabric.stops-median) needs fabric.stops-spread beside it"},
+      {{median, spread, width}, "(--fabric.stops-median) needs fabric.kes-b beside it"},
+      {{median, spread, rigidity}, "(--fabric.stops-median) needs fabric.kes-2hb beside it"}};
+  for (const auto& [flags, message] : cases) EXPECT_TRUE(test::says(said_to(flags), message));
+  EXPECT_EQ(said_to({rigidity, width}), "(accepted)");
+  EXPECT_EQ(said_to({median, spread, rigidity, width}), "(accepted)");
+  EXPECT_EQ(said_to({median, {"fabric.stops-spread", "0.1"}, rigidity, no_width}), "(accepted)")
+      << "a shape of no friction";
+}
+
 TEST(ResolvedScene, ReadBackAsFlagsGivesTheSameScene) {
   Scene original = default_scene("wool-tropical");
   apply_flags(original, {{"gravity", "0.1 0 -9.81"},
