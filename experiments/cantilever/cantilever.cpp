@@ -121,7 +121,9 @@ int run_cantilever(const CommandLine& line) {
   scene.integrator = Integrator::quasi_static;
   scene.seconds = scene.ramp + scene.unload;
   if (choice.gamma > 0) {
-    decide(line, setup, {{"fabric.density", "gamma says how heavy the strip is"}});
+    const DecidedKey density = {"fabric.density", "gamma says how heavy the strip is"};
+    decide(line, setup, {density});
+    note_setter(scene, line.experiment, density);
     if (!names_law(line)) scene.law = "linear";
     scene.fabric.density =
         choice.gamma * scene.fabric.b2 / (scene.gravity.norm() * std::pow(scene.cloth.length, 3));

@@ -7,6 +7,7 @@
 
 #include "sim/base/error.h"
 #include "sim/bending/laws/law_run.h"
+#include "sim/scene/shown_key.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -103,6 +104,7 @@ BucklingStrip buckling_strip(Scene scene, Buckling kind, double length, double t
       kind == Buckling::upright ? -Eigen::Vector3d::UnitX() : -Eigen::Vector3d::UnitY();
   scene.gravity = g * (std::sin(tilt) * side - std::cos(tilt) * Eigen::Vector3d::UnitZ());
   scene.fabric.density = most * reference_gamma(kind, scene) * scene.fabric.b2 / (g * std::pow(length, 3));
+  scene.origin["fabric.density"] = kSetBy + std::string("buckle: its weight makes the strip buckle");
   scene.integrator = Integrator::quasi_static;
   scene.ramp = scene.seconds = most;
   scene.unload = 0;

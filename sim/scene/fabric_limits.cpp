@@ -146,9 +146,10 @@ void check_number(const FabricLimit& limit, double value, const std::string& key
 std::string number_warning(const FabricLimit& limit, double value, const std::string& key,
                            const std::string& origin) {
   if (value == 0 || limit.usual.contains(value)) return "";
+  const bool was_given = !origin.starts_with(kSetBy);  // nobody has mistaken the unit of any other number
   return shown_number(limit, value, key) + " (" + origin + ") is unusual: fabrics have " +
          with_unit(three_digits(limit.usual.low) + " to " + three_digits(limit.usual.high), limit) +
-         slip_text(limit, value);
+         (was_given ? slip_text(limit, value) : "");
 }
 
 // Calls visit(limit, value, key) with every number of the fabric that has limits.

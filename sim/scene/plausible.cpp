@@ -80,9 +80,11 @@ std::string fitting_units(const Size& size, LengthUnit unit) {
   return fitting.empty() ? "" : "cloth.unit = " + join(fitting, ", ");
 }
 
-// Of cloth that is built the edges are asked for.
+// Of cloth that is built the edges are asked for, and of one whose density an experiment has set no unit of
+// length is to blame for its weight.
 std::string size_doubt(const Scene& scene, const ClothMesh& mesh) {
   Size size = scene_size(scene, mesh);
+  if (is_set_by_experiment(scene, "fabric.density")) size.weight = kLightest;
   const std::string file = rest_file(scene);
   if (file.empty()) size.edge = kShortestEdge;
   const std::string what = beyond(size);

@@ -35,6 +35,23 @@ void decide(const CommandLine& line, Setup& setup, const std::vector<DecidedKey>
   setup.decided.insert(setup.decided.end(), keys.begin(), keys.end());
 }
 
+void note_setter(Scene& scene, const std::string& experiment, const DecidedKey& key) {
+  scene.origin[key.path] = kSetBy + experiment + ": " + key.why;
+}
+
+namespace {
+
+// A number that the fabric's own file states and neither flag nor scene: naming a fabric asks for no more
+// than what of it is used.
+bool is_of_fabric_file(const Scene& scene, const std::string& path) {
+  const std::string prefix = "fabric.";
+  if (!path.starts_with(prefix)) return false;
+  const auto found = scene.fabric.provenance.find(path.substr(prefix.size()));
+  return found != scene.fabric.provenance.end() && found->second.source != key_origin(scene, path);
+}
+
+}  // namespace
+
 // A file that was dumped has every key: those that are as the experiment has them by itself ask for nothing.
 std::vector<std::string> lost_words(const CommandLine& line, const Setup& setup) {
   std::vector<std::string> words;
@@ -46,11 +63,11 @@ std::vector<std::string> lost_words(const CommandLine& line, const Setup& setup)
     if (const std::string place = key_origin(setup.scene, key.path + "[0]", ""); !place.empty())
       words.push_back("[[" + key.path + "]] (" + place +
                       ") is not used: " + decided_words(line.experiment, key));
-    if (!is_given(setup.scene, key.path)) continue;
+    if (!is_given(*setup.requested, key.path) || is_of_fabric_file(*setup.requested, key.path)) continue;
     const Json& value = json_at(requested, key.path);
     if (value == json_at(default_values, key.path) || (!key.unused && value == json_at(now, key.path)))
       continue;
-    words.push_back(key.path + " = " + value.dump() + " (" + key_origin(setup.scene, key.path) +
+    words.push_back(key.path + " = " + value.dump() + " (" + key_origin(*setup.requested, key.path) +
                     ") is not used: " + decided_words(line.experiment, key));
   }
   return words;

@@ -20,6 +20,10 @@ void throw_if_flags(const CommandLine& line, const std::vector<DecidedKey>& deci
 // The same; and the set-up remembers them, for lost_words().
 void decide(const CommandLine& line, Setup& setup, const std::vector<DecidedKey>& keys);
 
+// Sets where the key is shown to come from, "set by fold: the specimen is a strip", for a scene whose key the
+// experiment has changed.
+void note_setter(Scene& scene, const std::string& experiment, const DecidedKey& key);
+
 // What a scene's file asks for that the experiment has not done: a sentence for each such key, with its
 // place.  `setup` is as the experiment has changed it.
 std::vector<std::string> lost_words(const CommandLine& line, const Setup& setup);

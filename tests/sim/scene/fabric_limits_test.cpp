@@ -7,6 +7,7 @@
 #include "sim/scene/cloth.h"
 #include "sim/scene/fabric_reader.h"
 #include "sim/scene/scene_reader.h"
+#include "sim/scene/shown_key.h"
 #include "tests/sim/base/folder.h"
 #include "tests/sim/base/refusal.h"
 
@@ -46,6 +47,19 @@ TEST(FabricLimits, RefuseThemInAFabricsFileAtTheirLine) {
   const std::string said = test::refusal([&] { read_fabric(file, "test"); });
   EXPECT_TRUE(says(said, "fabric.density = 124 kg/m^2 must be"));
   EXPECT_TRUE(says(said, "f.toml:7")) << "the line of density";
+}
+
+// Nobody has mistaken its unit.
+TEST(FabricLimits, NameTheExperimentThatHasSetANumber) {
+  Scene scene = default_scene();
+  scene.fabric.density = 12;
+  scene.origin["fabric.density"] = std::string(kSetBy) + "buckle: its weight grows";
+  const std::vector<std::string> warnings = fabric_warnings(scene);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(
+      warnings[0],
+      "fabric.density = 12 kg/m^2 (set by buckle: its weight grows) is unusual: fabrics have 0.01 to 1.5 "
+      "kg/m^2");
 }
 
 TEST(FabricLimits, WarnOfTheUnusualWhichRuns) {

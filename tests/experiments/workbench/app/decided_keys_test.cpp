@@ -74,7 +74,8 @@ TEST(DecidedKeys, AreAllThatAnExperimentChangesButWhatItMakesFit) {
     const FinishedRun run(std::string(name) + " " + flags + " --device cpu --no-images --quiet");
     std::vector<std::string> changed;
     changed_in(run.manifest()["asked"], "", changed);
-    for (const std::string& path : changed) {
+    for (std::string path : changed) {
+      if (path.starts_with("origin.")) path.erase(0, std::string("origin.").size());  // of a key it decides
       const bool known = has_key(experiment_named(name).decided(), path);
       const bool of_swing =
           name == std::string("swing") && path == "pin";  // which has one if the scene has none
@@ -110,6 +111,16 @@ TEST(Strips, OfADumpedFileAskForNothingElse) {
   const std::string dumped = folder.file("dumped.toml");
   finished("cantilever --triangles 32 --device cpu --dump-scene " + dumped);
   EXPECT_FALSE(says(strip_run(dumped).outcome.err, "is not used"));
+}
+
+// Its file has a density, as every fabric's has: naming it asks for nothing that is lost.
+TEST(Strips, NameWhoHasSetTheirDensityAndBlameNeitherTheFabricNorLengths) {
+  const FinishedRun run(
+      "cantilever --triangles 32 --device cpu --no-images --quiet --fabric wool-tropical --gamma 0.1");
+  const std::string warnings = run.manifest()["warnings"].dump();
+  EXPECT_TRUE(says(warnings, "kg/m^2 (set by cantilever: gamma says how heavy the strip is) is unusual"));
+  for (const char* blame : {"wool-tropical.toml", "is not used", "lengths are in metres"})
+    EXPECT_FALSE(says(warnings, blame)) << warnings;
 }
 
 }  // namespace
