@@ -14,6 +14,7 @@
 #include "experiments/workbench/app/run.h"
 #include "experiments/workbench/pages/report.h"
 #include "experiments/workbench/pictures/pictures.h"
+#include "experiments/workbench/session/doubts.h"
 #include "render/look.h"
 #include "sim/base/error.h"
 #include "sim/bending/laws/unused_parameters.h"
@@ -47,7 +48,7 @@ const KeyRow<KesFlags> kRows[] = {
     {"slope-from", at<&K::protocol, &P::slope_from>, "1/m", at_least(0), "", "curvature from which the slope B is taken"},
     {"slope-to", at<&K::protocol, &P::slope_to>, "1/m", positive(), "", "curvature up to which the slope B is taken"},
     {"width-at", at<&K::protocol, &P::width_at>, "1/m", positive(), "", "curvature at which 2HB is read"},
-    {"steps", at<&K::protocol, &P::steps>, "", between(10, 1e6), "", "accepted steps from zero to the amplitude"},
+    {"steps", at<&K::protocol, &P::steps>, "", between(10, 1e6), "", "accepted steps from zero to the amplitude, as they are drawn; what the tester reads of a law that takes no time does not depend on them"},
     {"cycles", at<&K::protocol, &P::cycles>, "", between(1, 1000), "", "number of cycles; the tester reads the first, the area is that of the last"},
     {"on", at<&K::on>, "", any(), "law | strip", "the law alone, or beside it a strip of cloth between rotating clamps"},
     {"renderer", at<&K::options, &Options::renderer>, "", any(), "auto | egl | osmesa", "how pictures of strips are drawn"},
@@ -60,7 +61,7 @@ const KeyRow<KesFlags> kStripRows[] = {
     {"strip-steps", at<&K::strip, &S::steps>, "", between(4, 1e5), "", "equilibria of a strip from zero to the amplitude"},
 };
 // clang-format on
-constexpr int kQuickSteps = 1000, kQuickStripSteps = 18;
+constexpr int kQuickSteps = 1000, kQuickStripSteps = 28;
 
 Keys option_keys(KesFlags& flags) {
   Keys keys = bind(kRows, flags);
@@ -211,6 +212,17 @@ void warn_of_parameters(const KesTests& tests, const std::vector<std::string>& l
   }
 }
 
+// Steps that are too long, and strips of another number of triangles than was asked for.
+void warn_of_sizes(const CommandLine& line, const KesTests& tests, const KesFlags& flags, Run& run) {
+  for (const std::string& warning : coarse_steps_warnings(tests, flags.protocol.steps, flags.strip.steps))
+    run.warn(warning);
+  const auto& strip = tests.results.front().strip;
+  if (!strip || last_text(line.flags, "triangles", "").empty()) return;
+  const std::string warning =
+      triangle_count_warning(flags.strip.triangles, "--triangles", strip->strip.cloth.mesh.faces());
+  if (!warning.empty()) run.warn(warning);
+}
+
 // Their strips are missing in the tables.
 void warn_of_failures(const KesTests& tests, Run& run) {
   for (const KesResult& result : tests.results)
@@ -284,6 +296,7 @@ int run_kes(const CommandLine& line) {
   Run run(line, flags.options, resolved(flags, laws, fabric));
   for (const std::string& warning : checked_fabric_warnings(name, line.flags)) run.warn(warning);
   warn_of_parameters(tests, laws, flags, run);
+  warn_of_sizes(line, tests, flags, run);
   warn_of_failures(tests, run);
   write_metrics(run, tests);
   write_tables(run, tests, flags.protocol);
@@ -315,7 +328,8 @@ Experiment kes() {
                      {"rate", "law = all | chapman | gong | kim | terzopoulos",
                       "a law that takes time: --law chapman, gong, kim, terzopoulos or all"},
                      {"mesh | triangles | strip-steps", "on = strip"},
-                     {"element | cloth.width | renderer", "test = bending and on = strip"},
+                     {"element | cloth.width", "test = bending and on = strip"},
+                     {"renderer", "test = bending and on = strip and not no-images"},
                      {"along", "test = shear | tension"},
                      {"load", "test = tension"},
                      {"fabric.b1 | fabric.b2 | fabric.k0 | fabric.kes-b | fabric.kes-2hb | "

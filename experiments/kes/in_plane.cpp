@@ -1,5 +1,7 @@
 #include "experiments/kes/in_plane.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -8,6 +10,7 @@
 #include "experiments/specimens/clamped_mesh.h"
 #include "experiments/workbench/app/run.h"
 #include "experiments/workbench/pages/report.h"
+#include "experiments/workbench/session/doubts.h"
 #include "render/plot.h"
 #include "sim/base/csv.h"
 #include "sim/base/error.h"
@@ -68,6 +71,7 @@ constexpr double kInPlaneGauge = 0.05, kInPlaneWidth = 0.2;  // of the tester's 
 template <class Test>
 struct InPlaneCloth {
   Test test;           // its rows and readings, of the specimen
+  Test law;            // the law alone through the same rows
   double tension = 0;  // per width, mean over the rows of shear [N/m]
   int triangles = 0;
   double seconds = 0;  // wall clock
@@ -140,7 +144,7 @@ InPlaneCloth<ShearTest> shear_cloth(const Fabric& fabric, Along along, const InP
   for (std::size_t i = 0; i < law.force.size(); ++i)
     places.push_back({law.walk.stretch[i] - 1, law.walk.shear.rows[i].curvature});
   const ClampForces forces = forces_at(fabric, along, specimen, places);
-  InPlaneCloth<ShearTest> cloth{{{}, law.walk, {}}, 0, forces.triangles, forces.seconds};
+  InPlaneCloth<ShearTest> cloth{{{}, law.walk, {}}, law, 0, forces.triangles, forces.seconds};
   for (std::size_t i = 0; i < places.size(); ++i) {
     const auto [tension, force] = forces.force[i];
     cloth.test.force.push_back(force - tension * places[i].along / law.walk.stretch[i]);
@@ -157,7 +161,8 @@ InPlaneCloth<TensionTest> stretch_cloth(const Fabric& fabric, Along along, const
   std::vector<ClampPlace> places;
   for (std::size_t i = 1; i < law.extension.size(); ++i) places.push_back({law.extension[i], 0});
   const ClampForces forces = forces_at(fabric, along, specimen, places);
-  InPlaneCloth<TensionTest> cloth{{{}, law.extension, {0}, law.turn}, 0, forces.triangles, forces.seconds};
+  InPlaneCloth<TensionTest> cloth{
+      {{}, law.extension, {0}, law.turn}, law, 0, forces.triangles, forces.seconds};
   for (const ClampPlace& of : forces.force) cloth.test.force.push_back(of.apart);
   cloth.test.reading = read_tension(cloth.test.extension, cloth.test.force, law.turn);
   return cloth;
@@ -187,7 +192,8 @@ struct InPlaneResult {
   // Of the specimen of cloth and of one of a quarter of the triangles; without numbers where none was asked
   // for.
   InPlaneLoop cloth, coarse;
-  double tension = 0;  // of the specimen in shear [N/m]
+  InPlaneLoop law_through_rows;  // the law alone through the specimen's rows
+  double tension = 0;            // of the specimen in shear [N/m]
   int triangles = 0;
   double seconds = 0;
 };
@@ -289,6 +295,26 @@ void write_in_plane_metrics(Run& run, const InPlaneResult& result) {
   run.metric("strip_solve_s", result.seconds);
 }
 
+// Numbers of the specimen that its few rows make wrong, as they do the law's, and a mesh that is not what was
+// asked for.
+void warn_of_sizes(const CommandLine& line, const InPlaneFlags& flags, const InPlaneResult& result,
+                   Run& run) {
+  constexpr double kMostPercent = 0.5;
+  for (std::size_t i = 0; i < result.law_through_rows.numbers.size(); ++i) {
+    const InPlaneNumber& law = result.law.numbers[i];
+    const double percent = difference(result.law_through_rows.numbers[i].value, law.value);
+    if (std::abs(law.value) < kNothing || !(std::abs(percent) > kMostPercent)) continue;
+    run.warn(
+        fmt::format("strip-steps = {}: {} of the specimen is {:.1f} % too {}, since it is read between "
+                    "few equilibria: take more steps",
+                    flags.specimen.steps, law.key, std::abs(percent), percent < 0 ? "small" : "large"));
+  }
+  if (result.cloth.numbers.empty() || last_text(line.flags, "triangles", "").empty()) return;
+  const std::string warning =
+      triangle_count_warning(flags.specimen.triangles, "--triangles", result.triangles);
+  if (!warning.empty()) run.warn(warning);
+}
+
 // loops.csv, strip.csv, and table.csv: beside what the fabric's file says was published.
 void write_in_plane_tables(Run& run, const InPlaneResult& result, InPlaneTest test) {
   const auto write = [&](const std::string& name, const InPlaneLoop& loop) {
@@ -327,6 +353,7 @@ void test_on_cloth(InPlaneResult& result, const Test& law, const InPlaneFlags& f
   coarse.triangles /= 4;
   const auto cloth = on_cloth(result.fabric, flags.along, flags.specimen, flags.protocol);
   result.cloth = in_plane_loop(cloth.test);
+  result.law_through_rows = in_plane_loop(cloth.law);
   result.coarse = in_plane_loop(on_cloth(result.fabric, flags.along, coarse, flags.protocol).test);
   result.tension = cloth.tension;
   result.triangles = cloth.triangles;
@@ -364,6 +391,7 @@ int run_in_plane(const CommandLine& line) {
   const InPlaneResult result = tested(fabric, test, flags);
   Run run(line, flags.options, resolved(flags, fabric));
   for (const std::string& warning : checked_fabric_warnings(name, line.flags)) run.warn(warning);
+  warn_of_sizes(line, flags, result, run);
   write_in_plane_metrics(run, result);
   write_in_plane_tables(run, result, test);
   if (!flags.options.no_images) write_in_plane_plot(run, result, test);

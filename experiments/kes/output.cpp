@@ -206,6 +206,35 @@ void write_metrics(Run& run, const KesTests& tests) {
   }
 }
 
+namespace {
+
+// "law kim, steps = 10: the area of the loop is 23.5 % too small by the length of its steps"; "" where it is
+// right.
+std::string coarse_steps_warning(const std::string& what, double error) {
+  constexpr double kMostError = 5e-3;  // what testers and meshes are not asked to resolve
+  if (!(std::abs(error) > kMostError)) return "";
+  return fmt::format("{}: the area of the loop is {:.1f} % too {} by the length of its steps: take more",
+                     what, 100 * std::abs(error), error < 0 ? "small" : "large");
+}
+
+}  // namespace
+
+std::vector<std::string> coarse_steps_warnings(const KesTests& tests, int steps, int strip_steps) {
+  std::vector<std::string> warnings;
+  for (const KesResult& result : tests.results) {
+    warnings.push_back(
+        coarse_steps_warning(fmt::format("law {}, steps = {}", result.law, steps), result.test.area_error));
+    const double area = result.test.reading.loop_area;
+    if (!result.strip || !result.strip->failure.empty() || area == 0) continue;
+    // The law alone through the strip's curvatures, with as long steps, is as far off as the strip.
+    const double error = result.strip->test.law_reading.loop_area / area - 1;
+    warnings.push_back(coarse_steps_warning(
+        fmt::format("strip under law {}, strip-steps = {}", result.law, strip_steps), error));
+  }
+  std::erase(warnings, "");
+  return warnings;
+}
+
 void write_tables(Run& run, const KesTests& tests, const KesProtocol& protocol) {
   write_loops(run, tests, protocol);
   if (protocol.minor_loops) write_minor_loops(run, tests, protocol);

@@ -63,6 +63,9 @@ struct KesTests {
 // strip.
 void write_metrics(Run& run, const KesTests& tests);
 
+// Loops whose area is off by more than half a percent because their steps are few: a sentence for each.
+std::vector<std::string> coarse_steps_warnings(const KesTests& tests, int steps, int strip_steps);
+
 // loops.csv and minor_loops.csv, a column per result and a hundredth of the amplitude per row; table.csv.
 void write_tables(Run& run, const KesTests& tests, const KesProtocol& protocol);
 

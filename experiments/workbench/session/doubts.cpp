@@ -113,6 +113,14 @@ std::vector<std::string> doubts_at_start(const Scene& scene, const Cloth& cloth,
   return said(doubts);
 }
 
+std::string triangle_count_warning(int asked, const std::string& origin, int triangles) {
+  constexpr double kNoticeable = 0.1;
+  if (std::abs(triangles - asked) <= kNoticeable * asked) return "";
+  return fmt::format(
+      "triangles = {} ({}) is not what the mesh has: whole rows and columns of its kind make {} triangles",
+      asked, origin, triangles);
+}
+
 std::vector<std::string> doubts_at_end(const Scene& scene, const Cloth& cloth,
                                        const std::vector<Eigen::Vector3d>& x, double stretched) {
   return said({stretch_words(stretched), resolution_words(scene, cloth, x)});

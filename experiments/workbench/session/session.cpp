@@ -17,6 +17,8 @@
 #include "experiments/workbench/session/probes.h"
 #include "experiments/workbench/session/resting.h"
 #include "experiments/workbench/session/resuming.h"
+#include "sim/scene/mesh_files.h"
+#include "sim/scene/shown_key.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -119,7 +121,18 @@ void Session::describe_start() {
     manifest.linear_solver = enum_name(method.linear_solver);
   if (!method.reason.empty()) run_->progress(method.reason);
   for (const std::string& warning : cloth_.warnings) run_->warn(warning);
+  warn_of_triangle_count();
   for (const std::string& doubt : doubts_at_start(setup_.scene, cloth_, *simulation_)) run_->warn(doubt);
+}
+
+// A file has the triangles that it has, and a number that nobody has given may be made to fit.
+void Session::warn_of_triangle_count() {
+  if (!setup_.requested || !is_given(*setup_.requested, "triangles") || !rest_file(setup_.scene).empty())
+    return;
+  const Scene& requested = *setup_.requested;
+  const std::string warning =
+      triangle_count_warning(requested.triangles, key_origin(requested, "triangles"), cloth_.mesh.faces());
+  if (!warning.empty()) run_->warn(warning);
 }
 
 void Session::reserve(const std::vector<std::string>& files, const std::vector<std::string>& drawn) {

@@ -123,6 +123,7 @@ class Session {
 
  private:
   void describe_start();
+  void warn_of_triangle_count();
   // Where the cloth was at the last instant of a kind.
   struct Before {
     long step = 0;

@@ -56,6 +56,20 @@ TEST_F(KesCommand, WarnsOfUnusualFabricsAndOfParametersThatChangeNothing) {
   EXPECT_TRUE(says(tension, "fabric.warp = 2e+06 N/m (--fabric.warp) is unusual"));
 }
 
+TEST_F(KesCommand, WarnsOfStepsThatAreTooLongForTheAreaOfALoop) {
+  const auto warnings = [&](const std::vector<Flag>& flags) {
+    return run(flags).value("warnings", Json::array()).dump();
+  };
+  EXPECT_EQ(warnings({{"steps", "10"}}), "[]") << "of a law that takes no time";
+  EXPECT_TRUE(
+      says(warnings({{"steps", "10"}, {"law", "kim"}}), "law kim, steps = 10: the area of the loop is "));
+  const std::vector<Flag> strip = {{"on", "strip"}, {"cloth.width", "1e-3"}};
+  EXPECT_EQ(warnings(strip), "[]");
+  std::vector<Flag> coarse = strip;
+  coarse.push_back({"strip-steps", "10"});
+  EXPECT_TRUE(says(warnings(coarse), "strip under law prandtl, strip-steps = 10: the area of the loop is "));
+}
+
 TEST_F(KesCommand, TakesAFabricsNumbersFromFlags) {
   const Json manifest = run({{"fabric", "cotton_broad"}, {"fabric.b2", "2e-5"}, {"law", "linear"}});
   EXPECT_NEAR(manifest["metrics"]["B_N_m"].get<double>(), 2e-5, kRounding * 2e-5);

@@ -98,6 +98,31 @@ TEST(Kes, LoopAreaIsTheClosedFormBelowAndAboveTheElasticLimit) {
   EXPECT_NEAR(area, 4.0 / 3 * -kCotton.c1() * 40 * 40 * 40, kSampling * area);
 }
 
+// Ten steps pass the corners of the loop; what happens between them is known.
+TEST(Kes, ReadsTheLoopBetweenCoarseSteps) {
+  for (const double k0 : {5.0, 50.0}) {
+    const VirginCurve cotton{1.1571847e-5 + 1.216e-3 / k0, 1.1571847e-5, k0};
+    KesProtocol p;
+    p.steps = 10;
+    const KesTest coarse = test_in_kes({"prandtl", cotton, {}}, p);
+    const double area = 4 * cotton.friction_moment() * (p.amplitude - 2 * k0 / 3);
+    EXPECT_NEAR(coarse.reading.loop_area, area, kSampling * area) << k0;
+    EXPECT_NEAR(coarse.reading.rigidity, cotton.b2, kKesRounding * cotton.b2) << k0;
+    EXPECT_EQ(coarse.walk.rows.size(), 1 + 10 + 1 + static_cast<std::size_t>(2 * p.cycles) * (20 + 1));
+    EXPECT_EQ(coarse.area_error, 0);
+  }
+}
+
+// A law that creeps is another one with longer steps, and says so.
+TEST(Kes, KnowsHowCoarseTheStepsOfALawAreThatTakesTime) {
+  KesProtocol coarse, fine;
+  coarse.steps = 10, fine.steps = 1000;
+  const KesTest test = test_in_kes({"kim", kCotton, {}}, coarse);
+  const double area = test_in_kes({"kim", kCotton, {}}, fine).reading.loop_area;
+  EXPECT_DOUBLE_EQ(test.area_error, test.reading.loop_area / area - 1);
+  EXPECT_NE(test.area_error, 0);
+}
+
 // At u = width_at/K0 < 1 the loading branch of the positive side is still the virgin curve, F = M0 (2u -
 // u^2); everywhere else the friction at +-width_at has come to +-M0.
 TEST(Kes, WidthReadOnTheVirginCurveIsSmallerByItsMissingFriction) {

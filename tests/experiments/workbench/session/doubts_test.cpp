@@ -96,5 +96,25 @@ TEST(End, FarFromTheStartSaysWhatSinglePrecisionIsRoundedTo) {
   EXPECT_TRUE(doubts_at_end(scene, trial.cloth, far, 0).empty());
 }
 
+TEST(Triangles, ThatAreATenthMoreOrFewerThanAskedForAreCounted) {
+  EXPECT_EQ(triangle_count_warning(100, "--triangles", 110), "");
+  EXPECT_EQ(triangle_count_warning(100, "--triangles", 90), "");
+  for (const int triangles : {89, 111})
+    EXPECT_TRUE(
+        says(triangle_count_warning(100, "--triangles", triangles),
+             "triangles = 100 (--triangles) is not what the mesh has: whole rows and columns of its kind "
+             "make " +
+                 std::to_string(triangles)));
+}
+
+// A strip's columns across the crease are at most a thickness wide, whatever is asked for.
+TEST(Triangles, OfACreaseAreSaidWhereItsColumnsTakeMore) {
+  const std::string crease =
+      "crease --crease.fold pleat --crease.recovery 0.02 --device cpu --no-images --quiet --triangles ";
+  EXPECT_TRUE(
+      says(FinishedRun(crease + "60").outcome.err, "warning: triangles = 60 (--triangles) is not what"));
+  EXPECT_FALSE(says(FinishedRun(crease + "136").outcome.err, "triangles = 136"));
+}
+
 }  // namespace
 }  // namespace hysteron::experiments
