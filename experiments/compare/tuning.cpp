@@ -6,6 +6,7 @@
 #include <iostream>
 #include <map>
 
+#include "experiments/workbench/app/key_conditions.h"
 #include "experiments/workbench/compare/comparison.h"
 #include "sim/base/error.h"
 #include "sim/base/number_in.h"
@@ -41,7 +42,7 @@ double metric_in(const ChildRun& column, const std::string& metric) {
 Plan tried_columns(const CommandLine& inner, const std::vector<Variant>& variants, CompareChoice choice,
                    const Options& options, const std::string& key, const std::string& number) {
   CommandLine line = inner;
-  line.flags = with_later(line.flags, {{"no-images", "true"}});
+  line.flags = with_later(without_unread_flags(line, "no-images", "true"), {{"no-images", "true"}});
   choice.to.clear();
   return comparison_plan(line, {with_key(variants[0], key, number), variants[1]}, choice,
                          std::filesystem::path(options.out) / "tries");

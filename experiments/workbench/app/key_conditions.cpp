@@ -48,11 +48,12 @@ const KeyCondition kSceneConditions[] = {
      "--precision double and --integrator implicit, bdf2, tr-bdf2 or quasi-static, or --self-contact"},
     {"ramp | unload", "integrator = quasi-static", ""},
 };
-// Of what a run does besides simulating.  Options that say how pictures look are no part of it: scripts draw
-// pictures or leave them out by one flag.
+// Of what a run does besides simulating.  Options that say how pictures look are no part of it: the manifest
+// keeps them, and scripts draw pictures or leave them out by one flag.  What draws them is.
 const KeyCondition kRunConditions[] = {
     {"errors.draws | errors.jobs | errors.batch", "errors", ""},
     {"reference", "look = difference", ""},
+    {"renderer", "not no-images", ""},
 };
 
 std::vector<std::string> parts(const std::string& text, const std::string& separator) {

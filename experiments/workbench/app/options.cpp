@@ -22,7 +22,7 @@ const KeyRow<Options> kRows[] = {
     {"fps", at<&O::fps>, "1/s", between(0, 10000), "", "pictures and rows of series per simulated second, at the ends of steps; 0: of the start and the end alone; no result depends on it"},
     {"quality", at<&O::quality>, "", any(), "draft | final | figure", "of the pictures: a draft is drawn with 4 samples a pixel in place of 8; a figure, for pictures that are published, is lit from 192 directions and takes seconds"},
     {"renderer", at<&O::renderer>, "", any(), "", "how pictures are drawn"},
-    {"no-images", at<&O::no_images>, "", any(), "", "draw no pictures"},
+    {"no-images", at<&O::no_images>, "", any(), "", "draw no pictures; options that say how they look may stand beside it, a renderer may not"},
     {"look", at<&O::look>, "", any(), "", "what pictures show: cloth | grid (printed, 1 cm) | clay | curvature | residual | difference | friction | height (from the lowest to the highest point) | wireframe | silhouette; of several, separated by commas, each but the first has a sequence of its own, frames-LOOK/"},
     {"curvature-range", at<&O::curvature_range>, "1/m", at_least(0), "", "curvature at the ends of the colours, half of it for residual and difference; 0: 2 k0"},
     {"reference", at<&O::reference>, "", any(), "", "folder of a run on the same mesh with --export ply: look difference subtracts its curvature"},

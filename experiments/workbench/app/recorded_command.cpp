@@ -7,6 +7,7 @@
 #include <set>
 
 #include "experiments/workbench/app/command_line.h"
+#include "experiments/workbench/app/key_conditions.h"
 #include "experiments/workbench/app/manifest_file.h"
 #include "sim/base/error.h"
 
@@ -97,8 +98,12 @@ CommandLine line_that_repeats(const RecordedRun& run, const std::vector<Flag>& l
     line.positionals = {run.file.string()};  // its study's file may be another by now
   if (!with_errors)
     std::erase_if(line.flags, [](const Flag& flag) { return flag.path.starts_with("errors"); });
-  for (const Flag& flag : later)
-    if (takes(experiment_named(line.experiment), flag.path)) line.flags.push_back(flag);
+  for (const Flag& flag : later) {
+    if (!takes(experiment_named(line.experiment), flag.path)) continue;
+    const bool draws_no_more = flag.path == "no-images" && flag.text == "true";
+    if (draws_no_more) line.flags = without_unread_flags(line, flag.path, flag.text);
+    line.flags.push_back(flag);
+  }
   line.command = typed_command(line);
   return line;
 }

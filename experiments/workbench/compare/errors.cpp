@@ -64,6 +64,7 @@ ChildRun child_run(const Run& run, const CommandLine& line, const ErrorRun& erro
   for (const Flag& change : error_run.changes)
     if (change.path == experiment_headlines(line.experiment).release)
       once.flags = without_unread_flags(once, change.path, change.text);
+  once.flags = without_unread_flags(once, "no-images", "true");
   std::erase_if(once.flags, [](const Flag& flag) { return flag.path.starts_with("errors"); });
   return child_run(error_run.name, once, own, run.folder() / "errors");
 }

@@ -81,6 +81,13 @@ TEST(KeyConditions, RefuseFlagsThatNothingReadsWithWhatWouldReadThem) {
        {{"drape.shakes", "3"}},
        "--drape.shakes 3 is not used: drape.shakes needs --drape.release shaken (drape.release = lowered)"},
       {"drape",
+       {{"renderer", "osmesa"}, {"no-images", "true"}},
+       "--renderer osmesa is not used: renderer needs no --no-images (no-images = true)"},
+      {"kes",
+       {{"on", "strip"}, {"renderer", "osmesa"}, {"no-images", "true"}},
+       "--renderer osmesa is not used: renderer needs --test bending and --on strip and no --no-images "
+       "(no-images = true)"},
+      {"drape",
        {{"errors.draws", "3"}},
        "--errors.draws 3 is not used: errors.draws needs --errors (no --errors)"},
       {"drape",
@@ -193,6 +200,17 @@ TEST(KeyConditions, OfADrapeAreThoseOfItsStandard) {
   const CommandLine line = line_with("drape", {{"drape.lowering", "1"}, {"drape.disc", "0.08"}});
   EXPECT_EQ(without_unread_flags(line, "drape.release", "dropped"),
             (std::vector<Flag>{{"drape.disc", "0.08"}}));
+}
+
+// How pictures look may be said where none are drawn, what draws them may not; a repetition without pictures
+// leaves it out.
+TEST(KeyConditions, LeaveTheLookOfPicturesBesideNoImages) {
+  const Flag size = {"size", "160x120"}, renderer = {"renderer", "osmesa"};
+  const CommandLine line =
+      line_with("drape", {size, {"quality", "draft"}, {"fps", "5"}, {"no-images", "true"}});
+  EXPECT_NO_THROW(refuse_unread_flags(line, {{"no-images", true}}));
+  EXPECT_EQ(without_unread_flags(line_with("drape", {size, renderer}), "no-images", "true"),
+            (std::vector<Flag>{size}));
 }
 
 TEST(KeyConditions, AreShownByHelp) {
