@@ -13,7 +13,6 @@
 #include "experiments/workbench/session/probes.h"
 #include "experiments/workbench/session/session.h"
 #include "sim/base/csv.h"
-#include "sim/base/root_mean_square.h"
 #include "sim/bending/vertex_curvature.h"
 #include "sim/scene/mesh_files.h"
 #include "sim/scene/motion.h"
@@ -64,7 +63,7 @@ RidgeMetrics measured_ridges(Session& session, const C& choice) {
   const double spacing = kLines * edges / static_cast<double>(mesh.edge.size());
   return {ridge_length(mesh, unrolled(mesh, session.scene().cloth),
                        vertex_average(session.cloth().mesh, size, d), choice.ridge, spacing),
-          root_mean_square(simulation.curvature(), area), root_mean_square(size, area)};
+          curvature_rms(simulation.curvature(), area, d), curvature_rms(size, area, d)};
 }
 
 // Where the cloth reaches that hangs from its only pin in the end.

@@ -11,7 +11,6 @@
 
 #include "experiments/workbench/app/json_file.h"
 #include "sim/base/error.h"
-#include "sim/base/root_mean_square.h"
 #include "sim/bending/vertex_curvature.h"
 #include "sim/scene/assets.h"
 #include "sim/scene/toml_file.h"
@@ -199,7 +198,7 @@ double RequestedMetric::residual_curvature(Simulation& simulation) const {
     part.insert(part.end(), &k[i * d], &k[i * d] + d);
     area.push_back(all[i]);
   }
-  return root_mean_square(part, area);
+  return curvature_rms(part, area, d);
 }
 
 }  // namespace hysteron::experiments

@@ -86,6 +86,7 @@ class Bending {
     return geometric(measured(LawMeasure::residual_curvature, dimension_));
   }
   std::vector<double> slip() { return measured(LawMeasure::slip, 1); }
+  const std::vector<double>& metric() const { return metric_; }
   int dimension() const { return dimension_; }
   int elements() const { return elements_; }
   const LawLoop<Real, Device>& law() const { return *law_; }

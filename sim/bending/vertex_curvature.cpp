@@ -1,5 +1,8 @@
 #include "sim/bending/vertex_curvature.h"
 
+#include <cmath>
+
+#include "sim/base/root_mean_square.h"
 #include "sim/bending/curvature_operator.h"
 
 namespace hysteron {
@@ -10,6 +13,12 @@ std::vector<double> element_areas(const ClothMesh& mesh, int dimension) {
   for (int e = 0; e < mesh.interior_edges; ++e)
     area.push_back((mesh.face_area[mesh.edge[e].face0] + mesh.face_area[mesh.edge[e].face1]) / 2);
   return area;
+}
+
+double curvature_rms(const std::vector<double>& curvature, const std::vector<double>& area, int dimension) {
+  constexpr double kHingesOfFace = 3;
+  const double rms = root_mean_square(curvature, area);
+  return dimension == 3 ? rms : std::sqrt(kHingesOfFace) * rms;
 }
 
 std::vector<float> vertex_average(const ClothMesh& mesh, const std::vector<double>& element, int dimension) {

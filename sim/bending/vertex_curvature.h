@@ -13,6 +13,12 @@ namespace hysteron {
 // that of its two faces.
 std::vector<double> element_areas(const ClothMesh& mesh, int dimension);
 
+// Root mean square over a cloth, or a part of it, of the curvature of its elements [1/m], `dimension`
+// components each, `area` from element_areas(). A hinge sees of a bend what crosses its edge, and |e| h of
+// all hinges (curvature_operator.h) is three times the area of the cloth: their squares are summed as their
+// energies are, so that it is the curvature of the `shape` element with the same energy.
+double curvature_rms(const std::vector<double>& curvature, const std::vector<double>& area, int dimension);
+
 // Average of one number per element over the elements at each vertex, weighted by their areas.  `dimension`:
 // of the elements' curvature, 1: hinges, 3: faces.
 std::vector<float> vertex_average(const ClothMesh& mesh, const std::vector<double>& element, int dimension);

@@ -64,6 +64,9 @@ class Simulation {
   virtual std::vector<double> moment() = 0;               // likewise, with viscosity [N]
   virtual std::vector<double> residual_curvature() = 0;   // likewise, where the moment is zero [1/m]
   virtual std::vector<double> friction_share() = 0;       // per element: |friction moment|/M0
+  // Curvature as the law sees it over the geometric one, `dimension` components per element; the moment that
+  // the law gives is as much smaller than moment() (CurvatureOperator::metric). Empty: 1.
+  virtual std::vector<double> metric() const = 0;
   // Opens an OpenGL buffer of three floats a vertex for positions that do not pass the host.  Its context is
   // current and draws on CUDA device `gl_device` (-1: none).  Null, and why, where that cannot be; the
   // simulation must outlive what is returned.

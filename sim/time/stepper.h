@@ -48,6 +48,7 @@ class Stepper : public Simulation {
   std::vector<double> moment() override { return body_.bending.moment(); }
   std::vector<double> residual_curvature() override { return body_.bending.residual_curvature(); }
   std::vector<double> friction_share() override { return body_.bending.slip(); }
+  std::vector<double> metric() const override { return body_.bending.metric(); }
   std::unique_ptr<GlPositions> share_positions(unsigned gl_buffer, int gl_device,
                                                std::string& reason) override;
   std::vector<Eigen::Vector3d> handle_forces() override {

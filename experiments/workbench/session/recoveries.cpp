@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/base/root_mean_square.h"
 #include "sim/bending/laws/recovery.h"
 #include "sim/bending/vertex_curvature.h"
 
@@ -15,32 +14,53 @@ Recoveries::Recoveries(const Scene& scene) : curve_(scene.fabric.virgin_curve())
   counts_ = has_residual_formula(choose_law(scene.law, curve_, scene.param));
 }
 
+namespace {
+
+// The simulation's moments as its law gives them [N].
+std::vector<double> law_moment(Simulation& simulation) {
+  std::vector<double> moment = simulation.moment();
+  const std::vector<double> metric = simulation.metric();
+  for (std::size_t i = 0; i < metric.size(); ++i) moment[i] = metric[i] > 0 ? moment[i] / metric[i] : 0;
+  return moment;
+}
+
+// The curvature [1/m] that the closed form leaves of each element, components as the simulation's.
+std::vector<double> residual_of_elements(Simulation& simulation, const LawChoice& law) {
+  const int d = simulation.dimension();
+  const std::vector<double> metric = simulation.metric(), m = law_moment(simulation);
+  std::vector<double> k = simulation.curvature();
+  for (std::size_t i = 0; i < metric.size(); ++i) k[i] *= metric[i];
+  for (std::size_t i = 0; i < k.size(); i += d) {
+    Eigen::Map<Eigen::VectorXd> curvature(&k[i], d);
+    const Eigen::Map<const Eigen::VectorXd> moment(&m[i], d);
+    const double size = curvature.norm(), along = size > 0 ? moment.dot(curvature) / size : 0;
+    if (size > 0) curvature *= residual_by_formula(law, size, std::max(along, 0.0)) / size;
+  }
+  for (std::size_t i = 0; i < metric.size(); ++i) k[i] = metric[i] > 0 ? k[i] / metric[i] : 0;
+  return k;
+}
+
+}  // namespace
+
 void Recoveries::watch(Session& session, const Snapshot&) {
-  if (counts()) see(session.simulation().moment(), session.simulation().dimension());
+  if (counts()) see(law_moment(session.simulation()), session.simulation().dimension());
 }
 
 void Recoveries::finish(Session& session, const std::string&) {
   Run& run = session.run();
   Simulation& simulation = session.simulation();
   const Scene& scene = session.scene();
-  const LawChoice law = choose_law(scene.law, curve_, scene.param);
   const int d = simulation.dimension();
-  const std::vector<double> root = simulation.residual_curvature();
   const std::vector<double> area = element_areas(session.cloth().mesh, d);
-  run.metric("residual_curvature_rms_per_m", root_mean_square(root, area));
+  run.metric("residual_curvature_rms_per_m", curvature_rms(simulation.residual_curvature(), area, d));
   if (!counts()) return;
-  const std::vector<double> k = simulation.curvature(), m = simulation.moment();
-  std::vector<double> by_formula;
-  for (std::size_t i = 0; i < k.size(); i += d) {
-    const Eigen::Map<const Eigen::VectorXd> curvature(&k[i], d), moment(&m[i], d);
-    const double size = curvature.norm(), along = size > 0 ? moment.dot(curvature) / size : 0;
-    by_formula.push_back(residual_by_formula(law, size, std::max(along, 0.0)));
-  }
   const std::array<long, 3> count = cases();
   run.metric("recovery_elastic_count", count[0]);
   run.metric("recovery_partial_count", count[1]);
   run.metric("recovery_full_slip_count", count[2]);
-  run.metric("residual_curvature_formula_rms_per_m", root_mean_square(by_formula, area));
+  const LawChoice law = choose_law(scene.law, curve_, scene.param);
+  run.metric("residual_curvature_formula_rms_per_m",
+             curvature_rms(residual_of_elements(simulation, law), area, d));
 }
 
 void Recoveries::see(const std::vector<double>& moment, int dimension) {

@@ -24,7 +24,7 @@ class Recoveries : public Observer {
   // now: found on the law, and by the closed form for a first reversal from the virgin curve (which a longer
   // history only resembles).
   void finish(Session& session, const std::string& title) override;
-  // `moment`: `dimension` components per element [N].
+  // `moment`: of the law, `dimension` components per element [N].
   void see(const std::vector<double>& moment, int dimension);
   void serialise(Archive& archive) override {
     archive(before_);

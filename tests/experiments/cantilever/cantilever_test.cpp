@@ -140,6 +140,30 @@ TEST(Cantilever, CountsWhatWasBentPastTwiceTheElasticLimitAsFullSlip) {
   EXPECT_EQ(hard[1] + hard[2], 0) << "never past Ma";
 }
 
+// Along weft of ratio q a fabric bends as one of b1 q, b2 q and k0/sqrt(q) does along warp.
+TEST(Cantilever, CountsRecoveriesOfAFabricThatBendsOtherwiseAlongWeft) {
+  const std::vector<Flag> common = {{"law", "prandtl"}, {"triangles", "48"}, {"mesh", "aligned"}};
+  const auto with = [&](std::vector<Flag> further) {
+    further.insert(further.end(), common.begin(), common.end());
+    return recorded_metrics(std::move(further));
+  };
+  auto weft = with({{"fabric.b1", "4e-5"},
+                    {"fabric.b2", "8e-6"},
+                    {"fabric.k0", "4"},
+                    {"fabric.weft-bending", "0.25"},
+                    {"fabric.bias-bending", "0.4375"},
+                    {"cloth.warp-angle", "90"},
+                    {"gamma", "10"}});
+  auto alike = with({{"fabric.b1", "1e-5"}, {"fabric.b2", "2e-6"}, {"fabric.k0", "8"}, {"gamma", "40"}});
+  ASSERT_GT(alike["recovery_partial_count"], 0);
+  ASSERT_GT(alike["recovery_full_slip_count"], 0);
+  for (const char* key : {"recovery_elastic_count", "recovery_partial_count", "recovery_full_slip_count"})
+    EXPECT_EQ(weft[key], alike[key]) << key;
+  constexpr double kTransverse = 1e-3;  // along warp, where the strip hardly bends, the fabrics differ
+  for (const char* key : {"residual_curvature_rms_per_m", "residual_curvature_formula_rms_per_m"})
+    EXPECT_NEAR(weft[key].get<double>() / alike[key].get<double>(), 1, kTransverse) << key;
+}
+
 TEST(Recoveries, GoByTheLastReversalFromPastTheElasticLimit) {
   Scene scene;
   const double limit = scene.fabric.virgin_curve().elastic_limit_moment();
