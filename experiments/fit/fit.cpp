@@ -6,6 +6,7 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "experiments/fit/fab_predictions.h"
 #include "experiments/fit/from_fab.h"
 #include "experiments/fit/report.h"
 #include "experiments/workbench/app/experiment.h"
@@ -307,6 +308,7 @@ DecayAnswer identify_vibration(const FitFlags& flags, const std::string& from) {
         " N m where a tester reads it: check kes.b, fabric.density and decay.length")
         .with_key("kes.b", number_text(flags.kes.b.value));
   answer.found.forms = {even_forms(answer.series, answer.question)};
+  answer.found.repeats.resize(1);
   answer.found.found = {{found}, {}, from};
   return answer;
 }
@@ -332,7 +334,8 @@ Identification three_numbers(const FabBending& found, double rigidity, const std
 std::string report_decay(Run& run, const DecayAnswer& answer, const FabricNotes& notes) {
   const FabBending& b = answer.found.found.bending[0];
   for (const std::string& warning : decay_warnings(answer.series, answer.question)) run.warn(warning);
-  for (const std::string& warning : bending_warnings(b, answer.found.forms[0])) run.warn(warning);
+  for (const std::string& warning : bending_warnings(b, answer.found.forms[0], answer.found.repeats[0]))
+    run.warn(warning);
   const Identification numbers = three_numbers(b, answer.question.rigidity, answer.found.found.from);
   write_fabric(run.path("fabric.toml"), numbers, notes);
   write_forms(run, answer.found);

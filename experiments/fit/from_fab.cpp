@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "experiments/fab/loops.h"
-#include "render/plot.h"
+#include "experiments/fit/fab_predictions.h"
 #include "sim/base/comma_list.h"
 #include "sim/base/csv.h"
 #include "sim/base/error.h"
@@ -132,8 +132,7 @@ struct DirectionFits {
   }
   // Without those of the family that was asked for: a parabola's own error says how far k0 may lie.
   std::vector<FabForm> other_families(std::vector<FabForm> all) const {
-    if (bending.is_parabola())
-      std::erase_if(all, [](const FabForm& f) { return f.name.starts_with("k0 = "); });
+    if (bending.is_parabola()) std::erase_if(all, [](const FabForm& form) { return form.fixes_k0; });
     return all;
   }
 };
@@ -187,7 +186,12 @@ void add_fab_metrics(Run& run, const FabAnswer& answer) {
     add_shape(run, b, p);
     run.metric(p + "residual_over_noise", b.residual_rms);
     for (const FabForm& form : answer.forms[i])
-      if (form.name == "k0 = 50/m") run.metric(p + "k0_50.misfit", form.misfit(b));
+      if (form.name == "k0 = 50/m")
+        run.metric(p + "k0_50.misfit", compare_forms(form, b, answer.repeats[i]).misfit);
+    if (const Repeats& repeats = answer.repeats[i]; repeats.known()) {
+      run.metric(p + "repeats_noise_N", repeats.noise);
+      run.metric(p + "repeats_correlation", repeats.correlation);
+    }
     run.metric(p + "iterations", b.iterations);
     run.metric(p + "converged", b.converged);
     run.metric(p + "one_stop.threshold_per_m", answer.one_stop[i].law.thresholds[0]);
@@ -207,161 +211,7 @@ void add_fab_metrics(Run& run, const FabAnswer& answer) {
   run.metric("undetermined", open);
 }
 
-// ---- what stops identified from some cycles predict of all others in the same file, beside one stop ----
-
-constexpr double kMicroPerCentimetre = 1e4;  // µJ/cm of 1 J/m
-constexpr double kBarWidth = 0.27;           // of the distance between groups of three
-
-std::string fitted_on(const FabAnswer& answer, const std::string& direction) {
-  std::string cycles;
-  for (const int cycle : answer.cycles) cycles += (cycles.empty() ? "" : ", ") + std::to_string(cycle);
-  return direction + " " + join(answer.tests, ", ") + " cycle " + cycles;
-}
-
-// The directions whose laws a strip along this one has; none if they were not identified.
-FabFabric fabric_with(const std::vector<FabBending>& bending, const std::vector<FabTension>& tension,
-                      double density) {
-  FabFabric fabric;
-  fabric.density = density;
-  if (!bending.empty()) fabric.warp = bending.front().law, fabric.weft = bending[bending.size() > 1].law;
-  if (!tension.empty())
-    fabric.warp_tension = tension.front().law, fabric.weft_tension = tension[tension.size() > 1].law;
-  return fabric;
-}
-
-template <class Found>
-bool has(const std::vector<Found>& all, const std::string& direction) {
-  return std::any_of(all.begin(), all.end(), [&](const Found& one) { return one.direction == direction; });
-}
-
-// A strip along a direction that was fitted, or along the bias of both.
-template <class Found>
-bool can_predict(const std::vector<Found>& all, const std::string& direction) {
-  return has(all, direction) || (direction == "B" && has(all, "L") && has(all, "W"));
-}
-
-template <class Found>
-std::vector<Found> only(const std::vector<Found>& all, const std::string& direction) {
-  if (!has(all, direction)) return all;
-  std::vector<Found> one;
-  for (const Found& found : all)
-    if (found.direction == direction) one.push_back(found);
-  return one;
-}
-
-struct FabPrediction {
-  ComparedLoops stops, one_stop;
-  std::vector<bool> fitted;  // by cycle
-  std::string fitted_on;     // "L D1 cycle 2"
-};
-
-// Every test of the directions that were fitted, and of the bias by the mean of both; tests that stretch
-// where stretch was fitted.  A test that a law cannot follow is left out.
-std::vector<FabPrediction> predict(const FabAnswer& answer, double density) {
-  std::vector<FabPrediction> predictions;
-  for (const FabLoops& loops : answer.loops) {
-    if (!loops.is_usable) continue;
-    const std::string& along = loops.direction;
-    const FabIdentification& found = answer.found;
-    if (loops.bends() ? !can_predict(found.bending, along) : !can_predict(found.tension, along)) continue;
-    const auto run_with = [&](const std::vector<FabBending>& bending) {
-      const FabFabric fabric = fabric_with(only(bending, along), only(found.tension, along), density);
-      return run_fab(loops, fabric.strip("B"));  // of one direction both halves are alike
-    };
-    try {
-      FabPrediction p{
-          {loops, run_with(found.bending), true}, {loops, run_with(answer.one_stop), true}, {}, {}};
-      const bool own = has(found.bending, along);
-      p.fitted_on = fitted_on(answer, own ? along : "L, W");
-      const bool fitted =
-          own && std::find(answer.tests.begin(), answer.tests.end(), loops.test) != answer.tests.end();
-      for (int cycle = 1; cycle <= loops.cycles(); ++cycle)
-        p.fitted.push_back(fitted && std::find(answer.cycles.begin(), answer.cycles.end(), cycle) !=
-                                         answer.cycles.end());
-      predictions.push_back(std::move(p));
-    } catch (const Error& error) {
-      if (error.exit_code() != 3) throw;
-    }
-  }
-  return predictions;
-}
-
-// predictions.csv.
-void write_predictions(Run& run, const std::vector<FabPrediction>& predictions) {
-  Table table(
-      "loop,fitted on,is fitted,area [uJ/cm],measured area [uJ/cm],error [%],error [uJ/cm],"
-      "one stop area [uJ/cm],one stop error [%],force range [N/m],measured force range [N/m],"
-      "force range error [%],one stop force range error [%]");
-  for (const FabPrediction& p : predictions) {
-    const FabLoops& loops = p.stops.loops;
-    const BranchForces measured = p.stops.measured_forces();
-    for (int cycle = 0; cycle < loops.cycles(); ++cycle) {
-      const double seen = kMicroPerCentimetre * loop_area(loops, measured, cycle);
-      const double area = kMicroPerCentimetre * loop_area(loops, p.stops.run.force, cycle);
-      const double one = kMicroPerCentimetre * loop_area(loops, p.one_stop.run.force, cycle);
-      const double range = force_range(p.stops.run.force, cycle), seen_range = force_range(measured, cycle);
-      const double one_range = force_range(p.one_stop.run.force, cycle);
-      table.row({loops.name() + " cycle " + std::to_string(cycle + 1), p.fitted_on, p.fitted[cycle] ? 1 : 0,
-                 area, seen, 100 * (area / seen - 1), area - seen, one, 100 * (one / seen - 1), range,
-                 seen_range, 100 * (range / seen_range - 1), 100 * (one_range / seen_range - 1)});
-    }
-  }
-  table.write(run.path("predictions.csv"));
-}
-
-// loops_<loops>.csv of each: simulated and measured forces.
-void write_compared_loops(Run& run, const std::vector<FabPrediction>& predictions) {
-  for (const FabPrediction& p : predictions)
-    write_loops(run, "loops_" + p.stops.loops.direction + "_" + p.stops.loops.test + ".csv", p.stops);
-}
-
-// plot_<loops> of each, and plot_areas of all that bend.
-void draw_predictions(Run& run, const std::string& fabric, const std::vector<FabPrediction>& predictions) {
-  std::vector<double> measured, stops, one;
-  render::Axis loops{"test, cycle"};
-  for (const FabPrediction& p : predictions) {
-    const std::string& direction = p.stops.loops.direction;
-    draw_loops(run, "plot_" + direction + "_" + p.stops.loops.test,
-               fabric + ", " + p.stops.loops.name() + ", fitted on " + p.fitted_on, p.stops);
-    if (!p.stops.loops.bends()) continue;
-    const BranchForces seen = p.stops.measured_forces();
-    for (int cycle = 0; cycle < p.stops.loops.cycles(); ++cycle) {
-      loops.categories.push_back(p.stops.loops.name() + "." + std::to_string(cycle + 1) +
-                                 (p.fitted[cycle] ? "*" : ""));
-      measured.push_back(kMicroPerCentimetre * loop_area(p.stops.loops, seen, cycle));
-      stops.push_back(kMicroPerCentimetre * loop_area(p.stops.loops, p.stops.run.force, cycle));
-      one.push_back(kMicroPerCentimetre * loop_area(p.stops.loops, p.one_stop.run.force, cycle));
-    }
-  }
-  if (measured.empty()) return;
-  render::Plot plot{
-      fabric + ": areas of loops; * fitted, all others predicted", loops, {"area per width [µJ/cm]"}};
-  plot.width = 1600;
-  plot.bar_width = kBarWidth;
-  plot.series = render::grouped_bars({"measured", "stops", "one stop"}, {measured, stops, one}, kBarWidth);
-  run.plot("plot_areas", plot);
-}
-
 }  // namespace
-
-void write_forms(Run& run, const FabAnswer& answer) {
-  Table table("direction,form,numbers,rms over noise,misfit,excluded (95 %),b2 [N m],HB [N]");
-  for (std::size_t i = 0; i < answer.found.bending.size(); ++i) {
-    const FabBending& best = answer.found.bending[i];
-    std::vector<FabForm> all = {{best.is_shaped()     ? "shaped"
-                                 : best.is_parabola() ? "chapter's"
-                                                      : "stops",
-                                 best}};
-    all.insert(all.end(), answer.forms[i].begin(), answer.forms[i].end());
-    for (const FabForm& form : all) {
-      const double misfit = form.misfit(best);
-      table.row({best.direction, form.name, static_cast<int>(form.found.form.size()), form.found.residual_rms,
-                 misfit, misfit > kLikelihoodFall ? "yes" : "no", form.found.law.spring,
-                 form.found.law.friction()});
-    }
-  }
-  table.write(run.path("forms.csv"));
-}
 
 void add_shape(Run& run, const FabBending& b, const std::string& prefix) {
   if (b.is_parabola()) {
@@ -381,6 +231,7 @@ FabAnswer fit_fab(const FabFlags& flags, const std::string& units, double densit
   FabAnswer answer;
   answer.tests = split(flags.tests);
   answer.cycles = parsed_cycles(flags.cycles);
+  answer.density = density;
   const auto among = [](const std::vector<std::string>& names, const std::string& name) {
     return std::find(names.begin(), names.end(), name) != names.end();
   };
@@ -433,7 +284,10 @@ FabAnswer fit_fab(const FabFlags& flags, const std::string& units, double densit
     if (fit.bending.rows > 0) {
       answer.forms.push_back(fit.forms(free_stops(bending.thresholds).name));
       answer.found.bending.push_back(fit.bending);
-      answer.found.bending.back().widen_by(fit.other_families(answer.forms.back()));
+      answer.repeats.push_back(
+          find_repeats(answer.loops, requested(answer, fit.bending.direction, true), bending));
+      widen_errors(answer.found.bending.back(), fit.other_families(answer.forms.back()),
+                   answer.repeats.back());
       answer.one_stop.push_back(fit.one);
     }
     if (fit.stretch.rows > 0) answer.found.tension.push_back(fit.stretch);
@@ -447,15 +301,18 @@ FabAnswer fit_fab(const FabFlags& flags, const std::string& units, double densit
 namespace {
 
 // A form that describes the loops better than the one asked for, by more than chance.
-std::string better_form_warning(const FabBending& b, const std::vector<FabForm>& forms) {
+std::string better_form_warning(const FabBending& b, const std::vector<FabForm>& forms,
+                                const Repeats& repeats) {
   const FabForm* best = nullptr;
   for (const FabForm& form : forms)
     if (!best || form.found.residual_rms < best->found.residual_rms) best = &form;
-  if (!best || !(best->misfit(b) < -kLikelihoodFall)) return "";
+  if (!best) return "";
+  const FormComparison beside = compare_forms(*best, b, repeats);
+  if (!beside.is_nearer) return "";
   return fmt::format(
       "along {} another form of friction describes the loops better: {} leave {:.2g} of the noise (rms), and "
-      "the form asked for {:.2g} (misfit {:.3g}; below {:g} is not by chance): {}",
-      b.direction, best->name, best->found.residual_rms, b.residual_rms, best->misfit(b), -kLikelihoodFall,
+      "the form asked for {:.2g} (preference {:.3g}; below -1.96 is not by chance): {}",
+      b.direction, best->name, best->found.residual_rms, b.residual_rms, beside.preference,
       (b.is_shaped() || b.is_parabola()) && best->found.law.stops() > 1 && best->name.ends_with("stops")
           ? "give --fab.friction stops"
           : "forms.csv has its numbers");
@@ -484,10 +341,11 @@ std::string misses_warning(const FabBending& b) {
 
 }  // namespace
 
-std::vector<std::string> bending_warnings(const FabBending& b, const std::vector<FabForm>& forms) {
+std::vector<std::string> bending_warnings(const FabBending& b, const std::vector<FabForm>& forms,
+                                          const Repeats& repeats) {
   std::vector<std::string> warnings;
   for (const std::string& warning :
-       {misses_warning(b), better_form_warning(b, forms), beyond_reach_warning(b)})
+       {misses_warning(b), better_form_warning(b, forms, repeats), beyond_reach_warning(b)})
     if (!warning.empty()) warnings.push_back(warning);
   if (!b.converged) warnings.push_back("along " + b.direction + " the fit of bending did not converge");
   return warnings;
@@ -497,7 +355,8 @@ void report_fab(Run& run, const FabAnswer& answer, const FabricNotes& notes) {
   for (const FabLoops& loops : answer.loops)
     for (const std::string& doubt : loops.doubts) run.warn(doubt);
   for (std::size_t i = 0; i < answer.found.bending.size(); ++i)
-    for (const std::string& warning : bending_warnings(answer.found.bending[i], answer.forms[i]))
+    for (const std::string& warning :
+         bending_warnings(answer.found.bending[i], answer.forms[i], answer.repeats[i]))
       run.warn(warning);
   for (const FabTension& t : answer.found.tension)
     if (!t.converged) run.warn("along " + t.direction + " the fit of stretch did not converge");
@@ -507,7 +366,7 @@ void report_fab(Run& run, const FabAnswer& answer, const FabricNotes& notes) {
   write_spectrum(run, answer.found);
   write_forms(run, answer);
   add_fab_metrics(run, answer);
-  const std::vector<FabPrediction> predictions = predict(answer, notes.density.value_or(0));
+  const std::vector<FabPrediction> predictions = predict(answer);
   write_predictions(run, predictions);
   write_compared_loops(run, predictions);
   draw_predictions(run, notes.name, predictions);
@@ -517,6 +376,12 @@ void report_fab(Run& run, const FabAnswer& answer, const FabricNotes& notes) {
 std::string rigidity_text(const FabBending& b) {
   if (b.spring_error == 0) return fmt::format("{:.3g} N m (of kes.b, taken as exact)", b.law.spring);
   return fmt::format("{:.3g} +- {:.2g} N m", b.law.spring, b.spring_error);
+}
+
+std::string repeats_text(const Repeats& repeats, const FabBending& b) {
+  if (!repeats.known()) return "";
+  return fmt::format("  {} differ as records with {:.2g} N of noise do; the fit leaves {:.2g} times that\n",
+                     join(repeats.of, ", "), repeats.noise, b.residual_rms * b.noise / repeats.noise);
 }
 
 std::string summary(const FabAnswer& answer) {
@@ -539,10 +404,15 @@ std::string summary(const FabAnswer& answer) {
           shape.median, std::exp(b.form_errors[1]), shape.spread, std::exp(b.form_errors[2]));
     }
     text += "  undetermined: " + (open.empty() ? std::string("nothing") : join(open, ", ")) + "\n";
-    for (const FabForm& form : answer.forms[i])
-      text +=
-          fmt::format("  {}: rms {:.2g} of the noise, misfit {:.3g}{}\n", form.name, form.found.residual_rms,
-                      form.misfit(b), form.misfit(b) > kLikelihoodFall ? ", excluded" : "");
+    text += repeats_text(answer.repeats[i], b);
+    for (const FabForm& form : answer.forms[i]) {
+      const FormComparison beside = compare_forms(form, b, answer.repeats[i]);
+      text += fmt::format("  {}: rms {:.2g} of the noise, misfit {:.3g}, preference {:.2g}{}\n", form.name,
+                          form.found.residual_rms, beside.misfit, beside.preference,
+                          beside.is_excluded ? ", excluded"
+                          : beside.is_nearer ? ", nearer"
+                                             : "");
+    }
   }
   for (const FabTension& t : answer.found.tension)
     text += fmt::format(

@@ -6,6 +6,7 @@
 
 #include "experiments/workbench/app/run.h"
 #include "sim/identification/fab_fabric.h"
+#include "sim/identification/form_comparison.h"
 
 namespace hysteron::experiments {
 
@@ -24,6 +25,8 @@ struct FabAnswer {
   FabIdentification found;
   std::vector<FabBending> one_stop;         // by direction, as found.bending
   std::vector<std::vector<FabForm>> forms;  // that friction could have as well, by direction
+  std::vector<Repeats> repeats;             // of the fitted cycles, by direction
+  double density = 0;                       // [kg/m^2]
   std::vector<FabLoops> loops;              // of the whole file
   std::vector<std::string> tests;           // that were fitted
   std::vector<int> cycles;
@@ -36,13 +39,12 @@ FabAnswer fit_fab(const FabFlags& flags, const std::string& units, double densit
 // predictions.csv, plots and metrics.
 void report_fab(Run& run, const FabAnswer& answer, const FabricNotes& notes);
 
-// forms.csv: what every form of friction leaves of the data, and how surely that excludes it.
-void write_forms(Run& run, const FabAnswer& answer);
 // k0, or median and spread, where friction was sought in that form; names begin with `prefix`.
 void add_shape(Run& run, const FabBending& found, const std::string& prefix);
 
 // These warnings say what is doubtful about a fit of bending, beside the other forms.
-std::vector<std::string> bending_warnings(const FabBending& found, const std::vector<FabForm>& forms);
+std::vector<std::string> bending_warnings(const FabBending& found, const std::vector<FabForm>& forms,
+                                          const Repeats& repeats);
 
 // What a reader is told.
 std::string summary(const FabAnswer& answer);

@@ -263,7 +263,9 @@ FabBending identify_decay(const DecaySeries& series, const DecayQuestion& questi
   found.residual_rms = std::sqrt(left.squaredNorm() / model.rows());
   found.residual_share = found.residual_rms * question.noise / series.amplitude[0];
   found.reach = model.reach();
-  found.correlation = left.head(left.size() - 1).dot(left.tail(left.size() - 1)) / left.squaredNorm();
+  found.residuals = left;
+  found.noise = question.noise;
+  found.form_name = model.form().name;
   found.iterations = best.iterations;
   found.converged = best.converged;
   return found;

@@ -14,8 +14,6 @@ namespace {
 
 using Eigen::VectorXd;
 
-double square(double x) { return x * x; }
-
 constexpr double kMomentSpread = 1.5;  // prior standard deviation of a logarithm: a factor of 4.5
 constexpr double kMedianSpread = 1.5, kShapeSpread = 0.7;
 constexpr double kMedianStarts[] = {5, 20, 80};              // [1/m]: fabrics' measured spectra lie between
@@ -43,7 +41,7 @@ FrictionShape friction_shape(const VectorXd& p) {
 
 FrictionForm shaped_friction() {
   FrictionForm form{
-      "shaped", {kMomentSpread, kMedianSpread, kShapeSpread}, [](const VectorXd& p, double moment) {
+      kShapedName, {kMomentSpread, kMedianSpread, kShapeSpread}, [](const VectorXd& p, double moment) {
         return shaped_stops(friction_shape(p), std::exp(p[0]) * moment);
       }};
   for (const double median : kMedianStarts)
@@ -64,7 +62,7 @@ FrictionForm parabola_friction() {
   // 2 x - x^2 = 1/2 at x = 1 - sqrt(1/2).
   constexpr double kHalfInReach = 3.41;
   constexpr int kStops = 12;  // the virgin curve is missed by less than 1 % of its friction moment
-  FrictionForm form{"chapter's", {kMomentSpread, kMedianSpread}, [](const VectorXd& p, double moment) {
+  FrictionForm form{kParabolaName, {kMomentSpread, kMedianSpread}, [](const VectorXd& p, double moment) {
                       const double k0 = saturation_curvature(p);
                       return parabola_stops(2 * std::exp(p[0]) * moment / k0, k0, kStops);
                     }};
@@ -81,6 +79,15 @@ FrictionForm even_friction(double k0) {
   return {"k0 = " + number_text(k0) + "/m", {kMomentSpread}, [=](const VectorXd& p, double moment) {
             return parabola_stops(2 * std::exp(p[0]) * moment / k0, k0);
           }};
+}
+
+bool is_settling(const FabLoops& loops, int branch, std::size_t row, double settling) {
+  const std::vector<double>& distance = loops.branches[branch].distance;
+  const bool inwards = distance.back() < distance.front();
+  const auto turn = inwards ? std::max_element(distance.begin(), distance.end())
+                            : std::min_element(distance.begin(), distance.end());
+  return row <= static_cast<std::size_t>(turn - distance.begin()) ||
+         std::abs(distance[row] - *turn) < settling;
 }
 
 VectorXd stop_errors(const FrictionForm& form, const VectorXd& parameters,
@@ -111,16 +118,6 @@ constexpr double kSaturations[] = {3.125, 6.25, 12.5, 25, 50, 100};  // k0 [1/m]
 // Strips of fabrics need fewer than 40 (gauges of 15 to 50 mm); one that needs more takes seconds.
 constexpr long kMostHalvings = 100;
 constexpr double kLargestZero = 10;  // [N/m]
-
-// Up to the turn before which a branch still goes the other way, and on the way of settling after it.
-bool is_settling(const FabLoops& loops, int branch, std::size_t index, double settling) {
-  const std::vector<double>& distance = loops.branches[branch].distance;
-  const bool inwards = distance.back() < distance.front();
-  const auto turn = inwards ? std::max_element(distance.begin(), distance.end())
-                            : std::min_element(distance.begin(), distance.end());
-  return index <= static_cast<std::size_t>(turn - distance.begin()) ||
-         std::abs(distance[index] - *turn) < settling;
-}
 
 // The friction moment that loses as much as the loop: 2 HB times the change of int |K| ds, the same for any
 // elastic law without weight.  A loop as narrow as the noise [N/m] is none: its work there is the noise's.
@@ -345,31 +342,13 @@ FabBending identify_fab_bending(const std::vector<FabLoops>& loops, const FabBen
   found.law = model.law(best.parameters);
   found.form = best.parameters.segment(1, model.numbers());
   found.reach = model.reach();
-  found.residual_rms = std::sqrt(best.residuals.head(model.rows()).squaredNorm() / model.rows());
+  found.form_name = model.form().name;
+  found.noise = question.noise;
+  found.residuals = best.residuals.head(model.rows());
+  found.residual_rms = std::sqrt(found.residuals.squaredNorm() / model.rows());
   found.residual_share = found.residual_rms * question.noise / largest_force_range(loops, question.cycles);
-  const VectorXd left = best.residuals.head(model.rows());
-  found.correlation = left.head(model.rows() - 1).dot(left.tail(model.rows() - 1)) / left.squaredNorm();
   set_bending_errors(model, best, found);
   return found;
-}
-
-double FabForm::misfit(const FabBending& best) const {
-  const double r = std::max(0.0, best.correlation), rows = best.rows * (1 - r) / (1 + r);
-  return 2 * rows * std::log(found.residual_rms / best.residual_rms);
-}
-
-void FabBending::widen_by(const std::vector<FabForm>& forms) {
-  double weights = 1, of_spring = 0, of_friction = 0;  // the form asked for has the weight 1
-  for (const FabForm& form : forms) {
-    const double weight = std::exp(-form.misfit(*this) / 2);
-    weights += weight;
-    of_spring += weight * square(std::log(form.found.law.spring / law.spring));
-    of_friction += weight * square(std::log(form.found.law.friction() / law.friction()));
-  }
-  if (spring_error > 0)  // of a decay it is given
-    spring_error = std::hypot(spring_error, law.spring * std::sqrt(of_spring / weights));
-  friction_error = std::hypot(friction_error, law.friction() * std::sqrt(of_friction / weights));
-  determined[0] = is_determined(spring_error / law.spring);
 }
 
 std::vector<FabForm> even_form_fits(const std::function<FabBending(const FrictionForm&)>& identify) {
@@ -377,7 +356,7 @@ std::vector<FabForm> even_form_fits(const std::function<FabBending(const Frictio
   for (const double k0 : kSaturations) {
     const FrictionForm form = even_friction(k0);
     try {
-      forms.push_back({form.name, identify(form)});
+      forms.push_back({form.name, identify(form), true});
     } catch (const Error& error) {
       if (error.exit_code() != 3) throw;
     }

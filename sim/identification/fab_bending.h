@@ -33,6 +33,8 @@ struct FrictionForm {
   std::function<Eigen::VectorXd(double reach)> largest = {};
 };
 
+inline constexpr const char *kShapedName = "shaped", *kParabolaName = "chapter's";
+
 // Stops at thresholds that are given [1/m]: logarithms of their moments, shared alike.
 FrictionForm free_stops(const std::vector<double>& thresholds);
 
@@ -65,23 +67,20 @@ struct FabBendingQuestion {
   double trust = 0.3;      // ... and their weight there
 };
 
-struct FabForm;
-
 struct FabBending : FabStops {
   double friction_error = kNone;      // of law.friction() [N]
   double first = kNone;               // of a decay: its first amplitude [m]
+  std::string form_name;              // of FrictionForm
   Eigen::VectorXd form, form_errors;  // parameters of the friction's form and standard errors
   std::vector<double> zero_errors;    // standard errors [N/m]
-  double residual_rms = 0;            // over the noise, unreliable rows weighted
+  double noise = kNone;               // of the fitted data: of the strip's force [N], of amplitudes [m]
+  Eigen::VectorXd residuals;          // of the rows, over the noise, unreliable rows weighted
+  double residual_rms = 0;            // their root mean square
   double residual_share = 0;          // over the range of the fitted data
   double reach = kInfinity;           // largest change of curvature in the fitted data [1/m]
-  double correlation = 0;             // of what is left in neighbouring rows
 
-  // Widens the errors of b2 and HB by what other forms find, each by its likelihood beside this one: that
-  // friction has the form asked for is supposed, and the data may not tell (Hoeting et al. 1999, Eq. 3).
-  void widen_by(const std::vector<FabForm>& forms);
-  bool is_shaped() const { return form.size() == 3 && law.stops() == kShapedStops; }
-  bool is_parabola() const { return form.size() == 2 && law.stops() != 2; }
+  bool is_shaped() const { return form_name == kShapedName; }
+  bool is_parabola() const { return form_name == kParabolaName; }
   double friction_within_reach() const;  // of the stops that have slipped [N]
   bool knows_friction() const;           // most of HB has slipped, and its error is small
   std::vector<std::string> undetermined()
@@ -91,18 +90,19 @@ struct FabBending : FabStops {
 // From loops of one direction that bend.  Throws Error::invalid_input if a cycle is not there.
 FabBending identify_fab_bending(const std::vector<FabLoops>& loops, const FabBendingQuestion& question);
 
-// The same in another form of friction: the fit, and how much worse it meets the loops than `best` does.
+// The same loops fitted with another form of friction.
 struct FabForm {
   std::string name;
   FabBending found;
-
-  // n ln of the ratio of mean squares, twice the fall of the logarithm of the likelihood: 3.84 exclude it
-  // with 95 % (Wilks 1938).  Rows that depend on each other count as n (1 - r)/(1 + r), r that of the best.
-  double misfit(const FabBending& best) const;
+  bool fixes_k0 = false;  // friction saturates at a k0 of a grid: a special case of the chapter's
 };
 // Friction that saturates at k0 of a grid [1/m]; without those for which no equilibrium is found.
 std::vector<FabForm> even_forms(const std::vector<FabLoops>& loops, const FabBendingQuestion& question);
 std::vector<FabForm> even_form_fits(const std::function<FabBending(const FrictionForm&)>& identify);
+
+// Is this row up to the turn before which its branch still goes the other way, or on the way [m] after a turn
+// on which records are unreliable?
+bool is_settling(const FabLoops& loops, int branch, std::size_t row, double settling);
 
 // The one element of the grid that describes the same loops best: a constant 2HB.
 FabBending identify_one_stop(const std::vector<FabLoops>& loops, const FabBendingQuestion& question);

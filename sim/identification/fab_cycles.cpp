@@ -61,7 +61,9 @@ void FabStops::set_errors(double of_spring, const Eigen::VectorXd& of_stops) {
 Eigen::MatrixXd posterior(const LeastSquares& best, int rows) {
   const auto parameters = best.jacobian.cols();
   const double free = std::max<double>(1, rows - static_cast<double>(parameters));
-  const double variance = std::max(1.0, best.residuals.head(rows).squaredNorm() / free);
+  const Eigen::VectorXd left = best.residuals.head(rows);
+  const double variance =
+      std::max(1.0, left.squaredNorm() / free * rows_as_one(neighbour_correlation(left), rows));
   const Eigen::MatrixXd data = best.jacobian.topRows(rows),
                         prior = best.jacobian.bottomRows(best.jacobian.rows() - rows);
   const Eigen::MatrixXd information = data.transpose() * data / variance + prior.transpose() * prior;

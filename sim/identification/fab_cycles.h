@@ -49,7 +49,8 @@ struct FabStops {
 };
 
 // Covariance of the parameters after least squares over `rows` rows, weighted by their noise, and the
-// distances from a prior behind them: by the noise or, where rows scatter by more, by that scatter.
+// distances from a prior behind them: by the noise or, where rows scatter by more, by that scatter; rows that
+// hang together count as fewer (least_squares.h).
 Eigen::MatrixXd posterior(const LeastSquares& best, int rows);
 
 // What has to be added to a model's forces to meet the measured ones best, all rows alike [N/m].

@@ -113,6 +113,8 @@ constexpr double kSignificant = 2;          // standard deviations of a correlat
 constexpr double kLargestCorrelation = 0.98;
 constexpr double kRounding = kBestAccuracy / 100;  // residuals below are no noise of an instrument
 
+}  // namespace
+
 double neighbour_correlation(const Eigen::VectorXd& residuals) {
   const int n = static_cast<int>(residuals.size());
   const double square = residuals.squaredNorm();
@@ -120,7 +122,11 @@ double neighbour_correlation(const Eigen::VectorXd& residuals) {
   return residuals.head(n - 1).dot(residuals.tail(n - 1)) / square;
 }
 
-}  // namespace
+double rows_as_one(double correlation, int rows) {
+  if (correlation <= kSignificant / std::sqrt(rows)) return 1;
+  const double r = std::min(correlation, kLargestCorrelation);
+  return (1 + r) / (1 - r);
+}
 
 Covariance covariance(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& residuals) {
   const int n = static_cast<int>(residuals.size());
@@ -134,10 +140,7 @@ Covariance covariance(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& re
                                   singular.cwiseInverse().asDiagonal() * svd.matrixU().transpose();
   Covariance result;
   result.correlation = neighbour_correlation(residuals);
-  if (result.correlation > kSignificant / std::sqrt(n)) {
-    const double r = std::min(result.correlation, kLargestCorrelation);
-    result.widening = std::sqrt((1 + r) / (1 - r));
-  }
+  result.widening = std::sqrt(rows_as_one(result.correlation, n));
   const Eigen::VectorXd leverage = svd.matrixU().rowwise().squaredNorm();
   Eigen::VectorXd variance(n);
   for (int i = 0; i < n; ++i) variance[i] = residuals[i] * residuals[i] / std::max(1 - leverage[i], 1.0 / n);

@@ -44,6 +44,12 @@ Eigen::VectorXd linear_least_squares(const Eigen::MatrixXd& a, const Eigen::Vect
 // No measured curve is more accurate than this share of its largest moment; exact data are judged by it.
 inline constexpr double kBestAccuracy = 1e-3;
 
+// Of neighbours among numbers whose mean is about zero; 0 of fewer than three, and of rounding.
+double neighbour_correlation(const Eigen::VectorXd& residuals);
+// How many rows of so many count as one where neighbours have that correlation, taken as of a first-order
+// process: (1 + r)/(1 - r); 1 where the correlation may be chance.
+double rows_as_one(double correlation, int rows);
+
 struct Covariance {
   Eigen::MatrixXd matrix;      // of the parameters, from the scatter of the residuals
   Eigen::MatrixXd with_floor;  // the same, at least that of noise kBestAccuracy: decides what is determined

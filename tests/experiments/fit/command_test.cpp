@@ -242,18 +242,26 @@ TEST(FitWarnings, NameAFormThatDescribesTheLoopsFarBetterAndFrictionBeyondTheirR
   found.law = {1e-5, {10, 1000}, {2e-5, 1e-6}};  // HB = 2e-4 + 1e-3 N
   found.rows = 50;
   found.converged = true;
-  found.residual_rms = 1.2;
+  found.noise = 7.5e-4;
+  const auto leaves = [](FabBending& fit, double rms) {
+    fit.residual_rms = rms;
+    fit.residuals = Eigen::VectorXd(50);
+    for (int i = 0; i < 50; ++i) fit.residuals[i] = (i % 2 ? rms : -rms) * (i % 3 ? 1.2 : 0.6);
+  };
+  leaves(found, 1.2);
   found.residual_share = 0.12;
   found.reach = 200;
   FabBending stops = found;
-  stops.residual_rms = 0.14;
-  const std::vector<std::string> warnings = bending_warnings(found, {{"9 stops", stops}});
+  leaves(stops, 0.14);
+  const std::vector<std::string> warnings = bending_warnings(found, {{"9 stops", stops}}, {});
   ASSERT_EQ(warnings.size(), 3u);
   EXPECT_TRUE(says(warnings[0], "misses the fitted loops by 12 % of the range"));
   EXPECT_TRUE(says(warnings[1], "9 stops leave 0.14 of the noise (rms), and the form asked for 1.2"));
   EXPECT_TRUE(says(warnings[2], "83 % of HB slips")) << "1e-3 of 1.2e-3 N";
-  found.residual_rms = 0.14, found.residual_share = 0.01, found.reach = 2000;
-  EXPECT_TRUE(bending_warnings(found, {{"9 stops", stops}}).empty());
+  leaves(found, 0.14);
+  found.residual_share = 0.01;
+  found.reach = 2000;
+  EXPECT_TRUE(bending_warnings(found, {{"9 stops", stops}}, {}).empty());
 }
 
 // The loops of a known law, as `fab` writes them, in the columns that are read.

@@ -1,5 +1,6 @@
 // Friction from the amplitudes of a free vibration: closed laws of decay, and numbers that come back.
 #include "sim/identification/decay_friction.h"
+#include "sim/identification/form_comparison.h"
 
 #include <gtest/gtest.h>
 
@@ -62,7 +63,7 @@ TEST(DecayFriction, ComesBackFromNoisyAmplitudesAndExcludesLateSaturation) {
   for (const double curvature : {5.0, 10.0, 20.0})
     EXPECT_NEAR(sought.loop_area(curvature) / stops.loop_area(curvature), 1, 0.15) << curvature;
   const std::vector<FabForm> forms = even_forms(series, question());
-  EXPECT_GT(forms.back().misfit(found), 10) << forms.back().name;
+  EXPECT_GT(compare_forms(forms.back(), found, {}).misfit, 10) << forms.back().name;
 }
 
 // Noise of 2 % of each amplitude.

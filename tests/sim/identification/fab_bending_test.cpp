@@ -1,5 +1,6 @@
 // Stops come back from the loops of a FAB tester that they make, with noise.
 #include "sim/identification/fab_bending.h"
+#include "sim/identification/form_comparison.h"
 
 #include <gtest/gtest.h>
 
@@ -143,6 +144,8 @@ FabBending found_with(double friction, double residual_rms) {
   found.determined = {true, true, true};
   found.rows = 50;
   found.residual_rms = residual_rms;
+  found.residuals = Eigen::VectorXd(50);
+  for (int i = 0; i < 50; ++i) found.residuals[i] = i % 2 ? residual_rms : -residual_rms;
   return found;
 }
 
@@ -160,11 +163,11 @@ TEST(FabBending, KnowsFrictionOnlyAsFarAsItsLoopsReach) {
 // Of one other form, as likely, the weight is a half; of one that is excluded, none.
 TEST(FabBending, WidensItsErrorsByWhatEquallyLikelyFormsFind) {
   FabBending found = found_with(1e-3, 1);
-  found.widen_by({{"another", found_with(2e-3, 1)}, {"excluded", found_with(9e-3, 10)}});
+  widen_errors(found, {{"another", found_with(2e-3, 1)}, {"excluded", found_with(9e-3, 10)}});
   EXPECT_NEAR(found.friction_error / 1e-3, std::hypot(0.1, std::log(2) / std::sqrt(2)), 1e-6);
   EXPECT_NEAR(found.spring_error, 1e-6, 1e-12) << "all find the same b2";
   FabBending worse = found_with(1e-3, 10);
-  worse.widen_by({{"far better", found_with(2e-3, 1)}});
+  widen_errors(worse, {{"far better", found_with(2e-3, 1)}});
   EXPECT_NEAR(worse.friction_error / 1e-3, std::hypot(0.1, std::log(2)), 1e-6);
 }
 

@@ -22,6 +22,7 @@
 #include "sim/base/csv.h"
 #include "sim/base/parallel.h"
 #include "sim/identification/fab_bending.h"
+#include "sim/identification/form_comparison.h"
 #include "tests/sim/base/refusal.h"
 
 namespace hysteron {
@@ -129,7 +130,7 @@ std::vector<DrawnFit> fits_of(unsigned seed, const std::vector<TestedForm>& form
   if (widening == Widening::none || (widening == Widening::of_misses && !one_misses)) return fits;
   const std::vector<FabForm> others = other_forms(loops, truth.density);
   for (DrawnFit& fit : fits) {
-    fit.widened.widen_by(others);
+    widen_errors(fit.widened, others);
     fit.is_widened = true;
   }
   return fits;
