@@ -38,7 +38,8 @@ TEST_F(FabCommand, WithoutDataStatesAreasThatGrowWithTheCompression) {
 
 // What it writes are data: going their way the same fabric meets them.
 TEST_F(FabCommand, OnItsOwnRecordMeetsWhatItRecorded) {
-  ASSERT_EQ(fab({{"fabric", "cotton-broad"}}), 0);
+  ASSERT_EQ(fab({{"fabric", "cotton-broad"}, {"fab.steps", "60"}}),
+            0);  // with fewer it reads between its rows
   const std::string record = (folder_.path() / "out" / "fab.csv").string();
   ASSERT_EQ(fab({{"fabric", "cotton-broad"}, {"fab.data", record}, {"no-images", "true"}}, "again"), 0);
   const auto m = metrics("again");
@@ -48,6 +49,21 @@ TEST_F(FabCommand, OnItsOwnRecordMeetsWhatItRecorded) {
     EXPECT_NEAR(m.at(name), m.at(std::string("measured_") + name), kSixDigits * m.at(name).get<double>())
         << name;
   }
+}
+
+// Chords between four rows of a branch would leave out a fifth of the area.
+TEST_F(FabCommand, ReadsLoopsBetweenFewRows) {
+  const auto metrics = [&](const char* steps) {
+    EXPECT_EQ(fab({{"fabric", "cotton-broad"}, {"fab.steps", steps}, {"no-images", "true"}}), 0);
+    return metrics_of(folder_.path() / "out");
+  };
+  const Json few = metrics("4");
+  const std::vector<FabLoops> written = read_fab(folder_.path() / "out" / "fab.csv", TesterUnits::si, "test");
+  EXPECT_EQ(written[0].branches[0].distance.size(), 5u) << "as they are asked for";
+  const Json many = metrics("60");
+  constexpr double kSameState = 1e-6;  // relative; equilibria are solved to less
+  for (const char* name : {"area_cycle1_J_per_m", "area_cycle3_J_per_m", "peak_force_cycle3_N_per_m"})
+    EXPECT_NEAR(few[name].get<double>() / many[name].get<double>(), 1, kSameState) << name;
 }
 
 // `fit --fab` would not take the record.
