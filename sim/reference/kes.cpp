@@ -104,7 +104,7 @@ void test_minor_loop(const LawRequest& request, const KesProtocol& p, Family fam
 
 constexpr int kFineSteps = 1000;  // to the amplitude: the sum over their chords is exact to 1e-4
 
-// What the tester reads on the same way in parts of its steps, a thousand or more to the amplitude.
+// Reads the loop on the same way in parts of its steps, a thousand or more to the amplitude.
 KesReading read_between_steps(const LawRequest& request, KesProtocol p) {
   p.steps *= (kFineSteps + p.steps - 1) / p.steps;
   const KesWalk walk = walk_to(cycled(p.amplitude, p.cycles), p);

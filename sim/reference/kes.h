@@ -59,15 +59,14 @@ struct KesTest {
   KesWalk walk;
   std::vector<double> moment;  // [N], one per row of the walk
   std::vector<MinorLoop> minor_loops;
-  // Of the area of a law that takes time, over that of a thousand steps or more, minus 1: what coarse steps
-  // make of it.
+  // The area of a law that takes time over that with a thousand steps or more, minus 1: an error by the
+  // length of its steps.
   double area_error = 0;
   std::array<int, 3> recovery_cases{};  // reversals with |M| <= Ma, <= 2 Ma, > 2 Ma, in all loops
 };
 
-// Where steps are coarse, the reading of a law that takes no time is that between them, too: of the same
-// states, without the chords that a sum over few rows takes for the curve.  Throws Error::invalid_input as
-// run_law().
+// The reading of a law that takes no time is the same however long the steps are: it is taken between them,
+// too, since a sum over few rows would take chords for the curve.  Throws Error::invalid_input as run_law().
 KesTest test_in_kes(const LawRequest& request, const KesProtocol& protocol = {});
 
 }  // namespace hysteron

@@ -80,8 +80,8 @@ std::string fitting_units(const Size& size, LengthUnit unit) {
   return fitting.empty() ? "" : "cloth.unit = " + join(fitting, ", ");
 }
 
-// Of cloth that is built the edges are asked for, and of one whose density an experiment has set no unit of
-// length is to blame for its weight.
+// The edges of cloth that is built are asked for, and no unit of length is to blame for the weight of one
+// whose density an experiment has set.
 std::string size_doubt(const Scene& scene, const ClothMesh& mesh) {
   Size size = scene_size(scene, mesh);
   if (is_set_by_experiment(scene, "fabric.density")) size.weight = kLightest;

@@ -16,8 +16,8 @@ std::string json_text(const std::filesystem::path& file) {
   return utf8_text(whole_file(file, "cannot read " + file.string(), kMaxJsonBytes));
 }
 
-// What has happened to a text that is no JSON but may have been some: "is empty", "was cut off or edited";
-// "" of a text that does not begin as one.
+// Says what has happened to a text that is no JSON but may have been some: "is empty", "was cut off or
+// edited"; "" of a text that does not begin as one.
 std::string damage_of(const std::string& text) {
   const std::string_view content = trimmed(text);
   if (content.empty()) return "is empty";

@@ -48,8 +48,8 @@ const KeyCondition kSceneConditions[] = {
      "--precision double and --integrator implicit, bdf2, tr-bdf2 or quasi-static, or --self-contact"},
     {"ramp | unload", "integrator = quasi-static", ""},
 };
-// Of what a run does besides simulating.  Options that say how pictures look are no part of it: the manifest
-// keeps them, and scripts draw pictures or leave them out by one flag.  What draws them is.
+// These concern what a run does besides simulating.  Options that say how pictures look have no condition:
+// the manifest keeps them, and scripts draw pictures or leave them out by one flag.  The renderer has one.
 const KeyCondition kRunConditions[] = {
     {"errors.draws | errors.jobs | errors.batch", "errors", ""},
     {"reference", "look = difference", ""},

@@ -12,8 +12,9 @@ namespace hysteron::experiments {
 // already.
 std::vector<std::string> doubts_at_start(const Scene& scene, const Cloth& cloth, Simulation& simulation);
 
-// Where the mesh has a tenth more or fewer triangles than were asked for: its rows and columns must be whole,
-// and some specimens need more.  "" where it has not; `asked` and `origin` are those of the key triangles.
+// Says that the mesh has a tenth more or fewer triangles than were asked for, since its rows and columns must
+// be whole and some specimens need more; "" where it has not.  `asked` and `origin` are those of the key
+// triangles.
 std::string triangle_count_warning(int asked, const std::string& origin, int triangles);
 
 // After the last: cloth that stretched as none does (`stretched`: largest principal stretch minus 1), or went

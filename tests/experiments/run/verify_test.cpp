@@ -203,7 +203,7 @@ TEST_F(Recorded, RunIsVerified) {
   ended(4, verify + " --exact");
 }
 
-// What stood in its folder before and is kept there makes no page of it.
+// A run that stood in its folder before and is kept there makes no page of it.
 TEST_F(Recorded, RunBesideOneThatIsSetAsideIsVerified) {
   finished("kes --quick --no-images --quiet" + out_flag(run()));
   const fs::path aside = run() / ".page-before";

@@ -86,7 +86,7 @@ TEST_F(GpuChoice, IsLeftToWhoSimulatesInAProgramWithoutCuda) {
   EXPECT_EQ(allowed(), "4");
 }
 
-// Whatever the variable says that such a program does not read.
+// Such a program does not read the variable, which is no reason.
 TEST_F(GpuChoice, IsRefusedByAProgramWithoutCudaWithThatReason) {
   if (is_built_with_cuda()) GTEST_SKIP() << "built with CUDA";
   allow("4");
