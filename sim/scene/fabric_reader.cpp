@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <optional>
 #include <utility>
 
 #include "sim/base/error.h"
-#include "sim/base/plain_text.h"
+#include "sim/base/units.h"
 #include "sim/scene/assets.h"
 #include "sim/scene/fabric_limits.h"
 #include "sim/scene/keys.h"
@@ -76,6 +77,16 @@ struct Reader {
     return x;
   }
 
+  double plain_number(const ValueTree& node) const {
+    const auto* integer = std::get_if<std::int64_t>(&node.value);
+    const auto* real = std::get_if<double>(&node.value);
+    if (node.kind != ValueTree::Kind::value || (!integer && !real))
+      throw refusal(node.key + " must be a number or a table {value, unit, source, confidence}", node);
+    const double x = integer ? static_cast<double>(*integer) : *real;
+    if (!std::isfinite(x)) throw refusal(node.key + " must be finite", node);
+    return x;
+  }
+
   // The text that a name stands for in [sources]; others stand for themselves.
   std::string source(const ValueTree* sources, const std::string& name) const {
     const ValueTree* node = sources ? sources->find(name) : nullptr;
@@ -93,21 +104,20 @@ struct Reader {
     return names;
   }
 
-  // {value = 1.157e-5, unit = "N m", source = "kes", confidence = "published"}
-  PublishedNumber quantity(const ValueTree& node, const ValueTree* sources) const {
-    if (node.kind != ValueTree::Kind::table) {
-      throw refusal(
-          node.key + " must be a table {value, unit, source, confidence}, stderr and range if known", node);
-    }
+  // {value = 1.157e-5, unit = "N m", source = "kes", confidence = "published"}, or the value alone, in the
+  // program's own unit, `own_unit`.  Without a source the file is it.
+  PublishedNumber quantity(const ValueTree& node, const ValueTree* sources,
+                           const std::string& own_unit) const {
+    if (node.kind != ValueTree::Kind::table)
+      return {plain_number(node), own_unit, {place(file, node), "given"}};
     only_known(node, {"value", "unit", "source", "confidence", "stderr", "range", "tester"});
-    PublishedNumber number{this->number(node, "value"), "", {text(node, "source"), confidence(node, node)}};
-    if (node.find("unit")) number.unit = text(node, "unit");
+    PublishedNumber number{this->number(node, "value"), "", provenance(node, sources)};
+    number.unit = node.find("unit") ? text(node, "unit") : own_unit;
     if (node.find("stderr")) {
       number.provenance.standard_error = this->number(node, "stderr");
       if (*number.provenance.standard_error < 0) throw refusal(node.key + ": stderr must be >= 0", node);
     }
     if (node.find("tester")) number.tester = text(node, "tester");
-    number.provenance.source = source(sources, number.provenance.source);
     return number;
   }
 
@@ -147,15 +157,21 @@ void read_parameter(const Reader& reader, const ValueTree& node, const ValueTree
   const std::string origin = place(reader.file, node);
   const Keys keys = bind_scene(scene);
   const BoundKey& key = find_key(keys, "fabric." + node.key, origin);
-  const PublishedNumber number = reader.quantity(node, sources);
-  if (plain_unit(number.unit) != plain_unit(key.description.unit)) {
+  PublishedNumber number = reader.quantity(node, sources, key.description.unit);
+  const auto factor = factor_to(key.description.unit, number.unit);
+  if (!factor) {
+    const std::string others = known_units(key.description.unit);
     throw Error::invalid_input("fabric." + node.key + " has unit \"" + number.unit + "\" and must have \"" +
-                               key.description.unit + "\" (" + origin + ")");
+                               key.description.unit + "\"" + (others.empty() ? "" : " or one of " + others) +
+                               " (" + origin + ")");
   }
   if (const auto range = reader.range(node, number.value)) {
-    for (const double end : {range->low, range->high}) assign(key, end, origin + ", range");
-    ranges[node.key] = *range;
+    ranges[node.key] = between(*factor * range->low, *factor * range->high);
+    for (const double end : {ranges[node.key].low, ranges[node.key].high})
+      assign(key, end, origin + ", range");
   }
+  if (number.provenance.standard_error) *number.provenance.standard_error *= *factor;
+  number.value *= *factor;
   assign(key, number.value, origin);
   check_fabric_number(node.key, number.value, "fabric." + node.key, origin);
   scene.fabric.provenance[node.key] = number.provenance;
@@ -227,8 +243,9 @@ FabricFile read_fabric(const std::string& name_or_file, const std::string& origi
   FabricFile result;
   Scene scene;
   if (sources) result.short_names = reader.short_names(*sources);
-  scene.fabric.name = reader.text(root, "name");
-  result.description = reader.text(root, "description");
+  scene.fabric.name =
+      root.find("name") ? reader.text(root, "name") : std::filesystem::path(reader.file).stem().string();
+  if (root.find("description")) result.description = reader.text(root, "description");
   for (const ValueTree& node : parameters.children)
     read_parameter(reader, node, sources, scene, result.range);
   for (const char* table : kPartTables)
@@ -253,7 +270,7 @@ FabricFile read_fabric(const std::string& name_or_file, const std::string& origi
   }
   if (const ValueTree* published = root.find("published")) {
     for (const ValueTree& node : published->children) {
-      scene.fabric.published[node.key] = reader.quantity(node, sources);
+      scene.fabric.published[node.key] = reader.quantity(node, sources, "");
       if (const auto range = reader.range(node, scene.fabric.published[node.key].value)) {
         if (node.key != "B" && node.key != "2HB")
           throw reader.refusal(node.key + ": a range belongs to [parameters], or to B and 2HB", node);

@@ -6,7 +6,9 @@
 //   kes = {short = "Author Year", text = "Author Year, ..."}
 //   rigidity = "b1 = B + 2HB/k0"       a text alone is its own short name
 //   [parameters]         the keys fabric.* of a scene, in their SI units
-//   b2 = {value = 1.157e-5, unit = "N m", source = "kes", confidence = "published"}
+//   b2 = 1.157e-5                      the value alone: "given" by the file, or
+//   b2 = {value = 0.118, unit = "gf cm^2/cm", source = "kes", confidence = "published"}
+//                        in any unit that is known (sim/base/units.h); source and confidence may be left out
 //                        optional: stderr = 2e-7, the standard error in the same unit
 //                        optional: range = [8e-6, 1.5e-5], between which the number may lie
 //                        kes-b and kes-2hb may stand for b1 and b2, with stops-median and stops-spread for k0

@@ -294,6 +294,35 @@ TEST(FabricFiles, WithoutABiasHaveTheMeanOfWarpAndWeft) {
       << "which the file states";
 }
 
+// As a student writes a file: numbers alone, or with the unit that is printed; no name, no description.
+TEST(FabricFiles, TakeNumbersAloneAndInPrintedUnits) {
+  const TextFile file(
+      "[parameters]\n"
+      "b1 = {value = 0.5, unit = \"gf·cm²/cm\", range = [0.4, 0.6], stderr = 0.05}\n"
+      "b2 = 1.2e-5\n"
+      "k0 = {value = 0.08, unit = \"1/cm\", confidence = \"assumed\"}\n"
+      "density = {value = 12.4, unit = \"mg/cm^2\"}\n"
+      "thickness = {value = 0.5, unit = \"mm\"}\n"
+      "shear = {value = 1, unit = \"gf/(cm degree)\"}\n");
+  const FabricFile read = read_fabric(file.path(), "test");
+  const Fabric& fabric = read.fabric;
+  EXPECT_EQ(fabric.name, std::filesystem::path(file.path()).stem().string());
+  EXPECT_EQ(read.description, "");
+  constexpr double kRounding = 1e-12;
+  const auto expect = [&](double value, double expected) { EXPECT_NEAR(value / expected, 1, kRounding); };
+  expect(fabric.b1, 0.5 * 9.80665e-5);
+  expect(read.range.at("b1").low, 0.4 * 9.80665e-5);
+  expect(*fabric.provenance.at("b1").standard_error, 0.05 * 9.80665e-5);
+  EXPECT_EQ(fabric.b2, 1.2e-5);
+  EXPECT_EQ(fabric.provenance.at("b2").confidence, "given");
+  EXPECT_EQ(fabric.provenance.at("b2").source, file.line(3));
+  expect(fabric.k0, 8);
+  EXPECT_EQ(fabric.provenance.at("k0").confidence, "assumed");
+  expect(fabric.density, 0.124);
+  expect(fabric.thickness, 5e-4);
+  expect(fabric.shear, 0.980665 * 180 / 3.14159265358979323846);
+}
+
 struct BadFabric {
   const char* name;
   const char* tail;  // after kMinimal, from line 8
@@ -310,10 +339,9 @@ TEST_P(BadFabricFile, IsRefusedInOneLineThatNamesFileAndLine) {
 
 const BadFabric kBadFabrics[] = {
     {"MissingNumber", "", 3, "parameters needs thickness"},
-    {"WrongUnit", "thickness = {value = 0.4, unit = \"mm\", source = \"s\", confidence = \"assumed\"}", 8,
-     "fabric.thickness has unit \"mm\" and must have \"m\""},
-    {"NoSource", "thickness = {value = 4e-4, unit = \"m\", confidence = \"assumed\"}", 8, "source"},
-    {"BareNumber", "thickness = 4e-4", 8, "{value, unit, source, confidence}"},
+    {"WrongUnit", "thickness = {value = 0.4, unit = \"g\", source = \"s\", confidence = \"assumed\"}", 8,
+     "fabric.thickness has unit \"g\" and must have \"m\" or one of cm, mm, um, micron"},
+    {"BareText", "thickness = \"4e-4\"", 8, "a number or a table {value, unit, source, confidence}"},
     {"OwnConfidence", "thickness = {value = 4e-4, unit = \"m\", source = \"s\", confidence = \"sure\"}", 8,
      "published | fitted | derived | given | assumed"},
     {"OutOfRange", "thickness = {value = 0, unit = \"m\", source = \"s\", confidence = \"assumed\"}", 8,
