@@ -193,10 +193,12 @@ TEST_P(EveryFamily, RootMeanSquareOfACylinderIsItsReciprocalRadius) {
     return curvature_rms(curvature, element_areas(flat, d), d);
   };
   constexpr double kEdges = 0.03;  // faces at a free edge carry no curvature across it
-  // The rigidity of hinges depends on mesh and direction (docs/model.md): on aligned_45 it is threefold.
+  // The rigidity of hinges depends on mesh and direction (docs/model.md): on aligned45 it is threefold.
   constexpr double kHinges = 0.25;
   EXPECT_NEAR(kRadius * rms(make_shape_operator(flat, std::vector<char>(flat.vertices()))), 1, kEdges);
-  if (GetParam() != MeshFamily::aligned_45) EXPECT_NEAR(kRadius * rms(make_hinge_operator(flat)), 1, kHinges);
+  if (GetParam() != MeshFamily::aligned45) {
+    EXPECT_NEAR(kRadius * rms(make_hinge_operator(flat)), 1, kHinges);
+  }
 }
 
 TEST(SurfaceCurvature, NeedsASurfaceWithAFront) {
