@@ -1,5 +1,6 @@
 #include "python/module.h"
 
+#include "experiments/workbench/app/command_line.h"
 #include "experiments/workbench/app/run.h"
 #include "sim/base/error.h"
 #include "sim/scene/assets.h"
@@ -33,6 +34,16 @@ void bind_errors() {
   });
 }
 
+// Names of the flags that a subcommand takes, without their "--"; none where there is no such subcommand.
+py::list experiment_options(const std::string& name) {
+  py::list names;
+  const experiments::Experiment& experiment = experiments::experiment_named(name);
+  if (!experiment.run) return names;
+  for (const KeyDescription& key : experiments::experiment_options(experiment, experiments::Defaults::left_out))
+    names.append(experiments::option_name(key).substr(2));
+  return names;
+}
+
 }  // namespace
 
 PYBIND11_MODULE(_hysteron, module) {
@@ -42,6 +53,7 @@ PYBIND11_MODULE(_hysteron, module) {
   module.attr("build") = version;
   module.attr("has_cuda") = HYSTERON_HAS_CUDA != 0;
   module.def("_set_assets_place", [](const std::string& folder) { set_assets_place(folder); });
+  module.def("_experiment_options", &experiment_options);
   bind_errors();
   bind_fabric(module);
   bind_law(module);

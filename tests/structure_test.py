@@ -108,7 +108,7 @@ class Quotations(unittest.TestCase):
     def test_in_the_documentation_are_the_files_that_they_name(self):
         found = [found for page in sorted((ROOT / "docs").glob("*.md"))
                  for found in QUOTATION.findall(page.read_text("utf-8"))]
-        self.assertEqual(len(found), 1, "a script of Python")
+        self.assertEqual(len(found), 2, "scripts of Python")
         for file, text in found:
             self.assertEqual(text, (ROOT / file).read_text("utf-8"), file)
 

@@ -1,4 +1,4 @@
-"""Bending hysteresis of cloth: laws, fabrics, scenes and simulations of the hysteron workbench.
+"""Bending hysteresis of cloth: laws, fabrics, scenes, simulations and experiments of the hysteron workbench.
 
 Everything is in SI units.  Arrays are numpy's; where they are views of a simulation's memory, their
 documentation says so.  Failures are raised as hysteron_cloth.Error, with key and value.
@@ -8,7 +8,10 @@ from pathlib import Path as _Path
 
 from . import _hysteron
 from ._hysteron import *  # noqa: F401,F403
-from .errors import Error, MachineError, RequestError, RunError
+from .errors import Cancelled, Error, MachineError, RequestError, RunError
+from .jobs import Job, compare, run, start, sweep
+from .program import find_program
+from .runs import Comparison, Run, Sweep, read_table
 
 __version__ = _hysteron.__version__
 

@@ -10,6 +10,8 @@ __version__: str
 build: str
 has_cuda: bool
 
+def _experiment_options(name: str) -> list[str]: ...
+
 Doubles = NDArray[np.float64]
 Picture = NDArray[np.uint8]
 Corners = tuple[Sequence[float], Sequence[float]]

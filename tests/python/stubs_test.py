@@ -49,6 +49,17 @@ class Stubs(unittest.TestCase):
             for name in public(owner):
                 self.assertTrue(getattr(owner, name).__doc__, f"{owner.__name__}.{name}")
 
+    def test_of_docstrings_and_types_in_python_none_is_missing(self):
+        files = [file for file in pathlib.Path(hysteron_cloth.__file__).parent.glob("*.py")]
+        self.assertGreater(len(files), 4)
+        for node in (node for file in files for node in ast.walk(ast.parse(file.read_text()))):
+            if isinstance(node, (ast.ClassDef, ast.FunctionDef)) and not node.name.startswith("_"):
+                self.assertTrue(ast.get_docstring(node), node.name)
+            if isinstance(node, ast.FunctionDef):
+                arguments = node.args.posonlyargs + node.args.args + node.args.kwonlyargs
+                untyped = [each.arg for each in arguments if each.annotation is None and each.arg != "self"]
+                self.assertEqual((untyped, node.returns is None), ([], False), node.name)
+
 
 class Build(unittest.TestCase):
     def test_says_whether_it_has_cuda(self):
@@ -60,6 +71,7 @@ class Build(unittest.TestCase):
         pyproject = tomllib.loads((pathlib.Path(__file__).parents[2] / "pyproject.toml").read_text())
         self.assertEqual(pyproject["project"]["name"], "hysteron-cloth")
         self.assertEqual(pyproject["tool"]["scikit-build"]["cmake"]["define"]["HYSTERON_CUDA"], "OFF")
+        self.assertIn("hysteron", pyproject["tool"]["scikit-build"]["build"]["targets"])  # program_test.py runs it
 
 
 if __name__ == "__main__":
