@@ -39,7 +39,8 @@ py::list experiment_options(const std::string& name) {
   py::list names;
   const experiments::Experiment& experiment = experiments::experiment_named(name);
   if (!experiment.run) return names;
-  for (const KeyDescription& key : experiments::experiment_options(experiment, experiments::Defaults::left_out))
+  for (const KeyDescription& key :
+       experiments::experiment_options(experiment, experiments::Defaults::left_out))
     names.append(experiments::option_name(key).substr(2));
   return names;
 }
