@@ -11,6 +11,7 @@ build: str
 has_cuda: bool
 
 def _experiment_options(name: str) -> list[str]: ...
+def _set_assets_place(folder: str) -> None: ...
 
 Doubles = NDArray[np.float64]
 Picture = NDArray[np.uint8]

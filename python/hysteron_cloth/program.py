@@ -4,7 +4,9 @@ import functools
 import os
 import re
 import shutil
+import signal
 import subprocess
+import sys
 import warnings
 from pathlib import Path
 from typing import Any, Iterator, Mapping
@@ -31,6 +33,15 @@ def find_program() -> str:
     if named:
         raise MachineError(f"HYSTERON_PROGRAM = {named} is no program; unset it or name one", "HYSTERON_PROGRAM", named)
     raise MachineError(f"no program at {places[0]} or {places[1]}, and no hysteron on PATH; set HYSTERON_PROGRAM to it")
+
+
+def main() -> None:
+    """The command `hysteron` of a wheel: this process becomes the program, with the shell's arguments."""
+    program = find_program()
+    if os.path.samefile(program, sys.argv[0]):
+        raise SystemExit(f"hysteron: {program} starts the program and is not it; reinstall hysteron-cloth")
+    signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # which Python ignores, and the program would inherit
+    os.execv(program, [program, *sys.argv[1:]])
 
 
 def checked_program() -> str:

@@ -53,6 +53,16 @@ class Program(unittest.TestCase):
             self.found(HYSTERON_PROGRAM="/no/such")
         self.assertEqual((raised.exception.key, raised.exception.value), ("HYSTERON_PROGRAM", "/no/such"))
 
+    def test_is_what_the_command_of_a_wheel_becomes(self):
+        command = self.folder / "bin" / "hysteron"
+        script(command, "").write_text(f"#!{sys.executable}\nfrom hysteron_cloth.program import main\nmain()\n")
+        ran = subprocess.run([command, "kes", "--no-such"], capture_output=True, text=True)
+        typed = subprocess.run([PROGRAM, "kes", "--no-such"], capture_output=True, text=True)
+        self.assertEqual((ran.returncode, ran.stderr), (2, typed.stderr))
+        itself = {**os.environ, "HYSTERON_PROGRAM": str(command)}
+        loop = subprocess.run([command], capture_output=True, text=True, env=itself)
+        self.assertIn("is not it", loop.stderr)
+
     def test_of_another_project_is_refused(self):
         other = script(self.folder / "hysteron", "echo 'hysteron 2.1'\n")
         with mock.patch.dict(os.environ, HYSTERON_PROGRAM=str(other)):

@@ -6,6 +6,7 @@ import os
 import pathlib
 import signal
 import subprocess
+import sys
 import tempfile
 import time
 import unittest
@@ -250,11 +251,22 @@ class Cancelling(InFolder):
             hysteron_cloth.run("swing", **LONG, progress=lambda line: 1 / 0)
         self.assertFalse(hysteron_cloth.jobs._going_on)
 
+    def test_of_a_study_keeps_the_runs_that_are_complete(self):
+        study = self.write("soft.toml", STUDY.replace("[1e-5, 2e-5]", "[1e-5, 2e-5, 3e-5, 4e-5, 5e-5, 6e-5]"))
+        jobs = []
+        jobs.append(hysteron_cloth.start("sweep", study, jobs=1, out="cut",
+                                         progress=lambda line: line.startswith("1/6") and jobs[0].cancel()))
+        with self.assertRaisesRegex(hysteron_cloth.Cancelled, "complete are kept in .*cut: resume=True"):
+            jobs[0].wait()
+        whole = hysteron_cloth.sweep(study, jobs=1, out="cut", resume=True)
+        self.assertTrue(1 <= whole.metrics["kept_count"] < 6, whole.metrics)
+        self.assertEqual(len(whole.runs), 6)
+
     def test_at_the_end_of_python_leaves_no_program(self):
         script = ("import hysteron_cloth\n"
                   f"job = hysteron_cloth.start('swing', **{dict(LONG, seconds=60.0)!r})\n"
                   "print(job._process.pid)\n")
-        ended = subprocess.run([hysteron_cloth.jobs.sys.executable, "-c", script], capture_output=True, text=True,
+        ended = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True,
                                check=True)
         with self.assertRaises(ProcessLookupError):
             os.kill(int(ended.stdout), 0)
