@@ -28,6 +28,7 @@
   entry(figures) \
   entry(rerun) \
   entry(verify) \
+  entry(doctor) \
   entry(list) \
   entry(batch)
 // clang-format on

@@ -247,6 +247,27 @@ void write_both(const std::filesystem::path& base, int width, int height, const 
   if (has_pdf) pdf.commit();
 }
 
+Trial try_gnuplot() {
+  constexpr int kWidth = 640, kHeight = 480;  // [pixels]
+  Trial trial;
+  const auto read = [&](const std::string& line) {
+    if (line.starts_with("version ")) trial.version = line.substr(line.find(' ') + 1);
+    if (line == "pdf") trial.writes_pdf = true;
+  };
+  const ProcessResult result = run_process(
+      {"gnuplot", "-"},
+      "set print '-'\nprint sprintf('version %.1f patchlevel ', GPVAL_VERSION) . "
+      "GPVAL_PATCHLEVEL\nif (strstrt(GPVAL_TERMINALS, 'pdfcairo')) print 'pdf'\n" +
+          output_commands("pngcairo", kWidth, kHeight, "/dev/null") + "plot 0\n" + without_letters(kWidth),
+      read);
+  if (!result.started) trial.failure = "gnuplot cannot be started";
+  if (result.exit_code == kNoLetters)
+    trial.has_letters = false;
+  else if (result.started && result.exit_code != 0)
+    trial.failure = "gnuplot fails: " + result.first_error_line;
+  return trial;
+}
+
 std::string PanelPage::point(double x, double y) const {
   return "screen " + number(across(x)) + "," + number(up(y));
 }

@@ -37,6 +37,15 @@ std::string mark_commands(const std::vector<Mark>& marks);
 void write_both(const std::filesystem::path& base, int width, int height, const std::string& prologue,
                 const std::string& drawing);
 
+// The gnuplot of this machine, tried with a plot that goes nowhere.
+struct Trial {
+  std::string version{};    // "5.4 patchlevel 4"
+  bool writes_pdf = false;  // else plots are PNG and SVG alone
+  std::string failure{};    // why it draws nothing, "gnuplot cannot be started"; empty: it does
+  bool has_letters = true;  // it finds a font
+};
+Trial try_gnuplot();
+
 // The page that grids of panels share: where each panel stands, and the texts around them, for gnuplot.
 
 struct PanelPage {

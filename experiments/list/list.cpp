@@ -5,21 +5,18 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "experiments/doctor/findings.h"
 #include "experiments/run/metrics.h"
 #include "experiments/workbench/app/experiment.h"
 #include "experiments/workbench/app/manifest.h"
-#include "render/contexts.h"
-#include "render/offscreen.h"
 #include "sim/base/csv.h"
 #include "sim/base/error.h"
 #include "sim/bending/laws/law_run.h"
-#include "sim/device/visible_gpus.h"
 #include "sim/reference/kes.h"
 #include "sim/scene/assets.h"
 #include "sim/scene/fabric_reader.h"
 #include "sim/scene/keys.h"
 #include "sim/scene/scene_reader.h"
-#include "sim/time/back_end.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -182,71 +179,9 @@ void print_scenes() {
   for (const std::string& name : list_assets("scenes")) print_row({name}, {-1});
 }
 
-// What this machine computes and draws with, opened to see that it can be.
-struct TriedDevice {
-  std::string kind;     // cpu, cuda, renderer
-  std::string id;       // "cuda:0", "EGL device 0"
-  std::string name;     // with driver and version, as manifests have it; "EGL device 0 fails", "none"
-  std::string failure;  // why it could not be; empty: it was
-};
+Json devices() { return devices_json(tried_devices()); }
 
-template <class Open>
-TriedDevice tried(const std::string& kind, const std::string& id, const Open& open) {
-  constexpr int kAttempts = 2;  // drivers fail now and then while another process starts
-  TriedDevice device{kind, id, id + " fails", ""};
-  for (int attempt = 0; attempt < kAttempts; ++attempt) {
-    try {
-      device.name = open();
-      device.failure.clear();
-      return device;
-    } catch (const Error& error) {
-      device.failure = error.what();
-    }
-  }
-  return device;
-}
-
-void try_gpus(std::vector<TriedDevice>& devices) {
-  std::string reason;
-  const int gpus = gpu_count(reason);
-  for (int i = 0; i < gpus; ++i)
-    devices.push_back(tried("cuda", "cuda:" + std::to_string(i), [i] { return gpu_description(i); }));
-  if (gpus == 0) devices.push_back({"cuda", "cuda", "none", no_gpu_message(reason)});
-}
-
-void try_renderers(std::vector<TriedDevice>& devices) {
-  using render::Offscreen;
-  const std::vector<render::Candidate> all = Offscreen::candidates(render::Renderer::automatic);
-  if (render::egl_candidates().empty())
-    devices.push_back({"renderer", "EGL", "EGL fails", render::egl_unavailable()});
-  for (const render::Candidate& candidate : all)
-    devices.push_back(
-        tried("renderer", candidate.name(), [&] { return Offscreen::create(candidate)->description(); }));
-}
-
-// The CPU, all GPUs, all renderers in the order in which they are tried for pictures.
-std::vector<TriedDevice> tried_devices() {
-  std::vector<TriedDevice> devices = {{"cpu", "cpu", cpu_description(), ""}};
-  try_gpus(devices);
-  try_renderers(devices);
-  return devices;
-}
-
-Json devices() {
-  Json list = Json::array();
-  for (const TriedDevice& device : tried_devices()) {
-    Json entry = {{device.kind == "renderer" ? "renderer" : "device", device.id},
-                  {"name", device.failure.empty() ? Json(device.name) : Json(nullptr)}};
-    if (!device.failure.empty()) entry["reason"] = device.failure;
-    list.push_back(entry);
-  }
-  return list;
-}
-
-void print_devices() {
-  for (const TriedDevice& device : tried_devices())
-    print_row({device.kind, device.name + (device.failure.empty() ? "" : ": " + device.failure)}, {-10});
-}
+void print_devices() { print_findings("out"); }
 
 // A cell must not end at a bar.
 std::string cell(const std::string& text) {

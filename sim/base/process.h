@@ -1,4 +1,4 @@
-// Another program run without a shell.
+// Other processes: another program run without a shell, and a call that may crash.
 #pragma once
 
 #include <functional>
@@ -18,5 +18,10 @@ struct ProcessResult {
 // dropped. The program gets SIGTERM when this one is killed.
 ProcessResult run_process(const std::vector<std::string>& words, const std::string& input,
                           const std::function<void(const std::string&)>& said = {});
+
+// Calls it in a child process that writes nothing to stdout and stderr, waits, and returns what it returned.
+// Throws Error::system with what the call throws, or where a signal ends the child, which is also what
+// happens after `longest` seconds: "it ends by a signal (Segmentation fault)", "it takes longer than 10 s".
+std::string answer_of_child(const std::function<std::string()>& call, unsigned longest = 10);
 
 }  // namespace hysteron

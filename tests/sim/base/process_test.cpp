@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "sim/base/error.h"
+
 namespace hysteron::render {
 namespace {
 
@@ -79,6 +81,29 @@ TEST(Process, EndsWhenTheOneThatRunsItIsKilled) {
   ASSERT_EQ(waitpid(last, &status, 0), last);
   EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGTERM);
   close(ends[0]);
+}
+
+TEST(AnswerOfChild, IsWhatTheCallReturnsOrThrows) {
+  EXPECT_EQ(answer_of_child([] { return std::string("two\nlines"); }), "two\nlines");
+  EXPECT_EQ(answer_of_child([] { return std::string(100000, 'x'); }).size(), 100000u)
+      << "more than a pipe holds";
+  const auto failure = [](const std::function<std::string()>& call, unsigned longest = 10) -> std::string {
+    try {
+      return "answered " + answer_of_child(call, longest);
+    } catch (const Error& error) {
+      return error.what();
+    }
+  };
+  EXPECT_EQ(failure([]() -> std::string { throw Error::system("no driver"); }), "no driver");
+  EXPECT_EQ(failure([]() -> std::string { std::abort(); }), "it ends by a signal (Aborted)");
+  EXPECT_EQ(failure([]() -> std::string { std::_Exit(0); }), "it ends its process");
+  EXPECT_EQ(failure(
+                [] {
+                  ::sleep(30);
+                  return std::string();
+                },
+                1),
+            "it takes longer than 1 s");
 }
 
 }  // namespace
