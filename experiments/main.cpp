@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "experiments/notes/notes.h"
 #include "experiments/workbench/app/command_line.h"
 #include "experiments/workbench/app/ending.h"
 #include "experiments/workbench/app/gpu_choice.h"
@@ -19,7 +20,9 @@ using namespace hysteron::experiments;
 void say_last_words(const CommandLine& line) {
   if (Run::first_folder().empty() || last_text(line.flags, "json", "") == "true") return;
   if (experiment_named(line.experiment).hidden) return;
-  std::cout << closing_summary(Run::first_folder()) << std::flush;
+  std::cout << closing_summary(Run::first_folder());
+  if (last_text(line.flags, "quiet", "") != "true") std::cout << closing_notes(Run::first_folder());
+  std::cout << std::flush;
 }
 
 int flushed(int exit_code) {
