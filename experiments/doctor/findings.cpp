@@ -23,9 +23,9 @@ namespace fs = std::filesystem;
 
 constexpr const char* kRenderer = "renderer";
 constexpr double kGibibyte = 1 << 30;  // [byte]
-constexpr std::uintmax_t kLeastRoom = 64
-                                      << 20;  // [byte] of a small run with its pictures, several times over
-constexpr unsigned kLongest = 20;             // [s] that another program takes to say what it is
+// Of a small run with its pictures, several times over [byte].
+constexpr std::uintmax_t kLeastRoom = 64 << 20;
+constexpr unsigned kLongest = 20;  // [s] that another program takes to say what it is
 
 Finding program_finding() {
   const Manifest program = this_program();
@@ -62,12 +62,16 @@ Finding memory_finding() {
                           sysconf(_SC_NPROCESSORS_ONLN), all / kGibibyte, available_memory() / kGibibyte)};
 }
 
-// "580.159.04" of the kernel's module; "" where there is none.
+// "580.159.04" of "NVRM version: NVIDIA UNIX Open Kernel Module for x86_64  580.159.04  Release Build"; ""
+// where there is no such file.
 std::string nvidia_driver() {
   std::ifstream in("/proc/driver/nvidia/version");
-  for (std::string word; in >> word;)
-    if (word == "Module" && in >> word)
-      return word.starts_with("for") && in >> word && in >> word ? word : word;
+  bool is_behind_module = false;
+  for (std::string word; in >> word;) {
+    const bool is_number = word.front() >= '0' && word.front() <= '9';
+    if (is_behind_module && is_number) return word;
+    is_behind_module = is_behind_module || word == "Module";
+  }
   return "";
 }
 
@@ -84,10 +88,12 @@ Finding gpu_finding(const TriedDevice& device) {
   Finding finding{.part = device.kind, .found = device.failure.empty(), .text = device.name};
   if (finding.found) {
     const std::string driver = nvidia_driver();
+    const char* const visible = std::getenv(kVisibleGpus);
     if (!driver.empty()) finding.text += ", driver " + driver;
+    if (visible) finding.text += std::string(", ") + kVisibleGpus + " = " + visible;
     return finding;
   }
-  finding.text += ": " + device.failure;
+  finding.text = device.name == "none" ? device.failure : device.name + ": " + device.failure;
   if (!is_built_with_cuda() && gpus_of_machine() > 0)
     finding.text += ", and this machine has " + gpus_text(gpus_of_machine());
   finding.cost = "runs are computed on the CPU";

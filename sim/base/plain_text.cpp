@@ -109,8 +109,8 @@ constexpr Replacement kSigns[] = {
     {"\xE2\x8B\x85", " "},  // dot operator
     {"\xC3\x97", " "},      // multiplication sign
     {"*", " "},
-    {"\xC2\xB5", "u"},  // micro sign
-    {"\xCE\xBC", "u"},  // mu
+    {"\xC2\xB5", "u"},               // micro sign
+    {"\xCE\xBC", "u"},               // mu
     {"\xE2\x81\xBB\xC2\xB9", "-1"},  // superscript -1
     {"\xC2\xB2", "2"},               // superscripts
     {"\xC2\xB3", "3"},

@@ -82,6 +82,10 @@ TEST(Notes, AreAbsentFromQuietRunsAndFromJson) {
 TEST(Notes, AreOnlyGivenWhereThereIsSomethingToSay) {
   EXPECT_TRUE(notes_on(manifest_of("bench", {{"copy_bandwidth_GB_per_s", 20.0}})).empty());
   EXPECT_TRUE(notes_on(manifest_of("crease", {})).empty()) << "no angle was found";
+  Manifest cut_short = manifest_of("drape", {{"drape_coefficient_percent", 80.0}});
+  EXPECT_FALSE(notes_on(cut_short).empty());
+  cut_short.complete = false;
+  EXPECT_TRUE(notes_on(cut_short).empty()) << "its error says what there is to say";
 }
 
 TEST(Notes, NameTheLargestErrorAndWhatLessensIt) {
