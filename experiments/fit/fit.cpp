@@ -8,6 +8,7 @@
 
 #include "experiments/fit/fab_predictions.h"
 #include "experiments/fit/from_fab.h"
+#include "experiments/fit/from_sheet.h"
 #include "experiments/fit/report.h"
 #include "experiments/workbench/app/experiment.h"
 #include "experiments/workbench/app/key_conditions.h"
@@ -33,7 +34,8 @@ struct DecayFlags {
 };
 
 struct FitFlags {
-  std::string loop, virgin_file;
+  std::string loop, virgin_file, sheet;
+  bool wants_template = false;
   VirginNumbers virgin;
   KesNumbers kes;
   std::string law = "prandtl";
@@ -75,6 +77,8 @@ const KeyRow<FitFlags> kRows[] = {
     {"decay.length", at<&F::decay, &DecayFlags::length>, "m", at_least(0), "", "of the strip below the clamp"},
     {"decay.noise", at<&F::decay, &DecayFlags::noise>, "m", positive(), "", "of the amplitudes, standard deviation"},
     {"units", at<&F::units>, "", any(), "si | kes | fab", "of the loop (kes: 1/cm and gf cm/cm) or of the FAB data (fab: cm and gf, columns _cm, _gf)"},
+    {"kes-sheet", at<&F::sheet>, "", any(), "", "the sheet of a KES-F laboratory, CSV or TOML: sixteen numbers along warp and weft as they are printed"},
+    {"template", at<&F::wants_template>, "", any(), "", "print such a sheet to fill in, and nothing else"},
     {"virgin.b1", at<&F::virgin, &VirginNumbers::b1, &M::value>, "N m", any(), "", "M = b1 K + c1 K^2 on loading"},
     {"virgin.c1", at<&F::virgin, &VirginNumbers::c1, &M::value>, "N m^2", any(), "", "< 0"},
     {"virgin.b1-stderr", at<&F::virgin, &VirginNumbers::b1, &M::standard_error>, "N m", at_least(0), "", "standard error"},
@@ -389,6 +393,30 @@ void fit_curve(const CommandLine& line, const FitFlags& flags, const Keys& keys)
   finish(run, flags, summary(answer.fits), notes);
 }
 
+// What the laboratory weighed and measured wins over what is given by hand.
+void fit_kes_sheet(const CommandLine& line, const FitFlags& flags, const Keys& keys) {
+  KesSheet sheet = read_kes_sheet(flags.sheet);
+  const bool is_named =
+      std::any_of(line.flags.begin(), line.flags.end(), [](const Flag& flag) { return flag.path == "name"; });
+  if (is_named) sheet.name = flags.name;
+  const auto add_given = [&](const char* row, double value, const char* flag) {
+    if (std::isnan(value)) return;
+    if (sheet.has(row))
+      throw Error::invalid_input(std::string("--") + flag + " is not used: the sheet has " + row)
+          .with_key(flag, "");
+    sheet.row[row] = {{kNone, kNone, value}, "", std::string("--") + flag};
+  };
+  add_given("W", flags.density, "fabric.density");
+  add_given("T0", flags.thickness, "fabric.thickness");
+  const SheetFabric found = fabric_of_sheet(sheet, flags.assume);
+  Run run(line, flags.options, resolved(keys));
+  for (const std::string& warning : sheet.warnings) run.warn(warning);
+  write_fabric_text(run.path("fabric.toml"), found.text);
+  const std::string text = report_sheet(run, sheet, found);
+  finish_with_report(run);
+  if (!flags.options.json) std::cout << text;
+}
+
 // The one that the flags ask for.
 WayIn way_in(const FitFlags& flags) {
   std::vector<WayIn> requested;
@@ -402,9 +430,10 @@ WayIn way_in(const FitFlags& flags) {
   add(flags.kes.two_hb.given() || (flags.kes.b.given() && !with_decay), fit_curve<from_kes>);
   add(!flags.fab.file.empty(), fit_loops_of_fab);
   add(with_decay, fit_decay);
+  add(!flags.sheet.empty(), fit_kes_sheet);
   if (requested.size() == 1) return requested[0];
   throw Error::invalid_input(
-      "needs one of --loop FILE.csv, --virgin.b1 with --virgin.c1, --kes.b with --kes.2hb, "
+      "needs one of --kes-sheet FILE, --loop FILE.csv, --virgin.b1 with --virgin.c1, --kes.b with --kes.2hb, "
       "--fab FILE.csv, --decay FILE.csv" +
       std::string(requested.empty() ? "" : ", not several"));
 }
@@ -414,6 +443,10 @@ int run_fit(const CommandLine& line) {
   flags.options.out = "out/" + line.experiment;
   const Keys keys = bind_flags(flags);
   for (const Flag& flag : line.flags) assign_text(keys, flag.path, flag.text, "--" + flag.path);
+  if (flags.wants_template) {
+    std::cout << kes_sheet_template();
+    return 0;
+  }
   if (flags.name.empty())
     throw Error::invalid_input("name = \"\" must be the fabric's (--name)").with_key("name", "");
   refuse_unread_flags(line, key_values(keys));
@@ -442,7 +475,7 @@ Experiment fit() {
                          {"kes.b-stderr | kes.2hb-stderr | kes.k0", "kes.2hb"},
                          {"kes.k0-stderr", "kes.k0"},
                          {"assume.ratio", "loop or virgin.b1 or virgin.file"},
-                         {"assume.k0", "loop or kes.2hb and not kes.k0"}}};
+                         {"assume.k0", "loop or kes-sheet or kes.2hb and not kes.k0"}}};
 }
 
 }  // namespace hysteron::experiments

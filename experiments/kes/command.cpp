@@ -9,6 +9,7 @@
 
 #include "experiments/kes/in_plane.h"
 #include "experiments/kes/output.h"
+#include "experiments/specimens/cantilever_strip.h"
 #include "experiments/workbench/app/experiment.h"
 #include "experiments/workbench/app/key_conditions.h"
 #include "experiments/workbench/app/run.h"
@@ -19,6 +20,7 @@
 #include "sim/base/error.h"
 #include "sim/bending/laws/unused_parameters.h"
 #include "sim/reference/kes.h"
+#include "sim/reference/kes_in_plane.h"
 #include "sim/scene/fabric_limits.h"
 #include "sim/scene/keys.h"
 
@@ -31,6 +33,7 @@ struct KesFlags {
   Parameters param;
   KesProtocol protocol;
   std::string on = "law";
+  Along along = Along::warp;
   StripShape strip;
   Options options;
 };
@@ -40,7 +43,7 @@ using P = KesProtocol;
 using S = StripShape;
 // clang-format off
 const KeyRow<KesFlags> kRows[] = {
-    {"test", at<&K::test>, "", any(), "bending | shear | tension", "KES-FB2 bending, or shear or tension of KES-FB1, which take along, load, on, mesh, triangles and strip-steps"},
+    {"test", at<&K::test>, "", any(), "bending | shear | tension", "KES-FB2 bending, or shear or tension of KES-FB1, which take load, on, mesh, triangles and strip-steps"},
     {"law", at<&K::law>, "", any(), "", "NAME, several separated by commas, or all; see `hysteron list laws`"},
     {"param", at<&K::param>, "", any(), "", "parameters, for those of the laws that have them"},
     {"amplitude", at<&K::protocol, &P::amplitude>, "1/m", positive(), "", "largest curvature; the tester's is 2.5 per cm"},
@@ -50,6 +53,7 @@ const KeyRow<KesFlags> kRows[] = {
     {"width-at", at<&K::protocol, &P::width_at>, "1/m", positive(), "", "curvature at which 2HB is read"},
     {"steps", at<&K::protocol, &P::steps>, "", between(10, 1e6), "", "accepted steps from zero to the amplitude, as they are drawn; what the tester reads of a law that takes no time does not depend on them"},
     {"cycles", at<&K::protocol, &P::cycles>, "", between(1, 1000), "", "number of cycles; the tester reads the first, the area is that of the last"},
+    {"along", at<&K::along>, "", any(), "", "along which the specimen is bent, or led from clamp to clamp"},
     {"on", at<&K::on>, "", any(), "law | strip", "the law alone, or beside it a strip of cloth between rotating clamps"},
     {"renderer", at<&K::options, &Options::renderer>, "", any(), "auto | egl | osmesa", "how pictures of strips are drawn"},
 };
@@ -179,7 +183,9 @@ class StripPictures {
 // Where no equilibrium is found, the test of other laws goes on.
 StripResult strip_tested(const Fabric& fabric, const KesFlags& flags, const LawRequest& law) {
   StripResult result;
-  result.strip = clamped_strip(flags.strip, law, fabric, flags.protocol);
+  StripShape shape = flags.strip;
+  shape.warp_angle = flags.along == Along::weft ? 90 : 0;
+  result.strip = clamped_strip(shape, law, fabric, flags.protocol);
   StripPictures pictures(flags.options, result.strip);
   const StripWatch watch = [&](std::size_t row, Simulation& simulation) { pictures.watch(row, simulation); };
   try {
@@ -252,11 +258,21 @@ void check_rate(const CommandLine& line, const KesFlags& flags, const std::vecto
       .with_key("rate", rate);
 }
 
+// That of a law along the direction in which the specimen is cut.
+VirginCurve curve_of(const std::string& law, const Fabric& fabric, Along along) {
+  Scene scene;
+  scene.fabric = fabric;
+  scene.law = law;
+  scene.cloth.warp_angle = along == Along::weft ? 90 : 0;
+  return along == Along::weft ? curve_along(scene) : fabric.virgin_curve();
+}
+
 KesTests tested(const Fabric& fabric, const KesFlags& flags, const std::vector<std::string>& laws) {
-  const VirginCurve curve = fabric.virgin_curve();
-  KesTests tests{fabric, test_in_kes({"prandtl", curve, {}}, flags.protocol), {}};
+  const VirginCurve prandtl = curve_of("prandtl", fabric, flags.along);
+  KesTests tests{fabric, test_in_kes({"prandtl", prandtl, {}}, flags.protocol), {}};
   for (const std::string& law : laws) {
-    const LawRequest request{law, curve, accepted_parameters(law, laws, flags.param)};
+    const LawRequest request{law, curve_of(law, fabric, flags.along),
+                             accepted_parameters(law, laws, flags.param)};
     tests.results.push_back({law, laws.size() > 1 ? law : "", test_in_kes(request, flags.protocol)});
     if (flags.on == "strip") tests.results.back().strip = strip_tested(fabric, flags, request);
   }
@@ -330,7 +346,6 @@ Experiment kes() {
                      {"mesh | triangles | strip-steps", "on = strip"},
                      {"element | cloth.width", "test = bending and on = strip"},
                      {"renderer", "test = bending and on = strip and not no-images"},
-                     {"along", "test = shear | tension"},
                      {"load", "test = tension"},
                      {"fabric.b1 | fabric.b2 | fabric.k0 | fabric.kes-b | fabric.kes-2hb | "
                       "fabric.stops-median | fabric.stops-spread | fabric.bending.",

@@ -169,23 +169,37 @@ bool follows_weft_stops(const Scene& scene) {
   return !scene.fabric.bending.weft_stops.empty() && (scene.law == "prandtl" || scene.law == "chapman");
 }
 
+// Between warp and weft such a strip has no scalar law.
+bool rubs_otherwise(const Scene& scene) {
+  return scene.fabric.rubs_otherwise() && has_friction_beside_b2(scene.law);
+}
+
+bool lies_along_weft(const Scene& scene) { return std::lround(scene.cloth.warp_angle / 90) % 2 != 0; }
+
 }  // namespace
 
 bool has_strip_curve(const Scene& scene) {
-  return !follows_weft_stops(scene) || std::abs(std::remainder(scene.cloth.warp_angle, 90)) <= 1e-9;
+  return !(follows_weft_stops(scene) || rubs_otherwise(scene)) ||
+         std::abs(std::remainder(scene.cloth.warp_angle, 90)) <= 1e-9;
 }
 
 VirginCurve strip_curve(const Scene& scene) {
   VirginCurve curve = scene.fabric.virgin_curve();
-  if (!follows_weft_stops(scene)) return curve;
-  const double angle = scene.cloth.warp_angle, turns = angle / 90;
   if (!has_strip_curve(scene))
     throw Error::invalid_input(
-        shown(scene, "cloth.warp-angle", angle, "degree") +
-        " must be a multiple of 90: a strip between warp and weft of a fabric with stops along both "
-        "(fabric.bending.stops.weft) has no reference")
-        .with_key("cloth.warp-angle", number_text(angle));
-  if (std::lround(turns) % 2 != 0) curve.parts.stops = curve.parts.weft_stops;
+        shown(scene, "cloth.warp-angle", scene.cloth.warp_angle, "degree") +
+        " must be a multiple of 90: a strip between warp and weft of a fabric with friction of its own along "
+        "both (fabric.bending.stops.weft, fabric.weft-friction) has no reference")
+        .with_key("cloth.warp-angle", number_text(scene.cloth.warp_angle));
+  if (!lies_along_weft(scene)) return curve;
+  if (follows_weft_stops(scene)) curve.parts.stops = curve.parts.weft_stops;
+  if (rubs_otherwise(scene)) {
+    const double moments = scene.fabric.weft_friction / std::sqrt(scene.fabric.weft_bending);
+    curve.b1 = curve.b2 + moments * moments * (curve.b1 - curve.b2);
+    curve.k0 /= moments;
+    for (double& threshold : curve.parts.stops.thresholds) threshold /= moments;
+    for (double& stiffness : curve.parts.stops.stiffnesses) stiffness *= moments * moments;
+  }
   return curve;
 }
 

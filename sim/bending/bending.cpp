@@ -63,6 +63,7 @@ Bending<Real, Device>::Bending(Device& device, const ClothMesh& mesh, const Curv
       area_(device, cast<Real>(op.area)),
       coefficient_(device, cast<Real>(op.coefficient)),
       direction_(device, cast<Real>(op.direction)),
+      elastic_(device, cast<Real>(op.elastic)),
       transposed_(device, cast<Real>(op.transposed)),
       rest_angle_(device, cast<Real>(op.rest_angle)),
       row_start_(device, op.hinge.start),
@@ -85,8 +86,8 @@ Bending<Real, Device>::Bending(Device& device, const ClothMesh& mesh, const Curv
 template <class Real, class Device>
 OperatorView<Real> Bending<Real, Device>::view() const {
   const std::size_t bytes = element_bytes() + total_bytes(angle_);
-  return {elements_,         area_.data(), row_start_.data(), row_hinge_.data(), coefficient_.data(),
-          direction_.data(), bytes};
+  return {elements_,           area_.data(),      row_start_.data(), row_hinge_.data(),
+          coefficient_.data(), direction_.data(), elastic_.data(),   bytes};
 }
 
 template <class Real, class Device>
@@ -221,10 +222,10 @@ std::vector<double> Bending<Real, Device>::measured(LawMeasure what, int numbers
 
 template <class Real, class Device>
 std::size_t Bending<Real, Device>::bytes() const {
-  return total_bytes(area_, coefficient_, direction_, transposed_, rest_angle_, row_start_, row_hinge_,
-                     column_start_, column_element_, corner_, vertex_start_, vertex_item_, angle_, rate_,
-                     viscous_, gradient_, moment_area_, force_, energy_, taken_, trial_angle_, iterate_angle_,
-                     tangent_, hinge_stiffness_, reference_, angle_before_);
+  return total_bytes(area_, coefficient_, direction_, elastic_, transposed_, rest_angle_, row_start_,
+                     row_hinge_, column_start_, column_element_, corner_, vertex_start_, vertex_item_, angle_,
+                     rate_, viscous_, gradient_, moment_area_, force_, energy_, taken_, trial_angle_,
+                     iterate_angle_, tangent_, hinge_stiffness_, reference_, angle_before_);
 }
 
 template class Bending<double, ThisDevice>;

@@ -116,7 +116,7 @@ class Bending {
   OperatorView<Real> view() const;
   std::size_t vertex_bytes() const { return vertices() * sizeof(Vec3<Real>); }
   std::size_t element_bytes() const {
-    return total_bytes(area_, row_start_, row_hinge_, coefficient_, direction_);
+    return total_bytes(area_, row_start_, row_hinge_, coefficient_, direction_, elastic_);
   }
   std::size_t column_bytes() const { return total_bytes(column_start_, column_element_, transposed_); }
   std::vector<double> measured(LawMeasure what, int numbers);          // numbers of each element
@@ -129,7 +129,7 @@ class Bending {
   Real viscosity_;  // moment over curvature rate [N m s]
   std::unique_ptr<LawLoop<Real, Device>> law_;
   std::vector<double> metric_;  // D per element; empty: 1 (CurvatureOperator::metric)
-  Buffer<Real, Device> area_, coefficient_, direction_, transposed_, rest_angle_;
+  Buffer<Real, Device> area_, coefficient_, direction_, elastic_, transposed_, rest_angle_;
   Buffer<int, Device> row_start_, row_hinge_, column_start_, column_element_;
   Buffer<Eigen::Vector4i, Device> corner_;  // p0, p1, p2, p3 of each hinge
   Buffer<int, Device> vertex_start_, vertex_item_;

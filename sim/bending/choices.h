@@ -7,6 +7,11 @@
 
 namespace hysteron {
 
+// Numbers along weft and at 45 degrees over that along warp.
+struct DirectionRatios {
+  double weft = 1, bias = 1;
+};
+
 // How angles become curvatures: the tensor of a face, or the angle of a hinge over its length.
 enum class BendingElement { shape, hinge };
 constexpr std::array<const char*, 2> names(BendingElement) { return {"shape", "hinge"}; }

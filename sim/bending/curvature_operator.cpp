@@ -130,6 +130,18 @@ void stiffen(CurvatureOperator& op, const ClothMesh& mesh, double weft, double b
   transpose_rows(op, mesh.interior_edges);
 }
 
+void set_rigidity(CurvatureOperator& op, const ClothMesh& mesh, double b2, DirectionRatios rigidity,
+                  DirectionRatios friction) {
+  const Eigen::Vector3d q = rigidities(rigidity.weft, rigidity.bias),
+                        own = rigidities(friction.weft, friction.bias);
+  op.elastic.clear();
+  for (int i = 0; i < op.elements(); ++i) {
+    const Eigen::Vector3d root = component_factors(op, mesh, i, q), law = component_factors(op, mesh, i, own);
+    for (int k = 0; k < op.dimension; ++k)
+      op.elastic.push_back(law[k] > 0 ? b2 * (root[k] * root[k] / (law[k] * law[k]) - 1) : 0);
+  }
+}
+
 void set_directions(CurvatureOperator& op, const ClothMesh& mesh, double weft, double bias) {
   const Eigen::Vector3d q = rigidities(weft, bias);
   op.direction.clear();

@@ -24,6 +24,9 @@ struct CurvatureOperator {
   // Curvatures are multiples of the geometric ones where a fabric bends differently along warp, weft and
   // bias: D factors per element; empty: 1.
   std::vector<double> metric;
+  // Elasticity beside the law's where it differs by direction otherwise than friction does, of moment and
+  // curvature behind the metric: D numbers per element, a diagonal [N m]; empty: none.
+  std::vector<double> elastic;
   // Of hinges of a fabric whose stops differ by direction: u_xx^2 and u_yy^2 of each hinge's curvature behind
   // the metric, u the unit tensor of a bend across its edge; empty: nobody asks.
   std::vector<double> direction;
@@ -48,6 +51,12 @@ CurvatureOperator make_curvature_operator(BendingElement element, const ClothMes
 // Along a direction of rigidity q the moments at which friction slides are sqrt(q) times, the curvatures
 // 1/sqrt(q) times those along warp.  Needs 4 bias >= 1 + weft.
 void stiffen(CurvatureOperator& op, const ClothMesh& mesh, double weft, double bias);
+
+// Where rigidities have the ratios of another Q': after stiffen() with the Q of friction, the law's own
+// elasticity b2 [N m] becomes that along each direction, b2 Q'/Q in the law's curvatures.  The sum is a
+// potential, so that what friction loses is what it loses alone.  Chosen here.
+void set_rigidity(CurvatureOperator& op, const ClothMesh& mesh, double b2, DirectionRatios rigidity,
+                  DirectionRatios friction);
 
 // The same Q's directions of hinges: u = Q^1/2 nu(n)/|Q^1/2 nu(n)|, n across the edge.
 void set_directions(CurvatureOperator& op, const ClothMesh& mesh, double weft, double bias);

@@ -22,6 +22,7 @@ struct OperatorView {
   const int* hinge;                 // items
   const Real* coefficient;          // D per item [1/m]
   const Real* direction = nullptr;  // 2 per element (CurvatureOperator); null: elements have none
+  const Real* elastic = nullptr;    // D per element (CurvatureOperator) [N m]; null: none beside the law
   std::size_t bytes = 0;            // of these arrays and of a number per hinge; 0 where nobody asks
 
   template <int D>
@@ -32,6 +33,12 @@ struct OperatorView {
       for (int d = 0; d < D; ++d) k[d] += coefficient[j * D + d] * a;
     }
     return k;
+  }
+  template <int D>
+  HYST_HD Vec<Real, D> elastic_beside(int i) const {
+    Vec<Real, D> e;
+    for (int d = 0; d < D; ++d) e[d] = elastic[i * D + d];
+    return e;
   }
 };
 

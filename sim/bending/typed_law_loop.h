@@ -8,6 +8,7 @@
 #include "sim/bending/laws/law_commands.h"
 #include "sim/bending/laws/law_potential.h"
 #include "sim/bending/laws/law_visit.h"
+#include "sim/bending/laws/zero_moment.h"
 
 namespace hysteron {
 
@@ -42,6 +43,39 @@ constexpr bool is_long_law() {
 template <class Law>
 constexpr bool runs_in_batches() {
   return Law::kHistory == 0 || (!is_long_law<Law>() && requires(Law & law) { innermost(law).limit; });
+}
+
+// A law with elasticity beside it (CurvatureOperator::elastic).
+template <class Law>
+struct BesideElasticity {
+  using Scalar = typename Law::Scalar;
+  static constexpr int kDimension = Law::kDimension, kHistory = Law::kHistory;
+
+  Law law;
+  Vec<Scalar, kDimension> elastic;  // [N m]
+
+  HYST_HD LawStep<Scalar, kDimension, kHistory> step(const Vec<Scalar, kDimension>& curvature,
+                                                     const History<Scalar, kHistory>& before) const {
+    LawStep<Scalar, kDimension, kHistory> result = law.step(curvature, before);
+    const Vec<Scalar, kDimension> moment = elastic.cwiseProduct(curvature);
+    result.moment += moment;
+    result.stored += moment.dot(curvature) / 2;
+    return result;
+  }
+  HYST_HD Tangent<Scalar, kDimension> tangent(const Vec<Scalar, kDimension>& curvature,
+                                              const History<Scalar, kHistory>& before) const {
+    Tangent<Scalar, kDimension> result = law.tangent(curvature, before);
+    result.diagonal() += elastic;
+    return result;
+  }
+  HYST_HD Scalar largest_stiffness() const { return law.largest_stiffness() + elastic.cwiseAbs().maxCoeff(); }
+};
+
+// The curvature of no moment [1/m], sought from where the law alone has none.
+template <class Law>
+HYST_HD CurvatureOf<Law> beside_elasticity(const Law& law, const CurvatureOf<Law>& elastic,
+                                           const HistoryOf<Law>& history) {
+  return zero_moment(BesideElasticity<Law>{law, elastic}, history, CurvatureOf<Law>(law.residual(history)));
 }
 
 template <class Law, class Device, class Body>
@@ -80,6 +114,7 @@ class LawLoopOf : public LawLoop<Real, Device> {
           const auto step =
               law_in_direction(law, op.direction, i).step(k, load_history<Law>(history, i, op.elements));
           Vec<Real, D> moment = step.moment;
+          if (op.elastic) moment += op.template elastic_beside<D>(i).cwiseProduct(k);
           if (viscous.viscosity > 0) {
             const Vec<Real, D> rate = op.template curvature<D>(i, viscous.angle_rate);
             moment += viscous.viscosity * rate;
@@ -108,6 +143,11 @@ class LawLoopOf : public LawLoop<Real, Device> {
           const auto tried = step_and_potential(own, k, before);
           Vec<Real, D> moment = tried.step.moment;
           Real potential = tried.potential;
+          if (op.elastic) {
+            const Vec<Real, D> beside = op.template elastic_beside<D>(i).cwiseProduct(k);
+            moment += beside;
+            potential += beside.dot(k) / 2;
+          }
           if (trial.viscosity > 0) {
             const Vec<Real, D> rate = op.template curvature<D>(i, trial.angle_rate);
             moment += trial.viscosity * rate;
@@ -129,7 +169,8 @@ class LawLoopOf : public LawLoop<Real, Device> {
         device, {"bending tangent", op.bytes + history_.bytes() + tangents}, op.elements, HYST_KERNEL(int i) {
           const Vec<Real, D> k = op.template curvature<D>(i, angle_change);
           const auto& own = law_in_direction(law, op.direction, i);
-          const Tangent<Real, D> t = convex_tangent(own, k, load_history<Law>(history, i, op.elements));
+          Tangent<Real, D> t = convex_tangent(own, k, load_history<Law>(history, i, op.elements));
+          if (op.elastic) t.diagonal() += op.template elastic_beside<D>(i);
           Real* row = tangent_area + i * (D * (D + 1) / 2);
           for (int a = 0; a < D; ++a)
             for (int b = 0; b <= a; ++b) *row++ = op.area[i] * (t(a, b) + (a == b ? viscous : Real(0)));
@@ -166,14 +207,17 @@ class LawLoopOf : public LawLoop<Real, Device> {
           const auto memory = load_history<Law>(history, i, op.elements);
           const auto& own = law_in_direction(law, op.direction, i);
           if (what == LawMeasure::residual_curvature) {
-            const Vec<Real, D> k = own.residual(memory);
+            const Vec<Real, D> k = op.elastic
+                                       ? beside_elasticity(own, op.template elastic_beside<D>(i), memory)
+                                       : Vec<Real, D>(own.residual(memory));
             for (int d = 0; d < D; ++d) result[i * D + d] = static_cast<double>(k[d]);
             return;
           }
           const Vec<Real, D> k = op.template curvature<D>(i, angle_change);
-          const Real value = what == LawMeasure::stored_energy
-                                 ? op.area[i] * called_step(own, k, memory).stored
-                                 : friction_utilisation(own, k, memory, b2, m0);
+          Real value = what == LawMeasure::stored_energy ? op.area[i] * called_step(own, k, memory).stored
+                                                         : friction_utilisation(own, k, memory, b2, m0);
+          if (op.elastic && what == LawMeasure::stored_energy)
+            value += op.area[i] * op.template elastic_beside<D>(i).cwiseProduct(k).dot(k) / 2;
           result[i] = static_cast<double>(value);
         });
   }

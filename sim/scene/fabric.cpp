@@ -78,6 +78,14 @@ void follow_weft(Fabric& fabric) {
   fabric.provenance["bias-bending"] = {"the mean of warp and weft", "assumed"};
 }
 
+// Friction whose curvatures and moments are s times those along warp has s^2 times their stiffness; its bias
+// is to the mean of both directions as that of the rigidities is.
+DirectionRatios Fabric::friction_ratios() const {
+  if (!rubs_otherwise()) return rigidity_ratios();
+  const double weft = weft_friction * weft_friction;
+  return {weft, bias_bending * (1 + weft) / (1 + weft_bending)};
+}
+
 double Fabric::friction_curvature() const { return std::max(k0, KesWindow().slope_from); }
 
 VirginCurve Fabric::virgin_curve() const {

@@ -58,6 +58,8 @@ const FabricLimit kLimits[] = {
     {"k0", "1/m", [](const Fabric& f) { return f.k0; }, between(0, 1e7), between(1, 1e3), kPerCentimetre},
     {"weft-bending", "", [](const Fabric& f) { return f.weft_bending; }, between(1e-3, 1e3),
      between(0.02, 50), kNoSlip},
+    {"weft-friction", "", [](const Fabric& f) { return f.weft_friction; }, between(0, 1e3), between(0.02, 50),
+     kNoSlip},
     {"bias-bending", "", [](const Fabric& f) { return f.bias_bending; }, between(1e-3, 1e3),
      between(0.02, 50), kNoSlip},
     {"warp", "N/m", [](const Fabric& f) { return f.warp; }, between(0, 1e8), between(1, 1e6), kKesStiffness},

@@ -45,6 +45,7 @@ const KeyRow<Scene> kSceneRows[] = {
     {"fabric.stops-median", at<&S::fabric, &F::kes, &KesFriction::shape, &FrictionShape::median>, "1/m", between(0, 1000), "", "with kes-b and kes-2hb: curvature at which half of the friction has slipped, in place of k0; 0: as k0 or bending.stops say"},
     {"fabric.stops-spread", at<&S::fabric, &F::kes, &KesFriction::shape, &FrictionShape::spread>, "", between(0, 4), "", "standard deviation of the logarithm of that curvature"},
     {"fabric.weft-bending", at<&S::fabric, &F::weft_bending>, "", positive(), "", "bending rigidity along weft over that along warp"},
+    {"fabric.weft-friction", at<&S::fabric, &F::weft_friction>, "", at_least(0), "", "friction moment along weft over that along warp, which laws with friction beside b2 follow; 0: the root of weft-bending, as one law along all directions has it"},
     {"fabric.bias-bending", at<&S::fabric, &F::bias_bending>, "", positive(), "", "bending rigidity at 45 degrees over that along warp; 4 times it >= 1 + weft-bending; where it is not stated, or only assumed, the mean of 1 and weft-bending"},
     {"fabric.density", at<&S::fabric, &F::density>, "kg/m^2", positive(), "", "mass per area"},
     {"fabric.thickness", at<&S::fabric, &F::thickness>, "m", positive(), "", "thickness"},

@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <string>
@@ -98,6 +99,7 @@ struct Fabric {
   double k0 = 50;
   double weft_bending = 1;
   double bias_bending = 1;
+  double weft_friction = 0;  // friction moment along weft over that along warp; 0: weft_bending^1/2
   double density = 0.1238;
   double thickness = 0.497e-3;
   double warp = 1000;
@@ -118,7 +120,12 @@ struct Fabric {
   // Half of what pictures and histograms span [1/m]: k0, or of shaped friction, which has none, where the
   // window of KES-FB2 begins.
   double friction_curvature() const;
-  bool bends_alike() const { return weft_bending == 1 && bias_bending == 1; }
+  bool bends_alike() const { return weft_bending == 1 && bias_bending == 1 && !rubs_otherwise(); }
+  // Has friction along weft a ratio of its own, which is not that of the rigidities?
+  bool rubs_otherwise() const { return weft_friction > 0 && weft_friction != std::sqrt(weft_bending); }
+  // Of rigidity, and of the stiffness of friction that has not slipped.
+  DirectionRatios rigidity_ratios() const { return {weft_bending, bias_bending}; }
+  DirectionRatios friction_ratios() const;
 };
 
 struct ClothShape {

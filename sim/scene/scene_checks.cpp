@@ -99,6 +99,12 @@ void check_fabric(const Scene& scene) {
   if (4 * f.bias_bending < 1 + f.weft_bending)
     refuse("fabric.bias-bending", f.bias_bending, "",
            "must be >= " + number_text((1 + f.weft_bending) / 4) + ", (1 + fabric.weft-bending)/4");
+  if (f.rubs_otherwise() && !f.bending.weft_stops.empty())
+    refuse("fabric.weft-friction", f.weft_friction, "",
+           "goes with b1, b2 and k0: fabric.bending.stops.weft say the friction along weft themselves");
+  if (f.rubs_otherwise() && f.bending.set.on())
+    refuse("fabric.weft-friction", f.weft_friction, "",
+           "goes without fabric.bending.set, whose rest curvature has one direction with the friction");
   if (f.coupling * f.coupling >= f.warp * f.weft)
     refuse("fabric.coupling", f.coupling, "N/m",
            "must be within +-" + number_text(std::sqrt(f.warp * f.weft)) +

@@ -1,4 +1,6 @@
 #include "sim/bending/law_loop.h"
+
+#include <algorithm>
 #include "sim/time/back_end.h"
 #include "sim/time/stepper.h"
 
@@ -14,9 +16,11 @@ std::unique_ptr<Simulation> make_cpu_simulation(const Scene& scene, const Cloth&
 
 double law_largest_stiffness(const Scene& scene, const CurvatureOperator& op) {
   Cpu cpu(1);
+  const double beside = op.elastic.empty() ? 0 : *std::max_element(op.elastic.begin(), op.elastic.end());
   return make_law_loop<double>(cpu, choose_law(scene.law, scene.fabric.virgin_curve(), scene.param),
                                op.dimension, 0)
-      ->largest_stiffness();
+             ->largest_stiffness() +
+         std::max(0.0, beside);
 }
 
 std::string cpu_description() { return "cpu: " + Cpu(0).description(); }

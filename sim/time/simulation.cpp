@@ -118,8 +118,12 @@ void check(const Scene& scene, const Cloth& cloth) {
 
 CurvatureOperator bending_operator(const Scene& scene, const Cloth& cloth) {
   CurvatureOperator op = make_curvature_operator(scene.element, cloth.mesh, cloth.held_throughout(scene));
-  if (!scene.fabric.bends_alike())
-    stiffen(op, cloth.mesh, scene.fabric.weft_bending, scene.fabric.bias_bending);
+  const Fabric& fabric = scene.fabric;
+  const bool apart = fabric.rubs_otherwise() && has_friction_beside_b2(scene.law);
+  const DirectionRatios rigidity = fabric.rigidity_ratios(),
+                        law = apart ? fabric.friction_ratios() : rigidity;
+  if (!fabric.bends_alike()) stiffen(op, cloth.mesh, law.weft, law.bias);
+  if (apart) set_rigidity(op, cloth.mesh, fabric.b2, rigidity, law);
   if (scene.element == BendingElement::hinge && !scene.fabric.bending.weft_stops.empty())
     set_directions(op, cloth.mesh, scene.fabric.weft_bending, scene.fabric.bias_bending);
   return op;

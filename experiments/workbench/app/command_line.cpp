@@ -97,6 +97,11 @@ std::vector<std::string> with_their_values(const std::vector<std::string>& words
       all.emplace_back();
     } else if (equals == std::string::npos && i + 1 < words.size()) {
       const std::string& value = words[++i];
+      if (value == "--template") {  // `--kes-sheet --template` asks for an empty sheet, of no file
+        --i;
+        all.emplace_back();
+        continue;
+      }
       if (value.starts_with("--"))
         throw Error::invalid_input(name + " needs a value, and " + value + " is an option: " + name + "=" +
                                    value + " if it is not")

@@ -11,6 +11,7 @@ namespace hysteron::experiments {
 
 Recoveries::Recoveries(const Scene& scene) : curve_(scene.fabric.virgin_curve()) {
   if (scene.law == "pabst" || scene.law == "linear") return;
+  if (scene.fabric.rubs_otherwise()) return;  // elasticity has other directions than friction has
   counts_ = has_residual_formula(choose_law(scene.law, curve_, scene.param));
 }
 

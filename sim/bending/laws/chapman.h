@@ -13,6 +13,7 @@ struct ChapmanLaw {
   static constexpr const char* kName = "chapman";
   static constexpr const char* kMeaning =
       "elastic, friction and relaxing branches: wrinkles recover in time (after Chapman 1975)";
+  static constexpr bool kFrictionBesideB2 = true;
   static std::vector<LawParameter> parameters() { return {law_parameter::stops()}; }
 
   static bool takes_parts(const LawChoice&) { return true; }

@@ -10,6 +10,10 @@
 //
 // It may also have
 //
+//     // Whether M = b2 K + F, F a friction that knows nothing of b2: then elasticity may have directions of
+//     its
+//     // own (CurvatureOperator::elastic).
+//     static constexpr bool kFrictionBesideB2 = true;
 //     // The parameters that the law takes, in the order of LawChoice.
 //     static std::vector<LawParameter> parameters();
 //     // Where a parameter's default is the law's own.
@@ -78,6 +82,7 @@ std::string shown(double x);
 template <LawDescription Law>
 LawEntry law_entry() {
   LawEntry entry{Law::kName, Law::kMeaning};
+  if constexpr (requires { Law::kFrictionBesideB2; }) entry.has_friction_beside_b2 = Law::kFrictionBesideB2;
   if constexpr (requires { Law::parameters(); }) entry.parameters = Law::parameters();
   if constexpr (requires(LawChoice & c) { Law::set_defaults(c); }) entry.set_defaults = Law::set_defaults;
   if constexpr (requires(const LawChoice& c) { Law::check(c, LawUse::cloth); }) entry.check = Law::check;

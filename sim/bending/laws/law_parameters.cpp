@@ -128,6 +128,11 @@ void LawChoice::refuse(const std::string& key, const std::string& what) const {
   throw Error::invalid_input("law " + name + ": " + what).with_key(key, "");
 }
 
+bool has_friction_beside_b2(const std::string& name) {
+  const LawEntry* law = find_law(name);
+  return law && law->has_friction_beside_b2;
+}
+
 std::vector<std::string> law_parameter_names(const std::string& name) {
   const LawEntry* law = find_law(name);
   return law ? parameter_names(law->parameters) : std::vector<std::string>();

@@ -58,6 +58,7 @@ struct LawEntry {
   std::string name;
   std::string description;  // one line
   std::vector<LawParameter> parameters = {};
+  bool has_friction_beside_b2 = false;  // M = b2 K + F, F a friction that knows nothing of b2
   void (*set_defaults)(LawChoice&) = nullptr;
   void (*check)(const LawChoice&, LawUse) = nullptr;
 };
@@ -71,6 +72,8 @@ LawChoice choose_law(const LawEntry& law, const VirginCurve& curve, const LawPar
 
 // Names of the parameters that law `name` takes, in the order of LawChoice; none of an unknown law.
 std::vector<std::string> law_parameter_names(const std::string& name);
+// LawEntry::has_friction_beside_b2 of law `name`; false of an unknown law.
+bool has_friction_beside_b2(const std::string& name);
 
 // All laws of the interface in its order, which is that of every_law.h.
 const std::vector<LawEntry>& law_catalogue();

@@ -123,5 +123,25 @@ TEST(Specimens, ThatLieWhereTheirMachineIsAreNotTurned) {
   EXPECT_TRUE(says(refused("crease --cloth.rotation \"0 0 90\""), "crease sets cloth.rotation itself"));
 }
 
+// Elasticity and friction with directions of their own: what friction takes is what is missing, and cut along
+// warp the strip knows nothing of weft.
+TEST(Swing, KeepsItsEnergyBalanceWhereFrictionHasDirectionsOfItsOwn) {
+  const auto swung = [](const char* law, const char* angle, const char* friction) {
+    return swing_with({{"law", law},
+                       {"seconds", "0.3"},
+                       {"cloth.warp-angle", angle},
+                       {"fabric.weft-bending", "0.4"},
+                       {"fabric.bias-bending", "0.7"},
+                       {"fabric.weft-friction", friction}});
+  };
+  for (const char* law : {"wong", "prandtl", "dahl"}) {
+    const Json own = swung(law, "30", "1.4"), other = swung(law, "30", "0.3");
+    constexpr double kRounding = 1e-10;  // of the energy that moves
+    EXPECT_LT(std::abs(own["energy_remainder_relative"].get<double>()), kRounding) << law;
+    EXPECT_GT(own["bending_friction_J"], other["bending_friction_J"]) << law;
+    EXPECT_GT(other["bending_friction_J"], 0) << law;
+  }
+}
+
 }  // namespace
 }  // namespace hysteron::experiments

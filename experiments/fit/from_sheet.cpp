@@ -1,0 +1,105 @@
+#include "experiments/fit/from_sheet.h"
+
+#include <fmt/core.h>
+
+#include <cmath>
+
+#include "experiments/specimens/cantilever_strip.h"
+#include "sim/base/csv.h"
+#include "sim/base/units.h"
+#include "sim/reference/kes.h"
+#include "sim/reference/kes_in_plane.h"
+#include "sim/scene/fabric_reader.h"
+
+namespace hysteron::experiments {
+namespace {
+
+constexpr double kAgrees = 1;  // percent: less is not worth a reason
+
+KesReading bend(const Fabric& fabric, SheetColumn column, int steps) {
+  Scene scene;
+  scene.fabric = fabric;
+  scene.cloth.warp_angle = column == SheetColumn::weft ? 90 : 0;
+  KesProtocol protocol;
+  protocol.minor_loops = false;
+  protocol.steps = steps;
+  return test_in_kes({"prandtl", curve_along(scene), {}}, protocol).reading;
+}
+
+constexpr const char *kStraight = "tension is a straight line without friction: LT = 1 and RT = 100 %",
+                     *kOneShear = "the shear of this model is the same along warp and weft: their mean",
+                     *kConstant = "a stop of friction carries the same at every angle";
+
+void add_direction(std::vector<SheetReading>& all, const KesSheet& sheet, const Fabric& fabric,
+                   SheetColumn column, int steps) {
+  const Along along = column == SheetColumn::weft ? Along::weft : Along::warp;
+  const auto add = [&](const char* quantity, const char* unit, const char* si, double read,
+                       const char* reason) {
+    const double entered = sheet.along(quantity, column);
+    if (std::isfinite(entered)) all.push_back({quantity, unit, si, column, entered, read, reason});
+  };
+  const KesReading bending = bend(fabric, column, steps);
+  add("B", "gf cm^2/cm", "N m", bending.rigidity, "");
+  add("2HB", "gf cm/cm", "N", bending.loop_width, "");
+  const InPlaneLaw law = in_plane_law(fabric, along);
+  InPlaneProtocol in_plane;
+  in_plane.steps = steps;
+  const ShearReading shear = test_shear(law, in_plane).reading;
+  add("G", "gf/(cm degree)", "N/m", shear.stiffness, kOneShear);
+  add("2HG", "gf/cm", "N/m", shear.width, kOneShear);
+  add("2HG5", "gf/cm", "N/m", shear.second_width, kConstant);
+  const TensionReading tension = test_tension(law, in_plane).reading;
+  add("EMT", "%", "", tension.extension / 100, "");
+  add("LT", "1", "", tension.linearity, kStraight);
+  add("WT", "gf cm/cm^2", "J/m2", tension.work, kStraight);
+  add("RT", "%", "", tension.resilience / 100, kStraight);
+}
+
+}  // namespace
+
+std::vector<SheetReading> read_by_testers(const KesSheet& sheet, const Fabric& fabric, int steps) {
+  std::vector<SheetReading> all;
+  for (const SheetColumn column : {SheetColumn::warp, SheetColumn::weft})
+    add_direction(all, sheet, fabric, column, steps);
+  return all;
+}
+
+namespace {
+
+const char* column_name(SheetColumn column) { return column == SheetColumn::weft ? "weft" : "warp"; }
+
+std::string write_comparison(Run& run, const std::vector<SheetReading>& all) {
+  Table table("quantity,direction,unit,entered,read,difference [%],reason");
+  std::string text = fmt::format("{:<6}{:<6}{:>10}{:>10}{:>9}  {}\n", "", "", "entered", "read", "%", "unit");
+  for (const SheetReading& b : all) {
+    const double unit = factor_to(b.si, b.unit).value_or(1);
+    const bool differs = std::abs(b.difference()) > kAgrees;
+    table.row({b.quantity, column_name(b.column), b.unit, b.entered / unit, b.read / unit, b.difference(),
+               differs ? b.reason : ""});
+    text += fmt::format("{:<6}{:<6}{:>10.4g}{:>10.4g}{:>+9.2f}  {}{}\n", b.quantity, column_name(b.column),
+                        b.entered / unit, b.read / unit, b.difference(), b.unit,
+                        differs && *b.reason ? std::string("; ") + b.reason : "");
+    run.metric(fmt::format("{}.{}_difference_percent", column_name(b.column), b.quantity), b.difference());
+  }
+  table.write(run.path("sheet.csv"));
+  return text;
+}
+
+}  // namespace
+
+std::string report_sheet(Run& run, const KesSheet& sheet, const SheetFabric& found) {
+  const std::string file = run.path("fabric.toml").string();
+  const Fabric fabric = read_fabric(file, "fit --kes-sheet").fabric;
+  const std::vector<SheetReading> all = read_by_testers(sheet, fabric);
+  std::string text = sheet.name + ": the sheet beside what the virtual testers read of the fabric\n" +
+                     write_comparison(run, all);
+  text += "assumed, what moves a drape most first:\n";
+  for (const std::string& sentence : found.assumed) text += "  " + sentence + "\n";
+  text += "written: " + file + "\n";
+  text += "  hysteron drape --fabric " + file + " --errors       the drape, and how far to trust it\n";
+  text += "  hysteron validate --parts spread,budget --fabrics " + file +
+          "   its interval, and which number moves it\n";
+  return text;
+}
+
+}  // namespace hysteron::experiments

@@ -1,0 +1,30 @@
+// `fit --kes-sheet`: what the virtual testers read of the fabric that was made from a sheet.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "experiments/workbench/app/run.h"
+#include "sim/identification/kes_sheet.h"
+#include "sim/scene/scene.h"
+
+namespace hysteron::experiments {
+
+// One number of the sheet beside the virtual tester's, in SI.
+struct SheetReading {
+  const char *quantity, *unit, *si;  // "B", the unit that KES-F prints, that of the numbers here
+  SheetColumn column;
+  double entered, read;
+  const char* reason;  // where they may differ
+
+  double difference() const { return 100 * (read / entered - 1); }  // [%]
+};
+// Of every number of the sheet that a virtual tester reads in so many steps, along warp and weft.
+std::vector<SheetReading> read_by_testers(const KesSheet& sheet, const Fabric& fabric, int steps = 2000);
+
+// sheet.csv: what was entered beside what the virtual KES-F reads of OUT/fabric.toml along warp and weft,
+// with the reason where they differ; the same as metrics.  Returns what a reader is told: that table, what
+// was assumed, and the lines to go on with.
+std::string report_sheet(Run& run, const KesSheet& sheet, const SheetFabric& found);
+
+}  // namespace hysteron::experiments

@@ -1,0 +1,148 @@
+// The fabric's file from a KES-F sheet.
+#include <cmath>
+
+#include "sim/identification/fabric_file.h"
+#include "sim/identification/kes_sheet.h"
+#include "sim/scene/key_table.h"
+#include "sim/scene/scene.h"
+
+namespace hysteron {
+namespace {
+
+constexpr double kTestedTension = 500 * 0.980665;  // of KES-FB1 [N/m]
+// Chosen here: friction of shear has slipped before 0.5 degree, where the window of G begins.
+constexpr double kShearThreshold = 0.25 * 3.14159265358979323846 / 180;
+
+struct SheetWriter {
+  const KesSheet& sheet;
+  std::string parameters = {}, tables = {};
+  std::vector<std::string> assumed = {};
+
+  void entry(const std::string& name, const std::string& unit, const Estimate& number) {
+    parameters += fabric_entry(name, unit, number);
+  }
+  void published(const std::string& name, const std::string& unit, double value, const std::string& row) {
+    entry(name, unit, {value, kNone, true, "the sheet's " + row + ", in SI", "published"});
+  }
+  void derived(const std::string& name, const std::string& unit, double value, const std::string& rule) {
+    entry(name, unit, {value, kNone, true, rule, "derived"});
+  }
+  void suppose(const std::string& name, const std::string& unit, double value, double low, double high,
+               const std::string& why) {
+    entry(name, unit, {value, kNone, false, why, "assumed", low, high});
+    assumed.push_back(name + " = " + number_text(value, 4) + (unit.empty() ? "" : " " + unit) + ", between " +
+                      number_text(low, 4) + " and " + number_text(high, 4) + ": " + why);
+  }
+};
+
+void write_bending(SheetWriter& writer, const Assumptions& assumptions) {
+  const KesSheet& sheet = writer.sheet;
+  const auto along = [&](const char* row, SheetColumn column) { return sheet.along(row, column); };
+  const double b = along("B", SheetColumn::warp), width = along("2HB", SheetColumn::warp),
+               weft = along("B", SheetColumn::weft) / b, friction = along("2HB", SheetColumn::weft) / width;
+  // Along weft friction saturates at k0 over the ratio of its moments: neither direction shall be far from
+  // what is assumed.
+  const double spread = std::sqrt(friction);
+  Estimate k0 = assumptions.assumed_k0();
+  k0.value *= spread, k0.low *= spread, k0.high *= spread;
+  if (friction != 1) k0.source += "; along warp, so that it is the geometric mean of warp and weft";
+  writer.derived("b1", "N m", b + width / k0.value,
+                 "B + 2HB/k0 along warp, so that the friction moment (b1 - b2) k0/2 is HB");
+  writer.published("b2", "N m", b, "B along warp");
+  writer.entry("k0", "1/m", k0);
+  writer.derived("weft-bending", "", weft, "B along weft over B along warp");
+  writer.derived("weft-friction", "", friction, "2HB along weft over 2HB along warp");
+  const double mean = (1 + weft) / 2;
+  constexpr double kLowBias = 0.54, kHighBias = 1.42;
+  writer.suppose(
+      "bias-bending", "", mean, kLowBias * mean, kHighBias * mean,
+      "KES-F does not bend along the bias: the mean of warp and weft; the range is that of the 16th to "
+      "84th percentiles of 251 measured fabrics (Feng, Huang, Xu, Wang 2022)");
+}
+
+void write_shear(SheetWriter& writer) {
+  const KesSheet& sheet = writer.sheet;
+  if (sheet.has("G")) {
+    writer.published("shear", "N/m", sheet.mean("G"), "G per radian, the mean of both directions");
+  } else {
+    writer.suppose("shear", "N/m", 60, 30, 110, "not in the sheet: typical of KES-FB1 on woven fabrics");
+  }
+  if (!sheet.has("2HG")) return;
+  writer.tables +=
+      "\n[membrane.stops.shear]\nthresholds = [" + number_text(kShearThreshold, 6) + "]\nstiffnesses = [" +
+      number_text(sheet.mean("2HG") / 2 / kShearThreshold, 6) +
+      "]\nsource = \"2HG/2 over the threshold, which is assumed: below 0.5 degree\"\nconfidence = "
+      "\"derived\"\n";
+}
+
+// Under the tester's largest tension T the stretch e is that of T = k (e + e^2/2) (1 + e).
+void write_tension(SheetWriter& writer) {
+  const KesSheet& sheet = writer.sheet;
+  for (const auto& [name, column] : {std::pair{"warp", SheetColumn::warp}, {"weft", SheetColumn::weft}}) {
+    const bool by_work = !sheet.has("EMT") && sheet.has("WT") && sheet.has("LT");
+    const double e = by_work ? 2 * sheet.along("WT", column) / (sheet.along("LT", column) * kTestedTension)
+                             : sheet.along("EMT", column);
+    if (std::isfinite(e)) {
+      writer.derived(name, "N/m", kTestedTension / ((e + e * e / 2) * (1 + e)),
+                     std::string("such that 500 gf/cm extend it by ") +
+                         (by_work ? "2 WT/(LT 500 gf/cm)" : "EMT") +
+                         ": a straight line, which has LT = 1 and no friction");
+    } else {
+      writer.suppose(name, "N/m", 10000, 5000, 30000,
+                     "not in the sheet: that of a denim, half to three times");
+    }
+  }
+}
+
+void write_rest(SheetWriter& writer) {
+  const KesSheet& sheet = writer.sheet;
+  const Fabric other;
+  if (sheet.has("W")) {
+    writer.published("density", "kg/m^2", sheet.mean("W"), "W");
+  } else {
+    writer.suppose("density", "kg/m^2", other.density, other.density / 2, 2 * other.density,
+                   "not in the sheet, which makes every drape a guess: weigh a square of the cloth");
+  }
+  if (sheet.has("T0")) {
+    writer.published("thickness", "m", sheet.mean("T0"), "T0");
+  } else {
+    writer.suppose("thickness", "m", other.thickness, other.thickness / 2, 2 * other.thickness,
+                   "not in the sheet; contact alone depends on it");
+  }
+  if (sheet.has("MIU")) {
+    const double miu = sheet.mean("MIU");
+    writer.entry("friction", "",
+                 {miu, kNone, true, "MIU against the tester's wires, taken for every solid", "derived",
+                  miu / 2, 2 * miu});
+  } else {
+    writer.suppose("friction", "", 0.3, 0.1, 0.6, "not in the sheet: usual of cloth on a smooth solid");
+  }
+}
+
+std::string quoted_name(const std::string& name) {
+  std::string text;
+  for (const char c : name) text += c == '"' || c == '\\' || static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+  return '"' + text + '"';
+}
+
+}  // namespace
+
+SheetFabric fabric_of_sheet(const KesSheet& sheet, const Assumptions& assumptions) {
+  SheetWriter writer{sheet};
+  write_bending(writer, assumptions);
+  write_shear(writer);
+  write_tension(writer);
+  write_rest(writer);
+  const Estimate k0 = assumptions.assumed_k0();
+  writer.assumed.push_back("k0 = " + number_text(k0.value, 4) + " 1/m, between " + number_text(k0.low, 4) +
+                           " and " + number_text(k0.high, 4) +
+                           ": where bending friction saturates, which KES-FB2 does not read");
+  SheetFabric result;
+  result.text = "# Written by hysteron fit --kes-sheet.\nname = " + quoted_name(sheet.name) +
+                "\ndescription = \"from the sheet of a KES-F laboratory\"\n\n[parameters]\n" +
+                writer.parameters + writer.tables;
+  result.assumed = std::move(writer.assumed);
+  return result;
+}
+
+}  // namespace hysteron
