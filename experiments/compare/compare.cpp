@@ -66,14 +66,17 @@ std::string comparison_title(const CommandLine& line, const std::vector<ChildRun
   return title + what;
 }
 
+// To what the columns are matched; none where nothing could differ in stiffness by the laws' own definitions.
 std::vector<std::string> comparison_notes(const CompareChoice& choice, const Plan& plan) {
-  if (plan.laws < 2) return {};
+  const bool scaled = std::ranges::any_of(plan.scales, [](double scale) { return scale != 1; });
+  if (plan.laws < 2 && !scaled) return {};
   if (choice.match == Match::fabric)
     return {"No stiffness is matched: a difference between laws may be one of stiffness alone."};
   const std::string equal = choice.match == Match::energy
                                 ? fmt::format("work to bend from flat to {:g} 1/m", choice.match_curvature)
                                 : "stiffness at rest";
-  std::string note = fmt::format("Matched to {}: equal {}; b1, b2 times", plan.reference, equal);
+  std::string note = fmt::format("Matched to {}{}: equal {}; b1, b2 times", plan.reference,
+                                 plan.has_reference ? "" : ", which is no column", equal);
   for (std::size_t c = 0; c < plan.columns.size(); ++c)
     note += fmt::format("{} {:.3g} ({})", c ? "," : "", plan.scales[c], plan.columns[c].name);
   return {note};
@@ -195,7 +198,9 @@ int run_compare(const CommandLine& line) {
   if (choice.difference == "curvature") jobs.first = plan.to;
   for (std::size_t c = 0; c < plan.columns.size(); ++c)
     keys["columns"].push_back({{"name", plan.columns[c].name}, {"stiffness_times", plan.scales[c]}});
+  if (choice.match != Match::fabric) keys["matched_to"] = plan.reference;
   run.manifest().keys = std::make_shared<const Json>(keys);
+  for (const std::string& note : comparison_notes(choice, plan)) run.progress(note);
   run_columns(run, plan.columns, jobs);
   check_metrics(plan.columns, split(choice.metrics));
   write_comparison_table(run, plan.varied, plan.columns, split(choice.metrics));

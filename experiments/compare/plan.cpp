@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 #include <set>
+#include <tuple>
 
 #include "experiments/workbench/app/scene_source.h"
 #include "experiments/workbench/session/session.h"
@@ -14,6 +15,7 @@ namespace hysteron::experiments {
 namespace {
 
 constexpr const char* kLaws = "linear,pabst,obrien,narain,kim,dahl,prandtl";
+constexpr const char* kReferenceLaw = "prandtl";
 
 // Flags that make the columns; all others are theirs.
 bool is_own(const Flag& flag) {
@@ -48,28 +50,40 @@ Scene bending_scene(const CommandLine& line) {
 
 LawRequest requested_law(const Scene& scene) { return {scene.law, scene.fabric.virgin_curve(), scene.param}; }
 
-// The column that has the law, on the same fabric where there is one.
-const Scene& reference_scene(const std::vector<Scene>& columns, const std::string& law,
-                             const std::string& fabric) {
-  const auto find = [&](bool on_fabric) {
-    return std::find_if(columns.begin(), columns.end(), [&](const Scene& scene) {
-      return scene.law == law && (!on_fabric || scene.fabric.name == fabric);
-    });
+// The law that all columns are as stiff as.  It depends neither on their order nor on which other laws stand
+// beside them: prandtl, or the one law that all of them have.
+std::string reference_law(const std::set<std::string>& laws) {
+  return laws.size() == 1 ? *laws.begin() : kReferenceLaw;
+}
+
+// The reference of a column on that fabric: the reference law as the column that has it runs it, on the same
+// fabric where there is one, with the fewest keys of its own where there are several; where none has it, the
+// law without parameters.
+LawRequest reference_request(const std::vector<Scene>& scenes, const std::vector<Variant>& variants,
+                             const std::string& law, const Scene& column) {
+  std::optional<std::size_t> best;
+  const auto rank = [&](std::size_t v) {
+    std::string keys;
+    for (const Flag& flag : variants[v].flags) keys += flag.path + "=" + flag.text + "\n";
+    return std::tuple(scenes[v].fabric.name != column.fabric.name, variants[v].flags.size(), keys);
   };
-  const auto same = find(true);
-  return same != columns.end() ? *same : *find(false);
+  for (std::size_t v = 0; v < scenes.size(); ++v)
+    if (scenes[v].law == law && (!best || rank(v) < rank(*best))) best = v;
+  LawRequest reference;
+  reference.name = law;
+  if (best) reference.parameters = scenes[*best].param;
+  reference.curve = column.fabric.virgin_curve();
+  return reference;
 }
 
 // Flags that make the column as stiff as the law of `reference` on the same fabric.  Its viscosity,
 // fabric.damping times b1, goes with it.
-std::vector<Flag> matched(const Scene& column, const Scene& reference, const CompareChoice& choice,
+std::vector<Flag> matched(const Scene& column, const LawRequest& reference, const CompareChoice& choice,
                           double& scale) {
   scale = 1;
   if (choice.match == Match::fabric) return {};
   const Fabric& fabric = column.fabric;
-  LawRequest wanted = requested_law(reference);
-  wanted.curve = fabric.virgin_curve();
-  scale = matching_scale(requested_law(column), wanted, choice.match, choice.match_curvature);
+  scale = matching_scale(requested_law(column), reference, choice.match, choice.match_curvature);
   const auto scaled = [&](const char* key, double value) { return Flag{key, number_text(scale * value)}; };
   BendingParts parts = stiffened(fabric.bending, scale);
   std::vector<Flag> flags = {scaled("fabric.b1", fabric.b1), scaled("fabric.b2", fabric.b2)};
@@ -144,11 +158,10 @@ Plan comparison_plan(const CommandLine& inner, const std::vector<Variant>& varia
   std::vector<Scene> scenes;
   for (const Variant& variant : variants) scenes.push_back(bending_scene(with_variant(inner, variant)));
   std::set<std::string> laws;
-  for (const Scene& scene : scenes) {
-    if (plan.reference != "prandtl") plan.reference = scene.law;
-    laws.insert(scene.law);
-  }
+  for (const Scene& scene : scenes) laws.insert(scene.law);
   plan.laws = laws.size();
+  plan.reference = reference_law(laws);
+  plan.has_reference = laws.contains(plan.reference);
   const Flag range = shared_range(inner, scenes);
   const std::vector<Flag> framing = shared_framing(inner, variants);
   plan.varied = varied_key(variants);
@@ -156,7 +169,7 @@ Plan comparison_plan(const CommandLine& inner, const std::vector<Variant>& varia
     const Variant& variant = variants[v];
     double scale = 1;
     std::vector<Flag> own = variant.flags;
-    const Scene& reference = reference_scene(scenes, plan.reference, scenes[v].fabric.name);
+    const LawRequest reference = reference_request(scenes, variants, plan.reference, scenes[v]);
     for (const Flag& flag : matched(scenes[v], reference, choice, scale)) own.push_back(flag);
     refuse_rescaled(variant, scale, choice);
     const std::string name = variant.name.empty() ? inner.experiment : variant.name;

@@ -32,10 +32,11 @@ CommandLine line_of_columns(const CommandLine& line, const CompareChoice& choice
 struct Plan {
   std::vector<ChildRun> columns;
   std::vector<double> scales;
-  std::string reference;  // law that stiffness is matched to
-  std::size_t laws = 0;   // different ones
-  int to = -1;            // the column that is subtracted, -1: none
-  std::string varied;     // "law", where columns differ by it alone
+  std::string reference;       // law that stiffness is matched to
+  bool has_reference = false;  // a column has it
+  std::size_t laws = 0;        // different ones
+  int to = -1;                 // the column that is subtracted, -1: none
+  std::string varied;          // "law", where columns differ by it alone
 };
 
 // A column for each variant of that line, in OUT/<name>/.  Throws Error::invalid_input if the column to

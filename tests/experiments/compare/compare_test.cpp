@@ -1,5 +1,6 @@
 // Methods side by side: what is made equal, what stands on the page, what is not run again.
 #include <cmath>
+#include <map>
 
 #include "experiments/workbench/compare/comparison.h"
 #include "experiments/workbench/compare/matching.h"
@@ -261,6 +262,28 @@ TEST(Compare, MatchesTheLawThatItRuns) {
   const double weaker = stiffness("", "obrien+param=yield=20,prandtl"),
                stronger = stiffness("", "obrien,prandtl");
   EXPECT_GT(std::abs(weaker / stronger - 1), 0.01) << "obrien yields elsewhere without its parameter";
+}
+
+// Two laws beside each other are both matched to prandtl of their fabric, as a page that has it beside them
+// would match them: neither is as the order of columns has it.
+TEST(Compare, MatchesColumnsToPrandtlWhateverTheirOrder) {
+  const Folder folder;
+  const std::string scene =
+      folder.write("held.toml", "triangles = 20\nstep = 0.01\nseconds = 0.02\n[cloth]\nlength = 0.1\n");
+  const auto page = [&](const std::string& laws) {
+    const FinishedRun run("compare " + scene + " --no-images --device cpu --laws " + laws);
+    std::map<std::string, double> times;
+    for (const auto& column : run.manifest()["scene"]["columns"])
+      times[column["name"].get<std::string>()] = column["stiffness_times"].get<double>();
+    EXPECT_EQ(run.manifest()["scene"]["matched_to"], "prandtl") << laws;
+    EXPECT_TRUE(says(run.outcome.err, "Matched to prandtl")) << run.outcome.err;
+    return times;
+  };
+  const auto with_prandtl = page("linear,dahl,prandtl"), two = page("linear,dahl"),
+             turned = page("dahl,linear");
+  EXPECT_EQ(two, turned);
+  for (const char* law : {"linear", "dahl"}) EXPECT_EQ(two.at(law), with_prandtl.at(law)) << law;
+  EXPECT_EQ(with_prandtl.at("prandtl"), 1);
 }
 
 TEST(Compare, LeavesLawsTheFabricsNumbersIfToldSo) {
