@@ -136,25 +136,39 @@ std::optional<double> Limits::of_metric(const std::string& name) const {
 
 namespace {
 
-void refuse_unused(const std::string& pattern, const std::vector<std::string>& names, const std::string& kind,
-                   const std::string& place) {
-  if (std::any_of(names.begin(), names.end(), [&](const auto& name) { return matches(pattern, name); }))
-    return;
-  throw Error::invalid_input("a limit is for the " + kind + " " + pattern + ", and none is called so" +
-                             suggestion(pattern, names))
+bool matches_any(const std::string& pattern, const std::vector<std::string>& names) {
+  return std::ranges::any_of(names, [&](const std::string& name) { return matches(pattern, name); });
+}
+
+void refuse_unused(const std::string& pattern, const std::vector<std::string>& names,
+                   const NotCompared& others, const std::string& kind, const std::string& place) {
+  if (matches_any(pattern, names)) return;
+  const std::string why = matches_any(pattern, others.names)
+                              ? ", which is not compared: " + others.why
+                              : ", and none is called so" + suggestion(pattern, names);
+  throw Error::invalid_input("a limit is for the " + kind + " " + pattern + why)
       .with_origin(place)
       .with_key("name", pattern);
 }
 
-}  // namespace
-
-void Limits::refuse_unused_pictures(const std::vector<std::string>& names) const {
-  for (const auto& [pattern, own] : pictures) refuse_unused(pattern, names, "picture", own.table);
+bool has_any(const PictureLimits& limits) {
+  return std::ranges::any_of(all_measures(),
+                             [&](const Measure& m) { return !std::isinf(limits.values.*m.value); });
 }
 
-void Limits::refuse_unused_metrics(const std::vector<std::string>& names) const {
+}  // namespace
+
+bool Limits::has_pictures() const {
+  return has_any(all) || std::ranges::any_of(pictures, [](const auto& own) { return has_any(own.second); });
+}
+
+void Limits::refuse_unused_pictures(const std::vector<std::string>& names, const NotCompared& others) const {
+  for (const auto& [pattern, own] : pictures) refuse_unused(pattern, names, others, "picture", own.table);
+}
+
+void Limits::refuse_unused_metrics(const std::vector<std::string>& names, const NotCompared& others) const {
   for (std::size_t i = 0; i < metrics.size(); ++i)
-    refuse_unused(metrics[i].first, names, "metric", metric_tables.at(i));
+    refuse_unused(metrics[i].first, names, others, "metric", metric_tables.at(i));
 }
 
 Limits read_limits(const std::string& name_or_file) {

@@ -54,6 +54,12 @@ struct PictureLimits {
 // "flip = 0.2 must be <= 0.1 (--max-flip)" for every limit that is broken; not a number breaks a limit.
 std::vector<std::string> broken_limits(const Measures& found, const PictureLimits& limits);
 
+// Names that have a limit's pattern and are compared with nothing, and why.
+struct NotCompared {
+  std::vector<std::string> names{};
+  std::string why{};
+};
+
 // What a file says, in whose names * and ? stand for any text and any character:
 //
 //   max-flip = 0.01                        # of all pictures
@@ -70,9 +76,11 @@ struct Limits {
 
   PictureLimits of_picture(const std::string& name) const;
   std::optional<double> of_metric(const std::string& name) const;
-  // Throws Error::invalid_input, with its place, for a name that none of these pictures or metrics has.
-  void refuse_unused_pictures(const std::vector<std::string>& names) const;
-  void refuse_unused_metrics(const std::vector<std::string>& names) const;
+  bool has_pictures() const;  // a limit on any picture
+  // Throws Error::invalid_input, with its place, for a name that none of these pictures or metrics has, or
+  // only those that are not compared.
+  void refuse_unused_pictures(const std::vector<std::string>& names, const NotCompared& others = {}) const;
+  void refuse_unused_metrics(const std::vector<std::string>& names, const NotCompared& others = {}) const;
 };
 
 // Of a file, or of assets/limits by its name.  Throws Error::system, Error::invalid_input with file and line.

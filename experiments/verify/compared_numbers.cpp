@@ -6,6 +6,8 @@
 #include <cmath>
 #include <set>
 
+#include "sim/base/number_in.h"
+
 namespace hysteron::experiments {
 namespace {
 
@@ -68,9 +70,9 @@ void compare_numbers(const DifferingNumbers& numbers, ComparedNumbers& found) {
   const double difference = std::abs(now - before);
   std::string message = metric_change(name, before, now);
   if (limit)
-    message += fmt::format(" (limit {:.2g})", *limit);
+    message += " (limit " + number_text(*limit) + ")";
   else if (error > 0)
-    message += fmt::format(" (stated error {:.2g})", error);
+    message += fmt::format(" (stated error {:g})", error);
   if (!limit && !counts && difference <= round_off)
     found.rounded.push_back(name);
   else

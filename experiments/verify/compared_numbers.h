@@ -41,7 +41,8 @@ double metric_scale(const std::string& name, double number);
 double stated_error(const Metrics& metrics, const std::string& name);
 
 bool is_duration(const std::string& metric);
-// The solver's work and what it left over; on a page behind a column's name, "prandtl.".
+// The solver's work and what it left over; on a page behind a column's name, "prandtl.".  It is held to a
+// limit that is set on it, and to nothing else.
 bool is_effort(const std::string& metric);
 
 }  // namespace hysteron::experiments

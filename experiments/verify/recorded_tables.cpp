@@ -47,10 +47,14 @@ std::string drawn_metric(const std::string& column) {
 }
 
 // Durations, and what goes with the machine's load as they do: memory, and the front of the cheapest
-// settings.
+// settings.  They are known by their units, too: a scene may call a length `wall`.
 bool is_duration_column(const std::string& column) {
-  static const std::set<std::string> kNames = {"computing", "wall", "memory", "on front"};
-  return is_duration(drawn_metric(column)) || kNames.contains(quantity_in(column));
+  static const std::set<std::string> kNames = {"computing [s]", "wall [s]", "memory [byte]", "on front"};
+  return is_duration(drawn_metric(column)) || kNames.contains(column);
+}
+
+bool is_effort_column(const std::string& column) {
+  return is_effort(drawn_metric(column)) || column == "remainder [J]";
 }
 
 // Two columns of one name, as they stand in the tables.
@@ -116,12 +120,24 @@ class TablePair {
     }
   }
 
+  // Columns of the repetition that the recorded table has not: the same program writes the same, and a later
+  // one what the scene asks for.
+  void add_unrecorded(const Manifest& recorded, const Manifest& now, Repetition& repetition) const {
+    for (const std::string& column : now_.head) {
+      if (before_.find(column) || is_duration_column(column)) continue;
+      const std::string metric = metric_of_column(now.metrics, column);
+      if (recorded.commit == now.commit || std::ranges::count(now.requested_metrics, metric) > 0)
+        repetition.unrecorded.push_back(column_name(file_, column));
+    }
+  }
+
  private:
   void compare_column(const std::string& column, const ColumnPair& pair, const Manifest& manifest,
                       const Limits& limits, Repetition& repetition) const {
     const std::string name = column_name(file_, column), metric = metric_of_column(manifest.metrics, column);
+    const std::optional<double> own_limit = limit(limits, name, metric);
     ComparedNumbers& found = repetition.series;
-    if (is_effort(drawn_metric(column)) || quantity_in(column) == "remainder")
+    if (!own_limit && is_effort_column(column))
       found.effort.push_back(name);
     else if (column == "state_hash")  // of each run of a study: other bits, no more
       found.rounded.push_back(name);
@@ -132,7 +148,7 @@ class TablePair {
                        .before = pair.before(),
                        .now = pair.now(),
                        .round_off = (repetition.round_off + pair.printed()) * size(column, metric, pair),
-                       .limit = limit(limits, name, metric),
+                       .limit = own_limit,
                        .stated_error = metric.empty() ? 0 : stated_error(manifest.metrics, metric)},
                       found);
   }
@@ -156,7 +172,8 @@ class TablePair {
 }  // namespace
 
 void compare_tables(const std::vector<std::string>& names, const fs::path& recorded, const fs::path& now,
-                    const Manifest& manifest, const Limits& limits, Repetition& repetition) {
+                    const Manifest& manifest, const Manifest& manifest_now, const Limits& limits,
+                    Repetition& repetition) {
   std::error_code ignored;
   for (const std::string& name : names) {
     if (!fs::is_regular_file(now / name, ignored)) {
@@ -165,22 +182,24 @@ void compare_tables(const std::vector<std::string>& names, const fs::path& recor
     }
     try {
       const Table before = read_table(recorded / name), after = read_table(now / name);
-      if (before.rows.size() != after.rows.size())
+      if (before.rows.size() != after.rows.size()) {
         repetition.series.beyond.push_back(
             fmt::format("{} with {} rows, now {}", name, before.rows.size(), after.rows.size()));
-      else
-        TablePair(name, before, after).compare(manifest, limits, repetition);
+        continue;
+      }
+      const TablePair tables(name, before, after);
+      tables.compare(manifest, limits, repetition);
+      tables.add_unrecorded(manifest, manifest_now, repetition);
     } catch (const Error& error) {
       repetition.series.beyond.push_back(name + ": " + error.what());
     }
   }
 }
 
-std::vector<std::string> table_columns(const std::vector<std::string>& names, const fs::path& folder) {
-  std::vector<std::string> columns;
-  for (const std::string& name : names)
-    for (const std::string& column : read_table(folder / name).head)
-      columns.push_back(column_name(name, column));
+TableColumns table_columns(const std::string& file, const fs::path& folder) {
+  TableColumns columns;
+  for (const std::string& column : read_table(folder / file).head)
+    (is_duration_column(column) ? columns.durations : columns.compared).push_back(column_name(file, column));
   return columns;
 }
 

@@ -41,7 +41,8 @@ void compare_metric(const std::string& name, const Metrics& recorded, const Metr
   ComparedNumbers& found = repetition.metrics;
   ++found.count;
   if (before == now || (before.is_number() && now.is_number() && before.number() == now.number())) return;
-  if (is_effort(name)) {
+  const std::optional<double> limit = limits.of_metric(name);
+  if (!limit && is_effort(name)) {
     found.effort.push_back(name);
   } else if (before.is_number() && now.is_number()) {
     const double size = std::max(metric_scale(name, before.number()), metric_scale(name, now.number()));
@@ -49,7 +50,7 @@ void compare_metric(const std::string& name, const Metrics& recorded, const Metr
                      .before = before.number(),
                      .now = now.number(),
                      .round_off = repetition.round_off * size,
-                     .limit = limits.of_metric(name),
+                     .limit = limit,
                      .stated_error = stated_error(recorded, name),
                      .counts = before.is_integer() && now.is_integer()},
                     found);
@@ -79,14 +80,15 @@ void compare_energies(const Manifest& recorded, const Manifest& now, const Limit
     }
     ++repetition.energies.count;
     if (*joules == before) continue;
-    if (is_effort(name))
+    const std::optional<double> limit = limits.of_metric(energy_name(name));
+    if (!limit && is_effort(name))
       repetition.energies.effort.push_back(energy_name(name));
     else
       compare_numbers({.name = energy_name(name),
                        .before = before,
                        .now = *joules,
                        .round_off = repetition.round_off * largest,
-                       .limit = limits.of_metric(energy_name(name))},
+                       .limit = limit},
                       repetition.energies);
   }
   if (recorded.energy.empty() && !now.energy.empty()) repetition.unrecorded.push_back("the energy balance");
@@ -95,9 +97,8 @@ void compare_energies(const Manifest& recorded, const Manifest& now, const Limit
     if (find_term(recorded.energy, name) == nullptr) repetition.unrecorded.push_back(energy_name(name));
 }
 
-// Whether a file of a run is a picture of its cloth, or a table that a repetition without --errors has, too.
-bool is_picture(const std::string& file) { return file.ends_with(".png") && !file.starts_with("plot_"); }
-// The cheapest settings of `accuracy` are chosen by durations.
+// Whether a file of a run is a table that a repetition without --errors has, too.  The cheapest settings of
+// `accuracy` are chosen by durations.
 bool is_table(const std::string& file) {
   return file.ends_with(".csv") && file != "errors.csv" && file != "cheapest.csv";
 }
@@ -136,6 +137,12 @@ Json without_origins(Json scene) {
 
 }  // namespace
 
+bool is_picture(const std::string& file) { return file.ends_with(".png") && !file.starts_with("plot_"); }
+
+bool is_compared(const std::string& metric, const Metrics& metrics) {
+  return !is_duration(metric) && !is_error(metric, metrics);
+}
+
 std::string energy_name(const std::string& term) { return "energy." + term; }
 
 Agreement Repetition::agreement() const {
@@ -164,7 +171,7 @@ Repetition compare_runs(const Manifest& recorded, const Manifest& now, const Lim
   repetition.round_off = round_off_bound(recorded);
   const bool drawn = !now.renderer.value_or("").empty();
   for (const auto& [name, value] : recorded.metrics) {
-    if (is_duration(name) || is_error(name, recorded.metrics)) continue;
+    if (!is_compared(name, recorded.metrics)) continue;
     if (now.metrics.contains(name))
       compare_metric(name, recorded.metrics, now.metrics[name], limits, repetition);
     else if (drawn || !is_drawn(name))

@@ -43,20 +43,27 @@ double round_off_bound(const Manifest& run);
 // The name of a term of the closing energy balance, as limits have it: "energy.kinetic".
 std::string energy_name(const std::string& term);
 
+// Whether the metric of a run with these metrics is no duration and no error that --errors has stated.
+bool is_compared(const std::string& metric, const Metrics& metrics);
+
 // Numbers are compared exactly, then with the limits of `limits` or else the errors that --errors has stated
 // of them, then with round-off; counts, texts and truths exactly.  What only one of them has is a difference,
 // but for what a newer program measures besides, and for the errors themselves, which are not repeated.  How
-// often a solver iterated, and what it left over, says nothing of the cloth and is only counted.  Durations
-// are not compared.
+// often a solver iterated, and what it left over, says nothing of the cloth and is only counted, unless a
+// limit is set on it.  Durations are not compared.
 //
 // The same bits are due where one compiler's same instructions ran on the same device, and where `exact` asks
 // for them.
 Repetition compare_runs(const Manifest& recorded, const Manifest& now, const Limits& limits, bool exact);
 
+// Whether the file of a run is a picture of its cloth: plots are none, since they belong to gnuplot's
+// version.
+bool is_picture(const std::string& file);
+
 // A run's folder holds every picture and table that its manifest lists, as long as its page stands in it.
 // One without its page keeps only a part, which is compared.
 struct ComparableFiles {
-  std::vector<std::string> pictures;  // that are there; plots are none: they belong to gnuplot's version
+  std::vector<std::string> pictures;  // that are there (is_picture())
   std::vector<std::string> tables;    // series and others, but for those of --errors, which are not repeated
   std::vector<std::string> lost;      // that are not there, although the page is
   int trimmed = 0;                    // that are not there, and the page is not either

@@ -112,6 +112,14 @@ std::string all_same_text(int count, bool all_same, const std::string& thing) {
   return count > 0 && all_same ? fmt::format("{} {} the same", count, thing + (count == 1 ? "" : "s")) : "";
 }
 
+// "remainder, newton_residual_largest and 3 others"
+std::string first_names(const std::vector<std::string>& names) {
+  constexpr std::size_t kMost = 4;
+  if (names.size() <= kMost) return join(names, ", ");
+  const std::vector<std::string> first(names.begin(), names.begin() + kMost - 1);
+  return fmt::format("{} and {} others", join(first, ", "), names.size() - first.size());
+}
+
 std::string repetition_text(const Repetition& r, const std::string& reasons) {
   using N = ComparedNumbers;
   std::vector<std::string> parts;
@@ -123,7 +131,7 @@ std::string repetition_text(const Repetition& r, const std::string& reasons) {
   if (const auto rounded = listed(r, &N::rounded); !rounded.empty())
     parts.push_back(fmt::format("{} within round-off, {:.0e} of their size", rounded.size(), r.round_off));
   if (const auto effort = listed(r, &N::effort); !effort.empty())
-    parts.push_back(fmt::format("{} of the solver's work", effort.size()));
+    parts.push_back(fmt::format("{} of the solver's work: {}", effort.size(), first_names(effort)));
   add("within their errors: ", listed(r, &N::within));
   add("beyond: ", listed(r, &N::beyond));
   add("no longer measured: ", r.missing);
@@ -172,7 +180,7 @@ Line compared(const RepeatedRun& run, const ChildRun& now, const VerifyChoice& c
   Repetition repetition = compare_runs(before, now.manifest.value(), limits, choice.exact);
   const fs::path folder = run.recorded.file.parent_path();
   const bool with_pictures = !run.files.pictures.empty();
-  compare_tables(run.files.tables, folder, now.folder, before, limits, repetition);
+  compare_tables(run.files.tables, folder, now.folder, before, *now.manifest, limits, repetition);
   compare_pictures(run.files.pictures, folder, now.folder, limits, repetition);
   add_unlisted_files(before, *now.manifest, with_pictures, repetition);
   repetition.lost = run.files.lost;
@@ -228,19 +236,33 @@ TestCase test_case(const std::string& name, const Line& said, double seconds) {
 // A limit that no run below the folder has anything for was meant for something else.
 void refuse_unused_limits(const Limits& limits, const std::vector<RepeatedRun>& runs) {
   std::vector<std::string> metrics, pictures;
+  NotCompared others{{}, "durations depend on the machine, and stated errors are not repeated"};
+  NotCompared plots{{}, "plots depend on gnuplot"};
   for (const RepeatedRun& run : runs) {
     const Manifest& manifest = run.recorded.manifest;
     for (const std::string& name : manifest.files)
-      if (name.ends_with(".png")) pictures.push_back(name);
+      if (name.ends_with(".png")) (is_picture(name) ? pictures : plots.names).push_back(name);
     if (limits.metrics.empty()) continue;
-    for (const auto& [name, value] : manifest.metrics) metrics.push_back(name);
+    for (const auto& [name, value] : manifest.metrics)
+      (is_compared(name, manifest.metrics) ? metrics : others.names).push_back(name);
     for (const auto& [term, joules] : manifest.energy) metrics.push_back(energy_name(term));
     const fs::path folder = run.recorded.file.parent_path();
-    for (std::string& name : table_columns(comparable_files(manifest, folder, false).tables, folder))
-      metrics.push_back(std::move(name));
+    for (const std::string& name : comparable_files(manifest, folder, false).tables) {
+      const TableColumns columns = table_columns(name, folder);
+      metrics.insert(metrics.end(), columns.compared.begin(), columns.compared.end());
+      others.names.insert(others.names.end(), columns.durations.begin(), columns.durations.end());
+    }
   }
-  limits.refuse_unused_metrics(metrics);
-  limits.refuse_unused_pictures(pictures);
+  limits.refuse_unused_metrics(metrics, others);
+  limits.refuse_unused_pictures(pictures, plots);
+}
+
+// Limits that were asked for, and are held to nothing since no picture is drawn.
+void warn_of_idle_limits(const CommandLine& line, const Limits& limits, const Options& options) {
+  if (!options.no_images || !limits.has_pictures()) return;
+  if (const std::string file = last_text(line.flags, "limits", ""); !file.empty())
+    std::cerr << "warning: no picture is held to the limits of " << file << ": none is drawn (--no-images)"
+              << std::endl;
 }
 
 // One line, with the first reason.
@@ -266,6 +288,7 @@ int run_verify(const CommandLine& line) {
   for (const fs::path& folder : folders_below(root))
     runs.push_back(run_in(folder, fs::relative(folder, root).string()));
   refuse_unused_limits(limits, runs);
+  warn_of_idle_limits(line, limits, options);
   int count[5] = {};
   std::vector<TestCase> cases;
   const auto say = [&] {  // in the order of their names, as far as they are known

@@ -389,7 +389,7 @@ TEST(Repetition, HoldsEveryColumnOfATableToItsLimitOrToRoundOff) {
     folder.write("now/metrics.csv", now);
     Repetition repetition;
     repetition.round_off = round_off_bound(run);
-    compare_tables({"metrics.csv"}, folder.file("before"), folder.file("now"), run, limits, repetition);
+    compare_tables({"metrics.csv"}, folder.file("before"), folder.file("now"), run, run, limits, repetition);
     return repetition;
   };
   const std::string head = "time [s],width [m],wall [s]\n0,2.0000000,1\n";
@@ -404,11 +404,49 @@ TEST(Repetition, HoldsEveryColumnOfATableToItsLimitOrToRoundOff) {
   EXPECT_EQ(compared(head, head + "1,2,1\n").series.beyond,
             (std::vector<std::string>{"metrics.csv with 1 rows, now 2"}));
   EXPECT_EQ(compared(head, "time [s]\n0\n").missing, (std::vector<std::string>{"metrics.csv:width [m]"}));
+  EXPECT_EQ(compared("time [s]\n0\n", head).unrecorded, (std::vector<std::string>{"metrics.csv:width [m]"}));
+  for (const char* own : {"wall [m]", "memory [m]", "computing [N]", "remainder [deg]"}) {
+    const std::string before = std::string(own) + "\n0.5\n", now = std::string(own) + "\n9\n";
+    EXPECT_EQ(compared(before, now).series.beyond.size(), 1u) << "a scene's own " << own;
+  }
+  EXPECT_EQ(compared("remainder [J]\n0\n", "remainder [J]\n1e-9\n").series.effort.size(), 1u);
   // The stated error of the metric whose history it is.
   EXPECT_EQ(compared("tip [m]\n0.5000000\n", "tip [m]\n0.5090000\n").series.within.size(), 1u);
   EXPECT_EQ(compared("tip [m]\n0.5000000\n", "tip [m]\n0.5110000\n").series.beyond.size(), 1u);
   // Six digits of a table may end in another one.
   EXPECT_EQ(compared("width [m]\n0.300001\n", "width [m]\n0.300002\n").series.rounded.size(), 1u);
+}
+
+// A later program may write more, but not less of what the scene asks for.
+TEST(Repetition, MissesAColumnOfALaterProgramOnlyIfTheSceneAsksForIt) {
+  const Folder folder;
+  for (const char* name : {"before", "now"}) fs::create_directories(folder.path() / name);
+  folder.write("before/metrics.csv", "time [s]\n0\n");
+  folder.write("now/metrics.csv", "time [s],tip [m],more [m]\n0,1,1\n");
+  Manifest run, later;
+  later.commit = "of another day";
+  later.metrics = {{"tip_m", 1.0}, {"more_m", 1.0}};
+  later.requested_metrics = {"tip_m"};
+  Repetition repetition;
+  compare_tables({"metrics.csv"}, folder.file("before"), folder.file("now"), run, later, {}, repetition);
+  EXPECT_EQ(repetition.unrecorded, (std::vector<std::string>{"metrics.csv:tip [m]"}));
+}
+
+// How often a solver iterates is counted, unless it has a limit; the limit is printed as it stands in its
+// file.
+TEST(Repetition, HoldsTheSolversWorkToALimitThatIsSetOnIt) {
+  Manifest before = with_steps("bdf2", 1e-6), now = before;
+  before.metrics = {{"newton_iterations_per_step", 3.5}};
+  now.metrics = {{"newton_iterations_per_step", 4.5}};
+  before.energy = {{"remainder", 1e-9}};
+  now.energy = {{"remainder", 2e-9}};
+  Limits limits;
+  EXPECT_EQ(compare_runs(before, now, limits, false).agreement(), Agreement::errors);
+  limits.metrics = {{"newton_iterations_per_step", 0.999}};
+  EXPECT_EQ(compare_runs(before, now, limits, false).metrics.beyond,
+            (std::vector<std::string>{"newton_iterations_per_step 3.5 -> 4.5 (limit 0.999)"}));
+  limits.metrics = {{"energy.remainder", 0}};
+  EXPECT_EQ(compare_runs(before, now, limits, false).energies.beyond.size(), 1u);
 }
 
 TEST_F(Recorded, RunWhoseEnergyOrSeriesIsNotThatOfItsRepetitionDiffers) {
@@ -487,6 +525,24 @@ TEST_F(Recorded, RunIsHeldToNoLimitThatIsForNothing) {
                    "a limit is for the metric node_counts, and none is called so; did you mean node_count?"));
   EXPECT_TRUE(says(refusal_of("[[picture]]\nname = \"shadows*.png\"\nmax-mean = 0\n"),
                    "a limit is for the picture shadows*.png, and none is called so"));
+  edit([](Json& json) {
+    json["files"].push_back("plot_gap.png");
+    json["metrics"]["computing_s"] = 1.0;
+  });
+  EXPECT_TRUE(
+      says(refusal_of("[[picture]]\nname = \"plot_gap.png\"\nmax-mean = 0\n"),
+           "a limit is for the picture plot_gap.png, which is not compared: plots depend on gnuplot"));
+  EXPECT_TRUE(says(refusal_of("[[metric]]\nname = \"computing_s\"\nmax-difference = 1\n"),
+                   "a limit is for the metric computing_s, which is not compared: durations depend on"));
+}
+
+TEST_F(Recorded, RunWithoutPicturesIsSaidToBeHeldToNoLimitOnThem) {
+  record(kDrape);
+  const std::string verify = "verify " + in("runs") + " --no-images --out " + in("check");
+  EXPECT_FALSE(says(finished(verify).err, "no picture is held")) << "nobody asked for limits";
+  const std::string limits = folder_.write("limits.toml", "max-mean = 0\n");
+  EXPECT_TRUE(says(finished(verify + " --limits " + limits).err,
+                   "warning: no picture is held to the limits of " + limits));
 }
 
 // In another folder, whose name is no part of its pictures.
