@@ -193,6 +193,16 @@ void ClothView::set_positions(std::span<const float> xyz) {
   if (is_figure()) cloth_normal_ = plane_normal(xyz);
 }
 
+std::optional<float> ClothView::first_side() const {
+  if (!cloth_ || !triangles_.empty()) return {};
+  return cloth_side_;
+}
+
+void ClothView::set_first_side(float side) {
+  cloth_side_ = side;
+  triangles_.clear();
+}
+
 void ClothView::set_values(std::span<const float> values) {
   if (!cloth_) throw Error::invalid_input("drawing a cloth: values were given before its triangles");
   offscreen_.make_current();

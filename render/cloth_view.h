@@ -66,6 +66,11 @@ class ClothView {
   void set_cloth(const ClothTopology& topology);
   // x, y, z each [m].
   void set_positions(std::span<const float> xyz);
+  // Side of the cloth's triangles by the first positions that were given, which says how much smaller
+  // obstacles are drawn in all pictures [m]; none before.  A view that goes on where another one ended takes
+  // it from there.
+  std::optional<float> first_side() const;
+  void set_first_side(float side);
   // One a vertex, for the looks that show a value.
   void set_values(std::span<const float> values);
   // Buffer object of the positions (x, y, z floats), for a writer on the same GPU; a new one with each

@@ -205,5 +205,27 @@ TEST_F(ClothViewTest, AHiddenObstacleIsNeitherSeenNorCastsAShadow) {
   EXPECT_EQ(view->draw(camera), without);
 }
 
+// Obstacles are drawn smaller by what the triangles of the first positions need, in all pictures of a run: a
+// view that goes on with later positions, on which triangles are twice as long, is told that side.
+TEST_F(ClothViewTest, GoesOnWithTheTrianglesSideOfTheFirstPositions) {
+  const test::Cloth small = test::flat_square(2, 0.2f, 0.0f);
+  std::vector<float> wide = small.positions;
+  for (float& coordinate : wide) coordinate *= 2;
+  const Camera camera = Camera::perspective({0, -1, 0.5f}, {0, 0, 0}, 40);
+  const auto view_of = [&](const std::vector<float>& first) {
+    auto view = viewed_cloth({first, {}, {}, small.triangles}, Look{});
+    view->set_bounds({{-0.2f, -0.2f, 0}, {0.2f, 0.2f, 0.2f}});
+    view->add_obstacle(sphere_mesh(0.1f), placed({0, 0, 0.15f}, {0, 0, 1}));
+    return view;
+  };
+  auto whole = view_of(small.positions);
+  whole->set_positions(wide);
+  auto later = view_of(wide);
+  const Image expected = whole->draw(camera);
+  EXPECT_NE(later->draw(camera), expected) << "the side matters";
+  later->set_first_side(whole->first_side().value());
+  EXPECT_EQ(later->draw(camera), expected);
+}
+
 }  // namespace
 }  // namespace hysteron::render

@@ -258,7 +258,10 @@ void Pictures::serialise(Archive& archive, Run& run) {
     archive(instant.moved);
   }
   kept_.serialise(archive);
+  auto side = scene_renderer_.run([](SceneRenderer& studio) { return studio.view().first_side(); });
+  archive(side);
   if (!archive.loads()) return;
+  if (side) scene_renderer_.run([side](SceneRenderer& studio) { studio.view().set_first_side(*side); });
   encode_seconds_ = encode;
   if (frames_ > 0) kept_frames_.continue_file(run.path(kKeptFrames), static_cast<std::size_t>(frames_));
 }
