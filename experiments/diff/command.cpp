@@ -3,6 +3,7 @@
 #include <cmath>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "experiments/diff/diff.h"
 #include "experiments/workbench/app/ending.h"
@@ -88,6 +89,17 @@ Comparison compared_files(const fs::path& a, const fs::path& b, const DiffFlags&
   }
 }
 
+// A file that limits none of these pictures was meant for something else, and would let all of them pass.
+void require_a_limit(const DiffFlags& flags, const std::vector<std::string>& names) {
+  if (flags.limits_file.empty()) return;
+  for (const std::string& name : names)
+    if (flags.from_file.of_picture(name).has_any()) return;
+  throw Error::invalid_input("limits = " + flags.limits_file + " must limit " +
+                             (names.size() == 1 ? names.front() : "a picture that is compared") +
+                             ", and limits none (--limits)")
+      .with_key("limits", flags.limits_file);
+}
+
 int diff_pictures(const fs::path& a, const fs::path& b, const DiffFlags& flags) {
   if (!flags.out.empty() && (file_extension(flags.out) != ".png" || fs::is_directory(flags.out)))
     throw Error::invalid_input("--out " + flags.out + " must be a file *.png: the heat map of two pictures")
@@ -95,6 +107,7 @@ int diff_pictures(const fs::path& a, const fs::path& b, const DiffFlags& flags) 
   for (const fs::path& picture : {a, b}) require_other(flags.out, picture);
   require_own_file(flags.out, render::kPngMark, "a picture", "out");
   const std::string name = a.filename().string();
+  require_a_limit(flags, {name});
   const Comparison comparison = compared_files(a, b, flags);
   const std::vector<std::string> broken = broken_limits(comparison.measures, flags.picture_limits(name));
   if (!flags.out.empty()) {
@@ -193,6 +206,30 @@ void write_table(const fs::path& path, const FolderDiff& diff) {
   table.write(path);
 }
 
+// Names of the heat maps that an earlier comparison has written into this folder, as its table has them.
+std::set<fs::path> earlier_heat_maps(const fs::path& out) {
+  std::set<fs::path> names;
+  std::error_code ignored;
+  if (out.empty() || !fs::is_regular_file(out / kDiffTable, ignored)) return names;
+  try {
+    const Table table = read_table(out / kDiffTable);
+    for (std::size_t row = 0; row < table.rows.size(); ++row)
+      if (const fs::path name = table.word(row, "picture");
+          stays_inside(name) && !is_behind_a_link(out / kHeatFolder, name))
+        names.insert(name);
+  } catch (const Error&) {
+    // A table that cannot be read names none.
+  }
+  return names;
+}
+
+// Of pictures that were not compared this time.
+void remove_earlier_heat_maps(const fs::path& out, std::set<fs::path> earlier, const FolderDiff& diff) {
+  for (const FolderDiff::Row& row : diff.rows)
+    if (row.error.empty()) earlier.erase(row.name);
+  remove_files(out / kHeatFolder, earlier);
+}
+
 int diff_folders(const fs::path& a, const fs::path& b, const DiffFlags& flags) {
   if (!flags.out.empty()) {
     require_outside(flags.out, a);
@@ -202,6 +239,9 @@ int diff_folders(const fs::path& a, const fs::path& b, const DiffFlags& flags) {
                      "a table of differences", "out");
   }
   const std::vector<std::string> names = pictures_in_either(a, b);
+  flags.from_file.refuse_unused_pictures(names);
+  require_a_limit(flags, names);
+  const std::set<fs::path> earlier = earlier_heat_maps(flags.out);
   std::size_t width = std::string("picture").size();
   for (const std::string& name : names) width = std::max(width, name.size());
   if (!flags.json) {
@@ -209,14 +249,16 @@ int diff_folders(const fs::path& a, const fs::path& b, const DiffFlags& flags) {
     for (const Measure& m : all_measures()) head.push_back(m.name);
     print_row("picture", width, head);
   }
-  flags.from_file.refuse_unused_pictures(names);
   const FolderDiff diff = compare_folders(a, b, flags, names, width);
   if (flags.json) {
     std::cout << diff_json(diff).dump(2) << std::endl;
   } else {
     print_row("worst", width, diff.compared() > 0 ? cells(diff.worst) : no_cells());
   }
-  if (!flags.out.empty()) write_table(fs::path(flags.out) / kDiffTable, diff);
+  if (!flags.out.empty()) {
+    remove_earlier_heat_maps(flags.out, earlier, diff);
+    write_table(fs::path(flags.out) / kDiffTable, diff);
+  }
   std::vector<TestCase> cases;
   int exit_code = 0;  // what could not be compared weighs more than what differs
   for (const FolderDiff::Row& row : diff.rows) {

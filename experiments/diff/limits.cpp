@@ -107,6 +107,10 @@ void PictureLimits::set(const PictureLimits& over) {
   }
 }
 
+bool PictureLimits::has_any() const {
+  return std::ranges::any_of(all_measures(), [&](const Measure& m) { return !std::isinf(values.*m.value); });
+}
+
 std::vector<std::string> broken_limits(const Measures& found, const PictureLimits& limits) {
   std::vector<std::string> broken;
   for (const Measure& m : all_measures()) {
@@ -151,15 +155,10 @@ void refuse_unused(const std::string& pattern, const std::vector<std::string>& n
       .with_key("name", pattern);
 }
 
-bool has_any(const PictureLimits& limits) {
-  return std::ranges::any_of(all_measures(),
-                             [&](const Measure& m) { return !std::isinf(limits.values.*m.value); });
-}
-
 }  // namespace
 
 bool Limits::has_pictures() const {
-  return has_any(all) || std::ranges::any_of(pictures, [](const auto& own) { return has_any(own.second); });
+  return all.has_any() || std::ranges::any_of(pictures, [](const auto& own) { return own.second.has_any(); });
 }
 
 void Limits::refuse_unused_pictures(const std::vector<std::string>& names, const NotCompared& others) const {

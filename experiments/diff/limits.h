@@ -49,6 +49,7 @@ struct PictureLimits {
 
   // Those of `over` stand in place of these.
   void set(const PictureLimits& over);
+  bool has_any() const;
 };
 
 // "flip = 0.2 must be <= 0.1 (--max-flip)" for every limit that is broken; not a number breaks a limit.

@@ -298,6 +298,17 @@ TEST_F(DiffOfFolders, WritesHeatMapsAndATable) {
   EXPECT_TRUE(says(csv, "\nsheet.png,0,0,,1,0,0,\n"));
 }
 
+TEST_F(DiffOfFolders, LeavesNoHeatMapOfAPictureThatIsNotComparedAnyMore) {
+  diff(0, out_flag(out_));
+  ASSERT_TRUE(fs::exists(out_ / "heat/sheet.png"));
+  std::ofstream(out_ / "heat/mine.txt") << "of another\n";
+  fs::remove(a_ / "sheet.png");
+  diff(2, out_flag(out_));  // it is missing in one folder
+  EXPECT_FALSE(fs::exists(out_ / "heat/sheet.png"));
+  EXPECT_TRUE(fs::exists(out_ / "heat/frames/0000.png"));
+  EXPECT_TRUE(fs::exists(out_ / "heat/mine.txt"));
+}
+
 TEST_F(DiffOfFolders, RefusesToWriteWhereItReads) {
   const Outcome outcome = diff(2, "--out " + (b_ / "difference").string());
   EXPECT_TRUE(says(outcome.err, "must not be in"));
@@ -327,6 +338,18 @@ TEST_F(DiffOfFolders, TakesLimitsOfSomePicturesFromAFile) {
   limited(0, "frames/*.png", "0.5");
   limited(4, "frames/*.png", "0.3");
   limited(4, "sheet.png", "0.5");  // the other picture keeps the limit of all
+}
+
+// Every picture would pass.
+TEST_F(DiffOfFolders, RefusesAFileThatLimitsNoPicture) {
+  const std::string metrics =
+      folder_.write("limits.toml", "[[metric]]\nname = \"tip_m\"\nmax-difference = 0\n");
+  EXPECT_TRUE(says(diff(2, "--limits " + metrics).err,
+                   "limits = " + metrics + " must limit a picture that is compared, and limits none"));
+  const std::string other = folder_.write("other.toml", "[[picture]]\nname = \"a.png\"\nmax-mean = 0\n");
+  const std::string sheet = (a_ / "sheet.png").string();
+  EXPECT_TRUE(says(refused("diff " + sheet + " " + sheet + " --limits " + other),
+                   "must limit sheet.png, and limits none (--limits)"));
 }
 
 TEST_F(DiffOfFolders, WritesATestCaseForEachPicture) {
