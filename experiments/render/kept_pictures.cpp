@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "experiments/workbench/app/run.h"
 #include "experiments/workbench/compare/kept_page.h"
@@ -9,6 +10,7 @@
 #include "experiments/workbench/pictures/kept_frames.h"
 #include "experiments/workbench/pictures/pictures.h"
 #include "sim/base/atomic_file.h"
+#include "sim/base/comma_list.h"
 #include "sim/base/error.h"
 
 namespace hysteron::experiments {
@@ -28,6 +30,19 @@ void apply_flags(const CommandLine& line, Options& options) {
     assign_text(keys, path, flag.text, "--" + flag.path);
   }
   if (options.out.empty()) options.out = kOut;
+}
+
+// The colour bar of pictures that show none would not change.
+void require_range_is_used(const CommandLine& line, const std::vector<std::string>& looks) {
+  static const std::set<std::string> kCurvatures = {"curvature", "residual", "difference"};
+  const std::string range = last_text(line.flags, "render.range", "");
+  if (range.empty() ||
+      std::ranges::any_of(looks, [](const auto& look) { return kCurvatures.contains(look); }))
+    return;
+  throw Error::invalid_input("--render.range " + range +
+                             " is not used: render.range needs --look curvature (look = " + join(looks, ",") +
+                             ")")
+      .with_key("render.range", range);
 }
 
 // The probe's path up to an instant.
@@ -64,6 +79,7 @@ void draw_run(const CommandLine& line, const fs::path& file, const Kept& kept) {
   const KeptCloth& cloth = kept.cloths.at(0);
   Setup setup = kept_setup(cloth, file.string());
   apply_flags(line, setup.options);
+  require_range_is_used(line, setup.options.looks());
   Run run(line, setup.options, keys_of_kept(file, cloth));
   // A run that has not ended has no sheet yet.
   draw_instants(run, setup, kept.meshes.at(cloth.mesh), cloth, kept.sheet,
@@ -79,6 +95,18 @@ std::string page_looks(const ComparisonPage& page, const std::string& requested,
   if (page.outlines) looks += ",silhouette";
   if (page.to >= 0 && page.curvature) looks += ",difference";
   return looks;
+}
+
+// Looks of all columns.
+std::vector<std::string> shown_looks(const CommandLine& line, const fs::path& file, const Kept& kept,
+                                     const ComparisonPage& page) {
+  std::vector<std::string> all;
+  for (const KeptCloth& cloth : kept.cloths) {
+    const std::string recorded = kept_setup(cloth, file.string()).options.look;
+    for (const std::string& look : split(page_looks(page, last_text(line.flags, "look", ""), recorded)))
+      if (!std::ranges::count(all, look)) all.push_back(look);
+  }
+  return all;
 }
 
 ChildRun draw_column(const CommandLine& line, const fs::path& file, const Kept& kept, const KeptCloth& cloth,
@@ -102,6 +130,7 @@ void draw_comparison(const CommandLine& line, const fs::path& file, const Kept& 
   ComparisonPage page = kept_comparison_page(kept.sheet);
   Options options;
   apply_flags(line, options);
+  require_range_is_used(line, shown_looks(line, file, kept, page));
   page.look = last_text(line.flags, "look", page.look);
   Run run(line, options, {{"kept", file.string()}});
   std::vector<ChildRun> columns;

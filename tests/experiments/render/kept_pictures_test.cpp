@@ -36,7 +36,7 @@ TEST(KeptPictures, ARecordedFolderGivesItsSheetOrWhatFlagsAskFor) {
   finished(swing.drawing(swing.kept));
   EXPECT_EQ(file_content(swing.again / "sheet.png"), file_content(swing.run / "sheet.png"));
 
-  finished(swing.drawing(swing.kept, " --look curvature --size 160x120"));
+  finished(swing.drawing(swing.kept, " --look curvature --render.range 50 --size 160x120"));
   const render::Image image = render::read_png(swing.again / "frames/0003.png");
   EXPECT_EQ(image.width(), 160);
   const Json manifest = manifest_in(swing.again);
@@ -45,6 +45,8 @@ TEST(KeptPictures, ARecordedFolderGivesItsSheetOrWhatFlagsAskFor) {
   EXPECT_TRUE(says(refused(swing.drawing(swing.kept, " --look friction")),
                    "look = friction needs values that were not kept"));
   refused(swing.drawing(swing.kept, " --render.ground 0"));
+  EXPECT_TRUE(says(refused(swing.drawing(swing.kept, " --render.range 50")),
+                   "--render.range 50 is not used: render.range needs --look curvature (look = cloth)"));
 }
 
 TEST(KeptPictures, AComparisonsFolderGivesItsSheet) {
