@@ -30,18 +30,23 @@ fs::path next_in_sequence(const fs::path& name) {
 
 // An interrupted run lists the first file of a sequence only: the others follow it without a gap, up to the
 // one that was about to be written.  Files behind a gap are another's.
-std::set<fs::path> with_their_sequences(const fs::path& folder, const std::vector<fs::path>& listed) {
+std::set<fs::path> with_their_sequences(const fs::path& folder, const fs::path& beside,
+                                        const std::vector<fs::path>& listed) {
+  const auto is_there = [&](const fs::path& name) {
+    return stands(folder / name) || (!beside.empty() && stands(beside / name));
+  };
   std::set<fs::path> names(listed.begin(), listed.end());
   for (const fs::path& first : listed)
     if (is_numbered(first))
-      for (fs::path name = next_in_sequence(first); names.insert(name).second && stands(folder / name);)
+      for (fs::path name = next_in_sequence(first); names.insert(name).second && is_there(name);)
         name = next_in_sequence(name);
   return names;
 }
 
 // What an interrupted run has left beyond what its manifest lists.
-void add_interrupted(const fs::path& folder, const std::vector<fs::path>& listed, std::set<fs::path>& left) {
-  std::set<fs::path> names = with_their_sequences(folder, listed), folders = {""};
+void add_interrupted(const fs::path& folder, const fs::path& beside, const std::vector<fs::path>& listed,
+                     std::set<fs::path>& left) {
+  std::set<fs::path> names = with_their_sequences(folder, beside, listed), folders = {""};
   for (const fs::path& name : listed) folders.insert(name.parent_path());
   names.insert(kManifestFile);
   std::error_code ignored;
@@ -93,12 +98,13 @@ std::vector<fs::path> recorded_files(const std::optional<Manifest>& manifest, co
   return names;
 }
 
-std::set<fs::path> files_left(const std::optional<Manifest>& manifest, const fs::path& folder) {
+std::set<fs::path> files_left(const std::optional<Manifest>& manifest, const fs::path& folder,
+                              const fs::path& beside) {
   const std::vector<fs::path> listed = recorded_files(manifest, folder);
   std::set<fs::path> left;
   for (const fs::path& name : listed)
     if (is_plain(folder / name)) left.insert(name);
-  if (manifest && !manifest->complete) add_interrupted(folder, listed, left);
+  if (manifest && !manifest->complete) add_interrupted(folder, beside, listed, left);
   return left;
 }
 

@@ -37,9 +37,11 @@ std::vector<std::filesystem::path> recorded_files(const std::optional<Manifest>&
                                                   const std::filesystem::path& folder);
 
 // Names of the plain files that are there of the run: those that are recorded and, if it was interrupted, the
-// rest of its sequences and what is half written; without its manifest.
+// rest of its sequences and what is half written; without its manifest.  Sequences may have files in the
+// folder `beside`, too, where the run goes on.
 std::set<std::filesystem::path> files_left(const std::optional<Manifest>& manifest,
-                                           const std::filesystem::path& folder);
+                                           const std::filesystem::path& folder,
+                                           const std::filesystem::path& beside = {});
 
 // Removes them, and folders that are empty then.
 void remove_files(const std::filesystem::path& folder, const std::set<std::filesystem::path>& names);

@@ -29,11 +29,12 @@ void remove_if_empty(const fs::path& folder) {
   if (fs::is_empty(folder, ignored)) fs::remove(folder, ignored);
 }
 
-// What waits there; nothing else in that folder is touched.
+// What waits there; nothing else in that folder is touched.  A run that goes on has kept the first files of
+// its sequences in its own folder.
 void remove_waiting(const fs::path& slot) {
   const auto manifest = manifest_or_none(slot / kManifestFile);
   if (!manifest) return;
-  std::set<fs::path> names = files_left(manifest, slot);
+  std::set<fs::path> names = files_left(manifest, slot, slot.parent_path());
   names.insert(kManifestFile);
   remove_files(slot, names);
   remove_if_empty(slot);

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "experiments/workbench/app/ending.h"
+#include "experiments/workbench/app/set_aside.h"
 #include "sim/base/error.h"
 #include "sim/base/whole_file.h"
 #include "tests/experiments/folder.h"
@@ -54,6 +55,22 @@ TEST_F(RunFolder, HoldsOneRunAtATime) {
     first.finish();
   }
   EXPECT_EQ(refused_run(out_), "(accepted)");
+}
+
+// What lies behind its checkpoint is set aside without the first files of its sequence, and goes in the end.
+TEST_F(RunFolder, OfARunThatGoesOnHasNothingSetAsideInTheEnd) {
+  killed([&] {
+    auto* run = new ExperimentRun(drape_line(), setup_in(out_));
+    for (const char* frame : {"frames/0000.png", "frames/0001.png", "frames/0002.png", "frames/0003.png"})
+      write(run->path(frame));
+  });
+  SetAside aside(out_, Successor::run);
+  aside.move({"frames/0000.png", "frames/0001.png"});
+  ASSERT_TRUE(fs::exists(out_ / ".stopped" / "frames/0003.png"));
+  write(out_ / "frames/0002.png", "new");
+  aside.remove();
+  EXPECT_FALSE(fs::exists(out_ / ".stopped"));
+  EXPECT_EQ(file_content(out_ / "frames/0002.png"), "new");
 }
 
 TEST_F(RunFolder, IsFreeAgainWhenItsRunIsKilled) {
