@@ -1,5 +1,7 @@
 #include "experiments/workbench/compare/variants.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <map>
@@ -8,6 +10,7 @@
 
 #include "render/camera.h"
 #include "sim/base/error.h"
+#include "sim/base/fnv1a.h"
 #include "sim/base/number_in.h"
 #include "sim/scene/assets.h"
 
@@ -72,6 +75,7 @@ void name_apart(std::vector<Variant>& variants) {
   std::set<std::string> taken;
   for (std::size_t i = 0; i < variants.size(); ++i) {
     std::string& name = variants[i].name;
+    name = folder_name(name);
     for (std::size_t j = 0; j < i; ++j)
       if (variants[i].flags == variants[j].flags)
         throw Error::invalid_input(name + " is named twice: columns must differ");
@@ -115,6 +119,19 @@ std::string column_name(const std::string& text) {
     name += (name.empty() ? "" : "+") + part.substr(0, value) + (is_file ? file.stem() : file).string();
   }
   return name.empty() || name.front() == '.' ? "column" + name : name;
+}
+
+// File systems take 255 bytes; files beside the folder, a number or a key that is tuned may add some.
+std::string folder_name(const std::string& name) {
+  constexpr std::size_t kLongest = 180;  // [bytes]
+  if (name.size() <= kLongest) return name;
+  const std::string hash = fmt::format("-{:016x}", fnv1a(name.data(), name.size()));
+  std::size_t end = kLongest - hash.size();
+  const auto is_inside_a_letter = [&](std::size_t at) {  // of UTF-8
+    return (static_cast<unsigned char>(name[at]) & 0xc0) == 0x80;
+  };
+  while (end > 0 && is_inside_a_letter(end)) --end;
+  return name.substr(0, end) + hash;
 }
 
 std::string varied_key(const std::vector<Variant>& variants) {

@@ -22,6 +22,8 @@ std::vector<Variant> named_variants(const CommandLine& line);
 // Of a variant that a list calls so, and of its folder: files go by their stems, "../mine/wool.toml" by
 // "wool".
 std::string column_name(const std::string& text);
+// The same name where a file system takes it; a longer one is cut, and told apart by a hash of the whole.
+std::string folder_name(const std::string& name);
 // The one key in which they differ: "law", "fabric", "integrator"; "column" where it is several.
 std::string varied_key(const std::vector<Variant>& variants);
 // The flags and behind them the later ones, which take the place of those that set the same.
