@@ -113,7 +113,7 @@ void read_flags(const CommandLine& line, CompareChoice& choice, Options& options
   refuse_unread_flags(line, values);
   if (options.out.empty())
     options.out = "out/compare-" + std::filesystem::path(line.positionals[0]).stem().string();
-  if (!choice.to.empty()) choice.to = column_name(choice.to);
+  if (!choice.to.empty()) choice.to = folder_name(column_name(choice.to));
 }
 
 // Whether pictures are drawn, and how, is said by the scene's file where no flag does.
@@ -162,6 +162,12 @@ void check_metrics(const std::vector<ChildRun>& columns, const std::vector<std::
           .with_key("compare.metrics", name);
 }
 
+// Where every column is there already, what it has found is known before anything is touched.
+void check_known_metrics(std::vector<ChildRun> columns, const std::vector<std::string>& names) {
+  if (names.empty() || !std::ranges::all_of(columns, recall)) return;
+  check_metrics(columns, names);
+}
+
 int run_compare(const CommandLine& line) {
   if (line.positionals.size() != 1) {
     std::string known;
@@ -188,11 +194,16 @@ int run_compare(const CommandLine& line) {
   if (!choice.times.empty()) keys["times"] = choice.times;
   if (!choice.metrics.empty()) keys["metrics"] = split(choice.metrics);
   const bool tunes = !choice.tune.empty() || !choice.tune_metric.empty();
-  if (tunes) check_tuning(inner, variants, choice, options);
+  if (tunes)
+    check_tuning(inner, variants, choice, options);
+  else
+    check_known_metrics(plan.columns, split(choice.metrics));
   Run run(line, options, keys);
   claim_files(run, !options.no_images);
   if (tunes) {
+    const bool is_subtracted = choice.to == variants[0].name;
     keys["tuned"] = tune_first_column(run, inner, variants, choice, jobs, options);
+    if (is_subtracted) choice.to = variants[0].name;
     plan = comparison_plan(inner, variants, choice, options.out);
   }
   if (choice.difference == "curvature") jobs.first = plan.to;
@@ -201,7 +212,7 @@ int run_compare(const CommandLine& line) {
   if (choice.match != Match::fabric) keys["matched_to"] = plan.reference;
   run.manifest().keys = std::make_shared<const Json>(keys);
   for (const std::string& note : comparison_notes(choice, plan)) run.progress(note);
-  run_columns(run, plan.columns, jobs);
+  run_columns(run, plan.columns, jobs, split(choice.metrics));
   check_metrics(plan.columns, split(choice.metrics));
   write_comparison_table(run, plan.varied, plan.columns, split(choice.metrics));
   if (!options.no_images) draw_page(run, line, inner.experiment, choice, options, plan);

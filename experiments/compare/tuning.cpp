@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <map>
@@ -20,10 +21,17 @@ std::string geometric_middle(const std::string& low, const std::string& high) {
   return four_digits(std::sqrt(*number_in(low) * *number_in(high)));
 }
 
-// A column with one more key, "linear+fabric.damping=1e-3".
-Variant with_key(Variant variant, const std::string& key, const std::string& number) {
-  variant.name += "+" + key + "=" + number;
+// The first column with one more key, "linear+fabric.damping=1e-3", by a name that none of the others has.
+Variant with_key(const std::vector<Variant>& variants, const std::string& key, const std::string& number) {
+  Variant variant = variants.at(0);
   variant.flags.push_back({key, number});
+  const std::string name = folder_name(variant.name + "+" + key + "=" + number);
+  variant.name = name;
+  const auto is_taken = [&] {
+    return std::any_of(variants.begin() + 1, variants.end(),
+                       [&](const Variant& other) { return other.name == variant.name; });
+  };
+  for (int again = 2; is_taken(); ++again) variant.name = name + "-" + std::to_string(again);
   return variant;
 }
 
@@ -44,7 +52,7 @@ Plan tried_columns(const CommandLine& inner, const std::vector<Variant>& variant
   CommandLine line = inner;
   line.flags = with_later(without_unread_flags(line, "no-images", "true"), {{"no-images", "true"}});
   choice.to.clear();
-  return comparison_plan(line, {with_key(variants[0], key, number), variants[1]}, choice,
+  return comparison_plan(line, {with_key(variants, key, number), variants[1]}, choice,
                          std::filesystem::path(options.out) / "tries");
 }
 
@@ -131,7 +139,7 @@ Json tune_first_column(Run& run, const CommandLine& inner, std::vector<Variant>&
     return own - target;
   };
   const std::string number = tuned(tuning, excess);
-  variants[0] = with_key(variants[0], tuning.key, number);
+  variants[0] = with_key(variants, tuning.key, number);
   (options.json ? std::cerr : std::cout) << tuning.key << "=" << number << std::endl;
   constexpr double kMissed = 1;  // [%]
   if (std::abs(missed[number]) > kMissed)

@@ -172,6 +172,16 @@ void throw_if_unknown_metric(const Study& study, const std::vector<ChildRun>& ru
         .with_key("metrics", "");
 }
 
+// Where every run is there already, what it has found is known before anything is touched.
+void check_known_metrics(const Study& study, std::vector<ChildRun> runs) {
+  if (study.metrics.empty()) return;
+  for (ChildRun& column : runs) {
+    if (!recall(column)) return;
+    drop_scene(column);
+  }
+  throw_if_unknown_metric(study, runs);
+}
+
 void run_all(Run& run, const Study& study, std::vector<ChildRun>& runs, const SweepJobs& jobs) {
   const auto stage = run.stage("runs");
   Progress progress(run, runs.size());
@@ -290,6 +300,7 @@ int run_sweep(const CommandLine& line) {
   if (!choice.snakemake.empty()) return write_study(choice, study, options.out), 0;
   if (!choice.only.empty() || !choice.part.empty())
     return run_some(chosen(runs, choice), choice, options.quiet);
+  check_known_metrics(study, runs);
   Run run(line, options, study_record(study));
   run.path("table.csv");
   run.reserve({"means.csv"});

@@ -1,6 +1,7 @@
 #include "experiments/workbench/compare/comparison.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "experiments/workbench/app/scene_source.h"
 #include "sim/base/csv.h"
@@ -25,6 +26,12 @@ std::string listed_names(const std::vector<std::string>& names) {
   const std::vector<std::string> first(names.begin(), names.begin() + kMaxNames);
   const std::size_t others = names.size() - kMaxNames;
   return join(first, ", ") + " and " + std::to_string(others) + (others == 1 ? " other" : " others");
+}
+
+void warn_of_missing(Run& run, const ChildRun& column, const std::vector<std::string>& metrics) {
+  for (const std::string& name : metrics)
+    if (!column.metrics().contains(name))
+      run.warn("compare.metrics: " + column.name + " has found no " + name + " (--compare.metrics)");
 }
 
 }  // namespace
@@ -68,10 +75,16 @@ void check_columns(const std::vector<ChildRun>& columns) {
     }
 }
 
-void run_columns(Run& run, std::vector<ChildRun>& columns, const SweepJobs& jobs) {
+void run_columns(Run& run, std::vector<ChildRun>& columns, const SweepJobs& jobs,
+                 const std::vector<std::string>& metrics) {
   for (const ChildRun& column : columns) run.add_part(column.folder, jobs.resume);
+  bool none_complete = true;
   run_columns(
-      columns, jobs, [&](const ChildRun& c) { run.progress(c.name + ": " + run_outcome(c)); },
+      columns, jobs,
+      [&](const ChildRun& c) {
+        run.progress(c.name + ": " + run_outcome(c));
+        if (c.stopped.empty() && std::exchange(none_complete, false)) warn_of_missing(run, c, metrics);
+      },
       [&](const std::string& line) { run.progress(line); });
   run.keep_from_here();
   ColumnWarnings warnings;

@@ -30,9 +30,11 @@ class ColumnWarnings {
 // Throws what a column would refuse before its first step, as far as its keys say it, with its name.
 void check_columns(const std::vector<ChildRun>& columns);
 
-// Runs the columns; how far they are and how they end is the run's progress.  Throws what run_columns() of
-// sweep_columns.h throws.
-void run_columns(Run& run, std::vector<ChildRun>& columns, const SweepJobs& jobs);
+// Runs the columns; how far they are and how they end is the run's progress.  Warns of `metrics`, those that
+// the page is to show, which the first column that is complete has not found: others may find more.  Throws
+// what run_columns() of sweep_columns.h throws.
+void run_columns(Run& run, std::vector<ChildRun>& columns, const SweepJobs& jobs,
+                 const std::vector<std::string>& metrics = {});
 
 // Names of the metrics that are `wanted`, each once.
 std::vector<std::string> metrics_in(const std::vector<ChildRun>& columns, bool (*wanted)(const MetricValue&));

@@ -126,6 +126,22 @@ TEST(ColumnName, OfAFileIsItsStemAndStaysInItsFolder) {
   }
 }
 
+// A file system takes 255 bytes.
+TEST(ColumnName, ThatIsTooLongIsCutAndToldApart) {
+  const std::string zeros(300, '0'), law = "prandtl+air-drag=0.";
+  const auto named = [&](const std::string& laws) {
+    return named_variants({"swing", "", {{"law", laws}}, {}});
+  };
+  const auto variants = named("linear," + law + zeros + "1," + law + zeros + "2");
+  ASSERT_EQ(variants.size(), 3u);
+  EXPECT_EQ(variants[0].name, "linear");
+  EXPECT_NE(variants[1].name, variants[2].name);
+  for (const Variant& variant : variants) EXPECT_LT(variant.name.size(), 200u);
+  EXPECT_TRUE(variants[1].name.starts_with(law + "000"));
+  EXPECT_EQ(folder_name(variants[1].name), variants[1].name);
+  EXPECT_EQ(named(law + zeros + "1,linear")[0].name, variants[1].name) << "whatever the others";
+}
+
 Variant variant(const std::string& fabric, const std::string& law) {
   return {fabric + law, {{"fabric", fabric}, {"law", law}}};
 }
@@ -185,6 +201,22 @@ TEST(Compare, ShowsTheInstantsAndTheMetricsThatItIsAskedForInTheirOrder) {
   EXPECT_NEAR(times[1], 1 / 30.0, 1e-3);
   EXPECT_NEAR(times[2], 0.1, 1e-3);
   EXPECT_TRUE(fs::exists(run.out / "plot_bending_friction_J.png"));
+}
+
+// A column that has run says what it finds: the first one early on, and all of a page that is there at once.
+TEST(Compare, WarnsOfAMetricThatItsFirstColumnHasNotAndRefusesItOverACompletePage) {
+  const std::string line = "compare swing --laws linear,prandtl --no-images" + kSmall;
+  const FinishedRun page(line);
+  const std::string manifest = file_content(page.out / "manifest.json");
+  const std::string said =
+      refused(line + " --compare.metrics bending_friction_J,nonsense_m" + out_flag(page.out));
+  EXPECT_TRUE(says(said, "compare.metrics = nonsense_m must be among "));
+  EXPECT_FALSE(says(said, "warning: ")) << "nothing has run";
+  EXPECT_EQ(file_content(page.out / "manifest.json"), manifest);
+  EXPECT_FALSE(fs::exists(page.out / ".before"));
+  const Folder elsewhere;
+  EXPECT_TRUE(says(refused(line + " --compare.metrics nonsense_m" + out_flag(elsewhere.path() / "out")),
+                   " has found no nonsense_m (--compare.metrics)"));
 }
 
 TEST(Compare, RefusesInstantsAfterTheEndOfTheRunBeforeItBegins) {

@@ -72,6 +72,17 @@ TEST(Compare, TunesItsFirstColumnToItsSecond) {
   EXPECT_TRUE(fs::exists(run.out / ("linear+" + line) / "manifest.json"));
 }
 
+// The metric of both is equal at the upper end of the bracket, which is the second column's own number.
+TEST(Compare, TunesOntoAnotherColumnsNumberBesideIt) {
+  const FinishedRun run(
+      "compare swing --laws linear,linear+fabric.damping=0.002 --compare.tune fabric.damping=0.001:0.002 "
+      "--compare.tune-metric viscous_J --compare.to linear" +
+      kSmallStrip);
+  const Json columns = run.manifest()["scene"]["columns"];
+  EXPECT_EQ(columns[0]["name"], "linear+fabric.damping=0.002-2");
+  EXPECT_EQ(columns[1]["name"], "linear+fabric.damping=0.002");
+}
+
 TEST(Compare, RefusesToTuneWhatItCannot) {
   const Folder folder;
   const auto refusal = [&](const std::string& options) {

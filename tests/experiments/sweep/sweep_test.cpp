@@ -115,6 +115,12 @@ TEST_F(Sweep, RefusesMetricsThatNoRunHasFoundAndNamesTheNearest) {
   EXPECT_EQ(table().rows.size(), 4u);
   write(std::string("metrics = [\"B_N_m\", \"2HB_N\"]\n") + kStudy);
   run(0, "--collect");
+  // Where all runs are there, nothing is touched and none runs.
+  const auto page = [&] { return file_content(folder_.path() / "out" / "manifest.json"); };
+  const std::string before = page();
+  write(std::string("metrics = [\"B_N_m\", \"2HB_M\"]\n") + kStudy);
+  EXPECT_FALSE(says(run(2, "--quiet").err, "warning: "));
+  EXPECT_EQ(page(), before);
 }
 
 TEST_F(Sweep, InPartsFindsTheTableOfTheWhole) {
