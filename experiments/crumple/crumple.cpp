@@ -33,7 +33,6 @@ const KeyRow<C> kRows[] = {
 constexpr int kQuickTriangles = 1500;
 constexpr double kQuickFps = 10;
 constexpr int kBins = 40;           // of the histogram of curvatures, up to two K0
-constexpr double kLines = 0.5;      // test lines for ridges, in mean edges
 constexpr float kHeadroom = 0.12f;  // of the picture above the cloth, for the caption
 
 Setup defaults() {
@@ -58,11 +57,7 @@ RidgeMetrics measured_ridges(Session& session, const C& choice) {
   const int d = simulation.dimension();
   const std::vector<double> size = curvature_size(simulation.residual_curvature(), d);
   const std::vector<double> area = element_areas(mesh, d);
-  double edges = 0;
-  for (const Edge& e : mesh.edge) edges += (mesh.rest[e.p3] - mesh.rest[e.p2]).norm();
-  const double spacing = kLines * edges / static_cast<double>(mesh.edge.size());
-  return {ridge_length(mesh, unrolled(mesh, session.scene().cloth),
-                       vertex_average(session.cloth().mesh, size, d), choice.ridge, spacing),
+  return {ridge_length(mesh, vertex_average(mesh, size, d), choice.ridge),
           curvature_rms(simulation.curvature(), area, d), curvature_rms(size, area, d)};
 }
 

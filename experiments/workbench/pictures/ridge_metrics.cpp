@@ -1,57 +1,40 @@
 #include "experiments/workbench/pictures/ridge_metrics.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <numbers>
 
 namespace hysteron::experiments {
 namespace {
 
-// Nodes of a regular grid over the sheet, with the value there; NaN outside.
-struct Raster {
-  Eigen::Vector2d low;
-  double spacing;
-  int nx, ny;
-  std::vector<float> value;
+// Where `value` crosses the threshold between two points, of which one alone lies above it.
+Eigen::Vector3d crossing(const Eigen::Vector3d& a, double value_a, const Eigen::Vector3d& b, double value_b,
+                         double threshold) {
+  return a + (threshold - value_a) / (value_b - value_a) * (b - a);
+}
 
-  Raster(const std::vector<Eigen::Vector2d>& at, double step) : spacing(step) {
-    Eigen::Vector2d high = low = at[0];
-    for (const Eigen::Vector2d& p : at) low = low.cwiseMin(p), high = high.cwiseMax(p);
-    nx = static_cast<int>((high.x() - low.x()) / step) + 1;
-    ny = static_cast<int>((high.y() - low.y()) / step) + 1;
-    value.assign(static_cast<std::size_t>(nx) * ny, NAN);
+// Length of the line within a triangle on which a value, linear between its corners, is the threshold: it cuts
+// off the one corner that lies on its own side.
+double contour_length(const std::array<Eigen::Vector3d, 3>& corner, const double (&value)[3],
+                      double threshold) {
+  for (int k = 0; k < 3; ++k) {
+    const int l = (k + 1) % 3, m = (k + 2) % 3;
+    const bool above = value[k] > threshold;
+    if ((value[l] > threshold) == above || (value[m] > threshold) == above) continue;
+    return (crossing(corner[k], value[k], corner[l], value[l], threshold) -
+            crossing(corner[k], value[k], corner[m], value[m], threshold))
+        .norm();
   }
-  float& at(int i, int j) { return value[static_cast<std::size_t>(j) * nx + i]; }
+  return 0;
+}
 
-  void fill(const Eigen::Vector2d (&p)[3], const float (&v)[3]) {
-    const Eigen::Vector2d e1 = p[1] - p[0], e2 = p[2] - p[0];
-    const double area = e1.x() * e2.y() - e1.y() * e2.x();
-    if (area == 0) return;
-    const Eigen::Vector2d from = (p[0].cwiseMin(p[1]).cwiseMin(p[2]) - low) / spacing,
-                          to = (p[0].cwiseMax(p[1]).cwiseMax(p[2]) - low) / spacing;
-    for (int j = static_cast<int>(std::ceil(from.y())); j <= to.y() && j < ny; ++j)
-      for (int i = static_cast<int>(std::ceil(from.x())); i <= to.x() && i < nx; ++i) {
-        const Eigen::Vector2d d = low + spacing * Eigen::Vector2d(i, j) - p[0];
-        const double s = (d.x() * e2.y() - d.y() * e2.x()) / area,
-                     t = (e1.x() * d.y() - e1.y() * d.x()) / area;
-        if (s < 0 || t < 0 || s + t > 1) continue;
-        at(i, j) = static_cast<float>((1 - s - t) * v[0] + s * v[1] + t * v[2]);
-      }
-  }
-};
-
-// Runs of nodes above the threshold along lines, and the lines' length on the sheet in nodes.
-struct Lines {
-  long ridges = 0, nodes = 0;
-  bool inside = false;
-  void begin() { inside = false; }
-  void visit(float value, double threshold) {
-    const bool above = value > threshold;
-    ridges += above && !inside;
-    nodes += !std::isnan(value);
-    inside = above;
-  }
-};
+// The part of an edge on which a value, linear between its ends, exceeds the threshold.
+double fraction_above(double from, double to, double threshold) {
+  const bool first = from > threshold, last = to > threshold;
+  if (first == last) return first ? 1 : 0;
+  const double crossed = (threshold - from) / (to - from);
+  return first ? crossed : 1 - crossed;
+}
 
 // Copies side by side along the first coordinate.
 void place_apart(std::vector<Eigen::Vector2d>& at, int copies) {
@@ -76,38 +59,25 @@ std::vector<double> curvature_size(const std::vector<double>& curvature, int dim
   return size;
 }
 
-std::vector<Eigen::Vector2d> unrolled(const ClothMesh& mesh, const ClothShape& shape) {
+std::vector<Eigen::Vector2d> unrolled_tube(const ClothMesh& mesh, const ClothShape& shape) {
   std::vector<Eigen::Vector2d> result;
-  for (const Eigen::Vector3d& x : mesh.rest) {
-    const double around = std::atan2(-x.y(), -x.z());
-    result.push_back({x.x(), shape.shape == "tube" ? shape.radius * around : x.y()});
-  }
+  for (const Eigen::Vector3d& x : mesh.rest)
+    result.push_back({x.x(), shape.radius * std::atan2(-x.y(), -x.z())});
   if (shape.copies > 1) place_apart(result, shape.copies);
   return result;
 }
 
-double ridge_length(const ClothMesh& mesh, const std::vector<Eigen::Vector2d>& at,
-                    const std::vector<float>& value, double threshold, double spacing) {
-  Raster raster(at, spacing);
-  const double longest = spacing * std::max(raster.nx, raster.ny) / 4;
-  double area = 0;
+double ridge_length(const ClothMesh& mesh, const std::vector<float>& value, double threshold) {
+  double outline = 0;
   for (int f = 0; f < mesh.faces(); ++f) {
     const Eigen::Vector3i& t = mesh.face[f];
-    const Eigen::Vector2d p[3] = {at[t[0]], at[t[1]], at[t[2]]};
-    if ((p[1] - p[0]).norm() > longest || (p[2] - p[0]).norm() > longest) continue;
-    raster.fill(p, {value[t[0]], value[t[1]], value[t[2]]});
-    area += mesh.face_area[f];
+    outline += contour_length(mesh.corners(f), {value[t[0]], value[t[1]], value[t[2]]}, threshold);
   }
-  Lines lines;
-  for (int j = 0; j < raster.ny; ++j) {
-    lines.begin();
-    for (int i = 0; i < raster.nx; ++i) lines.visit(raster.at(i, j), threshold);
+  for (int e = mesh.interior_edges; e < static_cast<int>(mesh.edge.size()); ++e) {
+    const Edge& edge = mesh.edge[e];
+    outline += mesh.edge_length(e) * fraction_above(value[edge.p2], value[edge.p3], threshold);
   }
-  for (int i = 0; i < raster.nx; ++i) {
-    lines.begin();
-    for (int j = 0; j < raster.ny; ++j) lines.visit(raster.at(i, j), threshold);
-  }
-  return lines.nodes > 0 ? std::numbers::pi / 2 * area * lines.ridges / (lines.nodes * spacing) : 0;
+  return outline / 2;
 }
 
 std::vector<double> area_fractions(const std::vector<double>& value, const std::vector<double>& area,

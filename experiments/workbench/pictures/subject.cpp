@@ -28,7 +28,7 @@ std::vector<float> pattern_coordinates(const ClothMesh& mesh, const ClothShape& 
   std::vector<float> uv;
   if (mesh.sewn) return uv;
   if (shape.shape == "tube") {
-    for (const Eigen::Vector2d& p : unrolled(mesh, shape))
+    for (const Eigen::Vector2d& p : unrolled_tube(mesh, shape))
       uv.insert(uv.end(), {static_cast<float>(p.x()), static_cast<float>(p.y())});
     return uv;
   }

@@ -13,34 +13,75 @@ constexpr double kRidgedSide = 0.2;
 
 ClothMesh sheet() { return make_rectangle(kRidgedSide, kRidgedSide, 20000, MeshFamily::random, 1); }
 
+constexpr double kHalfWidth = 4e-3;  // of a ridge above half of its height [m], more than any edge
+constexpr double kRounding = 1e-5;   // of lengths, relative: values are single precision
+
 // A ridge through the middle whose value falls off to both sides, by half in 4 mm.
 std::vector<float> ridge_across(const ClothMesh& mesh, double angle) {
   const Eigen::Vector2d normal(std::cos(angle), std::sin(angle));
   std::vector<float> value;
   for (const Eigen::Vector3d& x : mesh.rest) {
     const double away = std::abs((x.head<2>() - Eigen::Vector2d::Constant(kRidgedSide / 2)).dot(normal));
-    value.push_back(static_cast<float>(1 - away / 8e-3));
+    value.push_back(static_cast<float>(1 - away / (2 * kHalfWidth)));
   }
   return value;
 }
 
-std::vector<Eigen::Vector2d> flat(const ClothMesh& mesh) { return unrolled(mesh, {}); }
-
-// A ridge from edge to edge: test lines across it meet it, those along it do not; the mean over both is pi/4
-// of its length for one along x or y, and right on average over directions.
-TEST(RidgeLength, OfAStraightRidgeIsItsLengthUpToItsDirection) {
+// The outline of a ridge from edge to edge: both its sides, and its two ends on the border of the sheet.
+// Along the diagonal the sides end at the corners' slopes.
+TEST(RidgeLength, OfAStraightRidgeIsItsLengthAndItsWidthInEveryDirection) {
   const ClothMesh mesh = sheet();
-  EXPECT_NEAR(
-      ridge_length(mesh, flat(mesh), ridge_across(mesh, 0), 0.5, 1e-3) / (std::numbers::pi / 4 * kRidgedSide),
-      1, 0.03);
-  const double diagonal = std::sqrt(2.0) * kRidgedSide;
-  EXPECT_NEAR(ridge_length(mesh, flat(mesh), ridge_across(mesh, std::numbers::pi / 4), 0.5, 1e-3) / diagonal,
-              std::numbers::pi / 4 * std::sqrt(2.0), 0.05);
+  const double along_side = kRidgedSide + 2 * kHalfWidth;
+  for (const double angle : {0.0, std::numbers::pi / 2})
+    EXPECT_NEAR(ridge_length(mesh, ridge_across(mesh, angle), 0.5) / along_side, 1, kRounding) << angle;
+  const double along_diagonal =
+      std::sqrt(2.0) * kRidgedSide - 2 * kHalfWidth + 2 * std::sqrt(2.0) * kHalfWidth;
+  EXPECT_NEAR(ridge_length(mesh, ridge_across(mesh, std::numbers::pi / 4), 0.5) / along_diagonal, 1,
+              kRounding);
+}
+
+TEST(RidgeLength, DependsNeitherOnTheMeshsOrientationNorOnItsPlane) {
+  const ClothMesh mesh = sheet();
+  const std::vector<float> value = ridge_across(mesh, 0.3);
+  const double length = ridge_length(mesh, value, 0.5);
+  ASSERT_GT(length, kRidgedSide);
+  for (const Eigen::Vector3d& axis : {Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(1, 0, 0),
+                                      Eigen::Vector3d(0, 1, 0), Eigen::Vector3d(1, 2, 3).normalized()}) {
+    ClothMesh turned = mesh;
+    for (const double degrees : {30.0, 45.0, 90.0}) {
+      const Eigen::AngleAxisd turn(degrees * std::numbers::pi / 180, axis);
+      for (int i = 0; i < mesh.vertices(); ++i) turned.rest[i] = turn * mesh.rest[i];
+      EXPECT_NEAR(ridge_length(turned, value, 0.5) / length, 1, 1e-9) << degrees << " about " << axis;
+    }
+  }
+}
+
+// Half the outline of a ring around a tube is its circumference, across the seam as anywhere.
+TEST(RidgeLength, GoesAcrossTheSeamOfATube) {
+  constexpr double kRadius = 0.05, kMiddle = 0.15;
+  constexpr double kChords = 1e-3;  // of the circumference, by which some 45 chords are shorter than it
+  const ClothMesh tube = make_tube(2 * kMiddle, kRadius, 4000, MeshFamily::unionjack, 1);
+  std::vector<float> value;
+  for (const Eigen::Vector3d& x : tube.rest)
+    value.push_back(static_cast<float>(1 - std::abs(x.x() - kMiddle) / 0.04));
+  EXPECT_NEAR(ridge_length(tube, value, 0.5) / (2 * std::numbers::pi * kRadius), 1, 2 * kChords);
+}
+
+// Of cloth that is sewn the panels are at rest, whatever way their seams hold the vertices.
+TEST(RidgeLength, OfSewnClothIsMeasuredOnItsPanels) {
+  ClothMesh mesh = sheet();
+  const std::vector<float> value = ridge_across(mesh, 0.3);
+  const double length = ridge_length(mesh, value, 0.5);
+  for (const Eigen::Vector3i& f : mesh.face)
+    mesh.panel.push_back({mesh.rest[f[0]].head<2>(), mesh.rest[f[1]].head<2>(), mesh.rest[f[2]].head<2>()});
+  mesh.sewn = true;
+  for (Eigen::Vector3d& x : mesh.rest) x *= 0.5;
+  EXPECT_NEAR(ridge_length(mesh, value, 0.5) / length, 1, 1e-9);
 }
 
 TEST(RidgeLength, IsZeroBelowTheThreshold) {
   const ClothMesh mesh = sheet();
-  EXPECT_EQ(ridge_length(mesh, flat(mesh), ridge_across(mesh, 0), 1.5, 1e-3), 0);
+  EXPECT_EQ(ridge_length(mesh, ridge_across(mesh, 0), 1.5), 0);
 }
 
 TEST(AreaFractions, SumToOneWithTheLargestInTheLastBin) {
@@ -59,7 +100,7 @@ TEST(UnrolledTube, IsAsWideAsItsCircumference) {
   shape.shape = "tube";
   shape.radius = 0.05;
   double low = 0, high = 0;
-  for (const Eigen::Vector2d& p : unrolled(tube, shape))
+  for (const Eigen::Vector2d& p : unrolled_tube(tube, shape))
     low = std::min(low, p.y()), high = std::max(high, p.y());
   EXPECT_NEAR((high - low) / (2 * std::numbers::pi * 0.05), 1, 0.05);
 }
