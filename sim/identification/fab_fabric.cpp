@@ -168,6 +168,40 @@ StopsLaw mean_law(const StopsLaw& a, const StopsLaw& b) {
   return law;
 }
 
+// The law of a cylinder bent along the bias under stops along warp and along weft, over the fabric's rigidity
+// there: what SpectrumStops::turn() makes of a hinge across it.  `curve` is the fabric's as laws see it,
+// behind the metric, in which the tensor of that bend has the squares 1, weft and the rest of 4 bias.
+StopsLaw turned_to_bias(const VirginCurve& curve, double weft_bending, double bias_bending) {
+  const double warp = 1 / (4 * bias_bending), weft = weft_bending / (4 * bias_bending),
+               twist = 1 - warp - weft;
+  const Spectrum &first = curve.parts.stops, &second = curve.parts.weft_stops;
+  StopsLaw law{curve.b2, {}, {}};
+  for (std::size_t j = 0; j < first.size(); ++j) {
+    const double p = first.stiffnesses[j], q = second.stiffnesses[j];
+    const double slides = p * first.thresholds[j], other_slides = q * second.thresholds[j];
+    const double stiffness = warp * p + weft * q + twist * std::sqrt(p * q);
+    const double moment = std::sqrt(warp * slides * slides + weft * other_slides * other_slides +
+                                    twist * slides * other_slides);
+    law.stiffnesses.push_back(stiffness);
+    law.thresholds.push_back(stiffness > 0 ? moment / stiffness : first.thresholds[j]);
+  }
+  return law;
+}
+
+// Stretch along the bias at the width that the clamps hold: E along it is E/2 along warp and weft and a shear
+// 2 E12 = E, and of their stresses its force per width takes half, half, and all.
+StopsLaw bias_stretch(const Fabric& fabric) {
+  const InPlaneStops& stops = fabric.in_plane;
+  StopsLaw law{(fabric.warp + fabric.weft + 2 * fabric.coupling) / 4 + fabric.shear, stops.shear.thresholds,
+               stops.shear.stiffnesses};
+  for (const Spectrum* of : {&stops.warp, &stops.weft})
+    for (std::size_t j = 0; j < of->size(); ++j) {
+      law.thresholds.push_back(2 * of->thresholds[j]);
+      law.stiffnesses.push_back(of->stiffnesses[j] / 4);
+    }
+  return law;
+}
+
 }  // namespace
 
 void write_fab_fabric(const std::filesystem::path& file, const FabIdentification& found,
@@ -193,7 +227,8 @@ FabStrip FabFabric::strip(const std::string& direction) const {
     case StripDirection::bias:
       break;
   }
-  return {bias ? *bias : mean_law(warp, weft), mean_law(warp_tension, weft_tension), density};
+  return {bias ? *bias : mean_law(warp, weft),
+          bias_tension ? *bias_tension : mean_law(warp_tension, weft_tension), density};
 }
 
 FabFabric fab_fabric(const Fabric& fabric) {
@@ -208,9 +243,12 @@ FabFabric fab_fabric(const Fabric& fabric) {
     result.bias = scaled(result.warp, fabric.bias_bending);
   } else {
     result.weft = {fabric.weft_bending * fabric.b2, weft.thresholds, weft.stiffnesses};
+    result.bias = scaled(turned_to_bias(fabric.virgin_curve(), fabric.weft_bending, fabric.bias_bending),
+                         fabric.bias_bending);
   }
   result.warp_tension = in_plane_law(fabric, Along::warp).tension;
   result.weft_tension = in_plane_law(fabric, Along::weft).tension;
+  result.bias_tension = bias_stretch(fabric);
   return result;
 }
 

@@ -40,18 +40,22 @@ StripDirection strip_direction(const std::string& name);
 // The laws that a strip cut along one of three directions follows.
 struct FabFabric {
   std::string name;
-  double density = 0;                   // [kg/m^2]
-  StopsLaw warp, weft;                  // of bending
-  std::optional<StopsLaw> bias;         // of bending, where something is known of it
-  StopsLaw warp_tension, weft_tension;  // of stretch
+  double density = 0;                    // [kg/m^2]
+  StopsLaw warp, weft;                   // of bending
+  std::optional<StopsLaw> bias;          // of bending, where something is known of it
+  StopsLaw warp_tension, weft_tension;   // of stretch
+  std::optional<StopsLaw> bias_tension;  // of stretch, where shear is known
 
   // Along a bias of which nothing is known, half of each: the mean of the rigidities (Cooper 1960 with a
   // twisting rigidity of that mean).  Throws as strip_direction().
   FabStrip strip(const std::string& direction) const;
 };
 
-// Without stops of its own along weft, a fabric bends along weft and bias as weft-bending and bias-bending
-// say.
+// Along weft and bias a fabric bends as its weft-bending and bias-bending say, with the stops that it has
+// along weft; along the bias with those that hinges across it have (SpectrumStops::turn).  A strip is twice
+// as wide as it is long and clamped at both ends, which is taken to hold its width, as KES-FB1 does: it is
+// stretched along the bias against a quarter of warp, of weft and of twice their coupling, and against all of
+// the shear.
 FabFabric fab_fabric(const Fabric& fabric);
 
 }  // namespace hysteron

@@ -13,8 +13,8 @@ Eigen::Vector3d crossing(const Eigen::Vector3d& a, double value_a, const Eigen::
   return a + (threshold - value_a) / (value_b - value_a) * (b - a);
 }
 
-// Length of the line within a triangle on which a value, linear between its corners, is the threshold: it cuts
-// off the one corner that lies on its own side.
+// Length of the line within a triangle on which a value, linear between its corners, is the threshold: it
+// cuts off the one corner that lies on its own side.
 double contour_length(const std::array<Eigen::Vector3d, 3>& corner, const double (&value)[3],
                       double threshold) {
   for (int k = 0; k < 3; ++k) {

@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "sim/bending/laws/spectrum_stops.h"
 #include "sim/scene/fabric_reader.h"
 #include "tests/sim/base/folder.h"
 #include "tests/sim/base/refusal.h"
@@ -98,6 +99,76 @@ TEST(FabFabric, WithoutStopsBendsAlongWeftAndBiasAsItsRatiosSay) {
     EXPECT_NEAR(law.spring / (q * warp.spring), 1, kRounding) << direction;
     EXPECT_NEAR(law.friction() / (std::sqrt(q) * warp.friction()), 1, kRounding) << direction;
   }
+}
+
+// A bend along the bias by the face element's own law: the tensor (1/2, 1/2, 2^-1/2) K of a cylinder, metric
+// and all, as cloth bends.
+double cloth_moment_along_bias(const Fabric& fabric, double curvature) {
+  const double weft = fabric.weft_bending, twist = 2 * fabric.bias_bending - (1 + weft) / 2;
+  const Vec<double, 3> root{1, std::sqrt(weft), std::sqrt(twist)}, along{0.5, 0.5, std::sqrt(0.5)};
+  const VirginCurve curve = fabric.virgin_curve();
+  const auto law = SpectrumStops<double, 3, 8>::make(curve.b2, curve.parts.stops, curve.parts.weft_stops);
+  const auto step = law.step(curvature * root.cwiseProduct(along), {});
+  return root.cwiseProduct(step.moment).dot(along);
+}
+
+double virgin_response(const StopsLaw& law, double x) {
+  const std::vector<double> anchors(law.stops(), 0.0);
+  return respond(law, anchors.data(), x).response;
+}
+
+// While every stop is held the moments are those of the tensor; the corner of each stop is chosen.
+TEST(FabFabric, WithStopsAlongWeftBendsAlongTheBiasAsClothDoes) {
+  Fabric fabric;
+  fabric.bending.stops = {{4, 16, 64}, {2e-5, 2e-6, 8e-7}};
+  fabric.bending.weft_stops = {{5, 12, 80}, {1e-5, 1e-6, 5e-7}};
+  fabric.weft_bending = 0.6;
+  constexpr double kRounding = 1e-12, kHeld = 0.5;  // [1/m]
+  for (const double bias : {0.75, 1.4}) {
+    fabric.bias_bending = bias;
+    const StopsLaw law = fab_fabric(fabric).strip("B").bending;
+    EXPECT_NEAR(law.spring / (bias * fabric.b2), 1, kRounding) << bias;
+    EXPECT_NEAR(virgin_response(law, kHeld) / cloth_moment_along_bias(fabric, kHeld), 1, kRounding) << bias;
+  }
+}
+
+// Where the spectrum along weft is that of the metric, the bias has it, too, as without one.
+TEST(FabFabric, WithTheMetricsStopsAlongWeftBendsAlongTheBiasAsWithoutThem) {
+  Fabric fabric;
+  fabric.weft_bending = 0.6, fabric.bias_bending = 1.1;
+  fabric.bending.stops = {{4, 16, 64}, {2e-5, 2e-6, 8e-7}};
+  const StopsLaw without = fab_fabric(fabric).strip("B").bending;
+  Spectrum weft = fabric.bending.stops;
+  for (double& r : weft.thresholds) r /= std::sqrt(fabric.weft_bending);
+  for (double& p : weft.stiffnesses) p *= fabric.weft_bending;
+  fabric.bending.weft_stops = weft;
+  const StopsLaw with = fab_fabric(fabric).strip("B").bending;
+  constexpr double kRounding = 1e-12;
+  EXPECT_NEAR(with.spring / without.spring, 1, kRounding);
+  for (int j = 0; j < 3; ++j) {
+    EXPECT_NEAR(with.thresholds[j] / without.thresholds[j], 1, kRounding);
+    EXPECT_NEAR(with.stiffnesses[j] / without.stiffnesses[j], 1, kRounding);
+  }
+}
+
+// Held at its width cloth resists stretch along the bias with (C11 + C22 + 2 C12)/4 + G; friction along warp
+// slips at twice its own strain, with a quarter of its stiffness, that of shear at its own.
+TEST(FabFabric, StretchesAlongTheBiasAgainstShear) {
+  Fabric fabric;
+  fabric.warp = 900, fabric.weft = 500, fabric.coupling = 40;
+  constexpr double kStrain = 1e-3, kRounding = 1e-12;
+  for (const double shear : {10.0, 40.0, 200.0}) {
+    fabric.shear = shear;
+    const double expected = (900 + 500 + 2 * 40) / 4.0 + shear;  // [N/m]
+    EXPECT_NEAR(virgin_response(fab_fabric(fabric).strip("B").stretch, kStrain) / (expected * kStrain), 1,
+                kRounding);
+  }
+  const double elastic = fab_fabric(fabric).strip("B").stretch.spring;
+  fabric.in_plane.warp = {{0.002}, {80}};
+  fabric.in_plane.shear = {{0.003}, {30}};
+  const StopsLaw law = fab_fabric(fabric).strip("B").stretch;
+  EXPECT_NEAR(virgin_response(law, kStrain) / ((elastic + 80 / 4.0 + 30) * kStrain), 1, kRounding);
+  EXPECT_NEAR(virgin_response(law, 0.01) / (elastic * 0.01 + 0.002 * 80 / 2 + 0.003 * 30), 1, kRounding);
 }
 
 }  // namespace
