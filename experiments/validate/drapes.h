@@ -74,6 +74,9 @@ void keep_what_was_measured(const Fabric& fabric, Sample& sample);
 double mean_value(const std::vector<double>& values);
 // Standard deviation of one, of at least two.
 double sample_deviation(const std::vector<double>& values);
+// Half of the interval in which one more of `count` >= 2 normal values lies with 95 %, over their standard
+// deviation: Student's t at 97.5 %, times (1 + 1/count)^1/2.
+double reach_of_next(std::size_t count);
 
 // As a drape is told of it, with all bits.
 std::vector<Flag> drape_flags(const Sample& sample);

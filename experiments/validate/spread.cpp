@@ -1,7 +1,9 @@
 // Drapes with the fabric's uncertain numbers anywhere in their ranges.
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <numeric>
+#include <optional>
 #include <set>
 
 #include "experiments/validate/drapes.h"
@@ -18,10 +20,19 @@ namespace {
 struct Prediction {
   std::string question;  // "drape of wool-tropical"
   std::string unit;
-  double predicted, measured, low, high;
+  double predicted, measured, low, high;  // measured: NaN where nothing was
 
-  bool contains_measured() const { return low <= measured && measured <= high; }
+  std::optional<bool> contains_measured() const {
+    if (std::isnan(measured)) return std::nullopt;
+    return low <= measured && measured <= high;
+  }
 };
+
+// "yes", "no"; "" where nothing was measured.
+std::string answer_text(const std::optional<bool>& answer) {
+  if (!answer) return "";
+  return *answer ? "yes" : "no";
+}
 
 void write_predictions(Run& run, const std::vector<Prediction>& predictions) {
   Table table(
@@ -29,7 +40,7 @@ void write_predictions(Run& run, const std::vector<Prediction>& predictions) {
   for (const Prediction& p : predictions) {
     const double error = p.predicted - p.measured;
     table.row({p.question, "B, 2HB, density, thickness; the rest assumed", p.predicted, p.low, p.high,
-               p.measured, p.unit, error, 100 * error / p.measured, p.contains_measured() ? "yes" : "no"});
+               p.measured, p.unit, error, 100 * error / p.measured, answer_text(p.contains_measured())});
   }
   table.write(run.path("predictions.csv"));
 }
@@ -42,24 +53,12 @@ std::vector<int> shuffled(int count, Uniform& uniform) {
   return order;
 }
 
-// Half of the interval in which one more of n values lies with 95 %, over their standard deviation: Student's
-// t at 97.5 %, by its expansion at large n - 1 (Fisher & Cornish 1960; within 1 % from five values on), times
-// (1 + 1/n)^1/2.
-double reach(std::size_t n) {
-  constexpr double z = 1.959963984540054;
-  const double free = static_cast<double>(n - 1);
-  const double t =
-      z + (z * z * z + z) / (4 * free) + (5 * std::pow(z, 5) + 16 * z * z * z + 3 * z) / (96 * free * free) +
-      (3 * std::pow(z, 7) + 19 * std::pow(z, 5) + 17 * z * z * z - 15 * z) / (384 * std::pow(free, 3));
-  return t * std::sqrt(1 + 1 / static_cast<double>(n));
-}
-
 // What drapes of one fabric say together: the mean, and where one more would lie.
 Prediction together(const std::vector<Drape>& drapes, const std::string& metric, const std::string& question,
                     const std::string& unit) {
   std::vector<double> values;
   for (const Drape& drape : drapes) values.push_back(drape.number(metric));
-  const double mean = mean_value(values), half = reach(values.size()) * sample_deviation(values);
+  const double mean = mean_value(values), half = reach_of_next(values.size()) * sample_deviation(values);
   return {question, unit, mean, drapes.front().number("published_" + metric), mean - half, mean + half};
 }
 
@@ -103,6 +102,35 @@ void draw_spread(Run& run, const DrapesOf& all) {
 
 double mean_value(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+namespace {
+
+// Probability that Student's t of so many degrees of freedom is within +-sqrt(freedom) tan(angle): finite
+// sums (Abramowitz & Stegun 1964, 26.7.3 and 26.7.4).
+double student_within(int freedom, double angle) {
+  const double cosine = std::cos(angle), sine = std::sin(angle);
+  const bool is_odd = freedom % 2 != 0;
+  double term = is_odd ? cosine : 1, sum = 0;
+  for (int k = is_odd ? 3 : 2; k <= freedom; k += 2) {
+    sum += term;
+    term *= cosine * cosine * (k - 1) / k;
+  }
+  return is_odd ? 2 / std::numbers::pi * (angle + sine * sum) : sine * sum;
+}
+
+}  // namespace
+
+double reach_of_next(std::size_t count) {
+  constexpr double kInside = 0.95;
+  constexpr int kBisections = 60;
+  const int freedom = static_cast<int>(count) - 1;
+  double low = 0, high = std::numbers::pi / 2;
+  for (int i = 0; i < kBisections; ++i) {
+    const double middle = (low + high) / 2;
+    (student_within(freedom, middle) < kInside ? low : high) = middle;
+  }
+  return std::sqrt(freedom) * std::tan(low) * std::sqrt(1 + 1 / static_cast<double>(count));
 }
 
 double sample_deviation(const std::vector<double>& values) {

@@ -38,12 +38,24 @@ const KeyRow<F> kRows[] = {
 
 Keys option_keys(F& flags) { return with_output_options(bind(kRows, flags), flags.options); }
 
+// A list of nothing would write a page of nothing, and a name that stands twice its rows twice.
+void check_names(const std::string& key, const std::string& list) {
+  const std::vector<std::string> names = split(list);
+  if (names.empty())
+    throw Error::invalid_input(key + " = \"" + list + "\" names none (--" + key + ")").with_key(key, list);
+  for (auto name = names.begin(); name != names.end(); ++name)
+    if (std::find(names.begin(), name, *name) != name)
+      throw Error::invalid_input(key + " = " + list + " names " + *name + " twice (--" + key + ")")
+          .with_key(key, list);
+}
+
 void check_parts(const F& flags) {
   static const std::vector<std::string> kParts = {"spread", "budget", "figure"};
   for (const std::string& part : split(flags.parts))
     if (!std::count(kParts.begin(), kParts.end(), part))
       throw Error::invalid_input("parts = " + part + " must be " + join(kParts, " | "))
           .with_key("parts", part);
+  check_names("parts", flags.parts);
   if (split(flags.law).size() != 1)
     throw Error::invalid_input("laws = " + flags.law + " must be one law").with_key("laws", flags.law);
 }
@@ -54,6 +66,7 @@ bool publishes_drape(const std::string& fabric) {
 
 // A drape that nothing is published of would be compared with nothing.
 void check_fabrics(const std::string& fabrics) {
+  check_names("fabrics", fabrics);
   for (const std::string& fabric : split(fabrics)) {
     if (publishes_drape(fabric)) continue;
     std::vector<std::string> known = list_assets("fabrics");

@@ -1,5 +1,6 @@
 // The comparison with measurements, small.
 #include <cmath>
+#include <numbers>
 #include <set>
 
 #include "experiments/validate/drapes.h"
@@ -79,10 +80,44 @@ TEST(Validate, SaysWhetherTheMeasuredDrapeLiesAmongTheDrawn) {
   EXPECT_NEAR(table.number(0, "predicted"), sum / 2, kDigits);
 }
 
+// Student's t at 97.5 % is tan(0.475 pi) of one degree of freedom, and 0.95 (2/(1 - 0.95^2))^1/2 of two; of
+// others as printed tables have it.
+TEST(Validate, PutsIntervalsAsWideAsStudentsTOfFewValuesAsks) {
+  const auto t = [](std::size_t count) {
+    return reach_of_next(count) / std::sqrt(1 + 1 / static_cast<double>(count));
+  };
+  constexpr double kExact = 1e-9, kDigits = 5e-4;  // of t; tables have three decimals
+  constexpr double kInside = 0.95;
+  EXPECT_NEAR(t(2), std::tan(kInside * std::numbers::pi / 2), kExact);
+  EXPECT_NEAR(t(3), kInside * std::sqrt(2 / (1 - kInside * kInside)), kExact);
+  for (const auto& [count, table] : {std::pair<std::size_t, double>{2, 12.706},
+                                     {3, 4.303},
+                                     {4, 3.182},
+                                     {5, 2.776},
+                                     {12, 2.201},
+                                     {31, 2.042},
+                                     {1000, 1.962}})
+    EXPECT_NEAR(t(count), table, kDigits) << count;
+}
+
+TEST(Validate, SaysNothingOfWhatWasNotMeasured) {
+  const FinishedRun run(
+      "validate --quick --quiet --no-images --fabrics polyester-faille --parts spread --standard iso9073 "
+      "--triangles 150 --seconds 0.2");
+  EXPECT_TRUE(run.metrics()["polyester-faille.spread_has_measured"].is_null());
+  const Table table = read_table(run.out / "predictions.csv");
+  ASSERT_EQ(table.head.back(), "measured is between");
+  ASSERT_EQ(table.rows.size(), 2u);
+  for (const auto& row : table.rows) EXPECT_EQ(row.back(), "");
+}
+
 TEST(Validate, TakesPartsThatItHasAndOneLaw) {
   for (const auto& [arguments, reason] :
        {std::pair{"--parts spread,pairs", "parts = pairs must be spread | "},
-        std::pair{"--laws prandtl,linear", "must be one law"}}) {
+        std::pair{"--laws prandtl,linear", "must be one law"},
+        std::pair{"--parts ''", "parts = \"\" names none"},
+        std::pair{"--parts spread,spread", "parts = spread,spread names spread twice"},
+        std::pair{"--fabrics polyester-faille,polyester-faille", "names polyester-faille twice"}}) {
     EXPECT_TRUE(says(refused(std::string("validate ") + arguments), reason));
   }
 }
