@@ -20,7 +20,7 @@ struct BuckleChoice {
 using B = BuckleChoice;
 // clang-format off
 const KeyRow<B> kRows[] = {
-    {"buckle.kind", at<&B::kind>, "", any(), "", "upright: stands on its clamp; edge: clamped level, width vertical; law = linear unless named"},
+    {"buckle.kind", at<&B::kind>, "", any(), "", "upright: stands on its clamp; edge: clamped level, width vertical; law = linear unless named. Gamma is the weight times L^3/b2, b2 along warp whatever the strip's direction"},
     {"buckle.width", at<&B::width>, "", between(0, 0.25), "", "over the length, of the strip whose threshold is measured; 0: 1/10 upright, 1/80 on edge. cloth.width is that of the pictured one"},
 };
 // clang-format on
@@ -81,7 +81,8 @@ Southwell measure(const Scene& scene, Buckling kind, double length, Session& ses
   const BucklingStrip strip = measured_strip(scene, kind, length);
   const auto simulation = make_simulation(strip.scene, strip.cloth);
   Southwell found = approach_threshold(strip, *simulation);
-  session.run().progress(fmt::format("critical Gamma {:.4f} from {} states, {} triangles",
+  session.run().progress(fmt::format("critical Gamma {:.4f} (weight L^3/b2, b2 along warp) from {} states, "
+                                     "{} triangles",
                                      found.critical_gamma, found.gamma.size(), strip.cloth.mesh.faces()));
   return found;
 }
@@ -193,7 +194,7 @@ Experiment buckle() {
           .defaults = defaults,
           .decided = decided,
           .conditions = {{"seed", "mesh = random"}},
-          .headlines = {.all = {{"critical_gamma", "critical gamma", "", "{:.3f}"},
+          .headlines = {.all = {{"critical_gamma", "critical gamma (weight L^3/b2, b2 along warp)", "", "{:.3f}"},
                                 {"reference_gamma", "that of theory", "", "{:.3f}", 1, kNoErrors}},
                         .equilibria = true}};
 }
