@@ -81,9 +81,10 @@ Southwell measure(const Scene& scene, Buckling kind, double length, Session& ses
   const BucklingStrip strip = measured_strip(scene, kind, length);
   const auto simulation = make_simulation(strip.scene, strip.cloth);
   Southwell found = approach_threshold(strip, *simulation);
-  session.run().progress(fmt::format("critical Gamma {:.4f} (weight L^3/b2, b2 along warp) from {} states, "
-                                     "{} triangles",
-                                     found.critical_gamma, found.gamma.size(), strip.cloth.mesh.faces()));
+  session.run().progress(
+      fmt::format("critical Gamma {:.4f} (weight L^3/b2, b2 along warp) from {} states, "
+                  "{} triangles",
+                  found.critical_gamma, found.gamma.size(), strip.cloth.mesh.faces()));
   return found;
 }
 
@@ -186,17 +187,18 @@ int run_buckle(const CommandLine& line) {
 }  // namespace
 
 Experiment buckle() {
-  return {.name = "buckle",
-          .question = "strip that buckles under its own weight, upright or on its edge",
-          .run = run_buckle,
-          .simulates = true,
-          .own_keys = own_key_descriptions<kRows>,
-          .defaults = defaults,
-          .decided = decided,
-          .conditions = {{"seed", "mesh = random"}},
-          .headlines = {.all = {{"critical_gamma", "critical gamma (weight L^3/b2, b2 along warp)", "", "{:.3f}"},
-                                {"reference_gamma", "that of theory", "", "{:.3f}", 1, kNoErrors}},
-                        .equilibria = true}};
+  return {
+      .name = "buckle",
+      .question = "strip that buckles under its own weight, upright or on its edge",
+      .run = run_buckle,
+      .simulates = true,
+      .own_keys = own_key_descriptions<kRows>,
+      .defaults = defaults,
+      .decided = decided,
+      .conditions = {{"seed", "mesh = random"}},
+      .headlines = {.all = {{"critical_gamma", "critical gamma (weight L^3/b2, b2 along warp)", "", "{:.3f}"},
+                            {"reference_gamma", "that of theory", "", "{:.3f}", 1, kNoErrors}},
+                    .equilibria = true}};
 }
 
 }  // namespace hysteron::experiments

@@ -15,6 +15,7 @@ double first_root(double q, double p, double c) {
 }  // namespace
 
 RecoveryCase recovery_case(const VirginCurve& curve, double moment) {
+  if (!(curve.friction_moment() > 0)) return RecoveryCase::elastic;  // k0 is without effect
   const double limit = curve.elastic_limit_moment(), m = std::abs(moment);
   return m <= limit       ? RecoveryCase::elastic
          : m <= 2 * limit ? RecoveryCase::partial

@@ -34,13 +34,29 @@ std::string fatigue_text(const LawChoice& choice, const std::string& parameter) 
   return follows && !choice.fatigue.on() ? "friction does not weaken without param fatigue.dc" : "";
 }
 
+// What a fabric states beyond b1, b2 and k0 and the law does not take.
+std::vector<std::string> unused_part_warnings(const std::string& law, const BendingParts& parts, LawUse use,
+                                              const std::string& fabric) {
+  const bool has_stops = law == "prandtl" || law == "chapman";
+  std::vector<std::string> warnings;
+  const auto warn = [&](const std::string& part, const std::string& laws) {
+    warnings.push_back("fabric.bending." + part + " of " + fabric + " changes nothing under law " + law +
+                       ": " + laws + " it");
+  };
+  if (use == LawUse::cloth && !parts.weft_stops.empty() && !has_stops)
+    warn("stops.weft", "prandtl and chapman take");
+  if (!parts.branches.empty() && law != "chapman") warn("branches", "chapman takes");
+  if (parts.set.on() && !has_stops) warn("set", "prandtl and chapman take");
+  return warnings;
+}
+
 }  // namespace
 
 std::vector<std::string> unused_parameter_warnings(const std::string& law, const VirginCurve& curve,
                                                    const LawParameters& given, LawUse use,
                                                    const std::string& fabric) {
   const LawChoice choice = choose_law(law, curve, given, use);
-  std::vector<std::string> warnings;
+  std::vector<std::string> warnings = unused_part_warnings(law, curve.parts, use, fabric);
   for (const auto& [parameter, text] : given)
     for (const std::string& why : {memory_text(choice, parameter, fabric), fatigue_text(choice, parameter)})
       if (!why.empty()) warnings.push_back(unused(parameter, why));

@@ -1,4 +1,4 @@
-// Parameters of a law that change nothing beside its other parameters and its fabric: said to who gives them,
+// Parameters of a law, and parts of a fabric, that change nothing beside the others: said to who gives them,
 // by simulations, by `law`, `kes`, `fit` and `fold.law-alone` alike.
 //
 // A law's memory is one of three: the stops of its fabric, a number of stops (`stops`), or a stack of
@@ -13,8 +13,10 @@
 
 namespace hysteron {
 
-// A sentence for each of the given parameters that changes nothing.  `fabric`: the name of the fabric whose
-// curve it is; `use` decides on the law's memory where no parameter does.  Throws as choose_law().
+// A sentence for each of the given parameters that changes nothing, and for what the fabric states beyond b1,
+// b2 and k0 where the law does not take it: a spectrum along weft, branches, a set.  `fabric`: the name of
+// the fabric whose curve it is; `use` decides on the law's memory where no parameter does.  Throws as
+// choose_law().
 std::vector<std::string> unused_parameter_warnings(const std::string& law, const VirginCurve& curve,
                                                    const LawParameters& given, LawUse use,
                                                    const std::string& fabric);

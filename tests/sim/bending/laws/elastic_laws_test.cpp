@@ -99,5 +99,14 @@ TEST(RecoveryCases, AreDecidedByTheMomentAtTheReversalAndCountedThere) {
   EXPECT_EQ(counts.of[2], 1);  // at 400/m
 }
 
+TEST(RecoveryCase, IsElasticWithoutFrictionWhateverK0) {
+  VirginCurve elastic = kCotton;
+  elastic.b1 = elastic.b2;
+  EXPECT_EQ(recovery_case(elastic, 3 * elastic.elastic_limit_moment()), RecoveryCase::elastic);
+  VirginCurve at_once = kCotton;
+  at_once.k0 = 0;
+  EXPECT_EQ(recovery_case(at_once, kCotton.elastic_limit_moment()), RecoveryCase::elastic);
+}
+
 }  // namespace
 }  // namespace hysteron::testing

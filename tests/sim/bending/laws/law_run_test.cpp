@@ -135,6 +135,24 @@ TEST(LawParameters, ThatChangeNothingAreSaid) {
   EXPECT_EQ(said("wong", kCotton, {{"fatigue.m-inf", "0"}, {"fatigue.dc", "1"}}, LawUse::cloth), "");
 }
 
+TEST(LawParameters, PartsOfAFabricThatALawDoesNotTakeAreSaid) {
+  VirginCurve curve = kCotton;
+  curve.parts.stops = {{5, 50}, {1e-5, 2e-6}};
+  curve.parts.weft_stops = {{6, 40}, {8e-6, 1e-6}};
+  curve.parts.branches = {{1.0}, {1e-6}};
+  curve.parts.set = {400, 5e-6};
+  const auto count = [&](const std::string& law, LawUse use) {
+    return unused_parameter_warnings(law, curve, {}, use, "linen").size();
+  };
+  EXPECT_EQ(count("linear", LawUse::cloth), 3u);
+  EXPECT_EQ(count("linear", LawUse::alone), 2u) << "a law alone bends along warp";
+  EXPECT_EQ(count("chapman", LawUse::cloth), 0u);
+  const auto said = unused_parameter_warnings("prandtl", curve, {}, LawUse::cloth, "linen");
+  ASSERT_EQ(said.size(), 1u);
+  EXPECT_EQ(said[0], "fabric.bending.branches of linen changes nothing under law prandtl: chapman takes it");
+  EXPECT_EQ(unused_parameter_warnings("wong", kCotton, {}, LawUse::cloth, "linen").size(), 0u);
+}
+
 TEST(LawWalk, TakesTheStepsOfARunAndItsCopiesGoOnByThemselves) {
   const auto path = rows({kCotton.k0, 3 * kCotton.k0, -0.5 * kCotton.k0, kCotton.k0, 0.0});
   for (const LawRequest& request :
