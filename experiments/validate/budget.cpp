@@ -36,8 +36,9 @@ std::vector<Drape> trial_drapes(const Trial& trial, std::size_t number, int draw
 
 }  // namespace
 
-std::vector<Trial> budget_trials(const FabricFile& file, const ValidateFlags& flags) {
-  const Drape nominal = nominal_drape(file.fabric.name, flags);
+std::vector<Trial> budget_trials(const std::string& fabric, const ValidateFlags& flags) {
+  const FabricFile file = read_fabric(fabric, "--fabrics");
+  const Drape nominal = nominal_drape(fabric, flags);
   std::vector<Trial> trials = {{"as its file says", "", nominal}};
   for (const auto& [key, range] : uncertain_numbers(file))
     for (const double end : {range.low, range.high}) {
@@ -100,8 +101,9 @@ render::Plot budget_plot(const std::vector<BudgetRow>& rows) {
 
 void write_budget(const ValidateFlags& flags, Run& run) {
   Table table({"fabric", "number", "value", "meshes", kMean, kError, kChange, kPublished});
-  for (const std::string& fabric : split(flags.fabrics)) {
-    const std::vector<Trial> trials = budget_trials(read_fabric(fabric, "--fabrics"), flags);
+  for (const std::string& given : split(flags.fabrics)) {
+    const std::vector<Trial> trials = budget_trials(given, flags);
+    const std::string fabric = trials[0].drape.label;
     std::vector<Drape> all;
     for (std::size_t t = 0; t < trials.size(); ++t)
       for (Drape& drape : trial_drapes(trials[t], t, flags.draws)) all.push_back(std::move(drape));

@@ -17,7 +17,7 @@ struct Trial {
 };
 // As the fabric's file says, each number that states a range at its low and its high end, the other tester,
 // four times the triangles.
-std::vector<Trial> budget_trials(const FabricFile& file, const ValidateFlags& flags);
+std::vector<Trial> budget_trials(const std::string& fabric, const ValidateFlags& flags);
 
 // A row of budget.csv.  Coefficients [%] are means of the meshes.
 struct BudgetRow {

@@ -11,7 +11,8 @@
 namespace hysteron::experiments {
 
 Drape nominal_drape(const std::string& fabric, const ValidateFlags& flags) {
-  const auto& published = read_fabric(fabric, "--fabrics").fabric.published;
+  const Fabric read = read_fabric(fabric, "--fabrics").fabric;
+  const auto& published = read.published;
   const auto drape = published.find("drape-coefficient");
   const bool named = drape != published.end() && drape->second.tester == "jis";
   const bool shaken = flags.standard == "published" ? named : flags.standard == "jis";
@@ -20,7 +21,8 @@ Drape nominal_drape(const std::string& fabric, const ValidateFlags& flags) {
           shaken ? "jis" : "iso9073",
           shaken ? "shaken" : "lowered",
           "",
-          static_cast<int>(flags.triangles)};
+          static_cast<int>(flags.triangles),
+          read.name};
 }
 
 std::vector<Flag> drape_flags(const Drape& drape, const ValidateFlags& flags) {

@@ -35,12 +35,13 @@ struct ValidateFlags {
 struct Drape {
   std::string fabric, law, standard, release, varied;  // varied: sample-1 | budget-3-1
   int triangles = 0;
+  std::string label = {};          // of the fabric: its name, where `fabric` is a file
   std::vector<Flag> further = {};  // what else sets it apart
   Metrics metrics{};
   double seconds = 0;
 
   std::string name() const {
-    return fabric + "-" + law + "-" + release + (varied.empty() ? "" : "-" + varied);
+    return label + "-" + law + "-" + release + (varied.empty() ? "" : "-" + varied);
   }
   double number(const std::string& key) const { return metrics.number(key); }
   double coefficient() const { return number("drape_coefficient_percent"); }

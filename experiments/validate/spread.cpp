@@ -92,9 +92,11 @@ void draw_spread(Run& run, const DrapesOf& all) {
     for (const Drape& drape : drapes) {
       predicted.add(static_cast<double>(f), drape.coefficient());
     }
-    measured.add(static_cast<double>(f), drapes.front().published());
+    if (const double published = drapes.front().published(); std::isfinite(published))
+      measured.add(static_cast<double>(f), published);
   }
-  plot.series = {predicted, measured};
+  plot.series = {predicted};
+  if (!measured.x.empty()) plot.series.push_back(measured);
   run.plot("plot_spread", plot);
 }
 
@@ -208,13 +210,14 @@ void predict_spread(const ValidateFlags& flags, Run& run) {
   DrapesOf all;
   std::set<std::string> keys;
   std::vector<Prediction> predictions;
-  for (const std::string& fabric : split(flags.fabrics)) {
-    const FabricFile file = read_fabric(fabric, "--fabrics");
+  for (const std::string& given : split(flags.fabrics)) {
+    const FabricFile file = read_fabric(given, "--fabrics");
+    const std::string fabric = file.fabric.name;
     auto& drapes = all.emplace_back(fabric, std::vector<Drape>{}).second;
     int number = 0;
     for (const Sample& sample : fabric_samples(file, flags.samples, flags.seed)) {
       for (const auto& [key, value] : sample) keys.insert(key);
-      Drape drape = nominal_drape(fabric, flags);
+      Drape drape = nominal_drape(given, flags);
       drape.varied = "sample-" + std::to_string(++number);
       drape.further = drape_flags(sample);
       drape.further.push_back({"seed", std::to_string(number)});

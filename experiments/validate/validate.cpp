@@ -60,23 +60,6 @@ void check_parts(const F& flags) {
     throw Error::invalid_input("laws = " + flags.law + " must be one law").with_key("laws", flags.law);
 }
 
-bool publishes_drape(const std::string& fabric) {
-  return read_fabric(fabric, "--fabrics").fabric.published.contains("drape-coefficient");
-}
-
-// A drape that nothing is published of would be compared with nothing.
-void check_fabrics(const std::string& fabrics) {
-  check_names("fabrics", fabrics);
-  for (const std::string& fabric : split(fabrics)) {
-    if (publishes_drape(fabric)) continue;
-    std::vector<std::string> known = list_assets("fabrics");
-    std::erase_if(known, [](const std::string& name) { return !publishes_drape(name); });
-    throw Error::invalid_input("fabrics = " + fabric + " has no published drape coefficient, as " +
-                               join(known, ", ") + " have (--fabrics)")
-        .with_key("fabrics", fabric);
-  }
-}
-
 int run_validate(const CommandLine& line) {
   F flags;
   set_keys(line, option_keys(flags), [&] {
@@ -86,7 +69,7 @@ int run_validate(const CommandLine& line) {
   check_parts(flags);
   const std::vector<std::string> parts = split(flags.parts);
   const auto requested = [&](const char* part) { return std::count(parts.begin(), parts.end(), part) > 0; };
-  if (requested("spread") || requested("budget")) check_fabrics(flags.fabrics);
+  if (requested("spread") || requested("budget")) check_names("fabrics", flags.fabrics);
   if (requested("figure")) check_recorded(flags.recorded);
   Run run(line, flags.options, to_json(bind(kRows, flags)));
   run.reserve({"predictions.csv", "spread.csv", "budget.csv"});

@@ -239,8 +239,10 @@ FabFabric fab_fabric(const Fabric& fabric) {
   result.warp = stops.empty() ? of_three_numbers(fabric.virgin_curve())
                               : StopsLaw{fabric.b2, stops.thresholds, stops.stiffnesses};
   if (weft.empty()) {
-    result.weft = scaled(result.warp, fabric.weft_bending);
-    result.bias = scaled(result.warp, fabric.bias_bending);
+    result.weft = scaled(result.warp, fabric.friction_ratios().weft);
+    result.weft.spring = fabric.weft_bending * fabric.b2;
+    result.bias = scaled(result.warp, fabric.friction_ratios().bias);
+    result.bias->spring = fabric.bias_bending * fabric.b2;
   } else {
     result.weft = {fabric.weft_bending * fabric.b2, weft.thresholds, weft.stiffnesses};
     result.bias = scaled(turned_to_bias(fabric.virgin_curve(), fabric.weft_bending, fabric.bias_bending),

@@ -18,7 +18,7 @@ double told(const Trial& trial, const std::string& key) {
 TEST(BudgetTrials, ChangeOneThingEach) {
   ValidateFlags flags;
   const FabricFile file = read_fabric("cotton-broad", "test");
-  const std::vector<Trial> trials = budget_trials(file, flags);
+  const std::vector<Trial> trials = budget_trials("cotton-broad", flags);
   const std::map<std::string, Range> ranges = uncertain_numbers(file);
   EXPECT_EQ(ranges.size(), file.range.size() + 2) << "B and 2HB, which were printed with few digits";
   ASSERT_EQ(trials.size(), 1 + 2 * ranges.size() + 2);
@@ -47,7 +47,7 @@ TEST(BudgetTrials, KeepWhatWasMeasured) {
   const FabricFile file = read_fabric("cotton-broad", "test");
   const double b = file.fabric.b2, two_hb = (file.fabric.b1 - b) * file.fabric.k0;
   int bent = 0;
-  for (const Trial& trial : budget_trials(file, {})) {
+  for (const Trial& trial : budget_trials("cotton-broad", {})) {
     if (trial.number == "weft-bending" || trial.number == "k0" || trial.number == "2HB") {
       const double weft = trial.number == "weft-bending" ? told(trial, "weft-bending") : 1,
                    k0 = trial.number == "k0" ? told(trial, "k0") : file.fabric.k0,

@@ -129,10 +129,6 @@ TEST_F(RefusedRequest, OfAReferenceThatIsNoRunIsFoundWithoutPicturesToo) {
 }
 
 TEST_F(RefusedRequest, OfAValidationWithoutMeasurementsIsFoundAtItsStart) {
-  const std::string without =
-      refused("validate --fabrics denim-c-friction" + out_flag(folder_.path() / "run"));
-  EXPECT_TRUE(
-      says(without, "fabrics = denim-c-friction has no published drape coefficient", "polyester-faille"));
   EXPECT_EQ(
       refused("validate --parts figure --recorded " + folder_.path().string() +
               out_flag(folder_.path() / "run")),
