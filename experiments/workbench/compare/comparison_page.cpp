@@ -169,10 +169,12 @@ class PageTable {
   render::ComparisonCell difference(std::size_t c, std::size_t to, double time, const Crop& crop) const {
     if (!has_frames(columns_[c]) || !has_frames(columns_[to])) return {};
     const std::size_t frame = frame_at(columns_[c], time);
-    if (page_.curvature)
+    if (page_.curvature) {
+      const std::optional<double> rms = instants(columns_[c]).at(frame).difference_rms;
       return {crop.of(render::read_png(picture_file(columns_[c], kDifference, frame))),
-              fmt::format("rms {:.3g} /m", instants(columns_[c]).at(frame).difference_rms.value()),
+              rms ? fmt::format("rms {:.3g} /m", *rms) : columns_[to].name + " has no such instant",
               {}};
+    }
     const render::Image image = crop.of(picture_at(columns_[c], time)),
                         other = crop.of(picture_at(columns_[to], time));
     return {render::heat_map(image, other, kDifferenceScale),

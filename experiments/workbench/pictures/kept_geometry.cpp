@@ -180,6 +180,18 @@ Kept read_kept(const fs::path& file) {
   }
 }
 
+DrawnMesh read_kept_mesh(const fs::path& file) {
+  const std::vector<KeptRecord> records = read_records(file);
+  try {
+    const auto mesh =
+        std::ranges::find_if(records, [](const KeptRecord& record) { return record.kind() == "mesh"; });
+    if (mesh == records.end()) throw Error::invalid_input("no record is a mesh");
+    return record_mesh(*mesh);
+  } catch (const std::exception& e) {
+    throw Error::invalid_input(file.string() + ": " + e.what());
+  }
+}
+
 fs::path kept_file_in(const fs::path& folder) {
   std::error_code ignored;
   for (const char* name : {kKeptFrames, kKeptSheet})

@@ -82,6 +82,8 @@ std::string record_text(const KeptRecord& record);
 std::vector<KeptRecord> read_records(const std::filesystem::path& file);
 // Throws Error::invalid_input, naming the file, for damaged records.
 Kept read_kept(const std::filesystem::path& file);
+// The first mesh of it alone; throws alike.
+DrawnMesh read_kept_mesh(const std::filesystem::path& file);
 
 // Of a run's or a recorded folder: all frames, else those of the sheet; "" if it keeps none.
 std::filesystem::path kept_file_in(const std::filesystem::path& folder);

@@ -198,7 +198,12 @@ void Pictures::frame(Run& run, const std::vector<float>& xyz, const render::Path
   std::optional<double> difference;
   for (Order& order : orders) {
     if (order.shown.values.empty()) continue;
-    if (order.look == "difference")
+    if (!subject_->has_values(order.look))
+      run.warn(
+          "reference = " + options_.reference +
+          " has no instant within half a step of some of this run's pictures: look difference is blank in "
+          "these, and their root mean square is left out");
+    else if (order.look == "difference")
       difference = root_mean_square(order.shown.values, subject_->vertex_areas());
     order.shown.values = rounded(order.shown.values, kept_frames_.quantum(order.look));
     instant.values[order.look] = order.shown.values;

@@ -58,6 +58,31 @@ std::vector<float> heights(const std::vector<float>& xyz) {
   return height;
 }
 
+// Length of the side between two vertices in a drawn mesh's pattern [m].
+double pattern_length(const DrawnMesh& mesh, int a, int b) {
+  const auto at = [&](int vertex) {
+    const float* uv = &mesh.pattern[2 * static_cast<std::size_t>(vertex)];
+    return Eigen::Vector2d(uv[0], uv[1]);
+  };
+  return (at(a) - at(b)).norm();
+}
+
+// Whether two meshes of the same triangles have sides of the same length at rest, as far as pictures keep it:
+// in the mean, and one by one where both have a pattern, which warp may lie in at any angle.
+bool has_same_rest_shape(const DrawnMesh& a, const DrawnMesh& b) {
+  constexpr double kRounding = 1e-6;  // of the mean side, relative
+  constexpr double kQuanta = 2;       // by which rounded places change a side
+  if (std::abs(a.quantum - b.quantum) > kRounding * a.quantum) return false;
+  if (a.pattern.empty() || a.pattern.size() != b.pattern.size()) return true;
+  for (std::size_t t = 0; t + 2 < a.triangles.size(); t += 3)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const int from = a.triangles[t + k], to = a.triangles[t + (k + 1) % 3];
+      if (std::abs(pattern_length(a, from, to) - pattern_length(b, from, to)) > kQuanta * a.quantum)
+        return false;
+    }
+  return true;
+}
+
 // Another run of the same cloth, whose curvature this one's is compared with.
 class ReferenceRun {
  public:
@@ -66,26 +91,52 @@ class ReferenceRun {
     const fs::path file = folder_ / "manifest.json";
     const Json json = json_or_none(file);
     if (json.is_object())
-      if (const Manifest manifest = checked_manifest(json, file); manifest.frames)
+      if (const Manifest manifest = checked_manifest(json, file); manifest.frames) {
         for (const Frames::Instant& instant : manifest.frames->instants) time_.push_back(instant.time);
+        if (manifest.keys) step_ = manifest.number("step");
+      }
     std::error_code ignored;
     if (time_.empty() || !fs::exists(folder_ / "mesh" / "0000.ply", ignored))
       throw refusal("must be the folder of a run with pictures and --export ply");
   }
 
-  // One a vertex [1/m], at that run's instant nearest to `time` [s]: its last one where it ended before.
-  // Throws Error::invalid_input if its triangles are not those of `mesh`.
+  // Throws Error::invalid_input if its triangles, or what they are at rest, are not those of `mesh`.
+  void check(const ClothMesh& mesh, const ClothShape& shape) const {
+    curvature_in(mesh, 0);
+    const fs::path kept = folder_ / kKeptFrames;
+    std::error_code ignored;
+    if (fs::exists(kept, ignored) && !has_same_rest_shape(drawn_mesh(mesh, shape), read_kept_mesh(kept)))
+      throw refusal(
+          "has another rest shape than this cloth, though as many triangles: run it with the same "
+          "mesh");
+  }
+
+  // Whether one of its instants is that of `time` [s] of a run with steps of `step` [s]: both runs record the
+  // step that is nearest to an instant, so that they agree to half of both.
+  bool has_instant(double time, double step) const {
+    constexpr double kRounding = 1e-9;  // of sums of steps [s]
+    return std::abs(time_[nearest(time)] - time) <= (step + step_) / 2 + kRounding;
+  }
+
+  // One a vertex [1/m], at that run's instant nearest to `time` [s].  Throws as check() for other triangles.
   std::vector<float> curvature(const ClothMesh& mesh, double time) const {
-    const auto nearest = std::ranges::min_element(time_, {}, [&](double t) { return std::abs(t - time); });
-    const std::string name = fmt::format("{:04}.ply", nearest - time_.begin());
-    const Surface surface = read_surface((folder_ / "mesh" / name).string());
+    return curvature_in(mesh, nearest(time));
+  }
+
+ private:
+  std::size_t nearest(double time) const {
+    const auto found = std::ranges::min_element(time_, {}, [&](double t) { return std::abs(t - time); });
+    return static_cast<std::size_t>(found - time_.begin());
+  }
+
+  std::vector<float> curvature_in(const ClothMesh& mesh, std::size_t instant) const {
+    const Surface surface = read_surface((folder_ / "mesh" / fmt::format("{:04}.ply", instant)).string());
     if (surface.face != mesh.face || surface.curvature.size() != mesh.rest.size())
       throw refusal(fmt::format("has other triangles than this cloth ({} and {}): run it with the same mesh",
                                 surface.face.size(), mesh.face.size()));
     return {surface.curvature.begin(), surface.curvature.end()};
   }
 
- private:
   Error refusal(const std::string& why) const {
     return Error::invalid_input("reference = " + folder_.string() + " " + why + " (--reference)")
         .with_key("reference", folder_.string());
@@ -93,13 +144,17 @@ class ReferenceRun {
 
   fs::path folder_;
   std::vector<double> time_;  // of each instant [s]
+  double step_ = 0;           // that it took [s]; 0: not noted
 };
 
 class SimulatedSubject : public Subject {
  public:
   SimulatedSubject(const Scene& scene, const Cloth& cloth, Simulation& simulation,
                    const std::string& reference)
-      : cloth_(cloth), simulation_(simulation), mesh_(drawn_mesh(cloth.mesh, scene.cloth)) {
+      : cloth_(cloth),
+        simulation_(simulation),
+        mesh_(drawn_mesh(cloth.mesh, scene.cloth)),
+        step_(scene.step) {
     if (!reference.empty()) reference_.emplace(reference);
   }
 
@@ -114,9 +169,13 @@ class SimulatedSubject : public Subject {
     if (look != "curvature" && look != "difference") return {};
     std::vector<float> curvature = vertex_curvature(cloth_.mesh, simulation_.curvature(), d);
     if (look == "curvature") return curvature;
+    if (!has_values(look)) return std::vector<float>(curvature.size(), 0);
     const std::vector<float> other = reference_->curvature(cloth_.mesh, simulation_.time());
     std::transform(curvature.begin(), curvature.end(), other.begin(), curvature.begin(), std::minus<>());
     return curvature;
+  }
+  bool has_values(const std::string& look) const override {
+    return look != "difference" || reference_->has_instant(simulation_.time(), step_);
   }
   std::vector<double> vertex_areas() const override { return cloth_.mesh.vertex_area; }
   int cuda_device() const override { return simulation_.cuda_device(); }
@@ -129,6 +188,7 @@ class SimulatedSubject : public Subject {
   const Cloth& cloth_;
   Simulation& simulation_;
   DrawnMesh mesh_;
+  double step_;  // [s]
   std::optional<ReferenceRun> reference_;
 };
 
@@ -155,8 +215,8 @@ std::vector<double> vertex_areas(const std::vector<int>& triangles, const std::v
   return area;
 }
 
-void check_reference(const std::string& reference, const ClothMesh& mesh) {
-  if (!reference.empty()) ReferenceRun(reference).curvature(mesh, 0);
+void check_reference(const std::string& reference, const ClothMesh& mesh, const ClothShape& shape) {
+  if (!reference.empty()) ReferenceRun(reference).check(mesh, shape);
 }
 
 std::unique_ptr<Subject> simulated(const Scene& scene, const Cloth& cloth, Simulation& simulation,

@@ -21,6 +21,8 @@ class Subject {
   virtual std::vector<float> positions() = 0;  // x, y, z of each vertex [m]
   // One a vertex, in looks that show a value; none in others.
   virtual std::vector<float> values(const std::string& look) = 0;
+  // False of look "difference" where the run to subtract has no instant of this time: its values are 0 then.
+  virtual bool has_values(const std::string&) const { return true; }
   // That each vertex stands for in means over the cloth [m^2].
   virtual std::vector<double> vertex_areas() const = 0;
   virtual int cuda_device() const { return -1; }
@@ -40,9 +42,9 @@ std::vector<double> vertex_areas(const std::vector<int>& triangles, const std::v
 std::unique_ptr<Subject> simulated(const Scene& scene, const Cloth& cloth, Simulation& simulation,
                                    const std::string& reference);
 
-// Throws Error::invalid_input where `reference` is no such folder, or of a run with other triangles; of ""
-// never.
-void check_reference(const std::string& reference, const ClothMesh& mesh);
+// Throws Error::invalid_input where `reference` is no such folder, or of a run with other triangles or
+// another rest shape; of "" never.
+void check_reference(const std::string& reference, const ClothMesh& mesh, const ClothShape& shape);
 
 // Cloth as it was kept, one instant after the other.  What was kept must outlive it.
 class KeptSubject : public Subject {

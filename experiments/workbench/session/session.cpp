@@ -98,7 +98,7 @@ Session::Session(const CommandLine& line, const Setup& setup, std::optional<Clot
     dump_scene(setup);
     return;
   }
-  check_reference(setup.options.reference, cloth_.mesh);
+  check_reference(setup.options.reference, cloth_.mesh, setup.scene.cloth);
   auto checkpoints = std::make_unique<Checkpoints>(line, setup, cloth_, *simulation_);
   if (checkpoints->is_complete()) return;
   run_ = std::make_unique<Run>(line, setup, checkpoints->kept_files());

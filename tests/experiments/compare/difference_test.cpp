@@ -1,5 +1,6 @@
 // What the curvature of a cloth differs by from that of another run of the same mesh.
 #include <cmath>
+#include <vector>
 
 #include "sim/mesh/surface.h"
 #include "tests/experiments/program.h"
@@ -61,6 +62,52 @@ TEST(Difference, OfARunToItselfIsNone) {
   const Outcome finer = run("finer", "--triangles 200" + less);
   EXPECT_EQ(finer.exit_code, 2);
   EXPECT_TRUE(says(finer.err, "other triangles"));
+}
+
+// Of instants at 0, 1/30, 2/30 and 0.1 s those at 0 and 0.1 s are also the other run's, that at 0.05 s is
+// none of them, and one that ended at 0.04 s has none at 0.05 and at 0.1 s.
+TEST(Difference, LeavesOutInstantsThatTheOtherRunDoesNotHave) {
+  const Folder folder;
+  const auto run = [&](const std::string& name, const std::string& more) {
+    const Outcome outcome = program("swing" + out_flag(folder.path() / name) + kSmallSwing + " " + more);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    return outcome;
+  };
+  const auto reference = [&](const char* name) {
+    return " --look difference --reference " + (folder.path() / name).string();
+  };
+  const auto has_difference = [&](const char* name) {
+    std::vector<bool> has;
+    for (const auto& instant : manifest_in(folder.path() / name)["frames"]["moments"])
+      has.push_back(instant.contains("difference_rms_per_m"));
+    return has;
+  };
+  run("first", "--law linear --export ply");
+  run("short", "--law linear --export ply --seconds 0.04");
+  const Outcome other = run("other", "--fps 20" + reference("first"));
+  EXPECT_TRUE(says(other.err, "has no instant within half a step of some of this run's pictures"));
+  EXPECT_EQ(has_difference("other"), (std::vector<bool>{true, false, true}));
+  run("beyond", "--fps 20" + reference("short"));
+  EXPECT_EQ(has_difference("beyond"), (std::vector<bool>{true, false, false}));
+}
+
+// The same triangles, every side twice as long.
+TEST(Difference, RefusesARunOfAnotherRestShape) {
+  const Folder folder;
+  const std::string scene =
+      folder.write("falling.toml",
+                   "mesh = \"unionjack\"\ntriangles = 32\nstep = 0.01\nseconds = 0.02\n[cloth]\n"
+                   "shape = \"square\"\nlength = 0.1\n");
+  const auto run = [&](const std::string& name, const std::string& more) {
+    return program("run " + scene + out_flag(folder.path() / name) +
+                   " --fps 50 --device cpu --size 160x120 --quality draft --quiet " + more);
+  };
+  ASSERT_EQ(run("first", "--export ply").exit_code, 0);
+  const std::string less = " --look difference --reference " + (folder.path() / "first").string();
+  EXPECT_EQ(run("same", less).exit_code, 0);
+  const Outcome larger = run("larger", "--cloth.length 0.2" + less);
+  EXPECT_EQ(larger.exit_code, 2);
+  EXPECT_TRUE(says(larger.err, "another rest shape")) << larger.err;
 }
 
 }  // namespace
