@@ -13,10 +13,10 @@ constexpr double kRidgedSide = 0.2;
 
 ClothMesh sheet() { return make_rectangle(kRidgedSide, kRidgedSide, 20000, MeshFamily::random, 1); }
 
-constexpr double kHalfWidth = 4e-3;  // of a ridge above half of its height [m], more than any edge
+constexpr double kHalfWidth = 6e-3;  // of a ridge above half of its height [m], more than any edge
 constexpr double kRounding = 1e-5;   // of lengths, relative: values are single precision
 
-// A ridge through the middle whose value falls off to both sides, by half in 4 mm.
+// A ridge through the middle whose value falls off to both sides, by half in 6 mm.
 std::vector<float> ridge_across(const ClothMesh& mesh, double angle) {
   const Eigen::Vector2d normal(std::cos(angle), std::sin(angle));
   std::vector<float> value;
