@@ -201,6 +201,7 @@ std::optional<float> ClothView::first_side() const {
 void ClothView::set_first_side(float side) {
   cloth_side_ = side;
   triangles_.clear();
+  lighting_.clear();
 }
 
 void ClothView::set_values(std::span<const float> values) {

@@ -433,7 +433,7 @@ WayIn way_in(const FitFlags& flags) {
   add(!flags.sheet.empty(), fit_kes_sheet);
   if (requested.size() == 1) return requested[0];
   throw Error::invalid_input(
-      "needs one of --kes-sheet FILE, --loop FILE.csv, --virgin.b1 with --virgin.c1, --kes.b with --kes.2hb, "
+      "needs one of --loop FILE.csv, --virgin.b1 with --virgin.c1, --kes.b with --kes.2hb, --kes-sheet FILE, "
       "--fab FILE.csv, --decay FILE.csv" +
       std::string(requested.empty() ? "" : ", not several"));
 }

@@ -304,10 +304,11 @@ TEST(Compare, MatchesColumnsToPrandtlWhateverTheirOrder) {
       folder.write("held.toml", "triangles = 20\nstep = 0.01\nseconds = 0.02\n[cloth]\nlength = 0.1\n");
   const auto page = [&](const std::string& laws) {
     const FinishedRun run("compare " + scene + " --no-images --device cpu --laws " + laws);
+    const Json manifest = run.manifest();
     std::map<std::string, double> times;
-    for (const auto& column : run.manifest()["scene"]["columns"])
+    for (const auto& column : manifest["scene"]["columns"])
       times[column["name"].get<std::string>()] = column["stiffness_times"].get<double>();
-    EXPECT_EQ(run.manifest()["scene"]["matched_to"], "prandtl") << laws;
+    EXPECT_EQ(manifest["scene"]["matched_to"], "prandtl") << laws;
     EXPECT_TRUE(says(run.outcome.err, "Matched to prandtl")) << run.outcome.err;
     return times;
   };

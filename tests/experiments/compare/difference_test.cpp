@@ -78,7 +78,8 @@ TEST(Difference, LeavesOutInstantsThatTheOtherRunDoesNotHave) {
   };
   const auto has_difference = [&](const char* name) {
     std::vector<bool> has;
-    for (const auto& instant : manifest_in(folder.path() / name)["frames"]["moments"])
+    const Json manifest = manifest_in(folder.path() / name);
+    for (const auto& instant : manifest["frames"]["moments"])
       has.push_back(instant.contains("difference_rms_per_m"));
     return has;
   };

@@ -75,7 +75,7 @@ TEST_F(KesInPlane, RefusesFlagsOfAnotherTest) {
     experiment_named("kes").run({"kes", "hysteron kes", std::move(flags), {}});
   };
   EXPECT_THROW(run({{"test", "shear"}, {"law", "pabst"}}), Error);
-  EXPECT_THROW(run({{"test", "bending"}, {"along", "weft"}}), Error);
+  EXPECT_THROW(run({{"test", "bending"}, {"load", "100"}}), Error);
   EXPECT_THROW(run({{"test", "twist"}}), Error);
 }
 
