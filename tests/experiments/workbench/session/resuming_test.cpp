@@ -122,7 +122,12 @@ TEST_P(ResumingEvery, EndsInTheSameBits) {
 TEST(Resuming, ASwingThatIsKilledEndsInTheSameBits) {
   const Folder folder;
   const int whole = time_of_whole(kResumedSwing + " --checkpoint 1e-6", folder.path() / "whole");
-  EXPECT_GT(kill_often(kResumedSwing + " --checkpoint 1e-6", folder.path() / "parts", 10, whole), 2u);
+  std::size_t kills = 0;  // too few where the machine had other work while the whole run was timed
+  for (int times = whole; kills <= 2 && times > 10; times /= 2) {
+    fs::remove_all(folder.path() / "parts");
+    kills = kill_often(kResumedSwing + " --checkpoint 1e-6", folder.path() / "parts", 10, times);
+  }
+  EXPECT_GT(kills, 2u);
   expect_same_results(folder.path() / "whole", folder.path() / "parts");
 }
 
