@@ -235,6 +235,10 @@ int run_drape(const CommandLine& line) {
   Session session(line, setup, std::move(cloth));
   if (session.is_over()) return 0;
   if (!tilt.empty()) session.run().warn(tilt);
+  if (const double released = choice.released(); setup.scene.seconds < released)
+    session.run().warn(shown(setup.scene, "seconds", setup.scene.seconds, "s") +
+                       " ends before the specimen is released, after " + number_text(released, 4) +
+                       " s: what is read is not its drape");
   session.reserve(
       {}, {"shadow.png", "curvature.png", "friction.png", "plot_outline", "plot_drape", "plot_energy"});
   session.run().note("drape", to_json(bind(kRows, choice))["drape"]);

@@ -204,6 +204,11 @@ std::vector<ChildRun> repeated_columns(std::vector<RepeatedRun>& runs, const Ver
       run.said = {Outcome::skipped, "skipped: " + why};
       continue;
     }
+    if (fs::weakly_canonical(fs::path(options.out) / run.name) == fs::weakly_canonical(folder))
+      throw Error::invalid_input("out = " + options.out +
+                                 " is where the recorded run lies: its repetition would "
+                                 "take its place")
+          .with_key("out", options.out);
     run.files = comparable_files(run.recorded.manifest, folder, !options.no_images);
     std::vector<Flag> later;
     if (run.files.pictures.empty()) later.push_back({"no-images", "true"});

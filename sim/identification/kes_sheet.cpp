@@ -250,6 +250,16 @@ struct Doubts {
     }
   }
 
+  void of_means() {
+    for (const auto& [quantity, row] : sheet.row) {
+      if (!row.has(SheetColumn::mean) || !row.has(SheetColumn::warp) || !row.has(SheetColumn::weft)) continue;
+      const double mean = (row.value[0] + row.value[1]) / 2;
+      if (std::abs(row.value[2] / mean - 1) > kPrinted)
+        say(quantity,
+            "has a mean that is " + number_text(row.value[2] / mean, 3) + " times that of its warp and weft");
+    }
+  }
+
   // Of one test: WT = LT T EMT/2 with T = 500 gf/cm.
   double work_over_its_parts(SheetColumn of_work, SheetColumn of_parts) const {
     return sheet.along("WT", of_work) /
@@ -321,6 +331,7 @@ void check_sheet(KesSheet& sheet, const std::string& file) {
                   sheet.row["T0"].place);
   Doubts doubts{sheet};
   doubts.of_blanks();
+  doubts.of_means();
   doubts.of_tension();
   doubts.of_compression();
   constexpr double kDegree = 3.14159265358979323846 / 180;

@@ -101,13 +101,25 @@ std::vector<std::string> said(std::vector<std::string> texts) {
 
 }  // namespace
 
+namespace {
+
+// Elasticity and friction are one in such a law.
+std::string weft_friction_warning(const Scene& scene) {
+  if (!scene.fabric.rubs_otherwise() || has_friction_beside_b2(scene.law)) return "";
+  return shown(scene, "fabric.weft-friction", scene.fabric.weft_friction, "") + " changes nothing: law " +
+         scene.law + " has no friction beside b2, and bends along weft as " + "fabric.weft-bending says";
+}
+
+}  // namespace
+
 std::vector<std::string> doubts_at_start(const Scene& scene, const Cloth& cloth, Simulation& simulation) {
   std::vector<std::string> doubts = fabric_warnings(scene);
   const std::vector<std::string> of_parameters = unused_parameter_warnings(
       scene.law, scene.fabric.virgin_curve(), scene.param, LawUse::cloth, scene.fabric.name);
   doubts.insert(doubts.end(), of_parameters.begin(), of_parameters.end());
   doubts.insert(doubts.end(), {locking_words(scene, cloth.mesh), pressed_words(scene, cloth, simulation),
-                               command_warning(scene, cloth, simulation.dimension()), phases_warning(scene)});
+                               command_warning(scene, cloth, simulation.dimension()), phases_warning(scene),
+                               weft_friction_warning(scene)});
   const std::vector<std::string> of_pins = pin_warnings(scene, cloth);
   doubts.insert(doubts.end(), of_pins.begin(), of_pins.end());
   return said(doubts);

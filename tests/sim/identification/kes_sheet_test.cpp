@@ -120,6 +120,7 @@ INSTANTIATE_TEST_SUITE_P(
               "sheet.csv:5"},
         Doubt{"ExchangedColumns", kTension + "WT,gf cm/cm^2,12,7.8,\n", "exchanged", "sheet.csv:6"},
         Doubt{"AnotherUnitOfWork", kTension + "WT,gf cm/cm^2,76,76,\n", "in another unit", "sheet.csv:6"},
+        Doubt{"MeanOfNeither", kPair + "G,gf/(cm degree),1,2,9\n", "a mean that is 6 times", "sheet.csv:4"},
         Doubt{"BlankOfAMergedCell", "B,gf cm^2/cm,0.118,,\n2HB,gf cm/cm,0.124,0.1,\n",
               "no number in the column weft", "sheet.csv:2"}),
     [](const auto& test) { return std::string(test.param.name); });
