@@ -1,4 +1,4 @@
-// What friction identified from some cycles of a FAB tester predicts of all others in the same file.
+// Friction that was identified from some cycles of a FAB tester predicts all others in the same file.
 #pragma once
 
 #include <string>

@@ -45,7 +45,7 @@ std::string stops_table(const std::string& name, const FabStops& found, const ch
 }
 
 // "; friction slips about 18.9/m, ..."
-std::string shape_words(const FabBending& b) {
+std::string shape_text(const FabBending& b) {
   const FrictionShape shape = friction_shape(b.form);
   return fmt::format(
       ";\n# of friction that slips about {:.3g}/m, known within a factor of {:.2g} (standard error), with a "
@@ -63,7 +63,7 @@ std::string saturation_text(const FabBending& b) {
 }
 
 std::string form_text(const FabBending& b) {
-  if (b.is_shaped()) return shape_words(b);
+  if (b.is_shaped()) return shape_text(b);
   if (b.is_parabola()) return saturation_text(b);
   return "; thresholds [1/m] are a grid that was given, stiffnesses [N m]:\n";
 }

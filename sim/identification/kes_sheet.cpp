@@ -8,6 +8,7 @@
 #include "sim/base/error.h"
 #include "sim/base/plain_text.h"
 #include "sim/base/units.h"
+#include "sim/reference/kes_in_plane.h"
 #include "sim/scene/key_table.h"
 #include "sim/scene/toml_file.h"
 
@@ -44,7 +45,7 @@ constexpr Quantity kQuantities[] = {
 };
 constexpr double kBeyond = 2;
 
-constexpr double kLargestTension = 500 * 0.980665;  // of the tester [N/m]
+constexpr double kLargestTension = InPlaneProtocol().largest;  // [N/m]
 constexpr double kLargestPressure = 50 * 98.0665;   // [Pa]
 constexpr double kPrinted = 0.1;                    // numbers of two digits contradict each other beyond
 const char* const kColumns[] = {"warp", "weft", "mean"};
@@ -334,7 +335,6 @@ void check_sheet(KesSheet& sheet, const std::string& file) {
   doubts.of_means();
   doubts.of_tension();
   doubts.of_compression();
-  constexpr double kDegree = 3.14159265358979323846 / 180;
   doubts.of_ratio("2HB", "B", 1, "1/m", 16, 300);
   doubts.of_ratio("2HG", "G", kDegree, "degree", 0.3, 8);
   doubts.of_ratio("2HG5", "2HG", 1, "times", 0.8, 5);

@@ -3,15 +3,16 @@
 
 #include "sim/identification/fabric_file.h"
 #include "sim/identification/kes_sheet.h"
+#include "sim/reference/kes_in_plane.h"
 #include "sim/scene/key_table.h"
 #include "sim/scene/scene.h"
 
 namespace hysteron {
 namespace {
 
-constexpr double kTestedTension = 500 * 0.980665;  // of KES-FB1 [N/m]
+constexpr double kTestedTension = InPlaneProtocol().largest;  // [N/m]
 // Chosen here: friction of shear has slipped before 0.5 degree, where the window of G begins.
-constexpr double kShearThreshold = 0.25 * 3.14159265358979323846 / 180;
+constexpr double kShearThreshold = 0.25 * kDegree;
 
 struct SheetWriter {
   const KesSheet& sheet;
