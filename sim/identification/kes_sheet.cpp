@@ -46,8 +46,8 @@ constexpr Quantity kQuantities[] = {
 constexpr double kBeyond = 2;
 
 constexpr double kLargestTension = InPlaneProtocol().largest;  // [N/m]
-constexpr double kLargestPressure = 50 * 98.0665;   // [Pa]
-constexpr double kPrinted = 0.1;                    // numbers of two digits contradict each other beyond
+constexpr double kLargestPressure = 50 * 98.0665;              // [Pa]
+constexpr double kPrinted = 0.1;  // numbers of two digits contradict each other beyond
 const char* const kColumns[] = {"warp", "weft", "mean"};
 
 const Quantity* quantity_named(const std::string& name) {
