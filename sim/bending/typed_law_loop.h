@@ -4,11 +4,11 @@
 #include <cmath>
 
 #include "sim/bending/law_loop.h"
+#include "sim/bending/laws/beside_elasticity.h"
 #include "sim/bending/laws/directed.h"
 #include "sim/bending/laws/law_commands.h"
 #include "sim/bending/laws/law_potential.h"
 #include "sim/bending/laws/law_visit.h"
-#include "sim/bending/laws/zero_moment.h"
 
 namespace hysteron {
 
@@ -43,39 +43,6 @@ constexpr bool is_long_law() {
 template <class Law>
 constexpr bool runs_in_batches() {
   return Law::kHistory == 0 || (!is_long_law<Law>() && requires(Law & law) { innermost(law).limit; });
-}
-
-// A law with elasticity beside it (CurvatureOperator::elastic).
-template <class Law>
-struct BesideElasticity {
-  using Scalar = typename Law::Scalar;
-  static constexpr int kDimension = Law::kDimension, kHistory = Law::kHistory;
-
-  Law law;
-  Vec<Scalar, kDimension> elastic;  // [N m]
-
-  HYST_HD LawStep<Scalar, kDimension, kHistory> step(const Vec<Scalar, kDimension>& curvature,
-                                                     const History<Scalar, kHistory>& before) const {
-    LawStep<Scalar, kDimension, kHistory> result = law.step(curvature, before);
-    const Vec<Scalar, kDimension> moment = elastic.cwiseProduct(curvature);
-    result.moment += moment;
-    result.stored += moment.dot(curvature) / 2;
-    return result;
-  }
-  HYST_HD Tangent<Scalar, kDimension> tangent(const Vec<Scalar, kDimension>& curvature,
-                                              const History<Scalar, kHistory>& before) const {
-    Tangent<Scalar, kDimension> result = law.tangent(curvature, before);
-    result.diagonal() += elastic;
-    return result;
-  }
-  HYST_HD Scalar largest_stiffness() const { return law.largest_stiffness() + elastic.cwiseAbs().maxCoeff(); }
-};
-
-// The curvature of no moment [1/m], sought from where the law alone has none.
-template <class Law>
-HYST_HD CurvatureOf<Law> beside_elasticity(const Law& law, const CurvatureOf<Law>& elastic,
-                                           const HistoryOf<Law>& history) {
-  return zero_moment(BesideElasticity<Law>{law, elastic}, history, CurvatureOf<Law>(law.residual(history)));
 }
 
 template <class Law, class Device, class Body>

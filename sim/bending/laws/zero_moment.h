@@ -5,6 +5,8 @@
 // 1991). Laws with a closed form use that instead.
 #pragma once
 
+#include <cmath>
+
 #include "sim/bending/laws/law.h"
 
 namespace hysteron {
@@ -30,18 +32,20 @@ HYST_HD Vec<Real, D> solve_definite(Tangent<Real, D> a, Vec<Real, D> b) {
 // Precision: last Newton step below 1e-12 (double) or 1e-5 (float) of the curvature, at most 60 steps.
 template <class Law, class Real, int D, int N>
 HYST_HD Vec<Real, D> zero_moment(const Law& law, const History<Real, N>& history, Vec<Real, D> start) {
+  using std::abs;
   constexpr int kMaxSteps = 60, kMaxHalvings = 30;
   constexpr Real kPrecision = sizeof(Real) == 8 ? Real(1e-12) : Real(1e-5);
   constexpr Real kEnoughDescent = Real(1e-4);                 // Armijo's fraction of the predicted decrease
   const Real softest = law.largest_stiffness() * kPrecision;  // keeps the tangent invertible where b2 = 0
   Vec<Real, D> curvature = start, newton = Vec<Real, D>::Zero();
   Real fraction = 1, energy = 0, descent = 0;
-  Real half_moment = 0;  // decides where the energy differs by rounding only
+  Real half_moment = 0;  // decides where the energy differs by rounding only, else steps could go to and fro
   for (int step = 0, halving = kMaxHalvings; step <= kMaxSteps;) {
     const Vec<Real, D> tried = curvature + fraction * newton;
     const LawStep<Real, D, N> here = called_step(law, tried, history);
-    const bool enough =
-        here.stored + here.dissipated <= energy + fraction * descent || here.moment.norm() <= half_moment;
+    const Real reached = here.stored + here.dissipated;
+    const bool enough = reached <= energy + fraction * descent ||
+                        (reached <= energy + kPrecision * abs(energy) && here.moment.norm() <= half_moment);
     if (!enough && ++halving < kMaxHalvings) {
       fraction /= 2;
       continue;
@@ -51,7 +55,7 @@ HYST_HD Vec<Real, D> zero_moment(const Law& law, const History<Real, N>& history
         called_tangent(law, curvature, history) + softest * Tangent<Real, D>::Identity();
     newton = -solve_definite<Real, D>(tangent, here.moment);
     if (!(newton.norm() > kPrecision * curvature.norm())) break;
-    energy = here.stored + here.dissipated, descent = kEnoughDescent * here.moment.dot(newton);
+    energy = reached, descent = kEnoughDescent * here.moment.dot(newton);
     half_moment = here.moment.norm() / 2;
     fraction = 1, halving = 0;
     ++step;

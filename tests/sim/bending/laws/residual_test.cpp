@@ -1,6 +1,9 @@
 // Residual curvature: where the moment vanishes on the way back (Wong 4.3.3, after Anandjiwala & Leaf 1991).
 #include <gtest/gtest.h>
 
+#include <random>
+
+#include "sim/bending/laws/beside_elasticity.h"
 #include "sim/bending/laws/linear.h"
 #include "sim/bending/laws/pabst.h"
 #include "sim/bending/laws/prandtl_stack.h"
@@ -94,6 +97,35 @@ TEST(Residual, CarriesNoMomentWhereAStackIsFull) {
     const auto there = cloth.law.step(cloth.law.residual(cloth.history), cloth.history);
     ASSERT_LE(there.moment.norm(), kSolved * kCotton.b1 * kCotton.k0);
   }
+}
+
+// Elasticity beside the law leaves from a tenth of b2 to ten times it, as friction of its own along weft
+// does.
+template <class Law>
+void expect_no_moment_beside_elasticity(const Law& law) {
+  constexpr double kSolved = 1e-9;  // of M0
+  std::mt19937 generator(5);
+  std::uniform_real_distribution<double> decade(-1, 1);
+  for (int history = 0; history < 500; ++history) {
+    Driven cloth(law);
+    const double span = kCotton.k0 * 3 * std::pow(10, decade(generator));
+    for (int turn = 0; turn <= history % 12; ++turn) {
+      CurvatureOf<Law> curvature;
+      for (double& k : curvature) k = span * decade(generator);
+      cloth.to(curvature);
+    }
+    CurvatureOf<Law> elastic;
+    for (double& e : elastic) e = kCotton.b2 * (std::pow(10, decade(generator)) - 1);
+    const CurvatureOf<Law> rest = beside_elasticity(law, elastic, cloth.history);
+    const CurvatureOf<Law> moment = law.step(rest, cloth.history).moment + elastic.cwiseProduct(rest);
+    ASSERT_LE(moment.norm(), kSolved * kCotton.friction_moment()) << "history " << history;
+  }
+}
+
+TEST(Residual, CarriesNoMomentBesideElasticityOfADirection) {
+  expect_no_moment_beside_elasticity(PrandtlStack<double, 8>::make(kCotton));
+  expect_no_moment_beside_elasticity(Wong<double>::make(kCotton));
+  expect_no_moment_beside_elasticity(PrandtlStops<double, 3, 8>::make(kCotton));
 }
 
 }  // namespace
