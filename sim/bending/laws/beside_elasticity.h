@@ -1,5 +1,6 @@
 // A law with elasticity of the direction beside it: what cloth has whose friction bends otherwise along weft
-// than its rigidity (CurvatureOperator::elastic, which may be negative; the sum is convex).
+// than its rigidity (CurvatureOperator::elastic, which may be negative; the sum is convex).  It is measured
+// now and then: the law's own copies are called, which compilers, nvcc above all, need not compile again.
 #pragma once
 
 #include "sim/bending/laws/law.h"
@@ -17,7 +18,7 @@ struct BesideElasticity {
 
   HYST_HD LawStep<Scalar, kDimension, kHistory> step(const Vec<Scalar, kDimension>& curvature,
                                                      const History<Scalar, kHistory>& before) const {
-    LawStep<Scalar, kDimension, kHistory> result = law.step(curvature, before);
+    LawStep<Scalar, kDimension, kHistory> result = called_step(law, curvature, before);
     const Vec<Scalar, kDimension> moment = elastic.cwiseProduct(curvature);
     result.moment += moment;
     result.stored += moment.dot(curvature) / 2;
@@ -25,7 +26,7 @@ struct BesideElasticity {
   }
   HYST_HD Tangent<Scalar, kDimension> tangent(const Vec<Scalar, kDimension>& curvature,
                                               const History<Scalar, kHistory>& before) const {
-    Tangent<Scalar, kDimension> result = law.tangent(curvature, before);
+    Tangent<Scalar, kDimension> result = called_tangent(law, curvature, before);
     result.diagonal() += elastic;
     return result;
   }
