@@ -1,6 +1,9 @@
 // CPU against CUDA: the same source on both must give the same cloth.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "sim/bending/laws/law_parameters.h"
 #include "sim/mesh/intersections.h"
 #include "tests/sim/base/refusal.h"
@@ -104,6 +107,25 @@ TEST_F(Gpu, BendsAFabricOfManyPartsAsTheCpuDoes) {
     EXPECT_GT(lost, 0) << element;
     EXPECT_NEAR(gpu->ledger().bending_friction, lost, 1e-6 * lost) << element;
     EXPECT_LT(test::farthest(cpu->positions(), gpu->positions()), 1e-9) << element;
+    EXPECT_EQ(run_on("cuda", scene)->state_hash(), gpu->state_hash()) << element;
+  }
+}
+
+// Elasticity beside the friction, on hinges of every direction and on faces.
+TEST_F(Gpu, RubsOtherwiseAlongWeftAsTheCpuDoes) {
+  constexpr double kNear = 1e-6;  // of the largest: histories of cloth that agrees to 1e-9 m
+  for (const char* element : {"hinge", "shape"}) {
+    Scene scene = busy_scene("prandtl", element, "semi-implicit");
+    scene.fabric.weft_friction = 3;
+    const auto cpu = run_on("cpu", scene), gpu = run_on("cuda", scene);
+    EXPECT_LT(test::farthest(cpu->positions(), gpu->positions()), 1e-9) << element;
+    const double lost = cpu->ledger().bending_friction;
+    EXPECT_NEAR(gpu->ledger().bending_friction, lost, 1e-6 * lost) << element;
+    const std::vector<double> there = cpu->residual_curvature(), here = gpu->residual_curvature();
+    const double largest =
+        std::abs(*std::ranges::max_element(there, {}, [](double k) { return std::abs(k); }));
+    ASSERT_EQ(here.size(), there.size());
+    for (std::size_t i = 0; i < here.size(); ++i) ASSERT_NEAR(here[i], there[i], kNear * largest) << element;
     EXPECT_EQ(run_on("cuda", scene)->state_hash(), gpu->state_hash()) << element;
   }
 }
