@@ -28,7 +28,20 @@ KesReading bend(const Fabric& fabric, SheetColumn column, int steps) {
 
 constexpr const char *kStraight = "tension is a straight line without friction: LT = 1 and RT = 100 %",
                      *kOneShear = "the shear of this model is the same along warp and weft: their mean",
-                     *kConstant = "a stop of friction carries the same at every angle";
+                     *kNoFriction = "without 2HG the shear of this model has no friction",
+                     *kNotLess = "friction of shear grows with the angle or stays; it does not fall",
+                     *kNoCloth = "no woven cloth has a 2HG5 of more than five times 2HG",
+                     *kMostGrowth =
+                         "friction that grew so much would leave no stiffness on the way back to no shear";
+
+// Why 2HG5 is not what was entered.
+const char* second_width_reason(const KesSheet& sheet, double read) {
+  if (!sheet.has("2HG")) return kNoFriction;
+  const double entered = sheet.mean("2HG5"), first = sheet.mean("2HG");
+  if (entered < first) return kNotLess;
+  if (read >= (1 - kAgrees / 100) * entered) return kOneShear;
+  return entered > 5 * first ? kNoCloth : kMostGrowth;
+}
 
 void add_direction(std::vector<SheetReading>& all, const KesSheet& sheet, const Fabric& fabric,
                    SheetColumn column, int steps) {
@@ -47,7 +60,7 @@ void add_direction(std::vector<SheetReading>& all, const KesSheet& sheet, const 
   const ShearReading shear = test_shear(law, in_plane).reading;
   add("G", "gf/(cm degree)", "N/m", shear.stiffness, kOneShear);
   add("2HG", "gf/cm", "N/m", shear.width, kOneShear);
-  add("2HG5", "gf/cm", "N/m", shear.second_width, kConstant);
+  add("2HG5", "gf/cm", "N/m", shear.second_width, second_width_reason(sheet, shear.second_width));
   const TensionReading tension = test_tension(law, in_plane).reading;
   add("EMT", "%", "", tension.extension / 100, "");
   add("LT", "1", "", tension.linearity, kStraight);

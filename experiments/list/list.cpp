@@ -64,16 +64,17 @@ void print_parts(const FabricFile& file) {
   if (parts.set.on())
     print("bending.set.yield", "permanent set: yield " + short_number(parts.set.yield) + " 1/m, hardening " +
                                    short_number(parts.set.hardening) + " N m");
-  const auto in_plane = [&](const char* component, const Spectrum& of) {
+  const auto in_plane = [&](const char* component, const Spectrum& of, double growth = 0) {
     if (of.empty()) return;
     print(("membrane.stops." + std::string(component) + ".thresholds").c_str(),
           std::string("stops in the plane, ") + component + ": strains " + listed(of.thresholds) + ", " +
               listed(of.stiffnesses) + " N/m; half width of the loop " + short_number(of.friction_moment()) +
-              " N/m");
+              " N/m" +
+              (growth > 0 ? ", growing by " + short_number(growth) + " times that per unit of shear" : ""));
   };
   in_plane("warp", fabric.in_plane.warp);
   in_plane("weft", fabric.in_plane.weft);
-  in_plane("shear", fabric.in_plane.shear);
+  in_plane("shear", fabric.in_plane.shear, fabric.in_plane.shear_growth);
 }
 
 void print_fabrics() {

@@ -59,8 +59,9 @@ struct SheetFabric {
 
 // b2 = B and b1 = B + 2HB/k0 along warp, with k0 the assumed one as the geometric mean of warp and weft,
 // weft-bending and weft-friction the ratios along weft, bias their mean; shear = G with a stop of moment
-// 2HG/2; warp and weft such that 500 gf/cm extend them by EMT; friction = MIU; thickness = T0; density = W.
-// What the sheet lacks is that of the shipped fabrics, assumed, with its range.
+// 2HG/2, which grows with the angle so that it is 2HG5/2 at 5 degrees; warp and weft such that 500 gf/cm
+// extend them by EMT; friction = MIU; thickness = T0; density = W. What the sheet lacks is that of the
+// shipped fabrics, assumed, with its range.
 SheetFabric fabric_of_sheet(const KesSheet& sheet, const Assumptions& assumptions);
 
 }  // namespace hysteron

@@ -13,6 +13,9 @@ namespace {
 constexpr double kTestedTension = InPlaneProtocol().largest;  // [N/m]
 // Chosen here: friction of shear has slipped before 0.5 degree, where the window of G begins.
 constexpr double kShearThreshold = 0.25 * kDegree;
+// The half width of the loop of shear grows per unit of shear by at most this much of G, chosen here: where
+// stops slip on the way back to no shear the cloth has G less twice as much, which must stay positive.
+constexpr double kSteepestGrowth = 0.45;
 
 struct SheetWriter {
   const KesSheet& sheet;
@@ -61,19 +64,61 @@ void write_bending(SheetWriter& writer, const Assumptions& assumptions) {
       "84th percentiles of 251 measured fabrics (Feng, Huang, Xu, Wang 2022)");
 }
 
+// Friction of shear: the half width of its loop is at_rest + rise x at the shear x.
+struct ShearFriction {
+  double at_rest, rise;  // [N/m]
+
+  double growth() const { return rise / at_rest; }  // per unit of shear
+  // On the way back from the tester's 8 degrees it has turned before 5, and on each loading before 0.5: the
+  // limits at both ends of a way are less than the way together.
+  double threshold() const {
+    constexpr double kWellBefore = 0.9;
+    const double largest = shear_at(InPlaneProtocol().angle), read = second_width_shear();
+    return std::min(kShearThreshold, kWellBefore * (largest - read) / (2 + growth() * (largest + read)));
+  }
+  static double shear_at(double degrees) { return std::tan(degrees * kDegree); }
+  static double width_shear() { return shear_at(InPlaneProtocol().width_at); }
+  static double second_width_shear() { return shear_at(InPlaneProtocol().second_width_at); }
+};
+
+// The loop is 2HG wide at 0.5 degree and 2HG5 at 5, as far as a cloth of the shear rigidity G bears it.
+ShearFriction shear_friction(const KesSheet& sheet, double rigidity) {
+  const double half = sheet.mean("2HG") / 2, first = ShearFriction::width_shear(),
+               second = ShearFriction::second_width_shear();
+  if (!(sheet.mean("2HG5") / 2 > half)) return {half, 0};
+  constexpr double kOfHalf = 0.5;  // at most this much of the half width at 0.5 degree has grown since zero
+  const double rise = std::min({(sheet.mean("2HG5") / 2 - half) / (second - first),
+                                kSteepestGrowth * rigidity, kOfHalf * half / first});
+  return {half - rise * first, rise};
+}
+
+void write_shear_stop(SheetWriter& writer, const ShearFriction& friction) {
+  const double threshold = friction.threshold();
+  writer.tables += "\n[membrane.stops.shear]\nthresholds = [" + number_text(threshold, 6) +
+                   "]\nstiffnesses = [" + number_text(friction.at_rest / threshold, 6) + "]\n";
+  if (friction.rise > 0)
+    writer.tables += fabric_entry("growth", "1",
+                                  {friction.growth(), kNone, true,
+                                   "such that the loop is 2HG wide at 0.5 degree and 2HG5 at 5", "derived"});
+  writer.tables += std::string("source = \"") +
+                   (friction.rise > 0 ? "half the loop's width at no shear, by 2HG and 2HG5," : "2HG/2") +
+                   " over the threshold, which is assumed: below 0.5 degree\"\nconfidence = \"derived\"\n";
+}
+
 void write_shear(SheetWriter& writer) {
   const KesSheet& sheet = writer.sheet;
-  if (sheet.has("G")) {
-    writer.published("shear", "N/m", sheet.mean("G"), "G per radian, the mean of both directions");
-  } else {
-    writer.suppose("shear", "N/m", 60, 30, 110, "not in the sheet: typical of KES-FB1 on woven fabrics");
-  }
-  if (!sheet.has("2HG")) return;
-  writer.tables +=
-      "\n[membrane.stops.shear]\nthresholds = [" + number_text(kShearThreshold, 6) + "]\nstiffnesses = [" +
-      number_text(sheet.mean("2HG") / 2 / kShearThreshold, 6) +
-      "]\nsource = \"2HG/2 over the threshold, which is assumed: below 0.5 degree\"\nconfidence = "
-      "\"derived\"\n";
+  constexpr double kTypical = 60, kLow = 30, kHigh = 110;  // [N/m]
+  const double rigidity = sheet.has("G") ? sheet.mean("G") : kTypical;
+  const ShearFriction friction = sheet.has("2HG") ? shear_friction(sheet, rigidity) : ShearFriction{0, 0};
+  if (!sheet.has("G"))
+    writer.suppose("shear", "N/m", kTypical, kLow, kHigh,
+                   "not in the sheet: typical of KES-FB1 on woven fabrics");
+  else if (friction.rise > 0)
+    writer.derived("shear", "N/m", rigidity - friction.rise,
+                   "G per radian, the mean of both directions, less what friction that grows adds to it");
+  else
+    writer.published("shear", "N/m", rigidity, "G per radian, the mean of both directions");
+  if (sheet.has("2HG")) write_shear_stop(writer, friction);
 }
 
 // Under the tester's largest tension T the stretch e is that of T = k (e + e^2/2) (1 + e).

@@ -86,7 +86,7 @@ MembraneSplit split_membrane(const Fabric& fabric, MembraneElement element) {
 
 InPlaneStops stops_of_faces(const Fabric& fabric, const MembraneSplit& split) {
   if (!split.averages) return fabric.in_plane;
-  return {{}, {}, fabric.in_plane.shear};
+  return {{}, {}, fabric.in_plane.shear, fabric.in_plane.shear_growth};
 }
 
 InPlaneStops stops_of_nodes(const Fabric& fabric, const MembraneSplit& split) {

@@ -37,6 +37,7 @@ MembraneSites<Strains, Device>::MembraneSites(Device& device, const Strains& str
       viscous_(device, damping > 0 ? sites : 0),
       end_{static_cast<int>(stops.warp.size()), static_cast<int>(stops.warp.size() + stops.weft.size()),
            static_cast<int>(stops.warp.size() + stops.weft.size() + stops.shear.size())},
+      growth_(static_cast<Real>(stops.shear_growth)),
       stop_(device, all_stops<Real>(stops)),
       slip_(device, static_cast<std::size_t>(sites) * end_[2]),
       tangent_(device, has_friction() ? sites : 0),

@@ -77,7 +77,9 @@ class MembraneSites {
   void add_stored_friction(const Vec3<Real>* position, double* energy);
 
  private:
-  StrainStops<Real> stops() { return {stop_.data(), {0, end_[0], end_[1], end_[2]}, slip_.data(), sites_}; }
+  StrainStops<Real> stops() {
+    return {stop_.data(), {0, end_[0], end_[1], end_[2]}, slip_.data(), sites_, growth_};
+  }
 
   Device& device_;
   Strains strains_;
@@ -89,6 +91,7 @@ class MembraneSites {
   Buffer<MembraneStress<Real>, Device> stress_, tension_;
   Buffer<double, Device> viscous_;  // lost, by site [J]
   int end_[3];                      // of the stops of each component
+  Real growth_;                     // StrainStops::growth
   Buffer<StrainStop<Real>, Device> stop_;
   Buffer<Real, Device> slip_;             // StrainStops::slip
   Buffer<Vec3<Real>, Device> tangent_;    // by component

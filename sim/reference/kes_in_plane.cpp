@@ -18,6 +18,13 @@ StopsLaw beside(double spring, const Spectrum& stops) {
   return {spring, stops.thresholds, stops.stiffnesses};
 }
 
+// The law's limits grow by `growth` times themselves per unit of strain.
+StopsLaw growing(StopsLaw law, double growth) {
+  if (growth > 0)
+    for (const double r : law.thresholds) law.growths.push_back(growth * r);
+  return law;
+}
+
 // Of an increasing function between low and high.
 template <class Function>
 double root(const Function& of, double low, double high) {
@@ -78,7 +85,7 @@ double extension_work(const std::vector<double>& extension, const std::vector<do
 InPlaneLaw in_plane_law(const Fabric& fabric, Along along) {
   const InPlaneStops& stops = fabric.in_plane;
   return {along == Along::warp ? beside(fabric.warp, stops.warp) : beside(fabric.weft, stops.weft),
-          beside(fabric.shear, stops.shear)};
+          growing(beside(fabric.shear, stops.shear), stops.shear_growth)};
 }
 
 ShearReading read_shear(const InPlaneProtocol& p, const KesWalk& walk, const std::vector<double>& force) {

@@ -2,8 +2,11 @@
 //
 //   y = b x + sum_j p_j clamp(x - S_j, -r_j, r_j),   S_j dragged along
 //
+// whose limits may grow with x, r_j + a_j |x| in place of r_j (membrane/in_plane_friction.h),
+//
 // of bending (x curvature [1/m], y moment per width [N], b and p_j [N m]) or of stretch (x strain, y force
-// per width [N/m], b and p_j [N/m]).  A branch after a reversal is the virgin curve doubled (Masing 1926).
+// per width [N/m], b and p_j [N/m]).  A branch after a reversal is the virgin curve doubled (Masing 1926)
+// where they do not grow.
 #pragma once
 
 #include <vector>
@@ -13,10 +16,12 @@ namespace hysteron {
 struct StopsLaw {
   double spring = 0;                            // b
   std::vector<double> thresholds, stiffnesses;  // r_j > 0, p_j >= 0; as many
+  std::vector<double> growths = {};             // a_j in [0, 1), as many; none: all 0
 
   int stops() const { return static_cast<int>(thresholds.size()); }
   double initial_stiffness() const;  // b + sum p_j, also after each reversal
-  double friction() const;           // sum p_j r_j: half the width of a loop on which every stop slips
+  double friction() const;  // sum p_j r_j: half the width at x = 0 of a loop on which every stop slips
+  double growth(int j) const { return growths.empty() ? 0 : growths[j]; }
 };
 
 // One point of a body with that law.

@@ -116,6 +116,26 @@ void check_numbers_of_stops(const Scene& scene) {
   check("fabric.k0", scene.fabric.k0, follows.k0, "1/m");
 }
 
+// Where stops slip on the way back to no shear they push by g sum_j p_j r_j for each unit of it, against
+// the elasticity beside them: more than that has would make the cloth's energy concave.
+void check_growth(const Scene& scene) {
+  const Spectrum& stops = scene.fabric.in_plane.shear;
+  const double growth = scene.fabric.in_plane.shear_growth, shear = scene.fabric.shear;
+  if (growth == 0) return;
+  const std::string key = "fabric.membrane.stops.shear.growth", table = "fabric.membrane.stops.shear.";
+  const auto refuse = [&](const std::string& what) {
+    throw Error::invalid_input(shown(scene, key, growth, "") + " " + what).with_key(key, number_text(growth));
+  };
+  if (stops.empty()) refuse("needs " + table + "thresholds and stiffnesses beside it, which it raises");
+  if (growth * stops.thresholds.back() >= 1)
+    refuse("must be < " + number_text(1 / stops.thresholds.back(), 4) + ", 1 over the largest of " + table +
+           "thresholds: a stop whose limit grows as fast as the shear never slips");
+  if (growth * stops.friction_moment() > shear)
+    refuse("must be <= " + number_text(shear / stops.friction_moment(), 4) + ", " +
+           shown(scene, "fabric.shear", shear, "N/m") + " over the sum of " + table +
+           "thresholds times stiffnesses: beyond it cloth is unstable on the way back to no shear");
+}
+
 }  // namespace
 
 void check_fabric_lists(const Scene& scene) {
@@ -138,6 +158,7 @@ void check_fabric_lists(const Scene& scene) {
   check_stops(scene, "membrane.stops.warp", p.warp);
   check_stops(scene, "membrane.stops.weft", p.weft);
   check_stops(scene, "membrane.stops.shear", p.shear);
+  check_growth(scene);
 }
 
 }  // namespace hysteron

@@ -72,6 +72,8 @@ const FabricLimit kLimits[] = {
      between(1, 1e4), kPerCentimetre},
     {"bending.set.hardening", "N m", [](const Fabric& f) { return f.bending.set.hardening; }, between(0, 10),
      between(0, 1e-2), kKesRigidity},
+    {"membrane.stops.shear.growth", "", [](const Fabric& f) { return f.in_plane.shear_growth; },
+     between(0, 1e3), between(0, 120), kNoSlip},
 };
 
 // A fit may leave a stop next to nothing, so that stiffnesses have no least usual one; thresholds of stops of

@@ -153,42 +153,46 @@ struct Reader {
   }
 };
 
-void read_parameter(const Reader& reader, const ValueTree& node, const ValueTree* sources, Scene& scene,
-                    std::map<std::string, Range>& ranges) {
+// The key fabric.NAME.
+void read_parameter(const Reader& reader, const ValueTree& node, const std::string& name,
+                    const ValueTree* sources, Scene& scene, std::map<std::string, Range>& ranges) {
   const std::string origin = place(reader.file, node);
   const Keys keys = bind_scene(scene);
-  const BoundKey& key = find_key(keys, "fabric." + node.key, origin);
+  const BoundKey& key = find_key(keys, "fabric." + name, origin);
   PublishedNumber number = reader.quantity(node, sources, key.description.unit);
   const auto factor = factor_to(key.description.unit, number.unit);
   if (!factor) {
     const std::string others = known_units(key.description.unit);
-    throw Error::invalid_input("fabric." + node.key + " has unit \"" + number.unit + "\" and must have \"" +
+    throw Error::invalid_input("fabric." + name + " has unit \"" + number.unit + "\" and must have \"" +
                                key.description.unit + "\"" + (others.empty() ? "" : " or one of " + others) +
                                " (" + origin + ")");
   }
   if (const auto range = reader.range(node, number.value)) {
-    ranges[node.key] = between(*factor * range->low, *factor * range->high);
-    for (const double end : {ranges[node.key].low, ranges[node.key].high})
-      assign(key, end, origin + ", range");
+    ranges[name] = between(*factor * range->low, *factor * range->high);
+    for (const double end : {ranges[name].low, ranges[name].high}) assign(key, end, origin + ", range");
   }
   if (number.provenance.standard_error) *number.provenance.standard_error *= *factor;
   number.value *= *factor;
   assign(key, number.value, origin);
-  check_fabric_number(node.key, number.value, "fabric." + node.key, origin);
-  scene.fabric.provenance[node.key] = number.provenance;
-  scene.origin["fabric." + node.key] = origin;
+  check_fabric_number(name, number.value, "fabric." + name, origin);
+  scene.fabric.provenance[name] = number.provenance;
+  scene.origin["fabric." + name] = origin;
 }
 
 // [bending] or [membrane] and the tables in it: the keys fabric.bending.* or fabric.membrane.* as bare
-// values, each table with a source of its own.
+// values, each table with a source of its own; a number may have its own, {value, unit, ...}.
 void read_lists(const Reader& reader, const ValueTree& table, const std::string& path,
-                const ValueTree* sources, Scene& scene) {
+                const ValueTree* sources, Scene& scene, std::map<std::string, Range>& ranges) {
   const Keys keys = bind_scene(scene);
   for (const ValueTree& node : table.children) {
     if (node.key == "source" || node.key == "confidence") continue;
     const std::string name = path + "." + node.key, origin = place(reader.file, node);
+    if (node.kind == ValueTree::Kind::table && node.find("value")) {
+      read_parameter(reader, node, name, sources, scene, ranges);
+      continue;
+    }
     if (node.kind == ValueTree::Kind::table) {
-      read_lists(reader, node, name, sources, scene);
+      read_lists(reader, node, name, sources, scene, ranges);
       continue;
     }
     assign(find_key(keys, "fabric." + name, origin), node.value, origin);
@@ -208,8 +212,9 @@ void note_three_numbers(Fabric& fabric) {
   }
 }
 
-void read_parts(const Reader& reader, const ValueTree& table, const ValueTree* sources, Scene& scene) {
-  read_lists(reader, table, table.key, sources, scene);
+void read_parts(const Reader& reader, const ValueTree& table, const ValueTree* sources, Scene& scene,
+                std::map<std::string, Range>& ranges) {
+  read_lists(reader, table, table.key, sources, scene, ranges);
   if (scene.fabric.bending.stops.thresholds.size() == scene.fabric.bending.stops.stiffnesses.size())
     note_three_numbers(scene.fabric);
   check_fabric_lists(scene);
@@ -248,9 +253,9 @@ FabricFile read_fabric(const std::string& name_or_file, const std::string& origi
       root.find("name") ? reader.text(root, "name") : std::filesystem::path(reader.file).stem().string();
   if (root.find("description")) result.description = reader.text(root, "description");
   for (const ValueTree& node : parameters.children)
-    read_parameter(reader, node, sources, scene, result.range);
+    read_parameter(reader, node, node.key, sources, scene, result.range);
   for (const char* table : kPartTables)
-    if (const ValueTree* parts = root.find(table)) read_parts(reader, *parts, sources, scene);
+    if (const ValueTree* parts = root.find(table)) read_parts(reader, *parts, sources, scene, result.range);
   const bool shaped = scene.fabric.kes.on(), pair = !shaped && parameters.find("kes-b");
   for (const std::string& name : shaped ? kRequiredOfShaped : pair ? kRequiredOfPair : kRequired) {
     const bool said =

@@ -14,10 +14,12 @@
 //                        kes-b and kes-2hb may stand for b1 and b2, with stops-median and stops-spread for k0
 //   [bending.stops]      optional: friction elements; also [bending.stops.weft], [bending.branches],
 //   [bending.set] thresholds = [5, 20, 60]           1/m, ascending stiffnesses = [8e-6, 4e-6, 1e-6]   N m
-//   source = "kes"                     optional, as is confidence: of the whole table
+//   source = "kes"                     optional, as is confidence: of the whole table; a number that is no
+//                                      list may be {value, unit, source, confidence} instead
 //   [membrane.stops.shear]             optional: friction elements in the plane; also .warp, .weft
 //   thresholds = [0.005, 0.02]         strains, ascending
 //   stiffnesses = [200, 50]            N/m
+//   growth = 6                         optional, of shear alone: fabric.membrane.stops.shear.growth
 //   [published]          what the source prints besides, in its own units
 //   B = {value = 0.118, unit = "gf cm^2/cm", source = "kes", confidence = "published"}
 //                        B and 2HB may state a range: between which numbers the print rounds to them

@@ -69,6 +69,7 @@ const KeyRow<Scene> kSceneRows[] = {
     {"fabric.membrane.stops.weft.stiffnesses", at<&S::fabric, &F::in_plane, &P::weft, &Spectrum::stiffnesses>, "N/m", positive(), "", "of these elements, beside fabric.weft"},
     {"fabric.membrane.stops.shear.thresholds", at<&S::fabric, &F::in_plane, &P::shear, &Spectrum::thresholds>, "", positive(), "", "strains at which friction elements of in-plane shear slip, ascending; none: elastic"},
     {"fabric.membrane.stops.shear.stiffnesses", at<&S::fabric, &F::in_plane, &P::shear, &Spectrum::stiffnesses>, "N/m", positive(), "", "of these elements, beside fabric.shear"},
+    {"fabric.membrane.stops.shear.growth", at<&S::fabric, &F::in_plane, &P::shear_growth>, "", between(0, 1e3), "", "by which those strains grow with the shear that the cloth has, per unit of it: r (1 + growth |shear|); 0: they do not"},
     {"law", at<&S::law>, "", any(), "", "moment-curvature law"},
     {"param", at<&S::param>, "", any(), "", "parameters of the law by name; the table [param] of a file"},
     {"element", at<&S::element>, "", any(), "", "bending element"},

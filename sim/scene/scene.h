@@ -77,6 +77,7 @@ struct PublishedNumber {
 // one component of Green's strain in the material axes.
 struct InPlaneStops {
   Spectrum warp, weft, shear;  // of E11, E22 and 2 E12
+  double shear_growth = 0;     // g: at the shear x = 2 E12 those of shear slip at r_j (1 + g |x|)
 
   bool empty() const { return warp.empty() && weft.empty() && shear.empty(); }
 };

@@ -44,6 +44,22 @@ TEST(KesShear, ReadsStopsAsTheirMasingLoopSays) {
   EXPECT_LT(test.reading.second_width, test.reading.width) << "no loop of stops widens towards its ends";
 }
 
+// A stop that slips at r (1 + g |x|) widens the loop in proportion, and adds its growth to the slope.
+TEST(KesShear, ReadsGrowthInTheWidthsAndInTheSlope) {
+  constexpr double r = 0.004, p = 400, g = 12, elastic = 100;
+  Fabric fabric;
+  fabric.shear = elastic;
+  fabric.in_plane.shear = {{r}, {p}};
+  fabric.in_plane.shear_growth = g;
+  const ShearReading read = test_shear(in_plane_law(fabric, Along::warp)).reading;
+  const double slope = (elastic + p * r * g) * (tangent(2.5) - tangent(kHalfDegree)) / (2 * kDegree);
+  EXPECT_NEAR(read.stiffness, slope, kRounding * slope);
+  for (const auto& [width, angle] : {std::pair(read.width, kHalfDegree), {read.second_width, 5.0}}) {
+    const double expected = 2 * p * r * (1 + g * tangent(angle));
+    EXPECT_NEAR(width, expected, kRounding * expected) << angle;
+  }
+}
+
 // The clamps come apart as the weight stretches the cloth: C E l = T.
 TEST(KesShear, KeepsTheWeightInBalance) {
   constexpr double kStiffness = 1000;

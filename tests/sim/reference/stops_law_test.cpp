@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 #include "sim/bending/laws/bending_parts.h"
+#include "sim/membrane/in_plane_friction.h"
 #include "sim/reference/fab_test.h"
 
 namespace hysteron {
@@ -83,6 +85,30 @@ TEST(StopsLaw, HasAPotentialWhoseSlopeIsItsResponse) {
     EXPECT_NE(response, 0);
     EXPECT_NEAR(slope, response, 1e-8 * std::abs(response));
   }
+}
+
+// The same law is written twice, by its integral here and by the ways slipped there.
+TEST(StopsLaw, WithLimitsThatGrowIsThatOfTheMembranesShear) {
+  constexpr double g = 14;
+  const std::vector<StrainStop<double>> stops = {{0.004, 300}, {0.03, 50}};
+  StopsLaw law{0, {0.004, 0.03}, {300, 50}};
+  for (const double r : law.thresholds) law.growths.push_back(g * r);
+  Driven point{law};
+  double slip[2] = {0, 0};
+  const StrainStops<double> membrane{stops.data(), {0, 0, 0, 2}, slip, 1, g};
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> shear(-0.2, 0.2);
+  for (int step = 0; step < 300; ++step) {
+    const double x = shear(random), before = point.dissipated;
+    const StopsReply<double> there = membrane.reply(0, {0, 0, x});
+    const StopsPoint here = respond(law, point.anchors.data(), x);
+    EXPECT_NEAR(point.go_to(x), there.stress[2], 300 * kStopsRounding);
+    EXPECT_NEAR(here.tangent, there.tangent[2], 300 * kStopsRounding);
+    EXPECT_NEAR(here.stored, there.stored, kStopsRounding);
+    EXPECT_NEAR(point.dissipated - before, there.lost, kStopsRounding * (1 + point.dissipated));
+    membrane.accept(0, {0, 0, x});
+  }
+  EXPECT_GT(point.dissipated, 1);
 }
 
 const StopsLaw kTension{20, {0.005, 0.03}, {200, 40}};  // [N/m] against strain

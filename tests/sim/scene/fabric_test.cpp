@@ -251,6 +251,33 @@ stiffnesses = [3e3]
   EXPECT_TRUE(read_fabric("cotton-broad", "test").fabric.in_plane.empty());
 }
 
+TEST(FabricFiles, MayStateByHowMuchTheLimitsOfShearGrow) {
+  const std::string table = "[membrane.stops.shear]\nthresholds = [0.005]\nstiffnesses = [200]\n";
+  for (const std::string growth :
+       {"growth = 6", "growth = {value = 6, unit = \"1\", source = \"lab\", confidence = \"derived\"}"}) {
+    const TextFile file(std::string(kMinimal) + kThickness + table + growth);
+    const FabricFile read = read_fabric(file.path(), "test");
+    EXPECT_EQ(read.fabric.in_plane.shear_growth, 6);
+    const bool alone = !growth.ends_with("}");
+    EXPECT_EQ(read.fabric.provenance.at("membrane.stops.shear.growth").confidence,
+              alone ? "given" : "derived");
+    EXPECT_EQ(read.place.at("membrane.stops.shear.growth"), file.line(12));
+  }
+}
+
+// g sum_j p_j r_j is at most `shear`, 60 N/m where the file does not state it.
+TEST(FabricFiles, RefuseGrowthThatMakesClothUnstable) {
+  const std::string table = "[membrane.stops.shear]\nthresholds = [0.005, 0.03]\nstiffnesses = [200, 50]\n";
+  const auto refusal = [&](const std::string& growth) {
+    const TextFile file(std::string(kMinimal) + kThickness + table + "growth = " + growth);
+    return test::refusal([&] { read_fabric(file.path(), "test"); });
+  };
+  EXPECT_EQ(refusal("24"), test::kAccepted) << "60/(200 * 0.005 + 50 * 0.03)";
+  EXPECT_TRUE(test::says(refusal("24.1"), "fabric.membrane.stops.shear.growth = 24.1", "must be <= 24",
+                         "fabric.shear = 60 N/m"));
+  EXPECT_TRUE(test::says(refusal("34"), "growth = 34", "must be < 33.33"));
+}
+
 TEST(FabricFiles, WithStopsLeaveTheThreeNumbersOfOtherLawsToThem) {
   const TextFile file(without_own_friction() + kParts);
   const Fabric fabric = read_fabric(file.path(), "test").fabric;
@@ -380,6 +407,10 @@ const BadFabric kBadFabrics[] = {
      9,
      "fabric.membrane.stops.shear.thresholds has 2 numbers and must have as many as "
      "fabric.membrane.stops.shear.stiffnesses, 1"},
+    {"GrowthWithoutStops", "[membrane.stops.shear]\ngrowth = 2\n", 9,
+     "fabric.membrane.stops.shear.growth = 2"},
+    {"GrowthOfStretch", "[membrane.stops.warp]\ngrowth = 2\n", 9,
+     "unknown key fabric.membrane.stops.warp.growth"},
     {"StrainsInDisorder", "[membrane.stops.warp]\nthresholds = [0.02, 0.01]\nstiffnesses = [1, 1]\n", 9,
      "fabric.membrane.stops.warp.thresholds must be ascending: 0.01 follows 0.02"},
     {"UnknownComponent", "[membrane.stops.bias]\nthresholds = [1]\n", 9,

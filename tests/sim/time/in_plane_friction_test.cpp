@@ -1,6 +1,7 @@
 // Friction in the plane of cloth in motion, under every integrator.
 #include <gtest/gtest.h>
 
+#include "sim/scene/scene_reader.h"
 #include "tests/sim/time/scenes.h"
 
 namespace hysteron {
@@ -51,6 +52,31 @@ TEST_P(InPlaneFrictionInMotion, LosesEnergyOfItsOwnInABalanceThatCloses) {
     lost = ledger.membrane_friction;
   }
   EXPECT_GT(lost, 0);
+}
+
+// A shear of 0.05 doubles the limits; stops of warp and weft are those of triangles, or of nodes.
+class GrowingFrictionInMotion : public testing::TestWithParam<MembraneElement> {};
+INSTANTIATE_TEST_SUITE_P(Elements, GrowingFrictionInMotion,
+                         testing::Values(MembraneElement::constant, MembraneElement::nodal),
+                         [](const auto& test) { return enum_name(test.param); });
+
+TEST_P(GrowingFrictionInMotion, LosesOtherEnergyInABalanceThatCloses) {
+  InPlaneStops growing = test::in_plane_stops();
+  growing.shear_growth = 20;
+  for (const char* integrator : {"semi-implicit", "implicit", "quasi-static"}) {
+    const auto ledger = [&](const InPlaneStops& stops) {
+      Trial trial = sheared(integrator, stops);
+      trial.scene.membrane_element = GetParam();
+      EXPECT_NO_THROW(check_scene(trial.scene));
+      return trial.after(10)->ledger();
+    };
+    const Ledger with = ledger(growing), without = ledger(test::in_plane_stops());
+    constexpr double kArithmetic = 1e-9, kDiffers = 1e-3;  // far more than a solve leaves
+    EXPECT_LT(with.remainder_relative, kArithmetic) << integrator;
+    EXPECT_GT(with.membrane_friction, 0) << integrator;
+    EXPECT_GT(std::abs(with.membrane_friction / without.membrane_friction - 1), kDiffers)
+        << integrator << ": growth acts";
+  }
 }
 
 // A chapter step takes tension apart from bending.
