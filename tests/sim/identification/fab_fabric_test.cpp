@@ -169,6 +169,11 @@ TEST(FabFabric, StretchesAlongTheBiasAgainstShear) {
   const StopsLaw law = fab_fabric(fabric).strip("B").stretch;
   EXPECT_NEAR(virgin_response(law, kStrain) / ((elastic + 80 / 4.0 + 30) * kStrain), 1, kRounding);
   EXPECT_NEAR(virgin_response(law, 0.01) / (elastic * 0.01 + 0.002 * 80 / 2 + 0.003 * 30), 1, kRounding);
+  // The shear is the strain along the bias: its stop's limit grows by that, and warp's does not.
+  fabric.in_plane.shear_growth = 20;
+  const StopsLaw growing = fab_fabric(fabric).strip("B").stretch;
+  EXPECT_NEAR(virgin_response(growing, 0.01) / (elastic * 0.01 + 0.002 * 80 / 2 + 0.003 * 1.2 * 30), 1,
+              kRounding);
 }
 
 }  // namespace
