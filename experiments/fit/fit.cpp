@@ -34,7 +34,7 @@ struct DecayFlags {
 };
 
 struct FitFlags {
-  std::string loop, virgin_file, sheet;
+  std::string loop, virgin_file, sheet, fast_sheet;
   bool wants_template = false;
   VirginNumbers virgin;
   KesNumbers kes;
@@ -78,6 +78,7 @@ const KeyRow<FitFlags> kRows[] = {
     {"decay.noise", at<&F::decay, &DecayFlags::noise>, "m", positive(), "", "of the amplitudes, standard deviation"},
     {"units", at<&F::units>, "", any(), "si | kes | fab", "of the loop (kes: 1/cm and gf cm/cm) or of the FAB data (fab: cm and gf, columns _cm, _gf)"},
     {"kes-sheet", at<&F::sheet>, "", any(), "", "the sheet of a KES-F laboratory, CSV or TOML: sixteen numbers along warp and weft as they are printed"},
+    {"fast-sheet", at<&F::fast_sheet>, "", any(), "", "the sheet of a FAST laboratory or of a cantilever alone (ASTM D1388), CSV or TOML: bending lengths and weight, and what else there is"},
     {"template", at<&F::wants_template>, "", any(), "", "print such a sheet to fill in, and nothing else"},
     {"virgin.b1", at<&F::virgin, &VirginNumbers::b1, &M::value>, "N m", any(), "", "M = b1 K + c1 K^2 on loading"},
     {"virgin.c1", at<&F::virgin, &VirginNumbers::c1, &M::value>, "N m^2", any(), "", "< 0"},
@@ -393,13 +394,16 @@ void fit_curve(const CommandLine& line, const FitFlags& flags, const Keys& keys)
   finish(run, flags, summary(answer.fits), notes);
 }
 
-// What the laboratory weighed and measured wins over what is given by hand.
-void fit_kes_sheet(const CommandLine& line, const FitFlags& flags, const Keys& keys) {
-  KesSheet sheet = read_kes_sheet(flags.sheet);
+// The fabric of a sheet, its file, and what virtual testers read of it.  What the laboratory weighed and
+// measured wins over what is given by hand; `thickness`: its row.
+void fit_sheet(const CommandLine& line, const FitFlags& flags, const Keys& keys, LaboratorySheet sheet,
+               const std::string& thickness,
+               SheetFabric (*fabric_of)(const LaboratorySheet&, const Assumptions&),
+               std::vector<SheetReading> (*read_back)(const LaboratorySheet&, const Fabric&)) {
   const bool is_named =
       std::any_of(line.flags.begin(), line.flags.end(), [](const Flag& flag) { return flag.path == "name"; });
   if (is_named) sheet.name = flags.name;
-  const auto add_given = [&](const char* row, double value, const char* flag) {
+  const auto add_given = [&](const std::string& row, double value, const char* flag) {
     if (std::isnan(value)) return;
     if (sheet.has(row))
       throw Error::invalid_input(std::string("--") + flag + " is not used: the sheet has " + row)
@@ -407,14 +411,26 @@ void fit_kes_sheet(const CommandLine& line, const FitFlags& flags, const Keys& k
     sheet.row[row] = {{kNone, kNone, value}, "", std::string("--") + flag};
   };
   add_given("W", flags.density, "fabric.density");
-  add_given("T0", flags.thickness, "fabric.thickness");
-  const SheetFabric found = fabric_of_sheet(sheet, flags.assume);
+  add_given(thickness, flags.thickness, "fabric.thickness");
+  const SheetFabric found = fabric_of(sheet, flags.assume);
   Run run(line, flags.options, resolved(keys));
   for (const std::string& warning : sheet.warnings) run.warn(warning);
-  write_fabric_text(run.path("fabric.toml"), found.text);
-  const std::string text = report_sheet(run, sheet, found);
+  const std::string file = run.path("fabric.toml").string();
+  write_fabric_text(file, found.text);
+  const std::string text = report_sheet(run, sheet, found, read_back(sheet, read_fabric(file, "fit").fabric));
   finish_with_report(run);
   if (!flags.options.json) std::cout << text;
+}
+
+void fit_kes_sheet(const CommandLine& line, const FitFlags& flags, const Keys& keys) {
+  fit_sheet(
+      line, flags, keys, read_kes_sheet(flags.sheet), "T0", fabric_of_sheet,
+      [](const LaboratorySheet& sheet, const Fabric& fabric) { return read_by_testers(sheet, fabric); });
+}
+
+void fit_fast_sheet(const CommandLine& line, const FitFlags& flags, const Keys& keys) {
+  fit_sheet(line, flags, keys, read_fast_sheet(flags.fast_sheet), "T2", fabric_of_fast_sheet,
+            read_by_cantilever);
 }
 
 // The one that the flags ask for.
@@ -431,11 +447,24 @@ WayIn way_in(const FitFlags& flags) {
   add(!flags.fab.file.empty(), fit_loops_of_fab);
   add(with_decay, fit_decay);
   add(!flags.sheet.empty(), fit_kes_sheet);
+  add(!flags.fast_sheet.empty(), fit_fast_sheet);
   if (requested.size() == 1) return requested[0];
   throw Error::invalid_input(
       "needs one of --loop FILE.csv, --virgin.b1 with --virgin.c1, --kes.b with --kes.2hb, --kes-sheet FILE, "
-      "--fab FILE.csv, --decay FILE.csv" +
+      "--fast-sheet FILE, --fab FILE.csv, --decay FILE.csv" +
       std::string(requested.empty() ? "" : ", not several"));
+}
+
+// That of the sheet whose flag stands beside --template.
+void print_template(const CommandLine& line, const FitFlags& flags) {
+  for (const auto& [path, file] : {std::pair{"kes-sheet", flags.sheet}, {"fast-sheet", flags.fast_sheet}})
+    if (!file.empty())
+      throw Error::invalid_input("--" + std::string(path) + " " + file +
+                                 " is not read beside --template, which prints an empty sheet")
+          .with_key(path, file);
+  const bool is_fast = std::any_of(line.flags.begin(), line.flags.end(),
+                                   [](const Flag& flag) { return flag.path == "fast-sheet"; });
+  std::cout << (is_fast ? fast_sheet_template() : kes_sheet_template());
 }
 
 int run_fit(const CommandLine& line) {
@@ -444,7 +473,7 @@ int run_fit(const CommandLine& line) {
   const Keys keys = bind_flags(flags);
   for (const Flag& flag : line.flags) assign_text(keys, flag.path, flag.text, "--" + flag.path);
   if (flags.wants_template) {
-    std::cout << kes_sheet_template();
+    print_template(line, flags);
     return 0;
   }
   if (flags.name.empty())
@@ -475,7 +504,7 @@ Experiment fit() {
                          {"kes.b-stderr | kes.2hb-stderr | kes.k0", "kes.2hb"},
                          {"kes.k0-stderr", "kes.k0"},
                          {"assume.ratio", "loop or virgin.b1 or virgin.file"},
-                         {"assume.k0", "loop or kes-sheet or kes.2hb and not kes.k0"}}};
+                         {"assume.k0", "loop or kes-sheet or fast-sheet or kes.2hb and not kes.k0"}}};
 }
 
 }  // namespace hysteron::experiments

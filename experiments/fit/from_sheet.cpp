@@ -9,21 +9,24 @@
 #include "sim/base/units.h"
 #include "sim/reference/kes.h"
 #include "sim/reference/kes_in_plane.h"
-#include "sim/scene/fabric_reader.h"
 
 namespace hysteron::experiments {
 namespace {
 
 constexpr double kAgrees = 1;  // percent: less is not worth a reason
 
-KesReading bend(const Fabric& fabric, SheetColumn column, int steps) {
+VirginCurve curve_of(const Fabric& fabric, SheetColumn column) {
   Scene scene;
   scene.fabric = fabric;
   scene.cloth.warp_angle = column == SheetColumn::weft ? 90 : 0;
+  return curve_along(scene);
+}
+
+KesReading bend(const Fabric& fabric, SheetColumn column, int steps) {
   KesProtocol protocol;
   protocol.minor_loops = false;
   protocol.steps = steps;
-  return test_in_kes({"prandtl", curve_along(scene), {}}, protocol).reading;
+  return test_in_kes({"prandtl", curve_of(fabric, column), {}}, protocol).reading;
 }
 
 constexpr const char *kStraight = "tension is a straight line without friction: LT = 1 and RT = 100 %",
@@ -77,9 +80,26 @@ std::vector<SheetReading> read_by_testers(const KesSheet& sheet, const Fabric& f
   return all;
 }
 
-namespace {
+std::vector<SheetReading> read_by_cantilever(const FastSheet& sheet, const Fabric& fabric) {
+  std::vector<SheetReading> all;
+  for (const SheetColumn column : {SheetColumn::warp, SheetColumn::weft}) {
+    const auto add = [&](const char* quantity, const char* unit, const char* si, double read,
+                         const char* reason) {
+      const double entered = sheet.along(quantity, column);
+      if (std::isfinite(entered)) all.push_back({quantity, unit, si, column, entered, read, reason});
+    };
+    add("C", "mm", "m", virtual_bending_length(curve_of(fabric, column), fabric.density), "");
+    const InPlaneLaw law = in_plane_law(fabric, column == SheetColumn::weft ? Along::weft : Along::warp);
+    for (const auto& [quantity, load] : {std::pair{"E5", 5}, {"E20", 20}, {"E100", 100}}) {
+      InPlaneProtocol protocol;
+      protocol.largest = load * kGramForcePerCentimetre;
+      add(quantity, "%", "", test_tension(law, protocol).reading.extension / 100, kStraight);
+    }
+  }
+  return all;
+}
 
-const char* column_name(SheetColumn column) { return column == SheetColumn::weft ? "weft" : "warp"; }
+namespace {
 
 std::string write_comparison(Run& run, const std::vector<SheetReading>& all) {
   Table table("quantity,direction,unit,entered,read,difference [%],reason");
@@ -100,12 +120,11 @@ std::string write_comparison(Run& run, const std::vector<SheetReading>& all) {
 
 }  // namespace
 
-std::string report_sheet(Run& run, const KesSheet& sheet, const SheetFabric& found) {
+std::string report_sheet(Run& run, const LaboratorySheet& sheet, const SheetFabric& found,
+                         const std::vector<SheetReading>& readings) {
   const std::string file = run.path("fabric.toml").string();
-  const Fabric fabric = read_fabric(file, "fit --kes-sheet").fabric;
-  const std::vector<SheetReading> all = read_by_testers(sheet, fabric);
   std::string text = sheet.name + ": the sheet beside what the virtual testers read of the fabric\n" +
-                     write_comparison(run, all);
+                     write_comparison(run, readings);
   text += "assumed, what moves a drape most first:\n";
   for (const std::string& sentence : found.assumed) text += "  " + sentence + "\n";
   text += "written: " + file + "\n";

@@ -1,8 +1,8 @@
 // The fabric's file from a KES-F sheet.
 #include <cmath>
 
-#include "sim/identification/fabric_file.h"
 #include "sim/identification/kes_sheet.h"
+#include "sim/identification/sheet_writer.h"
 #include "sim/reference/kes_in_plane.h"
 #include "sim/scene/key_table.h"
 #include "sim/scene/scene.h"
@@ -16,28 +16,6 @@ constexpr double kShearThreshold = 0.25 * kDegree;
 // The half width of the loop of shear grows per unit of shear by at most this much of G, chosen here: where
 // stops slip on the way back to no shear the cloth has G less twice as much, which must stay positive.
 constexpr double kSteepestGrowth = 0.45;
-
-struct SheetWriter {
-  const KesSheet& sheet;
-  std::string parameters = {}, tables = {};
-  std::vector<std::string> assumed = {};
-
-  void entry(const std::string& name, const std::string& unit, const Estimate& number) {
-    parameters += fabric_entry(name, unit, number);
-  }
-  void published(const std::string& name, const std::string& unit, double value, const std::string& row) {
-    entry(name, unit, {value, kNone, true, "the sheet's " + row + ", in SI", "published"});
-  }
-  void derived(const std::string& name, const std::string& unit, double value, const std::string& rule) {
-    entry(name, unit, {value, kNone, true, rule, "derived"});
-  }
-  void suppose(const std::string& name, const std::string& unit, double value, double low, double high,
-               const std::string& why) {
-    entry(name, unit, {value, kNone, false, why, "assumed", low, high});
-    assumed.push_back(name + " = " + number_text(value, 4) + (unit.empty() ? "" : " " + unit) + ", between " +
-                      number_text(low, 4) + " and " + number_text(high, 4) + ": " + why);
-  }
-};
 
 void write_bending(SheetWriter& writer, const Assumptions& assumptions) {
   const KesSheet& sheet = writer.sheet;
@@ -56,12 +34,7 @@ void write_bending(SheetWriter& writer, const Assumptions& assumptions) {
   writer.entry("k0", "1/m", k0);
   writer.derived("weft-bending", "", weft, "B along weft over B along warp");
   writer.derived("weft-friction", "", friction, "2HB along weft over 2HB along warp");
-  const double mean = (1 + weft) / 2;
-  constexpr double kLowBias = 0.54, kHighBias = 1.42;
-  writer.suppose(
-      "bias-bending", "", mean, kLowBias * mean, kHighBias * mean,
-      "KES-F does not bend along the bias: the mean of warp and weft; the range is that of the 16th to "
-      "84th percentiles of 251 measured fabrics (Feng, Huang, Xu, Wang 2022)");
+  writer.suppose_bias(weft);
 }
 
 // Friction of shear: the half width of its loop is at_rest + rise x at the shear x.
@@ -140,55 +113,20 @@ void write_tension(SheetWriter& writer) {
   }
 }
 
-void write_rest(SheetWriter& writer) {
-  const KesSheet& sheet = writer.sheet;
-  const Fabric other;
-  if (sheet.has("W")) {
-    writer.published("density", "kg/m^2", sheet.mean("W"), "W");
-  } else {
-    writer.suppose("density", "kg/m^2", other.density, other.density / 2, 2 * other.density,
-                   "not in the sheet, which makes every drape a guess: weigh a square of the cloth");
-  }
-  if (sheet.has("T0")) {
-    writer.published("thickness", "m", sheet.mean("T0"), "T0");
-  } else {
-    writer.suppose("thickness", "m", other.thickness, other.thickness / 2, 2 * other.thickness,
-                   "not in the sheet; contact alone depends on it");
-  }
-  if (sheet.has("MIU")) {
-    const double miu = sheet.mean("MIU");
-    writer.entry("friction", "",
-                 {miu, kNone, true, "MIU against the tester's wires, taken for every solid", "derived",
-                  miu / 2, 2 * miu});
-  } else {
-    writer.suppose("friction", "", 0.3, 0.1, 0.6, "not in the sheet: usual of cloth on a smooth solid");
-  }
-}
-
-std::string quoted_name(const std::string& name) {
-  std::string text;
-  for (const char c : name) text += c == '"' || c == '\\' || static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-  return '"' + text + '"';
-}
-
 }  // namespace
 
 SheetFabric fabric_of_sheet(const KesSheet& sheet, const Assumptions& assumptions) {
-  SheetWriter writer{sheet};
+  SheetWriter writer(sheet);
   write_bending(writer, assumptions);
   write_shear(writer);
   write_tension(writer);
-  write_rest(writer);
+  writer.write_rest("T0");
+  writer.write_drapes();
   const Estimate k0 = assumptions.assumed_k0();
   writer.assumed.push_back("k0 = " + number_text(k0.value, 4) + " 1/m, between " + number_text(k0.low, 4) +
                            " and " + number_text(k0.high, 4) +
                            ": where bending friction saturates, which KES-FB2 does not read");
-  SheetFabric result;
-  result.text = "# Written by hysteron fit --kes-sheet.\nname = " + quoted_name(sheet.name) +
-                "\ndescription = \"from the sheet of a KES-F laboratory\"\n\n[parameters]\n" +
-                writer.parameters + writer.tables;
-  result.assumed = std::move(writer.assumed);
-  return result;
+  return writer.fabric("fit --kes-sheet", "from the sheet of a KES-F laboratory");
 }
 
 }  // namespace hysteron

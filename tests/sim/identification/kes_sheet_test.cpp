@@ -58,6 +58,15 @@ TEST(KesSheet, IsTheSameInTomlAndWithDecimalCommas) {
                     1e-12);
 }
 
+TEST(KesSheet, HasTheOtherDirectionBesideAMeanAndOne) {
+  const std::string rest = "2HB,gf cm/cm,,,0.1\n";
+  for (const auto& [row, known] : {std::pair{"B,gf cm^2/cm,0.1,,0.15\n", SheetColumn::weft},
+                                   {"B,gf cm^2/cm,,0.1,0.15\n", SheetColumn::warp}})
+    EXPECT_NEAR(sheet_of(kHead + row + rest).along("B", known) / (0.2 * 9.80665e-5), 1, 1e-12) << row;
+  EXPECT_TRUE(says(refusal([&] { sheet_of(kHead + "B,gf cm^2/cm,0.4,,0.15\n" + rest); }),
+                   "a mean that is less than half of its warp"));
+}
+
 TEST(KesSheet, OfTheTemplateIsReadWhereItIsFilledIn) {
   std::string text = kes_sheet_template();
   EXPECT_TRUE(says(refusal([&] { sheet_of(text); }), "the sheet has no row B"));
@@ -65,6 +74,18 @@ TEST(KesSheet, OfTheTemplateIsReadWhereItIsFilledIn) {
                                     {"2HB,gf cm/cm,,,", "2HB,gf cm/cm,0.124,0.1,"}})
     text.replace(text.find(row), std::string(row).size(), filled);
   EXPECT_NEAR(sheet_of(text).along("B", SheetColumn::weft), 0.094 * 9.80665e-5, 1e-12);
+}
+
+TEST(KesSheet, WithAColumnTwiceIsRefused) {
+  EXPECT_TRUE(says(refusal([&] {
+                     sheet_of(
+                         "quantity,unit,warp,weft,warp\nB,gf cm^2/cm,0.1,0.1,0.3\n"
+                         "2HB,gf cm/cm,0.1,0.1,0.3\n");
+                   }),
+                   "column 'warp' stands twice", "sheet.csv:1"));
+  EXPECT_TRUE(says(
+      refusal([&] { sheet_of("quantity,unit,mean,Average\nB,gf cm^2/cm,0.1,0.3\n2HB,gf cm/cm,0.1,0.3\n"); }),
+      "columns 'mean' and 'average' are one column twice", "sheet.csv:1"));
 }
 
 struct Fault {

@@ -1,0 +1,80 @@
+// The sheet of a textile laboratory: a row for each quantity, as it is printed, along warp and weft.
+//
+//   quantity,unit,warp,weft,mean
+//   B,gf cm^2/cm,0.118,0.094,
+//   W,mg/cm^2,,,12.4
+//
+// A row fills warp and weft, or the mean of both.  As CSV (whatever separator and decimal mark csv.h reads)
+// or TOML: [B] unit = "gf cm^2/cm", warp = 0.118, weft = 0.094.  A test that is repeated has a row for each
+// specimen.  Which quantities there are is the laboratory's (kes_sheet.h, fast_sheet.h).
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "sim/base/error.h"
+#include "sim/identification/identification.h"
+
+namespace hysteron {
+
+enum class SheetColumn { warp, weft, mean };
+const char* column_name(SheetColumn column);
+
+// Numbers of two digits contradict each other beyond this share.
+inline constexpr double kPrintedDigits = 0.1;
+
+// A row as it is printed, what its unit is in SI, and between which printed numbers clothing has it.  Beyond
+// a half and twice of these a number is another unit's.
+struct SheetQuantity {
+  const char *name, *unit, *si, *meaning;
+  double low, high;
+  bool has_directions;
+  bool may_repeat = false;  // rows of several specimens
+};
+
+// One quantity in SI: N m, N, N/m (of an angle: per radian), J/m^2, m, kg/m^2, ratios for percentages.
+struct SheetRow {
+  double value[3] = {kNone, kNone, kNone};  // by SheetColumn; of repeats the mean
+  std::string unit;                         // as printed
+  std::string place;                        // "sheet.csv:4"
+  std::vector<double> repeats[3] = {};      // by SheetColumn: each specimen's
+
+  bool has(SheetColumn column) const;
+  // Along warp or weft: of its own, else the mean; kNone if neither is there.
+  double along(SheetColumn column) const;
+  double mean() const;  // stated, or of warp and weft; kNone
+  // Standard error of along() over that number, from the scatter of repeats; kNone of fewer than two.
+  double relative_error(SheetColumn column) const;
+};
+
+struct LaboratorySheet {
+  std::string name;                     // of the fabric: in the sheet, or of its file
+  std::map<std::string, SheetRow> row;  // by "B", "2HB", "G", ...
+  std::vector<std::string> warnings;    // what is doubtful, by row and column
+
+  bool has(const std::string& quantity) const { return row.contains(quantity); }
+  double along(const std::string& quantity, SheetColumn column) const;  // kNone: not there
+  double mean(const std::string& quantity) const;
+};
+
+// `reader`: who asks, "fit --kes-sheet".  Throws Error::system, Error::invalid_input with file, row and
+// column: unknown quantities and units, cells that are no numbers, numbers that no fabric has (with the unit
+// in which one would).  Warns of blanks beside a number, and of a mean that contradicts its warp and weft.
+LaboratorySheet read_laboratory_sheet(const std::filesystem::path& file, const std::string& reader,
+                                      std::span<const SheetQuantity> quantities);
+// As it is thrown for a sheet: "fit --kes-sheet: what (place)".
+Error sheet_refusal(const std::string& reader, const std::string& what, const std::string& place);
+
+// A sheet to fill in below that head (comments): unit, meaning and usual range of each row.
+std::string sheet_template(const std::string& head, std::span<const SheetQuantity> quantities);
+
+// A fabric's file from the sheet, and what a reader has to know of it.
+struct SheetFabric {
+  std::string text;                  // TOML for read_fabric()
+  std::vector<std::string> assumed;  // what the sheet does not say, the number that moves a drape most first
+};
+
+}  // namespace hysteron

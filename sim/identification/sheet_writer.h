@@ -1,0 +1,56 @@
+// The fabric's file that a sheet becomes, number by number: published, derived or assumed, each with its
+// rule.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sim/identification/fabric_file.h"
+#include "sim/identification/laboratory_sheet.h"
+#include "sim/scene/key_table.h"
+
+namespace hysteron {
+
+class SheetWriter {
+ public:
+  explicit SheetWriter(const LaboratorySheet& of) : sheet(of) {}
+
+  void entry(const std::string& name, const std::string& unit, const Estimate& number) {
+    parameters += fabric_entry(name, unit, number);
+  }
+  void published(const std::string& name, const std::string& unit, double value, const std::string& row) {
+    entry(name, unit, {value, kNone, true, "the sheet's " + row + ", in SI", "published"});
+  }
+  void derived(const std::string& name, const std::string& unit, double value, const std::string& rule) {
+    entry(name, unit, {value, kNone, true, rule, "derived"});
+  }
+  void suppose(const std::string& name, const std::string& unit, double value, double low, double high,
+               const std::string& why) {
+    entry(name, unit, {value, kNone, false, why, "assumed", low, high});
+    assumed.push_back(name + " = " + number_text(value, 4) + (unit.empty() ? "" : " " + unit) + ", between " +
+                      number_text(low, 4) + " and " + number_text(high, 4) + ": " + why);
+  }
+  // Along the bias the mean of both, which no sheet has.
+  void suppose_bias(double weft);
+  // Density, thickness of the row of that name and friction; assumed where the sheet has none.
+  void write_rest(const std::string& thickness);
+  // Drapes that were measured, which `drape` and `validate` set beside theirs.
+  void write_drapes();
+  // `flag`: "fit --kes-sheet"; `description`: where the sheet comes from.
+  SheetFabric fabric(const std::string& flag, const std::string& description) const;
+
+  const LaboratorySheet& sheet;
+  std::string parameters, tables;
+  std::string published_table;  // lines of [published]
+  std::vector<std::string> assumed;
+};
+
+// Rows that every laboratory's sheet may have: a drape coefficient with its tester.  It is compared with, and
+// nothing is made of it.
+inline constexpr SheetQuantity kDrapeOfJis = {
+    "DC-JIS", "%", "", "drape coefficient of 254 mm on 127 mm (JIS L 1096), to compare with", 10, 98, false};
+inline constexpr SheetQuantity kDrapeOfIso = {
+    "DC-ISO9073", "%", "",   "drape coefficient of 300 mm on 180 mm (ISO 9073-9), to compare with",
+    10,           98,  false};
+
+}  // namespace hysteron
