@@ -55,6 +55,9 @@ Body<Real, Device>::Body(std::unique_ptr<Device> on, const Scene& s, const Cloth
     self_contact->accept_iterate(x.data());
   }
   initial_ = energies();
+  // What a bend that never happened would have lost: cloth starts with the history of its bent start.
+  initial_.bending_relaxation = bending.relaxed_energy();
+  initial_.bending_friction = bending.dissipated_energy() - initial_.bending_relaxation;
   initial_.initial =
       initial_.kinetic + initial_.gravitational + initial_.membrane + initial_.bending + initial_.contact;
 }
@@ -170,8 +173,8 @@ Ledger Body<Real, Device>::balance() {
     sum.handle_work += of.handle_work;
   }
   sum.handle_work += pins.work();
-  sum.bending_relaxation = bending.relaxed_energy();
-  sum.bending_friction = bending.dissipated_energy() - sum.bending_relaxation;
+  sum.bending_relaxation = bending.relaxed_energy() - initial_.bending_relaxation;
+  sum.bending_friction = bending.dissipated_energy() - bending.relaxed_energy() - initial_.bending_friction;
   const double viscous_bending = bending.viscous_loss(), viscous_membrane = membrane.viscous_loss();
   sum.viscous = viscous_bending + viscous_membrane;
   sum.membrane_friction = membrane.friction_loss();

@@ -34,6 +34,17 @@ const test::Method kLedgerCases[] = {{"linear", "shape", "semi-implicit"},  {"li
 
 INSTANTIATE_TEST_SUITE_P(Cases, Balance, testing::ValuesIn(kLedgerCases), test::CaseName());
 
+// Cloth that starts bent has the history of its bend, which has lost nothing of the run.
+TEST(BalanceOfABentStart, HasLostNothingBeforeItsFirstStep) {
+  for (const char* law : {"prandtl", "wong", "narain", "chapman"}) {
+    const Ledger start = test::rippled(law_scene(law, "implicit"), 2e-2).simulation()->ledger();
+    EXPECT_GT(start.bending, 0) << law;
+    EXPECT_EQ(start.bending_friction, 0) << law;
+    EXPECT_EQ(start.bending_relaxation, 0) << law;
+    EXPECT_EQ(start.integrator(), 0) << law;
+  }
+}
+
 TEST_P(Balance, ClosesForASwingingCloth) {
   Scene scene = law_scene(GetParam().law, GetParam().integrator);
   scene.fabric.damping = 0;
