@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "experiments/workbench/app/options.h"
 #include "python/fabric.h"
 #include "python/module.h"
 #include "sim/scene/keys.h"
@@ -27,12 +28,18 @@ void apply(Scene& scene, const py::dict& given) {
   apply_scene_tree(scene, to_tree(values), kOfScenes);
 }
 
+// As `hysteron run` reads it; what it says of pictures and metrics is left aside.
+void apply_file(Scene& scene, const std::string& file) {
+  experiments::Options unused;
+  apply_scene_file(scene, file, experiments::bind_options(unused), {"metric"});
+}
+
 Scene make_scene(py::object source, const py::kwargs& keys) {
   Scene scene = default_scene();
   if (py::isinstance<py::dict>(source))
     apply(scene, source);
   else if (!source.is_none())
-    apply_scene_file(scene, py::str(source));
+    apply_file(scene, py::str(source));
   apply(scene, keys);
   check_scene(scene);
   return scene;
@@ -77,10 +84,10 @@ void bind_scene(py::module_& module) {
 Scene("strip-over-sphere", fabric="wool-tropical", cloth_length=0.2, self_contact=True)
 
 source: a scene of assets/scenes, a TOML file, a dict, or None: the program's defaults (a square of cotton
-broad, implicit steps of 1/60 s).  Further keys are those of docs/scenes.md, in SI units; names may have
-underscores for their hyphens and dots.  fabric: a name, a file or a Fabric.  param: a dict, the law's
-parameters.  pin, obstacle, command, phase: lists of dicts with the keys of their tables, and `keys`, a list
-of keyframes, where they move.)")
+broad, implicit steps of 1/60 s).  What a file says of pictures and metrics is left aside.  Further keys are
+those of docs/scenes.md, in SI units; names may have underscores for their hyphens and dots.  fabric: a name,
+a file or a Fabric.  param: a dict, the law's parameters.  pin, obstacle, command, phase: lists of dicts with
+the keys of their tables, and `keys`, a list of keyframes, where they move.)")
       .def(py::init(&make_scene), py::arg("source") = py::none())
       .def("__getitem__", &get, py::arg("key"))
       .def("__setitem__", &set, py::arg("key"), py::arg("value"))

@@ -106,6 +106,17 @@ ComparedLoops read_between_rows(const TestFlags& flags, const FabStrip& strip) {
   return {loops, run_fab(loops, strip), false};
 }
 
+// The strip is an elastica of springs and stops, which has neither time nor a rest curvature of its own.
+std::string unsimulated_warning(const Fabric& fabric) {
+  std::vector<std::string> parts;
+  if (fabric.bending.set.on()) parts.push_back("[bending.set]");
+  if (!fabric.bending.branches.empty()) parts.push_back("[bending.branches]");
+  if (parts.empty()) return "";
+  return fmt::format(
+      "fabric {}: fab does not simulate its {}: the strip is an elastica with elasticity and friction alone",
+      fabric.name, join(parts, " and "));
+}
+
 int run_test(const CommandLine& line) {
   TestFlags flags;
   const Keys keys = option_keys(flags);
@@ -126,6 +137,8 @@ int run_test(const CommandLine& line) {
   Run run(line, flags.options, to_json(keys));
   for (const auto* texts : {&doubts, &loops.doubts})
     for (const std::string& text : *texts) run.warn(text);
+  const std::string unsimulated = unsimulated_warning(fabric);
+  if (!unsimulated.empty()) run.warn(unsimulated);
   run.reserve({"fab.csv"});
   const ComparedLoops rows(loops, run_fab(loops, strip), measured);
   const bool is_coarse = !measured && flags.steps < kFineSteps;

@@ -9,6 +9,7 @@
 #include "experiments/workbench/app/run.h"
 #include "experiments/workbench/pages/gallery_exhibit.h"
 #include "sim/base/atomic_file.h"
+#include "sim/base/error.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -36,12 +37,33 @@ std::vector<FigureCaption> figure_captions(const std::vector<Figure>& figures) {
   return captions;
 }
 
+constexpr const char* kUsualFabric = "cotton-broad-k50";
+
+std::vector<KeyDescription> figure_fabric_keys() {
+  std::vector<KeyDescription> keys = fabric_keys();
+  for (KeyDescription& key : keys)
+    if (key.path == "fabric.name") key.default_text = kUsualFabric;
+  return keys;
+}
+
+// Friction by stops has no transition curvature, of which every figure speaks.
+void check_three_numbers(const Fabric& fabric, const std::string& name) {
+  if (fabric.bending.stops.empty()) return;
+  throw Error::invalid_input("--fabric " + name +
+                             " has friction by stops, and the figures are of b1, b2 and k0 alone: give a "
+                             "fabric without stops, as " +
+                             kUsualFabric)
+      .with_key("fabric", name)
+      .with_experiment("figures");
+}
+
 int run_figures(const CommandLine& line) {
   Options options;
   set_keys(line, bind_output_options(options));
-  const std::string name = last_text(line.flags, "fabric", "cotton-broad-k50");
+  const std::string name = last_text(line.flags, "fabric", kUsualFabric);
   Scene scene;
   scene.fabric = resolved_fabric(name, line.flags);
+  check_three_numbers(scene.fabric, name);
   const std::vector<Figure> all = chapter_figures(scene.fabric);
   Run run(line, options, {{"fabric", to_json(scene)["fabric"]}});
   for (const Figure& figure : all) {
@@ -68,7 +90,7 @@ Experiment figures() {
   return {.name = "figures",
           .question = "the chapter's Figures 4.2 to 4.4 and its Eq. 4.3 from the program's own laws",
           .run = run_figures,
-          .own_keys = own_key_descriptions<bind_output_options, fabric_keys>};
+          .own_keys = own_key_descriptions<bind_output_options, figure_fabric_keys>};
 }
 
 }  // namespace hysteron::experiments

@@ -225,6 +225,10 @@ void fold_law(const CommandLine& line, const Request& request) {
   for (const std::string& warning : unused_parameter_warnings(scene.law, scene.fabric.virgin_curve(),
                                                               scene.param, LawUse::alone, scene.fabric.name))
     run.warn(warning);
+  if (request.choice.curvature * scene.fabric.thickness > 2)
+    run.warn("fold.curvature = " + number_text(request.choice.curvature) + " 1/m bends to a radius of " +
+             number_text(1000 / request.choice.curvature, 2) +
+             " mm, less than half of the fabric's thickness: cloth cannot be bent so far");
   const std::vector<BendingCycle> all = bend_repeatedly(scene, request.choice);
   write_cycles(run, all);
   note(run, cycle_numbers(all.back()));

@@ -40,16 +40,19 @@ Obstacle jaw(const Scene& scene, double end, double outwards) {
   return body;
 }
 
-// A name for what is seen around either end of the stroke.
-std::vector<Phase> phases(const FoldChoice& choice) {
+// A name for what is seen around either end of the stroke; to half a step they take the scene's seconds.
+std::vector<Phase> phases(const FoldChoice& choice, const Scene& scene) {
   const double quarter = choice.period / 4;
   std::vector<Phase> all = {{"straight", quarter}};
   for (int n = 1; n <= choice.cycles; ++n) {
     const std::string cycle = "cycle " + std::to_string(n);
     all.push_back({cycle + ", folded", 2 * quarter});
-    all.push_back({cycle + ", returned", (n < choice.cycles ? 2 : 1.01) * quarter});
+    all.push_back({cycle + ", returned",
+                   n < choice.cycles ? 2 * quarter : quarter + std::min(0.01 * quarter, kHang / 10)});
   }
-  all.push_back({"let go", kHang});
+  double rest = scene.seconds;
+  for (const Phase& phase : all) rest -= phase.seconds;
+  if (rest > 0) all.push_back({"let go", std::abs(rest - kHang) <= scene.step / 2 ? kHang : rest});
   return all;
 }
 
@@ -97,7 +100,7 @@ Fold folded(const Scene& given, const FoldChoice& choice, double rate) {
   fold.cycles = choice.cycles;
   const double released = choice.cycles * choice.period;  // the moving clamp lets go [s]
   scene.seconds = released + std::round(kHang / apart) * apart;
-  scene.phase = phases(choice);
+  scene.phase = phases(choice, scene);
 
   ClampedMesh clamped =
       clamped_mesh(scene.mesh, fold.free_length, scene.cloth.width, scene.triangles, 2, scene.seed);

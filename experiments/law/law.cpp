@@ -158,6 +158,65 @@ std::string time_warning(const Table& table, const LawRequest& request) {
          " takes time: every row is taken as a step of 1 s";
 }
 
+constexpr int kParts = 8;  // that each row's step is cut into, to see what its length does
+constexpr std::size_t kMostPartSteps = 100000;  // more are not tried
+constexpr double kMostByLength = 0.02;          // by which results may differ, of their largest
+constexpr double kRoundingOfEnergy = 1e-9;      // of the largest moment times the largest curvature
+
+// Each row as `kParts` equal steps that take its time together; an edit follows the last.
+std::vector<LawRow> rows_in_parts(const std::vector<LawRow>& rows) {
+  std::vector<LawRow> parts;
+  double before = 0;
+  for (const LawRow& row : rows) {
+    for (int part = 1; part < kParts; ++part)
+      parts.push_back({before + (row.curvature - before) * part / kParts, row.seconds / kParts});
+    parts.push_back({row.curvature, row.seconds / kParts, row.edit});
+    before = row.curvature;
+  }
+  return parts;
+}
+
+double largest_of(const std::vector<double>& values) {
+  double largest = 0;
+  for (const double value : values) largest = std::max(largest, std::abs(value));
+  return largest;
+}
+
+// By how much the last moment, the largest moment and the lost energy differ, of their largest, at the rows'
+// own ends; 0 where a number of either run is not finite, or is rounding of laws that lose no energy.
+double difference_by_length(const std::vector<LawRow>& rows, const LawRun& whole, const LawRun& parts) {
+  LawRun ends;
+  for (std::size_t i = kParts - 1; i < parts.moment.size(); i += kParts) {
+    ends.moment.push_back(parts.moment[i]);
+    ends.dissipated.push_back(parts.dissipated[i]);
+  }
+  const auto over = [](double difference, double largest) {
+    const double ratio = std::abs(difference) / largest;
+    return largest > 0 && std::isfinite(ratio) ? ratio : 0;
+  };
+  const double most = largest_of(ends.moment), most_whole = largest_of(whole.moment),
+               lost = largest_of(ends.dissipated), lost_whole = largest_of(whole.dissipated);
+  const double scale = std::max(most, most_whole);
+  double sharpest = 0;
+  for (const LawRow& row : rows) sharpest = std::max(sharpest, std::abs(row.curvature));
+  const double least_lost = kRoundingOfEnergy * scale * sharpest;
+  const double most_lost = std::max({lost, lost_whole, least_lost});
+  return std::max({over(whole.moment.back() - ends.moment.back(), scale), over(most_whole - most, scale),
+                   over(whole.dissipated.back() - ends.dissipated.back(), most_lost)});
+}
+
+// For laws whose answer depends on how long a step is: narain, kim, those that take time, and fatigue.
+std::string step_length_warning(const LawRequest& request, const std::vector<LawRow>& rows,
+                                const LawRun& whole) {
+  if (rows.size() * kParts > kMostPartSteps) return "";
+  const double difference = difference_by_length(rows, whole, run_law(request, rows_in_parts(rows)));
+  if (!(difference > kMostByLength)) return "";
+  return fmt::format(
+      "law {}: rows are taken as whole steps: with each cut into eight the moment or the dissipated energy "
+      "differs by {:.2g} %: give more rows",
+      request.name, 100 * difference);
+}
+
 // What a bending tester would read of the fabric's stops.
 std::string stops_summary(const LawRequest& request) {
   if (request.curve.parts.stops.empty()) return "";
@@ -245,6 +304,7 @@ int run_law_command(const CommandLine& line) {
                                  {"dissipated [J/m2]", run.dissipated}};
   if (!run.relaxed.empty()) results.push_back({"relaxed [J/m2]", run.relaxed});
   check_results(results, table);
+  warn(step_length_warning(request, rows, run));
   std::cout << recovery_summary(request, rows, run) << stops_summary(request);
   Table(results).write(flags.out);
   return 0;

@@ -81,7 +81,10 @@ void draw_run(const CommandLine& line, const fs::path& file, const Kept& kept) {
   apply_flags(line, setup.options);
   require_range_is_used(line, setup.options.looks());
   Run run(line, setup.options, keys_of_kept(file, cloth));
-  // A run that has not ended has no sheet yet.
+  if (!kept.sheet.is_object())
+    run.warn(file.string() + " ends after " + std::to_string(cloth.instants.size()) +
+             " instants and without the sheet that a whole run writes last: what is drawn is the part of an "
+             "interrupted run, or of a file that was cut off");
   draw_instants(run, setup, kept.meshes.at(cloth.mesh), cloth, kept.sheet,
                 kept.sheet.is_object() ? kept.sheet.value("title", "") : "");
   finish_with_report(run);

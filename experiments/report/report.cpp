@@ -5,8 +5,10 @@
 #include "experiments/workbench/app/ending.h"
 #include "experiments/workbench/app/experiment.h"
 #include "experiments/workbench/app/manifest_file.h"
+#include "experiments/workbench/app/run_files.h"
 #include "experiments/workbench/app/run_folder.h"
 #include "experiments/workbench/pages/gallery.h"
+#include "experiments/workbench/pages/page.h"
 #include "experiments/workbench/pages/report.h"
 #include "sim/base/error.h"
 
@@ -45,7 +47,9 @@ int check(const fs::path& folder) {
 }
 
 void write(const fs::path& folder, PageForm form) {
-  if (has_manifest(folder)) {
+  const bool of_a_run = has_manifest(folder);
+  require_own_file(folder / (of_a_run ? "report.html" : "index.html"), kOwnPage, "a page", "");
+  if (of_a_run) {
     const FolderLock still(folder);  // a run that is not over writes this page itself
     std::cout << write_report(folder, form).string() << std::endl;
   } else {

@@ -198,7 +198,8 @@ VirginCurve strip_curve(const Scene& scene) {
     curve.b1 = curve.b2 + moments * moments * (curve.b1 - curve.b2);
     curve.k0 /= moments;
     for (double& threshold : curve.parts.stops.thresholds) threshold /= moments;
-    for (double& stiffness : curve.parts.stops.stiffnesses) stiffness *= moments * moments;
+    for (std::vector<double>* all : {&curve.parts.stops.stiffnesses, &curve.parts.branches.stiffnesses})
+      for (double& stiffness : *all) stiffness *= moments * moments;
   }
   return curve;
 }

@@ -15,6 +15,7 @@
 #include "experiments/workbench/pages/report.h"
 #include "sim/base/comma_list.h"
 #include "sim/base/csv.h"
+#include "sim/base/error.h"
 #include "sim/base/parallel.h"
 #include "sim/scene/scene_reader.h"
 
@@ -156,6 +157,22 @@ void draw_maps(Run& run, const std::vector<Sweep>& sweeps, const Table& cells) {
   }
 }
 
+// "explicit-limit: 2 of 20 cases stay bounded up to ..."; "" where every limit was found.
+std::string beyond_search_warning(const std::vector<MeasuredLimit>& limits, double steps) {
+  std::vector<std::string> beyond;
+  for (const MeasuredLimit& limit : limits) {
+    const LimitCase& of = limit.of;
+    if (limit.is_beyond_search)
+      beyond.push_back(
+          fmt::format("{} {} {} {}", of.mesh, enum_name(of.element), of.held ? "held" : "free", of.law));
+  }
+  if (beyond.empty()) return "";
+  return fmt::format(
+      "explicit-limit: {} of {} cases stay bounded up to {:g} times the bound, where the search ends: their "
+      "limit is at least that ({}); limit-steps = {:g} may be too few for waves to grow",
+      beyond.size(), limits.size(), kMaxRatio, join(beyond, ", "), steps);
+}
+
 // limit.csv, limit_smallest_ratio and limit_largest_ratio.
 void measure_limits(const F& flags, Run& run) {
   const std::vector<LimitCase> cases = limit_cases(flags.options.quick);
@@ -177,6 +194,8 @@ void measure_limits(const F& flags, Run& run) {
     least = std::min(least, limit.ratio()), most = std::max(most, limit.ratio());
   }
   table.write(run.path("limit.csv"));
+  const std::string beyond = beyond_search_warning(limits, flags.limit_steps);
+  if (!beyond.empty()) run.warn(beyond);
   run.metric("limit_smallest_ratio", least);
   run.metric("limit_largest_ratio", most);
   if (least_resonant < kMaxRatio) run.metric("undamped_resonance_smallest_ratio", least_resonant);
@@ -235,12 +254,19 @@ void measure_ripples(const F& flags, Run& run) {
   if (!flags.options.no_images) draw_ripples(run, ripples);
 }
 
+void check_limit_steps(double steps) {
+  if (steps == std::floor(steps)) return;
+  throw Error::invalid_input(fmt::format("limit-steps = {:g} must be a whole number", steps))
+      .with_key("limit-steps", fmt::format("{:g}", steps));
+}
+
 int run_stability(const CommandLine& line) {
   F flags;
   set_keys(line, option_keys(flags), [&] {
     flags.effort.work = std::min(flags.effort.work, kQuickWork);
     flags.limit_steps = std::min(flags.limit_steps, kQuickLimitSteps);
   });
+  check_limit_steps(flags.limit_steps);
   std::vector<std::string> names = split(flags.sweep);
   const bool with_limit = std::erase(names, kLimitSweep) > 0 || flags.sweep == "all";
   const bool with_ripple = std::erase(names, kRippleSweep) > 0 || flags.sweep == "all";

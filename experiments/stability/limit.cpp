@@ -87,8 +87,12 @@ bool is_bounded(const LimitCase& of, double amplitude, double step, int substeps
   const double initial = energy(*simulation);
   double half[2] = {initial, 0};
   try {
+    long done = 0;
     for (int look = 0; look < kEnergyLooks; ++look) {
-      simulation->advance(substeps / kEnergyLooks);
+      const long until = static_cast<long>(substeps) * (look + 1) / kEnergyLooks;
+      if (until == done) continue;  // fewer steps than looks
+      simulation->advance(static_cast<int>(until - done));
+      done = until;
       double& most = half[2 * look / kEnergyLooks];
       most = std::max(most, energy(*simulation));
       if (!(most < kLargest * initial) || half[1] > kGrowing * half[0]) return false;
@@ -119,7 +123,8 @@ MeasuredLimit measure_limit(const LimitCase& of, int substeps) {
     const double middle = std::sqrt(ratio * bounded);
     (is_bounded(of, middle * result.bound, substeps) ? bounded : ratio) = middle;
   }
-  result.measured = (ratio > kMaxRatio ? kMaxRatio : bounded) * result.bound;
+  result.is_beyond_search = ratio > kMaxRatio;
+  result.measured = (result.is_beyond_search ? kMaxRatio : bounded) * result.bound;
   return result;
 }
 

@@ -117,12 +117,14 @@ struct MeasuredLimit {
   LimitCase of;
   double bound = 0;     // that the program keeps [s]
   double measured = 0;  // largest step up to which the energy of all that were tried stays bounded [s]
+  bool is_beyond_search =
+      false;  // every step that was tried stayed bounded: the limit is only known from below
   double ratio() const { return measured / bound; }
 };
 
 // Tries steps of so many substeps from kMinRatio of the bound upwards (by 8 % where waves may resonate), then
 // halves between the last bounded one and the next one, to 1 %.  A limit below kMinRatio is given as 0, one
-// above kMaxRatio as that.
+// above kMaxRatio as that, and marked.
 inline constexpr double kMinRatio = 0.3, kMaxRatio = 3;
 MeasuredLimit measure_limit(const LimitCase& of, int substeps);
 

@@ -61,15 +61,16 @@ void run_drapes(std::vector<Drape>& drapes, const ValidateFlags& flags, Run& run
 using Sample = std::map<std::string, double>;
 
 // The ranges that the fabric's file states: of its parameters by their keys, and of what a tester printed,
-// "B" [N m] and "2HB" [N] of three numbers.
+// "B" [N m] and "2HB" [N] of three numbers.  Throws Error::invalid_input for ranges that would change
+// nothing.
 std::map<std::string, Range> uncertain_numbers(const FabricFile& file);
 
 // A Latin hypercube of these ranges (McKay, Beckman & Conover 1979): each number once in each of `count`
 // parts of its range that are equal in the logarithm, which part with which by chance.
 std::vector<Sample> fabric_samples(const FabricFile& file, int count, unsigned seed);
 
-// B and 2HB, drawn or as published, become b1 and b2 for each k0, as the mean of warp and weft. A range of
-// bias-bending is that of its ratio to the mean of both.
+// B and 2HB, drawn or as published, become b1 and b2 for each k0, as the means of warp and weft, whatever the
+// ratios of these are; beside the mean of both rigidities bias-bending stays what was drawn.
 void keep_what_was_measured(const Fabric& fabric, Sample& sample);
 
 double mean_value(const std::vector<double>& values);

@@ -11,6 +11,7 @@
 #include "sim/base/comma_list.h"
 #include "sim/base/csv.h"
 #include "sim/base/error.h"
+#include "sim/identification/fast_sheet.h"
 #include "sim/mesh/random_points.h"
 
 namespace hysteron::experiments {
@@ -154,31 +155,73 @@ bool unstated(const Sample& sample) {
   return !sample.count("k0") && !sample.count("B") && !sample.count("2HB") && !sample.count("weft-bending");
 }
 
+// Ranges that would be drawn and then change nothing, or a friction that stops have already.
+void check_ranges(const FabricFile& file, const std::map<std::string, Range>& ranges) {
+  const auto has = [&](const char* key) { return ranges.contains(key); };
+  const auto refuse = [&](const std::string& what) {
+    throw Error::invalid_input("validate: " + file.fabric.name + " " + what)
+        .with_key("fabrics", file.fabric.name);
+  };
+  const bool of_pair = has("k0") || has("B") || has("2HB");
+  if (!file.fabric.bending.stops.empty() && (of_pair || has("b1") || has("b2")))
+    refuse("has stops of its own: a range of b1, b2, k0, B or 2HB cannot stand beside them");
+  if ((of_pair || has("weft-bending")) && (has("b1") || has("b2")))
+    refuse(
+        "states a range of b1 or b2 beside one of k0, weft-bending, B or 2HB, from which they follow: state "
+        "it "
+        "of B and 2HB in [published]");
+}
+
 }  // namespace
 
 std::map<std::string, Range> uncertain_numbers(const FabricFile& file) {
   std::map<std::string, Range> all = file.range;
-  if (file.fabric.kes.on()) return all;
-  for (const auto& [key, printed] : file.published_range) {
-    const double si = key == "B" ? file.fabric.b2 : 2 * file.fabric.virgin_curve().friction_moment();
-    const double unit = si / file.fabric.published.at(key).value;
-    all[key] = between(unit * printed.low, unit * printed.high);
-  }
+  if (!file.fabric.kes.on())
+    for (const auto& [key, printed] : file.published_range) {
+      const double si = key == "B" ? file.fabric.b2 : 2 * file.fabric.virgin_curve().friction_moment();
+      const double unit = si / file.fabric.published.at(key).value;
+      all[key] = between(unit * printed.low, unit * printed.high);
+    }
+  check_ranges(file, all);
   return all;
 }
 
+namespace {
+
+// B [N m]; of a fabric whose cantilever was measured that with which its bending length stays, beside another
+// friction.
+double rigidity_beside(const Fabric& fabric, double two_hb, double k0) {
+  const auto measured = fabric.published.find("bending-length");
+  if (measured == fabric.published.end()) return fabric.b2;
+  return rigidity_of_bending_length(measured->second.value, kLaboratoryGravity * fabric.density, [&](double) {
+    return StripFriction{two_hb / 2, k0};
+  });
+}
+
+// Friction moment along weft over that along warp.
+double friction_ratio(const Fabric& fabric, const Sample& sample) {
+  const double own = number_or(sample, "weft-friction", fabric.weft_friction);
+  return own > 0 ? own : std::sqrt(number_or(sample, "weft-bending", fabric.weft_bending));
+}
+
+}  // namespace
+
 void keep_what_was_measured(const Fabric& fabric, Sample& sample) {
-  const double weft = sample.count("weft-bending") ? sample["weft-bending"] : fabric.weft_bending;
-  const double warp = (1 + fabric.weft_bending) / (1 + weft);
-  if (sample.count("bias-bending")) sample["bias-bending"] *= (1 + weft) / 2;
+  const double weft = number_or(sample, "weft-bending", fabric.weft_bending);
+  // B and 2HB are the means of warp and weft, whatever the ratios of these are.
+  const double warp = (1 + fabric.weft_bending) / (1 + weft),
+               rubs = (1 + friction_ratio(fabric, {})) / (1 + friction_ratio(fabric, sample));
+  if (sample.count("bias-bending")) sample["bias-bending"] *= (1 + weft) / (1 + fabric.weft_bending);
+  if (!fabric.bending.stops.empty()) return;  // which keep their friction along warp
   if (fabric.kes.on() && sample.count("weft-bending")) {
     sample["kes-b"] = warp * fabric.kes.read.rigidity;
-    sample["kes-2hb"] = warp * fabric.kes.read.loop_width;
+    sample["kes-2hb"] = rubs * fabric.kes.read.loop_width;
   } else if (!fabric.kes.on() && !unstated(sample)) {
-    const double k0 = number_or(sample, "k0", fabric.k0), b = number_or(sample, "B", fabric.b2),
-                 two_hb = number_or(sample, "2HB", 2 * fabric.virgin_curve().friction_moment());
+    const double k0 = number_or(sample, "k0", fabric.k0),
+                 two_hb = number_or(sample, "2HB", 2 * fabric.virgin_curve().friction_moment()),
+                 b = number_or(sample, "B", rigidity_beside(fabric, two_hb, k0));
     sample["b2"] = warp * b;
-    sample["b1"] = warp * (b + two_hb / k0);
+    sample["b1"] = warp * b + rubs * two_hb / k0;
     sample.erase("B");
     sample.erase("2HB");
   }
@@ -213,6 +256,9 @@ void predict_spread(const ValidateFlags& flags, Run& run) {
   for (const std::string& given : split(flags.fabrics)) {
     const FabricFile file = read_fabric(given, "--fabrics");
     const std::string fabric = file.fabric.name;
+    if (uncertain_numbers(file).empty())
+      run.warn(fabric + " states no range of any number: its interval is that of " +
+               std::to_string(flags.samples) + " meshes alone, and says nothing of what is not known of it");
     auto& drapes = all.emplace_back(fabric, std::vector<Drape>{}).second;
     int number = 0;
     for (const Sample& sample : fabric_samples(file, flags.samples, flags.seed)) {

@@ -11,6 +11,7 @@
 #include "experiments/workbench/app/json_file.h"
 #include "experiments/workbench/pages/error_words.h"
 #include "sim/base/error.h"
+#include "sim/base/whole_file.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -103,6 +104,14 @@ bool is_table(const std::string& file) {
   return file.ends_with(".csv") && file != "errors.csv" && file != "cheapest.csv";
 }
 
+bool is_data(const std::string& file) {
+  return file.ends_with(".toml") || file.ends_with(".ply") || file.ends_with(".obj");
+}
+
+bool is_compared_file(const std::string& file, bool with_pictures) {
+  return is_table(file) || is_data(file) || (with_pictures && is_picture(file));
+}
+
 // On the CPU the number of threads changes no bits.
 std::string without_threads(const std::string& device) {
   return device.starts_with("cpu") ? device.substr(0, device.rfind(", ")) : device;
@@ -148,7 +157,8 @@ std::string energy_name(const std::string& term) { return "energy." + term; }
 Agreement Repetition::agreement() const {
   for (const ComparedNumbers* numbers : {&metrics, &energies, &series})
     if (!numbers->beyond.empty()) return Agreement::none;
-  if (!pictures_beyond.empty() || !missing.empty() || !unrecorded.empty() || !lost.empty())
+  if (!pictures_beyond.empty() || !data_beyond.empty() || !missing.empty() || !unrecorded.empty() ||
+      !lost.empty())
     return Agreement::none;
   if (same_state == has_state && metrics.all_same() && energies.all_same() && series.all_same())
     return Agreement::bits;
@@ -191,9 +201,9 @@ ComparableFiles comparable_files(const Manifest& recorded, const fs::path& folde
   const bool is_whole = std::ranges::find(recorded.files, kPage) == recorded.files.end() || is_there(kPage);
   ComparableFiles files;
   for (const std::string& name : recorded.files) {
-    if (!is_table(name) && !(with_pictures && is_picture(name))) continue;
+    if (!is_compared_file(name, with_pictures)) continue;
     if (is_there(name))
-      (is_table(name) ? files.tables : files.pictures).push_back(name);
+      (is_table(name) ? files.tables : is_data(name) ? files.data : files.pictures).push_back(name);
     else if (is_whole)
       files.lost.push_back(name);
     else
@@ -206,7 +216,7 @@ void add_unlisted_files(const Manifest& recorded, const Manifest& now, bool with
                         Repetition& repetition) {
   if (recorded.commit != now.commit) return;
   for (const std::string& name : now.files)
-    if ((is_table(name) || (with_pictures && is_picture(name))) &&
+    if (is_compared_file(name, with_pictures) &&
         std::ranges::find(recorded.files, name) == recorded.files.end())
       repetition.unrecorded.push_back(name);
 }
@@ -227,6 +237,26 @@ void compare_pictures(const std::vector<std::string>& names, const fs::path& rec
     } catch (const Error& error) {
       repetition.pictures_beyond.push_back(name + ": " + error.what());
     }
+  }
+}
+
+void compare_data(const std::vector<std::string>& names, const fs::path& recorded, const fs::path& now,
+                  bool same_program, Repetition& repetition) {
+  std::error_code ignored;
+  for (const std::string& name : names) {
+    if (!fs::is_regular_file(now / name, ignored)) {
+      repetition.data_beyond.push_back(name + " is not written any more");
+      continue;
+    }
+    ++repetition.data_files;
+    const auto bytes = [&](const fs::path& folder) {
+      return whole_file(folder / name, "cannot read " + (folder / name).string());
+    };
+    if (bytes(recorded) == bytes(now)) continue;
+    if (same_program && repetition.bits_are_due)
+      repetition.data_beyond.push_back(name);
+    else
+      repetition.data_otherwise.push_back(name);
   }
 }
 

@@ -28,6 +28,9 @@ struct Repetition {
   int trimmed_files = 0;                // those of a folder that keeps only a part of its run: no difference
   int pictures = 0;
   std::vector<std::string> pictures_beyond;  // in words
+  int data_files = 0;                        // fabric files and exported meshes
+  std::vector<std::string> data_beyond;      // in words
+  std::vector<std::string> data_otherwise;   // that another program has written in another way
 
   Agreement agreement() const;
 };
@@ -60,11 +63,12 @@ Repetition compare_runs(const Manifest& recorded, const Manifest& now, const Lim
 // version.
 bool is_picture(const std::string& file);
 
-// A run's folder holds every picture and table that its manifest lists, as long as its page stands in it.
-// One without its page keeps only a part, which is compared.
+// A run's folder holds every picture, table, fabric file and mesh that its manifest lists, as long as its
+// page stands in it. One without its page keeps only a part, which is compared.
 struct ComparableFiles {
   std::vector<std::string> pictures;  // that are there (is_picture())
   std::vector<std::string> tables;    // series and others, but for those of --errors, which are not repeated
+  std::vector<std::string> data;      // fabric files and exported meshes
   std::vector<std::string> lost;      // that are not there, although the page is
   int trimmed = 0;                    // that are not there, and the page is not either
 };
@@ -72,7 +76,10 @@ ComparableFiles comparable_files(const Manifest& recorded, const std::filesystem
                                  bool with_pictures);
 void compare_pictures(const std::vector<std::string>& names, const std::filesystem::path& recorded,
                       const std::filesystem::path& now, const Limits& limits, Repetition& repetition);
-// Pictures and tables of the repetition that a manifest of the same program does not list.
+// Byte for byte where one program of the same bits wrote both; another may write them in another way.
+void compare_data(const std::vector<std::string>& names, const std::filesystem::path& recorded,
+                  const std::filesystem::path& now, bool same_program, Repetition& repetition);
+// Pictures, tables and data of the repetition that a manifest of the same program does not list.
 void add_unlisted_files(const Manifest& recorded, const Manifest& now, bool with_pictures,
                         Repetition& repetition);
 

@@ -141,9 +141,12 @@ std::string repetition_text(const Repetition& r, const std::string& reasons) {
        {all_same_text(r.energies.count, r.energies.all_same(), "energy term"),
         all_same_text(r.series.count, r.series.all_same(), "table column"),
         all_same_text(r.pictures, r.pictures_beyond.empty(), "picture"),
+        all_same_text(r.data_files, r.data_beyond.empty() && r.data_otherwise.empty(), "data file"),
         r.trimmed_files > 0 ? fmt::format("files not kept: {}", r.trimmed_files) : ""})
     if (!text.empty()) parts.push_back(text);
   add("pictures differ: ", r.pictures_beyond);
+  add("files differ: ", r.data_beyond);
+  add("files that another program has written otherwise: ", r.data_otherwise);
   if (r.agreement() != Agreement::bits && !reasons.empty())
     parts.push_back("recorded by another: " + reasons);
   return join(parts, "; ");
@@ -181,12 +184,13 @@ Line compared(const RepeatedRun& run, const ChildRun& now, const VerifyChoice& c
   const fs::path folder = run.recorded.file.parent_path();
   const bool with_pictures = !run.files.pictures.empty();
   compare_tables(run.files.tables, folder, now.folder, before, *now.manifest, limits, repetition);
+  compare_data(run.files.data, folder, now.folder, before.commit == now.manifest->commit, repetition);
   compare_pictures(run.files.pictures, folder, now.folder, limits, repetition);
   add_unlisted_files(before, *now.manifest, with_pictures, repetition);
   repetition.lost = run.files.lost;
   repetition.trimmed_files = run.files.trimmed;
   if (!repetition.has_state &&
-      repetition.metrics.count + repetition.series.count + repetition.pictures == 0 &&
+      repetition.metrics.count + repetition.series.count + repetition.pictures + repetition.data_files == 0 &&
       repetition.agreement() != Agreement::none)
     return {Outcome::skipped, "skipped: it holds nothing that could be compared"};
   return {verified_outcome(repetition.agreement()),

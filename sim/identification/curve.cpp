@@ -30,6 +30,7 @@ struct Solution {
   Interval b1, b2, k0;     // what the scan allows (95 %)
   bool k0_open = false;    // up to its end
   Eigen::Vector3d errors;  // standard errors of the logarithms of b1, b2, k0, with their floor
+  UnreadNumbers unread;    // by the law
   double noise = 0;        // variance of a residual, at least that of kBestAccuracy
 
   // Twice the logarithm of the likelihood ratio between the best and another sum of squares.
@@ -89,6 +90,7 @@ Solution solve(const MomentModel& model) {
   const auto freedom = std::max<double>(1, static_cast<double>(fit.residuals.size() - size));
   const double widening = solution.covariance.widening;
   solution.noise = widening * widening * std::max(solution.best.sum / freedom, kBestAccuracy * kBestAccuracy);
+  solution.unread = model.unread(solution.best);
   find_intervals(scan, solution);
   return solution;
 }
@@ -100,9 +102,9 @@ void take(const Solution& solution, const std::string& source, Identification& r
     if (!e.determined) e.standard_error = kNone;
     return e;
   };
-  result.b1 = estimate(solution.best.b2 + solution.best.g, 0, solution.b1.narrow());
+  result.b1 = estimate(solution.best.b2 + solution.best.g, 0, solution.b1.narrow() && !solution.unread.b1);
   result.b2 = estimate(solution.best.b2, 1, solution.b2.narrow());
-  result.k0 = estimate(solution.best.k0, 2, solution.k0.narrow() && !solution.k0_open);
+  result.k0 = estimate(solution.best.k0, 2, solution.k0.narrow() && !solution.k0_open && !solution.unread.k0);
   result.iterations = solution.iterations;
 }
 
@@ -122,15 +124,32 @@ void say_undetermined(const Solution& solution, Identification& result) {
         (local ? "its standard error is of its own size"
                : range_text(interval, open, unit) + " describe the data as well (95 %)"));
   };
-  say("b1", result.b1, solution.b1, false, "N m");
+  if (!solution.unread.b1) say("b1", result.b1, solution.b1, false, "N m");
   say("b2", result.b2, solution.b2, false, "N m");
-  say("k0", result.k0, solution.k0, solution.k0_open, "1/m");
+  if (!solution.unread.b1 || !solution.unread.k0) say("k0", result.k0, solution.k0, solution.k0_open, "1/m");
 }
 
 void assume(Estimate& estimate, double value, const std::string& source) {
   estimate.value = value;
   estimate.source = source;
   estimate.confidence = "assumed";
+}
+
+// The law reads no b1: b2/b1 is assumed, or b1 = b2 where it reads no k0 either.
+void take_unread(const Assumptions& assumptions, Solution& solution, Identification& result) {
+  const std::string unread = "no moment of law " + result.law + " changes with ";
+  CurvePoint& used = solution.used;
+  if (!solution.unread.k0) {
+    used.g = used.b2 / assumptions.ratio - used.b2;
+    assume(result.b1, used.b2 + used.g, unread + "it; " + assumptions.ratio_source());
+  } else {
+    used.g = 0;
+    assume(result.b1, used.b2, unread + "it; b1 = b2 is taken");
+    result.k0 = assumptions.assumed_k0();
+    used.k0 = result.k0.value;
+  }
+  result.statements.push_back(std::string("b1 ") + (solution.unread.k0 ? "and k0 are" : "is") +
+                              " not determined: " + unread + (solution.unread.k0 ? "them" : "it"));
 }
 
 // b2 and k0 are open, the slope and the bend of the curve (b1 and c1) are not: b2 = ratio b1.
@@ -227,6 +246,11 @@ bool is_straight(const MomentModel& model, const Assumptions& assumptions, Solut
 void identify(const MomentModel& model, const Assumptions& assumptions, const std::string& source,
               Solution& solution, Identification& result) {
   take(solution, source, result);
+  if (solution.unread.b1) {
+    take_unread(assumptions, solution, result);
+    say_undetermined(solution, result);
+    return;
+  }
   if (!result.k0.determined && is_straight(model, assumptions, solution, result)) return;
   say_undetermined(solution, result);
   if (result.k0.determined || (!result.b2.determined && !result.b1.determined)) return;

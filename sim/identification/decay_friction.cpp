@@ -272,11 +272,17 @@ FabBending identify_decay(const DecaySeries& series, const DecayQuestion& questi
 }
 
 std::vector<FabForm> even_forms(const DecaySeries& series, const DecayQuestion& question) {
-  return even_form_fits([&](const FrictionForm& form) {
+  const auto identify = [&](const FrictionForm& form) {
     DecayQuestion one = question;
     one.form = form;
-    return identify_decay(series, one);
-  });
+    // Friction that saturates far beyond reach has a moment far beyond what it loses there.
+    for (const double logarithm : {2., 5.}) one.form->starts.emplace_back(VectorXd::Constant(1, logarithm));
+    FabBending found = identify_decay(series, one);
+    if (!(found.law.spring > 0))
+      throw Error::simulation("friction of " + form.name + " alone is steeper than the rigidity");
+    return found;
+  };
+  return even_form_fits(identify, kFewStops);
 }
 
 }  // namespace hysteron

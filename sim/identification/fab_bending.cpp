@@ -61,10 +61,9 @@ FrictionForm parabola_friction() {
   // Of a parabola that saturates at so many times the reach, half of the friction moment is in reach:
   // 2 x - x^2 = 1/2 at x = 1 - sqrt(1/2).
   constexpr double kHalfInReach = 3.41;
-  constexpr int kStops = 12;  // the virgin curve is missed by less than 1 % of its friction moment
   FrictionForm form{kParabolaName, {kMomentSpread, kMedianSpread}, [](const VectorXd& p, double moment) {
                       const double k0 = saturation_curvature(p);
-                      return parabola_stops(2 * std::exp(p[0]) * moment / k0, k0, kStops);
+                      return parabola_stops(2 * std::exp(p[0]) * moment / k0, k0, kFewStops);
                     }};
   for (const double k0 : kSaturationStarts)
     form.starts.emplace_back(Eigen::Vector2d(0, std::log(k0 / kUsualSaturation)));
@@ -75,9 +74,9 @@ FrictionForm parabola_friction() {
   return form;
 }
 
-FrictionForm even_friction(double k0) {
+FrictionForm even_friction(double k0, int stops) {
   return {"k0 = " + number_text(k0) + "/m", {kMomentSpread}, [=](const VectorXd& p, double moment) {
-            return parabola_stops(2 * std::exp(p[0]) * moment / k0, k0);
+            return parabola_stops(2 * std::exp(p[0]) * moment / k0, k0, stops);
           }};
 }
 
@@ -351,10 +350,11 @@ FabBending identify_fab_bending(const std::vector<FabLoops>& loops, const FabBen
   return found;
 }
 
-std::vector<FabForm> even_form_fits(const std::function<FabBending(const FrictionForm&)>& identify) {
+std::vector<FabForm> even_form_fits(const std::function<FabBending(const FrictionForm&)>& identify,
+                                    int stops) {
   std::vector<FabForm> forms;
   for (const double k0 : kSaturations) {
-    const FrictionForm form = even_friction(k0);
+    const FrictionForm form = even_friction(k0, stops);
     try {
       forms.push_back({form.name, identify(form), true});
     } catch (const Error& error) {

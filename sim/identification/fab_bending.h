@@ -33,6 +33,9 @@ struct FrictionForm {
   std::function<Eigen::VectorXd(double reach)> largest = {};
 };
 
+// So many stops miss the virgin curve of the parabola by less than 1 % of its friction moment.
+inline constexpr int kFewStops = 12;
+
 inline constexpr const char *kShapedName = "shaped", *kParabolaName = "chapter's";
 
 // Stops at thresholds that are given [1/m]: logarithms of their moments, shared alike.
@@ -50,7 +53,7 @@ FrictionForm parabola_friction();
 double saturation_curvature(const Eigen::VectorXd& parameters);  // k0 [1/m]
 
 // Friction that saturates at k0 [1/m] along the chapter's parabola: the logarithm of HB.
-FrictionForm even_friction(double k0);
+FrictionForm even_friction(double k0, int stops = kMaxStops);
 
 // Standard errors of the logarithms of the stops' stiffnesses and, last, of their friction moment, from the
 // covariance of the parameters.
@@ -98,7 +101,8 @@ struct FabForm {
 };
 // Friction that saturates at k0 of a grid [1/m]; without those for which no equilibrium is found.
 std::vector<FabForm> even_forms(const std::vector<FabLoops>& loops, const FabBendingQuestion& question);
-std::vector<FabForm> even_form_fits(const std::function<FabBending(const FrictionForm&)>& identify);
+std::vector<FabForm> even_form_fits(const std::function<FabBending(const FrictionForm&)>& identify,
+                                    int stops = kMaxStops);
 
 // Is this row up to the turn before which its branch still goes the other way, or on the way [m] after a turn
 // on which records are unreliable?

@@ -17,6 +17,7 @@ constexpr double kWide = 100;               // of nuisance: no bound
 constexpr double kFarthestFactor = 9;       // logarithm
 constexpr double kSmallestRigidity = 1e-6;  // over the measurement's slope: no logarithm of zero
 constexpr double kUsualK0 = 50;             // [1/m]
+constexpr double kUnread = 1e-9;            // of the largest moment: rounding
 constexpr double kSameModel = 1e-8;         // of the largest moment: the law is linear in b2 and g
 
 // Least squares whose first two coefficients are >= 0, by trying which of them is zero.
@@ -129,6 +130,20 @@ CurvePoint MomentModel::searched_from(const CurvePoint& begin, int& iterations) 
   const Tied tied = fit_tied(*this, numbers, 2, begin);
   iterations += tied.iterations;
   return tied.best;
+}
+
+UnreadNumbers MomentModel::unread(const CurvePoint& point) const {
+  const auto differs = [&](const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
+    return !((a - b).cwiseAbs().maxCoeff() <= kUnread * largest_);
+  };
+  CurvePoint stiffer = point;  // with friction, where the best fit may have next to none
+  stiffer.g += point.b2 + point.g;
+  CurvePoint sooner = stiffer, later = stiffer;
+  sooner.k0 /= 2;
+  later.k0 *= 2;
+  const Eigen::VectorXd moments = law_moments(stiffer);
+  return {!differs(law_moments(point), moments),
+          !differs(law_moments(sooner), moments) && !differs(law_moments(later), moments)};
 }
 
 Eigen::VectorXd MomentModel::parameters(const CurvePoint& point) const {

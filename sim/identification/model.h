@@ -27,6 +27,11 @@ struct CurvePoint {
   VirginCurve curve() const { return {b2 + g, b2, k0}; }
 };
 
+// Numbers that a law does not read: the data cannot fix them, however well it describes them.
+struct UnreadNumbers {
+  bool b1 = false, k0 = false;
+};
+
 // A law's moments along a measured series.
 class MomentModel {
  public:
@@ -41,6 +46,9 @@ class MomentModel {
   // Best b2, g and nuisance at one k0.  Solved at once for laws whose moment is linear in b2 and g: all whose
   // friction is a fixed shape, unless the zero of curvature is sought.
   CurvePoint best_at(double k0, int& iterations) const;
+
+  // Which numbers change no moment of the law here: it does not read them.
+  UnreadNumbers unread(const CurvePoint& point) const;
 
   // Parameters of the whole fit: logarithms of b2, g, k0 over their scales, then the nuisance.
   Eigen::VectorXd parameters(const CurvePoint& point) const;

@@ -250,7 +250,18 @@ std::size_t column_index(const Table& table, const std::string& quantity, const 
   return table.at(quantity + ending);
 }
 
+void check_columns_once(const Table& table, const UnitNames& unit) {
+  const std::string length = unit.length, force = unit.force;
+  for (const std::string& wanted :
+       {std::string("direction"), std::string("test"), std::string("branch"), "clamp_distance" + length,
+        "force" + force, "gauge_length" + length, "width" + length})
+    if (std::count(table.head.begin(), table.head.end(), wanted) > 1)
+      throw Error::invalid_input(table.file + ": column '" + wanted + "' stands twice")
+          .with_experiment(table.reader);
+}
+
 Columns loop_columns(const Table& table, const UnitNames& unit) {
+  check_columns_once(table, unit);
   const auto in = [&](const std::string& quantity, const char* ending) {
     return column_index(table, quantity, ending);
   };

@@ -64,7 +64,7 @@ const FabricLimit kLimits[] = {
      between(0.02, 50), kNoSlip},
     {"warp", "N/m", [](const Fabric& f) { return f.warp; }, between(0, 1e8), between(1, 1e6), kKesStiffness},
     {"weft", "N/m", [](const Fabric& f) { return f.weft; }, between(0, 1e8), between(1, 1e6), kKesStiffness},
-    {"shear", "N/m", [](const Fabric& f) { return f.shear; }, between(0, 1e8), between(0, 1e6),
+    {"shear", "N/m", [](const Fabric& f) { return f.shear; }, between(0, 1e8), between(3, 1e6),
      kKesStiffness},
     {"damping", "s", [](const Fabric& f) { return f.damping; }, between(0, 1e3), between(0, 1), kNoSlip},
     {"friction", "", [](const Fabric& f) { return f.friction; }, between(0, 100), between(0, 3), kNoSlip},

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "sim/scene/scene.h"
+#include "sim/scene/scene_reader.h"
 
 namespace hysteron {
 

@@ -118,8 +118,23 @@ struct Reader {
       number.provenance.standard_error = this->number(node, "stderr");
       if (*number.provenance.standard_error < 0) throw refusal(node.key + ": stderr must be >= 0", node);
     }
-    if (node.find("tester")) number.tester = text(node, "tester");
+    if (node.find("tester")) {
+      number.tester = text(node, "tester");
+      if (number.tester != "jis" && number.tester != "iso9073")
+        throw refusal(node.key + ": tester = \"" + number.tester + "\" must be jis | iso9073", node);
+    }
     return number;
+  }
+
+  // A drape coefficient in percent, whether it is printed so or as a share.
+  void check_drape(const ValueTree& node, PublishedNumber& number) const {
+    if (number.unit == "1") number.value *= 100, number.unit = "%";
+    if (!number.unit.empty() && number.unit != "%")
+      throw refusal(node.key + " has unit \"" + number.unit + "\" and must have \"%\" or \"1\"", node);
+    if (!(number.value > 1.5 && number.value <= 101))
+      throw refusal(node.key + " = " + number_text(number.value) +
+                        " % is no drape's, which has up to 100 %: a share has the unit \"1\"",
+                    node);
   }
 
   // range = [low, high], around the value; none where the number does not state it.
@@ -277,6 +292,7 @@ FabricFile read_fabric(const std::string& name_or_file, const std::string& origi
   if (const ValueTree* published = root.find("published")) {
     for (const ValueTree& node : published->children) {
       scene.fabric.published[node.key] = reader.quantity(node, sources, "");
+      if (node.key == "drape-coefficient") reader.check_drape(node, scene.fabric.published[node.key]);
       if (const auto range = reader.range(node, scene.fabric.published[node.key].value)) {
         if (node.key != "B" && node.key != "2HB")
           throw reader.refusal(node.key + ": a range belongs to [parameters], or to B and 2HB", node);

@@ -67,6 +67,22 @@ class Bits(unittest.TestCase):
             sim.advance(4)
         self.assertEqual(of_dict.state_hash, of_file.state_hash)
 
+    def test_of_a_file_do_not_depend_on_what_it_says_of_pictures_and_metrics(self):
+        plain = SCENE.format(integrator="bdf2", precision="double")
+        pictured = ('fps = 12\nno-images = true\n' + plain +
+                    '[[metric]]\nname = "end"\nkind = "height"\npoint = [0.09, 0, 0]\n')
+        hashes = []
+        with tempfile.TemporaryDirectory() as folder:
+            for text in (plain, pictured):
+                file = os.path.join(folder, "strip.toml")
+                with open(file, "w") as scene:
+                    scene.write(text)
+                sim = hysteron_cloth.Simulation(hysteron_cloth.Scene(file))
+                sim.advance(2)
+                hashes.append(sim.state_hash)
+        self.assertEqual(hashes[1], hashes[0])
+        self.assertEqual(hysteron_cloth.Scene("towel-on-rail").to_dict()["cloth"]["shape"], "strip")
+
     def test_go_on_from_what_was_saved_with_a_hand_that_is_driven(self):
         sim = hysteron_cloth.Simulation(strip())
         sim.advance()

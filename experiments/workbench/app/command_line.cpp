@@ -48,18 +48,6 @@ std::vector<KeyDescription> every_option(const Experiment& experiment, Defaults 
   return keys;
 }
 
-// What the experiment decides itself, too: what it says to such a flag is more than that it is unknown.
-void add_command(CLI::App& program, const Experiment& experiment, Command& command) {
-  command.experiment = &experiment;
-  command.app = program.add_subcommand(experiment.name, experiment.question);
-  command.app->allow_extras();
-  command.app->set_version_flag("--version", program_version());
-  for (const KeyDescription& key : every_option(experiment, Defaults::left_out))
-    command.flags.emplace_back(option_name(key).substr(2), add_flag(*command.app, key));
-  if (*experiment.positionals)
-    command.app->add_option("names", command.positionals)->type_name(experiment.positionals);
-}
-
 // A word that the shell reads back as it is.
 std::string quoted(const std::string& word) {
   const std::string_view safe = "-_./=,:+@%";
@@ -70,6 +58,31 @@ std::string quoted(const std::string& word) {
   std::string text = "'";
   for (char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return text + "'";
+}
+
+// Values that a flag is given beside the one that counts, the last.
+void warn_of_repeated(const std::string& path, const CLI::Option& option) {
+  const std::vector<std::string>& given = option.results();
+  if (option.reduced_results().size() > 1 || given.empty()) return;
+  for (const std::string& text : given) {
+    if (text == given.back()) continue;
+    std::cerr << "warning: --" << path << " is given more than once: as " << quoted(text) << ", and last as "
+              << quoted(given.back()) << ", which is taken" << std::endl;
+    return;
+  }
+}
+
+// Options that the experiment decides itself are added, too: what it says to such a flag is more than that it
+// is unknown.
+void add_command(CLI::App& program, const Experiment& experiment, Command& command) {
+  command.experiment = &experiment;
+  command.app = program.add_subcommand(experiment.name, experiment.question);
+  command.app->allow_extras();
+  command.app->set_version_flag("--version", program_version());
+  for (const KeyDescription& key : every_option(experiment, Defaults::left_out))
+    command.flags.emplace_back(option_name(key).substr(2), add_flag(*command.app, key));
+  if (*experiment.positionals)
+    command.app->add_option("names", command.positionals)->type_name(experiment.positionals);
 }
 
 std::string shell_command(std::vector<std::string> words) {
@@ -160,6 +173,7 @@ CommandLine taken_apart(const Command& command, std::string shell_command) {
   if (!command.experiment->run) return line;
   throw_if_unknown(command);
   for (const auto& [path, option] : command.flags) {
+    warn_of_repeated(path, *option);
     for (const std::string& text : option->reduced_results()) {
       if (path == "out" && text.empty())
         throw Error::invalid_input("--out is empty: name where to write")

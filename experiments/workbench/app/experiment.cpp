@@ -165,7 +165,12 @@ std::vector<KeyDescription> descriptions(const Keys& keys) {
 }
 
 std::vector<std::string> listed(const std::string& text, const std::vector<std::string>& every) {
-  return text == "all" ? every : split(text);
+  if (text == "all") return every;
+  const std::vector<std::string> names = split(text);
+  for (auto name = names.begin(); name != names.end(); ++name)
+    if (std::find(names.begin(), name, *name) != name)
+      throw Error::invalid_input("\"" + text + "\" names " + *name + " twice");
+  return names;
 }
 
 std::vector<std::string> law_names() {

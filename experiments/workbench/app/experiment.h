@@ -114,7 +114,8 @@ bool has_key(const std::vector<Key>& keys, const std::string& path) {
   return std::ranges::find(keys, path, &Key::path) != keys.end();
 }
 
-// "all" is every one; else names separated by commas.
+// "all" is every one; else names separated by commas.  Throws Error::invalid_input for one that is there
+// twice.
 std::vector<std::string> listed(const std::string& text, const std::vector<std::string>& every);
 // Of all laws, in the order of `hysteron list laws`.
 std::vector<std::string> law_names();

@@ -138,7 +138,7 @@ struct RunSpec {
   std::vector<std::pair<std::string, std::string>> flags{};  // path and text, in their order
 };
 
-// A file that a run has read.
+// A file that a run has read, or a table that it has written.
 struct InputRecord {
   std::string file;  // as it was named, or assets/...
   std::string hash;  // of its bytes
@@ -181,6 +181,7 @@ struct Manifest {
   Metrics metrics;
   std::vector<std::string> requested_metrics;  // those that its scene file asks for
   std::vector<std::string> files;
+  std::vector<InputRecord> tables;  // of those files the CSVs, as a complete run has left them
   bool complete = false;
 
   // Of `keys` the text or number at a path, "fabric.b2"; what is neither is its JSON.  "", 0: there is none.

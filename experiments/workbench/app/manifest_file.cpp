@@ -154,6 +154,7 @@ void visit_fields(M& m, const Visit& visit, const VisitOwn& visit_own) {
   visit("asked_metrics", m.requested_metrics, Where::if_there);
   visit("metrics", m.metrics, Where::always);
   visit("files", m.files, Where::always);
+  visit("tables", m.tables, Where::if_there);
   visit("complete", m.complete, Where::always);
 }
 

@@ -231,6 +231,7 @@ void Run::write_last_manifest(bool complete) {
   note_seconds(manifest_);
   manifest_.inputs = inputs_of_job(folder());
   manifest_.complete = complete;
+  if (complete) manifest_.tables = written_tables(manifest_.files, folder());
   const Json json = to_json(manifest_);
   const std::string text = json.dump(2) + "\n";
   write_text(folder() / "manifest.json", text);

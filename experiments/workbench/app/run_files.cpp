@@ -126,10 +126,10 @@ void require_own_file(const fs::path& file, const std::string& mark, const std::
   std::error_code ignored;
   if (!fs::is_regular_file(file, ignored) || fs::file_size(file, ignored) == 0) return;
   if (whole_file(file, "cannot read " + file.string()).find(mark) != std::string::npos) return;
-  throw Error::invalid_input("--" + key + " " + file.string() +
-                             " is a file that is there already and is not " + what +
-                             " of this program: give another name, or remove it")
-      .with_key(key, file.string());
+  const Error refused = Error::invalid_input((key.empty() ? "" : "--" + key + " ") + file.string() +
+                                             " is a file that is there already and is not " + what +
+                                             " of this program: give another name, or remove it");
+  throw key.empty() ? refused : refused.with_key(key, file.string());
 }
 
 }  // namespace hysteron::experiments

@@ -25,9 +25,9 @@ bool is_behind_a_link(const std::filesystem::path& folder, const std::filesystem
 // "frames/0012.png", one of a sequence, whose files are numbered.
 bool is_numbered(const std::filesystem::path& name);
 
-// Refuses to replace a file that `--key` names and the program has not written itself, which it knows by a
-// `mark` in it: `what` says what it writes there, "a resolved scene".  An empty file is no one's.  Throws
-// Error::invalid_input.
+// Refuses to replace a file that `--key` names (or, without a key, the program) and the program has not
+// written itself, which it knows by a `mark` in it: `what` says what it writes there, "a resolved scene".  An
+// empty file is no one's.  Throws Error::invalid_input.
 void require_own_file(const std::filesystem::path& file, const std::string& mark, const std::string& what,
                       const std::string& key);
 

@@ -58,10 +58,9 @@ fs::path place_of(const InputRecord& input) {
 }
 
 // Nothing where it cannot be read.
-std::optional<std::string> hash_now(const InputRecord& input) {
+std::optional<std::string> hash_of(const fs::path& file) {
   const WorkingFor nobody(nullptr);  // to compare a file is not to read it for the request
   try {
-    const fs::path file = place_of(input);
     const std::string bytes = whole_file(file, "cannot read " + file.string());
     return hash_text(fnv1a(bytes.data(), bytes.size()));
   } catch (const Error&) {
@@ -116,7 +115,7 @@ std::vector<std::string> input_changes(const std::vector<InputRecord>& then,
     const InputRecord* const same_file = find_file(now, input.file);
     // From another working folder it has another name.
     if (!same_file && has_bytes(now, input.hash)) continue;
-    const std::optional<std::string> hash = same_file ? same_file->hash : hash_now(input);
+    const std::optional<std::string> hash = same_file ? same_file->hash : hash_of(place_of(input));
     if (!hash)
       changes.push_back(input.file + " is not there any more");
     else if (*hash != input.hash)
@@ -168,8 +167,19 @@ std::vector<std::string> changed_words(const std::vector<std::string>& then,
   return names;
 }
 
+std::vector<InputRecord> written_tables(const std::vector<std::string>& files, const fs::path& folder) {
+  std::vector<InputRecord> tables;
+  for (const std::string& file : files)
+    if (file.ends_with(".csv"))
+      if (const std::optional<std::string> hash = hash_of(folder / file)) tables.push_back({file, *hash});
+  return tables;
+}
+
 std::vector<std::string> lost_files(const Manifest& run, const fs::path& folder) {
   std::vector<std::string> lost;
+  for (const InputRecord& table : run.tables)
+    if (const std::optional<std::string> hash = hash_of(folder / table.file); hash && *hash != table.hash)
+      lost.push_back("its " + table.file + " is not as it was written");
   for (const std::string& file : run.files)
     if (std::error_code ignored; !fs::exists(folder / file, ignored))
       lost.push_back("its " + file + " is not there any more");

@@ -32,7 +32,11 @@ std::string changed_error_flags(const Manifest& before, const CommandLine& line)
 std::vector<std::string> changed_words(const std::vector<std::string>& then,
                                        const std::vector<std::string>& now);
 
-// "its metrics.csv is not there any more", for each file that the run wrote into the folder and that is gone.
+// The tables among these files of a run's folder.
+std::vector<InputRecord> written_tables(const std::vector<std::string>& files,
+                                        const std::filesystem::path& folder);
+// "its metrics.csv is not there any more", "is not as it was written", for each file that the run wrote into
+// the folder and that is gone, and for each table that is another.
 std::vector<std::string> lost_files(const Manifest& run, const std::filesystem::path& folder);
 
 // Why the complete run of that manifest is no answer to the line and its set-up; "": it is one.

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "render/camera.h"
+#include "sim/base/comma_list.h"
 #include "sim/base/error.h"
 #include "sim/base/fnv1a.h"
 #include "sim/base/number_in.h"
@@ -36,7 +37,7 @@ std::vector<std::string> names_in(const CommandLine& line, const std::string& ke
   for (const Flag& flag : line.flags)
     if (flag_key(flag) == key) text = flag.text;
   if (text.empty()) return {""};
-  return listed(text, every);
+  return text == "all" ? every : split(text);
 }
 
 // "linear" is --law linear; "linear+fabric.damping=1e-3" is --fabric.damping 1e-3 besides.

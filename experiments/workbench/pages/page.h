@@ -60,6 +60,9 @@ std::string html_about(const std::string& text);
 
 std::string html_section(const std::string& title, const std::string& body);
 
+// What every page has in its style, by which the program knows it as its own.
+inline constexpr const char* kOwnPage = "color-scheme: light dark; --ink";
+
 // The whole document, with style, and with the script where something plays or opens.
 // `kind`: class of the body, "gallery" for many runs.
 std::string html_page(const std::string& title, const std::string& body, const std::string& kind = "");

@@ -79,9 +79,35 @@ std::vector<std::string> pin_warnings(const Scene& scene, const Cloth& cloth) {
     if (beside > 0)
       warnings.push_back(name + " holds the vertex that is nearest to its point, which lies " +
                          number_text(beside, 3) + " m beside the flat cloth: is it in metres?");
+    if (const std::vector<Keyframe>& keys = pin.motion.keys; !(pin.from > 0) && !keys.empty()) {
+      const Keyframe& first = keys.front();
+      if (!first.position.isZero(0) || first.angle != 0 || first.scale != 1)
+        warnings.push_back(name + " jumps within the first step to where its first key is (" +
+                           number_text(first.position.norm(), 3) + " m, " + number_text(first.angle, 3) +
+                           " degree): let it begin with a key at time = 0 that moves nothing");
+    }
     const auto is_own = [&](int vertex) { return cloth.pin[vertex] == static_cast<int>(p); };
     if (!(pin.from > 0) && std::ranges::none_of(cloth.pin_vertices[p], is_own))
       warnings.push_back(name + " holds nothing at the start: later pins take all of its vertices");
+  }
+  return warnings;
+}
+
+// Keys that are given and that nothing in the scene reads.
+std::vector<std::string> idle_key_warnings(const Scene& scene) {
+  const bool is_still = scene.integrator == Integrator::quasi_static,
+             touches = !scene.obstacle.empty() || scene.self_contact;
+  const struct {
+    const char *key, *why;
+    bool is_idle;
+  } kKeys[] = {{"contact-stiffness", "nothing touches the cloth", !touches},
+               {"air-drag", "quasi-static equilibria know no speed", is_still},
+               {"fabric.damping", "quasi-static equilibria know no speed", is_still}};
+  std::vector<std::string> warnings;
+  for (const auto& [key, why, is_idle] : kKeys) {
+    const auto origin = scene.origin.find(key);
+    if (is_idle && origin != scene.origin.end() && origin->second.starts_with("--"))
+      warnings.push_back(std::string(key) + " (" + origin->second + ") changes nothing: " + why);
   }
   return warnings;
 }
@@ -101,16 +127,11 @@ std::vector<std::string> said(std::vector<std::string> texts) {
 
 }  // namespace
 
-namespace {
-
-// Elasticity and friction are one in such a law.
-std::string weft_friction_warning(const Scene& scene) {
-  if (!scene.fabric.rubs_otherwise() || has_friction_beside_b2(scene.law)) return "";
-  return shown(scene, "fabric.weft-friction", scene.fabric.weft_friction, "") + " changes nothing: law " +
-         scene.law + " has no friction beside b2, and bends along weft as " + "fabric.weft-bending says";
+std::string weft_friction_warning(const Fabric& fabric, const std::string& law) {
+  if (!fabric.rubs_otherwise() || has_friction_beside_b2(law)) return "";
+  return "fabric.weft-friction = " + number_text(fabric.weft_friction) + " changes nothing: law " + law +
+         " has no friction beside b2, and bends along weft as fabric.weft-bending says";
 }
-
-}  // namespace
 
 std::vector<std::string> doubts_at_start(const Scene& scene, const Cloth& cloth, Simulation& simulation) {
   std::vector<std::string> doubts = fabric_warnings(scene);
@@ -119,9 +140,9 @@ std::vector<std::string> doubts_at_start(const Scene& scene, const Cloth& cloth,
   doubts.insert(doubts.end(), of_parameters.begin(), of_parameters.end());
   doubts.insert(doubts.end(), {locking_words(scene, cloth.mesh), pressed_words(scene, cloth, simulation),
                                command_warning(scene, cloth, simulation.dimension()), phases_warning(scene),
-                               weft_friction_warning(scene)});
-  const std::vector<std::string> of_pins = pin_warnings(scene, cloth);
-  doubts.insert(doubts.end(), of_pins.begin(), of_pins.end());
+                               weft_friction_warning(scene.fabric, scene.law)});
+  for (const std::vector<std::string>& more : {pin_warnings(scene, cloth), idle_key_warnings(scene)})
+    doubts.insert(doubts.end(), more.begin(), more.end());
   return said(doubts);
 }
 

@@ -12,6 +12,10 @@ namespace hysteron::experiments {
 // already.
 std::vector<std::string> doubts_at_start(const Scene& scene, const Cloth& cloth, Simulation& simulation);
 
+// Says that the law does not follow a friction of the fabric's own along weft; "" where it does, or there is
+// none.
+std::string weft_friction_warning(const Fabric& fabric, const std::string& law);
+
 // Says that the mesh has a tenth more or fewer triangles than were asked for, since its rows and columns must
 // be whole and some specimens need more; "" where it has not.  `asked` and `origin` are those of the key
 // triangles.

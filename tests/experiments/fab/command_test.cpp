@@ -98,6 +98,16 @@ TEST_F(FabCommand, FollowsStopsThatAFileStates) {
   EXPECT_NEAR(metrics("b").at("area_cycle1_J_per_m"), (l + w) / 2, 0.05 * l);
 }
 
+TEST_F(FabCommand, WarnsOfPartsOfAFabricThatItDoesNotSimulate) {
+  const auto warnings = [&](const char* fabric) {
+    EXPECT_EQ(fab({{"fabric", fabric}, {"fab.steps", "4"}, {"no-images", "true"}}), 0);
+    return manifest_in(folder_.path() / "out")["warnings"].dump();
+  };
+  EXPECT_TRUE(says(warnings("cotton-broad-creasing"), "fab does not simulate its [bending.set]"));
+  EXPECT_TRUE(says(warnings("cotton-broad-relaxing"), "fab does not simulate its [bending.branches]"));
+  EXPECT_FALSE(says(warnings("cotton-broad"), "does not simulate"));
+}
+
 TEST_F(FabCommand, RefusesWhatNoTesterDoes) {
   EXPECT_TRUE(says(test::refusal([&] { fab({{"fab.test", "X1"}}); }), "U.."));
   EXPECT_TRUE(says(test::refusal([&] { fab({{"fab.direction", "Q"}}); }), "L | W | B"));

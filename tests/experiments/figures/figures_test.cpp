@@ -1,9 +1,11 @@
 #include "experiments/figures/figures.h"
 
 #include <cmath>
+#include <fstream>
 #include <set>
 
 #include "sim/base/error.h"
+#include "sim/scene/assets.h"
 #include "sim/scene/fabric_reader.h"
 #include "tests/experiments/folder.h"
 
@@ -133,6 +135,36 @@ TEST(FiguresCommand, WritesCurvesAndCaptionsWithoutPicturesToo) {
     EXPECT_TRUE(says(captions, figure.name + ".png")) << figure.name;
   }
   EXPECT_TRUE(says(captions, "wool-tropical"));
+}
+
+// Their sentences and closed forms are of the chapter's three numbers.
+TEST(FiguresCommand, RefusesAFabricWithStopsByItsFile) {
+  const Folder folder;
+  const std::string file = folder.file("stops.toml");
+  std::ifstream shipped(find_asset("fabrics", "cotton-broad-k50", "test"));
+  std::ofstream text(file);
+  for (std::string line; std::getline(shipped, line);)  // b1 and k0 follow from the stops
+    if (!line.starts_with("b1 = {") && !line.starts_with("k0 = {")) text << line << "\n";
+  text << "\n[bending.stops]\nthresholds = [10, 50]\nstiffnesses = [8e-6, 1e-6]\n";
+  text.close();
+  const std::string out = folder.file("out");
+  EXPECT_TRUE(says(test::refusal([&] {
+                     run_into(out, "figures", {{"fabric", file}});
+                   }),
+                   "--fabric " + file + " has friction by stops", "of b1, b2 and k0 alone"));
+  EXPECT_FALSE(fs::exists(out));
+}
+
+TEST(FiguresCommand, StatesTheFabricThatItUsesAsItsDefault) {
+  for (const KeyDescription& key : experiment_named("figures").own_keys())
+    if (key.path == "fabric.name") {
+      EXPECT_EQ(key.default_text, "cotton-broad-k50");
+    }
+  const Folder folder;
+  testing::internal::CaptureStdout();
+  EXPECT_EQ(run_into(folder.path(), "figures", {}), 0);
+  testing::internal::GetCapturedStdout();
+  EXPECT_EQ(manifest_in(folder.path())["scene"]["fabric"]["name"], "cotton-broad-k50");
 }
 
 }  // namespace

@@ -360,8 +360,8 @@ TEST_F(FitOfFab, TakesWarpBeforeWeftWhateverTheirOrderInTheFile) {
   const std::string file = (folder_.path() / "both.csv").string();
   Table table(made_table.head);
   for (const char* direction : {"B", "W", "L"})
-    for (const auto& row : made_table.rows) {
-      table.rows.push_back(row);
+    for (std::size_t i = 0; i < made_table.rows.size(); i += 3) {  // order shows in few rows as in all
+      table.rows.push_back(made_table.rows[i]);
       table.rows.back()[0] = direction;
     }
   table.write(file);

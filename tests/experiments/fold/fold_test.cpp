@@ -51,6 +51,22 @@ TEST(FoldSpecimen, HasAWholeNumberOfStepsAndMomentsInHalfACycle) {
   EXPECT_NEAR(steps, std::round(steps), 1e-9);
 }
 
+// Long cycles, and moments that the second after them is no multiple of.
+TEST(FoldSpecimen, TakesAsLongAsItsPhases) {
+  for (const double period : {0.9, 1.0, 3.0, 30.0, 1000.0}) {
+    FoldChoice choice;
+    choice.cycles = 2;
+    choice.period = period;
+    const Scene scene = folded(small_scene(), choice, 33).scene;
+    double phases = 0;
+    for (const Phase& phase : scene.phase) {
+      EXPECT_GT(phase.seconds, 0) << phase.name;
+      phases += phase.seconds;
+    }
+    EXPECT_NEAR(phases, scene.seconds, scene.step / 2) << period;
+  }
+}
+
 // Half of it bent to K one way, half of it the other way.
 TEST(FoldGauge, ReadsTheBendOfTheLimbsInAnyWarpDirection) {
   for (double warp_angle : {0.0, 90.0, 30.0}) {

@@ -1,4 +1,6 @@
 // `hysteron kes` of the law alone: its metrics, tables and flags.
+#include <fstream>
+
 #include "experiments/workbench/pages/closing_summary.h"
 #include "sim/base/error.h"
 #include "sim/bending/laws/law_parameters.h"
@@ -52,6 +54,23 @@ TEST_F(KesCommand, WarnsOfUnusualFabricsAndOfParametersThatChangeNothing) {
                                   {"fabric.bending.stops.stiffnesses", "3e-5 5e-6"}})["warnings"]
                                  .dump();
   EXPECT_TRUE(says(unused, "param stops is not used: the 2 stops of cotton-broad are the law's memory"));
+  const fs::path file = folder_.path() / "rubs-otherwise.toml";
+  std::ofstream(file) << "[parameters]\ndensity = 0.12\nthickness = 4e-4\nb2 = 1e-5\nb1 = 6e-5\nk0 = 8\n"
+                         "weft-bending = 1\nweft-friction = 0.5\nwarp = 200\nweft = 200\nshear = 40\n"
+                         "damping = 1e-3\nfriction = 0.3\n";
+  const std::string along_weft =
+      run({{"law", "gong"}, {"along", "weft"}, {"fabric", file.string()}})["warnings"].dump();
+  EXPECT_TRUE(says(along_weft, "fabric.weft-friction = 0.5 changes nothing: law gong"));
+  const std::string stops_along_weft =
+      run({{"law", "wong"},
+           {"along", "weft"},
+           {"fabric.bending.stops.thresholds", "4 20"},
+           {"fabric.bending.stops.stiffnesses", "3e-5 5e-6"},
+           {"fabric.bending.stops.weft.thresholds", "4 20"},
+           {"fabric.bending.stops.weft.stiffnesses", "1e-5 2e-6"}})["warnings"]
+          .dump();
+  EXPECT_TRUE(
+      says(stops_along_weft, "fabric.bending.stops.weft of cotton-broad changes nothing under law wong"));
   const std::string tension = run({{"test", "tension"}, {"fabric.warp", "2e6"}})["warnings"].dump();
   EXPECT_TRUE(says(tension, "fabric.warp = 2e+06 N/m (--fabric.warp) is unusual"));
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "experiments/kes/output.h"
+#include "experiments/specimens/cantilever_strip.h"
 #include "experiments/workbench/pages/closing_summary.h"
 #include "sim/base/error.h"
 #include "tests/experiments/folder.h"
@@ -94,6 +95,21 @@ TEST_P(LawOfThreeNumbers, HasRigidityAndFrictionAlongWeftOfTheirOwn) {
     EXPECT_NEAR(width, 1, near) << angle;
     EXPECT_NEAR(area, 1, 2 * near) << angle;
   }
+}
+
+// Branches are of the friction's directions, as stops are: the law along weft has what the strip has.
+TEST(StripOfAFabric, HasItsBranchesAlongWeftAsTheLawHas) {
+  Fabric fabric;
+  fabric.weft_bending = 0.4, fabric.bias_bending = 0.7, fabric.weft_friction = 0.7;
+  fabric.bending.branches = {{1e-6, 1e6}, {4e-6, 5e-6}};  // all of one relaxes at once, nothing of the other
+  StripShape shape = small("aligned");
+  shape.warp_angle = 90;
+  Scene scene;
+  scene.fabric = fabric, scene.cloth.warp_angle = 90, scene.law = "chapman";
+  const StripTest strip =
+      test_strip(clamped_strip(shape, {"chapman", fabric.virgin_curve(), {}}, fabric, kProtocol),
+                 {"chapman", curve_along(scene), {}}, kProtocol);
+  EXPECT_NEAR(std::get<0>(over_law(strip)), 1, kAgreement);
 }
 
 INSTANTIATE_TEST_SUITE_P(KesStrip, LawOfThreeNumbers,

@@ -1,4 +1,7 @@
 // `hysteron law` from file to file.
+#include <fmt/core.h>
+
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 
@@ -88,7 +91,7 @@ TEST_F(LawCommand, TakesTimeFromTheColumnTAndSaysWhereThereIsNone) {
   const std::string rows = "\n100,0\n100,100\n60,101\n";
   const auto moment = [&](const std::string& head) {
     write(head + rows);
-    EXPECT_EQ(warnings({{"law", "gong"}}), "");
+    EXPECT_FALSE(says(warnings({{"law", "gong"}}), "has no column time"));
     return read_csv(out_, {"moment [N]"}, {}, "law").numbers("moment [N]").back();
   };
   EXPECT_EQ(moment("curvature [1/m],t [s]"), moment("curvature [1/m],time [s]"));
@@ -116,6 +119,39 @@ TEST_F(LawCommand, GivesTimeAndCommandsToTheLawsThatTakeThem) {
   write("curvature [1/m],edit\n200,1\n150,0\n");
   EXPECT_NEAR(moments("grinspun-edit")[0], 0, kRounding);
   EXPECT_NEAR(moments("grinspun-edit")[1], -50e-5, kRounding);
+}
+
+// Legs of so many rows each, to 100 1/m and to -100 1/m.
+std::string way_there_and_back(int rows) {
+  std::string text = "curvature [1/m],time [s]\n";
+  for (int i = 1; i <= rows; ++i) text += fmt::format("{:.12g},{:.12g}\n", 100. * i / rows, 1. * i / rows);
+  for (int i = 1; i <= rows; ++i)
+    text += fmt::format("{:.12g},{:.12g}\n", 100 - 200. * i / rows, 1 + 1. * i / rows);
+  return text;
+}
+
+constexpr const char* kByLength = "rows are taken as whole steps: with each cut into eight";
+
+// Narain's friction moves by a share of what each step brings, kim's and terzopoulos' plastic curvature too.
+TEST_F(LawCommand, WarnsWhereTheLengthOfTheStepsDecides) {
+  write(way_there_and_back(1));
+  for (const char* law : {"narain", "kim", "terzopoulos"})
+    EXPECT_TRUE(says(warnings({{"law", law}}), kByLength, "give more rows", law));
+  EXPECT_TRUE(says(warnings({{"law", "prandtl"}, {"param", "fatigue.dc=1e-3"}}), kByLength));
+  write(way_there_and_back(1000));
+  for (const char* law : {"kim", "terzopoulos"}) EXPECT_EQ(warnings({{"law", law}}), "") << law;
+  EXPECT_EQ(warnings({{"law", "prandtl"}, {"param", "fatigue.dc=1e-3"}}), "");
+}
+
+TEST_F(LawCommand, NeverWarnsOfTheLengthOfTheStepsOfALawThatDoesNotSeeThem) {
+  const std::string sees_steps[] = {"narain", "kim", "terzopoulos", "gong"};
+  for (const char* rows : {"100,0\n-100,0\n", "80,0\n-3,0\n50,1\n-120,0\n7,0\n", "0,0\n0,0\n"}) {
+    write(std::string("curvature [1/m],edit\n") + rows);
+    for (const std::string& law : law_names()) {
+      if (std::count(std::begin(sees_steps), std::end(sees_steps), law)) continue;
+      EXPECT_EQ(warnings({{"law", law}}), "") << law;
+    }
+  }
 }
 
 }  // namespace

@@ -1,4 +1,6 @@
 // A run's folder drawn again without simulating.
+#include <fstream>
+
 #include "render/compare.h"
 #include "render/image.h"
 #include "tests/experiments/program.h"
@@ -47,6 +49,15 @@ TEST(KeptPictures, ARecordedFolderGivesItsSheetOrWhatFlagsAskFor) {
   refused(swing.drawing(swing.kept, " --render.ground 0"));
   EXPECT_TRUE(says(refused(swing.drawing(swing.kept, " --render.range 50")),
                    "--render.range 50 is not used: render.range needs --look curvature (look = cloth)"));
+}
+
+TEST(KeptPictures, OfAFileThatIsCutOffAreSaidToBeAPart) {
+  const Recorded swing("swing");
+  EXPECT_FALSE(says(finished(swing.drawing(swing.run)).err, "without the sheet"));
+  const fs::path frames = swing.run / "frames.hyg";
+  fs::resize_file(frames, fs::file_size(frames) - 20);
+  EXPECT_TRUE(
+      says(finished(swing.drawing(swing.run)).err, "and without the sheet that a whole run writes last"));
 }
 
 TEST(KeptPictures, AComparisonsFolderGivesItsSheet) {

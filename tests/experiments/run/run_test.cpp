@@ -269,6 +269,7 @@ select = "nearest"
 point = [0, 15, 0]
 [[pin]]
 high = [0.01, 1, 1]
+keys = [{time = 0.2, position = [0, 0, 0.05]}, {time = 0.4, position = [0, 0, 0.1]}]
 [[command]]
 kind = "iron"
 low = [5, 5, 5]
@@ -278,6 +279,7 @@ high = [6, 6, 6]
   EXPECT_TRUE(
       says(outcome.err, "[[pin]] 1 holds the vertex that is nearest to its point, which lies 14.8 m"));
   EXPECT_TRUE(says(outcome.err, "[[pin]] 1 holds nothing at the start: later pins take all"));
+  EXPECT_TRUE(says(outcome.err, "[[pin]] 2 jumps within the first step to where its first key is (0.05 m"));
   EXPECT_TRUE(says(outcome.err, "[[command]] 1 acts on nothing"));
   EXPECT_TRUE(says(outcome.err, "its phases take 0.3 s"));
 }

@@ -203,6 +203,30 @@ TEST_F(Recorded, RunIsVerified) {
   ended(4, verify + " --exact");
 }
 
+TEST_F(Recorded, FabricFilesAndMeshesAreVerified) {
+  record("swing --quick --no-images --triangles 60 --seconds 0.05 --export ply");
+  const std::string verify = "verify " + in("runs") + " --out " + in("check");
+  EXPECT_TRUE(says(finished(verify).out, "data files the same"));
+  std::vector<std::string> meshes;
+  const Json manifest = manifest_in(run());
+  for (const Json& file : manifest["files"])
+    if (file.get<std::string>().ends_with(".ply")) meshes.push_back(file);
+  ASSERT_FALSE(meshes.empty());
+  std::ofstream(run() / meshes.front(), std::ios::app) << "1 2 3\n";
+  EXPECT_TRUE(says(ended(4, verify).out, "files differ: " + meshes.front()));
+  fs::remove(run() / meshes.front());
+  EXPECT_TRUE(says(ended(4, verify).out, "no longer in the folder: " + meshes.front()));
+}
+
+TEST_F(Recorded, AFitsFabricFileIsVerified) {
+  finished("fit --kes.b 1e-5 --kes.2hb 1e-3 --fabric.density 0.1 --fabric.thickness 3e-4 --quiet" +
+           out_flag(run()));
+  const std::string verify = "verify " + in("runs") + " --out " + in("check");
+  EXPECT_TRUE(says(finished(verify).out, "1 data file the same"));
+  std::ofstream(run() / "fabric.toml", std::ios::app) << "# b1 = 1\n";
+  EXPECT_TRUE(says(ended(4, verify).out, "files differ: fabric.toml"));
+}
+
 // A run that stood in its folder before and is kept there makes no page of it.
 TEST_F(Recorded, RunBesideOneThatIsSetAsideIsVerified) {
   finished("kes --quick --no-images --quiet" + out_flag(run()));

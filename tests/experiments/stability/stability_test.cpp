@@ -239,6 +239,24 @@ TEST_P(ExplicitLimit, LiesAboveTheBoundByItsMargin) {
   EXPECT_NEAR(limit.ratio(), 1 / kMargin, kResolution / kMargin);
 }
 
+// Numbers of steps that are no multiple of the times the energy is looked at, and fewer than those.
+TEST(LimitSearch, FindsTheSameWithAnyNumberOfSteps) {
+  constexpr double kMargin = 0.75;      // sim/time/simulation.cpp
+  constexpr double kResolution = 0.02;  // of the search, and of the power iteration behind the bound
+  for (const int steps : {100, 150, 399}) {
+    const MeasuredLimit limit = measure_limit(limit_cases(true).front(), steps);
+    EXPECT_FALSE(limit.is_beyond_search) << steps;
+    EXPECT_NEAR(limit.ratio(), 1 / kMargin, kResolution / kMargin) << steps;
+  }
+}
+
+// Where no step is taken no wave grows: the search goes to its end.
+TEST(LimitSearch, MarksALimitBeyondItsEnd) {
+  const MeasuredLimit limit = measure_limit(limit_cases(true).front(), 0);
+  EXPECT_TRUE(limit.is_beyond_search);
+  EXPECT_DOUBLE_EQ(limit.ratio(), kMaxRatio);
+}
+
 class StabilityCommand : public testing::Test {
  protected:
   int run(std::vector<Flag> flags, bool with_plots = false) {
@@ -286,6 +304,13 @@ TEST_F(StabilityCommand, MeasuresTheExplicitLimitOnEveryMesh) {
   const Json metrics = manifest()["metrics"];
   EXPECT_GE(metrics["limit_smallest_ratio"], 1) << "the bound is never exceeded";
   EXPECT_LE(metrics["limit_largest_ratio"], 2) << "and never twice too careful";
+}
+
+TEST_F(StabilityCommand, RefusesAPartOfALimitStep) {
+  EXPECT_TRUE(says(test::refusal([&] {
+                     run({{"sweep", "explicit-limit"}, {"limit-steps", "100.5"}});
+                   }),
+                   "limit-steps = 100.5 must be a whole number"));
 }
 
 }  // namespace

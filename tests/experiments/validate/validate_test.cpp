@@ -1,5 +1,6 @@
 // The comparison with measurements, small.
 #include <cmath>
+#include <fstream>
 #include <numbers>
 #include <set>
 
@@ -50,9 +51,9 @@ TEST(Validate, DrawsUncertainNumbersFromALatinHypercubeThatKeepsTheFrictionMomen
   }
   const double moment = file.fabric.virgin_curve().friction_moment();
   for (const Sample& sample : samples)
-    EXPECT_NEAR(
-        (sample.at("b1") - sample.at("b2")) * sample.at("k0") / 2 * (1 + sample.at("weft-bending")) / 2,
-        moment, kRounding * moment)
+    EXPECT_NEAR((sample.at("b1") - sample.at("b2")) * sample.at("k0") / 2 *
+                    (1 + std::sqrt(sample.at("weft-bending"))) / 2,
+                moment, kRounding * moment)
         << "the mean of warp and weft";
   EXPECT_EQ(fabric_samples(file, kCount, 1), samples);
   EXPECT_NE(fabric_samples(file, kCount, 2), samples);
@@ -109,6 +110,44 @@ TEST(Validate, SaysNothingOfWhatWasNotMeasured) {
   ASSERT_EQ(table.head.back(), "measured is between");
   ASSERT_EQ(table.rows.size(), 2u);
   for (const auto& row : table.rows) EXPECT_EQ(row.back(), "");
+}
+
+// A fabric whose weft is not as its warp states bias-bending itself, not its ratio to the mean.
+TEST(Validate, KeepsTheBiasThatIsDrawnAndTheStopsOfAFabric) {
+  Fabric fabric;
+  fabric.weft_bending = 2, fabric.bias_bending = 1.5;
+  Sample bias = {{"bias-bending", 0.9}};
+  keep_what_was_measured(fabric, bias);
+  EXPECT_DOUBLE_EQ(bias.at("bias-bending"), 0.9);
+  Sample both = {{"bias-bending", 0.9}, {"weft-bending", 5}};
+  keep_what_was_measured(fabric, both);
+  EXPECT_DOUBLE_EQ(both.at("bias-bending"), 1.8);
+  fabric.bending.stops = {{10, 30}, {1e-5, 4e-6}};
+  Sample stops = {{"weft-bending", 0.5}};
+  keep_what_was_measured(fabric, stops);
+  EXPECT_EQ(stops, (Sample{{"weft-bending", 0.5}}));
+}
+
+TEST(Validate, RefusesRangesThatWouldChangeNothing) {
+  FabricFile file = read_fabric("cotton-broad", "test");
+  file.range["b2"] = between(1e-5, 2e-5);
+  EXPECT_TRUE(says(test::refusal([&] { uncertain_numbers(file); }), "a range of b1 or b2 beside one of k0"));
+  file.range = {{"k0", between(4, 25)}};
+  file.fabric.bending.stops = {{10}, {1e-5}};
+  EXPECT_TRUE(says(test::refusal([&] { uncertain_numbers(file); }), "has stops of its own"));
+}
+
+TEST(Validate, SaysWhereAFabricStatesNoRange) {
+  const Folder folder;
+  const fs::path file = folder.path() / "plain.toml";
+  std::ofstream(file)
+      << "[parameters]\ndensity = 0.12\nthickness = 4e-4\nb2 = 1e-5\nb1 = 6e-5\nk0 = 8\n"
+         "weft-bending = 1\nwarp = 200\nweft = 200\nshear = 40\ndamping = 1e-3\nfriction = 0.3\n";
+  const FinishedRun run(
+      "validate --quick --quiet --no-images --parts spread --standard iso9073 --triangles 150 --seconds 0.1 "
+      "--fabrics " +
+      file.string());
+  EXPECT_TRUE(says(run.outcome.err, "plain states no range of any number"));
 }
 
 TEST(Validate, TakesPartsThatItHasAndOneLaw) {

@@ -84,6 +84,25 @@ TEST(DecayFriction, ReturnsK0AndHBWithinATenthFromAmplitudesWithNoise) {
   EXPECT_GT(found.friction_error, 0);
 }
 
+// Of friction that does not saturate by far, each turn loses what its curvature's cube times HB/k0^2 is: as
+// k0 is doubled beyond the reach, HB is fourfold, and the fit as good.
+TEST(DecayFriction, FindsTheMomentOfFrictionThatSaturatesFarBeyondReach) {
+  constexpr double kCubic = 0.3;  // of the fourfold
+  DecaySeries series = turns(14);
+  series.amplitude = decay_by(series, question(), parabola_stops(2 * 3.4e-4 / 2.7, 2.7), 0.02);
+  DecayQuestion rough = question();
+  rough.noise = 2e-3;
+  const std::vector<FabForm> forms = even_forms(series, rough);
+  const auto form = [&](const std::string& name) {
+    const auto found = std::ranges::find(forms, name, &FabForm::name);
+    EXPECT_NE(found, forms.end()) << name;
+    return found->found;
+  };
+  const FabBending at_25 = form("k0 = 25/m"), at_50 = form("k0 = 50/m");
+  EXPECT_NEAR(at_50.law.friction() / at_25.law.friction() / 4, 1, kCubic);
+  EXPECT_NEAR(at_50.residual_rms / at_25.residual_rms, 1, kCubic);
+}
+
 // `swing --triangles 300 --fabric cotton-broad`, k0 = 8/m: the first fifteen amplitudes [mm], rounded, and
 // their times.  The strip's first swings have angles of 28 degrees and lose a third, which the energy balance
 // of small ones misses.

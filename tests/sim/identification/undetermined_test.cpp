@@ -64,6 +64,29 @@ TEST(Undetermined, IsB1OfALawThatDoesNotKnowIt) {
   EXPECT_EQ(found.undetermined(), Names{"b1"});
 }
 
+// The friction of these laws is b2 times their yield, which is k0 unless it is given.
+TEST(Undetermined, IsB1OfALawThatDoesNotReadItWhereverTheFitEnds) {
+  constexpr int kFewRows = 20;
+  for (const char* law : {"narain", "obrien", "kim"})
+    for (const char* of : {"prandtl", law}) {
+      CurveQuestion question;
+      question.law.name = law;
+      const MomentSeries series = measured(of, kCotton, {150, -150, 150}, 0.02, 1, kFewRows);
+      const Identification found = identify_curve(series, question);
+      EXPECT_FALSE(found.b1.determined) << law << " of " << of;
+      EXPECT_FALSE(std::isfinite(found.b1.standard_error));
+      EXPECT_EQ(found.b1.confidence, "assumed");
+      EXPECT_DOUBLE_EQ(found.b2.value, Assumptions{}.ratio * found.b1.value);
+      question.law.parameters["yield"] = "50";
+      const Identification without_k0 = identify_curve(series, question);
+      EXPECT_FALSE(without_k0.b1.determined || without_k0.k0.determined) << law << " of " << of;
+      EXPECT_TRUE(without_k0.b2.determined || std::string(of) != law) << law;
+      EXPECT_EQ(without_k0.k0.value, Assumptions{}.k0);
+      EXPECT_TRUE(
+          test::says(without_k0.statements.front(), "b1 and k0 are not determined: no moment of law", law));
+    }
+}
+
 // An assumption that the data exclude is not made: the curve bends by more than a ratio of 0.95 allows.
 TEST(Undetermined, NumbersAreNotReplacedByAnAssumptionThatTheDataContradict) {
   CurveQuestion question;

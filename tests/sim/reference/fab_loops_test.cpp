@@ -69,6 +69,21 @@ TEST(FabLoops, AreRefusedInOtherUnitsThanSaid) {
                    "clamp_distance is in cm: give --units fab, which reads it"));
 }
 
+// Which of the two was measured is not known; brackets and capitals make no other column.
+TEST(FabLoops, AreRefusedWithAColumnTwice) {
+  const Folder folder;
+  for (const char* second : {"force_N", "Force [N]"}) {
+    std::string text = si_rows();
+    for (std::size_t at = 0, line = 0; (at = text.find('\n', at)) != text.npos; ++line) {
+      const std::string cell = "," + (line == 0 ? std::string(second) : "0.05");
+      text.insert(at, cell);
+      at += cell.size() + 1;
+    }
+    EXPECT_TRUE(says(refusal([&] { read_fab(folder.write("a.csv", text), TesterUnits::si, "t"); }),
+                     "a.csv: column 'force_N' stands twice"));
+  }
+}
+
 TEST(FabLoops, AreRefusedWhereLengthsAreNoStrips) {
   const Folder folder;
   std::string text = si_rows();

@@ -179,6 +179,23 @@ TEST(FabricFiles, MayLeaveOutTheMembraneWhichThenSaysThatItIsADefault) {
   EXPECT_EQ(fabric.provenance.at("warp").source, "the program's default");
 }
 
+// A published drape in percent, as it is printed or as a share, of a tester that there is.
+TEST(FabricFiles, ReadAPublishedDrapeInPercentOfATesterThatThereIs) {
+  const auto drape = [](const std::string& number) {
+    const TextFile file(std::string(kMinimal) + kThickness + "[published]\ndrape-coefficient = " + number +
+                        "\n");
+    return read_fabric(file.path(), "test").fabric.published.at("drape-coefficient").value;
+  };
+  EXPECT_DOUBLE_EQ(drape("{value = 82.9, unit = \"%\", tester = \"jis\"}"), 82.9);
+  EXPECT_DOUBLE_EQ(drape("{value = 0.829, unit = \"1\", tester = \"iso9073\"}"), 82.9);
+  EXPECT_DOUBLE_EQ(drape("82.9"), 82.9);
+  for (const auto& [number, reason] : {std::pair{"{value = 0.829, unit = \"%\"}", "is no drape's"},
+                                       {"{value = 829, unit = \"%\"}", "is no drape's"},
+                                       {"{value = 82.9, unit = \"m\"}", "must have \"%\""},
+                                       {"{value = 82.9, tester = \"jiss\"}", "must be jis | iso9073"}})
+    EXPECT_NE(test::refusal([&] { drape(number); }).find(reason), std::string::npos) << number;
+}
+
 // kMinimal without b1 and k0, which follow from stops.
 std::string without_own_friction() {
   std::string text = std::string(kMinimal) + kThickness;

@@ -146,6 +146,16 @@ TEST(ReportOfAFolderWithoutARun, IsAWrongRequest) {
   EXPECT_TRUE(says(test::refusal([&] { write_report(folder.path()); }), "no manifest.json"));
 }
 
+TEST(ReportOfAFolder, IsNotPutInPlaceOfAnothersPage) {
+  const FinishedRun run("swing --quick --no-images --quiet --triangles 60 --seconds 0.05");
+  finished("report " + run.out.string());
+  const fs::path page = run.out / "report.html";
+  std::ofstream(page) << "<html>my notes</html>";
+  EXPECT_TRUE(
+      says(refused("report " + run.out.string()), "is a file that is there already and is not a page"));
+  EXPECT_EQ(file_content(page), "<html>my notes</html>");
+}
+
 TEST(HtmlText, CannotBreakOutOfThePage) {
   EXPECT_EQ(escaped("<a href=\"x\">&"), "&lt;a href=&quot;x&quot;&gt;&amp;");
 }
