@@ -15,18 +15,13 @@ namespace {
 
 constexpr double kAgrees = 1;  // percent: less is not worth a reason
 
-VirginCurve curve_of(const Fabric& fabric, SheetColumn column) {
-  Scene scene;
-  scene.fabric = fabric;
-  scene.cloth.warp_angle = column == SheetColumn::weft ? 90 : 0;
-  return curve_along(scene);
-}
+Along direction_of(SheetColumn column) { return column == SheetColumn::weft ? Along::weft : Along::warp; }
 
 KesReading bend(const Fabric& fabric, SheetColumn column, int steps) {
   KesProtocol protocol;
   protocol.minor_loops = false;
   protocol.steps = steps;
-  return test_in_kes({"prandtl", curve_of(fabric, column), {}}, protocol).reading;
+  return test_in_kes({"prandtl", curve_along(fabric, direction_of(column)), {}}, protocol).reading;
 }
 
 constexpr const char *kStraight = "tension is a straight line without friction: LT = 1 and RT = 100 %",
@@ -48,7 +43,6 @@ const char* second_width_reason(const KesSheet& sheet, double read) {
 
 void add_direction(std::vector<SheetReading>& all, const KesSheet& sheet, const Fabric& fabric,
                    SheetColumn column, int steps) {
-  const Along along = column == SheetColumn::weft ? Along::weft : Along::warp;
   const auto add = [&](const char* quantity, const char* unit, const char* si, double read,
                        const char* reason) {
     const double entered = sheet.along(quantity, column);
@@ -57,7 +51,7 @@ void add_direction(std::vector<SheetReading>& all, const KesSheet& sheet, const 
   const KesReading bending = bend(fabric, column, steps);
   add("B", "gf cm^2/cm", "N m", bending.rigidity, "");
   add("2HB", "gf cm/cm", "N", bending.loop_width, "");
-  const InPlaneLaw law = in_plane_law(fabric, along);
+  const InPlaneLaw law = in_plane_law(fabric, direction_of(column));
   InPlaneProtocol in_plane;
   in_plane.steps = steps;
   const ShearReading shear = test_shear(law, in_plane).reading;
@@ -88,8 +82,9 @@ std::vector<SheetReading> read_by_cantilever(const FastSheet& sheet, const Fabri
       const double entered = sheet.along(quantity, column);
       if (std::isfinite(entered)) all.push_back({quantity, unit, si, column, entered, read, reason});
     };
-    add("C", "mm", "m", virtual_bending_length(curve_of(fabric, column), fabric.density), "");
-    const InPlaneLaw law = in_plane_law(fabric, column == SheetColumn::weft ? Along::weft : Along::warp);
+    add("C", "mm", "m", virtual_bending_length(curve_along(fabric, direction_of(column)), fabric.density),
+        "");
+    const InPlaneLaw law = in_plane_law(fabric, direction_of(column));
     for (const auto& [quantity, load] : {std::pair{"E5", 5}, {"E20", 20}, {"E100", 100}}) {
       InPlaneProtocol protocol;
       protocol.largest = load * kGramForcePerCentimetre;

@@ -263,20 +263,11 @@ void check_rate(const CommandLine& line, const KesFlags& flags, const std::vecto
       .with_key("rate", rate);
 }
 
-// That of a law along the direction in which the specimen is cut.
-VirginCurve curve_of(const std::string& law, const Fabric& fabric, Along along) {
-  Scene scene;
-  scene.fabric = fabric;
-  scene.law = law;
-  scene.cloth.warp_angle = along == Along::weft ? 90 : 0;
-  return along == Along::weft ? curve_along(scene) : fabric.virgin_curve();
-}
-
 KesTests tested(const Fabric& fabric, const KesFlags& flags, const std::vector<std::string>& laws) {
-  const VirginCurve prandtl = curve_of("prandtl", fabric, flags.along);
+  const VirginCurve prandtl = curve_along(fabric, flags.along);
   KesTests tests{fabric, test_in_kes({"prandtl", prandtl, {}}, flags.protocol), {}};
   for (const std::string& law : laws) {
-    const LawRequest request{law, curve_of(law, fabric, flags.along),
+    const LawRequest request{law, curve_along(fabric, flags.along, law),
                              accepted_parameters(law, laws, flags.param)};
     tests.results.push_back({law, laws.size() > 1 ? law : "", test_in_kes(request, flags.protocol)});
     if (flags.on == "strip") tests.results.back().strip = strip_tested(fabric, flags, request);

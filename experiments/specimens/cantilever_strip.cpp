@@ -216,6 +216,14 @@ VirginCurve curve_along(const Scene& scene) {
   return curve;
 }
 
+VirginCurve curve_along(const Fabric& fabric, Along along, const std::string& law) {
+  Scene scene;
+  scene.fabric = fabric;
+  scene.law = law;
+  scene.cloth.warp_angle = along == Along::weft ? 90 : 0;
+  return curve_along(scene);
+}
+
 HeavyStrip strip_elastica(const Scene& scene, double length) {
   HeavyStrip strip;
   strip.law = {scene.law, strip_curve(scene), scene.param};

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "sim/reference/elastica.h"
+#include "sim/reference/kes_in_plane.h"
 #include "sim/scene/cloth.h"
 #include "sim/time/timetable.h"
 
@@ -31,6 +32,8 @@ VirginCurve strip_curve(const Scene& scene);
 bool has_strip_curve(const Scene& scene);
 // The same with the rigidity of that direction in its numbers: moments and curvatures are the strip's own.
 VirginCurve curve_along(const Scene& scene);
+// Of a strip that is cut along warp or weft.
+VirginCurve curve_along(const Fabric& fabric, Along along, const std::string& law = "prandtl");
 
 // The same strip as a curve, with its law, its rigidity and weight.
 HeavyStrip strip_elastica(const Scene& scene, double length);

@@ -12,7 +12,6 @@
 namespace hysteron {
 namespace {
 
-constexpr double kNormal95 = 1.96;   // half width of a 95 % interval over the standard deviation
 constexpr double kWidestKnown = 10;  // factor beyond which the prior, of 19, decides
 
 std::string list(const std::vector<double>& values) {

@@ -12,16 +12,6 @@
 namespace hysteron {
 namespace {
 
-// A TOML basic string.
-std::string quoted(const std::string& text) {
-  std::string result = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') result += '\\';
-    result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-  }
-  return result + '"';
-}
-
 std::string borrowed_from(const Fabric& fabric) {
   return "not measured, not this fabric's: that of " + fabric.name + ", the program's default";
 }
@@ -49,6 +39,15 @@ void throw_if_unreadable(const std::string& temporary, const std::string& file) 
 }
 
 }  // namespace
+
+std::string quoted(const std::string& text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') result += '\\';
+    result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+  }
+  return result + '"';
+}
 
 std::vector<std::string> borrowed_warnings(const FabricNotes& notes) {
   const Fabric default_fabric;

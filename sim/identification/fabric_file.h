@@ -20,6 +20,8 @@ struct FabricNotes {
 // A line for each number of the fabric's file that is another fabric's, because none was given.
 std::vector<std::string> borrowed_warnings(const FabricNotes& notes);
 
+// A text of TOML, between quotation marks.
+std::string quoted(const std::string& text);
 // A line of the table [parameters] with its line's end; a ratio has no unit.
 std::string fabric_entry(const std::string& name, const std::string& unit, const Estimate& from);
 // A file for read_fabric() that ends in its table [parameters]; standard errors as `stderr` beside the

@@ -10,7 +10,6 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr double kNormal95 = 1.96;  // half width of a 95 % interval over the standard deviation
 constexpr double kSameEnds = 0.03;  // of the way between the ends
 
 std::pair<double, double> ends(const FabLoops& loops, int cycle) {

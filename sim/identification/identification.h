@@ -40,6 +40,8 @@ struct Identification {
 // Four digits, for sentences.
 std::string rounded(double x);
 
+inline constexpr double kNormal95 = 1.96;  // half width of a 95 % interval over the standard deviation
+
 // A quantity whose 95 % interval spans more than this factor is called undetermined.
 inline constexpr double kWidestFactor = 3;
 

@@ -3,17 +3,6 @@
 #include "sim/scene/scene.h"
 
 namespace hysteron {
-namespace {
-
-// Whatever a sheet calls its fabric, as a text of TOML.
-std::string quoted_name(const std::string& name) {
-  std::string text;
-  for (const char c : name) text += c == '"' || c == '\\' || static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-  return '"' + text + '"';
-}
-
-}  // namespace
-
 void SheetWriter::suppose_bias(double weft) {
   const double mean = (1 + weft) / 2;
   constexpr double kLowBias = 0.54, kHighBias = 1.42;
@@ -57,8 +46,8 @@ void SheetWriter::write_drapes() {
 
 SheetFabric SheetWriter::fabric(const std::string& flag, const std::string& description) const {
   SheetFabric result;
-  result.text = "# Written by hysteron " + flag + ".\nname = " + quoted_name(sheet.name) +
-                "\ndescription = \"" + description + "\"\n";
+  result.text = "# Written by hysteron " + flag + ".\nname = " + quoted(sheet.name) + "\ndescription = \"" +
+                description + "\"\n";
   if (!published_table.empty()) result.text += "\n[published]\n" + published_table;
   result.text += "\n[parameters]\n" + parameters + tables;
   result.assumed = assumed;

@@ -21,7 +21,10 @@ double Ledger::integrator_share() const {
   const double numerical = std::abs(integrator());
   const double physical = std::abs(bending_friction) + bending_relaxation + membrane_friction + viscous +
                           air + std::abs(contact_friction);
-  return numerical > 0 ? numerical / (numerical + physical) : 0;
+  constexpr double kRounding = 1e-13;  // of the energies, whose differences the losses are
+  const double energies = std::abs(kinetic) + std::abs(gravitational) + std::abs(membrane) +
+                          std::abs(bending) + std::abs(contact) + std::abs(initial);
+  return numerical > kRounding * energies ? numerical / (numerical + physical) : 0;
 }
 
 std::vector<std::pair<std::string, double>> Ledger::rows() const {

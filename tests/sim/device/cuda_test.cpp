@@ -137,7 +137,7 @@ INSTANTIATE_TEST_SUITE_P(Integrators, InPlaneFrictionOnBothDevices, testing::Val
 TEST_P(InPlaneFrictionOnBothDevices, LosesTheSameToTheSameCloth) {
   Scene scene = busy_scene(GetParam().law, GetParam().element, GetParam().integrator);
   scene.fabric.weft = 5e3;  // with means at nodes
-  scene.fabric.in_plane = {{{1e-4}, {300}}, {{1e-4, 1e-3}, {200, 80}}, {{5e-4, 3e-3}, {90, 40}}};
+  scene.fabric.in_plane = {{{1e-4}, {300}}, {{1e-4, 1e-3}, {200, 80}}, {{5e-4, 3e-3}, {90, 40}}, 20};
   const auto cpu = run_on("cpu", scene), gpu = run_on("cuda", scene);
   const double lost = cpu->ledger().membrane_friction;
   EXPECT_GT(lost, 0);

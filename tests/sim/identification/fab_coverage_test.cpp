@@ -37,7 +37,6 @@ constexpr double kSlack = 0.07;
 const std::vector<double> kCompressions = {0.18, 0.30, 0.42};
 constexpr int kBranchRows = 15;
 constexpr int kSimulationFails = 3;    // exit code of a strip for which no equilibrium is found
-constexpr double kNormal95 = 1.96;     // standard deviations that hold 95 % of a normal distribution
 constexpr double kAlmostNever = 1e-3;  // a chance so small is taken for none
 
 struct DrawnFabric {

@@ -45,6 +45,14 @@ TEST(BalanceOfABentStart, HasLostNothingBeforeItsFirstStep) {
   }
 }
 
+TEST(IntegratorShare, IsThatOfLossesAboveRounding) {
+  Ledger ledger;
+  ledger.kinetic = 1e-5, ledger.inertia = 8e-20;
+  EXPECT_EQ(ledger.integrator_share(), 0);
+  ledger.inertia = 1e-9, ledger.viscous = 3e-9;
+  EXPECT_DOUBLE_EQ(ledger.integrator_share(), 0.25);
+}
+
 TEST_P(Balance, ClosesForASwingingCloth) {
   Scene scene = law_scene(GetParam().law, GetParam().integrator);
   scene.fabric.damping = 0;
