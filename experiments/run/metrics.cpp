@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "experiments/workbench/app/json_file.h"
+#include "experiments/workbench/session/idle_keys.h"
 #include "sim/base/error.h"
 #include "sim/bending/vertex_curvature.h"
 #include "sim/scene/assets.h"
@@ -33,6 +34,30 @@ const KeyRow<M> kRows[] = {
     {"direction", at<&M::direction>, "", any(), "", "force: its component along this; zero: its size"},
 };
 // clang-format on
+
+bool is_of(const M& request, std::initializer_list<const char*> kinds) {
+  return std::ranges::find(kinds, request.kind) != kinds.end();
+}
+
+constexpr ReadKey<M> kRead[] = {
+    {"point", "a distance or height",
+     [](const M& m) {
+       return is_of(m, {"distance", "height"});
+     }},
+    {"to", "a distance", [](const M& m) { return is_of(m, {"distance"}); }},
+    {"low", "an angle or residual-curvature",
+     [](const M& m) {
+       return is_of(m, {"angle", "residual-curvature"});
+     }},
+    {"high", "an angle or residual-curvature",
+     [](const M& m) {
+       return is_of(m, {"angle", "residual-curvature"});
+     }},
+    {"other-low", "an angle", [](const M& m) { return is_of(m, {"angle"}); }},
+    {"other-high", "an angle", [](const M& m) { return is_of(m, {"angle"}); }},
+    {"hand", "a force", [](const M& m) { return is_of(m, {"force"}); }},
+    {"direction", "a force", [](const M& m) { return is_of(m, {"force"}); }},
+};
 
 const std::map<std::string, std::pair<const char*, const char*>> kUnits = {
     {"distance", {"m", "_m"}},
@@ -199,6 +224,10 @@ double RequestedMetric::residual_curvature(Simulation& simulation) const {
     area.push_back(all[i]);
   }
   return curvature_rms(part, area, d);
+}
+
+std::vector<std::string> idle_metric_warnings(const std::vector<MetricRequest>& requests) {
+  return idle_keys_of(requests, "metric", bind_metric, kRead);
 }
 
 }  // namespace hysteron::experiments

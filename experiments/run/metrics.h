@@ -40,6 +40,9 @@ Json to_json(const std::vector<MetricRequest>& requests);
 // Of a scene file or of a manifest whose run asked for them.  Throws Error::invalid_input with file and line.
 std::vector<MetricRequest> metrics_in(const std::string& scene);
 
+// A sentence for each key that its kind does not read.
+std::vector<std::string> idle_metric_warnings(const std::vector<MetricRequest>& requests);
+
 // A request with what it is measured on.
 class RequestedMetric {
  public:

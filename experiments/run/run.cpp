@@ -133,6 +133,7 @@ int run_scene(const CommandLine& given) {
 
   Session session(line, setup);
   if (session.is_over()) return 0;
+  for (const std::string& warning : idle_metric_warnings(requests)) session.run().warn(warning);
   for (const MetricRequest& request : requests) session.reserve({}, {"plot_" + request.name});
   std::vector<RequestedMetric> metrics;
   for (const MetricRequest& request : requests)

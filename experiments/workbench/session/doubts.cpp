@@ -7,6 +7,7 @@
 #include <limits>
 #include <numeric>
 
+#include "experiments/workbench/session/idle_keys.h"
 #include "sim/bending/laws/unused_parameters.h"
 #include "sim/membrane/locking.h"
 #include "sim/scene/cloth.h"
@@ -89,25 +90,6 @@ std::vector<std::string> pin_warnings(const Scene& scene, const Cloth& cloth) {
     const auto is_own = [&](int vertex) { return cloth.pin[vertex] == static_cast<int>(p); };
     if (!(pin.from > 0) && std::ranges::none_of(cloth.pin_vertices[p], is_own))
       warnings.push_back(name + " holds nothing at the start: later pins take all of its vertices");
-  }
-  return warnings;
-}
-
-// Keys that are given and that nothing in the scene reads.
-std::vector<std::string> idle_key_warnings(const Scene& scene) {
-  const bool is_still = scene.integrator == Integrator::quasi_static,
-             touches = !scene.obstacle.empty() || scene.self_contact;
-  const struct {
-    const char *key, *why;
-    bool is_idle;
-  } kKeys[] = {{"contact-stiffness", "nothing touches the cloth", !touches},
-               {"air-drag", "quasi-static equilibria know no speed", is_still},
-               {"fabric.damping", "quasi-static equilibria know no speed", is_still}};
-  std::vector<std::string> warnings;
-  for (const auto& [key, why, is_idle] : kKeys) {
-    const auto origin = scene.origin.find(key);
-    if (is_idle && origin != scene.origin.end() && origin->second.starts_with("--"))
-      warnings.push_back(std::string(key) + " (" + origin->second + ") changes nothing: " + why);
   }
   return warnings;
 }

@@ -270,6 +270,16 @@ point = [0, 15, 0]
 [[pin]]
 high = [0.01, 1, 1]
 keys = [{time = 0.2, position = [0, 0, 0.05]}, {time = 0.4, position = [0, 0, 0.1]}]
+home = 0.5
+[[obstacle]]
+kind = "sphere"
+center = [0, 0, -5]
+height = 0.3
+[[metric]]
+name = "h"
+kind = "height"
+point = [0.1, 0.1, 0]
+to = [0.2, 0, 0]
 [[command]]
 kind = "iron"
 low = [5, 5, 5]
@@ -280,6 +290,10 @@ high = [6, 6, 6]
       says(outcome.err, "[[pin]] 1 holds the vertex that is nearest to its point, which lies 14.8 m"));
   EXPECT_TRUE(says(outcome.err, "[[pin]] 1 holds nothing at the start: later pins take all"));
   EXPECT_TRUE(says(outcome.err, "[[pin]] 2 jumps within the first step to where its first key is (0.05 m"));
+  EXPECT_TRUE(says(outcome.err, "[[pin]] 2: home = 0.5 changes nothing: from > 0 reads it"));
+  EXPECT_TRUE(
+      says(outcome.err, "[[obstacle]] 1: height = 0.3 changes nothing: a cylinder, capsule or torus reads"));
+  EXPECT_TRUE(says(outcome.err, "[[metric]] 1: to = [0.2,0.0,0.0] changes nothing: a distance reads it"));
   EXPECT_TRUE(says(outcome.err, "[[command]] 1 acts on nothing"));
   EXPECT_TRUE(says(outcome.err, "its phases take 0.3 s"));
 }

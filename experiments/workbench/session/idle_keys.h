@@ -1,0 +1,43 @@
+// Keys that are set and that nothing in the scene reads: a sentence each, for a run's warnings.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "sim/scene/key_table.h"
+#include "sim/scene/scene.h"
+
+namespace hysteron::experiments {
+
+// A key of a table, and whether the table reads it.
+template <class Table>
+struct ReadKey {
+  const char* key;
+  const char* by;  // what would read it: "select = box"
+  bool (*is_read)(const Table&);
+};
+
+// "[[pin]] 2: home = 0.5 changes nothing, select = box alone reads it", of each key that is not as a table of
+// its kind is made and that this one does not read.
+template <class Table, std::size_t n>
+std::vector<std::string> idle_keys_of(const std::vector<Table>& tables, const std::string& name,
+                                      Keys (*bind)(Table&), const ReadKey<Table> (&rows)[n]) {
+  std::vector<std::string> warnings;
+  Table usual;
+  const auto usual_keys = to_json(bind(usual));
+  for (std::size_t i = 0; i < tables.size(); ++i) {
+    Table table = tables[i];
+    const auto keys = to_json(bind(table));
+    for (const ReadKey<Table>& row : rows)
+      if (!row.is_read(table) && keys.at(row.key) != usual_keys.at(row.key))
+        warnings.push_back("[[" + name + "]] " + std::to_string(i + 1) + ": " + row.key + " = " +
+                           keys.at(row.key).dump() + " changes nothing: " + row.by + " reads it");
+  }
+  return warnings;
+}
+
+// Of the scene's flags, pins and obstacles.
+std::vector<std::string> idle_key_warnings(const Scene& scene);
+
+}  // namespace hysteron::experiments
