@@ -39,6 +39,7 @@ class SheetReader {
       average(row);
       complete(name, row);
     }
+    warn_of_directions();
     warn_of_blanks();
     warn_of_means();
     return std::move(sheet_);
@@ -245,6 +246,18 @@ class SheetReader {
 
   void warn(const std::string& quantity, const std::string& what) {
     sheet_.warnings.push_back(quantity + " (" + sheet_.row.at(quantity).place + ") " + what);
+  }
+
+  // What has no direction has one number, the mean of what stands in both columns.
+  void warn_of_directions() {
+    for (const SheetQuantity& quantity : quantities_) {
+      if (quantity.has_directions || !sheet_.has(quantity.name)) continue;
+      const SheetRow& row = sheet_.row.at(quantity.name);
+      if (!row.has(SheetColumn::warp) || !row.has(SheetColumn::weft)) continue;
+      if (std::abs(row.value[0] / row.value[1] - 1) > kPrintedDigits)
+        warn(quantity.name,
+             "has no direction, and other numbers in the columns warp and weft: their mean is taken");
+    }
   }
 
   void warn_of_blanks() {

@@ -8,7 +8,9 @@
 #include <sstream>
 #include <utility>
 
+#include "sim/base/comma_list.h"
 #include "sim/base/error.h"
+#include "sim/base/plain_text.h"
 
 namespace hysteron {
 namespace {
@@ -133,10 +135,14 @@ bool parse(std::string_view text, Number& number) {
   return error == std::errc() && end == text.data() + text.size();
 }
 
+// Numbers with blanks or commas between them, none of which stands alone; none of another text.
 std::vector<double> parse_components(std::string text) {
-  for (char& c : text) {
-    if (c == ',' || c == '[' || c == ']') c = ' ';
-  }
+  std::ranges::replace_if(
+      text, [](char c) { return c == '[' || c == ']'; }, ' ');
+  if (text.find(',') != text.npos)
+    for (const std::string& part : split(text))
+      if (trimmed(part).empty()) return {};
+  std::ranges::replace(text, ',', ' ');
   std::istringstream words(text);
   std::vector<double> components;
   for (std::string word; words >> word;) {

@@ -193,6 +193,18 @@ TEST(BadFlag, IsRefusedInOneLineThatNamesTheFlag) {
   EXPECT_EQ(refused({"param", "stops"}), "param = \"stops\" must be of the form name=value (--param)");
 }
 
+TEST(BadFlag, OfNumbersLacksNoneBetweenCommas) {
+  for (const char* text : {"4,,15", ",4", "4, ,15"}) {
+    Scene scene;
+    EXPECT_NE(test::refusal([&] { set_key(scene, "fabric.bending.stops.thresholds", text, "--thresholds"); }),
+              test::kAccepted)
+        << text;
+  }
+  Scene scene;
+  set_key(scene, "fabric.bending.stops.thresholds", "[4, 15]", "--thresholds");
+  EXPECT_EQ(scene.fabric.bending.stops.thresholds, (std::vector<double>{4, 15}));
+}
+
 TEST(BadFlag, ContradictingTheFabricFileNamesBothPlaces) {
   Scene scene = default_scene("wool-tropical");
   apply_flags(scene, {{"fabric.b2", "1e-3"}});
