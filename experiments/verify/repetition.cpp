@@ -263,7 +263,7 @@ void compare_data(const std::vector<std::string>& names, const fs::path& recorde
 std::string reasons_between(const Manifest& recorded, const Manifest& now) {
   std::vector<std::string> reasons;
   const bool same_build = !recorded.build.empty() && recorded.build == now.build;
-  if (!same_build && (recorded.commit != now.commit || recorded.dirty || now.dirty))
+  if (recorded.commit != now.commit || (!same_build && (recorded.dirty || now.dirty)))
     reasons.push_back("program " + recorded.commit.substr(0, 7) + (recorded.dirty ? " (modified)" : "") +
                       ", now " + now.commit.substr(0, 7) + (now.dirty ? " (modified)" : ""));
   if (recorded.isa != now.isa)
