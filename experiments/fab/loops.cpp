@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "render/plot.h"
@@ -87,8 +88,8 @@ void add_metrics(Run& run, const ComparedLoops& compared) {
   const FabRun& r = compared.run;
   run.metric("work_J_per_m", r.work);
   run.metric("dissipated_J_per_m", r.dissipated);
-  run.metric("energy_imbalance_percent",
-             100 * std::abs(r.work - r.stored - r.dissipated) / (std::abs(r.stored) + r.dissipated));
+  run.metric("energy_imbalance_percent", 100 * std::abs(r.work - r.stored - r.dissipated) /
+                                             std::max(r.largest_work, std::abs(r.stored) + r.dissipated));
   if (compared.loops.bends()) run.metric("peak_curvature_per_m", r.peak_curvature);
 }
 

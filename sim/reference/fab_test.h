@@ -45,6 +45,7 @@ struct FabRun {
   BranchForces force;  // per branch of the loops, up to the last simulated [N/m]
   std::vector<std::vector<Eigen::Vector2d>> shapes;  // of a strip that bends: at first, at each branch's end
   double work = 0, stored = 0, dissipated = 0;       // of the clamps, from the first distance on [J/m]
+  double largest_work = 0;                           // that was done at any distance on the way [J/m]
   double peak_curvature = 0;                         // [1/m]
 };
 

@@ -36,6 +36,14 @@ TEST_F(FabCommand, WithoutDataStatesAreasThatGrowWithTheCompression) {
     EXPECT_TRUE(fs::exists(folder_.path() / "out" / name)) << name;
 }
 
+// Such a fabric gives back what was done on it, and loses nothing: the balance is over what was done.
+TEST_F(FabCommand, OfAFabricWithoutFrictionClosesItsBalance) {
+  const std::string file = (folder_.path() / "elastic.toml").string();
+  std::ofstream(file) << "[parameters]\ndensity = 0.12\nthickness = 4e-4\nb1 = 1e-5\nb2 = 1e-5\nk0 = 0\n";
+  ASSERT_EQ(fab({{"fabric", file}, {"no-images", "true"}}), 0);
+  EXPECT_LT(metrics().at("energy_imbalance_percent"), 0.1);
+}
+
 // What it writes are data: going their way the same fabric meets them.
 TEST_F(FabCommand, OnItsOwnRecordMeetsWhatItRecorded) {
   ASSERT_EQ(fab({{"fabric", "cotton-broad"}, {"fab.steps", "60"}}),
