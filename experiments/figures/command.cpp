@@ -46,13 +46,14 @@ std::vector<KeyDescription> figure_fabric_keys() {
   return keys;
 }
 
-// Friction by stops has no transition curvature, of which every figure speaks.
+// Friction by stops has no transition curvature, of which every figure speaks, and a set leaves other
+// curvatures than friction does.
 void check_three_numbers(const Fabric& fabric, const std::string& name) {
-  if (fabric.bending.stops.empty()) return;
-  throw Error::invalid_input("--fabric " + name +
-                             " has friction by stops, and the figures are of b1, b2 and k0 alone: give a "
-                             "fabric without stops, as " +
-                             kUsualFabric)
+  const bool has_stops = !fabric.bending.stops.empty(), has_set = fabric.bending.set.on();
+  if (!has_stops && !has_set) return;
+  throw Error::invalid_input(
+      "--fabric " + name + (has_stops ? " has friction by stops" : " has a permanent set") +
+      ", and the figures are of b1, b2 and k0 alone: give a fabric without, as " + kUsualFabric)
       .with_key("fabric", name)
       .with_experiment("figures");
 }

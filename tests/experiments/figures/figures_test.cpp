@@ -152,6 +152,10 @@ TEST(FiguresCommand, RefusesAFabricWithStopsByItsFile) {
                      run_into(out, "figures", {{"fabric", file}});
                    }),
                    "--fabric " + file + " has friction by stops", "of b1, b2 and k0 alone"));
+  EXPECT_TRUE(says(test::refusal([&] {
+                     run_into(out, "figures", {{"fabric", "cotton-broad-creasing"}});
+                   }),
+                   "cotton-broad-creasing has a permanent set"));
   EXPECT_FALSE(fs::exists(out));
 }
 
