@@ -117,8 +117,10 @@ bool is_own_tester(const PublishedNumber& number, const DrapeChoice& choice, dou
   const auto is_near = [](double size, double standard) {
     return std::abs(size - standard) <= kRound * standard;
   };
-  return is_near(choice.disc, drape_by_standard(number.tester).disc) &&
-         is_near(specimen_radius, experiments::specimen_radius(number.tester));
+  const DrapeChoice own = drape_by_standard(number.tester);
+  return is_near(choice.disc, own.disc) &&
+         is_near(specimen_radius, experiments::specimen_radius(number.tester)) &&
+         choice.release == own.release && choice.offset == 0;
 }
 
 std::string other_tester_message(const Fabric& fabric, const DrapeChoice& choice, double specimen_radius) {
@@ -129,7 +131,8 @@ std::string other_tester_message(const Fabric& fabric, const DrapeChoice& choice
     if (number.tester.empty()) return "the fabric's file names no tester of it (tester = iso9073 | jis)";
     if (number.tester != choice.standard) return "is of another tester: --drape.standard " + number.tester;
     if (!is_own_tester(number, choice, specimen_radius))
-      return "is of other sizes: --drape.standard " + number.tester + " without drape.disc and cloth.radius";
+      return "is of other sizes or another way: --drape.standard " + number.tester +
+             " without drape.disc and cloth.radius, drape.release and drape.offset";
   }
   return "";
 }

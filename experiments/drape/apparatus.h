@@ -49,7 +49,7 @@ double specimen_radius(const std::string& standard);
 DrapeChoice drape_by_standard(const std::string& standard);
 
 // Whether a published number was measured on this tester: the standard that its fabric's file names, with the
-// sizes of that standard.
+// sizes and the release of that standard.
 bool is_own_tester(const PublishedNumber& number, const DrapeChoice& choice, double specimen_radius);
 // Why the drape that is published for the fabric is not set beside this one, and which tester to ask for; ""
 // where it is, and where none is published.

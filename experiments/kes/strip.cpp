@@ -87,10 +87,12 @@ double clamp_force(const ClampedStrip& strip, const std::vector<Eigen::Vector3d>
 
 double free_curvature(const ClampedStrip& strip, const std::vector<double>& curvature) {
   const ClothMesh& mesh = strip.cloth.mesh;
+  // S_xx where warp lies along the strip, S_yy where weft does.
+  const int along = std::lround(strip.scene.cloth.warp_angle / 90) % 2 != 0 ? 1 : 0;
   double sum = 0, area = 0;
   for (int f = 0; f < mesh.faces(); ++f) {
     if (!strip.is_free(f)) continue;
-    sum += mesh.face_area[f] * curvature[3 * f];  // S_xx: warp lies along the strip
+    sum += mesh.face_area[f] * curvature[3 * f + along];
     area += mesh.face_area[f];
   }
   return sum / area;

@@ -12,6 +12,7 @@
 #include "experiments/workbench/app/manifest_file.h"
 #include "experiments/workbench/app/recorded_command.h"
 #include "experiments/workbench/app/run.h"
+#include "experiments/workbench/app/same_request.h"
 #include "experiments/workbench/app/set_aside.h"
 #include "experiments/workbench/compare/workflow.h"
 #include "experiments/workbench/pages/report.h"
@@ -76,6 +77,13 @@ void say_outcome(const Manifest& before, const fs::path& folder, bool quiet) {
                             ": `hysteron verify` tells in what");
   else if (!quiet)
     std::cerr << "state " << *now->state_hash << ", as recorded" << std::endl;
+}
+
+// A simulated run has its scene and fabric in its manifest; others read their files as they are now.
+void say_inputs(const Manifest& before, const fs::path& folder) {
+  if (before.options || !has_manifest(folder)) return;
+  for (const std::string& change : input_changes(before.inputs))
+    add_warning(folder, change + " since the recorded run, and is read as it is now");
 }
 
 constexpr double kMinutes = 60;  // [s]
@@ -207,6 +215,7 @@ int run_rerun(const CommandLine& line) {
   CommandLine repeated = line_that_repeats(run, later, last_text(line.flags, "no-errors", "") != "true");
   choose_gpu(repeated);
   const int exit_code = experiment_named(repeated.experiment).run(repeated);
+  say_inputs(run.manifest, out);
   say_outcome(run.manifest, out, last_text(line.flags, "quiet", "") == "true");
   return exit_code;
 }

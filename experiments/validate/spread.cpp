@@ -1,4 +1,6 @@
 // Drapes with the fabric's uncertain numbers anywhere in their ranges.
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -11,6 +13,7 @@
 #include "sim/base/comma_list.h"
 #include "sim/base/csv.h"
 #include "sim/base/error.h"
+#include "sim/base/units.h"
 #include "sim/identification/fast_sheet.h"
 #include "sim/mesh/random_points.h"
 
@@ -152,7 +155,34 @@ double number_or(const Sample& sample, const std::string& key, double otherwise)
 
 // Nothing of a sample changes bending along warp.
 bool unstated(const Sample& sample) {
-  return !sample.count("k0") && !sample.count("B") && !sample.count("2HB") && !sample.count("weft-bending");
+  return std::ranges::none_of(std::array{"k0", "B", "2HB", "weft-bending", "weft-friction"},
+                              [&](const char* key) { return sample.count(key) > 0; });
+}
+
+bool has_bending_length(const Fabric& fabric) { return fabric.published.contains("bending-length"); }
+
+// B [N m]; of a fabric whose cantilever was measured that with which its bending length along warp stays,
+// beside another friction or weight.
+double rigidity_beside(const Fabric& fabric, double density, double two_hb, double k0) {
+  if (!has_bending_length(fabric)) return fabric.b2;
+  const PublishedNumber& measured = fabric.published.at("bending-length");
+  const double length = measured.value * factor_to("m", measured.unit).value_or(1);
+  return rigidity_of_bending_length(length, kLaboratoryGravity * density, [&](double) {
+    return StripFriction{two_hb / 2, k0};
+  });
+}
+
+// Throws Error::invalid_input where the bending length of [published] makes another B than the file has.
+void check_bending_length(const Fabric& fabric) {
+  constexpr double kOtherwise = 0.05;
+  if (!has_bending_length(fabric)) return;
+  const double told =
+      rigidity_beside(fabric, fabric.density, 2 * fabric.virgin_curve().friction_moment(), fabric.k0);
+  if (!(std::abs(told / fabric.b2 - 1) < kOtherwise))
+    throw Error::invalid_input("validate: " + fabric.name + " has b2 = " + number_text(fabric.b2, 4) +
+                               " N m, and its published bending length tells " + number_text(told, 4) +
+                               " N m: one of them is another fabric's")
+        .with_key("fabrics", fabric.name);
 }
 
 // Ranges that would be drawn and then change nothing, or a friction that stops have already.
@@ -178,25 +208,17 @@ std::map<std::string, Range> uncertain_numbers(const FabricFile& file) {
   std::map<std::string, Range> all = file.range;
   if (!file.fabric.kes.on())
     for (const auto& [key, printed] : file.published_range) {
+      const PublishedNumber& number = file.fabric.published.at(key);
       const double si = key == "B" ? file.fabric.b2 : 2 * file.fabric.virgin_curve().friction_moment();
-      const double unit = si / file.fabric.published.at(key).value;
+      const double unit = factor_to(key == "B" ? "N m" : "N", number.unit).value_or(si / number.value);
       all[key] = between(unit * printed.low, unit * printed.high);
     }
   check_ranges(file, all);
+  check_bending_length(file.fabric);
   return all;
 }
 
 namespace {
-
-// B [N m]; of a fabric whose cantilever was measured that with which its bending length stays, beside another
-// friction.
-double rigidity_beside(const Fabric& fabric, double two_hb, double k0) {
-  const auto measured = fabric.published.find("bending-length");
-  if (measured == fabric.published.end()) return fabric.b2;
-  return rigidity_of_bending_length(measured->second.value, kLaboratoryGravity * fabric.density, [&](double) {
-    return StripFriction{two_hb / 2, k0};
-  });
-}
 
 // Friction moment along weft over that along warp.
 double friction_ratio(const Fabric& fabric, const Sample& sample) {
@@ -213,15 +235,18 @@ void keep_what_was_measured(const Fabric& fabric, Sample& sample) {
                rubs = (1 + friction_ratio(fabric, {})) / (1 + friction_ratio(fabric, sample));
   if (sample.count("bias-bending")) sample["bias-bending"] *= (1 + weft) / (1 + fabric.weft_bending);
   if (!fabric.bending.stops.empty()) return;  // which keep their friction along warp
-  if (fabric.kes.on() && sample.count("weft-bending")) {
+  if (fabric.kes.on() && (sample.count("weft-bending") || sample.count("weft-friction"))) {
     sample["kes-b"] = warp * fabric.kes.read.rigidity;
     sample["kes-2hb"] = rubs * fabric.kes.read.loop_width;
-  } else if (!fabric.kes.on() && !unstated(sample)) {
+  } else if (!fabric.kes.on() &&
+             (!unstated(sample) || (has_bending_length(fabric) && sample.count("density")))) {
     const double k0 = number_or(sample, "k0", fabric.k0),
                  two_hb = number_or(sample, "2HB", 2 * fabric.virgin_curve().friction_moment()),
-                 b = number_or(sample, "B", rigidity_beside(fabric, two_hb, k0));
-    sample["b2"] = warp * b;
-    sample["b1"] = warp * b + rubs * two_hb / k0;
+                 density = number_or(sample, "density", fabric.density),
+                 b = number_or(sample, "B", rigidity_beside(fabric, density, two_hb, k0));
+    const bool is_of_warp = has_bending_length(fabric);  // its B is no mean
+    sample["b2"] = (is_of_warp ? 1 : warp) * b;
+    sample["b1"] = sample["b2"] + (is_of_warp ? 1 : rubs) * two_hb / k0;
     sample.erase("B");
     sample.erase("2HB");
   }

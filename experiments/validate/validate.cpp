@@ -2,6 +2,7 @@
 // publish both a KES pair and a drape coefficient, with their uncertain numbers anywhere in their ranges and
 // one at a time at the ends of these; what is recorded of loops, decay, drapes and folds as a figure.
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "experiments/validate/budget.h"
@@ -49,6 +50,19 @@ void check_names(const std::string& key, const std::string& list) {
           .with_key(key, list);
 }
 
+// Drapes are filed under their fabrics' names.
+void check_fabrics(const std::string& list) {
+  check_names("fabrics", list);
+  std::map<std::string, std::string> files;
+  for (const std::string& given : split(list)) {
+    const std::string name = read_fabric(given, "--fabrics").fabric.name;
+    if (const auto [other, is_new] = files.emplace(name, given); !is_new)
+      throw Error::invalid_input("fabrics = " + list + ": " + other->second + " and " + given +
+                                 " are both named " + name + ": give one another name (--fabrics)")
+          .with_key("fabrics", list);
+  }
+}
+
 void check_parts(const F& flags) {
   static const std::vector<std::string> kParts = {"spread", "budget", "figure"};
   for (const std::string& part : split(flags.parts))
@@ -69,7 +83,7 @@ int run_validate(const CommandLine& line) {
   check_parts(flags);
   const std::vector<std::string> parts = split(flags.parts);
   const auto requested = [&](const char* part) { return std::count(parts.begin(), parts.end(), part) > 0; };
-  if (requested("spread") || requested("budget")) check_names("fabrics", flags.fabrics);
+  if (requested("spread") || requested("budget")) check_fabrics(flags.fabrics);
   if (requested("figure")) check_recorded(flags.recorded);
   Run run(line, flags.options, to_json(bind(kRows, flags)));
   run.reserve({"predictions.csv", "spread.csv", "budget.csv"});

@@ -76,10 +76,12 @@ std::vector<fs::path> folders_below(const fs::path& folder) {
   return {found.begin(), found.end()};
 }
 
+// Columns of a comparison, or those of a sweep in its folder `runs`.
 bool has_runs_inside(const fs::path& folder) {
   std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(folder, ignored))
-    if (has_manifest(entry.path()) && !is_set_aside(entry.path())) return true;
+  for (const fs::path& inner : {folder, folder / "runs"})
+    for (const auto& entry : fs::directory_iterator(inner, ignored))
+      if (has_manifest(entry.path()) && !is_set_aside(entry.path())) return true;
   return false;
 }
 

@@ -84,7 +84,9 @@ Repeats find_repeats(const std::vector<FabLoops>& all, const std::vector<FabLoop
 FormComparison compare_forms(const FabForm& form, const FabBending& asked, const Repeats& repeats) {
   const VectorXd more = form.found.residuals.cwiseAbs2() - asked.residuals.cwiseAbs2();
   const double own = asked.residuals.squaredNorm() / static_cast<double>(more.size());
-  const double variance = std::max(own, std::pow(repeats.noise / asked.noise, 2));
+  // Residuals are over the noise that is assumed, which counts where no repeats tell another.
+  const double told = repeats.known() ? std::pow(repeats.noise / asked.noise, 2) : 1;
+  const double variance = std::max(own, told);
   const int rows = static_cast<int>(more.size());
   const double one =
       rows_as_one(repeats.known() ? repeats.correlation : neighbour_correlation(asked.residuals), rows);

@@ -128,11 +128,16 @@ class SheetReader {
   void complete(const std::string& name, SheetRow& row) const {
     if (!row.has(SheetColumn::mean) || row.has(SheetColumn::warp) == row.has(SheetColumn::weft)) return;
     const int other = row.has(SheetColumn::warp) ? 1 : 0;
+    const SheetColumn column = static_cast<SheetColumn>(other);
     row.value[other] = 2 * row.value[2] - row.value[1 - other];
     if (!(row.value[other] > 0))
       throw refusal(name + " has a mean that is less than half of its " +
                         column_name(static_cast<SheetColumn>(1 - other)) + ": the other direction cannot be",
                     row.place);
+    const SheetQuantity& quantity = *quantity_named(name);
+    const double printed = row.value[other] / unit_of(quantity, row.unit, row.place);
+    check_size(quantity, row.value[other], number_text(printed, 4) + " " + row.unit,
+               row.place + ", column " + column_name(column) + ", as the mean tells it");
   }
 
   struct CsvColumns {
@@ -216,7 +221,9 @@ class SheetReader {
     for (const ValueTree& node : root.children) {
       const std::string place = file_.filename().string() + ":" + std::to_string(node.line);
       if (node.key == "name") {
-        if (const auto* name = std::get_if<std::string>(&node.value)) sheet_.name = *name;
+        const auto* name = std::get_if<std::string>(&node.value);
+        if (!name) throw refusal("name must be a text", place);
+        sheet_.name = *name;
         continue;
       }
       read_toml_row(node, known_quantity(node.key, place), place);
@@ -226,8 +233,11 @@ class SheetReader {
   void read_toml_row(const ValueTree& node, const SheetQuantity& quantity, const std::string& place) {
     SheetRow row;
     row.place = place;
-    if (const ValueTree* unit = node.find("unit"))
-      if (const auto* text = std::get_if<std::string>(&unit->value)) row.unit = *text;
+    if (const ValueTree* unit = node.find("unit")) {
+      const auto* text = std::get_if<std::string>(&unit->value);
+      if (!text) throw refusal(node.key + ": unit must be a text", place);
+      row.unit = *text;
+    }
     const double factor = unit_of(quantity, row.unit, place);
     const auto take_from = [&](int column, const ValueTree& from) {
       const double printed = toml_number(from, place);

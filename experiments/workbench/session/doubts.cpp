@@ -94,6 +94,18 @@ std::vector<std::string> pin_warnings(const Scene& scene, const Cloth& cloth) {
   return warnings;
 }
 
+// Cuts lie on the chords of a bend, and what was bent evenly becomes facets with twice the bend at their
+// edges.
+std::string facets_warning(const Scene& scene, Simulation& simulation) {
+  // A pattern is sewn flat: how it is laid out at first is no bend that it had.
+  const bool is_sewn = scene.cloth.shape == "pattern";
+  if (scene.cloth.subdivisions == 0 || is_sewn || !(simulation.ledger().bending > 0)) return "";
+  return shown(scene, "cloth.subdivisions", scene.cloth.subdivisions, "") +
+         " cuts a start that is bent into facets: its bends gather at the old edges, twice as sharp, and the "
+         "cloth "
+         "remembers them so";
+}
+
 std::string phases_warning(const Scene& scene) {
   double phases = 0;  // [s]
   for (const Phase& phase : scene.phase) phases += phase.seconds;
@@ -120,9 +132,10 @@ std::vector<std::string> doubts_at_start(const Scene& scene, const Cloth& cloth,
   const std::vector<std::string> of_parameters = unused_parameter_warnings(
       scene.law, scene.fabric.virgin_curve(), scene.param, LawUse::cloth, scene.fabric.name);
   doubts.insert(doubts.end(), of_parameters.begin(), of_parameters.end());
-  doubts.insert(doubts.end(), {locking_words(scene, cloth.mesh), pressed_words(scene, cloth, simulation),
-                               command_warning(scene, cloth, simulation.dimension()), phases_warning(scene),
-                               weft_friction_warning(scene.fabric, scene.law)});
+  doubts.insert(doubts.end(),
+                {locking_words(scene, cloth.mesh), pressed_words(scene, cloth, simulation),
+                 command_warning(scene, cloth, simulation.dimension()), phases_warning(scene),
+                 facets_warning(scene, simulation), weft_friction_warning(scene.fabric, scene.law)});
   for (const std::vector<std::string>& more : {pin_warnings(scene, cloth), idle_key_warnings(scene)})
     doubts.insert(doubts.end(), more.begin(), more.end());
   return said(doubts);

@@ -58,6 +58,12 @@ TEST(PublishedDrape, StandsBesideDrapesOfItsOwnTesterOnly) {
   EXPECT_EQ(other_tester_message(fabric, jis, 0.127), "");
   EXPECT_FALSE(is_own_tester(number, iso, 0.15));
   EXPECT_TRUE(says(other_tester_message(fabric, iso, 0.15), "--drape.standard jis"));
+  DrapeChoice dropped = jis, beside = jis;
+  dropped.release = "dropped", beside.offset = 0.02;
+  for (const DrapeChoice& other : {dropped, beside}) {
+    EXPECT_FALSE(is_own_tester(number, other, 0.127));
+    EXPECT_TRUE(says(other_tester_message(fabric, other, 0.127), "another way: --drape.standard jis"));
+  }
   EXPECT_FALSE(is_own_tester(number, jis, 0.15)) << "another specimen";
   EXPECT_TRUE(says(other_tester_message(fabric, jis, 0.15), "without drape.disc and cloth.radius"));
   fabric.published["drape-coefficient"].tester = "";

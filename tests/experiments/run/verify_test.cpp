@@ -218,6 +218,22 @@ TEST_F(Recorded, FabricFilesAndMeshesAreVerified) {
   EXPECT_TRUE(says(ended(4, verify).out, "no longer in the folder: " + meshes.front()));
 }
 
+// A test of a fabric's file has no scene in its manifest: the file is read again.
+TEST_F(Recorded, FileThatHasChangedSinceIsNamedWhereItIsReadAgain) {
+  const std::string file = in("mine.toml");
+  const auto write = [&](const char* b2) {
+    std::ofstream(file) << "[parameters]\ndensity = 0.12\nthickness = 4e-4\nb2 = " << b2
+                        << "\nb1 = 6e-5\nk0 = 8\n";
+  };
+  write("1e-5");
+  finished("kes --quick --no-images --quiet --fabric " + file + out_flag(run()));
+  const std::string again = "rerun " + run().string() + " --quiet --out " + in("again");
+  EXPECT_FALSE(says(finished(again).err, "has changed"));
+  write("2e-5");
+  EXPECT_TRUE(
+      says(finished(again).err, "mine.toml has changed since the recorded run, and is read as it is now"));
+}
+
 TEST_F(Recorded, AFitsFabricFileIsVerified) {
   finished("fit --kes.b 1e-5 --kes.2hb 1e-3 --fabric.density 0.1 --fabric.thickness 3e-4 --quiet" +
            out_flag(run()));

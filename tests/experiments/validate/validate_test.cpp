@@ -128,6 +128,25 @@ TEST(Validate, KeepsTheBiasThatIsDrawnAndTheStopsOfAFabric) {
   EXPECT_EQ(stops, (Sample{{"weft-bending", 0.5}}));
 }
 
+TEST(Validate, KeepsTheMeanOf2HBWhereFrictionAlongWeftAloneIsDrawn) {
+  Fabric fabric;
+  fabric.weft_friction = 0.9;
+  Sample sample = {{"weft-friction", 0.3}};
+  keep_what_was_measured(fabric, sample);
+  const double two_hb = (fabric.b1 - fabric.b2) * fabric.k0;
+  EXPECT_NEAR((sample.at("b1") - sample.at("b2")) * fabric.k0 * 1.3 / 1.9, two_hb, 1e-12 * two_hb);
+}
+
+TEST(Validate, RefusesTwoFabricsOfOneName) {
+  const Folder folder;
+  const std::string first = folder.file("a.toml"), second = folder.file("b.toml");
+  for (const std::string& file : {first, second})
+    std::ofstream(file)
+        << "name = \"mine\"\n[parameters]\ndensity = 0.12\nthickness = 4e-4\nb2 = 1e-5\nb1 = 6e-5\n"
+           "k0 = 8\n";
+  EXPECT_TRUE(says(refused("validate --quick --fabrics " + first + "," + second), "are both named mine"));
+}
+
 TEST(Validate, RefusesRangesThatWouldChangeNothing) {
   FabricFile file = read_fabric("cotton-broad", "test");
   file.range["b2"] = between(1e-5, 2e-5);

@@ -63,6 +63,8 @@ TEST(KesSheet, HasTheOtherDirectionBesideAMeanAndOne) {
   for (const auto& [row, known] : {std::pair{"B,gf cm^2/cm,0.1,,0.15\n", SheetColumn::weft},
                                    {"B,gf cm^2/cm,,0.1,0.15\n", SheetColumn::warp}})
     EXPECT_NEAR(sheet_of(kHead + row + rest).along("B", known) / (0.2 * 9.80665e-5), 1, 1e-12) << row;
+  EXPECT_TRUE(says(refusal([&] { sheet_of(kHead + "B,gf cm^2/cm,0.227,,0.11375\n" + rest); }),
+                   "is no fabric's", "column weft, as the mean tells it"));
   EXPECT_TRUE(says(refusal([&] { sheet_of(kHead + "B,gf cm^2/cm,0.4,,0.15\n" + rest); }),
                    "a mean that is less than half of its warp"));
 }
