@@ -66,7 +66,8 @@ std::string comparison_title(const CommandLine& line, const std::vector<ChildRun
   return title + what;
 }
 
-// To what the columns are matched; none where nothing could differ in stiffness by the laws' own definitions.
+// Says what the columns are matched to; nothing where laws cannot differ in stiffness by their own
+// definitions.
 std::vector<std::string> comparison_notes(const CompareChoice& choice, const Plan& plan) {
   const bool scaled = std::ranges::any_of(plan.scales, [](double scale) { return scale != 1; });
   if (plan.laws < 2 && !scaled) return {};
@@ -162,7 +163,7 @@ void check_metrics(const std::vector<ChildRun>& columns, const std::vector<std::
           .with_key("compare.metrics", name);
 }
 
-// Where every column is there already, what it has found is known before anything is touched.
+// Refuses metrics that no column has, before anything is touched, where every column is there already.
 void check_known_metrics(std::vector<ChildRun> columns, const std::vector<std::string>& names) {
   if (names.empty() || !std::ranges::all_of(columns, recall)) return;
   check_metrics(columns, names);

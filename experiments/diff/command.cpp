@@ -223,7 +223,7 @@ std::set<fs::path> earlier_heat_maps(const fs::path& out) {
   return names;
 }
 
-// Of pictures that were not compared this time.
+// Removes those of pictures that were not compared this time.
 void remove_earlier_heat_maps(const fs::path& out, std::set<fs::path> earlier, const FolderDiff& diff) {
   for (const FolderDiff::Row& row : diff.rows)
     if (row.error.empty()) earlier.erase(row.name);

@@ -41,28 +41,36 @@ const char* second_width_reason(const KesSheet& sheet, double read) {
   return entered > 5 * first ? kNoCloth : kMostGrowth;
 }
 
-void add_direction(std::vector<SheetReading>& all, const KesSheet& sheet, const Fabric& fabric,
-                   SheetColumn column, int steps) {
-  const auto add = [&](const char* quantity, const char* unit, const char* si, double read,
-                       const char* reason) {
+// What the sheet has of one direction beside what a tester reads.
+struct Beside {
+  const LaboratorySheet& sheet;
+  SheetColumn column;
+  std::vector<SheetReading>& all;
+
+  void add(const char* quantity, const char* unit, const char* si, double read, const char* reason) const {
     const double entered = sheet.along(quantity, column);
     if (std::isfinite(entered)) all.push_back({quantity, unit, si, column, entered, read, reason});
-  };
+  }
+};
+
+void add_direction(std::vector<SheetReading>& all, const KesSheet& sheet, const Fabric& fabric,
+                   SheetColumn column, int steps) {
+  const Beside beside{sheet, column, all};
   const KesReading bending = bend(fabric, column, steps);
-  add("B", "gf cm^2/cm", "N m", bending.rigidity, "");
-  add("2HB", "gf cm/cm", "N", bending.loop_width, "");
+  beside.add("B", "gf cm^2/cm", "N m", bending.rigidity, "");
+  beside.add("2HB", "gf cm/cm", "N", bending.loop_width, "");
   const InPlaneLaw law = in_plane_law(fabric, direction_of(column));
   InPlaneProtocol in_plane;
   in_plane.steps = steps;
   const ShearReading shear = test_shear(law, in_plane).reading;
-  add("G", "gf/(cm degree)", "N/m", shear.stiffness, kOneShear);
-  add("2HG", "gf/cm", "N/m", shear.width, kOneShear);
-  add("2HG5", "gf/cm", "N/m", shear.second_width, second_width_reason(sheet, shear.second_width));
+  beside.add("G", "gf/(cm degree)", "N/m", shear.stiffness, kOneShear);
+  beside.add("2HG", "gf/cm", "N/m", shear.width, kOneShear);
+  beside.add("2HG5", "gf/cm", "N/m", shear.second_width, second_width_reason(sheet, shear.second_width));
   const TensionReading tension = test_tension(law, in_plane).reading;
-  add("EMT", "%", "", tension.extension / 100, "");
-  add("LT", "1", "", tension.linearity, kStraight);
-  add("WT", "gf cm/cm^2", "J/m2", tension.work, kStraight);
-  add("RT", "%", "", tension.resilience / 100, kStraight);
+  beside.add("EMT", "%", "", tension.extension / 100, "");
+  beside.add("LT", "1", "", tension.linearity, kStraight);
+  beside.add("WT", "gf cm/cm^2", "J/m2", tension.work, kStraight);
+  beside.add("RT", "%", "", tension.resilience / 100, kStraight);
 }
 
 }  // namespace
@@ -77,18 +85,14 @@ std::vector<SheetReading> read_by_testers(const KesSheet& sheet, const Fabric& f
 std::vector<SheetReading> read_by_cantilever(const FastSheet& sheet, const Fabric& fabric) {
   std::vector<SheetReading> all;
   for (const SheetColumn column : {SheetColumn::warp, SheetColumn::weft}) {
-    const auto add = [&](const char* quantity, const char* unit, const char* si, double read,
-                         const char* reason) {
-      const double entered = sheet.along(quantity, column);
-      if (std::isfinite(entered)) all.push_back({quantity, unit, si, column, entered, read, reason});
-    };
-    add("C", "mm", "m", virtual_bending_length(curve_along(fabric, direction_of(column)), fabric.density),
-        "");
+    const Beside beside{sheet, column, all};
+    beside.add("C", "mm", "m",
+               virtual_bending_length(curve_along(fabric, direction_of(column)), fabric.density), "");
     const InPlaneLaw law = in_plane_law(fabric, direction_of(column));
     for (const auto& [quantity, load] : {std::pair{"E5", 5}, {"E20", 20}, {"E100", 100}}) {
       InPlaneProtocol protocol;
       protocol.largest = load * kGramForcePerCentimetre;
-      add(quantity, "%", "", test_tension(law, protocol).reading.extension / 100, kStraight);
+      beside.add(quantity, "%", "", test_tension(law, protocol).reading.extension / 100, kStraight);
     }
   }
   return all;

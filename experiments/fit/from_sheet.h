@@ -20,7 +20,7 @@ struct SheetReading {
 
   double difference() const { return 100 * (read / entered - 1); }  // [%]
 };
-// Of every number of the sheet that a virtual tester reads in so many steps, along warp and weft.
+// Every number of the sheet that a virtual tester reads in so many steps is there, along warp and weft.
 std::vector<SheetReading> read_by_testers(const KesSheet& sheet, const Fabric& fabric, int steps = 2000);
 
 // The same of a FAST sheet: its bending lengths by the elastica, its extensions.

@@ -216,10 +216,9 @@ void warn_of_parameters(const KesTests& tests, const std::vector<std::string>& l
     for (const std::string& warning : alone)
       if (std::count(in_cloth.begin(), in_cloth.end(), warning)) run.warn(warning);
     if (flags.along == Along::warp) continue;
-    if (const std::string warning = weft_friction_warning(tests.fabric, law); !warning.empty())
-      run.warn(warning);
-    for (const std::string& warning : warnings(LawUse::cloth))
-      if (warning.find("bending.stops.weft") != warning.npos) run.warn(warning);
+    for (const std::string& warning :
+         {weft_friction_warning(tests.fabric, law), weft_stops_warning(law, curve.parts, tests.fabric.name)})
+      if (!warning.empty()) run.warn(warning);
   }
 }
 

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "experiments/specimens/cantilever_strip.h"
 #include "experiments/specimens/clamped_mesh.h"
 #include "sim/base/error.h"
 #include "sim/scene/key_table.h"
@@ -88,7 +89,7 @@ double clamp_force(const ClampedStrip& strip, const std::vector<Eigen::Vector3d>
 double free_curvature(const ClampedStrip& strip, const std::vector<double>& curvature) {
   const ClothMesh& mesh = strip.cloth.mesh;
   // S_xx where warp lies along the strip, S_yy where weft does.
-  const int along = std::lround(strip.scene.cloth.warp_angle / 90) % 2 != 0 ? 1 : 0;
+  const int along = lies_along_weft(strip.scene) ? 1 : 0;
   double sum = 0, area = 0;
   for (int f = 0; f < mesh.faces(); ++f) {
     if (!strip.is_free(f)) continue;

@@ -182,7 +182,7 @@ double largest_of(const std::vector<double>& values) {
   return largest;
 }
 
-// By how much the last moment, the largest moment and the lost energy differ, of their largest, at the rows'
+// How much the last moment, the largest moment and the lost energy differ by, of their largest, at the rows'
 // own ends; 0 where a number of either run is not finite, or is rounding of laws that lose no energy.
 double difference_by_length(const std::vector<LawRow>& rows, const LawRun& whole, const LawRun& parts) {
   LawRun ends;

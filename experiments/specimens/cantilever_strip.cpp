@@ -174,9 +174,9 @@ bool rubs_otherwise(const Scene& scene) {
   return scene.fabric.rubs_otherwise() && has_friction_beside_b2(scene.law);
 }
 
-bool lies_along_weft(const Scene& scene) { return std::lround(scene.cloth.warp_angle / 90) % 2 != 0; }
-
 }  // namespace
+
+bool lies_along_weft(const Scene& scene) { return std::lround(scene.cloth.warp_angle / 90) % 2 != 0; }
 
 bool has_strip_curve(const Scene& scene) {
   return !(follows_weft_stops(scene) || rubs_otherwise(scene)) ||

@@ -23,6 +23,9 @@ struct CantileverStrip {
 // impossible meshes.
 CantileverStrip overhang(Scene scene, double length);
 
+// Whether weft runs along the scene's strip, which lies along x, rather than warp.
+bool lies_along_weft(const Scene& scene);
+
 // Bending rigidity of the scene's strip, which lies along x, over that along warp.
 double rigidity_along(const Scene& scene);
 // The virgin curve of the strip's direction: that along weft has stops of its own where the fabric does.
@@ -32,7 +35,7 @@ VirginCurve strip_curve(const Scene& scene);
 bool has_strip_curve(const Scene& scene);
 // The same with the rigidity of that direction in its numbers: moments and curvatures are the strip's own.
 VirginCurve curve_along(const Scene& scene);
-// Of a strip that is cut along warp or weft.
+// The same for a strip that is cut along warp or weft.
 VirginCurve curve_along(const Fabric& fabric, Along along, const std::string& law = "prandtl");
 
 // The same strip as a curve, with its law, its rigidity and weight.

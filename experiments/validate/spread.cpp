@@ -281,14 +281,16 @@ void predict_spread(const ValidateFlags& flags, Run& run) {
   for (const std::string& given : split(flags.fabrics)) {
     const FabricFile file = read_fabric(given, "--fabrics");
     const std::string fabric = file.fabric.name;
-    if (uncertain_numbers(file).empty())
+    const std::vector<Sample> samples = fabric_samples(file, flags.samples, flags.seed);
+    if (samples.front().empty())
       run.warn(fabric + " states no range of any number: its interval is that of " +
                std::to_string(flags.samples) + " meshes alone, and says nothing of what is not known of it");
     auto& drapes = all.emplace_back(fabric, std::vector<Drape>{}).second;
     int number = 0;
-    for (const Sample& sample : fabric_samples(file, flags.samples, flags.seed)) {
+    const Drape nominal = nominal_drape(given, flags);
+    for (const Sample& sample : samples) {
       for (const auto& [key, value] : sample) keys.insert(key);
-      Drape drape = nominal_drape(given, flags);
+      Drape drape = nominal;
       drape.varied = "sample-" + std::to_string(++number);
       drape.further = drape_flags(sample);
       drape.further.push_back({"seed", std::to_string(number)});

@@ -191,13 +191,12 @@ StopsLaw turned_to_bias(const VirginCurve& curve, double weft_bending, double bi
 // 2 E12 = E, and of their stresses its force per width takes half, half, and all.
 StopsLaw bias_stretch(const Fabric& fabric) {
   const InPlaneStops& stops = fabric.in_plane;
-  StopsLaw law{(fabric.warp + fabric.weft + 2 * fabric.coupling) / 4 + fabric.shear, stops.shear.thresholds,
-               stops.shear.stiffnesses};
-  if (stops.shear_growth > 0)
-    for (const double r : stops.shear.thresholds) law.growths.push_back(stops.shear_growth * r);
+  StopsLaw law = in_plane_law(fabric, Along::warp).shear;
+  law.spring += (fabric.warp + fabric.weft + 2 * fabric.coupling) / 4;
+  const bool grows = !law.growths.empty();
   for (const Spectrum* of : {&stops.warp, &stops.weft})
     for (std::size_t j = 0; j < of->size(); ++j) {
-      if (stops.shear_growth > 0) law.growths.push_back(0);
+      if (grows) law.growths.push_back(0);
       law.thresholds.push_back(2 * of->thresholds[j]);
       law.stiffnesses.push_back(of->stiffnesses[j] / 4);
     }

@@ -70,43 +70,33 @@ double apparent_rigidity(const FastSheet& sheet, SheetColumn column) {
   return kLaboratoryGravity * sheet.mean("W") * std::pow(sheet.along("C", column), 3);
 }
 
-void say(FastSheet& sheet, const std::string& quantity, const std::string& what) {
-  sheet.warnings.push_back(quantity + " (" + sheet.row.at(quantity).place + ") " + what);
-}
-
 void warn_of_contradicting_rows(FastSheet& sheet) {
   for (const auto& [name, column] : {std::pair{"warp", SheetColumn::warp}, {"weft", SheetColumn::weft}}) {
     if (sheet.has("B"))
       if (const double ratio = sheet.along("B", column) / apparent_rigidity(sheet, column);
           std::abs(ratio - 1) > kPrintedDigits)
-        say(sheet, "B",
-            std::string("along ") + name + " is " + number_text(ratio, 3) +
-                " times W g C^3, which it should be: one of the three is in another unit");
+        sheet.warn("B", std::string("along ") + name + " is " + number_text(ratio, 3) +
+                            " times W g C^3, which it should be: one of the three is in another unit");
     if (sheet.has("E20") && sheet.has("E100") && !(sheet.along("E20", column) < sheet.along("E100", column)))
-      say(sheet, "E20", std::string("along ") + name + " is not less than E100: are they exchanged?");
+      sheet.warn("E20", std::string("along ") + name + " is not less than E100: are they exchanged?");
   }
   if (sheet.has("G") && sheet.has("EB5"))
     if (const double ratio = sheet.mean("G") / shear_of_bias(sheet.mean("EB5"));
         std::abs(ratio - 1) > kPrintedDigits)
-      say(sheet, "G",
-          "is " + number_text(ratio, 3) +
-              " times 123/EB5, which it should be: one of them is in another "
-              "unit");
+      sheet.warn("G", "is " + number_text(ratio, 3) +
+                          " times 123/EB5, which it should be: one of them is in another "
+                          "unit");
 }
 
 void check_fast_sheet(FastSheet& sheet, const std::string& file) {
-  for (const char* needed : {"C", "W"})
-    if (!sheet.has(needed))
-      throw sheet_refusal(kFastReader,
-                          std::string("the sheet has no row ") + needed +
-                              ": bending is known from a bending length and a weight",
-                          file);
-  if (sheet.has(kDrapeOfJis.name) && sheet.has(kDrapeOfIso.name))
-    throw sheet_refusal(kFastReader, "one drape coefficient can be compared with, not two",
-                        sheet.row[kDrapeOfIso.name].place);
-  if (sheet.has("T2") && sheet.has("T100") && sheet.mean("T2") < sheet.mean("T100"))
-    throw sheet_refusal(kFastReader, "T2 must be >= T100: cloth is thinner under 100 gf/cm^2 than under 2",
-                        sheet.row["T2"].place);
+  check_laboratory_sheet(sheet,
+                         {kFastReader,
+                          {"C", "W"},
+                          ": bending is known from a bending length and a weight",
+                          "T2",
+                          "T100",
+                          "under 100 gf/cm^2 than under 2"},
+                         file);
   warn_of_contradicting_rows(sheet);
 }
 
@@ -180,7 +170,6 @@ void write_shear_of_bias(SheetWriter& writer) {
     writer.suppose("shear", "N/m", 60, 30, 110, "not in the sheet: typical of woven fabrics");
 }
 
-// Under the load T the stretch e is that of T = k (e + e^2/2) (1 + e).
 void write_extension(SheetWriter& writer) {
   const FastSheet& sheet = writer.sheet;
   const bool is_large = sheet.has("E100");
@@ -236,9 +225,7 @@ SheetFabric fabric_of_fast_sheet(const FastSheet& sheet, const Assumptions& assu
   write_extension(writer);
   writer.write_rest("T2");
   writer.write_drapes();
-  const Estimate k0 = assumptions.assumed_k0();
-  writer.assumed.push_back("k0 = " + number_text(k0.value, 4) + " 1/m, between " + number_text(k0.low, 4) +
-                           " and " + number_text(k0.high, 4) + ": where bending friction saturates");
+  writer.tell_k0(assumptions.assumed_k0(), "where bending friction saturates");
   return writer.fabric(kFastReader, "from the sheet of a FAST laboratory or a cantilever");
 }
 

@@ -34,12 +34,9 @@ struct StripFriction {
 // That of a strip with rigidity b2 [N m].
 using FrictionOfRigidity = std::function<StripFriction(double b2)>;
 
-// Chord angle [rad] to which an overhang of twice the bending length [m] of weight w [N/m^2] hangs after
-// first bending, with rigidity b2 beside a friction that saturates at k0 [1/m].
-double chord_of_overhang(double bending_length, double weight, double b2, double friction, double k0);
-
-// The b2 [N m] with which such an overhang hangs at 41.5 degrees; at least a thirtieth of w c^3, however much
-// friction is asked for.  Throws Error::simulation if no equilibrium is found.
+// The b2 [N m] with which an overhang of twice the bending length [m], of weight w [N/m^2], hangs at 41.5
+// degrees after first bending; at least a thirtieth of w c^3, however much friction is asked for.  Throws
+// Error::simulation if no equilibrium is found.
 double rigidity_of_bending_length(double bending_length, double weight, const FrictionOfRigidity& friction);
 
 // Bending length [m] that a strip with this curve along it, of this weight per area [kg/m^2], shows.

@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "sim/identification/sheet_writer.h"
 #include "sim/reference/kes_in_plane.h"
 #include "sim/scene/key_table.h"
 
@@ -42,10 +41,6 @@ constexpr double kLargestPressure = 50 * 98.0665;              // [Pa]
 struct Doubts {
   KesSheet& sheet;
 
-  void say(const std::string& quantity, const std::string& what) {
-    sheet.warnings.push_back(quantity + " (" + sheet.row.at(quantity).place + ") " + what);
-  }
-
   // Of one test: WT = LT T EMT/2 with T = 500 gf/cm.
   double work_over_its_parts(SheetColumn of_work, SheetColumn of_parts) const {
     return sheet.along("WT", of_work) /
@@ -59,11 +54,12 @@ struct Doubts {
       if (!(std::abs(own - 1) > kPrintedDigits)) continue;
       const std::string along = column_name(column);
       if (std::abs(exchanged - 1) < kPrintedDigits)
-        say("WT", "along " + along +
-                      " is LT times 500 gf/cm times EMT/2 of the other direction: warp and weft are "
-                      "exchanged in one of these rows");
+        sheet.warn("WT", "along " + along +
+                             " is LT times 500 gf/cm times EMT/2 of the other direction: warp and weft are "
+                             "exchanged in one of these rows");
       else
-        say("WT",
+        sheet.warn(
+            "WT",
             "along " + along + " is " + number_text(own, 3) +
                 " times LT times 500 gf/cm times EMT/2, which it should be: one of the three is in another "
                 "unit, or of another load");
@@ -75,8 +71,8 @@ struct Doubts {
     const double ratio = sheet.mean("WC") / (sheet.mean("LC") * kLargestPressure * way / 2);
     constexpr double kOfThickness = 0.3;  // differences of thicknesses are printed to few digits
     if (!(std::abs(ratio - 1) < kOfThickness))
-      say("WC",
-          "is " + number_text(ratio, 3) + " times LC times 50 gf/cm^2 times (T0 - TM)/2, which it should be");
+      sheet.warn("WC", "is " + number_text(ratio, 3) +
+                           " times LC times 50 gf/cm^2 times (T0 - TM)/2, which it should be");
   }
   // Over what woven cloth has; [low, high] in the unit that is said.
   void of_ratio(const char* above, const char* below, double unit, const char* text, double low,
@@ -85,9 +81,9 @@ struct Doubts {
     for (const SheetColumn column : {SheetColumn::warp, SheetColumn::weft}) {
       const double ratio = sheet.along(above, column) / sheet.along(below, column) / unit;
       if (ratio >= low && ratio <= high) continue;
-      say(above, std::string("along ") + column_name(column) + " is " + number_text(ratio, 3) + " " + text +
-                     " of " + below + ", and woven cloth has " + number_text(low) + " to " +
-                     number_text(high) + ": is one of them in another unit?");
+      sheet.warn(above, std::string("along ") + column_name(column) + " is " + number_text(ratio, 3) + " " +
+                            text + " of " + below + ", and woven cloth has " + number_text(low) + " to " +
+                            number_text(high) + ": is one of them in another unit?");
     }
   }
   // Friction of one k0 for both would saturate in the tester's window along one of them.
@@ -95,30 +91,27 @@ struct Doubts {
     constexpr double kFarApart = 25;
     const double ratio = sheet.along("2HB", SheetColumn::weft) / sheet.along("2HB", SheetColumn::warp);
     if (ratio > kFarApart || ratio < 1 / kFarApart)
-      say("2HB", "along weft is " + number_text(ratio, 3) +
+      sheet.warn("2HB",
+                 "along weft is " + number_text(ratio, 3) +
                      " times that along warp: is one of them in another unit? This model cannot return both");
   }
   void of_weight() {
     if (!sheet.has("W") || !sheet.has("T0")) return;
     const double bulk = sheet.mean("W") / sheet.mean("T0");
     if (bulk < 40 || bulk > 1300)
-      say("W", "over T0 makes " + number_text(bulk, 3) + " kg/m^3, and fabrics have 40 to 1300");
+      sheet.warn("W", "over T0 makes " + number_text(bulk, 3) + " kg/m^3, and fabrics have 40 to 1300");
   }
 };
 
 void check_sheet(KesSheet& sheet, const std::string& file) {
-  for (const char* needed : {"B", "2HB"})
-    if (!sheet.has(needed))
-      throw sheet_refusal(
-          kKesReader,
-          std::string("the sheet has no row ") + needed + ", which KES-FB2 prints: bending is not known",
-          file);
-  if (sheet.has(kDrapeOfJis.name) && sheet.has(kDrapeOfIso.name))
-    throw sheet_refusal(kKesReader, "one drape coefficient can be compared with, not two",
-                        sheet.row[kDrapeOfIso.name].place);
-  if (sheet.has("T0") && sheet.has("TM") && sheet.mean("T0") < sheet.mean("TM"))
-    throw sheet_refusal(kKesReader, "T0 must be >= TM: cloth is thinner under 50 gf/cm^2 than under 0.5",
-                        sheet.row["T0"].place);
+  check_laboratory_sheet(sheet,
+                         {kKesReader,
+                          {"B", "2HB"},
+                          ", which KES-FB2 prints: bending is not known",
+                          "T0",
+                          "TM",
+                          "under 50 gf/cm^2 than under 0.5"},
+                         file);
   Doubts doubts{sheet};
   doubts.of_tension();
   doubts.of_compression();

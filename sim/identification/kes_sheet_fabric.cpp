@@ -94,7 +94,6 @@ void write_shear(SheetWriter& writer) {
   if (sheet.has("2HG")) write_shear_stop(writer, friction);
 }
 
-// Under the tester's largest tension T the stretch e is that of T = k (e + e^2/2) (1 + e).
 void write_tension(SheetWriter& writer) {
   const KesSheet& sheet = writer.sheet;
   for (const auto& [name, column] : {std::pair{"warp", SheetColumn::warp}, {"weft", SheetColumn::weft}}) {
@@ -102,10 +101,10 @@ void write_tension(SheetWriter& writer) {
     const double e = by_work ? 2 * sheet.along("WT", column) / (sheet.along("LT", column) * kTestedTension)
                              : sheet.along("EMT", column);
     if (std::isfinite(e)) {
-      writer.derived(name, "N/m", kTestedTension / ((e + e * e / 2) * (1 + e)),
-                     std::string("such that 500 gf/cm extend it by ") +
-                         (by_work ? "2 WT/(LT 500 gf/cm)" : "EMT") +
-                         ": a straight line, which has LT = 1 and no friction");
+      writer.derive_stiffness(name, kTestedTension, e,
+                              std::string("such that 500 gf/cm extend it by ") +
+                                  (by_work ? "2 WT/(LT 500 gf/cm)" : "EMT") +
+                                  ": a straight line, which has LT = 1 and no friction");
     } else {
       writer.suppose(name, "N/m", 10000, 5000, 30000,
                      "not in the sheet: that of a denim, half to three times");
@@ -122,10 +121,7 @@ SheetFabric fabric_of_sheet(const KesSheet& sheet, const Assumptions& assumption
   write_tension(writer);
   writer.write_rest("T0");
   writer.write_drapes();
-  const Estimate k0 = assumptions.assumed_k0();
-  writer.assumed.push_back("k0 = " + number_text(k0.value, 4) + " 1/m, between " + number_text(k0.low, 4) +
-                           " and " + number_text(k0.high, 4) +
-                           ": where bending friction saturates, which KES-FB2 does not read");
+  writer.tell_k0(assumptions.assumed_k0(), "where bending friction saturates, which KES-FB2 does not read");
   return writer.fabric("fit --kes-sheet", "from the sheet of a KES-F laboratory");
 }
 

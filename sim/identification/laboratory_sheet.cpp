@@ -254,10 +254,6 @@ class SheetReader {
     add(quantity, std::move(row));
   }
 
-  void warn(const std::string& quantity, const std::string& what) {
-    sheet_.warnings.push_back(quantity + " (" + sheet_.row.at(quantity).place + ") " + what);
-  }
-
   // What has no direction has one number, the mean of what stands in both columns.
   void warn_of_directions() {
     for (const SheetQuantity& quantity : quantities_) {
@@ -265,8 +261,8 @@ class SheetReader {
       const SheetRow& row = sheet_.row.at(quantity.name);
       if (!row.has(SheetColumn::warp) || !row.has(SheetColumn::weft)) continue;
       if (std::abs(row.value[0] / row.value[1] - 1) > kPrintedDigits)
-        warn(quantity.name,
-             "has no direction, and other numbers in the columns warp and weft: their mean is taken");
+        sheet_.warn(quantity.name,
+                    "has no direction, and other numbers in the columns warp and weft: their mean is taken");
     }
   }
 
@@ -276,8 +272,8 @@ class SheetReader {
       const SheetRow& row = sheet_.row.at(quantity.name);
       const bool warp = row.has(SheetColumn::warp), weft = row.has(SheetColumn::weft);
       if (warp != weft && !row.has(SheetColumn::mean))
-        warn(quantity.name, std::string("has no number in the column ") + (warp ? "weft" : "warp") +
-                                "; that of " + (warp ? "warp" : "weft") + " is taken for both");
+        sheet_.warn(quantity.name, std::string("has no number in the column ") + (warp ? "weft" : "warp") +
+                                       "; that of " + (warp ? "warp" : "weft") + " is taken for both");
     }
   }
 
@@ -286,8 +282,8 @@ class SheetReader {
       if (!row.has(SheetColumn::mean) || !row.has(SheetColumn::warp) || !row.has(SheetColumn::weft)) continue;
       const double mean = (row.value[0] + row.value[1]) / 2;
       if (std::abs(row.value[2] / mean - 1) > kPrintedDigits)
-        warn(quantity, "has a mean that is " + number_text(row.value[2] / mean, 3) +
-                           " times that of its warp and weft");
+        sheet_.warn(quantity, "has a mean that is " + number_text(row.value[2] / mean, 3) +
+                                  " times that of its warp and weft");
     }
   }
 
@@ -307,6 +303,20 @@ Error sheet_refusal(const std::string& reader, const std::string& what, const st
 const char* column_name(SheetColumn column) {
   constexpr const char* kNames[] = {"warp", "weft", "mean"};
   return kNames[static_cast<int>(column)];
+}
+
+void check_laboratory_sheet(const LaboratorySheet& sheet, const SheetRules& rules, const std::string& file) {
+  for (const char* needed : rules.needed)
+    if (!sheet.has(needed))
+      throw sheet_refusal(rules.reader, std::string("the sheet has no row ") + needed + rules.why_needed,
+                          file);
+  if (sheet.has(kDrapeOfJis.name) && sheet.has(kDrapeOfIso.name))
+    throw sheet_refusal(rules.reader, "one drape coefficient can be compared with, not two",
+                        sheet.row.at(kDrapeOfIso.name).place);
+  const std::string thick = rules.thick, thin = rules.thin;
+  if (sheet.has(thick) && sheet.has(thin) && sheet.mean(thick) < sheet.mean(thin))
+    throw sheet_refusal(rules.reader, thick + " must be >= " + thin + ": cloth is thinner " + rules.pressed,
+                        sheet.row.at(thick).place);
 }
 
 bool SheetRow::has(SheetColumn column) const { return std::isfinite(value[static_cast<int>(column)]); }
@@ -331,6 +341,10 @@ double SheetRow::relative_error(SheetColumn column) const {
   double squares = 0;
   for (const double one : all) squares += (one - value[of]) * (one - value[of]);
   return std::sqrt(squares / (count * (count - 1))) / value[of];
+}
+
+void LaboratorySheet::warn(const std::string& quantity, const std::string& what) {
+  warnings.push_back(quantity + " (" + row.at(quantity).place + ") " + what);
 }
 
 double LaboratorySheet::along(const std::string& quantity, SheetColumn column) const {

@@ -58,6 +58,8 @@ struct LaboratorySheet {
   bool has(const std::string& quantity) const { return row.contains(quantity); }
   double along(const std::string& quantity, SheetColumn column) const;  // kNone: not there
   double mean(const std::string& quantity) const;
+  // "W (sheet.csv:4) what", of a row that is there.
+  void warn(const std::string& quantity, const std::string& what);
 };
 
 // `reader`: who asks, "fit --kes-sheet".  Throws Error::system, Error::invalid_input with file, row and
@@ -67,6 +69,25 @@ LaboratorySheet read_laboratory_sheet(const std::filesystem::path& file, const s
                                       std::span<const SheetQuantity> quantities);
 // As it is thrown for a sheet: "fit --kes-sheet: what (place)".
 Error sheet_refusal(const std::string& reader, const std::string& what, const std::string& place);
+
+// Rows that every laboratory's sheet may have: a drape coefficient with its tester.  It is compared with, and
+// nothing is made of it.
+inline constexpr SheetQuantity kDrapeOfJis = {
+    "DC-JIS", "%", "", "drape coefficient of 254 mm on 127 mm (JIS L 1096), to compare with", 10, 98, false};
+inline constexpr SheetQuantity kDrapeOfIso = {
+    "DC-ISO9073", "%", "",   "drape coefficient of 300 mm on 180 mm (ISO 9073-9), to compare with",
+    10,           98,  false};
+
+// What a laboratory's sheet has to have.
+struct SheetRules {
+  std::string reader;
+  std::vector<const char*> needed;
+  const char* why_needed;
+  const char *thick, *thin, *pressed;  // rows of a thickness, and of that under more pressure, in words
+};
+// Throws Error::invalid_input for a sheet that lacks a row that is needed, has two drapes, or is thicker
+// under the larger pressure.
+void check_laboratory_sheet(const LaboratorySheet& sheet, const SheetRules& rules, const std::string& file);
 
 // A sheet to fill in below that head (comments): unit, meaning and usual range of each row.
 std::string sheet_template(const std::string& head, std::span<const SheetQuantity> quantities);

@@ -36,6 +36,11 @@ void SheetWriter::write_rest(const std::string& thick) {
   }
 }
 
+void SheetWriter::tell_k0(const Estimate& k0, const std::string& why) {
+  assumed.push_back("k0 = " + number_text(k0.value, 4) + " 1/m, between " + number_text(k0.low, 4) + " and " +
+                    number_text(k0.high, 4) + ": " + why);
+}
+
 void SheetWriter::write_drapes() {
   for (const auto& [row, tester] : {std::pair{kDrapeOfJis.name, "jis"}, {kDrapeOfIso.name, "iso9073"}})
     if (sheet.has(row))

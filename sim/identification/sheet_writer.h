@@ -34,6 +34,12 @@ class SheetWriter {
   void suppose_bias(double weft);
   // Density, thickness of the row of that name and friction; assumed where the sheet has none.
   void write_rest(const std::string& thickness);
+  // warp or weft such that the load T [N/m] stretches the cloth by e, that of T = k (e + e^2/2) (1 + e).
+  void derive_stiffness(const std::string& name, double load, double e, const std::string& rule) {
+    derived(name, "N/m", load / ((e + e * e / 2) * (1 + e)), rule);
+  }
+  // Says that k0 is assumed, which no sheet has.
+  void tell_k0(const Estimate& k0, const std::string& why);
   // Drapes that were measured, which `drape` and `validate` set beside theirs.
   void write_drapes();
   // `flag`: "fit --kes-sheet"; `description`: where the sheet comes from.
@@ -44,13 +50,5 @@ class SheetWriter {
   std::string published_table;  // lines of [published]
   std::vector<std::string> assumed;
 };
-
-// Rows that every laboratory's sheet may have: a drape coefficient with its tester.  It is compared with, and
-// nothing is made of it.
-inline constexpr SheetQuantity kDrapeOfJis = {
-    "DC-JIS", "%", "", "drape coefficient of 254 mm on 127 mm (JIS L 1096), to compare with", 10, 98, false};
-inline constexpr SheetQuantity kDrapeOfIso = {
-    "DC-ISO9073", "%", "",   "drape coefficient of 300 mm on 180 mm (ISO 9073-9), to compare with",
-    10,           98,  false};
 
 }  // namespace hysteron

@@ -173,8 +173,9 @@ Ledger Body<Real, Device>::balance() {
     sum.handle_work += of.handle_work;
   }
   sum.handle_work += pins.work();
-  sum.bending_relaxation = bending.relaxed_energy() - initial_.bending_relaxation;
-  sum.bending_friction = bending.dissipated_energy() - bending.relaxed_energy() - initial_.bending_friction;
+  const double relaxed = bending.relaxed_energy();
+  sum.bending_relaxation = relaxed - initial_.bending_relaxation;
+  sum.bending_friction = bending.dissipated_energy() - relaxed - initial_.bending_friction;
   const double viscous_bending = bending.viscous_loss(), viscous_membrane = membrane.viscous_loss();
   sum.viscous = viscous_bending + viscous_membrane;
   sum.membrane_friction = membrane.friction_loss();

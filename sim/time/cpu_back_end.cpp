@@ -1,6 +1,6 @@
-#include "sim/bending/law_loop.h"
-
 #include <algorithm>
+
+#include "sim/bending/law_loop.h"
 #include "sim/time/back_end.h"
 #include "sim/time/stepper.h"
 

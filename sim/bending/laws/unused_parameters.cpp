@@ -34,23 +34,34 @@ std::string fatigue_text(const LawChoice& choice, const std::string& parameter) 
   return follows && !choice.fatigue.on() ? "friction does not weaken without param fatigue.dc" : "";
 }
 
+bool takes_stops(const std::string& law) { return law == "prandtl" || law == "chapman"; }
+
+std::string part_text(const std::string& part, const std::string& fabric, const std::string& law,
+                      const std::string& laws) {
+  return "fabric.bending." + part + " of " + fabric + " changes nothing under law " + law + ": " + laws +
+         " it";
+}
+
 // What a fabric states beyond b1, b2 and k0 and the law does not take.
 std::vector<std::string> unused_part_warnings(const std::string& law, const BendingParts& parts, LawUse use,
                                               const std::string& fabric) {
-  const bool has_stops = law == "prandtl" || law == "chapman";
   std::vector<std::string> warnings;
-  const auto warn = [&](const std::string& part, const std::string& laws) {
-    warnings.push_back("fabric.bending." + part + " of " + fabric + " changes nothing under law " + law +
-                       ": " + laws + " it");
-  };
-  if (use == LawUse::cloth && !parts.weft_stops.empty() && !has_stops)
-    warn("stops.weft", "prandtl and chapman take");
-  if (!parts.branches.empty() && law != "chapman") warn("branches", "chapman takes");
-  if (parts.set.on() && !has_stops) warn("set", "prandtl and chapman take");
+  if (const std::string of_weft = weft_stops_warning(law, parts, fabric);
+      use == LawUse::cloth && !of_weft.empty())
+    warnings.push_back(of_weft);
+  if (!parts.branches.empty() && law != "chapman")
+    warnings.push_back(part_text("branches", fabric, law, "chapman takes"));
+  if (parts.set.on() && !takes_stops(law))
+    warnings.push_back(part_text("set", fabric, law, "prandtl and chapman take"));
   return warnings;
 }
 
 }  // namespace
+
+std::string weft_stops_warning(const std::string& law, const BendingParts& parts, const std::string& fabric) {
+  if (parts.weft_stops.empty() || takes_stops(law)) return "";
+  return part_text("stops.weft", fabric, law, "prandtl and chapman take");
+}
 
 std::vector<std::string> unused_parameter_warnings(const std::string& law, const VirginCurve& curve,
                                                    const LawParameters& given, LawUse use,

@@ -21,4 +21,8 @@ std::vector<std::string> unused_parameter_warnings(const std::string& law, const
                                                    const LawParameters& given, LawUse use,
                                                    const std::string& fabric);
 
+// The sentence on a spectrum along weft that the law does not take, for who bends cloth along weft; "" where
+// it does, or there is none.
+std::string weft_stops_warning(const std::string& law, const BendingParts& parts, const std::string& fabric);
+
 }  // namespace hysteron
