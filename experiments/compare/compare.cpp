@@ -176,6 +176,11 @@ int run_compare(const CommandLine& line) {
       if (experiment.compared) known += std::string(experiment.name) + ", ";
     throw Error::invalid_input("needs what to compare: " + known + "or a scene");
   }
+  if (const std::string file = last_text(line.flags, "dump-scene", ""); !file.empty())
+    throw Error::invalid_input("dump-scene = " + file +
+                               " is one file, and every column has a scene of its own: dump that of the "
+                               "experiment with the column's flags")
+        .with_key("dump-scene", file);
   CompareChoice choice;
   Options options;
   read_flags(line, choice, options);

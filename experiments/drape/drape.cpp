@@ -159,6 +159,37 @@ void plot_outline(Session& session, const DrapeChoice& choice, double radius, co
   session.plot("plot_outline", plot);
 }
 
+// Testers stand upright on earth.
+bool has_usual_gravity(const Scene& scene) {
+  constexpr double kNear = 0.05;  // [m/s^2]; nowhere is it farther from 9.81
+  return (scene.gravity - Eigen::Vector3d(0, 0, -9.81)).norm() <= kNear;
+}
+
+// "--fabric.b2, --fabric.k0" where flags have changed the fabric that was measured; "" where none has.
+std::string changed_numbers(const Scene& scene) {
+  std::vector<std::string> flags;
+  for (const auto& [key, origin] : scene.origin)
+    if (key.starts_with("fabric.") && key != "fabric.name" && origin.starts_with("--fabric."))
+      flags.push_back(origin);
+  return join(flags, ", ");
+}
+
+// Why what is published is of another drape than this one, and which that is; "" where it is of this one.
+std::string other_drape_message(const Scene& scene, const DrapeChoice& choice, double radius) {
+  const std::string tester = other_tester_message(scene.fabric, choice, radius);
+  const auto& published = scene.fabric.published;
+  if (!tester.empty() || (!published.contains("drape-coefficient") && !published.contains("node-count")))
+    return tester;
+  if (!has_usual_gravity(scene)) return "is of a tester that stands upright on earth: without --gravity";
+  const std::string changed = changed_numbers(scene);
+  return changed.empty() ? "" : "is of " + scene.fabric.name + " without " + changed;
+}
+
+bool is_of_this_tester(const PublishedNumber& number, const Scene& scene, const DrapeChoice& choice,
+                       double radius) {
+  return is_own_tester(number, choice, radius) && has_usual_gravity(scene);
+}
+
 void plot_series(Session& session, const DrapeChoice& choice, double radius) {
   const auto csv = session.run().path("metrics.csv");
   render::Plot drape{
@@ -166,7 +197,7 @@ void plot_series(Session& session, const DrapeChoice& choice, double radius) {
   drape.series = {render::series_from_csv(csv, "time", "drape_coefficient", "simulated")};
   const auto published = session.scene().fabric.published.find("drape-coefficient");
   if (published != session.scene().fabric.published.end() &&
-      is_own_tester(published->second, choice, radius)) {
+      is_of_this_tester(published->second, session.scene(), choice, radius)) {
     const double value = published->second.value;
     drape.series.push_back({"measured, published",
                             {0, drape.series[0].x.back()},
@@ -213,13 +244,13 @@ Setup set_up_drape(const CommandLine& line, D& choice) {
 }
 
 // What was measured on the tester that was simulated; of another one, which that is.
-void note_published(Run& run, const Fabric& fabric, const DrapeChoice& choice, double radius) {
-  for (const auto& [name, number] : fabric.published) {
-    if (!is_own_tester(number, choice, radius)) continue;
+void note_published(Run& run, const Scene& scene, const DrapeChoice& choice, double radius) {
+  for (const auto& [name, number] : scene.fabric.published) {
+    if (!is_of_this_tester(number, scene, choice, radius)) continue;
     if (name == "drape-coefficient") run.metric("published_drape_coefficient_percent", number.value);
     if (name == "node-count") run.metric("published_node_count", number.value);
   }
-  const std::string message = other_tester_message(fabric, choice, radius);
+  const std::string message = other_drape_message(scene, choice, radius);
   if (!message.empty()) run.metric("published_drape", message);
 }
 
@@ -287,7 +318,7 @@ int run_drape(const CommandLine& line) {
   run.metric("settling_limit_m_per_s", choice.still);
   // What bringing the cloth to rest has moved: what its last motion could still have changed.
   if (setup.scene.is_implicit()) run.metric("rest_shift_percent", change);
-  note_published(run, setup.scene.fabric, choice, radius);
+  note_published(run, setup.scene, choice, radius);
   if (session.pictures()) {
     plot_outline(session, choice, radius, outline);
     plot_series(session, choice, radius);

@@ -82,6 +82,17 @@ void throw_if_gravity_bends_nothing(const Scene& scene, const ClothMesh& mesh) {
       .with_experiment("swing");
 }
 
+std::string long_side_warning(const Scene& scene, const ClothMesh& mesh) {
+  constexpr double kLong = 2;
+  const RestSheet sheet = rest_sheet(scene, mesh);
+  const double along = sheet.box.sizes().x(), across = sheet.box.sizes()[sheet.across];
+  if (rest_file(scene).empty() || across < kLong * along) return "";
+  return fmt::format(
+      "{} is {:.4g} m long in x and {:.4g} m in {}: its long side is clamped, and it swings across; a strip "
+      "lies along x",
+      sheet_name(scene), along, across, sheet.across == 1 ? "y" : "z");
+}
+
 void clamp_low_end(Scene& scene) {
   const Cloth cloth = make_cloth(scene);
   const Eigen::AlignedBox3d box = rest_sheet(scene, cloth.mesh).box;

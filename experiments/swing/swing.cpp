@@ -170,6 +170,9 @@ int run_swing(const CommandLine& line) {
   Session session(line, setup, std::move(clamped));
   if (session.is_over()) return 0;
   session.reserve({"turns.csv"}, {"plot_decay", "plot_decay_log", "plot_tip", "plot_energy"});
+  if (!has_own_pins)
+    if (const std::string doubt = long_side_warning(setup.scene, session.cloth().mesh); !doubt.empty())
+      session.run().warn(doubt);
   const SheetPlacement sheet = sheet_placement(setup.scene, session.cloth(), !has_own_pins);
   const int tip = sheet.tip;
   std::vector<double> times, swing;

@@ -16,13 +16,19 @@ Drape nominal_drape(const std::string& fabric, const ValidateFlags& flags) {
   const auto drape = published.find("drape-coefficient");
   const bool named = drape != published.end() && drape->second.tester == "jis";
   const bool shaken = flags.standard == "published" ? named : flags.standard == "jis";
-  return {fabric,
-          flags.law,
-          shaken ? "jis" : "iso9073",
-          shaken ? "shaken" : "lowered",
-          "",
-          static_cast<int>(flags.triangles),
-          read.name};
+  Drape nominal{fabric,
+                flags.law,
+                shaken ? "jis" : "iso9073",
+                shaken ? "shaken" : "lowered",
+                "",
+                static_cast<int>(flags.triangles),
+                read.name};
+  for (const auto& [name, metric] :
+       {std::pair{"drape-coefficient", "drape_coefficient_percent"}, {"node-count", "node_count"}})
+    if (const auto found = published.find(name);
+        found != published.end() && found->second.tester == nominal.standard)
+      nominal.measured[metric] = found->second.value;
+  return nominal;
 }
 
 std::vector<Flag> drape_flags(const Drape& drape, const ValidateFlags& flags) {

@@ -3,6 +3,7 @@
 // ranges.
 #pragma once
 
+#include <cmath>
 #include <map>
 #include <string>
 #include <vector>
@@ -35,8 +36,9 @@ struct ValidateFlags {
 struct Drape {
   std::string fabric, law, standard, release, varied;  // varied: sample-1 | budget-3-1
   int triangles = 0;
-  std::string label = {};          // of the fabric: its name, where `fabric` is a file
-  std::vector<Flag> further = {};  // what else sets it apart
+  std::string label = {};                       // of the fabric: its name, where `fabric` is a file
+  std::vector<Flag> further = {};               // what else sets it apart
+  std::map<std::string, double> measured = {};  // on the same tester, by the metric that predicts it
   Metrics metrics{};
   double seconds = 0;
 
@@ -46,7 +48,10 @@ struct Drape {
   double number(const std::string& key) const { return metrics.number(key); }
   double coefficient() const { return number("drape_coefficient_percent"); }
   // NaN where its fabric's was measured on another tester.
-  double published() const { return number("published_drape_coefficient_percent"); }
+  double published(const std::string& metric = "drape_coefficient_percent") const {
+    const auto found = measured.find(metric);
+    return found == measured.end() ? NAN : found->second;
+  }
 };
 
 // As the flags say, on the tester that the fabric's file names.

@@ -63,7 +63,7 @@ Prediction together(const std::vector<Drape>& drapes, const std::string& metric,
   std::vector<double> values;
   for (const Drape& drape : drapes) values.push_back(drape.number(metric));
   const double mean = mean_value(values), half = reach_of_next(values.size()) * sample_deviation(values);
-  return {question, unit, mean, drapes.front().number("published_" + metric), mean - half, mean + half};
+  return {question, unit, mean, drapes.front().published(metric), mean - half, mean + half};
 }
 
 using DrapesOf = std::vector<std::pair<std::string, std::vector<Drape>>>;
@@ -236,8 +236,8 @@ void keep_what_was_measured(const Fabric& fabric, Sample& sample) {
   if (sample.count("bias-bending")) sample["bias-bending"] *= (1 + weft) / (1 + fabric.weft_bending);
   if (!fabric.bending.stops.empty()) return;  // which keep their friction along warp
   if (fabric.kes.on() && (sample.count("weft-bending") || sample.count("weft-friction"))) {
-    sample["kes-b"] = warp * fabric.kes.read.rigidity;
-    sample["kes-2hb"] = rubs * fabric.kes.read.loop_width;
+    sample["kes-b"] = warp * number_or(sample, "kes-b", fabric.kes.read.rigidity);
+    sample["kes-2hb"] = rubs * number_or(sample, "kes-2hb", fabric.kes.read.loop_width);
   } else if (!fabric.kes.on() &&
              (!unstated(sample) || (has_bending_length(fabric) && sample.count("density")))) {
     const double k0 = number_or(sample, "k0", fabric.k0),

@@ -9,6 +9,7 @@
 #include "experiments/diff/diff.h"
 #include "experiments/workbench/app/headlines.h"
 #include "experiments/workbench/app/json_file.h"
+#include "experiments/workbench/app/same_request.h"
 #include "experiments/workbench/pages/error_words.h"
 #include "sim/base/error.h"
 #include "sim/base/whole_file.h"
@@ -98,18 +99,18 @@ void compare_energies(const Manifest& recorded, const Manifest& now, const Limit
     if (find_term(recorded.energy, name) == nullptr) repetition.unrecorded.push_back(energy_name(name));
 }
 
-// Whether a file of a run is a table that a repetition without --errors has, too.  The cheapest settings of
-// `accuracy` are chosen by durations.
-bool is_table(const std::string& file) {
-  return file.ends_with(".csv") && file != "errors.csv" && file != "cheapest.csv";
-}
+// Whether a file of a run is a table that its repetition does not hold: it runs without --errors, and the
+// cheapest settings of `accuracy` are chosen by durations.
+bool is_table_of_one_run(const std::string& file) { return file == "errors.csv" || file == "cheapest.csv"; }
+
+bool is_table(const std::string& file) { return file.ends_with(".csv") && !is_table_of_one_run(file); }
 
 bool is_data(const std::string& file) {
   return file.ends_with(".toml") || file.ends_with(".ply") || file.ends_with(".obj");
 }
 
 bool is_compared_file(const std::string& file, bool with_pictures) {
-  return is_table(file) || is_data(file) || (with_pictures && is_picture(file));
+  return is_table(file) || is_table_of_one_run(file) || is_data(file) || (with_pictures && is_picture(file));
 }
 
 // On the CPU the number of threads changes no bits.
@@ -158,7 +159,7 @@ Agreement Repetition::agreement() const {
   for (const ComparedNumbers* numbers : {&metrics, &energies, &series})
     if (!numbers->beyond.empty()) return Agreement::none;
   if (!pictures_beyond.empty() || !data_beyond.empty() || !missing.empty() || !unrecorded.empty() ||
-      !lost.empty())
+      !lost.empty() || !edited.empty())
     return Agreement::none;
   if (same_state == has_state && metrics.all_same() && energies.all_same() && series.all_same())
     return Agreement::bits;
@@ -202,12 +203,16 @@ ComparableFiles comparable_files(const Manifest& recorded, const fs::path& folde
   ComparableFiles files;
   for (const std::string& name : recorded.files) {
     if (!is_compared_file(name, with_pictures)) continue;
-    if (is_there(name))
+    if (!is_there(name)) {
+      if (is_whole)
+        files.lost.push_back(name);
+      else
+        ++files.trimmed;
+    } else if (is_table_of_one_run(name)) {
+      if (!is_as_written(recorded, folder, name)) files.edited.push_back(name);
+    } else {
       (is_table(name) ? files.tables : is_data(name) ? files.data : files.pictures).push_back(name);
-    else if (is_whole)
-      files.lost.push_back(name);
-    else
-      ++files.trimmed;
+    }
   }
   return files;
 }

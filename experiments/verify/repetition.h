@@ -25,6 +25,7 @@ struct Repetition {
   std::vector<std::string> missing;     // that are no longer measured: a difference
   std::vector<std::string> unrecorded;  // that are measured, and the manifest does not hold: likewise
   std::vector<std::string> lost;        // files of the manifest that its folder lacks: likewise
+  std::vector<std::string> edited;      // tables that are not repeated and not as they were written: likewise
   int trimmed_files = 0;                // those of a folder that keeps only a part of its run: no difference
   int pictures = 0;
   std::vector<std::string> pictures_beyond;  // in words
@@ -69,6 +70,7 @@ struct ComparableFiles {
   std::vector<std::string> pictures;  // that are there (is_picture())
   std::vector<std::string> tables;    // series and others, but for those of --errors, which are not repeated
   std::vector<std::string> data;      // fabric files and exported meshes
+  std::vector<std::string> edited;    // tables that are not as their manifest's hash has them
   std::vector<std::string> lost;      // that are not there, although the page is
   int trimmed = 0;                    // that are not there, and the page is not either
 };

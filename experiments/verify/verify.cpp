@@ -139,6 +139,7 @@ std::string repetition_text(const Repetition& r, const std::string& reasons) {
   add("no longer measured: ", r.missing);
   add("not in the manifest: ", r.unrecorded);
   add("no longer in the folder: ", r.lost);
+  add("not as they were written: ", r.edited);
   for (const std::string& text :
        {all_same_text(r.energies.count, r.energies.all_same(), "energy term"),
         all_same_text(r.series.count, r.series.all_same(), "table column"),
@@ -190,6 +191,7 @@ Line compared(const RepeatedRun& run, const ChildRun& now, const VerifyChoice& c
   compare_pictures(run.files.pictures, folder, now.folder, limits, repetition);
   add_unlisted_files(before, *now.manifest, with_pictures, repetition);
   repetition.lost = run.files.lost;
+  repetition.edited = run.files.edited;
   repetition.trimmed_files = run.files.trimmed;
   if (!repetition.has_state &&
       repetition.metrics.count + repetition.series.count + repetition.pictures + repetition.data_files == 0 &&

@@ -52,9 +52,9 @@ CurvatureOperator make_curvature_operator(BendingElement element, const ClothMes
 // 1/sqrt(q) times those along warp.  Needs 4 bias >= 1 + weft.
 void stiffen(CurvatureOperator& op, const ClothMesh& mesh, double weft, double bias);
 
-// Where rigidities have the ratios of another Q': after stiffen() with the Q of friction, the law's own
-// elasticity b2 [N m] becomes that along each direction, b2 Q'/Q in the law's curvatures.  The sum is a
-// potential, so that what friction loses is what it loses alone.  Chosen here.
+// Where rigidities have the ratios of another Q': after stiffen() with the Q of friction, the elasticity b2
+// [N m] that elements have of their law becomes that along each direction, b2 Q'/Q in the law's curvatures.
+// The sum is a potential, so that what friction loses is what it loses alone.  Chosen here.
 void set_rigidity(CurvatureOperator& op, const ClothMesh& mesh, double b2, DirectionRatios rigidity,
                   DirectionRatios friction);
 

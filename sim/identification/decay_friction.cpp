@@ -204,8 +204,10 @@ void check_decay(const DecaySeries& series, const DecayQuestion& question, const
 std::vector<std::string> decay_warnings(const DecaySeries& series, const DecayQuestion& question) {
   // First modes: of a cantilever without weight, and of a chain that hangs (half of the first zero of J0).
   constexpr double kCantilever = 3.516, kChain = 1.2024, kGravity = 9.81;
-  // Large amplitudes slow a strip down; friction that has not slipped makes it up to so much stiffer.
-  constexpr double kSlowest = 0.6, kStiffest = 2.5, kLongest = 1.6;
+  // Large amplitudes slow a strip down; friction that has not slipped makes it stiffer, b1/b2 = 1 + 2
+  // (HB/B)/k0: HB/B of clothing is up to some 50/m, and knees begin at 4/m.
+  constexpr double kSlowest = 0.6, kLongest = 1.6;
+  const double stiffest = std::sqrt(1 + 2 * 50. / 4);
   std::vector<double> turns;
   for (std::size_t i = 1; i < series.time.size(); ++i) turns.push_back(series.time[i] - series.time[i - 1]);
   std::vector<double> sorted = turns;
@@ -215,7 +217,7 @@ std::vector<std::string> decay_warnings(const DecaySeries& series, const DecayQu
   const double elastic = kCantilever / (length * length) * std::sqrt(question.rigidity / question.density),
                weight = kChain * std::sqrt(kGravity / length);
   const double longest = std::numbers::pi / (kSlowest * std::hypot(elastic, weight)),
-               shortest = std::numbers::pi / std::hypot(kStiffest * elastic, weight);
+               shortest = std::numbers::pi / std::hypot(stiffest * elastic, weight);
   std::vector<std::string> warnings;
   if (usual > longest || usual < shortest)
     warnings.push_back(

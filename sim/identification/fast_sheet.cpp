@@ -80,6 +80,8 @@ void warn_of_contradicting_rows(FastSheet& sheet) {
     if (sheet.has("E20") && sheet.has("E100") && !(sheet.along("E20", column) < sheet.along("E100", column)))
       sheet.warn("E20", std::string("along ") + name + " is not less than E100: are they exchanged?");
   }
+  if (sheet.has("E5") && !sheet.has("E20") && !sheet.has("E100"))
+    sheet.warn("E5", "is not used: cloth crimps under so little, and its stretch is that of E100 or E20");
   if (sheet.has("G") && sheet.has("EB5"))
     if (const double ratio = sheet.mean("G") / shear_of_bias(sheet.mean("EB5"));
         std::abs(ratio - 1) > kPrintedDigits)

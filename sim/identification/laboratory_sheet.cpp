@@ -140,6 +140,11 @@ class SheetReader {
                row.place + ", column " + column_name(column) + ", as the mean tells it");
   }
 
+  // A row that was not says nothing.
+  static bool is_filled_in(const SheetRow& row) {
+    return std::any_of(std::begin(row.value), std::end(row.value), [](double x) { return std::isfinite(x); });
+  }
+
   struct CsvColumns {
     std::size_t quantity;
     std::optional<std::size_t> unit, value[3];
@@ -203,8 +208,7 @@ class SheetReader {
       }
       const SheetQuantity& quantity = known_quantity(named, place);
       SheetRow row = row_of_csv(table, i, columns, quantity, place);
-      if (std::any_of(std::begin(row.value), std::end(row.value), [](double x) { return x == x; }))
-        add(quantity, std::move(row));  // a row that was not filled in says nothing
+      if (is_filled_in(row)) add(quantity, std::move(row));
     }
   }
 
@@ -251,7 +255,7 @@ class SheetReader {
       if (column == 3) throw refusal(node.key + " has warp, weft, mean and unit, no " + child.key, place);
       take_from(column, child);
     }
-    add(quantity, std::move(row));
+    if (is_filled_in(row)) add(quantity, std::move(row));
   }
 
   // What has no direction has one number, the mean of what stands in both columns.

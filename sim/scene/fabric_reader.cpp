@@ -127,6 +127,15 @@ struct Reader {
   }
 
   // A drape coefficient in percent, whether it is printed so or as a share.
+  // Most of what a source prints is only shown; what drapes are held against has to have its name.
+  static constexpr const char* kReadNames[] = {"drape-coefficient", "node-count"};
+  void check_published_name(const ValueTree& node) const {
+    const std::vector<std::string> names(std::begin(kReadNames), std::end(kReadNames));
+    const std::string nearest = nearest_name(node.key, names);
+    if (!nearest.empty() && nearest != node.key)
+      throw refusal("unknown number " + node.key + " in [published], did you mean " + nearest + "?", node);
+  }
+
   void check_drape(const ValueTree& node, PublishedNumber& number) const {
     if (number.unit == "1") number.value *= 100, number.unit = "%";
     if (!number.unit.empty() && number.unit != "%")
@@ -291,6 +300,7 @@ FabricFile read_fabric(const std::string& name_or_file, const std::string& origi
   }
   if (const ValueTree* published = root.find("published")) {
     for (const ValueTree& node : published->children) {
+      reader.check_published_name(node);
       scene.fabric.published[node.key] = reader.quantity(node, sources, "");
       if (node.key == "drape-coefficient") reader.check_drape(node, scene.fabric.published[node.key]);
       if (const auto range = reader.range(node, scene.fabric.published[node.key].value)) {

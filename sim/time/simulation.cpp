@@ -6,6 +6,7 @@
 #include "sim/base/error.h"
 #include "sim/base/number_in.h"
 #include "sim/bending/bending.h"
+#include "sim/bending/laws/law_run.h"
 #include "sim/contact/compression.h"
 #include "sim/contact/obstacle_set.h"
 #include "sim/contact/start_checks.h"
@@ -116,6 +117,13 @@ void check(const Scene& scene, const Cloth& cloth) {
   check_start(scene, cloth);
 }
 
+// b2 as the elements have it along warp [N m].
+double own_rigidity(const Scene& scene) {
+  if (scene.element == BendingElement::hinge) return scene.fabric.b2;
+  const LawChoice law = choose_law(scene.law, scene.fabric.virgin_curve(), scene.param, LawUse::cloth);
+  return scene.fabric.b2 * rigidity_on_the_tensor(law);
+}
+
 CurvatureOperator bending_operator(const Scene& scene, const Cloth& cloth) {
   CurvatureOperator op = make_curvature_operator(scene.element, cloth.mesh, cloth.held_throughout(scene));
   const Fabric& fabric = scene.fabric;
@@ -123,7 +131,7 @@ CurvatureOperator bending_operator(const Scene& scene, const Cloth& cloth) {
   const DirectionRatios rigidity = fabric.rigidity_ratios(),
                         law = apart ? fabric.friction_ratios() : rigidity;
   if (!fabric.bends_alike()) stiffen(op, cloth.mesh, law.weft, law.bias);
-  if (apart) set_rigidity(op, cloth.mesh, fabric.b2, rigidity, law);
+  if (apart) set_rigidity(op, cloth.mesh, own_rigidity(scene), rigidity, law);
   if (scene.element == BendingElement::hinge && !scene.fabric.bending.weft_stops.empty())
     set_directions(op, cloth.mesh, scene.fabric.weft_bending, scene.fabric.bias_bending);
   return op;

@@ -181,7 +181,7 @@ struct Manifest {
   Metrics metrics;
   std::vector<std::string> requested_metrics;  // those that its scene file asks for
   std::vector<std::string> files;
-  std::vector<InputRecord> tables;  // of those files the CSVs, as a complete run has left them
+  std::vector<InputRecord> tables;  // of those files CSVs and fabric files, as a complete run has left them
   bool complete = false;
 
   // Of `keys` the text or number at a path, "fabric.b2"; what is neither is its JSON.  "", 0: there is none.

@@ -16,6 +16,7 @@
 #include "experiments/workbench/app/ending.h"
 #include "experiments/workbench/app/json_file.h"
 #include "experiments/workbench/app/manifest_file.h"
+#include "experiments/workbench/app/same_request.h"
 #include "experiments/workbench/app/set_aside.h"
 #include "sim/base/atomic_file.h"
 #include "sim/base/comma_list.h"
@@ -50,6 +51,16 @@ std::optional<Manifest> run_before_in(const fs::path& folder) {
 
 bool is_within(const fs::path& inner, const fs::path& outer) {
   return std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end()).first == outer.end();
+}
+
+// A fabric file that was edited since it was written is its editor's work.
+void throw_if_edited(const std::optional<Manifest>& run, const fs::path& folder) {
+  if (!run) return;
+  for (const InputRecord& file : run->tables)
+    if (file.file.ends_with(".toml") && !is_as_written(*run, folder, file.file))
+      throw Error::invalid_input((folder / file.file).string() +
+                                 " was edited after its run had written it, and is not replaced" +
+                                 kElsewhere + ", or move this file");
 }
 
 // `what`, "--loop", names files: one of them would be moved away before the run, or replaced by it.
@@ -115,6 +126,7 @@ struct RunFolder::Held {
         run_before(run_before_in(path)),
         aside(path, Successor::run) {
     throw_if_inputs(line, path, names());
+    throw_if_edited(run_before, path);
   }
 
   // Of what this run replaces when it is complete.

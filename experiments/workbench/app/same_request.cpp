@@ -170,15 +170,21 @@ std::vector<std::string> changed_words(const std::vector<std::string>& then,
 std::vector<InputRecord> written_tables(const std::vector<std::string>& files, const fs::path& folder) {
   std::vector<InputRecord> tables;
   for (const std::string& file : files)
-    if (file.ends_with(".csv"))
+    if (file.ends_with(".csv") || file.ends_with(".toml"))
       if (const std::optional<std::string> hash = hash_of(folder / file)) tables.push_back({file, *hash});
   return tables;
+}
+
+bool is_as_written(const Manifest& run, const fs::path& folder, const std::string& table) {
+  const auto written = std::ranges::find(run.tables, table, &InputRecord::file);
+  const std::optional<std::string> hash = hash_of(folder / table);
+  return written == run.tables.end() || !hash || *hash == written->hash;
 }
 
 std::vector<std::string> lost_files(const Manifest& run, const fs::path& folder) {
   std::vector<std::string> lost;
   for (const InputRecord& table : run.tables)
-    if (const std::optional<std::string> hash = hash_of(folder / table.file); hash && *hash != table.hash)
+    if (!is_as_written(run, folder, table.file))
       lost.push_back("its " + table.file + " is not as it was written");
   for (const std::string& file : run.files)
     if (std::error_code ignored; !fs::exists(folder / file, ignored))

@@ -32,9 +32,11 @@ std::string changed_error_flags(const Manifest& before, const CommandLine& line)
 std::vector<std::string> changed_words(const std::vector<std::string>& then,
                                        const std::vector<std::string>& now);
 
-// The tables among these files of a run's folder.
+// The tables and fabric files among these files of a run's folder.
 std::vector<InputRecord> written_tables(const std::vector<std::string>& files,
                                         const std::filesystem::path& folder);
+// Whether a table of that folder has the bytes that the run wrote, as far as its manifest knows.
+bool is_as_written(const Manifest& run, const std::filesystem::path& folder, const std::string& table);
 // "its metrics.csv is not there any more", "is not as it was written", for each file that the run wrote into
 // the folder and that is gone, and for each table that is another.
 std::vector<std::string> lost_files(const Manifest& run, const std::filesystem::path& folder);

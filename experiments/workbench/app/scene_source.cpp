@@ -10,6 +10,7 @@
 #include "experiments/workbench/app/run_files.h"
 #include "sim/base/atomic_file.h"
 #include "sim/base/error.h"
+#include "sim/base/whole_file.h"
 #include "sim/scene/scene_reader.h"
 #include "sim/scene/scene_text.h"
 
@@ -126,6 +127,12 @@ Json requested_patch(const Json& simulated, const Json& requested) {
   for (const auto& [name, value] : simulated.items())
     if (!requested.contains(name)) patch[name] = nullptr;
   return patch;
+}
+
+bool is_dumped_scene(const std::string& file) {
+  std::error_code ignored;
+  return std::filesystem::is_regular_file(file, ignored) &&
+         whole_file(file, "cannot read " + file).find(kResolvedSceneMark) != std::string::npos;
 }
 
 // What was asked for, since the experiment will change it once more; but the time and the steps that it has

@@ -48,5 +48,7 @@ Json requested_patch(const Json& simulated, const Json& requested);
 // Writes the scene of a set-up, with the keys of the run and its experiment, as the TOML file that
 // `--dump-scene` names.  Throws Error::system.
 void dump_scene(const Setup& setup);
+// Whether that file was written so.
+bool is_dumped_scene(const std::string& file);
 
 }  // namespace hysteron::experiments

@@ -31,6 +31,8 @@ struct FourDirections {
   static constexpr Real kBeta = Real(-0.17157287525380990240);  // -(sqrt2 - 1)^2
   static constexpr Real kScale = Real(1.202);                   // s
   static constexpr Real kWeight = Real(2.016);                  // omega
+  // Rigidity over the scalar law's: omega s^2 (1 - beta)^2/4.
+  static constexpr Real kElasticity = kWeight / kDirections * kScale * kScale * (1 - kBeta) * (1 - kBeta);
 
   ScalarLaw law;
 
@@ -92,9 +94,7 @@ struct FourDirections {
     }
     return most;
   }
-  HYST_HD Real largest_stiffness() const {
-    return kWeight / kDirections * kScale * kScale * (1 - kBeta) * (1 - kBeta) * law.largest_stiffness();
-  }
+  HYST_HD Real largest_stiffness() const { return kElasticity * law.largest_stiffness(); }
 
   // w_d: K_d = w_d . S for direction d = 0..3.
   HYST_HD static Vec<Real, 3> direction(int d) {

@@ -121,6 +121,14 @@ bool takes_time(const LawRequest& request) {
   return timed;
 }
 
+double rigidity_on_the_tensor(const LawChoice& choice) {
+  double share = 1;
+  visit_groups<double, 3, ClothMemory>(LawGroups{}, choice, [&]<class Law>(const Law&) {
+    if constexpr (requires { Law::kElasticity; }) share = Law::kElasticity;
+  });
+  return share;
+}
+
 LawWalk::LawWalk(const LawRequest& request) {
   with_law(request, [&]<class Law>(const Law& law) { state_ = std::make_unique<Drive<Law>>(law); });
 }

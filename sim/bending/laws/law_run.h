@@ -41,6 +41,10 @@ LawRun run_law(const LawRequest& request, const std::vector<LawRow>& rows);
 // branches that relax.  Throws as run_law() does.
 bool takes_time(const LawRequest& request);
 
+// Rigidity on the tensor over the law's own b2: 1, or what four directions make of it (four_directions.h).
+// Throws as run_law() does.
+double rigidity_on_the_tensor(const LawChoice& choice);
+
 // What an accepted step leaves.
 struct LawPoint {
   double moment = 0;      // [N]

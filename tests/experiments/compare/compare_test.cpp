@@ -226,6 +226,14 @@ TEST(Compare, RefusesInstantsAfterTheEndOfTheRunBeforeItBegins) {
   EXPECT_TRUE(says(compare_refusal(" --compare.times=-0.1"), "must be >= 0"));
 }
 
+TEST(Compare, RefusesOneDumpedSceneForAllItsColumns) {
+  const Folder folder;
+  const std::string file = folder.file("dumped.toml");
+  EXPECT_TRUE(says(refused("compare drape --quick --laws prandtl,linear --dump-scene " + file),
+                   "is one file, and every column has a scene of its own"));
+  EXPECT_FALSE(fs::exists(file));
+}
+
 TEST(Compare, RefusesAStiffnessThatItsMatchingWouldChange) {
   const Folder folder;
   const std::string said = refused("compare swing --laws linear+fabric.b2=1e-5,prandtl" +

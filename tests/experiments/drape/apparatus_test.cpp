@@ -59,8 +59,10 @@ TEST(PublishedDrape, StandsBesideDrapesOfItsOwnTesterOnly) {
   EXPECT_FALSE(is_own_tester(number, iso, 0.15));
   EXPECT_TRUE(says(other_tester_message(fabric, iso, 0.15), "--drape.standard jis"));
   DrapeChoice dropped = jis, beside = jis;
+  DrapeChoice shaken_once = jis, read_at_once = jis;
   dropped.release = "dropped", beside.offset = 0.02;
-  for (const DrapeChoice& other : {dropped, beside}) {
+  shaken_once.shakes = 1, read_at_once.wait = 0;
+  for (const DrapeChoice& other : {dropped, beside, shaken_once, read_at_once}) {
     EXPECT_FALSE(is_own_tester(number, other, 0.127));
     EXPECT_TRUE(says(other_tester_message(fabric, other, 0.127), "another way: --drape.standard jis"));
   }
@@ -79,10 +81,18 @@ TEST(PublishedDrape, IsNoResultOfADrapeOnAnotherTester) {
   EXPECT_FALSE(default_metrics.contains("published_node_count"));
   EXPECT_TRUE(says(default_metrics["published_drape"].text(), "--drape.standard jis"));
   std::vector<Flag> shaken = small;
-  shaken.insert(shaken.end(), {{"drape.standard", "jis"}, {"drape.shakes", "1"}, {"drape.wait", "0"}});
+  shaken.push_back({"drape.standard", "jis"});
   const Metrics jis_metrics = quick_drape(folder, shaken);
   EXPECT_EQ(jis_metrics["published_drape_coefficient_percent"].number(), 82.9);
   EXPECT_FALSE(jis_metrics.contains("published_drape"));
+  shaken.push_back({"fabric.k0", "12"});
+  const Metrics changed = quick_drape(folder, shaken);
+  EXPECT_EQ(changed["published_drape_coefficient_percent"].number(), 82.9);
+  EXPECT_EQ(changed["published_drape"].text(), "is of cotton-broad without --fabric.k0");
+  shaken.push_back({"gravity", "0 0 -5"});
+  const Metrics lighter = quick_drape(folder, shaken);
+  EXPECT_FALSE(lighter.contains("published_drape_coefficient_percent"));
+  EXPECT_TRUE(says(lighter["published_drape"].text(), "stands upright on earth"));
 }
 
 TEST(Drape, RefusesGravityThatPullsTheSpecimenOffAndWarnsOfATilt) {

@@ -8,6 +8,7 @@
 #include "sim/reference/kes_in_plane.h"
 #include "sim/scene/fabric_reader.h"
 #include "tests/experiments/folder.h"
+#include "tests/experiments/program.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -165,6 +166,19 @@ TEST(FitKesSheet, WritesAFabricTheComparisonAndTheLinesToGoOnWith) {
   for (const char* key : {"warp.B_difference_percent", "weft.2HB_difference_percent"})
     EXPECT_LT(std::abs(metrics[key].get<double>()), kBending) << key;
   EXPECT_EQ(read_table(out / "sheet.csv").rows.size(), 2u * 3);
+}
+
+TEST(FitKesSheet, ReplacesNoFabricFileThatWasEdited) {
+  const Folder folder;
+  const fs::path sheet = folder.path() / "mine.csv", made = folder.path() / "out" / "fabric.toml";
+  std::ofstream(sheet) << "quantity,unit,mean\nB,gf cm^2/cm,0.118\n2HB,gf cm/cm,0.124\nW,mg/cm^2,12.4\n";
+  const std::string line = "fit --kes-sheet " + sheet.string() + " --out " + (folder.path() / "out").string();
+  finished(line);
+  finished(line);
+  const std::string edited = file_content(made) + "# shear measured elsewhere\n";
+  std::ofstream(made) << edited;
+  EXPECT_TRUE(says(refused(line), "was edited after its run had written it"));
+  EXPECT_EQ(file_content(made), edited);
 }
 
 }  // namespace

@@ -97,6 +97,20 @@ TEST_P(LawOfThreeNumbers, HasRigidityAndFrictionAlongWeftOfTheirOwn) {
   }
 }
 
+// Four directions have 0.9995 of the law's elasticity, which much friction along weft would multiply.
+TEST(StripOfAFabric, HasItsRigidityAlongWeftBesideMuchFrictionInFourDirections) {
+  Fabric fabric;
+  fabric.weft_bending = 0.2, fabric.bias_bending = 0.6, fabric.weft_friction = 3;
+  StripShape shape = small("aligned");
+  shape.warp_angle = 90;
+  Scene scene;
+  scene.fabric = fabric, scene.cloth.warp_angle = 90, scene.law = "wong";
+  const StripTest strip =
+      test_strip(clamped_strip(shape, {"wong", fabric.virgin_curve(), {}}, fabric, kProtocol),
+                 {"wong", curve_along(scene), {}}, kProtocol);
+  EXPECT_NEAR(std::get<0>(over_law(strip)), 1, kAgreement);
+}
+
 // Branches are of the friction's directions, as stops are: the law along weft has what the strip has.
 TEST(StripOfAFabric, HasItsBranchesAlongWeftAsTheLawHas) {
   Fabric fabric;

@@ -2,6 +2,7 @@
 
 #include "experiments/verify/recorded_tables.h"
 #include "experiments/verify/repetition.h"
+#include "experiments/workbench/app/same_request.h"
 #include "sim/mesh/cloth_mesh.h"
 #include "tests/experiments/program.h"
 
@@ -507,17 +508,25 @@ TEST(Repetition, MissesPicturesAndTablesThatOneOfTheTwoHasNot) {
   run.files = {"report.html", "metrics.csv",   "errors.csv",     "frames/0000.png",
                "sheet.png",   "plot_time.png", "frames/0001.png"};
   fs::create_directories(folder.path() / "frames");
-  for (const char* file : {"report.html", "metrics.csv", "frames/0000.png", "sheet.png"})
+  for (const char* file : {"report.html", "metrics.csv", "errors.csv", "frames/0000.png", "sheet.png"})
     folder.write(file, "");
+  run.tables = written_tables(run.files, folder.path());
   const ComparableFiles whole = comparable_files(run, folder.path(), true);
   EXPECT_EQ(whole.tables, (std::vector<std::string>{"metrics.csv"}));
   EXPECT_EQ(whole.pictures, (std::vector<std::string>{"frames/0000.png", "sheet.png"}));
   EXPECT_EQ(whole.lost, (std::vector<std::string>{"frames/0001.png"}));
+  EXPECT_TRUE(whole.edited.empty());
   EXPECT_TRUE(comparable_files(run, folder.path(), false).lost.empty());
+  folder.write("errors.csv", "repeat\n");
+  const ComparableFiles edited = comparable_files(run, folder.path(), true);
+  EXPECT_EQ(edited.edited, (std::vector<std::string>{"errors.csv"}));
+  fs::remove(folder.path() / "errors.csv");
+  EXPECT_EQ(comparable_files(run, folder.path(), true).lost,
+            (std::vector<std::string>{"errors.csv", "frames/0001.png"}));
   fs::remove(folder.path() / "report.html");
   const ComparableFiles part = comparable_files(run, folder.path(), true);
   EXPECT_TRUE(part.lost.empty());
-  EXPECT_EQ(part.trimmed, 1);
+  EXPECT_EQ(part.trimmed, 2);
 
   Repetition repetition;
   Manifest now = run;
@@ -526,6 +535,10 @@ TEST(Repetition, MissesPicturesAndTablesThatOneOfTheTwoHasNot) {
   EXPECT_EQ(repetition.unrecorded, (std::vector<std::string>{"frames/0002.png", "probes.csv"}));
   repetition.lost = whole.lost;
   EXPECT_EQ(repetition.agreement(), Agreement::none);
+  Repetition of_edited;
+  EXPECT_EQ(of_edited.agreement(), Agreement::bits);
+  of_edited.edited = edited.edited;
+  EXPECT_EQ(of_edited.agreement(), Agreement::none);
 }
 
 TEST_F(Recorded, RunThatCannotBeRepeatedIsAFailureBesideOthers) {

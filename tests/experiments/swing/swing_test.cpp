@@ -1,5 +1,6 @@
 // Swinging sheets, wherever they lie: what holds them and along what they swing.
 #include <fstream>
+#include <sstream>
 
 #include "experiments/swing/clamped_sheet.h"
 #include "tests/experiments/program.h"
@@ -88,6 +89,21 @@ TEST(Swing, OfAMeshWhoseYIsUpIsRefusedUntilItIsLaidLevel) {
       swing_with({{"cloth.file", file}, {"cloth.shape", "file"}, {"cloth.rotation", "90 0 0"}});
   const Json flat = swing_with({{"cloth.file", strip_file(folder.path(), {0, 0})}, {"cloth.shape", "file"}});
   expect_same_swing(flat, level);
+}
+
+TEST(Swing, OfAMeshThatIsClampedByItsLongSideSaysSo) {
+  const Folder folder;
+  const fs::path file = strip_file(folder.path(), {0, 0});
+  Scene scene;
+  scene.cloth.shape = "file", scene.cloth.file = file;
+  EXPECT_EQ(long_side_warning(scene, make_cloth(scene).mesh), "");
+  std::string lines = file_content(file), turned;
+  std::istringstream in(lines);
+  for (std::string kind, a, b, c; in >> kind >> a >> b >> c;)  // x and y change places
+    turned += kind + " " + b + " " + a + " " + c + "\n";
+  std::ofstream(file) << turned;
+  EXPECT_TRUE(says(long_side_warning(scene, make_cloth(scene).mesh),
+                   "is 0.03 m long in x and 0.1 m in y: its long side is clamped"));
 }
 
 TEST(Swing, OfAStripOnItsEdgeOrHangingDownIsRefused) {

@@ -137,6 +137,16 @@ TEST(Validate, KeepsTheMeanOf2HBWhereFrictionAlongWeftAloneIsDrawn) {
   EXPECT_NEAR((sample.at("b1") - sample.at("b2")) * fabric.k0 * 1.3 / 1.9, two_hb, 1e-12 * two_hb);
 }
 
+TEST(Validate, DrawsAPairOfKesBesideTheRatioOfWeft) {
+  Fabric fabric;
+  fabric.kes.read.rigidity = 1e-5, fabric.kes.read.loop_width = 1e-3;
+  fabric.kes.shape = {10, 0.5};
+  Sample sample = {{"kes-b", 1.2e-5}, {"kes-2hb", 0.8e-3}, {"weft-bending", 0.25}};
+  keep_what_was_measured(fabric, sample);
+  EXPECT_DOUBLE_EQ(sample.at("kes-b"), 2 / 1.25 * 1.2e-5);
+  EXPECT_DOUBLE_EQ(sample.at("kes-2hb"), 2 / 1.5 * 0.8e-3);
+}
+
 TEST(Validate, RefusesTwoFabricsOfOneName) {
   const Folder folder;
   const std::string first = folder.file("a.toml"), second = folder.file("b.toml");

@@ -138,6 +138,11 @@ TEST(DecayFriction, IsDoubtedWhereTheTimesAreNotThoseOfSuchAStrip) {
   for (int i = 0; i < 8; ++i)
     series.time.push_back(M_PI / omega * i), series.amplitude.push_back(0.02 - 0.001 * i);
   EXPECT_TRUE(decay_warnings(series, question).empty());
+  DecaySeries stuck = series;  // friction with HB/B = 35/m and a knee at 8/m that never slips
+  const double stiff =
+      std::hypot(std::sqrt(1 + 2 * 35. / 8) * 3.516 / 0.0064 * 0.01, 1.2024 * std::sqrt(9.81 / 0.08));
+  for (double& time : stuck.time) time *= omega / stiff;
+  EXPECT_TRUE(decay_warnings(stuck, question).empty());
   for (const double factor : {1e3, 2.0, 1e-3}) {  // milliseconds, every second turn, a wrong unit
     DecaySeries other = series;
     for (double& time : other.time) time *= factor;

@@ -58,6 +58,13 @@ TEST(KesSheet, IsTheSameInTomlAndWithDecimalCommas) {
                     1e-12);
 }
 
+TEST(KesSheet, HasNoRowThatWasNotFilledInInToml) {
+  const KesSheet sheet = sheet_of(
+      "[B]\nwarp = 0.118\nweft = 0.094\n[2HB]\nwarp = 0.124\nweft = 0.1\n[G]\nunit = \"N/m\"\n", ".toml");
+  EXPECT_TRUE(sheet.has("B"));
+  EXPECT_FALSE(sheet.has("G"));
+}
+
 TEST(KesSheet, HasTheOtherDirectionBesideAMeanAndOne) {
   const std::string rest = "2HB,gf cm/cm,,,0.1\n";
   for (const auto& [row, known] : {std::pair{"B,gf cm^2/cm,0.1,,0.15\n", SheetColumn::weft},

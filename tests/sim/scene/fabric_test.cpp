@@ -179,6 +179,21 @@ TEST(FabricFiles, MayLeaveOutTheMembraneWhichThenSaysThatItIsADefault) {
   EXPECT_EQ(fabric.provenance.at("warp").source, "the program's default");
 }
 
+TEST(FabricFiles, KnowThePublishedNumbersThatAreReadByTheirNames) {
+  const auto published = [](const std::string& name) {
+    const TextFile file(std::string(kMinimal) + kThickness + "[published]\n" + name + " = 5\n");
+    return read_fabric(file.path(), "test").fabric.published.at(name).value;
+  };
+  for (const std::string wrong : {"drape-coeficient", "drape-coefficent", "nodes-count"})
+    EXPECT_NE(test::refusal([&] {
+                published(wrong);
+              }).find("unknown number " + wrong + " in [published], did you mean "),
+              std::string::npos)
+        << wrong;
+  for (const std::string other : {"node-count", "b1-warp", "LT", "cover"})
+    EXPECT_EQ(published(other), 5) << other;
+}
+
 // A published drape in percent, as it is printed or as a share, of a tester that there is.
 TEST(FabricFiles, ReadAPublishedDrapeInPercentOfATesterThatThereIs) {
   const auto drape = [](const std::string& number) {

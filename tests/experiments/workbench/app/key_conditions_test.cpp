@@ -252,6 +252,10 @@ TEST(LateTables, AreRefusedUnlessAFlagHasMadeTheSceneShorter) {
   EXPECT_TRUE(says(shorter, "warning: pin[0].from = 0.1 s"));
   EXPECT_TRUE(says(shorter, "warning: obstacle[0].from = 0.05 s"));
   finished(run + " --seconds 0.2 --explain");
+  const std::string dumped = folder.file("dumped.toml");
+  finished(run + " --seconds 0.03 --dump-scene " + dumped);
+  EXPECT_TRUE(says(FinishedRun("run --device cpu --no-images --scene " + dumped).outcome.err,
+                   "warning: pin[0].from = 0.1 s"));
 }
 
 }  // namespace
