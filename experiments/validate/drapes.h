@@ -89,7 +89,8 @@ double reach_of_next(std::size_t count);
 std::vector<Flag> drape_flags(const Sample& sample);
 
 // Each fabric on its tester with `samples` draws of its uncertain numbers, each on another mesh: spread.csv,
-// plot_spread, and beside what was measured predictions.csv.
+// plot_spread, beside what was measured predictions.csv, and how much each number moves the drape,
+// effects.csv.
 void predict_spread(const ValidateFlags& flags, Run& run);
 
 }  // namespace hysteron::experiments

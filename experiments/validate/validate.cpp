@@ -86,7 +86,7 @@ int run_validate(const CommandLine& line) {
   if (requested("spread") || requested("budget")) check_fabrics(flags.fabrics);
   if (requested("figure")) check_recorded(flags.recorded);
   Run run(line, flags.options, to_json(bind(kRows, flags)));
-  run.reserve({"predictions.csv", "spread.csv", "budget.csv"});
+  run.reserve({"predictions.csv", "spread.csv", "effects.csv", "budget.csv"});
   if (requested("spread")) predict_spread(flags, run);
   if (requested("budget")) write_budget(flags, run);
   if (requested("figure")) draw_recorded(flags.recorded, run);

@@ -8,7 +8,6 @@
 #include "sim/reference/kes_in_plane.h"
 #include "sim/scene/fabric_reader.h"
 #include "tests/experiments/folder.h"
-#include "tests/experiments/program.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -170,14 +169,22 @@ TEST(FitKesSheet, WritesAFabricTheComparisonAndTheLinesToGoOnWith) {
 
 TEST(FitKesSheet, ReplacesNoFabricFileThatWasEdited) {
   const Folder folder;
-  const fs::path sheet = folder.path() / "mine.csv", made = folder.path() / "out" / "fabric.toml";
+  const fs::path sheet = folder.path() / "mine.csv", out = folder.path() / "out", made = out / "fabric.toml";
   std::ofstream(sheet) << "quantity,unit,mean\nB,gf cm^2/cm,0.118\n2HB,gf cm/cm,0.124\nW,mg/cm^2,12.4\n";
-  const std::string line = "fit --kes-sheet " + sheet.string() + " --out " + (folder.path() / "out").string();
-  finished(line);
-  finished(line);
+  const auto fit = [&] {
+    testing::internal::CaptureStdout();
+    const std::string refused = test::refusal([&] {
+      experiment_named("fit").run(
+          {"fit", "hysteron fit", {{"kes-sheet", sheet.string()}, {"out", out.string()}}, {}});
+    });
+    testing::internal::GetCapturedStdout();
+    return refused;
+  };
+  EXPECT_EQ(fit(), "(accepted)");
+  EXPECT_EQ(fit(), "(accepted)");
   const std::string edited = file_content(made) + "# shear measured elsewhere\n";
   std::ofstream(made) << edited;
-  EXPECT_TRUE(says(refused(line), "was edited after its run had written it"));
+  EXPECT_TRUE(test::says(fit(), "was edited after its run had written it"));
   EXPECT_EQ(file_content(made), edited);
 }
 

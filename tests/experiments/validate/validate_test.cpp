@@ -2,9 +2,11 @@
 #include <cmath>
 #include <fstream>
 #include <numbers>
+#include <random>
 #include <set>
 
 #include "experiments/validate/drapes.h"
+#include "experiments/validate/effects.h"
 #include "experiments/workbench/app/experiment.h"
 #include "sim/base/csv.h"
 #include "tests/experiments/program.h"
@@ -57,6 +59,45 @@ TEST(Validate, DrawsUncertainNumbersFromALatinHypercubeThatKeepsTheFrictionMomen
         << "the mean of warp and weft";
   EXPECT_EQ(fabric_samples(file, kCount, 1), samples);
   EXPECT_NE(fabric_samples(file, kCount, 2), samples);
+}
+
+// A drape that is linear in the logarithms of two numbers, and feels nothing of the others.
+TEST(NumberEffects, ComeBackOfDrawnFabrics) {
+  constexpr int kCount = 48;
+  constexpr double kOfBias = 7, kOfK0 = -2, kScatter = 0.5;  // for e times the number [%]
+  const FabricFile file = read_fabric("cotton-broad", "test");
+  Table spread({"fabric", "bias-bending", "weft-bending", "k0", "shear", "b1", "drape coefficient [%]"});
+  std::mt19937 random(3);
+  std::normal_distribution<double> scatter(0, kScatter);
+  for (const Sample& s : fabric_samples(file, kCount, 1)) {
+    const double bias = s.at("bias-bending") * 2 / (1 + s.at("weft-bending"));
+    const double drape = 70 + kOfBias * std::log(bias) + kOfK0 * std::log(s.at("k0")) + scatter(random);
+    spread.row({file.fabric.name, s.at("bias-bending"), s.at("weft-bending"), s.at("k0"), s.at("shear"),
+                s.at("b1"), drape});
+    spread.row({"another", 1.0, 1.0, 8.0, 60.0, 1e-5, 20.0});
+  }
+  const NumberEffects found = effects_of_spread(spread, file);
+  ASSERT_EQ(found.effects.size(), 4u);
+  EXPECT_EQ(found.effects[0].number, "bias-bending");
+  EXPECT_EQ(found.effects[1].number, "k0");
+  EXPECT_NEAR(found.scatter, kScatter, 0.2 * kScatter);
+  for (const NumberEffect& e : found.effects) {
+    const double length = std::log(e.high / e.low);
+    const double slope = e.number == "bias-bending" ? kOfBias : e.number == "k0" ? kOfK0 : 0;
+    EXPECT_LT(std::abs(e.change - slope * length), 3 * e.error) << e.number;
+    // Drawn evenly in the logarithm: a slope's error is the scatter over the root of count/12 lengths
+    // squared.
+    EXPECT_NEAR(e.error, kScatter * std::sqrt(12. / kCount), 0.3 * kScatter * std::sqrt(12. / kCount))
+        << e.number;
+  }
+}
+
+TEST(NumberEffects, AreNotSoughtInTooFewDrapes) {
+  const FabricFile file = read_fabric("cotton-broad", "test");
+  Table spread({"fabric", "k0", "shear", "drape coefficient [%]"});
+  for (const Sample& s : fabric_samples(file, 5, 1))
+    spread.row({file.fabric.name, s.at("k0"), s.at("shear"), 70.0});
+  EXPECT_TRUE(effects_of_spread(spread, file).effects.empty());
 }
 
 TEST(Validate, SaysWhetherTheMeasuredDrapeLiesAmongTheDrawn) {

@@ -1,0 +1,38 @@
+// How much each uncertain number of a fabric moves its drape, from the drapes of a spread.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "sim/base/csv.h"
+#include "sim/scene/fabric_reader.h"
+
+namespace hysteron::experiments {
+
+// Over the whole of a number's range, the others being anywhere in theirs.
+struct NumberEffect {
+  std::string number;  // "bias-bending"
+  double low, high;    // of its range
+  double change;       // of the drape coefficient from low to high [%]
+  double error;        // standard error of that [%]
+};
+
+struct NumberEffects {
+  std::vector<NumberEffect> effects;  // the largest first; empty where the drapes are too few
+  double scatter = 0;                 // standard deviation that the numbers do not explain: meshes, folds [%]
+};
+
+// Least squares of the drape coefficients [%] on the logarithms of the numbers, which a Latin hypercube has
+// drawn alike in their logarithms.  drawn: by number, one value > 0 for each drape; ranges: of those numbers.
+// Needs at least twice as many drapes as coefficients, so that the scatter is known, too.
+NumberEffects number_effects(const std::map<std::string, std::vector<double>>& drawn,
+                             const std::map<std::string, Range>& ranges,
+                             const std::vector<double>& coefficients);
+
+// The same of the rows of spread.csv that are of this fabric, for each number whose range its file states;
+// b1, b2 and a pair of KES follow from others, and bias-bending is what was drawn beside the ratio of weft
+// (keep_what_was_measured()).
+NumberEffects effects_of_spread(const Table& spread, const FabricFile& file);
+
+}  // namespace hysteron::experiments
