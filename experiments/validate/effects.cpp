@@ -1,8 +1,13 @@
 #include "experiments/validate/effects.h"
 
+#include <fmt/core.h>
+
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+
+#include "experiments/validate/figure.h"
+#include "sim/base/comma_list.h"
 
 namespace hysteron::experiments {
 
@@ -58,6 +63,67 @@ NumberEffects effects_of_spread(const Table& spread, const FabricFile& file) {
     }
   }
   return number_effects(drawn, ranges, coefficients);
+}
+
+void note_effects(Run& run, const EffectsByFabric& all) {
+  Table table({"fabric", "number", "low", "high", "drape changes by [%]", "standard error [%]",
+               "scatter that no number explains [%]"});
+  for (const auto& [fabric, found] : all)
+    for (const NumberEffect& e : found.effects)
+      table.row({fabric, e.number, e.low, e.high, e.change, e.error, found.scatter});
+  table.write(run.path("effects.csv"));
+  const auto& [fabric, last] = all.back();
+  if (last.effects.empty()) return;
+  constexpr std::size_t kShown = 3;
+  std::vector<std::string> parts;
+  for (std::size_t i = 0; i < std::min(kShown, last.effects.size()); ++i) {
+    const NumberEffect& e = last.effects[i];
+    parts.push_back(fmt::format("{} {:+.1f} +- {:.1f} %", e.number, e.change, e.error));
+  }
+  run.progress(fabric + ": over their ranges its numbers move the drape by " + join(parts, ", "));
+  run.metric(fabric + ".largest_effect", last.effects.front().number);
+  run.metric(fabric + ".largest_effect_percent", last.effects.front().change);
+  run.metric(fabric + ".largest_effect_stderr_percent", last.effects.front().error);
+}
+
+namespace {
+
+// Numbers of all fabrics, that first which moves any drape most.
+std::vector<std::string> numbers_by_effect(const EffectsByFabric& all) {
+  std::map<std::string, double> largest;
+  for (const auto& [fabric, found] : all)
+    for (const NumberEffect& e : found.effects)
+      largest[e.number] = std::max(largest[e.number], std::abs(e.change));
+  std::vector<std::string> numbers;
+  for (const auto& [number, change] : largest) numbers.push_back(number);
+  std::ranges::stable_sort(numbers, std::greater(), [&](const std::string& n) { return largest.at(n); });
+  return numbers;
+}
+
+}  // namespace
+
+render::Plot effects_plot(const EffectsByFabric& all) {
+  constexpr double kApart = 0.14;  // of the places of two numbers: fabrics beside each other
+  render::Plot plot{"What moves a drape, each number over its range", {""}, {"drape coefficient [points]"}};
+  plot.x.categories = numbers_by_effect(all);
+  render::Series errors{"standard error", {}, {}, render::Series::Style::line, "#888888"};
+  for (std::size_t f = 0; f < all.size(); ++f) {
+    const auto& [fabric, found] = all[f];
+    render::Series series{fabric, {}, {}, render::Series::Style::points, fabric_color(f)};
+    for (const NumberEffect& e : found.effects) {
+      const auto place = std::ranges::find(plot.x.categories, e.number) - plot.x.categories.begin();
+      const double x = static_cast<double>(place) +
+                       kApart * (static_cast<double>(f) - (static_cast<double>(all.size()) - 1) / 2);
+      series.add(x, e.change);
+      for (const double sign : {-1., 1., double(NAN)}) errors.add(x, e.change + sign * e.error);
+    }
+    if (!series.x.empty()) plot.series.push_back(series);
+  }
+  if (plot.series.empty()) return plot;
+  plot.key_inside = true;
+  plot.x.low = -0.5, plot.x.high = static_cast<double>(plot.x.categories.size()) - 0.5;
+  plot.series.insert(plot.series.begin(), errors);
+  return plot;
 }
 
 }  // namespace hysteron::experiments

@@ -3,8 +3,11 @@
 
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "experiments/workbench/app/run.h"
+#include "render/plot.h"
 #include "sim/base/csv.h"
 #include "sim/scene/fabric_reader.h"
 
@@ -34,5 +37,14 @@ NumberEffects number_effects(const std::map<std::string, std::vector<double>>& d
 // b1, b2 and a pair of KES follow from others, and bias-bending is what was drawn beside the ratio of weft
 // (keep_what_was_measured()).
 NumberEffects effects_of_spread(const Table& spread, const FabricFile& file);
+
+using EffectsByFabric = std::vector<std::pair<std::string, NumberEffects>>;
+
+// effects.csv of all; metrics and a line of the last.
+void note_effects(Run& run, const EffectsByFabric& all);
+
+// The change of each number with its standard error, a colour for each fabric; without series where no fabric
+// has drapes enough.
+render::Plot effects_plot(const EffectsByFabric& all);
 
 }  // namespace hysteron::experiments

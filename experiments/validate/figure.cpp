@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "experiments/validate/budget.h"
+#include "experiments/validate/effects.h"
 #include "experiments/validate/folds.h"
 #include "experiments/workbench/app/manifest_file.h"
 #include "sim/base/csv.h"
@@ -30,12 +31,6 @@ constexpr const char* kBudget = "budget-polyester-tropical-h100/budget.csv";
 constexpr const char* kModelColor = "#D55E00";
 constexpr const char* kMeasuredColor = "#6F7F8F";
 constexpr const char* kLineColor = "#888888";
-
-// One for each fabric in all plots, which colour-blind eyes can tell apart (Okabe & Ito 2008).
-std::string fabric_color(std::size_t fabric) {
-  static const std::vector<std::string> kColors = {"#0072B2", "#D55E00", "#009E73", "#CC79A7"};
-  return kColors[fabric % kColors.size()];
-}
 
 // Force per width against the distance of the clamps, cycle by cycle.
 render::PagePlot loops_plot(const fs::path& csv) {
@@ -146,6 +141,11 @@ render::PagePlot fold_counts_plot(const std::vector<CountedDrape>& counted,
 
 }  // namespace
 
+std::string fabric_color(std::size_t fabric) {
+  static const std::vector<std::string> kColors = {"#0072B2", "#D55E00", "#009E73", "#CC79A7"};
+  return kColors[fabric % kColors.size()];
+}
+
 std::vector<PredictedDrape> read_drapes(const fs::path& means, const fs::path& spread) {
   const Table table = read_table(means);
   std::vector<PredictedDrape> drapes;
@@ -193,6 +193,13 @@ void draw_recorded(const fs::path& recorded, Run& run) {
   const render::PlotPage page = validation_page(recorded);
   run.plot("plot_validation", page, render::write_plot_page);
   compare_folds(run, read_counted(recorded / kFolds), true);
+  EffectsByFabric effects;
+  for (const PredictedDrape& drape : read_drapes(recorded / kDrapes, recorded / kSpread))
+    effects.emplace_back(drape.fabric,
+                         effects_of_spread(read_table(recorded / kSpread / drape.fabric / "spread.csv"),
+                                           read_fabric(drape.fabric, "recorded")));
+  note_effects(run, effects);
+  run.plot("plot_effects", effects_plot(effects));
   const std::vector<BudgetRow> budget = read_budget(recorded / kBudget);
   run.plot("plot_budget_" + budget.at(0).fabric, budget_plot(budget));
 }

@@ -21,6 +21,9 @@ struct PredictedDrape {
 std::vector<PredictedDrape> read_drapes(const std::filesystem::path& means,
                                         const std::filesystem::path& spread);
 
+// One for each fabric in all plots, which colour-blind eyes can tell apart (Okabe & Ito 2008).
+std::string fabric_color(std::size_t fabric);
+
 // Loops, decay, drapes and folds, from the folders below `recorded`.  Throws Error::system,
 // Error::invalid_input where one of their files is missing or another than it was.
 render::PlotPage validation_page(const std::filesystem::path& recorded);
@@ -28,7 +31,8 @@ render::PlotPage validation_page(const std::filesystem::path& recorded);
 // Throws Error::invalid_input, naming the first of these files that is missing.
 void check_recorded(const std::filesystem::path& recorded);
 
-// plot_validation; plot_folds, and plot_budget_<fabric> as the part `budget` draws it.
+// plot_validation; plot_folds; plot_effects of the fabrics of the spread; and plot_budget_<fabric> as the
+// part `budget` draws it.
 void draw_recorded(const std::filesystem::path& recorded, Run& run);
 
 }  // namespace hysteron::experiments

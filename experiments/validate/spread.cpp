@@ -1,6 +1,4 @@
 // Drapes with the fabric's uncertain numbers anywhere in their ranges.
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -86,27 +84,6 @@ void write_spread(Run& run, const DrapesOf& all, const std::set<std::string>& ke
       table.row(row);
     }
   table.write(run.path("spread.csv"));
-}
-
-void note_effects(Run& run, const std::vector<std::pair<std::string, NumberEffects>>& all) {
-  Table table({"fabric", "number", "low", "high", "drape changes by [%]", "standard error [%]",
-               "scatter that no number explains [%]"});
-  for (const auto& [fabric, found] : all)
-    for (const NumberEffect& e : found.effects)
-      table.row({fabric, e.number, e.low, e.high, e.change, e.error, found.scatter});
-  table.write(run.path("effects.csv"));
-  const auto& [fabric, last] = all.back();
-  if (last.effects.empty()) return;
-  constexpr std::size_t kShown = 3;
-  std::vector<std::string> parts;
-  for (std::size_t i = 0; i < std::min(kShown, last.effects.size()); ++i) {
-    const NumberEffect& e = last.effects[i];
-    parts.push_back(fmt::format("{} {:+.1f} +- {:.1f} %", e.number, e.change, e.error));
-  }
-  run.progress(fabric + ": over their ranges its numbers move the drape by " + join(parts, ", "));
-  run.metric(fabric + ".largest_effect", last.effects.front().number);
-  run.metric(fabric + ".largest_effect_percent", last.effects.front().change);
-  run.metric(fabric + ".largest_effect_stderr_percent", last.effects.front().error);
 }
 
 void draw_spread(Run& run, const DrapesOf& all) {
@@ -302,7 +279,7 @@ void predict_spread(const ValidateFlags& flags, Run& run) {
   DrapesOf all;
   std::set<std::string> keys;
   std::vector<Prediction> predictions;
-  std::vector<std::pair<std::string, NumberEffects>> effects;
+  EffectsByFabric effects;
   for (const std::string& given : split(flags.fabrics)) {
     const FabricFile file = read_fabric(given, "--fabrics");
     const std::string fabric = file.fabric.name;
@@ -337,7 +314,9 @@ void predict_spread(const ValidateFlags& flags, Run& run) {
     effects.emplace_back(fabric, effects_of_spread(read_table(run.folder() / "spread.csv"), file));
     note_effects(run, effects);
   }
-  if (!flags.options.no_images) draw_spread(run, all);
+  if (flags.options.no_images) return;
+  draw_spread(run, all);
+  if (const render::Plot plot = effects_plot(effects); !plot.series.empty()) run.plot("plot_effects", plot);
 }
 
 }  // namespace hysteron::experiments
