@@ -49,11 +49,15 @@ std::vector<KeyDescription> figure_fabric_keys() {
 // Friction by stops has no transition curvature, of which every figure speaks, and a set leaves other
 // curvatures than friction does.
 void check_three_numbers(const Fabric& fabric, const std::string& name) {
-  const bool has_stops = !fabric.bending.stops.empty(), has_set = fabric.bending.set.on();
-  if (!has_stops && !has_set) return;
-  throw Error::invalid_input(
-      "--fabric " + name + (has_stops ? " has friction by stops" : " has a permanent set") +
-      ", and the figures are of b1, b2 and k0 alone: give a fabric without, as " + kUsualFabric)
+  const bool has_stops = !fabric.bending.stops.empty(), has_set = fabric.bending.set.on(),
+             has_sides = fabric.bending.faces.on();
+  if (!has_stops && !has_set && !has_sides) return;
+  throw Error::invalid_input("--fabric " + name +
+                             (has_stops ? " has friction by stops"
+                              : has_set ? " has a permanent set"
+                                        : " has faces that differ") +
+                             ", and the figures are of b1, b2 and k0 alone: give a fabric without, as " +
+                             kUsualFabric)
       .with_key("fabric", name)
       .with_experiment("figures");
 }

@@ -26,6 +26,7 @@ KesReading bend(const Fabric& fabric, SheetColumn column, int steps) {
 
 constexpr const char *kStraight = "tension is a straight line without friction: LT = 1 and RT = 100 %",
                      *kOneShear = "the shear of this model is the same along warp and weft: their mean",
+                     *kOneRatio = "back over face is one ratio for warp and weft: their geometric mean",
                      *kNoFriction = "without 2HG the shear of this model has no friction",
                      *kNotLess = "friction of shear grows with the angle or stays; it does not fall",
                      *kNoCloth = "no woven cloth has a 2HG5 of more than five times 2HG",
@@ -57,8 +58,12 @@ void add_direction(std::vector<SheetReading>& all, const KesSheet& sheet, const 
                    SheetColumn column, int steps) {
   const Beside beside{sheet, column, all};
   const KesReading bending = bend(fabric, column, steps);
-  beside.add("B", "gf cm^2/cm", "N m", bending.rigidity, "");
-  beside.add("2HB", "gf cm/cm", "N", bending.loop_width, "");
+  const KesPair face =
+      fabric.bending.faces.on() ? bending.face : KesPair{bending.rigidity, bending.loop_width};
+  beside.add("B", "gf cm^2/cm", "N m", face.rigidity, "");
+  beside.add("2HB", "gf cm/cm", "N", face.loop_width, "");
+  beside.add("B-back", "gf cm^2/cm", "N m", bending.back.rigidity, kOneRatio);
+  beside.add("2HB-back", "gf cm/cm", "N", bending.back.loop_width, kOneRatio);
   const InPlaneLaw law = in_plane_law(fabric, direction_of(column));
   InPlaneProtocol in_plane;
   in_plane.steps = steps;
@@ -102,13 +107,13 @@ namespace {
 
 std::string write_comparison(Run& run, const std::vector<SheetReading>& all) {
   Table table("quantity,direction,unit,entered,read,difference [%],reason");
-  std::string text = fmt::format("{:<6}{:<6}{:>10}{:>10}{:>9}  {}\n", "", "", "entered", "read", "%", "unit");
+  std::string text = fmt::format("{:<9}{:<6}{:>10}{:>10}{:>9}  {}\n", "", "", "entered", "read", "%", "unit");
   for (const SheetReading& b : all) {
     const double unit = factor_to(b.si, b.unit).value_or(1);
     const bool differs = std::abs(b.difference()) > kAgrees;
     table.row({b.quantity, column_name(b.column), b.unit, b.entered / unit, b.read / unit, b.difference(),
                differs ? b.reason : ""});
-    text += fmt::format("{:<6}{:<6}{:>10.4g}{:>10.4g}{:>+9.2f}  {}{}\n", b.quantity, column_name(b.column),
+    text += fmt::format("{:<9}{:<6}{:>10.4g}{:>10.4g}{:>+9.2f}  {}{}\n", b.quantity, column_name(b.column),
                         b.entered / unit, b.read / unit, b.difference(), b.unit,
                         differs && *b.reason ? std::string("; ") + b.reason : "");
     run.metric(fmt::format("{}.{}_difference_percent", column_name(b.column), b.quantity), b.difference());

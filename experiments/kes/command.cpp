@@ -215,6 +215,7 @@ void warn_of_parameters(const KesTests& tests, const std::vector<std::string>& l
     const std::vector<std::string> in_cloth = flags.on == "strip" ? warnings(LawUse::cloth) : alone;
     for (const std::string& warning : alone)
       if (std::count(in_cloth.begin(), in_cloth.end(), warning)) run.warn(warning);
+    if (const std::string warning = faces_warning(tests.fabric, law); !warning.empty()) run.warn(warning);
     if (flags.along == Along::warp) continue;
     for (const std::string& warning :
          {weft_friction_warning(tests.fabric, law), weft_stops_warning(law, curve.parts, tests.fabric.name)})
@@ -343,13 +344,18 @@ Experiment kes() {
                      {"renderer", "test = bending and on = strip and not no-images"},
                      {"load", "test = tension"},
                      {"fabric.b1 | fabric.b2 | fabric.k0 | fabric.kes-b | fabric.kes-2hb | "
-                      "fabric.stops-median | fabric.stops-spread | fabric.bending.",
+                      "fabric.stops-median | fabric.stops-spread | fabric.bending. | fabric.back-bending | "
+                      "fabric.back-friction",
                       "test = bending"},
                      {"fabric.warp | fabric.weft | fabric.membrane.stops.warp. | fabric.membrane.stops.weft.",
                       "test = tension or on = strip"},
                      {"fabric.shear | fabric.membrane.stops.shear.", "test = shear or on = strip"}},
       .headlines = {
           .all = {reading("B_N_m", "B", "µN m", 1e6), reading("2HB_N", "2HB", "mN", 1e3),
+                  reading("B_face_N_m", "B of bends to the face", "µN m", 1e6),
+                  reading("B_back_N_m", "B of bends to the back", "µN m", 1e6),
+                  reading("2HB_face_N", "2HB of bends to the face", "mN", 1e3),
+                  reading("2HB_back_N", "2HB of bends to the back", "mN", 1e3),
                   reading("residual_curvature_per_m", "residual curvature", "1/m"),
                   reading("loop_area_J_per_m2", "area of the loop", "J/m²"),
                   strip_apart("strip_B_difference_percent", "strip's B over the law's"),

@@ -74,15 +74,20 @@ void write_minor_loops(Run& run, const KesTests& tests, const KesProtocol& proto
 }
 
 void write_readings(Run& run, const KesTests& tests) {
+  const bool has_faces = tests.fabric.bending.faces.on();
   Table table(
-      "fabric,law,B [N m],2HB [N],residual curvature [1/m],residual by formula [1/m],"
-      "loop area [J/m2],reversals |M| <= Ma,reversals |M| <= 2Ma,reversals |M| > 2Ma");
+      std::string("fabric,law,B [N m],2HB [N],residual curvature [1/m],residual by formula [1/m],"
+                  "loop area [J/m2],reversals |M| <= Ma,reversals |M| <= 2Ma,reversals |M| > 2Ma") +
+      (has_faces ? ",B of the face [N m],2HB of the face [N],B of the back [N m],2HB of the back [N]" : ""));
   for (const KesResult& result : tests.results) {
     const KesReading& r = result.test.reading;
     std::vector<Cell> fields = {tests.fabric.name, result.law};
     for (double value : {r.rigidity, r.loop_width, r.residual, r.residual_by_formula, r.loop_area})
       fields.push_back(std::isnan(value) ? "" : fmt::format("{:.9g}", value));
     for (int count : result.test.recovery_cases) fields.push_back(count);
+    if (has_faces)
+      for (const KesPair& side : {r.face, r.back})
+        for (double value : {side.rigidity, side.loop_width}) fields.push_back(fmt::format("{:.9g}", value));
     table.row(fields);
   }
   table.write(run.path("table.csv"));
@@ -133,7 +138,14 @@ std::vector<std::string> remarks(const KesResult& result, double shown_moment) {
   return lines;
 }
 
-std::vector<std::string> readings(const KesReading& r) {
+// "face 11.57, back 16.2": what a tester reads on both sides.
+std::string of_sides(double face, double back) { return fmt::format("face {:.4g}, back {:.4g}", face, back); }
+
+std::vector<std::string> readings(const KesReading& r, const Faces& faces) {
+  if (faces.on())
+    return {"B: " + of_sides(1e6 * r.face.rigidity, 1e6 * r.back.rigidity) + " µN m",
+            "2HB: " + of_sides(kMilli * r.face.loop_width, kMilli * r.back.loop_width) + " mN",
+            fmt::format("residual {:.4g} /m", r.residual), fmt::format("area {:.3g} J/m²", r.loop_area)};
   return {fmt::format("B = {:.4g} µN m", 1e6 * r.rigidity),
           fmt::format("2HB = {:.4g} mN", kMilli * r.loop_width),
           fmt::format("residual {:.4g} /m", r.residual), fmt::format("area {:.3g} J/m²", r.loop_area)};
@@ -156,7 +168,10 @@ render::Panels loops(const KesTests& tests, const KesProtocol& p) {
                   fmt::format(" B from {:.4g}", p.slope_from) + fmt::format(" to {:.4g}/m,", p.slope_to) +
                   fmt::format(" 2HB at {:.4g}/m.", p.width_at) + "  Blue: the law, grey: prandtl";
   for (const KesResult& result : tests.results) {
-    render::Panel panel{result.law, {}, readings(result.test.reading), remarks(result, grid.y.high)};
+    render::Panel panel{result.law,
+                        {},
+                        readings(result.test.reading, tests.fabric.bending.faces),
+                        remarks(result, grid.y.high)};
     panel.series = {whole_walk(tests.reference, p.steps, kReferenceColor, 5),
                     whole_walk(result.test, p.steps, kLawColor, 1.8)};
     grid.panels.push_back(panel);
@@ -195,6 +210,12 @@ void write_metrics(Run& run, const KesTests& tests) {
     run.metric(p + "B_N_m", r.rigidity);
     run.metric(p + "2HB_N", r.loop_width);
     run.metric(p + "HB_over_B_per_m", r.loop_width / 2 / r.rigidity);
+    if (tests.fabric.bending.faces.on()) {
+      for (const auto& [side, read] : {std::pair("face", r.face), std::pair("back", r.back)}) {
+        run.metric(p + "B_" + side + "_N_m", read.rigidity);
+        run.metric(p + "2HB_" + side + "_N", read.loop_width);
+      }
+    }
     run.metric(p + "residual_curvature_per_m", r.residual);
     run.metric(p + "residual_by_formula_per_m", r.residual_by_formula);
     run.metric(p + "loop_area_J_per_m2", r.loop_area);

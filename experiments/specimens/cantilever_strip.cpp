@@ -197,6 +197,7 @@ VirginCurve strip_curve(const Scene& scene) {
     const double moments = scene.fabric.weft_friction / std::sqrt(scene.fabric.weft_bending);
     curve.b1 = curve.b2 + moments * moments * (curve.b1 - curve.b2);
     curve.k0 /= moments;
+    curve.parts.faces.weft_elastic = 1;
     for (double& threshold : curve.parts.stops.thresholds) threshold /= moments;
     for (std::vector<double>* all : {&curve.parts.stops.stiffnesses, &curve.parts.branches.stiffnesses})
       for (double& stiffness : *all) stiffness *= moments * moments;
@@ -224,9 +225,27 @@ VirginCurve curve_along(const Fabric& fabric, Along along, const std::string& la
   return curve_along(scene);
 }
 
+namespace {
+
+// The same fabric with its back for its face.
+VirginCurve turned_over(VirginCurve curve) {
+  const Faces faces = curve.parts.faces;
+  const double friction = faces.friction * (curve.b1 - curve.b2);
+  curve.b2 *= faces.bending;
+  curve.b1 = curve.b2 + friction;
+  for (double& stiffness : curve.parts.stops.stiffnesses) stiffness *= faces.friction;
+  curve.parts.faces.bending = 1 / faces.bending;
+  curve.parts.faces.friction = 1 / faces.friction;
+  return curve;
+}
+
+}  // namespace
+
 HeavyStrip strip_elastica(const Scene& scene, double length) {
   HeavyStrip strip;
   strip.law = {scene.law, strip_curve(scene), scene.param};
+  // Downwards is K > 0 of the elastica and K < 0 of the cloth, whose face becomes convex.
+  if (scene.fabric.bending.faces.on()) strip.law.curve = turned_over(strip.law.curve);
   strip.rigidity = rigidity_along(scene);
   strip.weight = areal_weight(scene);
   strip.tilt = tilt_of_weight(scene);

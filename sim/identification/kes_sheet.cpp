@@ -19,6 +19,10 @@ constexpr SheetQuantity kKesQuantities[] = {
     {"EMT", "%", "", "extension at 500 gf/cm", 0.5, 80, true},
     {"B", "gf cm^2/cm", "N m", "bending rigidity", 0.004, 2, true},
     {"2HB", "gf cm/cm", "N", "width of the loop of bending at 1/cm", 0.002, 2, true},
+    {"B-back", "gf cm^2/cm", "N m", "B of bends to the back, where B is that of bends to the face", 0.004, 2,
+     true},
+    {"2HB-back", "gf cm/cm", "N", "2HB of bends to the back, where 2HB is that of bends to the face", 0.002,
+     2, true},
     {"G", "gf/(cm degree)", "N/m", "shear rigidity", 0.15, 8, true},
     {"2HG", "gf/cm", "N/m", "width of the loop of shear at 0.5 degree", 0.1, 15, true},
     {"2HG5", "gf/cm", "N/m", "width of the loop of shear at 5 degrees", 0.1, 20, true},
@@ -95,6 +99,12 @@ struct Doubts {
                  "along weft is " + number_text(ratio, 3) +
                      " times that along warp: is one of them in another unit? This model cannot return both");
   }
+  // One sheet of cloth has two faces, of the same yarns.
+  void of_faces() {
+    constexpr double kFarApart = 3;
+    for (const auto& [back, face] : {std::pair{"B-back", "B"}, {"2HB-back", "2HB"}})
+      of_ratio(back, face, 1, "times", 1 / kFarApart, kFarApart);
+  }
   void of_weight() {
     if (!sheet.has("W") || !sheet.has("T0")) return;
     const double bulk = sheet.mean("W") / sheet.mean("T0");
@@ -119,6 +129,7 @@ void check_sheet(KesSheet& sheet, const std::string& file) {
   doubts.of_ratio("2HG", "G", kDegree, "degree", 0.3, 8);
   doubts.of_ratio("2HG5", "2HG", 1, "times", 0.8, 5);
   doubts.of_directions();
+  doubts.of_faces();
   doubts.of_weight();
 }
 

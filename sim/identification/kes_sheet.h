@@ -20,7 +20,8 @@ KesSheet read_kes_sheet(const std::filesystem::path& file);
 std::string kes_sheet_template();
 
 // b2 = B and b1 = B + 2HB/k0 along warp, with k0 the assumed one as the geometric mean of warp and weft,
-// weft-bending and weft-friction the ratios along weft, bias their mean; shear = G with a stop of moment
+// weft-bending and weft-friction the ratios along weft, bias their mean; back-bending and back-friction the
+// ratios of the rows B-back and 2HB-back, geometric means of warp and weft; shear = G with a stop of moment
 // 2HG/2, which grows with the angle so that it is 2HG5/2 at 5 degrees; warp and weft such that 500 gf/cm
 // extend them by EMT; friction = MIU; thickness = T0; density = W. What the sheet lacks is that of the
 // shipped fabrics, assumed, with its range.

@@ -37,6 +37,39 @@ void write_bending(SheetWriter& writer, const Assumptions& assumptions) {
   writer.suppose_bias(weft);
 }
 
+// What bends to the back have over what bends to the face have: one ratio for warp and weft.
+void write_back(SheetWriter& writer, const char* key, const char* back, const char* face) {
+  const KesSheet& sheet = writer.sheet;
+  const auto ratio = [&](SheetColumn column) {
+    return sheet.along(back, column) / sheet.along(face, column);
+  };
+  const double warp = ratio(SheetColumn::warp), weft = ratio(SheetColumn::weft);
+  constexpr double kSame = 1e-9;  // of numbers that a sheet has once
+  Estimate mean{std::sqrt(warp * weft), kNone, true, std::string(back) + " over " + face, "derived"};
+  if (std::abs(warp / weft - 1) > kSame) {
+    mean.source += ", the geometric mean of warp and weft; the range is from one to the other";
+    mean.low = std::min(warp, weft), mean.high = std::max(warp, weft);
+  }
+  writer.entry(key, "", mean);
+}
+
+void write_faces(SheetWriter& writer) {
+  constexpr double kApart = 1.5;  // chosen here
+  const bool rigidity = writer.sheet.has("B-back"), friction = writer.sheet.has("2HB-back");
+  const auto suppose = [&](const char* key, const char* of) {
+    writer.suppose(key, "", 1, 1 / kApart, kApart,
+                   std::string("the sheet has bends to the back without ") + of + ": as to the face");
+  };
+  if (rigidity)
+    write_back(writer, "back-bending", "B-back", "B");
+  else if (friction)
+    suppose("back-bending", "B-back");
+  if (friction)
+    write_back(writer, "back-friction", "2HB-back", "2HB");
+  else if (rigidity)
+    suppose("back-friction", "2HB-back");
+}
+
 // Friction of shear: the half width of its loop is at_rest + rise x at the shear x.
 struct ShearFriction {
   double at_rest, rise;  // [N/m]
@@ -117,6 +150,7 @@ void write_tension(SheetWriter& writer) {
 SheetFabric fabric_of_sheet(const KesSheet& sheet, const Assumptions& assumptions) {
   SheetWriter writer(sheet);
   write_bending(writer, assumptions);
+  write_faces(writer);
   write_shear(writer);
   write_tension(writer);
   writer.write_rest("T0");

@@ -171,6 +171,8 @@ KesReading read_loop(const KesProtocol& p, const KesWalk& walk, const std::vecto
   reading.loop_width = (up.moment_at(p.width_at) - down.moment_at(p.width_at) + back.moment_at(-p.width_at) -
                         down.moment_at(-p.width_at)) /
                        2;
+  reading.face = {slope(up, 1), up.moment_at(p.width_at) - down.moment_at(p.width_at)};
+  reading.back = {slope(down, -1), back.moment_at(-p.width_at) - down.moment_at(-p.width_at)};
   reading.residual = down.root();
   reading.loop_area = area_of_cycle(p.cycles - 1, walk, moment);
   const double before = p.cycles > 1 ? area_of_cycle(p.cycles - 2, walk, moment) : kNaN;

@@ -38,6 +38,7 @@ struct KesReading {
   double residual_by_formula = 0;  // the same in closed form; NaN if the law has none
   double loop_area = 0;            // of the last cycle [J/m^2]
   double area_change = 0;          // of the area, by the last cycle; NaN if there was only one
+  KesPair face, back;              // B and 2HB on the positive and on the negative side
 };
 
 // `moment` has one value per row of the walk: to the amplitude and then `cycles` cycles.

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "sim/base/error.h"
@@ -86,6 +87,15 @@ DirectionRatios Fabric::friction_ratios() const {
   return {weft, bias_bending * (1 + weft) / (1 + weft_bending)};
 }
 
+// Twist has half of what bends along warp and along weft need (faces.h), and its own elasticity.
+double Fabric::widening_of_twist() const {
+  const DirectionRatios rigidity = rigidity_ratios(), friction = friction_ratios();
+  const auto twist = [](const DirectionRatios& q) { return 2 * q.bias - (1 + q.weft) / 2; };
+  if (!(twist(friction) > 0)) return 1;  // twist is free
+  const double needed = (1 + rigidity.weft / friction.weft) / 2;
+  return std::max(1.0, needed * twist(friction) / twist(rigidity));
+}
+
 double Fabric::friction_curvature() const { return std::max(k0, KesWindow().slope_from); }
 
 VirginCurve Fabric::virgin_curve() const {
@@ -93,6 +103,10 @@ VirginCurve Fabric::virgin_curve() const {
   // The metric (curvature_operator.h) has multiplied the curvatures that laws see by its root.
   for (double& r : curve.parts.weft_stops.thresholds) r *= std::sqrt(weft_bending);
   for (double& p : curve.parts.weft_stops.stiffnesses) p /= weft_bending;
+  if (rubs_otherwise()) {
+    curve.parts.faces.weft_elastic = rigidity_ratios().weft / friction_ratios().weft;
+    curve.parts.faces.wider = widening_of_twist();
+  }
   return curve;
 }
 

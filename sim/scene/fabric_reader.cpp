@@ -26,8 +26,8 @@ const std::vector<std::string> kSaidByStops = {"b1", "k0"};
 const std::vector<std::string> kTables = {"name",    "description", "sources",   "parameters",
                                           "bending", "membrane",    "published", "look"};
 constexpr const char* kPartTables[] = {"bending", "membrane"};
-constexpr const char* kOptional[] = {"fabric.bending.", "fabric.membrane.", "fabric.kes-", "fabric.stops-",
-                                     "fabric.weft-friction"};
+constexpr const char* kOptional[] = {"fabric.bending.", "fabric.membrane.",     "fabric.kes-",
+                                     "fabric.stops-",   "fabric.weft-friction", "fabric.back-"};
 
 bool is_parameter(const std::string& name) {
   const std::vector<KeyDescription> keys = scene_keys();

@@ -46,6 +46,8 @@ const KeyRow<Scene> kSceneRows[] = {
     {"fabric.stops-spread", at<&S::fabric, &F::kes, &KesFriction::shape, &FrictionShape::spread>, "", between(0, 4), "", "standard deviation of the logarithm of that curvature"},
     {"fabric.weft-bending", at<&S::fabric, &F::weft_bending>, "", positive(), "", "bending rigidity along weft over that along warp"},
     {"fabric.weft-friction", at<&S::fabric, &F::weft_friction>, "", at_least(0), "", "friction moment along weft over that along warp, which laws with friction beside b2 follow; 0: the root of weft-bending, as one law along all directions has it"},
+    {"fabric.back-bending", at<&S::fabric, &F::bending, &B::faces, &Faces::bending>, "", positive(), "", "prandtl, linear: bending rigidity B of bends to the back, K < 0, over that of bends to the face, K > 0, where the side from which triangles run counter-clockwise becomes concave; other laws have the mean of both"},
+    {"fabric.back-friction", at<&S::fabric, &F::bending, &B::faces, &Faces::friction>, "", positive(), "", "prandtl: friction moment of bends to the back over that of bends to the face, which b1, b2 and k0 or bending.stops have"},
     {"fabric.bias-bending", at<&S::fabric, &F::bias_bending>, "", positive(), "", "bending rigidity at 45 degrees over that along warp; 4 times it >= 1 + weft-bending; where it is not stated, or only assumed, the mean of 1 and weft-bending"},
     {"fabric.density", at<&S::fabric, &F::density>, "kg/m^2", positive(), "", "mass per area"},
     {"fabric.thickness", at<&S::fabric, &F::thickness>, "m", positive(), "", "thickness"},

@@ -127,6 +127,7 @@ struct Fabric {
   // Of rigidity, and of the stiffness of friction that has not slipped.
   DirectionRatios rigidity_ratios() const { return {weft_bending, bias_bending}; }
   DirectionRatios friction_ratios() const;
+  double widening_of_twist() const;  // Faces::wider
 };
 
 struct ClothShape {

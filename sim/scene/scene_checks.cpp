@@ -77,6 +77,34 @@ void check_kes_shape(const Scene& scene) {
   need("fabric.kes-2hb", kes.read.loop_width, ", whose friction it shapes");
 }
 
+// Of a fabric whose face and back differ: what goes with it, and how far from flat it takes to change sides.
+void check_faces(const Scene& scene) {
+  const Fabric& f = scene.fabric;
+  const Faces& faces = f.bending.faces;
+  if (!faces.on()) return;
+  const bool bends = faces.bending != 1;
+  const std::string key = bends ? "fabric.back-bending" : "fabric.back-friction";
+  const auto refuse = [&](const std::string& of, double value, const std::string& what) {
+    throw Error::invalid_input(shown(scene, of, value, "") + " " + what).with_key(of, number_text(value));
+  };
+  const double value = bends ? faces.bending : faces.friction;
+  if (f.bending.set.on())
+    refuse(key, value, "goes without fabric.bending.set, whose rest curvature has no side");
+  if (!f.bending.weft_stops.empty())
+    refuse(key, value, "goes with one friction along all directions: without fabric.bending.stops.weft");
+  if (!has_faces(scene.law)) return;  // the mean of both sides
+  const VirginCurve curve = f.virgin_curve();
+  const double along_weft = f.rubs_otherwise() ? f.weft_friction : std::sqrt(f.weft_bending);
+  const double width = curve.face_width() * std::max(1.0, 1 / (curve.parts.faces.weft_elastic * along_weft));
+  if (scene.law != "linear" && !(width <= kMostFaceWidth))
+    refuse("fabric.back-friction", faces.friction,
+           "needs bends of +-" + number_text(width, 3) +
+               " 1/m from one side's friction to the other's, so that the moment never falls with curvature, "
+               "and "
+               "must need at most " +
+               number_text(kMostFaceWidth) + " 1/m, from where KES-FB2 reads B");
+}
+
 void check_fabric(const Scene& scene) {
   const Fabric& f = scene.fabric;
   const auto refuse = [&](const std::string& key, double value, const std::string& unit,
@@ -105,6 +133,7 @@ void check_fabric(const Scene& scene) {
   if (f.rubs_otherwise() && f.bending.set.on())
     refuse("fabric.weft-friction", f.weft_friction, "",
            "goes without fabric.bending.set, whose rest curvature has one direction with the friction");
+  check_faces(scene);
   if (f.coupling * f.coupling >= f.warp * f.weft)
     refuse("fabric.coupling", f.coupling, "N/m",
            "must be within +-" + number_text(std::sqrt(f.warp * f.weft)) +

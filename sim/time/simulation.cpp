@@ -119,9 +119,9 @@ void check(const Scene& scene, const Cloth& cloth) {
 
 // b2 as the elements have it along warp [N m].
 double own_rigidity(const Scene& scene) {
-  if (scene.element == BendingElement::hinge) return scene.fabric.b2;
   const LawChoice law = choose_law(scene.law, scene.fabric.virgin_curve(), scene.param, LawUse::cloth);
-  return scene.fabric.b2 * rigidity_on_the_tensor(law);
+  const double of_both_sides = law.curve.b2 * std::min(1.0, law.curve.parts.faces.bending);
+  return scene.element == BendingElement::hinge ? of_both_sides : of_both_sides * rigidity_on_the_tensor(law);
 }
 
 CurvatureOperator bending_operator(const Scene& scene, const Cloth& cloth) {
@@ -132,6 +132,8 @@ CurvatureOperator bending_operator(const Scene& scene, const Cloth& cloth) {
                         law = apart ? fabric.friction_ratios() : rigidity;
   if (!fabric.bends_alike()) stiffen(op, cloth.mesh, law.weft, law.bias);
   if (apart) set_rigidity(op, cloth.mesh, own_rigidity(scene), rigidity, law);
+  if (apart && fabric.bending.faces.on() && scene.element == BendingElement::hinge)
+    set_directions(op, cloth.mesh, law.weft, law.bias);
   if (scene.element == BendingElement::hinge && !scene.fabric.bending.weft_stops.empty())
     set_directions(op, cloth.mesh, scene.fabric.weft_bending, scene.fabric.bias_bending);
   return op;

@@ -201,8 +201,9 @@ void set_keys(const CommandLine& line, const Keys& keys, const std::function<voi
 
 std::vector<KeyDescription> fabric_keys() {
   static const std::vector<std::string> kNames = {
-      "fabric.name",  "fabric.b1",      "fabric.b2",           "fabric.k0",
-      "fabric.kes-b", "fabric.kes-2hb", "fabric.stops-median", "fabric.stops-spread"};
+      "fabric.name",         "fabric.b1",           "fabric.b2",           "fabric.k0",
+      "fabric.kes-b",        "fabric.kes-2hb",      "fabric.stops-median", "fabric.stops-spread",
+      "fabric.back-bending", "fabric.back-friction"};
   std::vector<KeyDescription> keys = scene_keys();
   std::erase_if(keys, [](const KeyDescription& key) {
     return !std::count(kNames.begin(), kNames.end(), key.path) && !key.path.starts_with("fabric.bending.");

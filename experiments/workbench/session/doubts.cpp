@@ -127,6 +127,14 @@ std::string weft_friction_warning(const Fabric& fabric, const std::string& law) 
          " has no friction beside b2, and bends along weft as fabric.weft-bending says";
 }
 
+std::string faces_warning(const Fabric& fabric, const std::string& law) {
+  const Faces& faces = fabric.bending.faces;
+  if (!faces.on() || has_faces(law)) return "";
+  return "fabric.back-bending = " + number_text(faces.bending) +
+         " and fabric.back-friction = " + number_text(faces.friction) + " are not followed: law " + law +
+         " bends both ways alike, with the means of both sides (prandtl and linear have sides)";
+}
+
 std::vector<std::string> doubts_at_start(const Scene& scene, const Cloth& cloth, Simulation& simulation) {
   std::vector<std::string> doubts = fabric_warnings(scene);
   const std::vector<std::string> of_parameters = unused_parameter_warnings(
@@ -135,7 +143,8 @@ std::vector<std::string> doubts_at_start(const Scene& scene, const Cloth& cloth,
   doubts.insert(doubts.end(),
                 {locking_words(scene, cloth.mesh), pressed_words(scene, cloth, simulation),
                  command_warning(scene, cloth, simulation.dimension()), phases_warning(scene),
-                 facets_warning(scene, simulation), weft_friction_warning(scene.fabric, scene.law)});
+                 facets_warning(scene, simulation), weft_friction_warning(scene.fabric, scene.law),
+                 faces_warning(scene.fabric, scene.law)});
   for (const std::vector<std::string>& more : {pin_warnings(scene, cloth), idle_key_warnings(scene)})
     doubts.insert(doubts.end(), more.begin(), more.end());
   return said(doubts);

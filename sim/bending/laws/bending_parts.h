@@ -1,5 +1,6 @@
 // What a fabric's bending has beyond b1, b2 and k0: friction elements with thresholds of their own, branches
-// that relax in time, permanent set.  All of them empty where a fabric's file says nothing of them.
+// that relax in time, permanent set, faces that differ.  All of them empty where a fabric's file says nothing
+// of them.
 #pragma once
 
 #include <algorithm>
@@ -95,11 +96,26 @@ struct PermanentSet {
   bool on() const { return hardening > 0; }
 };
 
+// Another B and another 2HB where the cloth bends the other way (faces.h): over those of bends with K > 0.
+struct Faces {
+  double bending = 1;   // B of bends with K < 0
+  double friction = 1;  // friction moment of bends with K < 0
+  // Where friction has directions of its own: elasticity along weft over what the law itself has, and how
+  // much wider than along warp the change from one side's friction to the other's must be so that twist is
+  // convex.
+  double weft_elastic = 1, wider = 1;
+
+  bool on() const { return bending != 1 || friction != 1; }
+};
+// The most of VirginCurve::face_width: KES-FB2 reads B from here on [1/m].
+inline constexpr double kMostFaceWidth = 50;
+
 struct BendingParts {
   Spectrum stops;             // along warp
   Spectrum weft_stops;        // along weft, as many as along warp; none: as the rigidities have it
   RelaxingBranches branches;  // `chapman` alone
   PermanentSet set;
+  Faces faces = {};  // `prandtl`, `linear`
 };
 
 }  // namespace hysteron

@@ -30,6 +30,8 @@ using EveryLaw =
 struct MemorylessLaws : LawList<LinearLaw, BridsonLaw, FlexionSpringLaw, PabstLaw, GrinspunEditLaw> {};
 struct FrictionLaws : LawList<BilinearLaw, WongLaw, PrandtlLaw, DahlLaw> {};
 struct PlasticLaws : LawList<TerzopoulosLaw, ObrienLaw, KimLaw, NarainLaw, GongLaw> {};
+// Laws that follow faces that differ.
+struct FacesLaws : LawList<LinearLaw, PrandtlLaw> {};
 // Laws whose friction can weaken.
 struct FatigueLaws : LawList<BilinearLaw, WongLaw, PrandtlLaw> {};
 // Laws that take what a fabric has beyond b1, b2 and k0: with room for few or for many stops, without or with
@@ -47,7 +49,7 @@ struct ManyRelaxingLaws : LawList<ChapmanLaw> {
   static constexpr bool kWithoutBranches = false, kWithBranches = true;
 };
 
-using LawGroups =
-    LawList<MemorylessLaws, FrictionLaws, FatigueLaws, PartsLaws, ManyLaws, ManyRelaxingLaws, PlasticLaws>;
+using LawGroups = LawList<MemorylessLaws, FrictionLaws, FatigueLaws, FacesLaws, PartsLaws, ManyLaws,
+                          ManyRelaxingLaws, PlasticLaws>;
 
 }  // namespace hysteron

@@ -47,7 +47,7 @@ struct FourDirections {
     LawStep<Real, 3, kHistory> result;
     result.moment.setZero();
     for (int d = 0; d < kDirections; ++d)
-      add(law.step(Vec<Real, 1>(direction(d).dot(curvature)), part(before, d)), d, result);
+      add(along(d).step(Vec<Real, 1>(direction(d).dot(curvature)), part(before, d)), d, result);
     return result;
   }
   HYST_HD StepAndPotential<FourDirections> step_and_potential(const Vec<Real, 3>& curvature,
@@ -56,7 +56,7 @@ struct FourDirections {
     result.step.moment.setZero();
     for (int d = 0; d < kDirections; ++d) {
       const auto one =
-          hysteron::step_and_potential(law, Vec<Real, 1>(direction(d).dot(curvature)), part(before, d));
+          hysteron::step_and_potential(along(d), Vec<Real, 1>(direction(d).dot(curvature)), part(before, d));
       add(one.step, d, result.step);
       result.potential += one.potential;
     }
@@ -69,7 +69,7 @@ struct FourDirections {
     Tangent<Real, 3> result = Tangent<Real, 3>::Zero();
     for (int d = 0; d < kDirections; ++d) {
       const Vec<Real, 3> w = direction(d);
-      const Real slope = law.tangent(Vec<Real, 1>(w.dot(curvature)), part(before, d))(0, 0);
+      const Real slope = along(d).tangent(Vec<Real, 1>(w.dot(curvature)), part(before, d))(0, 0);
       result += kWeight / kDirections * slope * w * w.transpose();
     }
     return result;
@@ -106,6 +106,13 @@ struct FourDirections {
   }
 
  private:
+  // The scalar law of direction d: 0 and 3 are bent along warp, 1 and 2 along weft.
+  HYST_HD decltype(auto) along(int d) const {
+    if constexpr (requires { law.along_weft(); })
+      return d == 0 || d == 3 ? law : law.along_weft();
+    else
+      return (law);
+  }
   HYST_HD static void add(const LawStep<Real, 1, kScalarHistory>& one, int d,
                           LawStep<Real, 3, kHistory>& sum) {
     sum.moment += kWeight / kDirections * one.moment[0] * direction(d);

@@ -162,6 +162,13 @@ struct VirginCurve {
 
   double friction_moment() const { return (b1 - b2) * k0 / 2; }                // M0 = HB [N]
   double elastic_limit_moment() const { return friction_moment() + b2 * k0; }  // Ma [N]
+  // w of an excess of friction on one side along warp (faces.h) [1/m]: infinite where there is no elasticity.
+  double face_width() const {
+    constexpr double kTaken = 0.9;  // of the elasticity that both sides have; a tenth of it is left
+    const Faces& faces = parts.faces;
+    const double excess = friction_moment() * std::abs(faces.friction - 1);
+    return excess > 0 ? faces.wider * excess / (2 * kTaken * b2 * std::min(1.0, faces.bending)) : 0;
+  }
   double c1() const { return k0 > 0 ? (b2 - b1) / (2 * k0) : 0; }  // quadratic coefficient [N m^2]
 };
 

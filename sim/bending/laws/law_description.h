@@ -14,6 +14,8 @@
 //     its
 //     // own (CurvatureOperator::elastic).
 //     static constexpr bool kFrictionBesideB2 = true;
+//     // Whether it follows faces that differ (faces.h); others have the mean of both.
+//     static constexpr bool kHasFaces = true;
 //     // The parameters that the law takes, in the order of LawChoice.
 //     static std::vector<LawParameter> parameters();
 //     // Where a parameter's default is the law's own.
@@ -83,6 +85,7 @@ template <LawDescription Law>
 LawEntry law_entry() {
   LawEntry entry{Law::kName, Law::kMeaning};
   if constexpr (requires { Law::kFrictionBesideB2; }) entry.has_friction_beside_b2 = Law::kFrictionBesideB2;
+  if constexpr (requires { Law::kHasFaces; }) entry.has_faces = Law::kHasFaces;
   if constexpr (requires { Law::parameters(); }) entry.parameters = Law::parameters();
   if constexpr (requires(LawChoice & c) { Law::set_defaults(c); }) entry.set_defaults = Law::set_defaults;
   if constexpr (requires(const LawChoice& c) { Law::check(c, LawUse::cloth); }) entry.check = Law::check;

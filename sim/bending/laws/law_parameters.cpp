@@ -16,7 +16,7 @@ constexpr double kLargest = 1e300;
 LawChoice defaults(const LawEntry& law, const VirginCurve& curve, LawUse use) {
   LawChoice choice;
   choice.name = law.name;
-  choice.curve = curve;
+  choice.curve = law.has_faces ? curve : mean_of_faces(curve);
   choice.stack = use == LawUse::alone;
   if (use == LawUse::alone) choice.depth = 64;  // deep enough that a measured history never drops a pair
   choice.yield = curve.k0;
@@ -131,6 +131,24 @@ void LawChoice::refuse(const std::string& key, const std::string& what) const {
 bool has_friction_beside_b2(const std::string& name) {
   const LawEntry* law = find_law(name);
   return law && law->has_friction_beside_b2;
+}
+
+bool has_faces(const std::string& name) {
+  const LawEntry* law = find_law(name);
+  return law && law->has_faces;
+}
+
+VirginCurve mean_of_faces(VirginCurve curve) {
+  const Faces faces = curve.parts.faces;
+  if (!faces.on()) return curve;
+  const double rigidity = (1 + faces.bending) / 2, friction = (1 + faces.friction) / 2;
+  const double slides = friction * (curve.b1 - curve.b2);
+  curve.b2 *= rigidity;
+  curve.b1 = curve.b2 + slides;
+  for (Spectrum* stops : {&curve.parts.stops, &curve.parts.weft_stops})
+    for (double& stiffness : stops->stiffnesses) stiffness *= friction;
+  curve.parts.faces = {};
+  return curve;
 }
 
 std::vector<std::string> law_parameter_names(const std::string& name) {

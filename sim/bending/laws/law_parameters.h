@@ -59,6 +59,7 @@ struct LawEntry {
   std::string description;  // one line
   std::vector<LawParameter> parameters = {};
   bool has_friction_beside_b2 = false;  // M = b2 K + F, F a friction that knows nothing of b2
+  bool has_faces = false;               // follows another B and 2HB of bends with K < 0
   void (*set_defaults)(LawChoice&) = nullptr;
   void (*check)(const LawChoice&, LawUse) = nullptr;
 };
@@ -74,6 +75,9 @@ LawChoice choose_law(const LawEntry& law, const VirginCurve& curve, const LawPar
 std::vector<std::string> law_parameter_names(const std::string& name);
 // LawEntry::has_friction_beside_b2 of law `name`; false of an unknown law.
 bool has_friction_beside_b2(const std::string& name);
+bool has_faces(const std::string& name);  // LawEntry::has_faces likewise
+// The fabric as laws have it that do not follow faces that differ: with the mean of both B and of both 2HB.
+VirginCurve mean_of_faces(VirginCurve curve);
 
 // All laws of the interface in its order, which is that of every_law.h.
 const std::vector<LawEntry>& law_catalogue();

@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #include "sim/bending/laws/every_law.h"
+#include "sim/bending/laws/faces.h"
 #include "sim/bending/laws/fatigue.h"
 #include "sim/bending/laws/four_directions.h"
 #include "sim/bending/laws/measured_law.h"
@@ -16,6 +17,7 @@ struct LawMemorySizes {
   using Stops = Sizes<4, 8, 16, 32>;
   using Depths = Sizes<4, 6, 8, 16, 32, 64>;
   using Fatigued = LawMemorySizes;
+  using Faced = Sizes<kFewStops, kMaxStops>;
 };
 struct FatiguedClothMemory {
   using Stops = Sizes<8, 16>;
@@ -25,6 +27,7 @@ struct ClothMemory {
   using Stops = Sizes<4, 8, 16, 32>;
   using Depths = Sizes<4, 6, 8, 16>;
   using Fatigued = FatiguedClothMemory;
+  using Faced = Sizes<kFewStops>;
 };
 
 // A scalar law for D components.
@@ -59,7 +62,7 @@ void visit_in_dimension(const LawChoice& c, const Visit& visit) {
 template <LawDescription Law, class Real, int D, class Memory, class Visit>
 void visit_fatigued(const LawChoice& c, const Visit& visit) {
   LawChoice friction = c;
-  friction.curve = {c.curve.b1 - c.curve.b2, 0, c.curve.k0, {c.curve.parts.stops, {}, {}, {}}};
+  friction.curve = {c.curve.b1 - c.curve.b2, 0, c.curve.k0, {c.curve.parts.stops, {}, {}, {}, {}}};
   const auto weaken = [&]<class Friction>(const Friction& law) {
     visit(in_dimension<D>(Fatigue<Friction>::make(c.curve, c.fatigue, law)));
   };
@@ -67,6 +70,19 @@ void visit_fatigued(const LawChoice& c, const Visit& visit) {
     Law::template visit_friction<Real, D, Memory>(friction, weaken);
   else
     visit_made<Law, Real, D, Memory>(friction, weaken);
+}
+
+// With faces that differ: as many stops as the fabric's or the law's memory need, none where the law has no
+// friction.
+template <LawDescription Law, class Real, int D, class Visit, int... n>
+void visit_faced(const LawChoice& c, const Visit& visit, Sizes<n...>) {
+  constexpr bool kFriction = requires { Law::kFrictionBesideB2; };
+  VirginCurve curve = c.curve;
+  if (!kFriction) curve.b1 = curve.b2, curve.parts.stops = {};
+  const bool few = !kFriction || (curve.parts.stops.empty() ? !c.stack && c.stops <= kFewStops
+                                                            : curve.parts.stops.size() <= kFewStops);
+  const int size = few ? kFewStops : kMaxStops;
+  (void)((size == n && (visit(WithFaces<Real, D, n>::make(curve)), true)) || ...);
 }
 
 // Whether the law is another type for what its fabric has beyond b1, b2 and k0.
@@ -79,13 +95,17 @@ bool takes_parts(const LawChoice& c) {
 }
 
 // The law if c names it and it belongs to the group (every_law.h): the laws of FatigueLaws weaken, those of
-// groups with kStops take a fabric's parts, where the group has room for their stops and branches, and those
-// of the others take three numbers alone.
+// FacesLaws have faces that differ, those of groups with kStops take a fabric's parts, where the group has
+// room for their stops and branches, and those of the others take three numbers alone.
 template <LawDescription Law, class Group, class Real, int D, class Memory, class Visit>
 bool visit_in_group(const LawChoice& c, const Visit& visit) {
   constexpr bool kWeakens = std::is_same_v<Group, FatigueLaws>;
-  if (c.name != Law::kName || c.fatigue.on() != kWeakens) return false;
-  if constexpr (kWeakens) {
+  constexpr bool kFaced = std::is_same_v<Group, FacesLaws>;
+  if (c.name != Law::kName || c.fatigue.on() != kWeakens || c.curve.parts.faces.on() != kFaced) return false;
+  if constexpr (kFaced) {
+    visit_faced<Law, Real, D>(c, visit, typename Memory::Faced{});
+    return true;
+  } else if constexpr (kWeakens) {
     visit_fatigued<Law, Real, D, typename Memory::Fatigued>(c, visit);
     return true;
   } else if constexpr (requires { Group::kStops; }) {

@@ -15,7 +15,7 @@ struct PrandtlLaw {
   static constexpr const char* kName = "prandtl";
   static constexpr const char* kMeaning =
       "quadratic loop, all reversals remembered (Prandtl-Ishlinskii; Iwan 1966)";
-  static constexpr bool kFrictionBesideB2 = true;
+  static constexpr bool kFrictionBesideB2 = true, kHasFaces = true;
   static std::vector<LawParameter> parameters() {
     return law_parameter::with_fatigue(
         {{"memory", [](const ParameterText& t, LawChoice& c) { c.stack = t.is_second("stops", "stack"); }},
@@ -34,6 +34,7 @@ struct PrandtlLaw {
       c.refuse("fatigue.dc", "fatigue.dc goes with " + std::to_string(kFewStops) +
                                  " stops of a fabric at most, not with " +
                                  std::to_string(parts.stops.size()));
+    if (parts.faces.on()) return check_faces(c, use);
     if (!c.fatigue.on() || use != LawUse::cloth || !parts.stops.empty()) return;
     if (c.stack && c.depth != 8) c.refuse("stack", "stack = " + shown(c.depth) + " must be 8 with fatigue");
     if (!c.stack && c.stops != 8 && c.stops != 16)
@@ -64,6 +65,30 @@ struct PrandtlLaw {
   }
 
  private:
+  static void check_faces(const LawChoice& c, LawUse use) {
+    const BendingParts& parts = c.curve.parts;
+    const auto refuse = [&](const char* key, const std::string& what) {
+      c.refuse(key, what + " where fabric.back-bending or fabric.back-friction is not 1");
+    };
+    if (c.fatigue.on())
+      refuse("fatigue.dc", "no fatigue goes with faces that differ: fatigue.dc must be left out");
+    if (parts.set.on() || !parts.weft_stops.empty())
+      refuse("stops", "neither a set nor stops along weft go with faces that differ: they must be left out");
+    const int most = use == LawUse::alone ? kMaxStops : kFewStops;
+    if (static_cast<int>(parts.stops.size()) > most)
+      refuse("stops", "a fabric has " + std::to_string(parts.stops.size()) + " stops and must have at most " +
+                          std::to_string(most));
+    if (!(c.curve.face_width() <= kMostFaceWidth))
+      c.refuse("stops", "the friction moments of face and back differ by " +
+                            shown(c.curve.friction_moment() * std::abs(parts.faces.friction - 1)) +
+                            " N, too much beside b2");
+    if (!parts.stops.empty()) return;
+    if (use == LawUse::cloth && c.stack) refuse("memory", "memory = stack must be stops");
+    if (!c.stack && c.stops != kFewStops && c.stops != most)
+      refuse("stops", "stops = " + shown(c.stops) + " must be " + shown(kFewStops) +
+                          (most != kFewStops ? " or " + shown(most) : ""));
+  }
+
   template <class Real, class Visit, int... n>
   static void visit_depth(const LawChoice& c, const Visit& visit, Sizes<n...>) {
     (void)((c.depth == n && (visit(PrandtlStack<Real, n>::make(c.curve)), true)) || ...);

@@ -26,6 +26,7 @@ bool has_residual_formula(const LawChoice& law) {
   const bool elastic =
       law.name == "linear" || law.name == "bridson" || law.name == "spring" || law.name == "pabst";
   const bool friction = law.name == "bilinear" || law.name == "wong" || law.name == "prandtl";
+  if (law.curve.parts.faces.on()) return false;
   const bool parts = law.name == "prandtl" && (!law.curve.parts.stops.empty() || law.curve.parts.set.on());
   return elastic || (friction && !law.fatigue.on() && !parts);
 }

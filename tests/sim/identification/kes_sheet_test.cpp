@@ -146,6 +146,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Doubt{"TenfoldBending", "B,gf cm^2/cm,1.18,0.94,\n2HB,gf cm/cm,0.124,0.1,\n",
               "is one of them in another unit", "sheet.csv:3"},
+        Doubt{"BackUnlikeTheFace", kPair + "B-back,gf cm^2/cm,0.4,0.1,\n", "times of B, and", "sheet.csv:4"},
         Doubt{"WeightOfTwoDirections", kPair + "W,mg/cm^2,15,30,\n", "has no direction", "sheet.csv:4"},
         Doubt{"TenfoldShear", kPair + "G,gf/(cm degree),7,7,\n2HG,gf/cm,1.5,1.5,\n", "degree of G",
               "sheet.csv:5"},

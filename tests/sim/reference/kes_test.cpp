@@ -45,6 +45,36 @@ TEST_P(PublishedPair, ComesBackFromPrandtlAndWong) {
   }
 }
 
+// Whatever has the larger B and the larger 2HB.
+TEST(KesOfFaces, ReadsBothPairsBack) {
+  constexpr double kReads = 5e-3;
+  for (const double k0 : {8.0, 50.0})
+    for (const double bending : {0.6, 1.0, 1.7})
+      for (const double friction : {0.6, 1.0, 1.7}) {
+        VirginCurve fabric = kCotton;
+        fabric.b1 = fabric.b2 + 2 * kCotton.friction_moment() / k0, fabric.k0 = k0;
+        fabric.parts.faces = {bending, friction};
+        const KesReading reading = test_in_kes({"prandtl", fabric, {}}).reading;
+        const double width = 2 * kCotton.friction_moment();
+        EXPECT_NEAR(reading.face.rigidity / fabric.b2, 1, kReads) << k0 << " " << bending << " " << friction;
+        EXPECT_NEAR(reading.face.loop_width / width, 1, kReads);
+        EXPECT_NEAR(reading.back.rigidity / (bending * fabric.b2), 1, kReads)
+            << k0 << " " << bending << " " << friction;
+        EXPECT_NEAR(reading.back.loop_width / (friction * width), 1, kReads);
+      }
+}
+
+// Laws without sides have the means of both.
+TEST(KesOfFaces, ReadsTheMeanOfLawsWithoutSides) {
+  VirginCurve fabric = kCotton;
+  fabric.parts.faces = {1.5, 0.6};
+  for (const char* law : {"wong", "bilinear"}) {
+    const KesReading reading = test_in_kes({law, fabric, {}}).reading;
+    EXPECT_NEAR(reading.rigidity / (1.25 * fabric.b2), 1, kPublished) << law;
+    EXPECT_NEAR(reading.loop_width / (0.8 * 2 * fabric.friction_moment()), 1, kPublished) << law;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Kes, PublishedPair,
                          testing::Values("cotton-broad-k50", "wool-tropical-k50", "polyester-tropical-k50",
                                          "polyester-faille-k50"),

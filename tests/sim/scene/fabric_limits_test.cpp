@@ -49,6 +49,31 @@ TEST(FabricLimits, RefuseThemInAFabricsFileAtTheirLine) {
   EXPECT_TRUE(says(said, "f.toml:7")) << "the line of density";
 }
 
+TEST(FabricLimits, RefuseFacesThatDifferBesideWhatHasNoSide) {
+  const auto refusal_with = [](const std::vector<Flag>& flags) {
+    Scene scene = default_scene();
+    return test::refusal([&] {
+      apply_flags(scene, flags);
+      check_scene(scene);
+    });
+  };
+  const Flag back = {"fabric.back-friction", "1.5"};
+  EXPECT_NO_THROW({
+    Scene scene = default_scene();
+    apply_flags(scene, {back, {"fabric.back-bending", "0.8"}, {"fabric.weft-friction", "0.9"}});
+    check_scene(scene);
+  });
+  EXPECT_TRUE(says(
+      refusal_with({back, {"fabric.bending.set.yield", "400"}, {"fabric.bending.set.hardening", "5e-6"}}),
+      "fabric.back-friction = 1.5 (--fabric.back-friction) goes without fabric.bending.set"));
+  EXPECT_TRUE(
+      says(refusal_with({back, {"param", "fatigue.dc=0.5"}}), "no fatigue goes with faces that differ"));
+  EXPECT_TRUE(says(refusal_with({back, {"param", "stops=16"}}), "stops = 16 must be 8"));
+  EXPECT_TRUE(says(refusal_with({back, {"param", "memory=stack"}}), "memory = stack must be stops"));
+  // HB of cotton broad is 52.5/m times B: 3 times as much to the back needs 105/(1.8 m).
+  EXPECT_TRUE(says(refusal_with({{"fabric.back-friction", "3"}}), "needs bends of +-58"));
+}
+
 // Nobody has mistaken its unit.
 TEST(FabricLimits, NameTheExperimentThatHasSetANumber) {
   Scene scene = default_scene();

@@ -49,6 +49,56 @@ TEST_P(MeasuredFabric, LosesEnergyToFrictionAndRelaxationInABalanceThatCloses) {
   EXPECT_EQ(relaxed > 0, relaxes);
 }
 
+class FacesInMotion : public testing::TestWithParam<Method> {};
+const Method kFacesCases[] = {{"prandtl", "shape", "semi-implicit"},
+                              {"prandtl", "hinge", "semi-implicit"},
+                              {"prandtl", "shape", "tr-bdf2"},
+                              {"prandtl", "hinge", "implicit"},
+                              {"linear", "shape", "implicit"}};
+INSTANTIATE_TEST_SUITE_P(Methods, FacesInMotion, testing::ValuesIn(kFacesCases), test::CaseName());
+
+TEST_P(FacesInMotion, LoseEnergyToFrictionInABalanceThatCloses) {
+  BendingParts parts;
+  parts.faces = {1.4, 0.7};
+  Trial trial = rippled(GetParam(), parts);
+  trial.scene.fabric.weft_friction = 0.8;
+  const auto simulation = trial.simulation();
+  double friction = 0;
+  for (int step = 0; step < 6; ++step) {
+    simulation->advance(1);
+    const Ledger ledger = simulation->ledger();
+    constexpr double kArithmetic = 1e-9;
+    EXPECT_LT(ledger.remainder_relative, kArithmetic);
+    EXPECT_GE(ledger.bending_friction, friction);
+    friction = ledger.bending_friction;
+  }
+  EXPECT_EQ(friction > 0, GetParam().law == "prandtl");
+}
+
+// With its face down the sheet moves as the fabric of inverted ratios does with its face up.
+TEST(FacesInMotion, AreThoseOfTheMirroredFabricOnTheOtherSide) {
+  constexpr double kRounding = 1e-9;  // of the waves' height
+  for (const char* element : {"shape", "hinge"}) {
+    const auto moved = [&](bool turned) {
+      BendingParts parts;
+      parts.faces = {1.4, 0.7};
+      Trial trial = rippled({"prandtl", element, "implicit"}, parts);
+      if (turned) {
+        Fabric& fabric = trial.scene.fabric;
+        const double friction = 0.7 * (fabric.b1 - fabric.b2);
+        fabric.b2 *= 1.4, fabric.b1 = fabric.b2 + friction;
+        fabric.bending.faces = {1 / 1.4, 1 / 0.7};
+        fabric.damping *= Fabric{}.b1 / fabric.b1;  // the same viscosity
+        for (Eigen::Vector3d& x : trial.cloth.start) x.z() = -x.z();
+      }
+      return trial.after(10)->positions();
+    };
+    const test::Positions one = moved(false), other = moved(true);
+    for (std::size_t i = 0; i < one.size(); ++i)
+      EXPECT_NEAR(one[i].z(), -other[i].z(), kRounding * 3e-2) << element;
+  }
+}
+
 // Its history is what its type has: 8 stops for each component here, 5 more vectors with branches, one with
 // set.
 TEST(MeasuredFabric, PaysForThePartsThatItHasAlone) {

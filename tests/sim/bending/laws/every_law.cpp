@@ -12,7 +12,7 @@ namespace {
 using ExampleLaws = LawList<ExponentialLaw>;  // a law that no program ships
 
 // What a fabric has beyond three numbers, on the scale of these, so that extreme fabrics have it as well.
-enum Part { kStops = 1, kManyStops = 2, kWeft = 4, kBranches = 8, kSet = 16 };
+enum Part { kStops = 1, kManyStops = 2, kWeft = 4, kBranches = 8, kSet = 16, kFaces = 32 };
 
 Spectrum stop_spectrum(const VirginCurve& curve, int count) {
   const double scale = curve.k0 > 0 ? curve.k0 : 1;
@@ -36,6 +36,10 @@ BendingParts sample_parts(int which, const VirginCurve& curve) {
   }
   if ((which & kBranches) && g > 0) parts.branches = {{0.2, 5}, {g / 3, g / 2}};
   if (which & kSet) parts.set = {1.2 * curve.k0, curve.b2 / 2};
+  if (which & kFaces) {
+    const double most = 2 * 0.9 * curve.b2 * kMostFaceWidth;  // of the difference between both HB
+    parts.faces = {1.4, curve.friction_moment() * 0.3 > most ? 1 : 0.7};
+  }
   return parts;
 }
 
@@ -56,6 +60,8 @@ template <class T>
 inline constexpr bool kRunsAlongFourDirections = false;
 template <class Law>
 inline constexpr bool kRunsAlongFourDirections<FourDirections<Law>> = true;
+template <class Real, int N>
+inline constexpr bool kRunsAlongFourDirections<WithFaces<Real, 3, N>> = true;  // the excess of one face
 
 template <class Law>
 class AnyLawOf : public AnyLaw {
@@ -107,6 +113,7 @@ struct TestedMemory {
   using Stops = Sizes<8>;
   using Depths = Sizes<4, 8, 16>;
   using Fatigued = FatiguedClothMemory;
+  using Faced = Sizes<kFewStops>;
 };
 
 template <class Real, int D>
@@ -141,6 +148,9 @@ std::vector<LawCase> law_cases() {
   measured("prandtl-spectrum-of-many", "prandtl", kManyStops);
   measured("prandtl-two-spectra", "prandtl", kStops | kWeft);
   measured("prandtl-set", "prandtl", kSet);
+  measured("linear-faces", "linear", kFaces);
+  measured("prandtl-faces", "prandtl", kFaces);
+  measured("prandtl-spectrum-faces", "prandtl", kStops | kFaces);
   measured("chapman-branches", "chapman", kBranches);
   measured("chapman-spectrum-branches-set", "chapman", kStops | kBranches | kSet);
   measured("chapman-two-spectra-branches-set", "chapman", kStops | kWeft | kBranches | kSet);
