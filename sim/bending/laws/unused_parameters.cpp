@@ -24,6 +24,9 @@ std::string memory_text(const LawChoice& choice, const std::string& parameter, c
     return "the law remembers by a stack of reversal points; --param memory=stops takes stops";
   if (parameter == "stack" && parts.set.on())
     return "the law of a fabric with a set (fabric.bending.set) remembers by stops";
+  if (parameter == "stack" && parts.faces.on())
+    return "the law of a fabric whose faces differ (fabric.back-bending, fabric.back-friction) remembers by "
+           "stops";
   if (parameter == "stack" && !choice.stack)
     return "the law remembers by stops; --param memory=stack takes a stack of reversal points";
   return "";
