@@ -2,7 +2,9 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "experiments/specimens/cantilever_strip.h"
 #include "sim/base/csv.h"
@@ -107,14 +109,18 @@ namespace {
 
 std::string write_comparison(Run& run, const std::vector<SheetReading>& all) {
   Table table("quantity,direction,unit,entered,read,difference [%],reason");
-  std::string text = fmt::format("{:<9}{:<6}{:>10}{:>10}{:>9}  {}\n", "", "", "entered", "read", "%", "unit");
+  std::size_t longest = 5;  // of "2HG5"
+  for (const SheetReading& b : all) longest = std::max(longest, std::strlen(b.quantity));
+  const std::size_t width = longest + 1;
+  std::string text =
+      fmt::format("{:<{}}{:<6}{:>10}{:>10}{:>9}  {}\n", "", width, "", "entered", "read", "%", "unit");
   for (const SheetReading& b : all) {
     const double unit = factor_to(b.si, b.unit).value_or(1);
     const bool differs = std::abs(b.difference()) > kAgrees;
     table.row({b.quantity, column_name(b.column), b.unit, b.entered / unit, b.read / unit, b.difference(),
                differs ? b.reason : ""});
-    text += fmt::format("{:<9}{:<6}{:>10.4g}{:>10.4g}{:>+9.2f}  {}{}\n", b.quantity, column_name(b.column),
-                        b.entered / unit, b.read / unit, b.difference(), b.unit,
+    text += fmt::format("{:<{}}{:<6}{:>10.4g}{:>10.4g}{:>+9.2f}  {}{}\n", b.quantity, width,
+                        column_name(b.column), b.entered / unit, b.read / unit, b.difference(), b.unit,
                         differs && *b.reason ? std::string("; ") + b.reason : "");
     run.metric(fmt::format("{}.{}_difference_percent", column_name(b.column), b.quantity), b.difference());
   }

@@ -7,7 +7,6 @@
 #include "sim/identification/fabric_file.h"
 #include "sim/reference/kes_in_plane.h"
 #include "sim/scene/fabric_reader.h"
-#include "sim/scene/scene_reader.h"
 #include "tests/experiments/folder.h"
 
 namespace hysteron::experiments {
@@ -95,31 +94,27 @@ TEST(KesSheetRoundTrip, ReturnsTwoHundredDrawnSheets) {
 }
 
 // Both pairs of both directions come back where back and face have one ratio along both.
-TEST(KesSheetRoundTrip, ReturnsTheFacesOfDrawnSheets) {
+TEST(KesSheetRoundTrip, ReturnsTheFacesOfAHundredDrawnSheets) {
   const Folder folder;
-  int with_faces = 0;
   for (unsigned seed = 1; seed <= 100; ++seed) {
     KesSheet sheet = drawn_sheet(seed);
     std::mt19937 random(seed);
-    std::uniform_real_distribution<double> uniform(-1, 1);
-    const double rigidity = std::exp(0.4 * uniform(random)), friction = std::exp(0.3 * uniform(random));
+    const auto about = [&](double decades) {
+      return std::exp(decades * std::uniform_real_distribution<double>(-1, 1)(random));
+    };
+    // Weft as woven cloth has it: friction that differs much more by direction than rigidity is refused.
+    for (const char* face : {"B", "2HB"}) sheet.row[face].value[1] = sheet.row[face].value[0] * about(0.4);
+    const double rigidity = about(0.4), friction = about(0.3);
     for (const auto& [back, face, ratio] :
          {std::tuple{"B-back", "B", rigidity}, {"2HB-back", "2HB", friction}}) {
       sheet.row[back] = sheet.row.at(face);
       for (double& value : sheet.row[back].value) value *= ratio;
     }
-    Scene scene;
-    scene.fabric = fabric_from(sheet, folder.path());
-    EXPECT_NEAR(scene.fabric.bending.faces.bending, rigidity, 1e-6);
-    try {
-      check_scene(scene);
-    } catch (const Error&) {
-      continue;  // so much friction beside so little elasticity along weft that it could not change sides
-    }
+    const Fabric fabric = fabric_from(sheet, folder.path());
+    EXPECT_NEAR(fabric.bending.faces.bending, rigidity, 1e-4 * rigidity) << "written with six digits";
+    EXPECT_NEAR(fabric.bending.faces.friction, friction, 1e-4 * friction);
     expect_read_back(sheet, folder.path(), std::to_string(seed));
-    ++with_faces;
   }
-  EXPECT_GT(with_faces, 80);
 }
 
 TEST(KesSheetRoundTrip, SaysWhyDirectionsWithOtherRatiosOfBackToFaceDoNotComeBack) {
