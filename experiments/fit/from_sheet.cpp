@@ -15,7 +15,7 @@
 namespace hysteron::experiments {
 namespace {
 
-constexpr double kAgrees = 1;  // percent: less is not worth a reason
+constexpr double kAgrees = 1, kSidesAgree = 0.5;  // percent: less is not worth a reason
 
 Along direction_of(SheetColumn column) { return column == SheetColumn::weft ? Along::weft : Along::warp; }
 
@@ -116,7 +116,7 @@ std::string write_comparison(Run& run, const std::vector<SheetReading>& all) {
       fmt::format("{:<{}}{:<6}{:>10}{:>10}{:>9}  {}\n", "", width, "", "entered", "read", "%", "unit");
   for (const SheetReading& b : all) {
     const double unit = factor_to(b.si, b.unit).value_or(1);
-    const bool differs = std::abs(b.difference()) > kAgrees;
+    const bool differs = std::abs(b.difference()) > (b.reason == kOneRatio ? kSidesAgree : kAgrees);
     table.row({b.quantity, column_name(b.column), b.unit, b.entered / unit, b.read / unit, b.difference(),
                differs ? b.reason : ""});
     text += fmt::format("{:<{}}{:<6}{:>10.4g}{:>10.4g}{:>+9.2f}  {}{}\n", b.quantity, width,

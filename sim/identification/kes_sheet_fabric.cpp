@@ -44,11 +44,13 @@ void write_back(SheetWriter& writer, const char* key, const char* back, const ch
     return sheet.along(back, column) / sheet.along(face, column);
   };
   const double warp = ratio(SheetColumn::warp), weft = ratio(SheetColumn::weft);
-  constexpr double kSame = 1e-9;  // of numbers that a sheet has once
-  Estimate mean{std::sqrt(warp * weft), kNone, true, std::string(back) + " over " + face, "derived"};
+  const auto rounded = [](double x) { return std::round(1e5 * x) / 1e5; };
+  constexpr double kSame = 1e-4;
+  Estimate mean{rounded(std::sqrt(warp * weft)), kNone, true, std::string(back) + " over " + face, "derived"};
   if (std::abs(warp / weft - 1) > kSame) {
     mean.source += ", the geometric mean of warp and weft; the range is from one to the other";
-    mean.low = std::min(warp, weft), mean.high = std::max(warp, weft);
+    mean.low = rounded(std::min(warp, weft));
+    mean.high = rounded(std::max(warp, weft));
   }
   writer.entry(key, "", mean);
 }

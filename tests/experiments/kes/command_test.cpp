@@ -45,6 +45,22 @@ TEST_F(KesCommand, TestsEveryLawAndWritesItsTables) {
     EXPECT_TRUE(fs::exists(folder_.path() / file)) << file;
 }
 
+TEST_F(KesCommand, ReadsFaceAndBackWhereTheyDiffer) {
+  constexpr double kReads = 5e-3;
+  const Json manifest =
+      run({{"law", "prandtl,wong"}, {"fabric.back-bending", "1.3"}, {"fabric.back-friction", "0.8"}});
+  const auto number = [&](const char* metric) { return manifest["metrics"][metric].get<double>(); };
+  EXPECT_NEAR(number("prandtl.B_back_N_m") / number("prandtl.B_face_N_m"), 1.3, kReads);
+  EXPECT_NEAR(number("prandtl.2HB_back_N") / number("prandtl.2HB_face_N"), 0.8, kReads);
+  EXPECT_NEAR(number("wong.B_N_m") / number("prandtl.B_face_N_m"), 1.15, kReads) << "the mean";
+  EXPECT_NEAR(number("wong.2HB_N") / number("prandtl.2HB_face_N"), 0.9, kReads);
+  const std::string warnings = manifest["warnings"].dump();
+  EXPECT_TRUE(
+      says(warnings, "fabric.back-bending = 1.3 and fabric.back-friction = 0.8 are not followed: law wong"));
+  EXPECT_FALSE(says(warnings, "law prandtl"));
+  EXPECT_FALSE(run({})["metrics"].contains("B_back_N_m")) << "of a fabric whose sides are alike";
+}
+
 TEST_F(KesCommand, WarnsOfUnusualFabricsAndOfParametersThatChangeNothing) {
   EXPECT_TRUE(run({}).value("warnings", Json::array()).empty());
   const std::string unusual = run({{"fabric.b1", "0.3"}})["warnings"].dump();
