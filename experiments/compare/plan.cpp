@@ -142,7 +142,10 @@ CommandLine line_of_columns(const CommandLine& line, const CompareChoice& choice
   const std::string what = line.positionals.front();
   inner.experiment = experiment_named(what).compared ? what : "run";
   std::erase_if(inner.flags, is_own);
-  if (inner.experiment != what) inner.flags.push_back({"scene", what});
+  if (inner.experiment != what) {
+    refuse_two_scenes(line);
+    inner.flags.push_back({"scene", what});
+  }
   if (!choice.fabrics.empty()) inner.flags.push_back({"fabric", choice.fabrics});
   if (!choice.integrators.empty()) inner.flags.push_back({"integrator", choice.integrators});
   const bool others = !choice.fabrics.empty() || !choice.integrators.empty();

@@ -34,8 +34,11 @@ const KeyRow<MetricLimit> kMetricRows[] = {
 };
 // clang-format on
 
+// A column's unit in brackets, "metrics.csv:tip [m]", is no set of letters.
 bool matches(const std::string& pattern, const std::string& name) {
-  return fnmatch(pattern.c_str(), name.c_str(), 0) == 0;
+  std::string literal;
+  for (const char c : pattern) literal += c == '[' ? "\\[" : std::string(1, c);
+  return fnmatch(literal.c_str(), name.c_str(), 0) == 0;
 }
 
 class LimitsFile {

@@ -120,8 +120,9 @@ bool is_own_tester(const PublishedNumber& number, const DrapeChoice& choice, dou
   const DrapeChoice own = drape_by_standard(number.tester);
   return is_near(choice.disc, own.disc) &&
          is_near(specimen_radius, experiments::specimen_radius(number.tester)) &&
-         choice.release == own.release && choice.offset == 0 && choice.shakes == own.shakes &&
-         choice.stroke == own.stroke && choice.period == own.period && choice.wait == own.wait;
+         choice.release == own.release && choice.offset == 0 && choice.curl == 0 && choice.uneven == 0 &&
+         choice.shakes == own.shakes && choice.stroke == own.stroke && choice.period == own.period &&
+         choice.wait == own.wait;
 }
 
 std::string other_tester_message(const Fabric& fabric, const DrapeChoice& choice, double specimen_radius) {
@@ -133,7 +134,8 @@ std::string other_tester_message(const Fabric& fabric, const DrapeChoice& choice
     if (number.tester != choice.standard) return "is of another tester: --drape.standard " + number.tester;
     if (!is_own_tester(number, choice, specimen_radius))
       return "is of other sizes or another way: --drape.standard " + number.tester +
-             " without drape.disc and cloth.radius, drape.release, shakes, stroke, period, wait and offset";
+             " without drape.disc and cloth.radius, drape.release, shakes, stroke, period, wait, offset, "
+             "curl and uneven";
   }
   return "";
 }

@@ -46,16 +46,17 @@ std::vector<KeyDescription> figure_fabric_keys() {
   return keys;
 }
 
-// Friction by stops has no transition curvature, of which every figure speaks, and a set leaves other
-// curvatures than friction does.
+// Friction by stops has no transition curvature, of which every figure speaks, a set leaves other curvatures
+// than friction does, and branches relax.
 void check_three_numbers(const Fabric& fabric, const std::string& name) {
-  const bool has_stops = !fabric.bending.stops.empty(), has_set = fabric.bending.set.on(),
-             has_sides = fabric.bending.faces.on();
-  if (!has_stops && !has_set && !has_sides) return;
-  throw Error::invalid_input("--fabric " + name +
-                             (has_stops ? " has friction by stops"
-                              : has_set ? " has a permanent set"
-                                        : " has faces that differ") +
+  const BendingParts& parts = fabric.bending;
+  const std::string other = !parts.stops.empty()      ? " has friction by stops"
+                            : parts.set.on()          ? " has a permanent set"
+                            : !parts.branches.empty() ? " has branches that relax"
+                            : parts.faces.on()        ? " has faces that differ"
+                                                      : "";
+  if (other.empty()) return;
+  throw Error::invalid_input("--fabric " + name + other +
                              ", and the figures are of b1, b2 and k0 alone: give a fabric without, as " +
                              kUsualFabric)
       .with_key("fabric", name)

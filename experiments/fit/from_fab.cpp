@@ -339,6 +339,18 @@ std::string misses_warning(const FabBending& b) {
       b.direction, 100 * b.residual_share);
 }
 
+// Says that the file has loops along the bias and the fabric does not; "" otherwise.
+std::string unused_bias_warning(const FabAnswer& answer) {
+  const auto& fitted = answer.found.bending;
+  const auto is_of_bias = [](const auto& one) { return is_bias(one.direction); };
+  if (fitted.size() < 2 || std::ranges::any_of(fitted, is_of_bias) ||
+      std::ranges::none_of(answer.loops, is_of_bias))
+    return "";
+  return "the loops along the bias are not fitted, and bias-bending is the mean of both directions: "
+         "--fab.directions " +
+         fitted[0].direction + "," + fitted[1].direction + ",B fits them";
+}
+
 }  // namespace
 
 std::vector<std::string> bending_warnings(const FabBending& b, const std::vector<FabForm>& forms,
@@ -360,6 +372,7 @@ void report_fab(Run& run, const FabAnswer& answer, const FabricNotes& notes) {
       run.warn(warning);
   for (const FabTension& t : answer.found.tension)
     if (!t.converged) run.warn("along " + t.direction + " the fit of stretch did not converge");
+  if (const std::string unused = unused_bias_warning(answer); !unused.empty()) run.warn(unused);
   FabIdentification one{answer.one_stop, {}, answer.found.from + ", by one stop"};
   write_fab_fabric(run.path("fabric.toml"), answer.found, notes);
   write_fab_fabric(run.path("one_stop.toml"), one, notes);

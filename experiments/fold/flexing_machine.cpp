@@ -11,11 +11,14 @@ namespace {
 
 constexpr double kMillimetre = 1e-3;
 
-// Depth of the lowest point below the clamps [m].
-double lowest(const std::vector<Eigen::Vector3d>& x) {
-  double depth = 0;
-  for (const Eigen::Vector3d& p : x) depth = std::max(depth, -p.z());
-  return depth;
+// How far the cloth hangs from the clamps where gravity draws it, or lies from them without gravity [m].
+double farthest(const std::vector<Eigen::Vector3d>& x, const Eigen::Vector3d& gravity) {
+  double distance = 0;
+  for (const Eigen::Vector3d& p : x) {
+    const double drop = gravity.z() > 0 ? p.z() : gravity.z() < 0 ? -p.z() : std::abs(p.z());
+    distance = std::max(distance, drop);
+  }
+  return distance;
 }
 
 }  // namespace
@@ -48,10 +51,10 @@ std::vector<double> FlexingMachine::measure(const Snapshot& instant) const {
 
 void FlexingMachine::watch(const Snapshot& instant) {
   curvature_ = gauge_.crown(session_.simulation().curvature());
-  largest_ = std::max(largest_, curvature_);
+  largest_ = std::max(largest_, std::abs(curvature_));
   if (instant.time > 0) crown_ = material_.to({curvature_, instant.time - time_});
   time_ = instant.time;
-  reading_.lowest = lowest(instant.x) / kMillimetre;
+  reading_.lowest = farthest(instant.x, fold_.scene.gravity) / kMillimetre;
   add_to_loops();
   const int period = 2 * fold_.half, cycle = count_ / period;
   if (cycle > 0 && cycle <= fold_.cycles && count_ % period == 0) end_cycle(cycle);

@@ -156,9 +156,10 @@ double FoldGauge::largest_turn(const std::vector<double>& curvature) const {
   std::vector<double> turn(columns_, 0);
   for (std::size_t f = 0; f < area_.size(); ++f)
     turn[column_[f]] += along(static_cast<int>(f), curvature) / width_;
+  const double sense = crown(curvature) < 0 ? -1 : 1;
   double here = 0, largest = 0;  // of the parts that end here, of all parts
   for (double t : turn) {
-    here = std::max(0.0, here + t);
+    here = std::max(0.0, here + sense * t);
     largest = std::max(largest, here);
   }
   return largest;

@@ -6,6 +6,7 @@
 
 #include "experiments/run/metrics.h"
 #include "experiments/workbench/app/manifest_file.h"
+#include "experiments/workbench/app/scene_source.h"
 #include "experiments/workbench/pictures/drawing.h"
 #include "experiments/workbench/pictures/framing.h"
 #include "experiments/workbench/session/session.h"
@@ -35,6 +36,7 @@ void limit_to_quick(Setup& setup) {
 CommandLine with_scene(CommandLine line) {
   if (line.positionals.size() > 1)
     throw Error::invalid_input("takes one scene, not " + std::to_string(line.positionals.size()));
+  refuse_two_scenes(line);
   if (!line.positionals.empty()) line.flags.push_back({"scene", line.positionals.front()});
   line.positionals.clear();
   if (last_text(line.flags, "scene", "").empty())

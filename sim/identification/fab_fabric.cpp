@@ -130,9 +130,12 @@ std::string further_parameters(const FabIdentification& found) {
   std::string text;
   if (found.bending.size() > 1) {
     const double ratio = found.bending[1].law.spring / found.bending[0].law.spring;
+    const Estimate bias = found.bending.size() > 2
+                              ? derived(found.bending[2].law.spring / found.bending[0].law.spring,
+                                        "b2 along the bias over that along the first direction")
+                              : derived((1 + ratio) / 2, "the mean of both directions, not measured");
     text += fabric_entry("weft-bending", "", derived(ratio, "b2 along the second direction over the first")) +
-            fabric_entry("bias-bending", "",
-                         derived((1 + ratio) / 2, "the mean of both directions, not measured"));
+            fabric_entry("bias-bending", "", bias);
   }
   const char* const kNames[] = {"warp", "weft"};
   for (std::size_t i = 0; i < std::min<std::size_t>(2, found.tension.size()); ++i)

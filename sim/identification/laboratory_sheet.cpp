@@ -92,11 +92,17 @@ class SheetReader {
              value <= quantity.high * printed * kBeyondUsual;
     };
     if (fits(si)) return;
-    std::string hint;
+    // The slip that leads nearest to the middle of what is usual.
+    const double middle = std::sqrt(quantity.low * quantity.high) * printed;
+    double likely = 0;
     for (const double slip :
-         {98.0665, 1 / 98.0665, 9.80665, 1 / 9.80665, 10.0, 0.1, 100.0, 0.01, 1000.0, 0.001})
-      if (hint.empty() && fits(si * slip))
-        hint = "; " + number_text(slip, 3) + " times as much would be one: is it in another unit?";
+         {10.0, 0.1, 100.0, 0.01, 1000.0, 0.001, 98.0665, 1 / 98.0665, 9.80665, 1 / 9.80665})
+      if (fits(si * slip) &&
+          (likely == 0 || std::abs(std::log(si * slip / middle)) < std::abs(std::log(si * likely / middle))))
+        likely = slip;
+    const std::string hint =
+        likely == 0 ? ""
+                    : "; " + number_text(likely, 4) + " times as much would be one: is it in another unit?";
     throw refusal(std::string(quantity.name) + " = " + shown + " is no fabric's: between " +
                       number_text(quantity.low) + " and " + number_text(quantity.high) + " " + quantity.unit +
                       " are usual" + hint,

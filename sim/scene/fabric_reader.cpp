@@ -134,6 +134,9 @@ struct Reader {
     const std::string nearest = nearest_name(node.key, names);
     if (!nearest.empty() && nearest != node.key)
       throw refusal("unknown number " + node.key + " in [published], did you mean " + nearest + "?", node);
+    if (std::count(names.begin(), names.end(), node.key) == 0 && node.find("tester"))
+      throw refusal(node.key + " in [published] has a tester, as only " + join(names, " and ") + " have",
+                    node);
   }
 
   void check_drape(const ValueTree& node, PublishedNumber& number) const {

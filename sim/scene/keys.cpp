@@ -257,8 +257,13 @@ void note_numbers_beside_pair(Scene& scene) {
   };
   if (!fabric.bending.stops.empty() && stand_together(scene, "bending.stops.thresholds", "kes-b"))
     note("bending.stops.thresholds");
-  if (fabric.b2 != follows.b2 && stand_together(scene, "b2", "kes-b")) note("b2");
-  if (fabric.b1 != follows.b1 && stand_together(scene, "b1", "kes-b")) note("b1");
+  // A fabric's file that states the pair has b1 and b2 of where kes-b stands: they follow from it.
+  const auto is_stated = [&](const std::string& key) {
+    return key_origin(scene, "fabric." + key) != key_origin(scene, "fabric.kes-b") &&
+           stand_together(scene, key, "kes-b");
+  };
+  if (fabric.b2 != follows.b2 && is_stated("b2")) note("b2");
+  if (fabric.b1 != follows.b1 && is_stated("b1")) note("b1");
 }
 
 // Friction is said by KES-FB2's pair, with k0 or a shape, or by b1 with b2 and k0, or by stops: by what was

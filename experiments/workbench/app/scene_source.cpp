@@ -129,6 +129,14 @@ Json requested_patch(const Json& simulated, const Json& requested) {
   return patch;
 }
 
+void refuse_two_scenes(const CommandLine& line) {
+  const std::string other = last_text(line.flags, "scene", "");
+  if (!line.positionals.empty() && !other.empty())
+    throw Error::invalid_input("takes one scene, and both " + line.positionals.front() + " and --scene " +
+                               other + " name one")
+        .with_key("scene", other);
+}
+
 bool is_dumped_scene(const std::string& file) {
   std::error_code ignored;
   return std::filesystem::is_regular_file(file, ignored) &&

@@ -51,4 +51,7 @@ void dump_scene(const Setup& setup);
 // Whether that file was written so.
 bool is_dumped_scene(const std::string& file);
 
+// Throws Error::invalid_input for a line that names a scene and has --scene as well.
+void refuse_two_scenes(const CommandLine& line);
+
 }  // namespace hysteron::experiments

@@ -106,6 +106,45 @@ std::string facets_warning(const Scene& scene, Simulation& simulation) {
          "remembers them so";
 }
 
+// Limits within which a step has ended before it begins: Newton's method then moves nothing.
+std::string loose_newton_warning(const Scene& scene) {
+  constexpr double kLoose = 0.05;  // of the load, or of what the load moves in a step
+  if (!scene.is_implicit()) return "";
+  if (scene.newton_residual > kLoose)
+    return shown(scene, "newton-residual", scene.newton_residual, "") +
+           " leaves so much of the load out of balance in every step: cloth may not move at all";
+  const double fall = scene.gravity.norm() * scene.step;
+  if (scene.integrator == Integrator::quasi_static || !(fall > 0) || scene.newton_velocity <= kLoose * fall)
+    return "";
+  return shown(scene, "newton-velocity", scene.newton_velocity, "m/s") + " is more than a twentieth of the " +
+         number_text(fall, 3) + " m/s that gravity gives in a step: cloth may not move at all";
+}
+
+// Pins, obstacles and commands act from the start of a step on.
+std::vector<std::string> instant_warnings(const Scene& scene) {
+  constexpr double kRounding = 1e-4;  // of a step, as a run's length may miss a whole number of them
+  std::vector<std::string> warnings;
+  const auto check = [&](const std::string& key, double time) {
+    const double steps = time / scene.step;
+    if (!is_given(scene, key) || !(time < scene.seconds) || std::abs(steps - std::round(steps)) <= kRounding)
+      return;
+    warnings.push_back(shown(scene, key, time, "s") + " lies within a step of " + number_text(scene.step, 4) +
+                       " s: it counts from the next one on, at " +
+                       number_text(std::ceil(steps) * scene.step, 6) + " s");
+  };
+  const auto check_all = [&](const auto& tables, const std::string& list) {
+    for (std::size_t i = 0; i < tables.size(); ++i) {
+      check(list + "[" + std::to_string(i) + "].from", tables[i].from);
+      check(list + "[" + std::to_string(i) + "].until", tables[i].until);
+    }
+  };
+  check_all(scene.pin, "pin");
+  check_all(scene.obstacle, "obstacle");
+  for (std::size_t i = 0; i < scene.command.size(); ++i)
+    check("command[" + std::to_string(i) + "].time", scene.command[i].time);
+  return warnings;
+}
+
 std::string phases_warning(const Scene& scene) {
   double phases = 0;  // [s]
   for (const Phase& phase : scene.phase) phases += phase.seconds;
@@ -143,9 +182,10 @@ std::vector<std::string> doubts_at_start(const Scene& scene, const Cloth& cloth,
   doubts.insert(doubts.end(),
                 {locking_words(scene, cloth.mesh), pressed_words(scene, cloth, simulation),
                  command_warning(scene, cloth, simulation.dimension()), phases_warning(scene),
-                 facets_warning(scene, simulation), weft_friction_warning(scene.fabric, scene.law),
-                 faces_warning(scene.fabric, scene.law)});
-  for (const std::vector<std::string>& more : {pin_warnings(scene, cloth), idle_key_warnings(scene)})
+                 facets_warning(scene, simulation), loose_newton_warning(scene),
+                 weft_friction_warning(scene.fabric, scene.law), faces_warning(scene.fabric, scene.law)});
+  for (const std::vector<std::string>& more :
+       {pin_warnings(scene, cloth), instant_warnings(scene), idle_key_warnings(scene)})
     doubts.insert(doubts.end(), more.begin(), more.end());
   return said(doubts);
 }

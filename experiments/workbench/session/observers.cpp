@@ -137,6 +137,13 @@ void note_convergence(Run& run, const Diagnostics& counts, const Scene& scene) {
     }
     if (scene.newton_iterations > 0 || counts.unbalanced > 0)
       run.metric("unbalanced_steps_count", counts.unbalanced);
+    constexpr double kFew = 0.05;
+    const long all = std::max(counts.steps, counts.parts);
+    if (static_cast<double>(counts.unbalanced) > kFew * static_cast<double>(all))
+      run.warn(
+          fmt::format("{} of {} steps were taken with forces out of balance: newton-iterations = {} was not "
+                      "enough for them",
+                      counts.unbalanced, all, scene.newton_iterations));
   }
   if (scene.finds_equilibrium() || scene.tolerance > 0) {
     run.metric("parts_count", counts.parts);

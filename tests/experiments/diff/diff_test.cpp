@@ -340,6 +340,17 @@ TEST_F(DiffOfFolders, TakesLimitsOfSomePicturesFromAFile) {
   limited(4, "sheet.png", "0.5");  // the other picture keeps the limit of all
 }
 
+TEST(LimitsFile, TakesAColumnsUnitInBracketsAsItStands) {
+  const Folder folder;
+  const Limits limits =
+      read_limits(folder.write("limits.toml",
+                               "[[metric]]\nname = \"metrics.csv:tip [m]\"\nmax-difference = "
+                               "2\n[[metric]]\nname = \"energy.*\"\nmax-difference = 3\n"));
+  EXPECT_EQ(limits.of_metric("metrics.csv:tip [m]"), 2);
+  EXPECT_EQ(limits.of_metric("energy.bending"), 3);
+  EXPECT_EQ(limits.of_metric("metrics.csv:tip m"), std::nullopt);
+}
+
 // Every picture would pass.
 TEST_F(DiffOfFolders, RefusesAFileThatLimitsNoPicture) {
   const std::string metrics =

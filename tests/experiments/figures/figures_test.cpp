@@ -156,6 +156,10 @@ TEST(FiguresCommand, RefusesAFabricWithStopsByItsFile) {
                      run_into(out, "figures", {{"fabric", "cotton-broad-creasing"}});
                    }),
                    "cotton-broad-creasing has a permanent set"));
+  EXPECT_TRUE(says(test::refusal([&] {
+                     run_into(out, "figures", {{"fabric", "cotton-broad-relaxing"}});
+                   }),
+                   "cotton-broad-relaxing has"));
   EXPECT_FALSE(fs::exists(out));
 }
 

@@ -367,6 +367,7 @@ TEST_F(FitOfFab, TakesWarpBeforeWeftWhateverTheirOrderInTheFile) {
   table.write(file);
   ASSERT_EQ(fit(flags(file)), 0);
   EXPECT_TRUE(says(file_content(out() / "fabric.toml"), "along L, W in both.csv"));
+  EXPECT_TRUE(says(manifest_in(out())["warnings"].dump(), "--fab.directions L,W,B fits them"));
   std::vector<Flag> bias = flags(file);
   bias.push_back({"fab.directions", "L,B"});
   EXPECT_TRUE(says(test::refusal([&] { fit(bias); }), "must begin with warp and weft"));

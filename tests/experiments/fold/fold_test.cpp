@@ -90,7 +90,24 @@ TEST(FoldGauge, ReadsTheBendOfTheLimbsInAnyWarpDirection) {
     EXPECT_NEAR(gauge.crown(tensor), k, 1e-9) << warp_angle;
     // The column in which the bend changes its sense counts in part.
     EXPECT_NEAR(gauge.largest_turn(tensor), bent, 0.05 * bent) << warp_angle;
+    // A fold that goes up is one that goes down, mirrored.
+    std::vector<double> mirrored = tensor;
+    for (double& part : mirrored) part = -part;
+    EXPECT_DOUBLE_EQ(gauge.largest_turn(mirrored), gauge.largest_turn(tensor)) << warp_angle;
   }
+}
+
+TEST(Fold, GoesUpWhereGravityDoesWithTheSameAngleAndSag) {
+  const auto reading = [](const std::string& gravity) {
+    const FinishedRun run("fold --quick --no-images --quiet --fold.cycles 1 --triangles 60 --gravity \"" +
+                          gravity + "\"");
+    return run.metrics();
+  };
+  const auto down = reading("0 0 -9.81"), up = reading("0 0 9.81");
+  EXPECT_LT(down["recovery_angle_deg"].get<double>(), 170);
+  constexpr double kMirrored = 1e-3;  // which of two folds rounding chooses at the crown
+  for (const char* metric : {"recovery_angle_deg", "sag_mm"})
+    EXPECT_NEAR(up[metric].get<double>() / down[metric].get<double>(), 1, kMirrored) << metric;
 }
 
 FoldChoice many(int cycles) {

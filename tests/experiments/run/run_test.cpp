@@ -298,6 +298,20 @@ high = [6, 6, 6]
   EXPECT_TRUE(says(outcome.err, "its phases take 0.3 s"));
 }
 
+TEST_F(Scenes, AreNamedOnce) {
+  for (const char* line :
+       {"run hanging-square --scene towel-on-rail", "run hanging-square --scene nosuch.toml",
+        "compare hanging-square --scene towel-on-rail --laws linear,prandtl"})
+    EXPECT_TRUE(says(refused(line), "takes one scene, and both hanging-square and --scene ")) << line;
+}
+
+TEST_F(Scenes, WarnOfStepsThatWereTakenOutOfBalance) {
+  const std::string fall = "swing --quick --triangles 60 --seconds 0.05 --no-images --device cpu";
+  EXPECT_TRUE(says(FinishedRun(fall + " --newton-iterations 1").outcome.err,
+                   "steps were taken with forces out of balance: newton-iterations = 1 was not enough"));
+  EXPECT_FALSE(says(FinishedRun(fall).outcome.err, "out of balance"));
+}
+
 TEST_F(Scenes, RefuseInOneLineWhatCannotBeMeasured) {
   const std::pair<const char*, const char*> kCases[] = {
       {"name = \"a b\"", "metric.name = \"a b\" must be small letters"},

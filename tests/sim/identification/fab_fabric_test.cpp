@@ -38,6 +38,21 @@ void expect_same(const StopsLaw& a, const StopsLaw& b) {
   EXPECT_EQ(a.stiffnesses, b.stiffnesses);
 }
 
+TEST(FabFabric, HasTheBiasThatWasFittedOrTheMeanOfBothDirections) {
+  const test::Folder folder;
+  FabIdentification found = {{bending("L", 4e-6, {2e-5, 2e-6, 8e-7}), bending("W", 2e-6, {1e-5, 1e-6, 5e-7})},
+                             {tension("L", 60, {300, 40}), tension("W", 30, {200, 20})},
+                             "a test"};
+  const std::string file = folder.file("fabric.toml");
+  const auto bias = [&] {
+    write_fab_fabric(file, found, {"mine", "a test", 0.3, 2e-4});
+    return read_fabric(file, "test").fabric.bias_bending;
+  };
+  EXPECT_DOUBLE_EQ(bias(), 0.75);
+  found.bending.push_back(bending("B", 6e-6, {1e-5, 1e-6, 5e-7}));
+  EXPECT_DOUBLE_EQ(bias(), 1.5);
+}
+
 TEST(FabFabric, IsOneOfScenesWithItsStopsOfBendingAndInThePlane) {
   const test::Folder folder;
   const FabIdentification found = {

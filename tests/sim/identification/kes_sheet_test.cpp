@@ -58,6 +58,13 @@ TEST(KesSheet, IsTheSameInTomlAndWithDecimalCommas) {
                     1e-12);
 }
 
+// A share in a column of percent, kilograms in one of grams: 98 times as much would be possible, too.
+TEST(KesSheet, NamesTheFactorThatLeadsToTheMiddleOfWhatIsUsual) {
+  for (const auto& [row, factor] : {std::pair{"EMT,%,0.047,0.05,\n", "; 100 times as much"},
+                                    {"W,g/m^2,,,0.18\n", "; 1000 times as much"}})
+    EXPECT_TRUE(says(refusal([&, row = row] { sheet_of(kHead + kPair + row); }), factor)) << row;
+}
+
 TEST(KesSheet, HasNoRowThatWasNotFilledInInToml) {
   const KesSheet sheet = sheet_of(
       "[B]\nwarp = 0.118\nweft = 0.094\n[2HB]\nwarp = 0.124\nweft = 0.1\n[G]\nunit = \"N/m\"\n", ".toml");

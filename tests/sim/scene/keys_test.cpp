@@ -70,6 +70,21 @@ TEST(FrictionOfAFabric, IsNotSaidTwiceByOneSource) {
     }
 }
 
+// Of a fabric whose file states the pair, one of both may be given anew.
+TEST(FrictionOfAFabric, OfAPairIsChangedByEitherNumberOfIt) {
+  const test::Folder folder;
+  const std::string file =
+      folder.write("pair.toml",
+                   "[parameters]\ndensity = 0.12\nthickness = 4e-4\nkes-b = 1e-5\nkes-2hb = 1e-3\nk0 = "
+                   "8\nweft-bending = 1\n"
+                   "warp = 200\nweft = 200\nshear = 40\ndamping = 1e-3\nfriction = 0.3\n");
+  Scene scene = default_scene();
+  apply_flags(scene, {{"fabric", file}, {"fabric.kes-2hb", "2e-3"}});
+  EXPECT_NO_THROW(check_scene(scene));
+  EXPECT_DOUBLE_EQ(scene.fabric.b2, 1e-5);
+  EXPECT_DOUBLE_EQ(scene.fabric.b1, 1e-5 + 2e-3 / 8);
+}
+
 // Stops and the three numbers that laws without stops take are one friction.
 TEST(FrictionOfAFabric, OfStopsIsThatOfItsThreeNumbers) {
   Scene scene = default_scene("cotton-broad-k50");

@@ -46,6 +46,36 @@ TEST(Start, WithLayersThatPressIsSaidWithTheirEnergy) {
   EXPECT_TRUE(doubts_at_start(kissing.scene, kissing.cloth, *kissing.simulation()).empty());
 }
 
+bool one_says(const std::vector<std::string>& texts, const std::string& part) {
+  return std::ranges::any_of(texts, [&](const std::string& text) { return text.find(part) != text.npos; });
+}
+
+TEST(Start, WithLimitsThatTheWeightMeetsAtOnceIsSaid) {
+  Trial trial(test::hanging_square(60));
+  trial.scene.integrator = Integrator::implicit;
+  trial.scene.step = 0.01;
+  const auto doubts = [&] { return doubts_at_start(trial.scene, trial.cloth, *trial.simulation()); };
+  EXPECT_FALSE(one_says(doubts(), "cloth may not move at all"));
+  trial.scene.newton_velocity = 0.01;  // gravity gives 0.098 m/s
+  EXPECT_TRUE(one_says(doubts(), "is more than a twentieth of the 0.0981 m/s that gravity gives in a step"));
+  trial.scene.newton_residual = 0.3;
+  EXPECT_TRUE(one_says(doubts(), "leaves so much of the load out of balance"));
+}
+
+TEST(Start, WithInstantsWithinAStepIsSaid) {
+  Trial trial(test::hanging_square(60));
+  trial.scene.step = 0.01, trial.scene.seconds = 1;
+  trial.scene.pin.resize(1);
+  trial.scene.pin[0].until = 0.1001, trial.scene.origin["pin[0].until"] = "a test";
+  const auto doubts = [&] { return doubts_at_start(trial.scene, trial.cloth, *trial.simulation()); };
+  EXPECT_TRUE(
+      one_says(doubts(),
+               "pin[0].until = 0.1001 s (a test) lies within a step of 0.01 s: it counts from the next "
+               "one on, at 0.11 s"));
+  trial.scene.pin[0].until = 0.11;
+  EXPECT_FALSE(one_says(doubts(), "lies within a step"));
+}
+
 TEST(End, WithClothStretchedAsNoneIsSaysByHowMuch) {
   const Trial trial(test::hanging_square(60));
   const auto& x = trial.cloth.start;
