@@ -126,6 +126,27 @@ double frame_rate(const std::string& fps) {
   return rate;
 }
 
+// At which a run has exported these meshes [1/s]; 0: they are of no run, or it does not say.
+double recorded_rate(const MeshSequence& sequence) {
+  const std::filesystem::path folder = sequence.files.front().parent_path();
+  if (folder.filename() != "mesh") return 0;
+  const std::optional<Manifest> run = manifest_or_none(folder.parent_path() / kManifestFile);
+  if (!run || !run->options || !run->options->contains("fps")) return 0;
+  const auto& fps = run->options->at("fps");
+  return fps.is_number() ? fps.get<double>() : 0;
+}
+
+// As asked for, or that of the run whose meshes they are.
+double frame_rate(const std::string& asked, const MeshSequence& sequence) {
+  const double rate = frame_rate(asked), recorded = recorded_rate(sequence);
+  if (rate > 0 && recorded > 0 && rate != recorded)
+    throw refusal("fps", asked,
+                  "left out, or that of the run in " +
+                      sequence.files.front().parent_path().parent_path().string() + ", " +
+                      number_text(recorded) + " [1/s]");
+  return rate > 0 ? rate : recorded;
+}
+
 std::vector<Column> rendered_columns(const F& flags, const std::vector<std::string>& words) {
   std::vector<Column> columns;
   if (words.empty()) throw Error::invalid_input("needs mesh files or folders: hysteron render FILES...");
@@ -135,7 +156,7 @@ std::vector<Column> rendered_columns(const F& flags, const std::vector<std::stri
       return listed_value(key, list, i, sequences.size());
     };
     columns.push_back(
-        {{{sequences[i]}, frame_rate(value("fps", flags.fps)), {}, {}},
+        {{{sequences[i]}, frame_rate(value("fps", flags.fps), sequences[i]), {}, {}},
          {parsed_unit(value("render.unit", flags.unit)), is_y_up(value("render.up", flags.up))}});
   }
   std::vector<TimedSequence*> timed;
