@@ -19,6 +19,7 @@ Drape on_other_tester(Drape drape) {
   const bool shaken = drape.standard == "jis";
   drape.standard = shaken ? "iso9073" : "jis";
   drape.release = shaken ? "lowered" : "shaken";
+  drape.measured = measured_on(drape.standard, read_fabric(drape.fabric, "--fabrics").fabric);
   return drape;
 }
 

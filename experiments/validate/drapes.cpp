@@ -10,6 +10,16 @@
 
 namespace hysteron::experiments {
 
+std::map<std::string, double> measured_on(const std::string& standard, const Fabric& fabric) {
+  std::map<std::string, double> measured;
+  for (const auto& [name, metric] :
+       {std::pair{"drape-coefficient", "drape_coefficient_percent"}, {"node-count", "node_count"}})
+    if (const auto found = fabric.published.find(name);
+        found != fabric.published.end() && found->second.tester == standard)
+      measured[metric] = found->second.value;
+  return measured;
+}
+
 Drape nominal_drape(const std::string& fabric, const ValidateFlags& flags) {
   const Fabric read = read_fabric(fabric, "--fabrics").fabric;
   const auto& published = read.published;
@@ -23,11 +33,7 @@ Drape nominal_drape(const std::string& fabric, const ValidateFlags& flags) {
                 "",
                 static_cast<int>(flags.triangles),
                 read.name};
-  for (const auto& [name, metric] :
-       {std::pair{"drape-coefficient", "drape_coefficient_percent"}, {"node-count", "node_count"}})
-    if (const auto found = published.find(name);
-        found != published.end() && found->second.tester == nominal.standard)
-      nominal.measured[metric] = found->second.value;
+  nominal.measured = measured_on(nominal.standard, read);
   return nominal;
 }
 

@@ -54,6 +54,9 @@ struct Drape {
   }
 };
 
+// What was measured of the fabric on that standard's tester, by the metric that predicts it.
+std::map<std::string, double> measured_on(const std::string& standard, const Fabric& fabric);
+
 // As the flags say, on the tester that the fabric's file names.
 Drape nominal_drape(const std::string& fabric, const ValidateFlags& flags);
 // What the subcommand `drape` is told; numbers lose no bit on the way.
