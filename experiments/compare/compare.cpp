@@ -170,12 +170,8 @@ void check_known_metrics(std::vector<ChildRun> columns, const std::vector<std::s
 }
 
 int run_compare(const CommandLine& line) {
-  if (line.positionals.size() != 1) {
-    std::string known;
-    for (const Experiment& experiment : experiments())
-      if (experiment.compared) known += std::string(experiment.name) + ", ";
-    throw Error::invalid_input("needs what to compare: " + known + "or a scene");
-  }
+  if (line.positionals.size() != 1)
+    throw Error::invalid_input("needs what to compare: " + compared_experiments());
   if (const std::string file = last_text(line.flags, "dump-scene", ""); !file.empty())
     throw Error::invalid_input("dump-scene = " + file +
                                " is one file, and every column has a scene of its own: dump that of the "

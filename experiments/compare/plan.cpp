@@ -136,11 +136,21 @@ std::vector<Flag> requested_for_page(const CommandLine& inner, const CompareChoi
 
 }  // namespace
 
+std::string compared_experiments() {
+  std::string known;
+  for (const Experiment& experiment : experiments())
+    if (experiment.compared) known += std::string(experiment.name) + ", ";
+  return known + "or a scene";
+}
+
 CommandLine line_of_columns(const CommandLine& line, const CompareChoice& choice) {
   CommandLine inner = line;
   inner.positionals.clear();
   const std::string what = line.positionals.front();
-  inner.experiment = experiment_named(what).compared ? what : "run";
+  const Experiment& experiment = experiment_named(what);
+  if (experiment.name == what && !experiment.compared)
+    throw Error::invalid_input(what + " cannot be compared: compare takes " + compared_experiments());
+  inner.experiment = experiment.compared ? what : "run";
   std::erase_if(inner.flags, is_own);
   if (inner.experiment != what) {
     refuse_two_scenes(line);

@@ -27,6 +27,8 @@ struct CompareChoice {
 };
 
 // The line as the experiment itself would get it: lists become its --law, --fabric and --integrator.
+// "crease, drape, ..., or a scene".
+std::string compared_experiments();
 CommandLine line_of_columns(const CommandLine& line, const CompareChoice& choice);
 
 struct Plan {

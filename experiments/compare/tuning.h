@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/compare/plan.h"
+#include "experiments/workbench/app/run.h"
 
 namespace hysteron::experiments {
 

@@ -247,6 +247,8 @@ TEST(Compare, NamesTheColumnThatIsWrong) {
   const std::string out = out_flag(folder.path() / "out") + kSmall;
   EXPECT_TRUE(says(refused("compare swing --laws linear,prandle" + out), "prandle"));
   refused("compare" + out);
+  EXPECT_TRUE(says(refused("compare cantilever --laws linear,prandtl" + out),
+                   "cantilever cannot be compared: compare takes "));
   refused("compare swing --laws linear --compare.to narain" + out);
 }
 
