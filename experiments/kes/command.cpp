@@ -215,7 +215,6 @@ void warn_of_parameters(const KesTests& tests, const std::vector<std::string>& l
     const std::vector<std::string> in_cloth = flags.on == "strip" ? warnings(LawUse::cloth) : alone;
     for (const std::string& warning : alone)
       if (std::count(in_cloth.begin(), in_cloth.end(), warning)) run.warn(warning);
-    if (const std::string warning = faces_warning(tests.fabric, law); !warning.empty()) run.warn(warning);
     if (flags.along == Along::warp) continue;
     for (const std::string& warning :
          {weft_friction_warning(tests.fabric, law), weft_stops_warning(law, curve.parts, tests.fabric.name)})

@@ -43,7 +43,14 @@ void write_back(SheetWriter& writer, const char* key, const char* back, const ch
   const auto ratio = [&](SheetColumn column) {
     return sheet.along(back, column) / sheet.along(face, column);
   };
-  const double warp = ratio(SheetColumn::warp), weft = ratio(SheetColumn::weft);
+  // Of one direction alone, or of means, there is one ratio.
+  const SheetRow& measured = sheet.row.at(back);
+  const bool has_warp = measured.has(SheetColumn::warp), has_weft = measured.has(SheetColumn::weft);
+  const double of_means = sheet.mean(back) / sheet.mean(face);
+  const double warp = has_warp   ? ratio(SheetColumn::warp)
+                      : has_weft ? ratio(SheetColumn::weft)
+                                 : of_means,
+               weft = has_weft ? ratio(SheetColumn::weft) : warp;
   const auto rounded = [](double x) { return std::round(1e5 * x) / 1e5; };
   constexpr double kSame = 1e-4;
   Estimate mean{rounded(std::sqrt(warp * weft)), kNone, true, std::string(back) + " over " + face, "derived"};

@@ -145,6 +145,22 @@ std::vector<std::string> instant_warnings(const Scene& scene) {
   return warnings;
 }
 
+// Statics that end while the weight still grows, or has not yet gone again.
+std::string partial_load_warning(const Scene& scene) {
+  if (scene.integrator != Integrator::quasi_static || !(scene.seconds > 0)) return "";
+  const double end = scene.seconds, left = 1 - 1e-6;
+  const bool grows = end < scene.ramp * left, falls = !grows && scene.unload > 0 &&
+                                                      end < (scene.ramp + scene.unload) * left &&
+                                                      end > scene.ramp;
+  if (!grows && !falls) return "";
+  const double load = grows ? end / scene.ramp : 1 - (end - scene.ramp) / scene.unload;
+  return shown(scene, "seconds", end, "s") + " ends with " + number_text(100 * load, 3) +
+         " % of the weight: " +
+         (grows ? shown(scene, "ramp", scene.ramp, "s") + " is how long it grows"
+                : "from ramp = " + number_text(scene.ramp) + " s it falls for " +
+                      shown(scene, "unload", scene.unload, "s"));
+}
+
 std::string phases_warning(const Scene& scene) {
   double phases = 0;  // [s]
   for (const Phase& phase : scene.phase) phases += phase.seconds;
@@ -166,24 +182,15 @@ std::string weft_friction_warning(const Fabric& fabric, const std::string& law) 
          " has no friction beside b2, and bends along weft as fabric.weft-bending says";
 }
 
-std::string faces_warning(const Fabric& fabric, const std::string& law) {
-  const Faces& faces = fabric.bending.faces;
-  if (!faces.on() || has_faces(law)) return "";
-  return "fabric.back-bending = " + number_text(faces.bending) +
-         " and fabric.back-friction = " + number_text(faces.friction) + " are not followed: law " + law +
-         " bends both ways alike, with the means of both sides (prandtl and linear have sides)";
-}
-
 std::vector<std::string> doubts_at_start(const Scene& scene, const Cloth& cloth, Simulation& simulation) {
   std::vector<std::string> doubts = fabric_warnings(scene);
   const std::vector<std::string> of_parameters = unused_parameter_warnings(
       scene.law, scene.fabric.virgin_curve(), scene.param, LawUse::cloth, scene.fabric.name);
   doubts.insert(doubts.end(), of_parameters.begin(), of_parameters.end());
-  doubts.insert(doubts.end(),
-                {locking_words(scene, cloth.mesh), pressed_words(scene, cloth, simulation),
-                 command_warning(scene, cloth, simulation.dimension()), phases_warning(scene),
-                 facets_warning(scene, simulation), loose_newton_warning(scene),
-                 weft_friction_warning(scene.fabric, scene.law), faces_warning(scene.fabric, scene.law)});
+  doubts.insert(doubts.end(), {locking_words(scene, cloth.mesh), pressed_words(scene, cloth, simulation),
+                               command_warning(scene, cloth, simulation.dimension()), phases_warning(scene),
+                               facets_warning(scene, simulation), loose_newton_warning(scene),
+                               weft_friction_warning(scene.fabric, scene.law), partial_load_warning(scene)});
   for (const std::vector<std::string>& more :
        {pin_warnings(scene, cloth), instant_warnings(scene), idle_key_warnings(scene)})
     doubts.insert(doubts.end(), more.begin(), more.end());

@@ -16,9 +16,6 @@ std::vector<std::string> doubts_at_start(const Scene& scene, const Cloth& cloth,
 // none.
 std::string weft_friction_warning(const Fabric& fabric, const std::string& law);
 
-// Says that the law does not follow faces that differ; "" where it does, or they do not.
-std::string faces_warning(const Fabric& fabric, const std::string& law);
-
 // Says that the mesh has a tenth more or fewer triangles than were asked for, since its rows and columns must
 // be whole and some specimens need more; "" where it has not.  `asked` and `origin` are those of the key
 // triangles.

@@ -1,5 +1,7 @@
 #include "sim/bending/laws/unused_parameters.h"
 
+#include "sim/base/number_in.h"
+
 namespace hysteron {
 namespace {
 
@@ -56,6 +58,11 @@ std::vector<std::string> unused_part_warnings(const std::string& law, const Bend
     warnings.push_back(part_text("branches", fabric, law, "chapman takes"));
   if (parts.set.on() && !takes_stops(law))
     warnings.push_back(part_text("set", fabric, law, "prandtl and chapman take"));
+  if (parts.faces.on() && !has_faces(law))
+    warnings.push_back(
+        "fabric.back-bending = " + number_text(parts.faces.bending) +
+        " and fabric.back-friction = " + number_text(parts.faces.friction) + " are not followed: law " + law +
+        " bends both ways alike, with the means of both sides (prandtl and linear have sides)");
   return warnings;
 }
 

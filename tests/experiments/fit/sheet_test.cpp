@@ -211,6 +211,19 @@ TEST(FitKesSheet, WritesAFabricTheComparisonAndTheLinesToGoOnWith) {
   EXPECT_EQ(read_table(out / "sheet.csv").rows.size(), 2u * 3);
 }
 
+// Of one direction or of means the ratio is that of what was measured, not of what fills the other column.
+TEST(FitKesSheet, HasTheRatioToTheBackThatWasMeasured) {
+  const Folder folder;
+  const std::string head =
+      "quantity,unit,warp,weft,mean\nB,gf cm^2/cm,0.1,0.06,\n2HB,gf cm/cm,0.1,0.08,\nW,mg/cm^2,,,12\n";
+  for (const auto& [row, ratio] :
+       {std::pair{"B-back,gf cm^2/cm,0.06,,\n", 0.6}, {"B-back,gf cm^2/cm,,,0.06\n", 0.75}}) {
+    const fs::path sheet = folder.write("mine.csv", head + row), made = folder.path() / "made.toml";
+    std::ofstream(made) << fabric_of_sheet(read_kes_sheet(sheet), {}).text;
+    EXPECT_NEAR(read_fabric(made.string(), "test").fabric.bending.faces.bending, ratio, 1e-5) << row;
+  }
+}
+
 TEST(FitKesSheet, ReplacesNoFabricFileThatWasEdited) {
   const Folder folder;
   const fs::path sheet = folder.path() / "mine.csv", out = folder.path() / "out", made = out / "fabric.toml";

@@ -62,6 +62,21 @@ TEST(Start, WithLimitsThatTheWeightMeetsAtOnceIsSaid) {
   EXPECT_TRUE(one_says(doubts(), "leaves so much of the load out of balance"));
 }
 
+TEST(Start, WithALoadThatTheEndCutsOffIsSaid) {
+  Trial trial(test::hanging_square(60));
+  trial.scene.integrator = Integrator::quasi_static;
+  trial.scene.seconds = 1;
+  const auto doubts = [&](double ramp, double unload) {
+    trial.scene.ramp = ramp, trial.scene.unload = unload;
+    return doubts_at_start(trial.scene, trial.cloth, *trial.simulation());
+  };
+  EXPECT_FALSE(one_says(doubts(1, 0), "of the weight"));
+  EXPECT_FALSE(one_says(doubts(0.5, 0.5), "of the weight"));
+  EXPECT_TRUE(
+      one_says(doubts(2, 0), "ends with 50 % of the weight: ramp = 2 s (default) is how long it grows"));
+  EXPECT_TRUE(one_says(doubts(0.5, 2), "ends with 75 % of the weight"));
+}
+
 TEST(Start, WithInstantsWithinAStepIsSaid) {
   Trial trial(test::hanging_square(60));
   trial.scene.step = 0.01, trial.scene.seconds = 1;
