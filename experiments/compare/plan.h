@@ -26,9 +26,10 @@ struct CompareChoice {
   std::string tune, tune_metric;
 };
 
-// The line as the experiment itself would get it: lists become its --law, --fabric and --integrator.
 // "crease, drape, ..., or a scene".
 std::string compared_experiments();
+
+// The line as the experiment itself would get it: lists become its --law, --fabric and --integrator.
 CommandLine line_of_columns(const CommandLine& line, const CompareChoice& choice);
 
 struct Plan {

@@ -44,7 +44,7 @@ const char* second_width_reason(const KesSheet& sheet, double read) {
   return entered > 5 * first ? kNoCloth : kMostGrowth;
 }
 
-// What the sheet has of one direction beside what a tester reads.
+// The numbers of the sheet along one direction, beside those that a tester reads.
 struct Beside {
   const LaboratorySheet& sheet;
   SheetColumn column;

@@ -38,7 +38,7 @@ void clamp_low_end(Scene& scene);
 // swings about the line that they lie along, and its free end is the middle of what is farthest from that.
 SheetPlacement sheet_placement(const Scene& scene, const Cloth& cloth, bool clamped);
 
-// Of a sheet from a file that is clamped by what looks like its long side; "" of others.
+// Says that a sheet from a file is clamped by what looks like its long side; "" of others.
 std::string long_side_warning(const Scene& scene, const ClothMesh& mesh);
 
 // The same refusal, of a sheet that the experiment clamps itself.

@@ -54,7 +54,7 @@ struct Drape {
   }
 };
 
-// What was measured of the fabric on that standard's tester, by the metric that predicts it.
+// The numbers that were measured of the fabric on that standard's tester, by the metric that predicts each.
 std::map<std::string, double> measured_on(const std::string& standard, const Fabric& fabric);
 
 // As the flags say, on the tester that the fabric's file names.

@@ -69,7 +69,7 @@ Prediction together(const std::vector<Drape>& drapes, const std::string& metric,
 
 using DrapesOf = std::vector<std::pair<std::string, std::vector<Drape>>>;
 
-void write_spread(Run& run, const DrapesOf& all, const std::set<std::string>& keys) {
+Table write_spread(Run& run, const DrapesOf& all, const std::set<std::string>& keys) {
   std::vector<std::string> head = {"fabric", "sample"};
   for (const std::string& key : keys) head.emplace_back(key);
   for (const char* name : {"drape coefficient [%]", "nodes", "settled", "computing [s]"})
@@ -84,6 +84,7 @@ void write_spread(Run& run, const DrapesOf& all, const std::set<std::string>& ke
       table.row(row);
     }
   table.write(run.path("spread.csv"));
+  return table;
 }
 
 void draw_spread(Run& run, const DrapesOf& all) {
@@ -300,7 +301,7 @@ void predict_spread(const ValidateFlags& flags, Run& run) {
       drapes.push_back(std::move(drape));
     }
     run_drapes(drapes, flags, run);
-    write_spread(run, all, keys);  // a run that is cut short keeps what it has found
+    const Table spread = write_spread(run, all, keys);  // a run that is cut short keeps what it has found
     const std::string with = fabric + " with uncertain numbers in their ranges";
     const Prediction p = together(drapes, "drape_coefficient_percent", "drape of " + with, "%"),
                      n = together(drapes, "node_count", "folds of " + with, "folds");
@@ -311,7 +312,7 @@ void predict_spread(const ValidateFlags& flags, Run& run) {
     run.metric(fabric + ".spread_folds_high", n.high);
     predictions.insert(predictions.end(), {p, n});
     write_predictions(run, predictions);
-    effects.emplace_back(fabric, effects_of_spread(read_table(run.folder() / "spread.csv"), file));
+    effects.emplace_back(fabric, effects_of_spread(spread, file));
     note_effects(run, effects);
   }
   if (flags.options.no_images) return;

@@ -121,11 +121,17 @@ void remove_empty_folders(const fs::path& folder, const std::vector<fs::path>& n
       if (fs::is_empty(folder / inner, ignored)) fs::remove(folder / inner, ignored);
 }
 
+bool has_mark(const fs::path& file, const std::string& mark) {
+  std::error_code ignored;
+  return fs::is_regular_file(file, ignored) &&
+         whole_file(file, "cannot read " + file.string()).find(mark) != std::string::npos;
+}
+
 void require_own_file(const fs::path& file, const std::string& mark, const std::string& what,
                       const std::string& key) {
   std::error_code ignored;
   if (!fs::is_regular_file(file, ignored) || fs::file_size(file, ignored) == 0) return;
-  if (whole_file(file, "cannot read " + file.string()).find(mark) != std::string::npos) return;
+  if (has_mark(file, mark)) return;
   const Error refused = Error::invalid_input((key.empty() ? "" : "--" + key + " ") + file.string() +
                                              " is a file that is there already and is not " + what +
                                              " of this program: give another name, or remove it");

@@ -25,6 +25,9 @@ bool is_behind_a_link(const std::filesystem::path& folder, const std::filesystem
 // "frames/0012.png", one of a sequence, whose files are numbered.
 bool is_numbered(const std::filesystem::path& name);
 
+// Whether there is such a file, and the mark stands in it.  Throws Error::system.
+bool has_mark(const std::filesystem::path& file, const std::string& mark);
+
 // Refuses to replace a file that `--key` names (or, without a key, the program) and the program has not
 // written itself, which it knows by a `mark` in it: `what` says what it writes there, "a resolved scene".  An
 // empty file is no one's.  Throws Error::invalid_input.

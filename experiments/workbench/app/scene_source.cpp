@@ -10,7 +10,6 @@
 #include "experiments/workbench/app/run_files.h"
 #include "sim/base/atomic_file.h"
 #include "sim/base/error.h"
-#include "sim/base/whole_file.h"
 #include "sim/scene/scene_reader.h"
 #include "sim/scene/scene_text.h"
 
@@ -137,11 +136,7 @@ void refuse_two_scenes(const CommandLine& line) {
         .with_key("scene", other);
 }
 
-bool is_dumped_scene(const std::string& file) {
-  std::error_code ignored;
-  return std::filesystem::is_regular_file(file, ignored) &&
-         whole_file(file, "cannot read " + file).find(kResolvedSceneMark) != std::string::npos;
-}
+bool is_dumped_scene(const std::string& file) { return has_mark(file, kResolvedSceneMark); }
 
 // What was asked for, since the experiment will change it once more; but the time and the steps that it has
 // set, which it sets only where they are not given, and all hands and obstacles.

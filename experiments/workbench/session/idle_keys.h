@@ -37,7 +37,7 @@ std::vector<std::string> idle_keys_of(const std::vector<Table>& tables, const st
   return warnings;
 }
 
-// Of the scene's flags, pins and obstacles.
+// Says which of the scene's flags, and of the keys of its pins and obstacles, nothing reads.
 std::vector<std::string> idle_key_warnings(const Scene& scene);
 
 }  // namespace hysteron::experiments

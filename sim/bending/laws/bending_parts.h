@@ -100,9 +100,9 @@ struct PermanentSet {
 struct Faces {
   double bending = 1;   // B of bends with K < 0
   double friction = 1;  // friction moment of bends with K < 0
-  // Where friction has directions of its own: elasticity along weft over what the law itself has, and how
-  // much wider than along warp the change from one side's friction to the other's must be so that twist is
-  // convex.
+  // Both are 1 unless friction has directions of its own: elasticity along weft over what the law itself has,
+  // and how much wider than along warp the change from one side's friction to the other's must be so that
+  // twist is convex.
   double weft_elastic = 1, wider = 1;
 
   bool on() const { return bending != 1 || friction != 1; }

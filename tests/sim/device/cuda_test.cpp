@@ -111,42 +111,36 @@ TEST_F(Gpu, BendsAFabricOfManyPartsAsTheCpuDoes) {
   }
 }
 
+// Positions, losses and residual curvatures of both devices, and the GPU's bits twice.
+void expect_bent_alike(const Scene& scene, const std::string& element) {
+  constexpr double kNear = 1e-6;  // of the largest: histories of cloth that agrees to 1e-9 m
+  const auto cpu = run_on("cpu", scene), gpu = run_on("cuda", scene);
+  EXPECT_LT(test::farthest(cpu->positions(), gpu->positions()), 1e-9) << element;
+  const double lost = cpu->ledger().bending_friction;
+  EXPECT_NEAR(gpu->ledger().bending_friction, lost, 1e-6 * lost) << element;
+  const std::vector<double> there = cpu->residual_curvature(), here = gpu->residual_curvature();
+  const double largest = std::abs(*std::ranges::max_element(there, {}, [](double k) { return std::abs(k); }));
+  ASSERT_EQ(here.size(), there.size());
+  for (std::size_t i = 0; i < here.size(); ++i) ASSERT_NEAR(here[i], there[i], kNear * largest) << element;
+  EXPECT_EQ(run_on("cuda", scene)->state_hash(), gpu->state_hash()) << element;
+}
+
 // Elasticity beside the friction, on hinges of every direction and on faces.
 TEST_F(Gpu, RubsOtherwiseAlongWeftAsTheCpuDoes) {
-  constexpr double kNear = 1e-6;  // of the largest: histories of cloth that agrees to 1e-9 m
   for (const char* element : {"hinge", "shape"}) {
     Scene scene = busy_scene("prandtl", element, "semi-implicit");
     scene.fabric.weft_friction = 3;
-    const auto cpu = run_on("cpu", scene), gpu = run_on("cuda", scene);
-    EXPECT_LT(test::farthest(cpu->positions(), gpu->positions()), 1e-9) << element;
-    const double lost = cpu->ledger().bending_friction;
-    EXPECT_NEAR(gpu->ledger().bending_friction, lost, 1e-6 * lost) << element;
-    const std::vector<double> there = cpu->residual_curvature(), here = gpu->residual_curvature();
-    const double largest =
-        std::abs(*std::ranges::max_element(there, {}, [](double k) { return std::abs(k); }));
-    ASSERT_EQ(here.size(), there.size());
-    for (std::size_t i = 0; i < here.size(); ++i) ASSERT_NEAR(here[i], there[i], kNear * largest) << element;
-    EXPECT_EQ(run_on("cuda", scene)->state_hash(), gpu->state_hash()) << element;
+    expect_bent_alike(scene, element);
   }
 }
 
 // Another B and another 2HB to the back, the excess along directions of its own, on hinges and faces.
 TEST_F(Gpu, BendsAFabricWhoseFacesDifferAsTheCpuDoes) {
-  constexpr double kNear = 1e-6;  // of the largest, as where friction differs along weft
   for (const char* element : {"hinge", "shape"}) {
     Scene scene = busy_scene("prandtl", element, "semi-implicit");
     scene.fabric.weft_friction = 0.8;
     scene.fabric.bending.faces = {1.4, 0.7};
-    const auto cpu = run_on("cpu", scene), gpu = run_on("cuda", scene);
-    EXPECT_LT(test::farthest(cpu->positions(), gpu->positions()), 1e-9) << element;
-    const double lost = cpu->ledger().bending_friction;
-    EXPECT_NEAR(gpu->ledger().bending_friction, lost, 1e-6 * lost) << element;
-    const std::vector<double> there = cpu->residual_curvature(), here = gpu->residual_curvature();
-    const double largest =
-        std::abs(*std::ranges::max_element(there, {}, [](double k) { return std::abs(k); }));
-    ASSERT_EQ(here.size(), there.size());
-    for (std::size_t i = 0; i < here.size(); ++i) ASSERT_NEAR(here[i], there[i], kNear * largest) << element;
-    EXPECT_EQ(run_on("cuda", scene)->state_hash(), gpu->state_hash()) << element;
+    expect_bent_alike(scene, element);
   }
 }
 
