@@ -19,7 +19,7 @@ std::string rest_note(const Manifest& manifest, const std::string& number) {
       2 * manifest.seconds_simulated.value_or(1));
 }
 
-// Recorded studies: drapes-jis and drapes-laws (docs/validation.md) are of the same four fabrics.
+// Recorded studies: specimen-uneven (0) and drapes-jis (docs/validation.md) are of the same four fabrics.
 std::string drape_mesh_note(const Manifest& manifest) {
   const std::string metric = "drape_coefficient_percent";
   if (!has_number(manifest, metric) || manifest.metrics.contains(metric + kMeshError))
@@ -28,7 +28,7 @@ std::string drape_mesh_note(const Manifest& manifest) {
   const std::int64_t triangles = manifest.triangles.value_or(kCoarse);
   const std::string few = triangles < kCoarse ? grouped(triangles) + " triangles are few, and " : "";
   return few +
-         "drapes of 6,000 and of 24,000 triangles differ by 3 to 5 points: --errors measures how far the "
+         "drapes of 6,000 and of 24,000 triangles differ by 2 to 5 points: --errors measures how far the "
          "mesh "
          "moves this one";
 }

@@ -102,7 +102,7 @@ std::vector<Change> changes_in(const Metrics& metrics) {
 std::string intervals_note(const Metrics& metrics) {
   int all = 0, inside = 0;
   for (const auto& [name, value] : metrics) {
-    if (!name.ends_with(".spread_has_measured")) continue;
+    if (!name.ends_with(".spread_has_measured") || !value.is_known()) continue;
     all += 1;
     inside += value.is(true);
   }

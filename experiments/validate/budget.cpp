@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/plot.h"
 #include "sim/base/comma_list.h"
 #include "sim/base/csv.h"
 
@@ -14,6 +15,49 @@ constexpr const char* kMean = "mean drape coefficient [%]";
 constexpr const char* kError = "standard error [%]";
 constexpr const char* kChange = "change [%]";
 constexpr const char* kPublished = "published [%]";
+
+// A row of budget.csv.  Coefficients [%] are means of the meshes.
+struct BudgetRow {
+  std::string fabric, number, value;
+  int meshes = 0;
+  double coefficient = NAN, error = NAN;  // the mean's standard error
+  double change = NAN, published = NAN;   // from what the fabric's file says
+};
+
+// Of one fabric, the first row being as its file says.
+render::Plot budget_plot(const std::vector<BudgetRow>& rows) {
+  render::Plot plot{
+      "Drape of " + rows.at(0).fabric + ", one unknown at a time", {""}, {"drape coefficient [%]"}};
+  render::Series low{"low end of a range", {}, {}, render::Series::Style::points};
+  render::Series high{"high end, or as named", {}, {}, render::Series::Style::points};
+  render::Series errors{"standard error", {}, {}, render::Series::Style::line, "#888888"};
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    const bool second = rows[i].number == rows[i - 1].number,
+               single = !second && (i + 1 == rows.size() || rows[i + 1].number != rows[i].number);
+    if (!second) plot.x.categories.push_back(rows[i].number);
+    render::Series& series = second || single ? high : low;
+    series.add(static_cast<double>(plot.x.categories.size() - 1), rows[i].coefficient);
+    for (const double sign : {-1., 1., double(NAN)}) {  // NaN: a gap between bars
+      errors.add(series.x.back(), rows[i].coefficient + sign * rows[i].error);
+    }
+  }
+  const double last = static_cast<double>(plot.x.categories.size()) - 1, nominal = rows[0].coefficient,
+               measured = rows[0].published;
+  plot.series = {
+      {"as its file says", {0, last}, {nominal, nominal}}, {"measured", {}, {}}, errors, low, high};
+  if (!std::isnan(measured))
+    plot.series[1] = {"measured", {0, last}, {measured, measured}, render::Series::Style::dashed, "#000000"};
+  std::erase_if(plot.series, [](const render::Series& series) { return series.x.empty(); });
+  plot.key_inside = true;
+  constexpr double kRoomForTheKey = 10, kAir = 2;  // [%]
+  plot.y.low = plot.y.high = std::isnan(measured) ? nominal : measured;
+  for (const BudgetRow& row : rows) {
+    plot.y.low = std::min(plot.y.low, row.coefficient);
+    plot.y.high = std::max(plot.y.high, row.coefficient + kAir);
+  }
+  plot.y.low -= kRoomForTheKey;
+  return plot;
+}
 
 Drape on_other_tester(Drape drape) {
   const bool shaken = drape.standard == "jis";
@@ -54,50 +98,6 @@ std::vector<Trial> budget_trials(const std::string& fabric, const ValidateFlags&
   finer.triangles *= 4;
   trials.push_back({"mesh", std::to_string(finer.triangles), finer});
   return trials;
-}
-
-std::vector<BudgetRow> read_budget(const std::filesystem::path& csv) {
-  const Table table = read_table(csv);
-  std::vector<BudgetRow> rows;
-  for (std::size_t r = 0; r < table.rows.size(); ++r)
-    rows.push_back({table.word(r, "fabric"), table.word(r, "number"), table.word(r, "value"),
-                    static_cast<int>(table.number(r, "meshes")), table.number(r, kMean),
-                    table.number(r, kError), table.number(r, kChange), table.number(r, kPublished)});
-  return rows;
-}
-
-render::Plot budget_plot(const std::vector<BudgetRow>& rows) {
-  render::Plot plot{
-      "Drape of " + rows.at(0).fabric + ", one unknown at a time", {""}, {"drape coefficient [%]"}};
-  render::Series low{"low end of a range", {}, {}, render::Series::Style::points};
-  render::Series high{"high end, or as named", {}, {}, render::Series::Style::points};
-  render::Series errors{"standard error", {}, {}, render::Series::Style::line, "#888888"};
-  for (std::size_t i = 1; i < rows.size(); ++i) {
-    const bool second = rows[i].number == rows[i - 1].number,
-               single = !second && (i + 1 == rows.size() || rows[i + 1].number != rows[i].number);
-    if (!second) plot.x.categories.push_back(rows[i].number);
-    render::Series& series = second || single ? high : low;
-    series.add(static_cast<double>(plot.x.categories.size() - 1), rows[i].coefficient);
-    for (const double sign : {-1., 1., double(NAN)}) {  // NaN: a gap between bars
-      errors.add(series.x.back(), rows[i].coefficient + sign * rows[i].error);
-    }
-  }
-  const double last = static_cast<double>(plot.x.categories.size()) - 1, nominal = rows[0].coefficient,
-               measured = rows[0].published;
-  plot.series = {
-      {"as its file says", {0, last}, {nominal, nominal}}, {"measured", {}, {}}, errors, low, high};
-  if (!std::isnan(measured))
-    plot.series[1] = {"measured", {0, last}, {measured, measured}, render::Series::Style::dashed, "#000000"};
-  std::erase_if(plot.series, [](const render::Series& series) { return series.x.empty(); });
-  plot.key_inside = true;
-  constexpr double kRoomForTheKey = 10, kAir = 2;  // [%]
-  plot.y.low = plot.y.high = std::isnan(measured) ? nominal : measured;
-  for (const BudgetRow& row : rows) {
-    plot.y.low = std::min(plot.y.low, row.coefficient);
-    plot.y.high = std::max(plot.y.high, row.coefficient + kAir);
-  }
-  plot.y.low -= kRoomForTheKey;
-  return plot;
 }
 
 void write_budget(const ValidateFlags& flags, Run& run) {

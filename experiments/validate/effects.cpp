@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiments/validate/drapes.h"
 #include "experiments/validate/figure.h"
 #include "sim/base/comma_list.h"
 
@@ -16,7 +17,8 @@ NumberEffects number_effects(const std::map<std::string, std::vector<double>>& d
                              const std::vector<double>& coefficients) {
   const auto drapes = static_cast<Eigen::Index>(coefficients.size());
   const auto unknowns = static_cast<Eigen::Index>(drawn.size()) + 1;  // and the mean
-  if (drawn.empty() || drapes < 2 * unknowns) return {};
+  NumberEffects result{{}, 0, coefficients.size(), 2 * static_cast<std::size_t>(unknowns)};
+  if (drawn.empty() || result.drapes < result.needed) return result;
   Eigen::MatrixXd rows(drapes, unknowns);
   rows.col(0).setOnes();
   Eigen::Index column = 1;
@@ -30,7 +32,7 @@ NumberEffects number_effects(const std::map<std::string, std::vector<double>>& d
   const Eigen::VectorXd slopes = normal.solve(rows.transpose() * y);
   const double variance = (y - rows * slopes).squaredNorm() / static_cast<double>(drapes - unknowns);
   const Eigen::VectorXd spread = normal.solve(Eigen::MatrixXd::Identity(unknowns, unknowns)).diagonal();
-  NumberEffects result{{}, std::sqrt(variance)};
+  result.scatter = std::sqrt(variance);
   column = 1;
   for (const auto& [number, values] : drawn) {
     const Range& range = ranges.at(number);
@@ -44,20 +46,32 @@ NumberEffects number_effects(const std::map<std::string, std::vector<double>>& d
   return result;
 }
 
+namespace {
+
+// The column that has this number as it was drawn; "" where the table does not tell it.
+std::string drawn_column(const Table& spread, const std::string& number) {
+  const auto has = [&](const std::string& name) {
+    return std::ranges::find(spread.head, name) != spread.head.end();
+  };
+  if (has(kDrawn + number)) return kDrawn + number;
+  return has(number) ? number : "";
+}
+
+}  // namespace
+
 NumberEffects effects_of_spread(const Table& spread, const FabricFile& file) {
-  std::map<std::string, Range> ranges = file.range;
-  for (const char* follows : {"b1", "b2", "kes-b", "kes-2hb"}) ranges.erase(follows);
-  std::erase_if(ranges, [&](const auto& entry) {
-    return !std::count(spread.head.begin(), spread.head.end(), entry.first);
-  });
+  std::map<std::string, Range> ranges = uncertain_numbers(file);
+  std::erase_if(ranges, [&](const auto& entry) { return drawn_column(spread, entry.first).empty(); });
   std::map<std::string, std::vector<double>> drawn;
   std::vector<double> coefficients;
   for (std::size_t row = 0; row < spread.rows.size(); ++row) {
     if (spread.word(row, "fabric") != file.fabric.name) continue;
     coefficients.push_back(spread.number(row, "drape coefficient [%]"));
     for (const auto& [number, range] : ranges) {
-      double value = spread.number(row, number);
-      if (number == "bias-bending" && ranges.contains("weft-bending"))
+      const std::string column = drawn_column(spread, number);
+      double value = spread.number(row, column);
+      // Tables that do not tell what was drawn have bias beside the ratio of weft (keep_what_was_measured()).
+      if (column == "bias-bending" && ranges.contains("weft-bending"))
         value *= (1 + file.fabric.weft_bending) / (1 + spread.number(row, "weft-bending"));
       drawn[number].push_back(value);
     }
@@ -71,9 +85,14 @@ void note_effects(Run& run, const EffectsByFabric& all) {
   for (const auto& [fabric, found] : all)
     for (const NumberEffect& e : found.effects)
       table.row({fabric, e.number, e.low, e.high, e.change, e.error, found.scatter});
-  table.write(run.path("effects.csv"));
+  if (!table.rows.empty()) table.write(run.path("effects.csv"));
   const auto& [fabric, last] = all.back();
-  if (last.effects.empty()) return;
+  if (last.effects.empty()) {
+    if (last.drapes < last.needed)
+      run.progress(fmt::format("{}: {} drapes are too few to tell which number moves them most: --samples {}",
+                               fabric, last.drapes, last.needed));
+    return;
+  }
   constexpr std::size_t kShown = 3;
   std::vector<std::string> parts;
   for (std::size_t i = 0; i < std::min(kShown, last.effects.size()); ++i) {

@@ -24,6 +24,7 @@ struct NumberEffect {
 struct NumberEffects {
   std::vector<NumberEffect> effects;  // the largest first; empty where the drapes are too few
   double scatter = 0;                 // standard deviation that the numbers do not explain: meshes, folds [%]
+  std::size_t drapes = 0, needed = 0;  // that there are, and from which on effects are sought
 };
 
 // Least squares of the drape coefficients [%] on the logarithms of the numbers, which a Latin hypercube has
@@ -33,14 +34,15 @@ NumberEffects number_effects(const std::map<std::string, std::vector<double>>& d
                              const std::map<std::string, Range>& ranges,
                              const std::vector<double>& coefficients);
 
-// The same of the rows of spread.csv that are of this fabric, for each number whose range its file states;
-// b1, b2 and a pair of KES follow from others, and bias-bending is what was drawn beside the ratio of weft
-// (keep_what_was_measured()).
+// Before the name of a number in spread.csv whose drapes were told otherwise (keep_what_was_measured()).
+inline constexpr const char* kDrawn = "drawn ";
+// The same of the rows of spread.csv that are of this fabric, for each of its uncertain numbers that the
+// table has, as it was drawn.
 NumberEffects effects_of_spread(const Table& spread, const FabricFile& file);
 
 using EffectsByFabric = std::vector<std::pair<std::string, NumberEffects>>;
 
-// effects.csv of all; metrics and a line of the last.
+// effects.csv of those that have some; metrics and a line of the last, which says where drapes are too few.
 void note_effects(Run& run, const EffectsByFabric& all);
 
 // The change of each number with its standard error, a colour for each fabric; without series where no fabric

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "experiments/validate/budget.h"
 #include "experiments/validate/effects.h"
 #include "experiments/validate/folds.h"
 #include "experiments/workbench/app/manifest_file.h"
@@ -22,11 +21,9 @@ constexpr const char* kLoops = "fab-shirley/loops_L_D1.csv";
 constexpr const char* kSwing = "swing-cotton-broad";
 constexpr const char* kTurns = "swing-cotton-broad/turns.csv";
 constexpr const char* kSwingManifest = "swing-cotton-broad/manifest.json";
-constexpr const char* kDrapes = "drapes-jis-h100/means.csv";
-constexpr const char* kElastic = "drapes-laws-h100/means.csv";  // without friction, 6,000 triangles
-constexpr const char* kSpread = "spread-h100";
-constexpr const char* kFolds = "drapes-iso-h100/table.csv";
-constexpr const char* kBudget = "budget-polyester-tropical-h100/budget.csv";
+constexpr const char* kDrapes = "drapes-jis-h200/means.csv";
+constexpr const char* kSpread = "spread-h200";
+constexpr const char* kFolds = "drapes-iso-h200/table.csv";
 
 constexpr const char* kModelColor = "#D55E00";
 constexpr const char* kMeasuredColor = "#6F7F8F";
@@ -63,11 +60,16 @@ std::vector<Amplitude> read_amplitudes(const fs::path& swing) {
   return {amplitudes.end() - static_cast<std::ptrdiff_t>(count), amplitudes.end()};
 }
 
-// A line of a decay between two times after its first amplitude, which stands at `start` [s].
-render::Series decay_line(const DecayFit& fit, double start, double from, double to,
-                          const std::string& label) {
-  return {
-      label, {start + from, start + to}, {1e3 * fit.at(from), 1e3 * fit.at(to)}, Style::line, kModelColor};
+// The saturating shape of a decay, from its first amplitude to its last, which stand at `start` and `end`
+// [s].
+render::Series decay_curve(const DecayFit& fit, double start, double end) {
+  constexpr int kPoints = 200;
+  render::Series curve{"closed form of the chapter's friction", {}, {}, Style::line, kModelColor};
+  for (int i = 0; i <= kPoints; ++i) {
+    const double t = (end - start) * i / kPoints;
+    curve.add(start + t, 1e3 * fit.at(t));
+  }
+  return curve;
 }
 
 render::PagePlot decay_plot(const fs::path& swing) {
@@ -76,16 +78,17 @@ render::PagePlot decay_plot(const fs::path& swing) {
   const Decay decay = decay_between_amplitudes(amplitudes, INFINITY);
   if (decay.fits.empty())
     throw Error::invalid_input("validate: the swing in " + swing.string() + " does not fall");
-  const DecayFit two = decay.of(DecayShape::two_step);
+  const DecayFit fit = decay.of(DecayShape::saturating);
   render::Plot plot{"Decay of a swing, cotton broad", {"time [s]"}, {"amplitude of the free end [mm]"}};
-  render::Series points{"amplitudes", {}, {}, Style::points, kMeasuredColor};
+  render::Series points{"simulated amplitudes", {}, {}, Style::points, kMeasuredColor};
   for (const Amplitude& a : amplitudes) points.add(a.time, 1e3 * a.value);
-  const double start = amplitudes.front().time, end = amplitudes.back().time,
-               fifth = 1e3 * kFifth * two.at(0);
-  plot.series = {points,
-                 decay_line(two, start, 0, two.step, "two lines"),
-                 decay_line(two, start, two.step, end - start, ""),
-                 {"a fifth (real cloth)", {start, end}, {fifth, fifth}, Style::dashed, kLineColor, 1.5}};
+  const double start = amplitudes.front().time, end = amplitudes.back().time, knee = 1e3 * fit.knee,
+               fifth = 1e3 * kFifth * fit.first;
+  plot.series = {
+      points,
+      decay_curve(fit, start, end),
+      {"its knee", {start, end}, {knee, knee}, Style::dashed, kModelColor, 1.5},
+      {"a fifth, where real cloth bends off", {start, end}, {fifth, fifth}, Style::dashed, kLineColor, 1.5}};
   plot.y.low = 0, plot.y.high = 1.1 * points.y.front();
   plot.x.low = 0, plot.x.high = end;
   return {plot, "top right"};
@@ -111,7 +114,7 @@ render::PagePlot drapes_plot(const std::vector<PredictedDrape>& drapes) {
                     {"predicted [%]", false, kLow, kHigh}};
   plot.series.push_back({"as measured", {kLow, kHigh}, {kLow, kHigh}, Style::dashed, kLineColor, 1.5});
   render::Series mean{"with friction", {}, {}, Style::points, "#222222"};
-  render::Series elastic{"elasticity alone", {}, {}, Style::rings, "#222222"};
+  render::Series elastic{"its elasticity alone", {}, {}, Style::rings, "#222222"};
   for (std::size_t f = 0; f < drapes.size(); ++f) {
     const PredictedDrape& drape = drapes[f];
     plot.series.push_back(interval(drape, fabric_color(f), f == 0 ? "95 % interval" : ""));
@@ -163,17 +166,16 @@ std::vector<PredictedDrape> read_drapes(const fs::path& means, const fs::path& s
                                         .low = known.number(0, "low"),
                                         .high = known.number(0, "high")});
     }
-    (table.word(r, "law") == "linear" ? at->elastic : at->mean) =
-        table.number(r, "drape_coefficient_percent_mean");
+    const std::string& law = table.word(r, "law");
+    const double coefficient = table.number(r, "drape_coefficient_percent_mean");
+    if (law == "prandtl") at->mean = coefficient;
+    if (law == "linear") at->elastic = coefficient;
   }
   return drapes;
 }
 
 render::PlotPage validation_page(const fs::path& recorded) {
-  std::vector<PredictedDrape> drapes = read_drapes(recorded / kDrapes, recorded / kSpread);
-  for (const PredictedDrape& other : read_drapes(recorded / kElastic, recorded / kSpread))
-    for (PredictedDrape& drape : drapes)
-      if (drape.fabric == other.fabric) drape.elastic = other.elastic;
+  const std::vector<PredictedDrape> drapes = read_drapes(recorded / kDrapes, recorded / kSpread);
   return {"From the raw loop to decay, drape and folds",
           "friction of the chapter's form, fitted on one loop of a knit; B and 2HB of each fabric",
           {loops_plot(recorded / kLoops), decay_plot(recorded / kSwing), drapes_plot(drapes),
@@ -182,7 +184,7 @@ render::PlotPage validation_page(const fs::path& recorded) {
 
 void check_recorded(const fs::path& recorded) {
   std::error_code ignored;
-  for (const char* file : {kLoops, kTurns, kSwingManifest, kDrapes, kElastic, kFolds, kBudget})
+  for (const char* file : {kLoops, kTurns, kSwingManifest, kDrapes, kFolds})
     if (!fs::is_regular_file(recorded / file, ignored))
       throw Error::invalid_input("recorded = " + recorded.string() + " has no " + file +
                                  ": the figure is drawn from a folder of all recorded results (--recorded)")
@@ -200,8 +202,6 @@ void draw_recorded(const fs::path& recorded, Run& run) {
                                            read_fabric(drape.fabric, "recorded")));
   note_effects(run, effects);
   run.plot("plot_effects", effects_plot(effects));
-  const std::vector<BudgetRow> budget = read_budget(recorded / kBudget);
-  run.plot("plot_budget_" + budget.at(0).fabric, budget_plot(budget));
 }
 
 }  // namespace hysteron::experiments

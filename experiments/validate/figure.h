@@ -14,8 +14,9 @@ namespace hysteron::experiments {
 struct PredictedDrape {
   std::string fabric;
   double measured = NAN;
-  double mean = NAN, elastic = NAN;  // under `prandtl` and `linear`, on several meshes
-  double low = NAN, high = NAN;      // 95 %, with the fabric's uncertain numbers in their ranges
+  double mean = NAN,
+         elastic = NAN;          // under `prandtl` and `linear`, on several meshes; other laws are left out
+  double low = NAN, high = NAN;  // 95 %, with the fabric's uncertain numbers in their ranges
 };
 // From the means of a study and, for each of its fabrics, FABRIC/predictions.csv in the folder `spread`.
 std::vector<PredictedDrape> read_drapes(const std::filesystem::path& means,
@@ -31,8 +32,7 @@ render::PlotPage validation_page(const std::filesystem::path& recorded);
 // Throws Error::invalid_input, naming the first of these files that is missing.
 void check_recorded(const std::filesystem::path& recorded);
 
-// plot_validation; plot_folds; plot_effects of the fabrics of the spread; and plot_budget_<fabric> as the
-// part `budget` draws it.
+// plot_validation; plot_folds; plot_effects of the fabrics of the spread.
 void draw_recorded(const std::filesystem::path& recorded, Run& run);
 
 }  // namespace hysteron::experiments

@@ -24,7 +24,7 @@ namespace {
 // Where one more drape lies with 95 %, beside what was measured.
 struct Prediction {
   std::string question;  // "drape of wool-tropical"
-  std::string unit;
+  std::string unit, fitted_on;
   double predicted, measured, low, high;  // measured: NaN where nothing was
 
   std::optional<bool> contains_measured() const {
@@ -39,13 +39,23 @@ std::string answer_text(const std::optional<bool>& answer) {
   return *answer ? "yes" : "no";
 }
 
+// What of a fabric was measured, beside a drape.
+std::string fitted_on(const Fabric& fabric) {
+  std::vector<std::string> measured;
+  for (const auto& [name, number] : fabric.published)
+    if (name != "drape-coefficient" && name != "node-count") measured.push_back(name);
+  for (const auto& [name, provenance] : fabric.provenance)
+    if (provenance.confidence == "published" && !fabric.published.contains(name)) measured.push_back(name);
+  return measured.empty() ? "nothing measured; all assumed" : join(measured, ", ") + "; the rest assumed";
+}
+
 void write_predictions(Run& run, const std::vector<Prediction>& predictions) {
   Table table(
       "predicted quantity,fitted on,predicted,low,high,measured,unit,error,error [%],measured is between");
   for (const Prediction& p : predictions) {
     const double error = p.predicted - p.measured;
-    table.row({p.question, "B, 2HB, density, thickness; the rest assumed", p.predicted, p.low, p.high,
-               p.measured, p.unit, error, 100 * error / p.measured, answer_text(p.contains_measured())});
+    table.row({p.question, p.fitted_on, p.predicted, p.low, p.high, p.measured, p.unit, error,
+               100 * error / p.measured, answer_text(p.contains_measured())});
   }
   table.write(run.path("predictions.csv"));
 }
@@ -60,18 +70,30 @@ std::vector<int> shuffled(int count, Uniform& uniform) {
 
 // What drapes of one fabric say together: the mean, and where one more would lie.
 Prediction together(const std::vector<Drape>& drapes, const std::string& metric, const std::string& question,
-                    const std::string& unit) {
+                    const std::string& unit, const std::string& fitted_on) {
   std::vector<double> values;
   for (const Drape& drape : drapes) values.push_back(drape.number(metric));
   const double mean = mean_value(values), half = reach_of_next(values.size()) * sample_deviation(values);
-  return {question, unit, mean, drapes.front().published(metric), mean - half, mean + half};
+  return {question, unit, fitted_on, mean, drapes.front().published(metric), mean - half, mean + half};
 }
 
 using DrapesOf = std::vector<std::pair<std::string, std::vector<Drape>>>;
 
+// Numbers that were drawn and that drapes were told otherwise, since what was measured was kept.
+std::set<std::string> retold_numbers(const DrapesOf& all) {
+  std::set<std::string> retold;
+  for (const auto& [fabric, drapes] : all)
+    for (const Drape& d : drapes)
+      for (const auto& [key, value] : d.drawn)
+        if (last_text(d.further, "fabric." + key, "") != number_text(value)) retold.insert(key);
+  return retold;
+}
+
 Table write_spread(Run& run, const DrapesOf& all, const std::set<std::string>& keys) {
   std::vector<std::string> head = {"fabric", "sample"};
   for (const std::string& key : keys) head.emplace_back(key);
+  const std::set<std::string> retold = retold_numbers(all);
+  for (const std::string& key : retold) head.emplace_back(kDrawn + key);
   for (const char* name : {"drape coefficient [%]", "nodes", "settled", "computing [s]"})
     head.emplace_back(name);
   Table table(head);
@@ -79,6 +101,8 @@ Table write_spread(Run& run, const DrapesOf& all, const std::set<std::string>& k
     for (const Drape& d : drapes) {
       std::vector<Cell> row = {fabric, d.varied};
       for (const std::string& key : keys) row.emplace_back(last_text(d.further, "fabric." + key, ""));
+      for (const std::string& key : retold)
+        row.emplace_back(d.drawn.contains(key) ? Cell(d.drawn.at(key)) : Cell(""));
       row.insert(row.end(), {d.coefficient(), d.number("node_count"),
                              d.metrics["settled"].is(true) ? "yes" : "no", d.seconds});
       table.row(row);
@@ -260,7 +284,7 @@ std::vector<Flag> drape_flags(const Sample& sample) {
   return flags;
 }
 
-std::vector<Sample> fabric_samples(const FabricFile& file, int count, unsigned seed) {
+std::vector<Sample> drawn_samples(const FabricFile& file, int count, unsigned seed) {
   std::vector<Sample> samples(count);
   Uniform uniform(seed);
   for (const auto& [key, range] : uncertain_numbers(file)) {
@@ -272,6 +296,11 @@ std::vector<Sample> fabric_samples(const FabricFile& file, int count, unsigned s
     for (int i = 0; i < count; ++i)
       samples[i][key] = range.low * std::exp(decades * (part[i] + uniform(0, 1)) / count);
   }
+  return samples;
+}
+
+std::vector<Sample> fabric_samples(const FabricFile& file, int count, unsigned seed) {
+  std::vector<Sample> samples = drawn_samples(file, count, seed);
   for (Sample& sample : samples) keep_what_was_measured(file.fabric, sample);
   return samples;
 }
@@ -284,16 +313,19 @@ void predict_spread(const ValidateFlags& flags, Run& run) {
   for (const std::string& given : split(flags.fabrics)) {
     const FabricFile file = read_fabric(given, "--fabrics");
     const std::string fabric = file.fabric.name;
-    const std::vector<Sample> samples = fabric_samples(file, flags.samples, flags.seed);
+    const std::vector<Sample> samples = drawn_samples(file, flags.samples, flags.seed);
     if (samples.front().empty())
       run.warn(fabric + " states no range of any number: its interval is that of " +
                std::to_string(flags.samples) + " meshes alone, and says nothing of what is not known of it");
     auto& drapes = all.emplace_back(fabric, std::vector<Drape>{}).second;
     int number = 0;
     const Drape nominal = nominal_drape(given, flags);
-    for (const Sample& sample : samples) {
+    for (const Sample& drawn : samples) {
+      Sample sample = drawn;
+      keep_what_was_measured(file.fabric, sample);
       for (const auto& [key, value] : sample) keys.insert(key);
       Drape drape = nominal;
+      drape.drawn = drawn;
       drape.varied = "sample-" + std::to_string(++number);
       drape.further = drape_flags(sample);
       drape.further.push_back({"seed", std::to_string(number)});
@@ -303,8 +335,9 @@ void predict_spread(const ValidateFlags& flags, Run& run) {
     run_drapes(drapes, flags, run);
     const Table spread = write_spread(run, all, keys);  // a run that is cut short keeps what it has found
     const std::string with = fabric + " with uncertain numbers in their ranges";
-    const Prediction p = together(drapes, "drape_coefficient_percent", "drape of " + with, "%"),
-                     n = together(drapes, "node_count", "folds of " + with, "folds");
+    const Prediction p = together(drapes, "drape_coefficient_percent", "drape of " + with, "%",
+                                  fitted_on(file.fabric)),
+                     n = together(drapes, "node_count", "folds of " + with, "folds", fitted_on(file.fabric));
     run.metric(fabric + ".spread_low_percent", p.low);
     run.metric(fabric + ".spread_high_percent", p.high);
     run.metric(fabric + ".spread_has_measured", p.contains_measured());

@@ -109,6 +109,13 @@ TEST(Notes, DoNotCallACoefficientOfMovingClothAResult) {
           "the cloth is still moving, so that its coefficient is no result: --seconds 4 gives it more time"});
 }
 
+TEST(Notes, OfAValidationCountMeasuredDrapesAlone) {
+  Metrics metrics = {{"mine.spread_has_measured", nullptr}};
+  EXPECT_EQ(first_note(manifest_of("validate", metrics)), "");
+  metrics.set("wool.spread_has_measured", true);
+  EXPECT_TRUE(says(first_note(manifest_of("validate", metrics)), "1 of 1 measured drapes"));
+}
+
 TEST(Notes, OfABudgetNameTheNumberToMeasureFirst) {
   const Manifest manifest = manifest_of("validate", {{"wool.shear=30.change_percent", -2.0},
                                                      {"wool.bias-bending=1.42.change_percent", 4.0},

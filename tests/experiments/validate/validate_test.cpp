@@ -92,12 +92,33 @@ TEST(NumberEffects, ComeBackOfDrawnFabrics) {
   }
 }
 
+// 2HB is drawn, and drapes are told b1 and b2: the table has it in a column of its own.
+TEST(NumberEffects, AreOfNumbersAsTheyWereDrawn) {
+  constexpr int kCount = 24;
+  constexpr double kOf2HB = 5, kLittle = 0.01;  // for e times the number [%]
+  const FabricFile file = read_fabric("cotton-broad", "test");
+  Table spread({"fabric", "b1", "drawn 2HB", "bias-bending", "drawn bias-bending", "weft-bending",
+                "drape coefficient [%]"});
+  for (const Sample& s : drawn_samples(file, kCount, 1)) {
+    const double bias = s.at("bias-bending"), weft = s.at("weft-bending");
+    spread.row({file.fabric.name, 1e-4, s.at("2HB"), bias * (1 + weft) / 2, bias, weft,
+                70 + kOf2HB * std::log(s.at("2HB")) + kLittle * weft});
+  }
+  const NumberEffects found = effects_of_spread(spread, file);
+  ASSERT_EQ(found.effects.size(), 3u);
+  for (const NumberEffect& e : found.effects)
+    EXPECT_NEAR(e.change, e.number == "2HB" ? kOf2HB * std::log(e.high / e.low) : 0, 2 * kLittle) << e.number;
+}
+
 TEST(NumberEffects, AreNotSoughtInTooFewDrapes) {
   const FabricFile file = read_fabric("cotton-broad", "test");
   Table spread({"fabric", "k0", "shear", "drape coefficient [%]"});
   for (const Sample& s : fabric_samples(file, 5, 1))
     spread.row({file.fabric.name, s.at("k0"), s.at("shear"), 70.0});
-  EXPECT_TRUE(effects_of_spread(spread, file).effects.empty());
+  const NumberEffects found = effects_of_spread(spread, file);
+  EXPECT_TRUE(found.effects.empty());
+  EXPECT_EQ(found.drapes, 5u);
+  EXPECT_EQ(found.needed, 6u) << "twice the two numbers and the mean";
 }
 
 TEST(Validate, SaysWhetherTheMeasuredDrapeLiesAmongTheDrawn) {
