@@ -64,7 +64,7 @@ std::vector<Amplitude> read_amplitudes(const fs::path& swing) {
 // [s].
 render::Series decay_curve(const DecayFit& fit, double start, double end) {
   constexpr int kPoints = 200;
-  render::Series curve{"closed form of the chapter's friction", {}, {}, Style::line, kModelColor};
+  render::Series curve{"the chapter's closed form", {}, {}, Style::line, kModelColor};
   for (int i = 0; i <= kPoints; ++i) {
     const double t = (end - start) * i / kPoints;
     curve.add(start + t, 1e3 * fit.at(t));
@@ -80,15 +80,14 @@ render::PagePlot decay_plot(const fs::path& swing) {
     throw Error::invalid_input("validate: the swing in " + swing.string() + " does not fall");
   const DecayFit fit = decay.of(DecayShape::saturating);
   render::Plot plot{"Decay of a swing, cotton broad", {"time [s]"}, {"amplitude of the free end [mm]"}};
-  render::Series points{"simulated amplitudes", {}, {}, Style::points, kMeasuredColor};
+  render::Series points{"simulated", {}, {}, Style::points, kMeasuredColor};
   for (const Amplitude& a : amplitudes) points.add(a.time, 1e3 * a.value);
   const double start = amplitudes.front().time, end = amplitudes.back().time, knee = 1e3 * fit.knee,
                fifth = 1e3 * kFifth * fit.first;
-  plot.series = {
-      points,
-      decay_curve(fit, start, end),
-      {"its knee", {start, end}, {knee, knee}, Style::dashed, kModelColor, 1.5},
-      {"a fifth, where real cloth bends off", {start, end}, {fifth, fifth}, Style::dashed, kLineColor, 1.5}};
+  plot.series = {points,
+                 decay_curve(fit, start, end),
+                 {"its knee", {start, end}, {knee, knee}, Style::dashed, kModelColor, 1.5},
+                 {"a fifth (real cloth)", {start, end}, {fifth, fifth}, Style::dashed, kLineColor, 1.5}};
   plot.y.low = 0, plot.y.high = 1.1 * points.y.front();
   plot.x.low = 0, plot.x.high = end;
   return {plot, "top right"};
@@ -108,13 +107,13 @@ render::Mark drape_mark(const PredictedDrape& drape, bool stiff, const std::stri
 }
 
 render::PagePlot drapes_plot(const std::vector<PredictedDrape>& drapes) {
-  constexpr double kLow = 15, kHigh = 100;
+  constexpr double kLow = 15, kHigh = 100, kKey = 12;  // room above for the key
   render::Plot plot{"Drape coefficients on the JIS tester",
                     {"measured [%]", false, kLow, kHigh},
-                    {"predicted [%]", false, kLow, kHigh}};
+                    {"predicted [%]", false, kLow, kHigh + kKey}};
   plot.series.push_back({"as measured", {kLow, kHigh}, {kLow, kHigh}, Style::dashed, kLineColor, 1.5});
   render::Series mean{"with friction", {}, {}, Style::points, "#222222"};
-  render::Series elastic{"its elasticity alone", {}, {}, Style::rings, "#222222"};
+  render::Series elastic{"elasticity alone", {}, {}, Style::rings, "#222222"};
   for (std::size_t f = 0; f < drapes.size(); ++f) {
     const PredictedDrape& drape = drapes[f];
     plot.series.push_back(interval(drape, fabric_color(f), f == 0 ? "95 % interval" : ""));
