@@ -59,11 +59,12 @@ std::vector<DecidedKey> decided() {
   return keys;
 }
 
-// Bounds of a strip from its clamp at `position` that may bend down to the side.
-render::Box strip_bounds(Buckling kind, double length, double width, const Eigen::Vector3d& position) {
-  const float l = static_cast<float>(length), b = static_cast<float>(width);
+// Bounds of a strip from its clamp at `position` that may bend down to its side.
+render::Box strip_bounds(const BucklingStrip& strip, double width, const Eigen::Vector3d& position) {
+  const float l = static_cast<float>(strip.length), b = static_cast<float>(width);
   render::Box box{{0, -0.5f * l, -0.35f * l}, {l, 0.05f * l, b}};
-  if (kind == Buckling::upright) box = {{-0.85f * l, 0, 0}, {0.1f * l, b, l}};
+  if (strip.kind == Buckling::upright) box = {{-0.85f * l, 0, 0}, {0.1f * l, b, l}};
+  if (strip.kind == Buckling::upright && strip.side.x() > 0) box = {{-0.1f * l, 0, 0}, {0.85f * l, b, l}};
   box.low += position.cast<float>();
   box.high += position.cast<float>();
   return box;
@@ -92,7 +93,7 @@ void picture(Session& session, const BucklingStrip& strip, double reference) {
   const Scene& scene = session.scene();
   double last = 0;
   RunPlan plan;
-  plan.bounds = strip_bounds(strip.kind, strip.length, scene.cloth.width, scene.cloth.position);
+  plan.bounds = strip_bounds(strip, scene.cloth.width, scene.cloth.position);
   plan.columns = {"gamma [1]", "deflection [1]"};
   const auto gamma = [&](double time) { return reference * time; };  // the reference's weight acts after 1 s
   plan.measure = [&](const Snapshot& m) -> std::vector<double> {

@@ -21,14 +21,26 @@ constexpr double kStep = 0.1;      // likewise
 constexpr double kNear = 0.8;      // of the threshold, for the last state
 constexpr double kAgreed = 0.01;   // of the threshold, between the last two estimates
 constexpr double kPrecise = 1e-5;  // of a deflection of tilt times length, for the last correction
+constexpr double kAlike = 1e-6;    // relative, of slopes at rest to face and back
 constexpr double kSag = 2e-3;      // bending rigidity out of the plane over that in it, on edge
 
-// Slope of the law at rest over b2.
-double stiffness_at_rest(const Scene& scene) {
-  constexpr double kSmall = 1e-6;  // [1/m]
-  const LawRun run = run_law({scene.law, strip_curve(scene), scene.param}, {{0}, {kSmall}});
-  return run.moment[1] / (kSmall * scene.fabric.b2);
+enum class Side { face, back };
+
+// Slope of the law at rest over b2, of bends to that side.
+double stiffness_to(Side side, const Scene& scene) {
+  const double small = side == Side::face ? 1e-6 : -1e-6;  // [1/m]
+  const LawRun run = run_law({scene.law, strip_curve(scene), scene.param}, {{0}, {small}});
+  return run.moment[1] / (small * scene.fabric.b2);
 }
+
+// A strip without faces that differ buckles to its face.
+Side softer_side(const Scene& scene) {
+  if (!scene.fabric.bending.faces.on()) return Side::face;
+  const double face = stiffness_to(Side::face, scene), back = stiffness_to(Side::back, scene);
+  return back < (1 - kAlike) * face ? Side::back : Side::face;
+}
+
+double stiffness_at_rest(const Scene& scene) { return stiffness_to(softer_side(scene), scene); }
 
 // GJ over the rigidity along warp and the width: that along weft has the same.
 double torsion(const Fabric& fabric) { return 4 * fabric.bias_bending - 1 - fabric.weft_bending; }
@@ -43,6 +55,20 @@ void check_axis(const Scene& scene) {
           "{:g} degree must be a multiple of 90, or fabric.weft-bending and fabric.bias-bending 1",
           angle))
       .with_key("cloth.warp-angle", fmt::format("{:g}", angle));
+}
+
+// A twist bends one diagonal to the face and the other to the back, and which of them is the stiffer one
+// changes along the strip with the bend beside it.
+void check_sides(const Scene& scene) {
+  if (!scene.fabric.bending.faces.on()) return;
+  const double ratio = stiffness_to(Side::back, scene) / stiffness_to(Side::face, scene);
+  if (!(std::abs(ratio - 1) > kAlike)) return;
+  throw Error::invalid_input(
+      fmt::format(
+          "buckle.kind = edge has no reference for a strip that twists with one rigidity to its face and "
+          "another to its back: fabric.back-bending = {:g} must be 1, or buckle.kind = upright",
+          scene.fabric.bending.faces.bending))
+      .with_key("fabric.back-bending", fmt::format("{:g}", scene.fabric.bending.faces.bending));
 }
 
 double weight_number(const Scene& scene, double length) {
@@ -76,6 +102,7 @@ double reference_gamma(Buckling kind, const Scene& scene) {
   const double slope = stiffness_at_rest(scene), along = rigidity_along(scene);
   if (kind == Buckling::upright) return kUpright * slope * along;
   check_axis(scene);
+  check_sides(scene);
   return kEdge * slope * std::sqrt(along * torsion(scene.fabric));
 }
 
@@ -100,8 +127,9 @@ double BucklingStrip::deflection(const std::vector<Eigen::Vector3d>& x) const {
 BucklingStrip buckling_strip(Scene scene, Buckling kind, double length, double tilt, double most) {
   const double g = scene.gravity.norm();
   scene.cloth.rotation = kind == Buckling::upright ? Eigen::Vector3d(0, -90, 0) : Eigen::Vector3d(90, 0, 0);
-  const Eigen::Vector3d side =
+  const Eigen::Vector3d face =
       kind == Buckling::upright ? -Eigen::Vector3d::UnitX() : -Eigen::Vector3d::UnitY();
+  const Eigen::Vector3d side = softer_side(scene) == Side::face ? face : Eigen::Vector3d(-face);
   scene.gravity = g * (std::sin(tilt) * side - std::cos(tilt) * Eigen::Vector3d::UnitZ());
   scene.fabric.density = most * reference_gamma(kind, scene) * scene.fabric.b2 / (g * std::pow(length, 3));
   scene.origin["fabric.density"] = kSetBy + std::string("buckle: its weight makes the strip buckle");

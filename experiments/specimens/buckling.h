@@ -20,7 +20,8 @@ constexpr std::array<const char*, 2> names(Buckling) { return {"upright", "edge"
 // and its torsional one GJ = 2 B b (W = B |S|^2/2 with a twist S_xy alone), B the law's slope at rest; a
 // fabric that bends differently along warp, weft and bias has EI = q B b, q = rigidity_along(), and GJ =
 // (4 bias - 1 - weft) B b for a strip along warp or weft; between them strips twist as they bend, and on edge
-// they are refused (Error::invalid_input).
+// they are refused (Error::invalid_input), as is one on edge with another slope to its back than to its face.
+// Upright such a strip gives way to its softer side, whose slope B is.
 //   upright: weight L^3/B = 7.8373 (Timoshenko & Gere 1961, 2.12)
 //   edge: q L^3/sqrt(EI GJ) = 12.8538 with q = weight b (the same, 6.3)
 double reference_gamma(Buckling kind, const Scene& scene);
@@ -32,7 +33,8 @@ double fraction_of_width(Buckling kind, const Scene& scene, double length);
 
 struct BucklingStrip : CantileverStrip {
   Buckling kind;
-  Eigen::Vector3d side;  // where it buckles to: the cloth's normal at the start
+  Eigen::Vector3d side;  // where it buckles to: the cloth's normal at the start, or where its back is the
+                         // softer side against it
 
   // Mean displacement of the free end to that side [m].
   double deflection(const std::vector<Eigen::Vector3d>& x) const;

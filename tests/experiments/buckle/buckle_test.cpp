@@ -74,6 +74,32 @@ TEST(BucklingReference, IsRefusedOnEdgeWhereBendingTwists) {
   EXPECT_TRUE(says(test::refusal([&] { reference_gamma(Buckling::edge, scene); }), "cloth.warp-angle = 30"));
 }
 
+Scene with_back(Scene scene, double bending) {
+  scene.fabric.bending.faces.bending = bending;
+  return scene;
+}
+
+TEST(BucklingReference, IsThatOfTheSofterSide) {
+  const double face = reference_gamma(Buckling::upright, scene_with("linear"));
+  const auto with = [&](const char* law, double bending) {
+    return reference_gamma(Buckling::upright, with_back(scene_with(law), bending)) / face;
+  };
+  EXPECT_NEAR(with("linear", 0.5), 0.5, 1e-9);
+  EXPECT_NEAR(with("linear", 2), 1, 1e-9);
+  const Fabric fabric = scene_with("prandtl").fabric;  // its friction is that of both sides
+  EXPECT_NEAR(with("prandtl", 0.5), fabric.b1 / fabric.b2 - 0.5, 1e-4);
+}
+
+TEST(BucklingReference, IsRefusedOnEdgeWhereFacesBendOtherwise) {
+  EXPECT_TRUE(
+      says(test::refusal([&] { reference_gamma(Buckling::edge, with_back(scene_with("linear"), 0.5)); }),
+           "fabric.back-bending = 0.5"));
+  // The other laws have the mean of both sides, to either.
+  const double ratio = reference_gamma(Buckling::edge, with_back(scene_with("dahl"), 0.5)) /
+                       reference_gamma(Buckling::upright, with_back(scene_with("dahl"), 0.5));
+  EXPECT_NEAR(ratio / (12.853763 * std::sqrt(2.0) / 7.837347), 1, 1e-6);
+}
+
 Scene buckling_scene(const char* mesh, Buckling kind) {
   Scene scene;
   scene.law = "linear";
@@ -138,6 +164,13 @@ TEST(Buckling, FollowsALawWithFriction) {
   Scene scene = buckling_scene("unionjack", Buckling::upright);
   scene.law = "prandtl";
   EXPECT_NEAR(threshold_ratio(scene, Buckling::upright), 1, kTarget);
+}
+
+TEST(Buckling, OfClothWithFacesIsToTheSofterOne) {
+  for (double bending : {0.5, 2.0}) {
+    const Scene scene = with_back(buckling_scene("unionjack", Buckling::upright), bending);
+    EXPECT_NEAR(threshold_ratio(scene, Buckling::upright), 1, kTarget / 4);
+  }
 }
 
 TEST(Buckling, ShowsARigidityFivePercentOff) {
