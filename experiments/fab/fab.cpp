@@ -117,6 +117,16 @@ std::string unsimulated_warning(const Fabric& fabric) {
       fabric.name, join(parts, " and "));
 }
 
+std::string mean_of_faces_warning(const Fabric& fabric) {
+  const Faces& faces = fabric.bending.faces;
+  if (!faces.on()) return "";
+  return fmt::format(
+      "fabric {}: fab simulates its back-bending = {:g} and back-friction = {:g} as the means of both sides, "
+      "up "
+      "and down alike: the middle of the strip bends to one side, what is next to the clamps to the other",
+      fabric.name, faces.bending, faces.friction);
+}
+
 int run_test(const CommandLine& line) {
   TestFlags flags;
   const Keys keys = option_keys(flags);
@@ -126,7 +136,7 @@ int run_test(const CommandLine& line) {
   const std::vector<std::string> doubts = checked_fabric_warnings(flags.fabric);
   const Fabric fabric = read_fabric(flags.fabric, "--fabric").fabric;
   const FabStrip strip = fab_fabric(fabric).strip(flags.direction);
-  const bool measured = !flags.data.empty();
+  const bool measured = !flags.data.empty(), bends = flags.test.front() != 'S';
   const auto asks_for = [&](const FabLoops& one) {
     return one.direction == flags.direction && one.test == flags.test;
   };
@@ -137,8 +147,8 @@ int run_test(const CommandLine& line) {
   Run run(line, flags.options, to_json(keys));
   for (const auto* texts : {&doubts, &loops.doubts})
     for (const std::string& text : *texts) run.warn(text);
-  const std::string unsimulated = unsimulated_warning(fabric);
-  if (!unsimulated.empty()) run.warn(unsimulated);
+  for (const std::string& text : {unsimulated_warning(fabric), bends ? mean_of_faces_warning(fabric) : ""})
+    if (!text.empty()) run.warn(text);
   run.reserve({"fab.csv"});
   const ComparedLoops rows(loops, run_fab(loops, strip), measured);
   const bool is_coarse = !measured && flags.steps < kFineSteps;

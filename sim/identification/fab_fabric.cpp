@@ -206,6 +206,16 @@ StopsLaw bias_stretch(const Fabric& fabric) {
   return law;
 }
 
+// A buckled strip between clamps bends to both sides at once, to one in its middle and to the other beside
+// the clamps: turned over it is as stiff.
+Fabric with_mean_of_faces(Fabric fabric) {
+  const VirginCurve mean = mean_of_faces({fabric.b1, fabric.b2, fabric.k0, fabric.bending});
+  fabric.b1 = mean.b1;
+  fabric.b2 = mean.b2;
+  fabric.bending = mean.parts;
+  return fabric;
+}
+
 }  // namespace
 
 void write_fab_fabric(const std::filesystem::path& file, const FabIdentification& found,
@@ -235,7 +245,8 @@ FabStrip FabFabric::strip(const std::string& direction) const {
           bias_tension ? *bias_tension : mean_law(warp_tension, weft_tension), density};
 }
 
-FabFabric fab_fabric(const Fabric& fabric) {
+FabFabric fab_fabric(const Fabric& of) {
+  const Fabric fabric = with_mean_of_faces(of);
   const Spectrum &stops = fabric.bending.stops, &weft = fabric.bending.weft_stops;
   FabFabric result;
   result.name = fabric.name;

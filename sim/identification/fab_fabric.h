@@ -55,7 +55,7 @@ struct FabFabric {
 // along weft; along the bias with those that hinges across it have (SpectrumStops::turn).  A strip is twice
 // as wide as it is long and clamped at both ends, which is taken to hold its width, as KES-FB1 does: it is
 // stretched along the bias against a quarter of warp, of weft and of twice their coupling, and against all of
-// the shear.
+// the shear.  Where faces differ the strip has the means of both sides.
 FabFabric fab_fabric(const Fabric& fabric);
 
 }  // namespace hysteron

@@ -13,8 +13,8 @@ constexpr double kExact = 1e-9;       // relative
 constexpr int kMaxIterations = 60;
 
 // Slope of the moment at rest [N m].
-double initial_stiffness(const LawRequest& law) {
-  const double flat = kAlmostFlat * law.curve.k0;
+double initial_stiffness(const LawRequest& law, double side) {
+  const double flat = side * kAlmostFlat * law.curve.k0;
   return run_law(law, {{0, 0}, {flat, 1e-6}}).moment.back() / flat;
 }
 
@@ -22,7 +22,10 @@ double measure(LawRequest law, double scale, Match match, double curvature) {
   law.curve.b1 *= scale;
   law.curve.b2 *= scale;
   law.curve.parts = stiffened(law.curve.parts, scale);
-  return match == Match::energy ? bending_work(law, curvature) : initial_stiffness(law);
+  const auto to_side = [&](double side) {  // 1: the face, -1: the back
+    return match == Match::energy ? bending_work(law, side * curvature) : initial_stiffness(law, side);
+  };
+  return law.curve.parts.faces.on() ? (to_side(1) + to_side(-1)) / 2 : to_side(1);
 }
 
 }  // namespace

@@ -19,10 +19,11 @@ BendingParts stiffened(BendingParts parts, double scale);
 
 // The number by which b1, b2 and all stiffnesses beyond them of `law` have to be multiplied (k0 stays) so
 // that it is as stiff as `reference`; `curvature` is that of Match::energy [1/m], reached in one second by
-// laws that take time. Error::invalid_input as run_law(), or if no number makes them equal to 1e-9.
+// laws that take time. Where faces differ both measures are the means of bends to face and back.
+// Error::invalid_input as run_law(), or if no number makes them equal to 1e-9.
 double matching_scale(const LawRequest& law, const LawRequest& reference, Match match, double curvature);
 
-// Work to bend from flat to `curvature`, stored or lost [J/m^2].
+// Work to bend from flat to `curvature`, to the back where it is < 0, stored or lost [J/m^2].
 double bending_work(const LawRequest& law, double curvature);
 
 }  // namespace hysteron::experiments

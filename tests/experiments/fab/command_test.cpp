@@ -116,6 +116,19 @@ TEST_F(FabCommand, WarnsOfPartsOfAFabricThatItDoesNotSimulate) {
   EXPECT_FALSE(says(warnings("cotton-broad"), "does not simulate"));
 }
 
+TEST_F(FabCommand, WarnsThatFacesThatDifferAreSimulatedByTheirMeans) {
+  const fs::path file = folder_.path() / "sided.toml";
+  std::ofstream(file) << "[parameters]\ndensity = 0.12\nthickness = 4e-4\nb1 = 3e-5\nb2 = 1e-5\nk0 = 40\n"
+                         "back-bending = 0.5\n";
+  const auto warnings = [&](const std::string& test) {
+    EXPECT_EQ(fab({{"fabric", file.string()}, {"fab.test", test}, {"fab.steps", "4"}, {"no-images", "true"}}),
+              0);
+    return manifest_in(folder_.path() / "out")["warnings"].dump();
+  };
+  EXPECT_TRUE(says(warnings("U1"), "back-bending = 0.5 and back-friction = 1 as the means of both sides"));
+  EXPECT_FALSE(says(warnings("S1"), "means of both sides")) << "which bends nothing";
+}
+
 TEST_F(FabCommand, RefusesWhatNoTesterDoes) {
   EXPECT_TRUE(says(test::refusal([&] { fab({{"fab.test", "X1"}}); }), "U.."));
   EXPECT_TRUE(says(test::refusal([&] { fab({{"fab.direction", "Q"}}); }), "L | W | B"));

@@ -102,6 +102,24 @@ TEST(FabFabric, WithoutStopsBendsAsItsThreeNumbersSay) {
   EXPECT_NEAR(law.friction(), curve.friction_moment(), kRounding * curve.friction_moment());
 }
 
+// With or without stops: B times (1 + 0.5)/2, friction times (1 + 2)/2.
+TEST(FabFabric, WhoseFacesDifferBendsAsTheMeanOfBoth) {
+  Fabric alike;
+  alike.weft_bending = 0.8;
+  for (const bool stops : {false, true}) {
+    if (stops) alike.bending.stops = {{4, 16, 64}, {2e-5, 2e-6, 8e-7}};
+    Fabric differ = alike;
+    differ.bending.faces.bending = 0.5, differ.bending.faces.friction = 2;
+    constexpr double kRounding = 1e-12;
+    for (const char* direction : {"L", "W", "B"}) {
+      const StopsLaw mean = fab_fabric(differ).strip(direction).bending;
+      const StopsLaw one = fab_fabric(alike).strip(direction).bending;
+      EXPECT_NEAR(mean.spring / one.spring, 0.75, kRounding) << direction;
+      EXPECT_NEAR(mean.friction() / one.friction(), 1.5, kRounding) << direction;
+    }
+  }
+}
+
 // Along a direction of rigidity q friction slides at moments sqrt(q) times those along warp.
 TEST(FabFabric, WithoutStopsBendsAlongWeftAndBiasAsItsRatiosSay) {
   Fabric fabric;
