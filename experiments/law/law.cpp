@@ -222,15 +222,16 @@ std::string stops_summary(const LawRequest& request) {
   if (request.curve.parts.stops.empty()) return "";
   const KesProtocol p;
   const KesPair pair = kes_pair(request.curve, p);
-  return fmt::format("stops: B = {} between {:g} and {}, 2HB = {} at {}, HB/B = {}\n",
+  return fmt::format("stops{}: B = {} between {:g} and {}, 2HB = {} at {}, HB/B = {}\n",
+                     request.curve.parts.faces.on() ? " (bends to the face)" : "",
                      with_unit(pair.rigidity, "N m"), p.slope_from, with_unit(p.slope_to, "1/m"),
                      with_unit(pair.loop_width, "N"), with_unit(p.width_at, "1/m"),
                      with_unit(pair.loop_width / 2 / pair.rigidity, "1/m"));
 }
 
 std::string recovery_summary(const LawRequest& request, const std::vector<LawRow>& rows, const LawRun& run) {
-  const RecoveryCounts counts = count_recoveries(request.curve, rows, run);
   const LawChoice choice = choose_law(request.name, request.curve, request.parameters, LawUse::alone);
+  const RecoveryCounts counts = count_recoveries(choice.curve, rows, run);
   std::string text = fmt::format(
       "reversals from |M| <= Ma: {}, <= 2 Ma: {}, > 2 Ma: {}\nresidual curvature after the last row: {}",
       counts.of[0], counts.of[1], counts.of[2], with_unit(residual_after(request, rows), "1/m (root)"));

@@ -6,6 +6,7 @@
 #include "experiments/notes/notes.h"
 #include "experiments/workbench/pages/error_words.h"
 #include "experiments/workbench/pages/manifest.h"
+#include "sim/bending/laws/law_parameters.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -152,13 +153,20 @@ Notes crumple_notes(const Manifest& manifest) {
           set_note(manifest, "wrinkles are kept")};
 }
 
+// What KES-FB2 reads where the strip sags, to its back [N m], or to both sides of laws that have the mean.
+double sagging_rigidity(const Manifest& manifest) {
+  const double b = manifest.number("fabric.b2"), back = manifest.number("fabric.back-bending");
+  if (!(back > 0)) return b;
+  return has_faces(manifest.law.value_or("")) ? back * b : (1 + back) / 2 * b;
+}
+
 Notes cantilever_notes(const Manifest& manifest) {
   std::string elastica, rigidity;
   const double error = manifest.metrics.number("error_percent");
   if (std::isfinite(error))
     elastica = fmt::format("the strip sags {:.2g} % {} than a curve with the same law does: mesh and step",
                            std::abs(error), error < 0 ? "less" : "more");
-  const double length = manifest.metrics.number("bending_length_m"), b = manifest.number("fabric.b2");
+  const double length = manifest.metrics.number("bending_length_m"), b = sagging_rigidity(manifest);
   if (std::isfinite(length) && b > 0 && manifest.law != "linear")
     rigidity = fmt::format(
         "ASTM D1388 reads a rigidity of {:.1f} uN m from this bending length, KES-FB2 reads {:.1f}: "

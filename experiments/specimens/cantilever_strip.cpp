@@ -44,10 +44,29 @@ double tilt_of_weight(const Scene& scene) {
   return std::atan2(down.x(), -down.z());
 }
 
+// The same fabric with its back for its face.
+VirginCurve turned_over(VirginCurve curve) {
+  const Faces faces = curve.parts.faces;
+  const double friction = faces.friction * (curve.b1 - curve.b2);
+  curve.b2 *= faces.bending;
+  curve.b1 = curve.b2 + friction;
+  for (double& stiffness : curve.parts.stops.stiffnesses) stiffness *= faces.friction;
+  curve.parts.faces.bending = 1 / faces.bending;
+  curve.parts.faces.friction = 1 / faces.friction;
+  return curve;
+}
+
+// As the law has it where the strip sags, downwards to its back.
+VirginCurve sagging_curve(const Scene& scene) {
+  const VirginCurve curve = scene.fabric.virgin_curve();
+  if (!scene.fabric.bending.faces.on()) return curve;
+  return has_faces(scene.law) ? turned_over(curve) : mean_of_faces(curve);
+}
+
 // (B/w)^(1/3), which is half the overhang of the test without friction (Peirce 1930) [m].
 double natural_length(const Scene& scene) {
-  const Fabric& fabric = scene.fabric;
-  const double rigidity = rigidity_along(scene) * (fabric.b2 > 0 ? fabric.b2 : fabric.b1);
+  const VirginCurve curve = sagging_curve(scene);
+  const double rigidity = rigidity_along(scene) * (curve.b2 > 0 ? curve.b2 : curve.b1);
   return std::cbrt(rigidity / areal_weight(scene));
 }
 
@@ -224,22 +243,6 @@ VirginCurve curve_along(const Fabric& fabric, Along along, const std::string& la
   scene.cloth.warp_angle = along == Along::weft ? 90 : 0;
   return curve_along(scene);
 }
-
-namespace {
-
-// The same fabric with its back for its face.
-VirginCurve turned_over(VirginCurve curve) {
-  const Faces faces = curve.parts.faces;
-  const double friction = faces.friction * (curve.b1 - curve.b2);
-  curve.b2 *= faces.bending;
-  curve.b1 = curve.b2 + friction;
-  for (double& stiffness : curve.parts.stops.stiffnesses) stiffness *= faces.friction;
-  curve.parts.faces.bending = 1 / faces.bending;
-  curve.parts.faces.friction = 1 / faces.friction;
-  return curve;
-}
-
-}  // namespace
 
 HeavyStrip strip_elastica(const Scene& scene, double length) {
   HeavyStrip strip;

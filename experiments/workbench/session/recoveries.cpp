@@ -9,8 +9,9 @@
 
 namespace hysteron::experiments {
 
-Recoveries::Recoveries(const Scene& scene) : curve_(scene.fabric.virgin_curve()) {
+Recoveries::Recoveries(const Scene& scene) : curve_(mean_of_faces(scene.fabric.virgin_curve())) {
   if (scene.law == "pabst" || scene.law == "linear") return;
+  if (has_faces(scene.law) && scene.fabric.bending.faces.on()) return;
   if (scene.fabric.rubs_otherwise()) return;  // elasticity has other directions than friction has
   counts_ = has_residual_formula(choose_law(scene.law, curve_, scene.param));
 }

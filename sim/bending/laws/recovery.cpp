@@ -16,7 +16,9 @@ double first_root(double q, double p, double c) {
 
 RecoveryCase recovery_case(const VirginCurve& curve, double moment) {
   if (!(curve.friction_moment() > 0)) return RecoveryCase::elastic;  // k0 is without effect
-  const double limit = curve.elastic_limit_moment(), m = std::abs(moment);
+  const Faces alike, &faces = moment < 0 ? curve.parts.faces : alike;
+  const double limit = curve.friction_moment() * faces.friction + curve.b2 * faces.bending * curve.k0;
+  const double m = std::abs(moment);
   return m <= limit       ? RecoveryCase::elastic
          : m <= 2 * limit ? RecoveryCase::partial
                           : RecoveryCase::full_slip;

@@ -10,7 +10,8 @@ namespace hysteron {
 
 enum class RecoveryCase { elastic = 1, partial = 2, full_slip = 3 };
 
-// `moment` at the reversal [N], either sign.  Without friction, b1 = b2 or k0 = 0, every recovery is elastic.
+// `moment` at the reversal [N], < 0 of bends to the back, whose Ma may be another.  Without friction, b1 = b2
+// or k0 = 0, every recovery is elastic.
 RecoveryCase recovery_case(const VirginCurve& curve, double moment);
 
 // Does residual_by_formula() know the law?  bilinear, wong, prandtl without fatigue, stops of the fabric's

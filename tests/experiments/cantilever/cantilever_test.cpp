@@ -125,6 +125,23 @@ TEST(Cantilever, ComparesWithTheElasticaOfTheSideThatItBendsTo) {
   EXPECT_LT(std::abs(metrics["error_percent"].get<double>()), kNear);
 }
 
+// What is too long for its weight hangs straight down: 8 times as stiff a back allows for twice the length.
+TEST(Cantilever, IsAsLongAsTheSideThatItBendsToCarries) {
+  Scene scene = default_scene();
+  scene.law = "linear";
+  scene.ramp = 1;
+  scene.cloth.length = 1000;  // [m]
+  const auto longest = [](const Scene& of) {
+    const std::string said = test::refusal([&] { check_cantilever(of); }), before = "must be <= ";
+    const std::size_t at = said.find(before);
+    return at == std::string::npos ? 0.0 : std::stod(said.substr(at + before.size()));
+  };
+  const double face = longest(scene);
+  scene.fabric.bending.faces.bending = 8;
+  constexpr double kThreeDigits = 5e-3;  // relative, of each length as it is said
+  EXPECT_NEAR(longest(scene) / face, 2, 2 * kThreeDigits);
+}
+
 // A long strip cut on the bias twists as it bends: softer than a plate bent to a cylinder, whose rigidity is
 // 0.7 there.
 TEST(Cantilever, OnTheBiasFollowsAFreeStrip) {
@@ -194,6 +211,24 @@ TEST(Recoveries, GoByTheLastReversalFromPastTheElasticLimit) {
   EXPECT_EQ(of({1.5, 2.5, 1.2, 0, -0.1, 0.1, 0}), 3);  // trembles at rest
   EXPECT_EQ(of({2.5, 0, -1.5, 0}), 2);
   EXPECT_EQ(of({2.5, -1.5, 0}), 2);
+}
+
+// Of a law that bends both ways alike: M = Ma by the means of B and 2HB.
+TEST(Recoveries, OfALawWithoutSidesGoByTheMeansOfBoth) {
+  Scene scene;
+  scene.law = "wong";
+  scene.fabric.bending.faces = {5, 3};
+  const double face = scene.fabric.virgin_curve().elastic_limit_moment();
+  const double mean = mean_of_faces(scene.fabric.virgin_curve()).elastic_limit_moment();
+  ASSERT_GT(mean, 2 * face);
+  const auto full_slips = [&](double moment) {
+    Recoveries recoveries(scene);
+    recoveries.see({moment, 0, 0}, 3);
+    recoveries.see({0, 0, 0}, 3);
+    return recoveries.cases()[2];
+  };
+  EXPECT_EQ(full_slips(1.99 * mean), 0);
+  EXPECT_EQ(full_slips(2.01 * mean), 1);
 }
 
 // Statics without friction do not remember their steps: the whole weight is on when its drop is read.

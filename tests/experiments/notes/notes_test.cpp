@@ -148,6 +148,16 @@ TEST(Notes, OfACantileverSayWhatAStandardReadsFromItsLength) {
   EXPECT_TRUE(says(first_note(manifest), "KES-FB2 reads 10.0"));
 }
 
+// The strip sags to its back; a law without sides has the mean of both.
+TEST(Notes, OfACantileverWhoseFacesDifferGoByTheSideThatItSagsTo) {
+  const Json keys = {{"fabric", {{"name", "test"}, {"b2", 1e-5}, {"density", 0.1}, {"back-bending", 1.6}}}};
+  Manifest manifest = manifest_of("cantilever", {{"bending_length_m", 0.03}}, keys);
+  manifest.law = "prandtl";
+  EXPECT_TRUE(says(first_note(manifest), "KES-FB2 reads 16.0"));
+  manifest.law = "dahl";
+  EXPECT_TRUE(says(first_note(manifest), "KES-FB2 reads 13.0"));
+}
+
 TEST(Notes, OfAStudyCountWhatFailed) {
   EXPECT_TRUE(
       says(first_note(manifest_of("sweep", {{"runs_count", 8}, {"failed_count", 3}})), "3 of 8 runs"));

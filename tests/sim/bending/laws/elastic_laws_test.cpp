@@ -99,6 +99,20 @@ TEST(RecoveryCases, AreDecidedByTheMomentAtTheReversalAndCountedThere) {
   EXPECT_EQ(counts.of[2], 1);  // at 400/m
 }
 
+// Ma of the back is 2 M0 + 3 b2 K0.
+TEST(RecoveryCase, IsThatOfTheSideOfTheMoment) {
+  VirginCurve sided = kCotton;
+  sided.parts.faces.bending = 3;
+  sided.parts.faces.friction = 2;
+  const double face = kCotton.elastic_limit_moment();
+  const double back = 2 * kCotton.friction_moment() + 3 * kCotton.b2 * kCotton.k0;
+  for (const auto& [side, limit] : {std::pair{1.0, face}, {-1.0, back}}) {
+    EXPECT_EQ(recovery_case(sided, 0.99 * side * limit), RecoveryCase::elastic) << side;
+    EXPECT_EQ(recovery_case(sided, 1.01 * side * limit), RecoveryCase::partial) << side;
+    EXPECT_EQ(recovery_case(sided, 2.01 * side * limit), RecoveryCase::full_slip) << side;
+  }
+}
+
 TEST(RecoveryCase, IsElasticWithoutFrictionWhateverK0) {
   VirginCurve elastic = kCotton;
   elastic.b1 = elastic.b2;
