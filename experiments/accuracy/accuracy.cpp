@@ -6,6 +6,7 @@
 
 #include "experiments/accuracy/accuracy.h"
 #include "experiments/workbench/app/experiment.h"
+#include "experiments/workbench/app/key_conditions.h"
 #include "experiments/workbench/pages/report.h"
 #include "render/plot.h"
 #include "sim/base/comma_list.h"
@@ -67,6 +68,7 @@ std::vector<Problem> chosen_problems(const F& flags) {
                            swing_problem, crease_problem})
     all.push_back(make(effort));
   if (flags.problem == "all") return all;
+  check_listed_names("problem", flags.problem);
   std::vector<Problem> chosen;
   for (const std::string& name : split(flags.problem)) {
     const auto found =

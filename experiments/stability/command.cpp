@@ -10,6 +10,7 @@
 #include "experiments/stability/ripple.h"
 #include "experiments/stability/stability.h"
 #include "experiments/workbench/app/experiment.h"
+#include "experiments/workbench/app/key_conditions.h"
 #include "experiments/workbench/app/run.h"
 #include "experiments/workbench/compare/table_plot.h"
 #include "experiments/workbench/pages/report.h"
@@ -23,6 +24,11 @@ namespace hysteron::experiments {
 namespace {
 
 constexpr const char *kLimitSweep = "explicit-limit", *kRippleSweep = "ripple";
+// Those that simulate cells, have integrators, have laws.
+constexpr const char* kCellSweeps = "sweep = all | *-step | chapter-method | mesh | contact | scenes*";
+constexpr const char* kIntegratorSweeps =
+    "sweep = all | *-step | chapter-method | mesh | contact | scenes* | ripple";
+constexpr const char* kLawSweeps = "sweep = all | *-step | mesh | contact | scenes* | ripple";
 
 struct StabilityFlags {
   std::string device = "cpu";
@@ -35,9 +41,9 @@ struct StabilityFlags {
 using F = StabilityFlags;
 // clang-format off
 const KeyRow<F> kRows[] = {
-    {"device", at<&F::device>, "", any(), "cpu | cuda", "where cells are simulated"},
+    {"device", at<&F::device>, "", any(), "cpu | cuda", "where cells are simulated; ripple and explicit-limit run on the cpu"},
     {"integrator", at<&F::integrator>, "", any(), "", "NAME, several separated by commas, or all"},
-    {"law", at<&F::law>, "", any(), "", "of all sweeps but chapter-method; default: linear, prandtl and wong in maps, all in scenes"},
+    {"law", at<&F::law>, "", any(), "", "NAME, several separated by commas, or all; default: linear, prandtl and wong in maps, all in scenes, prandtl and wong beside linear in ripple"},
     {"sweep", at<&F::sweep>, "", any(), "", "NAME, several separated by commas, or all"},
     {"seconds", at<&F::effort, &CellEffort::seconds>, "s", positive(), "", "simulated time of a cell"},
     {"work", at<&F::effort, &CellEffort::work>, "", positive(), "", "explicit substeps after which a cell's time is cut short; a step of implicit or bdf2 counts 20"},
@@ -54,10 +60,27 @@ int thread_choice(const F& flags) {
   return flags.device == "cuda" ? 1 : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
+// Some of the known names, each once, or all of them.
+std::vector<std::string> chosen_names(const std::string& key, const std::string& list,
+                                      const std::vector<std::string>& known) {
+  if (list == "all") return known;
+  check_listed_names(key, list);
+  std::vector<std::string> names = split(list);
+  for (const std::string& name : names)
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      throw Error::invalid_input(key + " = " + list + ": " + name + " must be of " + join(known, ", ") +
+                                 ", or all alone (--" + key + ")")
+          .with_key(key, list);
+  return names;
+}
+
 SweepChoice sweep_choice(const F& flags) {
   SweepChoice choice;
-  if (flags.integrator != "all") choice.integrators = split(flags.integrator);
-  choice.laws = split(flags.law);
+  const auto integrators = names(Integrator{});
+  if (flags.integrator != "all")
+    choice.integrators =
+        chosen_names("integrator", flags.integrator, {integrators.begin(), integrators.end()});
+  if (!flags.law.empty()) choice.laws = chosen_names("law", flags.law, law_names());
   choice.device = value_named<DeviceChoice>(flags.device);
   choice.quick = flags.options.quick;
   return choice;
@@ -260,6 +283,15 @@ void check_limit_steps(double steps) {
       .with_key("limit-steps", fmt::format("{:g}", steps));
 }
 
+// Names of sweeps as they are given; `all` stands alone.
+std::vector<std::string> named_parts(const std::string& sweep) {
+  check_listed_names("sweep", sweep);
+  std::vector<std::string> names = split(sweep);
+  if (names.size() > 1 && std::count(names.begin(), names.end(), "all") > 0)
+    throw Error::invalid_input("sweep = " + sweep + ": all stands alone (--sweep)").with_key("sweep", sweep);
+  return names;
+}
+
 int run_stability(const CommandLine& line) {
   F flags;
   set_keys(line, option_keys(flags), [&] {
@@ -267,7 +299,7 @@ int run_stability(const CommandLine& line) {
     flags.limit_steps = std::min(flags.limit_steps, kQuickLimitSteps);
   });
   check_limit_steps(flags.limit_steps);
-  std::vector<std::string> names = split(flags.sweep);
+  std::vector<std::string> names = named_parts(flags.sweep);
   const bool with_limit = std::erase(names, kLimitSweep) > 0 || flags.sweep == "all";
   const bool with_ripple = std::erase(names, kRippleSweep) > 0 || flags.sweep == "all";
   const std::vector<Sweep> sweeps = named_sweeps(names, sweep_choice(flags));
@@ -295,8 +327,11 @@ Experiment stability() {
           .question = "maps of what stays stable, over stiffness, step, mesh and extreme scenes",
           .run = run_stability,
           .own_keys = own_key_descriptions<option_keys>,
-          .conditions = {{"limit-steps", "sweep = all | explicit-limit"},
-                         {"integrator | law | seconds | work", "sweep != explicit-limit"}}};
+          .conditions = {
+              {"limit-steps", "sweep = all | explicit-limit"},
+              {"device | seconds | work", kCellSweeps, "a sweep of cells: any but explicit-limit and ripple"},
+              {"integrator", kIntegratorSweeps, "any sweep but explicit-limit"},
+              {"law", kLawSweeps, "any sweep but chapter-method and explicit-limit"}}};
 }
 
 }  // namespace hysteron::experiments

@@ -7,6 +7,7 @@
 
 #include "experiments/validate/budget.h"
 #include "experiments/validate/figure.h"
+#include "experiments/workbench/app/key_conditions.h"
 #include "experiments/workbench/compare/sweep_columns.h"
 #include "experiments/workbench/pages/report.h"
 #include "sim/base/comma_list.h"
@@ -39,20 +40,9 @@ const KeyRow<F> kRows[] = {
 
 Keys option_keys(F& flags) { return with_output_options(bind(kRows, flags), flags.options); }
 
-// A list of nothing would write a page of nothing, and a name that stands twice its rows twice.
-void check_names(const std::string& key, const std::string& list) {
-  const std::vector<std::string> names = split(list);
-  if (names.empty())
-    throw Error::invalid_input(key + " = \"" + list + "\" names none (--" + key + ")").with_key(key, list);
-  for (auto name = names.begin(); name != names.end(); ++name)
-    if (std::find(names.begin(), name, *name) != name)
-      throw Error::invalid_input(key + " = " + list + " names " + *name + " twice (--" + key + ")")
-          .with_key(key, list);
-}
-
 // Drapes are filed under their fabrics' names.
 void check_fabrics(const std::string& list) {
-  check_names("fabrics", list);
+  check_listed_names("fabrics", list);
   std::map<std::string, std::string> files;
   for (const std::string& given : split(list)) {
     const std::string name = read_fabric(given, "--fabrics").fabric.name;
@@ -69,7 +59,7 @@ void check_parts(const F& flags) {
     if (!std::count(kParts.begin(), kParts.end(), part))
       throw Error::invalid_input("parts = " + part + " must be " + join(kParts, " | "))
           .with_key("parts", part);
-  check_names("parts", flags.parts);
+  check_listed_names("parts", flags.parts);
   if (split(flags.law).size() != 1)
     throw Error::invalid_input("laws = " + flags.law + " must be one law").with_key("laws", flags.law);
 }

@@ -24,7 +24,8 @@ std::string metric_change(const std::string& name, double before, double now) {
 
 bool is_duration(const std::string& name) {
   return name.ends_with("setup_seconds") || name.ends_with("solve_s") || name.ends_with("computing_s") ||
-         name.ends_with("ms_per_step") || name.ends_with("wall_s") || name == "overhead_percent";
+         name.ends_with("ms_per_step") || name.ends_with("wall_s") || name == "overhead_percent" ||
+         name.ends_with(".front_count");
 }
 
 bool is_effort(const std::string& name) {

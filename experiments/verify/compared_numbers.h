@@ -40,6 +40,7 @@ double metric_scale(const std::string& name, double number);
 // As the run itself has measured the errors of a metric; 0 where it has not.
 double stated_error(const Metrics& metrics, const std::string& name);
 
+// A duration, or what goes by durations: on `accuracy`'s fronts stand the settings that take least.
 bool is_duration(const std::string& metric);
 // The solver's work and what it left over; on a page behind a column's name, "prandtl.".  It is held to a
 // limit that is set on it, and to nothing else.

@@ -30,6 +30,9 @@ KeyValues key_values(const Keys& keys);
 // default value, too, but not with an empty text or false.  `values` are those of all keys of the experiment,
 // its run and its scene.
 void refuse_unread_flags(const CommandLine& line, const KeyValues& values);
+// Throws Error::invalid_input for a list, "linear,prandtl", that names nothing, whose page would have nothing
+// on it, or one name twice, whose rows would stand there twice.
+void check_listed_names(const std::string& key, const std::string& list);
 // A sentence for each key that is not read and that a scene's file has given another value than its usual
 // one; without those that the flags of the line set.
 std::vector<std::string> unread_key_warnings(const CommandLine& line, const KeyValues& values,

@@ -122,5 +122,13 @@ TEST(AccuracyCommand, WritesTablesOrdersAndTheCheapest) {
   EXPECT_TRUE(says(file_content(out / "orders.csv"), "problem,in,group"));
 }
 
+TEST(AccuracyCommand, SolvesNoProblemTwice) {
+  const auto said = [](const char* problems) {
+    return test::refusal([&] { run_into("never", "accuracy", {{"problem", problems}}); });
+  };
+  EXPECT_TRUE(says(said("bend,sag,bend"), "problem = bend,sag,bend names bend twice (--problem)"));
+  EXPECT_TRUE(says(said("bend,all"), "problem = all is not one of"));
+}
+
 }  // namespace
 }  // namespace hysteron::experiments

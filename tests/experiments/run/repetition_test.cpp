@@ -77,6 +77,16 @@ TEST(Repetition, DiffersWhereOneOfThemHasANumberThatTheOtherHasNot) {
   EXPECT_EQ(compare_runs(before, now, {}, false).unrecorded.front(), "the state");
 }
 
+// Which settings of `accuracy` no other beats goes by their durations.
+TEST(Repetition, PassesOverWhatGoesByDurations) {
+  Manifest before = with_steps("bdf2", 1e-6), now = before;
+  before.metrics = {{"bend.base_error_percent", 0.5}, {"bend.front_count", 6}, {"bend.computing_s", 1.5}};
+  now.metrics = {{"bend.base_error_percent", 0.5}, {"bend.front_count", 5}, {"bend.computing_s", 2.5}};
+  EXPECT_EQ(compare_runs(before, now, {}, false).agreement(), Agreement::bits);
+  now.metrics = {{"bend.base_error_percent", 0.6}, {"bend.front_count", 6}, {"bend.computing_s", 1.5}};
+  EXPECT_EQ(compare_runs(before, now, {}, false).agreement(), Agreement::none);
+}
+
 TEST(Repetition, HoldsTheClosingEnergiesToRoundOffOfTheirLargest) {
   Manifest before = with_steps("bdf2", 1e-6), now = before;
   before.energy = {{"kinetic", 1e-9}, {"bending", 1e-3}, {"remainder", 1e-18}};

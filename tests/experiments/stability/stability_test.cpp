@@ -5,6 +5,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "experiments/workbench/app/key_conditions.h"
 #include "sim/scene/scene_reader.h"
 #include "tests/experiments/folder.h"
 
@@ -311,6 +312,59 @@ TEST_F(StabilityCommand, RefusesAPartOfALimitStep) {
                      run({{"sweep", "explicit-limit"}, {"limit-steps", "100.5"}});
                    }),
                    "limit-steps = 100.5 must be a whole number"));
+}
+
+// Its conditions name the sweeps that read a key by patterns.
+TEST_F(StabilityCommand, RefusesFlagsThatNoneOfItsSweepsReads) {
+  std::vector<std::string> cells;
+  for (const Sweep& sweep : named_sweeps({"all"}, {})) cells.push_back(sweep.name);
+  ASSERT_GE(cells.size(), 9u);
+  const auto is_read = [](const std::string& key, const std::string& sweep) {
+    return test::refusal([&] {
+             refuse_unread_flags({"stability", "", {{key, "1"}}, {}}, {{"sweep", sweep}, {key, "1"}});
+           }) == test::kAccepted;
+  };
+  for (const char* key : {"device", "seconds", "work"}) {
+    for (const std::string& sweep : cells) EXPECT_TRUE(is_read(key, sweep)) << sweep;
+    for (const char* sweep : {"ripple", "explicit-limit", "explicit-limit,ripple"})
+      EXPECT_FALSE(is_read(key, sweep)) << sweep;
+    EXPECT_TRUE(is_read(key, "ripple,mesh"));
+  }
+  for (const std::string& sweep : cells) {
+    EXPECT_TRUE(is_read("integrator", sweep)) << sweep;
+    EXPECT_EQ(is_read("law", sweep), sweep != "chapter-method") << sweep;
+  }
+  EXPECT_FALSE(is_read("law", "chapter-method,explicit-limit"));
+  for (const char* key : {"integrator", "law"}) {
+    EXPECT_TRUE(is_read(key, "explicit-limit,ripple"));
+    EXPECT_FALSE(is_read(key, "explicit-limit"));
+  }
+}
+
+TEST_F(StabilityCommand, RefusesNamesThatAreUnknownOrStandTwice) {
+  const auto said = [&](const char* key, const char* list) {
+    return test::refusal([&] {
+      std::vector<Flag> flags = {{key, list}};
+      if (key != std::string("sweep")) flags.push_back({"sweep", "mesh"});
+      run(std::move(flags));
+    });
+  };
+  EXPECT_TRUE(says(said("law", "linear,prandl"), "prandl must be of "));
+  EXPECT_TRUE(says(said("law", "prandtl,all"), "or all alone"));
+  EXPECT_TRUE(says(said("integrator", "bdf3"), "bdf3 must be of "));
+  EXPECT_TRUE(says(said("law", "wong,wong"), "law = wong,wong names wong twice (--law)"));
+  EXPECT_TRUE(says(said("integrator", "bdf2,bdf2"), "names bdf2 twice"));
+  EXPECT_TRUE(says(said("sweep", "ripple,ripple"), "names ripple twice"));
+  EXPECT_TRUE(says(said("sweep", "all,ripple"), "all stands alone"));
+  EXPECT_TRUE(says(said("sweep", ","), "must be of"));
+}
+
+TEST_F(StabilityCommand, TakesAllLawsByOneName) {
+  constexpr const char* kNoTime = "1";  // a step of each cell
+  ASSERT_EQ(
+      run({{"sweep", "density-step"}, {"integrator", "semi-implicit"}, {"law", "all"}, {"work", kNoTime}}),
+      0);
+  EXPECT_EQ(manifest()["metrics"]["cells"], law_names().size() * 2 * 2) << "two densities, two steps";
 }
 
 }  // namespace
