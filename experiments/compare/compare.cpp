@@ -131,6 +131,16 @@ void take_scene_options(CommandLine& inner, Options& options) {
     inner.flags.push_back({"size", of_scene.size});
 }
 
+// The columns' curvatures are subtracted as their pictures are drawn, from those that the first one keeps
+// beside its own.
+void check_difference(const CompareChoice& choice, bool with_images) {
+  if (with_images || choice.to.empty() || choice.difference != "curvature") return;
+  throw Error::invalid_input(
+      "compare.difference = curvature needs pictures, and no-images draws none: leave one of both out "
+      "(--compare.difference)")
+      .with_key("compare.difference", choice.difference);
+}
+
 void draw_page(Run& run, const CommandLine& line, const std::string& experiment, const CompareChoice& choice,
                const Options& options, const Plan& plan) {
   const ComparisonPage page{.title = comparison_title(line, plan.columns),
@@ -182,6 +192,7 @@ int run_compare(const CommandLine& line) {
   read_flags(line, choice, options);
   CommandLine inner = line_of_columns(line, choice);
   take_scene_options(inner, options);
+  check_difference(choice, !options.no_images);
   std::vector<Variant> variants = named_variants(inner);
   if (options.explain)
     return explain_columns(comparison_plan(inner, variants, choice, options.out).columns), 0;

@@ -119,7 +119,7 @@ const KeyRow<Pin> kPinRows[] = {
 const KeyRow<Obstacle> kObstacleRows[] = {
     {"kind", at<&Obstacle::kind>, "", any(), "", "solid; hollow: a sphere with the cloth inside"},
     {"center", at<&Obstacle::center>, "m", any(), "", "ground: a point of the plane; others: the middle"},
-    {"axis", at<&Obstacle::axis>, "", any(), "", "ground: normal; cylinder, capsule, torus: direction"},
+    {"axis", at<&Obstacle::axis>, "", any(), "", "ground: normal; cylinder, capsule, torus: direction; box: that of its edges along z, with which it is turned"},
     {"size", at<&Obstacle::size>, "m", positive(), "", "of the box: half edges"},
     {"radius", at<&Obstacle::radius>, "m", positive(), "", "of sphere, hollow, cylinder and capsule; of the torus to the middle of its wire"},
     {"height", at<&Obstacle::height>, "m", positive(), "", "of cylinder and capsule: length of the axis; of the torus: thickness of its wire"},

@@ -36,7 +36,7 @@ constexpr ReadKey<Obstacle> kObstacles[] = {
        return is_one_of(o, {K::cylinder, K::capsule, K::torus});
      }},
     {"rim", "a cylinder or box", [](const Obstacle& o) { return obstacle_form(o).has_rim; }},
-    {"axis", "another kind", [](const Obstacle& o) { return obstacle_form(o).has_axis || o.kind == K::box; }},
+    {"axis", "another kind", [](const Obstacle& o) { return obstacle_form(o).has_axis; }},
     {"motion-axis", "a keyframe's angle", [](const Obstacle& o) { return turns(o.motion); }},
 };
 

@@ -29,6 +29,20 @@ TEST(Compare, SubtractsTheCurvatureOfAColumn) {
   EXPECT_NEAR(looks["difference"]["high"].get<double>(), 98.43617921, 1e-4);
 }
 
+// By a flag or by the scene's file, before any column has run.
+TEST(Compare, SubtractsNoCurvatureWithoutPictures) {
+  const Folder folder;
+  const std::string scene = folder.write("still.toml", "no-images = true\nseconds = 0.01\n");
+  for (const std::string& what : {std::string("swing --no-images"), scene}) {
+    const Outcome outcome = program(
+        "compare " + what + " --laws linear,prandtl --compare.to linear --compare.difference curvature" +
+        out_flag(folder.path() / "never"));
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_TRUE(says(outcome.err, "compare.difference = curvature needs pictures, and no-images draws none"));
+  }
+  EXPECT_FALSE(fs::exists(folder.path() / "never"));
+}
+
 // The same run gives no difference; another law gives what their exported meshes differ by.
 TEST(Difference, OfARunToItselfIsNone) {
   const Folder folder;

@@ -73,6 +73,16 @@ ContactModel<double> scene_contact_model(const Scene& scene) {
   return {shell, kElasticSlip * shell.thickness, 0.5 * shell.stiffest()};
 }
 
+TEST(PlacedObstacle, IsABoxTurnedWithItsEdgesAlongZ) {
+  Obstacle turned = box({0.01, 0.02, 0.03}, {0, 0, 0});
+  for (const Vector3d& axis : {Vector3d(1, 0, 0), Vector3d(0, 2, 0), Vector3d(1, 1, 1)}) {
+    turned.axis = axis;
+    constexpr double kRounding = 1e-15;
+    EXPECT_LT((placed(turned).rotation * Vector3d::UnitZ() - axis.normalized()).norm(), kRounding);
+    EXPECT_TRUE(obstacle_form(turned).has_axis);
+  }
+}
+
 // What is convex, with edges, corners and rounded sides.
 std::vector<Obstacle> convex_obstacles() {
   Obstacle cylinder = rod(0.01, {0, 0, 0});

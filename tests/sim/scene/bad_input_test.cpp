@@ -147,6 +147,7 @@ const BadScene kBadScenes[] = {
     {"ZeroRadius", "[[obstacle]]\nradius = 0\n", 2, {"obstacle[0].radius = 0 m must be > 0"}},
     {"ZeroEdge", "[[obstacle]]\nsize = [1, 0, 1]\n", 2, {"obstacle[0].size = [1, 0, 1] m must be > 0"}},
     {"NoAxis", "[[obstacle]]\naxis = [0, 0, 0]\n", 1, {"obstacle[0].axis"}},
+    {"NoAxisOfABox", "[[obstacle]]\nkind = \"box\"\naxis = [0, 0, 0]\n", 1, {"obstacle[0].axis"}},
     {"RimTooRound",
      "[[obstacle]]\nkind = \"cylinder\"\nheight = 0.01\nrim = 0.02\n",
      1,
