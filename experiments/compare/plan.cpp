@@ -175,6 +175,8 @@ Plan comparison_plan(const CommandLine& inner, const std::vector<Variant>& varia
   plan.laws = laws.size();
   plan.reference = reference_law(laws);
   plan.has_reference = laws.contains(plan.reference);
+  plan.has_faces =
+      std::ranges::any_of(scenes, [](const Scene& scene) { return scene.fabric.bending.faces.on(); });
   const Flag range = shared_range(inner, scenes);
   const std::vector<Flag> framing = shared_framing(inner, variants);
   plan.varied = varied_key(variants);

@@ -37,6 +37,7 @@ struct Plan {
   std::vector<double> scales;
   std::string reference;       // law that stiffness is matched to
   bool has_reference = false;  // a column has it
+  bool has_faces = false;      // a column's fabric bends otherwise to its back than to its face
   std::size_t laws = 0;        // different ones
   int to = -1;                 // the column that is subtracted, -1: none
   std::string varied;          // "law", where columns differ by it alone
