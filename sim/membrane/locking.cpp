@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <numeric>
 
+#include "sim/bending/laws/law_parameters.h"
 #include "sim/membrane/membrane_nodes.h"
 
 namespace hysteron {
@@ -28,7 +29,7 @@ double mean_edge(const ClothMesh& mesh) {
 double locking_number(const Scene& scene, const ClothMesh& mesh) {
   const MembraneStiffness<double> of = split_membrane(scene.fabric, scene.membrane_element).faces;
   const double edge = mean_edge(mesh), stiffness = std::max(of.warp, of.weft);
-  return stiffness * edge * edge / scene.fabric.b2;
+  return stiffness * edge * edge / mean_of_faces(scene.fabric.virgin_curve()).b2;
 }
 
 std::string locking_words(const Scene& scene, const ClothMesh& mesh) {
@@ -41,9 +42,11 @@ std::string locking_words(const Scene& scene, const ClothMesh& mesh) {
   std::snprintf(
       text, sizeof text,
       "the membrane may lock: edges of %.3g mm are long for fabric.warp = %.3g N/m, fabric.weft = %.3g "
-      "N/m and fabric.b2 = %.3g N m, so that the cloth bends less than it should (E h^2/b2 = %.2g, "
+      "N/m and fabric.b2 = %.3g N m%s, so that the cloth bends less than it should (E h^2/b2 = %.2g, "
       "above %.0e): take %ssome %.0f times as many triangles, or a softer membrane",
-      1e3 * mean_edge(mesh), scene.fabric.warp, scene.fabric.weft, scene.fabric.b2, number, kLocks,
+      1e3 * mean_edge(mesh), scene.fabric.warp, scene.fabric.weft,
+      mean_of_faces(scene.fabric.virgin_curve()).b2,
+      scene.fabric.bending.faces.on() ? " (the mean of both sides)" : "", number, kLocks,
       may_average ? "membrane.element = nodal, or " : "", std::ceil(number / kLocks));
   return text;
 }

@@ -45,6 +45,18 @@ TEST(Locking, IsSaidOfRealStiffnessOnACoarseMesh) {
   }
 }
 
+// 600 triangles with 4 kN/m are below the number that matters, with half of the rigidity above it.
+TEST(Locking, GoesByTheMeanRigidityOfBothSides) {
+  Scene scene = drape(600, 4e3);
+  const ClothMesh mesh = make_cloth(scene).mesh;
+  const double alike = locking_number(scene, mesh);
+  EXPECT_EQ(words_on(scene), "");
+  scene.fabric.bending.faces.bending = 0.1;
+  constexpr double kRounding = 1e-12;
+  EXPECT_NEAR(locking_number(scene, mesh) / alike, 1 / 0.55, kRounding);
+  EXPECT_TRUE(says(words_on(scene), "(the mean of both sides)"));
+}
+
 // Means at nodes have the stiffness then; what triangles keep locks where edges are longer.
 TEST(Locking, OfMeansAtNodesIsThatOfWhatTrianglesKeep) {
   Scene stiff = drape(600, 1e5);
