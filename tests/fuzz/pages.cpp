@@ -6,11 +6,17 @@ namespace hysteron::fuzz {
 namespace {
 namespace fs = std::filesystem;
 
+// File systems write one that is overwritten to the disk at once.
+void copy_anew(const fs::path& file, const fs::path& copy) {
+  fs::remove(copy);
+  fs::copy_file(file, copy);
+}
+
 // A run's folder beside the file, with a copy of it under a name of its own.
 fs::path placed(const fs::path& file, const char* name) {
   const fs::path folder = file.parent_path() / "results" / "run";
   fs::create_directories(folder);
-  fs::copy_file(file, folder / name, fs::copy_options::overwrite_existing);
+  copy_anew(file, folder / name);
   return folder;
 }
 
@@ -30,8 +36,7 @@ Format page() {
 
 Format table() {
   return {"table", "csv", ".csv", {[](const fs::path& file) {
-            fs::copy_file(kManifest, placed(file, "table.csv") / "manifest.json",
-                          fs::copy_options::overwrite_existing);
+            copy_anew(kManifest, placed(file, "table.csv") / "manifest.json");
             experiments::report_page(placed(file, "metrics.csv"));
             experiments::gallery_page(file.parent_path() / "results");
           }}};

@@ -20,6 +20,9 @@ Folder::Folder() {
 Folder::~Folder() { std::filesystem::remove_all(path_); }
 
 std::string Folder::write(const std::string& name, const std::string& content) const {
+  namespace fs = std::filesystem;
+  // File systems write a file that is cut short to the disk at once, and a new one when they have time.
+  if (fs::is_regular_file(fs::symlink_status(file(name)))) fs::remove(file(name));
   std::ofstream(file(name), std::ios::binary) << content;
   return file(name);
 }
