@@ -86,7 +86,8 @@ std::vector<Flag> matched(const Scene& column, const LawRequest& reference, cons
   scale = matching_scale(requested_law(column), reference, choice.match, choice.match_curvature);
   const auto scaled = [&](const char* key, double value) { return Flag{key, number_text(scale * value)}; };
   BendingParts parts = stiffened(fabric.bending, scale);
-  std::vector<Flag> flags = {scaled("fabric.b1", fabric.b1), scaled("fabric.b2", fabric.b2)};
+  std::vector<Flag> flags = {scaled("fabric.b2", fabric.b2)};  // b1 follows from stops, and takes their place
+  if (fabric.bending.stops.empty()) flags.insert(flags.begin(), scaled("fabric.b1", fabric.b1));
   if (fabric.kes.on()) {  // the rest follows
     flags = {scaled("fabric.kes-b", fabric.kes.read.rigidity),
              scaled("fabric.kes-2hb", fabric.kes.read.loop_width)};

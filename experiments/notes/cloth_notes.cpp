@@ -2,16 +2,17 @@
 #include <fmt/core.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
+#include <vector>
 
 #include "experiments/notes/notes.h"
+#include "experiments/workbench/app/law_family.h"
 #include "experiments/workbench/pages/error_words.h"
 #include "experiments/workbench/pages/manifest.h"
 #include "sim/bending/laws/law_parameters.h"
 
 namespace hysteron::experiments {
 namespace {
-
-constexpr double kGravity = 9.81;  // [m/s^2] of the default scene
 
 std::string rest_note(const Manifest& manifest, const std::string& number) {
   if (!manifest.metrics["settled"].is(false)) return "";
@@ -153,9 +154,31 @@ Notes crumple_notes(const Manifest& manifest) {
           set_note(manifest, "wrinkles are kept")};
 }
 
-// What KES-FB2 reads where the strip sags, to its back [N m], or to both sides of laws that have the mean.
+// A list of numbers of the scene; empty where it has none there.
+std::vector<double> numbers_at(const Manifest& manifest, const std::string& path) {
+  const Json list = Json::parse(manifest.text(path), nullptr, false);
+  std::vector<double> numbers;
+  if (list.is_array())
+    for (const Json& entry : list) numbers.push_back(entry.is_number() ? entry.get<double>() : NAN);
+  return numbers;
+}
+
+// Gravity on a strip that is level, as the standard's is [m/s^2]; 0 of one that is not.
+double level_gravity(const Manifest& manifest) {
+  const std::vector<double> gravity = numbers_at(manifest, "gravity"),
+                            rotation = numbers_at(manifest, "cloth.rotation");
+  if (gravity.size() != 3 || gravity[0] != 0 || gravity[1] != 0) return 0;
+  if (rotation.size() == 3 && (rotation[0] != 0 || rotation[1] != 0)) return 0;
+  return std::abs(gravity[2]);
+}
+
+// What KES-FB2 reads along the strip where it sags, to its back [N m], or to both sides of laws that have the
+// mean; 0 of one that is neither of warp nor of weft.
 double sagging_rigidity(const Manifest& manifest) {
-  const double b = manifest.number("fabric.b2"), back = manifest.number("fabric.back-bending");
+  const double warp_angle = std::abs(manifest.number("cloth.warp-angle")),
+               weft = manifest.number("fabric.weft-bending"), back = manifest.number("fabric.back-bending");
+  if (warp_angle != 0 && warp_angle != 90) return 0;
+  const double b = manifest.number("fabric.b2") * (warp_angle == 90 && weft > 0 ? weft : 1);
   if (!(back > 0)) return b;
   return has_faces(manifest.law.value_or("")) ? back * b : (1 + back) / 2 * b;
 }
@@ -166,12 +189,14 @@ Notes cantilever_notes(const Manifest& manifest) {
   if (std::isfinite(error))
     elastica = fmt::format("the strip sags {:.2g} % {} than a curve with the same law does: mesh and step",
                            std::abs(error), error < 0 ? "less" : "more");
-  const double length = manifest.metrics.number("bending_length_m"), b = sagging_rigidity(manifest);
-  if (std::isfinite(length) && b > 0 && manifest.law != "linear")
+  const double length = manifest.metrics.number("bending_length_m"), b = sagging_rigidity(manifest),
+               gravity = level_gravity(manifest);
+  if (std::isfinite(length) && b > 0 && gravity > 0 &&
+      family_of_law(manifest.law.value_or("")) == "hysteretic")
     rigidity = fmt::format(
         "ASTM D1388 reads a rigidity of {:.1f} uN m from this bending length, KES-FB2 reads {:.1f}: "
         "friction holds the strip up as well",
-        1e6 * std::pow(length, 3) * manifest.number("fabric.density") * kGravity, 1e6 * b);
+        1e6 * std::pow(length, 3) * manifest.number("fabric.density") * gravity, 1e6 * b);
   return {rigidity, elastica, errors_note(manifest, "tip_drop_over_length", "sag")};
 }
 

@@ -117,6 +117,24 @@ TEST(Compare, SetsLawsOfEqualWorkSideBySideWithTheirPlots) {
   EXPECT_GT(metrics["prandtl.bending_friction_J"].get<double>(), 0);
 }
 
+// b1 follows from the stops: a file of `fit --fab.friction stops` has no other.
+TEST(Compare, MatchesAFabricThatHasStops) {
+  constexpr double kDigits = 1e-6;
+  const Folder folder;
+  const std::string fabric =
+      folder.write("stops.toml",
+                   "[parameters]\nb2 = 1e-5\ndensity = 0.12\nthickness = 5e-4\n"
+                   "[bending.stops]\nthresholds = [10, 40]\nstiffnesses = [2e-5, 1e-5]\n");
+  const FinishedRun run("compare swing --laws linear,prandtl --no-images --fabric " + fabric + kSmall);
+  const auto linear = manifest_in(run.out / "linear")["scene"]["fabric"];
+  const double scale = linear["b2"].get<double>() / 1e-5;
+  EXPECT_GT(scale, 1.2);
+  const auto stiffnesses = linear["bending"]["stops"]["stiffnesses"];
+  ASSERT_EQ(stiffnesses.size(), 2u);
+  EXPECT_NEAR(stiffnesses[0].get<double>() / 2e-5, scale, kDigits);
+  EXPECT_NEAR(linear["b1"].get<double>() / 4e-5, scale, kDigits) << "b2 and the stops";
+}
+
 TEST(Compare, KeepsWhatIsFinishedOfTheSameQuestion) {
   const std::string line = "compare swing --laws linear,prandtl --no-images" + kSmall;
   const FinishedRun run(line);

@@ -141,16 +141,32 @@ TEST(Notes, OfAComparisonWeighDifferencesByErrors) {
 
 // A rigidity of c^3 times the weight of an area (ASTM D1388).
 TEST(Notes, OfACantileverSayWhatAStandardReadsFromItsLength) {
-  const Json keys = {{"fabric", {{"name", "test"}, {"b2", 1e-5}, {"density", 0.1}}}};
-  Manifest manifest = manifest_of("cantilever", {{"bending_length_m", 0.03}}, keys);
-  manifest.law = "prandtl";
-  EXPECT_TRUE(says(first_note(manifest), "a rigidity of 26.5 uN m"));  // 0.03^3 * 0.1 * 9.81
-  EXPECT_TRUE(says(first_note(manifest), "KES-FB2 reads 10.0"));
+  Json keys = {{"fabric", {{"name", "test"}, {"b2", 1e-5}, {"density", 0.1}, {"weft-bending", 0.4}}},
+               {"gravity", {0, 0, -9.81}},
+               {"cloth", {{"rotation", {0, 0, 0}}, {"warp-angle", 0}}}};
+  const auto note = [&](const char* law) {
+    Manifest manifest = manifest_of("cantilever", {{"bending_length_m", 0.03}}, keys);
+    manifest.law = law;
+    return first_note(manifest);
+  };
+  EXPECT_TRUE(says(note("prandtl"), "a rigidity of 26.5 uN m"));  // 0.03^3 * 0.1 * 9.81
+  EXPECT_TRUE(says(note("prandtl"), "KES-FB2 reads 10.0"));
+  for (const char* law : {"linear", "pabst", "obrien"}) EXPECT_EQ(note(law), "") << law << " has no friction";
+  keys["cloth"]["warp-angle"] = 90;
+  EXPECT_TRUE(says(note("prandtl"), "KES-FB2 reads 4.0")) << "along weft";
+  keys["cloth"]["warp-angle"] = 45;
+  EXPECT_EQ(note("prandtl"), "") << "KES-FB2 reads warp and weft";
+  keys["cloth"]["warp-angle"] = 0;
+  keys["gravity"] = {0, 0, -1.62};
+  EXPECT_TRUE(says(note("prandtl"), "a rigidity of 4.4 uN m")) << "on the moon";
+  keys["cloth"]["rotation"] = {0, 20, 0};
+  EXPECT_EQ(note("prandtl"), "") << "the standard's strip is level";
 }
 
 // The strip sags to its back; a law without sides has the mean of both.
 TEST(Notes, OfACantileverWhoseFacesDifferGoByTheSideThatItSagsTo) {
-  const Json keys = {{"fabric", {{"name", "test"}, {"b2", 1e-5}, {"density", 0.1}, {"back-bending", 1.6}}}};
+  const Json keys = {{"fabric", {{"name", "test"}, {"b2", 1e-5}, {"density", 0.1}, {"back-bending", 1.6}}},
+                     {"gravity", {0, 0, -9.81}}};
   Manifest manifest = manifest_of("cantilever", {{"bending_length_m", 0.03}}, keys);
   manifest.law = "prandtl";
   EXPECT_TRUE(says(first_note(manifest), "KES-FB2 reads 16.0"));
