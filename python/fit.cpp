@@ -9,6 +9,7 @@
 #include "sim/base/error.h"
 #include "sim/identification/curve.h"
 #include "sim/identification/fabric_file.h"
+#include "sim/identification/loop_warnings.h"
 #include "sim/scene/fabric_reader.h"
 
 namespace hysteron::python {
@@ -61,6 +62,8 @@ Identification fit(const Numbers& curvature, const Numbers& moment, const std::o
   question.law.parameters = law_parameters(law, parameters);
   Identification found;
   unlocked([&] { found = identify_curve(series, question); });
+  for (const std::string& warning : loop_warnings(series, {question.law}, curvature_offset)) warn(warning);
+  warn(misses_warning(found));
   return found;
 }
 

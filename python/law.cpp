@@ -8,6 +8,7 @@
 #include "sim/base/archive.h"
 #include "sim/base/error.h"
 #include "sim/bending/law_loop.h"
+#include "sim/bending/laws/unused_parameters.h"
 #include "sim/device/device.h"
 
 namespace hysteron::python {
@@ -164,7 +165,12 @@ Law make_law(const std::string& name, py::object fabric, int dimension, const py
     throw Error::invalid_input("dimension = " + std::to_string(dimension) + " must be 1 or 3")
         .with_key("dimension", std::to_string(dimension));
   const LawParameters texts = law_parameters(name, parameters);
-  return {choose_law(name, fabric_from_python(fabric).virgin_curve(), texts), dimension};
+  const Fabric of = fabric_from_python(fabric);
+  const LawChoice choice = choose_law(name, of.virgin_curve(), texts);
+  for (const std::string& warning :
+       unused_parameter_warnings(name, of.virgin_curve(), texts, LawUse::cloth, of.name))
+    warn(warning);
+  return {choice, dimension};
 }
 
 py::dict laws() {

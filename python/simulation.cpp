@@ -7,6 +7,7 @@
 
 #include "python/module.h"
 #include "sim/base/error.h"
+#include "sim/bending/laws/unused_parameters.h"
 #include "sim/scene/scene_reader.h"
 
 namespace hysteron::python {
@@ -18,8 +19,10 @@ SimulationValue::SimulationValue(const Scene& scene) : scene_(scene) {
     cloth_ = make_cloth(scene_);
     simulation_ = make_simulation(scene_, cloth_);
   });
-  for (const std::string& warning : cloth_.warnings)
-    if (PyErr_WarnEx(PyExc_UserWarning, warning.c_str(), 1) < 0) throw py::error_already_set();
+  for (const std::string& warning : cloth_.warnings) warn(warning);
+  for (const std::string& warning : unused_parameter_warnings(
+           scene_.law, scene_.fabric.virgin_curve(), scene_.param, LawUse::cloth, scene_.fabric.name))
+    warn(warning);
 }
 
 Simulation& SimulationValue::at_rest() const {

@@ -128,6 +128,11 @@ std::string to_text(py::handle value, const std::string& key) {
   refuse(key, value, "a number or a text");
 }
 
+void warn(const std::string& text) {
+  if (text.empty()) return;
+  if (PyErr_WarnEx(PyExc_UserWarning, text.c_str(), 1) < 0) throw py::error_already_set();
+}
+
 LawParameters law_parameters(const std::string& law, const py::dict& given) {
   const std::vector<std::string> known = law_parameter_names(law);
   LawParameters parameters;

@@ -37,6 +37,9 @@ LawParameters law_parameters(const std::string& law, const py::dict& given);
 // {"cloth_length": 0.1} are one; lists of mappings are arrays of tables.
 ValueTree to_tree(const py::dict& values);
 
+// Hands a warning of the program to Python's `warnings`, whose filters may make an error of it; "" is none.
+void warn(const std::string& text);
+
 // Lets other threads of Python run meanwhile.
 template <class Body>
 void unlocked(const Body& body) {

@@ -16,9 +16,9 @@
 #include "render/plot.h"
 #include "sim/base/csv.h"
 #include "sim/base/error.h"
-#include "sim/bending/laws/unused_parameters.h"
 #include "sim/identification/curve.h"
 #include "sim/identification/decay_friction.h"
+#include "sim/identification/loop_warnings.h"
 #include "sim/identification/published.h"
 #include "sim/identification/series.h"
 #include "sim/scene/fabric_limits.h"
@@ -53,8 +53,6 @@ struct FitFlags {
 
 constexpr double kSameResidual = 1e-4;  // relative: what numerical differences leave
 constexpr double kNoResidual = 1e-9;    // residuals below this share of the largest moment are none
-const VirginCurve kAnyCurve = {2e-5, 1e-5, 50, {}};  // in place of the one that is sought
-constexpr double kMisses = 0.25;  // of the largest moment: a law farther from the data (rms) is another's
 
 using F = FitFlags;
 using M = Measured;
@@ -125,43 +123,6 @@ struct Answer {
   std::vector<std::string> warnings = {};  // of the data and the request
 };
 
-// A tester that bends to opposite curvatures finds opposite moments.  Where the moments are opposite and the
-// curvatures are not, the zero of curvature is off.
-std::string curvature_zero_warning(const MomentSeries& series) {
-  constexpr double kNoticed = 0.02;  // of the half range of curvature
-  const auto [low, high] = std::ranges::minmax(series.curvature);
-  const auto [least, most] = std::ranges::minmax(series.moment);
-  const double middle = (low + high) / 2, half = (high - low) / 2;
-  const double beside = std::abs(middle) / half, of_moment = std::abs(least + most) / (most - least);
-  if (!(beside > kNoticed && of_moment < beside / 2 && low < 0 && high > 0)) return "";
-  return "curvatures go from " + number_text(low, 4) + " to " + number_text(high, 4) +
-         " 1/m, while the moments at their ends are opposite: the zero of curvature seems to be off by " +
-         number_text(middle, 3) + " 1/m, which b1 and k0 do not stand; --curvature-offset finds it";
-}
-
-// Laws that take time, from data that do not say it.
-std::string time_warning(const MomentSeries& series, const std::vector<LawRequest>& laws) {
-  const bool measured = !series.seconds.empty();
-  const auto passes = [](double seconds) { return seconds > 0; };
-  if (std::ranges::any_of(series.seconds, passes)) return "";
-  std::vector<std::string> timed;
-  for (const LawRequest& law : laws)
-    if (takes_time(law)) timed.push_back(law.name);
-  if (timed.empty()) return "";
-  return series.name + (measured ? " has a column time [s] that does not rise" : " has no column time [s]") +
-         ", and " + join(timed, ", ") + (timed.size() == 1 ? " takes" : " take") +
-         " time: every row is taken as a step of " + (measured ? "0 s" : "1 s");
-}
-
-std::vector<std::string> loop_warnings(const MomentSeries& series, const std::vector<LawRequest>& laws) {
-  std::vector<std::string> warnings = {time_warning(series, laws)};
-  for (const LawRequest& law : laws)
-    for (const std::string& warning :
-         unused_parameter_warnings(law.name, law.curve, law.parameters, LawUse::alone, "the fabric"))
-      warnings.push_back(warning);
-  return warnings;
-}
-
 // The best first; laws that the data do not tell apart stay in the order in which they were asked for.
 void rank(std::vector<Identification>& fits) {
   const auto digits = [](const Identification& fit) {
@@ -189,7 +150,7 @@ Answer from_loop(const FitFlags& flags) {
   Answer answer{{}, series.name};
   std::vector<LawRequest> laws;
   for (const std::string& name : requested_laws(flags.law)) {
-    laws.push_back({name, kAnyCurve, {}});
+    laws.push_back({name, {}, {}});
     for (const auto& [parameter, value] : flags.param) laws.back().parameters[parameter] = value;
     CurveQuestion question;
     question.law = laws.back();
@@ -199,9 +160,7 @@ Answer from_loop(const FitFlags& flags) {
     answer.fits.push_back(identify_curve(series, question));
   }
   rank(answer.fits);
-  answer.warnings = loop_warnings(series, laws);
-  if (!flags.curvature_offset) answer.warnings.push_back(curvature_zero_warning(series));
-  std::erase(answer.warnings, "");
+  answer.warnings = loop_warnings(series, laws, flags.curvature_offset);
   return answer;
 }
 
@@ -222,17 +181,9 @@ Answer from_virgin(const FitFlags& flags) {
 Answer from_kes(const FitFlags& flags) {
   if (!flags.kes.b.given() || !flags.kes.two_hb.given())
     throw Error::invalid_input("KES-FB2 needs both --kes.b and --kes.2hb").with_key("kes.b", "");
-  return {{identify_kes(flags.kes, flags.assume)}, "B and 2HB of KES-FB2"};
-}
-
-// "" of a law that is near the data.
-std::string misses_warning(const Identification& found) {
-  const double share = found.residual_rms() / found.largest_moment();
-  if (share <= kDoubtfulMiss) return "";
-  const std::string miss = " them by " + rounded(100 * share) + " % of the largest moment (rms)";
-  if (!(share <= kMisses)) return found.law + " does not describe these data: it misses" + miss;
-  return found.law + " is not near these data: it misses" + miss +
-         "; another law may be nearer (--law all), and plot_residual shows where";
+  Answer answer{{identify_kes(flags.kes, flags.assume)}, "B and 2HB of KES-FB2"};
+  if (const std::string warning = kes_warning(flags.kes); !warning.empty()) answer.warnings = {warning};
+  return answer;
 }
 
 // Units of its own have the tester that measures a loop of bending, and the one that buckles strips.
@@ -296,6 +247,7 @@ void draw_decay(Run& run, const DecaySeries& series, const std::vector<double>& 
 // A free vibration and what was identified from it.
 struct DecayAnswer {
   DecaySeries series;
+  std::string large;  // what is said of amplitudes that were too large, or ""
   DecayQuestion question;
   FabAnswer found;
 };
@@ -303,9 +255,12 @@ struct DecayAnswer {
 DecayAnswer identify_vibration(const FitFlags& flags, const std::string& from) {
   check_rigidity(flags.kes.b.value, "kes.b");
   DecayAnswer answer{read_decay(flags.decay.file, "fit"),
+                     "",
                      {flags.decay.length, flags.density, flags.kes.b.value, flags.decay.noise},
                      {}};
   check_decay(answer.series, answer.question, flags.decay.file);
+  answer.large = large_amplitudes_warning(answer.series, flags.decay.length);
+  answer.series = without_large_amplitudes(answer.series, flags.decay.length);
   FabBending found = identify_decay(answer.series, answer.question);
   if (!(found.law.spring > 0))
     throw Error::invalid_input(
@@ -338,8 +293,12 @@ Identification three_numbers(const FabBending& found, double rigidity, const std
 // fabric.toml, forms.csv, decay.csv (measured and by the fit), a plot and metrics; what a reader is told.
 std::string report_decay(Run& run, const DecayAnswer& answer, const FabricNotes& notes) {
   const FabBending& b = answer.found.found.bending[0];
-  for (const std::string& warning : decay_warnings(answer.series, answer.question)) run.warn(warning);
-  for (const std::string& warning : bending_warnings(b, answer.found.forms[0], answer.found.repeats[0]))
+  std::vector<std::string> warnings = decay_warnings(answer.series, answer.question);
+  if (warnings.empty()) warnings.push_back(pace_warning(answer.series, answer.question, b));
+  warnings.push_back(answer.large);
+  std::erase(warnings, "");
+  for (const std::string& warning : warnings) run.warn(warning);
+  for (const std::string& warning : decay_fit_warnings(b, answer.found.forms[0], answer.found.repeats[0]))
     run.warn(warning);
   const Identification numbers = three_numbers(b, answer.question.rigidity, answer.found.found.from);
   write_fabric(run.path("fabric.toml"), numbers, notes);

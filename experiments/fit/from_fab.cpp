@@ -14,6 +14,7 @@
 #include "sim/base/error.h"
 #include "sim/base/number_in.h"
 #include "sim/base/parallel.h"
+#include "sim/identification/loop_warnings.h"
 #include "sim/identification/series.h"
 
 namespace hysteron::experiments {
@@ -300,9 +301,23 @@ FabAnswer fit_fab(const FabFlags& flags, const std::string& units, double densit
 
 namespace {
 
-// A form that describes the loops better than the one asked for, by more than chance.
+// How a record is named, and what may bring a fit nearer to it.
+struct RecordTexts {
+  const char *data, *larger, *range, *remedy, *better_form;
+};
+constexpr RecordTexts kLoopTexts = {
+    "loops", "which the fitted cycles do not reach: the form asked for supposes it; fit a larger compression",
+    "the range of their forces",
+    "see plots and predictions.csv; other cycles, gauge, width and density may be nearer",
+    "give --fab.friction stops"};
+constexpr RecordTexts kDecayTexts = {
+    "amplitudes", "which the strip does not reach: the form supposes it; let it go from a larger amplitude",
+    "the first one", "see plot_decay and decay.csv; another length, density, rigidity may be nearer",
+    "forms.csv has its numbers"};
+
+// A form that describes the record better than the one asked for, by more than chance.
 std::string better_form_warning(const FabBending& b, const std::vector<FabForm>& forms,
-                                const Repeats& repeats) {
+                                const Repeats& repeats, const RecordTexts& texts) {
   const FabForm* best = nullptr;
   for (const FabForm& form : forms)
     if (!best || form.found.residual_rms < best->found.residual_rms) best = &form;
@@ -310,33 +325,29 @@ std::string better_form_warning(const FabBending& b, const std::vector<FabForm>&
   const FormComparison beside = compare_forms(*best, b, repeats);
   if (!beside.is_nearer) return "";
   return fmt::format(
-      "along {} another form of friction describes the loops better: {} leave {:.2g} of the noise (rms), and "
+      "along {} another form of friction describes the {} better: {} leave {:.2g} of the noise (rms), and "
       "the form asked for {:.2g} (preference {:.3g}; below -1.96 is not by chance): {}",
-      b.direction, best->name, best->found.residual_rms, b.residual_rms, beside.preference,
+      b.direction, texts.data, best->name, best->found.residual_rms, b.residual_rms, beside.preference,
       (b.is_shaped() || b.is_parabola()) && best->found.law.stops() > 1 && best->name.ends_with("stops")
-          ? "give --fab.friction stops"
+          ? texts.better_form
           : "forms.csv has its numbers");
 }
 
-// Friction that the loops do not reach is the form's, not the data's.
-std::string beyond_reach_warning(const FabBending& b) {
+// Friction that the record does not reach is the form's, not the data's.
+std::string beyond_reach_warning(const FabBending& b, const RecordTexts& texts) {
   const double beyond = 1 - b.friction_within_reach() / b.law.friction();
   if (!(beyond > kMostBeyondReach)) return "";
   return fmt::format(
       "along {} {:.0f} % of HB slips at curvatures that differ by more than {:.3g}/m from those at the "
-      "start, "
-      "which the fitted cycles do not reach: the form asked for supposes it; fit a larger compression",
-      b.direction, 100 * beyond, b.reach);
+      "start, {}",
+      b.direction, 100 * beyond, b.reach, texts.larger);
 }
 
 // The numbers may mean little where the law stays this far from the data.
-std::string misses_warning(const FabBending& b) {
+std::string misses_warning(const FabBending& b, const RecordTexts& texts) {
   if (!(b.residual_share > kDoubtfulMiss)) return "";
-  return fmt::format(
-      "along {} the fit misses the fitted loops by {:.2g} % of the range of their forces (rms): see plots "
-      "and "
-      "predictions.csv; other cycles, gauge, width and density may be nearer",
-      b.direction, 100 * b.residual_share);
+  return fmt::format("along {} the fit misses the fitted {} by {:.2g} % of {} (rms): {}", b.direction,
+                     texts.data, 100 * b.residual_share, texts.range, texts.remedy);
 }
 
 // Says that the file has loops along the bias and the fabric does not; "" otherwise.
@@ -351,16 +362,26 @@ std::string unused_bias_warning(const FabAnswer& answer) {
          fitted[0].direction + "," + fitted[1].direction + ",B fits them";
 }
 
+std::vector<std::string> texts_on_fit(const FabBending& b, const std::vector<FabForm>& forms,
+                                      const Repeats& repeats, const RecordTexts& texts) {
+  std::vector<std::string> warnings = {misses_warning(b, texts),
+                                       better_form_warning(b, forms, repeats, texts),
+                                       beyond_reach_warning(b, texts)};
+  std::erase(warnings, "");
+  if (!b.converged) warnings.push_back("along " + b.direction + " the fit of bending did not converge");
+  return warnings;
+}
+
 }  // namespace
 
 std::vector<std::string> bending_warnings(const FabBending& b, const std::vector<FabForm>& forms,
                                           const Repeats& repeats) {
-  std::vector<std::string> warnings;
-  for (const std::string& warning :
-       {misses_warning(b), better_form_warning(b, forms, repeats), beyond_reach_warning(b)})
-    if (!warning.empty()) warnings.push_back(warning);
-  if (!b.converged) warnings.push_back("along " + b.direction + " the fit of bending did not converge");
-  return warnings;
+  return texts_on_fit(b, forms, repeats, kLoopTexts);
+}
+
+std::vector<std::string> decay_fit_warnings(const FabBending& b, const std::vector<FabForm>& forms,
+                                            const Repeats& repeats) {
+  return texts_on_fit(b, forms, repeats, kDecayTexts);
 }
 
 void report_fab(Run& run, const FabAnswer& answer, const FabricNotes& notes) {

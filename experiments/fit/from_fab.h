@@ -10,10 +10,6 @@
 
 namespace hysteron::experiments {
 
-// This is a fraction of the data's range: instruments repeat to some percent, and a fit that is farther off
-// has another shape.
-inline constexpr double kDoubtfulMiss = 0.08;
-
 struct FabFlags {
   std::string file, directions, tests = "D1", cycles = "2", friction = "chapter",
                                 thresholds = "1,2,4,8,16,32,64,128,256";
@@ -45,6 +41,9 @@ void add_shape(Run& run, const FabBending& found, const std::string& prefix);
 // These warnings say what is doubtful about a fit of bending, beside the other forms.
 std::vector<std::string> bending_warnings(const FabBending& found, const std::vector<FabForm>& forms,
                                           const Repeats& repeats);
+// The same of a fit to a free vibration, which has amplitudes in place of loops.
+std::vector<std::string> decay_fit_warnings(const FabBending& found, const std::vector<FabForm>& forms,
+                                            const Repeats& repeats);
 
 // What a reader is told.
 std::string summary(const FabAnswer& answer);

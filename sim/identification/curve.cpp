@@ -27,11 +27,12 @@ struct Solution {
   Eigen::VectorXd residuals;
   Eigen::MatrixXd jacobian;  // by MomentModel::parameters()
   int iterations = 0;
-  Interval b1, b2, k0;     // what the scan allows (95 %)
-  bool k0_open = false;    // up to its end
-  Eigen::Vector3d errors;  // standard errors of the logarithms of b1, b2, k0, with their floor
-  UnreadNumbers unread;    // by the law
-  double noise = 0;        // variance of a residual, at least that of kBestAccuracy
+  Interval b1, b2, k0;       // what the scan allows (95 %)
+  bool k0_open = false;      // up to its end
+  Eigen::Vector3d errors;    // standard errors of the logarithms of b1, b2, k0, with their floor
+  UnreadNumbers unread;      // by the law
+  bool bend_unseen = false;  // too few rows lie on the bend after a turn whose place is sought
+  double noise = 0;          // variance of a residual, at least that of kBestAccuracy
 
   // Twice the logarithm of the likelihood ratio between the best and another sum of squares.
   double fall(double sum) const { return (sum - best.sum) / noise; }
@@ -68,19 +69,22 @@ void find_intervals(const std::vector<CurvePoint>& scan, Solution& solution) {
   solution.k0_open = solution.fall(scan.back().sum) <= kLikelihoodFall;
 }
 
-Solution solve(const MomentModel& model) {
-  Solution solution;
-  const std::vector<CurvePoint> scan = model.scan(solution.iterations);
-  const CurvePoint start = *std::min_element(
-      scan.begin(), scan.end(), [](const CurvePoint& a, const CurvePoint& b) { return a.sum < b.sum; });
+const CurvePoint& deepest(const std::vector<CurvePoint>& points) {
+  return *std::min_element(points.begin(), points.end(),
+                           [](const CurvePoint& a, const CurvePoint& b) { return a.sum < b.sum; });
+}
+
+// All parameters together, from a point.
+Solution minimum_from(const MomentModel& model, const CurvePoint& start, SearchLimits limits = {}) {
   if (!std::isfinite(start.sum))
     throw Error::simulation("no b1, b2 and k0 were found with which the law says anything of these data");
+  Solution solution;
   const Eigen::VectorXd first = model.parameters(start);
   const int size = static_cast<int>(first.size());
-  const auto [low, high] = MomentModel::bounds(size);
-  const LeastSquares fit =
-      minimize([&](const Eigen::VectorXd& p) { return model.residuals(model.point(p)); }, first, low, high);
-  solution.iterations += fit.iterations;
+  const auto [low, high] = model.bounds();
+  const LeastSquares fit = minimize([&](const Eigen::VectorXd& p) { return model.residuals(model.point(p)); },
+                                    first, low, high, limits);
+  solution.iterations = fit.iterations;
   solution.best = model.point(fit.parameters);
   solution.best.sum = fit.residuals.squaredNorm();
   solution.used = solution.best;
@@ -91,8 +95,48 @@ Solution solve(const MomentModel& model) {
   const double widening = solution.covariance.widening;
   solution.noise = widening * widening * std::max(solution.best.sum / freedom, kBestAccuracy * kBestAccuracy);
   solution.unread = model.unread(solution.best);
+  return solution;
+}
+
+Solution solve(const MomentModel& model) {
+  int iterations = 0;
+  const std::vector<CurvePoint> scan = model.scan(iterations);
+  Solution solution = minimum_from(model, deepest(scan));
+  solution.iterations += iterations;
   find_intervals(scan, solution);
   return solution;
+}
+
+// All parameters together, turns among them, from the minimum with turns at the rows.
+Solution minimum_with_turns(const MomentModel& model, const CurvePoint& at_rows) {
+  // Before a row and after it a turn shows differently: a search that crosses from one side to the other is
+  // slow to end.
+  Solution solution = minimum_from(model, model.start_with_turns(at_rows), {50, 1e-7, 3});
+  // The few rows beside turns tell k0.  Where they lie on the law by chance, their noise is that of the
+  // others.
+  const Covariance even = covariance(solution.jacobian, solution.residuals, true);
+  if (even.matrix(2, 2) > solution.covariance.matrix(2, 2)) solution.covariance = even;
+  return solution;
+}
+
+// Turns follow k0 on both sides of the minimum as far as the data allow it.
+void find_intervals_with_turns(const MomentModel& model, Solution& solution) {
+  constexpr SearchLimits kRough = {20, 1e-4, 3};
+  std::vector<double> below, above = model.scanned_k0();
+  const auto first = std::upper_bound(above.begin(), above.end(), solution.best.k0);
+  below.assign(std::make_reverse_iterator(first), above.rend());
+  above.erase(above.begin(), first);
+  std::vector<CurvePoint> followed;
+  for (const std::vector<double>& side : {below, above}) {
+    CurvePoint point = solution.best;
+    for (const double k0 : side) {
+      point.k0 = k0;
+      point = model.searched_from(point, solution.iterations, kRough);
+      followed.push_back(point);
+      if (solution.fall(point.sum) > kLikelihoodFall) break;
+    }
+  }
+  find_intervals(followed, solution);
 }
 
 void take(const Solution& solution, const std::string& source, Identification& result) {
@@ -102,9 +146,12 @@ void take(const Solution& solution, const std::string& source, Identification& r
     if (!e.determined) e.standard_error = kNone;
     return e;
   };
-  result.b1 = estimate(solution.best.b2 + solution.best.g, 0, solution.b1.narrow() && !solution.unread.b1);
+  const bool sees_bend = !solution.bend_unseen;
+  result.b1 = estimate(solution.best.b2 + solution.best.g, 0,
+                       solution.b1.narrow() && !solution.unread.b1 && sees_bend);
   result.b2 = estimate(solution.best.b2, 1, solution.b2.narrow());
-  result.k0 = estimate(solution.best.k0, 2, solution.k0.narrow() && !solution.k0_open && !solution.unread.k0);
+  result.k0 = estimate(solution.best.k0, 2,
+                       solution.k0.narrow() && !solution.k0_open && !solution.unread.k0 && sees_bend);
   result.iterations = solution.iterations;
 }
 
@@ -121,7 +168,8 @@ void say_undetermined(const Solution& solution, Identification& result) {
         interval.narrow() && !open;  // other numbers can take its place, at the best fit already
     result.statements.push_back(
         std::string(name) + " is not determined: " +
-        (local ? "its standard error is of its own size"
+        (local ? solution.bend_unseen ? "less than two rows lie on the bend of 2 k0 after a turn between rows"
+                                      : "its standard error is of its own size"
                : range_text(interval, open, unit) + " describe the data as well (95 %)"));
   };
   if (!solution.unread.b1) say("b1", result.b1, solution.b1, false, "N m");
@@ -267,20 +315,41 @@ constexpr double kClearlyBetter = 0.95;
 // errors).
 constexpr double kClearOffset = 16;
 
+// A turn that lies half a step beyond its row makes k0 smaller by so much of the step.  Where that is more
+// than 2 % of k0, turns are sought between the rows.
+constexpr double kLargestStepAtTurns = 1. / 25;  // of k0
+
 // The history before the first row is the virgin cloth's or that of the same cycles.
 struct Reading {
   MomentModel model;
   Solution solution;
   bool cycling;
+  bool with_turns = false;
 };
 
-Reading better_reading(const MomentSeries& series, const CurveQuestion& question, SoughtZeros zeros) {
-  const MomentModel virgin(series, question.law, zeros, false);
-  Reading best{virgin, solve(virgin), false};
-  if (series.reversals == 0) return best;
-  const MomentModel cycle(series, question.law, zeros, true);
-  const Solution other = solve(cycle);
-  if (other.best.sum < kClearlyBetter * kClearlyBetter * best.solution.best.sum) best = {cycle, other, true};
+// Intervals are left to better_reading() where turns are sought.
+Reading reading(const MomentSeries& series, const CurveQuestion& question, SoughtBeside beside,
+                bool cycling) {
+  const MomentModel at_rows(series, question.law, beside, cycling);
+  const Reading found{at_rows, solve(at_rows), cycling};
+  if (found.solution.unread.k0) return found;
+  beside.step_at_turns = kLargestStepAtTurns * found.solution.best.k0;
+  const auto turns = static_cast<int>(sought_turns(series, cycling, beside.step_at_turns).size());
+  if (turns == 0 || series.rows() < found.solution.jacobian.cols() + turns) return found;
+  const MomentModel between(series, question.law, beside, cycling);
+  return {between, minimum_with_turns(between, found.solution.best), cycling, true};
+}
+
+Reading better_reading(const MomentSeries& series, const CurveQuestion& question, SoughtBeside beside) {
+  Reading best = reading(series, question, beside, false);
+  if (series.reversals > 0) {
+    const Reading cycle = reading(series, question, beside, true);
+    if (cycle.solution.best.sum < kClearlyBetter * kClearlyBetter * best.solution.best.sum) best = cycle;
+  }
+  if (best.with_turns) {
+    find_intervals_with_turns(best.model, best.solution);
+    best.solution.bend_unseen = best.model.largest_step_at_turns() > best.solution.best.k0;
+  }
   return best;
 }
 
@@ -329,6 +398,15 @@ void say_how(const MomentSeries& series, const Solution& solution, bool cycling,
   }
 }
 
+void say_turns(const MomentModel& model, const Solution& solution, Identification& result) {
+  std::vector<std::string> curvatures;
+  for (const double k : model.turning_curvatures(solution.used)) curvatures.push_back(rounded(k));
+  result.statements.push_back(
+      "rows are not close beside the turns for this k0: the turns were sought "
+      "between the rows, too, and lie at " +
+      join(curvatures, ", ") + " 1/m");
+}
+
 void add_offsets(const MomentSeries& series, const CurveQuestion& question, const Solution& solution,
                  Identification& result) {
   int sought = 0;
@@ -346,7 +424,7 @@ void add_offsets(const MomentSeries& series, const CurveQuestion& question, cons
 }  // namespace
 
 Identification identify_curve(const MomentSeries& series, const CurveQuestion& question) {
-  const auto [model, found, cycling] =
+  const auto [model, found, cycling, with_turns] =
       better_reading(series, question, {question.offset, question.curvature_offset});
   Solution solution = found;
   Identification result;
@@ -360,6 +438,7 @@ Identification identify_curve(const MomentSeries& series, const CurveQuestion& q
   result.model.assign(moments.begin(), moments.end());
   add_offsets(series, question, solution, result);
   say_how(series, solution, cycling, result);
+  if (with_turns) say_turns(model, solution, result);
   say_offset(series, question, solution, result);
   return result;
 }

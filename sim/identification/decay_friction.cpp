@@ -201,6 +201,33 @@ void check_decay(const DecaySeries& series, const DecayQuestion& question, const
         .with_key("decay", file);
 }
 
+namespace {
+
+// How many amplitudes are above half of the strip's length, from the first on.
+std::size_t large_amplitudes(const DecaySeries& series, double length) {
+  const auto small = std::ranges::find_if(series.amplitude, [&](double a) { return a <= length / 2; });
+  return static_cast<std::size_t>(small - series.amplitude.begin());
+}
+
+}  // namespace
+
+DecaySeries without_large_amplitudes(const DecaySeries& series, double length) {
+  const auto large = static_cast<std::ptrdiff_t>(large_amplitudes(series, length));
+  if (series.time.size() - static_cast<std::size_t>(large) < kFewest) return series;
+  return {{series.time.begin() + large, series.time.end()},
+          {series.amplitude.begin() + large, series.amplitude.end()}};
+}
+
+std::string large_amplitudes_warning(const DecaySeries& series, double length) {
+  const std::size_t large = large_amplitudes(series, length), all = series.time.size();
+  if (large == 0) return "";
+  const std::string which = std::to_string(large) + " of " + std::to_string(all) +
+                            " amplitudes are above half of the strip's length, " + rounded(length / 2) +
+                            " m, where it does not swing in the mode of small ones";
+  return all - large < kFewest ? which + ": HB and k0 may come out a fifth low; write down smaller ones, too"
+                               : which + ": they are left out";
+}
+
 std::vector<std::string> decay_warnings(const DecaySeries& series, const DecayQuestion& question) {
   // First modes: of a cantilever without weight, and of a chain that hangs (half of the first zero of J0).
   constexpr double kCantilever = 3.516, kChain = 1.2024, kGravity = 9.81;
@@ -271,6 +298,25 @@ FabBending identify_decay(const DecaySeries& series, const DecayQuestion& questi
   found.iterations = best.iterations;
   found.converged = best.converged;
   return found;
+}
+
+std::string pace_warning(const DecaySeries& series, const DecayQuestion& question, const FabBending& found) {
+  // Between amplitudes of every turn (a ratio of 1) and of every second one (2).
+  const double different = std::sqrt(2);
+  constexpr std::size_t kLast = 3;  // turns whose mean time is compared
+  const std::size_t n = series.time.size();
+  const double measured = (series.time[n - 1] - series.time[n - 1 - kLast]) / kLast;
+  const double amplitude = std::sqrt(series.amplitude[n - 1] * series.amplitude[n - 1 - kLast]);
+  const SwingState state =
+      SwingingStrip(question.length, question.density)
+          .at({amplitude}, found.law.spring, {found.law.thresholds, found.law.stiffnesses})
+          .front();
+  const double fitted = std::numbers::pi / state.omega;
+  if (measured < different * fitted && fitted < different * measured) return "";
+  return "at its smallest amplitudes the fitted strip takes " + rounded(fitted) +
+         " s for a turn, and the data " + rounded(measured) +
+         " s: the fit contradicts itself, and HB goes with the inverse square of the time; is there an "
+         "amplitude of every turn, on both sides, and are kes.b and fabric.density the strip's?";
 }
 
 std::vector<FabForm> even_forms(const DecaySeries& series, const DecayQuestion& question) {

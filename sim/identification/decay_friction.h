@@ -33,6 +33,12 @@ struct DecayQuestion {
 // unit, or from peak to peak), or not falling.
 void check_decay(const DecaySeries& series, const DecayQuestion& question, const std::string& file);
 
+// The rows from the first amplitude on that is at most half of the strip's length, as far as the mode of
+// small ones is the strip's (at four fifths HB comes out a fifth low); all where fewer than six are.
+DecaySeries without_large_amplitudes(const DecaySeries& series, double length);
+// Says which were left out, or that none could be; "" where none is large.
+std::string large_amplitudes_warning(const DecaySeries& series, double length);
+
 // What is doubtful about the times of the turns: a strip of this length, weight and rigidity swings at
 // another pace, or one turn takes much longer than the others.
 std::vector<std::string> decay_warnings(const DecaySeries& series, const DecayQuestion& question);
@@ -41,6 +47,10 @@ std::vector<std::string> decay_warnings(const DecaySeries& series, const DecayQu
 FabBending identify_decay(const DecaySeries& series, const DecayQuestion& question);
 // Other forms: friction that saturates at k0 of a grid [1/m].
 std::vector<FabForm> even_forms(const DecaySeries& series, const DecayQuestion& question);
+
+// The fit contradicts itself where its strip swings through the smallest amplitudes at another pace than they
+// were measured at; "" where it does not.
+std::string pace_warning(const DecaySeries& series, const DecayQuestion& question, const FabBending& found);
 
 // Amplitudes [m] at the times of the series that friction beside that rigidity gives a strip which begins
 // with `first`.

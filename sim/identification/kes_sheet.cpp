@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "sim/identification/published.h"
 #include "sim/reference/kes_in_plane.h"
 #include "sim/scene/key_table.h"
 
@@ -84,10 +85,8 @@ struct Doubts {
     if (!sheet.has(above) || !sheet.has(below)) return;
     for (const SheetColumn column : {SheetColumn::warp, SheetColumn::weft}) {
       const double ratio = sheet.along(above, column) / sheet.along(below, column) / unit;
-      if (ratio >= low && ratio <= high) continue;
-      sheet.warn(above, std::string("along ") + column_name(column) + " is " + number_text(ratio, 3) + " " +
-                            text + " of " + below + ", and woven cloth has " + number_text(low) + " to " +
-                            number_text(high) + ": is one of them in another unit?");
+      const std::string warning = woven_ratio_warning(ratio, text, below, low, high);
+      if (!warning.empty()) sheet.warn(above, std::string("along ") + column_name(column) + " " + warning);
     }
   }
   // Friction of one k0 for both would saturate in the tester's window along one of them.
@@ -125,7 +124,7 @@ void check_sheet(KesSheet& sheet, const std::string& file) {
   Doubts doubts{sheet};
   doubts.of_tension();
   doubts.of_compression();
-  doubts.of_ratio("2HB", "B", 1, "1/m", 16, 300);
+  doubts.of_ratio("2HB", "B", 1, "1/m", kLeastWidthOverB, kMostWidthOverB);
   doubts.of_ratio("2HG", "G", kDegree, "degree", 0.3, 8);
   doubts.of_ratio("2HG5", "2HG", 1, "times", 0.8, 5);
   doubts.of_directions();

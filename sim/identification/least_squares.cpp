@@ -85,6 +85,7 @@ LeastSquares minimize(const Residuals& residuals, const Eigen::VectorXd& start, 
   options.linear_solver_type = ceres::DENSE_QR;
   options.max_num_iterations = limits.iterations;
   options.function_tolerance = limits.change;
+  options.max_num_line_search_step_size_iterations = limits.halvings;
   options.parameter_tolerance = 1e-10;
   options.gradient_tolerance = 1e-14;
   options.logging_type = ceres::SILENT;
@@ -128,7 +129,7 @@ double rows_as_one(double correlation, int rows) {
   return (1 + r) / (1 - r);
 }
 
-Covariance covariance(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& residuals) {
+Covariance covariance(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& residuals, bool is_even) {
   const int n = static_cast<int>(residuals.size());
   assert(jacobian.rows() >= jacobian.cols());
   Eigen::VectorXd scale = jacobian.colwise().norm();
@@ -144,6 +145,8 @@ Covariance covariance(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& re
   const Eigen::VectorXd leverage = svd.matrixU().rowwise().squaredNorm();
   Eigen::VectorXd variance(n);
   for (int i = 0; i < n; ++i) variance[i] = residuals[i] * residuals[i] / std::max(1 - leverage[i], 1.0 / n);
+  const auto freedom = static_cast<double>(n - jacobian.cols());
+  if (is_even) variance.setConstant(residuals.squaredNorm() / std::max(1., freedom));
   const double widened = result.widening * result.widening;
   result.matrix = widened * inverse * variance.asDiagonal() * inverse.transpose();
   const Eigen::MatrixXd floor = kBestAccuracy * kBestAccuracy * inverse * inverse.transpose();

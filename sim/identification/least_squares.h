@@ -27,6 +27,7 @@ using Residuals = std::function<Eigen::VectorXd(const Eigen::VectorXd&)>;
 struct SearchLimits {
   int iterations = 500;
   double change = 1e-12;  // of the sum of squares in an iteration, relative
+  int halvings = 20;      // of a step that does not lower it, at most
 };
 
 // Least sum of squares from `start` within [low, high] (all of one length, at least one parameter).
@@ -61,8 +62,9 @@ struct Covariance {
 // parameters.  Errors may differ from row
 // to row (MacKinnon & White 1985, HC2); correlation between neighbours is taken as that of a first-order
 // process, which leaves n (1 - r)/(1 + r) independent rows.  Directions that the residuals do not see get a
-// large, finite variance.
-Covariance covariance(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& residuals);
+// large, finite variance.  `is_even`: errors are taken as the same in all rows.
+Covariance covariance(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& residuals,
+                      bool is_even = false);
 
 // Is a positive quantity with this standard error of its logarithm known within kWidestFactor (95 %)?
 bool is_determined(double relative_error);

@@ -41,11 +41,12 @@ Eigen::VectorXd nonnegative_solution(const Eigen::MatrixXd& columns, const Eigen
 
 }  // namespace
 
-MomentModel::MomentModel(const MomentSeries& series, const LawRequest& law, SoughtZeros zeros, bool cycling)
+MomentModel::MomentModel(const MomentSeries& series, const LawRequest& law, SoughtBeside beside, bool cycling)
     : law_(law),
       rows_(law_rows(series, cycling)),
       moment_(Eigen::Map<const Eigen::VectorXd>(series.moment.data(), series.rows())),
-      zeros_(zeros),
+      beside_(beside),
+      turns_(sought_turns(series, cycling, beside.step_at_turns)),
       largest_(series.largest_moment()),
       curvature_(series.largest_curvature()),
       slope_(largest_ / curvature_) {
@@ -54,80 +55,92 @@ MomentModel::MomentModel(const MomentSeries& series, const LawRequest& law, Soug
   run_law(request, {LawRow{}});
 }
 
+double MomentModel::curvature_zero(const CurvePoint& point) const {
+  return beside_.curvature ? point.nuisance[zeros() - 1] * curvature_ : 0;
+}
+
 Eigen::VectorXd MomentModel::law_moments(const CurvePoint& point) const {
   LawRequest request = law_;
   request.curve = point.curve();
-  std::vector<double> all(rows_.size(), kNone);
+  DrivenRows driven = turns_.empty()
+                          ? DrivenRows{rows_, {}}
+                          : with_turns(rows_, static_cast<int>(moment_.size()), turns_, turns_at(point));
+  if (beside_.curvature)
+    for (LawRow& row : driven.rows) row.curvature -= curvature_zero(point);
+  std::vector<double> all(driven.rows.size(), kNone);
   try {
-    if (zeros_.curvature) {
-      std::vector<LawRow> rows = rows_;
-      for (LawRow& row : rows) row.curvature -= point.nuisance.tail<1>()[0] * curvature_;
-      all = run_law(request, rows).moment;
-    } else {
-      all = run_law(request, rows_).moment;
-    }
+    all = run_law(request, driven.rows).moment;
   } catch (const Error&) {
     // The law has bounds on its numbers: there it describes nothing.
   }
+  if (!driven.is_added.empty()) all = without_added(all, driven);
   const Eigen::Map<const Eigen::VectorXd> moments(all.data(), static_cast<int>(all.size()));
   return moments.tail(moment_.size());
 }
 
 Eigen::VectorXd MomentModel::moments(const CurvePoint& point) const {
-  return law_moments(point).array() + (zeros_.moment ? point.nuisance[0] * largest_ : 0);
+  return law_moments(point).array() + (beside_.moment ? point.nuisance[0] * largest_ : 0);
 }
 
 Eigen::VectorXd MomentModel::residuals(const CurvePoint& point) const {
   return (moments(point) - moment_) / largest_;
 }
 
-Eigen::VectorXd MomentModel::zeros_at(double curvature_zero) const {
-  Eigen::VectorXd zeros = Eigen::VectorXd::Zero(zeros_.count());
-  if (zeros_.curvature) zeros.tail<1>()[0] = curvature_zero;
-  return zeros;
+std::vector<double> MomentModel::turning_curvatures(const CurvePoint& point) const {
+  std::vector<double> curvatures;
+  for (std::size_t i = 0; i < turns_.size(); ++i)
+    curvatures.push_back(turns_[i].curvature_at(turns_at(point)[static_cast<int>(i)]));
+  return curvatures;
 }
 
-std::vector<double> MomentModel::curvature_zeros() const {
-  if (!zeros_.curvature) return {0};
+std::vector<Eigen::VectorXd> MomentModel::nuisance_starts() const {
+  const Eigen::VectorXd nothing = Eigen::VectorXd::Zero(nuisances());
+  std::vector<Eigen::VectorXd> starts = {nothing};
+  if (!beside_.curvature) return starts;
   const auto [low, high] = std::minmax_element(
       rows_.begin(), rows_.end(), [](const LawRow& a, const LawRow& b) { return a.curvature < b.curvature; });
-  return {0, (low->curvature + high->curvature) / 2 / curvature_, rows_.front().curvature / curvature_};
+  for (const double zero : {(low->curvature + high->curvature) / 2, rows_.front().curvature}) {
+    starts.push_back(nothing);
+    starts.back()[zeros() - 1] = zero / curvature_;
+  }
+  return starts;
 }
 
-MomentModel::LinearSolution MomentModel::linear_at(double k0, double curvature_zero) const {
-  const Eigen::VectorXd zeros = zeros_at(curvature_zero), elastic = moments({slope_, 0, k0, zeros, 0});
-  Eigen::MatrixXd columns(moment_.size(), zeros_.moment ? 3 : 2);
+MomentModel::LinearSolution MomentModel::linear_at(double k0, const Eigen::VectorXd& nuisance) const {
+  const Eigen::VectorXd elastic = moments({slope_, 0, k0, nuisance, 0});
+  Eigen::MatrixXd columns(moment_.size(), beside_.moment ? 3 : 2);
   columns.col(0) = elastic / largest_;
-  columns.col(1) = (moments({slope_, slope_, k0, zeros, 0}) - elastic) / largest_;
-  if (zeros_.moment) columns.col(2).setOnes();
-  if (!columns.allFinite()) return {{slope_, slope_, k0, zeros, INFINITY}, true};
+  columns.col(1) = (moments({slope_, slope_, k0, nuisance, 0}) - elastic) / largest_;
+  if (beside_.moment) columns.col(2).setOnes();
+  if (!columns.allFinite()) return {{slope_, slope_, k0, nuisance, INFINITY}, true};
   Eigen::VectorXd best = nonnegative_solution(columns, moment_ / largest_);
   best.head<2>() = best.head<2>().cwiseMax(kSmallestRigidity);
-  CurvePoint point{best[0] * slope_, best[1] * slope_, k0, zeros, 0};
-  if (zeros_.moment) point.nuisance[0] = best[2];
+  CurvePoint point{best[0] * slope_, best[1] * slope_, k0, nuisance, 0};
+  if (beside_.moment) point.nuisance[0] = best[2];
   point.sum = residuals(point).squaredNorm();
   const double foreseen = (columns * best - moment_ / largest_).squaredNorm();
   return {point, std::abs(point.sum - foreseen) <= kSameModel * static_cast<double>(moment_.size())};
 }
 
 CurvePoint MomentModel::best_at(double k0, int& iterations) const {
-  LinearSolution best = linear_at(k0, 0);
-  if (zeros_.curvature) {
-    for (const double zero : curvature_zeros())
-      if (const LinearSolution other = linear_at(k0, zero); other.point.sum < best.point.sum) best = other;
+  const std::vector<Eigen::VectorXd> starts = nuisance_starts();
+  LinearSolution best = linear_at(k0, starts[0]);
+  if (beside_.curvature) {
+    for (const Eigen::VectorXd& start : starts)
+      if (const LinearSolution other = linear_at(k0, start); other.point.sum < best.point.sum) best = other;
     const CurvePoint found = searched_from(best.point, iterations);
     return found.sum < best.point.sum ? found : best.point;
   }
   if (best.holds) return best.point;
-  const CurvePoint other = searched_from({slope_ / 2, slope_ / 2, k0, zeros_at(0), 0}, iterations);
+  const CurvePoint other = searched_from({slope_ / 2, slope_ / 2, k0, starts[0], 0}, iterations);
   return other.sum < best.point.sum ? other : best.point;
 }
 
-CurvePoint MomentModel::searched_from(const CurvePoint& begin, int& iterations) const {
+CurvePoint MomentModel::searched_from(const CurvePoint& begin, int& iterations, SearchLimits limits) const {
   const auto numbers = [&](const Eigen::VectorXd& factor) {
     return CurvePoint{begin.b2 * factor[0], begin.g * factor[1], begin.k0, {}, 0};
   };
-  const Tied tied = fit_tied(*this, numbers, 2, begin);
+  const Tied tied = fit_tied(*this, numbers, 2, begin, limits);
   iterations += tied.iterations;
   return tied.best;
 }
@@ -160,23 +173,54 @@ CurvePoint MomentModel::point(const Eigen::VectorXd& parameters) const {
           std::exp(parameters[2]) * curvature_, parameters.tail(parameters.size() - 3), 0};
 }
 
-std::pair<Eigen::VectorXd, Eigen::VectorXd> MomentModel::bounds(int size) {
-  Eigen::VectorXd low = Eigen::VectorXd::Constant(size, -kWide), high = -low;
-  low.head<3>() << std::log(kSmallestRigidity), std::log(kSmallestRigidity), std::log(kScanLow / 2);
-  high.head<3>() << std::log(kLargestRigidity), std::log(kLargestRigidity), std::log(kScanHigh * 2);
+std::pair<Eigen::VectorXd, Eigen::VectorXd> MomentModel::nuisance_bounds() const {
+  Eigen::VectorXd low = Eigen::VectorXd::Constant(nuisances(), -kWide), high = -low;
+  for (int i = zeros(); i < nuisances(); ++i) {
+    low[i] = turns_[i - zeros()].low;
+    high[i] = turns_[i - zeros()].high;
+  }
   return {low, high};
+}
+
+std::pair<Eigen::VectorXd, Eigen::VectorXd> MomentModel::bounds() const {
+  Eigen::VectorXd low(3 + nuisances()), high(3 + nuisances());
+  const auto [nuisance_low, nuisance_high] = nuisance_bounds();
+  low << std::log(kSmallestRigidity), std::log(kSmallestRigidity), std::log(kScanLow / 2), nuisance_low;
+  high << std::log(kLargestRigidity), std::log(kLargestRigidity), std::log(kScanHigh * 2), nuisance_high;
+  return {low, high};
+}
+
+std::vector<double> MomentModel::scanned_k0() const {
+  std::vector<double> all;
+  for (int i = 0; i < kScanned; ++i) {
+    const double fraction = static_cast<double>(i) / (kScanned - 1);
+    all.push_back(curvature_ * kScanLow * std::pow(kScanHigh / kScanLow, fraction));
+  }
+  return all;
 }
 
 std::vector<CurvePoint> MomentModel::scan(int& iterations) const {
   std::vector<CurvePoint> points;
-  for (int i = 0; i < kScanned; ++i) {
-    const double fraction = static_cast<double>(i) / (kScanned - 1);
-    points.push_back(best_at(curvature_ * kScanLow * std::pow(kScanHigh / kScanLow, fraction), iterations));
-  }
+  for (const double k0 : scanned_k0()) points.push_back(best_at(k0, iterations));
   return points;
 }
 
-Tied fit_tied(const MomentModel& model, const FromFactors& numbers, int factors, const CurvePoint& start) {
+CurvePoint MomentModel::start_with_turns(const CurvePoint& at_rows) const {
+  CurvePoint best = at_rows;
+  best.nuisance = Eigen::VectorXd::Zero(nuisances());
+  best.nuisance.head(zeros()) = at_rows.nuisance;
+  const Eigen::VectorXd at = best.nuisance;
+  Eigen::VectorXd even = at;
+  for (int turn = 0; turn < nuisances() - zeros(); ++turn) even[zeros() + turn] = turns_[turn].by_even_steps;
+  for (const double times : {1., 2., 4.})  // turns at rows make k0 small
+    for (const Eigen::VectorXd& nuisance : {at, even})
+      if (const CurvePoint other = linear_at(times * at_rows.k0, nuisance).point; other.sum < best.sum)
+        best = other;
+  return best;
+}
+
+Tied fit_tied(const MomentModel& model, const FromFactors& numbers, int factors, const CurvePoint& start,
+              SearchLimits limits) {
   const int others = static_cast<int>(start.nuisance.size());
   const auto point = [&](const Eigen::VectorXd& p) {
     CurvePoint result = numbers(p.head(factors).array().exp());
@@ -185,10 +229,12 @@ Tied fit_tied(const MomentModel& model, const FromFactors& numbers, int factors,
   };
   Eigen::VectorXd first = Eigen::VectorXd::Zero(factors + others);
   first.tail(others) = start.nuisance;
-  Eigen::VectorXd wide = Eigen::VectorXd::Constant(first.size(), kWide);
-  wide.head(factors).setConstant(kFarthestFactor);
+  Eigen::VectorXd low = Eigen::VectorXd::Constant(first.size(), -kFarthestFactor), high = -low;
+  const auto [nuisance_low, nuisance_high] = model.nuisance_bounds();
+  low.tail(others) = nuisance_low;
+  high.tail(others) = nuisance_high;
   const LeastSquares fit =
-      minimize([&](const Eigen::VectorXd& p) { return model.residuals(point(p)); }, first, -wide, wide);
+      minimize([&](const Eigen::VectorXd& p) { return model.residuals(point(p)); }, first, low, high, limits);
   Tied tied{point(fit.parameters), fit.residuals, fit.jacobian, fit.iterations};
   tied.best.sum = fit.residuals.allFinite() ? fit.residuals.squaredNorm() : INFINITY;
   return tied;

@@ -2,27 +2,31 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <functional>
 #include <utility>
 #include <vector>
 
+#include "sim/identification/least_squares.h"
 #include "sim/identification/series.h"
+#include "sim/identification/turns.h"
 
 namespace hysteron {
 
-// The instrument's zeros that are sought, too.
-struct SoughtZeros {
-  bool moment = false, curvature = false;
-
-  int count() const { return (moment ? 1 : 0) + (curvature ? 1 : 0); }
+// What is sought beside the three numbers.
+struct SoughtBeside {
+  bool moment = false, curvature = false;  // the instrument's zeros
+  double step_at_turns = INFINITY;         // turns between rows beside which there is a larger step [1/m]
 };
 
 // b2, g = b1 - b2, k0, and the instrument's zeros where they are sought, too.
 struct CurvePoint {
-  double b2 = 0, g = 0;      // [N m], >= 0
-  double k0 = 0;             // [1/m]
-  Eigen::VectorXd nuisance;  // zeros that are sought: of moment, of curvature, over the largest of the data
-  double sum = 0;            // of squared residuals
+  double b2 = 0, g = 0;  // [N m], >= 0
+  double k0 = 0;         // [1/m]
+  // Zeros that are sought, of moment, of curvature, over the largest of the data; then, where turns are
+  // sought, how far beyond its row each is, over the step beside it.
+  Eigen::VectorXd nuisance;
+  double sum = 0;  // of squared residuals
 
   VirginCurve curve() const { return {b2 + g, b2, k0}; }
 };
@@ -36,7 +40,7 @@ struct UnreadNumbers {
 class MomentModel {
  public:
   // `law`: its curve is ignored.  `cycling`: as law_rows().  Throws Error::invalid_input as run_law() does.
-  MomentModel(const MomentSeries& series, const LawRequest& law, SoughtZeros zeros, bool cycling);
+  MomentModel(const MomentSeries& series, const LawRequest& law, SoughtBeside beside, bool cycling);
 
   // Moments of the law at the series' rows [N] less the zero of curvature, the zero of moment added; not a
   // number where the law does not take the numbers.
@@ -44,7 +48,7 @@ class MomentModel {
   // Model minus measurement over the largest moment.
   Eigen::VectorXd residuals(const CurvePoint& point) const;
   // Best b2, g and nuisance at one k0.  Solved at once for laws whose moment is linear in b2 and g: all whose
-  // friction is a fixed shape, unless the zero of curvature is sought.
+  // friction is a fixed shape, unless the zero of curvature is sought.  Turns stay at their rows.
   CurvePoint best_at(double k0, int& iterations) const;
 
   // Which numbers change no moment of the law here: it does not read them.
@@ -53,13 +57,25 @@ class MomentModel {
   // Parameters of the whole fit: logarithms of b2, g, k0 over their scales, then the nuisance.
   Eigen::VectorXd parameters(const CurvePoint& point) const;
   CurvePoint point(const Eigen::VectorXd& parameters) const;
-  // Bounds of so many of them, low and high.
-  static std::pair<Eigen::VectorXd, Eigen::VectorXd> bounds(int size);
+  // Their bounds, low and high.
+  std::pair<Eigen::VectorXd, Eigen::VectorXd> bounds() const;
+  // Those of the nuisance.
+  std::pair<Eigen::VectorXd, Eigen::VectorXd> nuisance_bounds() const;
 
-  // Best at each of many k0, in rising order.
+  // Best at each of many k0, in rising order.  Turns stay at their rows.
   std::vector<CurvePoint> scan(int& iterations) const;
+  std::vector<double> scanned_k0() const;  // [1/m]
+  // Best at the k0 of a point by iterations, from that point.
+  CurvePoint searched_from(const CurvePoint& begin, int& iterations, SearchLimits limits = {}) const;
+
+  // From which turns are sought, after the best with turns at their rows: at the rows, and where even steps
+  // put them, with some k0.
+  CurvePoint start_with_turns(const CurvePoint& at_rows) const;
 
   double largest_curvature() const { return curvature_; }
+  double largest_step_at_turns() const { return largest_step(turns_); }  // that are sought [1/m]
+  // Where the law turns at the turns that are sought [1/m], in the order of the rows.
+  std::vector<double> turning_curvatures(const CurvePoint& point) const;
 
  private:
   struct LinearSolution {
@@ -68,20 +84,24 @@ class MomentModel {
   };
   // Moments without the zero of moment [N].
   Eigen::VectorXd law_moments(const CurvePoint& point) const;
-  Eigen::VectorXd zeros_at(double curvature_zero) const;  // that of moment being 0
-  // Best b2, g and zero of moment, if they enter linearly, at a zero of curvature over the largest one.
-  LinearSolution linear_at(double k0, double curvature_zero) const;
-  // Where the zero of curvature may be, over the largest curvature.
-  std::vector<double> curvature_zeros() const;
-  // Best at one k0 by iterations, from a point there.
-  CurvePoint searched_from(const CurvePoint& begin, int& iterations) const;
+  int zeros() const { return (beside_.moment ? 1 : 0) + (beside_.curvature ? 1 : 0); }
+  int nuisances() const { return zeros() + static_cast<int>(turns_.size()); }
+  Eigen::VectorXd turns_at(const CurvePoint& point) const {
+    return point.nuisance.tail(static_cast<int>(turns_.size()));
+  }
+  double curvature_zero(const CurvePoint& point) const;  // [1/m]
+  // Best b2, g and zero of moment, if they enter linearly, beside the rest of a nuisance.
+  LinearSolution linear_at(double k0, const Eigen::VectorXd& nuisance) const;
+  // From which the nuisance is searched: each zero of curvature that may be.
+  std::vector<Eigen::VectorXd> nuisance_starts() const;
 
   LawRequest law_;
   std::vector<LawRow> rows_;
   Eigen::VectorXd moment_;  // measured [N]
-  SoughtZeros zeros_;
-  double largest_;            // moment [N]
-  double curvature_, slope_;  // scales: largest curvature [1/m], moment over curvature [N m]
+  SoughtBeside beside_;
+  std::vector<SoughtTurn> turns_;  // none where they are not sought
+  double largest_;                 // moment [N]
+  double curvature_, slope_;       // scales: largest curvature [1/m], moment over curvature [N m]
 };
 
 // A fit in which the three numbers follow from fewer factors, and the nuisance is free.
@@ -94,6 +114,7 @@ struct Tied {
 // The numbers (not the nuisance) at factors on a starting point, all 1 there.
 using FromFactors = std::function<CurvePoint(const Eigen::VectorXd&)>;
 
-Tied fit_tied(const MomentModel& model, const FromFactors& numbers, int factors, const CurvePoint& start);
+Tied fit_tied(const MomentModel& model, const FromFactors& numbers, int factors, const CurvePoint& start,
+              SearchLimits limits = {});
 
 }  // namespace hysteron

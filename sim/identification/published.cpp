@@ -217,4 +217,19 @@ Identification identify_kes(const KesNumbers& numbers, const Assumptions& assump
   return result;
 }
 
+std::string woven_ratio_warning(double ratio, const std::string& unit, const std::string& below, double low,
+                                double high) {
+  if (ratio >= low && ratio <= high) return "";
+  return "is " + number_text(ratio, 3) + " " + unit + " of " + below + ", and woven cloth has " +
+         number_text(low) + " to " + number_text(high) + ": is one of them in another unit?";
+}
+
+std::string kes_warning(const KesNumbers& numbers) {
+  const double width = numbers.two_hb.value;
+  if (width == 0) return "";  // an elastic fabric, which is asked for
+  const std::string text =
+      woven_ratio_warning(width / numbers.b.value, "1/m", "kes.b", kLeastWidthOverB, kMostWidthOverB);
+  return text.empty() ? "" : "kes.2hb " + text;
+}
+
 }  // namespace hysteron

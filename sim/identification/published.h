@@ -40,4 +40,13 @@ struct KesNumbers {
 // has.
 Identification identify_kes(const KesNumbers& numbers, const Assumptions& assumptions);
 
+// What a sheet prints of one quantity over another, beside what woven cloth has: "is 0.5 1/m of B, and woven
+// cloth has 16 to 300: is one of them in another unit?"; "" within these bounds.
+std::string woven_ratio_warning(double ratio, const std::string& unit, const std::string& below, double low,
+                                double high);
+inline constexpr double kLeastWidthOverB = 16, kMostWidthOverB = 300;  // 2HB/B of woven cloth [1/m]
+
+// Whether 2HB and B are of one fabric and of one unit; "" where nothing is doubtful.
+std::string kes_warning(const KesNumbers& numbers);
+
 }  // namespace hysteron

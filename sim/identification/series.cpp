@@ -252,7 +252,8 @@ void prepare(MomentSeries& series, double ripple) {
                                " N in all rows, and must vary");
   }
   const std::vector<int> turns = turning_rows(series.curvature, ripple * range);
-  series.reversals = static_cast<int>(turns.size()) - 2;
+  series.turns.assign(turns.begin() + 1, turns.end() - 1);
+  series.reversals = static_cast<int>(series.turns.size());
   series.drive = series.curvature;
   for (std::size_t i = 1; i < turns.size(); ++i) {
     const int first = turns[i - 1], last = turns[i];

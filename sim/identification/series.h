@@ -17,7 +17,8 @@ struct MomentSeries {
   // Curvature that a law follows [1/m]: the nearest in the least squares sense that turns only where the
   // measured one comes back by more than noise.  A law with memory would take every ripple for a reversal.
   std::vector<double> drive;
-  int reversals = 0;  // of `drive`
+  std::vector<int> turns;  // rows where `drive` turns
+  int reversals = 0;       // as many
 
   int rows() const { return static_cast<int>(moment.size()); }
   double largest_curvature() const;  // of |drive| [1/m]

@@ -3,6 +3,7 @@
 import os
 import tempfile
 import unittest
+import warnings
 
 from support import hysteron_cloth, np
 
@@ -47,6 +48,15 @@ class Loop(unittest.TestCase):
             file = os.path.join(folder, "mine.toml")
             found.write(file, "mine", density=0.12, thickness=4e-4)
             self.assertAlmostEqual(hysteron_cloth.Fabric(file).k0, found.k0, delta=1e-6 * K0)
+
+    def test_of_rows_without_time_and_of_another_law_is_warned_of(self):
+        with self.assertWarnsRegex(UserWarning, "gong takes time"):
+            hysteron_cloth.fit(*loop(), law="gong")
+        with self.assertWarnsRegex(UserWarning, "linear is not near these data"):
+            hysteron_cloth.fit(*loop(), law="linear")
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            hysteron_cloth.fit(*loop())
 
     def test_that_is_none_is_refused(self):
         with self.assertRaisesRegex(hysteron_cloth.RequestError, "rows"):

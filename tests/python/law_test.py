@@ -3,6 +3,7 @@
 import os
 import tempfile
 import unittest
+import warnings
 
 from support import hysteron_cloth, np, program
 
@@ -24,6 +25,17 @@ def walk(law, curvatures, n=1):
     """Moments of n elements along the curvatures, and their state after them."""
     state = law.rest(n)
     return np.array([law.step(state, np.full(n, k)) for k in curvatures]), state
+
+
+class WithAFabric(unittest.TestCase):
+    def test_whose_sides_it_does_not_follow_is_warned_of(self):
+        sided = hysteron_cloth.Fabric("cotton-broad", b1=B1, b2=B2, k0=K0, back_bending=2)
+        with self.assertWarnsRegex(UserWarning, "law dahl bends both ways alike"):
+            hysteron_cloth.Law("dahl", sided)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            hysteron_cloth.Law("prandtl", sided)
+            hysteron_cloth.Law("dahl", fabric())
 
 
 class OfTheProgram(unittest.TestCase):

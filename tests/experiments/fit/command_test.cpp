@@ -214,6 +214,28 @@ TEST_F(Fit, OfAFreeVibrationTakesTheGivenRigidityAsExact) {
   EXPECT_FALSE(fabric.provenance.at("b2").standard_error.has_value());
 }
 
+// Amplitudes that no friction makes, with a noise that lets any pass.
+TEST_F(Fit, OfAFreeVibrationIsDoubtedInWordsOfAmplitudes) {
+  const fs::path file = folder_.path() / "decay.csv";
+  Table({{"time [s]", {0, 0.15, 0.3, 0.45, 0.6, 0.75, 0.9, 1.05}},
+         {"amplitude [m]", {0.03, 0.03, 0.001, 0.03, 0.001, 0.02, 0.001, 0.001}}})
+      .write(file);
+  ASSERT_EQ(fit({{"decay", file.string()},
+                 {"decay.length", "0.08"},
+                 {"decay.noise", "0.5"},
+                 {"fabric.density", "0.1238"},
+                 {"kes.b", "1.16e-5"}}),
+            0);
+  EXPECT_TRUE(says(warned_, "the fit misses the fitted amplitudes by ")) << warned_;
+  for (const char* other : {"forces", "gauge", "predictions.csv", "cycles"})
+    EXPECT_EQ(warned_.find(other), warned_.npos) << other;
+}
+
+TEST_F(Fit, DoubtsAKesPairThatNoWovenClothHas) {
+  ASSERT_EQ(fit({{"kes.b", "1.157e-5"}, {"kes.2hb", "1.216e-5"}}), 0);
+  EXPECT_TRUE(says(warned_, "kes.2hb is 1.05 1/m of kes.b, and woven cloth has 16 to 300")) << warned_;
+}
+
 // A bilinear loop between -150 and 150/m, whose tester's zero is 20/m off.
 TEST_F(Fit, WarnsOfACurvatureWhoseZeroIsOffAndFindsItOnRequest) {
   for (const double offset : {0.0, 20.0}) {

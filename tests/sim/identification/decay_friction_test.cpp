@@ -115,6 +115,31 @@ TEST(DecayFriction, ReturnsK0AndHBWithinATenthFromASimulatedStrip) {
   const FabBending found = identify_decay(series, {0.08, 0.1238, kB, 2e-4});
   EXPECT_NEAR(saturation_curvature(found.form) / kK0, 1, kTenth);
   EXPECT_NEAR(found.law.friction() / kHB, 1, kTenth);
+  EXPECT_EQ(pace_warning(series, {0.08, 0.1238, kB, 2e-4}, found), "");
+
+  DecaySeries one_side;  // every second turn, which makes HB 45 % smaller
+  for (std::size_t i = 0; i < series.time.size(); i += 2) {
+    one_side.time.push_back(series.time[i]);
+    one_side.amplitude.push_back(series.amplitude[i]);
+  }
+  const DecayQuestion question{0.08, 0.1238, kB, 2e-4};
+  EXPECT_TRUE(says(pace_warning(one_side, question, identify_decay(one_side, question)),
+                   "is there an amplitude of every turn, on both sides"));
+}
+
+// A strip that swings through four fifths of its length loses otherwise than its mode: HB comes out a fifth
+// low.
+TEST(DecayFriction, IsOfAmplitudesUpToHalfOfTheLength) {
+  DecaySeries series = turns(10);
+  series.amplitude = {0.066, 0.041, 0.039, 0.036, 0.033, 0.030, 0.027, 0.024, 0.021, 0.018};
+  const DecaySeries small = without_large_amplitudes(series, 0.08);
+  ASSERT_EQ(small.time.size(), 8u);
+  EXPECT_EQ(small.time.front(), series.time[2]);
+  EXPECT_EQ(small.amplitude.front(), 0.039);
+  EXPECT_TRUE(says(large_amplitudes_warning(series, 0.08), "2 of 10 amplitudes"));
+  EXPECT_EQ(large_amplitudes_warning(small, 0.08), "");
+  EXPECT_EQ(without_large_amplitudes(series, 0.05).time.size(), 10u) << "three are left of ten";
+  EXPECT_TRUE(says(large_amplitudes_warning(series, 0.05), "a fifth low"));
 }
 
 TEST(DecayFriction, IsRefusedOfSeriesThatCannotBeOne) {

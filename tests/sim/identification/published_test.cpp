@@ -83,6 +83,15 @@ TEST(VirginCurve, OfAKnownRatioGivesTheFabricBack) {
 }
 
 // k0 in 1/cm: b1 would be that of a board.
+// 2HB times 9.80665e-5, which is B's factor, in place of 9.80665e-3: a hundredth of 105/m.
+TEST(Kes, DoubtsAWidthThatNoWovenClothHas) {
+  EXPECT_EQ(kes_warning({{1.157e-5}, {1.216e-3}, {}}), "");
+  EXPECT_EQ(kes_warning({{1.157e-5}, {1.216e-5}, {}}),
+            "kes.2hb is 1.05 1/m of kes.b, and woven cloth has 16 to 300: is one of them in another unit?");
+  EXPECT_TRUE(says(kes_warning({{1e-5}, {3.1e-3}, {}}), "is 310 1/m of kes.b"));
+  EXPECT_EQ(kes_warning({{1e-5}, {0}, {}}), "") << "elastic";
+}
+
 TEST(Kes, RefusesAK0ThatMakesNoFabric) {
   const std::string reason = refusal([] { identify_kes({{1e-5}, {1e-3}, {0.5}}, {}); });
   EXPECT_TRUE(says(reason, "k0 = 0.5 1/m makes b1 = B + 2HB/k0 = 0.00201 N m, must be <= 0.001"));
