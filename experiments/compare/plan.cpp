@@ -144,7 +144,23 @@ std::string compared_experiments() {
   return known + "or a scene";
 }
 
+namespace {
+
+// What columns are of leaves nothing for one value of the same key to say.
+void refuse_beside_list(const CommandLine& line, const std::string& key, const std::string& list) {
+  const std::string one = last_text(line.flags, key, "");
+  if (list.empty() || one.empty()) return;
+  throw Error::invalid_input(key + " = " + one + " is not used beside " + key + "s = " + list +
+                             ", of which each column has its own (--" + key + ")")
+      .with_key(key, one);
+}
+
+}  // namespace
+
 CommandLine line_of_columns(const CommandLine& line, const CompareChoice& choice) {
+  refuse_beside_list(line, "law", choice.laws);
+  refuse_beside_list(line, "fabric", choice.fabrics);
+  refuse_beside_list(line, "integrator", choice.integrators);
   CommandLine inner = line;
   inner.positionals.clear();
   const std::string what = line.positionals.front();

@@ -302,6 +302,16 @@ TEST(Compare, RefusesAStiffnessThatItsMatchingWouldChange) {
   EXPECT_TRUE(says(said, "--compare.match fabric leaves it as it is"));
 }
 
+TEST(Compare, RefusesOneValueBesideAListOfTheSameKey) {
+  for (const char* flags :
+       {"--laws linear,prandtl --law dahl", "--fabrics cotton-broad,wool-tropical --fabric polyester-faille",
+        "--integrators bdf2,implicit --integrator tr-bdf2"}) {
+    const Outcome outcome = program("compare swing --no-images " + std::string(flags) + kSmall);
+    EXPECT_EQ(outcome.exit_code, 2) << flags;
+    EXPECT_TRUE(says(outcome.err, "of which each column has its own")) << outcome.err;
+  }
+}
+
 TEST(Compare, NamesTheColumnThatIsWrong) {
   const Folder folder;
   const std::string out = out_flag(folder.path() / "out") + kSmall;
