@@ -62,7 +62,7 @@ Identification fit(const Numbers& curvature, const Numbers& moment, const std::o
   question.law.parameters = law_parameters(law, parameters);
   Identification found;
   unlocked([&] { found = identify_curve(series, question); });
-  for (const std::string& warning : loop_warnings(series, {question.law}, curvature_offset)) warn(warning);
+  warn(loop_warnings(series, {question.law}, curvature_offset));
   warn(misses_warning(found));
   return found;
 }

@@ -167,9 +167,7 @@ Law make_law(const std::string& name, py::object fabric, int dimension, const py
   const LawParameters texts = law_parameters(name, parameters);
   const Fabric of = fabric_from_python(fabric);
   const LawChoice choice = choose_law(name, of.virgin_curve(), texts);
-  for (const std::string& warning :
-       unused_parameter_warnings(name, of.virgin_curve(), texts, LawUse::cloth, of.name))
-    warn(warning);
+  warn(unused_parameter_warnings(name, of.virgin_curve(), texts, LawUse::cloth, of.name));
   return {choice, dimension};
 }
 

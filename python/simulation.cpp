@@ -19,10 +19,9 @@ SimulationValue::SimulationValue(const Scene& scene) : scene_(scene) {
     cloth_ = make_cloth(scene_);
     simulation_ = make_simulation(scene_, cloth_);
   });
-  for (const std::string& warning : cloth_.warnings) warn(warning);
-  for (const std::string& warning : unused_parameter_warnings(
-           scene_.law, scene_.fabric.virgin_curve(), scene_.param, LawUse::cloth, scene_.fabric.name))
-    warn(warning);
+  warn(cloth_.warnings);
+  warn(unused_parameter_warnings(scene_.law, scene_.fabric.virgin_curve(), scene_.param, LawUse::cloth,
+                                 scene_.fabric.name));
 }
 
 Simulation& SimulationValue::at_rest() const {

@@ -133,6 +133,10 @@ void warn(const std::string& text) {
   if (PyErr_WarnEx(PyExc_UserWarning, text.c_str(), 1) < 0) throw py::error_already_set();
 }
 
+void warn(const std::vector<std::string>& texts) {
+  for (const std::string& text : texts) warn(text);
+}
+
 LawParameters law_parameters(const std::string& law, const py::dict& given) {
   const std::vector<std::string> known = law_parameter_names(law);
   LawParameters parameters;

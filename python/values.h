@@ -39,6 +39,7 @@ ValueTree to_tree(const py::dict& values);
 
 // Hands a warning of the program to Python's `warnings`, whose filters may make an error of it; "" is none.
 void warn(const std::string& text);
+void warn(const std::vector<std::string>& texts);
 
 // Lets other threads of Python run meanwhile.
 template <class Body>

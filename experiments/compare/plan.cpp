@@ -146,7 +146,7 @@ std::string compared_experiments() {
 
 namespace {
 
-// What columns are of leaves nothing for one value of the same key to say.
+// A list of which columns are leaves nothing for one value of the same key to say.
 void refuse_beside_list(const CommandLine& line, const std::string& key, const std::string& list) {
   const std::string one = last_text(line.flags, key, "");
   if (list.empty() || one.empty()) return;

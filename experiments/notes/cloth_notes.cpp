@@ -172,7 +172,7 @@ double level_gravity(const Manifest& manifest) {
   return std::abs(gravity[2]);
 }
 
-// What KES-FB2 reads along the strip where it sags, to its back [N m], or to both sides of laws that have the
+// KES-FB2 reads this along the strip where it sags, to its back [N m], or to both sides of laws that have the
 // mean; 0 of one that is neither of warp nor of weft.
 double sagging_rigidity(const Manifest& manifest) {
   const double warp_angle = std::abs(manifest.number("cloth.warp-angle")),

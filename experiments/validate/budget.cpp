@@ -24,7 +24,7 @@ struct BudgetRow {
   double change = NAN, published = NAN;   // from what the fabric's file says
 };
 
-// Of one fabric, the first row being as its file says.
+// All rows are of one fabric, the first one as its file says.
 render::Plot budget_plot(const std::vector<BudgetRow>& rows) {
   render::Plot plot{
       "Drape of " + rows.at(0).fabric + ", one unknown at a time", {""}, {"drape coefficient [%]"}};

@@ -77,8 +77,6 @@ std::map<std::string, Range> uncertain_numbers(const FabricFile& file);
 // A Latin hypercube of these ranges (McKay, Beckman & Conover 1979): each number once in each of `count`
 // parts of its range that are equal in the logarithm, which part with which by chance.
 std::vector<Sample> drawn_samples(const FabricFile& file, int count, unsigned seed);
-// The same as drapes are told of them: what was measured is kept.
-std::vector<Sample> fabric_samples(const FabricFile& file, int count, unsigned seed);
 
 // B and 2HB, drawn or as published, become b1 and b2 for each k0, as the means of warp and weft, whatever the
 // ratios of these are; beside the mean of both rigidities bias-bending stays what was drawn.

@@ -39,7 +39,7 @@ std::string answer_text(const std::optional<bool>& answer) {
   return *answer ? "yes" : "no";
 }
 
-// What of a fabric was measured, beside a drape.
+// Names what was measured of a fabric, beside a drape.
 std::string fitted_on(const Fabric& fabric) {
   std::vector<std::string> measured;
   for (const auto& [name, number] : fabric.published)
@@ -296,12 +296,6 @@ std::vector<Sample> drawn_samples(const FabricFile& file, int count, unsigned se
     for (int i = 0; i < count; ++i)
       samples[i][key] = range.low * std::exp(decades * (part[i] + uniform(0, 1)) / count);
   }
-  return samples;
-}
-
-std::vector<Sample> fabric_samples(const FabricFile& file, int count, unsigned seed) {
-  std::vector<Sample> samples = drawn_samples(file, count, seed);
-  for (Sample& sample : samples) keep_what_was_measured(file.fabric, sample);
   return samples;
 }
 

@@ -43,7 +43,7 @@ void write_back(SheetWriter& writer, const char* key, const char* back, const ch
   const auto ratio = [&](SheetColumn column) {
     return sheet.along(back, column) / sheet.along(face, column);
   };
-  // Of one direction alone, or of means, there is one ratio.
+  // One direction alone, or means, give one ratio.
   const SheetRow& measured = sheet.row.at(back);
   const bool has_warp = measured.has(SheetColumn::warp), has_weft = measured.has(SheetColumn::weft);
   const double of_means = sheet.mean(back) / sheet.mean(face);

@@ -18,13 +18,13 @@ namespace hysteron {
 // off has another shape.
 inline constexpr double kDoubtfulMiss = 0.08;
 
-// What is doubtful before a fit: laws that take time and rows without it, parameters that the laws do not
-// read, and, unless it is sought (`seeks_curvature_offset`), a zero of curvature that seems to be off.  The
-// curves of the laws are ignored.  Throws Error::invalid_input as run_law() does.
+// These say what is doubtful before a fit: laws that take time and rows without it, parameters that the laws
+// do not read, and, unless it is sought (`seeks_curvature_offset`), a zero of curvature that seems to be off.
+// The curves of the laws are ignored.  Throws Error::invalid_input as run_law() does.
 std::vector<std::string> loop_warnings(const MomentSeries& series, const std::vector<LawRequest>& laws,
                                        bool seeks_curvature_offset);
 
-// What is doubtful after it: how far the law stays from the data; "" where it is near them.
+// This says what is doubtful after it: how far the law stays from the data; "" where it is near them.
 std::string misses_warning(const Identification& found);
 
 }  // namespace hysteron

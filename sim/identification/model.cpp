@@ -126,8 +126,9 @@ CurvePoint MomentModel::best_at(double k0, int& iterations) const {
   const std::vector<Eigen::VectorXd> starts = nuisance_starts();
   LinearSolution best = linear_at(k0, starts[0]);
   if (beside_.curvature) {
-    for (const Eigen::VectorXd& start : starts)
-      if (const LinearSolution other = linear_at(k0, start); other.point.sum < best.point.sum) best = other;
+    for (std::size_t i = 1; i < starts.size(); ++i)
+      if (const LinearSolution other = linear_at(k0, starts[i]); other.point.sum < best.point.sum)
+        best = other;
     const CurvePoint found = searched_from(best.point, iterations);
     return found.sum < best.point.sum ? found : best.point;
   }

@@ -14,6 +14,13 @@
 namespace hysteron::experiments {
 namespace {
 
+// Samples as drapes are told of them.
+std::vector<Sample> fabric_samples(const FabricFile& file, int count, unsigned seed) {
+  std::vector<Sample> samples = drawn_samples(file, count, seed);
+  for (Sample& sample : samples) keep_what_was_measured(file.fabric, sample);
+  return samples;
+}
+
 // As if every number were set in the scene itself: 1/120 s is no 0.00833333 s.
 TEST(Validate, HandsItsDrapesTheirNumbersBitForBit) {
   ValidateFlags flags;
