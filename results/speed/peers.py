@@ -39,6 +39,7 @@ END, SIDE, DENSITY, RIGIDITY = 0.25, 0.5, 0.1238, 1.1571847e-05  # [s], [m], [kg
 REFERENCE = ("tr-bdf2", 960)
 ENOUGH = 2.0  # [s] of timed runs, after which a row is not repeated
 REPEATS = 3
+GIVEN_UP = 3  # failures in a row after which a solver is left alone in this call
 LARGE = 20000  # triangles from which on rows come later and are fewer
 CONTROLS_BEFORE = 3  # the priority of rows that wait for the controls
 COLUMNS = ("material tension_N_per_m triangles solver setting steps_per_s iterations linear_iterations "
@@ -54,9 +55,9 @@ PLANS = {
     "style3d": [(1, 600, 4, 10), (1, 120, 10, 10), (1, 120, 300, 10), (1, 60, 600, 10), (1, 240, 100, 10),
                 (2, 480, 40, 10), (2, 120, 1000, 10), (2, 120, 100, 40), (3, 60, 200, 40), (3, 240, 300, 10),
                 (3, 120, 30, 10), (3, 120, 100, 10), (3, 120, 40, 200), (3, 240, 20, 10), (3, 60, 200, 10),
-                (3, 480, 80, 10), (3, 960, 20, 40), (4, 60, 2000, 10), (4, 60, 600, 40), (4, 120, 100, 200),
-                (4, 240, 1000, 10)],
-    "style3d-lossless": [(2, 480, 60, 10), (2, 960, 40, 10), (3, 240, 300, 10), (4, 480, 200, 10)],
+                (3, 480, 80, 10), (3, 960, 20, 40), (3, 60, 2000, 10), (3, 120, 300, 40), (4, 60, 600, 40),
+                (4, 120, 100, 200), (4, 240, 1000, 10), (4, 120, 3000, 10), (4, 120, 1000, 40)],
+    "style3d-lossless": [(2, 480, 60, 10), (2, 960, 40, 10), (3, 240, 300, 10), (3, 960, 100, 10), (4, 480, 200, 10)],
     "vbd": [(1, 600, 10), (1, 240, 100), (1, 960, 40), (1, 960, 160), (2, 120, 400), (2, 480, 100), (2, 240, 400),
             (2, 1920, 40), (2, 1920, 160), (3, 240, 20), (3, 960, 10), (3, 480, 400), (3, 960, 600), (3, 3840, 40),
             (4, 3840, 160), (4, 1920, 600)],
@@ -157,7 +158,7 @@ class Job:
     def __init__(self, solver, priority, case, rate, *numbers):
         self.solver, self.priority, self.case, self.rate, self.numbers = solver, priority, case, rate, numbers
         word = f"{numbers[0]} " if isinstance(numbers[0], str) else ""
-        named = " x ".join(str(number) for number in (numbers[1:] if word else numbers))
+        named = (", " if word else " x ").join(str(number) for number in (numbers[1:] if word else numbers))
         self.setting = f"{word}1/{rate} s" + f", {named}" * bool(named)
         self.key = (case.material, f"{case.tension:g}", str(case.triangles), solver, self.setting)
 
@@ -379,16 +380,19 @@ class Budget:
     """What is left of the seconds, and whether a job fits, by what those of its solver took on that many triangles."""
 
     def __init__(self, seconds):
-        self.until, self.rates = time.monotonic() + seconds, {}
+        self.until, self.rates, self.failures = time.monotonic() + seconds, {}, {}
 
     def left(self):
         return self.until - time.monotonic()
 
     def fits(self, job):
+        if self.failures.get(job.solver, 0) >= GIVEN_UP:
+            return False
         rate = self.rates.get((job.solver, job.case.triangles), self.rates.get(job.solver, 0.0))
         return rate * job.work() < self.left()
 
-    def spent(self, job, seconds):
+    def spent(self, job, row, seconds):
+        self.failures[job.solver] = 0 if row["runs"] else self.failures.get(job.solver, 0) + 1
         rate = seconds / job.work()
         if job.work() > 1000 or job.solver == "libuipc":  # others are set-up more than work
             self.rates[job.solver, job.case.triangles] = self.rates[job.solver] = rate
@@ -412,7 +416,7 @@ def measure(asked):
         job.case.load(hysteron)
         loaded = time.monotonic()
         row = measured(job, hysteron, peers)
-        budget.spent(job, time.monotonic() - loaded)
+        budget.spent(job, row, time.monotonic() - loaded)
         record.add(row)
         record.require(versions(asked.device, hysteron))
         if "CUDA" in row["note"] and job.solver not in ("hysteron", "libuipc"):  # which are processes of their own
