@@ -9,7 +9,7 @@
 namespace hysteron {
 
 template <class Real, class Device>
-class AssembledStiffness {
+class AssembledStiffness : public DefiniteMatrix<Real> {
  public:
   // Two of an element's vertices, each as an item of its elements' vertices.
   struct Pair {
@@ -22,9 +22,11 @@ class AssembledStiffness {
 
   // Of `rows`, softening (null: none) and bending where it was linearised last [N/m].
   BlockRowsView<Real> assemble(const BlockRowsView<Real>& matrix, const ScalarRowsView<Real>& softening);
+  BlockRowsView<Real> assemble(const BlockRowsView<Real>& matrix) override { return assemble(matrix, {}); }
+  Adjacency pattern() const override { return {row_ptr_.download(), col_.download()}; }
   std::size_t blocks() const { return off_diagonal_.size(); }  // off the diagonal
   std::size_t matrix_bytes() const { return total_bytes(row_ptr_, col_, off_diagonal_, diagonal_); }
-  std::size_t bytes() const;
+  std::size_t bytes() const override;
 
   // The parts of assemble(); public because nvcc allows no device lambda in a private member function.
   template <int D>

@@ -75,4 +75,28 @@ class BlockRows {
   Buffer<Mat3<Real>, Device> off_diagonal_, diagonal_;
 };
 
+// The rows of a system's matrix with bending's stiffness in it, without softening.
+template <class Real>
+class DefiniteMatrix {
+ public:
+  virtual ~DefiniteMatrix() = default;
+  virtual Adjacency pattern() const = 0;  // of its off-diagonal blocks, on the host
+  // On the device, until it is called again.
+  virtual BlockRowsView<Real> assemble(const BlockRowsView<Real>& matrix) = 0;
+  virtual std::size_t bytes() const = 0;
+};
+
+// A system's matrix where nothing has to be added.
+template <class Real>
+class RowsAlone : public DefiniteMatrix<Real> {
+ public:
+  explicit RowsAlone(Adjacency pattern) : pattern_(std::move(pattern)) {}
+  Adjacency pattern() const override { return pattern_; }
+  BlockRowsView<Real> assemble(const BlockRowsView<Real>& matrix) override { return matrix; }
+  std::size_t bytes() const override { return 0; }
+
+ private:
+  Adjacency pattern_;
+};
+
 }  // namespace hysteron

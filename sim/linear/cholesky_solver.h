@@ -1,5 +1,5 @@
-// Conjugate gradients preconditioned by a Cholesky factorisation of the whole matrix, on the CPU: mass,
-// membrane and contact, and bending and self-contact, which the products apply element by element.
+// Conjugate gradients preconditioned by a Cholesky factorisation of the whole matrix: mass, membrane and
+// contact, and bending and self-contact, which products may apply element by element.
 //
 // A new factorisation solves a system in an iteration or two.  It is kept while it is worth it: the next
 // systems of Newton's method differ little, and where more iterations have been taken with it than a new one
@@ -9,78 +9,88 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 
-#include "sim/linear/elimination.h"
 #include "sim/linear/linear_solver.h"
 
 namespace hysteron {
 
-// Sparse Cholesky factorisation of a symmetric positive definite matrix of 3x3 blocks, front by front (Duff &
-// Reid 1983; Liu 1992): A = L L^T.  On one thread, in one order: the same bits whatever the number of
-// threads.
-class SparseCholesky {
+// Of a system's matrix, and the preconditioner that it is.
+template <class Real, class Device>
+class Factorisation : public Preconditioner<Real, Device> {
  public:
-  explicit SparseCholesky(const Couplings& couplings);
-
-  // The matrix must have the couplings of the constructor.  A pivot that rounding leaves without a digit, as
-  // of a matrix that is singular, is replaced by the matrix's own diagonal number: L L^T is then another
-  // matrix, positive definite all the same.  Returns how many were.
-  int factorise(const SymmetricBlocks& matrix);
-  // L L^T x = x, three numbers a node.
-  void solve(double* x) const;
-
-  const Elimination& plan() const { return plan_; }
-  std::size_t bytes() const;
-
- private:
-  void assemble(const Front& front, const SymmetricBlocks& matrix, double* panel) const;
-  void take_over(const Front& child, const Front& front, const double* update, double* panel,
-                 double* remainder) const;
-
-  Elimination plan_;
-  std::vector<double> factor_, updates_, least_pivot_;
-  mutable std::vector<double> ordered_, front_;  // scratch of solve()
+  // Rows and columns of held vertices become those of the identity.
+  virtual void renew(const LinearSystem<Real, Device>& system, const char* held) = 0;
+  virtual int worth() const = 0;  // iterations that cost as much as renew()
+  // The matrix that it is of, which a loaded one factorises again; `held` as when that was made.
+  virtual void serialise(Archive& archive, const std::vector<char>& held) = 0;
 };
 
-template <class Real>
-class CholeskySolver : public LinearSolver<Real, Cpu>, private Preconditioner<Real, Cpu> {
+template <class Real, class Device>
+class CholeskySolver : public LinearSolver<Real, Device> {
  public:
-  using System = LinearSystem<Real, Cpu>;
+  using System = LinearSystem<Real, Device>;
 
-  // The stiffnesses of bending and self-contact, null where a system has none.
-  CholeskySolver(Cpu& device, const BlockRows<Real, Cpu>& pattern, std::unique_ptr<ElementStiffness> bending,
-                 std::unique_ptr<ElementStiffness> self_contact);
+  CholeskySolver(Device& device, int rows, std::unique_ptr<Factorisation<Real, Device>> factor)
+      : device_(device), rows_(rows), pcg_(device, rows, true), factor_(std::move(factor)) {}
 
+  void begin() override { may_hold_others_ = true; }
   PcgOutcome solve(const System& system, const char* held, const Vec3<Real>* rhs, Vec3<Real>* x,
-                   double tolerance) override;
+                   double tolerance) override {
+    System preconditioned = system;
+    preconditioned.preconditioner = factor_.get();
+    const auto attempt = [&](int most) {
+      return pcg_.solve(preconditioned, held, rhs, nullptr, nullptr, x, {tolerance, most});
+    };
+    int before = 0;
+    if (holds_the_same(held) && spent_ < factor_->worth()) {
+      const int most = factor_->worth();
+      const PcgOutcome outcome = attempt(most);
+      spent_ += std::max(0, outcome.iterations - kWithNew);
+      if (outcome.converged || outcome.iterations < most) return outcome;
+      before = outcome.iterations;
+    }
+    renew(system, held);
+    const PcgOutcome outcome = attempt(kMaxIterations);
+    return {before + outcome.iterations, outcome.converged};
+  }
   // The factorisation as the matrix it is of, which later solves go on with.
-  void serialise(Archive& archive) override;
-  std::size_t bytes() const override;
+  void serialise(Archive& archive) override {
+    pcg_.serialise(archive);
+    archive(spent_);
+    archive(held_);
+    if (!held_.empty()) factor_->serialise(archive, held_);
+  }
+  std::size_t bytes() const override { return pcg_.bytes() + factor_->bytes(); }
 
   long factorisations() const { return factorisations_; }  // since the start
 
  private:
-  void apply(const Vec3<Real>* r, Vec3<Real>* z, PcgScalars* scalars) override;
-  void renew(const System& system, const char* held);
-  bool contact_is_coupled() const;
-  void couple_contact();
-  void take_couplings(Couplings couplings);
-  void assemble(const BlockRowsView<Real>& rows, const char* held);
-  int worth() const;
+  static constexpr int kMaxIterations = 20000;
+  static constexpr int kWithNew = 2;  // iterations that a new factorisation takes, too
 
-  Cpu& device_;
-  Pcg<Real, Cpu> pcg_;
-  std::unique_ptr<ElementStiffness> bending_, self_contact_;
-  Adjacency pattern_;  // of the systems' matrices
-  Couplings always_;   // of these and of bending
-  std::vector<int> row_slot_, bending_slot_;
-  SymmetricBlocks matrix_;  // of which the factorisation is
-  std::optional<SparseCholesky> factor_;
+  // As when the factorisation was made.  A GPU's host asks where begin() was called alone.
+  bool holds_the_same(const char* held) {
+    if (held_.empty()) return false;
+    if (Device::kGpu && !may_hold_others_) return true;
+    may_hold_others_ = false;
+    return downloaded(device_, held, rows_) == held_;
+  }
+  void renew(const System& system, const char* held) {
+    factor_->renew(system, held);
+    held_ = downloaded(device_, held, rows_);
+    may_hold_others_ = false;
+    spent_ = 0;
+    ++factorisations_;
+  }
+
+  Device& device_;
+  int rows_;
+  Pcg<Real, Device> pcg_;
+  std::unique_ptr<Factorisation<Real, Device>> factor_;
   std::vector<char> held_;  // when it was made; empty: there is none
-  int spent_ = 0;           // iterations with it that a new one would have saved
+  bool may_hold_others_ = true;
+  int spent_ = 0;  // iterations with it that a new one would have saved
   long factorisations_ = 0;
-  std::vector<double> values_;  // scratch of apply()
 };
 
 }  // namespace hysteron

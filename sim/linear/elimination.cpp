@@ -78,9 +78,6 @@ void SymmetricBlocks::hold(const char* held) {
   }
 }
 
-namespace {
-
-// The couplings in both directions, each node's in ascending order.
 Adjacency both_ways(const Couplings& below) {
   std::vector<std::vector<int>> rows(below.start.size() - 1);
   for (int i = 0; i < static_cast<int>(rows.size()); ++i)
@@ -90,6 +87,8 @@ Adjacency both_ways(const Couplings& below) {
     }
   return compressed(rows);
 }
+
+namespace {
 
 std::vector<int> ranks(const std::vector<int>& order) {
   std::vector<int> rank(order.size());
@@ -209,8 +208,10 @@ void link_fronts(Elimination& plan) {
     for (int k = 0; k < plan.front[f].pivots; ++k) owner[plan.front[f].first + k] = static_cast<int>(f);
   for (Front& front : plan.front) {
     front.place_start = static_cast<int>(plan.place.size());
+    front.parent = -1;
     if (front.updated() == 0) continue;
-    Front& parent = plan.front[owner[plan.row[front.row_start + front.pivots]]];
+    front.parent = owner[plan.row[front.row_start + front.pivots]];
+    Front& parent = plan.front[front.parent];
     ++parent.children;
     for (int r = 0; r < parent.rows; ++r) at[plan.row[parent.row_start + r]] = r;
     for (int r = front.pivots; r < front.rows; ++r) plan.place.push_back(at[plan.row[front.row_start + r]]);
@@ -272,6 +273,35 @@ Elimination plan_elimination(const Couplings& couplings) {
   link_fronts(plan);
   place_blocks(graph, couplings, plan);
   plan.stack = highest_stack(plan.front);
+  return plan;
+}
+
+Elimination plan_elimination(const Couplings& couplings, std::vector<int> order,
+                             const std::vector<int>& columns) {
+  const Adjacency graph = both_ways(couplings);
+  const std::vector<int> rank = ranks(order);
+  std::vector<int> owner;
+  for (std::size_t f = 0; f < columns.size(); ++f)
+    owner.resize(owner.size() + columns[f], static_cast<int>(f));
+  std::vector<std::vector<int>> beyond(columns.size());  // those of children are there already
+  Elimination plan;
+  plan.order = std::move(order);
+  int first = 0;
+  for (std::size_t f = 0; f < columns.size(); first += columns[f++]) {
+    const int end = first + columns[f];
+    std::vector<int>& rows = beyond[f];
+    for (int k = first; k < end; ++k)
+      for (int j = graph.start[plan.order[k]]; j < graph.start[plan.order[k] + 1]; ++j)
+        rows.push_back(rank[graph.item[j]]);
+    std::sort(rows.begin(), rows.end());
+    rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+    rows.erase(rows.begin(), std::lower_bound(rows.begin(), rows.end(), end));
+    add_front({first, columns[f], 0}, rows, plan);
+    if (rows.empty()) continue;
+    std::vector<int>& parent = beyond[owner[rows[0]]];
+    parent.insert(parent.end(), rows.begin(), rows.end());
+  }
+  link_fronts(plan);
   return plan;
 }
 

@@ -62,6 +62,7 @@ struct Front {
   int row_start;               // of Elimination::row
   int place_start;             // of Elimination::place
   int block_start, block_end;  // of Elimination::block
+  int parent;                  // the front that takes over its update; -1: it has none
   int children;                // the fronts before it, as long as they are nobody else's
   std::size_t panel;           // where its 3 rows x 3 pivots numbers start in the factor
 
@@ -89,5 +90,13 @@ struct Elimination {
 // Orders nodes by approximate minimum degree (Amestoy, Davis & Duff 1996) and joins columns of the factor to
 // fronts, also where that makes some zeros explicit (Ashcraft & Grimes 1989).
 Elimination plan_elimination(const Couplings& couplings);
+
+// Fronts of so many columns each in this order, whose nodes need not see one another, without `stack` and
+// `block`: children need not be right before their parents, and whoever fills the fronts knows the matrix.
+Elimination plan_elimination(const Couplings& couplings, std::vector<int> order,
+                             const std::vector<int>& columns);
+
+// The couplings in both directions, each node's in ascending order.
+Adjacency both_ways(const Couplings& below);
 
 }  // namespace hysteron

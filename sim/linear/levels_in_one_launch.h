@@ -1,8 +1,9 @@
-// Small levels of multigrid in one launch on a GPU, which none of them fills.
+// Preconditioners in one launch on a GPU: small levels of multigrid, which none of them fills, or fronts.
 #pragma once
 
 #include "sim/device/grid_team.h"
 #include "sim/linear/cycle.h"
+#include "sim/linear/front_rows.h"
 #include "sim/linear/level_setup.h"
 
 namespace hysteron {
@@ -11,6 +12,14 @@ namespace hysteron {
 inline constexpr int kMaxRowsInOneLaunch = 80000;
 // Nodes of a level whose eigenvalue is found in one launch: warps take a row each.
 inline constexpr int kMaxNodesInOneLaunch = kMaxRowsByWarps;
+
+template <class Real>
+struct OneLaunchView {
+  enum Kind { kDiagonal, kCycle, kFronts };
+  Kind kind = kDiagonal;  // the inverted diagonal blocks precondition
+  CycleView<Real> cycle = {};
+  FrontsView<Real> fronts = {};
+};
 
 inline bool may_take_one_launch(const Cpu&) { return false; }
 // False: the caller orders the loops, with the same bits.

@@ -188,10 +188,11 @@ CycleView<Real> Multigrid<Real, Device>::view_from(int first) {
 }
 
 template <class Real, class Device>
-const CycleView<Real>* Multigrid<Real, Device>::in_one_launch() {
-  if (!Device::kGpu || !has_view_from(0)) return nullptr;
-  view_ = view_from(0);
-  return &view_;
+bool Multigrid<Real, Device>::in_one_launch(OneLaunchView<Real>& view) {
+  if (!Device::kGpu || !has_view_from(0)) return false;
+  view.kind = OneLaunchView<Real>::kCycle;
+  view.cycle = view_from(0);
+  return true;
 }
 
 template class Multigrid<double, ThisDevice>;

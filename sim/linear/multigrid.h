@@ -39,7 +39,7 @@ class Multigrid : public Preconditioner<Real, Device> {
   void apply(const Vec3<Real>* r, Vec3<Real>* z, PcgScalars* scalars = nullptr) override;
   // Iterations that take about as long as new coarse levels.
   double worth() const { return 2 + (dense_ ? dense_->worth() : 0); }
-  const CycleView<Real>* in_one_launch() override;
+  bool in_one_launch(OneLaunchView<Real>& view) override;
   std::size_t bytes() const override;
   int levels() const { return 1 + coarse(); }
 
@@ -65,7 +65,6 @@ class Multigrid : public Preconditioner<Real, Device> {
   Buffer<Mat3<Real>, Device> inverse_;
   std::vector<CoarseLevel<Real, Device>> level_;
   std::optional<DenseInverse<Real, Device>> dense_;  // of the last one; none: it is swept as the others
-  CycleView<Real> view_;                             // what in_one_launch() returned last
 };
 
 }  // namespace hysteron

@@ -176,7 +176,6 @@ PcgIterations<Real> Pcg<Real, Device>::iterations(const System& system, const ch
           {{held, p, q_.data(), x, r_.data(), s}, inverse_.data(), z_.data()},
           {held, z_.data(), p, s},
           other_p_.data(),
-          nullptr,
           scalars_.data()};
 }
 
@@ -204,9 +203,9 @@ template <class Real, class Device>
 bool Pcg<Real, Device>::iterate_on_device(const System& system, const char* held, Vec3<Real>* x) {
   if (system.self_contact) return false;
   if (!system.bending || system.whole.rows > 0) {  // no loops of bending's are between
-    PcgIterations<Real> all = iterations(system, held, x);
-    if (system.preconditioner) all.cycle = system.preconditioner->in_one_launch();
-    if ((all.cycle || !system.preconditioner) && iterate_in_one_launch(device_, all)) return true;
+    OneLaunchView<Real> view;
+    const bool has_view = !system.preconditioner || system.preconditioner->in_one_launch(view);
+    if (has_view && iterate_in_one_launch(device_, iterations(system, held, x), view)) return true;
   }
   const BlockRowsView<Real>& matrix = system.matrix;
   const std::vector<const void*> key = {matrix.row_ptr,

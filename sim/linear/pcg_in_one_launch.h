@@ -83,14 +83,13 @@ struct PcgIterations {
   ProductTerms<Real> product;
   AdvanceTerms<Real> advance;
   Direction<Real> direction;
-  Vec3<Real>* other_p;           // in one launch, directions are in p and here in turn
-  const CycleView<Real>* cycle;  // of multigrid; null: the inverted diagonal blocks precondition
-  PcgScalars* scalars;           // in the device's memory
+  Vec3<Real>* other_p;  // in one launch, directions are in p and here in turn
+  PcgScalars* scalars;  // in the device's memory
 };
 
 // False: the caller orders them.
 template <class Real>
-bool iterate_in_one_launch(Cpu&, const PcgIterations<Real>&) {
+bool iterate_in_one_launch(Cpu&, const PcgIterations<Real>&, const OneLaunchView<Real>&) {
   return false;
 }
 
@@ -121,7 +120,7 @@ struct NextProduct {
 template <class Real>
 struct PcgTeam {
   PcgIterations<Real> of;
-  CycleView<Real> cycle;
+  OneLaunchView<Real> preconditioner;
 
   // Every thread keeps the numbers of the iteration, and finds the same.
   __device__ void operator()(GridTeam& team) const {
@@ -135,7 +134,9 @@ struct PcgTeam {
       own.find_length(block_row_sum(
           team, of.rows, NextProduct<Real>{of.product.product, of.direction.held, next, p, of.product.q}));
       advance.advance.p = p;
-      own.advance(of.cycle ? preconditioned(team, advance.advance) : team.sum(of.rows, advance));
+      own.advance(preconditioner.kind == OneLaunchView<Real>::kDiagonal
+                      ? team.sum(of.rows, advance)
+                      : preconditioned(team, advance.advance));
       Vec3<Real>* const last = p;
       p = before;
       before = last;
@@ -146,8 +147,10 @@ struct PcgTeam {
  private:
   __device__ double preconditioned(GridTeam& team, const Advance<Real>& advance) const {
     team.for_each(of.rows, advance);
-    run_cycle(team, cycle, advance.r);
-    Combination<Real> combination = cycle.combination;
+    if (preconditioner.kind == OneLaunchView<Real>::kFronts)
+      return run_fronts(team, preconditioner.fronts, advance.r, of.advance.z, advance.scalars);
+    run_cycle(team, preconditioner.cycle, advance.r);
+    Combination<Real> combination = preconditioner.cycle.combination;
     combination.r = advance.r;
     combination.z = of.advance.z;
     combination.scalars = advance.scalars;
@@ -156,10 +159,10 @@ struct PcgTeam {
 };
 
 template <class Real>
-bool iterate_in_one_launch(Cuda& cuda, const PcgIterations<Real>& iterations) {
+bool iterate_in_one_launch(Cuda& cuda, const PcgIterations<Real>& iterations,
+                           const OneLaunchView<Real>& preconditioner) {
   if (!may_take_one_launch(cuda) || iterations.rows > kMaxRowsInOneLaunch) return false;
-  return for_grid_team(cuda, "solve: iterations",
-                       PcgTeam<Real>{iterations, iterations.cycle ? *iterations.cycle : CycleView<Real>{}});
+  return for_grid_team(cuda, "solve: iterations", PcgTeam<Real>{iterations, preconditioner});
 }
 #endif
 

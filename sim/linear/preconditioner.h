@@ -37,7 +37,7 @@ struct PcgScalars {
 };
 
 template <class Real>
-struct CycleView;
+struct OneLaunchView;
 
 template <class Real, class Device>
 class Preconditioner {
@@ -47,8 +47,9 @@ class Preconditioner {
   // the same for all calls within a solve.  r is zero on held rows.  With scalars: advances them by r' P r,
   // and does nothing once they are done.
   virtual void apply(const Vec3<Real>* r, Vec3<Real>* z, PcgScalars* scalars) = 0;
-  // What it does as loops that a GPU runs in one launch (cycle.h); null: not so.
-  virtual const CycleView<Real>* in_one_launch() { return nullptr; }
+  // Makes of the view what it does as loops that a GPU runs in one launch (pcg_in_one_launch.h); false: it
+  // has none.
+  virtual bool in_one_launch(OneLaunchView<Real>&) { return false; }
   virtual std::size_t bytes() const = 0;
 };
 

@@ -37,7 +37,7 @@ enum class ImplicitEvery { substep, step };
 constexpr std::array<const char*, 2> names(ImplicitEvery) { return {"substep", "step"}; }
 
 // Preconditioners of conjugate gradients.  automatic: by the size and shape of the cloth
-// (time/method_choice.h); cholesky: a factorisation of the whole matrix, on the CPU.
+// (time/method_choice.h); cholesky: a factorisation of the whole matrix.
 enum class Preconditioning { automatic, multigrid, cholesky, block_jacobi };
 constexpr std::array<const char*, 4> names(Preconditioning) {
   return {"auto", "multigrid", "cholesky", "block-jacobi"};

@@ -4,22 +4,38 @@
 #include <memory>
 #include <type_traits>
 
+#include "sim/bending/assembled_stiffness.h"
 #include "sim/bending/bending_elements.h"
 #include "sim/contact/float_pairs.h"
-#include "sim/linear/cholesky_solver.h"
+#include "sim/linear/dissected_factorisation.h"
 #include "sim/linear/float_solver.h"
 #include "sim/linear/multigrid_solver.h"
+#include "sim/linear/sparse_factorisation.h"
 #include "sim/time/body.h"
 
 namespace hysteron {
 
+// A factorisation whose triangular solves are short on a CPU, or whose waiting is on a GPU.
 template <class Real>
-std::unique_ptr<LinearSolver<Real, Cpu>> make_cholesky_solver(const Body<Real, Cpu>& body) {
+std::unique_ptr<Factorisation<Real, Cpu>> make_factorisation(const Body<Real, Cpu>& body) {
   std::unique_ptr<ElementStiffness> bending, self_contact;
   if (body.scene.is_implicit()) bending = std::make_unique<BendingElements<Real>>(body.bending);
-  if (body.self_contact) self_contact = std::make_unique<PairElements<Real>>(*body.self_contact);
-  return std::make_unique<CholeskySolver<Real>>(*body.device, body.matrix, std::move(bending),
-                                                std::move(self_contact));
+  if (body.self_contact)
+    self_contact = std::make_unique<PairElements<Real, Cpu>>(*body.device, *body.self_contact);
+  return std::make_unique<SparseFactorisation<Real>>(*body.device, body.matrix, std::move(bending),
+                                                     std::move(self_contact));
+}
+template <class Real, class Device>
+std::unique_ptr<Factorisation<Real, Device>> make_factorisation(const Body<Real, Device>& body) {
+  Device& device = *body.device;
+  std::unique_ptr<DefiniteMatrix<Real>> definite = std::make_unique<RowsAlone<Real>>(body.matrix.pattern());
+  if (body.scene.is_implicit())
+    definite = std::make_unique<AssembledStiffness<Real, Device>>(device, body.matrix, body.bending);
+  std::unique_ptr<ElementStiffness> self_contact;
+  if (body.self_contact)
+    self_contact = std::make_unique<PairElements<Real, Device>>(device, *body.self_contact);
+  return std::make_unique<DissectedFactorisation<Real, Device>>(device, std::move(definite),
+                                                                std::move(self_contact));
 }
 
 // Conjugate gradients in a precision that need not be the body's.
@@ -48,8 +64,9 @@ std::unique_ptr<LinearSolver<double, Device>> make_float_solver(const Body<doubl
 // Of a scene whose choice is made (method_choice.h).
 template <class Real, class Device>
 std::unique_ptr<LinearSolver<Real, Device>> make_linear_solver(const Body<Real, Device>& body) {
-  if constexpr (!Device::kGpu)
-    if (body.scene.linear_solver == Preconditioning::cholesky) return make_cholesky_solver(body);
+  if (body.scene.linear_solver == Preconditioning::cholesky)
+    return std::make_unique<CholeskySolver<Real, Device>>(*body.device, body.vertices,
+                                                          make_factorisation(body));
   if constexpr (std::is_same_v<Real, double>)
     if (body.scene.solves_in_float()) return make_float_solver(body);
   return make_gradient_solver<Real>(body);

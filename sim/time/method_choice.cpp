@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "sim/base/error.h"
-#include "sim/linear/elimination.h"
+#include "sim/linear/dissection.h"
 #include "sim/membrane/membrane_nodes.h"
 
 namespace hysteron {
@@ -28,13 +28,21 @@ double stiffness_share(const Fabric& fabric) {
   return std::pow(std::max(1.0, std::max(fabric.warp, fabric.weft) / kSoft), kPower);
 }
 
-bool solves_with_newton(const Scene& scene) {
-  return scene.is_implicit() || (scene.self_contact && scene.integrator == Integrator::semi_implicit);
+// A GPU's factorisation for linear-solver = auto.
+constexpr bool kFactorisesOnGpu = false;
+
+// Whether a solve with a factorisation that serves some of them takes less than multigrid's, of a soft fabric
+// 25 iterations of 10 us.
+bool pays_on_gpu(const Couplings& couplings, double share) {
+  constexpr double kMultigridSolve = 250, kIteration = 8;  // [us]
+  constexpr double kIterations = 3, kSolvesOfRenewal = 4;
+  const TiledCost cost = plan_dissection(couplings, choose_shape(couplings)).cost;
+  return kIterations * (kIteration + cost.application) + cost.renewal / kSolvesOfRenewal <
+         kMultigridSolve * share;
 }
 
-}  // namespace
-
-double factorisation_work(const ClothMesh& mesh, const Adjacency& couplings, const CurvatureOperator& op) {
+// Of the matrix whose off-diagonal blocks beside bending's are `couplings`.
+Couplings couplings_of(const ClothMesh& mesh, const Adjacency& couplings, const CurvatureOperator& op) {
   CouplingList list(couplings);
   for (int e = 0; e < op.elements(); ++e) {
     std::vector<int> vertices;
@@ -46,7 +54,17 @@ double factorisation_work(const ClothMesh& mesh, const Adjacency& couplings, con
     vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
     list.add(vertices);
   }
-  return plan_elimination(list.take()).multiplications;
+  return list.take();
+}
+
+bool solves_with_newton(const Scene& scene) {
+  return scene.is_implicit() || (scene.self_contact && scene.integrator == Integrator::semi_implicit);
+}
+
+}  // namespace
+
+double factorisation_work(const ClothMesh& mesh, const Adjacency& couplings, const CurvatureOperator& op) {
+  return plan_elimination(couplings_of(mesh, couplings, op)).multiplications;
 }
 
 MethodChoice choose_method(const Scene& scene, const Cloth& cloth, const CurvatureOperator& op, int gpus) {
@@ -60,26 +78,31 @@ MethodChoice choose_method(const Scene& scene, const Cloth& cloth, const Curvatu
       throw Error::invalid_input(
           "linear-precision = float is of conjugate gradients: linear-solver = cholesky must be auto, "
           "multigrid or block-jacobi");
-    if (scene.device == DeviceChoice::cuda)
-      throw Error::invalid_input(
-          "linear-solver = cholesky runs on the CPU: device = cuda must be auto or cpu");
-    if (choice.gpu) choice.reason = "linear-solver = cholesky runs on the CPU";
-    choice.gpu = false;
+    if (choice.gpu && scene.device == DeviceChoice::automatic) {
+      choice.reason = "device = auto takes the CPU for linear-solver = cholesky";
+      choice.gpu = false;
+    }
   }
   if (scene.linear_solver != Preconditioning::automatic) return choice;
   choice.linear_solver = Preconditioning::multigrid;
-  const bool may_factorise =
-      scene.device != DeviceChoice::cuda && !choice.in_float && cloth.mesh.vertices() <= kMaxVertices;
-  if (!may_factorise) return choice;
-  const double work = factorisation_work(
-      cloth.mesh, membrane_couplings(cloth.mesh, scene.fabric, scene.membrane_element), op);
-  if (work > kWorkOfVertex * stiffness_share(scene.fabric) * cloth.mesh.vertices() ||
-      (choice.gpu && work > kCpuWork))
-    return choice;
-  choice.linear_solver = Preconditioning::cholesky;
-  if (choice.gpu)
-    choice.reason = "device = auto takes the CPU, which is faster than a GPU for so small a cloth";
-  choice.gpu = false;
+  const bool may_take_cpu = scene.device != DeviceChoice::cuda,
+             may_factorise = !choice.in_float && cloth.mesh.vertices() <= kMaxVertices;
+  if (!may_factorise || !(may_take_cpu || kFactorisesOnGpu)) return choice;
+  const Couplings couplings =
+      couplings_of(cloth.mesh, membrane_couplings(cloth.mesh, scene.fabric, scene.membrane_element), op);
+  const double share = stiffness_share(scene.fabric);
+  if (may_take_cpu) {
+    const double work = plan_elimination(couplings).multiplications;
+    if (work <= kWorkOfVertex * share * cloth.mesh.vertices() && (!choice.gpu || work <= kCpuWork)) {
+      choice.linear_solver = Preconditioning::cholesky;
+      if (choice.gpu)
+        choice.reason = "device = auto takes the CPU, which is faster than a GPU for so small a cloth";
+      choice.gpu = false;
+      return choice;
+    }
+  }
+  if (choice.gpu && kFactorisesOnGpu && pays_on_gpu(couplings, share))
+    choice.linear_solver = Preconditioning::cholesky;
   return choice;
 }
 

@@ -17,14 +17,16 @@ struct LinearSolve {
   long loops;  // ordered while it was solved
 };
 
+enum class LinearMethod { block_jacobi, multigrid, dissection };
+
 class LinearSolves {
  public:
   virtual ~LinearSolves() = default;
 
   // Springs along the edges of the mesh, in steps of a mass for each vertex; the first vertex is held. Solved
   // `times` times over from zero; the last one counts.  by_batches: a GPU asks the host how to go on.
-  virtual LinearSolve solve(const ClothMesh& mesh, bool multigrid, double tolerance, bool by_batches = false,
-                            int times = 1) = 0;
+  virtual LinearSolve solve(const ClothMesh& mesh, LinearMethod method, double tolerance,
+                            bool by_batches = false, int times = 1) = 0;
   // The whole matrix inverted densely and applied to the load; without_first: nothing moves the first vertex.
   virtual LinearSolve invert(const ClothMesh& mesh, bool without_first) = 0;
 };

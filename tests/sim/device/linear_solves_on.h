@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "sim/linear/linear_solver.h"
+#include "sim/linear/dissected_factorisation.h"
 #include "sim/linear/multigrid_solver.h"
 #include "tests/sim/device/linear_solves.h"
 
@@ -15,7 +15,7 @@ class LinearSolvesOn : public LinearSolves {
   template <class... Arguments>
   explicit LinearSolvesOn(Arguments... arguments) : device_(arguments...) {}
 
-  LinearSolve solve(const ClothMesh& mesh, bool multigrid, double tolerance, bool by_batches,
+  LinearSolve solve(const ClothMesh& mesh, LinearMethod method, double tolerance, bool by_batches,
                     int times) override {
     const int n = mesh.vertices();
     BlockRows<double, Device> rows(device_, mesh);
@@ -25,11 +25,7 @@ class LinearSolvesOn : public LinearSolves {
     const Buffer<char, Device> is_held(device_, held);
     const Buffer<Eigen::Vector3d, Device> rhs(device_, load(n));
     Buffer<Eigen::Vector3d, Device> x(device_, n);
-    std::unique_ptr<LinearSolver<double, Device>> solver =
-        std::make_unique<BlockJacobiSolver<double, Device>>(device_, n);
-    if (multigrid)
-      solver = std::make_unique<MultigridSolver<double, Device>>(
-          device_, mesh, make_rest_hierarchy(mesh, neighbours_in(mesh), held), 0.0);
+    const auto solver = make_solver(mesh, method, held);
     LinearSystem<double, Device> system{rows.view()};
     if (by_batches)  // whose loops may change
       system.self_contact = [](const Vec3<double>*) { return GatheredForces<double>{}; };
@@ -58,6 +54,19 @@ class LinearSolvesOn : public LinearSolves {
   }
 
  private:
+  std::unique_ptr<LinearSolver<double, Device>> make_solver(const ClothMesh& mesh, LinearMethod method,
+                                                            const std::vector<char>& held) {
+    const int n = mesh.vertices();
+    if (method == LinearMethod::multigrid)
+      return std::make_unique<MultigridSolver<double, Device>>(
+          device_, mesh, make_rest_hierarchy(mesh, neighbours_in(mesh), held), 0.0);
+    if (method == LinearMethod::block_jacobi)
+      return std::make_unique<BlockJacobiSolver<double, Device>>(device_, n);
+    auto factor = std::make_unique<DissectedFactorisation<double, Device>>(
+        device_, std::make_unique<RowsAlone<double>>(neighbours_in(mesh)), nullptr);
+    return std::make_unique<CholeskySolver<double, Device>>(device_, n, std::move(factor));
+  }
+
   static constexpr double kMass = 0.01;  // beside springs of 1
 
   static std::vector<Eigen::Vector3d> load(int n) {

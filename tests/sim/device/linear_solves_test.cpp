@@ -12,6 +12,7 @@
 namespace hysteron {
 namespace {
 
+using test::LinearMethod;
 using test::LinearSolve;
 
 constexpr double kTolerance = 1e-11;
@@ -56,8 +57,8 @@ INSTANTIATE_TEST_SUITE_P(Devices, LinearSolvesOnEachDevice, testing::Values("cpu
 
 TEST_P(LinearSolvesOnEachDevice, LeaveTheResidualThatTheyWereAskedFor) {
   for (const int triangles : triangles_here())
-    for (const bool multigrid : {false, true}) {
-      const LinearSolve solve = solves->solve(random_rectangle(triangles), multigrid, kTolerance);
+    for (const LinearMethod method : {LinearMethod::block_jacobi, LinearMethod::multigrid}) {
+      const LinearSolve solve = solves->solve(random_rectangle(triangles), method, kTolerance);
       EXPECT_TRUE(solve.converged) << triangles;
       EXPECT_LT(solve.residual, kPlain) << triangles;
       EXPECT_EQ(solve.x[0], Eigen::Vector3d::Zero().eval());
@@ -66,12 +67,12 @@ TEST_P(LinearSolvesOnEachDevice, LeaveTheResidualThatTheyWereAskedFor) {
 
 TEST_P(LinearSolvesOnEachDevice, HaveTheBitsOfBatchesTwiceTheSame) {
   for (const int triangles : triangles_here())
-    for (const bool multigrid : {false, true}) {
+    for (const LinearMethod method : {LinearMethod::block_jacobi, LinearMethod::multigrid}) {
       const ClothMesh mesh = random_rectangle(triangles);
       constexpr double kLoose = 1e-4;
-      const LinearSolve once = solves->solve(mesh, multigrid, kLoose),
-                        again = solves->solve(mesh, multigrid, kLoose, false, 3),
-                        batches = solves->solve(mesh, multigrid, kLoose, true, 3);
+      const LinearSolve once = solves->solve(mesh, method, kLoose),
+                        again = solves->solve(mesh, method, kLoose, false, 3),
+                        batches = solves->solve(mesh, method, kLoose, true, 3);
       EXPECT_GT(once.x.back().norm(), 0);
       EXPECT_TRUE(same_bits(once, again)) << triangles;
       EXPECT_TRUE(same_bits(once, batches)) << triangles;
@@ -83,16 +84,17 @@ TEST_P(LinearSolvesOnEachDevice, HaveTheBitsOfBatchesTwiceTheSame) {
 TEST_P(LinearSolvesOnEachDevice, AgreeWithTheCpu) {
   if (!on_gpu()) GTEST_SKIP() << "this is the CPU";
   for (const int triangles : kTriangles)
-    for (const bool multigrid : {false, true}) {
+    for (const LinearMethod method : {LinearMethod::block_jacobi, LinearMethod::multigrid}) {
       const ClothMesh mesh = random_rectangle(triangles);
-      const LinearSolve here = solves->solve(mesh, multigrid, kTolerance),
-                        there = test::cpu_linear_solves()->solve(mesh, multigrid, kTolerance);
+      const LinearSolve here = solves->solve(mesh, method, kTolerance),
+                        there = test::cpu_linear_solves()->solve(mesh, method, kTolerance);
       double size = 0;
       for (const Eigen::Vector3d& x : there.x) size = std::max(size, x.norm());
       EXPECT_LT(farthest(here.x, there.x), kPlain * size) << triangles;
       // A GPU inverts a finer level.
       EXPECT_LE(here.iterations, 1 + 1.02 * there.iterations) << triangles;
-      EXPECT_GE(here.iterations, multigrid ? 1 : 0.98 * there.iterations - 1) << triangles;
+      EXPECT_GE(here.iterations, method == LinearMethod::multigrid ? 1 : 0.98 * there.iterations - 1)
+          << triangles;
     }
 }
 
@@ -111,10 +113,26 @@ TEST_P(LinearSolvesOnEachDevice, OrderNoLoopForAnIterationThatTheGpuRepeatsItsel
   if (!on_gpu()) GTEST_SKIP() << "the CPU orders each";
   constexpr int kTimes = 4;
   const ClothMesh mesh = random_rectangle(3000);
-  const LinearSolve tight = solves->solve(mesh, false, kTolerance, false, kTimes),
-                    loose = solves->solve(mesh, false, 1e-2, false, kTimes);
+  const LinearSolve tight = solves->solve(mesh, LinearMethod::block_jacobi, kTolerance, false, kTimes),
+                    loose = solves->solve(mesh, LinearMethod::block_jacobi, 1e-2, false, kTimes);
   EXPECT_GT(tight.iterations, 2 * loose.iterations);
   EXPECT_EQ(tight.loops, loose.loops);
+}
+
+// One front, one level of fronts below another, and more of both; long strips.
+TEST_P(LinearSolvesOnEachDevice, FactoriseStripsAndSolveThemInAnIterationOrTwo) {
+  for (const int triangles : {2, 300, 2400}) {
+    const ClothMesh mesh = make_rectangle(0.5, 0.03, triangles, MeshFamily::random, 1);
+    const LinearSolve once = solves->solve(mesh, LinearMethod::dissection, kTolerance),
+                      again = solves->solve(mesh, LinearMethod::dissection, kTolerance, false, 3),
+                      batches = solves->solve(mesh, LinearMethod::dissection, kTolerance, true, 3);
+    EXPECT_TRUE(once.converged) << triangles;
+    EXPECT_LE(once.iterations, 2) << triangles;
+    EXPECT_LT(once.residual, kPlain) << triangles;
+    EXPECT_EQ(once.x[0], Eigen::Vector3d::Zero().eval());
+    EXPECT_TRUE(same_bits(once, again)) << triangles;
+    EXPECT_TRUE(same_bits(once, batches)) << triangles;
+  }
 }
 
 }  // namespace

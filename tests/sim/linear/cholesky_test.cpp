@@ -1,10 +1,12 @@
-// The sparse factorisation and the solver it preconditions, against a dense solve of the same small system.
+// The factorisations and the solver that they precondition, against a dense solve of the same small system.
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cstring>
 
-#include "sim/linear/cholesky_solver.h"
+#include "sim/linear/dissected_factorisation.h"
+#include "sim/linear/sparse_factorisation.h"
+#include "tests/sim/base/case_name.h"
 #include "tests/sim/linear/dense.h"
 #include "tests/sim/linear/random_system.h"
 
@@ -42,17 +44,31 @@ struct Springs : ElementStiffness {
   }
 };
 
+using Factor = std::unique_ptr<Factorisation<double, Cpu>>;
+
+Factor make_factor(const std::string& kind, test::RandomSystem& of,
+                   std::unique_ptr<ElementStiffness> springs) {
+  if (kind == "sparse")
+    return std::make_unique<SparseFactorisation<double>>(of.cpu, of.rows, nullptr, std::move(springs));
+  DissectionShape shape;  // one front
+  if (kind == "flat") shape = {2, 2};
+  if (kind == "tree") shape = {3, 1};
+  return std::make_unique<DissectedFactorisation<double, Cpu>>(
+      of.cpu, std::make_unique<RowsAlone<double>>(of.rows.pattern()), std::move(springs), shape);
+}
+
 // With springs between far vertices.
 struct System : test::RandomSystem {
   Springs* springs = nullptr;  // of the solver
   std::vector<Vec3<double>> slot, x;
   std::vector<int> start, item;
-  std::unique_ptr<CholeskySolver<double>> solver;
+  std::unique_ptr<CholeskySolver<double, Cpu>> solver;
 
-  System() : RandomSystem(12), x(n()) {
+  explicit System(const std::string& kind) : RandomSystem(12), x(n()) {
     auto made = std::make_unique<Springs>();
     springs = made.get();
-    solver = std::make_unique<CholeskySolver<double>>(cpu, rows, nullptr, std::move(made));
+    solver =
+        std::make_unique<CholeskySolver<double, Cpu>>(cpu, n(), make_factor(kind, *this, std::move(made)));
   }
 
   GatheredForces<double> spring_forces(const Vec3<double>* p) {
@@ -88,8 +104,12 @@ struct System : test::RandomSystem {
   }
 };
 
-TEST(Cholesky, SolvesInAnIterationOrTwoWhatADenseSolveDoes) {
-  System system;
+class Cholesky : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Factorisations, Cholesky, testing::Values("sparse", "dense", "flat", "tree"),
+                         test::CaseName());
+
+TEST_P(Cholesky, SolvesInAnIterationOrTwoWhatADenseSolveDoes) {
+  System system(GetParam());
   system.held[3] = system.held[17] = 1;
   const PcgOutcome outcome = system.solve();
   EXPECT_TRUE(outcome.converged);
@@ -98,8 +118,8 @@ TEST(Cholesky, SolvesInAnIterationOrTwoWhatADenseSolveDoes) {
   EXPECT_EQ(system.x[3], Vector3d(0, 0, 0));
 }
 
-TEST(Cholesky, FollowsPairsThatComeAndGoAndHandsThatTakeHold) {
-  System system;
+TEST_P(Cholesky, FollowsPairsThatComeAndGoAndHandsThatTakeHold) {
+  System system(GetParam());
   const int last = system.n() - 1;
   system.springs->vertex = {{0, last, last - 1, last - 2}, {5, 30, 31, 33}};
   EXPECT_LE(system.solve().iterations, 2);
@@ -114,8 +134,8 @@ TEST(Cholesky, FollowsPairsThatComeAndGoAndHandsThatTakeHold) {
   EXPECT_EQ(system.solver->factorisations(), 2);
 }
 
-TEST(Cholesky, IsKeptForSystemsThatDifferLittleAndRenewedForOthers) {
-  System system;
+TEST_P(Cholesky, IsKeptForSystemsThatDifferLittleAndRenewedForOthers) {
+  System system(GetParam());
   system.solve();
   for (int i = 0; i < system.n(); ++i) system.rows.view().diagonal[i] *= 1.01;
   EXPECT_TRUE(system.solve().converged);
@@ -129,8 +149,8 @@ TEST(Cholesky, IsKeptForSystemsThatDifferLittleAndRenewedForOthers) {
 }
 
 // The factorisation is of the matrix without softening, which makes it indefinite.
-TEST(Cholesky, LetsConjugateGradientsEndOnNegativeCurvature) {
-  System system;
+TEST_P(Cholesky, LetsConjugateGradientsEndOnNegativeCurvature) {
+  System system(GetParam());
   for (double& s : system.softening_diagonal) s = -9;
   const MatrixXd a = system.dense();
   ASSERT_LT(test::eigenvalues(a)[0], 0);
@@ -140,8 +160,8 @@ TEST(Cholesky, LetsConjugateGradientsEndOnNegativeCurvature) {
   EXPECT_GT(descent, 0);
 }
 
-TEST(Cholesky, GoesOnFromAnArchiveWithTheSameBits) {
-  System one, two;
+TEST_P(Cholesky, GoesOnFromAnArchiveWithTheSameBits) {
+  System one(GetParam()), two(GetParam());
   one.solve();
   Archive saved;
   one.solver->serialise(saved);

@@ -1,0 +1,366 @@
+#include "sim/linear/dissected_factorisation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "sim/base/error.h"
+#include "sim/device/archive_buffer.h"
+
+namespace hysteron {
+
+namespace {
+
+// What an iteration of conjugate gradients takes an H100 beside the application [us].
+constexpr double kIteration = 8;
+constexpr int kMinWorth = 6;  // as on the CPU
+
+template <class Real>
+void sweep_level(Cpu& cpu, const Buffer<SweptFront, Cpu>& fronts, int /*tiles*/, int /*pivots*/) {
+  const SweptFront* front = fronts.data();
+  for_each(cpu, {"fronts: sweep"}, static_cast<int>(fronts.size()), [=](int f) { sweep<Real>(front[f]); });
+}
+#ifdef __CUDACC__
+template <class Real>
+void sweep_level(Cuda& cuda, const Buffer<SweptFront, Cuda>& fronts, int tiles, int pivots) {
+  sweep_fronts<Real>(cuda, ManyFronts{fronts.data(), static_cast<int>(fronts.size())}, tiles, pivots,
+                     {"fronts: column"}, {"fronts: rest"});
+}
+#endif
+
+// Loops over a level's numbers count with int.
+void check_size(const TiledPlan& plan) {
+  double most = static_cast<double>(plan.numbers);
+  for (const std::vector<int>& level : plan.level)
+    for (const int f : level)
+      most = std::max(most, static_cast<double>(level.size()) * std::pow(plan.front[f].stride(), 2));
+  if (most > std::numeric_limits<int>::max())
+    throw Error::system("the linear system is too large to be factorised: linear-solver = multigrid");
+}
+
+// A number of a level's fronts, each of which is given most x most.
+struct NumberOfLevel {
+  FrontOfLevel front;
+  int row, column;
+  HYST_HD NumberOfLevel(const FrontOfLevel* fronts, int most, int e)
+      : front(fronts[e / (most * most)]), row(e % (most * most) / most), column(e % most) {}
+  // Below the diagonal, or on it.
+  HYST_HD bool is_lower() const { return column <= row && row < front.stride; }
+};
+
+}  // namespace
+
+template <class Real, class Device>
+DissectedFactorisation<Real, Device>::DissectedFactorisation(Device& device,
+                                                             std::unique_ptr<DefiniteMatrix<Real>> definite,
+                                                             std::unique_ptr<ElementStiffness> self_contact,
+                                                             std::optional<DissectionShape> shape)
+    : device_(device),
+      definite_(std::move(definite)),
+      self_contact_(std::move(self_contact)),
+      matrix_(device, definite_->pattern()),
+      scale_(device, 3 * (matrix_.row_ptr().size() - 1)),
+      placed_(device),
+      b_(device, matrix_.row_ptr().size() - 1) {
+  Couplings always = CouplingList(matrix_.pattern()).take();
+  shape_ = shape ? *shape : choose_shape(always);
+  take_couplings(std::move(always));
+}
+
+template <class Real, class Device>
+void DissectedFactorisation<Real, Device>::take_couplings(Couplings couplings) {
+  couplings_ = std::move(couplings);
+  plan_ = plan_dissection(couplings_, shape_);
+  check_size(plan_);
+  const FrontTables tables = make_front_tables(plan_, matrix_.pattern());
+  number_ = {};  // before there is more
+  number_ = Buffer<double, Device>(device_, plan_.numbers);
+  column_ = Buffer<double, Device>(device_, static_cast<std::size_t>(plan_.sources) * kTile);
+  inverse_ = Buffer<double, Device>(device_, plan_.front.size() * kTile * kTile);
+  source_ = Buffer<int, Device>(device_, tables.source);
+  child_row_ = Buffer<int, Device>(device_, tables.child_row);
+  term_ = Buffer<FrontTerm, Device>(device_, tables.term);
+  child_ = Buffer<FrontChild, Device>(device_, tables.child);
+  block_ = Buffer<FrontBlock, Device>(device_, tables.block);
+  ones_ = Buffer<std::size_t, Device>(device_, tables.ones);
+  make_levels(tables);
+}
+
+template <class Real, class Device>
+void DissectedFactorisation<Real, Device>::make_levels(const FrontTables& tables) {
+  level_.clear();
+  for (std::size_t l = 0; l < plan_.level.size(); ++l) {
+    std::vector<SweptFront> swept;
+    Level level;
+    for (const int f : plan_.level[l]) {
+      const TiledFront& front = plan_.front[f];
+      swept.push_back({number_.data() + front.number, front.tiles, front.pivot_tiles,
+                       column_.data() + static_cast<std::size_t>(front.source) * kTile,
+                       inverse_.data() + static_cast<std::size_t>(f) * kTile * kTile});
+      level.tiles = std::max(level.tiles, front.tiles);
+      level.pivot_tiles = std::max(level.pivot_tiles, front.pivot_tiles);
+    }
+    level.front = Buffer<FrontOfLevel, Device>(device_, tables.front[l]);
+    level.swept = Buffer<SweptFront, Device>(device_, swept);
+    level.above = Buffer<RowAbove, Device>(device_, tables.above[l]);
+    level.solved = Buffer<SolvedRow, Device>(device_, tables.solved[l]);
+    level_.push_back(std::move(level));
+  }
+}
+
+// Makes another plan where pairs have come that no front has.
+template <class Real, class Device>
+void DissectedFactorisation<Real, Device>::couple_contact() {
+  const FrontPlaces places(plan_);
+  const int pairs = self_contact_->elements();
+  int fitting = 0;
+  while (fitting < pairs && places.couples(self_contact_->vertices(fitting))) ++fitting;
+  if (fitting == pairs) return;
+  CouplingList list(matrix_.pattern());
+  for (int pair = 0; pair < pairs; ++pair) list.add(self_contact_->vertices(pair));
+  take_couplings(list.take());
+}
+
+template <class Real, class Device>
+void DissectedFactorisation<Real, Device>::read_contact() {
+  contact_.clear();
+  if (!self_contact_) return;
+  self_contact_->refresh();
+  couple_contact();
+  const int pairs = self_contact_->elements();
+  CouplingList list(static_cast<int>(b_.size()));
+  for (int pair = 0; pair < pairs; ++pair) list.add(self_contact_->vertices(pair));
+  SymmetricBlocks sum(list.take());
+  std::vector<int> slots;
+  std::vector<char> touched(b_.size(), 0);
+  for (int pair = 0; pair < pairs; ++pair) {
+    slots.clear();
+    sum.find_slots(self_contact_->vertices(pair), slots);
+    sum.add(*self_contact_, pair, slots.data());
+    for (const int v : self_contact_->vertices(pair)) touched[v] = 1;
+  }
+  for (int i = 0; i < sum.nodes(); ++i) {
+    if (touched[i]) contact_.push_back({i, i, sum.diagonal[i]});
+    for (int k = sum.couplings().start[i]; k < sum.couplings().start[i + 1]; ++k)
+      contact_.push_back({i, sum.couplings().item[k], sum.below[k]});
+  }
+}
+
+template <class Real, class Device>
+void DissectedFactorisation<Real, Device>::place_contact() {
+  const FrontPlaces places(plan_);
+  std::vector<PlacedBlock> placed;
+  for (const ContactBlock& block : contact_) {
+    const FrontBlock at = places.find(block.i, block.j);
+    placed.push_back({at, block.number});
+    if (at.row != block.i) placed.back().number.transposeInPlace();
+  }
+  if (placed.empty()) return;
+  device_upload(device_, placed_.reserve(placed.size()), placed.data(), placed.size() * sizeof(PlacedBlock));
+}
+
+template <class Real, class Device>
+void DissectedFactorisation<Real, Device>::renew(const LinearSystem<Real, Device>& system, const char* held) {
+  read_contact();
+  take_matrix(definite_->assemble(system.matrix));
+  factorise(held);
+}
+
+template <class Real, class Device>
+void DissectedFactorisation<Real, Device>::take_matrix(const BlockRowsView<Real>& rows) {
+  const BlockRowsView<Real> own = matrix_.view();
+  const int blocks = static_cast<int>(matrix_.col().size());
+  for_each(
+      device_, {"fronts: matrix", 2 * (blocks + own.rows) * sizeof(Mat3<Real>)}, blocks + own.rows,
+      HYST_KERNEL(int k) {
+        if (k < blocks)
+          own.off_diagonal[k] = rows.off_diagonal[k];
+        else
+          own.diagonal[k - blocks] = rows.diagonal[k - blocks];
+      });
+}
+
+template <class Real, class Device>
+void DissectedFactorisation<Real, Device>::factorise(const char* held) {
+  fill(held);
+  place_contact();
+  if (!contact_.empty()) add_contact(held);
+  for (int l = 0; l < static_cast<int>(level_.size()); ++l) {
+    if (l > 0) take_over(l);
+    sweep_level<Real>(device_, level_[l].swept, level_[l].tiles, level_[l].pivot_tiles);
+  }
+  for (int l = 0; l < static_cast<int>(level_.size()); ++l) finish(l);
+}
+
+// The matrix's lower triangle, scaled to a diagonal of ones; ones, where nothing moves a node, too.
+template <class Real, class Device>
+void DissectedFactorisation<Real, Device>::fill(const char* held) {
+  const BlockRowsView<Real> matrix = matrix_.view();
+  double *number = number_.data(), *scale = scale_.data();
+  for_each(
+      device_, {"fronts: scale", matrix.rows * sizeof(Mat3<Real>) + scale_.bytes()}, 3 * matrix.rows,
+      HYST_KERNEL(int k) {
+        using std::sqrt;
+        const double diagonal = static_cast<double>(matrix.diagonal[k / 3](k % 3, k % 3));
+        scale[k] = diagonal > 0 && !held[k / 3] ? 1 / sqrt(diagonal) : 1.0;
+      });
+  for_each(
+      device_, {"fronts: zeros", number_.bytes()}, static_cast<int>(number_.size()),
+      HYST_KERNEL(int k) { number[k] = 0; });
+  const FrontBlock* block = block_.data();
+  const std::size_t* one = ones_.data();
+  const int blocks = static_cast<int>(block_.size());
+  for_each(
+      device_, {"fronts: blocks"}, blocks + static_cast<int>(ones_.size()), HYST_KERNEL(int k) {
+        if (k >= blocks) {
+          number[one[k - blocks]] = 1;
+          return;
+        }
+        const FrontBlock at = block[k];
+        const bool on_diagonal = at.slot < 0, none = held[at.row] || held[at.column];
+        const Mat3<Real>& from = on_diagonal ? matrix.diagonal[at.row] : matrix.off_diagonal[at.slot];
+        for (int r = 0; r < 3; ++r)
+          for (int c = 0; c < (on_diagonal ? r + 1 : 3); ++c) {
+            double value =
+                none ? 0 : static_cast<double>(from(r, c)) * scale[3 * at.row + r] * scale[3 * at.column + c];
+            if (on_diagonal && r == c) value = 1;
+            number[at.number + static_cast<std::size_t>(r) * at.stride + c] = value;
+          }
+      });
+}
+
+template <class Real, class Device>
+void DissectedFactorisation<Real, Device>::add_contact(const char* held) {
+  double* number = number_.data();
+  const double* scale = scale_.data();
+  const PlacedBlock* placed = placed_.data();
+  for_each(
+      device_, {"fronts: self-contact"}, static_cast<int>(contact_.size()), HYST_KERNEL(int k) {
+        const FrontBlock at = placed[k].at;
+        if (held[at.row] || held[at.column]) return;
+        for (int r = 0; r < 3; ++r)
+          for (int c = 0; c < (at.row == at.column ? r + 1 : 3); ++c)
+            number[at.number + static_cast<std::size_t>(r) * at.stride + c] +=
+                placed[k].number(r, c) * scale[3 * at.row + r] * scale[3 * at.column + c];
+      });
+}
+
+// What the sweeps of children have left, child after child.
+template <class Real, class Device>
+void DissectedFactorisation<Real, Device>::take_over(int level) {
+  const FrontOfLevel* front = level_[level].front.data();
+  const FrontChild* child = child_.data();
+  const int *child_row = child_row_.data(), most = level_[level].stride();
+  double* number = number_.data();
+  for_each(
+      device_, {"fronts: take over"}, level_[level].fronts() * most * most, HYST_KERNEL(int e) {
+        const NumberOfLevel at(front, most, e);
+        if (!at.is_lower()) return;
+        double sum = 0;
+        for (int k = at.front.first_child; k < at.front.end_child; ++k) {
+          const FrontChild from = child[k];
+          const int i = child_row[from.row_start + at.row], j = child_row[from.row_start + at.column];
+          if (i < 0 || j < 0) continue;
+          const std::size_t row = i > j ? i : j;
+          sum += number[from.number + row * from.stride + (i > j ? j : i)];
+        }
+        number[at.front.number + static_cast<std::size_t>(at.row) * at.front.stride + at.column] += sum;
+      });
+}
+
+// P^-1 whole, C P^-1 and, where its mirror image stands, minus its transpose; of the matrix itself.
+template <class Real, class Device>
+void DissectedFactorisation<Real, Device>::finish(int level) {
+  const FrontOfLevel* front = level_[level].front.data();
+  const int *source = source_.data(), most = level_[level].stride();
+  const double* scale = scale_.data();
+  double* number = number_.data();
+  for_each(
+      device_, {"fronts: finish"}, level_[level].fronts() * most * most, HYST_KERNEL(int e) {
+        const NumberOfLevel at(front, most, e);
+        if (!at.is_lower() || at.column >= at.front.pivot_rows) return;
+        const int i = source[at.front.source + at.row], j = source[at.front.source + at.column];
+        if (i < 0 || j < 0) return;
+        const std::size_t stride = at.front.stride, place = at.front.number + at.row * stride + at.column,
+                          mirror = at.front.number + at.column * stride + at.row;
+        const bool is_pivot = at.row < at.front.pivot_rows;
+        const double value =
+            is_pivot ? -number[place] * scale[i] * scale[j] : number[place] * scale[j] / scale[i];
+        number[place] = value;
+        number[mirror] = is_pivot ? value : -value;
+      });
+}
+
+template <class Real, class Device>
+FrontsView<Real> DissectedFactorisation<Real, Device>::view() const {
+  FrontsView<Real> view;
+  view.levels = static_cast<int>(level_.size());
+  view.number = number_.data();
+  view.source = source_.data();
+  view.term = term_.data();
+  for (int l = 0; l < view.levels; ++l) {
+    view.above[l] = level_[l].above.data();
+    view.solved[l] = level_[l].solved.data();
+    view.above_rows[l] = static_cast<int>(level_[l].above.size());
+    view.solved_rows[l] = static_cast<int>(level_[l].solved.size());
+  }
+  view.b = const_cast<Real*>(b_.data()->data());
+  return view;
+}
+
+template <class Real, class Device>
+void DissectedFactorisation<Real, Device>::apply(const Vec3<Real>* r, Vec3<Real>* z, PcgScalars* scalars) {
+  const FrontsView<Real> fronts = view();
+  const int* stop = scalars ? &scalars->done : nullptr;
+  const Real* from = r->data();
+  Real* to = z->data();
+  for (int l = 0; l + 1 < fronts.levels; ++l)
+    for_each_row(device_, {"fronts: up"}, fronts.above_rows[l], fronts.up(l, from), stop);
+  for (int l = fronts.levels - 1; l > 0; --l)
+    for_each_row(device_, {"fronts: down"}, fronts.solved_rows[l], fronts.down(l, from, to), stop);
+  for_each_row_sum<1>(
+      device_, {"fronts: last down"}, fronts.solved_rows[0],
+      LastRowDown<Real>{fronts.down(0, from, to), scalars}, HYST_KERNEL(const Sums<1>& total) {
+        if (scalars) scalars->advance(total.term[0]);
+      });
+}
+
+template <class Real, class Device>
+bool DissectedFactorisation<Real, Device>::in_one_launch(OneLaunchView<Real>& to) {
+  to.kind = OneLaunchView<Real>::kFronts;
+  to.fronts = view();
+  return true;
+}
+
+template <class Real, class Device>
+int DissectedFactorisation<Real, Device>::worth() const {
+  return std::max(kMinWorth, static_cast<int>(plan_.cost.renewal / (kIteration + plan_.cost.application)));
+}
+
+template <class Real, class Device>
+void DissectedFactorisation<Real, Device>::serialise(Archive& archive, const std::vector<char>& held) {
+  Couplings couplings = couplings_;
+  archive(couplings.start);
+  archive(couplings.item);
+  if (archive.loads()) take_couplings(std::move(couplings));
+  contact_.resize(archive.size(contact_.size()));
+  archive.bytes(contact_.data(), contact_.size() * sizeof(ContactBlock));
+  const BlockRowsView<Real> rows = matrix_.view();
+  hysteron::serialise(archive, device_, rows.off_diagonal, matrix_.col().size());
+  hysteron::serialise(archive, device_, rows.diagonal, rows.rows);
+  if (archive.loads()) factorise(Buffer<char, Device>(device_, held).data());
+}
+
+template <class Real, class Device>
+std::size_t DissectedFactorisation<Real, Device>::bytes() const {
+  std::size_t sum =
+      definite_->bytes() + matrix_.bytes() + placed_.bytes() +
+      total_bytes(number_, column_, inverse_, scale_, source_, child_row_, term_, child_, block_, ones_, b_);
+  for (const Level& level : level_) sum += level.bytes();
+  return sum;
+}
+
+template class DissectedFactorisation<double, ThisDevice>;
+template class DissectedFactorisation<float, ThisDevice>;
+
+}  // namespace hysteron

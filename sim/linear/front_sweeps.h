@@ -1,0 +1,56 @@
+// Symmetric sweeps of dense matrices (Goodnight 1979: a tutorial on the sweep operator), of which the lower
+// triangle is kept.  Sweeping the pivots P of a front makes
+//
+//   P  C^T         -P^-1       .               C P^-1 carries right-hand sides from P's rows to the others,
+//   C   R    ->    C P^-1   R - C P^-1 C^T     R - C P^-1 C^T is what the parent front takes over
+//
+// and, where no rows are left, minus the inverse: solves then are products, in which nothing waits.
+#pragma once
+
+#include <algorithm>
+#include <limits>
+
+#include "sim/device/device.h"
+#include "sim/linear/dissection.h"
+
+namespace hysteron {
+
+// A front in whole tiles, scaled to a diagonal of ones: a pivot that rounding has left nothing of is taken as
+// what rounding leaves.
+struct SweptFront {
+  double* number;          // stride x stride, row by row
+  int tiles, pivot_tiles;  // rows of tiles, and those that are swept
+  double* column;          // scratch: stride x kTile
+  double* inverse;         // scratch: kTile x kTile
+
+  HYST_HD int stride() const { return tiles * kTile; }
+};
+
+// On the CPU for tests: number by number.
+template <class Real>
+void sweep(const SweptFront& front) {
+  constexpr double kMin = 2 * std::numeric_limits<Real>::epsilon();
+  const int n = front.stride();
+  const auto at = [&](int i, int j) -> double& {
+    return front.number[static_cast<std::size_t>(std::max(i, j)) * n + std::min(i, j)];
+  };
+  double* column = front.column;
+  for (int k = 0; k < front.pivot_tiles * kTile; ++k) {
+    const double inverse = 1 / std::max(at(k, k), kMin);
+    for (int i = 0; i < n; ++i) column[i] = at(i, k);
+    for (int i = 0; i < n; ++i) {
+      if (i == k || column[i] == 0) continue;
+      const double factor = column[i] * inverse;
+      double* row = front.number + static_cast<std::size_t>(i) * n;
+      for (int j = 0; j <= i; ++j) row[j] -= factor * column[j];
+    }
+    for (int i = 0; i < n; ++i) at(i, k) = column[i] * inverse;
+    at(k, k) = -inverse;
+  }
+}
+
+}  // namespace hysteron
+
+#ifdef __CUDACC__
+#include "sim/linear/tile_sweeps.h"
+#endif

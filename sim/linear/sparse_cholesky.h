@@ -1,0 +1,34 @@
+// Sparse Cholesky factorisation of a symmetric positive definite matrix of 3x3 blocks, front by front (Duff &
+// Reid 1983; Liu 1992), on the CPU: A = L L^T.  On one thread, in one order: the same bits whatever the
+// number of threads.
+#pragma once
+
+#include "sim/linear/elimination.h"
+
+namespace hysteron {
+
+class SparseCholesky {
+ public:
+  explicit SparseCholesky(const Couplings& couplings);
+
+  // The matrix must have the couplings of the constructor.  A pivot that rounding leaves without a digit, as
+  // of a matrix that is singular, is replaced by the matrix's own diagonal number: L L^T is then another
+  // matrix, positive definite all the same.  Returns how many were.
+  int factorise(const SymmetricBlocks& matrix);
+  // L L^T x = x, three numbers a node.
+  void solve(double* x) const;
+
+  const Elimination& plan() const { return plan_; }
+  std::size_t bytes() const;
+
+ private:
+  void assemble(const Front& front, const SymmetricBlocks& matrix, double* panel) const;
+  void take_over(const Front& child, const Front& front, const double* update, double* panel,
+                 double* remainder) const;
+
+  Elimination plan_;
+  std::vector<double> factor_, updates_, least_pivot_;
+  mutable std::vector<double> ordered_, front_;  // scratch of solve()
+};
+
+}  // namespace hysteron

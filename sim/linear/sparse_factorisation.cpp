@@ -1,0 +1,135 @@
+#include "sim/linear/sparse_factorisation.h"
+
+#include <algorithm>
+
+namespace hysteron {
+
+namespace {
+
+// What a number of the factor costs in an iteration's two triangular solves, in multiplications of a
+// factorisation, which work on what is in the cache.
+constexpr double kMultiplicationsOfEntry = 12;
+constexpr double kAssembly = 1.5;  // factorisation with assembly over without, at least
+constexpr int kMinWorth = 6;
+
+}  // namespace
+
+template <class Real>
+SparseFactorisation<Real>::SparseFactorisation(Cpu& device, const BlockRows<Real, Cpu>& pattern,
+                                               std::unique_ptr<ElementStiffness> bending,
+                                               std::unique_ptr<ElementStiffness> self_contact)
+    : device_(device),
+      bending_(std::move(bending)),
+      self_contact_(std::move(self_contact)),
+      pattern_(pattern.pattern()),
+      values_(3 * (pattern_.start.size() - 1)) {
+  CouplingList list(pattern_);
+  if (bending_)
+    for (int e = 0; e < bending_->elements(); ++e) list.add(bending_->vertices(e));
+  always_ = list.take();
+  take_couplings(always_);
+}
+
+template <class Real>
+void SparseFactorisation<Real>::take_couplings(Couplings couplings) {
+  matrix_ = SymmetricBlocks(std::move(couplings));
+  factor_.emplace(matrix_.couplings());
+  row_slot_.clear();
+  bending_slot_.clear();
+  for (int i = 0; i < matrix_.nodes(); ++i)
+    for (int j = pattern_.start[i]; j < pattern_.start[i + 1]; ++j)
+      row_slot_.push_back(pattern_.item[j] < i ? matrix_.slot(i, pattern_.item[j]) : -1);
+  if (bending_)
+    for (int e = 0; e < bending_->elements(); ++e) matrix_.find_slots(bending_->vertices(e), bending_slot_);
+}
+
+template <class Real>
+bool SparseFactorisation<Real>::contact_is_coupled() const {
+  for (int pair = 0; pair < self_contact_->elements(); ++pair)
+    if (!matrix_.couples(self_contact_->vertices(pair))) return false;
+  return true;
+}
+
+// Pairs that no longer press stay until others come.
+template <class Real>
+void SparseFactorisation<Real>::couple_contact() {
+  CouplingList list(always_);
+  for (int pair = 0; pair < self_contact_->elements(); ++pair) list.add(self_contact_->vertices(pair));
+  take_couplings(list.take());
+}
+
+template <class Real>
+void SparseFactorisation<Real>::assemble(const BlockRowsView<Real>& rows, const char* held) {
+  matrix_.set_zero();
+  for (int i = 0; i < rows.rows; ++i) {
+    matrix_.diagonal[i] = rows.diagonal[i].template cast<double>();
+    for (int j = pattern_.start[i]; j < pattern_.start[i + 1]; ++j)
+      if (row_slot_[j] >= 0) matrix_.below[row_slot_[j]] = rows.off_diagonal[j].template cast<double>();
+  }
+  const int* slots = bending_slot_.data();
+  if (bending_)
+    for (int e = 0; e < bending_->elements(); ++e) slots = matrix_.add(*bending_, e, slots);
+  std::vector<int> pair_slots;
+  for (int pair = 0; self_contact_ && pair < self_contact_->elements(); ++pair) {
+    pair_slots.clear();
+    matrix_.find_slots(self_contact_->vertices(pair), pair_slots);
+    matrix_.add(*self_contact_, pair, pair_slots.data());
+  }
+  matrix_.hold(held);
+}
+
+template <class Real>
+void SparseFactorisation<Real>::renew(const LinearSystem<Real, Cpu>& system, const char* held) {
+  if (self_contact_) self_contact_->refresh();
+  if (self_contact_ && !contact_is_coupled()) couple_contact();
+  assemble(system.matrix, held);
+  factor_->factorise(matrix_);
+  held_.assign(held, held + matrix_.nodes());
+}
+
+template <class Real>
+int SparseFactorisation<Real>::worth() const {
+  const Elimination& plan = factor_->plan();
+  return std::max(kMinWorth, static_cast<int>(kAssembly * plan.multiplications /
+                                              (kMultiplicationsOfEntry * static_cast<double>(plan.entries))));
+}
+
+template <class Real>
+void SparseFactorisation<Real>::apply(const Vec3<Real>* r, Vec3<Real>* z, PcgScalars* scalars) {
+  if (scalars && scalars->done) return;
+  for (int i = 0; i < matrix_.nodes(); ++i)
+    for (int k = 0; k < 3; ++k) values_[3 * i + k] = static_cast<double>(r[i][k]);
+  factor_->solve(values_.data());
+  for (int i = 0; i < matrix_.nodes(); ++i)
+    for (int k = 0; k < 3; ++k) z[i][k] = held_[i] ? Real(0) : static_cast<Real>(values_[3 * i + k]);
+  if (!scalars) return;
+  for_each_sum<1>(
+      device_, "solve: weigh", matrix_.nodes(),
+      [r, z](int i, Sums<1>& sums) { sums.term[0] += static_cast<double>(r[i].dot(z[i])); },
+      [scalars](const Sums<1>& total) { scalars->advance(total.term[0]); });
+}
+
+template <class Real>
+void SparseFactorisation<Real>::serialise(Archive& archive, const std::vector<char>& held) {
+  Couplings couplings = matrix_.couplings();
+  archive(couplings.start);
+  archive(couplings.item);
+  if (archive.loads()) take_couplings(couplings);
+  for (auto* blocks : {&matrix_.diagonal, &matrix_.below})
+    archive.bytes(blocks->data(), blocks->size() * sizeof(Eigen::Matrix3d));
+  if (!archive.loads()) return;
+  factor_->factorise(matrix_);
+  held_ = held;
+}
+
+template <class Real>
+std::size_t SparseFactorisation<Real>::bytes() const {
+  const std::size_t blocks = matrix_.diagonal.size() + matrix_.below.size();
+  return factor_->bytes() + blocks * sizeof(Eigen::Matrix3d) +
+         (row_slot_.size() + bending_slot_.size()) * sizeof(int) + values_.size() * sizeof(double);
+}
+
+template class SparseFactorisation<double>;
+template class SparseFactorisation<float>;
+
+}  // namespace hysteron

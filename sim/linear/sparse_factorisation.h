@@ -1,0 +1,44 @@
+// The CPU's factorisation for CholeskySolver, assembled on the host: the matrix's rows, bending element by
+// element, self-contact pair by pair.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "sim/linear/cholesky_solver.h"
+#include "sim/linear/sparse_cholesky.h"
+
+namespace hysteron {
+
+template <class Real>
+class SparseFactorisation : public Factorisation<Real, Cpu> {
+ public:
+  // The stiffnesses of bending and self-contact, null where a system has none.
+  SparseFactorisation(Cpu& device, const BlockRows<Real, Cpu>& pattern,
+                      std::unique_ptr<ElementStiffness> bending,
+                      std::unique_ptr<ElementStiffness> self_contact);
+
+  void renew(const LinearSystem<Real, Cpu>& system, const char* held) override;
+  int worth() const override;
+  void apply(const Vec3<Real>* r, Vec3<Real>* z, PcgScalars* scalars) override;
+  void serialise(Archive& archive, const std::vector<char>& held) override;
+  std::size_t bytes() const override;
+
+ private:
+  bool contact_is_coupled() const;
+  void couple_contact();
+  void take_couplings(Couplings couplings);
+  void assemble(const BlockRowsView<Real>& rows, const char* held);
+
+  Cpu& device_;
+  std::unique_ptr<ElementStiffness> bending_, self_contact_;
+  Adjacency pattern_;  // of the systems' matrices
+  Couplings always_;   // of these and of bending
+  std::vector<int> row_slot_, bending_slot_;
+  SymmetricBlocks matrix_;  // of which the factorisation is
+  std::optional<SparseCholesky> factor_;
+  std::vector<char> held_;      // when it was made
+  std::vector<double> values_;  // scratch of apply()
+};
+
+}  // namespace hysteron
