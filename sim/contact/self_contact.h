@@ -19,6 +19,7 @@
 #include "sim/contact/self_pairs.h"
 #include "sim/device/stage_clock.h"
 #include "sim/linear/gathered_forces.h"
+#include "sim/linear/pair_product.h"
 #include "sim/scene/scene.h"
 
 namespace hysteron {
@@ -28,21 +29,6 @@ struct PairFriction {
   Vec3<Real> slip, normal;  // elastic slip at the start of the step [m]; the rest as lag() saw it
   Vec<Real, 4> weight;
   Real limit;  // mu f_n [N]; 0: no contact
-};
-
-template <class Real>
-struct PairStiffness {
-  int v[4];
-  Mat3<Real> block;  // between the closest points [N/m]
-  Vec<Real, 4> weight;
-
-  // What it makes of the displacements of all vertices: four forces, on its own [N].
-  HYST_HD void times(const Vec3<Real>* displacement, Vec3<Real>* force) const {
-    Vec3<Real> apart = Vec3<Real>::Zero();
-    for (int k = 0; k < 4; ++k) apart += weight[k] * displacement[v[k]];
-    const Vec3<Real> between = block * apart;
-    for (int k = 0; k < 4; ++k) force[k] = weight[k] * between;
-  }
 };
 
 // Entries of pairs' vertices, sorted by vertex.
@@ -99,6 +85,9 @@ class SelfContact {
   template <class Scalar>
   GatheredForces<Scalar> pressing_forces(const Vec3<Scalar>* force) const {
     return {stiffness_rows_.start.data(), stiffness_rows_.item.data(), force};
+  }
+  PairProduct<Real> product() const {
+    return {stiffness_rows_.start.data(), stiffness_rows_.item.data(), stiffness_.data(), pressing_count_};
   }
   void commit(const Vec3<Real>* x, const Vec3<Real>* before);
 

@@ -48,15 +48,13 @@ class DenseInverse<Real, Cuda> {
       : rows_(3 * nodes),
         tiles_((rows_ + kTile - 1) / kTile),
         matrix_(cuda, static_cast<std::size_t>(stride()) * stride()),
-        column_(cuda, stride() * kTile),
-        pivot_(cuda, kTile * kTile),
+        scratch_(cuda, SweptFront::scratch_of(tiles_)),
         scale_(cuda, stride()) {}
 
   void make(Cuda& cuda, const BlockRowsView<Real>& matrix) {
     fill(cuda, matrix);
-    const OneFront front{{matrix_.data(), tiles_, tiles_, column_.data(), pivot_.data()}};
-    sweep_fronts<Real>(cuda, front, tiles_, tiles_, {"multigrid: dense column", 2 * column_.bytes()},
-                       {"multigrid: dense inverse", matrix_.bytes()});
+    const OneFront front{{matrix_.data(), tiles_, tiles_, scratch_.data()}};
+    sweep_fronts<Real>(cuda, front, tiles_, tiles_, {"multigrid: dense inverse", matrix_.bytes()});
     finish(cuda);
   }
   void apply(Cuda& cuda, const Vec3<Real>* b, Vec3<Real>* y, const int* stop) {
@@ -68,7 +66,7 @@ class DenseInverse<Real, Cuda> {
   }
   // Half of that for each pivot, since several solves may take the more iterations.
   double worth() const { return tiles_ / 4.0; }
-  std::size_t bytes() const { return total_bytes(matrix_, column_, pivot_, scale_); }
+  std::size_t bytes() const { return total_bytes(matrix_, scratch_, scale_); }
 
   // The parts of make(); public because nvcc allows no device lambda in a private member function.
   // The lower triangle, scaled; ones on the diagonal, where nothing moves a node, too.
@@ -106,7 +104,7 @@ class DenseInverse<Real, Cuda> {
 
   int rows_, tiles_;
   Buffer<double, Cuda> matrix_;
-  Buffer<double, Cuda> column_, pivot_;  // of the sweeps
+  Buffer<double, Cuda> scratch_;  // of the sweeps
   Buffer<double, Cuda> scale_;
 };
 

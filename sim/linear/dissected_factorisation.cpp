@@ -24,7 +24,7 @@ void sweep_level(Cpu& cpu, const Buffer<SweptFront, Cpu>& fronts, int /*tiles*/,
 template <class Real>
 void sweep_level(Cuda& cuda, const Buffer<SweptFront, Cuda>& fronts, int tiles, int pivots) {
   sweep_fronts<Real>(cuda, ManyFronts{fronts.data(), static_cast<int>(fronts.size())}, tiles, pivots,
-                     {"fronts: column"}, {"fronts: rest"});
+                     {"fronts: sweep"});
 }
 #endif
 
@@ -53,14 +53,14 @@ struct NumberOfLevel {
 template <class Real, class Device>
 DissectedFactorisation<Real, Device>::DissectedFactorisation(Device& device,
                                                              std::unique_ptr<DefiniteMatrix<Real>> definite,
-                                                             std::unique_ptr<ElementStiffness> self_contact,
+                                                             Pairs self_contact,
                                                              std::optional<DissectionShape> shape)
     : device_(device),
       definite_(std::move(definite)),
       self_contact_(std::move(self_contact)),
       matrix_(device, definite_->pattern()),
+      pairs_(device, static_cast<int>(matrix_.row_ptr().size()) - 1),
       scale_(device, 3 * (matrix_.row_ptr().size() - 1)),
-      placed_(device),
       b_(device, matrix_.row_ptr().size() - 1) {
   Couplings always = CouplingList(matrix_.pattern()).take();
   shape_ = shape ? *shape : choose_shape(always);
@@ -72,11 +72,13 @@ void DissectedFactorisation<Real, Device>::take_couplings(Couplings couplings) {
   couplings_ = std::move(couplings);
   plan_ = plan_dissection(couplings_, shape_);
   check_size(plan_);
+  pairs_.take_plan(plan_);
   const FrontTables tables = make_front_tables(plan_, matrix_.pattern());
   number_ = {};  // before there is more
   number_ = Buffer<double, Device>(device_, plan_.numbers);
-  column_ = Buffer<double, Device>(device_, static_cast<std::size_t>(plan_.sources) * kTile);
-  inverse_ = Buffer<double, Device>(device_, plan_.front.size() * kTile * kTile);
+  std::size_t scratch = 0;
+  for (const TiledFront& front : plan_.front) scratch += SweptFront::scratch_of(front.tiles);
+  scratch_ = Buffer<double, Device>(device_, scratch);
   source_ = Buffer<int, Device>(device_, tables.source);
   child_row_ = Buffer<int, Device>(device_, tables.child_row);
   term_ = Buffer<FrontTerm, Device>(device_, tables.term);
@@ -89,14 +91,14 @@ void DissectedFactorisation<Real, Device>::take_couplings(Couplings couplings) {
 template <class Real, class Device>
 void DissectedFactorisation<Real, Device>::make_levels(const FrontTables& tables) {
   level_.clear();
+  double* scratch = scratch_.data();
   for (std::size_t l = 0; l < plan_.level.size(); ++l) {
     std::vector<SweptFront> swept;
     Level level;
     for (const int f : plan_.level[l]) {
       const TiledFront& front = plan_.front[f];
-      swept.push_back({number_.data() + front.number, front.tiles, front.pivot_tiles,
-                       column_.data() + static_cast<std::size_t>(front.source) * kTile,
-                       inverse_.data() + static_cast<std::size_t>(f) * kTile * kTile});
+      swept.push_back({number_.data() + front.number, front.tiles, front.pivot_tiles, scratch});
+      scratch += SweptFront::scratch_of(front.tiles);
       level.tiles = std::max(level.tiles, front.tiles);
       level.pivot_tiles = std::max(level.pivot_tiles, front.pivot_tiles);
     }
@@ -108,60 +110,10 @@ void DissectedFactorisation<Real, Device>::make_levels(const FrontTables& tables
   }
 }
 
-// Makes another plan where pairs have come that no front has.
-template <class Real, class Device>
-void DissectedFactorisation<Real, Device>::couple_contact() {
-  const FrontPlaces places(plan_);
-  const int pairs = self_contact_->elements();
-  int fitting = 0;
-  while (fitting < pairs && places.couples(self_contact_->vertices(fitting))) ++fitting;
-  if (fitting == pairs) return;
-  CouplingList list(matrix_.pattern());
-  for (int pair = 0; pair < pairs; ++pair) list.add(self_contact_->vertices(pair));
-  take_couplings(list.take());
-}
-
-template <class Real, class Device>
-void DissectedFactorisation<Real, Device>::read_contact() {
-  contact_.clear();
-  if (!self_contact_) return;
-  self_contact_->refresh();
-  couple_contact();
-  const int pairs = self_contact_->elements();
-  CouplingList list(static_cast<int>(b_.size()));
-  for (int pair = 0; pair < pairs; ++pair) list.add(self_contact_->vertices(pair));
-  SymmetricBlocks sum(list.take());
-  std::vector<int> slots;
-  std::vector<char> touched(b_.size(), 0);
-  for (int pair = 0; pair < pairs; ++pair) {
-    slots.clear();
-    sum.find_slots(self_contact_->vertices(pair), slots);
-    sum.add(*self_contact_, pair, slots.data());
-    for (const int v : self_contact_->vertices(pair)) touched[v] = 1;
-  }
-  for (int i = 0; i < sum.nodes(); ++i) {
-    if (touched[i]) contact_.push_back({i, i, sum.diagonal[i]});
-    for (int k = sum.couplings().start[i]; k < sum.couplings().start[i + 1]; ++k)
-      contact_.push_back({i, sum.couplings().item[k], sum.below[k]});
-  }
-}
-
-template <class Real, class Device>
-void DissectedFactorisation<Real, Device>::place_contact() {
-  const FrontPlaces places(plan_);
-  std::vector<PlacedBlock> placed;
-  for (const ContactBlock& block : contact_) {
-    const FrontBlock at = places.find(block.i, block.j);
-    placed.push_back({at, block.number});
-    if (at.row != block.i) placed.back().number.transposeInPlace();
-  }
-  if (placed.empty()) return;
-  device_upload(device_, placed_.reserve(placed.size()), placed.data(), placed.size() * sizeof(PlacedBlock));
-}
-
 template <class Real, class Device>
 void DissectedFactorisation<Real, Device>::renew(const LinearSystem<Real, Device>& system, const char* held) {
-  read_contact();
+  if (self_contact_) pairs_.take(self_contact_());
+  if (!pairs_.fit()) take_couplings(pairs_.couplings_with(matrix_.pattern()));
   take_matrix(definite_->assemble(system.matrix));
   factorise(held);
 }
@@ -183,8 +135,7 @@ void DissectedFactorisation<Real, Device>::take_matrix(const BlockRowsView<Real>
 template <class Real, class Device>
 void DissectedFactorisation<Real, Device>::factorise(const char* held) {
   fill(held);
-  place_contact();
-  if (!contact_.empty()) add_contact(held);
+  pairs_.add(held, scale_.data(), number_.data());
   for (int l = 0; l < static_cast<int>(level_.size()); ++l) {
     if (l > 0) take_over(l);
     sweep_level<Real>(device_, level_[l].swept, level_[l].tiles, level_[l].pivot_tiles);
@@ -197,16 +148,16 @@ template <class Real, class Device>
 void DissectedFactorisation<Real, Device>::fill(const char* held) {
   const BlockRowsView<Real> matrix = matrix_.view();
   double *number = number_.data(), *scale = scale_.data();
+  const int numbers = static_cast<int>(number_.size()), unknowns = 3 * matrix.rows;
   for_each(
-      device_, {"fronts: scale", matrix.rows * sizeof(Mat3<Real>) + scale_.bytes()}, 3 * matrix.rows,
+      device_, {"fronts: zeros", total_bytes(number_, scale_)}, std::max(numbers, unknowns),
       HYST_KERNEL(int k) {
         using std::sqrt;
+        if (k < numbers) number[k] = 0;
+        if (k >= unknowns) return;
         const double diagonal = static_cast<double>(matrix.diagonal[k / 3](k % 3, k % 3));
         scale[k] = diagonal > 0 && !held[k / 3] ? 1 / sqrt(diagonal) : 1.0;
       });
-  for_each(
-      device_, {"fronts: zeros", number_.bytes()}, static_cast<int>(number_.size()),
-      HYST_KERNEL(int k) { number[k] = 0; });
   const FrontBlock* block = block_.data();
   const std::size_t* one = ones_.data();
   const int blocks = static_cast<int>(block_.size());
@@ -226,22 +177,6 @@ void DissectedFactorisation<Real, Device>::fill(const char* held) {
             if (on_diagonal && r == c) value = 1;
             number[at.number + static_cast<std::size_t>(r) * at.stride + c] = value;
           }
-      });
-}
-
-template <class Real, class Device>
-void DissectedFactorisation<Real, Device>::add_contact(const char* held) {
-  double* number = number_.data();
-  const double* scale = scale_.data();
-  const PlacedBlock* placed = placed_.data();
-  for_each(
-      device_, {"fronts: self-contact"}, static_cast<int>(contact_.size()), HYST_KERNEL(int k) {
-        const FrontBlock at = placed[k].at;
-        if (held[at.row] || held[at.column]) return;
-        for (int r = 0; r < 3; ++r)
-          for (int c = 0; c < (at.row == at.column ? r + 1 : 3); ++c)
-            number[at.number + static_cast<std::size_t>(r) * at.stride + c] +=
-                placed[k].number(r, c) * scale[3 * at.row + r] * scale[3 * at.column + c];
       });
 }
 
@@ -343,8 +278,7 @@ void DissectedFactorisation<Real, Device>::serialise(Archive& archive, const std
   archive(couplings.start);
   archive(couplings.item);
   if (archive.loads()) take_couplings(std::move(couplings));
-  contact_.resize(archive.size(contact_.size()));
-  archive.bytes(contact_.data(), contact_.size() * sizeof(ContactBlock));
+  pairs_.serialise(archive);
   const BlockRowsView<Real> rows = matrix_.view();
   hysteron::serialise(archive, device_, rows.off_diagonal, matrix_.col().size());
   hysteron::serialise(archive, device_, rows.diagonal, rows.rows);
@@ -354,8 +288,8 @@ void DissectedFactorisation<Real, Device>::serialise(Archive& archive, const std
 template <class Real, class Device>
 std::size_t DissectedFactorisation<Real, Device>::bytes() const {
   std::size_t sum =
-      definite_->bytes() + matrix_.bytes() + placed_.bytes() +
-      total_bytes(number_, column_, inverse_, scale_, source_, child_row_, term_, child_, block_, ones_, b_);
+      definite_->bytes() + matrix_.bytes() + pairs_.bytes() +
+      total_bytes(number_, scratch_, scale_, source_, child_row_, term_, child_, block_, ones_, b_);
   for (const Level& level : level_) sum += level.bytes();
   return sum;
 }

@@ -1,31 +1,27 @@
 // A factorisation for CholeskySolver whose solves are products: fronts of a nested dissection, swept level by
-// level (Duff & Reid 1983: multifrontal).  On a GPU a factorisation takes two launches for each tile of
-// pivots that follow on one another, and a solve is three loops where the fronts have two levels.
+// level (Duff & Reid 1983: multifrontal).  On a GPU a factorisation takes a launch for each tile of pivots
+// that follow on one another, and a solve is three loops where the fronts have two levels.
 //
 // Its numbers are doubles whatever the precision of the vectors.  All sums have a fixed order.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 
-#include "sim/device/algorithms.h"
 #include "sim/linear/cholesky_solver.h"
+#include "sim/linear/front_pairs.h"
 #include "sim/linear/front_sweeps.h"
-#include "sim/linear/front_tables.h"
 
 namespace hysteron {
 
 template <class Real, class Device>
 class DissectedFactorisation : public Factorisation<Real, Device> {
  public:
-  // What pairs add where it goes.
-  struct PlacedBlock {
-    FrontBlock at;
-    Eigen::Matrix3d number;  // its row is at.row
-  };
-  // The stiffness of self-contact, null where a system has none.  Without a shape that which is fastest.
-  DissectedFactorisation(Device& device, std::unique_ptr<DefiniteMatrix<Real>> definite,
-                         std::unique_ptr<ElementStiffness> self_contact,
+  using Pairs = std::function<PairProduct<Real>()>;
+  // The pairs of self-contact as they were linearised last, empty where a system has none.  Without a shape
+  // that which is fastest.
+  DissectedFactorisation(Device& device, std::unique_ptr<DefiniteMatrix<Real>> definite, Pairs self_contact,
                          std::optional<DissectionShape> shape = {});
 
   void renew(const LinearSystem<Real, Device>& system, const char* held) override;
@@ -40,16 +36,10 @@ class DissectedFactorisation : public Factorisation<Real, Device> {
   // The parts; public because nvcc allows no device lambda in a private member function.
   void take_matrix(const BlockRowsView<Real>& rows);
   void fill(const char* held);
-  void add_contact(const char* held);
   void take_over(int level);
   void finish(int level);
 
  private:
-  // What pairs add to the matrix, of which the lower triangle is kept.
-  struct ContactBlock {
-    int i, j;
-    Eigen::Matrix3d number;
-  };
   struct Level {
     Buffer<FrontOfLevel, Device> front;
     Buffer<SweptFront, Device> swept;
@@ -63,28 +53,24 @@ class DissectedFactorisation : public Factorisation<Real, Device> {
 
   void take_couplings(Couplings couplings);
   void make_levels(const FrontTables& tables);
-  void couple_contact();
-  void read_contact();
-  void place_contact();
   void factorise(const char* held);
   FrontsView<Real> view() const;
 
   Device& device_;
   std::unique_ptr<DefiniteMatrix<Real>> definite_;
-  std::unique_ptr<ElementStiffness> self_contact_;
+  Pairs self_contact_;
   DissectionShape shape_;
-  BlockRows<Real, Device> matrix_;  // of which the factorisation is, beside self-contact
-  std::vector<ContactBlock> contact_;
+  BlockRows<Real, Device> matrix_;  // of which the factorisation is, with the pairs
+  FrontPairs<Real, Device> pairs_;
   Couplings couplings_;  // that the plan has; pairs that no longer press stay until others come
   TiledPlan plan_;
-  Buffer<double, Device> number_, column_, inverse_, scale_;
+  Buffer<double, Device> number_, scratch_, scale_;
   Buffer<int, Device> source_, child_row_;
   Buffer<FrontTerm, Device> term_;
   Buffer<FrontChild, Device> child_;
   Buffer<FrontBlock, Device> block_;
   Buffer<std::size_t, Device> ones_;
   std::vector<Level> level_;
-  GrowingBuffer<PlacedBlock, Device> placed_;
   Buffer<Vec3<Real>, Device> b_;
 };
 

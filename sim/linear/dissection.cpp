@@ -146,7 +146,7 @@ int tiles_for(int nodes) { return (3 * nodes + kTile - 1) / kTile; }
 
 // Launches wait for one another; tiles of one launch share the processors.
 TiledCost cost_of(const TiledPlan& plan) {
-  constexpr double kLaunch = 3.5, kLoop = 2, kTilesAtOnce = 220, kNumbers = 3e5;  // the latter two each us
+  constexpr double kLaunch = 3.5, kLoop = 2, kTiles = 120, kNumbers = 3e5;  // the latter two each us
   TiledCost cost;
   double read = 0;
   for (const std::vector<int>& level : plan.level) {
@@ -155,10 +155,10 @@ TiledCost cost_of(const TiledPlan& plan) {
       const TiledFront& front = plan.front[f];
       const double tiles = front.tiles, own = front.pivot_rows();
       pivots = std::max(pivots, front.pivot_tiles);
-      cost.renewal += front.pivot_tiles * tiles * (tiles + 1) / 2 / kTilesAtOnce;
+      cost.renewal += front.pivot_tiles * tiles * (tiles + 1) / 2 / kTiles;
       read += own * own + 2 * own * (front.stride() - own);
     }
-    cost.renewal += (3 + 2 * pivots) * kLaunch;
+    cost.renewal += (3 + pivots) * kLaunch;
   }
   cost.application = kLoop * (2 * static_cast<double>(plan.level.size()) - 1) + read / kNumbers;
   return cost;

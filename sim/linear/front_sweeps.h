@@ -20,10 +20,13 @@ namespace hysteron {
 struct SweptFront {
   double* number;          // stride x stride, row by row
   int tiles, pivot_tiles;  // rows of tiles, and those that are swept
-  double* column;          // scratch: stride x kTile
-  double* inverse;         // scratch: kTile x kTile
+  double* scratch;         // scratch_of(tiles) numbers
 
   HYST_HD int stride() const { return tiles * kTile; }
+  // Of a pivot and of the next one: its column, and its inverse.
+  static std::size_t scratch_of(int tiles) { return 2 * (tiles + 1) * kTile * kTile; }
+  HYST_HD double* column_of(int pivot) const { return scratch + (pivot & 1) * stride() * kTile; }
+  HYST_HD double* inverse_of(int pivot) const { return scratch + (2 * tiles + (pivot & 1)) * kTile * kTile; }
 };
 
 // On the CPU for tests: number by number.
@@ -34,7 +37,7 @@ void sweep(const SweptFront& front) {
   const auto at = [&](int i, int j) -> double& {
     return front.number[static_cast<std::size_t>(std::max(i, j)) * n + std::min(i, j)];
   };
-  double* column = front.column;
+  double* column = front.column_of(0);
   for (int k = 0; k < front.pivot_tiles * kTile; ++k) {
     const double inverse = 1 / std::max(at(k, k), kMin);
     for (int i = 0; i < n; ++i) column[i] = at(i, k);

@@ -80,11 +80,12 @@ class TableMaker {
 
   void list_blocks() {
     const FrontPlaces places(plan_);
+    const FrontFinder finder = places.finder();
     for (int i = 0; i + 1 < static_cast<int>(pattern_.start.size()); ++i) {
-      tables_.block.push_back(places.find(i, i));
+      tables_.block.push_back(finder.find(i, i));
       for (int j = pattern_.start[i]; j < pattern_.start[i + 1]; ++j) {
         if (pattern_.item[j] > i) continue;
-        FrontBlock block = places.find(i, pattern_.item[j]);
+        FrontBlock block = finder.find(i, pattern_.item[j]);
         block.slot = slot_in_row(pattern_, block.row, block.column);
         tables_.block.push_back(block);
       }
@@ -142,33 +143,16 @@ class TableMaker {
 }  // namespace
 
 FrontPlaces::FrontPlaces(const TiledPlan& plan)
-    : plan_(plan), rank_(plan.elimination.order.size()), owner_(rank_.size()) {
+    : rank(plan.elimination.order.size()), owner(rank.size()), row(plan.elimination.row) {
   const Elimination& of = plan.elimination;
-  for (std::size_t k = 0; k < of.order.size(); ++k) rank_[of.order[k]] = static_cast<int>(k);
-  for (std::size_t f = 0; f < of.front.size(); ++f)
-    for (int k = 0; k < of.front[f].pivots; ++k)
-      owner_[of.order[of.front[f].first + k]] = static_cast<int>(f);
-}
-
-FrontBlock FrontPlaces::find(int i, int j) const {
-  if (rank_[i] < rank_[j]) std::swap(i, j);
-  const TiledFront& tiles = plan_.front[owner_[j]];
-  const Front& front = plan_.elimination.front[owner_[j]];
-  const auto first = plan_.elimination.row.begin() + front.row_start, last = first + front.rows,
-             at = std::lower_bound(first, last, rank_[i]);
-  FrontBlock block{-1, i, j, kNowhere, tiles.stride()};
-  if (at == last || *at != rank_[i]) return block;
-  block.number =
-      tiles.number + 3 * (rank_[j] - front.first) +
-      static_cast<std::size_t>(first_number(tiles, front, static_cast<int>(at - first))) * tiles.stride();
-  return block;
-}
-
-bool FrontPlaces::couples(std::span<const int> vertices) const {
-  for (const int i : vertices)
-    for (const int j : vertices)
-      if (j < i && find(i, j).number == kNowhere) return false;
-  return true;
+  for (std::size_t k = 0; k < of.order.size(); ++k) rank[of.order[k]] = static_cast<int>(k);
+  for (std::size_t f = 0; f < of.front.size(); ++f) {
+    const Front& nodes = of.front[f];
+    const TiledFront& tiles = plan.front[f];
+    for (int k = 0; k < nodes.pivots; ++k) owner[of.order[nodes.first + k]] = static_cast<int>(f);
+    front.push_back({nodes.first, nodes.pivots, nodes.rows, nodes.row_start, tiles.number, tiles.stride(),
+                     tiles.pivot_rows()});
+  }
 }
 
 FrontTables make_front_tables(const TiledPlan& plan, const Adjacency& pattern) {

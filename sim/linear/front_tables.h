@@ -42,18 +42,54 @@ struct FrontTables {
   std::vector<std::size_t> ones;  // diagonal numbers that fill up tiles
 };
 
-class FrontPlaces {
- public:
-  explicit FrontPlaces(const TiledPlan& plan);
+// A front as it is looked up.
+struct FrontRange {
+  int first, pivots, rows;  // nodes: when its first is eliminated, its own, all
+  int row_start;            // of Elimination::row
+  std::size_t number;
+  int stride, pivot_rows;
+};
 
-  // Where the block of two vertices enters, `slot` left open; a number of kNowhere: no front has both.
+// Where blocks enter, on either device.
+struct FrontFinder {
   static constexpr std::size_t kNowhere = static_cast<std::size_t>(-1);
-  FrontBlock find(int i, int j) const;
-  bool couples(std::span<const int> vertices) const;  // any two of them
+  const int *rank, *owner;  // of each vertex: when it is eliminated, in which front
+  const FrontRange* front;
+  const int* row;  // Elimination::row
 
- private:
-  const TiledPlan& plan_;
-  std::vector<int> rank_, owner_;  // of each vertex: when it is eliminated, in which front
+  // The block of two vertices, `slot` left open; a number of kNowhere: no front has both.
+  HYST_HD FrontBlock find(int i, int j) const {
+    const int later = rank[i] < rank[j] ? j : i, sooner = later == i ? j : i;
+    const FrontRange range = front[owner[sooner]];
+    FrontBlock block{-1, later, sooner, kNowhere, range.stride};
+    int low = 0, high = range.rows;  // the first row that is not eliminated before
+    while (low < high) {
+      const int middle = (low + high) / 2;
+      if (row[range.row_start + middle] < rank[later])
+        low = middle + 1;
+      else
+        high = middle;
+    }
+    if (low == range.rows || row[range.row_start + low] != rank[later]) return block;
+    const std::size_t at = low < range.pivots ? 3 * low : range.pivot_rows + 3 * (low - range.pivots);
+    block.number = range.number + at * range.stride + 3 * (rank[sooner] - range.first);
+    return block;
+  }
+  HYST_HD bool couples(const int* vertex, int count) const {  // any two of them
+    for (int a = 0; a < count; ++a)
+      for (int b = 0; b < a; ++b)
+        if (find(vertex[a], vertex[b]).number == kNowhere) return false;
+    return true;
+  }
+};
+
+struct FrontPlaces {
+  std::vector<int> rank, owner;
+  std::vector<FrontRange> front;
+  std::vector<int> row;
+
+  explicit FrontPlaces(const TiledPlan& plan);
+  FrontFinder finder() const { return {rank.data(), owner.data(), front.data(), row.data()}; }
 };
 
 // For matrices of this pattern of off-diagonal blocks, all of whose couplings the plan has.

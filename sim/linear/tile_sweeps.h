@@ -3,7 +3,7 @@
 //
 //   A_ij <- A_ij - C_i P^-1 C_j^T     C_i <- C_i P^-1     P <- -P^-1
 //
-// Each pivot takes two launches, whatever the number of fronts.  Included by front_sweeps.h, under nvcc only.
+// Each pivot takes a launch, whatever the number of fronts.  Included by front_sweeps.h, under nvcc only.
 #pragma once
 
 #include <algorithm>
@@ -118,83 +118,78 @@ struct ManyFronts {
   }
 };
 
-// C of a pivot is kept beside the matrix, which gets C P^-1; the pivot's inverse is known.
-template <class Fronts>
-struct SweptColumn {
-  unsigned blocks;
-  int blocks_each;  // the front's rows of tiles, at least
-  Fronts fronts;
-  int pivot;
-
-  __device__ void operator()() const {
-    const FrontOfBlock mine = fronts.of_block(blocks_each);
-    const SweptFront& front = mine.front;
-    const int i = mine.block, k = pivot;
-    if (k >= front.pivot_tiles || i >= front.tiles) return;
-    const TiledMatrix matrix{front.number, front.stride()};
-    const double* inverse = front.inverse;
-    double* column = front.column;
-    if (i == k) return Tile::for_each([&](int r, int c) { matrix.at(k, k, r, c) = -inverse[r * kTile + c]; });
-    __shared__ Tile old, by;
-    Tile::for_each([&](int r, int c) {
-      const double number = i > k ? matrix.at(i, k, r, c) : matrix.at(k, i, r, c);
-      (i > k ? old.at[r][c] : old.at[c][r]) = number;
-      by.at[r][c] = inverse[r * kTile + c];
-    });
-    __syncthreads();
-    Tile::for_each([&](int r, int c) { column[(i * kTile + r) * kTile + c] = old.at[r][c]; });
-    TileProduct(old, by).for_each([&](int r, int c, double sum) { matrix.at(i, k, r, c) = sum; });
-  }
-};
-
-// All other tiles; then the next pivot is inverted.  A pivot of -1: nothing but that.
+// A pivot k of every front.  The pivot's tile is inverted and its column kept beside the matrix by whoever
+// finishes them, in the launch before: no block reads what another one writes.  Each block finds C_i P^-1
+// itself, which takes less than a launch.
 template <class Real, class Fronts>
-struct SweptRest {
+struct SweptPivot {
   unsigned blocks;
   int blocks_each;  // tiles of the front's lower triangle, at least
   Fronts fronts;
-  int pivot;
+  int pivot;  // -1: nothing but what the first one needs
 
   __device__ void operator()() const {
     const FrontOfBlock mine = fronts.of_block(blocks_each);
     const SweptFront& front = mine.front;
-    const int block = mine.block;
+    const int block = mine.block, k = pivot;
     int i = static_cast<int>((sqrtf(8.0f * block + 1) - 1) / 2);
     while (i * (i + 1) / 2 > block) --i;
     while ((i + 1) * (i + 2) / 2 <= block) ++i;
-    const int j = block - i * (i + 1) / 2, k = pivot;
-    if (k >= front.pivot_tiles || i >= front.tiles || i == k || j == k) return;
+    const int j = block - i * (i + 1) / 2;
+    const bool is_next = k + 1 < front.pivot_tiles && (i == k + 1 || j == k + 1);
+    if (k >= front.pivot_tiles || i >= front.tiles || (k < 0 && !is_next)) return;
+    __shared__ Tile result;
+    find(front, i, j, result);
     const TiledMatrix matrix{front.number, front.stride()};
-    const double* column = front.column;
+    if (k >= 0) Tile::for_each([&](int r, int c) { matrix.at(i, j, r, c) = result.at[r][c]; });
+    if (!is_next) return;
+    if (i == j) return invert<Real>(result, front.inverse_of(k + 1));
+    double* column = front.column_of(k + 1) + (i == k + 1 ? j : i) * kTile * kTile;
+    Tile::for_each(
+        [&](int r, int c) { column[r * kTile + c] = i == k + 1 ? result.at[c][r] : result.at[r][c]; });
+  }
+
+ private:
+  // Tile (i, j) after the pivot.
+  __device__ void find(const SweptFront& front, int i, int j, Tile& result) const {
     __shared__ Tile left, right;
-    if (k >= 0) {
-      Tile::for_each([&](int r, int c) {
-        const double number = i > k ? matrix.at(i, k, r, c) : matrix.at(k, i, r, c);
-        (i > k ? left.at[r][c] : left.at[c][r]) = number;
-        right.at[r][c] = column[(j * kTile + r) * kTile + c];
-      });
+    const TiledMatrix matrix{front.number, front.stride()};
+    const int k = pivot;
+    const double *inverse = front.inverse_of(k), *column = front.column_of(k);
+    if (k < 0 || (i == k && j == k)) {
+      Tile::for_each(
+          [&](int r, int c) { result.at[r][c] = k < 0 ? matrix.at(i, j, r, c) : -inverse[r * kTile + c]; });
       __syncthreads();
-      TileProduct(left, right).for_each([&](int r, int c, double sum) { matrix.at(i, j, r, c) -= sum; });
+      return;
     }
-    if (i != k + 1 || j != k + 1 || i >= front.pivot_tiles) return;
+    const int m = i == k ? j : i;
+    Tile::for_each([&](int r, int c) {
+      left.at[r][c] = column[(m * kTile + r) * kTile + c];
+      right.at[r][c] = inverse[r * kTile + c];
+    });
     __syncthreads();
-    Tile::for_each([&](int r, int c) { left.at[r][c] = matrix.at(i, i, r, c); });
+    const TileProduct scaled(left, right);  // C_m P^-1
     __syncthreads();
-    invert<Real>(left, front.inverse);
+    if (i == k || j == k) {
+      scaled.for_each([&](int r, int c, double sum) { (i == k ? result.at[c][r] : result.at[r][c]) = sum; });
+    } else {
+      scaled.for_each([&](int r, int c, double sum) { left.at[r][c] = sum; });
+      Tile::for_each([&](int r, int c) { right.at[r][c] = column[(j * kTile + r) * kTile + c]; });
+      __syncthreads();
+      TileProduct(left, right).for_each([&](int r, int c, double sum) {
+        result.at[r][c] = matrix.at(i, j, r, c) - sum;
+      });
+    }
+    __syncthreads();
   }
 };
 
 // Every front's pivots, of which one has `pivots` tiles at most and `tiles` rows of tiles.
 template <class Real, class Fronts>
-void sweep_fronts(Cuda& cuda, const Fronts& fronts, int tiles, int pivots, const Kernel& column,
-                  const Kernel& rest) {
-  const int triangle = tiles * (tiles + 1) / 2, count = fronts.count();
-  const auto blocks = [&](int each) { return static_cast<unsigned>(each) * count; };
-  launch(cuda, rest, SweptRest<Real, Fronts>{blocks(1), 1, fronts, -1});
-  for (int k = 0; k < pivots; ++k) {
-    launch(cuda, column, SweptColumn<Fronts>{blocks(tiles), tiles, fronts, k});
-    launch(cuda, rest, SweptRest<Real, Fronts>{blocks(triangle), triangle, fronts, k});
-  }
+void sweep_fronts(Cuda& cuda, const Fronts& fronts, int tiles, int pivots, const Kernel& kernel) {
+  const int each = tiles * (tiles + 1) / 2;
+  const unsigned blocks = static_cast<unsigned>(each) * fronts.count();
+  for (int k = -1; k < pivots; ++k) launch(cuda, kernel, SweptPivot<Real, Fronts>{blocks, each, fronts, k});
 }
 
 }  // namespace hysteron

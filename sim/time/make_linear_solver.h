@@ -31,9 +31,8 @@ std::unique_ptr<Factorisation<Real, Device>> make_factorisation(const Body<Real,
   std::unique_ptr<DefiniteMatrix<Real>> definite = std::make_unique<RowsAlone<Real>>(body.matrix.pattern());
   if (body.scene.is_implicit())
     definite = std::make_unique<AssembledStiffness<Real, Device>>(device, body.matrix, body.bending);
-  std::unique_ptr<ElementStiffness> self_contact;
-  if (body.self_contact)
-    self_contact = std::make_unique<PairElements<Real, Device>>(device, *body.self_contact);
+  typename DissectedFactorisation<Real, Device>::Pairs self_contact;
+  if (body.self_contact) self_contact = [&body] { return body.self_contact->product(); };
   return std::make_unique<DissectedFactorisation<Real, Device>>(device, std::move(definite),
                                                                 std::move(self_contact));
 }

@@ -42,33 +42,59 @@ struct Springs : ElementStiffness {
           dense.block<3, 3>(3 * vertex[e][a], 3 * vertex[e][b]) += weight(a) * weight(b) * block;
     }
   }
+  // The same as a device has them.
+  PairProduct<double> pairs(int nodes) {
+    Rates rates(3, 12);
+    pair.resize(vertex.size());
+    std::vector<std::vector<int>> rows(nodes);
+    for (int e = 0; e < elements(); ++e) {
+      linearised(e, rates, pair[e].block);
+      for (int k = 0; k < 4; ++k) {
+        pair[e].v[k] = vertex[e][k];
+        pair[e].weight[k] = weight(k);
+        rows[vertex[e][k]].push_back(4 * e + k);
+      }
+    }
+    of_vertex = compressed(rows);
+    return {of_vertex.start.data(), of_vertex.item.data(), pair.data(), elements()};
+  }
+  std::vector<PairStiffness<double>> pair;
+  Adjacency of_vertex;
+};
+
+struct SharedSprings : ElementStiffness {
+  std::shared_ptr<Springs> springs;
+  explicit SharedSprings(std::shared_ptr<Springs> of) : springs(std::move(of)) {}
+  int elements() const override { return springs->elements(); }
+  std::span<const int> vertices(int e) const override { return springs->vertices(e); }
+  void linearised(int e, Rates& rates, Matrix3d& block) const override {
+    springs->linearised(e, rates, block);
+  }
 };
 
 using Factor = std::unique_ptr<Factorisation<double, Cpu>>;
 
-Factor make_factor(const std::string& kind, test::RandomSystem& of,
-                   std::unique_ptr<ElementStiffness> springs) {
+Factor make_factor(const std::string& kind, test::RandomSystem& of, std::shared_ptr<Springs> springs) {
   if (kind == "sparse")
-    return std::make_unique<SparseFactorisation<double>>(of.cpu, of.rows, nullptr, std::move(springs));
+    return std::make_unique<SparseFactorisation<double>>(of.cpu, of.rows, nullptr,
+                                                         std::make_unique<SharedSprings>(springs));
   DissectionShape shape;  // one front
   if (kind == "flat") shape = {2, 2};
   if (kind == "tree") shape = {3, 1};
   return std::make_unique<DissectedFactorisation<double, Cpu>>(
-      of.cpu, std::make_unique<RowsAlone<double>>(of.rows.pattern()), std::move(springs), shape);
+      of.cpu, std::make_unique<RowsAlone<double>>(of.rows.pattern()),
+      [springs, nodes = of.n()] { return springs->pairs(nodes); }, shape);
 }
 
 // With springs between far vertices.
 struct System : test::RandomSystem {
-  Springs* springs = nullptr;  // of the solver
+  std::shared_ptr<Springs> springs = std::make_shared<Springs>();
   std::vector<Vec3<double>> slot, x;
   std::vector<int> start, item;
   std::unique_ptr<CholeskySolver<double, Cpu>> solver;
 
   explicit System(const std::string& kind) : RandomSystem(12), x(n()) {
-    auto made = std::make_unique<Springs>();
-    springs = made.get();
-    solver =
-        std::make_unique<CholeskySolver<double, Cpu>>(cpu, n(), make_factor(kind, *this, std::move(made)));
+    solver = std::make_unique<CholeskySolver<double, Cpu>>(cpu, n(), make_factor(kind, *this, springs));
   }
 
   GatheredForces<double> spring_forces(const Vec3<double>* p) {

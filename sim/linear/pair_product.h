@@ -1,0 +1,50 @@
+// The stiffness between pairs of layers, as the rows of a product find it.
+#pragma once
+
+#include "sim/device/device.h"
+
+namespace hysteron {
+
+// Between the closest points of a pair, which are weighted sums of its four vertices.
+template <class Real>
+struct PairStiffness {
+  int v[4];
+  Mat3<Real> block;  // between the closest points [N/m]
+  Vec<Real, 4> weight;
+
+  // How far a displacement takes the closest points apart [m].
+  template <class Vector>
+  HYST_HD Vec3<Real> apart(const Vector& displacement) const {
+    Vec3<Real> sum = Vec3<Real>::Zero();
+    for (int k = 0; k < 4; ++k) sum += weight[k] * Vec3<Real>(displacement[v[k]]);
+    return sum;
+  }
+  // What it makes of the displacements of all vertices: four forces, on its own [N].
+  HYST_HD void times(const Vec3<Real>* displacement, Vec3<Real>* force) const {
+    const Vec3<Real> between = block * apart(displacement);
+    for (int k = 0; k < 4; ++k) force[k] = weight[k] * between;
+  }
+};
+
+// Every row finds the forces of its own pairs: each pair is taken four times, but no loop over pairs has to
+// be between, and few vertices touch.
+template <class Real>
+struct PairProduct {
+  const int* start = nullptr;  // rows: vertices; null: there are no layers
+  const int* item = nullptr;   // 4 * pair + corner
+  const PairStiffness<Real>* pair = nullptr;
+  int count = 0;  // of pairs
+
+  // Of a displacement of all vertices, on this one [N].
+  template <class Vector>
+  HYST_HD Vec3<Real> at(int vertex, const Vector& displacement) const {
+    Vec3<Real> force = Vec3<Real>::Zero();
+    for (int j = start[vertex]; j < start[vertex + 1]; ++j) {
+      const PairStiffness<Real>& s = pair[item[j] / 4];
+      force += s.weight[item[j] % 4] * (s.block * s.apart(displacement));
+    }
+    return force;
+  }
+};
+
+}  // namespace hysteron
