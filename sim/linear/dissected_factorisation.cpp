@@ -277,7 +277,8 @@ void DissectedFactorisation<Real, Device>::serialise(Archive& archive, const std
   Couplings couplings = couplings_;
   archive(couplings.start);
   archive(couplings.item);
-  if (archive.loads()) take_couplings(std::move(couplings));
+  const bool is_other = couplings.start != couplings_.start || couplings.item != couplings_.item;
+  if (is_other) take_couplings(std::move(couplings));  // one that is loaded
   pairs_.serialise(archive);
   const BlockRowsView<Real> rows = matrix_.view();
   hysteron::serialise(archive, device_, rows.off_diagonal, matrix_.col().size());

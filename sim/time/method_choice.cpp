@@ -28,18 +28,10 @@ double stiffness_share(const Fabric& fabric) {
   return std::pow(std::max(1.0, std::max(fabric.warp, fabric.weft) / kSoft), kPower);
 }
 
-// A GPU's factorisation for linear-solver = auto.
+// Whether linear-solver = auto factorises on a GPU where that pays on the CPU, too, and what its
+// factorisation may take there [us].
 constexpr bool kFactorisesOnGpu = false;
-
-// Whether a solve with a factorisation that serves some of them takes less than multigrid's, of a soft fabric
-// 25 iterations of 10 us.
-bool pays_on_gpu(const Couplings& couplings, double share) {
-  constexpr double kMultigridSolve = 250, kIteration = 8;  // [us]
-  constexpr double kIterations = 3, kSolvesOfRenewal = 4;
-  const TiledCost cost = plan_dissection(couplings, choose_shape(couplings)).cost;
-  return kIterations * (kIteration + cost.application) + cost.renewal / kSolvesOfRenewal <
-         kMultigridSolve * share;
-}
+constexpr double kGpuRenewal = 500;
 
 // Of the matrix whose off-diagonal blocks beside bending's are `couplings`.
 Couplings couplings_of(const ClothMesh& mesh, const Adjacency& couplings, const CurvatureOperator& op) {
@@ -61,6 +53,17 @@ bool solves_with_newton(const Scene& scene) {
   return scene.is_implicit() || (scene.self_contact && scene.integrator == Integrator::semi_implicit);
 }
 
+// As the scene asks.
+void take_factorisation(const Scene& scene, MethodChoice& choice) {
+  if (choice.in_float)
+    throw Error::invalid_input(
+        "linear-precision = float is of conjugate gradients: linear-solver = cholesky must be auto, "
+        "multigrid or block-jacobi");
+  if (!choice.gpu || scene.device != DeviceChoice::automatic) return;
+  choice.reason = "device = auto takes the CPU for linear-solver = cholesky";
+  choice.gpu = false;
+}
+
 }  // namespace
 
 double factorisation_work(const ClothMesh& mesh, const Adjacency& couplings, const CurvatureOperator& op) {
@@ -73,16 +76,7 @@ MethodChoice choose_method(const Scene& scene, const Cloth& cloth, const Curvatu
   if (!solves_with_newton(scene)) return choice;
   choice.linear_solver = scene.linear_solver;
   choice.in_float = scene.solves_in_float();
-  if (scene.linear_solver == Preconditioning::cholesky) {
-    if (choice.in_float)
-      throw Error::invalid_input(
-          "linear-precision = float is of conjugate gradients: linear-solver = cholesky must be auto, "
-          "multigrid or block-jacobi");
-    if (choice.gpu && scene.device == DeviceChoice::automatic) {
-      choice.reason = "device = auto takes the CPU for linear-solver = cholesky";
-      choice.gpu = false;
-    }
-  }
+  if (scene.linear_solver == Preconditioning::cholesky) take_factorisation(scene, choice);
   if (scene.linear_solver != Preconditioning::automatic) return choice;
   choice.linear_solver = Preconditioning::multigrid;
   const bool may_take_cpu = scene.device != DeviceChoice::cuda,
@@ -90,19 +84,17 @@ MethodChoice choose_method(const Scene& scene, const Cloth& cloth, const Curvatu
   if (!may_factorise || !(may_take_cpu || kFactorisesOnGpu)) return choice;
   const Couplings couplings =
       couplings_of(cloth.mesh, membrane_couplings(cloth.mesh, scene.fabric, scene.membrane_element), op);
-  const double share = stiffness_share(scene.fabric);
-  if (may_take_cpu) {
-    const double work = plan_elimination(couplings).multiplications;
-    if (work <= kWorkOfVertex * share * cloth.mesh.vertices() && (!choice.gpu || work <= kCpuWork)) {
-      choice.linear_solver = Preconditioning::cholesky;
-      if (choice.gpu)
-        choice.reason = "device = auto takes the CPU, which is faster than a GPU for so small a cloth";
-      choice.gpu = false;
-      return choice;
-    }
-  }
-  if (choice.gpu && kFactorisesOnGpu && pays_on_gpu(couplings, share))
+  const double work = plan_elimination(couplings).multiplications;
+  if (work > kWorkOfVertex * stiffness_share(scene.fabric) * cloth.mesh.vertices()) return choice;
+  if (!choice.gpu || (may_take_cpu && work <= kCpuWork)) {
     choice.linear_solver = Preconditioning::cholesky;
+    if (choice.gpu)
+      choice.reason = "device = auto takes the CPU, which is faster than a GPU for so small a cloth";
+    choice.gpu = false;
+  } else if (kFactorisesOnGpu &&
+             plan_dissection(couplings, choose_shape(couplings)).cost.renewal <= kGpuRenewal) {
+    choice.linear_solver = Preconditioning::cholesky;
+  }
   return choice;
 }
 
