@@ -3,6 +3,7 @@
 
 #include <random>
 
+#include "sim/linear/dissected_factorisation.h"
 #include "sim/linear/multigrid_solver.h"
 #include "sim/time/newton.h"
 #include "tests/sim/bending/coupled_pairs.h"
@@ -253,6 +254,37 @@ TEST_P(OfACloth, TheAssembledStiffnessIsThatOfTheParts) {
               std::max(static_cast<int>(test::coupled_pairs(step.trial.cloth.mesh, step.op)),
                        static_cast<int>(step.rows.col().size())));
   }
+}
+
+// Fronts of the stiffness without softening, four parts and what separates them.
+TEST_P(OfACloth, AFactorisationInFrontsSolvesItInAFewIterations) {
+  constexpr double kTolerance = 1e-10;
+  Step step(GetParam());
+  step.give_it_a_past();
+  step.begin();
+  const Positions x = moved(step.reference, 1e-3, random_vectors(step.reference.size(), 1, 5));
+  step.potential.update_friction_limits(x.data());
+  step.at(x, step.free_direction(6));
+  auto factor = std::make_unique<DissectedFactorisation<double, Cpu>>(
+      step.cpu, std::make_unique<AssembledStiffness<double, Cpu>>(step.cpu, step.rows, step.bending), nullptr,
+      DissectionShape{2, 2});
+  EXPECT_EQ(factor->plan().level.size(), 2u);
+  CholeskySolver<double, Cpu> solver(step.cpu, static_cast<int>(x.size()), std::move(factor));
+  const LinearSystem<double, Cpu> system = step.potential.linearise(x.data(), 1, false);
+  const Vector3d* force = step.potential.descent();
+  Positions solution(x.size());
+  const PcgOutcome outcome = solver.solve(system, step.held.data(), force, solution.data(), kTolerance);
+  EXPECT_TRUE(outcome.converged);
+  EXPECT_LE(outcome.iterations, 3);
+  const Positions product = step.product(system, solution);
+  double error2 = 0, size2 = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    if (step.held[i]) continue;
+    error2 += (product[i] - force[i]).squaredNorm();
+    size2 += force[i].squaredNorm();
+  }
+  constexpr double kPlain = 1e3 * kTolerance;  // for a residual that was measured in the factorisation's norm
+  EXPECT_LT(std::sqrt(error2 / size2), kPlain);
 }
 
 TEST_P(OfACloth, RenewedFrictionIsThatOfANewEvaluation) {
