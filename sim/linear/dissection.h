@@ -1,6 +1,7 @@
 // Nested dissection (George 1973) for devices on which a level of fronts costs waiting and what its fronts do
 // at once costs next to nothing: few levels of large fronts.  METIS, whose separators are shorter in sheets,
-// draws from the C library's random numbers, which are those of the whole program: runs would not be repeated.
+// draws from the C library's random numbers, which are those of the whole program: runs would not be
+// repeated.
 #pragma once
 
 #include "sim/linear/elimination.h"
