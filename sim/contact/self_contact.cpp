@@ -237,7 +237,6 @@ void SelfContact<Real, Device>::linearise(const Vec3<Real>* x, const Vec3<Real>*
   clock_.begin(Stage::contact);
   pressing_count_ = find_pressing(x);
   const std::size_t entries = 4 * static_cast<std::size_t>(pressing_count_);
-  slot_.reserve(entries);  // there may be more stiffnesses than pairs
   const SelfContactModel<Real> model = model_;
   const SelfPair<Real>* pairs = pairs_.pairs();
   const PairFriction<Real>* friction = friction_.data();
@@ -269,25 +268,12 @@ void SelfContact<Real, Device>::linearise(const Vec3<Real>* x, const Vec3<Real>*
 }
 
 template <class Real, class Device>
-GatheredForces<Real> SelfContact<Real, Device>::apply_stiffness(const Vec3<Real>* v) {
-  clock_.begin(Stage::contact);
-  const PairStiffness<Real>* stiffness = stiffness_.data();
-  Vec3<Real>* slot = slot_.data();
-  for_each(
-      device_, "self-contact: product", pressing_count_,
-      HYST_KERNEL(int p) { stiffness[p].times(v, slot + 4 * p); });
-  clock_.end(Stage::contact);
-  return pressing_forces<Real>(slot);
-}
-
-template <class Real, class Device>
 void SelfContact<Real, Device>::add_stiffness_diagonal(Mat3<Real>* diagonal) {
-  const PairStiffness<Real>* stiffness = stiffness_.data();
-  const GatheredForces<Real> rows = pressing_forces<Real>(slot_.data());
+  const PairProduct<Real> rows = product();
   for_each(
       device_, "self-contact: diagonal", vertices_, HYST_KERNEL(int i) {
         for (int j = rows.start[i]; j < rows.start[i + 1]; ++j) {
-          const PairStiffness<Real>& s = stiffness[rows.item[j] / 4];
+          const PairStiffness<Real>& s = rows.pair[rows.item[j] / 4];
           const Real w = s.weight[rows.item[j] % 4];
           diagonal[i] += w * w * s.block;
         }

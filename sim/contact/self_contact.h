@@ -75,16 +75,13 @@ class SelfContact {
   bool stiffens_parallel_edges() const { return stiffens_parallel_; }
   // sliding_fraction: sliding_stop.h.
   void linearise(const Vec3<Real>* x, const Vec3<Real>* before, Real sliding_fraction);
-  GatheredForces<Real> apply_stiffness(const Vec3<Real>* p);  // to be gathered
   void add_stiffness_diagonal(Mat3<Real>* diagonal);
   // What linearise() has found, on the device.
   std::span<const PairStiffness<Real>> pressing() const {
     return {stiffness_.data(), static_cast<std::size_t>(pressing_count_)};
   }
-  // Four forces of each of these pairs, in any precision, to be gathered.
-  template <class Scalar>
-  GatheredForces<Scalar> pressing_forces(const Vec3<Scalar>* force) const {
-    return {stiffness_rows_.start.data(), stiffness_rows_.item.data(), force};
+  PairProduct<Real> product() const {
+    return {stiffness_rows_.start.data(), stiffness_rows_.item.data(), stiffness_.data(), pressing_count_};
   }
   PairProduct<Real> product() const {
     return {stiffness_rows_.start.data(), stiffness_rows_.item.data(), stiffness_.data(), pressing_count_};

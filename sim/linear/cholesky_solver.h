@@ -53,6 +53,7 @@ class CholeskySolver : public LinearSolver<Real, Device> {
     const PcgOutcome outcome = attempt(kMaxIterations);
     return {before + outcome.iterations, outcome.converged};
   }
+  bool is_direct() const override { return true; }
   // The factorisation as the matrix it is of, which later solves go on with.
   void serialise(Archive& archive) override {
     pcg_.serialise(archive);

@@ -7,12 +7,11 @@ namespace hysteron {
 template <class Device>
 FloatSolver<Device>::FloatSolver(Device& device, const BlockRows<double, Device>& pattern,
                                  std::unique_ptr<LinearSolver<float, Device>> solver,
-                                 std::unique_ptr<FloatStiffness<Device>> bending,
-                                 std::unique_ptr<FloatStiffness<Device>> self_contact)
+                                 std::unique_ptr<FloatStiffness<Device>> bending)
     : device_(device),
       solver_(std::move(solver)),
       bending_(std::move(bending)),
-      self_contact_(std::move(self_contact)),
+      pair_(device),
       off_diagonal_(device, pattern.col().size()),
       diagonal_(device, pattern.row_ptr().size() - 1),
       rest_diagonal_(device, diagonal_.size()),
@@ -56,8 +55,21 @@ LinearSystem<float, Device> FloatSolver<Device>::rounded(const LinearSystem<doub
     }
     if (system.bending) result.bending = product(*bending_);
   }
-  if (system.self_contact) result.self_contact = product(*self_contact_);
+  if (system.pairs.start) result.pairs = rounded(system.pairs);
   return result;
+}
+
+template <class Device>
+PairProduct<float> FloatSolver<Device>::rounded(const PairProduct<double>& pairs) {
+  const PairStiffness<double>* from = pairs.pair;
+  PairStiffness<float>* to = pair_.reserve(pairs.count);
+  for_each(
+      device_, "in float: pairs", pairs.count, HYST_KERNEL(int p) {
+        for (int k = 0; k < 4; ++k) to[p].v[k] = from[p].v[k];
+        to[p].block = from[p].block.template cast<float>();
+        to[p].weight = from[p].weight.template cast<float>();
+      });
+  return {pairs.start, pairs.item, to, pairs.count};
 }
 
 template <class Device>
@@ -121,8 +133,7 @@ PcgOutcome FloatSolver<Device>::solve(const LinearSystem<double, Device>& system
 
 template <class Device>
 std::size_t FloatSolver<Device>::bytes() const {
-  return solver_->bytes() + (bending_ ? bending_->bytes() : 0) +
-         (self_contact_ ? self_contact_->bytes() : 0) +
+  return solver_->bytes() + (bending_ ? bending_->bytes() : 0) + pair_.bytes() +
          total_bytes(off_diagonal_, diagonal_, rest_diagonal_, softening_off_diagonal_, softening_diagonal_,
                      whole_off_diagonal_, whole_diagonal_, rhs_, x_, norm_);
 }

@@ -9,6 +9,7 @@
 
 #include <memory>
 
+#include "sim/device/algorithms.h"
 #include "sim/linear/gathered_forces.h"
 #include "sim/linear/linear_solver.h"
 
@@ -20,11 +21,10 @@ class FloatSolver : public LinearSolver<double, Device> {
   // A tighter tolerance is taken as this one: rounding of the systems leaves no more.
   static constexpr double kTightest = 1e-5;
 
-  // For matrices of this pattern; bending and self-contact of the systems, null where they have none.
+  // For matrices of this pattern; bending of the systems, null where they have none.
   FloatSolver(Device& device, const BlockRows<double, Device>& pattern,
               std::unique_ptr<LinearSolver<float, Device>> solver,
-              std::unique_ptr<FloatStiffness<Device>> bending,
-              std::unique_ptr<FloatStiffness<Device>> self_contact);
+              std::unique_ptr<FloatStiffness<Device>> bending);
 
   void begin() override { solver_->begin(); }
   PcgOutcome solve(const LinearSystem<double, Device>& system, const char* held, const Vec3<double>* rhs,
@@ -34,6 +34,7 @@ class FloatSolver : public LinearSolver<double, Device> {
 
   // The parts of solve(); public because nvcc allows no device lambda in a private member function.
   LinearSystem<float, Device> rounded(const LinearSystem<double, Device>& system);
+  PairProduct<float> rounded(const PairProduct<double>& pairs);
   void scale_down(const char* held, const Vec3<double>* rhs);
   void scale_up(Vec3<double>* x);
 
@@ -42,7 +43,8 @@ class FloatSolver : public LinearSolver<double, Device> {
 
   Device& device_;
   std::unique_ptr<LinearSolver<float, Device>> solver_;
-  std::unique_ptr<FloatStiffness<Device>> bending_, self_contact_;
+  std::unique_ptr<FloatStiffness<Device>> bending_;
+  GrowingBuffer<PairStiffness<float>, Device> pair_;
   Buffer<Mat3<float>, Device> off_diagonal_, diagonal_, rest_diagonal_;
   Buffer<Mat3<float>, Device> whole_off_diagonal_, whole_diagonal_;  // empty before the first whole system
   Buffer<float, Device> softening_off_diagonal_, softening_diagonal_;

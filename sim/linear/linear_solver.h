@@ -14,7 +14,8 @@ class LinearSolver {
   // system * x = rhs for the rows that are not held, zero for those that are.
   virtual PcgOutcome solve(const LinearSystem<Real, Device>& system, const char* held, const Vec3<Real>* rhs,
                            Vec3<Real>* x, double tolerance) = 0;
-  virtual void serialise(Archive& archive) = 0;  // what outlives a solve
+  virtual bool is_direct() const { return false; }  // a few iterations reach any tolerance
+  virtual void serialise(Archive& archive) = 0;     // what outlives a solve
   virtual std::size_t bytes() const = 0;
 };
 

@@ -19,11 +19,6 @@ struct PairStiffness {
     for (int k = 0; k < 4; ++k) sum += weight[k] * Vec3<Real>(displacement[v[k]]);
     return sum;
   }
-  // What it makes of the displacements of all vertices: four forces, on its own [N].
-  HYST_HD void times(const Vec3<Real>* displacement, Vec3<Real>* force) const {
-    const Vec3<Real> between = block * apart(displacement);
-    for (int k = 0; k < 4; ++k) force[k] = weight[k] * between;
-  }
 };
 
 // Every row finds the forces of its own pairs: each pair is taken four times, but no loop over pairs has to

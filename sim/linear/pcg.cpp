@@ -32,8 +32,8 @@ GatheredForces<Real> product(const StiffnessProduct<Real>& stiffness, const Vec3
 
 template <class Real, class Device>
 SystemProduct<Real> system_product(const LinearSystem<Real, Device>& system, const Vec3<Real>* p) {
-  if (system.whole.rows > 0) return {system.whole, {}, {}, product(system.self_contact, p)};
-  return {system.matrix, system.softening, product(system.bending, p), product(system.self_contact, p)};
+  if (system.whole.rows > 0) return {system.whole, {}, {}, system.pairs};
+  return {system.matrix, system.softening, product(system.bending, p), system.pairs};
 }
 
 // Blocks of a product's sum for each of one over elements: as many as an H100 runs at once.  A thread takes
@@ -52,8 +52,7 @@ constexpr int kIterationsAtOnce = 4;
 template <class Real, class Device>
 void Pcg<Real, Device>::project(const System& system, const char* held, const Vec3<Real>* rhs,
                                 const Vec3<Real>* guess) {
-  const SystemProduct<Real> system_product{
-      system.matrix, {}, product(system.bending, guess), product(system.self_contact, guess)};
+  const SystemProduct<Real> system_product{system.matrix, {}, product(system.bending, guess), system.pairs};
   Vec3<Real>* q = q_.data();
   PcgScalars* s = scalars_.data();
   for_each_row_sum<2>(
@@ -197,16 +196,16 @@ void Pcg<Real, Device>::iterate(const System& system, const char* held, Vec3<Rea
   for_each(device_, {"solve: direction", vectors(3)}, rows_, loops.direction);
 }
 
-// Pairs of layers, and with them self-contact's loops, change from system to system: capturing those would
-// cost more than it saves.
+// Pairs of layers, and what factorisations make of them, stand elsewhere from system to system: capturing
+// their loops would cost more than it saves.
 template <class Real, class Device>
 bool Pcg<Real, Device>::iterate_on_device(const System& system, const char* held, Vec3<Real>* x) {
-  if (system.self_contact) return false;
   if (!system.bending || system.whole.rows > 0) {  // no loops of bending's are between
     OneLaunchView<Real> view;
     const bool has_view = !system.preconditioner || system.preconditioner->in_one_launch(view);
     if (has_view && iterate_in_one_launch(device_, iterations(system, held, x), view)) return true;
   }
+  if (system.pairs.start) return false;
   const BlockRowsView<Real>& matrix = system.matrix;
   const std::vector<const void*> key = {matrix.row_ptr,
                                         matrix.col,

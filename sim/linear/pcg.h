@@ -10,6 +10,7 @@
 #include "sim/device/while_loop.h"
 #include "sim/linear/block_rows.h"
 #include "sim/linear/gathered_forces.h"
+#include "sim/linear/pair_product.h"
 #include "sim/linear/pcg_in_one_launch.h"
 #include "sim/linear/preconditioner.h"
 
@@ -40,7 +41,7 @@ struct LinearSystem {
   const Mat3<Real>* rest_diagonal = nullptr;
   Preconditioner<Real, Device>* preconditioner = nullptr;  // null: the inverted diagonal blocks
   ScalarRowsView<Real> softening = {};                     // null: none
-  StiffnessProduct<Real> self_contact = {};                // K p; empty: none
+  PairProduct<Real> pairs = {};                            // of self-contact; null: none
   std::size_t bytes = 0;  // that a product reads at least beside vectors, where that is stated
   // The matrix, softening and bending in one, which products then take; no rows: they are not assembled.
   BlockRowsView<Real> whole = {};
@@ -87,7 +88,7 @@ class Pcg {
   void iterate(const System& system, const char* held, Vec3<Real>* x);
 
  private:
-  // Its loops; orders those of bending's and self-contact's products.
+  // Its loops; orders those of bending's product.
   PcgIterations<Real> iterations(const System& system, const char* held, Vec3<Real>* x);
   bool iterate_on_device(const System& system, const char* held, Vec3<Real>* x);
   PcgScalars iterate_in_batches(const System& system, const char* held, Vec3<Real>* x, PcgEnd end);

@@ -11,6 +11,7 @@
 #include "sim/device/rows.h"
 #include "sim/linear/coarse_level.h"
 #include "sim/linear/gathered_forces.h"
+#include "sim/linear/pair_product.h"
 
 namespace hysteron {
 
@@ -63,6 +64,19 @@ class LaneSum {
     if (!active_ || !forces.start) return;
     for (int j = forces.start[vertex] + lanes_.index() / 3; j < forces.start[vertex + 1]; j += 3 * kBlocks)
       part_ += sign * forces.force[forces.item[j]].data()[lanes_.index() % 3];
+  }
+
+  // The forces of a vertex's pairs under v.
+  template <class Vector>
+  HYST_HD void add(const PairProduct<Real>& pairs, int vertex, const Vector& v) {
+    if (!active_ || !pairs.start) return;
+    for (int j = pairs.start[vertex] + lanes_.index() / 9; j < pairs.start[vertex + 1]; j += kBlocks) {
+      const int item = pairs.item[j];
+      const PairStiffness<Real>& s = pairs.pair[item / 4];
+      Real apart = 0;
+      for (int k = 0; k < 4; ++k) apart += s.weight[k] * vector_component(v, s.v[k], column());
+      part_ += s.weight[item % 4] * (s.block.data()[entry_] * apart);
+    }
   }
 
   // Component r of the sum over the lanes, in lane r.
@@ -158,15 +172,16 @@ HYST_HD Vec3<Real> row_times(const Lanes& lanes, const BlockRowsView<Real>& matr
 template <class Real>
 struct SystemProduct {
   BlockRowsView<Real> matrix;
-  ScalarRowsView<Real> softening;          // null: none
-  GatheredForces<Real> bending, pressing;  // -K v and K v; null: none
+  ScalarRowsView<Real> softening;  // null: none
+  GatheredForces<Real> bending;    // -K v; null: none
+  PairProduct<Real> pairs;         // null: none
 
   template <class Lanes, class Vector>
   HYST_HD Vec3<Real> at(const Lanes& lanes, int i, const Vector& v) const {
     if constexpr (Lanes::kCount == 1) {
       Vec3<Real> sum = softening.off_diagonal ? matrix.times(i, v, softening) : matrix.times(i, v);
       if (bending.start) sum -= bending.at(i);
-      if (pressing.start) sum += pressing.at(i);
+      if (pairs.start) sum += pairs.at(i, v);
       return sum;
     } else {
       LaneSum<Lanes, Real> sum(lanes);
@@ -175,7 +190,7 @@ struct SystemProduct {
       sum.add(matrix.off_diagonal, matrix.col, first, last, v);
       if (softening.off_diagonal) sum.add(softening.off_diagonal, matrix.col, first, last, v);
       sum.add(Real(-1), bending, i);
-      sum.add(Real(1), pressing, i);
+      sum.add(pairs, i, v);
       const Vec3<Real> total = sum.total();
       if (!softening.off_diagonal) return total;
       return total + softening.diagonal[i] * v[i];

@@ -66,15 +66,13 @@ ImplicitStep<Real, Device>::ImplicitStep(Body<Real, Device>& body)
       drift_(*body.device, body.vertices),
       predicted_(*body.device, body.vertices),
       acceleration_(*body.device, body.vertices),
+      acceleration_before_(*body.device, body.vertices),
       x_before_(*body.device, two_step_ ? body.vertices : 0),
       v_before_(*body.device, two_step_ ? body.vertices : 0),
       displacement_(*body.device, body.self_contact ? body.vertices : 0),
       forces_(*body.device, static_ ? body.vertices : 0) {
-  // Solves in one launch take the whole matrix; those with self-contact, in loops of their own, gain by it
-  // where a GPU waits for loops rather than for memory.  On a CPU they wait for nothing.
-  constexpr int kMaxWithSelfContact = 32768;
-  const int most = body.self_contact ? kMaxWithSelfContact : kMaxRowsInOneLaunch;  // vertices
-  if (Device::kGpu && !bending_lags_ && body.vertices <= most) potential_.assemble();
+  // Solves in one launch take the whole matrix.
+  if (Device::kGpu && !bending_lags_ && body.vertices <= kMaxRowsInOneLaunch) potential_.assemble();
 }
 
 template <class Real, class Device>
@@ -94,13 +92,7 @@ NewtonOutcome ImplicitStep<Real, Device>::solve(double h, double fraction, bool 
   potential_.begin({formula_, rate_formula(h), body_.x.data(), x_before_.data(), reference_.data(),
                     predicted_.data(), body_.held.data(), body_.gravity(), body_.drag(), fraction_,
                     body_.pins.compliant_pins()});
-  // The better of two beginnings: at constant velocity, and with the acceleration of the step before.
-  const PotentialValue steady = potential_of_guess(false);
-  PotentialValue begun = steady;
-  if (last_h_ > 0) {
-    begun = potential_of_guess(true);
-    if (!(begun.energy < steady.energy)) begun = potential_of_guess(false);
-  }
+  const PotentialValue begun = begin_at_best_guess(is_first_stage);
   if (!std::isfinite(begun.energy)) {  // the handles' motion is not free, or the state not finite
     NewtonOutcome outcome;
     outcome.blocked = potential_.has_self_contact() && !keep_apart();
@@ -146,9 +138,37 @@ Unbalanced ImplicitStep<Real, Device>::most_unbalanced() {
   return result;
 }
 
+// The guess of the lowest potential.  The one that was best last time is compared with its neighbours, and
+// comes last, so that it need not be taken up again.
 template <class Real, class Device>
-PotentialValue ImplicitStep<Real, Device>::potential_of_guess(bool accelerated) {
-  guess(accelerated);
+PotentialValue ImplicitStep<Real, Device>::begin_at_best_guess(bool is_first_stage) {
+  if (!(last_h_ > 0)) return potential_of_guess(Guess::steady);
+  Guess& favourite = favourite_[two_stage_ && !is_first_stage];
+  if (favourite == Guess::extrapolated && !knows_trend_) favourite = Guess::accelerated;
+  Guess best = Guess::accelerated;
+  double lowest = std::numeric_limits<double>::infinity();
+  const auto compare = [&](Guess rival) {
+    const double energy = potential_of_guess(rival).energy;
+    if (!(energy < lowest)) return;
+    best = rival;
+    lowest = energy;
+  };
+  if (favourite == Guess::accelerated) {
+    compare(Guess::steady);
+    if (knows_trend_) compare(Guess::extrapolated);
+  } else {
+    compare(Guess::accelerated);
+  }
+  const PotentialValue value = potential_of_guess(favourite);
+  if (std::isfinite(value.energy) && value.energy <= lowest) return value;
+  // Where no way to a guess with acceleration is free, that of constant velocity may be.
+  favourite = std::isfinite(lowest) ? best : Guess::steady;
+  return potential_of_guess(favourite);
+}
+
+template <class Real, class Device>
+PotentialValue ImplicitStep<Real, Device>::potential_of_guess(Guess which) {
+  guess(which);
   potential_.clip_to_obstacles(end_.data());
   const bool apart = !potential_.has_self_contact() || keep_apart();
   if (!apart || !potential_.path_is_clear(end_.data()))
@@ -184,18 +204,27 @@ void ImplicitStep<Real, Device>::place() {
 }
 
 template <class Real, class Device>
-void ImplicitStep<Real, Device>::guess(bool accelerated) {
+void ImplicitStep<Real, Device>::guess(Guess which) {
   const Real h = static_cast<Real>(formula_.dt);
   // Of the acceleration in the guess [s^2]; in statics, which keep a velocity in its place, [s].
   const double full_weight = static_ ? formula_.dt : formula_.beta_dt * formula_.beta_dt;
-  const Real weight = accelerated ? static_cast<Real>(full_weight) : Real(0);
+  const Real weight = which == Guess::steady ? Real(0) : static_cast<Real>(full_weight),
+             trend = which == Guess::extrapolated ? static_cast<Real>(formula_.dt / last_h_) : Real(0);
   const Vec3<Real>*x = body_.x.data(), *v = body_.v.data(), *predicted = predicted_.data(),
-        *a = acceleration_.data();
+        *a = acceleration_.data(), *before = acceleration_before_.data();
   const char* held = body_.held.data();
   Vec3<Real>* end = end_.data();
   for_each(
-      *body_.device, {"implicit guess", vectors(accelerated ? 3 : 2)}, body_.vertices, HYST_KERNEL(int i) {
-        end[i] = held[i] ? Vec3<Real>(x[i] + h * v[i]) : Vec3<Real>(predicted[i] + weight * a[i]);
+      *body_.device, {"implicit guess", vectors(2 + static_cast<int>(which))}, body_.vertices,
+      HYST_KERNEL(int i) {
+        if (held[i]) {
+          end[i] = x[i] + h * v[i];
+          return;
+        }
+        Vec3<Real> place = predicted[i];
+        if (weight > 0) place += weight * a[i];
+        if (trend > 0) place += weight * trend * (a[i] - before[i]);
+        end[i] = place;
       });
 }
 
@@ -269,6 +298,7 @@ void ImplicitStep<Real, Device>::accept() {
   body_.membrane.add_viscous_loss();
   body_.membrane.commit_friction(end_.data());
   move_on();
+  knows_trend_ = last_h_ > 0;
   last_h_ = formula_.dt;
   knows_acceleration_ = true;
 }
@@ -331,15 +361,16 @@ void ImplicitStep<Real, Device>::move_on() {
   const bool two_step = two_step_, statics = static_, at_end = two_stage_;
   Vec3<Real>*x = body_.x.data(), *v = body_.v.data(), *x0 = x_before_.data(), *v0 = v_before_.data();
   const Vec3<Real>*end = end_.data(), *reference = reference_.data(), *drift = drift_.data();
-  Vec3<Real>* acceleration = acceleration_.data();
+  Vec3<Real>*acceleration = acceleration_.data(), *acceleration_before = acceleration_before_.data();
   const char* held = body_.held.data();
   for_each(
-      *body_.device, {"implicit end", vectors(two_step ? 8 : 6)}, body_.vertices, HYST_KERNEL(int i) {
+      *body_.device, {"implicit end", vectors(two_step ? 10 : 8)}, body_.vertices, HYST_KERNEL(int i) {
         const Vec3<Real> moved = held[i] ? v[i] : Vec3<Real>(rate * (end[i] - reference[i]));
         if (two_step) {
           x0[i] = x[i];
           v0[i] = v[i];
         }
+        acceleration_before[i] = acceleration[i];
         acceleration[i] = statics ? Vec3<Real>((end[i] - x[i]) / h) : Vec3<Real>((moved - v[i]) / h);
         if (at_end && !held[i]) acceleration[i] = rate * (moved - drift[i]);
         x[i] = end[i];

@@ -31,6 +31,10 @@ struct VertexForces {
   }
 };
 
+// Where Newton's method begins: at the velocity that was, with the acceleration of the step before, or with
+// that and how it changed over the two steps before.
+enum class Guess { steady, accelerated, extrapolated };
+
 // The vertex that is farthest from equilibrium.
 struct Unbalanced {
   int vertex = -1;
@@ -63,8 +67,9 @@ class ImplicitStep {
   double error_order() const { return formula_.extrapolation > 0 || formula_.carried > 0 ? 3 : 2; }
   // What outlives a step: motion before it, and the forces that handle_forces() tells of.
   void serialise(Archive& archive) {
-    archive(knows_acceleration_, last_h_);
-    hysteron::serialise(archive, *body_.device, acceleration_, x_before_, v_before_);
+    archive(knows_acceleration_, last_h_, knows_trend_);
+    for (Guess& favourite : favourite_) archive(favourite);
+    hysteron::serialise(archive, *body_.device, acceleration_, acceleration_before_, x_before_, v_before_);
     archive(knows_forces_);
     hysteron::serialise(archive, *body_.device, forces_);
     potential_.serialise(archive);
@@ -77,13 +82,13 @@ class ImplicitStep {
   // Which part of the potential is not finite at the start, in a user's words; "" if none.
   std::string not_finite() { return potential_.not_finite(body_.x.data()); }
   std::size_t bytes() const {
-    return potential_.bytes() + solver_->bytes() + newton_.bytes() + 5 * end_.bytes() +
+    return potential_.bytes() + solver_->bytes() + newton_.bytes() + 6 * end_.bytes() +
            2 * x_before_.bytes() + displacement_.bytes() + forces_.bytes();
   }
 
   // The parts; public because nvcc allows no device lambda in a private member function.
   void place();
-  void guess(bool accelerated);
+  void guess(Guess which);
   bool keep_apart();
   void shorten_guess(Real step_length);
   void book();
@@ -100,7 +105,8 @@ class ImplicitStep {
     const bool two_steps = two_step_ && last_h_ > 0 && h <= kMaxGrowth * last_h_;
     return two_steps ? StepFormula::bdf2(h, last_h_) : StepFormula::backward_euler(h);
   }
-  PotentialValue potential_of_guess(bool accelerated);
+  PotentialValue begin_at_best_guess(bool is_first_stage);
+  PotentialValue potential_of_guess(Guess which);
   std::size_t vectors(int count) const { return count * end_.bytes(); }
 
   Body<Real, Device>& body_;
@@ -120,7 +126,9 @@ class ImplicitStep {
       predicted_;  // r [m], velocity that goes with it [m/s], y [m]
   // Over the step before: acceleration [m/s^2]; in tr-bdf2 that at its end; in statics the velocity of the
   // load [m/s].
-  Buffer<Vec3<Real>, Device> acceleration_;
+  Buffer<Vec3<Real>, Device> acceleration_, acceleration_before_;
+  bool knows_trend_ = false;                                         // acceleration_before_ is that of a step
+  Guess favourite_[2] = {Guess::extrapolated, Guess::extrapolated};  // the best one last time, of each stage
   Buffer<Vec3<Real>, Device> x_before_, v_before_;  // of the step or stage before; bdf2 and tr-bdf2
   Buffer<Vec3<Real>, Device> displacement_;         // to a guess; with self-contact only
   bool knows_forces_ = false;

@@ -191,8 +191,7 @@ LinearSystem<Real, Device> IncrementalPotential<Real, Device>::linearise(const V
     };
     system.bytes += bending_.force_bytes();
   }
-  if (self_contact_)
-    system.self_contact = [this](const Vec3<Real>* p) { return self_contact_->apply_stiffness(p); };
+  if (self_contact_) system.pairs = self_contact_->product();
   if (whole_) {
     system.whole = whole_->assemble(matrix, softening);
     system.whole_blocks = whole_->blocks();

@@ -6,7 +6,7 @@
 
 #include "sim/bending/assembled_stiffness.h"
 #include "sim/bending/bending_elements.h"
-#include "sim/contact/float_pairs.h"
+#include "sim/contact/pair_elements.h"
 #include "sim/linear/dissected_factorisation.h"
 #include "sim/linear/float_solver.h"
 #include "sim/linear/multigrid_solver.h"
@@ -53,11 +53,10 @@ std::unique_ptr<LinearSolver<Real, Device>> make_gradient_solver(const Body<Body
 template <class Device>
 std::unique_ptr<LinearSolver<double, Device>> make_float_solver(const Body<double, Device>& body) {
   Device& device = *body.device;
-  std::unique_ptr<FloatStiffness<Device>> bending, self_contact;
+  std::unique_ptr<FloatStiffness<Device>> bending;
   if (body.scene.is_implicit()) bending = std::make_unique<FloatBending<Device>>(device, body.bending);
-  if (body.self_contact) self_contact = std::make_unique<FloatPairs<Device>>(device, *body.self_contact);
   return std::make_unique<FloatSolver<Device>>(device, body.matrix, make_gradient_solver<float>(body),
-                                               std::move(bending), std::move(self_contact));
+                                               std::move(bending));
 }
 
 // Of a scene whose choice is made (method_choice.h).

@@ -12,8 +12,8 @@ struct NewtonLimits {
   // Norm of the unbalanced force over that of the weight and what the handles carry, or, where the masses'
   // inertia is larger, over that: free cloth without weight has nothing else to compare with.
   double residual = 1e-6;
-  double velocity = 1e-9;  // root mean square of a correction over the step's time, or of what the unbalanced
-                           // force makes of free masses in it [m/s]
+  double velocity = 1e-9;  // root mean square of a correction over the step's time, or of those that would
+                           // follow, or of what the unbalanced force makes of free masses in it [m/s]
   int iterations = 60;
   bool take_unconverged = false;  // what is reached by then is taken as it is
   // Statics: the masses times a shift are added to the stiffness, which may be singular on the way; the shift

@@ -215,11 +215,10 @@ TEST(SelfContact, EdgesThatFadeResistTurningAsTheirEnergySays) {
   const auto x = turned(kAngle), ahead = turned(kAngle + kTurn), behind = turned(kAngle - kTurn);
   ASSERT_TRUE(are_fading(pair, {x[0], x[1], x[2], x[3]}));
   const PairStiffness<double> stiffness = turning_stiffness(pair, touch(kAngle));
-  std::array<Vector3d, 4> displacement, force;
+  std::array<Vector3d, 4> displacement;
   for (int k = 0; k < 4; ++k) displacement[k] = (ahead[k] - behind[k]) / 2;
-  stiffness.times(displacement.data(), force.data());
-  double work = 0;
-  for (int k = 0; k < 4; ++k) work += force[k].dot(displacement[k]);
+  const Vector3d apart = stiffness.apart(displacement.data());
+  const double work = apart.dot(stiffness.block * apart);
   constexpr double kNearParallel = 0.01;  // of the stiffness, at that angle
   EXPECT_NEAR(work / curved, 1, kNearParallel);
 }

@@ -27,8 +27,11 @@ class LinearSolvesOn : public LinearSolves {
     Buffer<Eigen::Vector3d, Device> x(device_, n);
     const auto solver = make_solver(mesh, method, held);
     LinearSystem<double, Device> system{rows.view()};
-    if (by_batches)  // whose loops may change
-      system.self_contact = [](const Vec3<double>*) { return GatheredForces<double>{}; };
+    const Buffer<int, Device> no_pairs(device_, std::vector<int>(n + 1, 0));
+    if (by_batches) {  // as of a cloth with layers and a loop of bending's
+      system.pairs.start = no_pairs.data();
+      system.bending = [](const Vec3<double>*) { return GatheredForces<double>{}; };
+    }
     PcgOutcome outcome;
     const long before = device_counts.loops;
     for (int k = 0; k < times; ++k)

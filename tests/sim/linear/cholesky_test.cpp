@@ -89,29 +89,11 @@ Factor make_factor(const std::string& kind, test::RandomSystem& of, std::shared_
 // With springs between far vertices.
 struct System : test::RandomSystem {
   std::shared_ptr<Springs> springs = std::make_shared<Springs>();
-  std::vector<Vec3<double>> slot, x;
-  std::vector<int> start, item;
+  std::vector<Vec3<double>> x;
   std::unique_ptr<CholeskySolver<double, Cpu>> solver;
 
   explicit System(const std::string& kind) : RandomSystem(12), x(n()) {
     solver = std::make_unique<CholeskySolver<double, Cpu>>(cpu, n(), make_factor(kind, *this, springs));
-  }
-
-  GatheredForces<double> spring_forces(const Vec3<double>* p) {
-    MatrixXd stiffness = MatrixXd::Zero(3 * n(), 3 * n());
-    springs->add_to(stiffness);
-    VectorXd moved(3 * n());
-    for (int i = 0; i < n(); ++i) moved.segment<3>(3 * i) = p[i];
-    const VectorXd force = stiffness * moved;
-    slot.resize(n());
-    start.resize(n() + 1);
-    item.resize(n());
-    for (int i = 0; i < n(); ++i) {
-      slot[i] = force.segment<3>(3 * i);
-      item[i] = i;
-      start[i + 1] = i + 1;
-    }
-    return {start.data(), item.data(), slot.data()};
   }
 
   MatrixXd dense() {
@@ -125,7 +107,7 @@ struct System : test::RandomSystem {
   }
   PcgOutcome solve(double tolerance = 1e-12) {
     LinearSystem<double, Cpu> system = linear();
-    system.self_contact = [this](const Vec3<double>* p) { return spring_forces(p); };
+    system.pairs = springs->pairs(n());
     return solver->solve(system, held.data(), rhs.data(), x.data(), tolerance);
   }
 };

@@ -20,34 +20,29 @@ using test::difference;
 using test::norm;
 
 // A spring between the first vertex and the last.
-struct Spring : FloatStiffness<Cpu> {
+struct Spring {
   static constexpr double kStiffness = 30;
-  int last;
   std::vector<int> start, item = {0, 1};
-  Vec3<float> force[2];
+  PairStiffness<double> pair;
 
-  explicit Spring(int vertices) : last(vertices - 1), start(vertices + 1, 1) {
+  explicit Spring(int vertices) : start(vertices + 1, 1) {
     start.front() = 0;
     start.back() = 2;
+    const int last = vertices - 1;
+    pair = {{0, last, last, last}, kStiffness * Matrix3d::Identity(), {1, -1, 0, 0}};
   }
-  void round() override {}
-  GatheredForces<float> apply(const Vec3<float>* p) override {
-    force[0] = static_cast<float>(kStiffness) * (p[0] - p[last]);
-    force[1] = -force[0];
-    return {start.data(), item.data(), force};
-  }
-  std::size_t force_bytes() const override { return 0; }
-  std::size_t bytes() const override { return 0; }
+  PairProduct<double> product() const { return {start.data(), item.data(), &pair, 1}; }
 };
 
 // Softening and the spring, as self-contact has it.
 struct FloatSystem : test::RandomSystem {
   FloatSolver<Cpu> solver;
+  Spring spring;
 
   FloatSystem()
       : RandomSystem(14),
-        solver(cpu, rows, std::make_unique<BlockJacobiSolver<float, Cpu>>(cpu, n()), nullptr,
-               std::make_unique<Spring>(n())) {
+        solver(cpu, rows, std::make_unique<BlockJacobiSolver<float, Cpu>>(cpu, n()), nullptr),
+        spring(n()) {
     softening.assign(softening.size(), 0.1);
     softening_diagonal.assign(n(), -1);
     held[3] = held[17] = 1;
@@ -55,8 +50,7 @@ struct FloatSystem : test::RandomSystem {
 
   Field solution(double tolerance = FloatSolver<Cpu>::kTightest) {
     LinearSystem<double, Cpu> system = linear();
-    // The product of double precision only says that there is one.
-    system.self_contact = [](const Vector3d*) { return GatheredForces<double>{}; };
+    system.pairs = spring.product();
     Field x(n(), Vector3d::Constant(7));
     EXPECT_TRUE(solver.solve(system, held.data(), rhs.data(), x.data(), tolerance).converged);
     return x;
