@@ -83,9 +83,6 @@ class SelfContact {
   PairProduct<Real> product() const {
     return {stiffness_rows_.start.data(), stiffness_rows_.item.data(), stiffness_.data(), pressing_count_};
   }
-  PairProduct<Real> product() const {
-    return {stiffness_rows_.start.data(), stiffness_rows_.item.data(), stiffness_.data(), pressing_count_};
-  }
   void commit(const Vec3<Real>* x, const Vec3<Real>* before);
 
   // What outlives a step: the list of pairs, which decides the order of sums and when the next one is made,
