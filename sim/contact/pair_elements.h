@@ -6,31 +6,24 @@
 
 namespace hysteron {
 
-// The stiffness of self-contact pair by pair, on the host: between the closest points of each.
-template <class Real, class Device>
+// The stiffness of self-contact pair by pair, on the CPU: between the closest points of each.
+template <class Real>
 class PairElements : public ElementStiffness {
  public:
   // `contact` must outlive it.
-  PairElements(Device& device, const SelfContact<Real, Device>& contact)
-      : device_(device), contact_(contact) {}
+  explicit PairElements(const SelfContact<Real, Cpu>& contact) : contact_(contact) {}
 
-  void refresh() override {
-    const auto pressing = contact_.pressing();
-    pair_ = downloaded(device_, pressing.data(), pressing.size());
-  }
-  int elements() const override { return static_cast<int>(pair_.size()); }
-  std::span<const int> vertices(int pair) const override { return pair_[pair].v; }
+  int elements() const override { return contact_.product().count; }
+  std::span<const int> vertices(int pair) const override { return contact_.product().pair[pair].v; }
   void linearised(int pair, Rates& rates, Eigen::Matrix3d& stiffness) const override {
-    const PairStiffness<Real>& s = pair_[pair];
+    const PairStiffness<Real>& s = contact_.product().pair[pair];
     for (int k = 0; k < 4; ++k)
       rates.middleCols<3>(3 * k) = static_cast<double>(s.weight[k]) * Eigen::Matrix3d::Identity();
     stiffness = s.block.template cast<double>();
   }
 
  private:
-  Device& device_;
-  const SelfContact<Real, Device>& contact_;
-  std::vector<PairStiffness<Real>> pair_;
+  const SelfContact<Real, Cpu>& contact_;
 };
 
 }  // namespace hysteron

@@ -77,9 +77,6 @@ class SelfContact {
   void linearise(const Vec3<Real>* x, const Vec3<Real>* before, Real sliding_fraction);
   void add_stiffness_diagonal(Mat3<Real>* diagonal);
   // What linearise() has found, on the device.
-  std::span<const PairStiffness<Real>> pressing() const {
-    return {stiffness_.data(), static_cast<std::size_t>(pressing_count_)};
-  }
   PairProduct<Real> product() const {
     return {stiffness_rows_.start.data(), stiffness_rows_.item.data(), stiffness_.data(), pressing_count_};
   }

@@ -53,11 +53,9 @@ struct NumberOfLevel {
 template <class Real, class Device>
 DissectedFactorisation<Real, Device>::DissectedFactorisation(Device& device,
                                                              std::unique_ptr<DefiniteMatrix<Real>> definite,
-                                                             Pairs self_contact,
                                                              std::optional<DissectionShape> shape)
     : device_(device),
       definite_(std::move(definite)),
-      self_contact_(std::move(self_contact)),
       matrix_(device, definite_->pattern()),
       pairs_(device, static_cast<int>(matrix_.row_ptr().size()) - 1),
       scale_(device, 3 * (matrix_.row_ptr().size() - 1)),
@@ -112,7 +110,7 @@ void DissectedFactorisation<Real, Device>::make_levels(const FrontTables& tables
 
 template <class Real, class Device>
 void DissectedFactorisation<Real, Device>::renew(const LinearSystem<Real, Device>& system, const char* held) {
-  if (self_contact_) pairs_.take(self_contact_());
+  pairs_.take(system.pairs);
   if (!pairs_.fit()) take_couplings(pairs_.couplings_with(matrix_.pattern()));
   take_matrix(definite_->assemble(system.matrix));
   factorise(held);

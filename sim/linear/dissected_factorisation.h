@@ -5,7 +5,6 @@
 // Its numbers are doubles whatever the precision of the vectors.  All sums have a fixed order.
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <optional>
 
@@ -18,10 +17,8 @@ namespace hysteron {
 template <class Real, class Device>
 class DissectedFactorisation : public Factorisation<Real, Device> {
  public:
-  using Pairs = std::function<PairProduct<Real>()>;
-  // The pairs of self-contact as they were linearised last, empty where a system has none.  Without a shape
-  // that which is fastest.
-  DissectedFactorisation(Device& device, std::unique_ptr<DefiniteMatrix<Real>> definite, Pairs self_contact,
+  // Without a shape that which is fastest.
+  DissectedFactorisation(Device& device, std::unique_ptr<DefiniteMatrix<Real>> definite,
                          std::optional<DissectionShape> shape = {});
 
   void renew(const LinearSystem<Real, Device>& system, const char* held) override;
@@ -58,7 +55,6 @@ class DissectedFactorisation : public Factorisation<Real, Device> {
 
   Device& device_;
   std::unique_ptr<DefiniteMatrix<Real>> definite_;
-  Pairs self_contact_;
   DissectionShape shape_;
   BlockRows<Real, Device> matrix_;  // of which the factorisation is, with the pairs
   FrontPairs<Real, Device> pairs_;

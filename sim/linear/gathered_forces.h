@@ -50,8 +50,6 @@ class ElementStiffness {
   using Rates = Eigen::Matrix<double, 3, Eigen::Dynamic>;  // B, three columns for each vertex [strain/m]
 
   virtual ~ElementStiffness() = default;
-  // Reads the stiffness where it was linearised last; elements may be others then.
-  virtual void refresh() {}
   virtual int elements() const = 0;
   virtual std::span<const int> vertices(int element) const = 0;
   // B and T where the stiffness was linearised last; rows of strains that an element does not have are zero.

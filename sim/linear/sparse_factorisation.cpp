@@ -80,7 +80,6 @@ void SparseFactorisation<Real>::assemble(const BlockRowsView<Real>& rows, const 
 
 template <class Real>
 void SparseFactorisation<Real>::renew(const LinearSystem<Real, Cpu>& system, const char* held) {
-  if (self_contact_) self_contact_->refresh();
   if (self_contact_ && !contact_is_coupled()) couple_contact();
   assemble(system.matrix, held);
   factor_->factorise(matrix_);

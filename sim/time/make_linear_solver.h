@@ -20,8 +20,7 @@ template <class Real>
 std::unique_ptr<Factorisation<Real, Cpu>> make_factorisation(const Body<Real, Cpu>& body) {
   std::unique_ptr<ElementStiffness> bending, self_contact;
   if (body.scene.is_implicit()) bending = std::make_unique<BendingElements<Real>>(body.bending);
-  if (body.self_contact)
-    self_contact = std::make_unique<PairElements<Real, Cpu>>(*body.device, *body.self_contact);
+  if (body.self_contact) self_contact = std::make_unique<PairElements<Real>>(*body.self_contact);
   return std::make_unique<SparseFactorisation<Real>>(*body.device, body.matrix, std::move(bending),
                                                      std::move(self_contact));
 }
@@ -31,10 +30,7 @@ std::unique_ptr<Factorisation<Real, Device>> make_factorisation(const Body<Real,
   std::unique_ptr<DefiniteMatrix<Real>> definite = std::make_unique<RowsAlone<Real>>(body.matrix.pattern());
   if (body.scene.is_implicit())
     definite = std::make_unique<AssembledStiffness<Real, Device>>(device, body.matrix, body.bending);
-  typename DissectedFactorisation<Real, Device>::Pairs self_contact;
-  if (body.self_contact) self_contact = [&body] { return body.self_contact->product(); };
-  return std::make_unique<DissectedFactorisation<Real, Device>>(device, std::move(definite),
-                                                                std::move(self_contact));
+  return std::make_unique<DissectedFactorisation<Real, Device>>(device, std::move(definite));
 }
 
 // Conjugate gradients in a precision that need not be the body's.

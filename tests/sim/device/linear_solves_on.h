@@ -66,7 +66,7 @@ class LinearSolvesOn : public LinearSolves {
     if (method == LinearMethod::block_jacobi)
       return std::make_unique<BlockJacobiSolver<double, Device>>(device_, n);
     auto factor = std::make_unique<DissectedFactorisation<double, Device>>(
-        device_, std::make_unique<RowsAlone<double>>(neighbours_in(mesh)), nullptr);
+        device_, std::make_unique<RowsAlone<double>>(neighbours_in(mesh)));
     return std::make_unique<CholeskySolver<double, Device>>(device_, n, std::move(factor));
   }
 

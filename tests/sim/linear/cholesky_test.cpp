@@ -62,38 +62,28 @@ struct Springs : ElementStiffness {
   Adjacency of_vertex;
 };
 
-struct SharedSprings : ElementStiffness {
-  std::shared_ptr<Springs> springs;
-  explicit SharedSprings(std::shared_ptr<Springs> of) : springs(std::move(of)) {}
-  int elements() const override { return springs->elements(); }
-  std::span<const int> vertices(int e) const override { return springs->vertices(e); }
-  void linearised(int e, Rates& rates, Matrix3d& block) const override {
-    springs->linearised(e, rates, block);
-  }
-};
-
 using Factor = std::unique_ptr<Factorisation<double, Cpu>>;
 
-Factor make_factor(const std::string& kind, test::RandomSystem& of, std::shared_ptr<Springs> springs) {
+// One that takes elements keeps the springs.
+Factor make_factor(const std::string& kind, test::RandomSystem& of, std::unique_ptr<Springs>& springs) {
   if (kind == "sparse")
-    return std::make_unique<SparseFactorisation<double>>(of.cpu, of.rows, nullptr,
-                                                         std::make_unique<SharedSprings>(springs));
+    return std::make_unique<SparseFactorisation<double>>(of.cpu, of.rows, nullptr, std::move(springs));
   DissectionShape shape;  // one front
   if (kind == "flat") shape = {2, 2};
   if (kind == "tree") shape = {3, 1};
   return std::make_unique<DissectedFactorisation<double, Cpu>>(
-      of.cpu, std::make_unique<RowsAlone<double>>(of.rows.pattern()),
-      [springs, nodes = of.n()] { return springs->pairs(nodes); }, shape);
+      of.cpu, std::make_unique<RowsAlone<double>>(of.rows.pattern()), shape);
 }
 
 // With springs between far vertices.
 struct System : test::RandomSystem {
-  std::shared_ptr<Springs> springs = std::make_shared<Springs>();
+  std::unique_ptr<Springs> made = std::make_unique<Springs>();
+  Springs* springs = made.get();
   std::vector<Vec3<double>> x;
   std::unique_ptr<CholeskySolver<double, Cpu>> solver;
 
   explicit System(const std::string& kind) : RandomSystem(12), x(n()) {
-    solver = std::make_unique<CholeskySolver<double, Cpu>>(cpu, n(), make_factor(kind, *this, springs));
+    solver = std::make_unique<CholeskySolver<double, Cpu>>(cpu, n(), make_factor(kind, *this, made));
   }
 
   MatrixXd dense() {
