@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "sim/base/error.h"
-#include "sim/linear/dissection.h"
+#include "sim/linear/elimination.h"
 #include "sim/membrane/membrane_nodes.h"
 
 namespace hysteron {
@@ -15,26 +15,28 @@ namespace {
 // small meshes"): they grow with the square of a strip's width in vertices, not with its length, and a
 // multigrid iteration's with neither.
 constexpr double kWorkOfVertex = 3e4;
-// The same in all, up to which one core keeps up with a GPU, which takes some 10 ms for any step.
-constexpr double kCpuWork = 5e7;
+// A GPU's factorisation is the better by so much more of it.
+constexpr double kGpuShare = 1.5;
+// The same in all, up to which one core keeps up with a GPU, which takes some 2 ms for any step.
+constexpr double kCpuWork = 2e6;
 // Ordering larger cloths would take seconds.
 constexpr int kMaxVertices = 10000;
 
 // By which stiff threads raise it: multigrid then takes more iterations, a factorisation does not.  Seconds
-// of multigrid over those of factorisations in `drape --quick` of 2,400 and 6,000 triangles: 0.66 and 0.52 at
-// 1 kN/m, 0.68 and 1.09 at 10 kN/m, 1.39 and 2.06 at 100 kN/m.
+// of multigrid over those of factorisations in `drape --quick`: of 600 triangles 0.66 at 1 kN/m and 1.15 at
+// 10, of 1,200 1.13 at 10 and 1.67 at 100, of 2,400 0.57 at 10 and 0.86 at 100.
 double stiffness_share(const Fabric& fabric) {
-  constexpr double kSoft = 1e3, kPower = 0.6;  // [N/m]
+  constexpr double kSoft = 1e3, kPower = 0.35;  // [N/m]
   return std::pow(std::max(1.0, std::max(fabric.warp, fabric.weft) / kSoft), kPower);
 }
 
-// Whether linear-solver = auto factorises on a GPU where that pays on the CPU, too, and what its
-// factorisation may take there [us].
-constexpr bool kFactorisesOnGpu = false;
-constexpr double kGpuRenewal = 500;
+bool solves_with_newton(const Scene& scene) {
+  return scene.is_implicit() || (scene.self_contact && scene.integrator == Integrator::semi_implicit);
+}
 
-// Of the matrix whose off-diagonal blocks beside bending's are `couplings`.
-Couplings couplings_of(const ClothMesh& mesh, const Adjacency& couplings, const CurvatureOperator& op) {
+}  // namespace
+
+double factorisation_work(const ClothMesh& mesh, const Adjacency& couplings, const CurvatureOperator& op) {
   CouplingList list(couplings);
   for (int e = 0; e < op.elements(); ++e) {
     std::vector<int> vertices;
@@ -46,28 +48,7 @@ Couplings couplings_of(const ClothMesh& mesh, const Adjacency& couplings, const 
     vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
     list.add(vertices);
   }
-  return list.take();
-}
-
-bool solves_with_newton(const Scene& scene) {
-  return scene.is_implicit() || (scene.self_contact && scene.integrator == Integrator::semi_implicit);
-}
-
-// As the scene asks.
-void take_factorisation(const Scene& scene, MethodChoice& choice) {
-  if (choice.in_float)
-    throw Error::invalid_input(
-        "linear-precision = float is of conjugate gradients: linear-solver = cholesky must be auto, "
-        "multigrid or block-jacobi");
-  if (!choice.gpu || scene.device != DeviceChoice::automatic) return;
-  choice.reason = "device = auto takes the CPU for linear-solver = cholesky";
-  choice.gpu = false;
-}
-
-}  // namespace
-
-double factorisation_work(const ClothMesh& mesh, const Adjacency& couplings, const CurvatureOperator& op) {
-  return plan_elimination(couplings_of(mesh, couplings, op)).multiplications;
+  return plan_elimination(list.take()).multiplications;
 }
 
 MethodChoice choose_method(const Scene& scene, const Cloth& cloth, const CurvatureOperator& op, int gpus) {
@@ -76,25 +57,21 @@ MethodChoice choose_method(const Scene& scene, const Cloth& cloth, const Curvatu
   if (!solves_with_newton(scene)) return choice;
   choice.linear_solver = scene.linear_solver;
   choice.in_float = scene.solves_in_float();
-  if (scene.linear_solver == Preconditioning::cholesky) take_factorisation(scene, choice);
+  if (scene.linear_solver == Preconditioning::cholesky && choice.in_float)
+    throw Error::invalid_input(
+        "linear-precision = float is of conjugate gradients: linear-solver = cholesky must be auto, "
+        "multigrid or block-jacobi");
   if (scene.linear_solver != Preconditioning::automatic) return choice;
   choice.linear_solver = Preconditioning::multigrid;
-  const bool may_take_cpu = scene.device != DeviceChoice::cuda,
-             may_factorise = !choice.in_float && cloth.mesh.vertices() <= kMaxVertices;
-  if (!may_factorise || !(may_take_cpu || kFactorisesOnGpu)) return choice;
-  const Couplings couplings =
-      couplings_of(cloth.mesh, membrane_couplings(cloth.mesh, scene.fabric, scene.membrane_element), op);
-  const double work = plan_elimination(couplings).multiplications;
-  if (work > kWorkOfVertex * stiffness_share(scene.fabric) * cloth.mesh.vertices()) return choice;
-  if (!choice.gpu || (may_take_cpu && work <= kCpuWork)) {
-    choice.linear_solver = Preconditioning::cholesky;
-    if (choice.gpu)
-      choice.reason = "device = auto takes the CPU, which is faster than a GPU for so small a cloth";
+  if (choice.in_float || cloth.mesh.vertices() > kMaxVertices) return choice;
+  const double work = factorisation_work(
+      cloth.mesh, membrane_couplings(cloth.mesh, scene.fabric, scene.membrane_element), op);
+  const double most = kWorkOfVertex * stiffness_share(scene.fabric) * cloth.mesh.vertices();
+  if (choice.gpu && scene.device == DeviceChoice::automatic && work <= std::min(most, kCpuWork)) {
+    choice.reason = "device = auto takes the CPU, which is faster than a GPU for so small a cloth";
     choice.gpu = false;
-  } else if (kFactorisesOnGpu &&
-             plan_dissection(couplings, choose_shape(couplings)).cost.renewal <= kGpuRenewal) {
-    choice.linear_solver = Preconditioning::cholesky;
   }
+  if (work <= (choice.gpu ? kGpuShare : 1) * most) choice.linear_solver = Preconditioning::cholesky;
   return choice;
 }
 

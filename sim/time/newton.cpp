@@ -57,7 +57,8 @@ class Progress {
   void add_ratio(double ratio) { forcing_ = 0.9 * ratio * ratio; }
   // Corrections of full length, each less than half of the one before, go on as a geometric series: what is
   // left after the last is theta/(1 - theta) of it, theta being the last ratio (Hairer & Wanner 1996, section
-  // IV.8) [m]; infinite: unknown.  Stops, contact and friction break the series off: it counts many times.
+  // IV.8) [m]; infinite: unknown.  Contact, its friction and stops break the series off: it counts many
+  // times.
   double left() const { return kMargin * left_; }
 
  private:

@@ -32,17 +32,22 @@ TEST(MethodChoice, FactorisesSmallClothsAndStripsOnTheCpu) {
 }
 
 TEST(MethodChoice, FactorisesLargerClothsOfStiffThreads) {
-  Scene scene = sheet(0.2, 0.2, 1200);
+  Scene scene = sheet(0.2, 0.2, 2000);
   EXPECT_EQ(choice_for(scene, 0).linear_solver, Preconditioning::multigrid);
   scene.fabric.weft = 1e5;
   EXPECT_EQ(choice_for(scene, 0).linear_solver, Preconditioning::cholesky);
 }
 
-TEST(MethodChoice, TakesTheCpuForAStripAndSaysSoButAGpuForASquareOfAsManyTriangles) {
-  const MethodChoice strip = choice_for(sheet(1, 0.025, 2000), 1),
+TEST(MethodChoice, TakesTheCpuForATinyStripAndSaysSoButAGpuForAnythingElse) {
+  const MethodChoice tiny = choice_for(sheet(0.5, 0.025, 300), 1),
+                     strip = choice_for(sheet(1, 0.05, 2000), 1),
                      square = choice_for(sheet(0.5, 0.5, 6000), 1);
-  EXPECT_FALSE(strip.gpu);
-  EXPECT_FALSE(strip.reason.empty());
+  EXPECT_FALSE(tiny.gpu);
+  EXPECT_FALSE(tiny.reason.empty());
+  EXPECT_EQ(tiny.linear_solver, Preconditioning::cholesky);
+  EXPECT_TRUE(strip.gpu);
+  EXPECT_TRUE(strip.reason.empty());
+  EXPECT_EQ(strip.linear_solver, Preconditioning::cholesky);
   EXPECT_TRUE(square.gpu);
   EXPECT_TRUE(square.reason.empty());
   EXPECT_EQ(square.linear_solver, Preconditioning::multigrid);
@@ -52,6 +57,8 @@ TEST(MethodChoice, LeavesWhatTheSceneNames) {
   Scene scene = sheet(1, 0.025, 500);
   scene.device = DeviceChoice::cuda;
   EXPECT_TRUE(choice_for(scene, 1).gpu);
+  EXPECT_EQ(choice_for(scene, 1).linear_solver, Preconditioning::cholesky);
+  scene.linear_solver = Preconditioning::multigrid;
   EXPECT_EQ(choice_for(scene, 1).linear_solver, Preconditioning::multigrid);
   scene.device = DeviceChoice::automatic;
   scene.linear_solver = Preconditioning::block_jacobi;
@@ -66,14 +73,10 @@ TEST(MethodChoice, OfIntegratorsWithoutNewtonsMethodIsTheDeviceAlone) {
   EXPECT_EQ(choice_for(scene, 1).linear_solver, Preconditioning::automatic);
 }
 
-TEST(MethodChoice, FactorisesOnAGpuWhereTheSceneAsksForBoth) {
-  Scene scene = sheet(0.2, 0.2, 500);
-  scene.device = DeviceChoice::cuda;
+TEST(MethodChoice, FactorisesOnAGpuWhateverTheSizeWhereTheSceneAsksForIt) {
+  Scene scene = sheet(0.5, 0.5, 6000);
   scene.linear_solver = Preconditioning::cholesky;
   EXPECT_TRUE(choice_for(scene, 1).gpu);
-  EXPECT_EQ(choice_for(scene, 1).linear_solver, Preconditioning::cholesky);
-  scene.device = DeviceChoice::automatic;
-  EXPECT_FALSE(choice_for(scene, 1).gpu);
   EXPECT_EQ(choice_for(scene, 1).linear_solver, Preconditioning::cholesky);
 }
 
