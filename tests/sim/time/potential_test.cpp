@@ -266,7 +266,7 @@ TEST_P(OfACloth, AFactorisationInFrontsSolvesItInAFewIterations) {
   step.potential.update_friction_limits(x.data());
   step.at(x, step.free_direction(6));
   auto factor = std::make_unique<DissectedFactorisation<double, Cpu>>(
-      step.cpu, std::make_unique<AssembledStiffness<double, Cpu>>(step.cpu, step.rows, step.bending), nullptr,
+      step.cpu, std::make_unique<AssembledStiffness<double, Cpu>>(step.cpu, step.rows, step.bending),
       DissectionShape{2, 2});
   EXPECT_EQ(factor->plan().level.size(), 2u);
   CholeskySolver<double, Cpu> solver(step.cpu, static_cast<int>(x.size()), std::move(factor));
