@@ -36,7 +36,8 @@ constexpr double kTightest = 1e-5;
 // How iterations have come on: how well the next linear system is worth solving, and what would follow.
 class Progress {
  public:
-  explicit Progress(double loosest) : loosest_(loosest), forcing_(loosest) {}
+  Progress(double loosest, bool has_contact)
+      : loosest_(loosest), margin_(has_contact ? kMarginOfContact : 1), forcing_(loosest) {}
 
   // Relative residual of the next linear solve: the better the nearer the minimum (Eisenstat & Walker 1996,
   // choice 2), but no better than what is wanted asks for (Kelley 1995, section 6.3): a share of the force
@@ -57,13 +58,12 @@ class Progress {
   void add_ratio(double ratio) { forcing_ = 0.9 * ratio * ratio; }
   // Corrections of full length, each less than half of the one before, go on as a geometric series: what is
   // left after the last is theta/(1 - theta) of it, theta being the last ratio (Hairer & Wanner 1996, section
-  // IV.8) [m]; infinite: unknown.  Contact, its friction and stops break the series off: it counts many
-  // times.
-  double left() const { return kMargin * left_; }
+  // IV.8) [m]; infinite: unknown.  Contact breaks the series off: with it, that counts many times.
+  double left() const { return margin_ * left_; }
 
  private:
-  static constexpr double kMargin = 10;
-  double loosest_, forcing_, before_ = 0, left_ = std::numeric_limits<double>::infinity();
+  static constexpr double kMarginOfContact = 10;
+  double loosest_, margin_, forcing_, before_ = 0, left_ = std::numeric_limits<double>::infinity();
 };
 }  // namespace
 
@@ -95,7 +95,7 @@ NewtonOutcome Newton<Real, Device>::minimise(Buffer<Vec3<Real>, Device>& x, Pote
                              : tuning.loosest_solve;
   double shift = limits_.first_shift, rounding = 0;
   double predicted = std::numeric_limits<double>::infinity();  // decrease of the last iteration [J]
-  Progress progress(loosest);
+  Progress progress(loosest, potential_.has_friction());
   for (;; ++outcome.iterations) {
     outcome.residual = value.residual;
     outcome.velocity = value.residual * beta_dt * std::sqrt(vertices_) / total_mass;
