@@ -27,6 +27,21 @@ TEST(Program, ExitsWithTwoForAWrongRequestAndOneForAFailingMachine) {
   }
 }
 
+// Beside another program on its cores a run would take many times as long otherwise.
+TEST(Program, LetsThreadsThatWaitSpinShortlyUnlessItsUserSaysHow) {
+  const Folder folder;
+  const auto said = [&](const std::string& environment) {
+    const std::string err = folder.path() / "err";
+    const std::string command = "env -u OMP_WAIT_POLICY -u GOMP_SPINCOUNT " + environment +
+                                " OMP_DISPLAY_ENV=verbose " HYSTERON_PROGRAM " --version >/dev/null 2>" + err;
+    EXPECT_EQ(std::system(command.c_str()), 0);
+    return file_content(err);
+  };
+  EXPECT_NE(said("").find("GOMP_SPINCOUNT = '10000'"), std::string::npos);
+  EXPECT_EQ(said("GOMP_SPINCOUNT=77").find("'10000'"), std::string::npos);
+  EXPECT_EQ(said("OMP_WAIT_POLICY=active").find("'10000'"), std::string::npos);
+}
+
 TEST(Program, RefusesRunsThatWouldDoNothing) {
   const Folder folder;
   const std::string out = " --quiet --no-images" + out_flag(folder.path() / "out");

@@ -11,7 +11,7 @@ namespace hysteron::experiments {
 namespace {
 namespace fs = std::filesystem;
 
-constexpr std::string_view kMagic = "hysteron checkpoint ", kFormat = "2\n";
+constexpr std::string_view kMagic = "hysteron checkpoint ", kFormat = "3\n";
 constexpr std::size_t kMax = std::size_t{1} << 40;
 constexpr const char* kAnew = "; without --resume the run begins anew";
 

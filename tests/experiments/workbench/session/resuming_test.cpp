@@ -231,7 +231,7 @@ TEST_F(RefusedCheckpoint, NamesWhatIsWrong) {
     flipped[at] ^= 16;
   }
   std::string future = good_;
-  future[std::string("hysteron checkpoint ").size()] = '3';
+  future[std::string("hysteron checkpoint ").size()] = '9';
   put(future);
   expect_refusal("it has the format of another version of hysteron");
   const std::string manifest = file_content(out_ / "manifest.json");
