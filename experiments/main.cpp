@@ -32,8 +32,7 @@ void say_last_words(const CommandLine& line) {
 // the cores, steps of small cloth take up to thirty times as long.  The library reads the number when it is
 // loaded, so the program starts itself anew with a smaller one, once, unless its user has said how to wait.
 void spin_shortly(char** words) {
-  constexpr const char* kRounds =
-      "10000";  // some 20 us, longer than a loop's end waits for its slowest thread
+  constexpr const char* kRounds = "10000";
   if (std::getenv("GOMP_SPINCOUNT") || std::getenv("OMP_WAIT_POLICY")) return;
   setenv("GOMP_SPINCOUNT", kRounds, 0);
   execv("/proc/self/exe", words);  // returns where that is not to be had: then they spin

@@ -14,7 +14,7 @@
 
 namespace hysteron {
 
-// Of a system's matrix, and the preconditioner that it is.
+// A factorisation of a system's matrix, which preconditions others like it.
 template <class Real, class Device>
 class Factorisation : public Preconditioner<Real, Device> {
  public:

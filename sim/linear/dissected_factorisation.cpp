@@ -11,7 +11,7 @@ namespace hysteron {
 
 namespace {
 
-// What an iteration of conjugate gradients takes an H100 beside the application [us].
+// An iteration of conjugate gradients takes an H100 so long beside the application [us].
 constexpr double kIteration = 8;
 constexpr int kMinWorth = 6;  // as on the CPU
 

@@ -47,7 +47,7 @@ class Preconditioner {
   // the same for all calls within a solve.  r is zero on held rows.  With scalars: advances them by r' P r,
   // and does nothing once they are done.
   virtual void apply(const Vec3<Real>* r, Vec3<Real>* z, PcgScalars* scalars) = 0;
-  // Makes of the view what it does as loops that a GPU runs in one launch (pcg_in_one_launch.h); false: it
+  // Makes of the view what it does as loops that a GPU runs in one launch (levels_in_one_launch.h); false: it
   // has none.
   virtual bool in_one_launch(OneLaunchView<Real>&) { return false; }
   virtual std::size_t bytes() const = 0;

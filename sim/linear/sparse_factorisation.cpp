@@ -12,15 +12,32 @@ constexpr double kMultiplicationsOfEntry = 12;
 constexpr double kAssembly = 1.5;  // factorisation with assembly over without, at least
 constexpr int kMinWorth = 6;
 
+// A system's pairs of layers as elements.
+template <class Real>
+class PairElements : public ElementStiffness {
+ public:
+  explicit PairElements(const PairProduct<Real>& pairs) : pairs_(pairs) {}
+
+  int elements() const override { return pairs_.count; }
+  std::span<const int> vertices(int pair) const override { return pairs_.pair[pair].v; }
+  void linearised(int pair, Rates& rates, Eigen::Matrix3d& stiffness) const override {
+    const PairStiffness<Real>& s = pairs_.pair[pair];
+    for (int k = 0; k < 4; ++k)
+      rates.middleCols<3>(3 * k) = static_cast<double>(s.weight[k]) * Eigen::Matrix3d::Identity();
+    stiffness = s.block.template cast<double>();
+  }
+
+ private:
+  PairProduct<Real> pairs_;
+};
+
 }  // namespace
 
 template <class Real>
 SparseFactorisation<Real>::SparseFactorisation(Cpu& device, const BlockRows<Real, Cpu>& pattern,
-                                               std::unique_ptr<ElementStiffness> bending,
-                                               std::unique_ptr<ElementStiffness> self_contact)
+                                               std::unique_ptr<ElementStiffness> bending)
     : device_(device),
       bending_(std::move(bending)),
-      self_contact_(std::move(self_contact)),
       pattern_(pattern.pattern()),
       values_(3 * (pattern_.start.size() - 1)) {
   CouplingList list(pattern_);
@@ -44,22 +61,23 @@ void SparseFactorisation<Real>::take_couplings(Couplings couplings) {
 }
 
 template <class Real>
-bool SparseFactorisation<Real>::contact_is_coupled() const {
-  for (int pair = 0; pair < self_contact_->elements(); ++pair)
-    if (!matrix_.couples(self_contact_->vertices(pair))) return false;
+bool SparseFactorisation<Real>::are_coupled(const PairProduct<Real>& pairs) const {
+  for (int p = 0; p < pairs.count; ++p)
+    if (!matrix_.couples(pairs.pair[p].v)) return false;
   return true;
 }
 
 // Pairs that no longer press stay until others come.
 template <class Real>
-void SparseFactorisation<Real>::couple_contact() {
+void SparseFactorisation<Real>::couple(const PairProduct<Real>& pairs) {
   CouplingList list(always_);
-  for (int pair = 0; pair < self_contact_->elements(); ++pair) list.add(self_contact_->vertices(pair));
+  for (int p = 0; p < pairs.count; ++p) list.add(pairs.pair[p].v);
   take_couplings(list.take());
 }
 
 template <class Real>
-void SparseFactorisation<Real>::assemble(const BlockRowsView<Real>& rows, const char* held) {
+void SparseFactorisation<Real>::assemble(const LinearSystem<Real, Cpu>& system, const char* held) {
+  const BlockRowsView<Real>& rows = system.matrix;
   matrix_.set_zero();
   for (int i = 0; i < rows.rows; ++i) {
     matrix_.diagonal[i] = rows.diagonal[i].template cast<double>();
@@ -69,19 +87,20 @@ void SparseFactorisation<Real>::assemble(const BlockRowsView<Real>& rows, const 
   const int* slots = bending_slot_.data();
   if (bending_)
     for (int e = 0; e < bending_->elements(); ++e) slots = matrix_.add(*bending_, e, slots);
+  const PairElements<Real> pairs(system.pairs);
   std::vector<int> pair_slots;
-  for (int pair = 0; self_contact_ && pair < self_contact_->elements(); ++pair) {
+  for (int p = 0; p < pairs.elements(); ++p) {
     pair_slots.clear();
-    matrix_.find_slots(self_contact_->vertices(pair), pair_slots);
-    matrix_.add(*self_contact_, pair, pair_slots.data());
+    matrix_.find_slots(pairs.vertices(p), pair_slots);
+    matrix_.add(pairs, p, pair_slots.data());
   }
   matrix_.hold(held);
 }
 
 template <class Real>
 void SparseFactorisation<Real>::renew(const LinearSystem<Real, Cpu>& system, const char* held) {
-  if (self_contact_ && !contact_is_coupled()) couple_contact();
-  assemble(system.matrix, held);
+  if (!are_coupled(system.pairs)) couple(system.pairs);
+  assemble(system, held);
   factor_->factorise(matrix_);
   held_.assign(held, held + matrix_.nodes());
 }

@@ -13,10 +13,9 @@ namespace hysteron {
 template <class Real>
 class SparseFactorisation : public Factorisation<Real, Cpu> {
  public:
-  // The stiffnesses of bending and self-contact, null where a system has none.
+  // The stiffness of bending, null where a system has none.
   SparseFactorisation(Cpu& device, const BlockRows<Real, Cpu>& pattern,
-                      std::unique_ptr<ElementStiffness> bending,
-                      std::unique_ptr<ElementStiffness> self_contact);
+                      std::unique_ptr<ElementStiffness> bending);
 
   void renew(const LinearSystem<Real, Cpu>& system, const char* held) override;
   int worth() const override;
@@ -25,13 +24,13 @@ class SparseFactorisation : public Factorisation<Real, Cpu> {
   std::size_t bytes() const override;
 
  private:
-  bool contact_is_coupled() const;
-  void couple_contact();
+  bool are_coupled(const PairProduct<Real>& pairs) const;
+  void couple(const PairProduct<Real>& pairs);
   void take_couplings(Couplings couplings);
-  void assemble(const BlockRowsView<Real>& rows, const char* held);
+  void assemble(const LinearSystem<Real, Cpu>& system, const char* held);
 
   Cpu& device_;
-  std::unique_ptr<ElementStiffness> bending_, self_contact_;
+  std::unique_ptr<ElementStiffness> bending_;
   Adjacency pattern_;  // of the systems' matrices
   Couplings always_;   // of these and of bending
   std::vector<int> row_slot_, bending_slot_;

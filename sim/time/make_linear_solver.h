@@ -6,7 +6,6 @@
 
 #include "sim/bending/assembled_stiffness.h"
 #include "sim/bending/bending_elements.h"
-#include "sim/contact/pair_elements.h"
 #include "sim/linear/dissected_factorisation.h"
 #include "sim/linear/float_solver.h"
 #include "sim/linear/multigrid_solver.h"
@@ -18,11 +17,9 @@ namespace hysteron {
 // A factorisation whose triangular solves are short on a CPU, or whose waiting is on a GPU.
 template <class Real>
 std::unique_ptr<Factorisation<Real, Cpu>> make_factorisation(const Body<Real, Cpu>& body) {
-  std::unique_ptr<ElementStiffness> bending, self_contact;
+  std::unique_ptr<ElementStiffness> bending;
   if (body.scene.is_implicit()) bending = std::make_unique<BendingElements<Real>>(body.bending);
-  if (body.self_contact) self_contact = std::make_unique<PairElements<Real>>(*body.self_contact);
-  return std::make_unique<SparseFactorisation<Real>>(*body.device, body.matrix, std::move(bending),
-                                                     std::move(self_contact));
+  return std::make_unique<SparseFactorisation<Real>>(*body.device, body.matrix, std::move(bending));
 }
 template <class Real, class Device>
 std::unique_ptr<Factorisation<Real, Device>> make_factorisation(const Body<Real, Device>& body) {

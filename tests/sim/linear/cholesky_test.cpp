@@ -21,34 +21,28 @@ using Eigen::VectorXd;
 constexpr double kRounding = 1e-10;  // relative; of systems whose condition is below 1e5
 
 // Springs w^T w between four vertices, as of pairs that touch.
-struct Springs : ElementStiffness {
+struct Springs {
   std::vector<std::array<int, 4>> vertex;
   double stiffness = 50;
+  std::vector<PairStiffness<double>> pair;
+  Adjacency of_vertex;
 
-  int elements() const override { return static_cast<int>(vertex.size()); }
-  std::span<const int> vertices(int e) const override { return vertex[e]; }
   static double weight(int corner) { return std::array{1.0, -0.5, -0.3, -0.2}[corner]; }
-  void linearised(int, Rates& rates, Matrix3d& block) const override {
-    for (int k = 0; k < 4; ++k) rates.middleCols<3>(3 * k) = weight(k) * Matrix3d::Identity();
-    block = stiffness * Vector3d(1, 2, 2).normalized() * Vector3d(1, 2, 2).normalized().transpose();
+  Matrix3d block() const {
+    return stiffness * Vector3d(1, 2, 2).normalized() * Vector3d(1, 2, 2).normalized().transpose();
   }
   void add_to(MatrixXd& dense) const {
-    Rates rates(3, 12);
-    Matrix3d block;
-    for (int e = 0; e < elements(); ++e) {
-      linearised(e, rates, block);
+    for (const std::array<int, 4>& of : vertex)
       for (int a = 0; a < 4; ++a)
         for (int b = 0; b < 4; ++b)
-          dense.block<3, 3>(3 * vertex[e][a], 3 * vertex[e][b]) += weight(a) * weight(b) * block;
-    }
+          dense.block<3, 3>(3 * of[a], 3 * of[b]) += weight(a) * weight(b) * block();
   }
   // The same as a device has them.
   PairProduct<double> pairs(int nodes) {
-    Rates rates(3, 12);
     pair.resize(vertex.size());
     std::vector<std::vector<int>> rows(nodes);
-    for (int e = 0; e < elements(); ++e) {
-      linearised(e, rates, pair[e].block);
+    for (int e = 0; e < static_cast<int>(vertex.size()); ++e) {
+      pair[e].block = block();
       for (int k = 0; k < 4; ++k) {
         pair[e].v[k] = vertex[e][k];
         pair[e].weight[k] = weight(k);
@@ -56,18 +50,14 @@ struct Springs : ElementStiffness {
       }
     }
     of_vertex = compressed(rows);
-    return {of_vertex.start.data(), of_vertex.item.data(), pair.data(), elements()};
+    return {of_vertex.start.data(), of_vertex.item.data(), pair.data(), static_cast<int>(pair.size())};
   }
-  std::vector<PairStiffness<double>> pair;
-  Adjacency of_vertex;
 };
 
 using Factor = std::unique_ptr<Factorisation<double, Cpu>>;
 
-// One that takes elements keeps the springs.
-Factor make_factor(const std::string& kind, test::RandomSystem& of, std::unique_ptr<Springs>& springs) {
-  if (kind == "sparse")
-    return std::make_unique<SparseFactorisation<double>>(of.cpu, of.rows, nullptr, std::move(springs));
+Factor make_factor(const std::string& kind, test::RandomSystem& of) {
+  if (kind == "sparse") return std::make_unique<SparseFactorisation<double>>(of.cpu, of.rows, nullptr);
   DissectionShape shape;  // one front
   if (kind == "flat") shape = {2, 2};
   if (kind == "tree") shape = {3, 1};
@@ -77,18 +67,17 @@ Factor make_factor(const std::string& kind, test::RandomSystem& of, std::unique_
 
 // With springs between far vertices.
 struct System : test::RandomSystem {
-  std::unique_ptr<Springs> made = std::make_unique<Springs>();
-  Springs* springs = made.get();
+  Springs springs;
   std::vector<Vec3<double>> x;
   std::unique_ptr<CholeskySolver<double, Cpu>> solver;
 
   explicit System(const std::string& kind) : RandomSystem(12), x(n()) {
-    solver = std::make_unique<CholeskySolver<double, Cpu>>(cpu, n(), make_factor(kind, *this, made));
+    solver = std::make_unique<CholeskySolver<double, Cpu>>(cpu, n(), make_factor(kind, *this));
   }
 
   MatrixXd dense() {
     MatrixXd a = RandomSystem::dense();
-    springs->add_to(a);
+    springs.add_to(a);
     return a;
   }
   double error() {
@@ -97,7 +86,7 @@ struct System : test::RandomSystem {
   }
   PcgOutcome solve(double tolerance = 1e-12) {
     LinearSystem<double, Cpu> system = linear();
-    system.pairs = springs->pairs(n());
+    system.pairs = springs.pairs(n());
     return solver->solve(system, held.data(), rhs.data(), x.data(), tolerance);
   }
 };
@@ -119,13 +108,13 @@ TEST_P(Cholesky, SolvesInAnIterationOrTwoWhatADenseSolveDoes) {
 TEST_P(Cholesky, FollowsPairsThatComeAndGoAndHandsThatTakeHold) {
   System system(GetParam());
   const int last = system.n() - 1;
-  system.springs->vertex = {{0, last, last - 1, last - 2}, {5, 30, 31, 33}};
+  system.springs.vertex = {{0, last, last - 1, last - 2}, {5, 30, 31, 33}};
   EXPECT_LE(system.solve().iterations, 2);
   EXPECT_LT(system.error(), kRounding);
-  system.springs->vertex = {{5, 30, 31, 33}};
+  system.springs.vertex = {{5, 30, 31, 33}};
   EXPECT_TRUE(system.solve().converged);
   EXPECT_LT(system.error(), kRounding);
-  system.springs->vertex = {{7, last, last - 4, 40}};
+  system.springs.vertex = {{7, last, last - 4, 40}};
   system.held[7] = 1;  // not as when the factorisation was made: a new one
   EXPECT_LE(system.solve().iterations, 2);
   EXPECT_LT(system.error(), kRounding);
