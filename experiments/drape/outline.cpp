@@ -66,7 +66,14 @@ int Outline::nodes(double prominence) const {
 
 Outline outline_from_above(const ClothMesh& mesh, const std::vector<Eigen::Vector3d>& x, int directions) {
   Outline outline{std::vector<double>(directions, 0)};
-  for (const Edge& e : mesh.edge) mark_edge(x[e.p2].head<2>(), x[e.p3].head<2>(), outline.radius);
+  const auto mark = [&](const Edge& e) { mark_edge(x[e.p2].head<2>(), x[e.p3].head<2>(), outline.radius); };
+  for (const Edge& e : mesh.edge)
+    if (!e.interior()) mark(e);
+  // The border leaves few others that could reach any ray's end.
+  constexpr double kRounding = 1e-9;
+  const double shortest = (1 - kRounding) * *std::min_element(outline.radius.begin(), outline.radius.end());
+  for (const Edge& e : mesh.edge)
+    if (e.interior() && std::max(x[e.p2].head<2>().norm(), x[e.p3].head<2>().norm()) >= shortest) mark(e);
   return outline;
 }
 

@@ -9,7 +9,8 @@ template <class Real, class Device>
 class LinearSolver {
  public:
   virtual ~LinearSolver() = default;
-  // The systems that follow resemble one another until it is called again, and hold the same rows.
+  // The systems that follow resemble one another until it is called again, and hold the same rows: those of a
+  // step, whatever its stages.
   virtual void begin() {}
   // system * x = rhs for the rows that are not held, zero for those that are.
   virtual PcgOutcome solve(const LinearSystem<Real, Device>& system, const char* held, const Vec3<Real>* rhs,

@@ -86,7 +86,7 @@ void ImplicitStep<Real, Device>::become_static() {
 template <class Real, class Device>
 NewtonOutcome ImplicitStep<Real, Device>::solve(double h, double fraction, bool is_first_stage) {
   formula_ = step_formula(h, is_first_stage);
-  solver_->begin();
+  if (is_first_stage || !two_stage_) solver_->begin();
   fraction_ = static_cast<Real>(fraction);
   place();
   potential_.begin({formula_, rate_formula(h), body_.x.data(), x_before_.data(), reference_.data(),
