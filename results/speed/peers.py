@@ -280,7 +280,8 @@ def fall(rate, kept=1.0, order=1):
 def free_fall(size, solvers, hysteron, peers):
     """Without held corners every vertex falls alike, as far as a formula says: gravity and instant are the same.
 
-    tr-bdf2 falls as far as a point does but for its first step.
+    tr-bdf2 falls as far as a point does but for its first step.  Style3D is given far more iterations than its examples
+    have: with 4 x 10 it falls half as far.
     """
     rows, case = [], Case("isotropic", TENSIONS[0], size)
     case.load(hysteron)
@@ -290,7 +291,7 @@ def free_fall(size, solvers, hysteron, peers):
         expected = exact if integrator == "tr-bdf2" else fall(rate, order=1 + (integrator == "bdf2"))
         rows.append((f"hysteron {integrator}", rate, rest, end, expected))
     for solver in solvers:
-        job = Job(solver, 0, case, 60, *{"vbd": (4,), "libuipc": ("bdf1", 1e-3)}.get(solver, (4, 10)))
+        job = Job(solver, 0, case, 60, *{"vbd": (4,), "libuipc": ("bdf1", 1e-3)}.get(solver, (40, 200)))
         try:
             end, _ = peers.run(job, 1, held=[])
         except (RuntimeError, subprocess.TimeoutExpired) as error:

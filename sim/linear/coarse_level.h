@@ -36,7 +36,8 @@ struct CoarseLevelView {
   double* inverse_eigenvalue;  // of inverse * matrix, the largest
   Vec3<Real>*b, *x, *y;        // right-hand side; sweeps go from x to y and back; the result is in y
 
-  HYST_HD Vec3<Real> restricted(int i, const Vec3<Real>* fine) const {
+  template <class Vector>
+  HYST_HD Vec3<Real> restricted(int i, const Vector& fine) const {
     Vec3<Real> sum = Vec3<Real>::Zero();
     for (int j = start[i]; j < start[i + 1]; ++j) sum += weight[j] * fine[item[j]];
     return sum;

@@ -12,10 +12,10 @@ namespace hysteron {
 inline constexpr double kFirstDamping = 1.1233, kSecondDamping = 2.7790;
 
 // Right-hand side from the finer residual and, where the level is swept, the first sweep from zero: x.
-template <class Real>
+template <class Real, class Vector = const Vec3<Real>*>
 struct Restriction {
   CoarseLevelView<Real> level;
-  const Vec3<Real>* finer;
+  Vector finer;
   bool is_swept;
 
   template <class Lanes>
@@ -110,7 +110,7 @@ struct DenseRow {
   }
 };
 
-// z = w D^-1 r + I y with the coarse levels' y, and r' z.
+// z = w D^-1 r + I y with the coarse levels' y, and r' z; before it the step that brings r, if there is one.
 template <class Real>
 struct Combination {
   const char* held;
@@ -121,11 +121,13 @@ struct Combination {
   const Vec3<Real>* r;
   Vec3<Real>* z;
   const PcgScalars* scalars;  // null: not of an iteration
+  Advance<Real> step;         // without q: none
 
   HYST_HD void operator()(int i, Sums<1>& sums) const {
     if (scalars && scalars->done) return;
     Vec3<Real> sum = Vec3<Real>::Zero();
     if (!held[i]) {
+      if (step.q) step.move(i);
       sum = weight * (inverse[i] * r[i]);
       if (finer) sum += finer[i].of(correction);
     }

@@ -67,11 +67,14 @@ bool eigenvalues_in_one_launch(Cuda& cuda, const CycleView<Real>& cycle) {
 
 // From the finer level's residual to the first level's y.
 template <class Real>
-__device__ void run_cycle(GridTeam& team, const CycleView<Real>& cycle, const Vec3<Real>* residual) {
+__device__ void run_cycle(GridTeam& team, const CycleView<Real>& cycle, const NextResidual<Real>& residual) {
   for (int l = 0; l < cycle.levels; ++l) {
     const CoarseLevelView<Real>& v = cycle.level[l];
-    const Vec3<Real>* finer = l == 0 ? residual : cycle.level[l - 1].x;
-    for_each_block_row(team, v.nodes, Restriction<Real>{v, finer, l < cycle.swept});
+    const bool is_swept = l < cycle.swept;
+    if (l == 0)
+      for_each_block_row(team, v.nodes, Restriction<Real, NextResidual<Real>>{v, residual, is_swept});
+    else
+      for_each_block_row(team, v.nodes, Restriction<Real>{v, cycle.level[l - 1].x, is_swept});
     if (l == cycle.swept) {
       team.for_each_row(cycle.dense.rows, cycle.dense);
       break;

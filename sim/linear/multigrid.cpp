@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include "sim/linear/level_setup.h"
 #include "sim/linear/levels_in_one_launch.h"
@@ -123,40 +124,69 @@ void Multigrid<Real, Device>::sweep(CoarseLevel<Real, Device>& level, const int*
 
 template <class Real, class Device>
 void Multigrid<Real, Device>::apply(const Vec3<Real>* r, Vec3<Real>* z, PcgScalars* scalars) {
-  const int levels = coarse();
+  descend(r, scalars);
+  ascend(scalars);
+  combine(combination(r, z, scalars), scalars);
+}
+
+template <class Real, class Device>
+bool Multigrid<Real, Device>::step_and_apply(const Advance<Real>& step, Vec3<Real>* z, PcgScalars& scalars) {
+  descend(NextResidual<Real>{step}, &scalars);
+  ascend(&scalars);
+  Combination<Real> last = combination(step.r, z, &scalars);
+  last.step = step;
+  combine(last, &scalars);
+  return true;
+}
+
+// From the residual to the coarsest level's y.
+template <class Real, class Device>
+template <class Vector>
+void Multigrid<Real, Device>::descend(const Vector& residual, const PcgScalars* scalars) {
   const int* stop = scalars ? &scalars->done : nullptr;
-  const Vec3<Real>* residual = r;
-  for (int l = 0; l < levels; ++l) {
+  for (int l = 0; l < coarse(); ++l) {
     const CoarseLevel<Real, Device>& level = level_[l];
     const CoarseLevelView<Real> v = level_[l].view();
-    const Kernel restriction = {"multigrid: restrict", level.gather_bytes() +
-                                                           level.finer.size() * sizeof(Vec3<Real>) +
-                                                           total_bytes(level.inverse, level.b, level.x)};
-    const Kernel residual_kernel = {"multigrid: residual",
-                                    level.matrix_bytes() + total_bytes(level.b, level.x, level.y)};
-    for_each_block_row(device_, restriction, v.nodes, Restriction<Real>{v, residual, l < swept()}, stop);
-    if (l == swept()) {
-      dense_->apply(device_, v.b, v.y, stop);
-      break;
-    }
+    const std::size_t finer =
+        (std::is_pointer_v<Vector> || l > 0 ? 1 : 2) * level.finer.size() * sizeof(Vec3<Real>);
+    const Kernel restriction = {"multigrid: restrict",
+                                level.gather_bytes() + finer + total_bytes(level.inverse, level.b, level.x)};
+    if (l == 0)
+      for_each_block_row(device_, restriction, v.nodes, Restriction<Real, Vector>{v, residual, l < swept()},
+                         stop);
+    else
+      for_each_block_row(device_, restriction, v.nodes,
+                         Restriction<Real>{v, level_[l - 1].view().x, l < swept()}, stop);
+    if (l == swept()) return dense_->apply(device_, v.b, v.y, stop);
     for_each_block_row(device_, smoothing_kernel(level), v.nodes,
                        JacobiSweep<Real>{v, kSecondDamping, v.x, v.y}, stop);
-    if (l + 1 < levels) for_each_block_row(device_, residual_kernel, v.nodes, LevelResidual<Real>{v}, stop);
-    residual = v.x;
+    const Kernel residual_kernel = {"multigrid: residual",
+                                    level.matrix_bytes() + total_bytes(level.b, level.x, level.y)};
+    if (l + 1 < coarse()) for_each_block_row(device_, residual_kernel, v.nodes, LevelResidual<Real>{v}, stop);
   }
+}
+
+// Back to the first level's y.
+template <class Real, class Device>
+void Multigrid<Real, Device>::ascend(const PcgScalars* scalars) {
+  const int* stop = scalars ? &scalars->done : nullptr;
   for (int l = swept() - 1; l >= 0; --l) {
-    if (l + 1 < levels)
+    if (l + 1 < coarse())
       for_each(
           device_,
           {"multigrid: correct", total_bytes(level_[l + 1].finer, level_[l + 1].y, level_[l].y, level_[l].y)},
           level_[l].nodes, CoarseCorrection<Real>{level_[l].view(), level_[l + 1].view()});
     sweep(level_[l], stop);
   }
-  const std::size_t vectors = 2 * vertices_ * sizeof(Vec3<Real>),
-                    from_coarse = levels > 0 ? total_bytes(level_[0].finer, level_[0].y) : 0;
+}
+
+template <class Real, class Device>
+void Multigrid<Real, Device>::combine(const Combination<Real>& combination, PcgScalars* scalars) {
+  const std::size_t vectors = (combination.step.q ? 7 : 2) * vertices_ * sizeof(Vec3<Real>),
+                    from_coarse = coarse() > 0 ? total_bytes(level_[0].finer, level_[0].y) : 0;
   sum_over_vertices(
-      device_, {"multigrid: combine", inverse_.bytes() + vectors + from_coarse}, vertices_,
-      combination(r, z, scalars), HYST_KERNEL(const Sums<1>& total) {
+      device_, {"multigrid: combine", inverse_.bytes() + vectors + from_coarse}, vertices_, combination,
+      HYST_KERNEL(const Sums<1>& total) {
         if (scalars) scalars->advance(total.term[0]);
       });
 }
@@ -164,9 +194,9 @@ void Multigrid<Real, Device>::apply(const Vec3<Real>* r, Vec3<Real>* z, PcgScala
 template <class Real, class Device>
 Combination<Real> Multigrid<Real, Device>::combination(const Vec3<Real>* r, Vec3<Real>* z,
                                                        const PcgScalars* scalars) const {
-  if (level_.empty()) return {held_, inverse_.data(), Real(1), nullptr, nullptr, r, z, scalars};
+  if (level_.empty()) return {held_, inverse_.data(), Real(1), nullptr, nullptr, r, z, scalars, {}};
   const CoarseLevel<Real, Device>& first = level_[0];
-  return {held_, inverse_.data(), Real(kFinestWeight), first.finer.data(), first.y.data(), r, z, scalars};
+  return {held_, inverse_.data(), Real(kFinestWeight), first.finer.data(), first.y.data(), r, z, scalars, {}};
 }
 
 template <class Real, class Device>

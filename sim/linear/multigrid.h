@@ -37,6 +37,7 @@ class Multigrid : public Preconditioner<Real, Device> {
     invert_diagonal(matrix, bending_diagonal, held_, inverse_.data());
   }
   void apply(const Vec3<Real>* r, Vec3<Real>* z, PcgScalars* scalars = nullptr) override;
+  bool step_and_apply(const Advance<Real>& step, Vec3<Real>* z, PcgScalars& scalars) override;
   // Iterations that take about as long as new coarse levels.
   double worth() const { return 2 + (dense_ ? dense_->worth() : 0); }
   bool in_one_launch(OneLaunchView<Real>& view) override;
@@ -47,11 +48,15 @@ class Multigrid : public Preconditioner<Real, Device> {
   void invert_diagonal(BlockRowsView<Real> matrix, const Mat3<Real>* added, const char* held,
                        Mat3<Real>* inverse);
   void find_eigenvalue(CoarseLevel<Real, Device>& level);
+  void combine(const Combination<Real>& combination, PcgScalars* scalars);
 
  private:
   Combination<Real> combination(const Vec3<Real>* r, Vec3<Real>* z, const PcgScalars* scalars) const;
   int coarse() const { return static_cast<int>(level_.size()); }  // levels
   int swept() const { return coarse() - (dense_ ? 1 : 0); }
+  template <class Vector>
+  void descend(const Vector& residual, const PcgScalars* scalars);
+  void ascend(const PcgScalars* scalars);
   // For one launch.
   bool has_view_from(int first) const;
   CycleView<Real> view_from(int first);

@@ -179,15 +179,32 @@ PcgIterations<Real> Pcg<Real, Device>::iterations(const System& system, const ch
 }
 
 template <class Real, class Device>
+template <bool kHasPairs>
+void Pcg<Real, Device>::multiply(const ProductTerms<Real, kHasPairs>& product, std::size_t bytes) {
+  PcgScalars* s = scalars_.data();
+  for_each_block_row_sum<1>(
+      device_, {"solve: product", bytes + vectors(2)}, rows_, product,
+      HYST_KERNEL(const Sums<1>& total) { s->find_length(total.term[0]); }, blocks_each<Real>(rows_));
+}
+
+template <class Real, class Device>
 void Pcg<Real, Device>::iterate(const System& system, const char* held, Vec3<Real>* x) {
   const PcgIterations<Real> loops = iterations(system, held, x);
   PcgScalars* s = scalars_.data();
-  for_each_block_row_sum<1>(
-      device_, {"solve: product", system.bytes + vectors(2)}, rows_, loops.product,
-      HYST_KERNEL(const Sums<1>& total) { s->find_length(total.term[0]); }, blocks_each<Real>(rows_));
+  const ProductTerms<Real>& terms = loops.product;
+  if (system.pairs.start) {
+    multiply(terms, system.bytes);
+  } else {
+    const SystemProduct<Real, false> alone{
+        terms.product.matrix, terms.product.softening, terms.product.bending, {}};
+    multiply(ProductTerms<Real, false>{alone, terms.held, terms.p, terms.q, terms.scalars}, system.bytes);
+  }
   if (system.preconditioner) {
-    for_each(device_, {"solve: advance", vectors(6)}, rows_, loops.advance.advance);
-    system.preconditioner->apply(r_.data(), z_.data(), s);
+    const Advance<Real>& step = loops.advance.advance;
+    if (!system.preconditioner->step_and_apply(step, z_.data(), *s)) {
+      for_each(device_, {"solve: advance", vectors(6)}, rows_, step);
+      system.preconditioner->apply(r_.data(), z_.data(), s);
+    }
   } else {
     for_each_sum<1>(
         device_, {"solve: advance", inverse_.bytes() + vectors(7)}, rows_, loops.advance,

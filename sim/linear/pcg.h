@@ -86,6 +86,8 @@ class Pcg {
   void find_target(const System& system, const char* held, const Vec3<Real>* rhs, const Vec3<Real>* known,
                    PcgEnd end);
   void iterate(const System& system, const char* held, Vec3<Real>* x);
+  template <bool kHasPairs>
+  void multiply(const ProductTerms<Real, kHasPairs>& product, std::size_t bytes);
 
  private:
   // Its loops; orders those of bending's product.

@@ -11,9 +11,9 @@ namespace hysteron {
 // The loops of an iteration of conjugate gradients, row by row.
 
 // q = A p, and p' q.
-template <class Real>
+template <class Real, bool kHasPairs = true>
 struct ProductTerms {
-  SystemProduct<Real> product;
+  SystemProduct<Real, kHasPairs> product;
   const char* held;
   const Vec3<Real>* p;
   Vec3<Real>* q;
@@ -21,7 +21,11 @@ struct ProductTerms {
 
   template <class Lanes>
   HYST_HD void operator()(int i, const Lanes& lanes, Sums<1>& sums) const {
-    if (scalars->done || held[i]) return;
+    if (scalars->done) return;
+    if (held[i]) {
+      if (lanes.leads()) q[i] = Vec3<Real>::Zero();
+      return;
+    }
     const Vec3<Real> row = product.at(lanes, i, p);
     if (!lanes.leads()) return;
     q[i] = row;
@@ -29,25 +33,7 @@ struct ProductTerms {
   }
 };
 
-// A step along p: x, and the residual r.
-template <class Real>
-struct Advance {
-  const char* held;
-  const Vec3<Real>*p, *q;
-  Vec3<Real>*x, *r;
-  const PcgScalars* scalars;
-
-  HYST_HD void operator()(int i) const {
-    if (!scalars->done && !held[i]) move(i);
-  }
-  HYST_HD void move(int i) const {
-    const Real alpha = static_cast<Real>(scalars->alpha);
-    x[i] += alpha * p[i];
-    r[i] -= alpha * q[i];
-  }
-};
-
-// The same with z = D^-1 r, and r' z.
+// A step, z = D^-1 r, and r' z.
 template <class Real>
 struct AdvanceTerms {
   Advance<Real> advance;
@@ -105,7 +91,7 @@ struct NextProduct {
   template <class Lanes>
   __device__ void operator()(int i, const Lanes& lanes, Sums<1>& sums) const {
     if (held[i]) {
-      if (lanes.leads()) p[i] = Vec3<Real>::Zero();
+      if (lanes.leads()) p[i] = q[i] = Vec3<Real>::Zero();
       return;
     }
     const Vec3<Real> row = product.at(lanes, i, next);
@@ -146,14 +132,16 @@ struct PcgTeam {
 
  private:
   __device__ double preconditioned(GridTeam& team, const Advance<Real>& advance) const {
-    team.for_each(of.rows, advance);
-    if (preconditioner.kind == OneLaunchView<Real>::kFronts)
+    if (preconditioner.kind == OneLaunchView<Real>::kFronts) {
+      team.for_each(of.rows, advance);
       return run_fronts(team, preconditioner.fronts, advance.r, of.advance.z, advance.scalars);
-    run_cycle(team, preconditioner.cycle, advance.r);
+    }
+    run_cycle(team, preconditioner.cycle, NextResidual<Real>{advance});
     Combination<Real> combination = preconditioner.cycle.combination;
     combination.r = advance.r;
     combination.z = of.advance.z;
     combination.scalars = advance.scalars;
+    combination.step = advance;
     return team.sum(of.rows, combination);
   }
 };

@@ -36,6 +36,24 @@ struct PcgScalars {
   }
 };
 
+// A step along p: x, and the residual r.
+template <class Real>
+struct Advance {
+  const char* held = nullptr;
+  const Vec3<Real>*p = nullptr, *q = nullptr;  // q = A p; zero on held rows
+  Vec3<Real>*x = nullptr, *r = nullptr;
+  const PcgScalars* scalars = nullptr;
+
+  HYST_HD void operator()(int i) const {
+    if (!scalars->done && !held[i]) move(i);
+  }
+  HYST_HD void move(int i) const {
+    const Real alpha = static_cast<Real>(scalars->alpha);
+    x[i] += alpha * p[i];
+    r[i] -= alpha * q[i];
+  }
+};
+
 template <class Real>
 struct OneLaunchView;
 
@@ -47,6 +65,10 @@ class Preconditioner {
   // the same for all calls within a solve.  r is zero on held rows.  With scalars: advances them by r' P r,
   // and does nothing once they are done.
   virtual void apply(const Vec3<Real>* r, Vec3<Real>* z, PcgScalars* scalars) = 0;
+  // The same with the r that a step brings, which it takes, too; false: it does nothing of that.
+  virtual bool step_and_apply(const Advance<Real>& /*step*/, Vec3<Real>* /*z*/, PcgScalars& /*scalars*/) {
+    return false;
+  }
   // Makes of the view what it does as loops that a GPU runs in one launch (levels_in_one_launch.h); false: it
   // has none.
   virtual bool in_one_launch(OneLaunchView<Real>&) { return false; }

@@ -12,6 +12,7 @@
 #include "sim/linear/coarse_level.h"
 #include "sim/linear/gathered_forces.h"
 #include "sim/linear/pair_product.h"
+#include "sim/linear/preconditioner.h"
 
 namespace hysteron {
 
@@ -31,6 +32,18 @@ struct NextDirection {
 template <class Real>
 HYST_HD Real vector_component(const NextDirection<Real>& v, int i, int k) {
   return v.z[i].data()[k] + v.beta * v.p[i].data()[k];
+}
+
+// r of after a step, found where it is read.
+template <class Real>
+struct NextResidual {
+  Advance<Real> step;
+  HYST_HD Real alpha() const { return static_cast<Real>(step.scalars->alpha); }
+  HYST_HD Vec3<Real> operator[](int i) const { return step.r[i] - alpha() * step.q[i]; }
+};
+template <class Real>
+HYST_HD Real vector_component(const NextResidual<Real>& v, int i, int k) {
+  return v.step.r[i].data()[k] - v.alpha() * v.step.q[i].data()[k];
 }
 
 template <class Lanes, class Real>
@@ -168,8 +181,9 @@ HYST_HD Vec3<Real> row_times(const Lanes& lanes, const BlockRowsView<Real>& matr
     return lane_sum_of_row(lanes, matrix, i, v).total();
 }
 
-// What a system's matrix, softening and elements make of v.
-template <class Real>
+// What a system's matrix, softening and elements make of v.  Without pairs the loop over a row has more
+// registers for its loads.
+template <class Real, bool kHasPairs = true>
 struct SystemProduct {
   BlockRowsView<Real> matrix;
   ScalarRowsView<Real> softening;  // null: none
@@ -181,7 +195,8 @@ struct SystemProduct {
     if constexpr (Lanes::kCount == 1) {
       Vec3<Real> sum = softening.off_diagonal ? matrix.times(i, v, softening) : matrix.times(i, v);
       if (bending.start) sum -= bending.at(i);
-      if (pairs.start) sum += pairs.at(i, v);
+      if constexpr (kHasPairs)
+        if (pairs.start) sum += pairs.at(i, v);
       return sum;
     } else {
       LaneSum<Lanes, Real> sum(lanes);
@@ -190,7 +205,7 @@ struct SystemProduct {
       sum.add(matrix.off_diagonal, matrix.col, first, last, v);
       if (softening.off_diagonal) sum.add(softening.off_diagonal, matrix.col, first, last, v);
       sum.add(Real(-1), bending, i);
-      sum.add(pairs, i, v);
+      if constexpr (kHasPairs) sum.add(pairs, i, v);
       const Vec3<Real> total = sum.total();
       if (!softening.off_diagonal) return total;
       return total + softening.diagonal[i] * v[i];
