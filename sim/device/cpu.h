@@ -21,7 +21,7 @@ struct Sums {
 };
 
 // Loops shorter than this run on one thread: waking the others costs more than they do.
-inline constexpr int kSerialLoop = 2048;
+inline constexpr int kSerialLoop = 512;
 // Elements per partial sum.  Fixed, so that the order of additions does not depend on the number of threads.
 inline constexpr int kSumBlock = 256;
 
