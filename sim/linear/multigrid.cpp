@@ -130,16 +130,16 @@ void Multigrid<Real, Device>::apply(const Vec3<Real>* r, Vec3<Real>* z, PcgScala
 }
 
 template <class Real, class Device>
-bool Multigrid<Real, Device>::step_and_apply(const Advance<Real>& step, Vec3<Real>* z, PcgScalars& scalars) {
-  descend(NextResidual<Real>{step}, &scalars);
-  ascend(&scalars);
-  Combination<Real> last = combination(step.r, z, &scalars);
+bool Multigrid<Real, Device>::step_and_apply(const Advance<Real>& step, Vec3<Real>* z, PcgScalars* scalars) {
+  descend(NextResidual<Real>{step}, scalars);
+  ascend(scalars);
+  Combination<Real> last = combination(step.r, z, scalars);
   last.step = step;
-  combine(last, &scalars);
+  combine(last, scalars);
   return true;
 }
 
-// From the residual to the coarsest level's y.
+// Leads from the residual to the coarsest level's y.
 template <class Real, class Device>
 template <class Vector>
 void Multigrid<Real, Device>::descend(const Vector& residual, const PcgScalars* scalars) {
@@ -166,7 +166,7 @@ void Multigrid<Real, Device>::descend(const Vector& residual, const PcgScalars* 
   }
 }
 
-// Back to the first level's y.
+// Leads back to the first level's y.
 template <class Real, class Device>
 void Multigrid<Real, Device>::ascend(const PcgScalars* scalars) {
   const int* stop = scalars ? &scalars->done : nullptr;

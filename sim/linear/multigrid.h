@@ -37,7 +37,7 @@ class Multigrid : public Preconditioner<Real, Device> {
     invert_diagonal(matrix, bending_diagonal, held_, inverse_.data());
   }
   void apply(const Vec3<Real>* r, Vec3<Real>* z, PcgScalars* scalars = nullptr) override;
-  bool step_and_apply(const Advance<Real>& step, Vec3<Real>* z, PcgScalars& scalars) override;
+  bool step_and_apply(const Advance<Real>& step, Vec3<Real>* z, PcgScalars* scalars) override;
   // Iterations that take about as long as new coarse levels.
   double worth() const { return 2 + (dense_ ? dense_->worth() : 0); }
   bool in_one_launch(OneLaunchView<Real>& view) override;

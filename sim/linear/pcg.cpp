@@ -201,7 +201,7 @@ void Pcg<Real, Device>::iterate(const System& system, const char* held, Vec3<Rea
   }
   if (system.preconditioner) {
     const Advance<Real>& step = loops.advance.advance;
-    if (!system.preconditioner->step_and_apply(step, z_.data(), *s)) {
+    if (!system.preconditioner->step_and_apply(step, z_.data(), s)) {
       for_each(device_, {"solve: advance", vectors(6)}, rows_, step);
       system.preconditioner->apply(r_.data(), z_.data(), s);
     }

@@ -65,8 +65,9 @@ class Preconditioner {
   // the same for all calls within a solve.  r is zero on held rows.  With scalars: advances them by r' P r,
   // and does nothing once they are done.
   virtual void apply(const Vec3<Real>* r, Vec3<Real>* z, PcgScalars* scalars) = 0;
-  // The same with the r that a step brings, which it takes, too; false: it does nothing of that.
-  virtual bool step_and_apply(const Advance<Real>& /*step*/, Vec3<Real>* /*z*/, PcgScalars& /*scalars*/) {
+  // Takes the step and applies P to the residual that it leaves; false: it has done neither.  The scalars are
+  // on the device.
+  virtual bool step_and_apply(const Advance<Real>& /*step*/, Vec3<Real>* /*z*/, PcgScalars* /*scalars*/) {
     return false;
   }
   // Makes of the view what it does as loops that a GPU runs in one launch (levels_in_one_launch.h); false: it

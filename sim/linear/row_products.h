@@ -34,7 +34,7 @@ HYST_HD Real vector_component(const NextDirection<Real>& v, int i, int k) {
   return v.z[i].data()[k] + v.beta * v.p[i].data()[k];
 }
 
-// r of after a step, found where it is read.
+// The residual that a step leaves, found where it is read.
 template <class Real>
 struct NextResidual {
   Advance<Real> step;
@@ -181,8 +181,8 @@ HYST_HD Vec3<Real> row_times(const Lanes& lanes, const BlockRowsView<Real>& matr
     return lane_sum_of_row(lanes, matrix, i, v).total();
 }
 
-// What a system's matrix, softening and elements make of v.  Without pairs the loop over a row has more
-// registers for its loads.
+// The product of a system's matrix, softening and elements with v.  A loop over rows without pairs takes
+// fewer registers, so that more of its blocks run at once.
 template <class Real, bool kHasPairs = true>
 struct SystemProduct {
   BlockRowsView<Real> matrix;

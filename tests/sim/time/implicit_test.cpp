@@ -258,9 +258,9 @@ TEST(TrBdf2, FallsFreelyAsGalileo) {
   EXPECT_GT(fallen, g * t * t / 2);
 }
 
-// In air a fall's acceleration changes by a share drag h of itself from step to step, and that change by as
-// small a share: what a step extrapolates misses the weight by (drag h)^2, less than the residual that ends
-// it, where the acceleration of the step before would miss it by drag h: each step would take an iteration.
+// The acceleration of a fall in air changes by a share drag h of itself from step to step, and that change by
+// as small a share.  An extrapolated acceleration therefore misses the weight by (drag h)^2, less than the
+// residual that ends a step; that of the step before would miss it by drag h, and cost an iteration a step.
 TEST(Implicit, GoesOnWithAnAccelerationThatChangesSmoothly) {
   Scene scene = test::free_square(40);
   scene.integrator = Integrator::implicit;
