@@ -53,6 +53,19 @@ TEST(MethodChoice, TakesTheCpuForATinyStripAndSaysSoButAGpuForAnythingElse) {
   EXPECT_EQ(square.linear_solver, Preconditioning::multigrid);
 }
 
+// Multigrid is the faster on a GPU for squares from some 2,000 triangles on, whatever their threads.
+TEST(MethodChoice, FactorisesStripsButNoSquaresOnAGpu) {
+  for (const double threads : {1e3, 1e4}) {
+    Scene strip = sheet(0.2, 0.05, 1600), square = sheet(0.5, 0.5, 2000);
+    for (Scene* scene : {&strip, &square}) {
+      scene->device = DeviceChoice::cuda;
+      scene->fabric.warp = scene->fabric.weft = threads;
+    }
+    EXPECT_EQ(choice_for(strip, 1).linear_solver, Preconditioning::cholesky) << threads;
+    EXPECT_EQ(choice_for(square, 1).linear_solver, Preconditioning::multigrid) << threads;
+  }
+}
+
 TEST(MethodChoice, LeavesWhatTheSceneNames) {
   Scene scene = sheet(1, 0.025, 500);
   scene.device = DeviceChoice::cuda;
