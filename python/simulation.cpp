@@ -8,6 +8,7 @@
 #include "python/module.h"
 #include "sim/base/error.h"
 #include "sim/bending/laws/unused_parameters.h"
+#include "sim/scene/body.h"
 #include "sim/scene/scene_reader.h"
 
 namespace hysteron::python {
@@ -16,6 +17,7 @@ SimulationValue::SimulationValue(const Scene& scene) : scene_(scene) {
   check_scene(scene_);
   check_duration(scene_);
   unlocked([&] {
+    load_bodies(scene_);
     cloth_ = make_cloth(scene_);
     simulation_ = make_simulation(scene_, cloth_);
   });

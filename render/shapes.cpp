@@ -155,6 +155,24 @@ TriangleMesh box_mesh(const Eigen::Vector3f& half_edges, float rim, const ShapeD
   return mesh;
 }
 
+TriangleMesh smooth_mesh(std::span<const Eigen::Vector3d> position, std::span<const Eigen::Vector3i> face) {
+  TriangleMesh mesh;
+  std::vector<Eigen::Vector3d> normal(position.size(), Eigen::Vector3d::Zero());
+  for (const Eigen::Vector3i& f : face) {
+    const Eigen::Vector3d& a = position[f[0]];
+    const Eigen::Vector3d twice_area = (position[f[1]] - a).cross(position[f[2]] - a);
+    for (const int v : f) {
+      normal[v] += twice_area;
+      mesh.triangles.push_back(static_cast<std::uint32_t>(v));
+    }
+  }
+  for (std::size_t v = 0; v < normal.size(); ++v) {
+    mesh.positions.push_back(position[v].cast<float>());
+    mesh.normals.push_back(normal[v].normalized().cast<float>());
+  }
+  return mesh;
+}
+
 Eigen::Matrix4f placed(const Eigen::Vector3f& center, const Eigen::Vector3f& axis) {
   Eigen::Matrix4f transform = Eigen::Matrix4f::Identity();
   transform.topLeftCorner<3, 3>() =

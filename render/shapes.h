@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace hysteron::render {
@@ -40,6 +41,10 @@ TriangleMesh capsule_mesh(float radius, float height, const ShapeDetail& detail 
 TriangleMesh torus_mesh(float radius, float height, const ShapeDetail& detail = kSeen);
 // `rim` rounds edges and corners, at most the least half edge.
 TriangleMesh box_mesh(const Eigen::Vector3f& half_edges, float rim, const ShapeDetail& detail = kSeen);
+
+// The triangles of a file, corners counter-clockwise from outside.  Its normals are those around a vertex,
+// weighted by area.
+TriangleMesh smooth_mesh(std::span<const Eigen::Vector3d> position, std::span<const Eigen::Vector3i> face);
 
 // Rigid placement of a mesh whose z axis is to point along `axis`.
 Eigen::Matrix4f placed(const Eigen::Vector3f& center, const Eigen::Vector3f& axis);

@@ -23,6 +23,7 @@ double radius_at_rest(const Obstacle& o) {
     case ObstacleKind::hollow:
     case ObstacleKind::cylinder:  // discs on whose rims recorded drapes hang
     case ObstacleKind::torus:
+    case ObstacleKind::mesh:  // its triangles touch by themselves
       break;
   }
   return INFINITY;
@@ -42,7 +43,7 @@ ObstacleSet<Real> obstacles_during(const std::vector<Obstacle>& obstacles, doubl
   ObstacleSet<Real> set;
   for (std::size_t i = 0; i < obstacles.size(); ++i) {
     const Obstacle& o = obstacles[i];
-    if (start < o.from || start >= o.until) continue;
+    if (o.kind == ObstacleKind::mesh || start < o.from || start >= o.until) continue;
     const Placement now = placement(o.motion, end), then = placement(o.motion, start);
     const Eigen::Matrix3d own =
         Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), o.axis.normalized()).toRotationMatrix();

@@ -63,7 +63,7 @@ HYST_HD Vec3<Real> surface_motion(const ObstacleSet<Real>& set, int index, const
 // flat or not convex, and for cylinders, which act on vertices alone (docs/contact.md#sharp-obstacles).
 double sharpest_radius(const Obstacle& obstacle);
 
-// Those that are there during the step from `start` to `end` [s].
+// Those that are there during the step from `start` to `end` [s], but for bodies of triangles (scene/body.h).
 template <class Real>
 ObstacleSet<Real> obstacles_during(const std::vector<Obstacle>& obstacles, double fabric_friction,
                                    double start, double end);

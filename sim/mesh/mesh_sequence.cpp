@@ -1,6 +1,7 @@
 #include "sim/mesh/mesh_sequence.h"
 
 #include <fmt/core.h>
+#include <glob.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -242,6 +243,20 @@ std::vector<MeshSequence> mesh_sequences(const std::vector<std::string>& words) 
   }
   tell_apart(sequences);
   return sequences;
+}
+
+std::vector<fs::path> files_like(const std::string& pattern) {
+  std::error_code ignored;
+  if (fs::is_regular_file(pattern, ignored)) return {pattern};
+  std::vector<fs::path> files;
+  glob_t found{};
+  if (glob(pattern.c_str(), GLOB_NOSORT, nullptr, &found) == 0)
+    for (std::size_t i = 0; i < found.gl_pathc; ++i)
+      if (fs::is_regular_file(found.gl_pathv[i], ignored)) files.emplace_back(found.gl_pathv[i]);
+  globfree(&found);
+  std::sort(files.begin(), files.end(),
+            [](const fs::path& a, const fs::path& b) { return natural_less(a.string(), b.string()); });
+  return files;
 }
 
 Surface read_frame(const fs::path& file, const FileAxes& axes) {

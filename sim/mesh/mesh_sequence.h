@@ -28,6 +28,10 @@ struct MeshSequence {
 // meshes or with a file that is named unlike most others of it, and sequences of both formats.
 std::vector<MeshSequence> mesh_sequences(const std::vector<std::string>& words);
 
+// The files whose names match a pattern with *, ? and [...] in any of its folders (glob(7)), in the order of
+// their names, numbers in them by value; a file of that very name is one.  None where there is no such file.
+std::vector<std::filesystem::path> files_like(const std::string& pattern);
+
 // How a file's coordinates stand to metres with z up.
 struct FileAxes {
   LengthUnit unit = LengthUnit::metre;

@@ -78,9 +78,7 @@ void add_polygon(const std::vector<std::int64_t>& corner, Surface& surface) {
   }
 }
 
-}  // namespace
-
-Surface read_obj_surface(const std::string& file) {
+Surface read_whole_obj(const std::string& file) {
   const std::string what = "mesh " + file;
   ObjSoup soup = read_obj_soup(file, what);
   if (soup.face.empty()) throw Error::invalid_input(what + ": no faces");
@@ -89,10 +87,10 @@ Surface read_obj_surface(const std::string& file) {
   if (has_texture(soup)) surface.pattern = vertex_texture(soup, soup.face, soup.vertex.size());
   surface.vertex = std::move(soup.vertex);
   surface.face = std::move(soup.face);
-  return without_loose_vertices(std::move(surface));
+  return surface;
 }
 
-Surface read_ply(const std::string& file) {
+Surface read_whole_ply(const std::string& file) {
   const std::string what = "mesh " + file, text = whole_file(file, "cannot read mesh " + file);
   const PlyHeader header = read_ply_header(text, what);
   check_ply_header(header, what);
@@ -107,14 +105,22 @@ Surface read_ply(const std::string& file) {
     check_polygon(content.face[f], surface.vertex.size(), what + ": face " + std::to_string(f));
     add_polygon(content.face[f], surface);
   }
-  return without_loose_vertices(std::move(surface));
+  return surface;
 }
 
-Surface read_surface(const std::string& file) {
+}  // namespace
+
+Surface read_obj_surface(const std::string& file) { return without_loose_vertices(read_whole_obj(file)); }
+
+Surface read_ply(const std::string& file) { return without_loose_vertices(read_whole_ply(file)); }
+
+Surface read_whole_surface(const std::string& file) {
   const std::string ending = file_extension(file);
-  if (ending == ".obj") return read_obj_surface(file);
-  if (ending == ".ply") return read_ply(file);
+  if (ending == ".obj") return read_whole_obj(file);
+  if (ending == ".ply") return read_whole_ply(file);
   throw Error::invalid_input("mesh " + file + ": its name must end in .obj or .ply");
 }
+
+Surface read_surface(const std::string& file) { return without_loose_vertices(read_whole_surface(file)); }
 
 }  // namespace hysteron

@@ -27,5 +27,7 @@ Surface read_obj_surface(const std::string& file);
 Surface read_ply(const std::string& file);
 // By the ending, .obj or .ply in letters of either case; Error::invalid_input for another one.
 Surface read_surface(const std::string& file);
+// The same with all vertices of the file, in its order.
+Surface read_whole_surface(const std::string& file);
 
 }  // namespace hysteron

@@ -67,22 +67,6 @@ double longest_side(const Corners& at) {
   return longest;
 }
 
-void measure_areas(ClothMesh& mesh, const MeshNames& names) {
-  mesh.face_area.resize(mesh.face.size());
-  mesh.vertex_area.assign(mesh.rest.size(), 0.0);
-  for (int f = 0; f < mesh.faces(); ++f) {
-    const Corners at = mesh.corners(f);
-    const double area = area_vector(at).norm(), side = longest_side(at);
-    if (!(2 * area >= kMinHeightRatio * side * side) || side == 0)
-      throw Error::invalid_input(names.what + ": " + names.triangle(f) + " is degenerate (" +
-                                 names.vertex(mesh.face[f][0]) + ", " + names.vertex(mesh.face[f][1]) + ", " +
-                                 names.vertex(mesh.face[f][2]) +
-                                 "): height over longest edge must be >= 1e-6");
-    mesh.face_area[f] = area;
-    for (const int v : mesh.face[f]) mesh.vertex_area[v] += area / 3;
-  }
-}
-
 // All sides, those of one edge next to each other, the lower triangle first.
 std::vector<Side> sorted_sides(const ClothMesh& mesh) {
   std::vector<Side> sides;
@@ -176,6 +160,22 @@ std::string MeshNames::triangle(int f) const {
 std::string MeshNames::vertex(int v) const {
   return vertex_line.empty() ? "vertex " + std::to_string(v)
                              : "the vertex of line " + std::to_string(vertex_line[v]);
+}
+
+void measure_areas(ClothMesh& mesh, const MeshNames& names) {
+  mesh.face_area.resize(mesh.face.size());
+  mesh.vertex_area.assign(mesh.rest.size(), 0.0);
+  for (int f = 0; f < mesh.faces(); ++f) {
+    const Corners at = mesh.corners(f);
+    const double area = area_vector(at).norm(), side = longest_side(at);
+    if (!(2 * area >= kMinHeightRatio * side * side) || side == 0)
+      throw Error::invalid_input(names.what + ": " + names.triangle(f) + " is degenerate (" +
+                                 names.vertex(mesh.face[f][0]) + ", " + names.vertex(mesh.face[f][1]) + ", " +
+                                 names.vertex(mesh.face[f][2]) +
+                                 "): height over longest edge must be >= 1e-6");
+    mesh.face_area[f] = area;
+    for (const int v : mesh.face[f]) mesh.vertex_area[v] += area / 3;
+  }
 }
 
 void build_topology(ClothMesh& mesh, const MeshNames& names) {

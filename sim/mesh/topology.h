@@ -22,6 +22,9 @@ struct MeshNames {
 // As build_topology(mesh, what), with the file's lines in its messages.
 void build_topology(ClothMesh& mesh, const MeshNames& names);
 
+// Fills in the areas alone, of `face` at `rest`.  Throws Error::invalid_input for degenerate triangles.
+void measure_areas(ClothMesh& mesh, const MeshNames& names);
+
 // What is doubtful about a cloth that a file holds, though it can be simulated: what looks like one surface
 // and is several.
 

@@ -5,6 +5,7 @@
 #include "sim/base/error.h"
 #include "sim/bending/laws/law_parameters.h"
 #include "sim/scene/fabric_reader.h"
+#include "sim/scene/shown_key.h"
 
 namespace hysteron {
 namespace {
@@ -117,13 +118,17 @@ const KeyRow<Pin> kPinRows[] = {
 };
 
 const KeyRow<Obstacle> kObstacleRows[] = {
-    {"kind", at<&Obstacle::kind>, "", any(), "", "solid; hollow: a sphere with the cloth inside"},
-    {"center", at<&Obstacle::center>, "m", any(), "", "ground: a point of the plane; others: the middle"},
+    {"kind", at<&Obstacle::kind>, "", any(), "", "solid; hollow: a sphere with the cloth inside; mesh: a body of triangles, those of a file"},
+    {"center", at<&Obstacle::center>, "m", any(), "", "ground: a point of the plane; mesh: where the origin of its file is; others: the middle"},
     {"axis", at<&Obstacle::axis>, "", any(), "", "ground: normal; cylinder, capsule, torus: direction; box: that of its edges along z, with which it is turned"},
     {"size", at<&Obstacle::size>, "m", positive(), "", "of the box: half edges"},
     {"radius", at<&Obstacle::radius>, "m", positive(), "", "of sphere, hollow, cylinder and capsule; of the torus to the middle of its wire"},
     {"height", at<&Obstacle::height>, "m", positive(), "", "of cylinder and capsule: length of the axis; of the torus: thickness of its wire"},
     {"rim", at<&Obstacle::rim>, "m", at_least(0), "", "of cylinder and box: radius of the rounded edges"},
+    {"file", at<&Obstacle::file>, "", any(), "", "mesh: OBJ or PLY of its triangles"},
+    {"unit", at<&Obstacle::unit>, "", any(), "", "mesh: of length in its files"},
+    {"sequence", at<&Obstacle::sequence>, "", any(), "", "mesh: where its vertices are from frame to frame: OBJ or PLY files of the same triangles by a pattern, \"walk/*.obj\", in the order of their names, or a point cache, .pc2 or .mdd; none: it is rigid"},
+    {"fps", at<&Obstacle::fps>, "1/s", at_least(0), "", "mesh: frames of the sequence a second, the first one at t = 0; 0: as the times of an .mdd say"},
     {"friction", at<&Obstacle::friction>, "", at_least(-1), "", "Coulomb coefficient; negative: the fabric's"},
     {"visible", at<&Obstacle::visible>, "", any(), "", "drawn in pictures"},
     {"from", at<&Obstacle::from>, "s", at_least(0), "", "appears at this time"},

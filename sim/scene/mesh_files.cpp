@@ -1,6 +1,7 @@
 #include "sim/scene/mesh_files.h"
 
 #include "sim/mesh/file_ending.h"
+#include "sim/scene/body.h"
 
 namespace hysteron {
 namespace {
@@ -21,6 +22,13 @@ std::vector<MeshFile> mesh_files(Scene& scene) {
   else if (takes_a_file(scene.cloth))
     files.push_back({"cloth.file", &scene.cloth.file});
   if (names_an_obj(scene.cloth.start)) files.push_back({"cloth.start", &scene.cloth.start});
+  for (std::size_t i = 0; i < scene.obstacle.size(); ++i) {
+    Obstacle& o = scene.obstacle[i];
+    if (!is_body(o)) continue;
+    const std::string path = "obstacle[" + std::to_string(i) + "].";
+    files.push_back({path + "file", &o.file});
+    if (!o.sequence.empty()) files.push_back({path + "sequence", &o.sequence});
+  }
   return files;
 }
 

@@ -1,4 +1,4 @@
-// The OBJs that a scene's cloth is read from.
+// The files that a scene's cloth and its bodies of triangles are read from.
 #pragma once
 
 #include <string>
@@ -11,9 +11,10 @@ namespace hysteron {
 // Of the cloth at rest; "" of one that is built.
 std::string rest_file(const Scene& scene);
 
-// The keys that name OBJs which are read, and where their paths stand.
+// The keys that name meshes which are read, "cloth.file" or "obstacle[0].sequence", and where their paths
+// stand; a sequence may be a pattern of several (files_like(), mesh/mesh_sequence.h).
 struct MeshFile {
-  const char* key;
+  std::string key;
   std::string* path;
 };
 std::vector<MeshFile> mesh_files(Scene& scene);

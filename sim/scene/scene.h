@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,6 +21,8 @@
 #include "sim/scene/obstacle_kind.h"
 
 namespace hysteron {
+
+struct BodyMesh;
 
 // How a scene is simulated: choices with the names of scene files, parsed where flags and files are read.
 
@@ -194,7 +197,13 @@ struct Obstacle {
   bool visible = true;
   double from = 0;
   double until = 1e30;
-  Motion motion;  // its axis and centre are the keys motion-axis and motion-center
+  std::string file;  // of a mesh, as are those below
+  LengthUnit unit = LengthUnit::metre;
+  std::string sequence;
+  double fps = 0;
+  std::string body;
+  std::shared_ptr<const BodyMesh> mesh;  // no key: load_bodies() (scene/body.h) reads it; null: not yet
+  Motion motion;                         // its axis and centre are the keys motion-axis and motion-center
 };
 
 // An order to the bending elements whose middle lies in the box on the flat cloth.

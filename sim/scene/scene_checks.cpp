@@ -5,6 +5,7 @@
 #include "sim/base/error.h"
 #include "sim/bending/laws/law_parameters.h"
 #include "sim/mesh/file_ending.h"
+#include "sim/scene/body.h"
 #include "sim/scene/fabric_limits.h"
 #include "sim/scene/mesh_files.h"
 #include "sim/scene/motion.h"
@@ -246,7 +247,26 @@ void check_stride(const Scene& scene, const Obstacle& solid, const std::string& 
                              number_text(scene.step * most / stride) + " s");
 }
 
+// A body of triangles keeps the cloth on the side where it is: it has to be there from the start.
+void check_body(const Scene& scene, const Obstacle& body, const std::string& path) {
+  if (!is_body(body)) return;
+  const auto refuse = [&](const std::string& key, const std::string& value, const std::string& what) {
+    throw Error::invalid_input(shown(scene, path + "." + key, value, "") + " " + what)
+        .with_key(path + "." + key, value);
+  };
+  if (body.file.empty())
+    throw key_refusal(scene, path, path + ".kind = mesh needs " + path + ".file, an OBJ or PLY");
+  if (body.from > 0)
+    refuse("from", number_text(body.from) + " s",
+           "goes without kind = mesh: cloth that would be inside has no way out; bring it by keyframes");
+  if (body.until < 1e30)
+    refuse("until", number_text(body.until) + " s", "goes without kind = mesh: take it away by keyframes");
+  if (body.fps > 0 && body.sequence.empty())
+    refuse("fps", number_text(body.fps) + " 1/s", "needs " + path + ".sequence");
+}
+
 void check_obstacle(const Scene& scene, const Obstacle& solid, const std::string& path) {
+  check_body(scene, solid, path);
   check_times(scene, solid.from, solid.until, path);
   const ObstacleForm form = obstacle_form(solid);
   if (form.has_axis && solid.axis.isZero(0))
@@ -320,9 +340,26 @@ void check_command(const Scene& scene, const Command& command, const std::string
         .with_origin(origin_in(scene, path, "kind"));
 }
 
+// Contact with triangles is a barrier that no step may cross: a term of what implicit steps minimise.
+void check_body_steps(const Scene& scene) {
+  if (scene.finds_equilibrium()) return;
+  for (std::size_t i = 0; i < scene.obstacle.size(); ++i)
+    if (is_body(scene.obstacle[i]))
+      throw key_refusal(
+          scene, "integrator",
+          path_in("obstacle", i) + ".kind = mesh (" +
+              key_origin(scene, path_in("obstacle", i) + ".kind", key_origin(scene, path_in("obstacle", i))) +
+              ") needs integrator = implicit | bdf2 | tr-bdf2 | quasi-static, or semi-implicit "
+              "with self-contact, not " +
+              enum_name(scene.integrator) +
+              ": a barrier keeps cloth from its triangles, and steps that move the cloth as a "
+              "whole to where forces balance are the ones that see it");
+}
+
 }  // namespace
 
 void check_steps(const Scene& scene) {
+  check_body_steps(scene);
   if (scene.self_contact && scene.integrator == Integrator::explicit_euler)
     throw key_refusal(
         scene, "integrator",

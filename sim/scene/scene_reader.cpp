@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "sim/base/error.h"
+#include "sim/mesh/mesh_sequence.h"
 #include "sim/scene/assets.h"
 #include "sim/scene/key_table.h"
 #include "sim/scene/toml_file.h"
@@ -118,13 +119,19 @@ class SceneKeys {
 
   // Files that a scene names may stand beside it.
   Value located(const std::string& path, const Value& value) const {
-    if (path != "cloth.file" && path != "cloth.start" && path != "mesh" && path != "fabric.name")
+    const bool of_obstacle = path.starts_with("obstacle["), is_sequence = path.ends_with(".sequence");
+    if (of_obstacle
+            ? !is_sequence && !path.ends_with(".file")
+            : path != "cloth.file" && path != "cloth.start" && path != "mesh" && path != "fabric.name")
       return value;
     const auto* name = std::get_if<std::string>(&value);
     const fs::path beside = name && !name->empty() ? fs::path(file_).parent_path() / *name : fs::path();
+    if (beside.empty()) return value;
     std::error_code ignored;
-    if (!beside.empty() && !fs::exists(*name, ignored) && fs::is_regular_file(beside, ignored))
-      return beside.string();
+    if (is_sequence)  // a pattern
+      return files_like(*name).empty() && !files_like(beside.string()).empty() ? Value(beside.string())
+                                                                               : value;
+    if (!fs::exists(*name, ignored) && fs::is_regular_file(beside, ignored)) return beside.string();
     return value;
   }
 
@@ -169,7 +176,8 @@ class SceneKeys {
       const BoundKey& key = find_key(keys, path + "." + child.key, origin);
       if (child.kind != ValueTree::Kind::value)
         throw Error::invalid_input(path + "." + child.key + " must be one value (" + origin + ")");
-      assign(key, timed(key, child.value, origin), origin);
+      const Value value = recorded_ ? child.value : located(path + "." + child.key, child.value);
+      assign(key, timed(key, value, origin), origin);
       scene_.origin[path + "." + child.key] = origin;
     }
   }

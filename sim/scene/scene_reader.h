@@ -25,7 +25,7 @@ Scene default_scene(const std::string& fabric = "cotton-broad");
 // whatever their order in the file.  [[pin]] and [[obstacle]] replace those of the defaults, if there are any
 // in the file.  Keys in `extra` (an experiment's own, or the run's options) are allowed at the top level too.
 // Arrays of tables called as in `left` are left to the caller.
-// A cloth or mesh file is looked for from the working folder, then beside the scene file.
+// A cloth, mesh or body file is looked for from the working folder, then beside the scene file.
 // Throws Error::invalid_input (one line with file, line, key, value, unit, range), Error::system if
 // unreadable.
 void apply_scene_file(Scene& scene, const std::string& name_or_file, const Keys& extra = {},

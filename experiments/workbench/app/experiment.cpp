@@ -13,6 +13,7 @@
 #include "sim/base/comma_list.h"
 #include "sim/base/error.h"
 #include "sim/bending/laws/law_parameters.h"
+#include "sim/scene/body.h"
 
 namespace hysteron::experiments {
 
@@ -148,6 +149,7 @@ Setup set_up(const CommandLine& line, Setup setup, const Keys& own,
   }
   make_mesh_paths_absolute(setup.scene);
   check_scene(setup.scene);
+  load_bodies(setup.scene);
   check_options(setup.options);
   refuse_unread_flags(line, all_values(setup.scene, extra));
   limit_memory(setup.options.max_memory);

@@ -157,7 +157,7 @@ struct Manifest {
       options;  // resolved keys of a simulated run and its experiment; null: not noted
   std::shared_ptr<const Json> requested;  // merge patch that turns `keys` into the scene before its
                                           // experiment changed it; null: not noted
-  std::vector<MeshRecord> meshes;         // files that its cloth was read from
+  std::vector<MeshRecord> meshes;         // files that its cloth and bodies were read from
   std::vector<InputRecord> inputs;        // every file that it has read but its own
   std::optional<std::string> device, renderer, positions, precision, element, law;
   std::optional<std::int64_t> triangles, hinges, steps;

@@ -2,25 +2,30 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <optional>
 
 #include "sim/base/fnv1a.h"
 #include "sim/base/whole_file.h"
+#include "sim/mesh/mesh_sequence.h"
 #include "sim/scene/mesh_files.h"
 
 namespace hysteron::experiments {
 namespace {
 namespace fs = std::filesystem;
 
-std::string file_hash(const fs::path& file) {
-  const std::string bytes = whole_file(file, "cannot read mesh " + file.string());
-  return fmt::format("{:016x}", fnv1a(bytes.data(), bytes.size()));
+std::string mesh_hash(const fs::path& name) {
+  std::vector<fs::path> files = files_like(name.string());
+  if (files.empty()) files = {name};  // which cannot be read
+  std::uint64_t hash = kFnv1aStart;
+  for (const fs::path& file : files) {
+    const std::string bytes = whole_file(file, "cannot read mesh " + file.string());
+    hash = fnv1a(bytes.data(), bytes.size(), hash);
+  }
+  return fmt::format("{:016x}", hash);
 }
 
-bool is_file(const fs::path& file) {
-  std::error_code ignored;
-  return fs::is_regular_file(file, ignored);
-}
+bool is_there(const fs::path& name) { return !files_like(name.string()).empty(); }
 
 // Of /a/b/c.obj: folder/c.obj, folder/b/c.obj ..., if one of them has these bytes.
 std::optional<fs::path> below(const fs::path& folder, const MeshRecord& record) {
@@ -28,18 +33,27 @@ std::optional<fs::path> below(const fs::path& folder, const MeshRecord& record) 
   fs::path tail;
   for (auto part = path.end(); part != path.begin();) {
     tail = tail.empty() ? *--part : *--part / tail;
-    if (is_file(folder / tail) && file_hash(folder / tail) == record.hash) return folder / tail;
+    if (is_there(folder / tail) && mesh_hash(folder / tail) == record.hash) return folder / tail;
   }
   return {};
 }
 
 std::string found(const MeshRecord& record, const fs::path& manifest) {
-  if (is_file(record.file)) return record.file;
+  if (is_there(record.file)) return record.file;
   for (fs::path folder = fs::absolute(manifest).lexically_normal().parent_path();;
        folder = folder.parent_path()) {
     if (const auto moved = below(folder, record)) return moved->string();
     if (folder == folder.parent_path()) return record.file;
   }
+}
+
+// Obstacles may have other numbers in a record than in the scene that was asked for: an experiment adds its
+// own.
+const MeshRecord* record_of(const MeshFile& mesh, const std::vector<MeshRecord>& records) {
+  const auto same_file = std::ranges::find(records, *mesh.path, &MeshRecord::file);
+  if (same_file != records.end()) return &*same_file;
+  const auto same_key = std::ranges::find(records, mesh.key, &MeshRecord::key);
+  return same_key == records.end() ? nullptr : &*same_key;
 }
 
 }  // namespace
@@ -54,14 +68,13 @@ std::vector<MeshRecord> mesh_records(const Scene& scene) {
   std::vector<MeshRecord> records;
   for (const MeshFile& mesh : mesh_files(copy))
     records.push_back(
-        {mesh.key, fs::absolute(*mesh.path).lexically_normal().string(), file_hash(*mesh.path)});
+        {mesh.key, fs::absolute(*mesh.path).lexically_normal().string(), mesh_hash(*mesh.path)});
   return records;
 }
 
 void find_meshes(Scene& scene, const std::vector<MeshRecord>& records, const fs::path& manifest) {
   for (const MeshFile& mesh : mesh_files(scene))
-    for (const MeshRecord& record : records)
-      if (record.key == mesh.key) *mesh.path = found(record, manifest);
+    if (const MeshRecord* record = record_of(mesh, records)) *mesh.path = found(*record, manifest);
 }
 
 std::vector<std::string> changed_meshes(const std::vector<MeshRecord>& recorded,

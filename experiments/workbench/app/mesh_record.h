@@ -13,8 +13,8 @@ namespace hysteron::experiments {
 
 struct MeshRecord {
   std::string key;   // that names it: "cloth.file"
-  std::string file;  // absolute path
-  std::string hash;  // of its bytes
+  std::string file;  // absolute path, or a pattern of several
+  std::string hash;  // of its bytes; of several of all of them
 };
 
 // Where the scene's mesh files are, however the working directory changes.

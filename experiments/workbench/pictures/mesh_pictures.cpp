@@ -1,6 +1,5 @@
 #include "experiments/workbench/pictures/mesh_pictures.h"
 
-#include <Eigen/Geometry>
 #include <cmath>
 
 #include "experiments/workbench/pictures/fabric_look.h"
@@ -23,25 +22,6 @@ render::Look mesh_look(const Options& options, const MeshPictures::Choice& choic
   return choice.fabric.empty() ? look : dressed(look, choice.fabric);
 }
 
-// With area-weighted normals.
-render::TriangleMesh matte_mesh(const Surface& surface) {
-  render::TriangleMesh mesh;
-  std::vector<Eigen::Vector3d> normal(surface.vertex.size(), Eigen::Vector3d::Zero());
-  for (const Eigen::Vector3i& f : surface.face) {
-    const Eigen::Vector3d& a = surface.vertex[f[0]];
-    const Eigen::Vector3d twice_area = (surface.vertex[f[1]] - a).cross(surface.vertex[f[2]] - a);
-    for (const int v : f) {
-      normal[v] += twice_area;
-      mesh.triangles.push_back(static_cast<std::uint32_t>(v));
-    }
-  }
-  for (std::size_t v = 0; v < normal.size(); ++v) {
-    mesh.positions.push_back(surface.vertex[v].cast<float>());
-    mesh.normals.push_back(normal[v].normalized().cast<float>());
-  }
-  return mesh;
-}
-
 }  // namespace
 
 MeshPictures::MeshPictures(const Options& options, const Choice& choice)
@@ -56,7 +36,7 @@ MeshPictures::MeshPictures(const Options& options, const Choice& choice)
 }
 
 void MeshPictures::add_body(const Surface& body) {
-  view_.add_obstacle(matte_mesh(body), Eigen::Matrix4f::Identity());
+  view_.add_obstacle(render::smooth_mesh(body.vertex, body.face), Eigen::Matrix4f::Identity());
 }
 
 render::Image MeshPictures::picture(const Surface& frame, const std::string& what) {

@@ -1,10 +1,13 @@
 #include "experiments/workbench/pictures/scene_renderer.h"
 
+#include <cmath>
+
 #include "experiments/workbench/pictures/drawing.h"
 #include "experiments/workbench/pictures/fabric_look.h"
 #include "render/shapes.h"
 #include "sim/base/error.h"
 #include "sim/device/cpu.h"
+#include "sim/scene/body.h"
 #include "sim/scene/motion.h"
 #include "sim/scene/scene_text.h"
 
@@ -31,6 +34,13 @@ render::Image between(render::Image bare, const render::Image& whole, int fracti
   return bare;
 }
 
+// Cloth lies on its triangles, not only with its vertices: they cut nothing from it.
+render::TriangleMesh body_surface(const BodyMesh& body, double time) {
+  render::TriangleMesh mesh = render::smooth_mesh(body.positions(time), body.face);
+  mesh.roundness = INFINITY;
+  return mesh;
+}
+
 }  // namespace
 
 std::optional<render::TriangleMesh> obstacle_mesh(const Obstacle& o, const render::ShapeDetail& detail) {
@@ -49,6 +59,9 @@ std::optional<render::TriangleMesh> obstacle_mesh(const Obstacle& o, const rende
       return render::box_mesh(o.size.cast<float>(), f(o.rim), detail);
     case ObstacleKind::cylinder:
       return render::cylinder_mesh(f(o.radius), f(o.height), f(o.rim), detail);
+    case ObstacleKind::mesh:
+      if (!o.mesh) return {};
+      return body_surface(*o.mesh, 0);
   }
   return {};
 }
@@ -58,7 +71,8 @@ Eigen::Matrix4f placed_at(const Obstacle& o, double time) {
   Eigen::Matrix4f motion = Eigen::Matrix4f::Identity();
   motion.topLeftCorner<3, 3>() = (at.scale * at.rotation).cast<float>();
   motion.topRightCorner<3, 1>() = at.translation.cast<float>();
-  return motion * render::placed(o.center.cast<float>(), o.axis.normalized().cast<float>());
+  const Eigen::Vector3d axis = is_body(o) ? Eigen::Vector3d::UnitZ() : o.axis.normalized();
+  return motion * render::placed(o.center.cast<float>(), axis.cast<float>());
 }
 
 render::ColorMap look_color_map(const std::string& look) { return render::look_named(look).map; }

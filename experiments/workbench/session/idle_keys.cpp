@@ -16,6 +16,8 @@ bool is_one_of(const Obstacle& obstacle, std::initializer_list<ObstacleKind> kin
   return std::ranges::find(kinds, obstacle.kind) != kinds.end();
 }
 
+bool is_mesh(const Obstacle& obstacle) { return obstacle.kind == ObstacleKind::mesh; }
+
 using K = ObstacleKind;
 constexpr ReadKey<Pin> kPins[] = {
     {"low", "select = box", [](const Pin& pin) { return pin.select == "box"; }},
@@ -29,13 +31,17 @@ constexpr ReadKey<Obstacle> kObstacles[] = {
     {"size", "a box", [](const Obstacle& o) { return is_one_of(o, {K::box}); }},
     {"radius", "another kind",
      [](const Obstacle& o) {
-       return !is_one_of(o, {K::box, K::ground});
+       return !is_one_of(o, {K::box, K::ground, K::mesh});
      }},
     {"height", "a cylinder, capsule or torus",
      [](const Obstacle& o) {
        return is_one_of(o, {K::cylinder, K::capsule, K::torus});
      }},
     {"rim", "a cylinder or box", [](const Obstacle& o) { return obstacle_form(o).has_rim; }},
+    {"file", "a mesh", is_mesh},
+    {"unit", "a mesh", is_mesh},
+    {"sequence", "a mesh", is_mesh},
+    {"fps", "the sequence of a mesh", [](const Obstacle& o) { return is_mesh(o) && !o.sequence.empty(); }},
     {"axis", "another kind", [](const Obstacle& o) { return obstacle_form(o).has_axis; }},
     {"motion-axis", "a keyframe's angle", [](const Obstacle& o) { return turns(o.motion); }},
 };

@@ -17,7 +17,7 @@ TEST(PoleExample, IsOneRowWithItsNameAndHalfThickness) {
     Vec3<double> size{1, 1, 1};
   } o;
   EXPECT_STREQ(names(o.kind)[static_cast<std::size_t>(o.kind)], "pole");
-  EXPECT_EQ(names(o.kind).size(), 8u);
+  EXPECT_EQ(names(o.kind).size(), 9u);
   EXPECT_DOUBLE_EQ(obstacle_form(o).half_thickness, 0.5);
   EXPECT_TRUE(obstacle_form(o).has_axis);
   EXPECT_FALSE(obstacle_form(o).has_rim);

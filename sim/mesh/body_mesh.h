@@ -1,0 +1,23 @@
+// The surface of a body of triangles, and where its vertices are over time.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace hysteron {
+
+// Positions are in the body's own frame [m]; a body that is at rest there has one frame.
+struct BodyMesh {
+  std::vector<Eigen::Vector3i> face;                 // counter-clockwise seen from outside
+  std::vector<std::vector<Eigen::Vector3d>> frames;  // at least one; each of all vertices [m]
+  double fps = 0;                                    // frames a second, the first of them at t = 0; 0: rigid
+  bool closed = false;                               // every edge has two triangles, wound alike
+
+  int vertices() const { return static_cast<int>(frames.front().size()); }
+  int faces() const { return static_cast<int>(face.size()); }
+  bool moves() const { return frames.size() > 1 && fps > 0; }
+  // Straight from one frame to the next; before the first one and after the last one it stays.
+  std::vector<Eigen::Vector3d> positions(double time) const;
+};
+
+}  // namespace hysteron

@@ -1,0 +1,28 @@
+// Point caches: where the vertices of one mesh are at several instants, in one file.
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "sim/mesh/file_ending.h"
+
+namespace hysteron {
+
+inline bool names_a_point_cache(const std::filesystem::path& file) {
+  return file_extension(file) == ".pc2" || file_extension(file) == ".mdd";
+}
+
+struct PointCache {
+  std::vector<std::vector<Eigen::Vector3d>> frames;  // each of all points, in the file's unit
+  double frames_per_sample = 1;  // PC2: how many frames of the animation one of these stands for
+  double fps = 0;                // MDD: of its times, if they ascend evenly; 0: not known [1/s]
+};
+
+// By the ending: PC2 (3ds Max, Point Cache 2; Blender, Houdini) or MDD (LightWave; Blender, Maya).  Throws
+// Error::system for a file that cannot be read; Error::invalid_input, naming it, for another ending, a header
+// that is none of these, a file that is shorter than its header says, and numbers that are not finite.
+PointCache read_point_cache(const std::string& file);
+
+}  // namespace hysteron
