@@ -231,12 +231,29 @@ bool ClothView::write_positions(std::string& reason) {
 
 int ClothView::add_obstacle(const TriangleMesh& mesh, const Eigen::Matrix4f& placement,
                             const TriangleMesh* caster) {
+  obstacles_.push_back(made_obstacle(mesh, placement, caster));
+  return static_cast<int>(obstacles_.size()) - 1;
+}
+
+ClothView::Obstacle ClothView::made_obstacle(const TriangleMesh& mesh, const Eigen::Matrix4f& placement,
+                                             const TriangleMesh* caster) const {
   offscreen_.make_current();
   const Box box = mesh_box(mesh);
   const TriangleMesh fine = refined(mesh, 2 * kSkySpacing * box.radius());
-  obstacles_.push_back({StaticMesh(gl_, fine), StaticMesh(gl_, caster ? *caster : mesh), box,
-                        BodyMeasure(mesh), placement, true});
-  return static_cast<int>(obstacles_.size()) - 1;
+  return {StaticMesh(gl_, fine),
+          StaticMesh(gl_, caster ? *caster : mesh),
+          box,
+          BodyMeasure(mesh),
+          mesh.closed,
+          placement};
+}
+
+void ClothView::reshape_obstacle(int number, const TriangleMesh& mesh, const TriangleMesh* caster) {
+  Obstacle& old = obstacle(number);
+  Obstacle reshaped = made_obstacle(mesh, old.placement, caster);
+  reshaped.visible = old.visible;
+  reshaped.shapes = old.shapes + 1;
+  old = std::move(reshaped);
 }
 
 ClothView::Obstacle& ClothView::obstacle(int number) {
@@ -327,7 +344,7 @@ std::vector<float> ClothView::what_lights(const Camera& camera) const {
                             pictured_ground(ground_height_.value_or(0), look_)};
   for (const Eigen::Vector3f& v : {box.low, box.high, key}) all.insert(all.end(), v.begin(), v.end());
   for (const Obstacle& obstacle : obstacles_) {
-    all.push_back(obstacle.visible ? 1 : 0);
+    all.push_back(obstacle.visible ? static_cast<float>(obstacle.shapes) : 0);
     all.insert(all.end(), obstacle.placement.data(), obstacle.placement.data() + obstacle.placement.size());
   }
   return all;
@@ -524,13 +541,13 @@ void ClothView::draw_obstacles(const View& view) const {
   draw_bodies(matte_program_, &Obstacle::mesh);
 }
 
-// Bodies are closed: their far sides are never seen, and where no graphics hardware draws, they would cost
+// Far sides of closed bodies are never seen, and where no graphics hardware draws, they would cost
 // most.
 void ClothView::draw_bodies(const Program& program, StaticMesh Obstacle::*mesh) const {
-  gl_.Enable(GL_CULL_FACE);
   gl_.CullFace(GL_BACK);
   for (const Obstacle& obstacle : obstacles_) {
     if (!obstacle.visible) continue;
+    obstacle.closed ? gl_.Enable(GL_CULL_FACE) : gl_.Disable(GL_CULL_FACE);
     place_body(program, obstacle);
     (obstacle.*mesh).draw();
   }

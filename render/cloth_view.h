@@ -83,10 +83,12 @@ class ClothView {
   // (then `reason` says why): set_positions() is the way then.
   bool write_positions(std::string& reason);
 
-  // Of a closed mesh whose triangles face outward; returns the obstacle's number.  `caster`: the same surface
+  // Of a mesh whose triangles face outward; returns the obstacle's number.  `caster`: the same surface
   // in fewer triangles, for its shadows.
   int add_obstacle(const TriangleMesh& mesh, const Eigen::Matrix4f& placement,
                    const TriangleMesh* caster = nullptr);
+  // Gives it another shape; where it is stays.
+  void reshape_obstacle(int obstacle, const TriangleMesh& mesh, const TriangleMesh* caster = nullptr);
   void move_obstacle(int obstacle, const Eigen::Matrix4f& placement);
   void show_obstacle(int obstacle, bool visible);
   // Height of a ground that catches shadows [m]; none by default.
@@ -110,8 +112,10 @@ class ClothView {
     StaticMesh mesh, caster;  // what is seen, fine enough for the room's light, and what hides light
     Box box;                  // of the mesh, before it is placed
     BodyMeasure measure;
+    bool closed;
     Eigen::Matrix4f placement;
-    bool visible;
+    bool visible = true;
+    int shapes = 1;  // that it has had
   };
 
   // What draws a sheet's two sides, and, where it has thickness, its rim.
@@ -135,6 +139,8 @@ class ClothView {
   };
 
   Obstacle& obstacle(int number);
+  Obstacle made_obstacle(const TriangleMesh& mesh, const Eigen::Matrix4f& placement,
+                         const TriangleMesh* caster) const;
   // Places what the program in use draws: an obstacle, smaller by its inset, or the cloth as it is.
   void place_body(const Program& program, const Obstacle& obstacle) const;
   Eigen::Matrix4f standing(const Obstacle& obstacle, float inset) const;

@@ -17,6 +17,7 @@ struct TriangleMesh {
   // Convex about the origin: made smaller by a factor along each axis.  Else along its normals, which folds
   // over edges that are less round than the inset.
   bool centred = false;
+  bool closed = true;  // else both sides of its triangles are seen
 
   size_t triangle_count() const { return triangles.size() / 3; }
 };

@@ -10,7 +10,8 @@ out vec4 color;
 #include "tone.glsl"
 
 void main() {
-  vec3 normal = normalize(world_normal), light = vec3(0);
+  vec3 outward = normalize(world_normal), light = vec3(0);
+  vec3 normal = gl_FrontFacing ? outward : -outward;  // of a body that is not closed
   vec3 point = world + max(below_round(world, normal), 0.0) * normal;
   for (int k = 0; k < kLights; ++k) {
     float facing = dot(normal, light_direction[k]);

@@ -74,6 +74,7 @@ struct Frames {
   std::vector<PointList> position;  // of all vertices
   std::vector<std::string> name;    // of each, for messages
   double fps = 0;
+  std::vector<double> time;  // where fps does not say it [s]
 };
 
 Frames frames_of_cache(const BodyFiles& files, const WholeMesh& first) {
@@ -83,14 +84,15 @@ Frames frames_of_cache(const BodyFiles& files, const WholeMesh& first) {
     throw Error::invalid_input(what + ": " + std::to_string(cache.frames.front().size()) + " points, and " +
                                first.names.what + " has " + std::to_string(first.vertex.size()) +
                                " vertices: it must be that of this mesh");
-  Frames frames{std::move(cache.frames), {}, files.fps > 0 ? files.fps / cache.frames_per_sample : cache.fps};
+  Frames frames{std::move(cache.frames), {}, files.fps / cache.frames_per_sample, {}};
+  if (!(files.fps > 0)) frames.time = std::move(cache.time);
   for (std::size_t f = 0; f < frames.position.size(); ++f)
     frames.name.push_back(what + ": frame " + std::to_string(f + 1));
   return frames;
 }
 
 Frames frames_of_files(const BodyFiles& files, const WholeMesh& first) {
-  Frames frames{{}, {}, files.fps};
+  Frames frames{{}, {}, files.fps, {}};
   for (const std::filesystem::path& file : files_like(files.sequence)) {
     WholeMesh frame = read_whole(file.string());
     check_like(first, frame);
@@ -105,7 +107,7 @@ Frames frames_of_files(const BodyFiles& files, const WholeMesh& first) {
 }
 
 Frames all_frames(const BodyFiles& files, const WholeMesh& first) {
-  if (files.sequence.empty()) return {{first.vertex}, {first.names.what}, 0};
+  if (files.sequence.empty()) return {{first.vertex}, {first.names.what}, 0, {}};
   return names_a_point_cache(files.sequence) ? frames_of_cache(files, first) : frames_of_files(files, first);
 }
 
@@ -155,7 +157,9 @@ BodyMesh read_body(const BodyFiles& files) {
   body.closed = checked_closed(whole, frames);
   body.face = std::move(whole.face);
   body.frames = std::move(frames.position);
-  if (body.frames.size() > 1) body.fps = frames.fps;
+  if (body.frames.size() == 1) return body;
+  body.fps = frames.fps;
+  body.time = std::move(frames.time);
   return body;
 }
 

@@ -17,7 +17,8 @@ struct BodyFiles {
 
 // Quads are cut as in `file`; vertices that no face uses are left out.  Files of a sequence are in the order
 // of their names, numbers in them by value, and have the vertices and faces of `file` in the same order.
-// The first frame is the body's at t = 0, whatever number it has.  fps is 0 where nothing says it.
+// The first frame is the body's at t = 0, whatever number or time it has.  Where nothing says when the others
+// are, the body does not move.
 // Throws Error::system for files that cannot be read; Error::invalid_input, naming the file, for what
 // read_surface(), read_point_cache() and build_topology() refuse, for a pattern that no file has, for another
 // number of vertices, other faces or, in any frame, degenerate triangles.

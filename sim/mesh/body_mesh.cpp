@@ -2,13 +2,29 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace hysteron {
+namespace {
 
-std::vector<Eigen::Vector3d> BodyMesh::positions(double time) const {
-  const double last = static_cast<double>(frames.size() - 1), at = std::clamp(time * fps, 0.0, last);
-  const auto before = static_cast<std::size_t>(at);
-  const double part = at - static_cast<double>(before);
+// The frame before an instant, and how far it is from there to the next one as a part of the way.
+std::pair<std::size_t, double> place_in(const BodyMesh& body, double t) {
+  const double last = static_cast<double>(body.frames.size() - 1);
+  if (body.time.empty()) {
+    const double at = std::clamp(t * body.fps, 0.0, last);
+    return {static_cast<std::size_t>(at), at - std::floor(at)};
+  }
+  if (!(t > body.time.front())) return {0, 0};
+  if (t >= body.time.back()) return {body.frames.size() - 1, 0};
+  const auto after = std::upper_bound(body.time.begin(), body.time.end(), t);
+  const auto before = static_cast<std::size_t>(after - body.time.begin()) - 1;
+  return {before, (t - body.time[before]) / (*after - body.time[before])};
+}
+
+}  // namespace
+
+std::vector<Eigen::Vector3d> BodyMesh::positions(double t) const {
+  const auto [before, part] = place_in(*this, t);
   std::vector<Eigen::Vector3d> x = frames[before];
   if (!(part > 0)) return x;
   const std::vector<Eigen::Vector3d>& next = frames[before + 1];

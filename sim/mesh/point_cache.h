@@ -17,7 +17,7 @@ inline bool names_a_point_cache(const std::filesystem::path& file) {
 struct PointCache {
   std::vector<std::vector<Eigen::Vector3d>> frames;  // each of all points, in the file's unit
   double frames_per_sample = 1;  // PC2: how many frames of the animation one of these stands for
-  double fps = 0;                // MDD: of its times, if they ascend evenly; 0: not known [1/s]
+  std::vector<double> time;      // MDD: of each, from the first one on [s]; empty: they do not ascend, or PC2
 };
 
 // By the ending: PC2 (3ds Max, Point Cache 2; Blender, Houdini) or MDD (LightWave; Blender, Maya).  Throws

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <functional>
 #include <string_view>
 
 #include "sim/base/error.h"
@@ -16,8 +17,6 @@ namespace hysteron {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "PC2 is read as numbers lie in memory");
-
-constexpr double kUneven = 1e-2;  // of the mean interval: single precision and three digits round by less
 
 // Numbers of four bytes one after the other.
 class Numbers4 {
@@ -93,13 +92,9 @@ PointCache read_pc2(std::string_view bytes, const std::string& what) {
   return cache;
 }
 
-// That of instants which follow each other evenly; 0 of others.
-double even_rate(const std::vector<double>& time) {
-  const double intervals = static_cast<double>(time.size()) - 1, span = time.back() - time.front();
-  if (!(intervals > 0) || !(span > 0)) return 0;
-  for (std::size_t k = 0; k < time.size(); ++k)
-    if (!(std::abs((time[k] - time[0]) * intervals / span - static_cast<double>(k)) < kUneven)) return 0;
-  return intervals / span;
+bool ascend(const std::vector<double>& time) {
+  return std::ranges::all_of(time, [](double t) { return std::isfinite(t); }) &&
+         std::ranges::is_sorted(time, std::less_equal<>());
 }
 
 PointCache read_mdd(std::string_view bytes, const std::string& what) {
@@ -111,10 +106,11 @@ PointCache read_mdd(std::string_view bytes, const std::string& what) {
   if (static_cast<std::int64_t>(numbers.left()) < counts.frames)
     throw Error::invalid_input(what + ": it is cut off, or no MDD: its header has " +
                                std::to_string(counts.frames) + " frames");
-  std::vector<double> time;
-  for (std::int64_t f = 0; f < counts.frames; ++f) time.push_back(numbers.real());
   PointCache cache;
-  cache.fps = even_rate(time);
+  for (std::int64_t f = 0; f < counts.frames; ++f) cache.time.push_back(numbers.real());
+  const double first = cache.time.front();
+  for (double& t : cache.time) t -= first;
+  if (!ascend(cache.time)) cache.time.clear();
   read_frames(numbers, counts, what, cache);
   return cache;
 }

@@ -55,7 +55,7 @@ void load_body(const Scene& scene, Obstacle& o, const std::string& path) {
   } catch (const Error& error) {
     throw error.with_origin(origin(o.sequence.empty() ? "file" : "sequence"));
   }
-  if (o.mesh->frames.size() > 1 && !(o.mesh->fps > 0))
+  if (o.mesh->frames.size() > 1 && !o.mesh->moves())
     throw Error::invalid_input("sequence " + o.sequence + " of " + std::to_string(o.mesh->frames.size()) +
                                " frames needs " + path + ".fps, how many of them a second has")
         .with_origin(origin("sequence"));

@@ -3,6 +3,8 @@
 #include <fstream>
 #include <set>
 
+#include "experiments/workbench/pictures/drawing.h"
+#include "experiments/workbench/pictures/drawn_body.h"
 #include "experiments/workbench/pictures/scene_renderer.h"
 #include "sim/base/atomic_file.h"
 #include "sim/base/error.h"
@@ -47,20 +49,73 @@ void append(const fs::path& file, std::ios::openmode mode, const std::string& te
   if (!stream.flush()) throw Error::system("cannot write " + file.string());
 }
 
+std::vector<KeptBody> kept_bodies(const std::vector<Obstacle>& obstacles, double cloth_quantum) {
+  std::vector<KeptBody> bodies;
+  for (std::size_t i = 0; i < obstacles.size(); ++i) {
+    const Obstacle& o = obstacles[i];
+    if (!is_body(o) || !o.visible || !o.mesh) continue;
+    KeptBody body{i, {}, o.mesh->closed, {}};
+    body.mesh.vertices = static_cast<std::size_t>(o.mesh->vertices());
+    body.mesh.triangles = flat_triangles(o.mesh->face);
+    body.mesh.quantum = body_quantum(o, cloth_quantum);
+    if (!o.mesh->moves()) body.xyz = drawn_body(o, 0, body.mesh.quantum);
+    bodies.push_back(std::move(body));
+  }
+  return bodies;
+}
+
+// Its positions where they are kept: at the instants, or once for all.
+std::shared_ptr<const BodyMesh> body_mesh(const KeptBody& body, const std::vector<KeptState>& instants) {
+  auto mesh = std::make_shared<BodyMesh>();
+  mesh->closed = body.closed;
+  for (std::size_t t = 0; t + 2 < body.mesh.triangles.size(); t += 3)
+    mesh->face.emplace_back(body.mesh.triangles[t], body.mesh.triangles[t + 1], body.mesh.triangles[t + 2]);
+  const auto add = [&](const std::vector<float>& xyz) {
+    std::vector<Eigen::Vector3d>& frame = mesh->frames.emplace_back();
+    for (std::size_t i = 0; i + 2 < xyz.size(); i += 3) frame.emplace_back(xyz[i], xyz[i + 1], xyz[i + 2]);
+  };
+  if (!body.xyz.empty()) {
+    add(body.xyz);
+    return mesh;
+  }
+  for (const KeptState& instant : instants) {
+    const auto found = instant.bodies.find(body.obstacle);
+    if (found == instant.bodies.end() || (!mesh->time.empty() && !(instant.time > mesh->time.back())))
+      continue;
+    add(found->second);
+    mesh->time.push_back(instant.time);
+  }
+  return mesh->frames.empty() ? nullptr : mesh;
+}
+
 }  // namespace
 
 KeptFrames::KeptFrames(const Setup& setup, const DrawnMesh& mesh, const render::Box& bounds,
                        std::optional<float> floor)
     : mesh_(mesh),
       packer_(mesh.vertices, mesh.triangles),
-      cloth_{"", 0, setup_json(setup), bounds, floor, {}},
-      quanta_(storage_quanta(setup)) {}
+      cloth_{"", 0, setup_json(setup), bounds, floor, {}, kept_bodies(setup.scene.obstacle, mesh.quantum)},
+      obstacles_(setup.scene.obstacle),
+      quanta_(storage_quanta(setup)) {
+  for (const KeptBody& body : cloth_.bodies)
+    body_packers_.emplace_back(body.mesh.vertices, body.mesh.triangles);
+}
 
 void KeptFrames::add(const fs::path& file, KeptState instant) {
-  if (!has_begun_)
-    append(file, std::ios::trunc, record_text(mesh_record(mesh_)) + record_text(cloth_record(cloth_)));
+  if (!has_begun_) {
+    std::string head = record_text(mesh_record(mesh_)) + record_text(cloth_record(cloth_));
+    for (const KeptBody& body : cloth_.bodies) head += record_text(body_record(body));
+    append(file, std::ios::trunc, head);
+  }
   has_begun_ = true;
-  append(file, std::ios::app, record_text(instant_record(mesh_, packer_, instant, quanta_)));
+  KeptRecord record = instant_record(mesh_, packer_, instant, quanta_);
+  for (std::size_t b = 0; b < cloth_.bodies.size(); ++b) {
+    const KeptBody& body = cloth_.bodies[b];
+    if (body.xyz.empty())
+      add_body(record, body, body_packers_[b],
+               drawn_body(obstacles_[body.obstacle], instant.time, body.mesh.quantum));
+  }
+  append(file, std::ios::app, record_text(record));
 }
 
 void KeptFrames::end(const fs::path& file, const KeptRecord& sheet) {
@@ -102,6 +157,9 @@ Setup kept_setup(const KeptCloth& cloth, const std::string& file) {
   Json keys = cloth.setup.at("scene");
   keys.merge_patch(cloth.setup.at("options"));
   apply_recorded_scene(setup.scene, std::move(keys), file, bind_options(setup.options));
+  for (const KeptBody& body : cloth.bodies)
+    if (body.obstacle < setup.scene.obstacle.size())
+      setup.scene.obstacle[body.obstacle].mesh = body_mesh(body, cloth.instants);
   return setup;
 }
 

@@ -17,7 +17,8 @@ class KeptFrames {
   KeptFrames(const Setup& setup, const DrawnMesh& mesh, const render::Box& bounds,
              std::optional<float> floor);
 
-  // Appends an instant; the first begins the file anew.  Throws Error::system if it cannot be written.
+  // Appends an instant with the bodies of triangles that the scene has then; the first begins the file anew.
+  // Throws Error::system if it cannot be written.
   void add(const std::filesystem::path& file, KeptState instant);
   // Appends how the sheet of these instants is headed, as the file beside the sheet has it.
   static void end(const std::filesystem::path& file, const KeptRecord& sheet);
@@ -30,6 +31,8 @@ class KeptFrames {
   const DrawnMesh& mesh_;
   MeshPacker packer_;
   KeptCloth cloth_;
+  std::vector<Obstacle> obstacles_;
+  std::vector<MeshPacker> body_packers_;  // of the bodies of cloth_
   std::map<std::string, double> quanta_;
   bool has_begun_ = false;
 };
@@ -39,8 +42,8 @@ std::vector<KeptRecord> chosen_records(const std::filesystem::path& frames, cons
 // Throws Error::system.
 void write_records(const std::filesystem::path& file, const std::vector<KeptRecord>& records);
 
-// Scene and options that draw the cloth; `file` names it in messages.  Throws Error::invalid_input for what
-// this program does not know.
+// Scene, with its bodies of triangles, and options that draw the cloth; `file` names it in messages.  Throws
+// Error::invalid_input for what this program does not know.
 Setup kept_setup(const KeptCloth& cloth, const std::string& file);
 
 }  // namespace hysteron::experiments

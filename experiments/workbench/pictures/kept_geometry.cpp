@@ -73,20 +73,54 @@ KeptCloth kept_cloth(const KeptRecord& record, std::size_t meshes) {
   return cloth;
 }
 
-KeptState instant_state(const KeptRecord& record, const DrawnMesh& mesh, const MeshPacker& packer) {
+KeptBody kept_body(const KeptRecord& record) {
+  KeptBody body;
+  body.obstacle = record.head.at("obstacle");
+  body.closed = record.head.at("closed");
+  body.mesh.vertices = record.head.at("vertices");
+  body.mesh.quantum = record.head.at("quantum");
+  body.mesh.triangles = unpacked_triangles(block(record, 0), record.head.at("triangles"), body.mesh.vertices);
+  if (!block(record, 1).empty())
+    body.xyz = all_values(MeshPacker(body.mesh.vertices, body.mesh.triangles).unpacked(block(record, 1), 3),
+                          body.mesh.quantum);
+  return body;
+}
+
+// What reads the instants of a cloth.
+struct Packers {
+  const MeshPacker* cloth;
+  std::vector<MeshPacker> bodies;
+};
+
+// Of those that change their shape, behind the values from block `next` on.
+void read_bodies(const KeptRecord& record, std::size_t next, const KeptCloth& cloth, const Packers& packers,
+                 KeptState& instant) {
+  for (const Json& number : record.head.value("bodies", Json::array())) {
+    const auto obstacle = number.get<std::size_t>();
+    const auto body = std::ranges::find(cloth.bodies, obstacle, &KeptBody::obstacle);
+    if (body == cloth.bodies.end()) throw Error::invalid_input("an instant names a body that is not there");
+    const MeshPacker& packer = packers.bodies[static_cast<std::size_t>(body - cloth.bodies.begin())];
+    instant.bodies[obstacle] = all_values(packer.unpacked(block(record, next++), 3), body->mesh.quantum);
+  }
+}
+
+KeptState instant_state(const KeptRecord& record, const DrawnMesh& mesh, const KeptCloth& cloth,
+                        const Packers& packers) {
   KeptState instant;
   instant.time = record.head.at("time");
   instant.loop = record.head.at("loop");
-  instant.xyz = all_values(packer.unpacked(block(record, 0), 3), mesh.quantum);
+  instant.xyz = all_values(packers.cloth->unpacked(block(record, 0), 3), mesh.quantum);
   std::size_t next = 1;
   for (const auto& [look, quantum] : record.head.at("values").items())
-    instant.values[look] = all_values(packer.unpacked(block(record, next++), 1), quantum);
+    instant.values[look] = all_values(packers.cloth->unpacked(block(record, next++), 1), quantum);
+  read_bodies(record, next, cloth, packers, instant);
   return instant;
 }
 
 Kept kept_contents(const std::vector<KeptRecord>& records) {
   Kept kept;
   std::vector<MeshPacker> packers;
+  Packers of_cloth;
   for (const KeptRecord& record : records) {
     const std::string kind = record.kind();
     if (kind == "mesh") {
@@ -94,10 +128,17 @@ Kept kept_contents(const std::vector<KeptRecord>& records) {
       packers.emplace_back(kept.meshes.back().vertices, kept.meshes.back().triangles);
     } else if (kind == "cloth") {
       kept.cloths.push_back(kept_cloth(record, kept.meshes.size()));
+      of_cloth = {nullptr, {}};
+    } else if (kind == "body") {
+      if (kept.cloths.empty()) throw Error::invalid_input("a body stands before its cloth");
+      kept.cloths.back().bodies.push_back(kept_body(record));
+      const DrawnMesh& mesh = kept.cloths.back().bodies.back().mesh;
+      of_cloth.bodies.emplace_back(mesh.vertices, mesh.triangles);
     } else if (kind == "instant") {
       if (kept.cloths.empty()) throw Error::invalid_input("an instant stands before its cloth");
       KeptCloth& cloth = kept.cloths.back();
-      cloth.instants.push_back(instant_state(record, kept.meshes[cloth.mesh], packers[cloth.mesh]));
+      of_cloth.cloth = &packers[cloth.mesh];
+      cloth.instants.push_back(instant_state(record, kept.meshes[cloth.mesh], cloth, of_cloth));
     } else if (kind == "sheet") {
       kept.sheet = record.head;
     }
@@ -134,6 +175,26 @@ KeptRecord cloth_record(const KeptCloth& cloth) {
            {"floor", cloth.floor ? Json(*cloth.floor) : Json()},
            {"setup_bytes", setup.size()}},
           {deflated(setup)}};
+}
+
+KeptRecord body_record(const KeptBody& body) {
+  const DrawnMesh& mesh = body.mesh;
+  return {{{"record", "body"},
+           {"obstacle", body.obstacle},
+           {"closed", body.closed},
+           {"vertices", mesh.vertices},
+           {"triangles", mesh.triangles.size() / 3},
+           {"quantum", mesh.quantum}},
+          {packed_triangles(mesh.triangles),
+           body.xyz.empty()
+               ? ""
+               : MeshPacker(mesh.vertices, mesh.triangles).packed(all_steps(body.xyz, mesh.quantum), 3)}};
+}
+
+void add_body(KeptRecord& instant, const KeptBody& body, const MeshPacker& packer,
+              const std::vector<float>& xyz) {
+  instant.head["bodies"].push_back(body.obstacle);
+  instant.blocks.push_back(packer.packed(all_steps(xyz, body.mesh.quantum), 3));
 }
 
 KeptRecord instant_record(const DrawnMesh& mesh, const MeshPacker& packer, const KeptState& instant,

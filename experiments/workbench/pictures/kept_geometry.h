@@ -2,6 +2,9 @@
 //
 //   {"record": "mesh", ...}      triangles and pattern, once for all cloth that has them
 //   {"record": "cloth", ...}     scene, options, what is framed; the instants that follow are its
+//   {"record": "body", ...}      triangles of an obstacle that a file holds, and, where it keeps its shape,
+//   their
+//                                vertices
 //   {"record": "instant", ...}   positions and values at the vertices
 //   {"record": "sheet", ...}     how the contact sheet, or a comparison's page, is headed
 //
@@ -45,6 +48,15 @@ struct KeptState {
   std::vector<float> xyz;                            // 3 a vertex [m]
   std::map<std::string, std::vector<float>> values;  // by look, one a vertex
   std::size_t loop = 0;  // points of the probe's path up to here, which stands with the sheet
+  std::map<std::size_t, std::vector<float>> bodies;  // by obstacle: of those that change their shape
+};
+
+// An obstacle of kind mesh.
+struct KeptBody {
+  std::size_t obstacle = 0;  // in the scene
+  DrawnMesh mesh;            // without a pattern
+  bool closed = false;
+  std::vector<float> xyz;  // 3 a vertex in its own frame [m]; empty: as the instants have it
 };
 
 struct KeptCloth {
@@ -54,6 +66,7 @@ struct KeptCloth {
   render::Box bounds;
   std::optional<float> floor;  // [m]
   std::vector<KeptState> instants;
+  std::vector<KeptBody> bodies;
 };
 
 struct Kept {
@@ -72,9 +85,13 @@ struct KeptRecord {
 KeptRecord mesh_record(const DrawnMesh& mesh);
 // Without the number of its mesh.
 KeptRecord cloth_record(const KeptCloth& cloth);
-// `quanta`: of each look's values.
+KeptRecord body_record(const KeptBody& body);
+// `quanta`: of each look's values.  Bodies are added to it.
 KeptRecord instant_record(const DrawnMesh& mesh, const MeshPacker& packer, const KeptState& instant,
                           const std::map<std::string, double>& quanta);
+// The vertices of a body at that instant; `packer` is of its mesh.
+void add_body(KeptRecord& instant, const KeptBody& body, const MeshPacker& packer,
+              const std::vector<float>& xyz);
 
 std::string record_text(const KeptRecord& record);
 // Whole records; what stands behind the last one is left out.  Throws Error::invalid_input, naming the file,

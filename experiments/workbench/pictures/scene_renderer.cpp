@@ -1,8 +1,7 @@
 #include "experiments/workbench/pictures/scene_renderer.h"
 
-#include <cmath>
-
 #include "experiments/workbench/pictures/drawing.h"
+#include "experiments/workbench/pictures/drawn_body.h"
 #include "experiments/workbench/pictures/fabric_look.h"
 #include "render/shapes.h"
 #include "sim/base/error.h"
@@ -34,16 +33,10 @@ render::Image between(render::Image bare, const render::Image& whole, int fracti
   return bare;
 }
 
-// Cloth lies on its triangles, not only with its vertices: they cut nothing from it.
-render::TriangleMesh body_surface(const BodyMesh& body, double time) {
-  render::TriangleMesh mesh = render::smooth_mesh(body.positions(time), body.face);
-  mesh.roundness = INFINITY;
-  return mesh;
-}
-
 }  // namespace
 
-std::optional<render::TriangleMesh> obstacle_mesh(const Obstacle& o, const render::ShapeDetail& detail) {
+std::optional<render::TriangleMesh> obstacle_mesh(const Obstacle& o, const render::ShapeDetail& detail,
+                                                  double time, double quantum) {
   const auto f = [](double x) { return static_cast<float>(x); };
   switch (o.kind) {
     case ObstacleKind::ground:
@@ -61,7 +54,7 @@ std::optional<render::TriangleMesh> obstacle_mesh(const Obstacle& o, const rende
       return render::cylinder_mesh(f(o.radius), f(o.height), f(o.rim), detail);
     case ObstacleKind::mesh:
       if (!o.mesh) return {};
-      return body_surface(*o.mesh, 0);
+      return body_surface(*o.mesh, drawn_body(o, time, quantum));
   }
   return {};
 }
@@ -126,8 +119,9 @@ void SceneRenderer::take_size(const render::PictureSize& size) {
   view_ = std::make_unique<render::ClothView>(*offscreen_, size);
   view_->set_cloth({mesh_.vertices, mesh_.triangles, mesh_.pattern});
   body_.clear();
+  shaped_at_ = 0;
   for (const Obstacle& o : scenery_) {
-    const auto body = obstacle_mesh(o), caster = obstacle_mesh(o, render::kCaster);
+    const auto body = surface_of(o, render::kSeen, 0), caster = surface_of(o, render::kCaster, 0);
     body_.push_back(body && o.visible ? view_->add_obstacle(*body, placed_at(o, 0), &*caster) : -1);
     if (o.kind == ObstacleKind::ground && !floor_) floor_ = static_cast<float>(o.center.z());
   }
@@ -135,14 +129,23 @@ void SceneRenderer::take_size(const render::PictureSize& size) {
   view_->set_bounds(bounds_);
 }
 
+std::optional<render::TriangleMesh> SceneRenderer::surface_of(const Obstacle& o,
+                                                              const render::ShapeDetail& detail,
+                                                              double time) const {
+  return obstacle_mesh(o, detail, time, body_quantum(o, mesh_.quantum));
+}
+
 void SceneRenderer::place_obstacles(double time, bool visible) {
   for (std::size_t i = 0; i < body_.size(); ++i) {
     if (body_[i] < 0) continue;
     const Obstacle& o = scenery_[i];
     const bool there = o.from <= time && time < o.until;
+    if (is_body(o) && o.mesh->moves() && time != shaped_at_)
+      view_->reshape_obstacle(body_[i], *surface_of(o, render::kSeen, time));
     view_->move_obstacle(body_[i], placed_at(o, time));
     view_->show_obstacle(body_[i], visible && there);
   }
+  shaped_at_ = time;
 }
 
 render::Image SceneRenderer::draw(const render::Look& look, const render::Camera& camera,

@@ -16,9 +16,11 @@
 
 namespace hysteron::experiments {
 
-// An obstacle's surface before it is placed; none of what is drawn otherwise, or not at all.
+// An obstacle's surface before it is placed; none of what is drawn otherwise, or not at all.  Of a body of
+// triangles it is that at `time` [s], on multiples of `quantum` [m] (drawn_body.h).
 std::optional<render::TriangleMesh> obstacle_mesh(const Obstacle& obstacle,
-                                                  const render::ShapeDetail& detail = render::kSeen);
+                                                  const render::ShapeDetail& detail = render::kSeen,
+                                                  double time = 0, double quantum = 0);
 // Where it is at `time` [s].
 Eigen::Matrix4f placed_at(const Obstacle& obstacle, double time);
 
@@ -58,6 +60,9 @@ class SceneRenderer {
 
  private:
   void place_obstacles(double time, bool visible);
+  // The surface of a body of triangles, as pictures show it at `time` [s].
+  std::optional<render::TriangleMesh> surface_of(const Obstacle& obstacle, const render::ShapeDetail& detail,
+                                                 double time) const;
 
   const DrawnMesh& mesh_;
   render::Box bounds_;
@@ -67,6 +72,7 @@ class SceneRenderer {
   std::unique_ptr<render::ClothView> view_;
   render::PictureSize size_;
   std::vector<int> body_;  // the view's number of each obstacle, -1 = not a body
+  double shaped_at_ = 0;   // for which bodies that change their shape have it [s]
 };
 
 }  // namespace hysteron::experiments

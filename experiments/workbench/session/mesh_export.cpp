@@ -10,6 +10,7 @@
 #include "sim/base/atomic_file.h"
 #include "sim/bending/vertex_curvature.h"
 #include "sim/mesh/mesh_export.h"
+#include "sim/scene/body.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -26,7 +27,11 @@ std::string mesh_file(std::size_t number, const std::string& format) {
 }
 
 std::string scene_file(std::size_t number) { return fmt::format("mesh/{:04}.xml", number); }
-std::string body_file(std::size_t number) { return fmt::format("bodies/{:04}.ply", number); }
+// Of one that changes its shape there is one for each instant.
+std::string body_file(std::size_t number, std::optional<std::size_t> instant = {}) {
+  return instant ? fmt::format("bodies/{:04}-{:04}.ply", number, *instant)
+                 : fmt::format("bodies/{:04}.ply", number);
+}
 
 VtkField velocities(Simulation& simulation) {
   VtkField field{"velocity", 3, {}};
@@ -81,15 +86,18 @@ void MeshExport::begin(Session& session) {
     view_ = mitsuba_view(session.setup(), session.bounds(), session.plan().floor);
 }
 
-// Bodies keep their shape: they are written with the first scene.
+// Bodies that keep their shape are written with the first scene.
 void MeshExport::write_scene(Session& session, std::size_t number, const Snapshot& instant) {
   Run& run = session.run();
   const std::vector<Obstacle>& obstacles = session.scene().obstacle;
   std::vector<std::string> bodies;
   for (std::size_t i = 0; i < obstacles.size(); ++i) {
-    const auto body = obstacles[i].visible ? obstacle_mesh(obstacles[i]) : std::nullopt;
-    bodies.push_back(body ? body_file(i) : "");
-    if (body && number == 0) write_body(run.path("mesh/" + bodies[i]).string(), *body, view_->look, side_);
+    const Obstacle& o = obstacles[i];
+    const bool changes = is_body(o) && o.mesh && o.mesh->moves();
+    const auto body = o.visible ? obstacle_mesh(o, render::kSeen, instant.time) : std::nullopt;
+    bodies.push_back(body ? body_file(i, changes ? std::optional(number) : std::nullopt) : "");
+    if (body && (changes || number == 0))
+      write_body(run.path("mesh/" + bodies[i]).string(), *body, view_->look, side_);
   }
   MitsubaView view = *view_;
   view.look.to_light =
