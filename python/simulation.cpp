@@ -22,6 +22,7 @@ SimulationValue::SimulationValue(const Scene& scene) : scene_(scene) {
     simulation_ = make_simulation(scene_, cloth_);
   });
   warn(cloth_.warnings);
+  warn(body_doubts(scene_));
   warn(unused_parameter_warnings(scene_.law, scene_.fabric.virgin_curve(), scene_.param, LawUse::cloth,
                                  scene_.fabric.name));
 }

@@ -1,12 +1,19 @@
 #include "sim/contact/start_checks.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <numbers>
+#include <set>
+#include <utility>
 
 #include "sim/base/error.h"
 #include "sim/contact/obstacle_set.h"
 #include "sim/contact/self_touch.h"
+#include "sim/mesh/corner_sets.h"
 #include "sim/mesh/intersections.h"
+#include "sim/scene/body.h"
 #include "sim/scene/shown_key.h"
 
 namespace hysteron {
@@ -104,6 +111,103 @@ void throw_if_immersed(const Scene& scene, const Cloth& cloth) {
       (origin.empty() ? "" : " (" + origin + ")"));
 }
 
+// "obstacle[1] (mesh torso.obj)"
+std::string body_name(const Scene& scene, std::size_t number) {
+  return "obstacle[" + std::to_string(number) + "] (mesh " + scene.obstacle[number].file + ")";
+}
+
+std::string place_text(const Eigen::Vector3d& x) {
+  char text[100];
+  std::snprintf(text, sizeof text, "(%.4g, %.4g, %.4g) m", x.x(), x.y(), x.z());
+  return text;
+}
+
+std::string move_apart(const Scene& scene, std::size_t number) {
+  const std::string origin = key_origin(scene, "obstacle[" + std::to_string(number) + "]", "");
+  return ": move the cloth or the obstacle" + (origin.empty() ? "" : " (" + origin + ")");
+}
+
+// Triangles that something can move.
+std::vector<Eigen::Vector3i> moving_triangles(const Scene& scene, const Cloth& cloth) {
+  const std::vector<char> held = cloth.held_throughout(scene);
+  std::vector<Eigen::Vector3i> face;
+  for (const Eigen::Vector3i& f : cloth.mesh.face)
+    if (!held[f[0]] || !held[f[1]] || !held[f[2]]) face.push_back(f);
+  return face;
+}
+
+// Turns of a closed surface around a point: 1 inside one whose triangles face outward (solid angles by Van
+// Oosterom & Strackee 1983).
+double winding_number(const std::vector<Eigen::Vector3i>& face, const std::vector<Eigen::Vector3d>& x,
+                      const Eigen::Vector3d& point) {
+  double half_angles = 0;
+  for (const Eigen::Vector3i& f : face) {
+    const Eigen::Vector3d a = x[f[0]] - point, b = x[f[1]] - point, c = x[f[2]] - point;
+    const double la = a.norm(), lb = b.norm(), lc = c.norm();
+    half_angles +=
+        std::atan2(a.cross(b).dot(c), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+  }
+  return half_angles / (2 * std::numbers::pi);
+}
+
+double distance_from(const std::vector<Eigen::Vector3i>& face, const std::vector<Eigen::Vector3d>& x,
+                     const Eigen::Vector3d& point) {
+  double least = INFINITY;
+  for (const Eigen::Vector3i& f : face) {
+    const Eigen::Vector3d corners[4] = {point, x[f[0]], x[f[1]], x[f[2]]};
+    least = std::min(least, pair_distance(corners, false));
+  }
+  return least;
+}
+
+void throw_if_across(const Scene& scene, const Cloth& cloth, std::size_t number,
+                     const std::vector<Eigen::Vector3i>& moving, const std::vector<Eigen::Vector3d>& x) {
+  const BodyMesh& body = *scene.obstacle[number].mesh;
+  const auto pairs = crossing_triangles({moving, cloth.start}, {body.face, x});
+  if (pairs.empty()) return;
+  const Eigen::Vector3i& first = moving[static_cast<std::size_t>(pairs.front().first)];
+  const Eigen::Vector3d middle = (cloth.start[first[0]] + cloth.start[first[1]] + cloth.start[first[2]]) / 3;
+  std::set<int> crossed;
+  for (const auto& [of_cloth, of_body] : pairs) crossed.insert(of_cloth);
+  throw Error::invalid_input("obstacle: at the start " + std::to_string(crossed.size()) +
+                             " triangles of the cloth lie across the surface of " + body_name(scene, number) +
+                             ", one of them at " + place_text(middle) + " across its triangle " +
+                             std::to_string(pairs.front().second) + move_apart(scene, number));
+}
+
+// A part of the cloth that lies across no triangle is inside with all of its vertices, or with none.
+void throw_if_inside(const Scene& scene, const Cloth& cloth, std::size_t number,
+                     const std::vector<Eigen::Vector3i>& moving, const std::vector<Eigen::Vector3d>& x) {
+  const BodyMesh& body = *scene.obstacle[number].mesh;
+  if (!body.closed) return;
+  Sets parts(cloth.mesh.vertices());
+  for (const Eigen::Vector3i& f : moving) parts.join(f[0], f[1]), parts.join(f[1], f[2]);
+  std::vector<int> size(cloth.start.size(), 0);
+  for (const Eigen::Vector3i& f : moving) ++size[parts.root(f[0])];
+  for (const Eigen::Vector3i& f : moving) {
+    const int triangles = std::exchange(size[parts.root(f[0])], 0);
+    if (triangles == 0) continue;
+    const Eigen::Vector3d& at = cloth.start[f[0]];
+    if (!(winding_number(body.face, x, at) > 0.5)) continue;
+    throw Error::invalid_input(
+        "obstacle: at the start " + std::to_string(triangles) + " triangles of the cloth lie inside " +
+        body_name(scene, number) + ", " + vertex_text(f[0], at) + " of them " +
+        millimetres(distance_from(body.face, x, at)) + " deep" + move_apart(scene, number));
+  }
+}
+
+void throw_if_in_body(const Scene& scene, const Cloth& cloth) {
+  const auto& obstacles = scene.obstacle;
+  if (std::none_of(obstacles.begin(), obstacles.end(), is_body)) return;
+  const std::vector<Eigen::Vector3i> moving = moving_triangles(scene, cloth);
+  for (std::size_t i = 0; i < obstacles.size(); ++i) {
+    if (!is_body(obstacles[i])) continue;
+    const std::vector<Eigen::Vector3d> x = body_positions(obstacles[i], 0);
+    throw_if_across(scene, cloth, i, moving, x);
+    throw_if_inside(scene, cloth, i, moving, x);
+  }
+}
+
 }  // namespace
 
 void check_start(const Scene& scene, const Cloth& cloth) {
@@ -112,6 +216,7 @@ void check_start(const Scene& scene, const Cloth& cloth) {
     throw_if_crossing(cloth);
     throw_if_near(scene, cloth);
   }
+  throw_if_in_body(scene, cloth);
   throw_if_immersed(scene, cloth);
 }
 

@@ -122,11 +122,13 @@ std::array<int, 3> axes_by_spread(const std::vector<Bounds>& bounds) {
   return axes;
 }
 
-}  // namespace
+constexpr std::size_t kMost = 1000000;
 
-std::vector<std::pair<int, int>> intersecting_triangles(const std::vector<Eigen::Vector3i>& face,
-                                                        const std::vector<Eigen::Vector3d>& position) {
-  constexpr std::size_t kMost = 1000000;
+// Pairs whose boxes overlap and that `cross`, of those that are `asked` for.
+template <class Asked>
+std::vector<std::pair<int, int>> found_pairs(const std::vector<Eigen::Vector3i>& face,
+                                             const std::vector<Eigen::Vector3d>& position,
+                                             const Asked& asked) {
   std::vector<Bounds> bounds;
   for (const auto& f : face) bounds.push_back(triangle_bounds(f, position));
   const auto [first, second, third] = axes_by_spread(bounds);
@@ -142,10 +144,28 @@ std::vector<std::pair<int, int>> intersecting_triangles(const std::vector<Eigen:
     for (std::size_t j = i + 1; j < order.size() && sorted[j].low[first] <= sorted[i].high[first]; ++j) {
       if (!overlap(sorted[i], sorted[j], second) || !overlap(sorted[i], sorted[j], third)) continue;
       const auto [a, b] = std::minmax(order[i], order[j]);
-      if (cross(a, b)) found.emplace_back(a, b);
+      if (asked(a, b) && cross(a, b)) found.emplace_back(a, b);
     }
   std::sort(found.begin(), found.end());
   return found;
+}
+
+}  // namespace
+
+std::vector<std::pair<int, int>> intersecting_triangles(const std::vector<Eigen::Vector3i>& face,
+                                                        const std::vector<Eigen::Vector3d>& position) {
+  return found_pairs(face, position, [](int, int) { return true; });
+}
+
+std::vector<std::pair<int, int>> crossing_triangles(const TriangleSet& first, const TriangleSet& second) {
+  std::vector<Eigen::Vector3i> face = first.face;
+  std::vector<Eigen::Vector3d> position = first.position;
+  const int triangles = static_cast<int>(face.size()), vertices = static_cast<int>(position.size());
+  for (const Eigen::Vector3i& f : second.face) face.emplace_back(f.array() + vertices);
+  position.insert(position.end(), second.position.begin(), second.position.end());
+  auto pairs = found_pairs(face, position, [=](int a, int b) { return a < triangles && b >= triangles; });
+  for (auto& [a, b] : pairs) b -= triangles;
+  return pairs;
 }
 
 }  // namespace hysteron

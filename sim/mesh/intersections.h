@@ -14,4 +14,11 @@ namespace hysteron {
 std::vector<std::pair<int, int>> intersecting_triangles(const std::vector<Eigen::Vector3i>& face,
                                                         const std::vector<Eigen::Vector3d>& position);
 
+// The same between two surfaces that share no vertex: pairs of a triangle of the first and one of the second.
+struct TriangleSet {
+  const std::vector<Eigen::Vector3i>& face;
+  const std::vector<Eigen::Vector3d>& position;  // [m]
+};
+std::vector<std::pair<int, int>> crossing_triangles(const TriangleSet& first, const TriangleSet& second);
+
 }  // namespace hysteron

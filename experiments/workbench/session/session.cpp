@@ -17,6 +17,7 @@
 #include "experiments/workbench/session/probes.h"
 #include "experiments/workbench/session/resting.h"
 #include "experiments/workbench/session/resuming.h"
+#include "sim/scene/body.h"
 #include "sim/scene/mesh_files.h"
 #include "sim/scene/shown_key.h"
 
@@ -38,10 +39,12 @@ double default_rate(const CommandLine& line) {
 
 }  // namespace
 
-void explain(const Cloth& cloth, const Simulation& simulation) {
+void explain(const Scene& scene, const Cloth& cloth, const Simulation& simulation) {
   std::cout << cloth.mesh.faces() << " triangles, " << cloth.mesh.interior_edges << " hinges, "
             << cloth.mesh.vertices() << " vertices on " << simulation.device() << "\n";
+  for (const std::string& body : body_lines(scene)) std::cout << body << "\n";
   for (const std::string& warning : cloth.warnings) std::cout << "warning: " << warning << "\n";
+  for (const std::string& doubt : body_doubts(scene)) std::cout << "warning: " << doubt << "\n";
   const MethodChoice& method = simulation.method;
   if (!method.reason.empty()) std::cout << method.reason << "\n";
   if (method.linear_solver != Preconditioning::automatic)
@@ -90,7 +93,7 @@ Session::Session(const CommandLine& line, const Setup& setup, std::optional<Clot
     return;
   }
   if (setup.options.explain) {
-    explain(cloth_, *simulation_);
+    explain(setup.scene, cloth_, *simulation_);
     std::cout << probes->text() << std::flush;
     return;
   }
@@ -121,6 +124,7 @@ void Session::describe_start() {
     manifest.linear_solver = enum_name(method.linear_solver);
   if (!method.reason.empty()) run_->progress(method.reason);
   for (const std::string& warning : cloth_.warnings) run_->warn(warning);
+  for (const std::string& doubt : body_doubts(setup_.scene)) run_->warn(doubt);
   warn_of_triangle_count();
   for (const std::string& doubt : doubts_at_start(setup_.scene, cloth_, *simulation_)) run_->warn(doubt);
 }

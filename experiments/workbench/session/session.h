@@ -82,7 +82,7 @@ Observers session_observers(Session& session, std::unique_ptr<Probes> probes,
                             std::unique_ptr<Checkpoints> checkpoints);
 
 // Prints what the scene includes and leaves out, with bytes and loops (--explain).
-void explain(const Cloth& cloth, const Simulation& simulation);
+void explain(const Scene& scene, const Cloth& cloth, const Simulation& simulation);
 
 // The scene as the experiment of that line changes it, without the run; nothing where it simulates no cloth.
 // Throws what the run would throw before its first step.
