@@ -171,5 +171,43 @@ TEST_F(ObstacleTest, APlateOfEightCornersIsDarkBelowASheet) {
   EXPECT_LT(light[0], 0.6 * light[1]);
 }
 
+// A square without thickness that faces up.
+TriangleMesh open_square(float half, float z) {
+  const std::vector<Eigen::Vector3d> corner = {
+      {-half, -half, z}, {half, -half, z}, {half, half, z}, {-half, half, z}};
+  const std::vector<Eigen::Vector3i> face = {{0, 1, 2}, {0, 2, 3}};
+  TriangleMesh mesh = smooth_mesh(corner, face);
+  mesh.closed = false;
+  return mesh;
+}
+
+TEST_F(ObstacleTest, AnOpenBodyIsSeenFromBothSides) {
+  for (const bool closed : {false, true}) {
+    auto view = viewed_cloth(test::flat_square(4, 0.02f, 0.2f));
+    TriangleMesh square = open_square(0.1f, 0);
+    square.closed = closed;
+    view->add_obstacle(square, placed({0, 0, 0}, {0, 0, 1}));
+    const int above = red_pixels(view->draw(Camera::perspective({0, -0.4f, 0.4f}, {0, 0, 0}, 30))),
+              below = red_pixels(view->draw(Camera::perspective({0, -0.4f, -0.4f}, {0, 0, 0}, 30)));
+    EXPECT_GT(above, 1000);
+    closed ? EXPECT_EQ(below, 0) : EXPECT_NEAR(below, above, 0.1 * above);
+  }
+}
+
+TEST_F(ObstacleTest, AReshapedBodyIsDrawnAsOneThatHasHadThisShapeFromTheStart) {
+  const Camera camera = Camera::perspective({0, -0.6f, 0.3f}, {0, 0, 0}, 30);
+  const auto drawn = [&](const TriangleMesh& mesh) {
+    auto view = viewed_cloth(test::flat_square(10, 0.2f, 0.15f));
+    view->add_obstacle(mesh, placed({0, 0, 0}, {0, 0, 1}));
+    return view->draw(camera);
+  };
+  const TriangleMesh small = sphere_mesh(0.05f), large = sphere_mesh(0.1f);
+  auto view = viewed_cloth(test::flat_square(10, 0.2f, 0.15f));
+  const int body = view->add_obstacle(small, placed({0, 0, 0}, {0, 0, 1}));
+  EXPECT_EQ(view->draw(camera).pixels(), drawn(small).pixels());
+  view->reshape_obstacle(body, large);
+  EXPECT_EQ(view->draw(camera).pixels(), drawn(large).pixels());
+}
+
 }  // namespace
 }  // namespace hysteron::render

@@ -100,5 +100,26 @@ TEST(Intersections, AreThoseOfWholeNumbers) {
   EXPECT_GT(apart, 10000);
 }
 
+// Each passes through itself as well, which is not asked for.
+TEST(Intersections, BetweenTwoSurfacesAreThoseOfBothTogether) {
+  std::mt19937 random(5);
+  const Soup first = random_soup(random, false), second = random_soup(random, true);
+  const auto points = [](const Soup& soup) {
+    std::vector<Eigen::Vector3d> position;
+    for (const Whole& p : soup.point) position.push_back(p.cast<double>());
+    return position;
+  };
+  std::vector<Eigen::Vector3i> face = first.face;
+  std::vector<Eigen::Vector3d> position = points(first);
+  const int triangles = static_cast<int>(face.size()), vertices = static_cast<int>(position.size());
+  for (const Eigen::Vector3i& f : second.face) face.emplace_back(f.array() + vertices);
+  for (const Eigen::Vector3d& x : points(second)) position.push_back(x);
+  std::vector<std::pair<int, int>> expected;
+  for (const auto& [f, g] : intersecting_triangles(face, position))
+    if (f < triangles && g >= triangles) expected.emplace_back(f, g - triangles);
+  EXPECT_GT(expected.size(), 100u);
+  EXPECT_EQ(crossing_triangles({first.face, points(first)}, {second.face, points(second)}), expected);
+}
+
 }  // namespace
 }  // namespace hysteron
