@@ -35,6 +35,17 @@ class Pictures(unittest.TestCase):
             sim.advance(8)
         self.assertGreater(rows[1], rows[0] + 5)  # it has fallen
 
+    def test_show_a_body_of_triangles_from_a_file(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = os.path.join(folder, "wedge.obj")
+            with open(file, "w", encoding="utf-8") as obj:
+                obj.write("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n")
+            body = {"kind": "mesh", "file": file, "unit": "centimetre", "center": (0.05, 0.05, -0.05)}
+            sim = hysteron_cloth.Simulation(square(obstacle=[body]))
+        view = dict(size=(96, 64), bounds=((0, 0, -0.06), (0.1, 0.1, 0.01)), camera_direction=(0, -1, 0.2))
+        shown, without = (hysteron_cloth.render(s, **view) for s in (sim, hysteron_cloth.Simulation(square())))
+        self.assertGreater((np.abs(shown.astype(int) - without) > 30).sum(), 30)
+
     def test_without_cloth_are_failures(self):
         with self.assertRaisesRegex(hysteron_cloth.RunError, "shows no cloth"):
             hysteron_cloth.render(self.sim, size=(32, 32), bounds=((5, 5, 5), (6, 6, 6)))

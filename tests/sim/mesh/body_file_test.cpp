@@ -21,7 +21,7 @@ using test::obj_text;
 using test::refusal;
 using test::says;
 
-using Points = std::vector<Vector3d>;
+using Vertices = std::vector<Vector3d>;
 
 class BodyFile : public testing::Test {
  protected:
@@ -40,7 +40,7 @@ TEST_F(BodyFile, IsReadFromObjAndPly) {
   const BodyMesh obj = read(obj_text(solid_)), ply = read(ply_text(solid_), "body.ply");
   for (const BodyMesh* body : {&obj, &ply}) {
     EXPECT_EQ(body->face, solid_.face);
-    EXPECT_EQ(body->frames, std::vector<Points>{solid_.vertex});
+    EXPECT_EQ(body->frames, std::vector<Vertices>{solid_.vertex});
     EXPECT_TRUE(body->closed);
     EXPECT_FALSE(body->moves());
     EXPECT_EQ(body->positions(3), solid_.vertex);
@@ -57,7 +57,7 @@ TEST_F(BodyFile, IsOpenWithoutOneOfItsTriangles) {
 TEST_F(BodyFile, HasItsLengthsInMetresAndNoLooseVertices) {
   const std::string file = folder_.write("inches.obj", "v 9 9 9\nv 0 0 0\nv 10 0 0\nv 0 10 0\nf 2 3 4\n");
   const BodyMesh body = read_body({file, "", LengthUnit::inch, 0});
-  EXPECT_EQ(body.frames.front(), (Points{{0, 0, 0}, {0.254, 0, 0}, {0, 0.254, 0}}));
+  EXPECT_EQ(body.frames.front(), (Vertices{{0, 0, 0}, {0.254, 0, 0}, {0, 0.254, 0}}));
   EXPECT_EQ(body.face, (std::vector<Eigen::Vector3i>{{0, 1, 2}}));
 }
 
@@ -174,19 +174,19 @@ void add_word(std::string& bytes, std::uint32_t word) {
 }
 
 // As LightWave and Blender write it: counts, times, then all points frame by frame, the high byte first.
-std::string mdd(const std::vector<float>& time, const std::vector<Points>& frames) {
+std::string mdd(const std::vector<float>& time, const std::vector<Vertices>& frames) {
   std::string bytes;
   add_word(bytes, static_cast<std::uint32_t>(frames.size()));
   add_word(bytes, static_cast<std::uint32_t>(frames.front().size()));
   for (const float t : time) add_word(bytes, std::bit_cast<std::uint32_t>(t));
-  for (const Points& frame : frames)
+  for (const Vertices& frame : frames)
     for (const Vector3d& x : frame)
       for (const double c : x) add_word(bytes, std::bit_cast<std::uint32_t>(static_cast<float>(c)));
   return bytes;
 }
 
 TEST_F(BodySequence, OfAnMddHasItsTimesUnlessFpsSaysOthers) {
-  std::vector<Points> frames;
+  std::vector<Vertices> frames;
   for (int k = 0; k < 3; ++k) frames.push_back(solid_.moved({1.0 * k, 0, 0}).vertex);
   folder_.write("walk.mdd", mdd({2, 2.5, 3.5}, frames));
   const BodyMesh own = read_sequence("walk.mdd", 0), even = read_sequence("walk.mdd", 1);
@@ -206,7 +206,7 @@ TEST_F(BodySequence, OfAnMddHasItsTimesUnlessFpsSaysOthers) {
 
 // Every one is read or refused.
 TEST_F(BodySequence, OfADamagedPointCacheEndsInAnErrorAtMost) {
-  std::vector<Points> frames;
+  std::vector<Vertices> frames;
   for (int k = 0; k < 2; ++k) {
     frames.push_back(solid_.moved({1.0 * k, 0, 0}).vertex);
     write_to_point_cache(folder_.file("whole.pc2"), k, frames.back());
