@@ -52,8 +52,8 @@ void load_body(const Scene& scene, Obstacle& o, const std::string& path) {
   };
   try {
     o.mesh = std::make_shared<const BodyMesh>(read_body({o.file, o.sequence, o.unit, o.fps}));
-  } catch (const Error& error) {
-    throw error.with_origin(origin(o.sequence.empty() ? "file" : "sequence"));
+  } catch (const Error& error) {  // of either key, since a sequence is compared with the file
+    throw error.with_origin(o.sequence.empty() ? origin("file") : path + ", " + key_origin(scene, path));
   }
   if (o.mesh->frames.size() > 1 && !o.mesh->moves())
     throw Error::invalid_input("sequence " + o.sequence + " of " + std::to_string(o.mesh->frames.size()) +

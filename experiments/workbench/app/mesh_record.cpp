@@ -25,7 +25,7 @@ std::string mesh_hash(const fs::path& name) {
   return fmt::format("{:016x}", hash);
 }
 
-bool is_there(const fs::path& name) { return !files_like(name.string()).empty(); }
+bool names_files(const fs::path& name) { return !files_like(name.string()).empty(); }
 
 // Of /a/b/c.obj: folder/c.obj, folder/b/c.obj ..., if one of them has these bytes.
 std::optional<fs::path> below(const fs::path& folder, const MeshRecord& record) {
@@ -33,13 +33,13 @@ std::optional<fs::path> below(const fs::path& folder, const MeshRecord& record) 
   fs::path tail;
   for (auto part = path.end(); part != path.begin();) {
     tail = tail.empty() ? *--part : *--part / tail;
-    if (is_there(folder / tail) && mesh_hash(folder / tail) == record.hash) return folder / tail;
+    if (names_files(folder / tail) && mesh_hash(folder / tail) == record.hash) return folder / tail;
   }
   return {};
 }
 
 std::string found(const MeshRecord& record, const fs::path& manifest) {
-  if (is_there(record.file)) return record.file;
+  if (names_files(record.file)) return record.file;
   for (fs::path folder = fs::absolute(manifest).lexically_normal().parent_path();;
        folder = folder.parent_path()) {
     if (const auto moved = below(folder, record)) return moved->string();
