@@ -51,4 +51,12 @@ float body_inset(const BodyMeasure& body, float side, float least) {
   return std::min(std::max(least, cut_depth(side, body.roundness)), kMaxOfThickness * thickness);
 }
 
+TriangleMesh shrunk(TriangleMesh mesh, float inset) {
+  const Eigen::Array3f kept = 1 - inset / BodyMeasure(mesh).half_extent.array();
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i)
+    mesh.positions[i] = mesh.centred ? (kept * mesh.positions[i].array()).matrix().eval()
+                                     : (mesh.positions[i] - inset * mesh.normals[i]).eval();
+  return mesh;
+}
+
 }  // namespace hysteron::render

@@ -31,4 +31,8 @@ float cut_depth(float side, float roundness);
 // thickness that leaves thin plates to be seen.
 float body_inset(const BodyMeasure& body, float side, float least);
 
+// The body smaller by an inset [m], as shaders draw it: along its axes if it is centred, else along its
+// normals.
+TriangleMesh shrunk(TriangleMesh mesh, float inset);
+
 }  // namespace hysteron::render

@@ -111,6 +111,15 @@ TEST(Inset, IsTheSagittaOnRoundBodiesAndAShareOfTheSideAtEdges) {
   EXPECT_LT(body_inset(plate, 0.04f, kMin), 0.5e-3f) << "the plate would be turned inside out";
 }
 
+TEST(Inset, ABodyIsSmallerByItOnAllSides) {
+  constexpr float kInset = 2e-3f;
+  for (const TriangleMesh& body : {box_mesh({0.1f, 0.2f, 0.3f}, 5e-3f), torus_mesh(0.1f, 0.02f)}) {
+    const Eigen::Vector3f before = BodyMeasure(body).half_extent,
+                          after = BodyMeasure(shrunk(body, kInset)).half_extent;
+    EXPECT_LT((before - after - Eigen::Vector3f::Constant(kInset)).norm(), 1e-6f);
+  }
+}
+
 TEST(Inset, SeesTheLongSidesOfACloth) {
   const test::Cloth cloth = test::flat_square(4, 0.2f, 0.0f);
   EXPECT_NEAR(long_side(cloth.triangles, cloth.positions, 3), 0.05f * std::sqrt(2.0f), 1e-6);

@@ -23,25 +23,6 @@ namespace fs = std::filesystem;
 
 constexpr double kStepsAnEdge = 256;  // quanta in the mean edge: normals turn by 0.2 degrees at most
 
-// None of panels that are sewn together: a vertex on a seam is at several places of the pattern.
-std::vector<float> pattern_coordinates(const ClothMesh& mesh, const ClothShape& shape) {
-  std::vector<float> uv;
-  if (mesh.sewn) return uv;
-  if (shape.shape == "tube") {
-    for (const Eigen::Vector2d& p : unrolled_tube(mesh, shape))
-      uv.insert(uv.end(), {static_cast<float>(p.x()), static_cast<float>(p.y())});
-    return uv;
-  }
-  const Eigen::Vector3d weft = Eigen::Vector3d::UnitZ().cross(mesh.warp_axis);
-  for (int i = 0; i < mesh.vertices(); ++i) {
-    Eigen::Vector3d at = mesh.rest[i];
-    if (!mesh.pattern.empty()) at << mesh.pattern[i], 0;
-    uv.push_back(static_cast<float>(at.dot(mesh.warp_axis)));
-    uv.push_back(static_cast<float>(at.dot(weft)));
-  }
-  return uv;
-}
-
 double mean_edge(const ClothMesh& mesh) {
   double sum = 0;
   for (std::size_t e = 0; e < mesh.edge.size(); ++e) sum += mesh.edge_length(static_cast<int>(e));
@@ -193,6 +174,24 @@ class SimulatedSubject : public Subject {
 };
 
 }  // namespace
+
+std::vector<float> pattern_coordinates(const ClothMesh& mesh, const ClothShape& shape) {
+  std::vector<float> uv;
+  if (mesh.sewn) return uv;
+  if (shape.shape == "tube") {
+    for (const Eigen::Vector2d& p : unrolled_tube(mesh, shape))
+      uv.insert(uv.end(), {static_cast<float>(p.x()), static_cast<float>(p.y())});
+    return uv;
+  }
+  const Eigen::Vector3d weft = Eigen::Vector3d::UnitZ().cross(mesh.warp_axis);
+  for (int i = 0; i < mesh.vertices(); ++i) {
+    Eigen::Vector3d at = mesh.rest[i];
+    if (!mesh.pattern.empty()) at << mesh.pattern[i], 0;
+    uv.push_back(static_cast<float>(at.dot(mesh.warp_axis)));
+    uv.push_back(static_cast<float>(at.dot(weft)));
+  }
+  return uv;
+}
 
 DrawnMesh drawn_mesh(const ClothMesh& mesh, const ClothShape& shape) {
   DrawnMesh drawn{mesh.rest.size(), flat_triangles(mesh.face), pattern_coordinates(mesh, shape),

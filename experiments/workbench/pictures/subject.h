@@ -31,6 +31,9 @@ class Subject {
                                                        std::string& reason) = 0;
 };
 
+// Warp and weft coordinates of each vertex where the cloth lies at rest, 2 a vertex [m].  None of panels that
+// are sewn together: a vertex on a seam is at several places of the pattern.
+std::vector<float> pattern_coordinates(const ClothMesh& mesh, const ClothShape& shape);
 // As pictures draw it; its quantum is a fraction of the mean edge.
 DrawnMesh drawn_mesh(const ClothMesh& mesh, const ClothShape& shape);
 

@@ -83,7 +83,7 @@ std::vector<std::string> MeshExport::files(const std::string& format) {
 // What pictures of format mitsuba show.
 void MeshExport::begin(Session& session) {
   if (session.setup().options.export_format == "mitsuba")
-    view_ = mitsuba_view(session.setup(), session.bounds(), session.plan().floor);
+    view_ = picture_view(session.setup(), session.bounds(), session.plan().floor);
 }
 
 // Bodies that keep their shape are written with the first scene.
@@ -99,7 +99,7 @@ void MeshExport::write_scene(Session& session, std::size_t number, const Snapsho
     if (body && (changes || number == 0))
       write_body(run.path("mesh/" + bodies[i]).string(), *body, view_->look, side_);
   }
-  MitsubaView view = *view_;
+  PictureView view = *view_;
   view.look.to_light =
       render::key_direction(view.look, view.camera, render::plane_normal(flat_points(instant.x)));
   write_text(run.path(scene_file(number)),

@@ -23,7 +23,7 @@ class MeshExport : public Observer {
  private:
   void write_scene(Session& session, std::size_t number, const Snapshot& instant);
 
-  std::optional<MitsubaView> view_;  // of format mitsuba
+  std::optional<PictureView> view_;  // of format mitsuba
   float side_ = 0;                   // of the cloth's triangles [m]
   std::vector<double> times_;        // of the meshes so far [s]
 };

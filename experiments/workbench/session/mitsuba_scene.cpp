@@ -5,7 +5,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "experiments/workbench/pictures/drawing.h"
 #include "experiments/workbench/pictures/scene_renderer.h"
 #include "render/cloth_view.h"
 #include "render/exposure.h"
@@ -62,8 +61,8 @@ std::string matrix(const Eigen::Matrix4f& m) {
   return "<transform name=\"to_world\"><matrix value=\"" + text + "\"/></transform>";
 }
 
-std::string sensor(const MitsubaView& view) {
-  const float aspect = static_cast<float>(view.width) / static_cast<float>(view.height);
+std::string sensor(const PictureView& view) {
+  const float aspect = view.aspect();
   const double slope = 1 / view.camera.projection(aspect)(1, 1);  // half a height at unit distance, or at all
   const Eigen::Vector3d eye = view.camera.eye().cast<double>(),
                         forward = view.camera.forward().cast<double>(),
@@ -86,13 +85,13 @@ std::string sensor(const MitsubaView& view) {
       view.height, render::kBell);
 }
 
-Eigen::Vector3d key_light_direction(const MitsubaView& view) {
+Eigen::Vector3d key_light_direction(const PictureView& view) {
   return render::key_direction(view.look, view.camera, {}).normalized().cast<double>();
 }
 
 // Radiance of a disc that throws the key light's irradiance, and of a sky that throws its own; a diffuse
 // surface is as bright as its colour under light of the exposure's inverse.
-std::string lights(const MitsubaView& view) {
+std::string lights(const PictureView& view) {
   const render::StudioLight studio = render::studio_light(view.look.room);
   const Eigen::Vector3d to_light = key_light_direction(view), middle = view.bounds.center().cast<double>();
   const double distance = kFar * view.bounds.radius(), slope = studio.key_radius;
@@ -108,7 +107,7 @@ std::string lights(const MitsubaView& view) {
          "  <emitter type=\"constant\">" + rgb("radiance", sky) + "</emitter>\n";
 }
 
-std::string level(double height, const MitsubaView& view, const std::string& material) {
+std::string level(double height, const PictureView& view, const std::string& material) {
   const Eigen::Vector3d middle(view.bounds.center().x(), view.bounds.center().y(), height);
   return fmt::format(
       "  <shape type=\"rectangle\">\n    <transform name=\"to_world\"><scale value=\"{:.9g}\"/><translate "
@@ -118,7 +117,7 @@ std::string level(double height, const MitsubaView& view, const std::string& mat
 
 // The grey table that lights a figure from below, where pictures draw it; without a ground the studio's
 // floor, which is too deep to be shaded.
-std::string ground(const MitsubaView& view) {
+std::string ground(const PictureView& view) {
   const render::StudioLight studio = render::studio_light(view.look.room);
   const Eigen::Vector3d floor = studio.floor.cast<double>();
   if (!view.floor)
@@ -131,15 +130,6 @@ std::string ground(const MitsubaView& view) {
       "<bsdf type=\"diffuse\">" + rgb("reflectance", floor.cwiseQuotient(open).cwiseMin(1)) + "</bsdf>");
 }
 
-void shrink(render::TriangleMesh& mesh, const render::Look& look, float side) {
-  const render::BodyMeasure body(mesh);
-  const float inset = render::body_inset(body, side, look.obstacle_inset);
-  const Eigen::Array3f kept = 1 - inset / body.half_extent.array();
-  for (std::size_t i = 0; i < mesh.positions.size(); ++i)
-    mesh.positions[i] = mesh.centred ? (kept * mesh.positions[i].array()).matrix().eval()
-                                     : (mesh.positions[i] - inset * mesh.normals[i]).eval();
-}
-
 std::string surface(const std::string& file, const std::string& placement, const std::string& material) {
   return "  <shape type=\"ply\">\n    <string name=\"filename\" value=\"" + file + "\"/>\n" +
          (placement.empty() ? "" : "    " + placement + "\n") + "    " + material + "\n  </shape>\n";
@@ -147,16 +137,7 @@ std::string surface(const std::string& file, const std::string& placement, const
 
 }  // namespace
 
-MitsubaView mitsuba_view(const Setup& setup, const render::Box& bounds, std::optional<float> floor) {
-  for (const Obstacle& o : setup.scene.obstacle)
-    if (o.kind == ObstacleKind::ground && !floor) floor = static_cast<float>(o.center.z());
-  const Options& options = setup.options;
-  render::Look look = scene_look(setup.scene, options, options.looks().front());
-  if (look.show != render::Show::cloth) look = scene_look(setup.scene, options, "cloth");
-  return {framed_camera(options, bounds), look, options.width(), options.height(), bounds, floor};
-}
-
-std::string mitsuba_scene(const MitsubaView& view, const Scene& scene, double time, const std::string& cloth,
+std::string mitsuba_scene(const PictureView& view, const Scene& scene, double time, const std::string& cloth,
                           const std::vector<std::string>& bodies) {
   std::string xml = fmt::format(
       "<scene version=\"3.0.0\">\n  <default name=\"spp\" value=\"{}\"/>\n"
@@ -173,8 +154,10 @@ std::string mitsuba_scene(const MitsubaView& view, const Scene& scene, double ti
   return xml + "</scene>\n";
 }
 
-void write_body(const std::string& file, render::TriangleMesh mesh, const render::Look& look, float side) {
-  shrink(mesh, look, side);
+void write_body(const std::string& file, const render::TriangleMesh& body, const render::Look& look,
+                float side) {
+  const float inset = render::body_inset(render::BodyMeasure(body), side, look.obstacle_inset);
+  const render::TriangleMesh mesh = render::shrunk(body, inset);
   std::string text = fmt::format(
       "ply\nformat ascii 1.0\nelement vertex {}\nproperty float x\nproperty float y\nproperty float z\n"
       "property float nx\nproperty float ny\nproperty float nz\nelement face {}\n"

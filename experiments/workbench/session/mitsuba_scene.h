@@ -2,38 +2,24 @@
 // of https://mitsuba.readthedocs.io: for the last per cent of light that a rasteriser leaves out.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "experiments/workbench/app/experiment.h"
-#include "render/camera.h"
-#include "render/look.h"
+#include "experiments/workbench/pictures/picture_view.h"
 #include "render/shapes.h"
-#include "sim/scene/scene.h"
 
 namespace hysteron::experiments {
-
-struct MitsubaView {
-  render::Camera camera;
-  render::Look look;
-  int width = 0, height = 0;   // [pixels]
-  render::Box bounds;          // of what is lit [m]
-  std::optional<float> floor;  // height of the visible ground [m]
-};
-
-// What the options' pictures show.
-MitsubaView mitsuba_view(const Setup& setup, const render::Box& bounds, std::optional<float> floor);
 
 // XML of a scene: the cloth in the file `cloth`, diffuse on both sides, and `bodies`, a file for each visible
 // obstacle and "" for others, where they are at `time` [s]; key light, sky and floor of a figure.  The ground
 // is the grey floor by whose light cloth is drawn, not the page; where no surface is, the picture is
 // transparent.
-std::string mitsuba_scene(const MitsubaView& view, const Scene& scene, double time, const std::string& cloth,
+std::string mitsuba_scene(const PictureView& view, const Scene& scene, double time, const std::string& cloth,
                           const std::vector<std::string>& bodies);
 
 // An obstacle's surface, before it is placed, as a PLY file; smaller, as pictures draw it below cloth whose
 // triangles have sides of that length [m].  Throws Error::system.
-void write_body(const std::string& file, render::TriangleMesh mesh, const render::Look& look, float side);
+void write_body(const std::string& file, const render::TriangleMesh& body, const render::Look& look,
+                float side);
 
 }  // namespace hysteron::experiments

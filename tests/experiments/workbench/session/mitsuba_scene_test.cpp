@@ -25,7 +25,7 @@ Setup setup_with_a_ball() {
 }
 
 std::string exported_xml(const Setup& setup, std::optional<float> floor) {
-  const MitsubaView view = mitsuba_view(setup, {{-0.2f, -0.1f, 0}, {0.2f, 0.1f, 0.3f}}, floor);
+  const PictureView view = picture_view(setup, {{-0.2f, -0.1f, 0}, {0.2f, 0.1f, 0.3f}}, floor);
   return mitsuba_scene(view, setup.scene, 0, "0000.ply", {"bodies/0000.ply"});
 }
 
@@ -68,7 +68,7 @@ TEST(MitsubaScene, IsWellFormed) {
 TEST(MitsubaScene, LooksFromThePicturesCamera) {
   const auto setup = setup_with_a_ball();
   const std::string xml = exported_xml(setup, {});
-  const render::Camera camera = mitsuba_view(setup, {{-0.2f, -0.1f, 0}, {0.2f, 0.1f, 0.3f}}, {}).camera;
+  const render::Camera camera = picture_view(setup, {{-0.2f, -0.1f, 0}, {0.2f, 0.1f, 0.3f}}, {}).camera;
   const std::vector<double> eye = numbers_after(xml, "<sensor", "origin"),
                             target = numbers_after(xml, "<sensor", "target");
   ASSERT_EQ(eye.size(), 3u);
@@ -124,7 +124,7 @@ TEST(MitsubaScene, ClothHasTheColourOfThePicturesLook) {
 TEST(MitsubaScene, RakingLightIsThatOfThePictures) {
   auto setup = setup_with_a_ball();
   setup.options.light = "raking";
-  const MitsubaView view = mitsuba_view(setup, {{-0.2f, -0.1f, 0}, {0.2f, 0.1f, 0.3f}}, {});
+  const PictureView view = picture_view(setup, {{-0.2f, -0.1f, 0}, {0.2f, 0.1f, 0.3f}}, {});
   const std::vector<double> origin = numbers_after(exported_xml(setup, {}), "\"disk\"", "origin"),
                             target = numbers_after(exported_xml(setup, {}), "\"disk\"", "target");
   ASSERT_EQ(origin.size(), 3u);

@@ -42,7 +42,7 @@ class ClothBesideABall {
     ground.kind = ObstacleKind::ground;
     setup_.scene.obstacle = {ball, ground};
     for (const Eigen::Vector3d& p : mesh_.rest) positions_.push_back(bulging(p));
-    view_ = mitsuba_view(setup_, render::bounding_box(flat_points(positions_)), {});
+    view_ = picture_view(setup_, render::bounding_box(flat_points(positions_)), {});
     view_.look.front = view_.look.back = {128, 140, 156};  // darker than what a figure's tone bends
   }
 
@@ -85,7 +85,7 @@ class ClothBesideABall {
   Setup setup_{default_scene(), {}};
   ClothMesh mesh_ = make_grid(kLength, kLength, kCells, kCells, MeshFamily::aligned, 1);
   std::vector<Eigen::Vector3d> positions_;
-  MitsubaView view_;
+  PictureView view_;
 };
 
 void whiten(render::Image& image, const std::vector<bool>& kept) {
