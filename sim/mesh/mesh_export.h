@@ -37,5 +37,8 @@ void write_pvd(const std::string& file, const std::vector<std::pair<double, std:
 // last instant.  Throws Error::system.
 void write_to_point_cache(const std::string& file, std::size_t instant,
                           const std::vector<Eigen::Vector3d>& position);
+// The positions [m] of one instant of such a file, of this machine's.  Throws Error::system for a file that
+// cannot be read or does not have that instant.
+std::vector<Eigen::Vector3f> read_from_point_cache(const std::string& file, std::size_t instant);
 
 }  // namespace hysteron

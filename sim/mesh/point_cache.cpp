@@ -48,4 +48,20 @@ void write_to_point_cache(const std::string& file, std::size_t instant,
   if (!stream) throw Error::system("cannot write " + file + ": " + std::strerror(errno));
 }
 
+std::vector<Eigen::Vector3f> read_from_point_cache(const std::string& file, std::size_t instant) {
+  std::ifstream stream(file, std::ios::binary);
+  Header header;
+  stream.read(reinterpret_cast<char*>(&header), sizeof(header));
+  if (!stream) throw Error::system("cannot read " + file + ": " + std::strerror(errno));
+  if (header.samples <= 0 || instant >= static_cast<std::size_t>(header.samples))
+    throw Error::system("cannot read " + file + ": it has " + std::to_string(header.samples) +
+                        " instants and not number " + std::to_string(instant));
+  std::vector<Eigen::Vector3f> position(static_cast<std::size_t>(header.points));
+  const std::size_t bytes = position.size() * sizeof(Eigen::Vector3f);
+  stream.seekg(static_cast<std::streamoff>(sizeof(header) + instant * bytes));
+  stream.read(reinterpret_cast<char*>(position.data()), static_cast<std::streamsize>(bytes));
+  if (!stream) throw Error::system("cannot read " + file + ": it is cut off");
+  return position;
+}
+
 }  // namespace hysteron

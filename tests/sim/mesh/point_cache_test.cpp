@@ -6,6 +6,7 @@
 
 #include "sim/base/error.h"
 #include "tests/sim/base/folder.h"
+#include "tests/sim/base/refusal.h"
 
 namespace hysteron {
 namespace {
@@ -43,6 +44,23 @@ TEST(PointCache, HoldsEachInstantAndMayGoOnFromAnEarlierOne) {
     EXPECT_EQ(at<float>(bytes, begin + 16), x[k]);
     EXPECT_EQ(at<float>(bytes, begin + 20), 2);
   }
+}
+
+TEST(PointCache, GivesBackEachInstant) {
+  const test::Folder folder;
+  const std::string file = folder.file("cloth.pc2");
+  for (int k = 0; k < 3; ++k) write_to_point_cache(file, k, {{0.1 * k, 0, 1}, {0, 2, 0.1 * k}});
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::vector<Eigen::Vector3f> x = read_from_point_cache(file, k);
+    ASSERT_EQ(x.size(), 2u);
+    EXPECT_EQ(x[0], Eigen::Vector3d(0.1 * static_cast<double>(k), 0, 1).cast<float>());
+    EXPECT_EQ(x[1].y(), 2);
+  }
+  EXPECT_TRUE(
+      test::says(test::refusal([&] { read_from_point_cache(file, 3); }, 1), "3 instants and not number 3"));
+  std::filesystem::resize_file(file, std::filesystem::file_size(file) - 1);
+  EXPECT_TRUE(test::says(test::refusal([&] { read_from_point_cache(file, 2); }, 1), "cut off"));
+  EXPECT_THROW(read_from_point_cache(folder.file("none.pc2"), 0), Error);
 }
 
 TEST(PointCache, DoesNotGoOnInAFileThatIsGone) {
