@@ -12,6 +12,7 @@
 #include "sim/base/atomic_file.h"
 #include "sim/base/comma_list.h"
 #include "sim/base/error.h"
+#include "sim/mesh/mesh_sequence.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -151,8 +152,7 @@ fs::path kept_geometry_file(const CommandLine& line) {
   if (line.positionals.size() != 1) return {};
   const fs::path name = line.positionals[0];
   if (name.extension() == ".hyg") return name;
-  std::error_code ignored;
-  return fs::is_directory(name / "mesh", ignored) ? fs::path() : kept_file_in(name);
+  return holds_meshes(name / "mesh") ? fs::path() : kept_file_in(name);
 }
 
 void draw_kept(const CommandLine& line, const fs::path& file) {

@@ -153,8 +153,7 @@ std::string sequence_name(const fs::path& path) {
 
 MeshSequence folder_sequence(const fs::path& folder) {
   MeshSequence sequence{sequence_name(folder), meshes_in(folder), {}, {}};
-  if (sequence.files.empty() && fs::is_directory(folder / "mesh"))
-    sequence.files = meshes_in(folder / "mesh");
+  if (sequence.files.empty() && holds_meshes(folder / "mesh")) sequence.files = meshes_in(folder / "mesh");
   if (sequence.files.empty())
     throw Error::invalid_input("the folder " + folder.string() + " holds no .obj and no .ply");
   refuse_odd_file(folder, sequence.files);
@@ -218,6 +217,8 @@ double texture_scale(const Surface& surface) {
 }
 
 }  // namespace
+
+bool holds_meshes(const fs::path& folder) { return fs::is_directory(folder) && !meshes_in(folder).empty(); }
 
 std::vector<MeshSequence> mesh_sequences(const std::vector<std::string>& words) {
   std::vector<MeshSequence> sequences;

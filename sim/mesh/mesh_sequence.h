@@ -32,6 +32,9 @@ std::vector<MeshSequence> mesh_sequences(const std::vector<std::string>& words);
 // their names, numbers in them by value; a file of that very name is one.  None where there is no such file.
 std::vector<std::filesystem::path> files_like(const std::string& pattern);
 
+// Whether a folder is there and has .obj or .ply files.  Throws Error::system where it cannot be read.
+bool holds_meshes(const std::filesystem::path& folder);
+
 // How a file's coordinates stand to metres with z up.
 struct FileAxes {
   LengthUnit unit = LengthUnit::metre;
