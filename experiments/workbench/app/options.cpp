@@ -35,7 +35,7 @@ const KeyRow<Options> kRows[] = {
     {"camera.target", at<&O::camera_target>, "m", any(), "", "three numbers: what is in the middle of the picture; none: the middle of what moves"},
     {"camera.distance", at<&O::camera_distance>, "m", at_least(0), "", "from the target to the eye; 0: as near as all that moves stays in the picture"},
     {"camera.box", at<&O::camera_box>, "m", any(), "", "six numbers, lowest corner, then highest: what the picture frames in place of what moves"},
-    {"export", at<&O::export_format>, "", any(), "none | ply | obj | vtk | pc2 | mitsuba", "meshes, OUT/mesh/0000.obj ...; vtk: 0000.vtp ... with fields, and cloth.pvd for ParaView; mitsuba: 0000.xml ... beside 0000.ply, scenes that the path tracer Mitsuba 3 draws; pc2: cloth.obj and cloth.pc2, one animated mesh for Blender and Houdini"},
+    {"export", at<&O::export_format>, "", any(), "none | ply | obj | vtk | pc2 | usd | glb | mitsuba", "meshes, OUT/mesh/0000.obj ...; vtk: 0000.vtp ... with fields, and cloth.pvd for ParaView; mitsuba: 0000.xml ... beside 0000.ply, scenes that the path tracer Mitsuba 3 draws; pc2: cloth.obj and cloth.pc2, one animated mesh for Blender and Houdini; usd: cloth.usda, and glb: cloth.glb (glTF), one animated scene with obstacles and camera"},
     {"probe", at<&O::probe>, "", any(), "", "material points as they lie on the flat cloth [m], 'x,y' or 'x,y;x,y...': a time series of their positions, curvatures, moments and friction, OUT/probes.csv; pictures show the moment of the first against its curvature so far; none: not that of the experiment either"},
     {"check-intersections", at<&O::check_intersections>, "", any(), "", "count the triangles that pass through each other at every recorded instant, by exact predicates; always on with self-contact"},
     {"errors", at<&O::errors>, "", any(), "", "repeat the run at half the step, with four times the triangles and on other meshes: the error of each headline number"},
@@ -105,6 +105,9 @@ bool drawable(int side) { return side >= kSmallestSide && side <= kLargestSide; 
 int Options::width() const { return sides(size).first; }
 int Options::height() const { return sides(size).second; }
 std::vector<std::string> Options::looks() const { return split(look); }
+bool Options::has_view() const {
+  return !no_images || export_format == "mitsuba" || export_format == "usd" || export_format == "glb";
+}
 
 Keys bind_options(Options& options) { return bind(kRows, options); }
 

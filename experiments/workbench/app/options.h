@@ -32,8 +32,8 @@ struct Options {
   double camera_distance = 0;  // camera.distance   [m] from there to the eye; 0: found
   Numbers camera_box;          // camera.box        [m] framed, low then high; empty: found
   std::string export_format =
-      "none";                        // export     none | ply | obj | vtk | pc2 | mitsuba: meshes in out/mesh
-  std::string probe;                 // probe      "x,y[;x,y...]" [m] on the flat cloth: out/probes.csv
+      "none";         // export     none | ply | obj | vtk | pc2 | usd | glb | mitsuba: meshes in out/mesh
+  std::string probe;  // probe      "x,y[;x,y...]" [m] on the flat cloth: out/probes.csv
   bool check_intersections = false;  // check-intersections  at every instant that is recorded
   bool errors = false;               // errors       of headlines, by repeating the run
   int errors_draws = 2;              // errors.draws other meshes
@@ -51,6 +51,7 @@ struct Options {
   int width() const;   // [pixels], of `size`
   int height() const;  // [pixels]
   std::vector<std::string> looks() const;
+  bool has_view() const;  // of pictures, or of an export with their camera
 };
 
 Keys bind_options(Options& options);

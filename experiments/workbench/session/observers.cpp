@@ -8,6 +8,7 @@
 #include "experiments/workbench/compare/errors.h"
 #include "experiments/workbench/pages/closing_summary.h"
 #include "experiments/workbench/pictures/drawing.h"
+#include "experiments/workbench/session/animation_export.h"
 #include "experiments/workbench/session/doubts.h"
 #include "experiments/workbench/session/intersection_count.h"
 #include "experiments/workbench/session/mesh_export.h"
@@ -90,7 +91,8 @@ class Account : public Observer {
 
 void Account::begin(Session& session) {
   const Options& options = session.setup().options;
-  const bool draws = !options.no_images || options.export_format == "pc2";
+  const std::string& format = options.export_format;
+  const bool draws = !options.no_images || format == "pc2" || AnimationExport::writes(format);
   const std::string doubt = drawing_words(session.scene(), session.cloth());
   if (draws && !doubt.empty()) session.run().warn(doubt);
 }
@@ -235,7 +237,9 @@ Observers session_observers(Session& session, std::unique_ptr<Probes> probes,
   const ClothMesh& mesh = session.cloth().mesh;
   session.reserve({kMetricsFile}, picture_files(options));
   session.reserve(probes->files(), probes->plots());
-  session.reserve(MeshExport::files(options.export_format));
+  const bool animates = AnimationExport::writes(options.export_format);
+  session.reserve(animates ? AnimationExport::files(options.export_format)
+                           : MeshExport::files(options.export_format));
   if (options.errors) session.reserve({"errors.csv"});
   Observers all;
   all.push_back(std::make_unique<Series>());
@@ -249,8 +253,9 @@ Observers session_observers(Session& session, std::unique_ptr<Probes> probes,
                                             [&](const std::string& text) { session.run().warn(text); }));
   all.push_back(std::make_unique<Folds>(mesh));
   all.push_back(std::make_unique<Recoveries>(session.scene()));
-  all.push_back(std::make_unique<MeshExport>());
+  if (!animates) all.push_back(std::make_unique<MeshExport>());
   all.push_back(std::make_unique<MeasuredErrors>());
+  if (animates) all.push_back(std::make_unique<AnimationExport>());
   all.push_back(std::move(checkpoints));
   return all;
 }

@@ -232,7 +232,7 @@ bool Session::run_to_end() {
 
 render::Box Session::framed() {
   const Options& options = setup_.options;
-  if (!plan_->wanders || (options.no_images && options.export_format != "mitsuba")) return plan_->bounds;
+  if (!plan_->wanders || !options.has_view()) return plan_->bounds;
   if (const Numbers& box = options.camera_box; !box.empty())
     return render::bounding_box(std::vector<float>(box.begin(), box.end()));
   const auto stage = run_->stage("framing");

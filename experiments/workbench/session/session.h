@@ -77,7 +77,8 @@ class Observer {
 using Observers = std::vector<std::unique_ptr<Observer>>;
 // Of every run, in the order of their calls: metrics.csv, whose row the experiment measures, probes,
 // pictures, which show a probe's loop, what the solver says, crossings, folds, recoveries, meshes, errors,
-// checkpoints, which go when all else is there.  Refuses files that Run::reserve() does.
+// an animation, whose kept positions a checkpoint needs, checkpoints, which go when all else is there.
+// Refuses files that Run::reserve() does.
 Observers session_observers(Session& session, std::unique_ptr<Probes> probes,
                             std::unique_ptr<Checkpoints> checkpoints);
 

@@ -26,7 +26,8 @@ struct Recorded {
 };
 
 TEST(KeptPictures, ARunsFolderIsDrawnAgainToTheByte) {
-  const Recorded swing("swing --look curvature,cloth");
+  const Recorded swing("swing --look curvature,cloth --export usd");
+  ASSERT_TRUE(fs::is_directory(swing.run / "mesh")) << "which has no meshes to be drawn";
   finished(swing.drawing(swing.run));
   for (const char* name :
        {"sheet.png", "frames/0002.png", "frames-cloth/0003.png", "frames.hyg", "sheet.hyg"})

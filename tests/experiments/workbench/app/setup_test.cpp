@@ -79,7 +79,7 @@ TEST(Setup, OfExperimentsWithoutASceneLetsFlagsWinOverQuickToo) {
 TEST(Setup, RefusesWhatNoPictureSequenceCanHave) {
   EXPECT_EQ(setup_error({{"fps", "-1"}}), "fps = -1 1/s must be in [0, 10000] (--fps)");
   EXPECT_TRUE(says(setup_error({{"renderer", "vulkan"}}), "auto | egl | osmesa"));
-  EXPECT_TRUE(says(setup_error({{"export", "stl"}}), "none | ply | obj | vtk | pc2"));
+  EXPECT_TRUE(says(setup_error({{"export", "stl"}}), "none | ply | obj | vtk | pc2 | usd | glb"));
   EXPECT_TRUE(says(setup_error({{"camera.direction", "0 0 0"}}), "must not be zero"));
 }
 

@@ -143,6 +143,27 @@ TEST(Resuming, AnAnimationIsThereWhenARunEndsEarlyAndWholeInTheEnd) {
   expect_same_results(folder.path() / "whole", parts);
 }
 
+class ResumingAnimation : public testing::TestWithParam<std::pair<const char*, const char*>> {};
+INSTANTIATE_TEST_SUITE_P(Formats, ResumingAnimation,
+                         testing::Values(std::pair("usd", "cloth.usda"), std::pair("glb", "cloth.glb")),
+                         [](const auto& format) { return std::string(format.param.first); });
+
+TEST_P(ResumingAnimation, HasTheInstantsSoFarAndAllOfThemInTheEnd) {
+  const Folder folder;
+  const fs::path whole = folder.path() / "whole" / "mesh", parts = folder.path() / "parts";
+  const std::string line = kResumedSwing + " --export " + GetParam().first;
+  finished(line + out_flag(whole.parent_path()));
+  EXPECT_TRUE(fs::exists(whole / GetParam().second));
+  EXPECT_FALSE(fs::exists(whole / "cloth.pc2")) << "kept positions go";
+  ASSERT_EQ(after_a_checkpoint(line + " --checkpoint 1e-6" + out_flag(parts), parts), 3);
+  const fs::path file = parts / "mesh" / GetParam().second;
+  ASSERT_TRUE(fs::exists(file));
+  EXPECT_LT(fs::file_size(file), fs::file_size(whole / GetParam().second));
+  EXPECT_TRUE(fs::exists(parts / "mesh" / "cloth.pc2"));
+  finished(line + " --resume" + out_flag(parts));
+  expect_same_results(folder.path() / "whole", parts);
+}
+
 TEST(Resuming, TwoSignalsAtOnceAreOneAndTwoApartEndTheProcess) {
   const Folder folder;
   const fs::path out = folder.path() / "out", err = folder.path() / "err";
