@@ -37,6 +37,7 @@ bool is_effort(const std::string& name) {
                                                "unbalanced_steps_count",
                                                "retried_steps_count",
                                                "deep_contact_steps_count",
+                                               "pinched_steps_count",
                                                "slack_hand_steps_count",
                                                "barred_hand_steps_count",
                                                "energy_remainder_relative",

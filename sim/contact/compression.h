@@ -12,9 +12,10 @@ namespace hysteron {
 inline constexpr double kTestPressure = 50 * 98.0665;  // 50 gf/cm^2 [Pa]
 inline constexpr double kHardest = 0.5;                // share of a shell to which pressure can press it
 inline constexpr double kCompressed = 0.2;             // of the shell, at the pressure of the test
-inline constexpr double kCrushed = 0.4;       // of the thickness: where an obstacle's last barrier begins
-inline constexpr double kLastGap = 0.01;      // of its range: from there on its stiffness stays
-inline constexpr double kElasticSlip = 0.01;  // of friction, over the thickness
+inline constexpr double kCrushed = 0.4;   // of the thickness: where an obstacle's last barrier begins
+inline constexpr double kLastGap = 0.01;  // of its range: from there on its stiffness stays
+inline constexpr double kYieldPressure = 130 * kTestPressure;  // under which solids yield [Pa]
+inline constexpr double kElasticSlip = 0.01;                   // of friction, over the thickness
 
 // Stiffness k of the barrier of such a shell [N/m^3].
 double barrier_stiffness(double thickness);
@@ -23,22 +24,31 @@ double barrier_stiffness(double thickness);
 // stays.  Where it is crushed to kCrushed, under some five times the test's pressure, a last barrier begins,
 // which ends at the surface of the solid: what presses single vertices, as the tips of folds do, grows with
 // the mesh.  Steps that do not end in equilibrium, as explicit ones, have none: a blow would end in it beyond
-// the stiffness that they bear.
+// the stiffness that they bear.  Under kYieldPressure, next to the surface, the solid yields: from there on
+// it is no stiffer than the compression that was measured, so that solids which close on cloth pinch it and
+// go on.
 template <class Real>
 struct ObstacleShell {
   Real thickness;  // of the shell [m]
   Real k;          // of the barrier [N/m^3]
   Real last;       // distance at which the last one begins [m]; 0: none
+  Real yield;      // distance below which the solid yields [m]
 
   HYST_HD Barrier<Real> at(Real distance) const {
-    const Barrier<Real> cloth = measured(distance);
-    if (!(last > 0 && distance < last)) return cloth;
-    return cloth + barrier(k, distance, last, static_cast<Real>(kLastGap));
+    if (!(distance < yield && last > 0)) return elastic(distance);
+    const Barrier<Real> b = elastic(yield);
+    const Real deeper = distance - yield, stiffness = stiffest();
+    return {b.energy + deeper * (b.slope + deeper * stiffness / 2), b.slope + deeper * stiffness, stiffness};
   }
   // Of the cloth, beyond the compression that was measured [N/m^3].
   HYST_HD Real stiffest() const { return measured(0).stiffness; }
 
  private:
+  HYST_HD Barrier<Real> elastic(Real distance) const {
+    const Barrier<Real> cloth = measured(distance);
+    if (!(last > 0 && distance < last)) return cloth;
+    return cloth + barrier(k, distance, last, static_cast<Real>(kLastGap));
+  }
   HYST_HD Barrier<Real> measured(Real distance) const {
     constexpr double kMeasured = (1 - kHardest - kCompressed) / (1 - kHardest);  // share of the range left
     const Real hardest = static_cast<Real>(kHardest) * thickness;
@@ -48,7 +58,7 @@ struct ObstacleShell {
 
 // That of a scene: `contact-stiffness` is its stiffness at the compression of the test.
 ObstacleShell<double> obstacle_shell(const Scene& scene);
-// Distance at which a shell bears a pressure [Pa]; at least 0.
+// Distance at which a shell bears a pressure that it does not yield to [Pa].
 double distance_under(const ObstacleShell<double>& shell, double pressure);
 
 // What contact of vertices and of triangles with obstacles have in common.

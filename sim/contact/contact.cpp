@@ -14,7 +14,8 @@ constexpr double kTangential = 0.5;
 template <class Real>
 ContactModel<Real> contact_model(const Scene& scene) {
   const ObstacleShell<double> shell = obstacle_shell(scene);
-  return {{static_cast<Real>(shell.thickness), static_cast<Real>(shell.k), static_cast<Real>(shell.last)},
+  return {{static_cast<Real>(shell.thickness), static_cast<Real>(shell.k), static_cast<Real>(shell.last),
+           static_cast<Real>(shell.yield)},
           static_cast<Real>(kElasticSlip * shell.thickness),
           static_cast<Real>(kTangential * shell.stiffest())};
 }

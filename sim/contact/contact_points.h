@@ -9,34 +9,45 @@
 
 namespace hysteron {
 
-// One vertex in the shell of one obstacle, as FaceTouch of a triangle.
+// One vertex in the shell of one obstacle, or of the body that it is part of, as FaceTouch of a triangle.
 template <class Real>
 struct VertexTouch {
   double energy = 0;              // [J]
-  Real force = 0, stiffness = 0;  // [N], [N/m]
-  Vec3<Real> direction;           // of the force
+  Real force = 0, stiffness = 0;  // [N], [N/m]; by the distance
+  Vec3<Real> direction;           // of the force: the distance's gradient
+  Vec3<Real> outward;             // unit vector along it
   Real limit = 0;                 // force, times the coefficient of friction [N]
+  int nearest = 0;                // the obstacle in the set that it is
   bool inside = false;            // of the solid
 
   HYST_HD bool bears() const { return force > 0; }
-  HYST_HD Vec3<Real> normal() const { return direction; }
+  HYST_HD Vec3<Real> normal() const { return outward; }
+  HYST_HD int obstacle(int) const { return nearest; }
   HYST_HD Real weight_of(int) const { return 1; }
   HYST_HD Vec3<Real> on_corner(int) const { return force * direction; }
 };
 
+inline constexpr double kBlend = 2;  // width over which bodies' members are joined, over the thickness
+
+// Against the body of the obstacle `o`, the first of its members.
 template <class Real>
-HYST_HD VertexTouch<Real> vertex_touch(const Obstacle3<Real>& obstacle, const ContactModel<Real>& model,
+HYST_HD VertexTouch<Real> vertex_touch(const ObstacleSet<Real>& set, int o, const ContactModel<Real>& model,
                                        const Vec3<Real>& x, Real area) {
   VertexTouch<Real> touch;
-  const Distance<Real> d = distance_to(obstacle, x);
+  const BodyDistance<Real> d = distance_to_body(set, o, x, static_cast<Real>(kBlend) * model.shell.thickness);
   if (!(d.value < model.shell.thickness)) return touch;
   const Barrier<Real> b = model.shell.at(d.value);
   touch.energy = static_cast<double>(area * b.energy);
   touch.force = -area * b.slope;
   touch.stiffness = area * b.stiffness;
-  touch.direction = obstacle.rotation * d.normal;
-  touch.limit = obstacle.friction * touch.force;
+  touch.direction = touch.outward = d.gradient;
+  touch.nearest = d.nearest;
+  touch.limit = set.item[d.nearest].friction * touch.force;
   touch.inside = d.value < 0;
+  if (!d.joins) return touch;
+  const Real steepness = d.gradient.norm();
+  if (steepness > 0) touch.outward /= steepness;
+  touch.limit *= steepness;
   return touch;
 }
 
@@ -72,7 +83,8 @@ HYST_HD HYST_NOINLINE Bearing<Real, Points::kCorners> bearing(const Points& poin
     for (int k = 0; k < kCorners; ++k) all.force[k] += t.on_corner(k);
     if (!(t.force > strongest)) continue;
     strongest = t.force;
-    all.index = points.set.item[o].index;
+    const Obstacle3<Real>& pressing = points.set.item[t.obstacle(o)];
+    all.index = pressing.index;
     all.limit = t.limit;
     all.normal = t.normal();
     Vec3<Real> at = Vec3<Real>::Zero();
@@ -80,7 +92,7 @@ HYST_HD HYST_NOINLINE Bearing<Real, Points::kCorners> bearing(const Points& poin
       all.weight[k] = t.weight_of(k);
       at += all.weight[k] * x[points.vertex(point, k)];
     }
-    all.motion = motion_over_step(points.set.item[o], at);
+    all.motion = motion_over_step(pressing, at);
   }
   return all;
 }
@@ -116,11 +128,11 @@ struct VertexPoints {
   const char* exempted;  // they may be in solids while they are held
 
   HYST_HD int vertex(int i, int) const { return i; }
-  HYST_HD bool feels(int) const { return true; }
+  HYST_HD bool feels(int obstacle) const { return set.item[obstacle].body == obstacle; }
   HYST_HD bool may_be_blocked_by(int obstacle) const { return set.item[obstacle].is_thin(); }
   HYST_HD bool may_be_inside(int i, const char* held) const { return held[i] && exempted[i]; }
   HYST_HD VertexTouch<Real> touch(int i, int obstacle, const Vec3<Real>* x) const {
-    return vertex_touch(set.item[obstacle], model, x[i], area[i]);
+    return vertex_touch(set, obstacle, model, x[i], area[i]);
   }
   // Against the obstacle that presses most, for lag().
   HYST_HD Friction friction(int i, const Bearing<Real, 1>& b, const StopView<Real>& stops) const {

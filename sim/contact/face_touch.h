@@ -144,6 +144,7 @@ struct FaceTouch {
   HYST_HD bool bears() const { return force > 0; }
   HYST_HD Vec3<Real> normal() const { return direction.normalized(); }
   HYST_HD Real weight_of(int k) const { return weight[k]; }
+  HYST_HD int obstacle(int touched) const { return touched; }
   HYST_HD Vec3<Real> on_corner(int k) const { return force * weight[k] * direction + pull[k]; }
 };
 

@@ -60,6 +60,9 @@ ObstacleSet<Real> obstacles_during(const std::vector<Obstacle>& obstacles, doubl
     item.back_translation = (then.translation - back * now.translation).cast<Real>();
     item.friction = static_cast<Real>(o.friction < 0 ? fabric_friction : o.friction);
     item.index = static_cast<int>(i);
+    item.body = set.count - 1;
+    for (int other = set.count - 2; other >= 0; --other)
+      if (!o.body.empty() && obstacles[set.item[other].index].body == o.body) item.body = other;
     item.thinnest = static_cast<Real>(now.scale * obstacle_form(o).half_thickness);
     item.sharpest = static_cast<Real>(sharpest_radius(o));
   }
@@ -110,7 +113,8 @@ bool is_squeezed(const ObstacleSet<double>& set, const ObstacleShell<double>& sh
     if (!(at[o].value < 0)) continue;
     double against = std::max(0.0, -pressure.dot(at[o].normal));
     for (int p = 0; p < set.count; ++p)
-      against += pressure_at(at[p].value) * std::max(0.0, -at[p].normal.dot(at[o].normal));
+      if (set.item[p].body != set.item[o].body)
+        against += pressure_at(at[p].value) * std::max(0.0, -at[p].normal.dot(at[o].normal));
     if (against >= pressure_at(at[o].value) / 2) return true;
   }
   return false;

@@ -22,6 +22,7 @@ struct Obstacle3 {
   Vec3<Real> back_translation;
   Real friction;
   int index;      // in the scene
+  int body;       // of the set's obstacles of one body the first; the obstacle itself where it has none
   Real thinnest;  // half of its thinnest part [m]; infinite: there is no other side
   Real sharpest;  // least radius of curvature, when it is smallest [m]; infinite: sharpest_radius()
 
@@ -43,6 +44,39 @@ struct ObstacleSet {
 template <class Real>
 HYST_HD inline Distance<Real> distance_to(const Obstacle3<Real>& obstacle, const Vec3<Real>& x) {
   return signed_distance<Real>(obstacle.shape, obstacle.rotation.transpose() * (x - obstacle.center));
+}
+
+// Distance to the union of an obstacle's body.
+template <class Real>
+struct BodyDistance {
+  Real value;           // [m]
+  Vec3<Real> gradient;  // in the world
+  int nearest;          // the member in the set that is nearest
+  bool joins = false;   // the gradient is that of two members, and shorter than 1
+};
+
+// Where two members meet, the union is rounded out over a width of `blend`: the quadratic smooth minimum
+// (Quilez 2013), at most blend/4 below the lesser distance.
+template <class Real>
+HYST_HD BodyDistance<Real> distance_to_body(const ObstacleSet<Real>& set, int first, const Vec3<Real>& x,
+                                            Real blend) {
+  Distance<Real> d = distance_to(set.item[first], x);
+  BodyDistance<Real> all{d.value, set.item[first].rotation * d.normal, first};
+  Real least = d.value;
+  for (int o = first + 1; o < set.count; ++o) {
+    if (set.item[o].body != first) continue;
+    d = distance_to(set.item[o], x);
+    if (d.value < least) {
+      least = d.value;
+      all.nearest = o;
+    }
+    const Real between = Real(0.5) + (d.value - all.value) / (2 * blend);
+    const Real share = between < 0 ? Real(0) : (between > 1 ? Real(1) : between);  // of what was
+    all.joins |= share > 0 && share < 1;
+    all.value = d.value + share * (all.value - d.value) - blend * share * (1 - share);
+    all.gradient = share * all.gradient + (1 - share) * (set.item[o].rotation * d.normal);
+  }
+  return all;
 }
 
 // Way of a point of an obstacle at x over the step [m].
@@ -68,7 +102,7 @@ template <class Real>
 ObstacleSet<Real> obstacles_during(const std::vector<Obstacle>& obstacles, double fabric_friction,
                                    double start, double end);
 
-// A vertex in a solid (of `hollow`: outside): it started there, was hit hard, or is crushed.
+// A vertex in a solid (of `hollow`: outside): it started there, was hit hard, or is pinched.
 struct Immersion {
   int vertex = -1, obstacle = -1;  // -1: none
   double depth = 0;                // below the surface [m]

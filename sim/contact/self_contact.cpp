@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kDisplacementOfEdge = 5;  // largest that is looked at, over the mean edge length
 constexpr double kReachOfEdge = 0.2;       // most that lists reach beyond a path, over the mean edge length
+constexpr double kNearer = 0.9;            // most by which a guess takes pressed layers nearer
 constexpr double kSafely = 1.01;           // more than rounding makes of distances beside the thickness
 
 double mean_edge(const ClothMesh& mesh) {
@@ -24,16 +25,24 @@ double mean_edge(const ClothMesh& mesh) {
 
 template <class Real, class Device>
 SelfContact<Real, Device>::SelfContact(Device& device, const ClothMesh& mesh, const Scene& scene)
+    : SelfContact(device, mesh,
+                  has_mesh_bodies(scene) ? std::optional(mesh_with_bodies(mesh, scene)) : std::nullopt,
+                  scene) {}
+
+template <class Real, class Device>
+SelfContact<Real, Device>::SelfContact(Device& device, const ClothMesh& mesh,
+                                       const std::optional<ClothMesh>& all, const Scene& scene)
     : device_(device),
       vertices_(mesh.vertices()),
+      bodies_(device, scene, vertices_),
       thickness_(static_cast<Real>(scene.fabric.thickness)),
       least_reach_(thickness_ / 4),
       most_reach_(std::max(thickness_, static_cast<Real>(kReachOfEdge * mean_edge(mesh)))),
       max_displacement_(std::max(4 * thickness_, static_cast<Real>(kDisplacementOfEdge * mean_edge(mesh)))),
       model_{static_cast<Real>(barrier_stiffness(scene.fabric.thickness)),
              static_cast<Real>(scene.fabric.friction), static_cast<Real>(kElasticSlip) * thickness_},
-      pairs_(device, mesh, scene.fabric.thickness),
-      center_(device, vertices_),
+      pairs_(device, all ? *all : mesh, scene.fabric.thickness, vertices_, scene.self_contact),
+      center_(device, bodies_.all()),
       step_length_(device),
       near_(device),
       friction_(device),
@@ -41,9 +50,11 @@ SelfContact<Real, Device>::SelfContact(Device& device, const ClothMesh& mesh, co
       presses_(device),
       pressing_(device),
       stiffness_(device),
-      rows_(device, vertices_),
+      push_(device),
+      body_force_(device, scene.integrator == Integrator::quasi_static ? bodies_.count() : 0),
+      rows_(device, bodies_.all()),
       stiffness_rows_(device, vertices_),
-      bearing_end_(device, vertices_),
+      bearing_end_(device, bodies_.all()),
       bearing_item_(device),
       slot_(device),
       energy_(device),
@@ -65,26 +76,29 @@ Real SelfContact<Real, Device>::longest_displacement(const Vec3<Real>* direction
 template <class Real, class Device>
 Real SelfContact<Real, Device>::farthest(const Vec3<Real>* x, const Vec3<Real>* direction, Real step_length) {
   const Vec3<Real>* center = center_.data();
-  Real* lengths = step_length_.reserve(vertices_);
+  Real* lengths = step_length_.reserve(bodies_.all());
   for_each(
-      device_, "self-contact: lengths", vertices_,
+      device_, "self-contact: lengths", bodies_.all(),
       HYST_KERNEL(int i) { lengths[i] = -(x[i] + step_length * direction[i] - center[i]).norm(); });
-  return -smallest(device_, pairs_.scratch(), lengths, vertices_, Real(0));
+  return -smallest(device_, pairs_.scratch(), lengths, bodies_.all(), Real(0));
 }
 
 template <class Real, class Device>
-double SelfContact<Real, Device>::prepare(const Vec3<Real>* x, const Vec3<Real>* direction, const char* held,
-                                          double max_step) {
+double SelfContact<Real, Device>::prepare(const Vec3<Real>* cloth, const Vec3<Real>* along_cloth,
+                                          const char* held, double max_step, double kept_shell) {
   clock_.begin(Stage::contact);
+  bodies_.try_step(0);
+  const Vec3<Real>*x = bodies_.positions(cloth), *direction = bodies_.directions(along_cloth);
   const Real longest = longest_displacement(direction), requested = static_cast<Real>(max_step),
              step_length = requested * longest > max_displacement_ ? max_displacement_ / longest : requested;
   if (!ready_ || pending_ || !(farthest(x, direction, step_length) <= reach_))
-    rebuild(x, direction, step_length, held,
+    rebuild(x, direction, step_length, bodies_.held(held),
             std::clamp(step_length * longest / 2, least_reach_, most_reach_));
   const SelfPair<Real>* pairs = pairs_.pairs();
   const PairFriction<Real>* friction = friction_.data();
   Real* feasible = step_length_.reserve(pairs_.count());
   char* near = near_.reserve(pairs_.count());
+  const Real kept = static_cast<Real>(kept_shell);
   for_each(
       device_, "self-contact: collisions", pairs_.count(), HYST_KERNEL(int p) {
         const SelfPair<Real> pair = pairs[p];
@@ -94,7 +108,9 @@ double SelfContact<Real, Device>::prepare(const Vec3<Real>* x, const Vec3<Real>*
         for (Vec3<Real>& d : along) d *= step_length;
         const Approach<Real> start = approach(from, along, pair.is_edges());
         near[p] = start.distance - start.speed < Real(kSafely) * pair.shell || friction[p].limit > 0;
-        feasible[p] = feasible_step(start, from, along, pair.is_edges(), least_distance(pair));
+        const Real least = least_distance(pair), nearer = Real(kNearer) * start.distance;
+        const Real wanted = kept * pair.shell < nearer ? kept * pair.shell : nearer;
+        feasible[p] = feasible_step(start, from, along, pair.is_edges(), wanted > least ? wanted : least);
       });
   const double least = smallest(device_, pairs_.scratch(), feasible, pairs_.count(), Real(1));
   clock_.end(Stage::contact);
@@ -102,12 +118,14 @@ double SelfContact<Real, Device>::prepare(const Vec3<Real>* x, const Vec3<Real>*
 }
 
 template <class Real, class Device>
-void SelfContact<Real, Device>::accept_iterate(const Vec3<Real>* x) {
+void SelfContact<Real, Device>::accept_iterate(const Vec3<Real>* cloth) {
+  bodies_.accept();
   if (!pending_) return;
   pending_ = false;
+  const Vec3<Real>* x = bodies_.positions(cloth);
   Vec3<Real>* center = center_.data();
   for_each(
-      device_, "self-contact: moved", vertices_, HYST_KERNEL(int i) { center[i] = x[i]; });
+      device_, "self-contact: moved", bodies_.all(), HYST_KERNEL(int i) { center[i] = x[i]; });
 }
 
 template <class Real, class Device>
@@ -133,7 +151,7 @@ void SelfContact<Real, Device>::index_corners() {
       device_, "self-contact: corners", count, HYST_KERNEL(int p) {
         for (int k = 0; k < 4; ++k) key[4 * p + k] = pairs[p].v[k];
       });
-  group(device_, pairs_.scratch(), key, 4 * count, vertices_, rows_.start.data(),
+  group(device_, pairs_.scratch(), key, 4 * count, bodies_.all(), rows_.start.data(),
         rows_.item.reserve(4 * static_cast<std::size_t>(count)));
 }
 
@@ -146,15 +164,21 @@ void SelfContact<Real, Device>::serialise(Archive& archive) {
   archive(reach_);
   archive(stored_);
   archive(loss_);
+  archive(body_work_);
+  bodies_.serialise(archive);
+  hysteron::serialise(archive, device_, body_force_);
   hysteron::serialise(archive, device_, center_);
   hysteron::serialise(archive, clock_);
   if (archive.loads()) index_corners();
 }
 
 template <class Real, class Device>
-void SelfContact<Real, Device>::lag(const Vec3<Real>* x) {
-  if (!(model_.friction > 0)) return;
+void SelfContact<Real, Device>::lag(const Vec3<Real>* cloth) {
+  if (!rubs()) return;
   clock_.begin(Stage::contact);
+  const Vec3<Real>* x = bodies_.positions(cloth);
+  const Real* of_body = bodies_.friction();
+  const int first_body = vertices_;
   const SelfContactModel<Real> model = model_;
   const SelfPair<Real>* pairs = pairs_.pairs();
   const char* near = near_.data();
@@ -163,7 +187,9 @@ void SelfContact<Real, Device>::lag(const Vec3<Real>* x) {
       device_, "self-contact: lagged friction", pairs_.count(), HYST_KERNEL(int p) {
         if (!near[p]) return;  // its limit is 0
         const SelfTouch<Real> touch = self_touch(pairs[p], model, x);
-        friction[p].limit = touch.touches ? model.friction * touch.force : Real(0);
+        const int last = pairs[p].v[0] < pairs[p].v[3] ? pairs[p].v[3] : pairs[p].v[0];
+        const Real coefficient = last < first_body ? model.friction : of_body[last - first_body];
+        friction[p].limit = touch.touches ? coefficient * touch.force : Real(0);
         if (!touch.touches) return;
         friction[p].normal = touch.normal;
         friction[p].weight = touch.weight;
@@ -172,9 +198,10 @@ void SelfContact<Real, Device>::lag(const Vec3<Real>* x) {
 }
 
 template <class Real, class Device>
-void SelfContact<Real, Device>::evaluate(const Vec3<Real>* x, const Vec3<Real>* before,
+void SelfContact<Real, Device>::evaluate(const Vec3<Real>* cloth, const Vec3<Real>* cloth_before,
                                          Vec3<Real>* gradient) {
   clock_.begin(Stage::contact);
+  const Vec3<Real>*x = bodies_.positions(cloth), *before = bodies_.positions_before(cloth_before);
   const SelfContactModel<Real> model = model_;
   const SelfPair<Real>* pairs = pairs_.pairs();
   const PairFriction<Real>* friction = friction_.data();
@@ -232,9 +259,10 @@ int SelfContact<Real, Device>::find_pressing(const Vec3<Real>* x) {
 }
 
 template <class Real, class Device>
-void SelfContact<Real, Device>::linearise(const Vec3<Real>* x, const Vec3<Real>* before,
+void SelfContact<Real, Device>::linearise(const Vec3<Real>* cloth, const Vec3<Real>* cloth_before,
                                           Real sliding_fraction) {
   clock_.begin(Stage::contact);
+  const Vec3<Real>*x = bodies_.positions(cloth), *before = bodies_.positions_before(cloth_before);
   pressing_count_ = find_pressing(x);
   const std::size_t entries = 4 * static_cast<std::size_t>(pressing_count_);
   const SelfContactModel<Real> model = model_;
@@ -262,9 +290,49 @@ void SelfContact<Real, Device>::linearise(const Vec3<Real>* x, const Vec3<Real>*
         const Vec3<Real> e = pair_slip(pairs[p], f, x, before);
         s.block += sliding_stiffness<Real>(e, f.normal, f.limit / model.slip, model.slip, sliding_fraction);
       });
+  if (bodies_.any()) leave_cloth_alone();
   group(device_, pairs_.scratch(), key, 4 * pressing_count_, vertices_, stiffness_rows_.start.data(),
         stiffness_rows_.item.reserve(entries));
   clock_.end(Stage::contact);
+}
+
+// Takes the bodies' vertices out of the stiffnesses: a vertex of the cloth stands for them without weight,
+// and what the rest of their way pushes is kept.
+template <class Real, class Device>
+void SelfContact<Real, Device>::leave_cloth_alone() {
+  const int cloth = vertices_;
+  const Real left = static_cast<Real>(bodies_.left());
+  const Vec3<Real>* way = bodies_.way();
+  PairStiffness<Real>* stiffness = stiffness_.data();
+  int* key = stiffness_rows_.key.data();
+  Vec3<Real>* push = push_.reserve(pressing_count_);
+  for_each(
+      device_, "self-contact: push", pressing_count_, HYST_KERNEL(int i) {
+        PairStiffness<Real>& s = stiffness[i];
+        Vec3<Real> apart = Vec3<Real>::Zero();
+        int own = 0;
+        for (int k = 0; k < 4; ++k)
+          if (s.v[k] < cloth) own = s.v[k];
+        for (int k = 0; k < 4; ++k) {
+          if (s.v[k] < cloth) continue;
+          apart += s.weight[k] * left * way[s.v[k] - cloth];
+          s.v[k] = key[4 * i + k] = own;
+          s.weight[k] = 0;
+        }
+        push[i] = s.block * apart;
+      });
+}
+
+template <class Real, class Device>
+void SelfContact<Real, Device>::add_push(Vec3<Real>* force) {
+  if (bodies_.have_arrived()) return;
+  const PairProduct<Real> rows = product();
+  const Vec3<Real>* push = push_.data();
+  for_each(
+      device_, "self-contact: pushed", vertices_, HYST_KERNEL(int i) {
+        for (int j = rows.start[i]; j < rows.start[i + 1]; ++j)
+          force[i] -= rows.pair[rows.item[j] / 4].weight[rows.item[j] % 4] * push[rows.item[j] / 4];
+      });
 }
 
 template <class Real, class Device>
@@ -281,7 +349,8 @@ void SelfContact<Real, Device>::add_stiffness_diagonal(Mat3<Real>* diagonal) {
 }
 
 template <class Real, class Device>
-double SelfContact<Real, Device>::stored_energy(const Vec3<Real>* x) {
+double SelfContact<Real, Device>::stored_energy(const Vec3<Real>* cloth) {
+  const Vec3<Real>* x = bodies_.positions(cloth);
   const SelfContactModel<Real> model = model_;
   const SelfPair<Real>* pairs = pairs_.pairs();
   double* sum = sum_.data();
@@ -322,8 +391,8 @@ template <class Real, class Device>
 std::size_t SelfContact<Real, Device>::bytes() const {
   return pairs_.bytes() + center_.bytes() + step_length_.bytes() + friction_.bytes() + old_friction_.bytes() +
          near_.bytes() + bearing_end_.bytes() + bearing_item_.bytes() + presses_.bytes() + pressing_.bytes() +
-         stiffness_.bytes() + rows_.bytes() + stiffness_rows_.bytes() + slot_.bytes() + energy_.bytes() +
-         sum_.bytes();
+         stiffness_.bytes() + push_.bytes() + body_force_.bytes() + bodies_.bytes() + rows_.bytes() +
+         stiffness_rows_.bytes() + slot_.bytes() + energy_.bytes() + sum_.bytes();
 }
 
 // What friction between layers remembers: the stops' stretch from step to step and from list to list.
@@ -335,7 +404,7 @@ void SelfContact<Real, Device>::gather_bearing() {
   const PairFriction<Real>* friction = friction_.data();
   int *end = bearing_end_.data(), *bearing = bearing_item_.data();
   for_each(
-      device_, "self-contact: bearing", vertices_, HYST_KERNEL(int i) {
+      device_, "self-contact: bearing", bodies_.all(), HYST_KERNEL(int i) {
         int n = start[i];
         for (int j = start[i]; j < start[i + 1]; ++j)
           if (friction[item[j] / 4].limit > 0) bearing[n++] = item[j];
@@ -373,9 +442,11 @@ void SelfContact<Real, Device>::carry_over() {
 
 // The stops stretch and slide; work done against them that they do not store is lost.
 template <class Real, class Device>
-void SelfContact<Real, Device>::commit(const Vec3<Real>* x, const Vec3<Real>* before) {
-  if (!(model_.friction > 0)) return;
+void SelfContact<Real, Device>::commit(const Vec3<Real>* cloth, const Vec3<Real>* cloth_before) {
+  if (bodies_.any()) book_body_work();
+  if (!rubs()) return;
   clock_.begin(Stage::contact);
+  const Vec3<Real>*x = bodies_.positions(cloth), *before = bodies_.positions_before(cloth_before);
   const SelfContactModel<Real> model = model_;
   const SelfPair<Real>* pairs = pairs_.pairs();
   PairFriction<Real>* friction = friction_.data();
@@ -404,6 +475,27 @@ void SelfContact<Real, Device>::commit(const Vec3<Real>* x, const Vec3<Real>* be
   stored_ = total[1];
   pass_friction_on();
   clock_.end(Stage::contact);
+}
+
+// What moving bodies do on the cloth: the forces on their vertices over their way; in statics the mean of
+// those before and after it.
+template <class Real, class Device>
+void SelfContact<Real, Device>::book_body_work() {
+  const GatheredForces<Real> forces{rows_.start.data(), rows_.item.data(), slot_.data()};
+  const int first = vertices_;
+  const Vec3<Real>* way = bodies_.way();
+  Vec3<Real>* kept = body_force_.size() > 0 ? body_force_.data() : nullptr;
+  double* sum = sum_.data();
+  for_each_sum<1>(
+      device_, "self-contact: work of bodies", bodies_.count(),
+      HYST_KERNEL(int i, Sums<1>& sums) {
+        const Vec3<Real> now = forces.at(first + i);
+        const Vec3<Real> mean = kept ? Vec3<Real>(Real(0.5) * (now + kept[i])) : now;
+        if (kept) kept[i] = now;
+        sums.term[0] += static_cast<double>(mean.dot(way[i]));
+      },
+      HYST_KERNEL(const Sums<1>& total) { sum[0] = total.term[0]; });
+  body_work_ += sum_.download()[0];
 }
 
 // To pairs that do not bear yet.

@@ -1,5 +1,5 @@
-// Cloth against itself, in implicit steps: a barrier that keeps layers apart, collision detection that bounds
-// each correction so that none passes the barrier, and Coulomb friction.
+// Cloth against itself and against bodies of triangles, in implicit steps: a barrier that keeps layers apart,
+// collision detection that bounds each correction so that none passes the barrier, and Coulomb friction.
 //
 // A start without intersections stays without: every path that Newton's method takes is checked
 // (additive_ccd.h) against all pairs that it could bring together (self_pairs.h).
@@ -14,8 +14,10 @@
 // asks for that: where pressure holds such edges, full steps then turn them several times too far.
 #pragma once
 
+#include <optional>
 #include <span>
 
+#include "sim/contact/body_vertices.h"
 #include "sim/contact/self_pairs.h"
 #include "sim/device/stage_clock.h"
 #include "sim/linear/gathered_forces.h"
@@ -57,11 +59,19 @@ class SelfContact {
  public:
   SelfContact(Device& device, const ClothMesh& mesh, const Scene& scene);
 
-  // Largest step length along `direction` from x, up to `max_step`, that keeps layers apart, and no vertex
-  // farther than some edges from where the others go on average; afterwards evaluate() and its kind may be
-  // called on the path up to there.  moved() tells which of its points was taken.
-  double prepare(const Vec3<Real>* x, const Vec3<Real>* direction, const char* held, double max_step = 1);
+  // Largest step length along `direction` from x, up to `max_step`, that keeps layers apart, by more than
+  // `kept_shell` of their shells or most of their distance, and no vertex farther than some edges from where
+  // the others go on average; afterwards evaluate() and its kind may be called on the path up to there.
+  // accept_iterate() tells which of its points was taken.
+  double prepare(const Vec3<Real>* x, const Vec3<Real>* direction, const char* held, double max_step = 1,
+                 double kept_shell = 0);
+  // Bodies of triangles take the step, too: try_step() before evaluate(), accept_iterate() after it.
+  void try_step(double step_length) { bodies_.try_step(step_length); }
   void accept_iterate(const Vec3<Real>* x);
+  void move_bodies(double start, double end) { bodies_.move(start, end); }  // the stage begins [s]
+  void begin_guess() { bodies_.begin_guess(); }
+  void aim_bodies(double fraction) { bodies_.aim(fraction); }
+  bool bodies_have_arrived() const { return bodies_.have_arrived(); }
   // Vertices that were held are free: the next prepare() looks for their pairs, too.
   void invalidate_pairs() { pending_ = ready_; }
 
@@ -76,10 +86,13 @@ class SelfContact {
   // sliding_fraction: sliding_stop.h.
   void linearise(const Vec3<Real>* x, const Vec3<Real>* before, Real sliding_fraction);
   void add_stiffness_diagonal(Mat3<Real>* diagonal);
+  // What the rest of the bodies' way pushes the cloth by [N].
+  void add_push(Vec3<Real>* force);
   // What linearise() has found, on the device.
   PairProduct<Real> product() const {
     return {stiffness_rows_.start.data(), stiffness_rows_.item.data(), stiffness_.data(), pressing_count_};
   }
+  // evaluate() was called at x last.
   void commit(const Vec3<Real>* x, const Vec3<Real>* before);
 
   // What outlives a step: the list of pairs, which decides the order of sums and when the next one is made,
@@ -91,8 +104,9 @@ class SelfContact {
   std::vector<Vec3<Real>> forces() const;
   SelfPair<Real> blocking_pair() const;
 
-  double stored_energy(const Vec3<Real>* x);      // [J]
-  double friction_loss() const { return loss_; }  // since the start [J]
+  double stored_energy(const Vec3<Real>* x);       // [J]
+  double friction_loss() const { return loss_; }   // since the start [J]
+  double body_work() const { return body_work_; }  // of moving bodies on the cloth, since the start [J]
   double seconds() { return clock_.seconds()[static_cast<int>(Stage::contact)]; }
   std::size_t bytes() const;
 
@@ -103,20 +117,29 @@ class SelfContact {
   void carry_over();
   void pass_friction_on();
   void index_corners();
+  // Of here on arrays of all vertices.
   Real longest_displacement(const Vec3<Real>* direction);
   Real farthest(const Vec3<Real>* x, const Vec3<Real>* direction, Real step_length);
   int find_pressing(const Vec3<Real>* x);
+  void book_body_work();
+  void leave_cloth_alone();
   BearingRows bearing() const { return {rows_.start.data(), bearing_end_.data(), bearing_item_.data()}; }
 
  private:
+  bool rubs() const { return model_.friction > 0 || bodies_.rubs(); }
+  // `all`: with the bodies; empty without.
+  SelfContact(Device& device, const ClothMesh& mesh, const std::optional<ClothMesh>& all, const Scene& scene);
+
   Device& device_;
-  int vertices_;
+  int vertices_;  // of the cloth
+  BodyVertices<Real, Device> bodies_;
   Real thickness_, least_reach_, most_reach_, max_displacement_;
   SelfContactModel<Real> model_;
   SelfPairs<Real, Device> pairs_;
   bool ready_ = false, pending_ = false, stiffens_parallel_ = false;
   Real reach_ = 0;
   double stored_ = 0, loss_ = 0;  // of friction [J]
+  double body_work_ = 0;          // [J]
   Buffer<Vec3<Real>, Device> center_;
   GrowingBuffer<Real, Device> step_length_;
   GrowingBuffer<char, Device> near_;  // of pairs: it may touch on the path of the last prepare(), or rubs
@@ -126,6 +149,8 @@ class SelfContact {
   int pressing_count_ = 0;
   GrowingBuffer<int, Device> presses_, pressing_;
   GrowingBuffer<PairStiffness<Real>, Device> stiffness_;
+  GrowingBuffer<Vec3<Real>, Device> push_;  // add_push() of each of them; with bodies alone
+  Buffer<Vec3<Real>, Device> body_force_;   // at the last commit(); quasi-static, with bodies alone [N]
   PairRows<Device> rows_, stiffness_rows_;
   Buffer<int, Device> bearing_end_;  // BearingRows of rows_
   GrowingBuffer<int, Device> bearing_item_;

@@ -28,6 +28,8 @@ struct Candidates {  // what the loops need, by value
   const Vec3<Real>* rest;
   const int *face, *edge;
   const Real *vertex_area, *edge_area;
+  int cloth;    // vertices from here on are bodies'
+  bool layers;  // of the cloth among each other count, too
   Real thickness, reach;
   Sweep<Real> sweep;
   const char* held;
@@ -44,7 +46,8 @@ struct Candidates {  // what the loops need, by value
 
   // Whether the pair can matter; completes it.
   HYST_HD bool complete(SelfPair<Real>& pair, bool edges) const {
-    if (is_out(pair.v, edges)) return false;
+    const bool with_body = (pair.v[0] < cloth) != (pair.v[3] < cloth);
+    if ((!layers && !with_body) || is_out(pair.v, edges)) return false;
     Vec3<Real> x[4], direction[4];
     pair.gather(sweep.from, x);
     pair.gather(sweep.direction, direction);
@@ -54,7 +57,7 @@ struct Candidates {  // what the loops need, by value
     if (near > thickness) return false;
     pair.gather(rest, x);
     const Real apart = Real(kRestDistanceFraction) * pair_distance(x, edges);
-    pair.shell = apart < thickness ? apart : thickness;
+    pair.shell = apart < thickness && !with_body ? apart : thickness;
     pair.parallel = edges ? Real(kParallel) * (x[1] - x[0]).squaredNorm() * (x[3] - x[2]).squaredNorm() : 0;
     return near <= pair.shell;
   }
@@ -96,11 +99,14 @@ double overcount(double triangle, double thickness) {
 }  // namespace
 
 template <class Real, class Device>
-SelfPairs<Real, Device>::SelfPairs(Device& device, const ClothMesh& mesh, double thickness)
+SelfPairs<Real, Device>::SelfPairs(Device& device, const ClothMesh& mesh, double thickness, int cloth,
+                                   bool layers)
     : device_(device),
       vertices_(mesh.vertices()),
+      cloth_(cloth),
       edges_(static_cast<int>(mesh.edge.size())),
       rows_(vertices_ + edges_),
+      layers_(layers),
       thickness_(static_cast<Real>(thickness)),
       triangle_tree_(device, triangle_corners(mesh), mesh.rest),
       edge_tree_(device, edge_corners(mesh), mesh.rest),
@@ -154,9 +160,18 @@ Vec3<Real> SelfPairs<Real, Device>::mean_direction(const Vec3<Real>* direction) 
 template <class Real, class Device>
 template <bool kWrite>
 void SelfPairs<Real, Device>::search(const Sweep<Real>& sweep, const char* held, Real reach, const int* pin) {
-  const Candidates<Real> candidates{
-      rest_.data(), face_.data(), edge_.data(), vertex_area_.data(), edge_area_.data(), thickness_, reach,
-      sweep,        held,         pin};
+  const Candidates<Real> candidates{rest_.data(),
+                                    face_.data(),
+                                    edge_.data(),
+                                    vertex_area_.data(),
+                                    edge_area_.data(),
+                                    cloth_,
+                                    layers_,
+                                    thickness_,
+                                    reach,
+                                    sweep,
+                                    held,
+                                    pin};
   const BoxTreeView<Real> triangles = triangle_tree_.view(), edges = edge_tree_.view();
   int *found = found_.data(), *kept = kept_.data();
   const int* start = start_.data();

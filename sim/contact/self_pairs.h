@@ -36,7 +36,11 @@ struct SelfPair {
 template <class Real, class Device>
 class SelfPairs {
  public:
-  SelfPairs(Device& device, const ClothMesh& mesh, double thickness);
+  // `mesh` may have bodies behind the cloth's `cloth` vertices, which are held; pairs of a body with the
+  // cloth have shells of the whole thickness.  Without `layers` there are no pairs but these.
+  SelfPairs(Device& device, const ClothMesh& mesh, double thickness, int cloth, bool layers);
+  SelfPairs(Device& device, const ClothMesh& mesh, double thickness)
+      : SelfPairs(device, mesh, thickness, mesh.vertices(), true) {}
 
   // Makes the list anew; what is kept of pairs that stay is the caller's to carry over: `old_start`, of as
   // many rows, and old_pairs() are those of the list before.  With the number of the pin at each vertex
@@ -61,7 +65,8 @@ class SelfPairs {
 
  private:
   Device& device_;
-  int vertices_, edges_, rows_, count_ = 0;
+  int vertices_, cloth_, edges_, rows_, count_ = 0;
+  bool layers_;
   Real thickness_;
   Buffer<Vec3<Real>, Device> rest_;
   Buffer<int, Device> face_, edge_;  // 3 vertices a triangle, 2 an edge by rank

@@ -64,7 +64,7 @@ const int* SymmetricBlocks::add(const ElementStiffness& stiffness, int e, const 
   for (int a = 0; a < n; ++a)
     for (int b = 0; b < n; ++b) {
       if (vertex[b] > vertex[a]) continue;
-      Eigen::Matrix3d& block = a == b ? diagonal[vertex[a]] : below[*slots++];
+      Eigen::Matrix3d& block = vertex[a] == vertex[b] ? diagonal[vertex[a]] : below[*slots++];
       block += rates_.middleCols<3>(3 * a).transpose().lazyProduct(forces_.middleCols<3>(3 * b));
     }
   return slots;

@@ -130,6 +130,7 @@ const KeyRow<Obstacle> kObstacleRows[] = {
     {"sequence", at<&Obstacle::sequence>, "", any(), "", "mesh: where its vertices are from frame to frame: OBJ or PLY files of the same triangles by a pattern, \"walk/*.obj\", in the order of their names, or a point cache, .pc2 or .mdd; none: it is rigid"},
     {"fps", at<&Obstacle::fps>, "1/s", at_least(0), "", "mesh: frames of the sequence a second, the first one at t = 0; 0: as the times of an .mdd say"},
     {"friction", at<&Obstacle::friction>, "", at_least(-1), "", "Coulomb coefficient; negative: the fabric's"},
+    {"body", at<&Obstacle::body>, "", any(), "", "name that obstacles share which act as one, their union: a limb of two capsules; none: each by itself"},
     {"visible", at<&Obstacle::visible>, "", any(), "", "drawn in pictures"},
     {"from", at<&Obstacle::from>, "s", at_least(0), "", "appears at this time"},
     {"until", at<&Obstacle::until>, "s", at_least(0), "", "removed at this time; 1e30: never"},

@@ -194,6 +194,7 @@ struct Obstacle {
   double height = 0.1;
   double rim = 0.001;
   double friction = -1;
+  std::string body;  // obstacles of one name act as one; empty: alone
   bool visible = true;
   double from = 0;
   double until = 1e30;
@@ -201,7 +202,6 @@ struct Obstacle {
   LengthUnit unit = LengthUnit::metre;
   std::string sequence;
   double fps = 0;
-  std::string body;
   std::shared_ptr<const BodyMesh> mesh;  // no key: load_bodies() (scene/body.h) reads it; null: not yet
   Motion motion;                         // its axis and centre are the keys motion-axis and motion-center
 };

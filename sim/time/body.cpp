@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "sim/scene/cloth.h"
+#include "sim/time/pinch.h"
 #include "sim/time/step_errors.h"
 
 namespace hysteron {
@@ -46,7 +47,7 @@ Body<Real, Device>::Body(std::unique_ptr<Device> on, const Scene& s, const Cloth
     contact.emplace(*device, cloth.mesh, scene);
     contact->move(0, 0);
   }
-  if (scene.self_contact) self_contact.emplace(*device, cloth.mesh, scene);
+  if (scene.self_contact || has_mesh_bodies(scene)) self_contact.emplace(*device, cloth.mesh, scene);
   if (contact || self_contact) before = Buffer<Vec3<Real>, Device>(*device, vertices);
   bending.commit(x.data(), v.data(), 0);
   membrane.start_friction(x.data());
@@ -80,6 +81,7 @@ template <class Real, class Device>
 void Body<Real, Device>::begin_stage(double start, Real h) {
   apply_due_events(start, h);
   if (contact) contact->move(start, start + static_cast<double>(h));
+  if (self_contact) self_contact->move_bodies(start, start + static_cast<double>(h));
   if (before.size() == 0) return;
   const Vec3<Real>* from = x.data();
   Vec3<Real>* to = before.data();
@@ -94,12 +96,9 @@ void Body<Real, Device>::end_stage(double time) {
   if (self_contact) self_contact->commit(x.data(), before.data());
   if (!contact) return;
   clock.begin(Stage::contact);
-  const int deep = contact->commit(x.data(), before.data(), held.data());
+  const int inside = contact->commit(x.data(), before.data(), held.data());
   clock.end(Stage::contact);
-  if (deep == 0) return;
-  ++counts.deep;
-  if (scene.newton_iterations == 0)
-    throw_if_crushed(*this, time);  // else forces need not have come to balance
+  if (inside > 0) count_overlap(*this, time);
 }
 
 template <class Real, class Device>
@@ -184,7 +183,10 @@ Ledger Body<Real, Device>::balance() {
     sum.contact_friction = lost.friction;
     sum.obstacle_work = lost.obstacle_work;
   }
-  if (self_contact) sum.contact_friction += self_contact->friction_loss();
+  if (self_contact) {
+    sum.contact_friction += self_contact->friction_loss();
+    sum.obstacle_work += self_contact->body_work();
+  }
   sum.commands = bending.taken_by_commands();
   sum.bending_gap = initial_.bending - sum.bending - sum.bending_friction - sum.bending_relaxation -
                     sum.commands - viscous_bending - bending_work;

@@ -24,9 +24,10 @@ struct Diagnostics {
   // Steps that were taken again in smaller parts, or at the smallest with more of contact's stiffness.
   long retried = 0;
   long unbalanced = 0;  // parts taken before Newton's method had converged
-  // Parts taken with a vertex deeper than the cloth's thickness in an obstacle: after a hard blow, or with
-  // steps that are taken unbalanced (newton-iterations), of cloth that is crushed.
-  long deep = 0;
+  // Parts taken with a vertex in a solid, driven there by a blow or left there by a step that was taken
+  // unbalanced; and those with one that something presses into a solid from its other side.
+  long deep = 0, pinched = 0;
+  double pinch_depth = 0;  // the deepest of the latter below a surface [m]
   // Of hands of limited strength, and of rigid ones that gave way to the cloth: parts of steps in which one
   // pulled with all that it may, in which rigid ones gave way, and how far vertices have lagged behind at
   // most [m].

@@ -234,11 +234,17 @@ template <class Real, class Device>
 bool ImplicitStep<Real, Device>::keep_apart() {
   constexpr int kMaxShortenings = 12;
   constexpr double kWithin = 0.99, kFastest = 0.1;
-  double shorter = 1;
+  constexpr double kKeptShell = 0.4;  // a guess that presses layers further begins with forces out of scale
+  double shorter = 1, whole = 1;
+  potential_.begin_guess();
   for (int k = 0; k < kMaxShortenings; ++k) {
     shorten_guess(static_cast<Real>(shorter));
-    const double feasible = potential_.collision_free_step(body_.x.data(), displacement_.data(), 1);
+    whole *= shorter;
+    potential_.aim_bodies(whole);
+    const double feasible =
+        potential_.collision_free_step(body_.x.data(), displacement_.data(), 1, kKeptShell);
     if (feasible >= 1) {
+      potential_.take_bodies(1);
       potential_.accept_iterate(end_.data());
       return true;
     }
@@ -247,7 +253,7 @@ bool ImplicitStep<Real, Device>::keep_apart() {
   return false;
 }
 
-// The displacement to the guess, of free vertices times `step_length`; the guess moves there.
+// The displacement to the guess, of free vertices (and of bodies) times `step_length`; the guess moves there.
 template <class Real, class Device>
 void ImplicitStep<Real, Device>::shorten_guess(Real step_length) {
   const Vec3<Real>* x = body_.x.data();

@@ -181,6 +181,7 @@ LinearSystem<Real, Device> IncrementalPotential<Real, Device>::linearise(const V
   if (self_contact_) {
     self_contact_->linearise(x, start_.now, sliding_fraction);
     self_contact_->add_stiffness_diagonal(rest);
+    self_contact_->add_push(descent);
   }
   LinearSystem<Real, Device> system{matrix, {}, rest, nullptr, softening, {}, matrix_.bytes()};
   if (full) system.bytes += total_bytes(softening_off_diagonal_, softening_diagonal_);

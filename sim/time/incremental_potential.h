@@ -65,8 +65,21 @@ class IncrementalPotential {
   // Largest step length along `direction` from x, up to `max_step`, on which the cloth does not pass through
   // itself; feasible_step() also counts obstacles.  evaluate() then serves points up to there;
   // accept_iterate() tells which of them was taken.
-  double collision_free_step(const Vec3<Real>* x, const Vec3<Real>* direction, double max_step) {
-    return self_contact_ ? self_contact_->prepare(x, direction, start_.held, max_step) : max_step;
+  // Bodies of triangles begin a guess at the start of their way, and aim at a fraction of it; each step that
+  // is tried takes them along.  They have to arrive before the potential is that of the stage's end.
+  void begin_guess() {
+    if (self_contact_) self_contact_->begin_guess();
+  }
+  void aim_bodies(double fraction) {
+    if (self_contact_) self_contact_->aim_bodies(fraction);
+  }
+  void take_bodies(double step_length) {
+    if (self_contact_) self_contact_->try_step(step_length);
+  }
+  bool bodies_have_arrived() const { return !self_contact_ || self_contact_->bodies_have_arrived(); }
+  double collision_free_step(const Vec3<Real>* x, const Vec3<Real>* direction, double max_step,
+                             double kept_shell = 0) {
+    return self_contact_ ? self_contact_->prepare(x, direction, start_.held, max_step, kept_shell) : max_step;
   }
   double feasible_step(const Vec3<Real>* x, const Vec3<Real>* direction, double max_step) {
     const double outside = contact_ ? contact_->feasible_step(x, direction, start_.held, max_step) : max_step;

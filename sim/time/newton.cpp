@@ -102,10 +102,12 @@ NewtonOutcome Newton<Real, Device>::minimise(Buffer<Vec3<Real>, Device>& x, Pote
     outcome.load = std::max(std::hypot(weight, value.reaction), value.inertia);
     // What is unbalanced is small beside the load, rounding, or would hardly move the cloth within the step.
     const double enough = std::max(limits_.residual * outcome.load, rounding);  // [N]
+    const bool arrived = potential_.bodies_have_arrived();
     outcome.converged |= value.residual <= enough || outcome.velocity <= limits_.velocity;
+    outcome.converged &= arrived;
     if (outcome.converged || !std::isfinite(value.energy)) break;
     if (outcome.iterations == limits_.iterations) {
-      outcome.converged = outcome.unbalanced = limits_.take_unconverged;
+      outcome.converged = outcome.unbalanced = limits_.take_unconverged && arrived;
       break;
     }
     const LinearSystem<Real, Device> system = potential_.linearise(
@@ -133,9 +135,9 @@ NewtonOutcome Newton<Real, Device>::minimise(Buffer<Vec3<Real>, Device>& x, Pote
     const bool balanced =
         value.residual <= kBalanced<Real> * std::hypot(weight, value.reaction, value.internal);
     if (step_length == 0) {
-      outcome.converged = value.residual <= rounding ||
-                          (balanced && (unmoved || -correction.slope <= least_gain));  // no more to gain
-      outcome.unbalanced = !outcome.converged && limits_.take_unconverged;
+      outcome.converged = arrived && (value.residual <= rounding ||  // or no more to gain:
+                                      (balanced && (unmoved || -correction.slope <= least_gain)));
+      outcome.unbalanced = !outcome.converged && limits_.take_unconverged && arrived;
       outcome.converged |= outcome.unbalanced;
       outcome.evaluated = false;
       break;
@@ -145,8 +147,8 @@ NewtonOutcome Newton<Real, Device>::minimise(Buffer<Vec3<Real>, Device>& x, Pote
     predicted = -correction.slope;
     progress.add_correction(length, step_length == 1);
     const double left = std::min(length, progress.left());
-    outcome.converged =
-        balanced && shift <= limits_.least_shift && (unmoved || idle || left / beta_dt <= limits_.velocity);
+    outcome.converged = arrived && balanced && shift <= limits_.least_shift &&
+                        (unmoved || idle || left / beta_dt <= limits_.velocity);
     shift = std::max(limits_.least_shift, step_length == 1 ? shift / 8 : shift * 2);
     if (potential_.has_friction() && outcome.iterations < tuning.friction_rounds)
       value = potential_.renew_friction(x.data());
@@ -167,7 +169,7 @@ typename Newton<Real, Device>::Trial Newton<Real, Device>::first_try(const Vec3<
   double max_step = 1;
   if (potential_.has_self_contact()) {
     device_.synchronize();
-    if (!((*correction_).slope < 0)) return {};
+    if (!((*correction_).slope < 0) && potential_.bodies_have_arrived()) return {};
     max_step = std::min(1.0, farthest / std::sqrt((*correction_).size2 / total_mass));
   }
   const double step_length = potential_.feasible_step(x, direction_.data(), max_step);
@@ -178,17 +180,19 @@ typename Newton<Real, Device>::Trial Newton<Real, Device>::first_try(const Vec3<
 
 // Takes the first step along the direction, as long as is feasible or shorter, that lowers the potential
 // enough, and returns its length; 0 if there is none.  Where the difference is within rounding, the slope
-// must have become flatter instead (Hager & Zhang 2005).
+// must have become flatter instead (Hager & Zhang 2005).  A step that takes bodies along goes from one
+// potential to another: it is taken as it is.
 template <class Real, class Device>
 double Newton<Real, Device>::search(Buffer<Vec3<Real>, Device>& x, PotentialValue& value, Trial tried,
                                     double slope, double blurred) {
-  if (!(slope < 0) || !(tried.length > 0)) return 0;
+  const bool arrived = potential_.bodies_have_arrived();
+  if ((!(slope < 0) && arrived) || !(tried.length > 0)) return 0;
   for (int halving = 1;; ++halving) {
     const double step_length = tried.length;
     const double rise = tried.value.energy - value.energy;
     const bool lower = rise <= kEnough * step_length * slope,
                flatter = std::abs(rise) <= blurred && std::abs(tried.value.slope) <= -0.9 * slope;
-    if (lower || flatter) {
+    if (lower || flatter || (!arrived && std::isfinite(tried.value.energy))) {
       std::swap(x, trial_);
       potential_.accept_iterate(x.data());
       value = tried.value;

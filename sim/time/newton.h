@@ -70,6 +70,7 @@ class Newton {
   Trial first_try(const Vec3<Real>* x, double farthest, double total_mass);
   Trial try_step(const Vec3<Real>* x, double step_length) {
     place_trial(x, static_cast<Real>(step_length));
+    potential_.take_bodies(step_length);
     return {step_length, potential_.evaluate(trial_.data(), direction_.data())};
   }
   double search(Buffer<Vec3<Real>, Device>& x, PotentialValue& value, Trial first, double slope,

@@ -85,33 +85,6 @@ void throw_if_release(Body<Real, Device>& body, const std::vector<char>& held, d
                           others(found));
 }
 
-// A blow may drive the cloth deep into an obstacle for a moment.  It is crushed where that lasts because
-// something presses from the other side: a pin, an obstacle, or other layers.
-template <class Real, class Device>
-void throw_if_crushed(Body<Real, Device>& body, double time) {
-  const Scene& scene = body.scene;
-  const std::vector<Eigen::Vector3d> x = cast_to<double>(body.x.download());
-  const std::vector<char> held = body.cloth.held(scene, time), exempted = body.contact->exempted();
-  const auto set = obstacles_during<double>(scene.obstacle, scene.fabric.friction, time, time);
-  const std::vector<Vec3<Real>> layers = body.self_contact
-                                             ? body.self_contact->forces()
-                                             : std::vector<Vec3<Real>>(body.vertices, Vec3<Real>::Zero());
-  const ObstacleShell<double> shell = obstacle_shell(scene);
-  std::vector<char> well(body.vertices);
-  for (int i = 0; i < body.vertices; ++i) {
-    const Eigen::Vector3d pressure = layers[i].template cast<double>() / body.cloth.mesh.vertex_area[i];
-    well[i] = held[i] ? exempted[i] : !is_squeezed(set, shell, x[i], pressure);
-  }
-  const Immersion found = deepest(set, x, well);
-  if (found.count == 0) return;
-  const std::vector<std::string> by = pressing(body, found.vertex, x[found.vertex], time);
-  throw Error::simulation(
-      at_time(time) +
-      "the cloth is crushed: " + immersion_text(found, scene.obstacle, x[found.vertex] + body.origin) +
-      (held[found.vertex] ? ", held by a pin" : ", pressed by " + together(by)) +
-      ": leave it more room, or raise contact-stiffness = " + number_text(shell.stiffest(), 6) + " N/m^3");
-}
-
 template <class Real, class Device>
 void throw_if_unbalanced(Body<Real, Device>& body, ImplicitStep<Real, Device>& step, double start, double h,
                          const NewtonOutcome& outcome) {
@@ -142,8 +115,6 @@ template void throw_if_arrival(Body<double, ThisDevice>&, double, double);
 template void throw_if_arrival(Body<float, ThisDevice>&, double, double);
 template void throw_if_release(Body<double, ThisDevice>&, const std::vector<char>&, double);
 template void throw_if_release(Body<float, ThisDevice>&, const std::vector<char>&, double);
-template void throw_if_crushed(Body<double, ThisDevice>&, double);
-template void throw_if_crushed(Body<float, ThisDevice>&, double);
 template void throw_if_unbalanced(Body<double, ThisDevice>&, ImplicitStep<double, ThisDevice>&, double,
                                   double, const NewtonOutcome&);
 template void throw_if_unbalanced(Body<float, ThisDevice>&, ImplicitStep<float, ThisDevice>&, double, double,

@@ -15,9 +15,6 @@ void throw_if_arrival(Body<Real, Device>& body, double met, double time);
 // Pins release cloth inside an obstacle.
 template <class Real, class Device>
 void throw_if_release(Body<Real, Device>& body, const std::vector<char>& held, double time);
-// Something drives the cloth into an obstacle from the other side.
-template <class Real, class Device>
-void throw_if_crushed(Body<Real, Device>& body, double time);
 // A step has no solution, even in parts of h.
 template <class Real, class Device>
 void throw_if_unbalanced(Body<Real, Device>& body, ImplicitStep<Real, Device>& step, double start, double h,

@@ -155,12 +155,11 @@ TEST(Program, SaysItsVersionAndCommit) {
     EXPECT_EQ(finished(words).out, outcome.out) << words;
 }
 
-// A plate that comes down to below the ground, from 0.1 s to 0.4 s; nothing is left of the sheet's room near
-// the end.
-TEST(Program, ExitsWithThreeWhereTheClothIsCrushedAndKeepsWhatWasWritten) {
+// A box appears around the sheet at 0.3 s.
+TEST(Program, ExitsWithThreeWhereARunCannotGoOnAndKeepsWhatWasWritten) {
   const Folder folder;
-  const fs::path out = folder.path() / "crushed";
-  const std::string scene = folder.write("crush.toml", R"(integrator = "implicit"
+  const fs::path out = folder.path() / "boxed";
+  const std::string scene = folder.write("boxed.toml", R"(integrator = "implicit"
 step = 0.004
 triangles = 60
 seconds = 0.5
@@ -171,12 +170,12 @@ select = "nearest"
 [[obstacle]]
 kind = "box"
 size = [0.2, 0.2, 0.01]
-center = [0.05, 0.05, 0.02]
-keys = [{time = 0.1}, {time = 0.4, position = [0, 0, -0.012]}]
+center = [0.05, 0.05, 0]
+from = 0.3
 )");
   const Outcome outcome = ended(3, "swing --no-images --quiet --fps 50 --scene " + scene + out_flag(out));
   EXPECT_TRUE(says(outcome.err, "hysteron swing: at t = 0.3"));
-  EXPECT_TRUE(says(outcome.err, "the cloth is crushed: vertex "));
+  EXPECT_TRUE(says(outcome.err, "an obstacle appears where the cloth is: vertex "));
   const Json manifest = manifest_in(out);
   EXPECT_EQ(manifest["complete"], false);
   const std::string table = file_content(out / "metrics.csv");

@@ -4,6 +4,7 @@
 #include "experiments/workbench/pictures/subject.h"
 #include "render/inset.h"
 #include "render/srgb.h"
+#include "sim/scene/body.h"
 #include "sim/scene/motion.h"
 
 namespace hysteron::experiments {
@@ -72,8 +73,22 @@ AnimatedPart ground_part(const Obstacle& plane, const PictureView& view) {
   return part;
 }
 
+// A body of triangles that changes its shape: its vertices where they are in the world.
+AnimatedPart deforming_part(const Obstacle& body, const PictureView& view) {
+  AnimatedPart part{"", linear_light(view.look.obstacle)};
+  for (const Eigen::Vector3i& face : body.mesh->face)
+    for (const int v : face) part.shape.triangles.push_back(static_cast<std::uint32_t>(v));
+  part.points_at = [body](const Instant& at) {
+    std::vector<Eigen::Vector3f> points;
+    for (const Eigen::Vector3d& x : body_positions(body, at.time)) points.push_back(x.cast<float>());
+    return points;
+  };
+  return part;
+}
+
 std::optional<AnimatedPart> obstacle_part(const Obstacle& obstacle, const PictureView& view, float side) {
   if (obstacle.kind == ObstacleKind::ground) return ground_part(obstacle, view);
+  if (is_body(obstacle) && obstacle.mesh->moves()) return deforming_part(obstacle, view);
   const auto body = obstacle_mesh(obstacle);
   if (!body) return {};
   AnimatedPart part{"", linear_light(view.look.obstacle)};
@@ -127,7 +142,8 @@ std::vector<AnimatedPart> animated_bodies(const Scene& scene, const PictureView&
     if (!part) continue;
     has_ground = has_ground || obstacle.kind == ObstacleKind::ground;
     part->name = enum_name(obstacle.kind) + "_" + std::to_string(i);
-    part->pose_at = [obstacle](const Instant& at) { return pose_of(obstacle, at.time); };
+    if (part->is_rigid())
+      part->pose_at = [obstacle](const Instant& at) { return pose_of(obstacle, at.time); };
     part->from = obstacle.from;
     part->until = obstacle.until;
     parts.push_back(std::move(*part));

@@ -17,6 +17,7 @@
 #include "experiments/workbench/session/recoveries.h"
 #include "experiments/workbench/session/resuming.h"
 #include "sim/bending/curvature_operator.h"
+#include "sim/contact/compression.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -153,10 +154,21 @@ void note_convergence(Run& run, const Diagnostics& counts, const Scene& scene) {
   }
 }
 
-void note_deep_contact(Run& run, long deep) {
-  run.metric("deep_contact_steps_count", deep);
-  if (deep == 0) return;
-  run.warn("in " + std::to_string(deep) +
+void note_pinch(Run& run, const Diagnostics& counts) {
+  if (counts.pinched == 0) return;
+  run.metric("pinched_steps_count", counts.pinched);
+  run.metric("pinch_depth_m", counts.pinch_depth);
+  run.warn(
+      fmt::format("in {} parts of steps solids pinched the cloth harder than they bear, {:.0f} kPa, and gave "
+                  "way by up to {:.2g} mm: leave it more room where that matters",
+                  counts.pinched, 1e-3 * kYieldPressure, 1e3 * counts.pinch_depth));
+}
+
+void note_deep_contact(Run& run, const Diagnostics& counts) {
+  run.metric("deep_contact_steps_count", counts.deep);
+  note_pinch(run, counts);
+  if (counts.deep == 0) return;
+  run.warn("in " + std::to_string(counts.deep) +
            " parts of steps the cloth was in an obstacle: a larger contact-stiffness or a shorter step "
            "keeps it out");
 }
@@ -187,7 +199,7 @@ void Account::finish(Session& session, const std::string&) {
   for (const std::string& doubt : doubts_at_end(scene, session.cloth(), simulation.positions(), stretched_))
     run.warn(doubt);
   note_convergence(run, counts, scene);
-  if (!scene.obstacle.empty()) note_deep_contact(run, counts.deep);
+  if (!scene.obstacle.empty()) note_deep_contact(run, counts);
   note_saturated_pins(run, counts, scene);
 }
 

@@ -67,6 +67,18 @@ TEST_F(RunsWithABody, DoubtAFileThatHasChangedSince) {
                             " (obstacle[0].file) has changed since it was recorded"));
 }
 
+TEST_F(RunsWithABody, BeginAnewWithResumeWhereAFileHasChanged) {
+  const auto state = [&] {
+    run_into(out_, " --no-images --resume");
+    const Json manifest = manifest_in(out_);
+    return std::pair(manifest.at("started"), manifest.at("meshes"));
+  };
+  const auto first = state();
+  EXPECT_EQ(state(), first) << "it is complete";
+  folder_.write("project/ball.obj", test::obj_text(ball_.scaled(0.9)));
+  EXPECT_NE(state().second, first.second);
+}
+
 TEST_F(RunsWithABody, HashAllFilesOfASequence) {
   for (int k : {1, 2}) folder_.write("project/f" + std::to_string(k) + ".obj", test::obj_text(ball_));
   folder_.write("project/scene.toml", scene("sequence = \"f*.obj\"\nfps = 20\n"));

@@ -44,6 +44,22 @@ TEST(ObstacleShell, KeepsClothOutOfTheSolidUnderAHundredTimesThatPressure) {
   EXPECT_GT(distance_under(obstacle_shell(scene), 100 * kTest), 0);
 }
 
+// Deeper in the solid it is as stiff as at the compression of the test.
+TEST(ObstacleShell, YieldsNextToTheSurface) {
+  Scene scene;
+  scene.integrator = Integrator::implicit;
+  const ObstacleShell<double> shell = obstacle_shell(scene);
+  EXPECT_GT(shell.yield, 0);
+  EXPECT_LT(shell.yield, 0.01 * shell.thickness);
+  EXPECT_NEAR(-shell.at(shell.yield).slope / kYieldPressure, 1, 1e-6);
+  for (double depth : {0.0, 1e-3, 1.0}) {
+    EXPECT_EQ(shell.at(-depth).stiffness, shell.stiffest());
+    const double pressure = kYieldPressure + shell.stiffest() * (shell.yield + depth);
+    EXPECT_NEAR(-shell.at(-depth).slope / pressure, 1, 1e-6);
+    EXPECT_NEAR(distance_under(shell, pressure), -depth, 1e-9);
+  }
+}
+
 // Pressure is the slope of the energy, stiffness that of the pressure, across the end of what was measured.
 TEST(ObstacleShell, HasSmoothEnergyPressureAndStiffness) {
   Scene scene;

@@ -7,6 +7,7 @@
 #include "sim/bending/laws/law_parameters.h"
 #include "sim/mesh/intersections.h"
 #include "tests/sim/base/refusal.h"
+#include "tests/sim/contact/mesh_bodies.h"
 #include "tests/sim/device/on_each_device.h"
 #include "tests/sim/time/scenes.h"
 
@@ -217,6 +218,21 @@ TEST_P(SelfContactOnBothDevices, FoldsAlikeWithAFactorisation) {
   Scene scene = folding_strip(GetParam());
   scene.linear_solver = Preconditioning::cholesky;
   expect_folded_alike(scene);
+}
+
+// A plate of triangles that drives off with its sheet.
+TEST_F(Gpu, CarriesClothOnABodyOfTrianglesAsTheCpuDoes) {
+  constexpr double kAgreement = 1e-6;  // [m]
+  for (const Preconditioning solver : {Preconditioning::multigrid, Preconditioning::cholesky}) {
+    Scene scene = test::on_plate(0, 0.3, Integrator::tr_bdf2).scene;
+    scene.newton_residual = 1e-9;
+    scene.linear_solver = solver;
+    scene.obstacle[0].motion.keys = {{0, {0, 0, 0}, 0}, {0.2, {0.01, 0, 0.01}, 0}};
+    const auto cpu = run_on("cpu", scene), gpu = run_on("cuda", scene), again = run_on("cuda", scene);
+    EXPECT_GT(cpu->ledger().obstacle_work, 0);
+    EXPECT_LT(test::farthest(cpu->positions(), gpu->positions()), kAgreement);
+    EXPECT_EQ(gpu->state_hash(), again->state_hash());
+  }
 }
 
 // A strip that swings by one end.

@@ -1,4 +1,4 @@
-// Cloth that is crushed ends the run with place and time; cloth that is only pressed does not.
+// Cloth between solids that close on it: pressed, pinched and let go.
 #include <gtest/gtest.h>
 
 #include "sim/mesh/intersections.h"
@@ -44,6 +44,9 @@ std::string press(const Trial& trial, Simulation& simulation) {
   return test::refusal([&] { simulation.advance(trial.steps(1.2 * kDown)); }, kCannotGoOn);
 }
 
+// The plate goes up again as far as it came down, in the same time.
+void lift_press(Scene& scene) { scene.obstacle[1].motion.keys.push_back({2.2 * kDown, {0, 0, 0.03}, 0}); }
+
 // Between two plates h apart, both shells give in alike: each is sunk into by t - h/2.  At h = t that is half
 // of the shell, where it is so stiff that the cloth's weight takes next to nothing.
 TEST(Press, DownToTheThicknessLeavesTheSheetInTheMiddle) {
@@ -58,22 +61,21 @@ TEST(Press, DownToTheThicknessLeavesTheSheetInTheMiddle) {
   }
 }
 
-// The middle between ground and plate is in both once the plate is below the ground.
-TEST(Press, BeyondTheThicknessEndsTheRunWithObstacleVertexPlaceAndTime) {
+// The plate ends four thicknesses below the ground: the sheet between is in both, and on the ground again
+// once the plate has gone up.
+TEST(Press, BeyondTheThicknessPinchesTheSheetAndLetsItGo) {
   for (const char* integrator : {"implicit", "semi-implicit", "explicit"}) {
-    const Trial trial = pressed_sheet(integrator, -4 * Fabric{}.thickness);
+    const double t = Fabric{}.thickness;
+    Trial trial = pressed_sheet(integrator, -4 * t);
+    lift_press(trial.scene);
     const auto simulation = trial.simulation();
-    const std::string failure = press(trial, *simulation);
-    EXPECT_TRUE(says(failure, "the cloth is crushed: vertex ", " at (", " mm inside obstacle[",
-                     "obstacle[0] (ground)", "obstacle[1] (box)", " and ", "at t = 0."));
-    double time = 0;
-    EXPECT_EQ(std::sscanf(failure.c_str(), "at t = %lf s", &time), 1);
-    const double displacement = 0.01 / (0.01 + 4 * Fabric{}.thickness);
-    double u = 0;
-    while (displacement_done(u) < displacement) u += 1e-4;
-    EXPECT_NEAR(time, u * kDown, 2 * trial.scene.step) << integrator;
-    EXPECT_NEAR(simulation->time(), time, 1.01 * trial.scene.step)
-        << integrator;  // the state is that before it
+    EXPECT_EQ(press(trial, *simulation), kAccepted) << integrator;
+    const Diagnostics down = simulation->counts();
+    EXPECT_GT(down.pinched, 0) << integrator;
+    EXPECT_GT(down.pinch_depth, 2 * t) << integrator;
+    EXPECT_LT(down.pinch_depth, 4.1 * t) << integrator;
+    simulation->advance(trial.steps(1.2 * kDown));
+    for (const Vector3d& x : simulation->positions()) EXPECT_GT(x.z(), 0) << integrator;
   }
 }
 
@@ -97,36 +99,28 @@ TEST(Press, OfTwoLayersHoldsThemApart) {
   EXPECT_TRUE(intersecting_triangles(trial.cloth.mesh.face, simulation->positions()).empty());
 }
 
-TEST(Press, OfTwoLayersBeyondTheirThicknessEndsTheRunWithPlaceAndTime) {
+TEST(Press, OfTwoLayersBeyondTheirThicknessKeepsTheirOrder) {
   const Trial trial = pressed_layers(-3 * Fabric{}.thickness);
   const auto simulation = trial.simulation();
-  EXPECT_TRUE(says(press(trial, *simulation), "the cloth is crushed: vertex ", " mm inside obstacle[",
-                   "pressed by", "at t = 0."));
+  EXPECT_EQ(press(trial, *simulation), kAccepted);
+  EXPECT_GT(simulation->counts().pinched, 0);
   EXPECT_TRUE(intersecting_triangles(trial.cloth.mesh.face, simulation->positions()).empty());
 }
 
-// A solid that moves over what a pin holds crushes it, too.
-TEST(Press, AgainstAPinEndsTheRun) {
+// A solid that moves over what a pin holds pinches it, too.
+TEST(Press, AgainstAPinIsCounted) {
   Trial trial = pressed_sheet("implicit", -2e-3);
   trial.scene.obstacle[0].center.z() = -1;
   trial.scene.pin = {test::pin_in({-1, -1, -1}, {0.02, 1, 1})};
   trial = Trial(trial.scene);
-  EXPECT_TRUE(says(press(trial, *trial.simulation()), "the cloth is crushed: vertex ",
-                   "inside obstacle[1] (box)", "held by a pin"));
-}
-
-// With a limit on Newton's iterations steps are taken as they are; then it is counted.
-TEST(Press, IsCountedWhereStepsAreTakenUnbalanced) {
-  Trial trial = pressed_sheet("implicit", -4 * Fabric{}.thickness);
-  trial.scene.newton_iterations = 4;
   const auto simulation = trial.simulation();
   EXPECT_EQ(press(trial, *simulation), kAccepted);
-  EXPECT_GT(simulation->counts().deep, 3);
+  EXPECT_GT(simulation->counts().pinched, 0);
 }
 
 // A ball that hits a free sheet drives it in for a moment where its shell is soft: it is thrown off, not
-// crushed.
-TEST(Blow, ThatDrivesTheClothDeepIntoAnObstacleIsNoCrushing) {
+// pinched.
+TEST(Blow, ThatDrivesTheClothDeepIntoAnObstacleIsNoPinch) {
   Scene scene = test::free_square(200);
   scene.integrator = Integrator::implicit;
   scene.step = 1e-4;
@@ -138,6 +132,7 @@ TEST(Blow, ThatDrivesTheClothDeepIntoAnObstacleIsNoCrushing) {
   const Trial trial(scene);
   const auto simulation = trial.after(250);
   EXPECT_GT(simulation->counts().deep, 0);
+  EXPECT_EQ(simulation->counts().pinched, 0);
   int top = 0;
   for (int i = 1; i < trial.cloth.mesh.vertices(); ++i)
     if ((trial.cloth.start[i] - Vector3d(0.1, 0.1, 0)).norm() <

@@ -1,0 +1,52 @@
+#include "sim/time/pinch.h"
+
+#include <algorithm>
+
+#include "sim/contact/obstacle_set.h"
+
+namespace hysteron {
+
+namespace {
+
+// Which free vertices are pressed from the other side of a solid in which they are, by layers or by other
+// solids; and which held ones a solid has come over.
+template <class Real, class Device>
+std::vector<char> pinched_vertices(Body<Real, Device>& body, const ObstacleSet<double>& set,
+                                   const std::vector<Eigen::Vector3d>& x, const std::vector<char>& held) {
+  const std::vector<char> exempted = body.contact->exempted();
+  const std::vector<Vec3<Real>> layers = body.self_contact
+                                             ? body.self_contact->forces()
+                                             : std::vector<Vec3<Real>>(body.vertices, Vec3<Real>::Zero());
+  const ObstacleShell<double> shell = obstacle_shell(body.scene);
+  std::vector<char> pinched(body.vertices);
+  for (int i = 0; i < body.vertices; ++i) {
+    const Eigen::Vector3d pressure = layers[i].template cast<double>() / body.cloth.mesh.vertex_area[i];
+    pinched[i] = held[i] ? !exempted[i] : is_squeezed(set, shell, x[i], pressure);
+  }
+  return pinched;
+}
+
+}  // namespace
+
+template <class Real, class Device>
+void count_overlap(Body<Real, Device>& body, double time) {
+  const Scene& scene = body.scene;
+  const std::vector<Eigen::Vector3d> x = cast_to<double>(body.x.download());
+  const std::vector<char> held = body.cloth.held(scene, time);
+  const auto set = obstacles_during<double>(scene.obstacle, scene.fabric.friction, time, time);
+  const std::vector<char> pinched = pinched_vertices(body, set, x, held);
+  std::vector<char> spared(body.vertices), others(body.vertices);
+  for (int i = 0; i < body.vertices; ++i) {
+    spared[i] = !pinched[i];
+    others[i] = pinched[i] || held[i];
+  }
+  const Immersion deepest_pinched = deepest(set, x, spared);
+  body.counts.pinched += deepest_pinched.count > 0;
+  body.counts.pinch_depth = std::max(body.counts.pinch_depth, deepest_pinched.depth);
+  body.counts.deep += deepest(set, x, others).count > 0;
+}
+
+template void count_overlap(Body<double, ThisDevice>&, double);
+template void count_overlap(Body<float, ThisDevice>&, double);
+
+}  // namespace hysteron

@@ -1,0 +1,156 @@
+// Cloth on bodies of triangles: it rests, is carried, pushed and rubbed as by obstacles with a signed
+// distance.
+#include <gtest/gtest.h>
+
+#include "sim/mesh/intersections.h"
+#include "sim/scene/body.h"
+#include "tests/sim/contact/mesh_bodies.h"
+
+namespace hysteron {
+namespace {
+
+using Eigen::Vector3d;
+using test::ball_at;
+using test::on_plate;
+using test::Trial;
+
+constexpr double kFreeFall = 9.81;  // [m/s^2]
+
+double slid(const Trial& trial, Simulation& simulation, const Vector3d& along) {
+  const auto x = simulation.positions();
+  double sum = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) sum += along.dot(x[i] - trial.cloth.start[i]);
+  return sum / static_cast<double>(x.size());
+}
+
+TEST(BodyContact, BearsClothWithinItsThickness) {
+  for (const Integrator integrator :
+       {Integrator::implicit, Integrator::bdf2, Integrator::tr_bdf2, Integrator::quasi_static}) {
+    Trial trial = on_plate(0, 0.3, integrator);
+    const auto simulation = trial.after(60);
+    const double t = trial.scene.fabric.thickness;
+    for (const Vector3d& x : simulation->positions()) {
+      EXPECT_GT(x.z(), 0.8 * t);
+      EXPECT_LT(x.z(), 1.01 * t);
+    }
+  }
+}
+
+TEST(BodyContact, HoldsBelowTheFrictionAngleAndSlidesByCoulombsLawAboveIt) {
+  constexpr double kFriction = 0.3;
+  for (const double slope : {0.25, 0.5}) {
+    const Trial trial = on_plate(slope, kFriction);
+    const auto simulation = trial.after(24);
+    const Vector3d down(std::cos(slope), 0, -std::sin(slope));
+    const double early = slid(trial, *simulation, down), time = simulation->time();
+    simulation->advance(24);
+    const double late = slid(trial, *simulation, down);
+    if (slope < std::atan(kFriction)) {
+      constexpr double kCreep = 2e-6;  // [m]
+      EXPECT_NEAR(late, early, kCreep);
+      continue;
+    }
+    simulation->advance(24);
+    const double last = slid(trial, *simulation, down), interval = (simulation->time() - time) / 2;
+    const double acceleration = (last - 2 * late + early) / (interval * interval);
+    EXPECT_NEAR(acceleration / (kFreeFall * (std::sin(slope) - kFriction * std::cos(slope))), 1, 0.05);
+  }
+}
+
+// Its work is that of a box which carries the cloth alike.
+TEST(BodyContact, CarriesItsClothWithItsFriction) {
+  constexpr double kTravel = 0.04;
+  Trial trial = on_plate(0, 0.3);
+  Obstacle& table = trial.scene.obstacle[0];
+  table.motion.keys = {{0, {0, 0, 0}, 0}, {0.4, {kTravel, 0, 0}, 0}};
+  const auto on_mesh = trial.simulation();
+  on_mesh->advance(trial.steps(0.2));
+  const double work = on_mesh->ledger().obstacle_work;  // the kinetic energy, most of it
+  on_mesh->advance(trial.steps(0.3));
+  EXPECT_NEAR(slid(trial, *on_mesh, Vector3d::UnitX()), kTravel, 5e-5);
+  table.kind = ObstacleKind::box;
+  table.size = {0.2, 0.2, 0.05};
+  table.center = {0, 0, -0.05};
+  const double of_box = trial.at(0.2)->ledger().obstacle_work;
+  EXPECT_GT(of_box, 0);
+  EXPECT_NEAR(work / of_box, 1, 0.02);
+}
+
+// A ball goes up through where the sheet lies, pushes it along and throws it off; nothing passes.
+TEST(BodyContact, PushesClothWithoutPassingThroughIt) {
+  for (const Integrator integrator : {Integrator::implicit, Integrator::bdf2, Integrator::tr_bdf2}) {
+    Scene scene = test::free_square(200);
+    scene.integrator = integrator;
+    scene.step = 1.0 / 240;
+    Obstacle ball = ball_at({0.1, 0.1, -0.04}, 0.03);
+    ball.motion.keys = {{0, {0, 0, 0}, 0}, {0.2, {0, 0, 0.1}, 0}};
+    scene.obstacle = {ball};
+    const Trial trial(scene);
+    const auto simulation = trial.at(0.2);
+    const auto x = simulation->positions();
+    double highest = -1;
+    for (const Vector3d& v : x) highest = std::max(highest, v.z());
+    EXPECT_GT(highest, 0.09);
+    std::vector<Vector3d> all = x, at = body_positions(scene.obstacle[0], simulation->time());
+    all.insert(all.end(), at.begin(), at.end());
+    std::vector<Eigen::Vector3i> faces = trial.cloth.mesh.face;
+    for (const auto& f : scene.obstacle[0].mesh->face)
+      faces.push_back(f.array() + trial.cloth.mesh.vertices());
+    EXPECT_TRUE(intersecting_triangles(faces, all).empty());
+    EXPECT_LT(simulation->ledger().remainder_relative, 1e-6);
+    EXPECT_GT(simulation->ledger().obstacle_work, 0);
+  }
+}
+
+// As on the sphere of the same radius, but for the facets, and for the triangles of the cloth, which the
+// sphere enters between their vertices.
+TEST(BodyContact, DrapesClothAsASphereDoes) {
+  Scene scene = test::free_square(600);
+  scene.integrator = Integrator::implicit;
+  scene.step = 1.0 / 120;
+  scene.air_drag = 2;
+  scene.obstacle = {ball_at({0.1, 0.1, -0.0505}, 0.05, 4)};
+  const Trial on_mesh(scene);
+  scene.obstacle = {test::sphere_at({0.1, 0.1, -0.0505}, 0.05)};
+  const Trial on_sphere(scene);
+  const auto a = on_mesh.at(0.12)->positions(), b = on_sphere.at(0.12)->positions();
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]).squaredNorm();
+  EXPECT_LT(std::sqrt(sum / static_cast<double>(a.size())), 1e-3);
+}
+
+// Frames of a body are as good as keys.
+TEST(BodyContact, FollowsASequenceAsItFollowsKeys) {
+  constexpr double kRise = 0.02, kSeconds = 0.2;
+  const auto risen = [&](bool by_frames) {
+    Trial trial = on_plate(0, 0.3);
+    Obstacle& plate = trial.scene.obstacle[0];
+    if (by_frames) {
+      auto mesh = std::make_shared<BodyMesh>(*plate.mesh);
+      mesh->frames.push_back(mesh->frames[0]);
+      for (Vector3d& x : mesh->frames[1]) x.z() += kRise;
+      mesh->fps = 1 / kSeconds;
+      plate.mesh = mesh;
+    } else {
+      plate.motion.keys = {{0, {0, 0, 0}, 0}, {kSeconds, {0, 0, kRise}, 0}};
+    }
+    const auto simulation = trial.at(kSeconds);
+    double sum = 0;
+    for (const Vector3d& x : simulation->positions()) sum += x.z();
+    return sum / trial.cloth.mesh.vertices();
+  };
+  EXPECT_NEAR(risen(true), kRise + Fabric{}.thickness, 2e-3);
+  EXPECT_NEAR(risen(false), kRise + Fabric{}.thickness, 2e-3);
+}
+
+// Layers count where the scene asks for them.
+TEST(BodyContact, LeavesLayersAloneWithoutSelfContact) {
+  Trial trial = on_plate(0, 0.3);
+  const auto alone = trial.after(5)->positions();
+  trial.scene.self_contact = true;
+  const auto with_layers = trial.after(5)->positions();
+  EXPECT_LT(test::farthest(alone, with_layers), 1e-7);
+}
+
+}  // namespace
+}  // namespace hysteron
