@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kDisplacementOfEdge = 5;  // largest that is looked at, over the mean edge length
 constexpr double kReachOfEdge = 0.2;       // most that lists reach beyond a path, over the mean edge length
-constexpr double kNearer = 0.9;            // most by which a guess takes pressed layers nearer
+constexpr double kPressedNearer = 0.9;     // most by which a guess takes pressed layers nearer
 constexpr double kSafely = 1.01;           // more than rounding makes of distances beside the thickness
 
 double mean_edge(const ClothMesh& mesh) {
@@ -108,7 +108,7 @@ double SelfContact<Real, Device>::prepare(const Vec3<Real>* cloth, const Vec3<Re
         for (Vec3<Real>& d : along) d *= step_length;
         const Approach<Real> start = approach(from, along, pair.is_edges());
         near[p] = start.distance - start.speed < Real(kSafely) * pair.shell || friction[p].limit > 0;
-        const Real least = least_distance(pair), nearer = Real(kNearer) * start.distance;
+        const Real least = least_distance(pair), nearer = Real(kPressedNearer) * start.distance;
         const Real wanted = kept * pair.shell < nearer ? kept * pair.shell : nearer;
         feasible[p] = feasible_step(start, from, along, pair.is_edges(), wanted > least ? wanted : least);
       });
