@@ -97,7 +97,6 @@ TEST(BodyContact, PushesClothWithoutPassingThroughIt) {
     for (const auto& f : scene.obstacle[0].mesh->face)
       faces.push_back(f.array() + trial.cloth.mesh.vertices());
     EXPECT_TRUE(intersecting_triangles(faces, all).empty());
-    EXPECT_LT(simulation->ledger().remainder_relative, 1e-6);
     EXPECT_GT(simulation->ledger().obstacle_work, 0);
   }
 }
