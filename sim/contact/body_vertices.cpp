@@ -1,7 +1,5 @@
 #include "sim/contact/body_vertices.h"
 
-#include <algorithm>
-
 #include "sim/device/archive_buffer.h"
 #include "sim/scene/body.h"
 
@@ -12,7 +10,7 @@ namespace {
 std::vector<Obstacle> mesh_bodies(const Scene& scene) {
   std::vector<Obstacle> bodies;
   for (const Obstacle& o : scene.obstacle)
-    if (o.kind == ObstacleKind::mesh) bodies.push_back(o);
+    if (is_body(o)) bodies.push_back(o);
   return bodies;
 }
 
@@ -54,7 +52,6 @@ BodyVertices<Real, Device>::BodyVertices(Device& device, const Scene& scene, int
   }
   friction_.upload(friction);
   move(0, 0);
-  aim(1);
   try_step(1);
   accept();
 }
@@ -104,15 +101,10 @@ template <class Real, class Device>
 void BodyVertices<Real, Device>::serialise(Archive& archive) {
   archive(moved_from_);
   archive(moved_to_);
-  archive(gone_);
-  archive(at_);
-  archive(aim_);
   if (!archive.loads()) return;
-  const double gone = gone_, at = at_, towards = aim_;
   move(moved_from_, moved_to_);
-  gone_ = gone;
-  at_ = at;
-  aim_ = towards;
+  try_step(1);  // between steps they have arrived
+  accept();
 }
 
 template class BodyVertices<double, ThisDevice>;

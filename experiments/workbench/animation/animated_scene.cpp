@@ -12,7 +12,7 @@ namespace {
 
 constexpr float kGroundReach = 4;  // half a side of the ground over the radius of what is framed
 
-// By area, as the pictures' shader normals.vert has them.
+// Normals are weighted by area, as the pictures' shader normals.vert has them.
 std::vector<Eigen::Vector3f> vertex_normals(const std::vector<Eigen::Vector3f>& points,
                                             const std::vector<std::uint32_t>& triangles) {
   std::vector<Eigen::Vector3d> sum(points.size(), Eigen::Vector3d::Zero());
@@ -63,7 +63,7 @@ Pose pose_of(const Obstacle& obstacle, double time) {
   return {placed.topRightCorner<3, 1>(), Eigen::Quaternionf(rotation).normalized(), scale};
 }
 
-// In the plane's own frame below the middle of what is framed.
+// The square stands in the plane's own frame, below the middle of what is framed.
 AnimatedPart ground_part(const Obstacle& plane, const PictureView& view) {
   const Eigen::Matrix4f placed = placed_at(plane, 0);
   const Eigen::Vector3f middle =

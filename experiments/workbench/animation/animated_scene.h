@@ -1,6 +1,6 @@
 // A run as one scene in motion, which files for other programs are written from: surfaces, instants, view.
 //
-// Of a surface that changes its shape only one instant is in memory at a time.
+// Surfaces that change their shape are in memory one instant at a time.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -14,7 +14,7 @@
 
 namespace hysteron::experiments {
 
-// Where a body is: x -> rotation (scale x) + translation [m].
+// A pose places a body: x -> rotation (scale x) + translation [m].
 struct Pose {
   Eigen::Vector3f translation{0, 0, 0};
   Eigen::Quaternionf rotation{1, 0, 0, 0};
@@ -62,11 +62,11 @@ struct AnimatedScene {
   PictureView view;
 };
 
-// Of a rigid body at each of them; of the two quaternions of an orientation the one nearer to the instant
-// before.
+// Poses of a rigid body at each instant; of the two quaternions of an orientation the nearer one to the
+// instant before is taken.
 std::vector<Pose> poses_at(const AnimatedPart& part, const std::vector<Instant>& instants);
 
-// Of a colour as a screen shows it.
+// Linear light of a colour as a screen shows it.
 Eigen::Vector3f linear_light(const render::Rgb8& color);
 
 // The cloth without its points.
