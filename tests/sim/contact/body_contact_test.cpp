@@ -142,6 +142,18 @@ TEST(BodyContact, FollowsASequenceAsItFollowsKeys) {
   EXPECT_NEAR(risen(false), kRise + Fabric{}.thickness, 2e-3);
 }
 
+// A plate that drives off with its sheet goes on from a saved state with the same bits.
+TEST(BodyContact, GoesOnFromASavedState) {
+  Trial trial = on_plate(0, 0.3, Integrator::tr_bdf2);
+  trial.scene.obstacle[0].motion.keys = {{0, {0, 0, 0}, 0}, {0.4, {0.04, 0, 0.01}, 0}};
+  const auto first = trial.after(20), second = trial.simulation();
+  second->load(first->save());
+  first->advance(10);
+  second->advance(10);
+  EXPECT_EQ(second->state_hash(), first->state_hash());
+  EXPECT_EQ(second->ledger().obstacle_work, first->ledger().obstacle_work);
+}
+
 // Layers count where the scene asks for them.
 TEST(BodyContact, LeavesLayersAloneWithoutSelfContact) {
   Trial trial = on_plate(0, 0.3);
