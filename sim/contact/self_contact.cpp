@@ -89,6 +89,11 @@ double SelfContact<Real, Device>::prepare(const Vec3<Real>* cloth, const Vec3<Re
   clock_.begin(Stage::contact);
   bodies_.try_step(0);
   const Vec3<Real>*x = bodies_.positions(cloth), *direction = bodies_.directions(along_cloth);
+  if (bodies_.are_barred()) {
+    bodies_.yield({pairs_.pairs(), pairs_.count(), rows_.start.data(), rows_.item.data(), slot_.data()}, x,
+                  direction, held);
+    direction = bodies_.directions(along_cloth);
+  }
   const Real longest = longest_displacement(direction), requested = static_cast<Real>(max_step),
              step_length = requested * longest > max_displacement_ ? max_displacement_ / longest : requested;
   if (!ready_ || pending_ || !(farthest(x, direction, step_length) <= reach_))
@@ -443,7 +448,10 @@ void SelfContact<Real, Device>::carry_over() {
 // The stops stretch and slide; work done against them that they do not store is lost.
 template <class Real, class Device>
 void SelfContact<Real, Device>::commit(const Vec3<Real>* cloth, const Vec3<Real>* cloth_before) {
-  if (bodies_.any()) book_body_work();
+  if (bodies_.any()) {
+    book_body_work();
+    bodies_.keep_dents();
+  }
   if (!rubs()) return;
   clock_.begin(Stage::contact);
   const Vec3<Real>*x = bodies_.positions(cloth), *before = bodies_.positions_before(cloth_before);
@@ -483,7 +491,7 @@ template <class Real, class Device>
 void SelfContact<Real, Device>::book_body_work() {
   const GatheredForces<Real> forces{rows_.start.data(), rows_.item.data(), slot_.data()};
   const int first = vertices_;
-  const Vec3<Real>* way = bodies_.way();
+  const Vec3<Real>*from = bodies_.from(), *start = bodies_.start(), *way = bodies_.way();
   Vec3<Real>* kept = body_force_.size() > 0 ? body_force_.data() : nullptr;
   double* sum = sum_.data();
   for_each_sum<1>(
@@ -492,7 +500,7 @@ void SelfContact<Real, Device>::book_body_work() {
         const Vec3<Real> now = forces.at(first + i);
         const Vec3<Real> mean = kept ? Vec3<Real>(Real(0.5) * (now + kept[i])) : now;
         if (kept) kept[i] = now;
-        sums.term[0] += static_cast<double>(mean.dot(way[i]));
+        sums.term[0] += static_cast<double>(mean.dot(start[i] - from[i] + way[i]));
       },
       HYST_KERNEL(const Sums<1>& total) { sum[0] = total.term[0]; });
   body_work_ += sum_.download()[0];

@@ -104,8 +104,9 @@ class SelfContact {
   std::vector<Vec3<Real>> forces() const;
   SelfPair<Real> blocking_pair() const;
 
-  double stored_energy(const Vec3<Real>* x);       // [J]
-  double friction_loss() const { return loss_; }   // since the start [J]
+  double stored_energy(const Vec3<Real>* x);                      // [J]
+  double friction_loss() const { return loss_; }                  // since the start [J]
+  double deepest_dent() const { return bodies_.deepest_dent(); }  // of the bodies, in the last stage [m]
   double body_work() const { return body_work_; }  // of moving bodies on the cloth, since the start [J]
   double seconds() { return clock_.seconds()[static_cast<int>(Stage::contact)]; }
   std::size_t bytes() const;

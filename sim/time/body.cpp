@@ -93,7 +93,10 @@ void Body<Real, Device>::begin_stage(double start, Real h) {
 template <class Real, class Device>
 void Body<Real, Device>::end_stage(double time) {
   pins.end_stage(*this);
-  if (self_contact) self_contact->commit(x.data(), before.data());
+  if (self_contact) {
+    self_contact->commit(x.data(), before.data());
+    count_dents(*this);
+  }
   if (!contact) return;
   clock.begin(Stage::contact);
   const int inside = contact->commit(x.data(), before.data(), held.data());

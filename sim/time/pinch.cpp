@@ -46,7 +46,16 @@ void count_overlap(Body<Real, Device>& body, double time) {
   body.counts.deep += deepest(set, x, others).count > 0;
 }
 
+template <class Real, class Device>
+void count_dents(Body<Real, Device>& body) {
+  const double deepest = body.self_contact->deepest_dent();
+  body.counts.pinched += deepest > 0;
+  body.counts.pinch_depth = std::max(body.counts.pinch_depth, deepest);
+}
+
 template void count_overlap(Body<double, ThisDevice>&, double);
 template void count_overlap(Body<float, ThisDevice>&, double);
+template void count_dents(Body<double, ThisDevice>&);
+template void count_dents(Body<float, ThisDevice>&);
 
 }  // namespace hysteron

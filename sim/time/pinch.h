@@ -9,5 +9,8 @@ namespace hysteron {
 // them from the other side, as deep where a blow has driven one in.
 template <class Real, class Device>
 void count_overlap(Body<Real, Device>& body, double time);
+// Likewise a stage in which bodies of triangles have yielded.
+template <class Real, class Device>
+void count_dents(Body<Real, Device>& body);
 
 }  // namespace hysteron

@@ -98,6 +98,7 @@ TEST(BodyContact, PushesClothWithoutPassingThroughIt) {
       faces.push_back(f.array() + trial.cloth.mesh.vertices());
     EXPECT_TRUE(intersecting_triangles(faces, all).empty());
     EXPECT_GT(simulation->ledger().obstacle_work, 0);
+    EXPECT_EQ(simulation->counts().pinched, 0);
   }
 }
 

@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "sim/mesh/intersections.h"
+#include "sim/scene/body.h"
 #include "tests/sim/base/refusal.h"
+#include "tests/sim/contact/mesh_bodies.h"
 #include "tests/sim/contact/two_sheets.h"
 
 namespace hysteron {
@@ -116,6 +118,51 @@ TEST(Press, AgainstAPinIsCounted) {
   const auto simulation = trial.simulation();
   EXPECT_EQ(press(trial, *simulation), kAccepted);
   EXPECT_GT(simulation->counts().pinched, 0);
+}
+
+// Bodies of triangles, which have no inside: a plate comes down on the sheet of another until they are
+// `apart` [m], stays, and goes up again.
+Trial between_meshes(const std::string& integrator, double apart) {
+  constexpr double kStart = 0.01;
+  Trial trial = test::on_plate(0, 0.3, value_named<Integrator>(integrator));
+  Obstacle upper = test::plate_at({0, 0, kStart}, 0.2);
+  upper.motion.keys = {{0, {0, 0, 0}, 0},
+                       {kDown, {0, 0, apart - kStart}, 0},
+                       {2 * kDown, {0, 0, apart - kStart}, 0},
+                       {3 * kDown, {0, 0, 0}, 0}};
+  trial.scene.obstacle.push_back(upper);
+  return trial;
+}
+
+TEST(Press, OfBodiesOfTrianglesPinchesOnlyBelowTheThickness) {
+  const double t = Fabric{}.thickness;
+  for (const char* integrator : {"implicit", "bdf2", "tr-bdf2"})
+    for (const double share : {2.0, 1.0, 0.5, 0.0, -2.0}) {
+      const Trial trial = between_meshes(integrator, share * t);
+      const auto simulation = trial.simulation();
+      ASSERT_EQ(test::refusal([&] { simulation->advance(trial.steps(2 * kDown)); }, kCannotGoOn), kAccepted)
+          << integrator << " " << share;
+      const Diagnostics down = simulation->counts();
+      EXPECT_EQ(down.pinched > 0, share < 0.4) << integrator << " " << share;
+      if (down.pinched > 0) {  // what both give in leaves the cloth the distance of the yield
+        const double missing = 0.45 - share / 2;
+        EXPECT_GT(down.pinch_depth / t, 0.9 * missing) << integrator << " " << share;
+        EXPECT_LT(down.pinch_depth / t, 2 * missing) << integrator << " " << share;
+      }
+      simulation->advance(trial.steps(1.5 * kDown));
+      for (const Vector3d& x : simulation->positions()) EXPECT_GT(x.z(), 0) << integrator << " " << share;
+    }
+}
+
+TEST(Press, OfBodiesOfTrianglesGoesOnFromASavedState) {
+  const Trial trial = between_meshes("tr-bdf2", -Fabric{}.thickness);
+  const auto first = trial.after(trial.steps(1.1 * kDown)), second = trial.simulation();
+  ASSERT_GT(first->counts().pinched, 0);
+  second->load(first->save());
+  first->advance(5);
+  second->advance(5);
+  EXPECT_EQ(second->state_hash(), first->state_hash());
+  EXPECT_EQ(second->counts().pinch_depth, first->counts().pinch_depth);
 }
 
 // A ball that hits a free sheet drives it in for a moment where its shell is soft: it is thrown off, not
