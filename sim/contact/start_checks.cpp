@@ -6,9 +6,11 @@
 #include <cstdio>
 #include <numbers>
 #include <set>
+#include <stdexcept>
 #include <utility>
 
 #include "sim/base/error.h"
+#include "sim/contact/body_vertices.h"
 #include "sim/contact/obstacle_set.h"
 #include "sim/contact/self_touch.h"
 #include "sim/mesh/corner_sets.h"
@@ -49,21 +51,28 @@ struct NearPair {
   double distance;  // [m]
 };
 
-// From where no way is free.
-std::vector<NearPair> too_near(const Scene& scene, const Cloth& cloth) {
+// Pairs of the cloth, or of the cloth and the bodies behind it at x, from where no way is free.
+std::vector<NearPair> too_near(const Scene& scene, const Cloth& cloth, const ClothMesh& all,
+                               const std::vector<Eigen::Vector3d>& x, bool layers) {
   Cpu cpu(1);
-  SelfPairs<double, Cpu> pairs(cpu, cloth.mesh, scene.fabric.thickness);
-  const std::vector<Eigen::Vector3d> still(cloth.start.size(), Eigen::Vector3d::Zero());
-  pairs.find(cloth.start.data(), still.data(), 0, cloth.held_throughout(scene).data(), 0);
+  SelfPairs<double, Cpu> pairs(cpu, all, scene.fabric.thickness, cloth.mesh.vertices(), layers);
+  const std::vector<Eigen::Vector3d> still(x.size(), Eigen::Vector3d::Zero());
+  std::vector<char> held = cloth.held_throughout(scene);
+  held.resize(x.size(), 1);
+  pairs.find(x.data(), still.data(), 0, held.data(), 0);
   std::vector<NearPair> result;
   for (int p = 0; p < pairs.count(); ++p) {
     const SelfPair<double>& pair = pairs.pairs()[p];
-    Eigen::Vector3d x[4];
-    pair.gather(cloth.start.data(), x);
-    const double distance = pair_distance(x, pair.is_edges());
+    Eigen::Vector3d at[4];
+    pair.gather(x.data(), at);
+    const double distance = pair_distance(at, pair.is_edges());
     if (!(distance > least_distance(pair))) result.push_back({pair, distance});
   }
   return result;
+}
+
+const NearPair& nearest_of(const std::vector<NearPair>& pairs) {
+  return *std::ranges::min_element(pairs, {}, &NearPair::distance);
 }
 
 // "vertex 12 and triangle 97", "edge 3-4 and edge 8-9"
@@ -76,14 +85,12 @@ std::string names(const SelfPair<double>& pair) {
 }
 
 void throw_if_near(const Scene& scene, const Cloth& cloth) {
-  const std::vector<NearPair> found = too_near(scene, cloth);
+  const std::vector<NearPair> found = too_near(scene, cloth, cloth.mesh, cloth.start, true);
   if (found.empty()) return;
-  const NearPair* nearest = &found[0];
-  for (const NearPair& near : found)
-    if (near.distance < nearest->distance) nearest = &near;
-  throw Error::invalid_input("self-contact: the cloth starts too near to itself: " + names(nearest->pair) +
-                             " are " + millimetres(nearest->distance) + " apart and must be more than " +
-                             millimetres(least_distance(nearest->pair)) + " (fabric.thickness = " +
+  const NearPair& nearest = nearest_of(found);
+  throw Error::invalid_input("self-contact: the cloth starts too near to itself: " + names(nearest.pair) +
+                             " are " + millimetres(nearest.distance) + " apart and must be more than " +
+                             millimetres(least_distance(nearest.pair)) + " (fabric.thickness = " +
                              millimetres(scene.fabric.thickness) + "; " + std::to_string(found.size()) +
                              " such pairs in all): move its parts apart, or take a thinner fabric");
 }
@@ -196,6 +203,32 @@ void throw_if_inside(const Scene& scene, const Cloth& cloth, std::size_t number,
   }
 }
 
+// Of the body that the last vertex of a pair belongs to.
+std::size_t number_of_body(const Scene& scene, const Cloth& cloth, const SelfPair<double>& pair) {
+  int last = std::max(pair.v[0], pair.v[3]) - cloth.mesh.vertices();
+  for (std::size_t i = 0; i < scene.obstacle.size(); ++i) {
+    if (!is_body(scene.obstacle[i])) continue;
+    if (last < scene.obstacle[i].mesh->vertices()) return i;
+    last -= scene.obstacle[i].mesh->vertices();
+  }
+  throw std::logic_error("a pair without body");
+}
+
+void throw_if_near_body(const Scene& scene, const Cloth& cloth) {
+  std::vector<Eigen::Vector3d> x = cloth.start;
+  const ClothMesh all = mesh_with_bodies(cloth.mesh, scene);
+  x.insert(x.end(), all.rest.begin() + cloth.mesh.vertices(), all.rest.end());
+  const std::vector<NearPair> found = too_near(scene, cloth, all, x, false);
+  if (found.empty()) return;
+  const NearPair& nearest = nearest_of(found);
+  const std::size_t number = number_of_body(scene, cloth, nearest.pair);
+  throw Error::invalid_input("obstacle: at the start the cloth is " + millimetres(nearest.distance) +
+                             " from " + body_name(scene, number) + " at " + place_text(x[nearest.pair.v[0]]) +
+                             " and must be more than " + millimetres(least_distance(nearest.pair)) +
+                             " away, a tenth of its thickness (" + std::to_string(found.size()) +
+                             " such pairs in all)" + move_apart(scene, number));
+}
+
 void throw_if_in_body(const Scene& scene, const Cloth& cloth) {
   const auto& obstacles = scene.obstacle;
   if (std::none_of(obstacles.begin(), obstacles.end(), is_body)) return;
@@ -206,6 +239,7 @@ void throw_if_in_body(const Scene& scene, const Cloth& cloth) {
     throw_if_across(scene, cloth, i, moving, x);
     throw_if_inside(scene, cloth, i, moving, x);
   }
+  throw_if_near_body(scene, cloth);
 }
 
 }  // namespace

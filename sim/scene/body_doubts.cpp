@@ -37,14 +37,30 @@ double signed_volume(const BodyMesh& body) {
   return volume;
 }
 
+// Frames that are looked at, evenly spread, the first and the last among them.
+std::vector<std::size_t> looked_at(const BodyMesh& body) {
+  constexpr std::size_t kLookedAt = 12;
+  const std::size_t count = body.frames.size(), last = count - 1, looks = std::min(kLookedAt, count);
+  std::vector<std::size_t> frames;
+  for (std::size_t k = 0; k < looks; ++k) frames.push_back(looks > 1 ? k * last / (looks - 1) : 0);
+  return frames;
+}
+
 std::string crossing_doubt(const BodyMesh& body) {
-  const auto pairs = intersecting_triangles(body.face, body.frames.front());
-  if (pairs.empty()) return "";
-  std::string text = "passes through itself in its first frame: triangles ";
-  for (std::size_t i = 0; i < std::min(pairs.size(), kNamedPairs); ++i)
-    text += (i ? ", " : "") + std::to_string(pairs[i].first) + " and " + std::to_string(pairs[i].second);
-  if (pairs.size() > kNamedPairs) text += ", ... (" + std::to_string(pairs.size()) + " pairs in all)";
-  return text + ": cloth that comes between them has no room";
+  for (const std::size_t frame : looked_at(body)) {
+    const auto pairs = intersecting_triangles(body.face, body.frames[frame]);
+    if (pairs.empty()) continue;
+    std::string text = "passes through itself in its ";
+    text += frame == 0 ? "first frame"
+                       : "frame " + std::to_string(frame + 1) +
+                             ", at t = " + number_text(body.time_of(frame), 4) + " s";
+    text += ": triangles ";
+    for (std::size_t i = 0; i < std::min(pairs.size(), kNamedPairs); ++i)
+      text += (i ? ", " : "") + std::to_string(pairs[i].first) + " and " + std::to_string(pairs[i].second);
+    if (pairs.size() > kNamedPairs) text += ", ... (" + std::to_string(pairs.size()) + " pairs in all)";
+    return text + ": cloth that comes between them is pinched";
+  }
+  return "";
 }
 
 std::string facing_doubt(const BodyMesh& body) {

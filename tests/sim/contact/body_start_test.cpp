@@ -52,6 +52,18 @@ TEST_F(StartBesideBody, IsRefusedAcrossItsSurface) {
   EXPECT_TRUE(says(start(test::ball(0.05, 3), middle_), "lie across the surface"));
 }
 
+// No step may bring the cloth nearer than a tenth of its thickness.
+TEST_F(StartBesideBody, IsRefusedNearerThanAnyStepMayBringIt) {
+  const double least = 0.1 * scene_.fabric.thickness;
+  const auto at = [&](double distance) {
+    return start(test::ball(0.05, 3), middle_ + Eigen::Vector3d(0, 0, 0.05 + distance));
+  };
+  EXPECT_EQ(at(1.1 * least), kAccepted);
+  EXPECT_TRUE(says(at(0.8 * least), "obstacle: at the start the cloth is ",
+                   " from obstacle[1] (mesh body.obj)", "and must be more than 0.0497 mm away",
+                   "move the cloth or the obstacle"));
+}
+
 // Smaller than a triangle, and between its vertices.
 TEST_F(StartBesideBody, IsRefusedWithASmallBodyInATriangle) {
   const Cloth cloth = make_cloth(scene_);

@@ -134,17 +134,31 @@ TEST_F(SceneWithBody, NeedsStepsThatFindAnEquilibrium) {
   EXPECT_EQ(refused("integrator = \"quasi-static\"\n" + kBody), test::kAccepted);
 }
 
-TEST_F(SceneWithBody, IsDoubtedWhereItPassesThroughItself) {
-  test::Body both = ball_;
-  const test::Body other = ball_.moved({0.1, 0.003, 0.005});
+// Two bodies of which the second has moved by `way` [m].
+test::Body with_second(const test::Body& body, const Eigen::Vector3d& way) {
+  test::Body both = body;
+  const test::Body other = body.moved(way);
   for (const Eigen::Vector3i& f : other.face)
-    both.face.emplace_back(f.array() + static_cast<int>(ball_.vertex.size()));
+    both.face.emplace_back(f.array() + static_cast<int>(body.vertex.size()));
   both.vertex.insert(both.vertex.end(), other.vertex.begin(), other.vertex.end());
-  folder_.write("body.obj", obj_text(both));
+  return both;
+}
+
+TEST_F(SceneWithBody, IsDoubtedWhereItPassesThroughItself) {
+  folder_.write("body.obj", obj_text(with_second(ball_, {0.1, 0.003, 0.005})));
   const std::vector<std::string> said = doubts(kBody);
   ASSERT_EQ(said.size(), 1u);
   EXPECT_TRUE(says(said[0], "obstacle[0], mesh " + folder_.file("body.obj"),
                    "passes through itself in its first frame: triangles ", "pairs in all"));
+}
+
+TEST_F(SceneWithBody, IsDoubtedWhereItComesToPassThroughItself) {
+  folder_.write("body.obj", obj_text(with_second(ball_, {0.21, 0, 0})));
+  folder_.write("walk1.obj", obj_text(with_second(ball_, {0.21, 0, 0})));
+  folder_.write("walk2.obj", obj_text(with_second(ball_, {0.18, 0.003, 0.005})));
+  const std::vector<std::string> said = doubts(kBody + "sequence = \"walk*.obj\"\nfps = 10\n");
+  ASSERT_EQ(said.size(), 1u);
+  EXPECT_TRUE(says(said[0], "passes through itself in its frame 2, at t = 0.1 s: triangles "));
 }
 
 TEST_F(SceneWithBody, IsDoubtedWhereItsTrianglesFaceInward) {
