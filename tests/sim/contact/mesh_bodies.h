@@ -78,4 +78,16 @@ inline Trial on_plate(double slope, double friction, Integrator integrator = Int
   return Trial(scene);
 }
 
+// The same sheet between two plates: the upper one, which has no inside either, comes down until they are
+// `apart` [m], in `down` seconds, stays as long, and goes up again.
+inline Trial between_plates(Integrator integrator, double apart, double down) {
+  constexpr double kStart = 0.01;
+  Trial trial = on_plate(0, 0.3, integrator);
+  Obstacle upper = plate_at({0, 0, kStart}, 0.2);
+  const Eigen::Vector3d way(0, 0, apart - kStart);
+  upper.motion.keys = {{0, {0, 0, 0}, 0}, {down, way, 0}, {2 * down, way, 0}, {3 * down, {0, 0, 0}, 0}};
+  trial.scene.obstacle.push_back(upper);
+  return trial;
+}
+
 }  // namespace hysteron::test
