@@ -31,10 +31,11 @@ def radius(s):
     return np.where(s < 0, upper, WRIST + (ELBOW - WRIST) * (1 - smoothstep(s / LENGTH)))
 
 
-def middle_line(stations, angle):
-    """Points and unit tangents where the arm is bent by `angle` [rad] at these lengths from the elbow [m]."""
+def middle_line(stations, angle, joint=JOINT):
+    """Points and unit tangents where a limb is bent by `angle` [rad], within `joint` to both sides, at these lengths from
+    there [m]."""
     fine = np.linspace(stations[0], stations[-1], 4001)
-    turned = angle * smoothstep((fine + JOINT) / (2 * JOINT))
+    turned = angle * smoothstep((fine + joint) / (2 * joint))
     tangent = np.stack([np.cos(turned), np.sin(turned)], 1)
     step = np.diff(fine)[:, None] * 0.5 * (tangent[1:] + tangent[:-1])
     line = np.concatenate([[[stations[0], 0]], [stations[0], 0] + np.cumsum(step, 0)])
@@ -83,6 +84,20 @@ def angle_at(time, degrees, bends):
     return np.radians(degrees) * bent
 
 
+def write_body(stem, title, times, frames, faces):
+    """The triangles, where the first frame has them, as `stem`.obj, and all frames as `stem`.mdd."""
+    with open(stem.with_suffix(".obj"), "w", encoding="ascii") as file:
+        file.write(f"# {title}\n")
+        file.writelines("v {:.6g} {:.6g} {:.6g}\n".format(*x) for x in frames[0])
+        file.writelines("f {} {} {}\n".format(*f) for f in faces + 1)
+    with open(stem.with_suffix(".mdd"), "wb") as file:
+        file.write(struct.pack(">ii", len(times), len(frames[0])))
+        file.write(np.asarray(times, ">f4").tobytes())
+        for x in frames:
+            file.write(x.astype(">f4").tobytes())
+    print(f"{stem.name}: {len(frames[0])} vertices, {len(faces)} triangles, {len(times)} frames over {times[-1]:g} s")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path(__file__).parent, metavar="DIR")
@@ -97,16 +112,7 @@ def main():
     times = np.arange(round(seconds * asked.fps) + 1) / asked.fps
     frames = [frame(angle_at(time, asked.degrees, asked.bends), asked.around, asked.along) for time in times]
     faces = triangles((len(frames[0]) - 2) // asked.around, asked.around)
-    with open(asked.out / "arm.obj", "w", encoding="ascii") as file:
-        file.write("# An arm along x, its elbow at the origin [m]; made by make_arm.py.\n")
-        file.writelines("v {:.6g} {:.6g} {:.6g}\n".format(*x) for x in frames[0])
-        file.writelines("f {} {} {}\n".format(*f) for f in faces + 1)
-    with open(asked.out / "arm.mdd", "wb") as file:
-        file.write(struct.pack(">ii", len(times), len(frames[0])))
-        file.write(np.asarray(times, ">f4").tobytes())
-        for x in frames:
-            file.write(x.astype(">f4").tobytes())
-    print(f"{len(frames[0])} vertices, {len(faces)} triangles, {len(times)} frames over {seconds:g} s")
+    write_body(asked.out / "arm", "An arm along x, its elbow at the origin [m]; made by make_arm.py.", times, frames, faces)
 
 
 if __name__ == "__main__":
