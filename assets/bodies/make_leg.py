@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Writes a leg from the hip to the ankle, whose knee bends and straightens: leg.obj, its triangles, and leg.mdd, its motion.
+"""Writes a leg whose knee bends and straightens: leg.obj, its triangles, and leg.mdd, its motion.
 
     make_leg.py [--out DIR] [--around 40] [--along 64] [--degrees 90] [--fps 25]
 
-It is the left leg of a standing person who looks along -y, the floor at z = 0 and the middle of the body at x = 0, and
-is cut off 3 cm beyond that.  Its horizontal sections are superellipses (Lame 1818), so that the hip is a rounded box and
-the rest is round.  The shank swings back about the knee: heights within 0.1 m of it bend, by an angle that grows along
+It is the right leg of a standing person who looks along y, from the waist to the ankle, the floor at z = 0 and the
+middle of the body at x = 0, and is cut off 3 cm beyond that.  Its horizontal sections are superellipses, so that the
+hip is a rounded box and the rest is round.  The shank swings back about the knee: heights within 0.1 m of it bend, by an angle that grows along
 the leg as smoothstep does, with the length kept 12 mm behind the middle, where the joint is.  It hangs for `hang`
 seconds, bends within `bend`, stays for `hold` and straightens within `bend`.  It needs numpy.
 """
@@ -17,18 +17,18 @@ import numpy as np
 from make_arm import middle_line, smoothstep, triangles, write_body
 
 KNEE, JOINT = 0.48, 0.1  # its height, and half the length over which it bends [m]
-NEUTRAL = 0.012  # where the length is kept when the knee bends: y [m]
+NEUTRAL = -0.012  # where the length is kept when the knee bends: y [m]
 HANG, BEND, BETWEEN, HOLD = 0.6, 0.9, 0.1, 0.4  # [s], as the phases of assets/scenes/trousers.toml
 DENSE = 2880  # points of a section, between which it is straight
 # Sections: height z, middle x and y, half the breadth, half the depth [m], exponent (2: an ellipse).
 LEG = np.array([(1.02, 0.065, 0.000, 0.090, 0.098, 2.3),
-                (0.90, 0.070, 0.010, 0.100, 0.114, 2.4),
-                (0.82, 0.076, 0.010, 0.098, 0.110, 2.3),
-                (0.76, 0.096, 0.002, 0.083, 0.092, 2.1),
+                (0.90, 0.070, -0.010, 0.100, 0.114, 2.4),
+                (0.82, 0.076, -0.010, 0.098, 0.110, 2.3),
+                (0.76, 0.096, -0.002, 0.083, 0.092, 2.1),
                 (0.66, 0.097, 0.000, 0.076, 0.082, 2.0),
                 (0.48, 0.098, 0.000, 0.055, 0.060, 2.0),
-                (0.36, 0.099, 0.012, 0.053, 0.058, 2.0),
-                (0.12, 0.100, 0.010, 0.034, 0.040, 2.0)])
+                (0.36, 0.099, -0.012, 0.053, 0.058, 2.0),
+                (0.12, 0.100, -0.010, 0.034, 0.040, 2.0)])
 CAPS = 4  # rings of each rounded end
 DEPTH = 0.03  # of the ends [m]
 
@@ -47,10 +47,10 @@ def section(stations, z):
 
 
 def outline(stations, z, turn):
-    """Points (x, y) of a section at these angles from its outer side (+x), over its front (-y)."""
+    """Points (x, y) of a section at these angles from its outer side (+x), over its front (+y)."""
     x, y, a, b, exponent = section(stations, z)
-    round_off = lambda v: np.sign(v) * np.abs(v) ** (2 / exponent)
-    return np.stack([x + a * round_off(np.cos(turn)), y - b * round_off(np.sin(turn))], -1)
+    along, across = (np.sign(v) * np.abs(v) ** (2 / exponent) for v in (np.cos(turn), np.sin(turn)))
+    return np.stack([x + a * along, y + b * across], -1)
 
 
 def evenly(points, count):
@@ -79,18 +79,18 @@ def straight_leg(around, along):
 
 
 def bent_leg(rings, poles, angle):
-    """All its vertices where the knee is bent by that angle [rad]."""
-    level = np.concatenate([poles[:1, None], poles[1:, None]])
-    below = KNEE - np.concatenate([level[0, :, 2], rings[:, 0, 2], level[1, :, 2]])
-    at, tangent = middle_line(below, angle, JOINT)
+    """All its vertices where the knee is bent by that angle [rad]: ring by ring, then the poles."""
+    heights = np.concatenate([poles[:1, 2], rings[:, 0, 2], poles[1:, 2]])
+    at, tangent = middle_line(KNEE - heights, angle, JOINT)  # down and back from the knee
 
-    def placed(points, i):
-        back = points[..., 1] - NEUTRAL
-        down = at[i, 0, None] - back * tangent[i, 1, None]
-        return np.stack([points[..., 0], NEUTRAL + at[i, 1, None] + back * tangent[i, 0, None], KNEE - down], -1)
+    def placed(points, at, tangent):
+        back = NEUTRAL - points[..., 1]
+        down, behind = at[:, 0] - back * tangent[:, 1], at[:, 1] + back * tangent[:, 0]
+        return np.stack([points[..., 0], NEUTRAL - behind, KNEE - down], -1)
 
-    i = np.arange(1, len(rings) + 1)
-    return np.concatenate([placed(rings, i).reshape(-1, 3), placed(level, np.array([0, -1])).reshape(-1, 3)])
+    around = rings.shape[1]
+    body = placed(rings.reshape(-1, 3), at[1:-1].repeat(around, 0), tangent[1:-1].repeat(around, 0))
+    return np.concatenate([body, placed(poles, at[[0, -1]], tangent[[0, -1]])])
 
 
 def angle_at(time, degrees):
@@ -110,8 +110,9 @@ def main():
     times = np.arange(np.ceil((HANG + 2 * BEND + BETWEEN + HOLD) * asked.fps - 1e-9) + 1) / asked.fps
     rings, poles = straight_leg(asked.around, asked.along)
     frames = [bent_leg(rings, poles, angle_at(time, asked.degrees)) for time in times]
-    write_body(asked.out / "leg", "A left leg, the floor at z = 0, its front towards -y [m]; made by make_leg.py.", times,
-               frames, triangles(len(rings), asked.around))
+    faces = triangles(len(rings), asked.around)[:, ::-1]  # sections run the other way round than those of the arm
+    write_body(asked.out / "leg", "A right leg, the floor at z = 0, its front towards y [m]; made by make_leg.py.",
+               times, frames, faces)
 
 
 if __name__ == "__main__":

@@ -1,14 +1,20 @@
 #include "sim/mesh/garment.h"
 
+#include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 #include "sim/base/error.h"
+#include "sim/base/number_in.h"
 
 namespace hysteron {
 namespace {
 
 constexpr double kLargestStretch = 2;  // of all sides together; cloth that is sewn stretches by far less
+// Of a whole garment along the texture's one coordinate over that along the other: worn, it strains by some
+// percent.
+constexpr double kUneven = 1.15;
 
 bool is_mirrored(const ClothMesh& mesh, int f) {
   const auto at = mesh.corners(f);
@@ -77,6 +83,29 @@ void check_scale(double stretch, double scale, const std::string& what) {
   throw Error::invalid_input(text.str());
 }
 
+// "" where the worn cloth is about as long along both texture coordinates (in the root mean square over the
+// area) as its panels are.
+std::string uneven_doubt(const ClothMesh& mesh, const std::vector<Eigen::Vector3d>& worn,
+                         const std::string& what) {
+  Eigen::Array2d squares = Eigen::Array2d::Zero();
+  for (int f = 0; f < mesh.faces(); ++f) {
+    const auto flat = mesh.corners(f);
+    const Eigen::Vector3i& v = mesh.face[f];
+    Eigen::Matrix2d texture;
+    texture << (flat[1] - flat[0]).head<2>(), (flat[2] - flat[0]).head<2>();
+    Eigen::Matrix<double, 3, 2> sides;
+    sides << worn[v[1]] - worn[v[0]], worn[v[2]] - worn[v[0]];
+    const Eigen::Matrix<double, 3, 2> stretch = sides * texture.inverse();
+    squares += mesh.face_area[f] * stretch.colwise().squaredNorm().transpose().array();
+  }
+  const double ratio = std::sqrt(squares[0] / squares[1]);
+  if (ratio < kUneven && ratio > 1 / kUneven) return "";
+  return what + ": where it starts, its triangles are " + number_text(ratio, 3) +
+         " times as long along the first texture coordinate, compared with that along the second: where a "
+         "program has scaled each of them to 0 to 1, multiply the first by " +
+         number_text(ratio, 3);
+}
+
 }  // namespace
 
 bool is_seam(const ClothMesh& mesh, int edge) {
@@ -94,7 +123,8 @@ ClothMesh read_pattern(const std::string& file, double weld, double scale, Lengt
   const std::string what = "mesh " + file;
   if (mesh.pattern.empty() && mesh.panel.empty())
     throw Error::invalid_input(what + ": its texture coordinates are no flat cloth: corners have none");
-  const double worn = length_of_sides(mesh);
+  const std::vector<Eigen::Vector3d> worn = mesh.rest;
+  const double sides = length_of_sides(mesh);
   for (Eigen::Vector2d& at : mesh.pattern) at *= scale;
   for (auto& corners : mesh.panel)
     for (Eigen::Vector2d& at : corners) at *= scale;
@@ -102,7 +132,9 @@ ClothMesh read_pattern(const std::string& file, double weld, double scale, Lengt
   for (int v = 0; !mesh.sewn && v < mesh.vertices(); ++v) mesh.rest[v] << mesh.pattern[v], 0;
   build_topology(mesh, what + ", its texture coordinates");
   check_folds(mesh, what);
-  check_scale(worn / length_of_sides(mesh), scale, what);
+  check_scale(sides / length_of_sides(mesh), scale, what);
+  const std::string doubt = uneven_doubt(mesh, worn, what);
+  if (doubts && !doubt.empty()) doubts->push_back(doubt);
   return mesh;
 }
 

@@ -102,6 +102,26 @@ TEST(Panels, OfAnotherSizeThanTheWornClothAreRefusedWithTheScaleThatFits) {
                          "cloth.texture-scale = 2.5 m"));
 }
 
+TEST(Panels, WhoseCoordinatesAreScaledEachByItsOwnAreDoubtedWithTheFactorThatMakesThemEqual) {
+  std::vector<std::string> doubts;
+  const auto read = [&](double factor) {
+    const auto stretched = [&](const Vector3d& x) { return Vector3d(factor * x.x(), x.y(), x.z()); };
+    const TextFile file(PanelTube{.second = moved, .worn = stretched}.obj(), ".obj");
+    doubts.clear();
+    read_pattern(file.path(), 0, 1, LengthUnit::metre, &doubts);
+  };
+  for (const double factor : {1.0, 1.1, 1 / 1.1}) {
+    read(factor);
+    EXPECT_EQ(doubts, std::vector<std::string>()) << factor;
+  }
+  for (const auto& [factor, text] :
+       {std::pair(1.5, "multiply the first by 1.5"), std::pair(0.75, "by 0.75")}) {
+    read(factor);
+    ASSERT_EQ(doubts.size(), 1u) << factor;
+    EXPECT_TRUE(test::says(doubts[0], text)) << doubts[0];
+  }
+}
+
 TEST(Panels, ThatAreFoldedOrHaveNoAreaAreRefused) {
   const PanelTube folded{
       .second = [](const Vector2d& at) { return Vector2d(std::abs(at.x() - 0.25), at.y()); }};
