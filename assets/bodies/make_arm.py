@@ -32,8 +32,8 @@ def radius(s):
 
 
 def middle_line(stations, angle, joint=JOINT):
-    """Points and unit tangents where a limb is bent by `angle` [rad], within `joint` to both sides, at these lengths from
-    there [m]."""
+    """Points and unit tangents where a limb is bent by `angle` [rad], within `joint` to both sides, at these lengths
+    from there [m]."""
     fine = np.linspace(stations[0], stations[-1], 4001)
     turned = angle * smoothstep((fine + joint) / (2 * joint))
     tangent = np.stack([np.cos(turned), np.sin(turned)], 1)
@@ -112,7 +112,8 @@ def main():
     times = np.arange(round(seconds * asked.fps) + 1) / asked.fps
     frames = [frame(angle_at(time, asked.degrees, asked.bends), asked.around, asked.along) for time in times]
     faces = triangles((len(frames[0]) - 2) // asked.around, asked.around)
-    write_body(asked.out / "arm", "An arm along x, its elbow at the origin [m]; made by make_arm.py.", times, frames, faces)
+    title = "An arm along x, its elbow at the origin [m]; made by make_arm.py."
+    write_body(asked.out / "arm", title, times, frames, faces)
 
 
 if __name__ == "__main__":

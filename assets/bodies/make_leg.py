@@ -5,9 +5,9 @@
 
 It is the right leg of a standing person who looks along y, from the waist to the ankle, the floor at z = 0 and the
 middle of the body at x = 0, and is cut off 3 cm beyond that.  Its horizontal sections are superellipses, so that the
-hip is a rounded box and the rest is round.  The shank swings back about the knee: heights within 0.1 m of it bend, by an angle that grows along
-the leg as smoothstep does, with the length kept 12 mm behind the middle, where the joint is.  It hangs for `hang`
-seconds, bends within `bend`, stays for `hold` and straightens within `bend`.  It needs numpy.
+hip is a rounded box and the rest is round.  The shank swings back about the knee: within 0.1 m of it the leg bends, by
+an angle that grows along it as smoothstep does, and keeps its length 12 mm behind the middle, where the joint is.  It
+hangs for `hang` seconds, bends within `bend`, stays for `hold` and straightens within `bend`.  It needs numpy.
 """
 import argparse
 import pathlib

@@ -7,8 +7,8 @@ Its vertices are where the cloth starts: around the straight leg, 8 to 44 mm off
 x = 0, along the rise: down from the waist in front, under the crotch and up behind.  Its texture coordinates [m] are
 the front and the back panel laid flat, u along the leg (warp); the outseam and the inseam, whose vertices both panels
 share, are what is sewn.  Each panel is unrolled as rigidly as its curvature allows (Liu, Zhang, Xu, Gotsman & Gortler
-2008, "A local/global approach to mesh parameterization").  The script says how long the seams are on either side and how far the
-start stretches the cloth.  It needs numpy.
+2008, "A local/global approach to mesh parameterization").  The script says how long the seams are on either side and
+how far the start stretches the cloth.  It needs numpy.
 
 Its options are rows of triangles from the waist to the hem and columns of either panel: fewer for a quick run,
 
