@@ -11,10 +11,8 @@
 namespace hysteron {
 namespace {
 
-constexpr double kLargestStretch = 2;  // of all sides together; cloth that is sewn stretches by far less
-// Of a whole garment along the texture's one coordinate over that along the other: worn, it strains by some
-// percent.
-constexpr double kUneven = 1.15;
+constexpr double kLargestStretch = 2;      // of all sides together; cloth that is sewn stretches by far less
+constexpr double kDoubtfulStretch = 1.15;  // of them, or along one texture coordinate over the other
 
 bool is_mirrored(const ClothMesh& mesh, int f) {
   const auto at = mesh.corners(f);
@@ -73,20 +71,27 @@ void check_size(double stretch, const std::string& what) {
   throw Error::invalid_input(text.str());
 }
 
-void check_scale(double stretch, double scale, const std::string& what) {
-  if (stretch <= kLargestStretch && stretch >= 1 / kLargestStretch) return;
-  std::ostringstream text;
-  text.precision(3);
-  text << what << ": its triangles' sides are " << stretch << " times as long as in texture coordinates of "
-       << scale << " m a unit, which must be " << 1 / kLargestStretch << " to " << kLargestStretch
-       << "; cloth.texture-scale = " << scale * stretch << " m makes them equal";
-  throw Error::invalid_input(text.str());
+std::string scale_text(double stretch, double scale) {
+  return "its triangles' sides are " + number_text(stretch, 3) +
+         " times as long as in texture coordinates of " + number_text(scale) + " m a unit";
 }
 
-// "" where the worn cloth is about as long along both texture coordinates (in the root mean square over the
-// area) as its panels are.
-std::string uneven_doubt(const ClothMesh& mesh, const std::vector<Eigen::Vector3d>& worn,
-                         const std::string& what) {
+std::string fitting_scale(double stretch, double scale) {
+  return "cloth.texture-scale = " + number_text(scale * stretch, 3) + " m makes them equal";
+}
+
+void check_scale(double stretch, double scale, const std::string& what) {
+  if (stretch <= kLargestStretch && stretch >= 1 / kLargestStretch) return;
+  throw Error::invalid_input(what + ": " + scale_text(stretch, scale) + ", which must be " +
+                             number_text(1 / kLargestStretch) + " to " + number_text(kLargestStretch) + "; " +
+                             fitting_scale(stretch, scale));
+}
+
+bool is_doubtful(double stretch) { return stretch > kDoubtfulStretch || stretch < 1 / kDoubtfulStretch; }
+
+// How much longer the worn cloth is along the texture's first coordinate than along its second, in the root
+// mean square over the area.
+double unevenness(const ClothMesh& mesh, const std::vector<Eigen::Vector3d>& worn) {
   Eigen::Array2d squares = Eigen::Array2d::Zero();
   for (int f = 0; f < mesh.faces(); ++f) {
     const auto flat = mesh.corners(f);
@@ -98,12 +103,17 @@ std::string uneven_doubt(const ClothMesh& mesh, const std::vector<Eigen::Vector3
     const Eigen::Matrix<double, 3, 2> stretch = sides * texture.inverse();
     squares += mesh.face_area[f] * stretch.colwise().squaredNorm().transpose().array();
   }
-  const double ratio = std::sqrt(squares[0] / squares[1]);
-  if (ratio < kUneven && ratio > 1 / kUneven) return "";
-  return what + ": where it starts, its triangles are " + number_text(ratio, 3) +
-         " times as long along the first texture coordinate, compared with that along the second: where a "
-         "program has scaled each of them to 0 to 1, multiply the first by " +
-         number_text(ratio, 3);
+  return std::sqrt(squares[0] / squares[1]);
+}
+
+// "" where nothing is doubtful.
+std::string size_doubt(double uneven, double stretch, double scale) {
+  if (is_doubtful(uneven))
+    return "where it starts, its triangles are " + number_text(uneven, 3) +
+           " times as long along the first texture coordinate, compared with that along the second: where a "
+           "program has scaled each of them to 0 to 1, multiply the first by " +
+           number_text(uneven, 3);
+  return is_doubtful(stretch) ? scale_text(stretch, scale) + ": " + fitting_scale(stretch, scale) : "";
 }
 
 }  // namespace
@@ -132,9 +142,10 @@ ClothMesh read_pattern(const std::string& file, double weld, double scale, Lengt
   for (int v = 0; !mesh.sewn && v < mesh.vertices(); ++v) mesh.rest[v] << mesh.pattern[v], 0;
   build_topology(mesh, what + ", its texture coordinates");
   check_folds(mesh, what);
-  check_scale(sides / length_of_sides(mesh), scale, what);
-  const std::string doubt = uneven_doubt(mesh, worn, what);
-  if (doubts && !doubt.empty()) doubts->push_back(doubt);
+  const double stretch = sides / length_of_sides(mesh);
+  check_scale(stretch, scale, what);
+  const std::string doubt = size_doubt(unevenness(mesh, worn), stretch, scale);
+  if (doubts && !doubt.empty()) doubts->push_back(what + ": " + doubt);
   return mesh;
 }
 

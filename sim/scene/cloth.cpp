@@ -1,10 +1,12 @@
 #include "sim/scene/cloth.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "sim/base/error.h"
+#include "sim/base/number_in.h"
 #include "sim/mesh/builders.h"
 #include "sim/mesh/file_ending.h"
 #include "sim/mesh/garment.h"
@@ -69,6 +71,16 @@ std::vector<int> selected(const ClothMesh& mesh, const Pin& pin) {
   return vertices;
 }
 
+// "(0, 0, 0) to (0.2, 0.1, 0) m"
+std::string reach_text(const ClothMesh& mesh) {
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& x : mesh.rest) box.extend(x);
+  const auto corner = [](const Eigen::Vector3d& x) {
+    return "(" + number_text(x.x(), 3) + ", " + number_text(x.y(), 3) + ", " + number_text(x.z(), 3) + ")";
+  };
+  return corner(box.min()) + " to " + corner(box.max()) + " m";
+}
+
 Cloth placed(const Scene& scene, ClothMesh mesh, std::vector<Eigen::Vector3d> start) {
   Cloth cloth;
   cloth.mesh = std::move(mesh);
@@ -82,7 +94,9 @@ Cloth placed(const Scene& scene, ClothMesh mesh, std::vector<Eigen::Vector3d> st
     cloth.pin_vertices.push_back(selected(cloth.mesh, scene.pin[p]));
     if (cloth.pin_vertices.back().empty())
       throw Error::invalid_input("pin " + std::to_string(p + 1) +
-                                 ": its selection holds no vertex of the cloth");
+                                 ": its selection holds no vertex of the cloth, which reaches, where places "
+                                 "are chosen, from " +
+                                 reach_text(cloth.mesh));
     if (scene.pin[p].from > 0) continue;
     for (int vertex : cloth.pin_vertices.back()) cloth.pin[vertex] = static_cast<int>(p);
   }

@@ -61,6 +61,18 @@ TEST(Panels, StartWhereTheVerticesAreAndPinsFindThemThere) {
   }
 }
 
+TEST(Panels, RefuseAPinThatHoldsNoneOfThemWithWhereTheyAre) {
+  const TextFile file(PanelTube{.second = moved}.obj(), ".obj");
+  Scene scene;
+  scene.cloth.shape = "pattern";
+  scene.cloth.file = file.path();
+  Pin& elsewhere = scene.pin.emplace_back();
+  elsewhere.low = elsewhere.high = {0, 0, 1};
+  EXPECT_TRUE(test::says(test::refusal([&] { make_cloth(scene); }),
+                         "pin 1: its selection holds no vertex of the cloth, which reaches, where places are "
+                         "chosen, from (0, 0, 0) to (0.5, 0.125, 0.125) m"));
+}
+
 TEST(Panels, TakeWarpFromTheirTexture) {
   ClothMesh mesh = PanelTube{.second = turned}.mesh();
   for (const double angle : {0.0, 0.7}) {  // of warp in the texture
@@ -102,23 +114,32 @@ TEST(Panels, OfAnotherSizeThanTheWornClothAreRefusedWithTheScaleThatFits) {
                          "cloth.texture-scale = 2.5 m"));
 }
 
-TEST(Panels, WhoseCoordinatesAreScaledEachByItsOwnAreDoubtedWithTheFactorThatMakesThemEqual) {
-  std::vector<std::string> doubts;
-  const auto read = [&](double factor) {
-    const auto stretched = [&](const Vector3d& x) { return Vector3d(factor * x.x(), x.y(), x.z()); };
-    const TextFile file(PanelTube{.second = moved, .worn = stretched}.obj(), ".obj");
-    doubts.clear();
-    read_pattern(file.path(), 0, 1, LengthUnit::metre, &doubts);
+// What is doubted of the tube with other lengths along and around.
+std::vector<std::string> doubts(double along, double around) {
+  const auto stretched = [&](const Vector3d& x) {
+    return Vector3d(along * x.x(), around * x.y(), around * x.z());
   };
-  for (const double factor : {1.0, 1.1, 1 / 1.1}) {
-    read(factor);
-    EXPECT_EQ(doubts, std::vector<std::string>()) << factor;
+  const TextFile file(PanelTube{.second = moved, .worn = stretched}.obj(), ".obj");
+  std::vector<std::string> found;
+  read_pattern(file.path(), 0, 1, LengthUnit::metre, &found);
+  return found;
+}
+
+TEST(Panels, WhoseCoordinatesAreScaledEachByItsOwnAreDoubtedWithTheFactorThatMakesThemEqual) {
+  for (const auto& [along, factor] : {std::pair(1.5, "1.5"), std::pair(0.75, "0.75")}) {
+    const std::vector<std::string> found = doubts(along, 1);
+    ASSERT_EQ(found.size(), 1u) << along;
+    EXPECT_TRUE(test::says(found[0], std::string("multiply the first by ") + factor)) << found[0];
   }
-  for (const auto& [factor, text] :
-       {std::pair(1.5, "multiply the first by 1.5"), std::pair(0.75, "by 0.75")}) {
-    read(factor);
-    ASSERT_EQ(doubts.size(), 1u) << factor;
-    EXPECT_TRUE(test::says(doubts[0], text)) << doubts[0];
+}
+
+TEST(Panels, OfDoubtfulSizeAreDoubtedWithTheScaleThatFitsAndThoseThatStrainAreNot) {
+  const std::vector<std::string> found = doubts(0.75, 0.75);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_TRUE(test::says(found[0], "sides are 0.75 times as long", "cloth.texture-scale = 0.75 m makes"));
+  for (const double strained : {1 / 1.1, 1.0, 1.1}) {
+    EXPECT_EQ(doubts(strained, 1), std::vector<std::string>()) << strained;
+    EXPECT_EQ(doubts(strained, strained), std::vector<std::string>()) << strained;
   }
 }
 
