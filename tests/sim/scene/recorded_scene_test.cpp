@@ -15,15 +15,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Scene shipped(const std::string& name) {
-  Scene scene = default_scene();
-  apply_scene_file(scene, name, {}, {"metric"});
-  return scene;
-}
-
 // Of one's own numbers, with stops, a parameter of the law and a switched-off default.
 Scene unusual() {
-  Scene scene = shipped("strip-over-sphere");
+  Scene scene = test::shipped_scene("strip-over-sphere");
   apply_flags(scene, {{"fabric.b1", "3.3e-05"},
                       {"fabric.bending.stops.thresholds", "5 20"},
                       {"fabric.bending.stops.stiffnesses", "8e-6 0.1"},
@@ -41,7 +35,7 @@ Json without_origins(const Scene& scene) {
 
 TEST(RecordedScene, IsTheSceneThatWasRecorded) {
   for (const std::string& name : list_assets("scenes")) {
-    const Json tree = to_json(shipped(name));
+    const Json tree = to_json(test::shipped_scene(name));
     Scene back;
     apply_recorded_scene(back, tree, "manifest.json");
     EXPECT_EQ(to_json(back), tree) << name;
@@ -78,7 +72,7 @@ TEST(RecordedScene, RefusesInOneLineThatNamesTheKey) {
 
 TEST(SceneText, ReadsBackToTheSameScene) {
   std::vector<Scene> scenes = {unusual(), default_scene("polyester-faille")};
-  for (const std::string& name : list_assets("scenes")) scenes.push_back(shipped(name));
+  for (const std::string& name : list_assets("scenes")) scenes.push_back(test::shipped_scene(name));
   for (const Scene& scene : scenes)
     EXPECT_EQ(without_origins(scene_of(scene_toml(scene))), without_origins(scene));
 }

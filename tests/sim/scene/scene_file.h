@@ -1,8 +1,10 @@
 // Scene and fabric files for the tests of reading, in a folder of their own.
 #pragma once
 
+#include <Eigen/Core>
 #include <string>
 
+#include "sim/scene/key_table.h"
 #include "sim/scene/scene_reader.h"
 #include "tests/sim/base/folder.h"
 
@@ -30,4 +32,25 @@ inline Scene scene_of(const std::string& text) {
   return scene;
 }
 
+namespace test {
+
+// What shipped scenes set of their pictures, which the simulation knows nothing of.
+struct Pictures {
+  std::string size;
+  Eigen::Vector3d direction;
+  Numbers box;
+};
+
+// A shipped scene without what experiments add to it.
+inline Scene shipped_scene(const std::string& name) {
+  static const KeyRow<Pictures> kRows[] = {{"size", at<&Pictures::size>, "", any(), "", ""},
+                                           {"camera.direction", at<&Pictures::direction>, "", any(), "", ""},
+                                           {"camera.box", at<&Pictures::box>, "m", any(), "", ""}};
+  Pictures pictures;
+  Scene scene = default_scene();
+  apply_scene_file(scene, name, bind(kRows, pictures), {"metric"});
+  return scene;
+}
+
+}  // namespace test
 }  // namespace hysteron

@@ -53,8 +53,8 @@ TEST(ShippedScenes, AreReadUnderTheNameThatIsListed) {
   const std::vector<std::string> names = list_assets("scenes");
   EXPECT_FALSE(names.empty());
   for (const std::string& name : names) {
-    Scene scene = default_scene();
-    EXPECT_NO_THROW(apply_scene_file(scene, name, {}, {"metric"})) << name;
+    Scene scene;
+    ASSERT_NO_THROW(scene = test::shipped_scene(name)) << name;
     EXPECT_EQ(scene.origin.begin()->second.find("assets/scenes/" + name), 0) << scene.origin.begin()->second;
   }
 }
