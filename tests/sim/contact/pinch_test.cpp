@@ -18,9 +18,6 @@ using test::Trial;
 constexpr double kDown = 0.1;   // time in which the plate comes down [s]
 constexpr int kCannotGoOn = 3;  // exit code
 
-// Share of the way of a motion between two keys at a share u of the time between them.
-double displacement_done(double u) { return u * u * (3 - 2 * u); }
-
 // A plate of 2 cm over the ground whose underside comes down from 1 cm to `lowest` [m].
 void add_press(Scene& scene, double lowest) {
   Obstacle plate = test::box_at({0.05, 0.05, 0.02}, {0.2, 0.2, 0.01});
