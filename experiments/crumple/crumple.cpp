@@ -5,12 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "experiments/workbench/compare/variant_page.h"
 #include "experiments/workbench/pictures/framing.h"
 #include "experiments/workbench/pictures/ridge_metrics.h"
 #include "experiments/workbench/session/probes.h"
+#include "experiments/workbench/session/requested_metrics.h"
 #include "experiments/workbench/session/session.h"
 #include "sim/base/csv.h"
 #include "sim/bending/vertex_curvature.h"
@@ -42,6 +44,7 @@ Setup defaults() {
   setup.options.fps = 25;
   setup.options.camera_direction = {0.25, -1.0, 0.15};
   setup.options.camera_fov = 24;
+  setup.own_tables = {"metric"};
   return setup;
 }
 
@@ -157,12 +160,17 @@ void crumple_once(const CommandLine& line) {
       (cloth.shape == "square" || cloth.shape == "strip") && rest_file(setup.scene).empty())
     probe_unless_told(setup.options,
                       {cloth.length / 2, (cloth.shape == "square" ? cloth.length : cloth.width) / 2});
+  const std::vector<MetricRequest> requests = take_requests(setup);
   Session session(line, setup);
   if (session.is_over()) return;
+  RequestedMetrics requested(requests, session);
   session.reserve({"residual.csv"},
                   {"curvature.png", "residual.png", "raking.png", "plot_residual", "plot_curvature"});
   RidgeMetrics wrinkles;
-  session.simulate(run_plan(session, choice, wrinkles));
+  RunPlan plan = run_plan(session, choice, wrinkles);
+  requested.join(plan);
+  session.simulate(plan);
+  requested.finish();
   session.run().metric("ridge_length_m", wrinkles.ridges);
   session.run().metric("curvature_rms_per_m", wrinkles.curvature);
   write_histogram(session);
@@ -172,13 +180,12 @@ void crumple_once(const CommandLine& line) {
 
 VariantPage variants_page(const CommandLine& line, std::vector<Variant>&) {
   C choice;
-  const Setup setup = set_up(line, defaults(), bind(kRows, choice));
-  return {"Crumpled",
-          setup,
-          to_json(bind(kRows, choice)),
-          {"residual_curvature_rms_per_m", "ridge_length_m", "curvature_rms_per_m", "intersections"},
-          ridge_plots(""),
-          "raking.png"};
+  Setup setup = set_up(line, defaults(), bind(kRows, choice));
+  take_requests(setup);
+  std::vector<std::string> metrics = {"residual_curvature_rms_per_m", "ridge_length_m", "curvature_rms_per_m",
+                                      "intersections"};
+  std::ranges::copy(setup.requested_metrics, std::back_inserter(metrics));
+  return {"Crumpled", setup, to_json(bind(kRows, choice)), metrics, ridge_plots(""), "raking.png"};
 }
 
 std::optional<render::Box> framing(const CommandLine& line) {

@@ -6,9 +6,9 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/doctor/findings.h"
-#include "experiments/run/metrics.h"
 #include "experiments/workbench/app/experiment.h"
 #include "experiments/workbench/app/manifest.h"
+#include "experiments/workbench/session/metric_request.h"
 #include "sim/base/csv.h"
 #include "sim/base/error.h"
 #include "sim/bending/laws/law_run.h"

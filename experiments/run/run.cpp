@@ -4,11 +4,11 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "experiments/run/metrics.h"
 #include "experiments/workbench/app/manifest_file.h"
 #include "experiments/workbench/app/scene_source.h"
 #include "experiments/workbench/pictures/drawing.h"
 #include "experiments/workbench/pictures/framing.h"
+#include "experiments/workbench/session/requested_metrics.h"
 #include "experiments/workbench/session/session.h"
 #include "sim/base/error.h"
 #include "sim/scene/shown_key.h"
@@ -91,32 +91,15 @@ render::Box box_at_start(const Scene&, const Cloth& cloth) {
   return render::bounding_box(flat_points(cloth.start));
 }
 
-RunPlan run_plan(Session& session, const std::vector<RequestedMetric>& metrics, std::vector<double>& last) {
+RunPlan run_plan(Session& session, RequestedMetrics& metrics) {
   RunPlan plan;
   plan.bounds = box_at_start(session.scene(), session.cloth());
   plan.wanders = true;
-  for (const RequestedMetric& metric : metrics) plan.columns.push_back(metric.request().column());
-  plan.measure = [&](const Snapshot& m) {
-    last.clear();
-    for (const RequestedMetric& metric : metrics) last.push_back(metric.value(session.simulation(), m.x));
-    return last;
-  };
+  metrics.join(plan);
   plan.progress = [&](const Snapshot& m) {
-    std::string text = fmt::format("t = {:.3f} s  {}", m.time, session.scene().phase_at(m.time));
-    for (std::size_t i = 0; i < metrics.size(); ++i)
-      text += fmt::format("  {} = {:.4g}", metrics[i].request().column(), last[i]);
-    return text;
+    return fmt::format("t = {:.3f} s  {}", m.time, session.scene().phase_at(m.time)) + metrics.words();
   };
   return plan;
-}
-
-void plot(Session& session, const RequestedMetric& metric) {
-  const std::string& name = metric.request().name;
-  render::Plot plot{name + ", " + session.scene().fabric.name + ", law " + session.scene().law,
-                    {"time [s]"},
-                    {metric.request().column()}};
-  plot.series = {render::series_from_csv(session.run().path("metrics.csv"), "time", name, name)};
-  session.plot("plot_" + name, plot);
 }
 
 int run_scene(const CommandLine& given) {
@@ -124,30 +107,18 @@ int run_scene(const CommandLine& given) {
   const std::string scene = last_text(line.flags, "scene", "");
   Setup setup = set_up_run(line);
   if (last_text(line.flags, "out", "").empty()) setup.options.out = "out/run-" + scene_stem(scene);
-  const std::vector<MetricRequest> requests = metrics_in(scene);
-  Json choices = *setup.resolved;
-  if (!requests.empty()) choices["metric"] = to_json(requests);
-  setup.resolved = std::make_shared<const Json>(choices);
-  for (const MetricRequest& request : requests) setup.requested_metrics.push_back(request.metric());
+  const std::vector<MetricRequest> requests = take_requests(setup);
   if (setup.options.errors && requests.empty())
     throw Error::invalid_input("--errors: " + scene + " has no [[metric]] whose errors could be measured")
         .with_key("errors", "true");
 
   Session session(line, setup);
   if (session.is_over()) return 0;
-  for (const std::string& warning : idle_metric_warnings(requests)) session.run().warn(warning);
-  for (const MetricRequest& request : requests) session.reserve({}, {"plot_" + request.name});
-  std::vector<RequestedMetric> metrics;
-  for (const MetricRequest& request : requests)
-    metrics.emplace_back(request, session.scene(), session.cloth(), session.simulation().dimension());
+  RequestedMetrics metrics(requests, session);
   const std::string name = scene_name(scene);
   session.run().note(kSceneName, name);
-  std::vector<double> last;
-  session.simulate(run_plan(session, metrics, last));
-  for (std::size_t i = 0; i < metrics.size(); ++i)
-    session.run().metric(metrics[i].request().metric(), last[i]);
-  if (session.pictures())
-    for (const RequestedMetric& metric : metrics) plot(session, metric);
+  session.simulate(run_plan(session, metrics));
+  metrics.finish();
   session.finish(name + ": " + setup.scene.fabric.name + ", law " + setup.scene.law);
   return 0;
 }

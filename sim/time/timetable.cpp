@@ -63,6 +63,12 @@ long Timetable::next_instant(long n, double rate) const {
   return n;
 }
 
+long Timetable::first_end(double at) const {
+  long n = 0;
+  while (n <= steps() && time(n) < at - kRounding * step_) ++n;
+  return n;
+}
+
 double Timetable::largest_shift(double rate) const {
   if (rate <= 0) return 0;
   double largest = 0;

@@ -32,6 +32,9 @@ class Timetable {
   bool is_instant(long n, double rate) const;
   // The first such step behind `n`.
   long next_instant(long n, double rate) const;
+  // The number of steps after which the time is first not before this one but for rounding [s]; one more than
+  // there are where none is.
+  long first_end(double time) const;
   // By how much the instants at `rate` lie beside k/rate, at most [s].
   double largest_shift(double rate) const;
 

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
+#include <numeric>
+#include <utility>
 
 namespace hysteron::experiments {
 namespace {
@@ -47,6 +50,65 @@ void place_apart(std::vector<Eigen::Vector2d>& at, int copies) {
     at[i] = {at[i % each].x() + static_cast<double>(i / each) * stride, at[i % each].y()};
 }
 
+// The weight exp(-pi (r/(alpha cutoff))^2) with alpha^2 = ln 2/pi is exp(-kDecay (r/cutoff)^2).
+constexpr double kDecay = std::numbers::pi * std::numbers::pi / std::numbers::ln2;
+constexpr double kReach = 0.6;  // of the cutoff, beyond which weights are below 0.6 %
+constexpr double kTail = 0.05;
+
+// Directions of the surface at its vertices, as long as twice the areas of the triangles around them [m^2].
+std::vector<Eigen::Vector3d> vertex_normals(const ClothMesh& mesh, const std::vector<Eigen::Vector3d>& x) {
+  std::vector<Eigen::Vector3d> normal(x.size(), Eigen::Vector3d::Zero());
+  for (const Eigen::Vector3i& t : mesh.face) {
+    const Eigen::Vector3d n = (x[t[1]] - x[t[0]]).cross(x[t[2]] - x[t[0]]);
+    for (int k = 0; k < 3; ++k) normal[t[k]] += n;
+  }
+  return normal;
+}
+
+// Vertices that a path along edges leads to without leaving the ball of this radius around one [m].
+class Neighbourhood {
+ public:
+  Neighbourhood(const ClothMesh& mesh, double radius)
+      : mesh_(mesh), radius_(radius), seen_(mesh.vertices(), -1) {}
+
+  const std::vector<int>& around(int vertex) {
+    found_ = {vertex};
+    seen_[vertex] = vertex;
+    for (std::size_t i = 0; i < found_.size(); ++i)
+      for (int k = mesh_.vertex_faces.start[found_[i]]; k < mesh_.vertex_faces.start[found_[i] + 1]; ++k)
+        for (const int n : mesh_.face[mesh_.vertex_faces.item[k] / 3]) visit(n, vertex);
+    return found_;
+  }
+
+ private:
+  void visit(int n, int vertex) {
+    if (seen_[n] == vertex || (mesh_.rest[n] - mesh_.rest[vertex]).norm() > radius_) return;
+    seen_[n] = vertex;
+    found_.push_back(n);
+  }
+
+  const ClothMesh& mesh_;
+  const double radius_;
+  std::vector<int> seen_;  // by the search around which vertex
+  std::vector<int> found_;
+};
+
+// Of values in ascending order with their weights, between the middles of two neighbours in proportion.
+double percentile(const std::vector<std::pair<double, double>>& values, double share) {
+  double sum = 0, below = 0;
+  for (const auto& [value, weight] : values) sum += weight;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const double middle = below + values[i].second / 2;
+    if (middle >= share * sum) {
+      if (i == 0) return values[i].first;
+      const double gap = (values[i - 1].second + values[i].second) / 2;
+      return values[i].first - (middle - share * sum) / gap * (values[i].first - values[i - 1].first);
+    }
+    below += values[i].second;
+  }
+  return values.back().first;
+}
+
 }  // namespace
 
 std::vector<double> curvature_size(const std::vector<double>& curvature, int dimension) {
@@ -67,17 +129,48 @@ std::vector<Eigen::Vector2d> unrolled_tube(const ClothMesh& mesh, const ClothSha
   return result;
 }
 
-double ridge_length(const ClothMesh& mesh, const std::vector<float>& value, double threshold) {
+double ridge_length(const ClothMesh& mesh, const std::vector<float>& value, double threshold,
+                    const std::vector<int>& faces) {
   double outline = 0;
-  for (int f = 0; f < mesh.faces(); ++f) {
+  std::vector<char> chosen(mesh.faces(), 0);
+  for (const int f : faces) {
     const Eigen::Vector3i& t = mesh.face[f];
     outline += contour_length(mesh.corners(f), {value[t[0]], value[t[1]], value[t[2]]}, threshold);
+    chosen[f] = 1;
   }
   for (int e = mesh.interior_edges; e < static_cast<int>(mesh.edge.size()); ++e) {
     const Edge& edge = mesh.edge[e];
-    outline += mesh.edge_length(e) * fraction_above(value[edge.p2], value[edge.p3], threshold);
+    if (chosen[edge.face0])
+      outline += mesh.edge_length(e) * fraction_above(value[edge.p2], value[edge.p3], threshold);
   }
   return outline / 2;
+}
+
+double ridge_length(const ClothMesh& mesh, const std::vector<float>& value, double threshold) {
+  std::vector<int> all(mesh.faces());
+  std::iota(all.begin(), all.end(), 0);
+  return ridge_length(mesh, value, threshold, all);
+}
+
+double ridge_height(const ClothMesh& mesh, const std::vector<Eigen::Vector3d>& x,
+                    const std::vector<int>& vertices, double cutoff) {
+  const std::vector<Eigen::Vector3d> normal = vertex_normals(mesh, x);
+  Neighbourhood near(mesh, kReach * cutoff);
+  std::vector<std::pair<double, double>> heights;  // with the areas that they stand for
+  for (const int v : vertices) {
+    Eigen::Vector3d middle = Eigen::Vector3d::Zero(), up = middle;
+    double sum = 0;
+    for (const int n : near.around(v)) {
+      const double away = (mesh.rest[n] - mesh.rest[v]).norm() / cutoff;
+      const double weight = std::exp(-kDecay * away * away);
+      sum += weight * mesh.vertex_area[n];
+      middle += weight * mesh.vertex_area[n] * x[n];
+      up += weight * normal[n];
+    }
+    heights.emplace_back((x[v] - middle / sum).dot(up.normalized()), mesh.vertex_area[v]);
+  }
+  std::sort(heights.begin(), heights.end());
+  return percentile(heights, 1 - kTail) - percentile(heights, kTail);
 }
 
 std::vector<double> area_fractions(const std::vector<double>& value, const std::vector<double>& area,

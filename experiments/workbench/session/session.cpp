@@ -193,9 +193,11 @@ double Session::fastest_since(Before& before, const std::vector<Eigen::Vector3d>
 
 void Session::go_on() {
   const long now = simulation_->steps();
-  const long next = plan_->each_step ? now + 1
-                                     : std::min(timetable_.next_instant(now, setup_.options.fps),
-                                                timetable_.next_instant(now, watch_rate_));
+  long next = plan_->each_step ? now + 1
+                               : std::min(timetable_.next_instant(now, setup_.options.fps),
+                                          timetable_.next_instant(now, watch_rate_));
+  for (const long due : instant_steps_)
+    if (due > now) next = std::min(next, due);
   advance_along(timetable_, *simulation_, next);
 }
 
@@ -204,6 +206,8 @@ bool Session::look(const std::string& left) {
   const double time = simulation_->time();
   const std::vector<Eigen::Vector3d> x = simulation_->positions();
   if (plan_->each_step) plan_->each_step({time, x, NAN});
+  for (std::size_t i = 0; i < instant_steps_.size(); ++i)
+    if (instant_steps_[i] == now) plan_->instants[i].look({time, x, NAN});
   bool settled = false;
   if (timetable_.is_instant(now, watch_rate_)) settled = watch({time, x, fastest_since(watched_, x)});
   if (settled || timetable_.is_instant(now, setup_.options.fps))
@@ -249,6 +253,9 @@ bool Session::simulate(const RunPlan& plan) {
   timetable_ =
       plan.time_steps.empty() ? Timetable(scene.seconds, scene.step) : Timetable(plan.time_steps, scene.step);
   watch_rate_ = plan.watch_rate > 0 ? plan.watch_rate : default_rate(line_);
+  instant_steps_.clear();
+  for (const RunPlan::Instant& instant : plan.instants)
+    instant_steps_.push_back(timetable_.first_end(instant.time));
   run_->progress(opening_words());
   if (plan.time_steps.empty()) note_rounded_instants();
   bounds_ = framed();

@@ -35,10 +35,12 @@ struct Snapshot {
 //   measure     at the instants of --fps, for the row of metrics.csv that belongs to a picture
 //   watch       at instants of the experiment's own, `watch_rate`, which --fps does not move
 //   each_step   after every step
+// and `instants` at times of their own.
 // No result may depend on the rate of pictures: all that becomes a metric, or ends the run, is collected in
-// watch() or each_step(), or read from the simulation when simulate() has returned; measure() only shows it.
-// Where several are due at one instant, each_step() is called first and measure() last.  What they collect is
-// named in serialise().  each_step() costs a copy of all positions a step: of a GPU that is felt.
+// watch(), each_step() or instants, or read from the simulation when simulate() has returned; measure() only
+// shows it. Where several are due at one instant, each_step() is called first, then instants, and measure()
+// last.  What they collect is named in serialise().  each_step() costs a copy of all positions a step: of a
+// GPU that is felt.
 struct RunPlan {
   render::Box bounds;                // framed by the pictures [m]
   bool wanders = false;              // the scene may lead the cloth beyond: a trial widens them
@@ -48,6 +50,13 @@ struct RunPlan {
   std::function<void(const Snapshot&)> watch;
   double watch_rate = 0;  // [1/s]; 0: the default of --fps of this experiment, whatever fps is
   std::function<void(const Snapshot&)> each_step;
+  // Instants of their own, which neither rate moves, each looked at once: at the first end of a step that is
+  // not before its time, so never where that is behind the end; its speed is NaN.
+  struct Instant {
+    double time;  // [s]
+    std::function<void(const Snapshot&)> look;
+  };
+  std::vector<Instant> instants;
   std::function<bool(const Snapshot&)> settled;  // ends the run early; asked when it is watched
   // Of every step, where they are not all the scene's [s]; one that is longer ends in an instant of its own.
   std::vector<double> time_steps;
@@ -157,7 +166,8 @@ class Session {
   const RunPlan* plan_ = nullptr;
   render::Box bounds_;
   Timetable timetable_{0, 1};
-  double watch_rate_ = 0;  // [1/s]
+  double watch_rate_ = 0;            // [1/s]
+  std::vector<long> instant_steps_;  // that the plan's instants are the ends of, in its order
   bool has_begun_ = false;
   Before recorded_, watched_;
 };

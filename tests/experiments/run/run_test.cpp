@@ -5,6 +5,7 @@
 
 #include "experiments/workbench/pictures/drawing.h"
 #include "render/compare.h"
+#include "sim/base/csv.h"
 #include "tests/experiments/program.h"
 
 namespace hysteron::experiments {
@@ -69,6 +70,58 @@ kind = "residual-curvature"
   EXPECT_NEAR(metrics["side_m"], 0.2, kRounding);
   EXPECT_NEAR(metrics["flat_deg"], 0, 1e-5);  // the angle of two directions is known to the root of rounding
   EXPECT_NEAR(metrics["kept_per_m"], 0, kRounding);
+}
+
+TEST_F(Scenes, AreTooCoarseForRidgesOfAQuarterOfTheirEdges) {
+  const auto said = [&](const char* cutoff) {
+    return run(0, kSquare + "[[metric]]\nname = \"ridges\"\nkind = \"ridge-height\"\ncutoff = " + cutoff,
+               "--no-images --seconds 0.01")
+        .err;
+  };
+  EXPECT_TRUE(
+      says(said("0.1"), "metric ridges: edges of 0.0", " m are more than a quarter of cutoff = 0.1 m"));
+  EXPECT_FALSE(says(said("0.2"), "metric ridges"));
+}
+
+// Implicit Euler falls by g h^2 n (n + 1)/2 in n steps, 5 of them before the instant to compare with,
+// whatever instants are recorded.
+TEST_F(Scenes, AreComparedWithAnInstantThatIsNoFrame) {
+  constexpr double kRounding = 1e-9, kCells = 0.3;
+  const std::string scene = kSquare + R"(rotation = [90, 0, 0]
+[[phase]]
+name = "first"
+seconds = 0.05
+[[phase]]
+name = "last"
+seconds = 0.05
+[[metric]]
+name = "fallen"
+kind = "height"
+from = "last"
+[[metric]]
+name = "outline"
+kind = "silhouette"
+from = "last"
+direction = [0, 1, 0]
+[[metric]]
+name = "late"
+kind = "height"
+from = 0.1
+)";
+  const double fallen = 9.81 * 0.01 * 0.01 * (10 * 11 - 5 * 6) / 2;
+  for (const char* rate : {"3", "100"}) {
+    const Outcome outcome = run(0, scene, "--no-images --fps " + std::string(rate));
+    const Json metrics = metrics_of(out());
+    EXPECT_NEAR(metrics["fallen_m"], -fallen, kRounding);
+    EXPECT_NEAR(metrics["outline_percent"], 100 * 2 * fallen / (0.2 + fallen), kCells);
+    EXPECT_FALSE(metrics.contains("late_m"));
+    EXPECT_TRUE(
+        says(outcome.err, "metric late: it is not measured, since from = 0.1 s is not before the end"));
+  }
+  const std::vector<double> column = read_table(out() / "metrics.csv").numbers("fallen [m]");
+  ASSERT_EQ(column.size(), 11u);
+  for (int n = 0; n <= 10; ++n)
+    EXPECT_NEAR(column[n], n < 5 ? 0 : -9.81 * 0.01 * 0.01 * (n * (n + 1) - 5 * 6) / 2, kRounding) << n;
 }
 
 TEST_F(Scenes, HangFromAHandThatCarriesTheirWeight) {
@@ -324,6 +377,12 @@ TEST_F(Scenes, RefuseInOneLineWhatCannotBeMeasured) {
       {"name = \"a\"\nkind = \"height\"\npoint = [9, 0, 0]",
        "point lies 8.8 m beside the flat cloth, whose nearest vertex is at 0.2, 0, 0 m"},
       {"name = \"a\"\nkind = \"angle\"\nlow = [9, 9, 9]", "no element of the cloth"},
+      {"name = \"a\"\nkind = \"silhouette\"\ndirection = [0, 0, 1]",
+       "needs from, the instant to compare with"},
+      {"name = \"a\"\nkind = \"silhouette\"\nfrom = 0", "needs the direction that it is seen along"},
+      {"name = \"a\"\nkind = \"height\"\nfrom = \"bend\"",
+       "must be a number of seconds or begin with a phase"},
+      {"name = \"ridge_length\"\nkind = \"ridge-height\"", "a column of this name already"},
       {"name = \"a\"\nkind = \"force\"", "hand = 1 must be <= 0"}};
   for (const auto& [metric, message] : kCases) {
     const Outcome outcome = run(2, kSquare + "[[metric]]\n" + metric + "\n", "--no-images");

@@ -56,6 +56,17 @@ TEST(Timetable, InstantsOfAHighRateAreAllSteps) {
 }
 
 // Steps of 0.1, 0.1, then rests of 0.5 and 20 s.
+// The last steps of 0.107 s by 0.01 s end at 0.1 and 0.107 s.
+TEST(Timetable, FindsTheFirstStepThatEndsNotBeforeATime) {
+  const Timetable timetable(0.107, 0.01);
+  EXPECT_EQ(timetable.first_end(0), 0);
+  EXPECT_EQ(timetable.first_end(0.03), 3);
+  EXPECT_EQ(timetable.first_end(0.1 + 0.2 - 0.27), 3) << "but for rounding";
+  EXPECT_EQ(timetable.first_end(0.031), 4);
+  EXPECT_EQ(timetable.first_end(0.107), 11);
+  EXPECT_EQ(timetable.first_end(0.11), 12) << "there is none";
+}
+
 TEST(Timetable, RestsEndInInstantsOfTheirOwn) {
   const Timetable timetable(std::vector{0.1, 0.1, 0.5, 20.0}, 0.1);
   EXPECT_EQ(instants(timetable, 1e-3), (std::vector<long>{0, 3, 4}));

@@ -84,6 +84,84 @@ TEST(RidgeLength, IsZeroBelowTheThreshold) {
   EXPECT_EQ(ridge_length(mesh, ridge_across(mesh, 0), 1.5), 0);
 }
 
+TEST(RidgeLength, OfTwoHalvesIsThatOfTheWhole) {
+  const ClothMesh mesh = sheet();
+  const std::vector<float> value = ridge_across(mesh, 0.3);
+  std::vector<int> halves[2];
+  for (int f = 0; f < mesh.faces(); ++f) halves[mesh.rest[mesh.face[f][0]].y() > 0.07].push_back(f);
+  const double first = ridge_length(mesh, value, 0.5, halves[0]),
+               second = ridge_length(mesh, value, 0.5, halves[1]);
+  EXPECT_GT(first, 0.05);
+  EXPECT_GT(second, 0.05);
+  EXPECT_NEAR((first + second) / ridge_length(mesh, value, 0.5), 1, 1e-12);
+}
+
+// Straight ripples of this wavelength, which run at an angle to x.
+std::vector<Eigen::Vector3d> rippled(const ClothMesh& mesh, double wavelength, double amplitude) {
+  const Eigen::Vector2d along(std::cos(0.4), std::sin(0.4));
+  std::vector<Eigen::Vector3d> x = mesh.rest;
+  for (Eigen::Vector3d& p : x)
+    p.z() += amplitude * std::sin(2 * std::numbers::pi * p.head<2>().dot(along) / wavelength);
+  return x;
+}
+
+// Vertices farther than this from the sheet's border [m].
+std::vector<int> inside(const ClothMesh& mesh, double margin) {
+  std::vector<int> found;
+  for (int v = 0; v < mesh.vertices(); ++v)
+    if ((mesh.rest[v].head<2>().array() - kRidgedSide / 2).abs().maxCoeff() < kRidgedSide / 2 - margin)
+      found.push_back(v);
+  return found;
+}
+
+double sine_height(double amplitude, double cutoff_over_wavelength) {
+  return 2 * amplitude * std::sin(0.45 * std::numbers::pi) *
+         (1 - std::exp2(-std::pow(cutoff_over_wavelength, 2)));
+}
+
+TEST(RidgeHeight, OfASineIsWhatTheGaussianMeanLeavesOfIt) {
+  constexpr double kAmplitude = 1e-4, kCutoff = 0.02;
+  constexpr double kSampled =
+      0.02;  // of the height: edges of 2 mm, and weights that end where they are 0.6 %
+  const ClothMesh mesh = sheet();
+  const std::vector<int> part = inside(mesh, 0.6 * kCutoff);
+  for (const double over : {2.0, 1.0, 0.5}) {
+    const double expected = sine_height(kAmplitude, over);
+    EXPECT_NEAR(ridge_height(mesh, rippled(mesh, kCutoff / over, kAmplitude), part, kCutoff) / expected, 1,
+                kSampled / (1 - std::exp2(-over * over)))
+        << over;
+  }
+}
+
+TEST(RidgeHeight, DoesNotDependOnWhereTheClothIsAndHowItIsTurned) {
+  const ClothMesh mesh = sheet();
+  std::vector<Eigen::Vector3d> x = rippled(mesh, 0.01, 1e-3);
+  const std::vector<int> part = inside(mesh, 0);
+  const double height = ridge_height(mesh, x, part, 0.02);
+  const Eigen::AngleAxisd turn(1, Eigen::Vector3d(1, 2, 3).normalized());
+  for (Eigen::Vector3d& p : x) p = turn * p + Eigen::Vector3d(1, 2, 3);
+  EXPECT_NEAR(ridge_height(mesh, x, part, 0.02) / height, 1, 1e-9);
+}
+
+// The mean lies inside a tube by some (0.187 cutoff)^2 / 2R, everywhere alike.
+TEST(RidgeHeight, OfASmoothTubeIsNone) {
+  const ClothMesh tube = make_tube(0.3, 0.05, 4000, MeshFamily::unionjack, 1);
+  std::vector<int> middle;
+  for (int v = 0; v < tube.vertices(); ++v)
+    if (std::abs(tube.rest[v].x() - 0.15) < 0.1) middle.push_back(v);
+  EXPECT_LT(ridge_height(tube, tube.rest, middle, 0.04), 2e-5);
+}
+
+// Layers as near to each other as their ripples are high do not mix.
+TEST(RidgeHeight, KnowsPiecesOfClothApart) {
+  const ClothMesh mesh = sheet(), two = copied_mesh(mesh, 2, {0, 0, 1e-3});
+  const std::vector<Eigen::Vector3d> one_up = rippled(mesh, 0.01, 1e-3);
+  std::vector<Eigen::Vector3d> x = one_up;
+  for (const Eigen::Vector3d& p : mesh.rest) x.push_back(p + Eigen::Vector3d(0, 0, 1e-3));
+  const std::vector<int> part = inside(mesh, 0);
+  EXPECT_NEAR(ridge_height(two, x, part, 0.02) / ridge_height(mesh, one_up, part, 0.02), 1, 1e-9);
+}
+
 TEST(AreaFractions, SumToOneWithTheLargestInTheLastBin) {
   const std::vector<double> fraction = area_fractions({0.5, 1.5, 99}, {1, 2, 1}, 1, 3);
   EXPECT_EQ(fraction, (std::vector<double>{0.25, 0.5, 0.25}));

@@ -11,10 +11,10 @@
 #include <string>
 #include <vector>
 
+#include "experiments/workbench/app/experiment.h"
 #include "experiments/workbench/app/manifest.h"
-#include "sim/scene/cloth.h"
+#include "sim/base/error.h"
 #include "sim/scene/key_table.h"
-#include "sim/time/simulation.h"
 
 namespace hysteron::experiments {
 
@@ -29,39 +29,25 @@ struct MetricRequest {
   Eigen::Vector3d other_high{1e3, 1e3, 1e3};
   int hand = 1;
   Eigen::Vector3d direction{0, 0, 0};
+  double threshold = 20;
+  double cutoff = 0.04;
+  double from = -1;
   std::string origin;  // "scene.toml:7"; no key
 
   std::string column() const;  // "gap [m]"
   std::string metric() const;  // "gap_m"
+  Error refusal(const std::string& what) const;
 };
 
 Keys bind_metric(MetricRequest& request);
 Json to_json(const std::vector<MetricRequest>& requests);
-// Of a scene file or of a manifest whose run asked for them.  Throws Error::invalid_input with file and line.
-std::vector<MetricRequest> metrics_in(const std::string& scene);
+// Of the scene file that is called so, or of a manifest whose run asked for them; `scene` is what it says.
+// Throws Error::invalid_input with file and line.
+std::vector<MetricRequest> metrics_in(const std::string& name, const Scene& scene);
+// Those of a set-up's scene, noted there for manifest, last words and --errors.  Throws likewise.
+std::vector<MetricRequest> take_requests(Setup& setup);
 
 // A sentence for each key that its kind does not read.
 std::vector<std::string> idle_metric_warnings(const std::vector<MetricRequest>& requests);
-
-// A request with what it is measured on.
-class RequestedMetric {
- public:
-  // Throws Error::invalid_input where it selects nothing, asks for a hand that there is not, or for the force
-  // on one of an integrator that knows none.
-  RequestedMetric(const MetricRequest& request, const Scene& scene, const Cloth& cloth, int dimension);
-
-  const MetricRequest& request() const { return request_; }
-  double value(Simulation& simulation, const std::vector<Eigen::Vector3d>& x) const;
-
- private:
-  double angle(const std::vector<Eigen::Vector3d>& x) const;
-  double force(Simulation& simulation) const;
-  double residual_curvature(Simulation& simulation) const;
-
-  MetricRequest request_;
-  const Scene& scene_;
-  const Cloth& cloth_;
-  std::vector<int> items_, others_;  // vertices of a distance or a height, faces, or bending elements
-};
 
 }  // namespace hysteron::experiments
