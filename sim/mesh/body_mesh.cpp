@@ -24,7 +24,7 @@ std::pair<std::size_t, double> place_in(const BodyMesh& body, double t) {
 }  // namespace
 
 std::vector<Eigen::Vector3d> BodyMesh::positions(double t) const {
-  const auto [before, part] = place_in(*this, t);
+  const auto [before, part] = place_in(*this, cycles.said(t));
   std::vector<Eigen::Vector3d> x = frames[before];
   if (!(part > 0)) return x;
   const std::vector<Eigen::Vector3d>& next = frames[before + 1];

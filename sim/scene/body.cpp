@@ -5,6 +5,7 @@
 #include "sim/base/error.h"
 #include "sim/base/number_in.h"
 #include "sim/mesh/body_file.h"
+#include "sim/scene/cycles.h"
 #include "sim/scene/motion.h"
 #include "sim/scene/shown_key.h"
 
@@ -50,15 +51,19 @@ void load_body(const Scene& scene, Obstacle& o, const std::string& path) {
   const auto origin = [&](const std::string& key) {
     return path + "." + key + ", " + key_origin(scene, path + "." + key, key_origin(scene, path));
   };
+  BodyMesh body;
   try {
-    o.mesh = std::make_shared<const BodyMesh>(read_body({o.file, o.sequence, o.unit, o.fps}));
+    body = read_body({o.file, o.sequence, o.unit, o.fps});
   } catch (const Error& error) {  // of either key, since a sequence is compared with the file
     throw error.with_origin(o.sequence.empty() ? origin("file") : path + ", " + key_origin(scene, path));
   }
-  if (o.mesh->frames.size() > 1 && !o.mesh->moves())
-    throw Error::invalid_input("sequence " + o.sequence + " of " + std::to_string(o.mesh->frames.size()) +
+  if (body.frames.size() > 1 && !body.moves())
+    throw Error::invalid_input("sequence " + o.sequence + " of " + std::to_string(body.frames.size()) +
                                " frames needs " + path + ".fps, how many of them a second has")
         .with_origin(origin("sequence"));
+  check_cycles(scene, body, path);
+  body.cycles = scene_cycles(scene);
+  o.mesh = std::make_shared<const BodyMesh>(std::move(body));
   check_extent(o, path, origin("file"));
 }
 

@@ -4,6 +4,7 @@
 
 #include "sim/base/error.h"
 #include "sim/bending/laws/law_parameters.h"
+#include "sim/scene/cycles.h"
 #include "sim/scene/fabric_reader.h"
 #include "sim/scene/shown_key.h"
 
@@ -97,6 +98,7 @@ const KeyRow<Scene> kSceneRows[] = {
     {"precision", at<&S::precision>, "", any(), "", "of the simulation"},
     {"threads", at<&S::threads>, "", between(0, 1024), "", "CPU threads; 0: OMP_NUM_THREADS, else all cores"},
     {"seconds", at<&S::seconds>, "s", at_least(0), "", "simulated time"},
+    {"cycles", at<&S::cycles>, "", between(1, 1000), "", "how often the phases with repeat are gone through, one time after the other"},
     {"gravity", at<&S::gravity>, "m/s^2", between(-1e4, 1e4), "", "acceleration"},
     {"air-drag", at<&S::air_drag>, "kg/(m^2 s)", at_least(0), "", "linear drag per area"},
     {"self-contact", at<&S::self_contact>, "", any(), "", "cloth cannot pass through itself"},
@@ -148,6 +150,7 @@ const KeyRow<Command> kCommandRows[] = {
 const KeyRow<Phase> kPhaseRows[] = {
     {"name", at<&Phase::name>, "", any(), "", "for captions, and for times: \"hang\", \"hang + 0.2\""},
     {"seconds", at<&Phase::seconds>, "s", positive(), "", "how long it lasts"},
+    {"repeat", at<&Phase::repeat>, "", any(), "", "gone through as often as cycles says, with the others that repeat; they follow one another"},
 };
 
 const KeyRow<Keyframe> kKeyframeRows[] = {
@@ -334,6 +337,8 @@ void set_key(Scene& scene, const BoundKey& key, const Value& value, const std::s
   assign(key, value, origin);
   if (path == "fabric.name") return load_fabric(scene, std::string(scene.fabric.name), origin);
   note_origin(scene, path, origin);
+  if (path == "cycles" && !scene.phase.empty() && !is_given(scene, "seconds"))
+    scene.seconds = phases_end(scene);
   if (!path.starts_with(kFabricPrefix)) return;
   const std::string set = path.substr(kFabricPrefix.size());
   keep_friction_whole(was_shaped, set, scene);

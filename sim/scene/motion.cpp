@@ -41,16 +41,18 @@ constexpr double kFar = 1e6;   // [s] beyond any run
 Keyframe state_at(const Motion& motion, double time) {
   Keyframe now{time};
   if (motion.keys.empty()) return now;
-  now.angle = interpolate(motion.keys, time, [](const Keyframe& k) { return k.angle; });
-  now.scale = interpolate(motion.keys, time, [](const Keyframe& k) { return k.scale; });
+  const double at = motion.cycles.said(time);
+  now.angle = interpolate(motion.keys, at, [](const Keyframe& k) { return k.angle; });
+  now.scale = interpolate(motion.keys, at, [](const Keyframe& k) { return k.scale; });
   for (int c = 0; c < 3; ++c)
-    now.position[c] = interpolate(motion.keys, time, [c](const Keyframe& k) { return k.position[c]; });
+    now.position[c] = interpolate(motion.keys, at, [c](const Keyframe& k) { return k.position[c]; });
   return now;
 }
 
 Motion steady_from(const Motion& motion, double time, const Eigen::Vector3d& velocity, double spin) {
   Motion result = motion;
   result.keys.clear();
+  result.cycles = {};
   const Keyframe now = state_at(motion, time);
   for (double later : {-kBeside, 0.0, kFar, kFar + kBeside})
     result.keys.push_back(

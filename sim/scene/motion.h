@@ -9,7 +9,7 @@ namespace hysteron {
 
 // Placement at time t [s]: x -> scale * rotation * x + translation, identity at the motion's start position.
 // Between keys monotone cubic interpolation (Fritsch & Butland 1984), at rest before the first and after the
-// last.
+// last; in each of the motion's cycles as in the first.
 struct Placement {
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();

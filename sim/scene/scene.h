@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/base/cycles.h"
 #include "sim/base/enum_names.h"
 #include "sim/bending/choices.h"
 #include "sim/bending/laws/friction_shape.h"
@@ -166,6 +167,7 @@ struct Keyframe {
 // Rotates about the axis through the centre, both of the start.
 struct Motion {
   std::vector<Keyframe> keys;  // empty: at rest
+  Cycles cycles;               // no key: those of the scene (scene/cycles.h), in which the keys hold again
   Eigen::Vector3d axis{0, 0, 1};
   Eigen::Vector3d center{0, 0, 0};
 };
@@ -218,6 +220,7 @@ struct Command {
 struct Phase {
   std::string name;
   double seconds = 1;
+  bool repeat = false;
 };
 
 // Choices of the solver's that are no keys, and their values in use.
@@ -259,6 +262,7 @@ struct Scene {
   Precision precision = Precision::fp64;
   int threads = 0;
   double seconds = 1;
+  int cycles = 1;
   Eigen::Vector3d gravity{0, 0, -9.81};
   double air_drag = 0;
   bool self_contact = false;
@@ -272,7 +276,8 @@ struct Scene {
   // "obstacle[0].radius"), and by table ("pin[1]").
   std::map<std::string, std::string> origin;
 
-  // Name of the phase at this time [s], the last one after all of them; "" without phases.
+  // Name of the phase at this time [s], the last one after all of them; "" without phases.  Of phases that
+  // are gone through several times "bend, cycle 2".
   std::string phase_at(double time) const;
   // Bending as well: every force at the end of the step.
   bool is_implicit() const {

@@ -6,6 +6,7 @@
 #include "sim/bending/laws/law_parameters.h"
 #include "sim/mesh/file_ending.h"
 #include "sim/scene/body.h"
+#include "sim/scene/cycles.h"
 #include "sim/scene/fabric_limits.h"
 #include "sim/scene/mesh_files.h"
 #include "sim/scene/motion.h"
@@ -398,6 +399,7 @@ void check_scene(const Scene& scene) {
   check_unit(scene);
   check_start_shape(scene);
   check_phases(scene);
+  check_cycles(scene);
   check_method(scene);
   check_steps(scene);
   check_parameters(scene);

@@ -7,6 +7,7 @@
 #include "sim/base/error.h"
 #include "sim/mesh/mesh_sequence.h"
 #include "sim/scene/assets.h"
+#include "sim/scene/cycles.h"
 #include "sim/scene/key_table.h"
 #include "sim/scene/toml_file.h"
 
@@ -56,6 +57,7 @@ class SceneKeys {
     const auto come_first = [](const Setting& s) { return s.path == "fabric.name" || s.path == "phase"; };
     std::stable_partition(settings.begin(), settings.end(), come_first);
     for (const Setting& setting : settings) apply(setting);
+    repeat_motions(scene_);
   }
 
   void apply(std::vector<Flag> flags) {
@@ -68,6 +70,7 @@ class SceneKeys {
       set(key, parse_text(key.description, flag.text), origin);
       if (flag.path == "param") scene_.origin["param." + flag.text.substr(0, flag.text.find('='))] = origin;
     }
+    repeat_motions(scene_);
   }
 
  private:
@@ -102,7 +105,7 @@ class SceneKeys {
   // The scene lasts as long as its phases, unless it says otherwise.
   void read_phases(const ValueTree& node) {
     read_tables(node, scene_.phase, bind_phase);
-    scene_.seconds = phases_end(scene_.phase);
+    scene_.seconds = phases_end(scene_);
   }
 
   // Times may name a phase.
@@ -241,12 +244,6 @@ double phase_start(const std::vector<Phase>& phases, const std::string& name) {
   return -1;
 }
 
-double phases_end(const std::vector<Phase>& phases) {
-  double end = 0;
-  for (const Phase& phase : phases) end += phase.seconds;
-  return end;
-}
-
 double phase_time(const std::vector<Phase>& phases, const std::string& text, const std::string& origin) {
   const std::size_t sign = text.find_first_of("+-");
   const std::string name = text.substr(0, text.find_last_not_of(" +-", sign) + 1);
@@ -268,14 +265,16 @@ double phase_time(const std::vector<Phase>& phases, const std::string& text, con
 }
 
 std::string Scene::phase_at(double time) const {
+  const double said = scene_cycles(*this).said(time);
   std::string name;
   double start = 0;
   for (const Phase& p : phase) {
-    if (time < start) break;
+    if (said < start) break;
     name = p.name;
     start += p.seconds;
   }
-  return name;
+  const int cycle = cycles > 1 ? cycle_at(*this, time) : 0;
+  return cycle > 0 ? name + ", cycle " + std::to_string(cycle) : name;
 }
 
 }  // namespace hysteron

@@ -58,10 +58,9 @@ void check_steps(const Scene& scene);  // the part of it that asks what the inte
 
 // Times of a scene by the names of its phases.
 
-// When the named phase begins [s]; -1 if there is none of that name.
+// When the named phase begins, in its first cycle where there are several [s]; -1 if there is none of that
+// name.
 double phase_start(const std::vector<Phase>& phases, const std::string& name);
-// Sum of all of them [s].
-double phases_end(const std::vector<Phase>& phases);
 // A time written as "hang", "hang + 0.2" or "hang - 0.2" (spaces as one likes) [s].  Error::invalid_input,
 // which ends in `origin`, for a name that is no phase or a number that is none.
 double phase_time(const std::vector<Phase>& phases, const std::string& text, const std::string& origin);

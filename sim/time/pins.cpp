@@ -160,7 +160,10 @@ template <class Real, class Device>
 void Pins<Real, Device>::serialise(Archive& archive, Body<Real, Device>& body) {
   Device& device = *body.device;
   archive(moving_);
-  for (Pin& pin : body.scene.pin) visit_keyframes(archive, pin.motion.keys);  // which may have been driven
+  for (Pin& pin : body.scene.pin) {  // which may have been driven
+    visit_keyframes(archive, pin.motion.keys);
+    archive(pin.motion.cycles);
+  }
   if (archive.loads() && moving_) set_out(device, body.scene, body.cloth, 0);
   archive(next_);
   hysteron::serialise(archive, device, start_, pin_);

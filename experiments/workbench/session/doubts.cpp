@@ -11,6 +11,7 @@
 #include "sim/bending/laws/unused_parameters.h"
 #include "sim/membrane/locking.h"
 #include "sim/scene/cloth.h"
+#include "sim/scene/cycles.h"
 #include "sim/scene/fabric_limits.h"
 #include "sim/scene/shown_key.h"
 
@@ -162,8 +163,7 @@ std::string partial_load_warning(const Scene& scene) {
 }
 
 std::string phases_warning(const Scene& scene) {
-  double phases = 0;  // [s]
-  for (const Phase& phase : scene.phase) phases += phase.seconds;
+  const double phases = phases_end(scene);
   if (scene.phase.empty() || std::abs(phases - scene.seconds) <= scene.step / 2) return "";
   return shown(scene, "seconds", scene.seconds, "s") +
          " is how long the scene is simulated, and its phases take " + number_text(phases, 4) + " s";

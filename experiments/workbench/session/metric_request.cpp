@@ -10,8 +10,10 @@
 #include "experiments/workbench/session/idle_keys.h"
 #include "sim/base/error.h"
 #include "sim/scene/assets.h"
+#include "sim/scene/cycles.h"
 #include "sim/scene/scene_reader.h"
 #include "sim/scene/toml_file.h"
+#include "sim/time/ledger.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -39,16 +41,14 @@ bool is_of(const M& request, std::initializer_list<const char*> kinds) {
   return std::ranges::find(kinds, request.kind) != kinds.end();
 }
 
-bool has_part(const M& m) { return !is_of(m, {"distance", "height", "force"}); }
-
 constexpr ReadKey<M> kRead[] = {
     {"point", "a distance or height",
      [](const M& m) {
        return is_of(m, {"distance", "height"});
      }},
     {"to", "a distance", [](const M& m) { return is_of(m, {"distance"}); }},
-    {"low", "a kind with a part", has_part},
-    {"high", "a kind with a part", has_part},
+    {"low", "a kind with a part", [](const M& m) { return m.has_part(); }},
+    {"high", "a kind with a part", [](const M& m) { return m.has_part(); }},
     {"other-low", "an angle", [](const M& m) { return is_of(m, {"angle"}); }},
     {"other-high", "an angle", [](const M& m) { return is_of(m, {"angle"}); }},
     {"hand", "a force", [](const M& m) { return is_of(m, {"force"}); }},
@@ -99,7 +99,8 @@ MetricRequest metric_request(ValueTree table, const std::string& file, const Sce
   for (BoundKey& key : keys) key.description.path = "metric." + key.description.path;
   for (ValueTree& child : table.children) {
     if (const auto* text = std::get_if<std::string>(&child.value); text && child.key == "from")
-      child.value = phase_time(scene.phase, *text, "metric.from, " + place(file, child));
+      child.value =
+          scene_cycles(scene).first(phase_time(scene.phase, *text, "metric.from, " + place(file, child)));
     assign(keys, child, file, "metric.");
   }
   return request;
@@ -118,12 +119,16 @@ ValueTree metric_tables(const std::string& file) {
 
 }  // namespace
 
+bool MetricRequest::has_part() const { return !is_of(*this, {"distance", "height", "force"}); }
+
 Error MetricRequest::refusal(const std::string& what) const {
   return Error::invalid_input("metric " + name + ": " + what + " (" + origin + ")");
 }
 
 std::string MetricRequest::column() const { return name + " [" + kUnits.at(kind).first + "]"; }
-std::string MetricRequest::metric() const { return name + kUnits.at(kind).second; }
+std::string MetricRequest::metric(int cycle) const {
+  return name + (cycle > 0 ? "_cycle_" + std::to_string(cycle) : "") + kUnits.at(kind).second;
+}
 
 Keys bind_metric(MetricRequest& request) { return bind(kRows, request); }
 
@@ -149,7 +154,11 @@ std::vector<MetricRequest> take_requests(Setup& setup) {
   Json choices = *setup.resolved;
   choices["metric"] = to_json(requests);
   setup.resolved = std::make_shared<const Json>(choices);
-  for (const MetricRequest& request : requests) setup.requested_metrics.push_back(request.metric());
+  for (const MetricRequest& request : requests) {
+    setup.requested_metrics.push_back(request.metric());
+    for (int cycle = 1; setup.scene.cycles > 1 && cycle <= setup.scene.cycles; ++cycle)
+      setup.requested_metrics.push_back(request.metric(cycle));
+  }
   return requests;
 }
 

@@ -35,7 +35,9 @@ struct MetricRequest {
   std::string origin;  // "scene.toml:7"; no key
 
   std::string column() const;  // "gap [m]"
-  std::string metric() const;  // "gap_m"
+  // "gap_m"; at the end of the second cycle "gap_cycle_2_m".
+  std::string metric(int cycle = 0) const;
+  bool has_part() const;  // between low and high
   Error refusal(const std::string& what) const;
 };
 

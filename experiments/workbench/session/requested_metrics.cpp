@@ -8,8 +8,10 @@
 
 #include "experiments/workbench/pictures/ridge_metrics.h"
 #include "experiments/workbench/pictures/silhouette.h"
+#include "sim/base/csv.h"
 #include "sim/base/error.h"
 #include "sim/bending/vertex_curvature.h"
+#include "sim/scene/cycles.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -52,6 +54,7 @@ double mean_edge(const ClothMesh& mesh, const std::vector<int>& vertices) {
 }
 
 constexpr double kEdgesOfAWave = 4;
+constexpr const char* kCyclesFile = "cycles.csv";
 
 }  // namespace
 
@@ -186,6 +189,7 @@ void RequestedMetric::serialise(Archive& archive) {
 RequestedMetrics::RequestedMetrics(const std::vector<MetricRequest>& requests, Session& session)
     : session_(session) {
   Run& run = session.run();
+  if (session.scene().cycles > 1) session.reserve({kCyclesFile});
   for (const std::string& warning : idle_metric_warnings(requests)) run.warn(warning);
   for (const MetricRequest& request : requests) {
     session.reserve({}, {"plot_" + request.name});
@@ -214,10 +218,48 @@ void RequestedMetrics::join(RunPlan& plan) {
     for (const double value : values(instant)) row.push_back(value);
     return row;
   };
+  if (session_.scene().cycles > 1) join_cycles(plan);
   plan.serialise = [this, own = plan.serialise](Archive& archive) {
     own(archive);
     for (RequestedMetric& metric : metrics_) metric.serialise(archive);
+    archive(cycles_);
   };
+}
+
+void RequestedMetrics::join_cycles(RunPlan& plan) {
+  columns_ = plan.columns;
+  plan.columns.emplace_back("cycle");
+  const Cycles cycles = scene_cycles(session_.scene());
+  for (int cycle = 1; cycle <= cycles.count; ++cycle)
+    plan.instants.push_back({cycles.end_of(cycle), [this, measure = plan.measure](const Snapshot& instant) {
+                               std::vector<double> row = measure(instant);
+                               row.insert(row.begin(), instant.time);
+                               cycles_.push_back(row);
+                             }});
+  plan.measure = [this, measure = plan.measure](const Snapshot& instant) {
+    std::vector<double> row = measure(instant);
+    row.push_back(cycle_at(session_.scene(), instant.time));
+    return row;
+  };
+}
+
+// What is requested stands last in each row.
+void RequestedMetrics::write_cycles() {
+  std::vector<std::string> head = {"cycle", "time [s]"};
+  head.insert(head.end(), columns_.begin(), columns_.end());
+  Table table(head);
+  for (std::size_t c = 0; c < cycles_.size(); ++c) {
+    std::vector<Cell> cells = {c + 1};
+    cells.insert(cells.end(), cycles_[c].begin(), cycles_[c].end());
+    table.row(cells);
+    for (std::size_t i = 0; i < metrics_.size(); ++i) {
+      const RequestedMetric& metric = metrics_[i];
+      if (metric.request().from >= 0 && metric.request().from > cycles_[c].front()) continue;
+      session_.run().metric(metric.request().metric(static_cast<int>(c) + 1),
+                            cycles_[c][cycles_[c].size() - metrics_.size() + i]);
+    }
+  }
+  table.write(session_.run().path(kCyclesFile));
 }
 
 std::string RequestedMetrics::words() const {
@@ -230,6 +272,7 @@ std::string RequestedMetrics::words() const {
 void RequestedMetrics::finish() {
   Simulation& simulation = session_.simulation();
   const std::vector<Eigen::Vector3d> x = simulation.positions();
+  if (session_.scene().cycles > 1) write_cycles();
   for (const RequestedMetric& metric : metrics_) {
     const MetricRequest& request = metric.request();
     if (request.from < 0 || metric.has_begun())

@@ -50,7 +50,8 @@ class RequestedMetric {
   std::vector<Eigen::Vector3d> x_before_;  // of a silhouette [m]
 };
 
-// All that a scene asks for: columns of metrics.csv, plots, and metrics at the end.
+// All that a scene asks for: columns of metrics.csv, plots, and metrics at the end.  Of phases that are gone
+// through several times also at the end of each cycle, with the experiment's own columns in cycles.csv.
 class RequestedMetrics {
  public:
   // Warns of keys that nothing reads and refuses names of files as Run::reserve() does.  The session must
@@ -66,10 +67,14 @@ class RequestedMetrics {
 
  private:
   std::vector<double> values(const Snapshot& instant);
+  void join_cycles(RunPlan& plan);
+  void write_cycles();
 
   Session& session_;
   std::vector<RequestedMetric> metrics_;
   std::vector<double> last_;
+  std::vector<std::string> columns_;         // of the plan, without that of the cycle
+  std::vector<std::vector<double>> cycles_;  // time and these columns at the end of each
 };
 
 }  // namespace hysteron::experiments

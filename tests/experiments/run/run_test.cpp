@@ -124,6 +124,57 @@ from = 0.1
     EXPECT_NEAR(column[n], n < 5 ? 0 : -9.81 * 0.01 * 0.01 * (n * (n + 1) - 5 * 6) / 2, kRounding) << n;
 }
 
+// A hand lifts a whole square and lowers it again, three times.
+const std::string kLifted = kSquare + R"([[phase]]
+name = "hold"
+seconds = 0.03
+[[phase]]
+name = "lift"
+seconds = 0.04
+repeat = true
+[[pin]]
+low = [-1, -1, -1]
+high = [1, 1, 1]
+keys = [{time = "lift"}, {time = "lift + 0.02", position = [0, 0, 0.01]}, {time = "lift + 0.04"}]
+[[metric]]
+name = "corner"
+kind = "height"
+from = "lift + 0.02"
+)";
+
+TEST_F(Scenes, AreGoneThroughInCyclesAndSayWhatEachAdds) {
+  constexpr double kRounding = 1e-12;
+  std::string scene = kLifted;
+  scene.erase(scene.find("seconds = 0.1\n"), 14);
+  run(0, scene, "--no-images --cycles 3 --fps 100");
+  const Json manifest = manifest_in(out()), metrics = metrics_of(out());
+  EXPECT_NEAR(manifest["seconds_simulated"], 0.15, kRounding);
+  EXPECT_EQ(manifest["scene"]["cycles"], 3);
+  for (const char* name : {"corner_m", "corner_cycle_1_m", "corner_cycle_2_m", "corner_cycle_3_m"})
+    EXPECT_NEAR(metrics[name], -0.01, kRounding) << name;
+  EXPECT_EQ(manifest["asked_metrics"],
+            Json({"corner_m", "corner_cycle_1_m", "corner_cycle_2_m", "corner_cycle_3_m"}));
+  const Table series = read_table(out() / "metrics.csv"), cycles = read_table(out() / "cycles.csv");
+  EXPECT_EQ(series.numbers("cycle"), (std::vector<double>{0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3, 3}));
+  EXPECT_EQ(cycles.head, (std::vector<std::string>{"cycle", "time [s]", "corner [m]"}));
+  ASSERT_EQ(cycles.rows.size(), 3u);
+  for (int c = 0; c < 3; ++c) {
+    EXPECT_NEAR(cycles.number(c, "time [s]"), 0.03 + 0.04 * (c + 1), kRounding);
+    const std::vector<double> height = series.numbers("corner [m]");
+    EXPECT_NEAR(height[5 + 4 * c], 0, kRounding) << "the top";
+  }
+}
+
+TEST_F(Scenes, ThatAreCutShortSayWhatTheirCyclesSaid) {
+  std::string scene = kLifted;
+  scene.replace(scene.find("seconds = 0.1\n"), 14, "seconds = 0.1\ncycles = 3\n");
+  const Outcome outcome = run(0, scene, "--no-images");
+  EXPECT_TRUE(says(outcome.err, "its phases take 0.15 s"));
+  const Json metrics = metrics_of(out());
+  EXPECT_TRUE(metrics.contains("corner_cycle_1_m"));
+  EXPECT_FALSE(metrics.contains("corner_cycle_2_m"));
+}
+
 TEST_F(Scenes, HangFromAHandThatCarriesTheirWeight) {
   constexpr double kBalanced = 2e-6;  // newton-residual, of the load
   const std::string scene = R"(integrator = "quasi-static"

@@ -70,6 +70,26 @@ TEST_F(SceneWithBody, MovesItByKeyframesAndItsSequence) {
     EXPECT_LT((x[v] - 3 * quarter * (1.5 * ball_.vertex[v] + Vector3d(1, 0, 0))).norm(), 1e-14);
 }
 
+// Half a second there and half a second back, in each of three cycles of one second; frames are at quarters.
+TEST_F(SceneWithBody, RepeatsItsSequenceWithThePhases) {
+  for (int k = 0; k < 5; ++k)
+    folder_.write("walk" + std::to_string(k) + ".obj",
+                  obj_text(ball_.moved({0.1 * (2 - std::abs(k - 2)), 0, 0})));
+  const std::string text = "cycles = 3\n" + kBody +
+                           "sequence = \"walk?.obj\"\nfps = 4\n[[phase]]\nname = \"walk\"\nrepeat = true\n";
+  const Obstacle body = loaded(text).obstacle[0];
+  const auto place = [&](double time) { return (body_positions(body, time)[0] - ball_.vertex[0]).x(); };
+  for (const double cycle : {0, 1, 2}) {
+    EXPECT_NEAR(place(cycle + 0.25), 0.1, 1e-12);
+    EXPECT_NEAR(place(cycle + 0.5), 0.2, 1e-12);
+    EXPECT_NEAR(place(cycle + 0.875), 0.05, 1e-12);
+  }
+  EXPECT_NEAR(place(3), 0, 1e-12);
+  folder_.write("walk4.obj", obj_text(ball_.moved({0.01, 0, 0})));
+  EXPECT_TRUE(says(refused(text), "obstacle[0].sequence must come back from 0 s to 1 s, which cycles = 3",
+                   "a vertex ends 0.01 m beside where it begins", "scene.toml:5"));
+}
+
 // The middle of a simulation's coordinates may be anywhere.
 TEST_F(SceneWithBody, HasItAtTheSamePlaceSeenFromElsewhere) {
   const Scene scene =

@@ -1,4 +1,5 @@
 // Phases: times by name, in scene files and alone.
+#include "sim/scene/cycles.h"
 #include "sim/scene/scene_reader.h"
 
 #include "tests/sim/base/refusal.h"
@@ -13,9 +14,9 @@ TEST(Phases, FollowOneAnother) {
   EXPECT_EQ(phase_start(kPhases, "crush"), 0);
   EXPECT_EQ(phase_start(kPhases, "hang"), 0.75);
   EXPECT_EQ(phase_start(kPhases, "spread"), -1);
-  EXPECT_EQ(phases_end(kPhases), 1.75);
   Scene scene;
   scene.phase = kPhases;
+  EXPECT_EQ(phases_end(scene), 1.75);
   EXPECT_EQ(scene.phase_at(0), "crush");
   EXPECT_EQ(scene.phase_at(0.5), "hold");
   EXPECT_EQ(scene.phase_at(9), "hang");
