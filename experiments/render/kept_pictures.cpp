@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "experiments/render/part_relief.h"
 #include "experiments/workbench/app/run.h"
 #include "experiments/workbench/compare/kept_page.h"
 #include "experiments/workbench/pages/report.h"
@@ -25,6 +26,7 @@ void apply_flags(const CommandLine& line, Options& options) {
   const Keys keys = bind_options(options);
   for (const Flag& flag : line.flags) {
     const std::string path = flag.path == "render.range" ? "curvature-range" : flag.path;
+    if (path == "render.part") continue;  // draw_kept() reads it
     if (path.starts_with("render.") || path == "fps")
       throw Error::invalid_input(flag.path + " is of mesh files, not of kept geometry (--" + flag.path + ")")
           .with_key(flag.path, flag.text);
@@ -159,6 +161,11 @@ void draw_kept(const CommandLine& line, const fs::path& file) {
   const Kept kept = read_kept(file);
   if (kept.cloths.empty()) throw Error::invalid_input(file.string() + " keeps no cloth");
   try {
+    if (const std::string part = last_text(line.flags, "render.part", ""); !part.empty()) {
+      Setup setup = kept_setup(kept.cloths.front(), file.string());
+      apply_flags(line, setup.options);
+      return draw_part_relief(line, file, kept, setup, part);
+    }
     is_page(kept.sheet) ? draw_comparison(line, file, kept) : draw_run(line, file, kept);
   } catch (const Json::exception& e) {
     throw Error::invalid_input(file.string() + ": " + e.what());

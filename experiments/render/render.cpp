@@ -32,7 +32,7 @@ namespace {
 
 struct RenderFlags {
   std::string fps, unit = "metre", up = "z";  // one for all sequences, or one for each, separated by commas
-  std::string title, ground = "none", body, curvature = "geometry", fabric;
+  std::string title, ground = "none", body, curvature = "geometry", fabric, part;
   double range = 100;  // [1/m] 2 k0 of the shipped fabrics, as in the pictures of their runs
   Eigen::Vector3d low{0, 0, 0}, high{0, 0, 0}, also{0, 0, 0};
   Options options;
@@ -51,6 +51,7 @@ const KeyRow<F> kRows[] = {
     {"render.body", at<&F::body>, "", any(), "", "a mesh that does not move, drawn matte as obstacles are; in the unit and axes of the first sequence"},
     {"render.fabric", at<&F::fabric>, "", any(), "", "a fabric of assets/fabrics or a file, whose colours and weave the cloth has"},
     {"render.also", at<&F::also>, "", any(), "", "a further row of the sheet has each sequence's last frame from this direction, which points to the eye; 0,0,0: none"},
+    {"render.part", at<&F::part>, "", any(), "", "of a run's folder: how much relief is seen of the part that this [[metric]] of its scene is measured on, before and after: the median of the deviation of L* within 21 pixels, in this --light"},
     {"render.low", at<&F::low>, "m", any(), "", "with render.high: corners of what is framed; else the box of all frames"},
     {"render.high", at<&F::high>, "m", any(), "", "see render.low"},
 };
@@ -415,6 +416,8 @@ int run_render(const CommandLine& asked) {
   check_options(flags.options);
   check_look(flags.options.look);
   ground_height(flags);
+  if (!flags.part.empty())
+    throw refusal("render.part", flags.part, "left out: it is of a run's folder, not of files");
   const std::vector<Column> columns = rendered_columns(flags, line.positionals);
   const render::Box bounds = framed(flags, checked_box(flags, columns));
   Run run(line, flags.options, to_json(keys));
@@ -438,7 +441,12 @@ Experiment render_files() {
           .conditions = {{"render.range | render.curvature", "look = curvature"},
                          {"render.low", "render.high"},
                          {"render.high", "render.low"}},
-          .headlines = {.all = {{"frames_count", "frames", "", "{:.0f}", 1, kNoErrors}}}};
+          .headlines = {
+              .all = {{"frames_count", "frames", "", "{:.0f}", 1, kNoErrors},
+                      {"lightness_deviation_before", "deviation of L* before", "", "{:.2f}", 1, kNoErrors},
+                      {"lightness_deviation", "deviation of L*", "", "{:.2f}", 1, kNoErrors},
+                      {"lightness_deviation_added", "deviation of L* that was added", "", "{:.2f}", 1,
+                       kNoErrors}}}};
 }
 
 }  // namespace hysteron::experiments

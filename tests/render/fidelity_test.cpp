@@ -6,14 +6,12 @@
 #include <filesystem>
 
 #include "render/comparison_sheet.h"
-#include "tests/render/lab.h"
+#include "render/lab.h"
+#include "render/local_deviation.h"
 #include "tests/render/test_scene.h"
 
 namespace hysteron::render {
 namespace {
-
-using test::delta_e;
-using test::lightness;
 
 constexpr int kFigure = 16;  // passes; 0: a picture of a sequence
 
@@ -137,29 +135,13 @@ TEST_F(FidelityTest, FieldsKeepTheColoursOfTheBar) {
     }
 }
 
-// Of the lightness in a window of 21 pixels, the median over those that lie wholly on the cloth, which is
-// blue.
-double local_deviation(const Image& sheet, int left, int width, int bottom) {
-  constexpr int kSide = 21;
-  std::vector<double> deviations;
-  for (int y = 0; y + kSide <= bottom; ++y)
-    for (int x = left; x + kSide <= left + width; ++x) {
-      double sum = 0, squares = 0;
-      int on_cloth = 0;
-      for (; on_cloth < kSide * kSide; ++on_cloth) {
-        const std::uint8_t* p = sheet.at(x + on_cloth % kSide, y + on_cloth / kSide);
-        if (p[2] < p[0] + 19) break;
-        const double light = lightness(p);
-        sum += light;
-        squares += light * light;
-      }
-      if (on_cloth < kSide * kSide) continue;
-      const double mean = sum / on_cloth;
-      deviations.push_back(std::sqrt(std::max(squares / on_cloth - mean * mean, 0.0)));
-    }
-  std::nth_element(deviations.begin(), deviations.begin() + static_cast<long>(deviations.size() / 2),
-                   deviations.end());
-  return deviations.at(deviations.size() / 2);
+// Of a cell of a sheet, whose cloth is blue.
+double deviation_of_cell(const Image& sheet, int left, int width, int bottom) {
+  std::vector<char> cloth(static_cast<std::size_t>(sheet.width()) * sheet.height(), 0);
+  for (int y = 0; y < bottom; ++y)
+    for (int x = left; x < left + width; ++x)
+      cloth[static_cast<std::size_t>(y) * sheet.width() + x] = sheet.at(x, y)[2] >= sheet.at(x, y)[0] + 19;
+  return local_deviation(sheet, cloth, cloth).median;
 }
 
 // As wide as the README shows it, in its first row: wrinkles that hysteresis keeps are seen at first sight.
@@ -170,8 +152,8 @@ TEST(RecordedPicture, TheFirstShowsWhatPrandtlKeepsAndLinearForgets) {
   // linear, narain, prandtl, prandtl with set, beside the rows' names.
   const int left = sheet.width() * 113 / 1000, cell = (sheet.width() - left) / 4,
             row = sheet.height() * 46 / 100;
-  EXPECT_GE(local_deviation(sheet, left + 2 * cell, cell, row),
-            local_deviation(sheet, left, cell, row) + 2.5);
+  EXPECT_GE(deviation_of_cell(sheet, left + 2 * cell, cell, row),
+            deviation_of_cell(sheet, left, cell, row) + 2.5);
 }
 
 }  // namespace

@@ -5,16 +5,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/lab.h"
 #include "render/srgb.h"
-#include "tests/render/lab.h"
 #include "tests/render/test_scene.h"
 
 namespace hysteron::render {
 namespace {
 
 constexpr int kWidth = 320, kHeight = 180, kPasses = 16;
-
-using test::lightness;
 
 // The q-th share of the values from below.
 double quantile(std::vector<double> values, double q) {

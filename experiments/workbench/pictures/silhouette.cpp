@@ -1,10 +1,9 @@
 #include "experiments/workbench/pictures/silhouette.h"
 
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <array>
-#include <cmath>
-#include <utility>
+
+#include "experiments/workbench/pictures/raster.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -20,41 +19,6 @@ Points seen_along(const std::vector<Eigen::Vector3d>& x, const Eigen::Vector3d& 
   return points;
 }
 
-// Cells of one side; cell (i, j) has its middle at (i + 1/2, j + 1/2).
-struct Grid {
-  int columns, rows;
-  std::vector<char> covered;
-
-  Grid(int columns, int rows)
-      : columns(columns), rows(rows), covered(static_cast<std::size_t>(columns) * rows) {}
-
-  // Those whose middles lie in a triangle, whose corners are in units of cells; none of one seen edge on.
-  void cover(const std::array<Eigen::Vector2d, 3>& corner) {
-    const auto [low, high] = std::minmax({corner[0].y(), corner[1].y(), corner[2].y()});
-    const int last = std::min(rows - 1, static_cast<int>(std::floor(high - 0.5)));
-    for (int j = std::max(0, static_cast<int>(std::ceil(low - 0.5))); j <= last; ++j) {
-      const auto [from, to] = crossed(corner, j + 0.5);
-      const int right = std::min(columns - 1, static_cast<int>(std::floor(to - 0.5)));
-      for (int i = std::max(0, static_cast<int>(std::ceil(from - 0.5))); i <= right; ++i)
-        covered[static_cast<std::size_t>(j) * columns + i] = 1;
-    }
-  }
-
-  // From where to where a triangle reaches at this height.
-  static std::pair<double, double> crossed(const std::array<Eigen::Vector2d, 3>& corner, double y) {
-    double from = HUGE_VAL, to = -HUGE_VAL;
-    for (int k = 0; k < 3; ++k) {
-      const Eigen::Vector2d &a = corner[k], &b = corner[(k + 1) % 3];
-      // The other two edges tell where a level one ends.
-      if (a.y() == b.y() || std::min(a.y(), b.y()) > y || std::max(a.y(), b.y()) < y) continue;
-      const double x = a.x() + (y - a.y()) / (b.y() - a.y()) * (b.x() - a.x());
-      from = std::min(from, x);
-      to = std::max(to, x);
-    }
-    return {from, to};
-  }
-};
-
 }  // namespace
 
 double silhouette_change(const std::vector<Eigen::Vector3i>& triangles,
@@ -67,19 +31,21 @@ double silhouette_change(const std::vector<Eigen::Vector3i>& triangles,
       for (int k = 0; k < 3; ++k) box.extend(of[t[k]]);
   const double cell = box.isEmpty() ? 0 : box.sizes().maxCoeff() / kCells;
   if (!(cell > 0)) return 0;
-  const auto count = [&](int side) { return 1 + static_cast<int>(box.sizes()[side] / cell); };
-  Grid first(count(0), count(1)), second = first;
-  for (Grid* grid : {&first, &second}) {
-    const Points& of = points[grid == &second];
+  const auto count = [&](int axis) { return 1 + static_cast<int>(box.sizes()[axis] / cell); };
+  const int columns = count(0), rows = count(1);
+  std::array<std::vector<char>, 2> covered;
+  for (int side = 0; side < 2; ++side) {
+    covered[side].assign(static_cast<std::size_t>(columns) * rows, 0);
     for (const Eigen::Vector3i& t : triangles) {
-      const auto at = [&](int v) -> Eigen::Vector2d { return (of[v] - box.min()) / cell; };
-      grid->cover({at(t[0]), at(t[1]), at(t[2])});
+      const auto at = [&](int v) -> Eigen::Vector2d { return (points[side][v] - box.min()) / cell; };
+      for_each_cell({at(t[0]), at(t[1]), at(t[2])}, columns, rows,
+                    [&](int i, int j) { covered[side][static_cast<std::size_t>(j) * columns + i] = 1; });
     }
   }
   long both = 0, either = 0;
-  for (std::size_t i = 0; i < first.covered.size(); ++i) {
-    both += first.covered[i] && second.covered[i];
-    either += first.covered[i] || second.covered[i];
+  for (std::size_t i = 0; i < covered[0].size(); ++i) {
+    both += covered[0][i] && covered[1][i];
+    either += covered[0][i] || covered[1][i];
   }
   return either > 0 ? 1 - static_cast<double>(both) / static_cast<double>(either) : 0;
 }

@@ -1,8 +1,13 @@
 // A run's folder drawn again without simulating.
+#include <fmt/core.h>
+
+#include <cmath>
 #include <fstream>
+#include <numbers>
 
 #include "render/compare.h"
 #include "render/image.h"
+#include "sim/base/csv.h"
 #include "tests/experiments/program.h"
 
 namespace hysteron::experiments {
@@ -65,6 +70,78 @@ TEST(KeptPictures, AComparisonsFolderGivesItsSheet) {
   const Recorded page("compare swing --laws linear,prandtl --quality draft");
   finished(page.drawing(page.kept));
   EXPECT_EQ(file_content(page.again / "sheet.png"), file_content(page.run / "sheet.png"));
+}
+
+// An OBJ of a square of 0.2 m whose right half is rippled, straight across, by this amplitude [m].
+std::string half_rippled(double amplitude) {
+  constexpr int kCells = 40;
+  constexpr double kEdge = 0.2 / kCells, kWave = 0.02;
+  std::string text;
+  for (int i = 0; i <= kCells; ++i)
+    for (int j = 0; j <= kCells; ++j) {
+      const double beyond = std::max(0.0, i * kEdge - 0.1);
+      text += fmt::format("v {:.6f} {:.6f} {:.6f}\n", i * kEdge, j * kEdge,
+                          amplitude * std::sin(2 * std::numbers::pi * beyond / kWave));
+    }
+  for (int i = 0; i < kCells; ++i)
+    for (int j = 1; j <= kCells; ++j) {
+      const int a = i * (kCells + 1) + j, b = a + kCells + 1;
+      text += fmt::format("f {} {} {}\nf {} {} {}\n", a, b, b + 1, a, b + 1, a + 1);
+    }
+  return text;
+}
+
+// It is held as it starts, with a metric of each half.
+class PartRelief : public testing::Test {
+ protected:
+  PartRelief() {
+    folder_.write("flat.obj", half_rippled(0));
+    folder_.write("rippled.obj", half_rippled(1.5e-3));
+    const std::string scene =
+        folder_.write("scene.toml",
+                      "step = 0.01\nseconds = 0.02\n[cloth]\nshape = \"file\"\nfile = \"flat.obj\"\nstart = "
+                      "\"rippled.obj\"\n"
+                      "[[pin]]\nlow = [-1, -1, -1]\nhigh = [1, 1, 1]\n[camera]\ndirection = [0, -0.3, 1]\n"
+                      "[[metric]]\nname = \"flat\"\nkind = \"residual-curvature\"\nhigh = [0.095, 1, 1]\n"
+                      "[[metric]]\nname = \"rippled\"\nkind = \"ridge-height\"\nlow = [0.105, -1, -1]\n"
+                      "[[metric]]\nname = \"corner\"\nkind = \"height\"\n");
+    finished("run " + scene + " --size 320x320 --fps 100 --threads 1 --device cpu --quiet" + out_flag(run_));
+  }
+  std::string drawing(const std::string& flags) const {
+    return "render " + run_.string() + " --light raking --quiet" + out_flag(out_) + " --render.part " + flags;
+  }
+  double deviation(const std::string& part) const {
+    finished(drawing(part));
+    const Json metrics = metrics_of(out_);
+    EXPECT_EQ(metrics.at("lightness_deviation_added"), 0) << "it is held";
+    return metrics.at("lightness_deviation");
+  }
+
+  const Folder folder_;
+  const fs::path run_ = folder_.path() / "run", out_ = folder_.path() / "out";
+};
+
+TEST_F(PartRelief, IsOfTheMetricsPartAlone) {
+  const double flat = deviation("flat"), rippled = deviation("rippled");
+  EXPECT_LT(flat, 3) << "its threads";
+  EXPECT_GT(rippled, flat + 5);
+  const Table table = read_table(out_ / "lightness.csv");
+  EXPECT_EQ(table.numbers("time [s]"), (std::vector<double>{0, 0.02}));
+  EXPECT_EQ(table.numbers("lightness_deviation")[1], table.numbers("lightness_deviation")[0]);
+  // Half of the square is seen as half of it, but for 10 pixels along its border.
+  const render::Image shown = render::read_png(out_ / "part-1.png");
+  const double seen = table.numbers("pixels")[0] / (shown.width() * shown.height());
+  EXPECT_GT(seen, 0.2);
+  EXPECT_LT(seen, 0.5);
+}
+
+TEST_F(PartRelief, IsRefusedWhereThereIsNone) {
+  EXPECT_TRUE(says(refused(drawing("ripled")), "must be flat | rippled; did you mean rippled?"));
+  EXPECT_TRUE(says(refused(drawing("corner")), "render.part = corner must be flat | rippled"));
+  EXPECT_TRUE(
+      says(refused(drawing("rippled --camera.direction \"0 1 0\"")), "has 0 pixels with nothing but cloth"));
+  EXPECT_TRUE(says(refused("render " + folder_.file("flat.obj") + " --render.part flat" + out_flag(out_)),
+                   "it is of a run's folder, not of files"));
 }
 
 }  // namespace

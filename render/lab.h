@@ -1,4 +1,4 @@
-// Colours as criteria for pictures measure them: CIELAB of sRGB pixels.
+// Colours as eyes tell them apart: CIELAB of sRGB pixels.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,7 +7,7 @@
 
 #include "render/srgb.h"
 
-namespace hysteron::render::test {
+namespace hysteron::render {
 
 // L*, a*, b* over the white D65 (CIE 15:2004).
 inline Eigen::Vector3d lab(const std::uint8_t* rgb) {
@@ -26,4 +26,4 @@ inline double lightness(const std::uint8_t* rgb) { return lab(rgb).x(); }
 // CIE 1976, which is the strictest for what is saturated.
 inline double delta_e(const std::uint8_t* a, const std::uint8_t* b) { return (lab(a) - lab(b)).norm(); }
 
-}  // namespace hysteron::render::test
+}  // namespace hysteron::render
