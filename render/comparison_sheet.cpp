@@ -149,7 +149,7 @@ class Drawing {
     std::vector<Darkness> pictures;
     for (const ComparisonColumn& column : sheet_.columns)
       if (const ComparisonCell& cell = column.cells[r]; !cell.image.empty() && !cell.loop.empty())
-        pictures.emplace_back(cell.image);
+        pictures.emplace_back(cell.busy.empty() ? cell.image : cell.busy);
     return emptiest_place(pictures);
   }
 

@@ -22,6 +22,7 @@ struct ComparisonCell {
   Image image{};       // empty: the cell stays white
   std::string note{};  // a few words within the cell, "stopped at 0.90 s"
   LoopInset loop{};    // in the corner where it hides least of all cells; empty: none
+  Image busy{};        // what the inset keeps off, of a film all pictures over each other; empty: the image
 };
 
 struct ComparisonColumn {
@@ -46,7 +47,8 @@ struct ComparisonSheet {
   std::string scale_note{};      // in which plane scale bars hold
   int width = kSheetWidth;       // [pixels]
   int beside = 0;                // columns beside each other; 0: as many as go well, at most five
-  bool in_sequence = false;      // columns are instants: blocks of any number that brings the page near 3 : 2
+  std::vector<ComparisonRow> further_rows{};  // of a film's other pictures: their margins are as wide
+  bool in_sequence = false;  // columns are instants: blocks of any number that brings the page near 3 : 2
 
   static constexpr int kSheetWidth = 1676;  // twice the width of a repository's front page
 };

@@ -71,11 +71,12 @@ std::vector<SheetPlaces> family_blocks(const ComparisonSheet& sheet, std::size_t
 
 int sheet_margin(const ComparisonSheet& sheet, float letters) {
   float widest = 0;
-  for (const ComparisonRow& row : sheet.rows) {
-    widest = std::max(widest, text_width(row.time, letters));
-    for (const std::string& word : broken(row.phase, letters, 0))
-      widest = std::max(widest, text_width(word, letters));
-  }
+  for (const auto* rows : {&sheet.rows, &sheet.further_rows})
+    for (const ComparisonRow& row : *rows) {
+      widest = std::max(widest, text_width(row.time, letters));
+      for (const std::string& word : broken(row.phase, letters, 0))
+        widest = std::max(widest, text_width(word, letters));
+    }
   if (widest == 0) return 0;
   return static_cast<int>(std::min(widest, 0.16f * static_cast<float>(sheet.width)) + letters);
 }
@@ -130,10 +131,13 @@ SheetPage page_with(const ComparisonSheet& sheet, std::size_t beside) {
   }
   page.row_height = row_heights(sheet, page.cell_width);
   // Low pictures leave room for what stands beside them.
+  const auto lines = [&](const ComparisonRow& row) {
+    return static_cast<int>(1 + broken(row.phase, page.letters, phase_room(page)).size());
+  };
   for (std::size_t r = 0; page.margin > 0 && r < sheet.rows.size(); ++r) {
-    const auto words = broken(sheet.rows[r].phase, page.letters, phase_room(page));
-    page.row_height[r] =
-        std::max(page.row_height[r], static_cast<int>(page.line() * static_cast<float>(1 + words.size())));
+    int most = lines(sheet.rows[r]);
+    for (const ComparisonRow& row : sheet.further_rows) most = std::max(most, lines(row));
+    page.row_height[r] = std::max(page.row_height[r], page.line() * most);
   }
   const float room = static_cast<float>(page.width - 2 * page.gap);
   page.title_lines = static_cast<int>(broken(sheet.title, kSheetTitle * page.letters, room).size());

@@ -16,6 +16,7 @@
 #include "experiments/workbench/app/scene_source.h"
 #include "experiments/workbench/compare/comparison.h"
 #include "experiments/workbench/compare/comparison_page.h"
+#include "experiments/workbench/compare/film.h"
 #include "experiments/workbench/pages/report.h"
 #include "experiments/workbench/pictures/kept_geometry.h"
 #include "sim/base/comma_list.h"
@@ -40,7 +41,10 @@ const KeyRow<CompareChoice> kRows[] = {
     {"batch", at<&C::batch>, "", between(1, kLargestBatch), "", kBatchDoc},
     {"compare.match", at<&C::match>, "", any(), "", "what all laws have in common: the fabric's numbers, the stiffness at rest, or the work to bend to compare.match-curvature"},
     {"compare.match-curvature", at<&C::match_curvature>, "1/m", positive(), "", "curvature up to which the work is matched"},
-    {"compare.video", at<&C::video>, "", any(), "none | mp4 | gif", "a film of the columns side by side, if ffmpeg is installed"},
+    {"compare.video", at<&C::video>, "", any(), "", "a film of the columns side by side, if ffmpeg is installed: none | mp4 | webp | gif, or several, separated by commas"},
+    {"compare.video-size", at<&C::video_size>, "MB", positive(), "", "of a film's file, at most: its quality, then its width give way"},
+    {"compare.title", at<&C::title>, "", any(), "", "of the page, in place of what all columns share"},
+    {"compare.names", at<&C::names>, "", any(), "", "what stands over the columns on the page, separated by commas, in place of their names"},
     {"compare.tune", at<&C::tune>, "", any(), "", "KEY=LOW:HIGH: the first column's KEY is bisected between these, before all columns run, until its compare.tune-metric is the second column's; KEY=NUMBER on stdout"},
     {"compare.tune-metric", at<&C::tune_metric>, "", any(), "", "what compare.tune makes equal: METRIC, or METRIC=METRIC of the second column"},
 };
@@ -142,19 +146,32 @@ void check_difference(const CompareChoice& choice, bool with_images) {
       .with_key("compare.difference", choice.difference);
 }
 
+// One for each column.
+void check_names(const CompareChoice& choice, const std::vector<ChildRun>& columns) {
+  const std::size_t named = split(choice.names).size();
+  if (named == 0 || named == columns.size()) return;
+  throw Error::invalid_input(fmt::format("compare.names = {} must be as many names as there are columns, {} "
+                                         "(--compare.names)",
+                                         choice.names, columns.size()))
+      .with_key("compare.names", choice.names);
+}
+
 void draw_page(Run& run, const CommandLine& line, const std::string& experiment, const CompareChoice& choice,
                const Options& options, const Plan& plan) {
-  const ComparisonPage page{.title = comparison_title(line, plan.columns),
-                            .notes = comparison_notes(choice, plan),
-                            .rows = choice.rows,
-                            .times = choice.times,
-                            .metrics = split(choice.metrics),
-                            .look = options.looks().front(),
-                            .to = plan.to,
-                            .curvature = choice.difference == "curvature",
-                            .onion = experiment_named(experiment).onion,
-                            .outlines = !choice.no_outlines,
-                            .video = choice.video};
+  const ComparisonPage page{
+      .title = choice.title.empty() ? comparison_title(line, plan.columns) : choice.title,
+      .notes = comparison_notes(choice, plan),
+      .names = split(choice.names),
+      .rows = choice.rows,
+      .times = choice.times,
+      .metrics = split(choice.metrics),
+      .look = options.looks().front(),
+      .to = plan.to,
+      .curvature = choice.difference == "curvature",
+      .onion = experiment_named(experiment).onion,
+      .outlines = !choice.no_outlines,
+      .films = film_formats("compare.video", choice.video),
+      .film_bytes = 1e6 * choice.video_size};
   const auto stage = run.stage("render");
   draw_comparison_page(run, page, plan.columns);
   plot_comparison(run, page, plan.columns);
@@ -194,10 +211,12 @@ int run_compare(const CommandLine& line) {
   CommandLine inner = line_of_columns(line, choice);
   take_scene_options(inner, options);
   check_difference(choice, !options.no_images);
+  film_formats("compare.video", choice.video);
   std::vector<Variant> variants = named_variants(inner);
   if (options.explain)
     return explain_columns(comparison_plan(inner, variants, choice, options.out).columns), 0;
   Plan plan = comparison_plan(inner, variants, choice, options.out);
+  check_names(choice, plan.columns);
   check_batch(plan.columns, choice.batch);
   check_columns(plan.columns);
   if (!options.no_images && !choice.times.empty()) check_times(choice.times, plan.columns);
@@ -246,6 +265,7 @@ Experiment compare() {
           .conditions = {{"compare.difference", "compare.to"},
                          {"compare.rows", "not compare.times"},
                          {"compare.match-curvature", "compare.match = energy"},
+                         {"compare.video-size", "compare.video != none"},
                          {"compare.tune-metric", "compare.tune"}}};
 }
 

@@ -23,6 +23,8 @@ struct CompareChoice {
   Match match = Match::energy;
   double match_curvature = 100;  // [1/m], the KES tester's reading point
   std::string video = "none";
+  double video_size = 4;     // of each film's file, at most [MB]
+  std::string title, names;  // "": the page's own
   std::string tune, tune_metric;
 };
 

@@ -6,6 +6,7 @@
 
 #include "experiments/render/part_relief.h"
 #include "experiments/workbench/app/run.h"
+#include "experiments/workbench/compare/film.h"
 #include "experiments/workbench/compare/kept_page.h"
 #include "experiments/workbench/pages/report.h"
 #include "experiments/workbench/pictures/kept_frames.h"
@@ -13,6 +14,7 @@
 #include "sim/base/atomic_file.h"
 #include "sim/base/comma_list.h"
 #include "sim/base/error.h"
+#include "sim/base/number_in.h"
 #include "sim/mesh/mesh_sequence.h"
 
 namespace hysteron::experiments {
@@ -20,13 +22,14 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kOut = "out/render";
+constexpr const char* kFilm = "render.video";  // and its size
 
 // What the flags ask for in place of what the run was drawn with.
 void apply_flags(const CommandLine& line, Options& options) {
   const Keys keys = bind_options(options);
   for (const Flag& flag : line.flags) {
     const std::string path = flag.path == "render.range" ? "curvature-range" : flag.path;
-    if (path == "render.part") continue;  // draw_kept() reads it
+    if (path == "render.part" || path.starts_with(kFilm)) continue;  // of the page, not of a picture
     if (path.starts_with("render.") || path == "fps")
       throw Error::invalid_input(flag.path + " is of mesh files, not of kept geometry (--" + flag.path + ")")
           .with_key(flag.path, flag.text);
@@ -79,6 +82,10 @@ Json keys_of_kept(const fs::path& file, const KeptCloth& cloth) {
 }
 
 void draw_run(const CommandLine& line, const fs::path& file, const Kept& kept) {
+  if (const std::string film = last_text(line.flags, kFilm, "none"); film != "none")
+    throw Error::invalid_input(std::string(kFilm) + " = " + film + " is of comparisons, and " +
+                               file.string() + " is of one run (--" + kFilm + ")")
+        .with_key(kFilm, film);
   const KeptCloth& cloth = kept.cloths.at(0);
   Setup setup = kept_setup(cloth, file.string());
   apply_flags(line, setup.options);
@@ -132,8 +139,35 @@ ChildRun draw_column(const CommandLine& line, const fs::path& file, const Kept& 
   return redrawn_column(cloth, run.folder(), run.manifest().frames);
 }
 
-void draw_comparison(const CommandLine& line, const fs::path& file, const Kept& kept) {
+// Films that the line asks for.
+void take_films(const CommandLine& line, ComparisonPage& page) {
+  page.films = film_formats(kFilm, last_text(line.flags, kFilm, "none"));
+  const std::string most = last_text(line.flags, "render.video-size", "");
+  if (!most.empty()) page.film_bytes = 1e6 * number_in(most).value();
+}
+
+// A film shows every instant, which the columns' own folders have.
+void take_all_instants(const fs::path& file, Kept& kept) {
+  for (KeptCloth& cloth : kept.cloths) {
+    const fs::path frames = file.parent_path() / cloth.name / kKeptFrames;
+    std::error_code ignored;
+    if (!fs::exists(frames, ignored))
+      throw Error::invalid_input(std::string(kFilm) + " needs all instants, and " + file.string() +
+                                 " keeps those of the sheet: there is no " + frames.string() + " (--" +
+                                 kFilm + ")")
+          .with_key(kFilm, "");
+    Kept column = read_kept(frames);
+    const DrawnMesh &own = column.meshes.at(0), &shown = kept.meshes.at(cloth.mesh);
+    if (own.triangles != shown.triangles || own.quantum != shown.quantum)
+      throw Error::invalid_input(frames.string() + " is of another mesh than " + file.string());
+    cloth.instants = std::move(column.cloths.at(0).instants);
+  }
+}
+
+void draw_comparison(const CommandLine& line, const fs::path& file, Kept kept) {
   ComparisonPage page = kept_comparison_page(kept.sheet);
+  take_films(line, page);
+  if (!page.films.empty()) take_all_instants(file, kept);
   Options options;
   apply_flags(line, options);
   require_range_is_used(line, shown_looks(line, file, kept, page));

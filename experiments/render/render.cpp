@@ -35,6 +35,8 @@ struct RenderFlags {
   std::string title, ground = "none", body, curvature = "geometry", fabric, part;
   double range = 100;  // [1/m] 2 k0 of the shipped fabrics, as in the pictures of their runs
   Eigen::Vector3d low{0, 0, 0}, high{0, 0, 0}, also{0, 0, 0};
+  std::string video = "none";
+  double video_size = 4;
   Options options;
 };
 
@@ -54,6 +56,8 @@ const KeyRow<F> kRows[] = {
     {"render.part", at<&F::part>, "", any(), "", "of a run's folder: how much relief is seen of the part that this [[metric]] of its scene is measured on, before and after: the median of the deviation of L* within 21 pixels, in this --light"},
     {"render.low", at<&F::low>, "m", any(), "", "with render.high: corners of what is framed; else the box of all frames"},
     {"render.high", at<&F::high>, "m", any(), "", "see render.low"},
+    {"render.video", at<&F::video>, "", any(), "", "of a comparison whose columns' folders stand in its own: a film, as compare.video"},
+    {"render.video-size", at<&F::video_size>, "MB", positive(), "", "as compare.video-size"},
 };
 // clang-format on
 
@@ -413,6 +417,8 @@ int run_render(const CommandLine& asked) {
   flags.options.out = "out/render";
   const Keys keys = option_keys(flags);
   set_keys(line, keys);
+  if (flags.video != "none")
+    throw refusal("render.video", flags.video, "left out: it is of a comparison's folder, not of mesh files");
   check_options(flags.options);
   check_look(flags.options.look);
   ground_height(flags);
@@ -440,7 +446,8 @@ Experiment render_files() {
           .positionals = "FILES|DIR",
           .conditions = {{"render.range | render.curvature", "look = curvature"},
                          {"render.low", "render.high"},
-                         {"render.high", "render.low"}},
+                         {"render.high", "render.low"},
+                         {"render.video-size", "render.video != none"}},
           .headlines = {
               .all = {{"frames_count", "frames", "", "{:.0f}", 1, kNoErrors},
                       {"lightness_deviation_before", "deviation of L* before", "", "{:.2f}", 1, kNoErrors},

@@ -26,6 +26,7 @@ int vertices_of(const std::vector<Obstacle>& bodies) {
 template <class Real>
 std::vector<Vec3<Real>> positions_at(const std::vector<Obstacle>& bodies, double time) {
   std::vector<Vec3<Real>> all;
+  all.reserve(vertices_of(bodies));
   for (const Obstacle& o : bodies)
     for (const Eigen::Vector3d& x : body_positions(o, time)) all.push_back(x.cast<Real>());
   return all;
@@ -84,8 +85,11 @@ BodyVertices<Real, Device>::BodyVertices(Device& device, const Scene& scene, int
 template <class Real, class Device>
 void BodyVertices<Real, Device>::move(double start, double end) {
   if (!any()) return;
-  start_.upload(positions_at<Real>(body_, start));
-  way_.upload(positions_at<Real>(body_, end));
+  if (start != end_time_ || end_.empty()) end_ = positions_at<Real>(body_, start);
+  start_.upload(end_);
+  end_ = positions_at<Real>(body_, end);
+  end_time_ = end;
+  way_.upload(end_);
   begin_way(std::exp(-(end - start) / kRecovery));
   begin_guess();
   aim(1);

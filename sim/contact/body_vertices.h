@@ -131,6 +131,8 @@ class BodyVertices {
   int steps_ = 0;                            // of the stage so far
   Real yield_share_;                         // of a shell, at which it bears kYieldPressure
   double thickness_, deepest_ = 0;           // [m]
+  std::vector<Vec3<Real>> end_;              // where the scene has them at end_time_ [m]
+  double end_time_ = 0;                      // of the last stage [s]
   // Of bodies alone [m].  They go start + fraction way, and began the stage at `from`; `dent` is how far they
   // are from where the scene has them, `behind` how far they will be at the end of the stage.
   Buffer<Vec3<Real>, Device> from_, start_, way_, dent_, behind_;

@@ -37,10 +37,12 @@ double signed_volume(const BodyMesh& body) {
   return volume;
 }
 
-// Frames that are looked at, evenly spread, the first and the last among them.
+// Frames that are looked at, evenly spread, the first and the last among them: fewer of larger bodies.
 std::vector<std::size_t> looked_at(const BodyMesh& body) {
-  constexpr std::size_t kLookedAt = 12;
-  const std::size_t count = body.frames.size(), last = count - 1, looks = std::min(kLookedAt, count);
+  constexpr std::size_t kMostFrames = 12, kTriangles = 100000;  // the latter of all that are looked at
+  const std::size_t last = body.frames.size() - 1,
+                    looks = std::min({body.frames.size(), kMostFrames,
+                                      std::max<std::size_t>(1, kTriangles / body.face.size())});
   std::vector<std::size_t> frames;
   for (std::size_t k = 0; k < looks; ++k) frames.push_back(looks > 1 ? k * last / (looks - 1) : 0);
   return frames;

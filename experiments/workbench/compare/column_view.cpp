@@ -144,13 +144,14 @@ std::vector<render::Rgb8> column_colors(const std::vector<ChildRun>& columns) {
 }
 
 std::vector<render::ComparisonColumn> column_heads(const std::vector<ChildRun>& columns,
-                                                   const std::vector<std::string>& requested) {
+                                                   const std::vector<std::string>& requested,
+                                                   const std::vector<std::string>& names) {
   const std::vector<std::string> metrics = shown_metrics(columns, requested),
                                  families = column_families(columns);
   const std::vector<render::Rgb8> colors = column_colors(columns);
   std::vector<render::ComparisonColumn> heads;
   for (std::size_t c = 0; c < columns.size(); ++c)
-    heads.push_back({columns[c].name,
+    heads.push_back({c < names.size() ? names[c] : columns[c].name,
                      head_numbers(columns[c], metrics, std::max(kShown, requested.size())),
                      colors[c],
                      families[c],
@@ -182,7 +183,24 @@ fs::path picture_file(const ChildRun& column, const std::string& look, std::size
 void Crop::include(const Frames::Instant& instant) {
   const std::array<double, 4>& b = instant.cloth;
   const bool noted = b[2] > b[0] && b[3] > b[1];
-  const std::array<double, 4> all{0, 0, 1, 1}, &box = noted ? b : all;
+  include(noted ? b : std::array<double, 4>{0, 0, 1, 1});
+}
+
+void Crop::include(const render::Image& picture) {
+  constexpr int kWhite = 250;  // 8-bit steps
+  const int w = picture.width(), h = picture.height();
+  int left = w, top = h, right = 0, bottom = 0;
+  for (int y = 0; y < h; ++y)
+    for (int x = 0; x < w; ++x) {
+      const std::uint8_t* const p = picture.at(x, y);
+      if (std::min({p[0], p[1], p[2]}) >= kWhite) continue;
+      left = std::min(left, x), right = std::max(right, x + 1);
+      top = std::min(top, y), bottom = y + 1;
+    }
+  if (right > left) include({1.0 * left / w, 1.0 * top / h, 1.0 * right / w, 1.0 * bottom / h});
+}
+
+void Crop::include(const std::array<double, 4>& box) {
   box_ = {std::min(box_[0], box[0]), std::min(box_[1], box[1]), std::max(box_[2], box[2]),
           std::max(box_[3], box[3])};
 }

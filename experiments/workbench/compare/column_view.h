@@ -22,9 +22,11 @@ std::vector<std::string> column_families(const std::vector<ChildRun>& columns);
 // One for each column, of a family of laws shades of one hue; they do not come again below 12 columns.
 std::vector<render::Rgb8> column_colors(const std::vector<ChildRun>& columns);
 
-// The columns with names, numbers, families and colours, still without cells.
+// The columns with names, numbers, families and colours, still without cells.  `names` stand in place of the
+// columns' own where there are any.
 std::vector<render::ComparisonColumn> column_heads(const std::vector<ChildRun>& columns,
-                                                   const std::vector<std::string>& requested);
+                                                   const std::vector<std::string>& requested,
+                                                   const std::vector<std::string>& names = {});
 
 bool has_frames(const ChildRun& column);
 const std::vector<Frames::Instant>& instants(const ChildRun& column);
@@ -38,6 +40,8 @@ std::filesystem::path picture_file(const ChildRun& column, const std::string& lo
 class Crop {
  public:
   void include(const Frames::Instant& instant);
+  // All that is not as white as the page.
+  void include(const render::Image& picture);
   // In shares of the picture; 0 where nothing is included.
   double width() const { return std::max(0.0, box_[2] - box_[0]); }
   // As wide as that, unless it is nearly twice its own width: rows have one scale where that wastes little.
@@ -45,6 +49,8 @@ class Crop {
   render::Image of(const render::Image& picture) const;
 
  private:
+  void include(const std::array<double, 4>& box);
+
   std::array<double, 4> box_{1, 1, 0, 0};  // left, top, right, bottom in shares of the picture
 };
 

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "experiments/workbench/compare/column_view.h"
+#include "experiments/workbench/compare/film.h"
 #include "experiments/workbench/compare/kept_page.h"
 #include "experiments/workbench/pictures/scene_renderer.h"
 #include "render/color_map.h"
@@ -15,7 +16,6 @@
 #include "render/comparison_sheet.h"
 #include "render/contact_sheet.h"
 #include "sim/base/error.h"
-#include "sim/base/process.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -76,7 +76,7 @@ class PageTable {
  public:
   PageTable(const ComparisonPage& page, const std::vector<ChildRun>& columns)
       : page_(page), columns_(columns), loops_(columns) {
-    sheet_.columns = column_heads(columns, page.metrics);
+    sheet_.columns = column_heads(columns, page.metrics, page.names);
     sheet_.scale_note = "at the cloth's middle";
     if (page.outlines && columns.size() > 1 && columns.size() <= kMaxOutlined)
       sheet_.columns.push_back({"all, outlined", {}, {}, "", {}});
@@ -129,7 +129,46 @@ class PageTable {
 
   render::ComparisonSheet& sheet() { return sheet_; }
 
+  // Of all frames of a film, which has one row.
+  struct FilmPlace {
+    Crop crop;                        // all that they show
+    std::vector<render::Image> busy;  // of each column that has loops: they over each other, cropped
+    std::vector<render::ComparisonRow> rows;
+  };
+  FilmPlace film_place(const std::vector<double>& times) const {
+    FilmPlace place;
+    for (const double time : times) {
+      const auto [text, phase] = instant_text(page_, columns_, time);
+      place.rows.push_back({text, phase});
+      for (const ChildRun& c : columns_)
+        if (has_frames(c)) place.crop.include(picture_at(c, time));
+    }
+    for (std::size_t c = 0; c < columns_.size(); ++c)
+      place.busy.push_back(all_over_each_other(c, times, place.crop));
+    return place;
+  }
+  // A film's picture: the row at that time, laid out as all others.
+  render::Image film_picture(double time, const FilmPlace& place) {
+    add_row(time, place.crop);
+    sheet_.further_rows = place.rows;
+    sheet_.beside = static_cast<int>(std::min<std::size_t>(sheet_.columns.size(), render::kMaxBeside));
+    for (std::size_t c = 0; c < columns_.size(); ++c) sheet_.columns[c].cells.back().busy = place.busy[c];
+    return render::draw_comparison(sheet_);
+  }
+
  private:
+  render::Image all_over_each_other(std::size_t c, const std::vector<double>& times, const Crop& crop) const {
+    render::Image all;
+    if (!has_frames(columns_[c]) || loops_.at(c, times.back()).empty()) return all;
+    for (const double time : times) {
+      const render::Image one = crop.of(picture_at(columns_[c], time));
+      if (all.empty()) all = one;
+      std::ranges::transform(all.pixels(), one.pixels(), all.pixels().begin(),
+                             [](std::uint8_t a, std::uint8_t b) { return std::min(a, b); });
+    }
+    return all;
+  }
+
   double scale() const {
     for (const ChildRun& c : columns_)
       if (has_frames(c)) return c.manifest->frames->metres_per_pixel;
@@ -271,40 +310,20 @@ render::Image page_sheet(const ComparisonPage& page, const std::vector<ChildRun>
   }
 }
 
-// All columns side by side at each instant of the film; the part that is shown stays the same.
-std::vector<render::Image> film_strips(const ComparisonPage& page, const std::vector<ChildRun>& columns,
-                                       const std::vector<double>& times) {
-  const Crop crop = PageTable(page, columns).crop_until(times.back());
-  std::vector<render::Image> strips;
-  for (double time : times) {
-    PageTable table(page, columns);
-    table.add_row(time, crop);
-    strips.push_back(render::draw_comparison(table.sheet()));
-  }
-  return strips;
-}
-
-// A film at the columns' own speed, where ffmpeg is there.
-void film(Run& run, const ComparisonPage& page, const std::vector<ChildRun>& columns) {
+// All columns side by side at each instant, at the columns' own speed; the part that is shown stays the same.
+void draw_films(Run& run, const ComparisonPage& page, const std::vector<ChildRun>& columns) {
   std::vector<double> times;
   if (const ChildRun* longest = longest_column(columns))
     for (const Frames::Instant& instant : instants(*longest)) times.push_back(instant.time);
+  const PageTable table(page, columns);
+  const PageTable::FilmPlace place = table.film_place(times);
+  for (std::size_t f = 0; f < times.size(); ++f)
+    render::write_png(run.path(fmt::format("film/{:04}.png", f)),
+                      PageTable(table).film_picture(times[f], place));
   const double rate =
       times.size() > 1 ? static_cast<double>(times.size() - 1) / (times.back() - times.front()) : 1;
-  int f = 0;
-  for (const render::Image& strip : film_strips(page, columns, times))
-    render::write_png(run.path(fmt::format("film/{:04}.png", f++)), strip);
-  const std::string name = "film." + page.video, strips = (run.folder() / "film" / "%04d.png").string();
-  std::vector<std::string> words = {
-      "ffmpeg", "-y", "-loglevel", "error", "-framerate", fmt::format("{:g}", rate), "-i", strips};
-  if (page.video == "mp4")
-    words.insert(words.end(), {"-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p"});
-  words.push_back(run.path(name).string());
-  const ProcessResult result = run_process(words, "");
-  if (result.started && result.exit_code == 0) return;
-  run.forget(name);
-  run.manifest().film_missing = result.started ? result.first_error_line : "ffmpeg is not installed";
-  run.warn("compare.video: there is no " + name + ": " + run.manifest().film_missing);
+  for (const std::string& format : page.films)
+    write_film(run, "compare.video", format, rate, page.film_bytes);
 }
 
 // Of each column the frames in its rows, or up to the end of what moves in one picture, and the first, which
@@ -332,7 +351,7 @@ void draw_comparison_page(Run& run, const ComparisonPage& page, const std::vecto
   if (times.empty()) throw Error::simulation("no column has a picture");
   render::write_png(run.path("sheet.png"), page_sheet(page, columns, times), render::PngEffort::best);
   keep_page(run, page, columns, shown_frames(page, columns, times));
-  if (page.video != "none") film(run, page, columns);
+  if (!page.films.empty()) draw_films(run, page, columns);
 }
 
 }  // namespace hysteron::experiments

@@ -12,6 +12,7 @@ namespace hysteron::experiments {
 struct ComparisonPage {
   std::string title;
   std::vector<std::string> notes{};
+  std::vector<std::string> names{};  // over the columns, in place of their own; empty: these
   int rows = 4;                      // instants, at most
   std::vector<double> times{};       // of the rows, in their place [s]; empty: spread over what moves
   std::vector<std::string> metrics;  // behind the columns' names and in bars; empty: those of column_heads()
@@ -21,10 +22,11 @@ struct ComparisonPage {
   bool curvature = false;            // what differs: curvature, as the columns pictured it, not pictures
   double onion = 0;                  // a row first with all instants up to then over each other [s]; 0: none
   bool outlines = true;              // of all columns, over each other
-  std::string video = "none";        // none | mp4 | gif
+  std::vector<std::string> films{};  // film_formats(); none: no film
+  double film_bytes = 4e6;           // of each file, at most
 };
 
-// Columns have pictures of `look` and, for outlines, silhouettes.  Writes sheet.png and the video where it is
+// Columns have pictures of `look` and, for outlines, silhouettes.  Writes sheet.png and films where they are
 // asked for.
 void draw_comparison_page(Run& run, const ComparisonPage& page, const std::vector<ChildRun>& columns);
 

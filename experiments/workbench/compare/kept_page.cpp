@@ -46,7 +46,7 @@ Json page_json(const ComparisonPage& page) {
   return {{"title", page.title}, {"notes", page.notes},         {"rows", page.rows},
           {"times", page.times}, {"metrics", page.metrics},     {"look", page.look},
           {"to", page.to},       {"curvature", page.curvature}, {"outlines", page.outlines},
-          {"onion", page.onion}};
+          {"onion", page.onion}, {"names", page.names}};
 }
 
 }  // namespace
@@ -85,6 +85,7 @@ ComparisonPage kept_comparison_page(const Json& sheet) {
   page.curvature = json.at("curvature");
   page.outlines = json.at("outlines");
   page.onion = json.at("onion");
+  page.names = json.value("names", std::vector<std::string>{});  // earlier pages have none
   return page;
 }
 

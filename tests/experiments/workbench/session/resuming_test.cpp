@@ -118,18 +118,20 @@ TEST_P(ResumingEvery, EndsInTheSameBits) {
   expect_same_results(whole.out, parts);
 }
 
-// Both instants to compare with are over before the first checkpoint, and most cycles when the last one is written.
+// Both instants to compare with are over before the first checkpoint, and most cycles when the last one is
+// written.
 TEST(Resuming, KeepsWhatRequestedMetricsAndCyclesHaveFound) {
   const Folder folder;
   const fs::path parts = folder.path() / "parts";
   const std::string line =
       "run " +
-      folder.write("scene.toml",
-                   "triangles = 60\nstep = 0.01\ncycles = 20\n[cloth]\nlength = 0.2\n"
-                   "[[phase]]\nname = \"shake\"\nseconds = 0.02\nrepeat = true\n[[pin]]\nhigh = [0.2, 0, 0]\n"
-                   "keys = [{time = 0}, {time = 0.01, position = [0, 0, 0.004]}, {time = 0.02}]\n"
-                   "[[metric]]\nname = \"outline\"\nkind = \"silhouette\"\nfrom = 0\ndirection = [1, 0, 0.5]\n"
-                   "[[metric]]\nname = \"fallen\"\nkind = \"height\"\npoint = [0.2, 0.2, 0]\nfrom = 0\n") +
+      folder.write(
+          "scene.toml",
+          "triangles = 60\nstep = 0.01\ncycles = 20\n[cloth]\nlength = 0.2\n"
+          "[[phase]]\nname = \"shake\"\nseconds = 0.02\nrepeat = true\n[[pin]]\nhigh = [0.2, 0, 0]\n"
+          "keys = [{time = 0}, {time = 0.01, position = [0, 0, 0.004]}, {time = 0.02}]\n"
+          "[[metric]]\nname = \"outline\"\nkind = \"silhouette\"\nfrom = 0\ndirection = [1, 0, 0.5]\n"
+          "[[metric]]\nname = \"fallen\"\nkind = \"height\"\npoint = [0.2, 0.2, 0]\nfrom = 0\n") +
       " --no-images --threads 1 --device cpu --fps 100";
   const FinishedRun whole(line);
   EXPECT_GT(whole.metrics()["outline_cycle_20_percent"], 1);
