@@ -2,14 +2,15 @@
 # The chapter's figures and the comparisons that it announces, by one command:
 #   experiments/figures.sh                  into out/figures, with index.html over all of them
 #   experiments/figures.sh --quick          small versions
-#   experiments/figures.sh drape crease     only these: laws crumple swing drape crease fold
+#   experiments/figures.sh drape crease     only these: laws crumple sleeve swing drape crease fold
 #   experiments/figures.sh --out DIR ...    other options, KEY=VALUE in one word, go to every run (--device=cuda,
 #                                           --fabric=wool-tropical)
-# Each figure is a PNG, plots an SVG as well; captions of the laws stand in README.md beside them and on the page.
+# Each figure is a PNG, plots an SVG as well; captions of the laws stand in README.md beside them and on the page.  The
+# sleeve's film is film.mp4 and, of at most 4 MB, film.webp; it needs ffmpeg, which is not installed by this script.
 set -euo pipefail
 source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/setup.sh"
 
-all_parts=(laws crumple swing drape crease fold)
+all_parts=(laws crumple sleeve swing drape crease fold)
 out=$root/out/figures
 quick=() more=() parts=()
 while [[ $# -gt 0 ]]; do
@@ -55,6 +56,20 @@ draw_laws() { hysteron figures --quiet --out "$out/chapter-figures"; }
 # 4.1: permanent wrinkles, existing methods and ours.
 draw_crumple() {
   hysteron compare crumple --laws linear,pabst,narain,prandtl --light raking "$@" --out "$out/compare-crumple"
+}
+
+# A sleeve whose elbow bends and straightens: before, bent and after, and as a film.  Elastic, plastic, hysteretic, and
+# hysteretic with a permanent set, that of the fabric cotton-broad-creasing, beside friction.  The picture shows the
+# elbow's inside; parts of the arm that no cloth reaches go on beyond its border.
+draw_sleeve() {
+  local set=fabric.bending.set.yield=500+fabric.bending.set.hardening=7.98e-6 small=()
+  [[ ${#quick[@]} -eq 0 ]] || small=(--triangles 600)
+  hysteron compare crumple --scene sleeve --laws "linear,narain,prandtl,prandtl+$set" \
+    --compare.names "linear,narain,prandtl,prandtl with set" \
+    --compare.title "A sleeve whose elbow is bent by 110° and straightened" --compare.match fabric --fps 25 \
+    --compare.times 0.28,1.56,3.2 --compare.no-outlines --compare.video mp4,webp --light raking \
+    --camera.direction "0 0.35 1" --camera.box "-0.205 -0.085 -0.09 0.205 0.2 0.08" --size 672x520 \
+    "${small[@]}" "$@" --out "$out/compare-sleeve"
 }
 
 # Damping of oscillations: viscosity tuned for one swing against friction in bending.

@@ -8,6 +8,7 @@ namespace hysteron::render {
 namespace {
 
 constexpr double kTallest = 0.5, kWidest = 3, kPleasant = 1.5;  // aspects of a page
+constexpr int kScaleLines = 3;  // of a row's own scale: a blank one, its bar, its length
 constexpr const char* kBetween = " · ";
 
 bool cuts_a_name(const ComparisonSheet& sheet, float letters, int cell_width) {
@@ -131,8 +132,10 @@ SheetPage page_with(const ComparisonSheet& sheet, std::size_t beside) {
   }
   page.row_height = row_heights(sheet, page.cell_width);
   // Low pictures leave room for what stands beside them.
+  const int scale_lines = has_one_scale(sheet) ? 0 : kScaleLines;
   const auto lines = [&](const ComparisonRow& row) {
-    return static_cast<int>(1 + broken(row.phase, page.letters, phase_room(page)).size());
+    return static_cast<int>(1 + broken(row.phase, page.letters, phase_room(page)).size()) +
+           (row.metres_per_pixel > 0 ? scale_lines : 0);
   };
   for (std::size_t r = 0; page.margin > 0 && r < sheet.rows.size(); ++r) {
     int most = lines(sheet.rows[r]);

@@ -41,33 +41,34 @@ const KeyRow<CompareChoice> kRows[] = {
     {"batch", at<&C::batch>, "", between(1, kLargestBatch), "", kBatchDoc},
     {"compare.match", at<&C::match>, "", any(), "", "what all laws have in common: the fabric's numbers, the stiffness at rest, or the work to bend to compare.match-curvature"},
     {"compare.match-curvature", at<&C::match_curvature>, "1/m", positive(), "", "curvature up to which the work is matched"},
-    {"compare.video", at<&C::video>, "", any(), "", "a film of the columns side by side, if ffmpeg is installed: none | mp4 | webp | gif, or several, separated by commas"},
-    {"compare.video-size", at<&C::video_size>, "MB", positive(), "", "of a film's file, at most: its quality, then its width give way"},
-    {"compare.title", at<&C::title>, "", any(), "", "of the page, in place of what all columns share"},
+    {"compare.video", at<&C::video>, "", any(), "", "a film of the columns side by side, OUT/film.mp4 ..., if ffmpeg is installed: none | mp4 | webp (without loss) | gif, or several, separated by commas"},
+    {"compare.video-size", at<&C::video_size>, "MB", positive(), "", "of a film's file, at most: the quality of MP4, then its width give way"},
+    {"compare.title", at<&C::title>, "", any(), "", "of the page, before the fabric that all columns have"},
     {"compare.names", at<&C::names>, "", any(), "", "what stands over the columns on the page, separated by commas, in place of their names"},
     {"compare.tune", at<&C::tune>, "", any(), "", "KEY=LOW:HIGH: the first column's KEY is bisected between these, before all columns run, until its compare.tune-metric is the second column's; KEY=NUMBER on stdout"},
     {"compare.tune-metric", at<&C::tune_metric>, "", any(), "", "what compare.tune makes equal: METRIC, or METRIC=METRIC of the second column"},
 };
 // clang-format on
 
-// "Swing: cotton-broad, bdf2": what all columns share.
-std::string comparison_title(const CommandLine& line, const std::vector<ChildRun>& columns) {
-  std::string title = line.positionals[0];
-  title[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(title[0])));
+// "Swing: cotton-broad, bdf2": what all columns share; of a title of one's own only the fabric.
+std::string comparison_title(const CommandLine& line, const std::string& own,
+                             const std::vector<ChildRun>& columns) {
+  std::string title = own.empty() ? line.positionals[0] : own;
+  if (own.empty()) title[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(title[0])));
   const auto shared = [&](const char* key) {
     std::string text;
     for (const ChildRun& c : columns) {
       if (!c.manifest) continue;
-      const std::string own = c.manifest->text(key);
-      if (!text.empty() && own != text) return std::string();
-      text = own;
+      const std::string value = c.manifest->text(key);
+      if (!text.empty() && value != text) return std::string();
+      text = value;
     }
     return text;
   };
-  std::string what;
-  for (const std::string& text : {shared("fabric.name"), shared("law"), shared("integrator")})
-    if (!text.empty()) what += (what.empty() ? ": " : ", ") + text;
-  return title + what;
+  std::vector<std::string> all = {shared("fabric.name")};
+  if (own.empty()) all.insert(all.end(), {shared("law"), shared("integrator")});
+  std::erase(all, "");
+  return title + (all.empty() ? "" : ": " + join(all, ", "));
 }
 
 // Says what the columns are matched to; nothing where laws cannot differ in stiffness by their own
@@ -80,11 +81,13 @@ std::vector<std::string> comparison_notes(const CompareChoice& choice, const Pla
   const std::string equal = choice.match == Match::energy
                                 ? fmt::format("work to bend from flat to {:g} 1/m", choice.match_curvature)
                                 : "stiffness at rest";
+  const std::vector<std::string> names = split(choice.names);
   std::string note = fmt::format("Matched to {}{}: equal {}{}; b1, b2 times", plan.reference,
                                  plan.has_reference ? "" : ", which is no column", equal,
                                  plan.has_faces ? ", the mean of bends to face and back" : "");
   for (std::size_t c = 0; c < plan.columns.size(); ++c)
-    note += fmt::format("{} {:.3g} ({})", c ? "," : "", plan.scales[c], plan.columns[c].name);
+    note += fmt::format("{} {:.3g} ({})", c ? "," : "", plan.scales[c],
+                        c < names.size() ? names[c] : plan.columns[c].name);
   return {note};
 }
 
@@ -158,20 +161,19 @@ void check_names(const CompareChoice& choice, const std::vector<ChildRun>& colum
 
 void draw_page(Run& run, const CommandLine& line, const std::string& experiment, const CompareChoice& choice,
                const Options& options, const Plan& plan) {
-  const ComparisonPage page{
-      .title = choice.title.empty() ? comparison_title(line, plan.columns) : choice.title,
-      .notes = comparison_notes(choice, plan),
-      .names = split(choice.names),
-      .rows = choice.rows,
-      .times = choice.times,
-      .metrics = split(choice.metrics),
-      .look = options.looks().front(),
-      .to = plan.to,
-      .curvature = choice.difference == "curvature",
-      .onion = experiment_named(experiment).onion,
-      .outlines = !choice.no_outlines,
-      .films = film_formats("compare.video", choice.video),
-      .film_bytes = 1e6 * choice.video_size};
+  const ComparisonPage page{.title = comparison_title(line, choice.title, plan.columns),
+                            .notes = comparison_notes(choice, plan),
+                            .names = split(choice.names),
+                            .rows = choice.rows,
+                            .times = choice.times,
+                            .metrics = split(choice.metrics),
+                            .look = options.looks().front(),
+                            .to = plan.to,
+                            .curvature = choice.difference == "curvature",
+                            .onion = experiment_named(experiment).onion,
+                            .outlines = !choice.no_outlines,
+                            .films = film_formats("compare.video", choice.video),
+                            .film_bytes = 1e6 * choice.video_size};
   const auto stage = run.stage("render");
   draw_comparison_page(run, page, plan.columns);
   plot_comparison(run, page, plan.columns);

@@ -22,14 +22,14 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kOut = "out/render";
-constexpr const char* kFilm = "render.video";  // and its size
+constexpr const char *kFilm = "render.video", *kFilmSize = "render.video-size";
 
 // What the flags ask for in place of what the run was drawn with.
 void apply_flags(const CommandLine& line, Options& options) {
   const Keys keys = bind_options(options);
   for (const Flag& flag : line.flags) {
     const std::string path = flag.path == "render.range" ? "curvature-range" : flag.path;
-    if (path == "render.part" || path.starts_with(kFilm)) continue;  // of the page, not of a picture
+    if (path == "render.part" || path == kFilm || path == kFilmSize) continue;  // of the page, not of a picture
     if (path.starts_with("render.") || path == "fps")
       throw Error::invalid_input(flag.path + " is of mesh files, not of kept geometry (--" + flag.path + ")")
           .with_key(flag.path, flag.text);
@@ -142,8 +142,14 @@ ChildRun draw_column(const CommandLine& line, const fs::path& file, const Kept& 
 // Films that the line asks for.
 void take_films(const CommandLine& line, ComparisonPage& page) {
   page.films = film_formats(kFilm, last_text(line.flags, kFilm, "none"));
-  const std::string most = last_text(line.flags, "render.video-size", "");
-  if (!most.empty()) page.film_bytes = 1e6 * number_in(most).value();
+  const std::string most = last_text(line.flags, kFilmSize, "");
+  if (most.empty()) return;
+  const double megabytes = number_in(most).value_or(0);
+  if (!(megabytes > 0) || page.films.empty())
+    throw Error::invalid_input(std::string(kFilmSize) + " = " + most + " must be > 0 MB, beside --" + kFilm +
+                               " (--" + kFilmSize + ")")
+        .with_key(kFilmSize, most);
+  page.film_bytes = 1e6 * megabytes;
 }
 
 // A film shows every instant, which the columns' own folders have.

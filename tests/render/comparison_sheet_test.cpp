@@ -124,6 +124,25 @@ TEST(ComparisonSheet, KeepsWordsOfARowAboveTheNext) {
 }
 
 // The same scale in all rows is said once, at the foot; rows that differ have a bar each.
+// A film's pictures have one row each, and words of different lengths beside it.
+TEST(ComparisonSheet, IsLaidOutAlikeForAllRowsOfAFilm) {
+  const std::vector<ComparisonRow> rows = {{"0.00 s", "", 1e-4},
+                                           {"11.50 s", "straightens slowly again", 1e-4}};
+  std::vector<Extent> cells;
+  for (const ComparisonRow& row : rows) {
+    ComparisonSheet sheet = sample_sheet(2, 1, 400, 20);
+    sheet.rows = {row};
+    const int alone = draw_comparison(sheet).height();
+    sheet.further_rows = rows;
+    const Image page = draw_comparison(sheet);
+    if (row.phase.empty()) EXPECT_GT(page.height(), alone) << "three words stand below each other";
+    cells.push_back(color_extent(page, cell_color(1, 0)));
+  }
+  EXPECT_EQ(cells[0].left, cells[1].left);
+  EXPECT_EQ(cells[0].right, cells[1].right);
+  EXPECT_EQ(cells[0].top, cells[1].top);
+}
+
 TEST(ComparisonSheet, SaysAScaleOnce) {
   ComparisonSheet sheet = sample_sheet(2, 2);
   const int once = draw_comparison(sheet).height();

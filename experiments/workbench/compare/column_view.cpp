@@ -183,10 +183,10 @@ fs::path picture_file(const ChildRun& column, const std::string& look, std::size
 void Crop::include(const Frames::Instant& instant) {
   const std::array<double, 4>& b = instant.cloth;
   const bool noted = b[2] > b[0] && b[3] > b[1];
-  include(noted ? b : std::array<double, 4>{0, 0, 1, 1});
+  reach(noted ? b : std::array<double, 4>{0, 0, 1, 1});
 }
 
-void Crop::include(const render::Image& picture) {
+void Crop::include_shown(const render::Image& picture) {
   constexpr int kWhite = 250;  // 8-bit steps
   const int w = picture.width(), h = picture.height();
   int left = w, top = h, right = 0, bottom = 0;
@@ -197,10 +197,10 @@ void Crop::include(const render::Image& picture) {
       left = std::min(left, x), right = std::max(right, x + 1);
       top = std::min(top, y), bottom = y + 1;
     }
-  if (right > left) include({1.0 * left / w, 1.0 * top / h, 1.0 * right / w, 1.0 * bottom / h});
+  if (right > left) reach({1.0 * left / w, 1.0 * top / h, 1.0 * right / w, 1.0 * bottom / h});
 }
 
-void Crop::include(const std::array<double, 4>& box) {
+void Crop::reach(const std::array<double, 4>& box) {
   box_ = {std::min(box_[0], box[0]), std::min(box_[1], box[1]), std::max(box_[2], box[2]),
           std::max(box_[3], box[3])};
 }

@@ -40,8 +40,8 @@ std::filesystem::path picture_file(const ChildRun& column, const std::string& lo
 class Crop {
  public:
   void include(const Frames::Instant& instant);
-  // All that is not as white as the page.
-  void include(const render::Image& picture);
+  // All of it that is not as white as the page.
+  void include_shown(const render::Image& picture);
   // In shares of the picture; 0 where nothing is included.
   double width() const { return std::max(0.0, box_[2] - box_[0]); }
   // As wide as that, unless it is nearly twice its own width: rows have one scale where that wastes little.
@@ -49,7 +49,7 @@ class Crop {
   render::Image of(const render::Image& picture) const;
 
  private:
-  void include(const std::array<double, 4>& box);
+  void reach(const std::array<double, 4>& box);
 
   std::array<double, 4> box_{1, 1, 0, 0};  // left, top, right, bottom in shares of the picture
 };

@@ -62,7 +62,8 @@ std::vector<double> shown_times(const ComparisonPage& page, const std::vector<Ch
 // The time, and what happens then.  Times of one's own may be milliseconds apart.
 std::pair<std::string, std::string> instant_text(const ComparisonPage& page,
                                                  const std::vector<ChildRun>& columns, double time) {
-  const std::string text = fmt::format("{:.{}f} s", time, page.times.empty() ? 2 : 3);
+  const bool in_hundredths = std::abs(100 * time - std::round(100 * time)) < 1e-6;
+  const std::string text = fmt::format("{:.{}f} s", time, page.times.empty() || in_hundredths ? 2 : 3);
   for (const ChildRun& c : columns) {
     if (!has_frames(c)) continue;
     const Frames::Instant& instant = instants(c).at(frame_at(c, time));
@@ -141,15 +142,17 @@ class PageTable {
       const auto [text, phase] = instant_text(page_, columns_, time);
       place.rows.push_back({text, phase});
       for (const ChildRun& c : columns_)
-        if (has_frames(c)) place.crop.include(picture_at(c, time));
+        if (has_frames(c)) place.crop.include_shown(picture_at(c, time));
     }
     for (std::size_t c = 0; c < columns_.size(); ++c)
       place.busy.push_back(all_over_each_other(c, times, place.crop));
     return place;
   }
-  // A film's picture: the row at that time, laid out as all others.
+  // A film's picture: the row at that time, laid out as all others.  Numbers, which are of the end, are left
+  // out.
   render::Image film_picture(double time, const FilmPlace& place) {
     add_row(time, place.crop);
+    for (render::ComparisonColumn& column : sheet_.columns) column.numbers.clear();
     sheet_.further_rows = place.rows;
     sheet_.beside = static_cast<int>(std::min<std::size_t>(sheet_.columns.size(), render::kMaxBeside));
     for (std::size_t c = 0; c < columns_.size(); ++c) sheet_.columns[c].cells.back().busy = place.busy[c];

@@ -21,20 +21,20 @@ namespace fs = std::filesystem;
 struct Format {
   const char* name;
   const char* quality;  // the encoder's option; "": it has none
-  int best, least;      // values of it; none below `least` is worth a film
+  int best, least;      // values of it; what is worse than `least` flickers
   std::vector<std::string> words;
 };
 
-// WebP and GIF go on from the start.  What does not change from one picture to the next is not written anew
-// in any of them, so that it stands still.
+// WebP and GIF go on from the start.  WebP is written without loss: what stands still in the pictures stands
+// still in it, which compressed ones of smooth cloth do not.
 const std::vector<Format>& formats() {
   static const std::vector<Format> kFormats = {
       {"mp4",
        "-crf",
-       16,
-       32,
+       8,
+       28,
        {"-c:v", "libx264", "-preset", "slow", "-pix_fmt", "yuv420p", "-movflags", "+faststart"}},
-      {"webp", "-quality", 95, 60, {"-c:v", "libwebp_anim", "-pix_fmt", "bgra", "-loop", "0"}},
+      {"webp", "", 0, 0, {"-c:v", "libwebp_anim", "-pix_fmt", "bgra", "-lossless", "1", "-loop", "0"}},
       {"gif", "", 0, 0, {"-loop", "0"}}};
   return kFormats;
 }
@@ -96,10 +96,15 @@ void write_best(Encoder& encoder, int too_large, int small_enough, int width, do
   if (encoder.written().quality != small_enough) encoder.write({small_enough, width});
 }
 
+// So much narrower that the next file will be small enough: a file grows with about this power of its width.
+int narrower(int width, double times_too_large) {
+  constexpr double kPower = 1.5, kReserve = 0.98, kAtOnce = 0.5;
+  return static_cast<int>(width * std::max(kAtOnce, kReserve * std::pow(times_too_large, -1 / kPower)));
+}
+
 void write_within(Encoder& encoder, const Format& format, int width, double most_bytes) {
-  constexpr double kSmaller = 0.85;
   constexpr int kNarrowest = 160;  // [pixels]
-  for (; width >= kNarrowest; width = static_cast<int>(kSmaller * width)) {
+  for (; width >= kNarrowest; width = narrower(width, encoder.bytes() / most_bytes)) {
     if (encoder.fits({format.best, width}, most_bytes)) return;
     if (format.best != format.least && encoder.fits({format.least, width}, most_bytes))
       return write_best(encoder, format.best, format.least, width, most_bytes);

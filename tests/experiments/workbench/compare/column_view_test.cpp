@@ -54,6 +54,22 @@ TEST(ColumnColors, AreTheLawsOwnOrShadesOfTheirFamilies) {
   EXPECT_EQ(column_families(alone), std::vector<std::string>(2)) << "of one law";
 }
 
+// A body that no instant notes, on paper that is not quite white.
+TEST(Crop, IsAllThatAPictureShowsWhereItIncludesOne) {
+  render::Image picture(200, 100, render::Rgb8{254, 254, 255});
+  for (int y = 20; y < 60; ++y)
+    for (int x = 50; x < 150; ++x) picture.at(x, y)[1] = 200;
+  Crop crop;
+  crop.include_shown(picture);
+  EXPECT_DOUBLE_EQ(crop.width(), 0.5);
+  const render::Image part = crop.of(picture);
+  EXPECT_NEAR(part.width(), 112, 2) << "6 % of room on either side";
+  EXPECT_NEAR(part.height(), 45, 2);
+  Crop nothing;
+  nothing.include_shown(render::Image(20, 10, render::Rgb8{255, 255, 255}));
+  EXPECT_EQ(nothing.width(), 0);
+}
+
 // White of 200 x 100 with cloth in a quarter of its width: what is left has it in the middle, and some room.
 TEST(Crop, IsWhatTheInstantsReachAndSomeRoom) {
   render::Image picture(200, 100, render::Rgb8{255, 255, 255});
