@@ -29,7 +29,8 @@ void apply_flags(const CommandLine& line, Options& options) {
   const Keys keys = bind_options(options);
   for (const Flag& flag : line.flags) {
     const std::string path = flag.path == "render.range" ? "curvature-range" : flag.path;
-    if (path == "render.part" || path == kFilm || path == kFilmSize) continue;  // of the page, not of a picture
+    if (path == "render.part" || path == kFilm || path == kFilmSize)
+      continue;  // of the page, not of a picture
     if (path.starts_with("render.") || path == "fps")
       throw Error::invalid_input(flag.path + " is of mesh files, not of kept geometry (--" + flag.path + ")")
           .with_key(flag.path, flag.text);

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/lab.h"
 #include "render/shapes.h"
-#include "tests/render/lab.h"
 #include "tests/render/test_scene.h"
 
 namespace hysteron::render {
