@@ -154,6 +154,14 @@ std::vector<float> rounded(std::span<const float> values, double quantum) {
   return all_values(all_steps(values, quantum), quantum);
 }
 
+std::vector<float> rounded(std::span<const float> values, double quantum, std::span<const float> before) {
+  constexpr double kStays = 0.75;
+  std::vector<float> result = rounded(values, quantum);
+  for (std::size_t i = 0; i < before.size(); ++i)
+    if (std::abs(values[i] - before[i]) < kStays * quantum) result[i] = before[i];
+  return result;
+}
+
 KeptRecord mesh_record(const DrawnMesh& mesh) {
   const MeshPacker packer(mesh.vertices, mesh.triangles);
   return {{{"record", "mesh"},

@@ -35,6 +35,9 @@ inline constexpr const char* kKeptSheet = "sheet.hyg";    // of those on its she
 // The nearest multiple.
 int quantum_count(double value, double quantum);
 std::vector<float> rounded(std::span<const float> values, double quantum);
+// The same, but what is within three quarters of a quantum of where it was before stays there: cloth that
+// creeps by less does not jump to and fro between two multiples.  `before`: multiples; empty: none.
+std::vector<float> rounded(std::span<const float> values, double quantum, std::span<const float> before);
 
 struct DrawnMesh {
   std::size_t vertices = 0;

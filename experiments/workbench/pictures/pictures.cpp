@@ -184,7 +184,9 @@ void Pictures::watch_border(Run& run, const std::filesystem::path& file, const s
 
 void Pictures::frame(Run& run, const std::vector<float>& xyz, const render::Path& loop) {
   const Stopwatch waited(waited_seconds_);
-  KeptState instant{subject_->time(), rounded(xyz, subject_->mesh().quantum), {}, loop.curvature.size()};
+  const std::vector<float> before = kept_.empty() ? std::vector<float>{} : kept_.last().xyz;
+  KeptState instant{
+      subject_->time(), rounded(xyz, subject_->mesh().quantum, before), {}, loop.curvature.size(), {}};
   take_positions(instant.xyz);
   std::vector<Order> orders;
   for (const std::string& look : options_.looks()) {

@@ -63,6 +63,19 @@ TEST(KeptGeometry, RoundingTwiceIsRoundingOnce) {
   EXPECT_EQ(rounded(once, kQuantum), once);
 }
 
+// To and fro by a fifth of a quantum about the middle between two multiples, then by more than one.
+TEST(KeptGeometry, StaysWhereItWasUntilItMovesByMostOfAQuantum) {
+  const auto at = [](double steps) { return std::vector<float>{static_cast<float>(steps * kQuantum)}; };
+  std::vector<float> now = rounded(at(3.4), kQuantum);
+  for (const double steps : {3.6, 3.4, 3.6, 3.7}) {
+    now = rounded(at(steps), kQuantum, now);
+    EXPECT_EQ(now, at(3)) << steps;
+  }
+  EXPECT_EQ(rounded(at(3.8), kQuantum, now), at(4));
+  EXPECT_EQ(rounded(at(2), kQuantum, now), at(2)) << "multiples are kept as they are";
+  EXPECT_EQ(rounded(at(3.6), kQuantum, {}), at(4));
+}
+
 TEST(KeptGeometry, DamagedBytesAreRefused) {
   const DrawnMesh mesh = grid();
   const MeshPacker packer(mesh.vertices, mesh.triangles);
