@@ -60,7 +60,7 @@ draw_crumple() {
 
 # A sleeve whose elbow bends and straightens: before, bent and after, and as a film.  Elastic, plastic, hysteretic, and
 # hysteretic with a permanent set, that of the fabric cotton-broad-creasing, beside friction.  Laws are matched in the
-# work of bending; narain, whose yield is at k0 = 8/m, would become 52 times as stiff: terzopoulos stands for plasticity.
+# work of bending; narain, whose yield is at k0 = 8/m, would be made 52 times as stiff: terzopoulos is the plastic one.
 # The picture shows the elbow's inside; parts of the arm that no cloth reaches go on beyond its border.
 draw_sleeve() {
   local set=fabric.bending.set.yield=500+fabric.bending.set.hardening=7.98e-6 small=()
