@@ -14,7 +14,6 @@ constexpr double kFlicker = 0.3;  // of L*
 constexpr double kLit = 1;        // where what moves takes more of the room's light
 constexpr float kRoom = 0.45f;    // of raking light
 
-
 // As films are drawn: sequences in quality `final`.  Its right half swings, a ball falls beside it.
 class StillCloth : public test::OffscreenTest {
  protected:
