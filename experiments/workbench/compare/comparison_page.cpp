@@ -148,13 +148,19 @@ class PageTable {
       place.busy.push_back(all_over_each_other(c, times, place.crop));
     return place;
   }
+  // As many as make a picture about as high as wide: four columns are two above two.
+  static int film_columns(std::size_t count) {
+    constexpr std::size_t kInARow = 3;
+    const int square = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(count))));
+    return count <= kInARow ? static_cast<int>(count) : std::min(square, render::kMaxBeside);
+  }
   // A film's picture: the row at that time, laid out as all others.  Numbers, which are of the end, are left
   // out.
   render::Image film_picture(double time, const FilmPlace& place) {
     add_row(time, place.crop);
     for (render::ComparisonColumn& column : sheet_.columns) column.numbers.clear();
     sheet_.further_rows = place.rows;
-    sheet_.beside = static_cast<int>(std::min<std::size_t>(sheet_.columns.size(), render::kMaxBeside));
+    sheet_.beside = film_columns(sheet_.columns.size());
     for (std::size_t c = 0; c < columns_.size(); ++c) sheet_.columns[c].cells.back().busy = place.busy[c];
     return render::draw_comparison(sheet_);
   }
