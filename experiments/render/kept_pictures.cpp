@@ -22,14 +22,14 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kOut = "out/render";
-constexpr const char *kFilm = "render.video", *kFilmSize = "render.video-size";
+constexpr const char *kFilm = "render.video", *kFilmSize = "render.video-size", *kTitle = "render.title";
 
 // What the flags ask for in place of what the run was drawn with.
 void apply_flags(const CommandLine& line, Options& options) {
   const Keys keys = bind_options(options);
   for (const Flag& flag : line.flags) {
     const std::string path = flag.path == "render.range" ? "curvature-range" : flag.path;
-    if (path == "render.part" || path == kFilm || path == kFilmSize)
+    if (path == "render.part" || path == kFilm || path == kFilmSize || path == kTitle)
       continue;  // of the page, not of a picture
     if (path.starts_with("render.") || path == "fps")
       throw Error::invalid_input(flag.path + " is of mesh files, not of kept geometry (--" + flag.path + ")")
@@ -97,7 +97,7 @@ void draw_run(const CommandLine& line, const fs::path& file, const Kept& kept) {
              " instants and without the sheet that a whole run writes last: what is drawn is the part of an "
              "interrupted run, or of a file that was cut off");
   draw_instants(run, setup, kept.meshes.at(cloth.mesh), cloth, kept.sheet,
-                kept.sheet.is_object() ? kept.sheet.value("title", "") : "");
+                last_text(line.flags, kTitle, kept.sheet.is_object() ? kept.sheet.value("title", "") : ""));
   finish_with_report(run);
 }
 
@@ -173,6 +173,7 @@ void take_all_instants(const fs::path& file, Kept& kept) {
 
 void draw_comparison(const CommandLine& line, const fs::path& file, Kept kept) {
   ComparisonPage page = kept_comparison_page(kept.sheet);
+  page.title = last_text(line.flags, kTitle, page.title);
   take_films(line, page);
   if (!page.films.empty()) take_all_instants(file, kept);
   Options options;

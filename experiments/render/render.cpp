@@ -48,7 +48,7 @@ const KeyRow<F> kRows[] = {
     {"render.up", at<&F::up>, "", any(), "", "the files' upward axis: z | y, for all or for each"},
     {"render.range", at<&F::range>, "1/m", positive(), "", "curvature at the ends of the colour bar; 100, as in runs of the shipped fabrics; of kept geometry without it that of its run"},
     {"render.curvature", at<&F::curvature>, "", any(), "geometry | file", "computed from positions, or the property of that name in a PLY"},
-    {"render.title", at<&F::title>, "", any(), "", "of the sheet, and of a single sequence's pictures; else the sequences' names"},
+    {"render.title", at<&F::title>, "", any(), "", "of the sheet, and of a single sequence's pictures; else the sequences' names, or what was recorded"},
     {"render.ground", at<&F::ground>, "", any(), "", "height of a visible ground [m], or none"},
     {"render.body", at<&F::body>, "", any(), "", "a mesh that does not move, drawn matte as obstacles are; in the unit and axes of the first sequence"},
     {"render.fabric", at<&F::fabric>, "", any(), "", "a fabric of assets/fabrics or a file, whose colours and weave the cloth has"},

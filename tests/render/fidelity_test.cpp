@@ -144,8 +144,9 @@ double deviation_of_cell(const Image& sheet, int left, int width, int bottom) {
   return local_deviation(sheet, cloth, cloth).median;
 }
 
-// As wide as the README shows it, in its first row: wrinkles that hysteresis keeps are seen at first sight.
-TEST(RecordedPicture, TheFirstShowsWhatPrandtlKeepsAndLinearForgets) {
+// As wide as the README would show it, in its first row: wrinkles that hysteresis keeps are seen at first
+// sight.
+TEST(RecordedPicture, OfCrumpledSheetsShowsWhatPrandtlKeepsAndLinearForgets) {
   const Image recorded =
       read_png(std::filesystem::path(HYSTERON_TEST_FOLDER) / "../../results/crumple-table-h100/sheet.png");
   const Image sheet = shrink(recorded, 838, 838 * recorded.height() / recorded.width());

@@ -70,6 +70,8 @@ TEST(KeptPictures, AComparisonsFolderGivesItsSheet) {
   const Recorded page("compare swing --laws linear,prandtl --quality draft");
   finished(page.drawing(page.kept));
   EXPECT_EQ(file_content(page.again / "sheet.png"), file_content(page.run / "sheet.png"));
+  finished(page.drawing(page.kept, " --render.title Swings"));
+  EXPECT_NE(file_content(page.again / "sheet.png"), file_content(page.run / "sheet.png"));
 }
 
 // An OBJ of a square of 0.2 m whose right half is rippled, straight across, by this amplitude [m].
