@@ -44,7 +44,7 @@ MetricRequest request_named(const std::string& name, const fs::path& manifest, c
                                     : "must be " + join(names, " | ") + suggestion(name, names));
 }
 
-// Of each triangle whether it belongs to the part.
+// Tells of each triangle whether it belongs to the part.
 std::vector<char> triangles_of_part(Scene scene, const MetricRequest& request, const DrawnMesh& drawn,
                                     const fs::path& manifest) {
   find_meshes(scene, read_manifest(manifest).meshes, manifest);
@@ -57,7 +57,7 @@ std::vector<char> triangles_of_part(Scene scene, const MetricRequest& request, c
   return part;
 }
 
-// What is nearest to the eye in each pixel, rows from the top.
+// The map holds what is nearest to the eye in each pixel, rows from the top.
 class Nearest {
  public:
   Nearest(const render::Camera& camera, int width, int height)
@@ -125,7 +125,7 @@ void fade(render::Image& image, const std::vector<char>& part) {
           image.at(x, y)[c] = static_cast<std::uint8_t>(255 - (255 - image.at(x, y)[c]) / 4);
 }
 
-// Of kept instants the last that is not after a time, but for rounding; the first one where there is none.
+// Finds the last kept instant that is not after a time, but for rounding; the first one where there is none.
 std::size_t instant_at(const std::vector<KeptState>& instants, double time) {
   constexpr double kRounding = 1e-9;  // [s]
   std::size_t found = 0;

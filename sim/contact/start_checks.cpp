@@ -22,20 +22,9 @@ namespace hysteron {
 
 namespace {
 
-constexpr std::size_t kNamed = 3;  // pairs that a message names
-
 std::string millimetres(double metres) {
   char text[32];
   std::snprintf(text, sizeof text, "%.4g mm", 1e3 * metres);
-  return text;
-}
-
-// "12 and 97, 12 and 98, ... (31 pairs in all)"
-std::string listed(const std::vector<std::pair<int, int>>& pairs) {
-  std::string text;
-  for (std::size_t i = 0; i < std::min(pairs.size(), kNamed); ++i)
-    text += (i ? ", " : "") + std::to_string(pairs[i].first) + " and " + std::to_string(pairs[i].second);
-  if (pairs.size() > kNamed) text += ", ... (" + std::to_string(pairs.size()) + " pairs in all)";
   return text;
 }
 
@@ -43,7 +32,7 @@ void throw_if_crossing(const Cloth& cloth) {
   const auto pairs = intersecting_triangles(cloth.mesh.face, cloth.start);
   if (pairs.empty()) return;
   throw Error::invalid_input("self-contact: the cloth passes through itself at the start: triangles " +
-                             listed(pairs) + "; move its parts apart, or weld what is one (cloth.weld)");
+                             pairs_text(pairs) + "; move its parts apart, or weld what is one (cloth.weld)");
 }
 
 struct NearPair {

@@ -168,4 +168,13 @@ std::vector<std::pair<int, int>> crossing_triangles(const TriangleSet& first, co
   return pairs;
 }
 
+std::string pairs_text(const std::vector<std::pair<int, int>>& pairs) {
+  constexpr std::size_t kNamed = 3;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(pairs.size(), kNamed); ++i)
+    text += (i ? ", " : "") + std::to_string(pairs[i].first) + " and " + std::to_string(pairs[i].second);
+  if (pairs.size() > kNamed) text += ", ... (" + std::to_string(pairs.size()) + " pairs in all)";
+  return text;
+}
+
 }  // namespace hysteron

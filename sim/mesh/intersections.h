@@ -1,6 +1,7 @@
 // Triangles of a surface that pass through each other, by exact predicates: an independent check of contact.
 #pragma once
 
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -20,5 +21,8 @@ struct TriangleSet {
   const std::vector<Eigen::Vector3d>& position;  // [m]
 };
 std::vector<std::pair<int, int>> crossing_triangles(const TriangleSet& first, const TriangleSet& second);
+
+// Messages name the first three: "12 and 97, 12 and 98, ... (31 pairs in all)".
+std::string pairs_text(const std::vector<std::pair<int, int>>& pairs);
 
 }  // namespace hysteron

@@ -14,7 +14,6 @@ namespace {
 
 constexpr double kFarthest = 0.2;  // of a body's diagonal, in which a vertex goes on in a frame
 constexpr double kFastest = 50;    // [m/s]: a whip's tip; limbs reach 20
-constexpr std::size_t kNamedPairs = 3;
 
 // "obstacle[0], mesh torso.obj"
 std::string named(const Obstacle& o, std::size_t number) {
@@ -56,11 +55,7 @@ std::string crossing_doubt(const BodyMesh& body) {
     text += frame == 0 ? "first frame"
                        : "frame " + std::to_string(frame + 1) +
                              ", at t = " + number_text(body.time_of(frame), 4) + " s";
-    text += ": triangles ";
-    for (std::size_t i = 0; i < std::min(pairs.size(), kNamedPairs); ++i)
-      text += (i ? ", " : "") + std::to_string(pairs[i].first) + " and " + std::to_string(pairs[i].second);
-    if (pairs.size() > kNamedPairs) text += ", ... (" + std::to_string(pairs.size()) + " pairs in all)";
-    return text + ": cloth that comes between them is pinched";
+    return text + ": triangles " + pairs_text(pairs) + ": cloth that comes between them is pinched";
   }
   return "";
 }

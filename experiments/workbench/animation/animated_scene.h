@@ -71,8 +71,9 @@ Eigen::Vector3f linear_light(const render::Rgb8& color);
 
 // The cloth without its points.
 AnimatedPart animated_cloth(const ClothMesh& mesh, const ClothShape& shape, const PictureView& view);
-// What pictures show beside the cloth: visible obstacles from the same triangles, as much smaller as they
-// draw them, and the ground as a square around what they frame.  `side`: of the cloth's triangles [m].
+// Bodies are what pictures show beside the cloth: visible obstacles from the same triangles, as much smaller
+// as they draw them, and the ground as a square around what they frame.  `side`: of the cloth's triangles
+// [m].
 std::vector<AnimatedPart> animated_bodies(const Scene& scene, const PictureView& view, float side);
 
 // Every second instant, and the last.

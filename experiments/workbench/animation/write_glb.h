@@ -11,7 +11,7 @@ namespace hysteron::experiments {
 // Morph targets that viewers bear: one in a browser has a uniform and a layer of a texture for each, of which
 // WebGL 2 promises 256, other uniforms included.
 inline constexpr std::size_t kMostMorphTargets = 200;
-// What a file of this format can count to [bytes].
+// A file of this format counts no farther [bytes].
 inline constexpr std::size_t kMostGlbBytes = 0xFFFFFFFF;
 
 // Metres, turned as a whole so that y is up: (x, y, z) here is (x, z, -y) there.  A surface that changes its

@@ -48,7 +48,7 @@ std::string point_list(const std::vector<Eigen::Vector3f>& points) {
   });
 }
 
-// Of unit vectors: a hundred-thousandth turns them by 0.0006 degrees.
+// Unit vectors are rounded: a hundred-thousandth turns them by 0.0006 degrees.
 std::string direction_list(const std::vector<Eigen::Vector3f>& directions) {
   return list(directions, [](std::string& to, const Eigen::Vector3f& v) {
     fmt::format_to(std::back_inserter(to), "({:.5g}, {:.5g}, {:.5g})", v.x(), v.y(), v.z());
