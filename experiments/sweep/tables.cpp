@@ -87,7 +87,8 @@ std::vector<std::string> metrics_shown(const Study& study, const std::vector<Chi
 std::string unknown_metric(const Study& study, std::span<const ChildRun> runs) {
   std::vector<std::string> known;
   for (const ChildRun& run : runs)
-    for (const auto& [name, value] : run.metrics()) known.push_back(name);
+    for (const auto& [name, value] : run.metrics())
+      if (!std::count(known.begin(), known.end(), name)) known.push_back(name);
   if (known.empty()) return "";
   for (const std::string& name : study.metrics) {
     if (std::count(known.begin(), known.end(), name)) continue;
