@@ -12,9 +12,8 @@ namespace hysteron::render {
 namespace {
 
 constexpr Rgb8 kPaper{255, 255, 255}, kInk{38, 40, 44}, kGrey{96, 99, 104};
-constexpr float kPlateEdge = 0.02f;      // of an inset, around its frame
-constexpr float kInsetFraction = 0.28f;  // of a cell's shorter side
-constexpr int kMinCell = 32;             // [pixels]
+constexpr float kPlateEdge = 0.02f;  // of an inset, around its frame
+constexpr int kMinCell = 32;         // [pixels]
 
 // Text that fits: its end gives way to an ellipsis.
 std::string fitting(std::string text, float letters, float room) {
@@ -64,6 +63,13 @@ Image fitted(const Image& image, int width, int height) {
 double bar_metres(double metres_per_pixel, double room) {
   const double most = metres_per_pixel * room, decade = std::pow(10, std::floor(std::log10(most)));
   return (most >= 5 * decade ? 5 : most >= 2 * decade ? 2 : 1) * decade;
+}
+
+// White on the right.
+Image with_margin(const Image& source, int margin) {
+  Image result(source.width() + margin, source.height(), kPaper);
+  paste(result, source, 0, 0);
+  return result;
 }
 
 int inset_side(const Image& cell) {
@@ -181,7 +187,7 @@ class Drawing {
     for (std::size_t r = 0; r < sheet_.rows.size(); ++r) {
       instant(sheet_.rows[r], r);
       for (std::size_t i = 0; i < block.size(); ++i)
-        cell(sheet_.columns[block[i]].cells[r], page_.left(i), page_.row_height[r], places_[r]);
+        cell(sheet_.columns[block[i]].cells[r], page_.left(i), r);
       y_ += page_.row_height[r] + page_.gap;
     }
     y_ += page_.gap;
@@ -222,16 +228,16 @@ class Drawing {
     return 1;
   }
 
-  void cell(const ComparisonCell& from, int left, int height, const Place& place) {
+  void cell(const ComparisonCell& from, int left, std::size_t r) {
     if (from.image.empty()) return;
+    const int height = page_.row_height[r] - page_.note_height[r];
     Image cell = fitted(from.image, page_.cell_width, height);
-    if (!from.note.empty())
-      draw_text(cell, fitting(from.note, page_.letters, static_cast<float>(cell.width()) - page_.letters),
-                0.5f * page_.letters, static_cast<float>(cell.height()) - 0.6f * page_.letters,
-                {kInk, page_.letters});
     if (!from.loop.empty())
-      inset(cell, from.loop, sheet_.in_sequence ? emptiest_place({Darkness(cell)}) : place);
-    paste(image_, cell, left + (page_.cell_width - cell.width()) / 2, y_ + (height - cell.height()) / 2);
+      inset(cell, from.loop, sheet_.in_sequence ? emptiest_place({Darkness(cell)}) : places_[r]);
+    const int x = left + (page_.cell_width - cell.width()) / 2;
+    paste(image_, cell, x, y_ + (height - cell.height()) / 2);
+    text(from.note, static_cast<float>(x), y_ + height, kGrey,
+         static_cast<float>(left + page_.cell_width - x));
   }
 
   void inset(Image& cell, const LoopInset& loop, const Place& place) {
@@ -270,6 +276,28 @@ class Drawing {
       paste(image_, part, static_cast<int>(x) - margin(whole), y_);
       x += static_cast<float>(wide) * 0.32f;
     }
+    if (page_.names_loops) loop_key(x);
+  }
+
+  // What insets are, in their own frame: axes alone, with a tick, its value and unit each.
+  void loop_key(float x) {
+    const int side = static_cast<int>(kLoopKey * page_.letters);
+    for (const ComparisonColumn& column : sheet_.columns)
+      for (const ComparisonCell& cell : column.cells) {
+        if (cell.loop.empty()) continue;
+        LoopInset axes = cell.loop;
+        if (axes.frame.empty()) axes.frame.include(axes.path);
+        axes.path = {{NAN}, {NAN}};
+        axes.reference = {};
+        Image plate(side, side, kPaper);
+        draw_loop(plate, axes, Corner::bottom_right, 1 - 2 * kPlateEdge, page_.letters);
+        paste(image_, plate, static_cast<int>(x), y_);
+        const float behind = x + static_cast<float>(side) + page_.letters,
+                    room = static_cast<float>(page_.width) - behind;
+        text("insets: moment M against curvature κ", behind, y_, kInk, room);
+        text(sheet_.loop_note, behind, y_ + page_.line(), kGrey, room);
+        return;
+      }
   }
 
   const ComparisonSheet& sheet_;
@@ -283,6 +311,33 @@ class Drawing {
 bool is_dark(const Image& image, int x, int y) {
   if (x < 0 || y < 0 || x >= image.width() || y >= image.height()) return false;
   return image.at(x, y)[0] < 128;
+}
+
+// Where an inset would hide something of a row's pictures, they have a margin for it on the right.
+ComparisonSheet with_room_for_insets(ComparisonSheet sheet) {
+  constexpr double kNothing = 1;                                     // 8-bit steps in the mean
+  constexpr double kMargin = kInsetFraction / (1 - kInsetFraction);  // of a picture's shorter side
+  for (std::size_t r = 0; r < sheet.rows.size(); ++r) {
+    std::vector<Darkness> pictures;
+    for (const ComparisonColumn& column : sheet.columns)
+      if (const ComparisonCell& cell = column.cells[r]; !cell.image.empty() && !cell.loop.empty())
+        pictures.emplace_back(cell.busy.empty() ? cell.image : cell.busy);
+    const auto is_clear = [](const std::vector<Darkness>& beside) {
+      const Place place = emptiest_place(beside);
+      return std::ranges::all_of(beside, [&](const Darkness& one) { return one.under(place) <= kNothing; });
+    };
+    if (pictures.empty() ||
+        (sheet.in_sequence
+             ? std::ranges::all_of(pictures, [&](const Darkness& one) { return is_clear({one}); })
+             : is_clear(pictures)))
+      continue;
+    for (ComparisonColumn& column : sheet.columns)
+      for (Image* image : {&column.cells[r].image, &column.cells[r].busy})
+        if (!image->empty())
+          *image = with_margin(
+              *image, static_cast<int>(std::ceil(kMargin * std::min(image->width(), 2 * image->height()))));
+  }
+  return sheet;
 }
 
 void check(const ComparisonSheet& sheet) {
@@ -299,8 +354,9 @@ void check(const ComparisonSheet& sheet) {
 
 float sheet_letters(int width) { return std::ceil(static_cast<float>(width) / 84); }
 
-Image draw_comparison(const ComparisonSheet& sheet) {
-  check(sheet);
+Image draw_comparison(const ComparisonSheet& given) {
+  check(given);
+  const ComparisonSheet sheet = with_room_for_insets(given);
   SheetPage page = best_page(sheet);
   if (page.cell_width < kMinCell)
     throw Error::invalid_input("comparison: columns in " + std::to_string(sheet.width) + " pixels leave " +
@@ -333,12 +389,12 @@ void fade_to_page(Image& image) {
     }
 }
 
-void draw_outline(Image& target, const Image& silhouette, const Rgb8& color, int width) {
+void draw_outline(Image& target, const Image& silhouette, const Rgb8& color, int width, bool dotted) {
   if (target.width() != silhouette.width() || target.height() != silhouette.height())
     throw Error::invalid_input("outline: the silhouette has another size than the picture");
   for (int y = 0; y < silhouette.height(); ++y)
     for (int x = 0; x < silhouette.width(); ++x) {
-      if (!is_dark(silhouette, x, y)) continue;
+      if (!is_dark(silhouette, x, y) || (dotted && (x + y) / (3 * width) % 2)) continue;
       if (is_dark(silhouette, x - 1, y) && is_dark(silhouette, x + 1, y) && is_dark(silhouette, x, y - 1) &&
           is_dark(silhouette, x, y + 1))
         continue;

@@ -20,8 +20,8 @@ namespace hysteron::render {
 
 struct ComparisonCell {
   Image image{};       // empty: the cell stays white
-  std::string note{};  // a few words within the cell, "stopped at 0.90 s"
-  LoopInset loop{};    // in the corner where it hides least of all cells; empty: none
+  std::string note{};  // a few words below the picture, "stopped at 0.90 s"
+  LoopInset loop{};    // where it hides nothing of any cell of its row; empty: none
   Image busy{};        // what the inset keeps off, of a film all pictures over each other; empty: the image
 };
 
@@ -45,6 +45,7 @@ struct ComparisonSheet {
   std::vector<ComparisonColumn> columns{};
   std::vector<ColorBar> bars{};  // below all pictures
   std::string scale_note{};      // in which plane scale bars hold
+  std::string loop_note{};       // behind what insets are
   int width = kSheetWidth;       // [pixels]
   int beside = 0;                // columns beside each other; 0: as many as go well, at most five
   std::vector<ComparisonRow> further_rows{};  // of a film's other pictures: their margins are as wide
@@ -65,8 +66,8 @@ Image draw_comparison(const ComparisonSheet& sheet);
 // and what is left of shadows there.  What is cropped to its cloth with 6 % of room keeps all of it.
 void fade_to_page(Image& image);
 
-// The outline of a silhouette, black on white, drawn over `target` of the same size; `width` in pixels.
-// Error::invalid_input if the sizes differ.
-void draw_outline(Image& target, const Image& silhouette, const Rgb8& color, int width);
+// The outline of a silhouette, black on white, drawn over `target` of the same size; `width` in pixels;
+// `dotted`: with gaps, where another has the colour already.  Error::invalid_input if the sizes differ.
+void draw_outline(Image& target, const Image& silhouette, const Rgb8& color, int width, bool dotted = false);
 
 }  // namespace hysteron::render

@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "render/color_map.h"
+#include "render/color_vision.h"
 #include "sim/base/atomic_file.h"
 #include "sim/base/error.h"
 #include "sim/base/process.h"
@@ -36,9 +37,22 @@ std::string unmarked(const std::string& text, const char* escape) {
   return plain;
 }
 
-std::string style_words(const Series& series, const std::string& color) {
-  const std::string lines = " lw " + number(series.line_width) + " lc rgb '" + color + "'",
-                    dots = " pt 7 ps 0.9";
+// Dashes and dots of a pattern; the last one stands for all that follow.
+std::string dashes(int pattern) {
+  constexpr const char* kDashes[] = {
+      "", " dt (14,5)", " dt (3,4)", " dt (14,4,3,4)", " dt (14,4,3,4,3,4)", " dt (7,7)"};
+  return kDashes[std::min<std::size_t>(static_cast<std::size_t>(pattern), std::size(kDashes) - 1)];
+}
+
+// Circles, squares, triangles, diamonds.
+std::string dots_of(int pattern) {
+  constexpr int kFilled[] = {7, 5, 9, 13, 11};
+  return " pt " + std::to_string(kFilled[static_cast<std::size_t>(pattern) % std::size(kFilled)]) + " ps 0.9";
+}
+
+std::string style_words(const Series& series, const std::string& color, int pattern) {
+  const std::string lines = dashes(pattern) + " lw " + number(series.line_width) + " lc rgb '" + color + "'",
+                    dots = dots_of(pattern);
   switch (series.style) {
     case Series::Style::points:
       return "points" + dots + " lc rgb '" + color + "'";
@@ -47,12 +61,32 @@ std::string style_words(const Series& series, const std::string& color) {
     case Series::Style::line_and_points:
       return "linespoints" + lines + dots;
     case Series::Style::dashed:
-      return "lines dt 2" + lines;
+      return "lines dt 2 lw " + number(series.line_width) + " lc rgb '" + color + "'";
     case Series::Style::bars:
       return "boxes lc rgb '" + color + "'";
     default:
       return "lines" + lines;
   }
+}
+
+bool has_line(const Series& series) {
+  return series.style == Series::Style::line || series.style == Series::Style::line_and_points;
+}
+
+// Of what has a name: lines among each other, and dots.  Dashed lines are what others are held against.
+std::vector<int> patterns_of(const std::vector<Series>& series, const std::vector<std::string>& colors) {
+  std::vector<int> patterns(series.size());
+  for (const bool lines : {true, false}) {
+    std::vector<std::size_t> alike;
+    std::vector<std::string> beside;
+    for (std::size_t i = 0; i < series.size(); ++i)
+      if (!series[i].label.empty() &&
+          (lines ? has_line(series[i]) : series[i].style == Series::Style::points))
+        alike.push_back(i), beside.push_back(colors[i]);
+    const std::vector<int> found = patterns_beside(beside);
+    for (std::size_t k = 0; k < alike.size(); ++k) patterns[alike[k]] = found[k];
+  }
+  return patterns;
 }
 
 std::string output_commands(const char* terminal, int width, int height, const std::filesystem::path& file) {
@@ -158,11 +192,14 @@ std::string data_blocks(const std::vector<Series>& series, std::size_t first) {
 
 std::string plot_command(const std::vector<Series>& series, std::size_t first) {
   std::string script = "plot ";
+  std::vector<std::string> colors;
+  for (std::size_t i = 0; i < series.size(); ++i)
+    colors.push_back(series[i].color.empty() ? hex(method_color(i)) : series[i].color);
+  const std::vector<int> patterns = patterns_of(series, colors);
   for (size_t i = 0; i < series.size(); ++i) {
     const std::string name = series[i].label.empty() ? " notitle" : " title " + label_text(series[i].label);
-    const std::string color = series[i].color.empty() ? hex(method_color(i)) : series[i].color;
     script += std::string(i ? ", " : "") + "$series" + std::to_string(first + i) + " using 1:2" + name +
-              " with " + style_words(series[i], color);
+              " with " + style_words(series[i], colors[i], patterns[i]);
   }
   return script + "\n";
 }

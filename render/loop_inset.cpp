@@ -1,10 +1,13 @@
 #include "render/loop_inset.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 
+#include "render/plot.h"
 #include "render/srgb.h"
 
 namespace hysteron::render {
@@ -82,6 +85,59 @@ void draw_path(Image& image, const Frame& at, const Path& path, float width, con
   }
 }
 
+// 1, 2 or 5 times a power of ten, most of the way to the end that is farther from zero.
+double tick(double low, double high) {
+  constexpr double kMost = 0.9;
+  const double end = std::abs(low) > std::abs(high) ? low : high, most = kMost * std::abs(end),
+               decade = std::pow(10, std::floor(std::log10(most)));
+  return std::copysign((most >= 5 * decade ? 5 : most >= 2 * decade ? 2 : 1) * decade, end);
+}
+
+// Of an axis: its tick, and what stands there.
+struct AxisName {
+  double at;
+  std::string text;
+};
+
+AxisName curvature_name(const LoopFrame& shown) {
+  const double at = tick(shown.low_curvature, shown.high_curvature);
+  return {at, fmt::format("κ = {:g} /m", at)};
+}
+
+AxisName moment_name(const LoopFrame& shown) {
+  const double at = tick(shown.low_moment, shown.high_moment);
+  const auto [prefix, factor] = si_prefix(at);
+  return {at, fmt::format("M = {:.3g} {}N", at / factor, prefix)};
+}
+
+// Names stand where loops are not: that of κ below its axis where values are positive, above it where they
+// are negative; that of M beyond the end of its own.
+void leave_room_for_names(Frame& at, float letters) {
+  const float high = 1.6f * letters, y = at.y(0) - at.top;
+  const bool right = curvature_name(at.shown).at > 0, up = moment_name(at.shown).at > 0;
+  const float above = std::max(up ? high : 0, right ? 0 : std::max(0.f, high - y)),
+              below = std::max(up ? 0 : high, right ? std::max(0.f, high - at.side + y) : 0);
+  at.top += above;
+  at.side -= above + below;
+  if (right) return;
+  at.left += above + below;  // its axis stays at the border
+}
+
+void name_axes(Image& image, const Frame& at, float letters) {
+  const AxisName k = curvature_name(at.shown), m = moment_name(at.shown);
+  const float half = 0.25f * letters, thin = std::max(1.f, at.side / 110);
+  const float x = at.x(k.at), y = at.y(m.at);
+  draw_line(image, x, at.y(0) - half, x, at.y(0) + half, thin, kAxisName);
+  draw_line(image, at.x(0) - half, y, at.x(0) + half, y, thin, kAxisName);
+  const auto write = [&](const std::string& text, float middle, float base) {
+    const float wide = text_width(text, letters), most = static_cast<float>(image.width()) - wide;
+    draw_text(image, text, std::clamp(middle - wide / 2, 0.f, std::max(0.f, most)), base,
+              {kAxisName, letters});
+  };
+  write(k.text, x, at.y(0) + (k.at > 0 ? 1.5f : -0.5f) * letters);
+  write(m.text, at.x(0), m.at > 0 ? at.top - 0.4f * letters : at.top + at.side + 1.4f * letters);
+}
+
 void include(double& low, double& high, const std::vector<double>& values) {
   for (double v : values)
     if (std::isfinite(v)) low = std::min(low, v), high = std::max(high, v);
@@ -101,19 +157,26 @@ void LoopFrame::include(const Path& path) {
   render::include(low_moment, high_moment, path.moment);
 }
 
-LoopFrame LoopFrame::median(const std::vector<LoopFrame>& frames) {
-  LoopFrame median;
+LoopFrame LoopFrame::of_most(const std::vector<LoopFrame>& frames) {
+  constexpr double kReach = 3;
+  LoopFrame all;
   for (double LoopFrame::*end : {&LoopFrame::low_curvature, &LoopFrame::high_curvature,
                                  &LoopFrame::low_moment, &LoopFrame::high_moment}) {
     std::vector<double> ends;
     for (const LoopFrame& frame : frames) ends.push_back(frame.*end);
     const auto farther = [](double a, double b) { return std::abs(a) < std::abs(b); };
-    const auto middle = ends.begin() + static_cast<std::ptrdiff_t>(ends.size() / 2);
-    if (middle == ends.end()) continue;
-    std::nth_element(ends.begin(), middle, ends.end(), farther);
-    median.*end = *middle;
+    if (ends.empty()) continue;
+    std::ranges::sort(ends, farther);
+    const double most = kReach * std::abs(ends[ends.size() / 2]);
+    while (std::abs(ends.back()) > most) ends.pop_back();
+    all.*end = ends.back();
   }
-  return median;
+  return all;
+}
+
+bool names_loop_axes(float side, float letters) {
+  constexpr float kLeast = 8;  // letters
+  return side >= kLeast * letters;
 }
 
 void draw_line(Image& image, float x0, float y0, float x1, float y1, float width, const Rgb8& color) {
@@ -140,16 +203,12 @@ void draw_loop(Image& image, const LoopInset& inset, Corner corner, float fracti
   give_air(at.shown.low_curvature, at.shown.high_curvature);
   give_air(at.shown.low_moment, at.shown.high_moment);
   pale(image, at);
+  const bool named = names_loop_axes(at.side, letters);
+  if (named) leave_room_for_names(at, letters);
   const float thin = std::max(1.f, at.side / 110), bold = std::max(1.5f, at.side / 40);
   draw_line(image, at.left, at.y(0), at.left + at.side, at.y(0), thin, kAxis);
   draw_line(image, at.x(0), at.top, at.x(0), at.top + at.side, thin, kAxis);
-  const bool left = at.x(0) - at.left > at.side / 2;  // of which there is more room
-  const bool below = at.y(0) - at.top < at.side / 2;
-  draw_text(image, "M", left ? at.x(0) - 1.3f * letters : at.x(0) + 0.35f * letters,
-            below ? at.top + at.side : at.top + letters, {kAxisName, letters});
-  const bool above = at.y(0) - 1.4f * letters >= at.top;
-  draw_text(image, "κ", left ? at.left : at.left + at.side - text_width("κ", letters),
-            at.y(0) + (above ? -0.4f : 1.4f) * letters, {kAxisName, letters});
+  if (named) name_axes(image, at, letters);
   draw_path(image, at, inset.reference, bold, kGhost);
   draw_path(image, at, inset.path, bold, inset.color);
   const float x = at.x(inset.path.curvature.back()), y = at.y(inset.path.moment.back());

@@ -19,8 +19,9 @@ struct LoopFrame {
   double low_curvature = 0, high_curvature = 0, low_moment = 0, high_moment = 0;
 
   void include(const Path& path);
-  // As far as half of these reach; what goes beyond is cut off.
-  static LoopFrame median(const std::vector<LoopFrame>& frames);
+  // As far as any of these reaches that does not reach three times as far as the middle one of them; what
+  // goes beyond is cut off.
+  static LoopFrame of_most(const std::vector<LoopFrame>& frames);
   bool empty() const { return low_curvature == high_curvature || low_moment == high_moment; }
 };
 
@@ -36,9 +37,12 @@ struct LoopInset {
 // A straight line with round ends, blended in linear light.
 void draw_line(Image& image, float x0, float y0, float x1, float y1, float width, const Rgb8& color);
 
+// Whether an inset so wide [pixels] has room for what stands at its axes.
+bool names_loop_axes(float side, float letters);
 // A square of `fraction` of the picture's width, or twice that of its height where that is less, in that
-// corner, with axes through zero named M and κ, whose capitals are `letters` pixels high.  Points that are
-// not finite make gaps; what is outside of the frame is not drawn.  An empty path draws nothing.
+// corner, with axes through zero; where it has room, each has a tick with its value and unit, whose capitals
+// are `letters` pixels high.  Points that are not finite make gaps; what is outside of the frame is not
+// drawn. An empty path draws nothing.
 void draw_loop(Image& image, const LoopInset& inset, Corner corner, float fraction, float letters);
 
 }  // namespace hysteron::render

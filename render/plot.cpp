@@ -109,6 +109,22 @@ Axis bounded(Axis axis, const std::vector<Series>& all, std::vector<double> Seri
   return axis;
 }
 
+// Where all values lie within a tenth of the largest, the axis spans that tenth: noise does not fill the
+// plot.
+Axis not_stretched(Axis axis, const std::vector<Series>& all, std::vector<double> Series::*values) {
+  constexpr double kLeast = 0.1;
+  if (axis.low != axis.high || axis.logarithmic) return axis;
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const Series& series : all)
+    for (double v : series.*values)
+      if (std::isfinite(v)) low = std::min(low, v), high = std::max(high, v);
+  const double least = kLeast * std::max(std::abs(low), std::abs(high));
+  if (!(low < high) || high - low >= least) return axis;
+  axis.low = (low + high - least) / 2;
+  axis.high = (low + high + least) / 2;
+  return axis;
+}
+
 struct EndLabel {
   std::size_t series;
   double at, end;  // of its middle and of the line's end, in heights of the plot
@@ -226,6 +242,17 @@ std::vector<Series> grouped_bars(const std::vector<std::string>& labels,
   return all;
 }
 
+Series bar_errors(const std::vector<double>& values, const std::vector<double>& errors) {
+  Series series{"", {}, {}, Series::Style::line, "#222222", 2};
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (!std::isfinite(errors[i])) continue;
+    series.add(static_cast<double>(i), values[i] - errors[i]);
+    series.add(static_cast<double>(i), values[i] + errors[i]);
+    series.add(static_cast<double>(i), std::numeric_limits<double>::quiet_NaN());
+  }
+  return series;
+}
+
 void write_plot(const std::filesystem::path& base, const Plot& drawn) {
   Plot plot = drawn;
   constexpr double kAir = 0.04;
@@ -234,6 +261,7 @@ void write_plot(const std::filesystem::path& base, const Plot& drawn) {
   prefix(plot, plot.y, &Series::y, &Mark::y);
   plot.x = limited(plot.x, plot.series, &Series::x);
   plot.y = limited(plot.y, plot.series, &Series::y);
+  plot.y = not_stretched(plot.y, plot.series, &Series::y);
   std::string labels;
   if (has_end_labels(plot)) {
     plot.x = bounded(plot.x, plot.series, &Series::x, 0);

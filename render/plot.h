@@ -37,8 +37,8 @@ struct Plot {
   std::string title;
   Axis x, y;
   std::vector<Series> series{};
-  int width = 1200, height = 800;  // of the PNG [pixels]
-  bool equal_scales = false;       // one unit is as long along x as along y: outlines
+  int width = 960, height = 640;  // of the PNG [pixels]
+  bool equal_scales = false;      // one unit is as long along x as along y: outlines
   std::vector<Mark> marks{};
   bool axes_at_zero = false;  // lines through the origin instead of a grid
   bool key_inside = false;    // in the lower right corner; else lines have their labels at their ends
@@ -58,6 +58,10 @@ SiPrefix si_prefix(double value);
 // cells are gaps.
 Series series_from_csv(const std::filesystem::path& csv, const std::string& x, const std::string& y,
                        const std::string& label);
+
+// Errors of bars, a vertical line each from value - error to value + error at 0, 1, 2, ...; none where the
+// error is not finite.
+Series bar_errors(const std::vector<double>& values, const std::vector<double>& errors);
 
 // Series of bars, a group at each category: `values` by series and category, `labels` by series.  Numbers
 // that are not finite make no bar.

@@ -102,6 +102,15 @@ double metres_across(const ComparisonSheet& sheet, std::size_t r) {
   return 0;
 }
 
+bool has_small_loops(const ComparisonSheet& sheet, const SheetPage& page) {
+  for (const ComparisonColumn& column : sheet.columns)
+    for (const ComparisonCell& cell : column.cells)
+      if (!cell.loop.empty() &&
+          !names_loop_axes(kInsetFraction * static_cast<float>(page.cell_width), page.letters))
+        return true;
+  return false;
+}
+
 SheetPage page_with(const ComparisonSheet& sheet, std::size_t beside) {
   SheetPage page{};
   page.width = sheet.width;
@@ -131,6 +140,12 @@ SheetPage page_with(const ComparisonSheet& sheet, std::size_t beside) {
     page.numbers_below = page.numbers > 0;
   }
   page.row_height = row_heights(sheet, page.cell_width);
+  for (std::size_t r = 0; r < sheet.rows.size(); ++r) {
+    const bool noted = std::ranges::any_of(
+        sheet.columns, [&](const ComparisonColumn& column) { return !column.cells[r].note.empty(); });
+    page.note_height.push_back(noted ? page.line() : 0);
+    page.row_height[r] += page.note_height[r];
+  }
   // Low pictures leave room for what stands beside them.
   const int scale_lines = has_one_scale(sheet) ? 0 : kScaleLines;
   const auto lines = [&](const ComparisonRow& row) {
@@ -147,8 +162,9 @@ SheetPage page_with(const ComparisonSheet& sheet, std::size_t beside) {
   for (const std::string& note : sheet.notes)
     page.note_lines += static_cast<int>(broken(note, page.letters, room).size());
   const bool scale = sheet.rows[0].metres_per_pixel > 0 && has_one_scale(sheet);
-  page.foot =
-      sheet.bars.empty() && !scale ? 0 : static_cast<int>((sheet.bars.empty() ? 3.f : 6.5f) * page.letters);
+  page.names_loops = has_small_loops(sheet, page);
+  const float foot = page.names_loops ? kLoopKey + 1 : !sheet.bars.empty() ? 6.5f : scale ? 3.f : 0.f;
+  page.foot = static_cast<int>(foot * page.letters);
   return page;
 }
 

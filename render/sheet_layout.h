@@ -14,6 +14,9 @@ inline constexpr float kSheetLine = 1.65f;   // from baseline to baseline, in le
 inline constexpr float kSheetTitle = 1.35f;  // letters of the title
 inline constexpr double kMaxEnlarged = 1.5;  // of a picture on the page: more shows its pixels
 
+inline constexpr float kInsetFraction = 0.28f;  // of a cell's shorter side
+inline constexpr float kLoopKey = 10;           // side of what says what insets are, in letters
+
 using SheetPlaces = std::vector<std::size_t>;  // of columns
 
 // Where things are; decided before anything is drawn.
@@ -24,7 +27,9 @@ struct SheetPage {
   bool numbers_below;                  // where no number finds room behind a name, or a name takes two lines
   float letters;
   std::vector<SheetPlaces> blocks;
-  std::vector<int> row_height;  // of pictures
+  std::vector<int> row_height;  // of pictures, and of notes below them
+  std::vector<int> note_height;
+  bool names_loops;  // at the foot: insets are too small for it
   bool families;
   int title_lines, note_lines, foot;
 

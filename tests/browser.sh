@@ -56,13 +56,16 @@ async function probe_turn(figure) {
 async function probe() {
   wrong('no title', !document.title);
   wrong('no viewport', !document.querySelector('meta[name=viewport]'));
+  const width = document.documentElement.clientWidth;
+  const wide = () => wrong('wider than the window by ' + (document.documentElement.scrollWidth - width),
+                           document.documentElement.scrollWidth > width);
+  wide();
+  for (const folded of document.querySelectorAll('details')) folded.open = true;
   const images = [...document.images];
   for (const image of images) image.loading = 'eager';  // decode() of a lazy picture waits for a reader to come near
   await Promise.all(images.map(image => image.decode().catch(() => 0)));
   for (const image of images) wrong('not loaded: ' + image.alt, !image.naturalWidth);
-  const width = document.documentElement.clientWidth;
-  wrong('wider than the window by ' + (document.documentElement.scrollWidth - width),
-        document.documentElement.scrollWidth > width);
+  wide();
   for (const link of document.querySelectorAll('a[href^="#"]')) {
     wrong('no place ' + link.hash, !document.getElementById(decodeURIComponent(link.hash.slice(1))));
   }

@@ -9,7 +9,7 @@ tests="$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")"
 build="$tests/../build-fuzz"
 seconds="${1:-600}"
 formats=("${@:2}")
-[[ ${#formats[@]} -gt 0 ]] || formats=(toml study obj ply csv png manifest checkpoint)
+[[ ${#formats[@]} -gt 0 ]] || formats=(toml study obj ply pc2 mdd csv png manifest checkpoint)
 
 cmake -S "$tests/.." -B "$build" -G Ninja -DCMAKE_CXX_COMPILER="${CXX:-clang++}" -DHYSTERON_FUZZ=ON \
       -DHYSTERON_CUDA=OFF -DHYSTERON_PYTHON=OFF >/dev/null

@@ -130,7 +130,7 @@ render::Series fitted(const Southwell& found, int power) {
     return (1 - x(k) / critical) * found.deflection[k] / found.gamma[k];
   };
   const double slope = (rest(n - 1) - rest(n - 2)) / (x(n - 1) - x(n - 2));
-  render::Series series{"extrapolated", {}, {}, render::Series::Style::dashed};
+  render::Series series{"fitted, extrapolated", {}, {}, render::Series::Style::dashed};
   for (int k = 0; k <= kPoints; ++k) {
     const double at = x(n - 3) + (critical - x(n - 3)) * k / kPoints;
     series.add(at, (1 - at / critical) / (rest(n - 1) + slope * (at - x(n - 1))));
@@ -146,13 +146,15 @@ void plot(Session& session, const std::vector<Column>& columns, const Southwell&
                          {"Gamma/(deflection over length)"}};
   southwell.x.high = 1.15 * std::pow(std::max(found.critical_gamma, reference), power);
   southwell.y.high = 1.1 * *std::max_element(y.begin(), y.end());
-  southwell.series = {{"equilibria", x, y, render::Series::Style::points}, fitted(found, power)};
+  southwell.series = {{"simulated", x, y, render::Series::Style::points, session.law_color()},
+                      fitted(found, power)};
   southwell.marks = {{"theory", std::pow(reference, power), 0, -1, 1}};
   session.plot("plot_southwell", southwell);
   render::Plot bending{
       "Buckling of the pictured strip, tilted by 0.02", {"Gamma"}, {"deflection over length"}};
   bending.series = {
-      render::series_from_csv(session.run().path("metrics.csv"), "gamma", "deflection", "free end")};
+      render::series_from_csv(session.run().path("metrics.csv"), "gamma", "deflection", "simulated")};
+  bending.series[0].color = session.law_color();
   session.plot("plot_deflection", bending);
 }
 

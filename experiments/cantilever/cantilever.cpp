@@ -106,9 +106,11 @@ void plot(Session& session) {
   render::Plot drop{"Drop of the free end, " + session.scene().fabric.name + ", law " + session.scene().law,
                     {"share of the weight"},
                     {"drop over length"}};
-  drop.series = {render::series_from_csv(csv, "load", "elastica", "elastica"),
-                 render::series_from_csv(csv, "load", "drop", "cloth")};
+  drop.series = {render::series_from_csv(csv, "load", "elastica", "elastica, computed"),
+                 render::series_from_csv(csv, "load", "drop", "simulated")};
+  drop.series[0].color = "#222222";
   drop.series[1].style = render::Series::Style::points;
+  drop.series[1].color = session.law_color();
   session.plot("plot_drop", drop);
 }
 

@@ -14,6 +14,7 @@
 #include "experiments/workbench/app/command_line.h"
 #include "experiments/workbench/app/key_conditions.h"
 #include "experiments/workbench/app/scene_source.h"
+#include "experiments/workbench/compare/column_view.h"
 #include "experiments/workbench/compare/comparison.h"
 #include "experiments/workbench/compare/comparison_page.h"
 #include "experiments/workbench/compare/film.h"
@@ -50,7 +51,8 @@ const KeyRow<CompareChoice> kRows[] = {
 };
 // clang-format on
 
-// "Swing: cotton-broad, bdf2": what all columns share; of a title of one's own only the fabric.
+// "Swing: cotton-broad": the fabric and the law that all columns share; of a title of one's own only the
+// fabric.
 std::string comparison_title(const CommandLine& line, const std::string& own,
                              const std::vector<ChildRun>& columns) {
   std::string title = own.empty() ? line.positionals[0] : own;
@@ -66,7 +68,7 @@ std::string comparison_title(const CommandLine& line, const std::string& own,
     return text;
   };
   std::vector<std::string> all = {shared("fabric.name")};
-  if (own.empty()) all.insert(all.end(), {shared("law"), shared("integrator")});
+  if (own.empty()) all.push_back(shared("law"));
   std::erase(all, "");
   return title + (all.empty() ? "" : ": " + join(all, ", "));
 }
@@ -87,7 +89,7 @@ std::vector<std::string> comparison_notes(const CompareChoice& choice, const Pla
                                  plan.has_faces ? ", the mean of bends to face and back" : "");
   for (std::size_t c = 0; c < plan.columns.size(); ++c)
     note += fmt::format("{} {:.3g} ({})", c ? "," : "", plan.scales[c],
-                        c < names.size() ? names[c] : plan.columns[c].name);
+                        c < names.size() ? names[c] : column_words(plan.columns[c].name));
   return {note};
 }
 
@@ -159,10 +161,17 @@ void check_names(const CompareChoice& choice, const std::vector<ChildRun>& colum
       .with_key("compare.names", choice.names);
 }
 
+std::vector<std::string> page_notes(const CompareChoice& choice, const Plan& plan) {
+  std::vector<std::string> notes = comparison_notes(choice, plan);
+  notes.push_back(integrators_note(plan.columns, split(choice.names)));
+  std::erase(notes, "");
+  return notes;
+}
+
 void draw_page(Run& run, const CommandLine& line, const std::string& experiment, const CompareChoice& choice,
                const Options& options, const Plan& plan) {
   const ComparisonPage page{.title = comparison_title(line, choice.title, plan.columns),
-                            .notes = comparison_notes(choice, plan),
+                            .notes = page_notes(choice, plan),
                             .names = split(choice.names),
                             .rows = choice.rows,
                             .times = choice.times,

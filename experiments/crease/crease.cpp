@@ -215,19 +215,19 @@ TablePlot recovery_plot(const std::string& title, const C& choice) {
   return plot;
 }
 
-constexpr const char* kLogarithm = "log10 of the seconds since the load went";
+constexpr const char* kSinceRelease = "time since the load went [s]";
 constexpr const char* kRecoveryCaption =
     "The angle between the limbs, 180 degrees if the specimen is flat again, over the logarithm of the time "
     "since "
     "the load went: friction and set keep what they keep, relaxing branches give it back in time.";
 
 void write_recovery(Run& run, const Recovered& recovered) {
-  Table table({"time since the load went [s]", kLogarithm, "opening [degree]"});
+  Table table(std::vector<std::string>{kSinceRelease, "opening [degree]"});
   for (std::size_t i = 0; i < recovered.seconds.size(); ++i)
-    table.row({recovered.seconds[i], std::log10(recovered.seconds[i]), recovered.angle[i]});
+    table.row({recovered.seconds[i], recovered.angle[i]});
   table.write(run.path("recovery.csv"));
   run.manifest().curves = {
-      {"plot_recovery", "recovery.csv", kLogarithm, "opening [degree]", false, kRecoveryCaption}};
+      {"plot_recovery", "recovery.csv", kSinceRelease, "opening [degree]", false, kRecoveryCaption, true}};
 }
 
 void limit_to_quick(Setup& setup) { setup.scene.triangles = std::min(setup.scene.triangles, 500); }

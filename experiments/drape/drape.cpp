@@ -147,7 +147,7 @@ render::Series circle(double radius, const std::string& label) {
 }
 
 void plot_outline(Session& session, const DrapeChoice& choice, double radius, const Outline& outline) {
-  render::Series cloth{"cloth", {}, {}};
+  render::Series cloth{"simulated", {}, {}, render::Series::Style::line, session.law_color()};
   const std::size_t n = outline.radius.size();
   for (std::size_t k = 0; k <= n; ++k) {
     const double angle = 2 * 3.14159265358979323846 * static_cast<double>(k) / static_cast<double>(n);
@@ -195,11 +195,12 @@ void plot_series(Session& session, const DrapeChoice& choice, double radius) {
   render::Plot drape{
       "Drape coefficient, " + session.scene().fabric.name, {"time [s]"}, {"drape coefficient [%]"}};
   drape.series = {render::series_from_csv(csv, "time", "drape_coefficient", "simulated")};
+  drape.series[0].color = session.law_color();
   const auto published = session.scene().fabric.published.find("drape-coefficient");
   if (published != session.scene().fabric.published.end() &&
       is_of_this_tester(published->second, session.scene(), choice, radius)) {
     const double value = published->second.value;
-    drape.series.push_back({"measured, published",
+    drape.series.push_back({"measured, " + published->second.provenance.source,
                             {0, drape.series[0].x.back()},
                             {value, value},
                             render::Series::Style::dashed});

@@ -170,7 +170,7 @@ RunPlan run_plan(const Fold& fold, FlexingMachine& folding) {
 
 void plot(Session& session, const FlexingMachine& folding) {
   const std::string name = what(session.scene());
-  for (const TablePlot& plot : fold_plots(false, name)) draw(session.run(), plot, "");
+  for (const TablePlot& plot : fold_plots(false, name)) draw(session.run(), plot, session.scene().law);
   session.plot("plot_loop",
                {"The crown, " + name, {"curvature [1/m]"}, {"moment of the law [mN]"}, folding.loops()});
 }
@@ -233,7 +233,7 @@ void fold_law(const CommandLine& line, const Request& request) {
   write_cycles(run, all);
   note(run, cycle_numbers(all.back()));
   if (!request.setup.options.no_images)
-    for (const TablePlot& plot : fold_plots(true, what(scene))) draw(run, plot, "");
+    for (const TablePlot& plot : fold_plots(true, what(scene))) draw(run, plot, scene.law);
   finish_with_report(run);
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiments/workbench/app/law_family.h"
+#include "render/color_map.h"
 #include "render/plot.h"
 #include "sim/base/csv.h"
 
@@ -70,8 +72,9 @@ render::Plot loops(const StripResult& result) {
   plot.width = kPlotWidth, plot.height = kLoopHeight;
   plot.axes_at_zero = plot.key_inside = true;
   plot.series = {series(result, result.test.law_moment, kMilli), series(result, result.test.moment, kMilli)};
-  plot.series[0].label = "law alone", plot.series[0].color = kLawAloneColor, plot.series[0].line_width = 7;
-  plot.series[1].label = "strip, " + scene.mesh;
+  plot.series[0].label = "law alone, computed", plot.series[0].color = kLawAloneColor,
+  plot.series[0].line_width = 7;
+  plot.series[1].label = "strip, simulated", plot.series[1].color = render::hex(color_of_law(scene.law));
   for (const StripPicture& p : result.pictures)
     plot.marks.push_back({p.letter, p.curvature, kMilli * p.moment, -1.2, p.curvature < 0 ? -0.3 : 0.6});
   return plot;

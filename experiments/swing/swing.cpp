@@ -106,15 +106,16 @@ void note_decay(Run& run, const std::vector<Amplitude>& amplitudes, const Decay&
 // Amplitudes against time, and the fits over those that they were made from: the best one.
 void plot_decay(Session& session, const std::vector<Amplitude>& amplitudes, const Decay& decay) {
   constexpr int kDrawn = 200;
+  constexpr const char* kFitColor = "#222222";
   if (amplitudes.empty()) return;
   render::Plot plot{"Amplitude against time, " + session.scene().fabric.name + ", law " + session.scene().law,
                     {"time [s]"},
                     {"amplitude of the free end [mm]"}};
-  render::Series measured{"measured", {}, {}, render::Series::Style::points};
-  for (const Amplitude& a : amplitudes) measured.add(a.time, 1e3 * a.value);
-  plot.series = {measured};
+  render::Series simulated{"simulated", {}, {}, render::Series::Style::points, session.law_color()};
+  for (const Amplitude& a : amplitudes) simulated.add(a.time, 1e3 * a.value);
+  plot.series = {simulated};
   if (decay.shape != DecayShape::unknown && !decay.fits.empty()) {
-    render::Series fit{enum_name(decay.shape), {}, {}};
+    render::Series fit{"fitted, " + enum_name(decay.shape), {}, {}, render::Series::Style::line, kFitColor};
     const double from = amplitudes[decay.first].time, whole = amplitudes.back().time - from;
     for (int i = 0; i <= kDrawn; ++i) {
       fit.add(from + whole * i / kDrawn, 1e3 * decay.best().at(whole * i / kDrawn));
@@ -130,7 +131,8 @@ void plot(Session& session) {
   const auto csv = session.run().path("metrics.csv");
   const std::string what = session.scene().fabric.name + ", law " + session.scene().law;
   render::Plot tip{"Height of the free end, " + what, {"time [s]"}, {"height over the clamp [cm]"}};
-  tip.series = {render::series_from_csv(csv, "time", "tip_height", "tip")};
+  tip.series = {render::series_from_csv(csv, "time", "tip_height", "simulated")};
+  tip.series[0].color = session.law_color();
   for (double& z : tip.series[0].y) z *= 100;
   session.plot("plot_tip", tip);
   render::Plot energy{"Where the energy went, " + what, {"time [s]"}, {"energy [J]"}};

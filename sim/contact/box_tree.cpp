@@ -38,11 +38,20 @@ std::vector<int> along_curve(const std::vector<std::array<int, 3>>& corners,
   return order;
 }
 
+// By node: whether an item of the cloth is below.
+std::vector<char> nodes_with_cloth(const std::vector<int>& vertices, int leaves, int cloth) {
+  std::vector<char> has(2 * static_cast<std::size_t>(leaves));
+  for (std::size_t rank = 0; 3 * rank < vertices.size(); ++rank)
+    has[leaves + rank] = vertices[3 * rank] < cloth;
+  for (int node = leaves - 1; node > 0; --node) has[node] = has[2 * node] || has[2 * node + 1];
+  return has;
+}
+
 }  // namespace
 
 template <class Real, class Device>
 BoxTree<Real, Device>::BoxTree(Device& device, const std::vector<std::array<int, 3>>& corners,
-                               const std::vector<Eigen::Vector3d>& rest)
+                               const std::vector<Eigen::Vector3d>& rest, int cloth)
     : device_(device), leaves_(1), count_(static_cast<int>(corners.size())) {
   while (leaves_ < count_) leaves_ *= 2;
   const std::vector<int> order = along_curve(corners, rest);
@@ -51,6 +60,7 @@ BoxTree<Real, Device>::BoxTree(Device& device, const std::vector<std::array<int,
   item_ = Buffer<int, Device>(device, order);
   corner_ = Buffer<int, Device>(device, vertices);
   box_ = Buffer<Box<Real>, Device>(device, 2 * static_cast<std::size_t>(leaves_));
+  has_cloth_ = Buffer<char, Device>(device, nodes_with_cloth(vertices, leaves_, cloth));
 }
 
 template <class Real, class Device>

@@ -52,10 +52,12 @@ struct BoxTreeView {
   int leaves, count;
   const int* item;  // by rank
   const Box<Real>* box;
+  const char* has_cloth;  // below a node
 
-  // Calls visit(rank) for each leaf of rank `from` or more whose box overlaps.
+  // Calls visit(rank) for each leaf of rank `from` or more whose box overlaps, or for those of the cloth
+  // alone.
   template <class Visit>
-  HYST_HD void find(const Box<Real>& query, int from, const Visit& visit) const {
+  HYST_HD void find(const Box<Real>& query, int from, bool cloth_alone, const Visit& visit) const {
     constexpr int kDeepest = 32;
     int stack[kDeepest], level[kDeepest];  // level: leaves below a node
     int top = 0;
@@ -64,7 +66,9 @@ struct BoxTreeView {
     while (top >= 0) {
       const int node = stack[top], below = level[top];
       --top;
-      if ((node + 1) * below - leaves <= from || !box[node].overlaps(query)) continue;
+      if ((node + 1) * below - leaves <= from || (cloth_alone && !has_cloth[node]) ||
+          !box[node].overlaps(query))
+        continue;
       if (below == 1) {
         visit(node - leaves);
         continue;
@@ -81,20 +85,22 @@ struct BoxTreeView {
 template <class Real, class Device>
 class BoxTree {
  public:
-  // `corners` of each item: three vertices, or two with the last one repeated.
+  // `corners` of each item: three vertices, or two with the last one repeated; vertices from `cloth` on are
+  // bodies'.
   BoxTree(Device& device, const std::vector<std::array<int, 3>>& corners,
-          const std::vector<Eigen::Vector3d>& rest);
+          const std::vector<Eigen::Vector3d>& rest, int cloth);
 
   // Boxes around everything that the items touch within a sweep.
   void fit(const Sweep<Real>& sweep);
-  BoxTreeView<Real> view() const { return {leaves_, count_, item_.data(), box_.data()}; }
-  std::size_t bytes() const { return item_.bytes() + corner_.bytes() + box_.bytes(); }
+  BoxTreeView<Real> view() const { return {leaves_, count_, item_.data(), box_.data(), has_cloth_.data()}; }
+  std::size_t bytes() const { return item_.bytes() + corner_.bytes() + box_.bytes() + has_cloth_.bytes(); }
 
  private:
   Device& device_;
   int leaves_, count_;
   Buffer<int, Device> item_, corner_;  // by rank; 3 vertices each
   Buffer<Box<Real>, Device> box_;
+  Buffer<char, Device> has_cloth_;  // by node
 };
 
 }  // namespace hysteron

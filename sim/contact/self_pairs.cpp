@@ -108,8 +108,8 @@ SelfPairs<Real, Device>::SelfPairs(Device& device, const ClothMesh& mesh, double
       rows_(vertices_ + edges_),
       layers_(layers),
       thickness_(static_cast<Real>(thickness)),
-      triangle_tree_(device, triangle_corners(mesh), mesh.rest),
-      edge_tree_(device, edge_corners(mesh), mesh.rest),
+      triangle_tree_(device, triangle_corners(mesh), mesh.rest, cloth),
+      edge_tree_(device, edge_corners(mesh), mesh.rest, cloth),
       found_(device, rows_),
       kept_(device, static_cast<std::size_t>(kKept) * rows_),
       start_(device, rows_ + 1),
@@ -197,10 +197,11 @@ void SelfPairs<Real, Device>::search(const Sweep<Real>& sweep, const char* held,
         } else if (row < vertices) {
           Box<Real> box = Box<Real>::nothing();
           sweep.include(box, row);
-          triangles.find(box, 0, visit);
+          triangles.find(box, 0, row >= candidates.cloth, visit);
         } else {
           const int edge = row - vertices;
-          edges.find(edges.box[edges.leaves + edge], edge + 1, visit);
+          const bool of_body = candidates.edge[2 * edge] >= candidates.cloth;
+          edges.find(edges.box[edges.leaves + edge], edge + 1, of_body, visit);
         }
         if (!kWrite) found[row] = n;
       });

@@ -16,6 +16,7 @@
 #include "sim/identification/series.h"
 #include "sim/mesh/cloth_mesh.h"
 #include "sim/mesh/garment.h"
+#include "sim/mesh/point_cache.h"
 #include "sim/mesh/surface.h"
 #include "sim/reference/fab_loops.h"
 #include "sim/scene/fabric_reader.h"
@@ -54,6 +55,15 @@ Format obj() {
 
 Format ply() {
   return {"ply", "ply", ".ply", {[](const fs::path& file) { read_surface(file.string()); }}};
+}
+
+// The motion of a body.
+Format pc2() {
+  return {"pc2", "pc2", ".pc2", {[](const fs::path& file) { read_point_cache(file.string()); }}};
+}
+
+Format mdd() {
+  return {"mdd", "mdd", ".mdd", {[](const fs::path& file) { read_point_cache(file.string()); }}};
 }
 
 Format csv() {
@@ -144,7 +154,7 @@ Format checkpoint() { return {"checkpoint", "checkpoint", "", {read_state}, seal
 }  // namespace
 
 std::vector<Format> formats() {
-  return {toml(), study(), obj(), ply(), csv(), png(), manifest(), checkpoint()};
+  return {toml(), study(), obj(), ply(), pc2(), mdd(), csv(), png(), manifest(), checkpoint()};
 }
 
 int taken(const Format& format, const fs::path& file) {

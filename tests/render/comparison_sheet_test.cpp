@@ -170,16 +170,46 @@ TEST(ComparisonSheet, PutsInsetsWhereTheyHideNothing) {
   const Extent cloth = color_extent(page, {90, 91, 92}), loop = color_extent(page, {0, 0, 220});
   EXPECT_GT(loop.right, 0);
   EXPECT_LT(loop.right, cloth.left);
+  // Where all of the picture is cloth the inset stands beside it.
+  draw_rectangle(picture, 0, 0, 400, 300, {90, 91, 92});
+  const Image full = draw_comparison(sheet);
+  EXPECT_GT(color_extent(full, {0, 0, 220}).left, color_extent(full, {90, 91, 92}).right);
+}
+
+// Insets of narrow cells have no letters: once at the foot their axes have ticks with values and units.
+TEST(ComparisonSheet, SaysOnceWhatSmallInsetsAre) {
+  ComparisonSheet sheet = sample_sheet(5, 2);
+  const int without = draw_comparison(sheet).height();
+  for (ComparisonColumn& column : sheet.columns)
+    for (ComparisonCell& cell : column.cells) {
+      cell.image = Image(400, 300, Rgb8{255, 255, 255});
+      cell.loop = {.path = {{0, 50, 100}, {0, 2e-4, 3e-4}}, .color = {0, 0, 220}};
+    }
+  EXPECT_GT(draw_comparison(sheet).height(), without + 5 * sheet_letters(sheet.width));
+}
+
+// Words never lie on the cloth.
+TEST(ComparisonSheet, SetsNotesBelowTheirPictures) {
+  ComparisonSheet sheet = sample_sheet(2, 1);
+  const Image before = draw_comparison(sheet);
+  sheet.columns[0].cells[0].note = "stopped at 0.90 s";
+  const Image after = draw_comparison(sheet);
+  EXPECT_GT(after.height(), before.height());
+  const Extent cell = color_extent(after, cell_color(0, 0)), was = color_extent(before, cell_color(0, 0));
+  EXPECT_EQ(cell.width(), was.width());
+  EXPECT_EQ(cell.height(), was.height());
+  for (int y = cell.top; y <= cell.bottom; ++y)
+    for (int x = cell.left; x <= cell.right; ++x) ASSERT_EQ(after.at(x, y)[1], 200) << "nothing lies on it";
 }
 
 // One law that bends ten times as far leaves the others' loops as large as they were.
-TEST(LoopInset, ReachesAsFarAsHalfOfThePathsAndCutsWhatGoesBeyond) {
+TEST(LoopInset, ReachesAsFarAsMostOfThePathsAndCutsWhatGoesFarBeyond) {
   std::vector<LoopFrame> frames(3);
   for (std::size_t i = 0; i < 3; ++i) {
     const double far = i == 2 ? 1000 : 100;
     frames[i].include({{0, far}, {-1e-3 * far, 0}});
   }
-  const LoopFrame frame = LoopFrame::median(frames);
+  const LoopFrame frame = LoopFrame::of_most(frames);
   EXPECT_EQ(frame.high_curvature, 100);
   EXPECT_EQ(frame.low_moment, -0.1);
   EXPECT_EQ(frame.low_curvature, 0);

@@ -89,6 +89,23 @@ TEST_F(PlotTest, LinesHaveTheirLabelsAtTheirEndsAndApart) {
   EXPECT_GT(high, higher + 14) << "the letters are 14 pixels";
 }
 
+// A red and a green that are one colour for deuteranopes: the second line is dashed.
+TEST_F(PlotTest, LinesThatColourDoesNotTellApartForEveryoneAreDashed) {
+  Plot plot = parabola();
+  plot.series = {{"narain", {0, 1}, {0, 0}, Series::Style::line, "#973023"},
+                 {"prandtl", {0, 1}, {0, 10}, Series::Style::line, "#366700"}};
+  const auto dashes = [&] {
+    write_plot(folder_.file("p"), plot);
+    const std::string svg = file_content(folder_.file("p.svg"));
+    int count = 0;
+    for (std::size_t at = 0; (at = svg.find("stroke-dasharray", at)) != svg.npos; ++at) ++count;
+    return count;
+  };
+  const int with_green = dashes();
+  plot.series[1].color = "#0072B2";
+  EXPECT_GT(with_green, dashes()) << "blue and dark red are apart for all";
+}
+
 TEST_F(PlotTest, SmallNumbersTakeThePrefixOfTheirUnit) {
   Plot plot = parabola();
   for (double& y : plot.series[0].y) y *= 1e-5;  // 1 mJ/m² at most
@@ -111,6 +128,15 @@ TEST(SiPrefix, LeavesOneTo999) {
                                       {-3e-8, "n"},
                                       {0.0, ""}})
     EXPECT_STREQ(si_prefix(value).prefix, prefix) << value;
+}
+
+TEST(BarErrors, ReachAsFarUpAsDownAndLeaveOutWhatIsNotKnown) {
+  const Series lines = bar_errors({1, 2, 3}, {0.1, NAN, 0.3});
+  ASSERT_EQ(lines.x.size(), 6u);
+  EXPECT_EQ(lines.y[0], 0.9);
+  EXPECT_EQ(lines.y[1], 1.1);
+  EXPECT_TRUE(std::isnan(lines.y[2])) << "lines of two bars are not joined";
+  EXPECT_EQ(lines.x[3], 2);
 }
 
 TEST(GroupedBars, StandSideBySideAroundTheirCategory) {

@@ -32,17 +32,14 @@ std::string family_of_law(const std::string& law) {
 }
 
 render::Rgb8 color_of_law(const std::string& law) {
-  for (const auto& [family, laws] : families()) {
+  const std::vector<Family>& all = families();
+  for (std::size_t f = 0; f < all.size(); ++f) {
+    const std::vector<std::string>& laws = all[f].laws;
     const auto found = std::find(laws.begin(), laws.end(), law);
     if (found != laws.end())
-      return color_in_family(family, static_cast<int>(found - laws.begin()), static_cast<int>(laws.size()));
+      return render::family_color(static_cast<int>(f), static_cast<int>(found - laws.begin()),
+                                  static_cast<int>(laws.size()));
   }
-  return kGrey;
-}
-
-render::Rgb8 color_in_family(const std::string& family, int member, int members) {
-  for (std::size_t f = 0; f < families().size(); ++f)
-    if (families()[f].name == family) return render::family_color(static_cast<int>(f), member, members);
   return kGrey;
 }
 

@@ -12,7 +12,5 @@ namespace hysteron::experiments {
 std::string family_of_law(const std::string& law);
 // The same on every page; no two laws have one colour.  Grey of a law that is unknown.
 render::Rgb8 color_of_law(const std::string& law);
-// Of the family's `members` that a page has, where a law is among them more than once.
-render::Rgb8 color_in_family(const std::string& family, int member, int members);
 
 }  // namespace hysteron::experiments

@@ -122,8 +122,9 @@ struct Frames {
 // A curve that a comparison draws of every column: two columns of a file in its folder.
 struct Curve {
   std::string plot, file, x, y;
-  bool logarithmic = false;
+  bool logarithmic = false;  // along y
   std::string caption;
+  bool logarithmic_x = false;
 };
 
 // What a fit says of the data under a law.

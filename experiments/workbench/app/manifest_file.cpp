@@ -65,12 +65,14 @@ Json to_json(const std::vector<InputRecord>& inputs) {
 }
 
 Json to_json(const Curve& curve) {
-  return {{"plot", curve.plot},
-          {"file", curve.file},
-          {"x", curve.x},
-          {"y", curve.y},
-          {"logarithmic", curve.logarithmic},
-          {"caption", curve.caption}};
+  Json json = {{"plot", curve.plot},
+               {"file", curve.file},
+               {"x", curve.x},
+               {"y", curve.y},
+               {"logarithmic", curve.logarithmic},
+               {"caption", curve.caption}};
+  if (curve.logarithmic_x) json["logarithmic_x"] = true;
+  return json;
 }
 
 Json to_json(const std::vector<Curve>& curves) {
@@ -298,7 +300,8 @@ void take(const Json& json, std::optional<Frames>& frames) {
 void take(const Json& json, std::vector<Curve>& curves) {
   for (const Json& curve : json)
     curves.push_back({text_at(curve, "plot"), text_at(curve, "file"), text_at(curve, "x"),
-                      text_at(curve, "y"), is_true_at(curve, "logarithmic"), text_at(curve, "caption")});
+                      text_at(curve, "y"), is_true_at(curve, "logarithmic"), text_at(curve, "caption"),
+                      is_true_at(curve, "logarithmic_x")});
 }
 
 // The first key without which a JSON is no manifest; "" if it has all.

@@ -97,9 +97,20 @@ std::vector<std::string> shown_metrics(const std::vector<ChildRun>& columns,
   return metrics;
 }
 
+// What a shape of decay means.
+std::string decay_words(const std::string& shape) {
+  static const std::map<std::string, std::string> kWords = {
+      {"linear", "decays straight"},           {"two-step", "decays at two rates"},
+      {"exponential", "decays exponentially"}, {"hyperbolic", "decays as 1/t"},
+      {"saturating", "decays with a knee"},    {"plateau", "does not decay"}};
+  const auto found = kWords.find(shape);
+  return found == kWords.end() ? shape : found->second;
+}
+
 }  // namespace
 
 std::string short_number(const std::string& metric, const MetricValue& value) {
+  if (metric == "decay_shape" && value.is_text()) return decay_words(value.text());
   const std::string symbol = symbol_of(metric);
   const std::string number = value.is_text()      ? value.text()
                              : value.is_integer() ? shown(value)
@@ -116,24 +127,12 @@ std::vector<std::string> column_families(const std::vector<ChildRun>& columns) {
   return families;
 }
 
-// Of columns that differ in their laws: the laws' own, but where one of these is there twice.
-std::vector<render::Rgb8> law_colors(const std::vector<ChildRun>& columns) {
-  const std::vector<std::string> families = column_families(columns);
-  std::set<std::string> laws;
-  for (const ChildRun& column : columns) laws.insert(column_law(column));
-  std::map<std::string, int> so_far;
-  std::vector<render::Rgb8> colors;
-  for (std::size_t c = 0; c < columns.size(); ++c) {
-    const auto members = static_cast<int>(std::count(families.begin(), families.end(), families[c]));
-    colors.push_back(laws.size() == columns.size()
-                         ? color_of_law(column_law(columns[c]))
-                         : color_in_family(families[c], so_far[families[c]]++, members));
-  }
-  return colors;
-}
-
 std::vector<render::Rgb8> column_colors(const std::vector<ChildRun>& columns) {
-  if (differ_in_laws(columns)) return law_colors(columns);
+  if (differ_in_laws(columns)) {
+    std::vector<render::Rgb8> colors;
+    for (const ChildRun& column : columns) colors.push_back(color_of_law(column_law(column)));
+    return colors;
+  }
   constexpr int kHues = 4;
   const int count = static_cast<int>(columns.size()), shades = (count + kHues - 1) / kHues;
   std::vector<render::Rgb8> colors;
@@ -141,6 +140,60 @@ std::vector<render::Rgb8> column_colors(const std::vector<ChildRun>& columns) {
     colors.push_back(count <= render::kMethodColors ? render::method_color(static_cast<std::size_t>(c))
                                                     : render::family_color(c / shades, c % shades, shades));
   return colors;
+}
+
+namespace {
+
+// "fabric.damping=0.006378" as one would write it: "damping 0.00638".
+std::string setting_words(const std::string& setting) {
+  const std::size_t equal = setting.find('=');
+  std::string key = setting.substr(0, equal), value = setting.substr(std::min(setting.size(), equal + 1));
+  if (key == "fabric") return value;
+  if (const std::size_t dot = key.rfind('.'); dot != key.npos) key.erase(0, dot + 1);
+  std::ranges::replace(key, '-', ' ');
+  char* end = nullptr;
+  const double number = std::strtod(value.c_str(), &end);
+  return key + " " + (!value.empty() && *end == '\0' ? fmt::format("{:.3g}", number) : value);
+}
+
+// What is lost in time that is the integrator's, where that is so much that a curve shows it [%]; else 0.
+double integrators_share(const ChildRun& column) {
+  constexpr double kShown = 5;
+  const MetricValue share = column.metrics()["integrator_share_percent"];
+  return share.is_number() && share.number() > kShown ? share.number() : 0;
+}
+
+}  // namespace
+
+std::string column_words(const std::string& name) {
+  std::string words;
+  for (std::size_t start = 0; start <= name.size();) {
+    const std::size_t end = std::min(name.find('+', start), name.size());
+    const std::string part = name.substr(start, end - start);
+    words += words.empty() ? part : ", " + setting_words(part);
+    start = end + 1;
+  }
+  return words;
+}
+
+std::vector<std::string> column_labels(const std::vector<ChildRun>& columns,
+                                       const std::vector<std::string>& names) {
+  std::vector<std::string> labels;
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    labels.push_back(c < names.size() ? names[c] : column_words(columns[c].name));
+    if (const double share = integrators_share(columns[c]); share > 0)
+      labels.back() += fmt::format(" (integrator {:.0f} %)", share);
+  }
+  return labels;
+}
+
+std::string integrators_note(const std::vector<ChildRun>& columns, const std::vector<std::string>& names) {
+  std::string note;
+  for (std::size_t c = 0; c < columns.size(); ++c)
+    if (const double share = integrators_share(columns[c]); share > 0)
+      note += fmt::format("{}{:.0f} % ({})", note.empty() ? "" : ", ", share,
+                          c < names.size() ? names[c] : column_words(columns[c].name));
+  return note.empty() ? "" : "Of the energy lost the integrator took " + note + ": that share is no law's.";
 }
 
 std::vector<render::ComparisonColumn> column_heads(const std::vector<ChildRun>& columns,
@@ -151,7 +204,7 @@ std::vector<render::ComparisonColumn> column_heads(const std::vector<ChildRun>& 
   const std::vector<render::Rgb8> colors = column_colors(columns);
   std::vector<render::ComparisonColumn> heads;
   for (std::size_t c = 0; c < columns.size(); ++c)
-    heads.push_back({c < names.size() ? names[c] : columns[c].name,
+    heads.push_back({c < names.size() ? names[c] : column_words(columns[c].name),
                      head_numbers(columns[c], metrics, std::max(kShown, requested.size())),
                      colors[c],
                      families[c],
@@ -281,7 +334,7 @@ ProbedLoops::ProbedLoops(const std::vector<ChildRun>& columns)
     if (column_law(columns[c]) == "prandtl" && !reference_ && !loops_[c].time.empty()) reference_ = c;
     if (!loops_[c].time.empty()) frames.emplace_back().include(loops_[c].path);
   }
-  frame_ = render::LoopFrame::median(frames);
+  frame_ = render::LoopFrame::of_most(frames);
 }
 
 render::Path ProbedLoops::Loop::until(double end) const {

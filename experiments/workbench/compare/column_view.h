@@ -19,8 +19,18 @@ std::string short_number(const std::string& metric, const MetricValue& value);
 
 // "elastic", "plastic", "hysteretic", "relaxing" where columns differ in their laws; else "" of all.
 std::vector<std::string> column_families(const std::vector<ChildRun>& columns);
-// One for each column, of a family of laws shades of one hue; they do not come again below 12 columns.
+// One for each column: of columns that differ in their laws each law's own, which two columns of one law
+// share; of others colours that do not come again below 12 columns.
 std::vector<render::Rgb8> column_colors(const std::vector<ChildRun>& columns);
+// "prandtl+fabric.damping=0.006378" as one would write it: "prandtl, damping 0.00638".
+std::string column_words(const std::string& name);
+// As plots name the columns: `names` where there are any, else column_words(); with the integrator's share of
+// what was lost where that is above 5 %.
+std::vector<std::string> column_labels(const std::vector<ChildRun>& columns,
+                                       const std::vector<std::string>& names = {});
+// A line that says these shares; "" where there is none.
+std::string integrators_note(const std::vector<ChildRun>& columns,
+                             const std::vector<std::string>& names = {});
 
 // The columns with names, numbers, families and colours, still without cells.  `names` stand in place of the
 // columns' own where there are any.
@@ -61,6 +71,7 @@ class ProbedLoops {
   explicit ProbedLoops(const std::vector<ChildRun>& columns);
   // Of column c; in grey behind it that of prandtl, where that is another column.
   render::LoopInset at(std::size_t c, double time) const;
+  std::string note() const { return reference_ && loops_.size() > 1 ? "grey: prandtl" : ""; }
 
  private:
   struct Loop {
@@ -71,7 +82,7 @@ class ProbedLoops {
   std::vector<Loop> loops_;
   std::vector<render::Rgb8> colors_;
   std::optional<std::size_t> reference_;
-  render::LoopFrame frame_;  // of all; half of them reach beyond it at most
+  render::LoopFrame frame_;  // of all
 };
 
 }  // namespace hysteron::experiments

@@ -79,6 +79,7 @@ class PageTable {
       : page_(page), columns_(columns), loops_(columns) {
     sheet_.columns = column_heads(columns, page.metrics, page.names);
     sheet_.scale_note = "at the cloth's middle";
+    sheet_.loop_note = loops_.note();
     if (page.outlines && columns.size() > 1 && columns.size() <= kMaxOutlined)
       sheet_.columns.push_back({"all, outlined", {}, {}, "", {}});
   }
@@ -122,7 +123,7 @@ class PageTable {
 
   void add_differences(double time, const Crop& crop) {
     const std::size_t to = static_cast<std::size_t>(page_.to);
-    sheet_.rows.push_back({"", "less " + columns_[to].name, scale()});
+    sheet_.rows.push_back({"", "less " + sheet_.columns[to].name, scale()});
     for (std::size_t c = 0; c < columns_.size(); ++c)
       sheet_.columns[c].cells.push_back(c == to ? render::ComparisonCell{} : difference(c, to, time, crop));
     if (sheet_.columns.size() > columns_.size()) sheet_.columns.back().cells.emplace_back();
@@ -220,7 +221,7 @@ class PageTable {
     if (page_.curvature) {
       const std::optional<double> rms = instants(columns_[c]).at(frame).difference_rms;
       return {crop.of(render::read_png(picture_file(columns_[c], kDifference, frame))),
-              rms ? fmt::format("rms {:.3g} /m", *rms) : columns_[to].name + " has no such instant",
+              rms ? fmt::format("rms {:.3g} /m", *rms) : sheet_.columns[to].name + " has no such instant",
               {}};
     }
     const render::Image image = crop.of(picture_at(columns_[c], time)),
@@ -238,7 +239,9 @@ class PageTable {
       const render::Image shape =
           crop.of(render::read_png(picture_file(columns_[c], "silhouette", frame_at(columns_[c], time))));
       if (over.empty()) over = render::Image(shape.width(), shape.height(), render::Rgb8{255, 255, 255});
-      render::draw_outline(over, shape, colors[c], std::max(2, shape.width() / 160));
+      const bool again =
+          std::count(colors.begin(), colors.begin() + static_cast<std::ptrdiff_t>(c), colors[c]) > 0;
+      render::draw_outline(over, shape, colors[c], std::max(2, shape.width() / 160), again);
     }
     return over;
   }

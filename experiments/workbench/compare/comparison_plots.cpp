@@ -1,9 +1,11 @@
 // The plots of a comparison: a line or a bar for each column.
 #include <algorithm>
+#include <cmath>
 
 #include "experiments/workbench/compare/column_view.h"
 #include "experiments/workbench/compare/comparison_page.h"
 #include "experiments/workbench/compare/table_plot.h"
+#include "experiments/workbench/pages/error_words.h"
 #include "experiments/workbench/pages/manifest.h"
 
 namespace hysteron::experiments {
@@ -24,32 +26,46 @@ std::string axis_title_words(std::string column) {
 }
 
 // The experiment's own columns of metrics.csv against time.
-void plot_series(Run& run, const std::string& title, const std::vector<ChildRun>& columns) {
+void plot_series(Run& run, const ComparisonPage& page, const std::vector<ChildRun>& columns) {
   using Names = std::vector<std::string>;
   for (const std::string& name :
        first_list<Names>(columns, [](const Manifest& m) { return m.series.value_or(Names{}); })) {
     const std::string word = name.substr(0, name.find(" ["));
     draw(run,
-         TablePlot{
-             "plot_" + word, {title, {"time [s]"}, {axis_title_words(name)}}, "metrics.csv", "time", word},
-         columns);
+         TablePlot{"plot_" + word,
+                   {page.title, {"time [s]"}, {axis_title_words(name)}},
+                   "metrics.csv",
+                   "time",
+                   word},
+         columns, page.names);
   }
 }
 
 // Tables of its own that the experiment names in its manifest.
-void plot_curves(Run& run, const std::string& title, const std::vector<ChildRun>& columns) {
+void plot_curves(Run& run, const ComparisonPage& page, const std::vector<ChildRun>& columns) {
   for (const Curve& curve :
        first_list<std::vector<Curve>>(columns, [](const Manifest& m) { return m.curves; })) {
     const bool probed = curve.plot.starts_with("plot_probe");
     draw(run,
          TablePlot{curve.plot,
-                   {title, {axis_title_words(curve.x)}, {axis_title_words(curve.y), curve.logarithmic}},
+                   {page.title,
+                    {axis_title_words(curve.x), curve.logarithmic_x},
+                    {axis_title_words(curve.y), curve.logarithmic}},
                    curve.file,
                    curve.x,
                    curve.y,
                    probed ? render::Series::Style::line : render::Series::Style::line_and_points},
-         columns);
+         columns, page.names);
   }
+}
+
+// Of step, mesh and draw together, or of a fit; NaN where none is known.
+double error_of(const Metrics& metrics, const std::string& key) {
+  double square = 0;
+  for (const char* ending : {kStepError, kMeshError, kDrawError, kStandardError})
+    if (const MetricValue error = metrics[key + ending]; error.is_number())
+      square += error.number() * error.number();
+  return square > 0 ? std::sqrt(square) : NAN;
 }
 
 // The page's metrics, or what these experiments are asked for, a bar a column; none where all are zero.
@@ -57,14 +73,22 @@ void plot_answers(Run& run, const ComparisonPage& page, const std::vector<ChildR
   const std::vector<std::string> default_metrics = {"drape_coefficient_percent", "recovery_angle_deg"};
   for (const std::string& key : page.metrics.empty() ? default_metrics : page.metrics) {
     render::Plot plot{page.title, {""}, {split_unit(key).text()}};
-    std::vector<double> values;
-    for (const ChildRun& c : columns) {
-      if (!c.manifest || !c.manifest->metrics[key].is_number()) continue;
-      plot.x.categories.push_back(c.name);
-      values.push_back(c.manifest->metrics[key].number());
+    plot.note = "simulated";
+    const std::vector<std::string> labels = column_labels(columns, page.names);
+    std::vector<double> values, errors;
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+      const MetricValue value = columns[c].metrics()[key];
+      if (!value.is_number()) continue;
+      plot.x.categories.push_back(labels[c]);
+      values.push_back(value.number());
+      errors.push_back(error_of(columns[c].metrics(), key));
     }
     if (values.size() < 2) continue;
     plot.series = render::grouped_bars({""}, {values}, plot.bar_width);
+    if (const render::Series bars = render::bar_errors(values, errors); !bars.x.empty()) {
+      plot.series.push_back(bars);
+      plot.note += "; lines: errors of step, mesh and draw";
+    }
     const auto [least, most] = std::minmax_element(values.begin(), values.end());
     plot.y.low = 1.05 * std::min(0.0, *least);
     plot.y.high = 1.05 * std::max(0.0, *most);
@@ -76,8 +100,8 @@ void plot_answers(Run& run, const ComparisonPage& page, const std::vector<ChildR
 }  // namespace
 
 void plot_comparison(Run& run, const ComparisonPage& page, const std::vector<ChildRun>& columns) {
-  plot_series(run, page.title, columns);
-  plot_curves(run, page.title, columns);
+  plot_series(run, page, columns);
+  plot_curves(run, page, columns);
   plot_answers(run, page, columns);
 }
 

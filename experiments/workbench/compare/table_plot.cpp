@@ -5,6 +5,7 @@
 #include <map>
 #include <tuple>
 
+#include "experiments/workbench/app/law_family.h"
 #include "experiments/workbench/compare/column_view.h"
 #include "render/color_map.h"
 #include "sim/scene/key_table.h"
@@ -73,17 +74,20 @@ std::size_t place_in(std::vector<std::string>& values, const std::string& value)
 
 }  // namespace
 
-void draw(Run& run, TablePlot plot, const std::string& label) {
-  plot.plot.series.push_back(table_series(plot, run.folder(), label));
+void draw(Run& run, TablePlot plot, const std::string& law) {
+  plot.plot.series.push_back(table_series(plot, run.folder(), law + ", simulated"));
+  plot.plot.series.back().color = render::hex(color_of_law(law));
   run.plot(plot.name, plot.plot);
 }
 
-void draw(Run& run, TablePlot plot, const std::vector<ChildRun>& columns) {
+void draw(Run& run, TablePlot plot, const std::vector<ChildRun>& columns,
+          const std::vector<std::string>& names) {
   const std::vector<render::Rgb8> colors = column_colors(columns);
+  const std::vector<std::string> labels = column_labels(columns, names);
   std::vector<render::Series> own;
   for (std::size_t c = 0; c < columns.size(); ++c) {
     if (!columns[c].manifest || !std::filesystem::exists(columns[c].folder / plot.file)) continue;
-    render::Series series = table_series(plot, columns[c].folder, columns[c].name);
+    render::Series series = table_series(plot, columns[c].folder, labels[c]);
     if (series.x.empty()) continue;
     series.color = render::hex(colors[c]);
     own.push_back(std::move(series));
@@ -91,7 +95,7 @@ void draw(Run& run, TablePlot plot, const std::vector<ChildRun>& columns) {
   const std::vector<std::string> nothing = take_what_shows_nothing(own);
   if (own.empty()) return;
   unite_equal(own);
-  if (!nothing.empty()) plot.plot.note = "zero throughout: " + join(nothing, ", ");
+  plot.plot.note = "simulated" + (nothing.empty() ? "" : "; zero throughout: " + join(nothing, ", "));
   plot.plot.series.insert(plot.plot.series.end(), own.begin(), own.end());
   run.plot(plot.name, plot.plot);
 }

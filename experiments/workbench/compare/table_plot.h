@@ -22,12 +22,13 @@ struct TablePlot {
   double scale = 1;  // of y, from the table's unit to the axis'
 };
 
-// Of one run, from its own folder.
-void draw(Run& run, TablePlot plot, const std::string& label);
-// A line for each column of a comparison that has the file and rows in it.  Those that are zero throughout
-// are named below the title instead, and lines that lie on each other are one; a plot without lines is not
-// drawn.
-void draw(Run& run, TablePlot plot, const std::vector<ChildRun>& columns);
+// Of one run, from its own folder: "prandtl, simulated" in its law's colour.
+void draw(Run& run, TablePlot plot, const std::string& law);
+// A line for each column of a comparison that has the file and rows in it, named as column_labels() has it.
+// Those that are zero throughout are named below the title instead, and lines that lie on each other are one;
+// a plot without lines is not drawn.
+void draw(Run& run, TablePlot plot, const std::vector<ChildRun>& columns,
+          const std::vector<std::string>& names = {});
 
 struct MapColumns {
   std::vector<std::string> panels;  // whose values title a map: "implicit, prandtl"

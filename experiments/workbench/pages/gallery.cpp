@@ -8,6 +8,7 @@
 #include "experiments/workbench/app/manifest_file.h"
 #include "experiments/workbench/app/set_aside.h"
 #include "experiments/workbench/pages/gallery_exhibit.h"
+#include "experiments/workbench/pages/gallery_questions.h"
 #include "experiments/workbench/pages/manifest.h"
 #include "experiments/workbench/pages/pictures.h"
 #include "experiments/workbench/pages/report.h"
@@ -123,10 +124,13 @@ std::string gallery_page(const std::filesystem::path& folder, PageForm form) {
                         {"question", first_upper(experiment_named(group.experiment).question)},
                         {"exhibits", exhibits}});
   }
-  const std::string body = filled("gallery.html", {{"facts", gallery_facts(groups)},
-                                                   {"from", data_origin(form)},
-                                                   {"teaser", gallery_teaser(folder, form)},
-                                                   {"groups", sections}});
+  const std::string questions = questions_html(folder, form);
+  const std::string body =
+      filled("gallery.html", {{"facts", gallery_facts(groups)},
+                              {"from", data_origin(form)},
+                              {"teaser", questions.empty() ? gallery_teaser(folder, form) : ""},
+                              {"questions", questions},
+                              {"groups", sections}});
   return html_page("hysteron: results", body, "gallery");
 }
 

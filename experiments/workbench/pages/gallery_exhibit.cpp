@@ -202,7 +202,6 @@ std::string pictures_html(const Exhibit& exhibit, PageForm form) {
 }
 
 constexpr std::size_t kMaxCards = 4;
-constexpr std::size_t kMaxWarnings = 4;  // of many runs in one, most are alike; the manifest has all
 
 // What the experiment is asked for, else the first of what it found; the manifest has all.
 std::string metrics_html(const Manifest& manifest) {
@@ -215,12 +214,19 @@ std::string metrics_html(const Manifest& manifest) {
   return metric_cards(first);
 }
 
-std::vector<Fields> shown_warnings(const std::vector<std::string>& all) {
-  std::vector<Fields> shown;
-  for (std::size_t i = 0; i < std::min(all.size(), kMaxWarnings); ++i) shown.push_back({{"text", all[i]}});
-  if (all.size() > kMaxWarnings)
-    shown.push_back({{"text", std::to_string(all.size() - kMaxWarnings) + " more in manifest.json"}});
-  return shown;
+// The first of them, in one line.
+std::string warnings_note(const std::vector<std::string>& all) {
+  if (all.empty()) return "";
+  return "Warning: " + all[0] +
+         (all.size() > 1 ? "; " + std::to_string(all.size() - 1) + " more in manifest.json" : "");
+}
+
+// Small, of the first picture; "" without any.
+std::string thumbnail_html(const Exhibit& exhibit, PageForm form) {
+  constexpr int kThumbnail = 320;  // [pixels] of an embedded one
+  const std::vector<Picture> pictures = exhibit_pictures(exhibit, "");
+  if (pictures.empty()) return "";
+  return image_element({pictures[0].file, pictures[0].link, exhibit.name, kThumbnail}, form);
 }
 
 // Complete is what a run is expected to be.
@@ -306,17 +312,21 @@ std::string page_anchor(const Exhibit& exhibit) {
 std::string exhibit_html(const Exhibit& exhibit, PageForm form) {
   const std::optional<Manifest>& manifest = exhibit.manifest;
   const std::string metrics = manifest ? metrics_html(*manifest) + missing_errors(*manifest) : "";
-  const std::vector<Fields> warnings = manifest ? shown_warnings(manifest->warnings) : std::vector<Fields>();
-  return filled("exhibit.html", {{"anchor", page_anchor(exhibit)},
-                                 {"name", exhibit.name},
-                                 {"badge", manifest ? warning(*manifest) : ""},
-                                 {"warnings", warnings},
-                                 {"about", manifest ? about_html(*manifest) : ""},
-                                 {"pictures", pictures_html(exhibit, form)},
-                                 {"metrics", metrics},
-                                 {"has_command", manifest.has_value()},
-                                 {"command", manifest ? manifest->command : ""},
-                                 {"links", exhibit_links(exhibit, form)}});
+  Fields fields = {{"anchor", page_anchor(exhibit)},
+                   {"name", exhibit.name},
+                   {"badge", manifest ? warning(*manifest) : ""},
+                   {"note", manifest ? warnings_note(manifest->warnings) : ""},
+                   {"links", exhibit_links(exhibit, form)}};
+  if (!exhibit.has_pictures() && metrics.empty()) return filled("files.html", fields);
+  fields.update({{"thumbnail", thumbnail_html(exhibit, form)},
+                 {"answer", manifest ? first_answer(*manifest) : ""},
+                 {"when", manifest ? manifest->started.substr(0, 10) : ""},
+                 {"about", manifest ? about_html(*manifest) : ""},
+                 {"pictures", pictures_html(exhibit, form)},
+                 {"metrics", metrics},
+                 {"has_command", manifest.has_value()},
+                 {"command", manifest ? manifest->command : ""}});
+  return filled("exhibit.html", fields);
 }
 
 }  // namespace hysteron::experiments

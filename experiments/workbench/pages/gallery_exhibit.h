@@ -49,8 +49,9 @@ void write_captions(const std::filesystem::path& path, const std::string& headin
 // "stability/bdf2" -> "stability-bdf2": name of its place on the page.
 std::string page_anchor(const Exhibit& exhibit);
 
-// Heading, contact sheet, metrics, pictures and plots, the command, links to the files.  Links are relative
-// to the gallery.  Throws Error::invalid_input, naming the file, if a picture is broken.
+// A card with a small picture and the first answer, which unfolds to contact sheet, metrics, pictures and
+// plots, the command, links to the files; of what has neither pictures nor numbers these links alone.  Links
+// are relative to the gallery.  Throws Error::invalid_input, naming the file, if a picture is broken.
 std::string exhibit_html(const Exhibit& exhibit, PageForm form);
 
 }  // namespace hysteron::experiments

@@ -71,6 +71,17 @@ std::vector<Fields> column_cards(const Manifest& manifest) {
   return {};
 }
 
+std::vector<Fields> answers(const Manifest& manifest) {
+  std::vector<Fields> cards;
+  for (const Headline& headline : experiment_headlines(manifest.experiment).all) {
+    const MetricValue& value = manifest.metrics[headline.metric];
+    if (value.is_text() && value.text() != "unknown")
+      cards.push_back(card({value.text(), ""}, headline.words));
+    if (value.is_number()) cards.push_back(headline_card(manifest.metrics, headline, headline.words));
+  }
+  return cards.empty() ? column_cards(manifest) : cards;
+}
+
 }  // namespace
 
 std::string metric_cards(const Metrics& metrics) {
@@ -84,15 +95,13 @@ std::string metric_cards(const Metrics& metrics) {
   return html_cards(cards);
 }
 
-std::string answer_cards(const Manifest& manifest) {
-  std::vector<Fields> cards;
-  for (const Headline& headline : experiment_headlines(manifest.experiment).all) {
-    const MetricValue& value = manifest.metrics[headline.metric];
-    if (value.is_text() && value.text() != "unknown")
-      cards.push_back(card({value.text(), ""}, headline.words));
-    if (value.is_number()) cards.push_back(headline_card(manifest.metrics, headline, headline.words));
-  }
-  return html_cards(cards.empty() ? column_cards(manifest) : cards);
+std::string answer_cards(const Manifest& manifest) { return html_cards(answers(manifest)); }
+
+std::string first_answer(const Manifest& manifest) {
+  const std::vector<Fields> cards = answers(manifest);
+  if (cards.empty()) return "";
+  const auto text = [&](const char* key) { return cards[0].at(key).get<std::string>(); };
+  return joined({text("value"), text("more"), text("name")}, " ");
 }
 
 Metrics further_metrics(const Manifest& manifest) {

@@ -24,6 +24,8 @@ std::string metric_cards(const Metrics& metrics);
 // What the experiment is asked for, in its own words and units; of a few laws or fabrics the first of it,
 // each its own.  "" if the run has found none of it.
 std::string answer_cards(const Manifest& manifest);
+// The first of these in a line: "108 ± 0.1° recovery angle".
+std::string first_answer(const Manifest& manifest);
 // The others: what tells of the cloth, and how the solver fared.
 Metrics further_metrics(const Manifest& manifest);
 Metrics numerics(const Metrics& metrics);

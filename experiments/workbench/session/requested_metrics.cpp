@@ -282,7 +282,8 @@ void RequestedMetrics::finish() {
                       {"time [s]"},
                       {request.column()}};
     plot.series = {
-        render::series_from_csv(session_.run().path("metrics.csv"), "time", request.name, request.name)};
+        render::series_from_csv(session_.run().path("metrics.csv"), "time", request.name, "simulated")};
+    plot.series[0].color = session_.law_color();
     session_.plot("plot_" + request.name, plot);
   }
 }

@@ -139,6 +139,14 @@ void Session::warn_of_triangle_count() {
   if (!warning.empty()) run_->warn(warning);
 }
 
+void Session::plot(const std::string& name, render::Plot plot) {
+  const auto says = [](const render::Series& series) {
+    return series.label.find("simulated") != series.label.npos;
+  };
+  if (plot.note.empty() && std::ranges::none_of(plot.series, says)) plot.note = "simulated";
+  run_->plot(name, plot);
+}
+
 void Session::reserve(const std::vector<std::string>& files, const std::vector<std::string>& drawn) {
   run_->reserve(files);
   if (!setup_.options.no_images) run_->reserve(drawn);

@@ -8,9 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "experiments/workbench/app/law_family.h"
 #include "experiments/workbench/app/run.h"
 #include "experiments/workbench/pictures/pictures.h"
 #include "render/camera.h"
+#include "render/color_map.h"
 #include "render/plot.h"
 #include "sim/time/simulation.h"
 #include "sim/time/timetable.h"
@@ -125,7 +127,10 @@ class Session {
   // Simulates, watches, records and draws, until the time is over or the question is settled,
   // and then to rest if the question asks for it.  Returns whether it is settled or, then, at rest.
   bool simulate(const RunPlan& plan);
-  void plot(const std::string& name, const render::Plot& plot) { run_->plot(name, plot); }
+  // What no label says to be simulated or measured is simulated: a line below the title says so.
+  void plot(const std::string& name, render::Plot plot);
+  // Of what its law does, in plots: "#RRGGBB".
+  std::string law_color() const { return render::hex(color_of_law(scene().law)); }
   // Metrics that every simulated run has, the manifest, the report.
   void finish(const std::string& title);
   // All that outlives an instant; files of the run first.

@@ -8,6 +8,7 @@
 
 #include "experiments/workbench/app/law_family.h"
 #include "render/color_map.h"
+#include "render/color_vision.h"
 #include "sim/bending/laws/law_parameters.h"
 
 namespace hysteron::experiments {
@@ -22,7 +23,7 @@ TEST(ShortNumber, HasThreeDigitsAndAPrefix) {
   EXPECT_EQ(short_number("residual_curvature_rms_per_m", 1e-12), "κ 0 /m");
   EXPECT_EQ(short_number("bending_friction_J", 0.0), "0 J");
   EXPECT_EQ(short_number("node_count", 6), "6 folds");
-  EXPECT_EQ(short_number("decay_shape", "two-step"), "two-step");
+  EXPECT_EQ(short_number("decay_shape", "two-step"), "decays at two rates");
   EXPECT_EQ(short_number("max_stretch_percent", 8.216e-13), "stretch 0 %") << "what sums of doubles leave";
 }
 
@@ -41,17 +42,47 @@ ChildRun of_law(const std::string& law) {
   return run;
 }
 
-TEST(ColumnColors, AreTheLawsOwnOrShadesOfTheirFamilies) {
+// What stands beside it does not change a law's colour.
+TEST(ColumnColors, AreTheLawsOwn) {
   const std::vector<ChildRun> once = {of_law("linear"), of_law("prandtl")},
                               twice = {of_law("linear"), of_law("prandtl"), of_law("prandtl")},
                               alone = {of_law("prandtl"), of_law("prandtl")};
   EXPECT_EQ(column_colors(once), (std::vector{color_of_law("linear"), color_of_law("prandtl")}));
   EXPECT_EQ(column_families(twice), (std::vector<std::string>{"elastic", "hysteretic", "hysteretic"}));
   EXPECT_EQ(column_colors(twice),
-            (std::vector{color_in_family("elastic", 0, 1), color_in_family("hysteretic", 0, 2),
-                         color_in_family("hysteretic", 1, 2)}));
-  EXPECT_NE(color_in_family("hysteretic", 0, 2), color_in_family("hysteretic", 1, 2));
+            (std::vector{color_of_law("linear"), color_of_law("prandtl"), color_of_law("prandtl")}));
   EXPECT_EQ(column_families(alone), std::vector<std::string>(2)) << "of one law";
+}
+
+// Lines of any two laws differ in colour for everyone, or in their dashes.
+TEST(ColumnColors, OrDashesTellAllLawsApart) {
+  std::vector<std::string> colors;
+  std::vector<render::Rgb8> drawn;
+  for (const LawEntry& law : law_catalogue()) {
+    drawn.push_back(color_of_law(law.name));
+    colors.push_back(render::hex(drawn.back()));
+  }
+  const std::vector<int> patterns = render::patterns_beside(colors);
+  for (std::size_t a = 0; a < drawn.size(); ++a)
+    for (std::size_t b = 0; b < a; ++b)
+      EXPECT_TRUE(patterns[a] != patterns[b] || render::least_color_difference(drawn[a], drawn[b]) >= 12)
+          << law_catalogue()[a].name << ", " << law_catalogue()[b].name;
+  EXPECT_LT(*std::ranges::max_element(patterns), 6) << "as many as there are dashes";
+}
+
+TEST(ColumnLabels, AreWhatOneWouldWriteAndSayWhatTheIntegratorTook) {
+  EXPECT_EQ(column_words("linear+fabric.damping=0.006378"), "linear, damping 0.00638");
+  EXPECT_EQ(column_words("prandtl+fabric=cotton-broad-creasing"), "prandtl, cotton-broad-creasing");
+  EXPECT_EQ(column_words("prandtl"), "prandtl");
+  std::vector<ChildRun> columns = {of_law("linear"), of_law("prandtl")};
+  columns[0].name = "linear", columns[1].name = "prandtl";
+  columns[0].manifest->metrics = {{"integrator_share_percent", 71.2}};
+  columns[1].manifest->metrics = {{"integrator_share_percent", 4.9}};
+  EXPECT_EQ(column_labels(columns), (std::vector<std::string>{"linear (integrator 71 %)", "prandtl"}));
+  EXPECT_EQ(column_labels(columns, {"elastic", "hysteretic"})[0], "elastic (integrator 71 %)");
+  EXPECT_EQ(integrators_note(columns),
+            "Of the energy lost the integrator took 71 % (linear): that share is no law's.");
+  EXPECT_EQ(integrators_note({columns[1]}), "");
 }
 
 // A body that no instant notes, on paper that is not quite white.

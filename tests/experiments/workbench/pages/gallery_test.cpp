@@ -85,13 +85,17 @@ TEST_F(Gallery, NamesTheCommandTheDeviceTheMetricAndTheManifest) {
 }
 
 TEST_F(Gallery, SaysWhatRunsWarnOf) {
-  EXPECT_EQ(occurrences(page(), "class=\"warning\""), 0);
+  EXPECT_EQ(occurrences(page(), "class=\"note\""), 0);
   {
     ExperimentRun run({"drape", "hysteron drape", {}, {}}, setup_in(results_ / "doubtful"));
+    run.metric("recovery_angle_deg", 49.8);
     run.warn("layers < 2 are thin");
+    run.warn("edges are folded");
     run.finish();
   }
-  EXPECT_EQ(occurrences(page(), "<p class=\"warning\">Warning: layers &lt; 2 are thin</p>"), 1);
+  EXPECT_EQ(
+      occurrences(page(), "<p class=\"note\">Warning: layers &lt; 2 are thin; 1 more in manifest.json</p>"),
+      1);
 }
 
 TEST_F(Gallery, SaysWhichRunsAreIncomplete) {
@@ -180,6 +184,34 @@ TEST_F(Gallery, OpensWithThePictureThatTheReadmeBesideItShowsFirst) {
   EXPECT_EQ(occurrences(html, "<figcaption>One cloth</figcaption>"), 1);
   write_text(folder_.path() / "README.md", "![elsewhere](../secret/sheet.png)\n");
   EXPECT_EQ(occurrences(page(), "class=\"teaser\""), 0);
+}
+
+// Five questions stand before everything else, each with its picture and the number from its run.
+TEST_F(Gallery, LeadsWithTheFoldersOwnQuestions) {
+  const auto write = [&](const std::string& picture, const std::string& metric) {
+    write_text(results_ / "questions.json", R"([{"question": "Does it hang?", "picture": ")" + picture +
+                                                R"(", "run": "z-drape", "metric": ")" + metric +
+                                                R"(", "words": "of recovery"}])");
+  };
+  write("z-drape/sheet.png", "recovery_angle_deg");
+  const std::string html = page();
+  EXPECT_LT(html.find("<h2>Does it hang?</h2>"), html.find("<section id="));
+  EXPECT_TRUE(says(html, "of recovery <a href=\"#z-drape\">z-drape</a>")) << html;
+  EXPECT_TRUE(says(html, "<b>49.8"));
+  write("z-drape/none.png", "recovery_angle_deg");
+  EXPECT_TRUE(says(refusal(), "there is no picture z-drape/none.png"));
+  write("z-drape/sheet.png", "none");
+  EXPECT_TRUE(says(refusal(), "has no metric none"));
+  write_text(results_ / "questions.json", "{}");
+  EXPECT_TRUE(says(refusal(), "must be a list of questions"));
+}
+
+// Each run is a card with its picture and number; what has neither is a line of links.
+TEST_F(Gallery, IsAnIndexOfCardsThatUnfold) {
+  const std::string html = page();
+  EXPECT_EQ(occurrences(html, "<details class=\"exhibit\">"), 3);
+  EXPECT_EQ(occurrences(html, "<details class=\"exhibit\"><summary><img"), 1) << "only z-drape has a picture";
+  EXPECT_TRUE(says(html, "<p class=\"files\" id=\"speed\">"));
 }
 
 TEST_F(Gallery, IsTheSameWhereverItLies) {
