@@ -109,10 +109,14 @@ std::string numbers_of_short(const char* name, const Axis& axis) {
   return std::string("set format ") + name + " '%g'\nset " + name + "tics (" + ticks + ")\n";
 }
 
+// Names at ticks are formats of their numbers: a percent sign is doubled.
 std::string category_commands(const char* name, const std::vector<std::string>& categories) {
   std::string ticks;
-  for (std::size_t i = 0; i < categories.size(); ++i)
-    ticks += (i ? "," : "") + label_text(categories[i]) + " " + std::to_string(i);
+  for (std::size_t i = 0; i < categories.size(); ++i) {
+    std::string text;
+    for (const char c : categories[i]) text += c == '%' ? "%%" : std::string(1, c);
+    ticks += (i ? "," : "") + label_text(text) + " " + std::to_string(i);
+  }
   return std::string("set ") + name + "tics (" + ticks + ") rotate by -35\nset " + name +
          "range [-0.6:" + number(static_cast<double>(categories.size()) - 0.4) + "]\n";
 }

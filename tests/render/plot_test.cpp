@@ -156,7 +156,7 @@ TEST_F(PlotTest, BarsHaveTheirCategoriesBelowAndTheirHeights) {
             .series = {},
             .width = 600,
             .height = 400};
-  plot.x.categories = {"short_one", "tall_one"};
+  plot.x.categories = {"short_one", "tall_one (71 %)"};
   plot.y.high = 4;
   plot.series = grouped_bars({""}, {{1, 4}}, plot.bar_width);
   write_plot(folder_.file("p"), plot);
