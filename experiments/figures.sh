@@ -50,17 +50,19 @@ tuned_damping() {
     --compare.tune-metric viscous_J=bending_friction_J "${more[@]}" | grep '^fabric\.damping='
 }
 
+# Laws are matched in the work of bending; narain, whose yield is at k0 = 8/m, would be made 52 times as stiff:
+# terzopoulos is the plastic one.
+
 # 4.2(b), 4.3, 4.4: laws alone.
 draw_laws() { hysteron figures --quiet --out "$out/chapter-figures"; }
 
 # 4.1: permanent wrinkles, existing methods and ours.
 draw_crumple() {
-  hysteron compare crumple --laws linear,pabst,narain,prandtl --light raking "$@" --out "$out/compare-crumple"
+  hysteron compare crumple --laws linear,pabst,terzopoulos,prandtl --light raking "$@" --out "$out/compare-crumple"
 }
 
 # A sleeve whose elbow bends and straightens: before, bent and after, and as a film.  Elastic, plastic, hysteretic, and
-# hysteretic with a permanent set, that of the fabric cotton-broad-creasing, beside friction.  Laws are matched in the
-# work of bending; narain, whose yield is at k0 = 8/m, would be made 52 times as stiff: terzopoulos is the plastic one.
+# hysteretic with a permanent set, that of the fabric cotton-broad-creasing, beside friction.
 # The picture shows the elbow's inside; parts of the arm that no cloth reaches go on beyond its border.
 draw_sleeve() {
   local set=fabric.bending.set.yield=500+fabric.bending.set.hardening=7.98e-6 small=()
@@ -85,7 +87,7 @@ draw_swing() {
 
 # Drape with hysteresis and without, and by how much curvature differs.
 draw_drape() {
-  hysteron compare drape --laws linear,pabst,narain,prandtl --compare.to linear --compare.difference curvature \
+  hysteron compare drape --laws linear,pabst,terzopoulos,prandtl --compare.to linear --compare.difference curvature \
     --compare.rows 2 "$@" --out "$out/compare-drape"
 }
 

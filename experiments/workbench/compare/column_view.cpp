@@ -157,8 +157,10 @@ std::string setting_words(const std::string& setting) {
 }
 
 // What is lost in time that is the integrator's, where that is so much that a curve shows it [%]; else 0.
+// Statics lose nothing in time.
 double integrators_share(const ChildRun& column) {
   constexpr double kShown = 5;
+  if (column.manifest && column.manifest->text("integrator") == "quasi-static") return 0;
   const MetricValue share = column.metrics()["integrator_share_percent"];
   return share.is_number() && share.number() > kShown ? share.number() : 0;
 }

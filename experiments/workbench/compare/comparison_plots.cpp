@@ -7,6 +7,7 @@
 #include "experiments/workbench/compare/table_plot.h"
 #include "experiments/workbench/pages/error_words.h"
 #include "experiments/workbench/pages/manifest.h"
+#include "render/color_map.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -75,16 +76,19 @@ void plot_answers(Run& run, const ComparisonPage& page, const std::vector<ChildR
     render::Plot plot{page.title, {""}, {split_unit(key).text()}};
     plot.note = "simulated";
     const std::vector<std::string> labels = column_labels(columns, page.names);
+    const std::vector<render::Rgb8> colors = column_colors(columns);
     std::vector<double> values, errors;
     for (std::size_t c = 0; c < columns.size(); ++c) {
       const MetricValue value = columns[c].metrics()[key];
       if (!value.is_number()) continue;
+      const double place = static_cast<double>(values.size());
+      plot.series.push_back(
+          {"", {place}, {value.number()}, render::Series::Style::bars, render::hex(colors[c])});
       plot.x.categories.push_back(labels[c]);
       values.push_back(value.number());
       errors.push_back(error_of(columns[c].metrics(), key));
     }
     if (values.size() < 2) continue;
-    plot.series = render::grouped_bars({""}, {values}, plot.bar_width);
     if (const render::Series bars = render::bar_errors(values, errors); !bars.x.empty()) {
       plot.series.push_back(bars);
       plot.note += "; lines: errors of step, mesh and draw";

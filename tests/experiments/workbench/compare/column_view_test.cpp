@@ -83,6 +83,9 @@ TEST(ColumnLabels, AreWhatOneWouldWriteAndSayWhatTheIntegratorTook) {
   EXPECT_EQ(integrators_note(columns),
             "Of the energy lost the integrator took 71 % (linear): that share is no law's.");
   EXPECT_EQ(integrators_note({columns[1]}), "");
+  columns[0].manifest->keys =
+      std::make_shared<const Json>(Json{{"law", "linear"}, {"integrator", "quasi-static"}});
+  EXPECT_EQ(integrators_note(columns), "") << "statics lose nothing in time";
 }
 
 // A body that no instant notes, on paper that is not quite white.
