@@ -1,5 +1,7 @@
 #include "experiments/workbench/pages/gallery_questions.h"
 
+#include <fmt/core.h>
+
 #include "experiments/workbench/app/json_file.h"
 #include "experiments/workbench/app/manifest_file.h"
 #include "experiments/workbench/pages/metrics.h"
@@ -18,15 +20,18 @@ std::string text_of(const Json& entry, const char* key, const fs::path& file) {
   return entry[key];
 }
 
-std::string number_words(const fs::path& folder, const std::string& metric, const fs::path& file) {
+// With its errors, or where it has none in three digits.
+ShownQuantity number_words(const fs::path& folder, const std::string& metric, const fs::path& file) {
   const fs::path manifest = folder / "manifest.json";
   if (!is_there(manifest))
     throw Error::invalid_input(file.string() + ": there is no run in " + folder.string());
   const Metrics metrics = read_manifest(manifest).metrics;
   if (!metrics.contains(metric))
     throw Error::invalid_input(file.string() + ": " + manifest.string() + " has no metric " + metric);
-  const ShownQuantity words = metric_words(metrics, metric);
-  return words.value + (words.more().empty() ? "" : " " + words.more());
+  ShownQuantity words = metric_words(metrics, metric);
+  if (words.errors.empty() && metrics[metric].is_number())
+    words.value = fmt::format("{:.3g}", metrics[metric].number());
+  return words;
 }
 
 }  // namespace
@@ -41,10 +46,12 @@ std::string questions_html(const fs::path& folder, PageForm form) {
     const std::string question = text_of(entry, "question", file), path = text_of(entry, "picture", file),
                       run = text_of(entry, "run", file);
     if (!is_there(folder / path)) throw Error::invalid_input(file.string() + ": there is no picture " + path);
+    const ShownQuantity number = number_words(folder / run, text_of(entry, "metric", file), file);
     const std::string image = image_element({folder / path, path, question, kQuestionWidth}, form);
     questions.push_back(
         {{"question", question},
-         {"value", number_words(folder / run, text_of(entry, "metric", file), file)},
+         {"value", joined({number.value, number.unit}, " ")},
+         {"errors", number.errors},
          {"words", text_of(entry, "words", file)},
          {"anchor", run.substr(0, run.find('/'))},
          {"picture", filled("picture.html", {{"link", form == PageForm::linked ? relative_url(path) : ""},
