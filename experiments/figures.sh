@@ -46,7 +46,7 @@ hysteron() {
 # 0.4 s as the hysteretic one to friction.
 tuned_damping() {
   command "$program" compare swing --quick --no-images --quiet --triangles 100 --out "$out/.tuning" \
-    --laws linear,prandtl --compare.tune fabric.damping=1e-5:1e-1 \
+    --laws linear,prandtl --compare.tune fabric.damping=1e-5:1e-2 \
     --compare.tune-metric viscous_J=bending_friction_J "${more[@]}" | grep '^fabric\.damping='
 }
 
