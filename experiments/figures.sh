@@ -93,7 +93,7 @@ draw_drape() {
 
 # Crease angles.
 draw_crease() {
-  hysteron compare crease --laws linear,narain,prandtl --crease.fold rod "$@" --out "$out/compare-crease"
+  hysteron compare crease --laws linear,terzopoulos,prandtl --crease.fold rod "$@" --out "$out/compare-crease"
 }
 
 # Fatigue over cycles.

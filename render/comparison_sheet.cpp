@@ -81,15 +81,19 @@ struct Place {
   double x = 1, y = 1;
 };
 
-// Sums of what is not white over rectangles of a picture, by the sums from its upper left corner.
+// Sums of what is not white over rectangles of a picture, by the sums from its upper left corner.  Shadows
+// count little.
 class Darkness {
+  static constexpr int kShadow = 60, kShadows = 32;  // 8-bit steps below white; how many are as bad as cloth
+
  public:
   explicit Darkness(const Image& image) : width_(image.width()), side_(inset_side(image)) {
     sum_.assign(static_cast<std::size_t>(width_ + 1) * (image.height() + 1), 0);
     for (int y = 0; y < image.height(); ++y) {
       long row = 0;
       for (int x = 0; x < width_; ++x) {
-        row += 255 - image.at(x, y)[1];
+        const int dark = 255 - image.at(x, y)[1];
+        row += dark > kShadow ? kShadows * dark : dark;
         sum_[index(x + 1, y + 1)] = sum_[index(x + 1, y)] + row;
       }
     }
@@ -102,7 +106,7 @@ class Darkness {
               y = static_cast<int>(place.y * (height_ - side_));
     const long sum = sum_[index(x + side_, y + side_)] - sum_[index(x, y + side_)] -
                      sum_[index(x + side_, y)] + sum_[index(x, y)];
-    return static_cast<double>(sum) / side_ / side_;
+    return static_cast<double>(sum) / kShadows / side_ / side_;
   }
 
  private:

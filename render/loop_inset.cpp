@@ -160,17 +160,23 @@ void LoopFrame::include(const Path& path) {
 LoopFrame LoopFrame::of_most(const std::vector<LoopFrame>& frames) {
   constexpr double kReach = 3;
   LoopFrame all;
-  for (double LoopFrame::*end : {&LoopFrame::low_curvature, &LoopFrame::high_curvature,
-                                 &LoopFrame::low_moment, &LoopFrame::high_moment}) {
-    std::vector<double> ends;
-    for (const LoopFrame& frame : frames) ends.push_back(frame.*end);
-    const auto farther = [](double a, double b) { return std::abs(a) < std::abs(b); };
-    if (ends.empty()) continue;
-    std::ranges::sort(ends, farther);
-    const double most = kReach * std::abs(ends[ends.size() / 2]);
-    while (std::abs(ends.back()) > most) ends.pop_back();
-    all.*end = ends.back();
-  }
+  const auto farther = [](double a, double b) { return std::abs(a) < std::abs(b); };
+  // Both ends of an axis.
+  const auto take = [&](double LoopFrame::*low, double LoopFrame::*high) {
+    std::vector<double> ends[2];
+    for (const LoopFrame& frame : frames) ends[0].push_back(frame.*low), ends[1].push_back(frame.*high);
+    double most = 0;
+    for (std::vector<double>& side : ends) {
+      std::ranges::sort(side, farther);
+      if (!side.empty()) most = std::max(most, kReach * std::abs(side[side.size() / 2]));
+    }
+    for (int i = 0; i < 2; ++i) {
+      while (!ends[i].empty() && std::abs(ends[i].back()) > most) ends[i].pop_back();
+      if (!ends[i].empty()) all.*(i == 0 ? low : high) = ends[i].back();
+    }
+  };
+  take(&LoopFrame::low_curvature, &LoopFrame::high_curvature);
+  take(&LoopFrame::low_moment, &LoopFrame::high_moment);
   return all;
 }
 

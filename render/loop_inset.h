@@ -19,8 +19,8 @@ struct LoopFrame {
   double low_curvature = 0, high_curvature = 0, low_moment = 0, high_moment = 0;
 
   void include(const Path& path);
-  // As far as any of these reaches that does not reach three times as far as the middle one of them; what
-  // goes beyond is cut off.
+  // As far as any of these reaches that does not reach three times as far along the axis as the middle one of
+  // them, to either side; what goes beyond is cut off.
   static LoopFrame of_most(const std::vector<LoopFrame>& frames);
   bool empty() const { return low_curvature == high_curvature || low_moment == high_moment; }
 };
