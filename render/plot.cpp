@@ -167,8 +167,10 @@ std::string end_label_commands(const Plot& plot) {
   constexpr double kLetters = 14, kAround = 160;  // [pixels]; title and axes
   constexpr double kLeader = 0.018, kAir = 0.006;
   const double step = 1.35 * kLetters / std::max(1.0, plot.height - kAround);
+  constexpr std::size_t kWidest = 40;  // letters: a wider margin would leave no plot
   std::size_t longest = 0;
   for (const Series& series : plot.series) longest = std::max(longest, series.label.size());
+  longest = std::min(longest, kWidest);
   std::string script = "set rmargin " + std::to_string(longest + 5) + "\n";
   for (const EndLabel& label : end_labels(plot, step)) {
     const std::string color = series_color(plot, label.series);

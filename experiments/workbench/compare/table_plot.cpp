@@ -28,6 +28,9 @@ double largest(const render::Series& series) {
   return most;
 }
 
+// "prandtl (integrator 7 %)" is prandtl.
+std::string bare_name(const std::string& label) { return label.substr(0, label.find(" (")); }
+
 // Takes out the series that are zero beside the others, or beside what sums of doubles leave; their names.
 std::vector<std::string> take_what_shows_nothing(std::vector<render::Series>& all) {
   constexpr double kBeside = 1e-6, kLeft = 1e-12;
@@ -36,15 +39,17 @@ std::vector<std::string> take_what_shows_nothing(std::vector<render::Series>& al
   std::vector<std::string> names;
   std::erase_if(all, [&](const render::Series& series) {
     const bool nothing = largest(series) <= std::max(kLeft, kBeside * most);
-    if (nothing) names.push_back(series.label);
+    if (nothing) names.push_back(bare_name(series.label));
     return nothing;
   });
   return names;
 }
 
-// Lines that lie on each other become one with all their names.
-void unite_equal(std::vector<render::Series>& all) {
-  constexpr double kSeen = 1e-3;  // of the largest value
+// Lines that lie on each other become one with all their names, or where these are many with the first; then
+// the line that says so.
+std::string unite_equal(std::vector<render::Series>& all) {
+  constexpr double kSeen = 1e-3;     // of the largest value
+  constexpr std::size_t kMost = 30;  // letters of names at a line's end
   double most = 0;
   for (const render::Series& series : all) most = std::max(most, largest(series));
   const auto lie_on_each_other = [&](const render::Series& a, const render::Series& b) {
@@ -53,15 +58,25 @@ void unite_equal(std::vector<render::Series>& all) {
       if (!(std::abs(a.y[i] - b.y[i]) <= kSeen * most)) return false;
     return true;
   };
-  for (std::size_t i = 0; i < all.size(); ++i)
+  std::string note;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    std::vector<std::string> others;
     for (std::size_t j = i + 1; j < all.size();) {
       if (!lie_on_each_other(all[i], all[j])) {
         ++j;
         continue;
       }
-      all[i].label += ", " + all[j].label;
+      others.push_back(bare_name(all[j].label));
       all.erase(all.begin() + static_cast<std::ptrdiff_t>(j));
     }
+    if (others.empty()) continue;
+    const std::string names = bare_name(all[i].label) + ", " + join(others, ", ");
+    if (names.size() > kMost) note += "; as " + bare_name(all[i].label) + ": " + join(others, ", ");
+    all[i].label = names.size() > kMost
+                       ? bare_name(all[i].label) + " and " + std::to_string(others.size()) + " more"
+                       : names;
+  }
+  return note;
 }
 
 // Where a value stands among those that came before it, of which it becomes the last if it is new.
@@ -94,8 +109,9 @@ void draw(Run& run, TablePlot plot, const std::vector<ChildRun>& columns,
   }
   const std::vector<std::string> nothing = take_what_shows_nothing(own);
   if (own.empty()) return;
-  unite_equal(own);
-  plot.plot.note = "simulated" + (nothing.empty() ? "" : "; zero throughout: " + join(nothing, ", "));
+  const std::string united = unite_equal(own);
+  plot.plot.note =
+      "simulated" + (nothing.empty() ? "" : "; zero throughout: " + join(nothing, ", ")) + united;
   plot.plot.series.insert(plot.plot.series.end(), own.begin(), own.end());
   run.plot(plot.name, plot.plot);
 }

@@ -1,0 +1,52 @@
+#include "experiments/workbench/compare/table_plot.h"
+
+#include <fstream>
+
+#include "tests/experiments/program.h"
+
+namespace hysteron::experiments {
+namespace {
+
+// Six columns, five of which have the same table.
+class Plots : public testing::Test {
+ protected:
+  Plots() {
+    for (const char* law : {"linear", "pabst", "bridson", "spring", "grinspun-edit", "prandtl"}) {
+      ChildRun& column = columns_.emplace_back();
+      column.name = law;
+      column.folder = folder_.path() / law;
+      column.manifest.emplace().keys = std::make_shared<const Json>(Json{{"law", law}});
+      column.manifest->metrics = {{"integrator_share_percent", 63.0}};
+      fs::create_directories(column.folder);
+      std::ofstream(column.folder / "cycles.csv")
+          << "cycle,angle\n1,180\n2," << (column.name == "prandtl" ? 150 : 180) << "\n";
+    }
+  }
+  std::string drawn(std::size_t count) {
+    ExperimentRun run({"compare", "hysteron compare", {}, {}}, setup_in(folder_.path() / "out"));
+    const TablePlot plot{"plot_angle", {"Fold", {"cycle"}, {"angle"}}, "cycles.csv", "cycle", "angle"};
+    draw(run, plot, std::vector(columns_.end() - static_cast<std::ptrdiff_t>(count), columns_.end()));
+    run.finish();
+    return file_content(folder_.path() / "out/plot_angle.svg");
+  }
+
+  Folder folder_;
+  std::vector<ChildRun> columns_;
+};
+
+TEST_F(Plots, UniteLinesThatLieOnEachOtherAndNameThemAll) {
+  const std::string svg = drawn(2);
+  EXPECT_TRUE(says(svg, "grinspun-edit (integrator 63 %)"));
+  EXPECT_TRUE(says(svg, "prandtl (integrator 63 %)"));
+  EXPECT_TRUE(says(drawn(3), "spring, grinspun-edit"));
+}
+
+// A name as long as five would leave no room for the plot.
+TEST_F(Plots, NameManyUnitedLinesBelowTheTitle) {
+  const std::string svg = drawn(6);
+  EXPECT_TRUE(says(svg, "linear and 4 more"));
+  EXPECT_TRUE(says(svg, "as linear: pabst, bridson, spring, grinspun-edit"));
+}
+
+}  // namespace
+}  // namespace hysteron::experiments
