@@ -30,9 +30,13 @@ std::string frame_commands(const Plot& plot) {
   script += "set title " + gnuplot::label_text(plot.title) + " font ',19' offset 0," +
             (plot.note.empty() ? "0.3\n" : "1.2\nset tmargin 5\n");
   std::string note;
-  if (!plot.note.empty())
-    note = "set label " + gnuplot::label_text(plot.note) +
-           " at graph 0.5,1.03 center font ',14' textcolor rgb '#666666'\n";
+  if (!plot.note.empty()) {
+    // Below the title, which is over the plot's middle; a long one is over the picture's, and small.
+    constexpr std::size_t kLong = 60, kTooLong = 100;  // letters
+    note = "set label " + gnuplot::label_text(plot.note) + " at " +
+           (plot.note.size() > kLong ? "screen 0.5,graph 1.03" : "graph 0.5,1.03") + " center font '," +
+           (plot.note.size() > kTooLong ? "11" : "14") + "' textcolor rgb '#666666'\n";
+  }
   if (plot.equal_scales) script += "set size ratio -1\n";
   return script + gnuplot::axis_commands("x", plot.x) + gnuplot::axis_commands("y", plot.y) +
          gnuplot::mark_commands(plot.marks) + note;
