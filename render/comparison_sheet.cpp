@@ -134,13 +134,23 @@ Place emptiest_place(const std::vector<Darkness>& pictures) {
   return best;
 }
 
+// These are the row's pictures that have an inset.
+std::vector<Darkness> pictures_with_insets(const ComparisonSheet& sheet, std::size_t r) {
+  std::vector<Darkness> pictures;
+  for (const ComparisonColumn& column : sheet.columns)
+    if (const ComparisonCell& cell = column.cells[r]; !cell.image.empty() && !cell.loop.empty())
+      pictures.emplace_back(cell.busy.empty() ? cell.image : cell.busy);
+  return pictures;
+}
+
 class Drawing {
  public:
   Drawing(const ComparisonSheet& sheet, SheetPage page)
       : sheet_(sheet), page_(std::move(page)), image_(page_.width, page_.height(), kPaper) {}
 
   Image draw() {
-    for (std::size_t r = 0; r < sheet_.rows.size(); ++r) places_.push_back(inset_place(r));
+    for (std::size_t r = 0; r < sheet_.rows.size(); ++r)
+      places_.push_back(emptiest_place(pictures_with_insets(sheet_, r)));
     head();
     for (const SheetPlaces& block : page_.blocks) draw_block(block);
     foot();
@@ -152,15 +162,6 @@ class Drawing {
     const float letters = growth * page_.letters;
     draw_text(image_, fitting(words, letters, room), x, static_cast<float>(top) + 1.25f * letters,
               {color, letters});
-  }
-
-  // Of a row: where insets hide least of all its pictures.
-  Place inset_place(std::size_t r) const {
-    std::vector<Darkness> pictures;
-    for (const ComparisonColumn& column : sheet_.columns)
-      if (const ComparisonCell& cell = column.cells[r]; !cell.image.empty() && !cell.loop.empty())
-        pictures.emplace_back(cell.busy.empty() ? cell.image : cell.busy);
-    return emptiest_place(pictures);
   }
 
   void head() {
@@ -322,10 +323,7 @@ ComparisonSheet with_room_for_insets(ComparisonSheet sheet) {
   constexpr double kNothing = 1;                                     // 8-bit steps in the mean
   constexpr double kMargin = kInsetFraction / (1 - kInsetFraction);  // of a picture's shorter side
   for (std::size_t r = 0; r < sheet.rows.size(); ++r) {
-    std::vector<Darkness> pictures;
-    for (const ComparisonColumn& column : sheet.columns)
-      if (const ComparisonCell& cell = column.cells[r]; !cell.image.empty() && !cell.loop.empty())
-        pictures.emplace_back(cell.busy.empty() ? cell.image : cell.busy);
+    const std::vector<Darkness> pictures = pictures_with_insets(sheet, r);
     const auto is_clear = [](const std::vector<Darkness>& beside) {
       const Place place = emptiest_place(beside);
       return std::ranges::all_of(beside, [&](const Darkness& one) { return one.under(place) <= kNothing; });

@@ -83,13 +83,12 @@ std::vector<std::string> comparison_notes(const CompareChoice& choice, const Pla
   const std::string equal = choice.match == Match::energy
                                 ? fmt::format("work to bend from flat to {:g} 1/m", choice.match_curvature)
                                 : "stiffness at rest";
-  const std::vector<std::string> names = split(choice.names);
+  const std::vector<std::string> names = column_names(plan.columns, split(choice.names));
   std::string note = fmt::format("Matched to {}{}: equal {}{}; b1, b2 times", plan.reference,
                                  plan.has_reference ? "" : ", which is no column", equal,
                                  plan.has_faces ? ", the mean of bends to face and back" : "");
   for (std::size_t c = 0; c < plan.columns.size(); ++c)
-    note += fmt::format("{} {:.3g} ({})", c ? "," : "", plan.scales[c],
-                        c < names.size() ? names[c] : column_words(plan.columns[c].name));
+    note += fmt::format("{} {:.3g} ({})", c ? "," : "", plan.scales[c], names[c]);
   return {note};
 }
 

@@ -97,7 +97,7 @@ std::vector<std::string> shown_metrics(const std::vector<ChildRun>& columns,
   return metrics;
 }
 
-// What a shape of decay means.
+// The words say what a shape of decay means.
 std::string decay_words(const std::string& shape) {
   static const std::map<std::string, std::string> kWords = {
       {"linear", "decays straight"},           {"two-step", "decays at two rates"},
@@ -156,8 +156,8 @@ std::string setting_words(const std::string& setting) {
   return key + " " + (!value.empty() && *end == '\0' ? fmt::format("{:.3g}", number) : value);
 }
 
-// What is lost in time that is the integrator's, where that is so much that a curve shows it [%]; else 0.
-// Statics lose nothing in time.
+// This is the integrator's share of what the column lost in time, where a curve shows it [%]; else 0. Statics
+// lose nothing in time.
 double integrators_share(const ChildRun& column) {
   constexpr double kShown = 5;
   if (column.manifest && column.manifest->text("integrator") == "quasi-static") return 0;
@@ -178,23 +178,34 @@ std::string column_words(const std::string& name) {
   return words;
 }
 
+std::vector<std::string> column_names(const std::vector<ChildRun>& columns,
+                                      const std::vector<std::string>& names) {
+  std::vector<std::string> shown;
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    if (c < names.size())
+      shown.push_back(names[c]);
+    else
+      shown.push_back(column_words(columns[c].name));
+  }
+  return shown;
+}
+
 std::vector<std::string> column_labels(const std::vector<ChildRun>& columns,
                                        const std::vector<std::string>& names) {
-  std::vector<std::string> labels;
+  std::vector<std::string> labels = column_names(columns, names);
   for (std::size_t c = 0; c < columns.size(); ++c) {
-    labels.push_back(c < names.size() ? names[c] : column_words(columns[c].name));
     if (const double share = integrators_share(columns[c]); share > 0)
-      labels.back() += fmt::format(" (integrator {:.0f} %)", share);
+      labels[c] += fmt::format(" (integrator {:.0f} %)", share);
   }
   return labels;
 }
 
 std::string integrators_note(const std::vector<ChildRun>& columns, const std::vector<std::string>& names) {
+  const std::vector<std::string> shown = column_names(columns, names);
   std::string note;
   for (std::size_t c = 0; c < columns.size(); ++c)
     if (const double share = integrators_share(columns[c]); share > 0)
-      note += fmt::format("{}{:.0f} % ({})", note.empty() ? "" : ", ", share,
-                          c < names.size() ? names[c] : column_words(columns[c].name));
+      note += fmt::format("{}{:.0f} % ({})", note.empty() ? "" : ", ", share, shown[c]);
   return note.empty() ? "" : "Of the energy lost the integrator took " + note + ": that share is no law's.";
 }
 
@@ -204,9 +215,10 @@ std::vector<render::ComparisonColumn> column_heads(const std::vector<ChildRun>& 
   const std::vector<std::string> metrics = shown_metrics(columns, requested),
                                  families = column_families(columns);
   const std::vector<render::Rgb8> colors = column_colors(columns);
+  const std::vector<std::string> shown = column_names(columns, names);
   std::vector<render::ComparisonColumn> heads;
   for (std::size_t c = 0; c < columns.size(); ++c)
-    heads.push_back({c < names.size() ? names[c] : column_words(columns[c].name),
+    heads.push_back({shown[c],
                      head_numbers(columns[c], metrics, std::max(kShown, requested.size())),
                      colors[c],
                      families[c],

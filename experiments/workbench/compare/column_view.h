@@ -24,8 +24,10 @@ std::vector<std::string> column_families(const std::vector<ChildRun>& columns);
 std::vector<render::Rgb8> column_colors(const std::vector<ChildRun>& columns);
 // "prandtl+fabric.damping=0.006378" as one would write it: "prandtl, damping 0.00638".
 std::string column_words(const std::string& name);
-// As plots name the columns: `names` where there are any, else column_words(); with the integrator's share of
-// what was lost where that is above 5 %.
+// As sheets name the columns: `names` where there are any, else column_words().
+std::vector<std::string> column_names(const std::vector<ChildRun>& columns,
+                                      const std::vector<std::string>& names = {});
+// As plots name them: with the integrator's share of what was lost where that is above 5 %.
 std::vector<std::string> column_labels(const std::vector<ChildRun>& columns,
                                        const std::vector<std::string>& names = {});
 // A line that says these shares; "" where there is none.

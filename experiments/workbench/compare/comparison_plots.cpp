@@ -60,7 +60,7 @@ void plot_curves(Run& run, const ComparisonPage& page, const std::vector<ChildRu
   }
 }
 
-// Of step, mesh and draw together, or of a fit; NaN where none is known.
+// The error is that of step, mesh and draw together, or of a fit; NaN where none is known.
 double error_of(const Metrics& metrics, const std::string& key) {
   double square = 0;
   for (const char* ending : {kStepError, kMeshError, kDrawError, kStandardError})

@@ -22,7 +22,7 @@ struct TablePlot {
   double scale = 1;  // of y, from the table's unit to the axis'
 };
 
-// Of one run, from its own folder: "prandtl, simulated" in its law's colour.
+// This draws one run, from its own folder: "prandtl, simulated" in its law's colour.
 void draw(Run& run, TablePlot plot, const std::string& law);
 // A line for each column of a comparison that has the file and rows in it, named as column_labels() has it.
 // Those that are zero throughout are named below the title instead, and lines that lie on each other are one;

@@ -1,4 +1,4 @@
-// What a gallery leads with: questions, each with one picture and one number.
+// A gallery leads with questions, each with one picture and one number.
 #pragma once
 
 #include <filesystem>

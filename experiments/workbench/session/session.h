@@ -127,7 +127,7 @@ class Session {
   // Simulates, watches, records and draws, until the time is over or the question is settled,
   // and then to rest if the question asks for it.  Returns whether it is settled or, then, at rest.
   bool simulate(const RunPlan& plan);
-  // What no label says to be simulated or measured is simulated: a line below the title says so.
+  // A line below the title says that all is simulated, where no label says it.
   void plot(const std::string& name, render::Plot plot);
   // Of what its law does, in plots: "#RRGGBB".
   std::string law_color() const { return render::hex(color_of_law(scene().law)); }
