@@ -352,6 +352,18 @@ void check(const ComparisonSheet& sheet) {
                                  std::to_string(sheet.rows.size()) + " rows");
 }
 
+// Most of the picture's border is nearly white.
+bool has_white_border(const Image& image) {
+  constexpr int kNearlyWhite = 244;
+  const int w = image.width(), h = image.height();
+  long white = 0;
+  for (int x = 0; x < w; ++x)
+    white += (image.at(x, 0)[1] >= kNearlyWhite) + (image.at(x, h - 1)[1] >= kNearlyWhite);
+  for (int y = 0; y < h; ++y)
+    white += (image.at(0, y)[1] >= kNearlyWhite) + (image.at(w - 1, y)[1] >= kNearlyWhite);
+  return white >= w + h;
+}
+
 }  // namespace
 
 float sheet_letters(int width) { return std::ceil(static_cast<float>(width) / 84); }
@@ -367,22 +379,19 @@ Image draw_comparison(const ComparisonSheet& given) {
   return Drawing(sheet, std::move(page)).draw();
 }
 
-void fade_to_page(Image& image) {
-  constexpr int kNearlyWhite = 244;
-  constexpr float kBand = 0.04f;
+void fade_to_page(Image& image, const PictureBox& kept) {
   const int w = image.width(), h = image.height();
-  long white = 0;
-  for (int x = 0; x < w; ++x)
-    white += (image.at(x, 0)[1] >= kNearlyWhite) + (image.at(x, h - 1)[1] >= kNearlyWhite);
-  for (int y = 0; y < h; ++y)
-    white += (image.at(0, y)[1] >= kNearlyWhite) + (image.at(w - 1, y)[1] >= kNearlyWhite);
-  if (white < w + h) return;
-  const float band_x = std::max(1.f, kBand * static_cast<float>(w)),
-              band_y = std::max(1.f, kBand * static_cast<float>(h));
+  if (!has_white_border(image)) return;
+  const auto band = [](double room, int size) {
+    constexpr double kWidest = 0.2;
+    return static_cast<float>(std::max(1.0, std::clamp(room, 0.0, kWidest) * size));
+  };
+  const float left = band(kept[0], w), top = band(kept[1], h), right = band(1 - kept[2], w),
+              bottom = band(1 - kept[3], h);
   for (int y = 0; y < h; ++y)
     for (int x = 0; x < w; ++x) {
-      const float in = std::min(static_cast<float>(std::min(x, w - 1 - x)) / band_x,
-                                static_cast<float>(std::min(y, h - 1 - y)) / band_y);
+      const float in = std::min({static_cast<float>(x) / left, static_cast<float>(w - 1 - x) / right,
+                                 static_cast<float>(y) / top, static_cast<float>(h - 1 - y) / bottom});
       if (in >= 1) continue;
       const float fraction = in * in * (3 - 2 * in);
       for (int c = 0; c < 3; ++c)

@@ -8,6 +8,7 @@
 //   |--| 2 cm
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -62,9 +63,12 @@ float sheet_letters(int width);
 // rows, or less than 32 pixels are left for a cell.
 Image draw_comparison(const ComparisonSheet& sheet);
 
-// Cells without edges: where most of a picture's border is nearly white, its outer 4 % go over into the page,
-// and what is left of shadows there.  What is cropped to its cloth with 6 % of room keeps all of it.
-void fade_to_page(Image& image);
+// Cells without edges: where most of a picture's border is nearly white, what lies around `kept`, the box of
+// the cloth (left, top, right, bottom in shares of the picture), goes over into the page, and what is left of
+// shadows there: along each side as softly as there is room, within a fifth of the picture at most.
+using PictureBox = std::array<double, 4>;
+inline constexpr PictureBox kAllButABorder = {0.04, 0.04, 0.96, 0.96};
+void fade_to_page(Image& image, const PictureBox& kept = kAllButABorder);
 
 // The outline of a silhouette, black on white, drawn over `target` of the same size; `width` in pixels;
 // `dotted`: with gaps, where another has the colour already.  Error::invalid_input if the sizes differ.

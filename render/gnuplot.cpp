@@ -173,7 +173,8 @@ std::string data_text(const std::string& text) { return "\"" + unmarked(text, "\
 void require_drawable(const std::filesystem::path& base, const std::vector<Series>& all) {
   if (all.empty()) throw Error::invalid_input("plot " + base.string() + ": there is nothing to draw");
   for (const Series& series : all)
-    if (series.x.size() != series.y.size() || series.x.empty())
+    if (series.x.size() != series.y.size() || series.x.empty() ||
+        (!series.spread.empty() && series.spread.size() != series.y.size()))
       throw Error::invalid_input("plot " + base.string() + ": series \"" + series.label + "\" has " +
                                  std::to_string(series.x.size()) + " x and " +
                                  std::to_string(series.y.size()) +
@@ -187,6 +188,8 @@ std::string data_blocks(const std::vector<Series>& series, std::size_t first) {
     for (size_t k = 0; k < series[i].x.size(); ++k) {
       const double x = series[i].x[k], y = series[i].y[k];
       if (std::isfinite(x) && std::isfinite(y)) script += number(x) + " " + number(y);
+      if (std::isfinite(x) && std::isfinite(y) && !series[i].spread.empty())
+        script += " " + number(series[i].spread[k]);
       script += "\n";  // a line ends before an empty one: gnuplot draws on through what is called missing
     }
     script += "END\n";
@@ -200,6 +203,12 @@ std::string plot_command(const std::vector<Series>& series, std::size_t first) {
   for (std::size_t i = 0; i < series.size(); ++i)
     colors.push_back(series[i].color.empty() ? hex(method_color(i)) : series[i].color);
   const std::vector<int> patterns = patterns_of(series, colors);
+  for (size_t i = 0; i < series.size(); ++i)  // behind all lines
+    if (!series[i].spread.empty())
+      script +=
+          "$series" + std::to_string(first + i) +
+          " using 1:($2-$3):($2+$3) notitle with filledcurves fs transparent solid 0.25 noborder lc rgb '" +
+          colors[i] + "', ";
   for (size_t i = 0; i < series.size(); ++i) {
     const std::string name = series[i].label.empty() ? " notitle" : " title " + label_text(series[i].label);
     script += std::string(i ? ", " : "") + "$series" + std::to_string(first + i) + " using 1:2" + name +

@@ -82,6 +82,9 @@ void prefix(Plot& plot, Axis& axis, std::vector<double> Series::*values, double 
   axis.high /= si.factor;
   for (Series& series : plot.series)
     for (double& v : series.*values) v /= si.factor;
+  if (values == &Series::y)
+    for (Series& series : plot.series)
+      for (double& v : series.spread) v /= si.factor;
   for (Mark& mark : plot.marks) mark.*place /= si.factor;
 }
 

@@ -13,6 +13,8 @@ struct Series {
   enum class Style { line, points, line_and_points, dashed, bars, rings } style = Style::line;
   std::string color{};  // "#RRGGBB"; empty: the next of a palette that colour-blind eyes can tell apart
   double line_width = 2.2;
+  std::vector<double>
+      spread{};  // half the height of a band around each y, pale in the series' colour; empty: none
 
   void add(double at, double value) { x.push_back(at), y.push_back(value); }
 };

@@ -18,9 +18,9 @@ std::string plot_commands(const gnuplot::PanelPage& page, int index, const PageP
          page.margins(index) + "set key inside " + one.key +
          " vertical reverse Left samplen 1.6 spacing 1.15 font ',14' opaque fc rgb '#E8FFFFFF'\nset title " +
          gnuplot::label_text(plot.title) + " font ',17' offset 0,-0.3\n" +
-         gnuplot::axis_commands("x", plot.x) + gnuplot::axis_commands("y", plot.y) +
-         "set ylabel offset 1.2,0\n" + gnuplot::mark_commands(plot.marks) +
-         gnuplot::plot_command(plot.series, first_series);
+         (plot.equal_scales ? "set size ratio -1\n" : "") + gnuplot::axis_commands("x", plot.x) +
+         gnuplot::axis_commands("y", plot.y) + "set ylabel offset 1.2,0\n" +
+         gnuplot::mark_commands(plot.marks) + gnuplot::plot_command(plot.series, first_series);
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ namespace hysteron::render {
 
 struct PagePlot {
   Plot plot;                      // its width and height are the page's
-  std::string key = "top right";  // where the key stands, in gnuplot's words
+  std::string key = "top right";  // where the key stands, in gnuplot's words; "off": nowhere
 };
 
 struct PlotPage {

@@ -18,6 +18,7 @@
 #include "experiments/workbench/compare/comparison.h"
 #include "experiments/workbench/compare/comparison_page.h"
 #include "experiments/workbench/compare/film.h"
+#include "experiments/workbench/pages/error_words.h"
 #include "experiments/workbench/pages/report.h"
 #include "experiments/workbench/pictures/kept_geometry.h"
 #include "sim/base/comma_list.h"
@@ -160,8 +161,32 @@ void check_names(const CompareChoice& choice, const std::vector<ChildRun>& colum
       .with_key("compare.names", choice.names);
 }
 
-std::vector<std::string> page_notes(const CompareChoice& choice, const Plan& plan) {
+// How far other draws of the mesh are from the columns shown: of the first headline that was repeated for it,
+// or that none was; "" of experiments whose meshes do not decide.
+std::string draws_note(const Experiment& experiment, const CompareChoice& choice, const Plan& plan) {
+  if (!experiment.by_chance) return "";
+  const std::vector<std::string> names = column_names(plan.columns, split(choice.names));
+  for (const Headline& headline : experiment.headlines.all) {
+    std::vector<std::string> each;
+    for (std::size_t c = 0; c < plan.columns.size(); ++c) {
+      const Metrics metrics = plan.columns[c].metrics();
+      const MetricValue mean = metrics[std::string(headline.metric) + kDrawMean],
+                        error = metrics[std::string(headline.metric) + kDrawError];
+      if (mean.is_number() && error.is_number())
+        each.push_back(fmt::format("{} {:.3g} ± {:.2g}", names[c], headline.scale * mean.number(),
+                                   headline.scale * error.number()));
+    }
+    if (!each.empty())
+      return fmt::format("One draw of several meshes is shown; {} [{}] over all: {} (standard deviation)",
+                         headline.words, headline.unit, join(each, ", "));
+  }
+  return "One draw of the mesh is shown: others fold elsewhere (--errors says how far apart they are).";
+}
+
+std::vector<std::string> page_notes(const Experiment& experiment, const CompareChoice& choice,
+                                    const Plan& plan) {
   std::vector<std::string> notes = comparison_notes(choice, plan);
+  notes.push_back(draws_note(experiment, choice, plan));
   notes.push_back(integrators_note(plan.columns, split(choice.names)));
   std::erase(notes, "");
   return notes;
@@ -170,7 +195,7 @@ std::vector<std::string> page_notes(const CompareChoice& choice, const Plan& pla
 void draw_page(Run& run, const CommandLine& line, const std::string& experiment, const CompareChoice& choice,
                const Options& options, const Plan& plan) {
   const ComparisonPage page{.title = comparison_title(line, choice.title, plan.columns),
-                            .notes = page_notes(choice, plan),
+                            .notes = page_notes(experiment_named(experiment), choice, plan),
                             .names = split(choice.names),
                             .rows = choice.rows,
                             .times = choice.times,
@@ -185,6 +210,7 @@ void draw_page(Run& run, const CommandLine& line, const std::string& experiment,
   const auto stage = run.stage("render");
   draw_comparison_page(run, page, plan.columns);
   plot_comparison(run, page, plan.columns);
+  if (const auto plot_more = experiment_named(experiment).plot_columns) plot_more(run, page, plan.columns);
 }
 
 // Throws Error::invalid_input for a name that is no metric of any column, with those that there are; of

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <optional>
 
+#include "experiments/crease/protractor.h"
 #include "experiments/crease/specimen.h"
 #include "experiments/specimens/cantilever_strip.h"
 #include "experiments/workbench/app/decided_keys.h"
@@ -265,7 +266,7 @@ void crease_once(const CommandLine& line) {
     probe_unless_told(setup.options, {setup.scene.cloth.length / 2, setup.scene.cloth.width / 2});
   Session session(line, setup, crease.cloth);
   if (session.is_over()) return;
-  session.reserve({}, {"plot_opening"});
+  session.reserve({"profile.csv", "limbs.csv"}, {"plot_opening", "plot_protractor"});
   if (choice.grow_after > 0) session.reserve({"recovery.csv"}, {"plot_recovery"});
   Recovered recovered;
   if (session.simulation().dimension() == 3 && has_strip_curve(crease.scene)) recovered.law.emplace(crease);
@@ -282,6 +283,11 @@ void crease_once(const CommandLine& line) {
     run.metric("plate_height_m", plate);
   }
   const std::string what = setup.scene.fabric.name + ", law " + setup.scene.law;
+  const CreasedStrip strip =
+      creased_strip(setup.scene.law, session.law_color(), crease, session.simulation().positions());
+  write_profile(run, strip);
+  if (session.pictures())
+    session.plot("plot_protractor", protractor_plot("Angle between the limbs at the end, " + what, {strip}));
   if (session.pictures())
     draw(run, opening_plot("Opening after release, " + what, choice, crease.times.end), setup.scene.law);
   if (session.pictures() && choice.grow_after > 0)
@@ -315,6 +321,7 @@ Experiment crease() {
           .defaults = defaults,
           .decided = decided,
           .compared = true,
+          .plot_columns = plot_protractor,
           .conditions = {{"crease.force", "crease.fold = plate"},
                          {"crease.lift", "crease.fold = plate and crease.release = slow"},
                          {"crease.radius", "crease.fold = rod"},

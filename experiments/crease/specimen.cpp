@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "experiments/specimens/clamped_mesh.h"
 #include "sim/base/error.h"
@@ -131,15 +132,24 @@ double Crease::plate_force(const std::vector<Eigen::Vector3d>& x, double time) c
   return force;
 }
 
-double Crease::opening(const std::vector<Eigen::Vector3d>& x) const {
+double Limbs::opening() const {
+  return std::acos(std::clamp(far.direction().dot(near.direction()), -1.0, 1.0)) * 180 / std::numbers::pi;
+}
+
+double Crease::along(std::size_t vertex) const {
+  return cloth.mesh.pattern.empty() ? cloth.mesh.rest[vertex].x() : cloth.mesh.pattern[vertex].x();
+}
+
+namespace {
+
+constexpr double kSameColumn = 1e-9;  // [m]
+
+}  // namespace
+
+Limbs Crease::limbs(const std::vector<Eigen::Vector3d>& x) const {
   const double length = scene.cloth.length, reach = limb_part * length;
-  const ClothMesh& mesh = cloth.mesh;
-  const auto along = [&](std::size_t i) {
-    return mesh.pattern.empty() ? mesh.rest[i].x() : mesh.pattern[i].x();
-  };
   // The mean takes the columns between the two, or the nearest one where none is.
   const auto middle = [&](double from, double to) {
-    constexpr double kSameColumn = 1e-9;  // [m]
     const auto beside = [&](std::size_t i) { return std::max({0.0, from - along(i), along(i) - to}); };
     double nearest = beside(0);
     for (std::size_t i = 1; i < x.size(); ++i) nearest = std::min(nearest, beside(i));
@@ -149,10 +159,23 @@ double Crease::opening(const std::vector<Eigen::Vector3d>& x) const {
       if (beside(i) <= nearest + (nearest > 0 ? kSameColumn : 0)) sum += x[i], ++count;
     return Eigen::Vector3d(sum / count);
   };
-  const Eigen::Vector3d far =
-      middle(length - reach / 4, length) - middle(length - reach, length - 0.75 * reach);
-  const Eigen::Vector3d near = middle(0, reach / 4) - middle(0.75 * reach, reach);
-  return std::acos(std::clamp(far.normalized().dot(near.normalized()), -1.0, 1.0)) * 180 / std::numbers::pi;
+  return {{middle(0.75 * reach, reach), middle(0, reach / 4)},
+          {middle(length - reach, length - 0.75 * reach), middle(length - reach / 4, length)}};
+}
+
+std::vector<Eigen::Vector3d> Crease::profile(const std::vector<Eigen::Vector3d>& x) const {
+  std::vector<std::size_t> order(x.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return along(a) < along(b); });
+  std::vector<Eigen::Vector3d> middles;
+  for (std::size_t i = 0; i < order.size();) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    const std::size_t first = i;
+    for (; i < order.size() && along(order[i]) <= along(order[first]) + kSameColumn; ++i) sum += x[order[i]];
+    middles.push_back(sum / static_cast<double>(i - first));
+  }
+  return middles;
 }
 
 namespace {

@@ -34,6 +34,17 @@ struct CreaseTimes {
   double folded, pressed, released, lifted, end;
 };
 
+// A limb of the specimen in profile: the middles of the parts of it that are nearest to the fold and to its
+// end [m].
+struct Limb {
+  Eigen::Vector3d inner, outer;
+  Eigen::Vector3d direction() const { return (outer - inner).normalized(); }  // away from the fold
+};
+struct Limbs {
+  Limb near, far;
+  double opening() const;  // angle between them: 0 folded flat, 180 straight [degree]
+};
+
 struct Crease {
   Scene scene;
   Cloth cloth;
@@ -44,8 +55,11 @@ struct Crease {
 
   // Force of the plate on the cloth at these positions [N]; 0 without a plate.
   double plate_force(const std::vector<Eigen::Vector3d>& x, double time) const;
-  // Angle between the limbs: 0 folded flat, 180 straight [degree].
-  double opening(const std::vector<Eigen::Vector3d>& x) const;
+  Limbs limbs(const std::vector<Eigen::Vector3d>& x) const;
+  double opening(const std::vector<Eigen::Vector3d>& x) const { return limbs(x).opening(); }  // [degree]
+  // Of each column of vertices across the strip, from the clamp to the far end, the middle [m].
+  std::vector<Eigen::Vector3d> profile(const std::vector<Eigen::Vector3d>& x) const;
+  double along(std::size_t vertex) const;  // the strip, at rest and flat [m]
 };
 
 // The crease that the law alone makes: each triangle is bent along the strip as the specimen was until its

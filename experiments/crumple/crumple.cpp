@@ -207,6 +207,7 @@ Experiment crumple() {
       .defaults = defaults,
       .framing = framing,
       .compared = true,
+      .by_chance = true,
       .headlines = {.all = {{"residual_curvature_rms_per_m", "residual curvature (rms)", "1/m", "{:.4g}"},
                             {"ridge_length_m", "length of ridges", "mm", "{:.1f}", 1e3},
                             {"curvature_rms_per_m", "curvature (rms)", "1/m", "{:.4g}"},

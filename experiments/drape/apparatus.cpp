@@ -160,6 +160,20 @@ std::string tilt_warning(const Scene& scene) {
       gravity, tilt);
 }
 
+namespace {
+
+// The plate sinks; where the ring is lifted again it waits below, rises and sinks a second time.
+std::vector<Keyframe> plate_keys(const DrapeChoice& choice) {
+  const Eigen::Vector3d above = Eigen::Vector3d::Zero(), below(0, 0, -choice.plate);
+  std::vector<Keyframe> keys = {{0, above}, {choice.lowering, below}};
+  if (!choice.is_relifted()) return keys;
+  const double lifts = choice.first_rest();
+  keys.insert(keys.end(), {{lifts, below}, {lifts + choice.lowering, above}, {choice.lowered(), below}});
+  return keys;
+}
+
+}  // namespace
+
 void add_apparatus(Scene& scene, const DrapeChoice& choice, const Specimen& specimen) {
   // The discs press the specimen by a few times its own weight: both contacts stay closed, as in the
   // apparatus, and the plate throws nothing up when it goes down.
@@ -184,8 +198,7 @@ void add_apparatus(Scene& scene, const DrapeChoice& choice, const Specimen& spec
   plate.radius = specimen.radius + 0.01;
   plate.center = {0, 0, -plate.height / 2};
   plate.friction = 0;
-  for (int k = 0; k <= choice.strokes(); ++k)
-    plate.motion.keys.push_back({k * choice.lowering, {0, 0, k % 2 ? -choice.plate : 0}});
+  plate.motion.keys = plate_keys(choice);
   plate.until = choice.lowered();
   scene.obstacle.push_back(plate);
 }

@@ -26,6 +26,7 @@ struct DrapeChoice {
   int folds = 0;                     // dropped: of the flat ring, which begin the folds; 0: none
   double disc = 0.09;                // pedestal's radius [m]
   double lowering = 3;               // time in which the plate sinks [s]
+  double pause = 1;                  // relifted: at rest below, before the plate lifts the ring [s]
   int shakes = 3;                    // of these strokes:
   double stroke = 0.03;              // how far up [m]
   double period = 0.5;               // up and down [s]
@@ -37,8 +38,12 @@ struct DrapeChoice {
   double uneven = 0;                 // standard deviation of the rigidity along the cloth, over its mean
   double uneven_length = 0.02;       // over which the rigidity stays alike [m]
 
-  int strokes() const { return release == "dropped" ? 0 : release == "relifted" ? 3 : 1; }  // of the plate
-  double lowered() const { return strokes() * lowering; }  // when nothing carries the ring any more [s]
+  bool is_relifted() const { return release == "relifted"; }
+  int strokes() const { return release == "dropped" ? 0 : is_relifted() ? 3 : 1; }  // of the plate
+  double first_rest() const { return lowering + pause; }  // relifted: when the plate begins to lift [s]
+  double lowered() const {                                // when nothing carries the ring any more [s]
+    return strokes() * lowering + (is_relifted() ? pause : 0);
+  }
   double released() const { return lowered() + (release == "shaken" ? shakes * period : 0); }
 };
 

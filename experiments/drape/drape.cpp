@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/drape/apparatus.h"
-#include "experiments/drape/outline.h"
+#include "experiments/drape/outline_plots.h"
 #include "experiments/workbench/pages/closing_summary.h"
 #include "experiments/workbench/session/session.h"
 #include "render/caption.h"
@@ -25,6 +25,7 @@ const KeyRow<DrapeChoice> kRows[] = {
     {"drape.folds", at<&D::folds>, "", between(0, 100), "", "dropped: so many waves, 2 mm high, raise the ring at the start and become its folds, the same under every method; 0: folds form by themselves"},
     {"drape.disc", at<&D::disc>, "m", positive(), "", "radius of the pedestal"},
     {"drape.lowering", at<&D::lowering>, "s", positive(), "", "time in which the plate sinks"},
+    {"drape.pause", at<&D::pause>, "s", at_least(0), "", "relifted: how long the ring hangs at rest before the plate lifts it; its outline then is the first of two"},
     {"drape.shakes", at<&D::shakes>, "", between(1, 100), "", "shaken: how often it goes up and down"},
     {"drape.stroke", at<&D::stroke>, "m", positive(), "", "shaken: how far up"},
     {"drape.period", at<&D::period>, "s", positive(), "", "shaken: time of one up and down"},
@@ -137,28 +138,6 @@ double shadow_coefficient(Session& session, const DrapeChoice& choice, double ra
   return found;
 }
 
-render::Series circle(double radius, const std::string& label) {
-  render::Series series{label, {}, {}, render::Series::Style::dashed};
-  for (int k = 0; k <= 360; ++k) {
-    series.add(100 * radius * std::cos(k * 3.14159265358979323846 / 180),
-               100 * radius * std::sin(k * 3.14159265358979323846 / 180));
-  }
-  return series;
-}
-
-void plot_outline(Session& session, const DrapeChoice& choice, double radius, const Outline& outline) {
-  render::Series cloth{"simulated", {}, {}, render::Series::Style::line, session.law_color()};
-  const std::size_t n = outline.radius.size();
-  for (std::size_t k = 0; k <= n; ++k) {
-    const double angle = 2 * 3.14159265358979323846 * static_cast<double>(k) / static_cast<double>(n);
-    cloth.add(100 * outline.radius[k % n] * std::cos(angle), 100 * outline.radius[k % n] * std::sin(angle));
-  }
-  render::Plot plot{"Outline from above, " + session.scene().fabric.name, {"x [cm]"}, {"y [cm]"}};
-  plot.series = {cloth, circle(choice.disc, "pedestal"), circle(radius, "flat specimen")};
-  plot.equal_scales = true;
-  session.plot("plot_outline", plot);
-}
-
 // Testers stand upright on earth.
 bool has_usual_gravity(const Scene& scene) {
   constexpr double kNear = 0.05;  // [m/s^2]; nowhere is it farther from 9.81
@@ -255,6 +234,56 @@ void note_published(Run& run, const Scene& scene, const DrapeChoice& choice, dou
   if (!message.empty()) run.metric("published_drape", message);
 }
 
+// What is read off the specimen as time goes on.
+struct Draping {
+  double covered = 0;                  // the coefficient when it was watched last [%]
+  double change = 0;                   // of it since the time before [%]
+  std::vector<double> first_radius{};  // of the outline before the ring is lifted again [m]; empty: it is not
+
+  std::optional<Outline> first() const {
+    return first_radius.empty() ? std::nullopt : std::optional(Outline{first_radius});
+  }
+};
+
+RunPlan run_plan(Session& session, const DrapeChoice& choice, double radius, Draping& draping) {
+  const float r = static_cast<float>(radius);
+  RunPlan plan;
+  plan.bounds = {{-r, -r, -0.6f * r}, {r, r, 0.02f}};
+  plan.floor = -static_cast<float>(kPedestalHeight);
+  plan.columns = {"drape_coefficient [%]", "node_count"};
+  const auto outline_at = [&session](const Snapshot& m) {
+    return outline_from_above(session.cloth().mesh, m.x, kDirections);
+  };
+  plan.watch = [&choice, &draping, radius, outline_at](const Snapshot& m) {
+    const double percent = drape_coefficient(outline_at(m).area(), choice.disc, radius);
+    draping.change = percent - draping.covered;
+    draping.covered = percent;
+  };
+  plan.measure = [&choice, radius, outline_at](const Snapshot& m) -> std::vector<double> {
+    const Outline outline = outline_at(m);
+    return {drape_coefficient(outline.area(), choice.disc, radius),
+            static_cast<double>(outline.nodes(kProminence))};
+  };
+  if (choice.is_relifted())
+    plan.instants = {{choice.first_rest(), [&draping, outline_at](const Snapshot& m) {
+                        draping.first_radius = outline_at(m).radius;
+                      }}};
+  plan.settled = [&choice](const Snapshot& m) {
+    return m.time > choice.released() + kFreeMotion && m.fastest < choice.still;
+  };
+  plan.to_rest = true;
+  plan.wait = choice.wait;
+  plan.progress = [&draping](const Snapshot& m) {
+    return fmt::format("t = {:.3f} s  drape coefficient {:.1f} %  fastest {:.4f} m/s", m.time,
+                       draping.covered, m.fastest);
+  };
+  plan.serialise = [&draping](Archive& archive) {
+    archive(draping.covered);
+    archive(draping.first_radius);
+  };
+  return plan;
+}
+
 int run_drape(const CommandLine& line) {
   DrapeChoice choice;
   Setup setup = set_up_drape(line, choice);
@@ -271,45 +300,18 @@ int run_drape(const CommandLine& line) {
     session.run().warn(shown(setup.scene, "seconds", setup.scene.seconds, "s") +
                        " ends before the specimen is released, after " + number_text(released, 4) +
                        " s: what is read is not its drape");
-  session.reserve(
-      {}, {"shadow.png", "curvature.png", "friction.png", "plot_outline", "plot_drape", "plot_energy"});
+  session.reserve({"outline.csv"}, {"shadow.png", "curvature.png", "friction.png", "plot_outline",
+                                    "plot_drape", "plot_energy"});
   session.run().note("drape", to_json(bind(kRows, choice))["drape"]);
   session.run().note("specimen_radius_m", radius);
 
-  const float r = static_cast<float>(radius);
-  RunPlan plan;
-  plan.bounds = {{-r, -r, -0.6f * r}, {r, r, 0.02f}};
-  plan.floor = -static_cast<float>(kPedestalHeight);
-  plan.columns = {"drape_coefficient [%]", "node_count"};
-  double covered = 0,
-         change = 0;  // the coefficient, and by how much it changed since it was last watched [%]
-  const auto outline_at = [&](const Snapshot& m) {
-    return outline_from_above(session.cloth().mesh, m.x, kDirections);
-  };
-  plan.watch = [&](const Snapshot& m) {
-    const double percent = drape_coefficient(outline_at(m).area(), choice.disc, radius);
-    change = percent - covered;
-    covered = percent;
-  };
-  plan.measure = [&](const Snapshot& m) -> std::vector<double> {
-    const Outline outline = outline_at(m);
-    return {drape_coefficient(outline.area(), choice.disc, radius),
-            static_cast<double>(outline.nodes(kProminence))};
-  };
-  plan.settled = [&](const Snapshot& m) {
-    return m.time > choice.released() + kFreeMotion && m.fastest < choice.still;
-  };
-  plan.to_rest = true;
-  plan.wait = choice.wait;
-  plan.progress = [&](const Snapshot& m) {
-    return fmt::format("t = {:.3f} s  drape coefficient {:.1f} %  fastest {:.4f} m/s", m.time, covered,
-                       m.fastest);
-  };
-  plan.serialise = [&](Archive& archive) { archive(covered); };
-  const bool settled = session.simulate(plan);
+  Draping draping;
+  const bool settled = session.simulate(run_plan(session, choice, radius, draping));
 
-  const Outline outline =
-      outline_from_above(session.cloth().mesh, session.simulation().positions(), kDirections);
+  DrapeOutlines outlines{
+      outline_from_above(session.cloth().mesh, session.simulation().positions(), kDirections),
+      draping.first()};
+  const Outline& outline = outlines.last;
   Run& run = session.run();
   const double percent = drape_coefficient(outline.area(), choice.disc, radius);
   check_coefficient(percent);
@@ -318,10 +320,12 @@ int run_drape(const CommandLine& line) {
   run.metric("settled", settled);
   run.metric("settling_limit_m_per_s", choice.still);
   // What bringing the cloth to rest has moved: what its last motion could still have changed.
-  if (setup.scene.is_implicit()) run.metric("rest_shift_percent", change);
+  if (setup.scene.is_implicit()) run.metric("rest_shift_percent", draping.change);
+  if (outlines.first) run.metric("outline_overlap", overlap(*outlines.first, outline));
+  write_outlines(run, outlines);
   note_published(run, setup.scene, choice, radius);
   if (session.pictures()) {
-    plot_outline(session, choice, radius, outline);
+    plot_outlines(session, choice, radius, outlines);
     plot_series(session, choice, radius);
     const double shadow = shadow_coefficient(session, choice, radius);
     // By less than its pixels; then the picture alone says so.
@@ -345,8 +349,10 @@ Experiment drape() {
           .defaults = defaults,
           .decided = decided,
           .compared = true,
+          .plot_columns = plot_histories,
           .conditions = {{"drape.folds", "drape.release = dropped"},
                          {"drape.uneven-length", "drape.uneven > 0"},
+                         {"drape.pause", "drape.release = relifted"},
                          {"drape.lowering", "drape.release != dropped"},
                          {"drape.shakes | drape.stroke | drape.period", "drape.release = shaken"}},
           .headlines = {.all = {{"drape_coefficient_percent", "drape coefficient", "%", "{:.1f}"},
@@ -354,6 +360,7 @@ Experiment drape() {
                                  "{:.1f}", 1, kNoErrors},
                                 {"node_count", "folds", "", "{:.0f}"},
                                 {"published_node_count", "published folds", "", "{:.0f}", 1, kNoErrors},
+                                {"outline_overlap", "of both outlines are the same", "%", "{:.1f}", 100},
                                 {"published_drape", "the published drape", "", "", 1, kNoErrors}},
                         .release = "drape.release",
                         .paths = {"lowered", "dropped"}}};

@@ -77,6 +77,16 @@ Outline outline_from_above(const ClothMesh& mesh, const std::vector<Eigen::Vecto
   return outline;
 }
 
+double overlap(const Outline& a, const Outline& b) {
+  double both = 0, either = 0;
+  for (std::size_t k = 0; k < a.radius.size(); ++k) {
+    const auto [inner, outer] = std::minmax(a.radius[k], b.radius[k]);
+    both += inner * inner;
+    either += outer * outer;
+  }
+  return both / either;
+}
+
 double drape_coefficient(double projected_area, double disc_radius, double specimen_radius) {
   const double disc = kPi * disc_radius * disc_radius, specimen = kPi * specimen_radius * specimen_radius;
   return 100 * (projected_area - disc) / (specimen - disc);

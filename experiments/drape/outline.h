@@ -20,6 +20,10 @@ struct Outline {
 
 Outline outline_from_above(const ClothMesh& mesh, const std::vector<Eigen::Vector3d>& x, int directions);
 
+// The area that both cover over that which either covers (the Jaccard index), 0 to 1; both are seen around
+// the same axis at the same angles.
+double overlap(const Outline& a, const Outline& b);
+
 // 100 (A - A_disc)/(A_specimen - A_disc) (Cusick 1968; BS 5058, ISO 9073-9) [%].
 double drape_coefficient(double projected_area, double disc_radius, double specimen_radius);
 // Whether it can be one [%]: the shadow covers the pedestal, and at most the flat specimen, but for a little

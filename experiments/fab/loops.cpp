@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "render/plot.h"
+#include "render/plot_page.h"
 #include "sim/base/csv.h"
 #include "sim/base/error.h"
 #include "sim/identification/fab_cycles.h"
@@ -17,6 +19,7 @@ using Style = render::Series::Style;
 
 constexpr const char* kCycleColors[] = {"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9"};
 constexpr double kMillimetre = 1e3;
+constexpr const char *kMeasuredColor = "#777777", *kSimulatedColor = "#0072B2";
 
 const char* cycle_color(int cycle) { return kCycleColors[cycle % std::size(kCycleColors)]; }
 
@@ -129,6 +132,76 @@ void draw_loops(Run& run, const std::string& name, const std::string& title, con
     plot.series.push_back(data);
   }
   run.plot(name, plot);
+}
+
+namespace {
+
+// The force on a branch at that distance, between the recorded ones; NaN beyond them.
+double force_at(const FabBranch& branch, const std::vector<double>& force, double distance) {
+  for (std::size_t i = 1; i < force.size(); ++i) {
+    const double from = branch.distance[i - 1], to = branch.distance[i];
+    if (from == to || (distance - from) * (distance - to) > 0) continue;
+    return force[i - 1] + (distance - from) / (to - from) * (force[i] - force[i - 1]);
+  }
+  return NAN;
+}
+
+// Vertical bars between what two records of the same way measured.
+render::Series repeat_bars(const ComparedLoops& compared, const ComparedLoops& repeat, int cycle) {
+  render::Series bars{"measured, up to down", {}, {}, Style::line, kMeasuredColor, 4};
+  const BranchForces one = compared.measured_forces(), other = repeat.measured_forces();
+  for (int b = 2 * cycle; b <= 2 * cycle + 1; ++b)
+    for (std::size_t i = 0; i < one[b].size(); ++i) {
+      const double at = compared.loops.branches[b].distance[i],
+                   beside = force_at(repeat.loops.branches[b], other[b], at);
+      if (!std::isfinite(beside)) continue;
+      for (const double force : {one[b][i], beside, std::numeric_limits<double>::quiet_NaN()})
+        bars.add(kMillimetre * at, force);
+    }
+  return bars;
+}
+
+double rms_in_cycle(const ComparedLoops& compared, int cycle) {
+  const BranchForces measured = compared.measured_forces();
+  double sum = 0;
+  std::size_t count = 0;
+  for (int b = 2 * cycle; b <= 2 * cycle + 1; ++b)
+    for (std::size_t i = 0; i < measured[b].size(); ++i, ++count)
+      sum += std::pow(compared.run.force[b][i] - measured[b][i], 2);
+  return std::sqrt(sum / static_cast<double>(count));
+}
+
+render::PagePlot cycle_panel(const std::string& kind, double noise, const ComparedLoops& compared,
+                             const ComparedLoops* repeat, int cycle) {
+  const BranchForces measured = compared.measured_forces();
+  const double area =
+      loop_area(compared.loops, compared.run.force, cycle) / loop_area(compared.loops, measured, cycle);
+  render::Plot plot{fmt::format("{}: area {:+.0f} %, rms {:.1f} of the noise", kind, 100 * (area - 1),
+                                rms_in_cycle(compared, cycle) / noise),
+                    {"distance of the clamps [mm]"},
+                    {"force per width [N/m]"}};
+  render::Series data = cycle_series(compared.loops, measured, cycle, Style::points);
+  data.label = "measured", data.color = kMeasuredColor;
+  if (repeat) data = repeat_bars(compared, *repeat, cycle);
+  render::Series model = cycle_series(compared.loops, compared.run.force, cycle, Style::line);
+  model.label = "simulated", model.color = kSimulatedColor;
+  plot.series = {data, model};
+  return {plot, cycle == 0 ? "center center" : "off"};
+}
+
+}  // namespace
+
+void draw_cycles(Run& run, const std::string& name, const std::string& title,
+                 const std::vector<std::string>& kinds, double noise, const ComparedLoops& compared,
+                 const ComparedLoops* repeat) {
+  render::PlotPage page{title, "force against distance of the clamps, tension > 0", {}};
+  page.columns = 1;
+  page.plot_width = 640;
+  page.plot_height = 300;
+  for (int cycle = 0; cycle < compared.loops.cycles(); ++cycle)
+    page.plots.push_back(cycle_panel("cycle " + std::to_string(cycle + 1) + ", " + kinds[cycle], noise,
+                                     compared, repeat, cycle));
+  run.plot(name, page, render::write_plot_page);
 }
 
 void draw_shapes(Run& run, const std::string& name, const std::string& title, const ComparedLoops& compared) {

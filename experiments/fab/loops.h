@@ -28,6 +28,13 @@ void add_metrics(Run& run, const ComparedLoops& compared);
 // In the columns that `fit --fab` reads, the measured force behind.
 void write_loops(Run& run, const std::string& name, const ComparedLoops& compared);
 void draw_loops(Run& run, const std::string& name, const std::string& title, const ComparedLoops& compared);
+// A panel a cycle, named "cycle 2, fitted" by `kinds`: the simulated force as a line; what was measured as
+// bars between the record and its `repeat`, the same way with the strip turned over, or as dots where there
+// is none (null).  Each panel's title says by how much the area is off and the rms of the difference over
+// `noise` [N/m].
+void draw_cycles(Run& run, const std::string& name, const std::string& title,
+                 const std::vector<std::string>& kinds, double noise, const ComparedLoops& compared,
+                 const ComparedLoops* repeat);
 // The strip at the turns of the clamps; nothing of a strip that stretches.
 void draw_shapes(Run& run, const std::string& name, const std::string& title, const ComparedLoops& compared);
 

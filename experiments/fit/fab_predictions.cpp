@@ -60,6 +60,36 @@ bool was_fitted(const FabAnswer& answer, const FabLoops& loops, int cycle) {
          std::find(answer.cycles.begin(), answer.cycles.end(), cycle) != answer.cycles.end();
 }
 
+// Of records along that direction, or of the first that was fitted.
+double noise_of(const FabAnswer& answer, const std::string& direction) {
+  std::size_t i = 0;
+  for (std::size_t k = 0; k < answer.found.bending.size(); ++k)
+    if (answer.found.bending[k].direction == direction) i = k;
+  return answer.repeats[i].known() ? answer.repeats[i].noise : answer.found.bending[i].noise;
+}
+
+// The same test with the strip turned over, that went the same way; null where there is none.
+const ComparedLoops* repeat_of(const FabPrediction& p, const std::vector<FabPrediction>& all) {
+  for (const FabPrediction& other : all) {
+    const FabLoops &a = p.stops.loops, &b = other.stops.loops;
+    if (b.bends() && a.direction == b.direction && a.bends_up() != b.bends_up() && a.cycles() == b.cycles() &&
+        std::abs(a.gauge / b.gauge - 1) < kSameGauge)
+      return &other.stops;
+  }
+  return nullptr;
+}
+
+void draw_prediction(Run& run, const std::string& fabric, const FabPrediction& p,
+                     const std::vector<FabPrediction>& all) {
+  const FabLoops& loops = p.stops.loops;
+  const std::string name = "plot_" + loops.direction + "_" + loops.test,
+                    title = fabric + ", " + loops.name() + ", fitted on " + p.fitted_on;
+  if (!loops.bends()) return draw_loops(run, name, title, p.stops);
+  std::vector<std::string> kinds;
+  for (const bool fitted : p.fitted) kinds.emplace_back(fitted ? "fitted" : "predicted");
+  draw_cycles(run, name, title, kinds, p.noise / loops.width, p.stops, repeat_of(p, all));
+}
+
 }  // namespace
 
 std::vector<FabPrediction> predict(const FabAnswer& answer) {
@@ -74,8 +104,11 @@ std::vector<FabPrediction> predict(const FabAnswer& answer) {
       return run_fab(loops, fabric.strip("B"));  // of one direction both halves are alike
     };
     try {
-      FabPrediction p{
-          {loops, run_with(found.bending), true}, {loops, run_with(answer.one_stop), true}, {}, {}};
+      FabPrediction p{{loops, run_with(found.bending), true},
+                      {loops, run_with(answer.one_stop), true},
+                      {},
+                      {},
+                      noise_of(answer, along)};
       const bool own = has(found.bending, along);
       p.fitted_on = fitted_on(answer, own ? along : "L, W");
       const bool fitted =
@@ -122,9 +155,7 @@ void draw_predictions(Run& run, const std::string& fabric, const std::vector<Fab
   std::vector<double> measured, stops, one;
   render::Axis loops{"test, cycle"};
   for (const FabPrediction& p : predictions) {
-    const std::string& direction = p.stops.loops.direction;
-    draw_loops(run, "plot_" + direction + "_" + p.stops.loops.test,
-               fabric + ", " + p.stops.loops.name() + ", fitted on " + p.fitted_on, p.stops);
+    draw_prediction(run, fabric, p, predictions);
     if (!p.stops.loops.bends()) continue;
     const BranchForces seen = p.stops.measured_forces();
     for (int cycle = 0; cycle < p.stops.loops.cycles(); ++cycle) {

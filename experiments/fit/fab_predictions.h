@@ -14,6 +14,7 @@ struct FabPrediction {
   ComparedLoops stops, one_stop;
   std::vector<bool> fitted;  // by cycle
   std::string fitted_on;     // "L D1 cycle 2"
+  double noise = 0;          // of the force of the whole strip, from repeats where there are any [N]
 };
 
 // Every test of the directions that were fitted, and of the bias by the mean of both; tests that stretch

@@ -208,7 +208,8 @@ int run_swing(const CommandLine& line) {
     run.warn("nothing swings without gravity and inertia (gravity, integrator = bdf2)");
   note_decay(run, amplitudes, decay);
   write_turns(run, amplitudes);
-  run.manifest().curves = {{"plot_decay", "turns.csv", "time [s]", "amplitude [mm]", false, kDecayCaption}};
+  run.manifest().curves = {{"plot_decay", "turns.csv", "time [s]", "amplitude [mm]", false, kDecayCaption,
+                            false, "decay_knee_fraction"}};
   run.metric("bending_friction_J", ledger.bending_friction);
   run.metric("viscous_J", ledger.viscous);
   run.metric("integrator_J", ledger.integrator());

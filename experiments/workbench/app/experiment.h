@@ -34,6 +34,9 @@ struct CommandLine {
 // What the last flag of that path says; `otherwise` without one.
 std::string last_text(const std::vector<Flag>& flags, const std::string& path, const std::string& otherwise);
 
+struct ChildRun;
+struct ComparisonPage;
+class Run;
 struct Setup;
 
 // A key of scenes that an experiment sets itself, whatever is asked for, or does not use.
@@ -69,8 +72,11 @@ struct Experiment {
   const char* differs = "";      // what exit code 4 says; "": it does not occur
   bool hidden = false;           // called by scripts of the project: not in --help
   bool compared = false;         // `compare NAME` takes it by its name, other scenes by their files
-  double onion = 0;    // a comparison shows all instants up to then in one picture first [s]; 0: none
-  bool timed = false;  // its results are durations: it shares no process, and no two runs agree
+  // Draws what a comparison of it has beside the plots of all; null: nothing.
+  void (*plot_columns)(Run&, const ComparisonPage&, const std::vector<ChildRun>&) = nullptr;
+  bool by_chance = false;  // the draw of the mesh decides where its folds lie: a comparison says so
+  double onion = 0;        // a comparison shows all instants up to then in one picture first [s]; 0: none
+  bool timed = false;      // its results are durations: it shares no process, and no two runs agree
   std::vector<KeyCondition> conditions = {};  // beside those that all simulations have
   Headlines headlines = {};
 };

@@ -125,6 +125,8 @@ struct Curve {
   bool logarithmic = false;  // along y
   std::string caption;
   bool logarithmic_x = false;
+  std::string
+      knee{};  // the metric that is the share of the first y at which the curve has its knee; "": none
 };
 
 // What a fit says of the data under a law.

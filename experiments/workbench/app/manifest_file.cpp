@@ -72,6 +72,7 @@ Json to_json(const Curve& curve) {
                {"logarithmic", curve.logarithmic},
                {"caption", curve.caption}};
   if (curve.logarithmic_x) json["logarithmic_x"] = true;
+  if (!curve.knee.empty()) json["knee"] = curve.knee;
   return json;
 }
 
@@ -301,7 +302,7 @@ void take(const Json& json, std::vector<Curve>& curves) {
   for (const Json& curve : json)
     curves.push_back({text_at(curve, "plot"), text_at(curve, "file"), text_at(curve, "x"),
                       text_at(curve, "y"), is_true_at(curve, "logarithmic"), text_at(curve, "caption"),
-                      is_true_at(curve, "logarithmic_x")});
+                      is_true_at(curve, "logarithmic_x"), text_at(curve, "knee")});
 }
 
 // The first key without which a JSON is no manifest; "" if it has all.

@@ -283,7 +283,7 @@ void Crop::widen(double to) {
 }
 
 render::Image Crop::of(const render::Image& picture) const {
-  constexpr double kRoom = 0.06;                 // of either side
+  constexpr double kRoom = 0.08;                 // of either side
   constexpr double kWidest = 3, kTallest = 0.9;  // width over height
   const double w = picture.width(), h = picture.height();
   double left = box_[0] * w, top = box_[1] * h, right = box_[2] * w, bottom = box_[3] * h;
@@ -305,7 +305,9 @@ render::Image Crop::of(const render::Image& picture) const {
   render::Image part(x_end - x, y_end - y, picture.channels());
   for (int row = 0; row < part.height(); ++row)
     std::copy_n(picture.at(x, y + row), part.row_bytes(), part.at(0, row));
-  render::fade_to_page(part);
+  const double width_kept = x_end - x, height_kept = y_end - y;
+  render::fade_to_page(part, {(box_[0] * w - x) / width_kept, (box_[1] * h - y) / height_kept,
+                              (box_[2] * w - x) / width_kept, (box_[3] * h - y) / height_kept});
   return part;
 }
 

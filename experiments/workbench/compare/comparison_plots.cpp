@@ -55,7 +55,9 @@ void plot_curves(Run& run, const ComparisonPage& page, const std::vector<ChildRu
                    curve.file,
                    curve.x,
                    curve.y,
-                   probed ? render::Series::Style::line : render::Series::Style::line_and_points},
+                   probed ? render::Series::Style::line : render::Series::Style::line_and_points,
+                   1,
+                   curve.knee},
          columns, page.names);
   }
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <tuple>
 
 #include "experiments/workbench/app/law_family.h"
@@ -19,6 +20,42 @@ render::Series table_series(const TablePlot& plot, const std::filesystem::path& 
   series.style = plot.style;
   for (double& y : series.y) y *= plot.scale;
   return series;
+}
+
+// The value at x on the line through the points of a series whose x rise; NaN beyond its ends.
+double value_at(const render::Series& series, double x) {
+  const auto after = std::lower_bound(series.x.begin(), series.x.end(), x);
+  const auto i = static_cast<std::size_t>(after - series.x.begin());
+  if (after == series.x.end() || (i == 0 && *after != x)) return NAN;
+  if (*after == x) return series.y[i];
+  const double share = (x - series.x[i - 1]) / (series.x[i] - series.x[i - 1]);
+  return series.y[i - 1] + share * (series.y[i] - series.y[i - 1]);
+}
+
+// By how much half the step changes each value; empty where the column was not repeated so.
+std::vector<double> step_spread(const TablePlot& plot, const ChildRun& column, const render::Series& series) {
+  const std::filesystem::path repeat = column.folder / "errors" / "step";
+  if (!std::filesystem::exists(repeat / plot.file)) return {};
+  const render::Series half = table_series(plot, repeat, "");
+  if (!std::is_sorted(half.x.begin(), half.x.end())) return {};
+  std::vector<double> spread;
+  for (std::size_t i = 0; i < series.x.size(); ++i) {
+    const double change = std::abs(value_at(half, series.x[i]) - series.y[i]);
+    spread.push_back(std::isfinite(change) ? change : 0);
+  }
+  return spread;
+}
+
+// Where a series that falls reaches that share of its first value.
+std::optional<render::Mark> knee_mark(const render::Series& series, double share) {
+  for (std::size_t i = 1; i < series.y.size(); ++i) {
+    const double level = share * series.y[0];
+    if (series.y[i] > level) continue;
+    const double within = (series.y[i - 1] - level) / (series.y[i - 1] - series.y[i]);
+    return render::Mark{
+        "knee", series.x[i - 1] + within * (series.x[i] - series.x[i - 1]), level, 1, 0.6, series.color};
+  }
+  return std::nullopt;
 }
 
 double largest(const render::Series& series) {
@@ -105,13 +142,17 @@ void draw(Run& run, TablePlot plot, const std::vector<ChildRun>& columns,
     render::Series series = table_series(plot, columns[c].folder, labels[c]);
     if (series.x.empty()) continue;
     series.color = render::hex(colors[c]);
+    series.spread = step_spread(plot, columns[c], series);
+    if (const MetricValue knee = columns[c].metrics()[plot.knee]; !plot.knee.empty() && knee.is_number())
+      if (const auto mark = knee_mark(series, knee.number())) plot.plot.marks.push_back(*mark);
     own.push_back(std::move(series));
   }
   const std::vector<std::string> nothing = take_what_shows_nothing(own);
   if (own.empty()) return;
   const std::string united = unite_equal(own);
-  plot.plot.note =
-      "simulated" + (nothing.empty() ? "" : "; zero throughout: " + join(nothing, ", ")) + united;
+  const bool banded = std::ranges::any_of(own, [](const auto& series) { return !series.spread.empty(); });
+  plot.plot.note = std::string("simulated") + (banded ? "; bands: the change by half the step" : "") +
+                   (nothing.empty() ? "" : "; zero throughout: " + join(nothing, ", ")) + united;
   plot.plot.series.insert(plot.plot.series.end(), own.begin(), own.end());
   run.plot(plot.name, plot.plot);
 }

@@ -19,14 +19,16 @@ struct TablePlot {
   render::Plot plot;  // still without the table's series
   std::string file, x, y;
   render::Series::Style style = render::Series::Style::line;
-  double scale = 1;  // of y, from the table's unit to the axis'
+  double scale = 1;    // of y, from the table's unit to the axis'
+  std::string knee{};  // the metric of Curve::knee, whose place is marked; "": none
 };
 
 // This draws one run, from its own folder: "prandtl, simulated" in its law's colour.
 void draw(Run& run, TablePlot plot, const std::string& law);
 // A line for each column of a comparison that has the file and rows in it, named as column_labels() has it.
 // Those that are zero throughout are named below the title instead, and lines that lie on each other are one;
-// a plot without lines is not drawn.
+// a plot without lines is not drawn.  Where the columns were repeated at half the step (--errors), a band as
+// wide as that changes them lies around the lines.
 void draw(Run& run, TablePlot plot, const std::vector<ChildRun>& columns,
           const std::vector<std::string>& names = {});
 
