@@ -371,7 +371,7 @@ class StudyFile {
   bool recorded_;
   Study study_;
   Keys keys_;                  // without their fields
-  std::set<std::string> set_;  // keys set by [shared] or an axis
+  std::set<std::string> set_;  // keys set by [scene] or an axis
 };
 
 }  // namespace
