@@ -92,7 +92,7 @@ std::vector<std::string> comparison_notes(const CompareChoice& choice, const Pla
   return {note};
 }
 
-// Where another's files stand, that is said before the columns run.
+// Reserves the page's files before the columns run.
 void claim_files(Run& run, bool with_images) {
   for (const char* name : {"table.csv", "report.html"}) run.path(name);
   if (!with_images) return;
@@ -110,7 +110,7 @@ std::vector<KeyDescription> own_keys() {
   return keys;
 }
 
-// The page's own flags; all others are left to the columns.
+// Reads the page's own flags; all others are left to the columns.
 void read_flags(const CommandLine& line, CompareChoice& choice, Options& options) {
   const Keys own = bind(kRows, choice), general = bind_options(options);
   for (const Flag& flag : line.flags)
@@ -126,7 +126,7 @@ void read_flags(const CommandLine& line, CompareChoice& choice, Options& options
   if (!choice.to.empty()) choice.to = folder_name(column_name(choice.to));
 }
 
-// Whether pictures are drawn, and how, is said by the scene's file where no flag does.
+// Takes the options of pictures from the scene's file if no flag sets them.
 void take_scene_options(CommandLine& inner, Options& options) {
   const Options of_scene = setup_of_file(inner).options;
   const bool draws = last_text(inner.flags, "no-images", of_scene.no_images ? "true" : "false") != "true";
@@ -150,7 +150,7 @@ void check_difference(const CompareChoice& choice, bool with_images) {
       .with_key("compare.difference", choice.difference);
 }
 
-// One for each column.
+// Throws unless there is a name for each column.
 void check_names(const CompareChoice& choice, const std::vector<ChildRun>& columns) {
   const std::size_t named = split(choice.names).size();
   if (named == 0 || named == columns.size()) return;
@@ -201,7 +201,7 @@ void check_metrics(const std::vector<ChildRun>& columns, const std::vector<std::
           .with_key("compare.metrics", name);
 }
 
-// Refuses metrics that no column has, before anything is touched, where every column is there already.
+// Throws for metrics that no column has, before anything is touched, if every column is complete.
 void check_known_metrics(std::vector<ChildRun> columns, const std::vector<std::string>& names) {
   if (names.empty() || !std::ranges::all_of(columns, recall)) return;
   check_metrics(columns, names);

@@ -17,13 +17,13 @@ namespace {
 constexpr const char* kLaws = "linear,pabst,obrien,narain,kim,dahl,prandtl";
 constexpr const char* kReferenceLaw = "prandtl";
 
-// Flags that make the columns; all others are theirs.
+// True for flags that make the columns; all others are theirs.
 bool is_own(const Flag& flag) {
   return flag.path.starts_with("compare.") || flag.path == "laws" || flag.path == "fabrics" ||
          flag.path == "integrators" || flag.path == "batch";
 }
 
-// Flags for the stiffnesses of the parts that a fabric has.
+// Adds flags for the stiffnesses of the parts that a fabric has.
 void add_parts(const BendingParts& parts, std::vector<Flag>& flags) {
   const auto add = [&](const char* table, const std::vector<double>& stiffnesses) {
     std::string list;
@@ -86,9 +86,9 @@ std::vector<Flag> matched(const Scene& column, const LawRequest& reference, cons
   scale = matching_scale(requested_law(column), reference, choice.match, choice.match_curvature);
   const auto scaled = [&](const char* key, double value) { return Flag{key, number_text(scale * value)}; };
   BendingParts parts = stiffened(fabric.bending, scale);
-  std::vector<Flag> flags = {scaled("fabric.b2", fabric.b2)};  // b1 follows from stops, and takes their place
+  std::vector<Flag> flags = {scaled("fabric.b2", fabric.b2)};  // b1 follows from stops, which replace it
   if (fabric.bending.stops.empty()) flags.insert(flags.begin(), scaled("fabric.b1", fabric.b1));
-  if (fabric.kes.on()) {  // the rest follows
+  if (fabric.kes.on()) {  // the others follow
     flags = {scaled("fabric.kes-b", fabric.kes.read.rigidity),
              scaled("fabric.kes-2hb", fabric.kes.read.loop_width)};
     parts.stops = {};
@@ -97,7 +97,7 @@ std::vector<Flag> matched(const Scene& column, const LawRequest& reference, cons
   return flags;
 }
 
-// A column that names its own stiffness would run with another one.
+// Throws for a column that names its own stiffness, as it would run with another one.
 void refuse_rescaled(const Variant& variant, double scale, const CompareChoice& choice) {
   constexpr const char* kStiffnesses[] = {"fabric.b1", "fabric.b2", "fabric.k0", "fabric.kes-b",
                                           "fabric.kes-2hb"};
@@ -111,14 +111,14 @@ void refuse_rescaled(const Variant& variant, double scale, const CompareChoice& 
           .with_key("compare.match", enum_name(choice.match));
 }
 
-// Colours mean the same in all columns, though fabrics have different transition curvatures.
+// Returns one range, so that colours mean the same in all columns, whatever their transition curvatures.
 Flag shared_range(const CommandLine& inner, const std::vector<Scene>& columns) {
   double most = 0;
   for (const Scene& column : columns) most = std::max(most, column.fabric.friction_curvature());
   return {"curvature-range", last_text(inner.flags, "curvature-range", number_text(2 * most))};
 }
 
-// What the experiment is asked for beside what it would be asked for alone.
+// Returns the flags that the page adds to those of the experiment alone.
 std::vector<Flag> requested_for_page(const CommandLine& inner, const CompareChoice& choice,
                                      const std::filesystem::path& out, bool is_reference) {
   std::vector<Flag> flags = for_sheets(inner);
@@ -146,7 +146,7 @@ std::string compared_experiments() {
 
 namespace {
 
-// A list of which columns are leaves nothing for one value of the same key to say.
+// Throws for a single value beside a list of the same key, which leaves it no meaning.
 void refuse_beside_list(const CommandLine& line, const std::string& key, const std::string& list) {
   const std::string one = last_text(line.flags, key, "");
   if (list.empty() || one.empty()) return;

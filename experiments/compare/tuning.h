@@ -1,4 +1,4 @@
-// One number of a comparison's first column, chosen so that a metric of that column is one of the second.
+// Tunes a number of a comparison's first column until one of its metrics equals one of the second.
 #pragma once
 
 #include <functional>
@@ -13,8 +13,8 @@
 namespace hysteron::experiments {
 
 struct Tuning {
-  std::string key;             // of a scene or an experiment, a positive number: "fabric.damping"
-  std::string low, high;       // between which it lies, as given
+  std::string key;             // key of a scene or an experiment, a positive number: "fabric.damping"
+  std::string low, high;       // ends of the bracket, as given
   std::string metric, target;  // of the first column, of the second
 };
 
@@ -22,13 +22,13 @@ struct Tuning {
 // name is the same metric of both).  Throws Error::invalid_input.
 Tuning parsed_tuning(const std::string& key_and_bracket, const std::string& metrics);
 
-// By how much the metric exceeds the target, with that number.
+// Returns by how much the metric exceeds the target with that number.
 using Excess = std::function<double(const std::string& number)>;
 
 // Bisects the bracket in the logarithm kBisections times, to numbers of four significant digits, and returns
 // the one that came nearest, as it was tried: where the metric jumps that need not be the last.  Throws
 // Error::invalid_input if the excess has the same sign at both ends.
-inline constexpr int kBisections = 9;  // four decades to 1.8 %
+inline constexpr int kBisections = 9;  // narrows four decades to 1.8 %
 std::string tuned(const Tuning& tuning, const Excess& excess);
 
 // Throws what is wrong with the choice's compare.tune, and what its first tries would refuse before their

@@ -1,4 +1,4 @@
-// A folder of runs as one page.
+// Writes a folder of runs as one page.
 #pragma once
 
 #include <filesystem>

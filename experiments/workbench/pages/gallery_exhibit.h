@@ -16,9 +16,9 @@ struct Exhibit {
   std::string name;  // its path in the gallery, "stability/bdf2"
   std::filesystem::path folder;
   std::optional<Manifest> manifest;
-  std::vector<Exhibit> parts;  // runs in its subfolders, of which it is the summary
+  std::vector<Exhibit> parts;  // runs in its subfolders, which it summarises
 
-  // The manifest's, without one the first word of the name: "speed".
+  // Returns the manifest's, without one the first word of the name: "speed".
   std::string experiment() const;
   bool has_pictures() const;
 };
@@ -36,9 +36,9 @@ std::vector<ExhibitGroup> exhibits_in(const std::filesystem::path& gallery);
 
 // A figure with its caption, for readers and for the gallery, which shows captions below its pictures.
 struct FigureCaption {
-  std::string file;   // in the same folder, "sheet.png"
-  std::string title;  // of one line
-  std::string text;   // what it shows, in sentences; one paragraph without line ends
+  std::string file;   // file in the same folder, "sheet.png"
+  std::string title;  // one line
+  std::string text;   // description in sentences; one paragraph without line ends
 };
 
 // A page of Markdown beside the figures: a heading, an introduction, and each figure above its caption.
@@ -46,7 +46,7 @@ struct FigureCaption {
 void write_captions(const std::filesystem::path& path, const std::string& heading,
                     const std::string& introduction, const std::vector<FigureCaption>& figures);
 
-// "stability/bdf2" -> "stability-bdf2": name of its place on the page.
+// Returns the name of its place on the page: "stability/bdf2" -> "stability-bdf2".
 std::string page_anchor(const Exhibit& exhibit);
 
 // A card with a small picture and the first answer, which unfolds to contact sheet, metrics, pictures and
