@@ -1,5 +1,5 @@
-// One question under several laws, fabrics or integrators, on one page: a column each, a row for each
-// instant.
+// `hysteron compare` shows an experiment under several laws, fabrics or integrators on one page, with a
+// column for each and a row for each instant.
 //
 //   experiment + flags -> columns (a process each, in OUT/<name>/) -> pictures at common times ->
 //   OUT/sheet.png
@@ -51,8 +51,8 @@ const KeyRow<CompareChoice> kRows[] = {
 };
 // clang-format on
 
-// "Swing: cotton-broad": the fabric and the law that all columns share; of a title of one's own only the
-// fabric.
+// Returns "Swing: cotton-broad", with the fabric and the law that all columns share; after a user's title
+// only the fabric.
 std::string comparison_title(const CommandLine& line, const std::string& own,
                              const std::vector<ChildRun>& columns) {
   std::string title = own.empty() ? line.positionals[0] : own;
@@ -73,7 +73,7 @@ std::string comparison_title(const CommandLine& line, const std::string& own,
   return title + (all.empty() ? "" : ": " + join(all, ", "));
 }
 
-// Says what the columns are matched to; nothing where laws cannot differ in stiffness by their own
+// Says what the columns are matched to; nothing if laws cannot differ in stiffness by their own
 // definitions.
 std::vector<std::string> comparison_notes(const CompareChoice& choice, const Plan& plan) {
   const bool scaled = std::ranges::any_of(plan.scales, [](double scale) { return scale != 1; });
@@ -104,7 +104,7 @@ std::vector<KeyDescription> own_keys() {
   for (const Experiment& experiment : experiments()) {
     if (!experiment.compared) continue;
     auto more = experiment.own_keys();
-    std::erase_if(more, [](const KeyDescription& key) { return key.path == "batch"; });  // is the page's
+    std::erase_if(more, [](const KeyDescription& key) { return key.path == "batch"; });  // the page's key
     keys.insert(keys.end(), more.begin(), more.end());
   }
   return keys;
@@ -140,8 +140,8 @@ void take_scene_options(CommandLine& inner, Options& options) {
     inner.flags.push_back({"size", of_scene.size});
 }
 
-// The columns' curvatures are subtracted as their pictures are drawn, from those that the first one keeps
-// beside its own.
+// Throws without pictures: the columns' curvatures are subtracted as their pictures are drawn, from those
+// that the first one keeps.
 void check_difference(const CompareChoice& choice, bool with_images) {
   if (with_images || choice.to.empty() || choice.difference != "curvature") return;
   throw Error::invalid_input(
@@ -187,8 +187,8 @@ void draw_page(Run& run, const CommandLine& line, const std::string& experiment,
   plot_comparison(run, page, plan.columns);
 }
 
-// Throws Error::invalid_input for a name that is no metric of any column, with those that there are; of
-// columns none of which is complete, not all that would be there are known, and none is refused.
+// Throws Error::invalid_input for a name that is no metric of any column, listing those that exist.  If no
+// column is complete, not all metrics are known, and none is refused.
 void check_metrics(const std::vector<ChildRun>& columns, const std::vector<std::string>& names) {
   if (std::none_of(columns.begin(), columns.end(), [](const ChildRun& c) { return c.stopped.empty(); }))
     return;

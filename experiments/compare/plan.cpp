@@ -36,7 +36,7 @@ void add_parts(const BendingParts& parts, std::vector<Flag>& flags) {
   if (parts.set.on()) flags.push_back({"fabric.bending.set.hardening", number_text(parts.set.hardening)});
 }
 
-// The scene of a column before any matching, as far as it says how cloth bends: by the experiment's defaults,
+// Returns the keys of bending of a column's scene before any matching, by the experiment's defaults,
 // the scene's file and the flags, as the column's run resolves it.
 Scene bending_scene(const CommandLine& line) {
   Setup setup = setup_of_file(line);
@@ -50,14 +50,14 @@ Scene bending_scene(const CommandLine& line) {
 
 LawRequest requested_law(const Scene& scene) { return {scene.law, scene.fabric.virgin_curve(), scene.param}; }
 
-// The law that all columns are as stiff as.  It depends neither on their order nor on which other laws stand
+// Returns the law whose stiffness all columns get.  It depends neither on their order nor on other laws
 // beside them: prandtl, or the one law that all of them have.
 std::string reference_law(const std::set<std::string>& laws) {
   return laws.size() == 1 ? *laws.begin() : kReferenceLaw;
 }
 
-// The reference of a column on that fabric: the reference law as the column that has it runs it, on the same
-// fabric where there is one, with the fewest keys of its own where there are several; where none has it, the
+// Returns the reference of a column on that fabric: the reference law as the column that has it runs it, on
+// the same fabric if there is one, with the fewest own keys if there are several; if none has it, the
 // law without parameters.
 LawRequest reference_request(const std::vector<Scene>& scenes, const std::vector<Variant>& variants,
                              const std::string& law, const Scene& column) {
@@ -76,8 +76,8 @@ LawRequest reference_request(const std::vector<Scene>& scenes, const std::vector
   return reference;
 }
 
-// Flags that make the column as stiff as the law of `reference` on the same fabric.  Its viscosity,
-// fabric.damping times b1, goes with it.
+// Returns flags that make the column as stiff as the law of `reference` on the same fabric.  Its viscosity,
+// fabric.damping times b1, is scaled with it.
 std::vector<Flag> matched(const Scene& column, const LawRequest& reference, const CompareChoice& choice,
                           double& scale) {
   scale = 1;

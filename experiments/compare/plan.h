@@ -45,7 +45,7 @@ struct Plan {
   std::string varied;          // "law" if columns differ by it alone
 };
 
-// A column for each variant of that line, in OUT/<name>/.  Throws Error::invalid_input if the column to
+// Returns a column per variant of that line, in OUT/<name>/.  Throws Error::invalid_input if the column to
 // subtract is none of them.
 Plan comparison_plan(const CommandLine& inner, const std::vector<Variant>& variants,
                      const CompareChoice& choice, const std::filesystem::path& out);

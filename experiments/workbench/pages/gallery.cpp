@@ -64,8 +64,8 @@ std::string experiment_title(std::string experiment) {
   return first_upper(experiment);
 }
 
-// The picture that the README above the gallery shows first, if it is one of the gallery's: what a reader saw
-// who comes from there.
+// Returns the picture that the README above the gallery shows first, if it is one of the gallery's: readers
+// who come from there have seen it.
 std::string gallery_teaser(const fs::path& folder, PageForm form) {
   constexpr int kWidth = 1200;  // width of an embedded picture [pixels]
   const fs::path above = fs::absolute(folder).lexically_normal(), readme = above.parent_path() / "README.md";

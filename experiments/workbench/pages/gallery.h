@@ -9,7 +9,7 @@
 
 namespace hysteron::experiments {
 
-// HTML of all that exhibits_in() finds, grouped by experiment under its question, a card each that unfolds:
+// Returns all that exhibits_in() finds as HTML, grouped by experiment under its question, with a card each,
 // below the folder's own questions (questions_html()), or the picture that the README beside the folder shows
 // first. The page works from disk without a network: pictures are linked, or embedded and shrunk.  Everything
 // is read from the folders, nothing is computed again, and the same folders give the same bytes.  Throws
@@ -27,8 +27,8 @@ struct StalePage {
   bool missing = false;
 };
 
-// Makes the page of `folder`, and that of every run below it that has a report.html, again, and compares:
-// linked pages, whose bytes are the same on every machine.
+// Makes the page of `folder`, and that of every run below it that has a report.html, again, and compares
+// them.  These are linked pages, whose bytes are the same on every machine.
 // Throws what making them throws.
 std::vector<StalePage> stale_pages(const std::filesystem::path& folder);
 

@@ -189,7 +189,7 @@ std::string figure(const Exhibit& exhibit, const Picture& picture, PageForm form
                  {"drawing", linked && drawn && !as_drawing ? html_link(svg, "SVG") : ""}});
 }
 
-// The contact sheet over the full width, what else was drawn and plotted beside each other, frames to be
+// Returns the contact sheet over the full width, other pictures and plots side by side, and frames to be
 // played.
 std::string pictures_html(const Exhibit& exhibit, PageForm form) {
   std::string large, beside, plots;

@@ -273,8 +273,8 @@ void Pictures::serialise(Archive& archive, Run& run) {
   if (frames_ > 0) kept_frames_.continue_file(run.path(kKeptFrames), static_cast<std::size_t>(frames_));
 }
 
-// As near as all of the instants stay whole, unless the options say what is framed; its aspect is that of
-// what they show.
+// Returns a view as near as all instants are entirely visible, unless the options set it; its aspect is that
+// of their contents.
 SheetView Pictures::sheet_view(const std::vector<KeptInstant>& instants) const {
   constexpr float kTallest = 0.7f, kWidest = 2.4f;
   const Options& o = options_;

@@ -1,4 +1,4 @@
-// The pictures of a run: a sequence of frames, single pictures, a contact sheet.
+// Draws the pictures of a run: a sequence of frames, single pictures, a contact sheet.
 //
 //   simulation at rest:  positions (CUDA -> OpenGL, or by the host), values   -> studio's thread
 //   simulation goes on:  draw, letter                                         -> PNG writer's threads
@@ -32,8 +32,8 @@ struct SheetView {
 
 class Pictures {
  public:
-  // `simulation`: what is drawn; it must outlive the pictures.  `bounds`: what every picture of the sequence
-  // frames; `floor`: height of the visible ground [m].
+  // Draws `simulation`, which must outlive the pictures.  Every picture of the sequence frames `bounds`;
+  // `floor` is the height of the visible ground [m].
   Pictures(const Setup& setup, const Cloth& cloth, Simulation& simulation, const render::Box& bounds,
            std::optional<float> floor);
   // Draws any subject, which the pictures then own.
@@ -44,14 +44,14 @@ class Pictures {
   // Returns how positions reach the renderer: "CUDA-GL" without passing the host, or "host (why)".
   std::string positions_route() const { return why_host_.empty() ? "CUDA-GL" : "host (" + why_host_ + ")"; }
 
-  // Has the present state drawn as the next of frames/, captioned with what is simulated and the time; in
-  // further looks as the next of frames-LOOK/.  Returns when positions and values are taken; throws what went
-  // wrong with an earlier one, Error::simulation where it shows no cloth.  `xyz`: the positions, of which
-  // the first beyond the picture's border is a warning; `loop`: of a probe so far, shown in a corner unless
-  // it is empty.  What it is drawn from is added to frames.hyg.
+  // Draws the present state as the next of frames/, captioned with what is simulated and the time; in
+  // further looks as the next of frames-LOOK/.  Returns when positions and values are copied; throws errors
+  // of earlier pictures, and Error::simulation if it shows no cloth.  `xyz` has 3 numbers a vertex [m], of
+  // which the first beyond the picture's border is a warning; `loop` is a probe's so far, shown in a corner
+  // unless it is empty.  The picture's data are added to frames.hyg.
   void frame(Run& run, const std::vector<float>& xyz, const render::Path& loop = {});
-  // Draws the present state in a look of its own, with caption and colour bar.  Error::simulation where it
-  // shows no cloth.
+  // Draws the present state in a look of its own, with caption and colour bar.  Throws Error::simulation if
+  // it shows no cloth.
   render::Image picture(const std::string& look, const render::Camera& camera, const std::string& caption);
   // Draws the same with the sequence's camera into a file; it returns, and throws, as frame() does.
   void picture_file(const std::filesystem::path& file, const std::string& look, const std::string& caption);
@@ -67,8 +67,8 @@ class Pictures {
   void begin_with_onion_skin(double until) { onion_until_ = until; }
   // Makes the contact sheet show what that of a kept run shows, by its record.
   void show_as(const Json& sheet);
-  // "studio" or "raking", for the pictures to come; single pictures are raked in the plane that the cloth
-  // lies in most nearly.
+  // Sets "studio" or "raking" light for the next pictures; single pictures are raked in the plane that the
+  // cloth lies in most nearly.
   void set_light(const std::string& light);
   // Returns the sequence's camera.
   render::Camera camera() const;
@@ -76,8 +76,8 @@ class Pictures {
   render::Image silhouette(double half_width, int pixels, double& metres_per_pixel);
   // Waits for the files so far.  Throws Error::system.
   void serialise(Archive& archive, Run& run);
-  // Waits for the files and writes sheet.png: instants apart by what moves between them, framed by what they
-  // show; and what its pictures were drawn from, sheet.hyg.
+  // Waits for the files and writes sheet.png with instants spread by displacement, framed by their contents,
+  // and sheet.hyg with the data of its pictures.
   void finish(Run& run, const std::string& title);
 
  private:
