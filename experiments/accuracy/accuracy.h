@@ -51,7 +51,7 @@ void vary(std::vector<Setting>& list, const Setting& base, const std::string& fa
 struct Found {
   double value = 0, reference = 0;  // the quantity that the problem compares
   double error = 0;                 // relative error as the problem defines it, unsigned: 0.01 is 1 %
-  double uncertainty = 0;           // of the reference, in the error's unit; 0: below rounding
+  double uncertainty = 0;           // error of the reference, in the same unit; 0: below rounding
   int triangles = 0;
   long steps = 0;         // number of substeps, of parts of steps, or of equilibria
   double seconds = 0;     // wall clock of the simulation, without set-up and reference

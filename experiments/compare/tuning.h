@@ -15,7 +15,7 @@ namespace hysteron::experiments {
 struct Tuning {
   std::string key;             // key of a scene or an experiment, a positive number: "fabric.damping"
   std::string low, high;       // ends of the bracket, as given
-  std::string metric, target;  // of the first column, of the second
+  std::string metric, target;  // metric of the first column, of the second
 };
 
 // Parses "fabric.damping=1e-5:1e-1" (compare.tune) and "viscous_J=bending_friction_J" (compare.tune-metric;

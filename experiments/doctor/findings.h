@@ -13,7 +13,7 @@ namespace hysteron::experiments {
 struct TriedDevice {
   std::string kind;     // one of cpu, cuda, renderer
   std::string id;       // "cuda:0", "EGL device 0"
-  std::string name;     // with driver and version, as in manifests; "EGL device 0 fails", "none"
+  std::string name;     // name with driver and version, as in manifests; "EGL device 0 fails", "none"
   std::string failure;  // why it could not be opened; empty if it was
 };
 

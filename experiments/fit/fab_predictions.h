@@ -34,7 +34,7 @@ struct HeldOutErrors {
 HeldOutErrors held_out_errors(const FabAnswer& answer, const std::string& direction, const StopsLaw& law);
 
 // Writes forms.csv: the errors of every form of friction on fitted and held-out data, and how surely the data
-// exclude it. The rows "all" are means over the held-out cycles of all directions.
+// exclude it.  The rows "all" are means over the held-out cycles of all directions.
 void write_forms(Run& run, const FabAnswer& answer);
 
 }  // namespace hysteron::experiments

@@ -55,7 +55,7 @@ std::vector<int> parsed_cycles(const std::string& text) {
 bool is_bias(const std::string& direction) { return strip_direction(direction) == StripDirection::bias; }
 
 // Returns the requested directions, of which the first is warp and the second weft; a bias is neither, unless
-// it is alone. By default warp comes before weft, whatever their order in the file, or the bias if it is
+// it is alone.  By default warp comes before weft, whatever their order in the file, or the bias if it is
 // alone.
 std::vector<std::string> requested_directions(const std::string& text, const std::vector<FabLoops>& loops) {
   std::vector<std::string> directions = split(text);

@@ -24,7 +24,7 @@ struct Fold {
   double free_length = 0;  // between the clamps' middles on the flat cloth [m]
   double rate = 0;         // watched instants per second [1/s]
   int half = 0;            // watched instants from one end of the stroke to the other
-  double period = 0;       // of a cycle [s]
+  double period = 0;       // duration of a cycle [s]
   int cycles = 0;
 
   // Returns the distance between the clamps' middles [m].

@@ -25,7 +25,7 @@ namespace {
 struct LawFlags {
   std::string law = "prandtl";
   std::string fabric = "cotton-broad";
-  VirginCurve curve{};  // with the fabric's bending parts
+  VirginCurve curve{};  // includes the fabric's bending parts
   Parameters param;
   std::string in;   // input with columns `curvature [1/m]`, optional `time [s]`, `edit`
   std::string out;  // output: curvature, moment, tangent, stored, dissipated (cumulative)
@@ -280,9 +280,9 @@ LawFlags read_flags(const CommandLine& line) {
 
 // Runs the table through the law.  The first row is the first curvature visited from rest; every row is one
 // accepted step, which takes the difference of the two times (the first row: 0 s), or 1 s without a `time`
-// column, with a warning for laws that depend on time; time must not fall. `edit` = 1 sets the rest curvature
-// to that of the row (grinspun-edit; others ignore it).  Prints the reversals by recovery case, and the
-// residual curvature after the last row.
+// column, with a warning for laws that depend on time; time must not fall.  `edit` = 1 sets the rest
+// curvature to that of the row (grinspun-edit; others ignore it).  Prints the reversals by recovery case, and
+// the residual curvature after the last row.
 int run_law_command(const CommandLine& line) {
   const LawFlags flags = read_flags(line);
   check_curve(flags.curve);

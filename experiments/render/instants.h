@@ -18,7 +18,7 @@ struct TimedSequence : MeshSequence {
 // Numbers the frames of all sequences by the numbers in their files' names, so that a missing file leaves a
 // gap.  Numbers are counted from the first one if all sequences begin with the same, else from 0, and in
 // steps of their greatest common divisor: files 0, 10, 20 are frames 0, 1, 2.  Sequences of one rate have one
-// step.  A sequence of one file, which has no number, is at the first frame of all others. If a longer one
+// step.  A sequence of one file, which has no number, is at the first frame of all others.  If a longer one
 // has no numbers in its names, every file of every sequence is a frame.
 void number_frames(const std::vector<TimedSequence*>& sequences);
 

@@ -130,7 +130,7 @@ ChildRun draw_column(const CommandLine& line, const fs::path& file, const Kept& 
   apply_flags(line, setup.options);
   setup.options.out = (out / cloth.name).string();
   setup.options.look = page_looks(page, last_text(line.flags, "look", ""), recorded);
-  setup.options.plain = true;  // the page adds the letters
+  setup.options.plain = true;  // the page adds the text
   setup.options.json = false;
   Run run(line, setup.options, keys_of_kept(file, cloth));
   draw_instants(run, setup, kept.meshes.at(cloth.mesh), cloth, {}, cloth.name);

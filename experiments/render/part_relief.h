@@ -14,9 +14,9 @@ struct Kept;
 // part.  It computes the local deviation of lightness (render/local_deviation.h) where that part is seen, at
 // the last kept instant that is not after the metric's `from` (else the first one), at the ends of cycles and
 // at the end, and writes lightness.csv and the pictures with everything beside the part faded, part-0.png,
-// ....  Looks and light are those of the line. Throws Error::invalid_input for a page of several runs, a name
-// that is no metric with a part, cloth that is not the kept one, and pictures that show too little of the
-// part.
+// ....  Looks and light are those of the line.  Throws Error::invalid_input for a page of several runs, a
+// name that is no metric with a part, cloth that is not the kept one, and pictures that show too little of
+// the part.
 void draw_part_relief(const CommandLine& line, const std::filesystem::path& file, const Kept& kept,
                       Setup setup, const std::string& name);
 

@@ -10,7 +10,7 @@
 
 namespace hysteron::experiments {
 
-// An upright strip stands on its clamp and falls over (Greenhill 1881). One on edge is clamped level, its
+// An upright strip stands on its clamp and falls over (Greenhill 1881).  One on edge is clamped level, its
 // width vertical, and turns over sideways (Prandtl 1899).
 enum class Buckling { upright, edge };
 constexpr std::array<const char*, 2> names(Buckling) { return {"upright", "edge"}; }
@@ -21,7 +21,7 @@ constexpr std::array<const char*, 2> names(Buckling) { return {"upright", "edge"
 // A fabric that bends differently along warp, weft and bias has EI = q B b, q = rigidity_along(), and GJ = (4
 // bias - 1 - weft) B b for a strip along warp or weft.  Between them strips twist as they bend; on edge they
 // are refused (Error::invalid_input), as are strips on edge whose slope to the back differs from that to the
-// face. An upright strip buckles to its softer side, whose slope is then B.
+// face.  An upright strip buckles to its softer side, whose slope is then B.
 //   upright: weight L^3/B = 7.8373 (Timoshenko & Gere 1961, 2.12)
 //   edge: q L^3/sqrt(EI GJ) = 12.8538 with q = weight b (the same, 6.3)
 double reference_gamma(Buckling kind, const Scene& scene);

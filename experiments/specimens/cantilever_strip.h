@@ -29,7 +29,7 @@ bool lies_along_weft(const Scene& scene);
 // Returns the bending rigidity of the scene's strip, which lies along x, over that along warp.
 double rigidity_along(const Scene& scene);
 // Returns the virgin curve of the strip's direction: that along weft has stops of its own if the fabric has
-// them. Throws Error::invalid_input for a strip between warp and weft of such a fabric.
+// them.  Throws Error::invalid_input for a strip between warp and weft of such a fabric.
 VirginCurve strip_curve(const Scene& scene);
 // True if there is such a curve, as there is not between warp and weft of a fabric with stops along both.
 bool has_strip_curve(const Scene& scene);

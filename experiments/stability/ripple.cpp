@@ -93,7 +93,7 @@ double loop_area(const std::string& law, const VirginCurve& curve, double amplit
 }
 
 // Returns the decay by the energy balance of one mode, dA/dn = -losses over d(stored)/dA, as in free_decay.h
-// of `accuracy`. Friction is assumed to leave the mode's shape as it is.
+// of `accuracy`.  Friction is assumed to leave the mode's shape as it is.
 double closed_form_decay(const RippleCase& of, const Scene& scene, const Mode& mode) {
   if (of.law != "linear" && of.law != "prandtl" && of.law != "wong") return NAN;
   const VirginCurve curve = scene.fabric.virgin_curve();

@@ -43,7 +43,7 @@ struct Finding {
   // start, E0 the initial one, W the work of pins and obstacles, S = E0 + |W| + m g L (L the diagonal of the
   // cloth at rest) the available energy.  A method that creates no energy stays at or below 1.
   double energy_growth = 0;
-  double remainder = 0;        // of the ledger at the end, over S: unexplained by its terms
+  double remainder = 0;        // remainder of the ledger at the end, over S
   double largest_stretch = 0;  // largest principal stretch minus 1 over the run
   double requested_seconds = 0, seconds_simulated = 0;
   long steps = 0, retried_steps = 0;
@@ -66,7 +66,7 @@ struct Sweep {
   render::CellAxis x, y;
   std::vector<std::string> variants;  // "prandtl", "hinge"
   std::function<Attempt(int variant, int column, int row)> at;
-  std::vector<std::string> integrators = {};  // those it concerns; empty: any
+  std::vector<std::string> integrators = {};  // integrators it concerns; empty: any
 };
 
 // The choices that the sweeps cover.
@@ -81,7 +81,7 @@ struct SweepChoice {
 std::vector<Sweep> number_sweeps(const SweepChoice& choice);  // maps.cpp
 std::vector<Sweep> scene_sweeps(const SweepChoice& choice);   // scenes.cpp
 // Returns the named sweeps of both kinds, in this order, or for "all" those that concern one of the choice's
-// integrators. Throws Error::invalid_input for an unknown name, and for one that concerns none of these
+// integrators.  Throws Error::invalid_input for an unknown name, and for one that concerns none of these
 // integrators.
 std::vector<Sweep> named_sweeps(const std::vector<std::string>& names, const SweepChoice& choice);
 

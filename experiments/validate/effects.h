@@ -29,7 +29,7 @@ struct NumberEffects {
 
 // Fits the drape coefficients [%] by least squares to the logarithms of the numbers, which a Latin hypercube
 // has drawn uniformly in their logarithms.  `drawn` has, by number, one value > 0 for each drape; `ranges`
-// those numbers' ranges. At least twice as many drapes as coefficients are needed, so that the scatter is
+// those numbers' ranges.  At least twice as many drapes as coefficients are needed, so that the scatter is
 // known, too.
 NumberEffects number_effects(const std::map<std::string, std::vector<double>>& drawn,
                              const std::map<std::string, Range>& ranges,

@@ -18,7 +18,7 @@ inline constexpr std::size_t kMostGlbBytes = 0xFFFFFFFF;
 // changes its shape has its first instant as the base, a morph target of points and normals for each other
 // one, and weights that blend linearly from one to the next at the run's own times [s]; rigid bodies have
 // translation, rotation and scale at these.  The pictures' camera is included.  The file appears under its
-// name when it is complete. Throws Error::invalid_input beyond kMostGlbBytes, Error::system, and what
+// name when it is complete.  Throws Error::invalid_input beyond kMostGlbBytes, Error::system, and what
 // points_at() throws.
 void write_glb(const std::string& file, const AnimatedScene& scene);
 

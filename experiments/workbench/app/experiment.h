@@ -149,7 +149,7 @@ void set_keys(const CommandLine& line, const Keys& keys, const std::function<voi
 // --fabric.bending.*.
 std::vector<KeyDescription> fabric_keys();
 // Returns the fabric of that name or file with the flags fabric.* overriding its numbers, checked like a
-// scene's. Throws Error::invalid_input, Error::system.
+// scene's.  Throws Error::invalid_input, Error::system.
 Fabric resolved_fabric(const std::string& name_or_file, const std::vector<Flag>& flags);
 
 }  // namespace hysteron::experiments

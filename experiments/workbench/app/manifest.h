@@ -167,7 +167,7 @@ struct Manifest {
   std::vector<std::pair<std::string, double>> energy;  // closing balance [J]; empty if none is kept
   std::optional<std::string> state_hash;
   std::optional<int> substeps;
-  std::optional<std::string> linear_solver;                              // that of Newton's method
+  std::optional<std::string> linear_solver;                              // solver of Newton's method
   std::vector<std::pair<std::string, std::shared_ptr<const Json>>> own;  // entries of its experiment alone
   std::vector<Statements> statements;
   std::optional<std::vector<std::string>> series;  // its own columns of metrics.csv

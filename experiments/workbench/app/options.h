@@ -49,8 +49,8 @@ struct Options {
   bool quiet = false;                // quiet      no progress on stderr
   bool json = false;                 // json       the manifest on stdout
 
-  int width() const;   // of the pictures [pixels]
-  int height() const;  // of the pictures [pixels]
+  int width() const;   // width of pictures [pixels]
+  int height() const;  // height of pictures [pixels]
   std::vector<std::string> looks() const;
   bool has_view() const;  // true with pictures, or an export with their camera
 };

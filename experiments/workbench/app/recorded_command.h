@@ -18,7 +18,8 @@ RecordedRun recorded_run(const std::string& folder_or_manifest);
 
 // Returns a line with the same experiment and the resolved scene and keys of the manifest or, for runs that
 // did not record their keys, with its command; without a folder for the results.  Throws Error::invalid_input
-// if that command is no longer understood. Flags in `later` come after its own, if the experiment takes them.
+// if that command is no longer understood.  Flags in `later` come after its own, if the experiment takes
+// them.
 CommandLine line_that_repeats(const RecordedRun& run, const std::vector<Flag>& later = {},
                               bool with_errors = true);
 

@@ -39,11 +39,11 @@ struct RequestAccepted {};
 class Run {
  public:
   // Takes the folder as RunFolder does, out/<experiment> by default.  Throws Error::invalid_input,
-  // Error::system. `kept` are files of an interrupted run that this one continues; serialise() restores the
+  // Error::system.  `kept` are files of an interrupted run that this one continues; serialise() restores the
   // rest.
   Run(const CommandLine& line, const Setup& setup, const std::vector<std::string>& kept = {});
-  // For an experiment that simulates nothing; `keys` are its resolved ones, which become the manifest's
-  // `scene`.
+  // Makes a run of an experiment that simulates nothing; `keys` are its resolved ones, which become the
+  // manifest's `scene`.
   Run(const CommandLine& line, const Options& options, const Json& keys);
   ~Run();
   Run(const Run&) = delete;

@@ -59,7 +59,7 @@ class RunFolder {
 
   const std::filesystem::path& path() const { return path_; }
   // Throws Error::invalid_input where place_for(name) would; for a sequence ("frames/0000.png") if any of its
-  // files exists. `own` are those of this run.
+  // files exists.  `own` are those of this run.
   void check_free(const std::string& name, const std::set<std::string>& own) const;
   // Returns the path for the file of that name; its own folder is made.  Throws Error::invalid_input if
   // something is there that this run has not written, or if a link leads out of the folder.

@@ -13,8 +13,9 @@
 
 namespace hysteron::experiments {
 
-// What replaces a run determines where its files wait: for a run in .before or, if it was interrupted, in
-// .stopped; for a page that repeats it in .page-before, since the repeated run sets aside what it finds, too.
+// The kind of successor determines where a run's files wait: for a run in .before or, if it was interrupted,
+// in .stopped; for a page that repeats it in .page-before, since the repeated run sets aside what it finds,
+// too.
 enum class Successor { run, page };
 
 // True if a folder of that name holds a run that was set aside.

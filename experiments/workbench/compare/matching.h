@@ -19,7 +19,7 @@ BendingParts stiffened(BendingParts parts, double scale);
 
 // Returns the factor of b1, b2 and all further stiffnesses of `law` (k0 stays) that makes it as stiff as
 // `reference`; `curvature` is that of Match::energy [1/m], reached in one second by laws that depend on time.
-// If faces differ both measures are the means of bends to face and back. Throws Error::invalid_input as
+// If faces differ both measures are the means of bends to face and back.  Throws Error::invalid_input as
 // run_law() does, or if no factor makes them equal to 1e-9.
 double matching_scale(const LawRequest& law, const LawRequest& reference, Match match, double curvature);
 

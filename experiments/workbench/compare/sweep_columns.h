@@ -15,7 +15,7 @@ namespace hysteron::experiments {
 
 struct ChildRun {
   std::string name;  // name of its folder
-  CommandLine line;  // without --out, --threads and others that do not affect the result
+  CommandLine line;  // excludes --out, --threads and others that do not affect the result
   std::filesystem::path folder;
   // These are set by run_columns().
   bool kept = false;      // true if from an earlier comparison
@@ -23,8 +23,8 @@ struct ChildRun {
   int exit_code = 0;
   double seconds = 0;  // wall clock of its process [s]; in a shared process, since the previous run ended
   std::optional<Manifest> manifest{};
-  // What has changed since the run in its folder, so that it is no result of this request; "" if nothing has,
-  // or there is no run.
+  // Changes since the run in its folder, so that it is no result of this request; "" if there are none, or
+  // there is no run.
   std::string changed{};
 
   Metrics metrics() const { return manifest ? manifest->metrics : Metrics(); }

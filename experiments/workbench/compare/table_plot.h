@@ -16,7 +16,7 @@ namespace hysteron::experiments {
 
 struct TablePlot {
   std::string name;   // name of its files
-  render::Plot plot;  // without the table's series
+  render::Plot plot;  // plot without the table's series
   std::string file, x, y;
   render::Series::Style style = render::Series::Style::line;
   double scale = 1;  // factor of y, from the table's unit to the axis'
@@ -24,7 +24,7 @@ struct TablePlot {
 
 // Draws one run, from its own folder: "prandtl, simulated" in its law's colour.
 void draw(Run& run, TablePlot plot, const std::string& law);
-// Draws a line for each column of a comparison whose file has rows, named by column_labels(). Lines that are
+// Draws a line for each column of a comparison whose file has rows, named by column_labels().  Lines that are
 // zero throughout are named below the title instead, and lines that coincide are united; a plot without lines
 // is not drawn.
 void draw(Run& run, TablePlot plot, const std::vector<ChildRun>& columns,

@@ -16,7 +16,7 @@ struct Variant {
 };
 
 // Returns every combination of what --fabric, --law and --integrator name, each `all` or names separated by
-// commas. A name may have further keys of its own: "linear+fabric.damping=1e-3".  If nothing is a list there
+// commas.  A name may have further keys of its own: "linear+fabric.damping=1e-3".  If nothing is a list there
 // is one variant, without a name if nothing is named.  Throws Error::invalid_input if two are the same.
 std::vector<Variant> named_variants(const CommandLine& line);
 // Returns the name of a variant and of its folder: files go by their stems, "../mine/wool.toml" by "wool".

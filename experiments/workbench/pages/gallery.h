@@ -11,10 +11,10 @@ namespace hysteron::experiments {
 
 // Returns all that exhibits_in() finds as HTML, grouped by experiment under its question, with a card each,
 // below the folder's own questions (questions_html()), or the picture that the README beside the folder shows
-// first. The page works from disk without a network: pictures are linked, or embedded and shrunk.  Everything
-// is read from the folders, nothing is computed again, and the same folders give the same bytes.  Throws
-// Error::invalid_input, naming the file, if a picture, table or manifest is broken or there is nothing to
-// show.
+// first.  The page works from disk without a network: pictures are linked, or embedded and shrunk.
+// Everything is read from the folders, nothing is computed again, and the same folders give the same bytes.
+// Throws Error::invalid_input, naming the file, if a picture, table or manifest is broken or there is nothing
+// to show.
 std::string gallery_page(const std::filesystem::path& folder, PageForm form = PageForm::linked);
 
 // Writes it as FOLDER/index.html and returns that path.  Throws Error::system if it cannot be written.

@@ -98,7 +98,7 @@ std::string curve_caption(const Exhibit& exhibit, const std::string& plot) {
   return "";
 }
 
-// What write_captions() left in FOLDER/README.md: "![title](NAME.png)", and after it "**title** text".
+// Reads the captions that write_captions() left in README.md: "![title](NAME.png)", then "**title** text".
 std::map<std::string, std::string> written_captions(const fs::path& folder) {
   std::map<std::string, std::string> captions;
   const fs::path readme = folder / "README.md";
@@ -203,7 +203,7 @@ std::string pictures_html(const Exhibit& exhibit, PageForm form) {
 
 constexpr std::size_t kMaxCards = 4;
 
-// What the experiment is asked for, else the first of what it found; the manifest has all.
+// Returns the experiment's headlines, else its first results; the manifest has all.
 std::string metrics_html(const Manifest& manifest) {
   if (const std::string answers = answer_cards(manifest); !answers.empty()) return answers;
   Metrics first;

@@ -66,7 +66,7 @@ std::string html_section(const std::string& title, const std::string& body);
 // A part of every page's style, by which the program recognises it as its own.
 inline constexpr const char* kOwnPage = "color-scheme: light dark; --ink";
 
-// Returns the whole document, with style, and with the script if something plays or opens. `kind` is the
+// Returns the whole document, with style, and with the script if something plays or opens.  `kind` is the
 // class of the body, "gallery" for many runs.
 std::string html_page(const std::string& title, const std::string& body, const std::string& kind = "");
 

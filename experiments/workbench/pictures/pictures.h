@@ -1,7 +1,7 @@
 // Draws the pictures of a run: a sequence of frames, single pictures, a contact sheet.
 //
 //   simulation at rest:  positions (CUDA -> OpenGL, or by the host), values   -> studio's thread
-//   simulation goes on:  draw, letter                                         -> PNG writer's threads
+//   simulation goes on:  draw, annotate                                       -> PNG writer's threads
 #pragma once
 
 #include <filesystem>
@@ -130,7 +130,7 @@ class Pictures {
   double onion_until_ = 0;                       // [s]; 0: none
   std::vector<double> cell_times_, skin_times_;  // times of a kept sheet [s]; empty: found
   bool is_cut_off_ = false;                      // the border of some picture cuts off cloth
-  double encode_seconds_ = 0;                    // of the part before an interruption [s]
+  double encode_seconds_ = 0;                    // time before an interruption [s]
   double waited_seconds_ = 0;                    // time that the simulation waited for its pictures [s]
   // The studio's thread writes these while it draws a picture.
   double render_seconds_ = 0;

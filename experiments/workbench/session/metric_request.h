@@ -44,7 +44,7 @@ struct MetricRequest {
 Keys bind_metric(MetricRequest& request);
 Json to_json(const std::vector<MetricRequest>& requests);
 // Returns the requests of the scene file of that name, or of a manifest whose run had them; `scene` is the
-// scene of that file. Throws Error::invalid_input with file and line.
+// scene of that file.  Throws Error::invalid_input with file and line.
 std::vector<MetricRequest> metrics_in(const std::string& name, const Scene& scene);
 // Returns the requests of a set-up's scene, and stores them there for manifest, summary and --errors.  Throws
 // as metrics_in() does.

@@ -21,8 +21,8 @@ void probe_unless_told(Options& options, const Eigen::Vector2d& at);
 class Probes : public Observer {
  public:
   // `text` is "x,y[;x,y...]" [m], on the flat cloth; "" and "none" are no probes.  `dimension` is that of the
-  // elements. Throws Error::invalid_input for other texts, for cloth that is not flat at rest, and for points
-  // outside it, stating where it lies.
+  // elements.  Throws Error::invalid_input for other texts, for cloth that is not flat at rest, and for
+  // points outside it, stating where it lies.
   Probes(const std::string& text, const ClothMesh& mesh, int dimension);
 
   bool empty() const { return all_.empty(); }
@@ -62,7 +62,7 @@ class Probes : public Observer {
   int dimension_;
   std::vector<Probe> all_;
   std::optional<Record> series_;
-  std::vector<render::Path> loops_;  // of the first point, one per direction
+  std::vector<render::Path> loops_;  // paths of the first point, one per direction
 };
 
 }  // namespace hysteron::experiments

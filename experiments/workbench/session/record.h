@@ -14,7 +14,7 @@ namespace hysteron::experiments {
 
 // The file is a CSV with named columns and units in the header, "time [s]".  Every row is flushed, so that a
 // run can be watched in FILE.part; the file gets its name in finish() or, after an exception elsewhere, on
-// destruction. A file that could not be written (full disk) never gets it.
+// destruction.  A file that could not be written (full disk) never gets it.
 class Record {
  public:
   // Throws Error::system if the file cannot be created or written, as the others below do.

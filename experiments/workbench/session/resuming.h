@@ -13,7 +13,7 @@ namespace hysteron::experiments {
 class Checkpoints : public Observer {
  public:
   // With --resume a complete run of the same request is not repeated; one of another request is, and stderr
-  // says what differs.  The checkpoint of an incomplete run is read. Throws Error::invalid_input for a
+  // says what differs.  The checkpoint of an incomplete run is read.  Throws Error::invalid_input for a
   // checkpoint of another request.
   Checkpoints(const CommandLine& line, const Setup& setup, const Cloth& cloth, const Simulation& simulation);
 

@@ -40,7 +40,7 @@ struct Snapshot {
 // and `instants` at times of their own.
 // No result may depend on the rate of pictures: all that becomes a metric, or ends the run, is collected in
 // watch(), each_step() or instants, or read from the simulation when simulate() has returned; measure() only
-// shows it. If several are due at one instant, each_step() is called first, then instants, and measure()
+// shows it.  If several are due at one instant, each_step() is called first, then instants, and measure()
 // last.  serialise() covers what they collect.  each_step() costs a copy of all positions a step, which is
 // noticeable on a GPU.
 struct RunPlan {
@@ -90,7 +90,7 @@ using Observers = std::vector<std::unique_ptr<Observer>>;
 // Returns the observers of every run, in the order of their calls: metrics.csv, whose row the experiment
 // measures, probes, pictures, which show a probe's loop, solver statistics, crossings, folds, recoveries,
 // meshes, errors, an animation, whose kept positions a checkpoint needs, and checkpoints, which are removed
-// when all else exists. Refuses files that Run::reserve() does.
+// when all else exists.  Refuses files that Run::reserve() does.
 Observers session_observers(Session& session, std::unique_ptr<Probes> probes,
                             std::unique_ptr<Checkpoints> checkpoints);
 
@@ -98,7 +98,7 @@ Observers session_observers(Session& session, std::unique_ptr<Probes> probes,
 void explain(const Scene& scene, const Cloth& cloth, const Simulation& simulation);
 
 // Returns the scene as the experiment of that line changes it, without the run; nothing if it simulates no
-// cloth. Throws what the run would throw before its first step.
+// cloth.  Throws what the run would throw before its first step.
 std::optional<Scene> planned_scene(CommandLine line);
 
 class Session {
