@@ -1,5 +1,5 @@
-// Every subcommand, in the order of --help.  Each has a folder of its name with a function that describes it;
-// to add one: a folder, and a line here.
+// This file lists every subcommand, in the order of --help.  Each has a folder of its name with a function
+// that describes it; a new one needs such a folder and a line here.
 #include "experiments/workbench/app/experiment.h"
 
 // clang-format off

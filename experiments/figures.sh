@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# The chapter's figures and the comparisons that it announces, by one command:
+# Draws the chapter's figures and the comparisons that it announces, by one command:
 #   experiments/figures.sh                  into out/figures, with index.html over all of them
 #   experiments/figures.sh --quick          small versions
 #   experiments/figures.sh drape crease     only these: laws crumple sleeve swing drape crease fold
 #   experiments/figures.sh --out DIR ...    other options, KEY=VALUE in one word, go to every run (--device=cuda,
 #                                           --fabric=wool-tropical)
-# Each figure is a PNG, plots an SVG as well; captions of the laws stand in README.md beside them and on the page.  The
-# sleeve's film is film.mp4 and, of at most 4 MB, film.webp; it needs ffmpeg, which is not installed by this script.
+# Each figure is a PNG, each plot also an SVG; captions of the laws are in README.md beside them and on the page.  The
+# sleeve's film is film.mp4 and, of at most 4 MB, film.webp; it needs ffmpeg, which this script does not install.
 set -euo pipefail
 source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/setup.sh"
 
@@ -29,7 +29,7 @@ done
 [[ ${#parts[@]} -gt 0 ]] || parts=("${all_parts[@]}")
 
 if [[ -n ${HYSTERON:-} ]]; then
-  program=$HYSTERON # built elsewhere
+  program=$HYSTERON # a program built elsewhere
 else
   install_missing program_packages optional_program_packages
   if [[ -f $build_folder/CMakeCache.txt ]]; then configure; else configure -DHYSTERON_TESTS=OFF; fi
@@ -42,27 +42,27 @@ hysteron() {
   command "$program" "$@"
 }
 
-# fabric.damping=SECONDS with which a linear strip, matched in stiffness, loses as much to viscosity in its first
-# 0.4 s as the hysteretic one to friction.
+# Prints fabric.damping=SECONDS with which a linear strip, matched in stiffness, loses as much to viscosity in its
+# first 0.4 s as the hysteretic one to friction.
 tuned_damping() {
   command "$program" compare swing --quick --no-images --quiet --triangles 100 --out "$out/.tuning" \
     --laws linear,prandtl --compare.tune fabric.damping=1e-5:1e-2 \
     --compare.tune-metric viscous_J=bending_friction_J "${more[@]}" | grep '^fabric\.damping='
 }
 
-# Laws are matched in the work of bending; narain, whose yield is at k0 = 8/m, would be made 52 times as stiff:
-# terzopoulos is the plastic one.
+# Laws are matched in the work of bending; narain, whose yield is at k0 = 8/m, would be made 52 times as stiff, so
+# terzopoulos is the plastic law.
 
-# 4.2(b), 4.3, 4.4: laws alone.
+# Figures 4.2(b), 4.3 and 4.4 show laws alone.
 draw_laws() { hysteron figures --quiet --out "$out/chapter-figures"; }
 
-# 4.1: permanent wrinkles, existing methods and ours.
+# Figure 4.1 shows permanent wrinkles by existing methods and ours.
 draw_crumple() {
   hysteron compare crumple --laws linear,pabst,terzopoulos,prandtl --light raking "$@" --out "$out/compare-crumple"
 }
 
-# A sleeve whose elbow bends and straightens: before, bent and after, and as a film.  Elastic, plastic, hysteretic, and
-# hysteretic with a permanent set, that of the fabric cotton-broad-creasing, beside friction.
+# The elbow of a sleeve bends and straightens: it is drawn before, bent and after, and as a film.  The laws are elastic,
+# plastic, hysteretic, and hysteretic with the permanent set of the fabric cotton-broad-creasing beside friction.
 # The picture shows the elbow's inside; parts of the arm that no cloth reaches go on beyond its border.
 draw_sleeve() {
   local set=fabric.bending.set.yield=500+fabric.bending.set.hardening=7.98e-6 small=()
@@ -75,7 +75,7 @@ draw_sleeve() {
     "${small[@]}" "$@" --out "$out/compare-sleeve"
 }
 
-# Damping of oscillations: viscosity tuned for one swing against friction in bending.
+# The damping of oscillations by viscosity, tuned for one swing, is compared with that by friction in bending.
 draw_swing() {
   local damping
   say "tuning fabric.damping of the strip with viscosity"
@@ -85,18 +85,18 @@ draw_swing() {
     --out "$out/compare-swing"
 }
 
-# Drape with hysteresis and without, and by how much curvature differs.
+# Drapes with hysteresis and without are compared, with the difference of their curvatures.
 draw_drape() {
   hysteron compare drape --laws linear,pabst,terzopoulos,prandtl --compare.to linear --compare.difference curvature \
     --compare.rows 2 "$@" --out "$out/compare-drape"
 }
 
-# Crease angles.
+# Crease angles are compared.
 draw_crease() {
   hysteron compare crease --laws linear,terzopoulos,prandtl --crease.fold rod "$@" --out "$out/compare-crease"
 }
 
-# Fatigue over cycles.
+# Fatigue is shown over cycles.
 draw_fold() { hysteron fold "$@" --out "$out/fold"; }
 
 mkdir -p "$out"

@@ -19,7 +19,8 @@ namespace {
 using namespace hysteron;
 using namespace hysteron::experiments;
 
-// With --json stdout is for JSON alone, and that of what is called by scripts for them.
+// Prints the summary of a run on stdout, but not with --json, where stdout holds JSON alone, and not for
+// subcommands that scripts call.
 void say_last_words(const CommandLine& line) {
   if (Run::first_folder().empty() || last_text(line.flags, "json", "") == "true") return;
   if (experiment_named(line.experiment).hidden) return;
@@ -28,14 +29,15 @@ void say_last_words(const CommandLine& line) {
   std::cout << std::flush;
 }
 
-// Threads of OpenMP that wait for work spin, with GNU's library 300,000 rounds: where another program wants
-// the cores, steps of small cloth take up to thirty times as long.  The library reads the number when it is
-// loaded, so the program starts itself anew with a smaller one, once, unless its user has said how to wait.
+// Shortens how long waiting OpenMP threads spin.  GNU's library lets them spin 300,000 rounds, and where
+// another program wants the cores, steps of small cloth then take up to thirty times as long.  The library
+// reads the number when it is loaded, so the program starts itself anew with a smaller one, once, unless its
+// user has said how to wait.
 void spin_shortly(char** words) {
   constexpr const char* kRounds = "10000";
   if (std::getenv("GOMP_SPINCOUNT") || std::getenv("OMP_WAIT_POLICY")) return;
   setenv("GOMP_SPINCOUNT", kRounds, 0);
-  execv("/proc/self/exe", words);  // returns where that is not to be had: then they spin
+  execv("/proc/self/exe", words);  // returns where /proc is missing: the threads then spin for long
 }
 
 int flushed(int exit_code) {
@@ -60,7 +62,7 @@ int main(int count, char** words) {
   });
   if (ending.error.empty()) return ending.exit_code;
   if (line && ending.exit_code == kCouldNotGoOn) say_last_words(*line);
-  // Where the machine failed, that is why.
+  // Files that could not be written are reported, unless the machine's failure is the reason.
   if (ending.exit_code != kMachineFailed && !Run::unwritten().empty())
     std::cerr << "hysteron: " << Run::unwritten() << std::endl;
   std::cerr << ending.error << std::endl;

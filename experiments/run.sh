@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# From a fresh Debian or Ubuntu to pictures: installs what is missing, builds, runs an experiment.
+# Leads from a fresh Debian or Ubuntu to pictures: installs missing packages, builds, runs an experiment.
 #   experiments/run.sh                     drape of cotton broad into out/drape
 #   experiments/run.sh --quick             the same with further options
 #   experiments/run.sh swing --seconds 2   another experiment of `hysteron`
 set -euo pipefail
 source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/setup.sh"
 
-# out_of ARGUMENT...: the folder given with --out, if any.
+# out_of ARGUMENT... prints the folder given with --out, if any.
 out_of() {
   while [[ $# -gt 0 ]]; do
     case $1 in
@@ -18,7 +18,7 @@ out_of() {
 }
 
 install_missing program_packages optional_program_packages
-# A new build folder needs no tests; one that has them keeps them.
+# A new build folder needs no tests; an existing one keeps them.
 if [[ -f $build_folder/CMakeCache.txt ]]; then configure; else configure -DHYSTERON_TESTS=OFF; fi
 build --target hysteron
 

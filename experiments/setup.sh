@@ -1,13 +1,13 @@
 # shellcheck shell=bash disable=SC2034
-# (SC2034: tables are read by the scripts that source this.)
-# Sourced by experiments/run.sh and tests/run.sh: install what is missing, configure, build.
-# What is said here goes to stderr, the output of apt, cmake and the compiler to build/log; stdout belongs to the
+# SC2034 is disabled because the scripts that source this file read its tables.
+# experiments/run.sh and tests/run.sh source this file to install missing packages, configure and build.
+# Its messages go to stderr, the output of apt, cmake and the compiler to build/log; stdout belongs to the
 # program that is run afterwards.
 
 root=$(cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.." && pwd -P)
 build_folder=$root/build
 
-# package|why.  Nothing is listed that another package of the list already depends on.
+# Each row is package|why.  Packages that another one of the list depends on are not listed.
 program_packages=(
   "g++|C++20 compiler, with OpenMP"
   "cmake|configures the build"
@@ -29,12 +29,12 @@ program_packages=(
   "libgl1-mesa-dri|OpenGL in software, where no GPU draws"
   "gnuplot-nox|draws the plots"
 )
-# Not every release has these.
+# Not every release has these packages.
 optional_program_packages=(
   "libosmesa6|second way to draw in software; Mesa 25.1 dropped it"
 )
 
-log_file=$build_folder/log  # of the last set-up
+log_file=$build_folder/log  # log of the last set-up
 mkdir -p "$build_folder"
 : >"$log_file"
 
@@ -45,12 +45,12 @@ fail() {
   exit 1
 }
 
-# latest_progress: the last line of the log that says how far ninja, make or apt are.
+# latest_progress prints the last line of the log in which ninja, make or apt report progress.
 latest_progress() {
   tail -c 50000 "$log_file" | grep -aoE '^(\[ *[0-9]+(/[0-9]+|%)\]|Unpacking |Setting up ).*' | tail -n 1
 }
 
-# show_progress TITLE PID: until that process ends, how far it is: in one line that is overwritten, or without a
+# show_progress TITLE PID shows the progress until that process ends, in one line that is overwritten, or without a
 # terminal in one line a minute.
 show_progress() {
   local title=$1 pid=$2 start=$SECONDS minutes=0
@@ -65,7 +65,7 @@ show_progress() {
   [[ ! -t 2 ]] || printf '\r\033[K' >&2
 }
 
-# logged TITLE COMMAND...: runs it with its output in the log; where it fails, shows the log's end and ends the script.
+# logged TITLE COMMAND... runs it with its output in the log; if it fails, shows the log's end and ends the script.
 logged() {
   local title=$1 start=$SECONDS
   shift
@@ -86,7 +86,7 @@ is_installed() { [[ $(dpkg-query -W -f='${db:Status-Status}' "$1" 2>/dev/null) =
 
 has_candidate() { [[ -n $(apt-cache show --no-all-versions "$1" 2>/dev/null) ]]; }
 
-# missing_of ROW...: prints the rows whose package is not installed.
+# missing_of ROW... prints the rows whose package is not installed.
 missing_of() {
   local row
   for row in "$@"; do is_installed "${row%%|*}" || printf '%s\n' "$row"; done
@@ -99,7 +99,7 @@ apt_install() {
     --no-install-recommends -o DPkg::Lock::Timeout=300 -o Dpkg::Use-Pty=0 "$@"
 }
 
-# install_missing REQUIRED OPTIONAL (names of tables): no apt call and no network if everything is there.
+# install_missing REQUIRED OPTIONAL, names of tables, calls neither apt nor the network if nothing is missing.
 install_missing() {
   local -n required_table=$1 optional_table=$2
   if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
@@ -133,7 +133,7 @@ install_missing() {
   apt_install "${rows[@]%%|*}"
 }
 
-# configure [CMAKE_OPTION...]: options of a build folder that exists stay as they are unless named here.
+# configure [CMAKE_OPTION...] keeps the options of an existing build folder unless they are named here.
 configure() {
   local generator=()
   [[ -f $build_folder/CMakeCache.txt ]] || generator=(-G Ninja -DCMAKE_BUILD_TYPE=Release)

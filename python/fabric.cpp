@@ -13,10 +13,10 @@
 namespace hysteron::python {
 namespace {
 
-constexpr const char* kOfFabrics = "Fabric";  // of messages
+constexpr const char* kOfFabrics = "Fabric";  // name of the origin in messages
 constexpr const char* kPrefix = "fabric.";
 
-// The key fabric.* of that attribute; null if there is none.
+// Returns the key fabric.* of that attribute; null if there is none.
 const BoundKey* find(const Keys& keys, const std::string& name) {
   const auto found = std::find_if(keys.begin(), keys.end(), [&](const BoundKey& key) {
     return python_name(key.description.path) == python_name(kPrefix + name);
@@ -81,13 +81,13 @@ py::object FabricValue::get(const std::string& name) const {
 }
 
 void FabricValue::set(const std::string& name, py::handle value) {
-  if (name == "name") {  // which as a key would load another fabric
+  if (name == "name") {  // as a key it would load another fabric
     scene_.fabric.name = py::str(value);
     return;
   }
   const Keys keys = bind_scene(scene_);
   const BoundKey* key = find(keys, name);
-  if (!key) find_key(keys, kPrefix + name, kOfFabrics);  // refuses it, with the nearest name
+  if (!key) find_key(keys, kPrefix + name, kOfFabrics);  // throws, with the nearest name
   set_key(scene_, *key, to_value(value, key->description.path), kOfFabrics);
 }
 

@@ -1,4 +1,4 @@
-// A fabric from a measured loop.
+// Identifies a fabric from a measured loop.
 #include <pybind11/stl.h>
 
 #include <cmath>
@@ -34,7 +34,7 @@ MomentSeries moment_series(const Numbers& curvature, const Numbers& moment,
   series.curvature = column(curvature, "curvature", rows);
   series.moment = column(moment, "moment", rows);
   if (units == "kes") {
-    constexpr double kPerCentimetre = 100;  // [1/m]
+    constexpr double kPerCentimetre = 100;  // [1/m] in 1/cm
     for (double& k : series.curvature) k *= kPerCentimetre;
     for (double& m : series.moment) m *= kGramForceCentimetrePerCentimetre;
   }
@@ -72,7 +72,7 @@ std::optional<double> estimate_error(const Estimate& estimate) {
   return estimate.standard_error;
 }
 
-// Beside the three numbers a fabric needs a density and a thickness.
+// Returns a fabric with the three numbers found; it also needs a density and a thickness.
 FabricValue fabric_found(const Identification& found, const std::string& name, double density,
                          double thickness) {
   Fabric fabric = fabric_from_python(py::str("cotton-broad"));

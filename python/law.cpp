@@ -1,4 +1,4 @@
-// A moment-curvature law on many elements at once: the loop that cloths run, on the CPU.
+// Evaluates a moment-curvature law on many elements at once by the loop that cloths run, on the CPU.
 #include <pybind11/stl.h>
 
 #include <memory>
@@ -21,7 +21,7 @@ struct Law {
   int dimension;
 };
 
-// Elements of one law with their histories.
+// The elements of one law with their histories.
 struct LawState {
   LawState(const Law& of, int count, int threads)
       : law(of),
@@ -48,8 +48,7 @@ struct LawState {
   int elements;
   std::unique_ptr<Cpu> cpu;
   std::unique_ptr<Loop> loop;
-  // The operator that makes curvatures of themselves: an element of unit area for each, with hinges of its
-  // own.
+  // These are the identity operator of curvatures: an element of unit area for each, with hinges of its own.
   std::vector<double> area, coefficient;
   std::vector<int> start, hinge;
 };
@@ -71,8 +70,8 @@ LawState copied(const LawState& state) {
   return copy;
 }
 
-// K: `dimension` numbers an element [1/m]; results of the same shape.  What follows is called with the
-// interpreter's lock held.
+// Returns the curvature's data, `dimension` numbers an element [1/m], row by row; results have the same
+// shape.  The functions below are called with the interpreter's lock held.
 const double* checked(const LawState& state, const Numbers& curvature) {
   const int d = state.law.dimension;
   const bool fits =
@@ -91,7 +90,7 @@ py::array_t<double> make_array(const LawState& state, int columns, int of_each =
   return py::array_t<double>(shape);
 }
 
-// A trial that builds up no rate.
+// Returns a trial that builds up no rate.
 Loop::Trial steady_trial(double dt) { return {dt, dt, 0, nullptr}; }
 
 py::array step(const Law&, LawState& state, const Numbers& curvature, double dt, py::object out) {
@@ -118,7 +117,7 @@ py::array trial(const Law&, const LawState& state, const Numbers& curvature, dou
   return moment;
 }
 
-// Rows of lower triangles as whole matrices.
+// Returns whole matrices from rows of lower triangles.
 py::array tangent(const Law&, const LawState& state, const Numbers& curvature, double dt) {
   const int d = state.law.dimension;
   const double* k = checked(state, curvature);

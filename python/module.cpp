@@ -34,7 +34,8 @@ void bind_errors() {
   });
 }
 
-// Names of the flags that a subcommand takes, without their "--"; none where there is no such subcommand.
+// Returns the names of the flags that a subcommand takes, without their "--"; none if there is no such
+// subcommand.
 py::list experiment_options(const std::string& name) {
   py::list names;
   const experiments::Experiment& experiment = experiments::experiment_named(name);

@@ -1,4 +1,4 @@
-// Pictures as arrays: of a simulation, and how far two differ.
+// Draws pictures of a simulation as arrays, and compares two pictures.
 #include <pybind11/stl.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@ py::array_t<std::uint8_t> image_array(const render::Image& image) {
       image.pixels().data());
 }
 
-// An array (H, W, 3 or 4) of bytes, or a PNG file.
+// Converts an array (H, W, 3 or 4) of bytes, or a PNG file.
 render::Image image_from_python(py::handle picture, const std::string& what) {
   if (!py::isinstance<py::array>(picture)) return render::read_png(std::string(py::str(picture)));
   using Bytes = py::array_t<std::uint8_t, py::array::c_style>;
@@ -53,7 +53,7 @@ py::dict diff(py::object a, py::object b, double pixels_per_degree, const std::s
   return result;
 }
 
-// The size as a text, for the table of options.
+// Formats the size for the table of options.
 std::string size_text(const std::pair<int, int>& size) {
   return std::to_string(size.first) + "x" + std::to_string(size.second);
 }
@@ -94,7 +94,7 @@ py::array_t<std::uint8_t> render_simulation(SimulationValue& sim, std::pair<int,
   return image_array(sim.picture(choice));
 }
 
-// One number a vertex, in looks that show one.
+// Returns one number a vertex, in looks that show a value.
 std::vector<float> shown_values(const std::string& look, const Cloth& cloth, Simulation& simulation) {
   const int d = simulation.dimension();
   if (look == "curvature") return vertex_curvature(cloth.mesh, simulation.curvature(), d);

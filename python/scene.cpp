@@ -12,9 +12,9 @@
 namespace hysteron::python {
 namespace {
 
-constexpr const char* kOfScenes = "Scene";  // of messages
+constexpr const char* kOfScenes = "Scene";  // name of the origin in messages
 
-// Takes a fabric that is an object out of the values.
+// Moves a fabric that is an object from the values to the scene.
 void take_fabric(Scene& scene, py::dict& values) {
   if (!values.contains("fabric") || !py::isinstance<FabricValue>(values["fabric"])) return;
   scene.fabric = fabric_from_python(values["fabric"]);
@@ -28,7 +28,7 @@ void apply(Scene& scene, const py::dict& given) {
   apply_scene_tree(scene, to_tree(values), kOfScenes);
 }
 
-// As `hysteron run` reads it; what it says of pictures and metrics is left aside.
+// Reads a scene's file as `hysteron run` does; its keys of pictures and metrics are ignored.
 void apply_file(Scene& scene, const std::string& file) {
   experiments::Options unused;
   apply_scene_file(scene, file, experiments::bind_options(unused), {"metric"});
@@ -58,7 +58,7 @@ void set(Scene& scene, const std::string& name, py::object value) {
   apply(scene, one);
 }
 
-// As json reads what the manifest has.
+// Returns the scene as Python's json reads it from a manifest.
 py::object tree(const Scene& scene) { return from_json(to_json(scene).dump()); }
 
 py::list keys() {

@@ -48,7 +48,7 @@ namespace {
 using S = SimulationValue;
 using Vectors = std::vector<Eigen::Vector3d>;
 
-// The state where it lies, or a copy of it from a GPU.
+// Returns a view of the state, or a copy of it from a GPU.
 py::array in_place(py::handle self, Simulation::InPlace (Simulation::*place)() const,
                    Vectors (Simulation::*copy)()) {
   const S& value = self.cast<const S&>();
@@ -68,7 +68,7 @@ py::array_t<int> triangles(const S& self) {
   return result;
 }
 
-// In the order of the rows.
+// Returns a dict in the order of the rows.
 template <class Rows>
 py::dict dict_of(const Rows& rows) {
   py::dict result;
@@ -82,7 +82,7 @@ std::string state_hash(const S& self) {
   return text;
 }
 
-// What elements have, as many numbers as their curvature.
+// Returns a measure of the elements, with as many numbers each as their curvature.
 py::array of_elements(const S& self, std::vector<double> (Simulation::*measured)()) {
   Simulation& simulation = self.at_rest();
   return numpy_array((simulation.*measured)(), simulation.dimension());
@@ -99,9 +99,9 @@ void drive(const S& self, int pin, const Numbers& velocity, double spin) {
   self.at_rest().drive(pin, Eigen::Map<const Eigen::Vector3d>(velocity.data()), spin);
 }
 
-// Vertices that the pin holds, or held.
+// Returns the vertices that the pin holds, or held.
 std::vector<int> pin_vertices(const S& self, int pin) {
-  self.at_rest().pin_displacement(pin);  // refuses one that there is not
+  self.at_rest().pin_displacement(pin);  // throws for a missing pin
   return self.cloth().pin_vertices[pin];
 }
 

@@ -1,4 +1,4 @@
-// A simulation as Python has it: with its scene and cloth, for one thread at a time.
+// A simulation for Python, with its scene and cloth, for one thread at a time.
 #pragma once
 
 #include <memory>
@@ -13,11 +13,11 @@
 
 namespace hysteron::python {
 
-// What a picture is of, beside the simulation.
+// The contents of a picture, beside the simulation.
 struct PictureChoice {
   experiments::Options options;
-  std::optional<render::Box> bounds;  // framed [m]; none: the cloth as it is
-  std::string caption;                // with scale and colour bar; "": none of these letters
+  std::optional<render::Box> bounds;  // framed box [m]; none: the cloth's
+  std::string caption;                // with scale and colour bar; "": no text at all
 };
 
 class SimulationValue {
@@ -25,24 +25,24 @@ class SimulationValue {
   // Checks the scene and builds the cloth.
   explicit SimulationValue(const Scene& scene);
 
-  // Steps without the interpreter's lock; between them signals are looked for, and KeyboardInterrupt ends
-  // them early: the steps that were taken stay.
+  // Steps without the interpreter's lock.  Between steps it checks for signals, and KeyboardInterrupt stops
+  // early: the steps taken so far are kept.
   void advance(int steps);
 
   const Scene& scene() const { return scene_; }
   const Cloth& cloth() const { return cloth_; }
-  // Error::invalid_input while another thread steps or draws it.
+  // Throws Error::invalid_input while another thread steps or draws it.
   Simulation& at_rest() const;
-  // Error::system where no OpenGL context is to be had (pictures.cpp).
+  // Throws Error::system if there is no OpenGL context (pictures.cpp).
   render::Image picture(const PictureChoice& choice);
 
  private:
-  // Where it is pictured: a thread that has the OpenGL context, kept from one picture to the next.
+  // Returns the thread that owns the OpenGL context, kept from one picture to the next.
   using Studio = OwnThread<experiments::SceneRenderer>;
   Studio& studio(const PictureChoice& choice, const render::Box& bounds, int cuda_device);
   render::Image drawn(const PictureChoice& choice, Simulation& simulation);
 
-  // body(simulation) without the interpreter's lock, while no other thread may use the simulation.
+  // Calls body(simulation) without the interpreter's lock, while no other thread may use the simulation.
   template <class Body>
   void alone(const Body& body) {
     Simulation& simulation = at_rest();
@@ -57,10 +57,10 @@ class SimulationValue {
   Scene scene_;
   Cloth cloth_;
   std::unique_ptr<Simulation> simulation_;
-  bool in_use_ = false;          // by a thread without the interpreter's lock, which guards it
-  experiments::DrawnMesh mesh_;  // of the studio
+  bool in_use_ = false;          // a thread uses it without the interpreter's lock, which guards this
+  experiments::DrawnMesh mesh_;  // mesh of the studio
   std::unique_ptr<Studio> studio_;
-  experiments::Options made_for_;  // whose size and renderer a studio has for good
+  experiments::Options made_for_;  // the studio's size and renderer, fixed at its creation
 };
 
 }  // namespace hysteron::python

@@ -18,7 +18,7 @@ namespace {
 
 bool is_mapping(py::handle value) { return py::isinstance<py::dict>(value); }
 
-// A list of mappings, or an empty one where there could be such.
+// True for a list of mappings, or an empty one for a key of tables.
 bool is_tables(const std::string& key, py::handle value) {
   static const std::set<std::string> kTables = {"pin", "obstacle", "command", "phase", "keys"};
   if (!py::isinstance<py::list>(value) && !py::isinstance<py::tuple>(value)) return false;
@@ -41,7 +41,7 @@ ValueTree tables_node(const std::string& key, py::handle value) {
   return node;
 }
 
-// An element of an array of tables: its keys have hyphens where Python has underscores.
+// Converts an element of an array of tables: its keys have hyphens where Python has underscores.
 ValueTree table_from_python(const py::dict& values) {
   ValueTree table;
   for (const auto& [name, value] : values) {
@@ -70,7 +70,7 @@ void flatten(const std::string& prefix, const py::dict& values, const std::vecto
   }
 }
 
-// One number of numpy's, or a list of them.
+// Converts one number of numpy's, or a list of them.
 Value numbers_from_python(py::handle value, const std::string& key) {
   const Numbers numbers = value.is_none() ? Numbers() : Numbers::ensure(value);
   if (!numbers || value.is_none() || numbers.ndim() > 1) {

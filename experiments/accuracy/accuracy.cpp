@@ -1,4 +1,4 @@
-// `hysteron accuracy`: error against run time, for problems with references of their own.
+// `hysteron accuracy` measures error against run time, for problems that have independent references.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -85,7 +85,8 @@ std::vector<Problem> chosen_problems(const F& flags) {
   return chosen;
 }
 
-// Settings that cannot be solved are findings too; a machine that fails is not.
+// Solves the problem with a setting.  A setting that cannot be solved is a result too; a failing machine is
+// not.
 Found tried(const Problem& problem, const Setting& setting) {
   try {
     return problem.solve(setting);
@@ -112,7 +113,7 @@ Solution solved(const Problem& problem, Run& run) {
 
 constexpr double kTargets[] = {0.1, 0.03, 0.01, 0.003};
 
-// What is not finite is said, not left out.
+// Formats a number for the table; values that are not finite are printed as such, not left out.
 std::string number(double value) { return fmt::format("{:.6g}", value); }
 
 void write_table(Run& run, const std::vector<Solution>& solutions) {
@@ -162,7 +163,7 @@ void write_orders(Run& run, const std::vector<Solution>& solutions) {
   table.write(run.path("orders.csv"));
 }
 
-// Cell of the table: what it takes.
+// Returns the table's cell that names the cheapest setting and its time [s].
 std::string cheapest_text(const Solution& solution, double target) {
   const auto best = cheapest(solution, target);
   if (!best) return "none";
@@ -180,7 +181,7 @@ void write_cheapest(Run& run, const std::vector<Solution>& solutions) {
   table.write(run.path("cheapest.csv"));
 }
 
-// Errors below this are at the end of the digits; on a logarithmic scale they would stretch it.
+// Errors below this are rounding; they would only stretch a logarithmic axis, so they are not drawn.
 constexpr double kMinDrawn = 1e-6;
 
 render::Plot solution_plot(const Solution& solution) {
@@ -202,14 +203,15 @@ render::Plot solution_plot(const Solution& solution) {
   return plot;
 }
 
-// table.csv: a setting per row; orders.csv; cheapest.csv: what reaches kTargets in the least time.
+// Writes table.csv with a setting per row, orders.csv, and cheapest.csv with what reaches kTargets in the
+// least time.
 void write_accuracy(Run& run, const std::vector<Solution>& solutions) {
   write_table(run, solutions);
   write_orders(run, solutions);
   write_cheapest(run, solutions);
 }
 
-// PROBLEM.front_count, PROBLEM.base_error_percent ...
+// Writes the metrics PROBLEM.base_error_percent, PROBLEM.settings_count, PROBLEM.front_count and so on.
 void write_accuracy_metrics(Run& run, const std::vector<Solution>& solutions) {
   for (const Solution& solution : solutions) {
     const std::string& name = solution.problem.name;
@@ -226,7 +228,7 @@ void write_accuracy_metrics(Run& run, const std::vector<Solution>& solutions) {
   }
 }
 
-// plot_PROBLEM: error against seconds, the front marked.
+// Draws plot_PROBLEM: error against seconds, with the Pareto front marked.
 void draw_accuracy(Run& run, const std::vector<Solution>& solutions) {
   for (const Solution& solution : solutions) {
     const render::Plot plot = solution_plot(solution);
@@ -253,7 +255,7 @@ int run_accuracy(const CommandLine& line) {
   std::vector<Solution> solutions;
   for (const Problem& problem : problems) {
     solutions.push_back(solved(problem, run));
-    write_accuracy(run, solutions);  // a run that is cut short keeps what it has found
+    write_accuracy(run, solutions);  // so that an interrupted run keeps what it has found
   }
   write_accuracy_metrics(run, solutions);
   if (!flags.options.no_images) draw_accuracy(run, solutions);

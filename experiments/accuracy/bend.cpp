@@ -1,4 +1,5 @@
-// Pure bending: the loop of a strip between rotating clamps against that of its law alone.
+// Problem bend: the loop of a strip in pure bending between rotating clamps is compared with that of its law
+// alone.
 #include <algorithm>
 #include <cmath>
 
@@ -10,7 +11,7 @@ namespace {
 
 constexpr int kTriangles = 340;
 
-// Of B, 2HB and the loop's area, the largest relative difference from the law's own reading.
+// Returns the largest relative difference of B, 2HB and the loop's area from the law's own reading.
 double largest_reading_difference(const StripDifference& d) {
   double largest = 0;
   for (double percent : {d.rigidity, d.loop_width, d.loop_area})
@@ -82,7 +83,7 @@ Problem bend_problem(const Effort& effort) {
   vary(list, hinge, "element", &Setting::mesh,
        {"aligned", "aligned-45", "flipped", "unionjack", "equilateral", "random"});
   vary(list, base, "law", &Setting::law, {"linear", "bilinear", "dahl", "obrien"});
-  // Laws of scalar form run along four directions of the fabric: as good as where these lie.
+  // The scalar law `wong` runs along four directions of the fabric, so its error depends on where these lie.
   Setting wong = base;
   wong.law = "wong";
   vary(list, wong, "warp angle", &Setting::load, {0, 11.25, 22.5, 33.75, 45});

@@ -1,4 +1,4 @@
-// The threshold of strips that buckle under their own weight, upright and on edge.
+// Problem buckle: the heaviness at which strips buckle under their own weight, upright and on edge.
 #include <cmath>
 
 #include "experiments/accuracy/accuracy.h"
@@ -9,8 +9,8 @@ namespace hysteron::experiments {
 namespace {
 
 constexpr double kLength = 0.1;              // [m]
-constexpr double kUpright = 10, kEdge = 20;  // length over width
-constexpr int kTriangles = 320;              // upright 40 square cells along, 4 across; on edge 57 and 3
+constexpr double kUpright = 10, kEdge = 20;  // ratio of length to width
+constexpr int kTriangles = 320;              // upright: 40 square cells along, 4 across; on edge: 57 and 3
 
 Buckling buckling_kind(const Setting& setting) {
   return setting.load == 0 ? Buckling::upright : Buckling::edge;

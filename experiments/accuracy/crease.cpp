@@ -1,4 +1,5 @@
-// A crease: a strip is folded by a clamp, let go, and opens as far as the friction of its fabric lets it.
+// Problem crease: a strip is folded by a clamp, let go, and opens as far as the friction of its fabric lets
+// it.
 #include <algorithm>
 #include <cmath>
 
@@ -9,10 +10,11 @@
 namespace hysteron::experiments {
 namespace {
 
-constexpr double kLength = 0.06, kWidth = 0.02, kClamp = 0.01;          // of the strip [m]
-constexpr double kFold = 150;                                           // [degree]
-constexpr double kFolded = 0.3, kReleased = 0.4, kSampling = 1.0 / 30;  // [s]
-constexpr double kFrame = 1.0 / 60;                                     // [s]
+constexpr double kLength = 0.06, kWidth = 0.02, kClamp = 0.01;  // strip and its clamp [m]
+constexpr double kFold = 150;                                   // angle by which the clamp folds [degree]
+constexpr double kFolded = 0.3, kReleased = 0.4,
+                 kSampling = 1.0 / 30;  // end of the fold, release, sampling interval [s]
+constexpr double kFrame = 1.0 / 60;     // [s]
 
 Scene crease(const Setting& setting) {
   Scene scene = with(setting, {});
@@ -30,7 +32,7 @@ Scene crease(const Setting& setting) {
   return scene;
 }
 
-// Angle between the two ends of the strip seen from the side [degree]: 180 when flat.
+// Returns the angle between the two ends of the strip seen from the side [degree]: 180 when flat.
 double opening_angle(const Cloth& cloth, const std::vector<Eigen::Vector3d>& x) {
   const auto direction = [&](double from, double to) {
     Eigen::Vector3d near = Eigen::Vector3d::Zero(), far = near;
@@ -46,9 +48,9 @@ double opening_angle(const Cloth& cloth, const std::vector<Eigen::Vector3d>& x) 
   return std::acos(std::clamp(cosine, -1.0, 1.0)) * 180 / 3.14159265358979323846;
 }
 
-// The chapter's method as printed at 1/60 s, and with the force that does the work of the moment there and in
-// a number of parts of it, for which the printed one takes too many substeps.  Their references have the
-// method's law and element.
+// Adds the chapter's method as printed at 1/60 s, and with the moment's energy-consistent force at 1/60 s and
+// at 1/`parts` of it, where the printed force takes too many substeps.  Their references have the method's
+// law and element.
 void add_chapter_method(const Setting& base, int parts, std::vector<Setting>& list) {
   Scene method;
   apply_scene_file(method, "chapter-method");
@@ -78,7 +80,8 @@ void vary_steps(const Setting& base, bool quick, std::vector<Setting>& list) {
   for (Integrator which : {bdf2, implicit})
     for (int parts = 1; parts <= most; parts *= 2) add(which, ImplicitEvery::substep, kFrame / parts, 0);
   for (int parts = 1; parts <= most; parts *= quick ? 2 : 4) {
-    add(semi_implicit, ImplicitEvery::step, kFrame / parts, 0);  // the chapter's splitting
+    add(semi_implicit, ImplicitEvery::step, kFrame / parts,
+        0);  // uses the order of stages of the chapter's splitting
     add(semi_implicit, ImplicitEvery::substep, kFrame / (parts * 64), 0);
   }
   add_chapter_method(base, most, list);

@@ -1,5 +1,5 @@
-// Free vibrations of a clamped strip: how much amplitude bending friction and viscosity take, and how much
-// the integrator.
+// Problem decay: free vibrations of a clamped strip show how much amplitude bending friction and viscosity
+// take, and how much the integrator.
 #include <cmath>
 
 #include "experiments/accuracy/accuracy.h"
@@ -9,10 +9,11 @@ namespace hysteron::experiments {
 namespace {
 
 constexpr int kCycles = 20;
-constexpr int kParts = 400;  // of the strip in the energy balance: its loss is known to 1e-5
+constexpr int kParts =
+    400;  // number of parts of the strip in the energy balance; its loss is then known to 1e-5
 constexpr DecayKind kKinds[] = {DecayKind::hyperbolic, DecayKind::linear, DecayKind::exponential};
 
-// Setting::load counts the kinds from 0.
+// Returns the kind of decay, which Setting::load numbers from 0.
 DecayKind decay_kind(const Setting& setting) { return kKinds[std::lround(setting.load)]; }
 
 Setting base_setting(DecayKind kind, const Effort& effort) {
@@ -28,12 +29,12 @@ Setting base_setting(DecayKind kind, const Effort& effort) {
   return base;
 }
 
-// `times` the base's step.  Those of semi-implicit follow from the mesh.
+// Adds a setting with `times` the base's step.  The semi-implicit integrator takes its step from the mesh.
 void vary_step(const Setting& base, Integrator integrator, double times, std::vector<Setting>& list) {
   list.push_back(varied(base, "step", [&](Setting& s) { s.integrator = integrator, s.step *= times; }));
 }
 
-// Everything for one kind, time and size for the others.
+// Adds every factor for the hyperbolic kind, and only time and size for the others.
 void vary_all(const Setting& base, std::vector<Setting>& list) {
   list.push_back(base);
   vary(list, base, "integrator", &Setting::integrator, {Integrator::semi_implicit, Integrator::implicit});

@@ -10,28 +10,30 @@ namespace hysteron::experiments {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kLength = 0.075, kWidth = 0.015;  // [m], a period of about a second
-// Of the free end over the length: rotations of 1.6 degrees leave the beam's equation linear to 1e-3.
+constexpr double kLength = 0.075, kWidth = 0.015;  // [m]; the period is about a second
+// Deflection of the free end over the length: at rotations of 1.6 degrees the beam's equation is linear to
+// 1e-3.
 constexpr double kDeflection = 0.02;
-constexpr double kRigidity = 1.157e-5;  // of small curvatures [N m]
+constexpr double kRigidity = 1.157e-5;  // rigidity at small curvatures [N m]
 
-// Where 1 + cos cosh vanishes first, and the mode's share of its odd part (Blevins 1979, table 8-1).
+// The first zero of 1 + cos(x) cosh(x), and the weight of the mode's odd part (Blevins 1979, table 8-1).
 constexpr double kBeta = 1.8751040687119611;
 const double kOdd = (std::sinh(kBeta) - std::sin(kBeta)) / (std::cosh(kBeta) + std::cos(kBeta));
 
-// From the clamp's middle to its inner column [m].
+// Returns the distance from the clamp's middle to its inner column [m].
 double clamp_offset(const CantileverStrip& flat) { return flat.scene.cloth.length - flat.length; }
 
-// Downwards, of a strip whose free end is deflected by `end`, at a distance from the clamp's middle [m].
+// Downward deflection [m] of a strip whose free end is deflected by `end`, at a distance from the clamp's
+// middle [m].
 struct BentStrip {
   double end, length;
-  double slack;  // of the clamp's middle to its inner column, where the cloth is still level [m]
+  double slack;  // distance of the clamp's middle from its inner column, where the cloth is still level [m]
 
   double deflection(double s) const {
     return end * (mode_deflection(s / length) - mode_deflection(slack / length));
   }
-  // How far the deflection draws a point towards the clamp if lengths stay: half the integral of the squared
-  // slope, by chords.
+  // Returns how far [m] the deflection draws a point towards the clamp if lengths stay: half the integral of
+  // the squared slope, by chords.
   double drawn(double s) const {
     constexpr int kChords = 64;
     const double step = (s - slack) / kChords;
@@ -44,8 +46,8 @@ struct BentStrip {
   }
 };
 
-// Weights of the vertices' deflections that take the first mode out of them: masses times mode, to which the
-// higher modes are orthogonal.
+// Returns the weights of the vertices' deflections that extract the first mode: masses times mode, to which
+// the higher modes are orthogonal.
 std::vector<double> first_mode_weights(const CantileverStrip& flat) {
   std::vector<double> weight;
   double norm = 0;
@@ -83,8 +85,8 @@ std::vector<double> mode_curvatures(int parts) {
   return result;
 }
 
-// Friction: the loop's area, closed for both ranges of the amplitude (Prandtl-Ishlinskii: Whiteman 1959, Iwan
-// 1966).  Viscosity: pi c w A^2.
+// Friction loses the loop's area, in closed form for both ranges of the amplitude (Prandtl-Ishlinskii:
+// Whiteman 1959, Iwan 1966).  Viscosity loses pi c w A^2.
 double DecayingBend::loss(double amplitude) const {
   const double k0 = curve.k0, a = amplitude;
   const double friction =
@@ -109,7 +111,7 @@ std::vector<double> amplitudes_by_energy(const DecayingBend& bend, const std::ve
     }
     return slope > 0 ? -loss / slope : 0;
   };
-  constexpr int kParts = 8;  // of a cycle, in a method of fourth order
+  constexpr int kParts = 8;  // steps per cycle of the fourth-order method
   const double h = 1.0 / kParts;
   std::vector<double> result = {first};
   double a = first;
@@ -125,7 +127,7 @@ std::vector<double> amplitudes_by_energy(const DecayingBend& bend, const std::ve
 double decay_length() { return kLength; }
 double decay_first_amplitude() { return kDeflection * mode_clamp_curvature(kLength); }
 
-// Each loses about a third of its amplitude in 20 cycles.
+// The parameters make each kind lose about a third of its amplitude in 20 cycles.
 Scene decay_scene(DecayKind kind) {
   Scene scene;
   scene.cloth.width = kWidth;
@@ -141,7 +143,7 @@ Scene decay_scene(DecayKind kind) {
     fabric.b2 = 0.94 * kRigidity;
   } else if (kind == DecayKind::linear) {
     fabric.k0 = first / 50;
-    fabric.b1 += 2 * (first * kRigidity / 400) / fabric.k0;  // M0 = b2 A_0/400
+    fabric.b1 += 2 * (first * kRigidity / 400) / fabric.k0;  // gives M0 = b2 A_0/400
   } else {
     fabric.damping = 0.006 / mode_frequency(kRigidity, fabric.density, kLength);
   }
@@ -162,7 +164,8 @@ double decay_period(const Scene& scene) {
   return 2 * kPi / mode_frequency(moment / a, scene.fabric.density, kLength);
 }
 
-// Curvature begins at the clamp's middle, but cloth is held level up to the clamp's inner column.
+// The mode's curvature begins at the clamp's middle, but the cloth is held level up to the clamp's inner
+// column.
 Cloth bent_in_first_mode(const CantileverStrip& flat) {
   Cloth cloth = flat.cloth;
   const double slack = clamp_offset(flat);

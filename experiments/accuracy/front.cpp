@@ -18,8 +18,8 @@ std::string duration(double seconds) {
   return fmt::format("{:.2g} ms", 1e3 * seconds);
 }
 
-// "the chapter's method" is that of assets/scenes/chapter-method.toml, "the chapter's splitting" its order of
-// stages with another law, element or force.
+// Names the method: "the chapter's method" is that of assets/scenes/chapter-method.toml, "the chapter's
+// splitting" its order of stages with another law, element or force.
 std::string method_name(const Setting& s) {
   if (s.integrator != Integrator::semi_implicit || s.implicit_every != ImplicitEvery::step)
     return enum_name(s.integrator);
@@ -43,7 +43,7 @@ std::vector<std::string> setting_words(const Solution& solution, const Setting& 
   return words;
 }
 
-// Settings of a group differ in the size, or in the step, alone.
+// Names the group whose settings differ in the size, or in the step, alone.
 std::string setting_group(const Solution& solution, const Setting& s, bool in_space) {
   std::vector<std::string> words = setting_words(solution, s);
   words.push_back(in_space ? duration(s.step) : std::to_string(s.triangles) + " triangles");
@@ -113,7 +113,8 @@ std::vector<Order> observed_orders(const Solution& solution) {
   return orders;
 }
 
-// Few enough for as many colours: other elements, and other meshes of a motion, are one curve each.
+// Labels few enough curves to colour them all: other elements, and other meshes of a motion, are one curve
+// each.
 std::string curve_label(const Solution& solution, const Setting& setting) {
   const Setting& base = solution.problem.settings.front();
   if (setting.element != base.element) return enum_name(setting.element) + ", every mesh";

@@ -1,4 +1,5 @@
-// Errors of motions: positions at sampled times against a run of the same mesh with very small steps.
+// Errors of motions: positions at sampled times are compared with a run on the same mesh with very small
+// steps.
 #include <cmath>
 #include <exception>
 #include <map>
@@ -13,7 +14,7 @@ namespace {
 
 using Trajectory = std::vector<std::vector<Eigen::Vector3d>>;  // positions at each sampled time [m]
 
-// Runs the scene and keeps the positions every `sampling` [s], of which its step is a part.
+// Runs the scene and keeps the positions every `sampling` [s], a multiple of the scene's step.
 Trajectory simulated(const Scene& scene, const Cloth& cloth, double sampling, Found& found) {
   Trajectory trajectory;
   const auto simulation = make_simulation(scene, cloth);
@@ -29,7 +30,7 @@ Trajectory simulated(const Scene& scene, const Cloth& cloth, double sampling, Fo
   return trajectory;
 }
 
-// Root mean square over vertices and times, over `length` [m].
+// Returns the root mean square distance over vertices and times, over `length` [m].
 double distance(const Trajectory& a, const Trajectory& b, double length) {
   double sum = 0, count = 0;
   for (std::size_t k = 0; k < a.size(); ++k)
@@ -50,7 +51,7 @@ Trajectory reference_run(const MotionQuestion& question, const Setting& setting,
   Setting tiny = setting;
   tiny.integrator = Integrator::bdf2;
   tiny.implicit_every = ImplicitEvery::substep;
-  tiny.force = ForceConvention::energy;  // the printed one has no potential
+  tiny.force = ForceConvention::energy;  // the printed force has no potential
   tiny.step = step;
   tiny.tolerance = 0;
   tiny.precision = Precision::fp64;
@@ -59,19 +60,19 @@ Trajectory reference_run(const MotionQuestion& question, const Setting& setting,
   return simulated(scene, make_cloth(scene), question.sampling, ignored);
 }
 
-// One for each mesh, size and law.
+// The reference runs, one for each mesh, size and law.
 class References {
  public:
   explicit References(const MotionQuestion& question) : question_(question) {}
 
-  // Computed when it is first asked for; what its runs throw is thrown then, and whenever it is asked for
-  // again.
+  // Returns the reference, computed at the first request; what its runs throw is thrown then and at every
+  // later request.
   const Reference& of(const Setting& setting) {
     const auto [at, is_new] = known_.try_emplace(setting_key(setting));
     Reference& found = at->second;
     if (is_new) try {
         found.trajectory = reference_run(question_, setting, question_.reference_step);
-        // A third of what the last halving of the steps has changed, at second order.
+        // The uncertainty is a third of the change by the last halving of the steps, as at second order.
         const Trajectory coarse = reference_run(question_, setting, 2 * question_.reference_step);
         found.uncertainty = distance(found.trajectory, coarse, question_.length) / 3;
       } catch (const Error&) {

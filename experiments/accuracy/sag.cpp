@@ -1,4 +1,5 @@
-// Heavy strips against the elastica: how far they sag, and what remains when the weight is taken away.
+// Problems sag and droop: heavy strips are compared with the elastica, in how far they sag and in what
+// remains when the weight is taken away.
 #include <cmath>
 #include <map>
 #include <memory>
@@ -11,14 +12,15 @@ namespace hysteron::experiments {
 namespace {
 
 constexpr double kLength = 0.1, kWidth = 0.025;  // [m]
-constexpr int kAlong64 = 2048;                   // triangles: 64 square cells along the strip, 16 across
-constexpr double kGamma = 10;                    // density g L^3/b2
+constexpr int kAlong64 = 2048;                   // 64 square cells along the strip, 16 across
+constexpr double kGamma = 10;                    // heaviness: density g L^3/b2
 
 Scene sag_scene(const Setting& setting, bool unloaded) {
   Scene scene = with(setting, {});
   scene.cloth.width = kWidth;
   scene.fabric.density = setting.load * scene.fabric.b2 / (scene.gravity.norm() * std::pow(kLength, 3));
-  // So stiff that the strip's own weight stretches it by less than 1e-5 of its length, also the heaviest.
+  // The membrane is so stiff that the own weight of even the heaviest strip stretches it by less than 1e-5 of
+  // its length.
   const double tension = scene.fabric.density * scene.gravity.norm() * kLength;
   scene.fabric.warp = scene.fabric.weft = std::max(1000.0, 1e4 * tension);
   scene.fabric.shear = 0.3 * scene.fabric.warp;
@@ -28,12 +30,13 @@ Scene sag_scene(const Setting& setting, bool unloaded) {
   return scene;
 }
 
-// Drops over the length under the whole weight and at the end.
+// The drops of the free end over the length, under the whole weight and at the end.
 struct Sag {
   double loaded = 0, last = 0;
 };
 
-// Of the elastica: two numbers of segments, extrapolated, as its error falls with their square.
+// Returns the elastica's sag, extrapolated from two numbers of segments, as its error falls with their
+// square.
 Sag sag_of_curve(const Scene& scene) {
   constexpr int kSegments = 60;
   const auto with_segments = [&](int segments) {
@@ -51,7 +54,7 @@ Sag sag_of_curve(const Scene& scene) {
   return {(4 * fine.loaded - coarse.loaded) / 3, (4 * fine.last - coarse.last) / 3};
 }
 
-// By law and load: the same reference serves many settings.
+// The curves by law and load: one reference serves many settings.
 using Curves = std::map<std::pair<std::string, double>, Sag>;
 const Sag& curve_of(Curves& known, const Scene& scene, const Setting& setting) {
   const auto [at, is_new] = known.try_emplace({setting.law, setting.load});

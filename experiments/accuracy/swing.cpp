@@ -1,5 +1,5 @@
-// A strip held out straight, let go, swings through its first quarter second: a motion that is smooth in
-// time.
+// Problem swing: a strip held out straight is let go and swings through its first quarter second, a motion
+// that is smooth in time.
 #include "experiments/accuracy/accuracy.h"
 #include "experiments/specimens/clamped_mesh.h"
 
@@ -17,7 +17,7 @@ Scene swing_scene(const Setting& setting) {
   scene.seconds = 0.25;
   scene.solver_tolerance = 1e-8;
   scene.newton_residual = 1e-9;
-  // The waves that the release excites die within the shortest of the steps compared.
+  // The damping kills the waves that the release excites within the shortest of the steps compared.
   scene.fabric.damping = 2e-3;
   scene.pin = {held_between(-1, kClamp)};
   return scene;
@@ -52,7 +52,7 @@ Problem swing_problem(const Effort& effort) {
   };
   for (Integrator integrator : {Integrator::bdf2, Integrator::implicit})
     for (int rate = 60; rate <= (effort.quick ? 960 : 3840); rate *= 2) add(integrator, rate);
-  // Of explicit bending these are the longest that are stable.
+  // These are the longest steps at which explicit bending is stable.
   for (int rate = 30720; rate <= (effort.quick ? 61440 : 245760); rate *= 2)
     add(Integrator::semi_implicit, rate);
   return problem;

@@ -1,8 +1,8 @@
-// `hysteron batch`: one command line or several in one process, which on a GPU share its launches.  What
-// sweeps, comparisons and all else that has runs side by side start.
+// `hysteron batch` runs one command line or several in one process, so that on a GPU they share launches.
+// Sweeps, comparisons and all other subcommands that run simulations side by side start it.
 //
-//   a list of words a line on stdin -> runs, each as by itself -> {"run", "exit_code", "error"} a line on
-//   stdout, as they end
+//   stdin: one list of words a line -> runs, each as if started alone -> stdout: one
+//   {"run", "exit_code", "error"} a line, as runs end
 #include <fcntl.h>
 #include <unistd.h>
 
@@ -28,12 +28,12 @@ namespace hysteron::experiments {
 namespace {
 
 struct Member {
-  std::string experiment;           // "" until it is known
-  std::optional<CommandLine> line;  // none: it has ended, as below
+  std::string experiment;           // empty until it is known
+  std::optional<CommandLine> line;  // empty once the run has ended, as `ending` says
   Ending ending;
 };
 
-// The stdout of the process, for reports alone: what the runs print goes nowhere, as that of a run which is a
+// Keeps the stdout of the process for reports alone: what the runs print is discarded, as if each were a
 // process of its own.
 class Reports {
  public:
@@ -65,7 +65,7 @@ class Reports {
   int out_;
 };
 
-// The words as the program would get them by itself.
+// Parses the words as the program would if it were started with them.
 Member parsed(std::vector<std::string> words) {
   Member member;
   const std::string name = words.empty() ? "" : words.front();
@@ -105,9 +105,9 @@ bool any(const std::vector<Member>& members, const std::function<bool(const Comm
 int run_batch(const CommandLine&) {
   std::vector<Member> members = members_in(std::cin);
   const Reports reports;
-  std::string reason;  // one run has nothing to share a GPU's launches with
+  std::string reason;  // why not; a single run has no other to share a GPU's launches with
   const bool on_gpu = members.size() > 1 && any(members, may_use_gpu) && gpu_count(reason) > 0;
-  // One signal is for all of the runs, also for those that have not begun.
+  // One signal stops all of the runs, also those that have not begun.
   std::optional<Interrupts> interrupts;
   if (any(members, [](const CommandLine& line) { return last_text(line.flags, "checkpoint", "0") != "0"; }))
     interrupts.emplace();

@@ -1,5 +1,5 @@
-// Time and memory of a step: a square of 0.5 m, hanging from two corners.  With --sizes: by the number of
-// triangles; with --profile: of the kernels of a step.
+// `hysteron bench` measures time and memory of a step of a 0.5 m square that hangs from two corners.  --sizes
+// varies the number of triangles; --profile times the kernels of a step.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -38,7 +38,7 @@ const KeyRow<BenchOptions> kRows[] = {
 // clang-format on
 
 constexpr int kSteps = 40, kQuickSteps = 4;
-constexpr int kSingleSteps = 9, kQuickSingleSteps = 3;  // that are timed by themselves
+constexpr int kSingleSteps = 9, kQuickSingleSteps = 3;  // number of steps that are timed one by one
 
 Setup defaults() {
   Setup setup;
@@ -56,7 +56,7 @@ Setup defaults() {
   return setup;
 }
 
-// What was asked for, and how it is answered.
+// A request is what the user asked for, with the run that answers it.
 struct Request {
   const CommandLine& line;
   Setup setup;
@@ -65,7 +65,7 @@ struct Request {
   int steps() const { return setup.options.quick ? kQuickSteps : kSteps; }
   int single_steps() const { return setup.options.quick ? kQuickSingleSteps : kSingleSteps; }
   bool json() const { return setup.options.json; }
-  // --json is that of the table's rows, not of the manifest.
+  // Disables the manifest's JSON, because --json prints the table's rows here.
   Run run() const {
     Options options = setup.options;
     options.json = false;
@@ -73,13 +73,14 @@ struct Request {
   }
 };
 
-// A number or a text of every row on stdout, to the right.
+// A number or a text of every row that is printed on stdout, right-aligned.
 struct ShownColumn {
   const char *key, *head;
-  int width, digits = 0;  // of numbers, behind the point
+  int width, digits = 0;  // width in characters; decimals of numbers
 };
 
-// Prints rows on stdout as they are measured, what is not known left blank; nothing if JSON follows.
+// Returns a function that prints rows on stdout as they are measured and leaves unknown values blank; it
+// prints nothing if JSON follows.
 std::function<void(const Metrics&)> printer(const std::vector<ShownColumn>& columns, bool silent) {
   if (silent) return [](const Metrics&) {};
   std::vector<std::string> heads;
@@ -110,7 +111,7 @@ void print_json(const std::vector<Metrics>& rows) {
 struct Case {
   const char* element;
   const char* law;
-  const char* memory = "stops";  // of prandtl
+  const char* memory = "stops";  // the key that holds prandtl's memory
 };
 constexpr Case kCases[] = {{"shape", "linear"}, {"shape", "prandtl"}, {"shape", "wong"},
                            {"hinge", "linear"}, {"hinge", "prandtl"}, {"hinge", "prandtl", "stack"},
@@ -137,7 +138,7 @@ int common_substeps(Scene scene, const Cloth& cloth) {
 Metrics measured_row(const Scene& scene, const Cloth& cloth, int steps) {
   const auto simulation = make_simulation(scene, cloth);
   const int triangles = cloth.mesh.faces();
-  simulation->advance(steps);  // warm caches, and away from the flat start
+  simulation->advance(steps);  // warms the caches and leaves the flat start
   const auto before = simulation->stage_seconds();
   const StepCost cost = cost_of_steps(*simulation, kBatches, steps);
   const auto after = simulation->stage_seconds();
@@ -162,8 +163,8 @@ Metrics measured_row(const Scene& scene, const Cloth& cloth, int steps) {
   return row;
 }
 
-// A row for each element and law.  All of them take the substeps of the stiffest law, so that rows of one
-// element differ by the law alone.
+// Measures a row for each element and law.  All of them take the substeps of the stiffest law, so that rows
+// of one element differ by the law alone.
 void bench_elements(const Request& request) {
   const auto print = printer({{"triangles", "triangles", 9},
                               {"precision", "precision", 9},
@@ -236,7 +237,7 @@ void bench_kernels(const Request& request) {
   for (const auto& [key, value] : profile.step) fmt::print("{} {:.6g}\n", key, value.number());
 }
 
-// What each of its questions leaves of a scene.
+// Returns the scene's keys that the request decides itself.
 std::vector<DecidedKey> left_out_by(const BenchOptions& own) {
   std::vector<DecidedKey> keys = {{"seconds", "steps are timed", true}};
   const auto decided = [&](std::initializer_list<const char*> paths) {
@@ -250,7 +251,7 @@ std::vector<DecidedKey> left_out_by(const BenchOptions& own) {
 int run_bench(const CommandLine& given) {
   BenchOptions own;
   CommandLine line = given;
-  // The table has rows of several, each of which reads keys of its own.
+  // The table lists several integrators, each of which reads keys of its own.
   if (last_text(line.flags, "sizes", "false") == "true") line.listed = {"integrator"};
   const Setup setup = set_up(line, defaults(), bind(kRows, own), [&](Setup&) {
     own.sizes_triangles = {200, 800};

@@ -18,10 +18,10 @@ namespace hysteron::experiments {
 namespace {
 
 constexpr double kFall = 0.2, kImplicitStep = 1.0 / 60;  // [s]
-constexpr int kWarmUp = 3, kProfiled = 2;                // steps
-constexpr double kGrowth = 1.2;  // exponent of a row's time over triangles: iterations grow with them
+constexpr int kWarmUp = 3, kProfiled = 2;                // numbers of steps
+constexpr double kGrowth = 1.2;  // time of a row grows with triangles to this power, as iterations do
 
-// What rows of one kind have taken with fewer triangles.
+// The time [s] that a row of one kind took with fewer triangles, from which the next is extrapolated.
 struct Experience {
   double triangles = 0, seconds = 0;
 
@@ -84,7 +84,7 @@ class TimesBySize {
     }
   }
 
-  // Why it was not done; "" if it was.
+  // Does the work unless the budget excludes it; returns why it was not done, or "".
   std::string attempt(Experience& experience, const std::function<void()>& work) {
     const std::string refusal = exclusion_reason(experience.expected(scene_.triangles));
     if (!refusal.empty()) return refusal;
@@ -92,14 +92,14 @@ class TimesBySize {
     try {
       work();
     } catch (const Error& error) {
-      if (error.exit_code() != 3) throw;  // not of the run, but of the machine or the request
+      if (error.exit_code() != 3) throw;  // the machine or the request failed, not the run
       return error.what();
     }
     experience = {static_cast<double>(scene_.triangles), clock.seconds()};
     return "";
   }
 
-  // Why what is expected to take so long [s] is left out; "" if it fits.
+  // Returns why work of an `expected` time [s] is left out, or "" if it fits into the budget.
   std::string exclusion_reason(double expected) const {
     const double left = std::max(choice_.budget - clock_.seconds(), 0.0);
     if (expected < left) return "";
@@ -122,7 +122,7 @@ class TimesBySize {
   double measure(const Scene& scene, const Cloth& cloth, Metrics& row) {
     Stopwatch setup;
     auto simulation = make_simulation(scene, cloth);
-    if (const StepLimits first = simulation->limits(); first.substeps > 1) {  // thousands for fine cloth
+    if (const StepLimits first = simulation->limits(); first.substeps > 1) {  // fine cloth needs thousands
       Scene stable = scene;
       stable.step = first.substep;
       setup = Stopwatch();
@@ -148,19 +148,19 @@ class TimesBySize {
     return limits.substep;
   }
 
-  Scene scene_;  // its step: the longest explicit one
+  Scene scene_;  // its step is the longest explicit one
   SizeChoice choice_;
   const std::function<void(const Metrics&)>& measured_;
   Stopwatch clock_;
   Experience fall_;
   std::map<Integrator, Experience> row_;
-  std::map<Integrator, double> explicit_step_;  // that was stable with fewer triangles
+  std::map<Integrator, double> explicit_step_;  // the step that was stable with fewer triangles [s]
   SizeTable table_;
 };
 
 using render::Series;
 
-// Rows of one integrator; x: triangles.
+// Returns the curve of the rows with the integrator of `like`, over the number of triangles.
 Series size_curve(const std::vector<Metrics>& rows, const Metrics& like, const char* key, std::string label,
                   Series::Style style) {
   Series curve{std::move(label), {}, {}, style};
@@ -171,7 +171,7 @@ Series size_curve(const std::vector<Metrics>& rows, const Metrics& like, const c
   return curve;
 }
 
-// One row for each curve: those with the fewest triangles.
+// Returns one row for each curve: those with the fewest triangles.
 std::vector<const Metrics*> curves_in(const std::vector<Metrics>& rows) {
   std::vector<const Metrics*> first;
   for (const Metrics& row : rows)

@@ -80,7 +80,7 @@ double stated_bytes(const KernelCosts& costs) {
 }
 
 StepProfile profile_of_steps(Simulation& simulation, int steps) {
-  simulation.advance(steps);  // warm caches, and away from the start
+  simulation.advance(steps);  // warms the caches and leaves the start
   const double ms = cost_of_steps(simulation, 1, steps).ms;
   simulation.profile();
   const StepCost cost = cost_of_steps(simulation, 1, steps);

@@ -1,5 +1,6 @@
-// A strip clamped at one end buckles under its own weight: upright on its clamp, or sideways from level on
-// its edge.  How heavy it must be, beside the theory of beams; and pictures of a strip as it buckles.
+// `hysteron buckle`: a strip clamped at one end buckles under its own weight, upright on its clamp, or
+// sideways from level on its edge.  It measures how heavy the strip must be, compares this with beam theory,
+// and draws the strip as it buckles.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -25,8 +26,8 @@ const KeyRow<B> kRows[] = {
 };
 // clang-format on
 
-constexpr double kVisibleTilt = 0.02;  // [rad]
-constexpr double kPictured = 1.3;      // largest weight, of the reference
+constexpr double kVisibleTilt = 0.02;  // smallest tilt that counts as buckled [rad]
+constexpr double kPictured = 1.3;      // largest weight in the pictures, over the reference
 
 Setup defaults() {
   Setup setup;
@@ -59,7 +60,7 @@ std::vector<DecidedKey> decided() {
   return keys;
 }
 
-// Bounds of a strip from its clamp at `position` that may bend down to its side.
+// Returns the bounds of a strip that starts at its clamp at `position` and may bend down to its side.
 render::Box strip_bounds(const BucklingStrip& strip, double width, const Eigen::Vector3d& position) {
   const float l = static_cast<float>(strip.length), b = static_cast<float>(width);
   render::Box box{{0, -0.5f * l, -0.35f * l}, {l, 0.05f * l, b}};
@@ -70,7 +71,7 @@ render::Box strip_bounds(const BucklingStrip& strip, double width, const Eigen::
   return box;
 }
 
-// With its width in place of the pictured one's.
+// Returns the scene with the measured strip's width in place of the pictured one's.
 Scene measured_scene(Scene scene, const BuckleChoice& choice) {
   const double default_width = choice.kind == Buckling::upright ? 0.1 : 1.0 / 80;
   scene.cloth.width = scene.cloth.length * (choice.width > 0 ? choice.width : default_width);
@@ -106,7 +107,8 @@ void picture(Session& session, const BucklingStrip& strip, double reference) {
   session.simulate(plan);
 }
 
-// Gamma to the power in which the last of the plot is a straight line, and Gamma over the deflection.
+// Returns the columns of the Southwell plot, whose last part is a straight line in Gamma to the `power`:
+// Gamma, deflection, load and load over deflection.
 std::vector<Column> southwell_columns(const Southwell& found, int power) {
   std::vector<Column> columns = {{"gamma [1]", found.gamma},
                                  {"deflection [1]", found.deflection},
@@ -119,8 +121,8 @@ std::vector<Column> southwell_columns(const Southwell& found, int power) {
   return columns;
 }
 
-// The curve through the last three states down to the threshold: load over deflection = (1 - x/critical)/(a +
-// b x), x the load to its power.
+// Returns the curve through the last three states down to the threshold: load over deflection = (1 -
+// x/critical)/(a + b x), x the load to its power.
 render::Series fitted(const Southwell& found, int power) {
   constexpr int kPoints = 40;
   const double critical = std::pow(found.critical_gamma, power);
@@ -164,7 +166,7 @@ int run_buckle(const CommandLine& line) {
   B choice;
   Setup setup = set_up(line, defaults(), bind(kRows, choice), limit_to_quick);
   const Buckling kind = choice.kind;
-  const double length = setup.scene.cloth.length;  // that bends
+  const double length = setup.scene.cloth.length;  // free length, which bends
   const Scene measured = measured_scene(setup.scene, choice);
   const double reference = reference_gamma(kind, measured);
   const BucklingStrip pictured = buckling_strip(setup.scene, kind, length, kVisibleTilt, kPictured);

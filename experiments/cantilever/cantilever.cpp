@@ -1,6 +1,6 @@
-// A strip clamped level at one end sags under its own weight, which grows slowly and is taken away again: how
-// far, and what remains, beside the elastica with the same law; and the bending length of ASTM D1388, half
-// the overhang whose end hangs 41.5 degrees below the clamp.
+// `hysteron cantilever`: a strip clamped level at one end sags under its own weight, which grows slowly and
+// is taken away again.  Its drop under load and after it is compared with the elastica of the same law; the
+// bending length of ASTM D1388 is half the overhang whose end hangs 41.5 degrees below the clamp.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -30,9 +30,10 @@ Setup defaults() {
   scene.integrator = Integrator::quasi_static;
   scene.cloth.shape = "strip";
   scene.cloth.length = 0.1;
-  scene.cloth.width = 0.025;  // as cut for ASTM D1388
+  scene.cloth.width = 0.025;  // width of a specimen for ASTM D1388
   scene.mesh = "unionjack";
-  // 32 cells along: 0.06 % of the drop, and the cheapest within 0.1 % (`hysteron accuracy`, problem sag).
+  // These 32 cells along the strip are the cheapest mesh within 0.1 % of the drop, with 0.06 % (`hysteron
+  // accuracy`, problem sag).
   scene.triangles = 512;
   scene.ramp = scene.unload = 1;
   scene.step = 0.05;
@@ -54,14 +55,14 @@ bool names_law(const CommandLine& line) {
   return std::any_of(line.flags.begin(), line.flags.end(), [](const Flag& f) { return f.path == "law"; });
 }
 
-// Drops of the cloth's free end over the strip's length.
+// The drops of the cloth's free end over the strip's length.
 struct Drops {
   double loaded = 0;  // under the whole weight
   double last = 0;
 };
 
-// The elastica's drop over its length at equal steps of the load, as the weight grows and as it goes:
-// whatever the steps of the cloth are, and the instants of its pictures.
+// The elastica's drop over its length at equal steps of the load, as the weight grows and is removed,
+// independent of the cloth's steps and of the instants of its pictures.
 class Reference {
  public:
   Reference(const Scene& scene, double length) : scene_(scene) {
@@ -75,7 +76,7 @@ class Reference {
 
   double loaded() const { return drop_[kPoints]; }
   double last() const { return drop_.back(); }
-  // Between two loads on the straight line.
+  // Interpolates linearly between two loads.
   double at(double time) const {
     const double passed = time <= scene_.ramp ? time / scene_.ramp : 1 + (time - scene_.ramp) / scene_.unload;
     const double point = std::min(passed * kPoints, static_cast<double>(drop_.size() - 1));
@@ -85,13 +86,13 @@ class Reference {
   }
 
  private:
-  static constexpr int kPoints = 20;  // the weight grows through, and as many as it goes
+  static constexpr int kPoints = 20;  // points while the weight grows, and as many while it goes
 
   const Scene& scene_;
   std::vector<double> drop_ = {0};
 };
 
-// The length of every step [s], where the weight does not grow and go in whole ones; empty where it does.
+// Returns the length of every step [s] if the ramps do not last whole steps; otherwise nothing.
 std::vector<double> uneven_steps(const Scene& scene) {
   std::vector<double> lengths;
   for (const Timetable& steps : {loading(scene), Timetable(scene.unload, scene.step)})
@@ -131,7 +132,7 @@ int run_cantilever(const CommandLine& line) {
         choice.gamma * scene.fabric.b2 / (scene.gravity.norm() * std::pow(scene.cloth.length, 3));
   }
   check_cantilever(scene);
-  const double length = scene.cloth.length;  // that hangs over
+  const double length = scene.cloth.length;  // overhanging length
   const CantileverStrip strip = overhang(scene, length);
   scene = strip.scene;
   Session session(line, setup, strip.cloth);

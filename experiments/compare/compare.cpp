@@ -1,5 +1,5 @@
-// One question under several laws, fabrics or integrators, on one page: a column each, a row for each
-// instant.
+// `hysteron compare` shows an experiment under several laws, fabrics or integrators on one page, with a
+// column for each and a row for each instant.
 //
 //   experiment + flags -> columns (a process each, in OUT/<name>/) -> pictures at common times ->
 //   OUT/sheet.png
@@ -52,8 +52,8 @@ const KeyRow<CompareChoice> kRows[] = {
 };
 // clang-format on
 
-// "Swing: cotton-broad": the fabric and the law that all columns share; of a title of one's own only the
-// fabric.
+// Returns "Swing: cotton-broad", with the fabric and the law that all columns share; after a user's title
+// only the fabric.
 std::string comparison_title(const CommandLine& line, const std::string& own,
                              const std::vector<ChildRun>& columns) {
   std::string title = own.empty() ? line.positionals[0] : own;
@@ -74,7 +74,7 @@ std::string comparison_title(const CommandLine& line, const std::string& own,
   return title + (all.empty() ? "" : ": " + join(all, ", "));
 }
 
-// Says what the columns are matched to; nothing where laws cannot differ in stiffness by their own
+// Says what the columns are matched to; nothing if laws cannot differ in stiffness by their own
 // definitions.
 std::vector<std::string> comparison_notes(const CompareChoice& choice, const Plan& plan) {
   const bool scaled = std::ranges::any_of(plan.scales, [](double scale) { return scale != 1; });
@@ -93,7 +93,7 @@ std::vector<std::string> comparison_notes(const CompareChoice& choice, const Pla
   return {note};
 }
 
-// Where another's files stand, that is said before the columns run.
+// Reserves the page's files before the columns run.
 void claim_files(Run& run, bool with_images) {
   for (const char* name : {"table.csv", "report.html"}) run.path(name);
   if (!with_images) return;
@@ -105,13 +105,13 @@ std::vector<KeyDescription> own_keys() {
   for (const Experiment& experiment : experiments()) {
     if (!experiment.compared) continue;
     auto more = experiment.own_keys();
-    std::erase_if(more, [](const KeyDescription& key) { return key.path == "batch"; });  // is the page's
+    std::erase_if(more, [](const KeyDescription& key) { return key.path == "batch"; });  // the page's key
     keys.insert(keys.end(), more.begin(), more.end());
   }
   return keys;
 }
 
-// The page's own flags; all others are left to the columns.
+// Reads the page's own flags; all others are left to the columns.
 void read_flags(const CommandLine& line, CompareChoice& choice, Options& options) {
   const Keys own = bind(kRows, choice), general = bind_options(options);
   for (const Flag& flag : line.flags)
@@ -127,7 +127,7 @@ void read_flags(const CommandLine& line, CompareChoice& choice, Options& options
   if (!choice.to.empty()) choice.to = folder_name(column_name(choice.to));
 }
 
-// Whether pictures are drawn, and how, is said by the scene's file where no flag does.
+// Takes the options of pictures from the scene's file if no flag sets them.
 void take_scene_options(CommandLine& inner, Options& options) {
   const Options of_scene = setup_of_file(inner).options;
   const bool draws = last_text(inner.flags, "no-images", of_scene.no_images ? "true" : "false") != "true";
@@ -141,8 +141,8 @@ void take_scene_options(CommandLine& inner, Options& options) {
     inner.flags.push_back({"size", of_scene.size});
 }
 
-// The columns' curvatures are subtracted as their pictures are drawn, from those that the first one keeps
-// beside its own.
+// Throws without pictures: the columns' curvatures are subtracted as their pictures are drawn, from those
+// that the first one keeps.
 void check_difference(const CompareChoice& choice, bool with_images) {
   if (with_images || choice.to.empty() || choice.difference != "curvature") return;
   throw Error::invalid_input(
@@ -151,7 +151,7 @@ void check_difference(const CompareChoice& choice, bool with_images) {
       .with_key("compare.difference", choice.difference);
 }
 
-// One for each column.
+// Throws unless there is a name for each column.
 void check_names(const CompareChoice& choice, const std::vector<ChildRun>& columns) {
   const std::size_t named = split(choice.names).size();
   if (named == 0 || named == columns.size()) return;
@@ -213,8 +213,8 @@ void draw_page(Run& run, const CommandLine& line, const std::string& experiment,
   if (const auto plot_more = experiment_named(experiment).plot_columns) plot_more(run, page, plan.columns);
 }
 
-// Throws Error::invalid_input for a name that is no metric of any column, with those that there are; of
-// columns none of which is complete, not all that would be there are known, and none is refused.
+// Throws Error::invalid_input for a name that is no metric of any column, listing those that exist.  If no
+// column is complete, not all metrics are known, and none is refused.
 void check_metrics(const std::vector<ChildRun>& columns, const std::vector<std::string>& names) {
   if (std::none_of(columns.begin(), columns.end(), [](const ChildRun& c) { return c.stopped.empty(); }))
     return;
@@ -227,7 +227,7 @@ void check_metrics(const std::vector<ChildRun>& columns, const std::vector<std::
           .with_key("compare.metrics", name);
 }
 
-// Refuses metrics that no column has, before anything is touched, where every column is there already.
+// Throws for metrics that no column has, before anything is touched, if every column is complete.
 void check_known_metrics(std::vector<ChildRun> columns, const std::vector<std::string>& names) {
   if (names.empty() || !std::ranges::all_of(columns, recall)) return;
   check_metrics(columns, names);

@@ -17,13 +17,13 @@ namespace {
 constexpr const char* kLaws = "linear,pabst,obrien,narain,kim,dahl,prandtl";
 constexpr const char* kReferenceLaw = "prandtl";
 
-// Flags that make the columns; all others are theirs.
+// True for flags that make the columns; all others are theirs.
 bool is_own(const Flag& flag) {
   return flag.path.starts_with("compare.") || flag.path == "laws" || flag.path == "fabrics" ||
          flag.path == "integrators" || flag.path == "batch";
 }
 
-// Flags for the stiffnesses of the parts that a fabric has.
+// Adds flags for the stiffnesses of the parts that a fabric has.
 void add_parts(const BendingParts& parts, std::vector<Flag>& flags) {
   const auto add = [&](const char* table, const std::vector<double>& stiffnesses) {
     std::string list;
@@ -36,7 +36,7 @@ void add_parts(const BendingParts& parts, std::vector<Flag>& flags) {
   if (parts.set.on()) flags.push_back({"fabric.bending.set.hardening", number_text(parts.set.hardening)});
 }
 
-// The scene of a column before any matching, as far as it says how cloth bends: by the experiment's defaults,
+// Returns the keys of bending of a column's scene before any matching, by the experiment's defaults,
 // the scene's file and the flags, as the column's run resolves it.
 Scene bending_scene(const CommandLine& line) {
   Setup setup = setup_of_file(line);
@@ -50,14 +50,14 @@ Scene bending_scene(const CommandLine& line) {
 
 LawRequest requested_law(const Scene& scene) { return {scene.law, scene.fabric.virgin_curve(), scene.param}; }
 
-// The law that all columns are as stiff as.  It depends neither on their order nor on which other laws stand
+// Returns the law whose stiffness all columns get.  It depends neither on their order nor on other laws
 // beside them: prandtl, or the one law that all of them have.
 std::string reference_law(const std::set<std::string>& laws) {
   return laws.size() == 1 ? *laws.begin() : kReferenceLaw;
 }
 
-// The reference of a column on that fabric: the reference law as the column that has it runs it, on the same
-// fabric where there is one, with the fewest keys of its own where there are several; where none has it, the
+// Returns the reference of a column on that fabric: the reference law as the column that has it runs it, on
+// the same fabric if there is one, with the fewest own keys if there are several; if none has it, the
 // law without parameters.
 LawRequest reference_request(const std::vector<Scene>& scenes, const std::vector<Variant>& variants,
                              const std::string& law, const Scene& column) {
@@ -76,8 +76,8 @@ LawRequest reference_request(const std::vector<Scene>& scenes, const std::vector
   return reference;
 }
 
-// Flags that make the column as stiff as the law of `reference` on the same fabric.  Its viscosity,
-// fabric.damping times b1, goes with it.
+// Returns flags that make the column as stiff as the law of `reference` on the same fabric.  Its viscosity,
+// fabric.damping times b1, is scaled with it.
 std::vector<Flag> matched(const Scene& column, const LawRequest& reference, const CompareChoice& choice,
                           double& scale) {
   scale = 1;
@@ -86,9 +86,9 @@ std::vector<Flag> matched(const Scene& column, const LawRequest& reference, cons
   scale = matching_scale(requested_law(column), reference, choice.match, choice.match_curvature);
   const auto scaled = [&](const char* key, double value) { return Flag{key, number_text(scale * value)}; };
   BendingParts parts = stiffened(fabric.bending, scale);
-  std::vector<Flag> flags = {scaled("fabric.b2", fabric.b2)};  // b1 follows from stops, and takes their place
+  std::vector<Flag> flags = {scaled("fabric.b2", fabric.b2)};  // b1 follows from stops, which replace it
   if (fabric.bending.stops.empty()) flags.insert(flags.begin(), scaled("fabric.b1", fabric.b1));
-  if (fabric.kes.on()) {  // the rest follows
+  if (fabric.kes.on()) {  // the others follow
     flags = {scaled("fabric.kes-b", fabric.kes.read.rigidity),
              scaled("fabric.kes-2hb", fabric.kes.read.loop_width)};
     parts.stops = {};
@@ -97,7 +97,7 @@ std::vector<Flag> matched(const Scene& column, const LawRequest& reference, cons
   return flags;
 }
 
-// A column that names its own stiffness would run with another one.
+// Throws for a column that names its own stiffness, as it would run with another one.
 void refuse_rescaled(const Variant& variant, double scale, const CompareChoice& choice) {
   constexpr const char* kStiffnesses[] = {"fabric.b1", "fabric.b2", "fabric.k0", "fabric.kes-b",
                                           "fabric.kes-2hb"};
@@ -111,14 +111,14 @@ void refuse_rescaled(const Variant& variant, double scale, const CompareChoice& 
           .with_key("compare.match", enum_name(choice.match));
 }
 
-// Colours mean the same in all columns, though fabrics have different transition curvatures.
+// Returns one range, so that colours mean the same in all columns, whatever their transition curvatures.
 Flag shared_range(const CommandLine& inner, const std::vector<Scene>& columns) {
   double most = 0;
   for (const Scene& column : columns) most = std::max(most, column.fabric.friction_curvature());
   return {"curvature-range", last_text(inner.flags, "curvature-range", number_text(2 * most))};
 }
 
-// What the experiment is asked for beside what it would be asked for alone.
+// Returns the flags that the page adds to those of the experiment alone.
 std::vector<Flag> requested_for_page(const CommandLine& inner, const CompareChoice& choice,
                                      const std::filesystem::path& out, bool is_reference) {
   std::vector<Flag> flags = for_sheets(inner);
@@ -146,7 +146,7 @@ std::string compared_experiments() {
 
 namespace {
 
-// A list of which columns are leaves nothing for one value of the same key to say.
+// Throws for a single value beside a list of the same key, which leaves it no meaning.
 void refuse_beside_list(const CommandLine& line, const std::string& key, const std::string& list) {
   const std::string one = last_text(line.flags, key, "");
   if (list.empty() || one.empty()) return;

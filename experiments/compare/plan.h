@@ -1,4 +1,4 @@
-// The columns of a comparison: what each of them is asked for.
+// Plans the columns of a comparison and their requests.
 #pragma once
 
 #include <filesystem>
@@ -16,36 +16,36 @@ struct CompareChoice {
   std::string to;  // column that others differ from; "": no such rows
   std::string difference = "picture";
   int rows = 4;
-  Numbers times;        // of the rows [s]; empty: spread evenly
-  std::string metrics;  // that are shown; empty: all in the table, the experiment's own on the page
+  Numbers times;        // times of the rows [s]; empty: spread evenly
+  std::string metrics;  // shown metrics; empty: all in the table, the experiment's own on the page
   bool no_outlines = false;
   int jobs = 0, batch = 1;
   Match match = Match::energy;
-  double match_curvature = 100;  // [1/m], the KES tester's reading point
+  double match_curvature = 100;  // KES tester's reading point [1/m]
   std::string video = "none";
-  double video_size = 4;     // of each film's file, at most [MB]
+  double video_size = 4;     // largest file of each film [MB]
   std::string title, names;  // "": the page's own
   std::string tune, tune_metric;
 };
 
-// "crease, drape, ..., or a scene".
+// Returns "crease, drape, ..., or a scene".
 std::string compared_experiments();
 
-// The line as the experiment itself would get it: lists become its --law, --fabric and --integrator.
+// Returns the line for the experiment itself: lists become its --law, --fabric and --integrator.
 CommandLine line_of_columns(const CommandLine& line, const CompareChoice& choice);
 
 struct Plan {
   std::vector<ChildRun> columns;
   std::vector<double> scales;
   std::string reference;       // law that stiffness is matched to
-  bool has_reference = false;  // a column has it
-  bool has_faces = false;      // a column's fabric bends otherwise to its back than to its face
-  std::size_t laws = 0;        // different ones
-  int to = -1;                 // the column that is subtracted, -1: none
-  std::string varied;          // "law", where columns differ by it alone
+  bool has_reference = false;  // a column has this law
+  bool has_faces = false;      // a column's fabric has different rigidities to back and face
+  std::size_t laws = 0;        // number of different laws
+  int to = -1;                 // index of the column that is subtracted, -1: none
+  std::string varied;          // "law" if columns differ by it alone
 };
 
-// A column for each variant of that line, in OUT/<name>/.  Throws Error::invalid_input if the column to
+// Returns a column per variant of that line, in OUT/<name>/.  Throws Error::invalid_input if the column to
 // subtract is none of them.
 Plan comparison_plan(const CommandLine& inner, const std::vector<Variant>& variants,
                      const CompareChoice& choice, const std::filesystem::path& out);

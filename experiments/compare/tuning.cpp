@@ -46,7 +46,7 @@ double metric_in(const ChildRun& column, const std::string& metric) {
   return value;
 }
 
-// The first column with a number for the key that is tuned, and the second one.
+// Returns the first column with a number for the tuned key, and the second one.
 Plan tried_columns(const CommandLine& inner, const std::vector<Variant>& variants, CompareChoice choice,
                    const Options& options, const std::string& key, const std::string& number) {
   CommandLine line = inner;
@@ -124,13 +124,13 @@ Json tune_first_column(Run& run, const CommandLine& inner, std::vector<Variant>&
                        const CompareChoice& choice, SweepJobs jobs, const Options& options) {
   const Tuning tuning = parsed_tuning(choice.tune, choice.tune_metric);
   const auto say = [&](const std::string& line) { run.progress(line); };
-  std::map<std::string, double> missed;  // by how much of the target, with each number
+  std::map<std::string, double> missed;  // relative excess over the target, by number
   const Excess excess = [&](const std::string& number) {
     Plan plan = tried_columns(inner, variants, choice, options, tuning.key, number);
     for (const ChildRun& column : plan.columns) run.add_part(column.folder, jobs.resume);
     run_columns(
         plan.columns, jobs, [](const ChildRun&) {}, say);
-    jobs.resume = true;  // the second column is the same in every try
+    jobs.resume = true;  // so that the second column, which never changes, is reused
     const double own = metric_in(plan.columns[0], tuning.metric),
                  target = metric_in(plan.columns[1], tuning.target);
     say(tuning.key + "=" + number + ": " + tuning.metric + " " + four_digits(own) + ", target " +

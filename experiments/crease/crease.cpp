@@ -1,5 +1,5 @@
-// Crease recovery (ISO 2313, AATCC 66): a specimen is folded, loaded, let go, and opens again; with
-// `--law all`, or several laws separated by commas, each of them, on one page.
+// `hysteron crease` measures crease recovery (ISO 2313, AATCC 66): a specimen is folded, loaded, let go, and
+// opens again.  With `--law all`, or several laws separated by commas, it compares them on one page.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -50,12 +50,13 @@ Setup defaults() {
   scene.triangles = 1600;
   scene.gravity.setZero();
   scene.air_drag = 1;
-  // Of what the clamp carries, without the plate's 10 N: with 1e-6 the angle is the same to 0.1 degree.
+  // The residual is relative to the clamp's force without the plate's 10 N: with 1e-6 the angle is the same
+  // to 0.1 degree.
   scene.newton_residual = 1e-3;
   scene.newton_velocity = 1e-6;
-  scene.contact_stiffness = 1e9;  // of plates, which bear 10 N: what they press are the layers
+  scene.contact_stiffness = 1e9;  // plates bear 10 N: the layers are to yield, not the contact
   setup.options.fps = 30;
-  setup.options.camera_direction = {-0.1, -1.0, 0.45};  // in profile, but not edge-on
+  setup.options.camera_direction = {-0.1, -1.0, 0.45};  // shows the profile, but not edge-on
   setup.options.camera_fov = 22;
   return setup;
 }
@@ -76,26 +77,26 @@ std::vector<DecidedKey> decided() {
   return keys;
 }
 
-// A quick release needs inertia, and steps whose own damping is small beside the fabric's, solved as well as
-// that.
+// Sets defaults for a quick release, which needs inertia, steps whose numerical damping is small beside the
+// fabric's, and a solver of matching accuracy.
 void let_go_quickly(Scene& scene) {
   if (!is_given(scene, "integrator")) scene.integrator = Integrator::bdf2;
   if (!is_given(scene, "step")) scene.step = 1.0 / 960;
   if (!is_given(scene, "newton-residual")) scene.newton_residual = 1e-6;
 }
 
-// What is read off the specimen as time goes on.
+// The values that are read off the specimen as time goes on.
 struct Recovered {
   double opening = NAN;                // [degree]
-  double force = 0;                    // of the plate before it goes [N]
-  double time = 0;                     // when it was read last [s]
-  std::vector<double> seconds, angle;  // since it was let go [s]; the opening then [degree]
-  std::optional<LawOfCrease> law;      // of triangles alone
+  double force = 0;                    // force of the plate before it rises [N]
+  double time = 0;                     // time of the last reading [s]
+  std::vector<double> seconds, angle;  // time since release [s]; opening then [degree]
+  std::optional<LawOfCrease> law;      // only for elements that are triangles
 
   double angle_at(double since) const;
 };
 
-// In logarithmic time between the instants that were seen; NaN before and after them.
+// Interpolates the opening in logarithmic time between the recorded instants; NaN before and after them.
 double Recovered::angle_at(double since) const {
   const auto after = std::lower_bound(seconds.begin(), seconds.end(), since * (1 - 1e-9));
   const auto i = after - seconds.begin();
@@ -104,15 +105,15 @@ double Recovered::angle_at(double since) const {
   return angle[i - 1] + fraction * (angle[i] - angle[i - 1]);
 }
 
-// What makes of a curvature tensor (K_xx, K_yy, sqrt2 K_xy) along warp and weft the curvature along the
-// strip.
+// Returns the row that turns a curvature tensor (K_xx, K_yy, sqrt2 K_xy) along warp and weft into the
+// curvature along the strip.
 Eigen::Vector3d strip_component(const Scene& scene) {
   const double angle = scene.cloth.warp_angle * std::numbers::pi / 180;
   const double warp = std::cos(angle), weft = -std::sin(angle);  // components of the strip's direction
   return {warp * warp, weft * weft, std::numbers::sqrt2 * warp * weft};
 }
 
-// Curvature along the strip of each triangle [1/m].
+// Returns the curvature of each triangle along the strip [1/m]; `tensors` holds three values per triangle.
 std::vector<double> along_strip(const Scene& scene, const std::vector<double>& tensors) {
   const Eigen::Vector3d component = strip_component(scene);
   std::vector<double> along(tensors.size() / 3);
@@ -121,7 +122,7 @@ std::vector<double> along_strip(const Scene& scene, const std::vector<double>& t
   return along;
 }
 
-// Largest curvature of an element, along the strip where it is a triangle's [1/m].
+// Returns the largest curvature of an element [1/m], along the strip if the elements are triangles.
 double largest_curvature(const Scene& scene, Simulation& simulation) {
   std::vector<double> curvature = simulation.curvature();
   if (simulation.dimension() == 3) curvature = along_strip(scene, curvature);
@@ -130,12 +131,12 @@ double largest_curvature(const Scene& scene, Simulation& simulation) {
   return largest;
 }
 
-// The plate is on the specimen at that time, and about to go at its end.
+// True while the plate rests on the specimen, up to its release.
 bool plate_is_on(const Crease& crease, double time) {
   return time > crease.times.folded && time <= crease.times.released + crease.scene.step / 2;
 }
 
-// Collects what is read off the specimen at the instant.
+// Reads the specimen at an instant and adds to what was recovered.
 void read_specimen(const Crease& crease, const Snapshot& m, Simulation& simulation, Recovered& recovered) {
   const double half_step = crease.scene.step / 2, passed = m.time - recovered.time;
   const bool let_go = m.time > crease.times.lifted + half_step;
@@ -154,7 +155,7 @@ RunPlan run_plan(Session& session, const Crease& crease, Recovered& recovered) {
   RunPlan plan;
   const float length = static_cast<float>(crease.scene.cloth.length),
               width = static_cast<float>(crease.scene.cloth.width);
-  // A specimen that is pressed lies on the ground; a soft fold swings freely, below its clamp as well.
+  // A pressed specimen lies on the ground; a soft fold swings freely, below its clamp as well.
   const bool pressed = crease.scene.obstacle.size() == 2;
   const float low = (pressed ? 0 : -0.35f) * length;
   plan.bounds = {{-0.05f * length, 0, low}, {length, width, (pressed ? 0.65f : 0.85f) * length}};
@@ -179,8 +180,8 @@ RunPlan run_plan(Session& session, const Crease& crease, Recovered& recovered) {
   return plan;
 }
 
-// Crease recovery angles in print, mean of warp and weft: Fashion and Textiles 2017, s40691-017-0104-2, Table
-// 13 (sums of both directions there; quoted second-hand).
+// Published crease recovery angles, mean of warp and weft: Fashion and Textiles 2017, s40691-017-0104-2,
+// Table 13 (sums of both directions there; quoted second-hand).
 std::vector<render::Series> published(double end) {
   using Style = render::Series::Style;
   constexpr double kPlain = 155.0 / 2, kMinResin = 199.0 / 2, kMaxResin = 236.0 / 2;  // [degree]
@@ -190,7 +191,7 @@ std::vector<render::Series> published(double end) {
           {"", {0, end}, {kMaxResin, kMaxResin}, Style::dashed, "#B0A070", 1.2}};
 }
 
-// The opening after release, and where a plate was on it what is in print.
+// Plots the opening after release, with published angles where a plate was used.
 TablePlot opening_plot(const std::string& title, const C& choice, double end) {
   TablePlot plot{"plot_opening",
                  {title, {"time [s]"}, {"angle between the limbs [degree]", false, 0, 180}},
@@ -201,7 +202,7 @@ TablePlot opening_plot(const std::string& title, const C& choice, double end) {
   return plot;
 }
 
-// The angle against logarithmic time, with what is in print for its end.
+// Plots the angle against logarithmic time, with published angles for its end.
 TablePlot recovery_plot(const std::string& title, const C& choice) {
   using Style = render::Series::Style;
   TablePlot plot{
@@ -233,7 +234,7 @@ void write_recovery(Run& run, const Recovered& recovered) {
 
 void limit_to_quick(Setup& setup) { setup.scene.triangles = std::min(setup.scene.triangles, 500); }
 
-// A standard stands for the defaults of the other keys.
+// Sets up the run; a standard replaces the defaults of the other keys.
 Setup set_up_crease(const CommandLine& line, C& choice) {
   Setup setup = set_up(line, defaults(), bind(kRows, choice), limit_to_quick);
   if (choice.standard != "none") {
@@ -262,7 +263,7 @@ void crease_once(const CommandLine& line) {
   if (choice.grow_after > 0)
     crease.time_steps = growing_steps(crease.times, crease.scene.step, choice.grow_after);
   setup.scene = crease.scene;
-  if (choice.fold != "pleat")  // whose cloth is not flat at rest
+  if (choice.fold != "pleat")  // a pleated cloth is not flat at rest
     probe_unless_told(setup.options, {setup.scene.cloth.length / 2, setup.scene.cloth.width / 2});
   Session session(line, setup, crease.cloth);
   if (session.is_over()) return;

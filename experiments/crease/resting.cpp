@@ -1,5 +1,5 @@
-// Rests of the crease specimen, under the load and after release: how long the standards make them, by which
-// steps they are passed, and what the law alone makes of a crease.
+// The resting phases of the crease specimen, under the load and after release: their lengths in the
+// standards, the steps taken through them, and the crease that the law alone predicts.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -10,10 +10,10 @@
 namespace hysteron::experiments {
 namespace {
 
-constexpr double kRounding = 1e-9;  // of times, in steps
-constexpr int kParts = 4;           // of a step, in which it is let go
+constexpr double kRounding = 1e-9;  // tolerance of times, in steps
+constexpr int kParts = 4;           // parts of a step in which it is let go
 
-// Equal steps as long as the scene's, or nearly.
+// Adds equal steps of about the scene's length [s].
 void add_even(std::vector<double>& lengths, double seconds, double step) {
   const double count = std::max(1.0, std::round(seconds / step)), even = seconds / count;
   const bool is_step = std::abs(even - step) < kRounding * step;

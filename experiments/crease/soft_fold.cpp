@@ -1,4 +1,4 @@
-// Folds without a plate: around a rod, and a pleat pulled straight.
+// Folds without a plate: a strip is wrapped around a rod, or a pleat is pulled straight.
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
@@ -12,13 +12,13 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kTurn = 0.6, kRest = 0.1;  // durations [s]
-constexpr int kKeys = 36;                   // of the hand's way around the rod
-constexpr double kHeldFraction = 0.2;       // of the specimen's length, at either end
-constexpr double kAbove = 2e-3;             // of the strip over z = 0 [m]
-constexpr double kSlack = 2e-4;             // of the way around the rod that is left loose
-constexpr double kPleatRadius = 1.5;        // of the pleat's line, in thicknesses
+constexpr int kKeys = 36;                   // key frames of the pin's path around the rod
+constexpr double kHeldFraction = 0.2;       // held length at either end, over the specimen's length
+constexpr double kAbove = 2e-3;             // height of the strip over z = 0 [m]
+constexpr double kSlack = 2e-4;             // share of the path around the rod that is left loose
+constexpr double kPleatRadius = 1.5;        // radius of the pleat's line, in thicknesses
 
-// The hand turns about the rod's axis and comes nearer to it as the rod takes up cloth.
+// Returns the pin's motion about the rod's axis; the pin comes nearer to it as the rod takes up cloth.
 Motion around_rod(double radius, const Eigen::Vector3d& axis_at) {
   Motion motion;
   motion.axis = {0, -1, 0};
@@ -31,8 +31,8 @@ Motion around_rod(double radius, const Eigen::Vector3d& axis_at) {
   return motion;
 }
 
-// The turn that lays a limb straight on from where its pleat's line begins: `turn` [rad] about the one point
-// for which all material of the line ends in its place.
+// Returns the rotation by `turn` [rad] that lays a limb straight on from where its pleat's line begins, about
+// the one point for which all material of the line ends in its place.
 Motion unfolding(double begin, double radius, double turn) {
   const Eigen::Rotation2Dd back(-turn);
   const Eigen::Vector2d folded{begin + radius * std::sin(turn), radius * (1 - std::cos(turn))};
@@ -51,7 +51,7 @@ CreaseTimes soft_fold_times(const CreaseChoice& choice) {
   times.folded = kTurn;
   times.pressed = times.folded + kRest;
   times.released = times.pressed + choice.hold;
-  times.lifted = times.released;  // no plate
+  times.lifted = times.released;  // without a plate
   times.end = times.lifted + choice.recovery;
   return times;
 }
@@ -78,7 +78,7 @@ Crease wrapped(const Scene& given, const CreaseChoice& choice) {
   const double limbs = scene.cloth.length, taken = std::numbers::pi * choice.radius;
   scene.cloth.length = limbs + taken;
   crease.limb_part = kHeldFraction * limbs / scene.cloth.length;
-  const double shell = choice.radius + scene.fabric.thickness;  // of the cloth's middle around the rod
+  const double shell = choice.radius + scene.fabric.thickness;  // radius of the cloth's middle around the rod
   const Eigen::Vector3d axis_at{limbs / 2, scene.cloth.width / 2, kAbove + shell};
   Obstacle rod;
   rod.kind = ObstacleKind::cylinder;
@@ -100,7 +100,7 @@ Crease pleated(const Scene& given, const CreaseChoice& choice) {
   Scene& scene = crease.scene;
   const double length = scene.cloth.length, turn = 180 - choice.pleat;
   const double radius = kPleatRadius * scene.fabric.thickness, arc = radius * turn * kDegree;
-  const double begin = (length - arc) / 2;  // of the pleat's line
+  const double begin = (length - arc) / 2;  // where the pleat's line begins along the strip
   crease.rest_turn = turn;
   ClothMesh flat = crease_specimen(scene, std::max(arc, 2 * scene.fabric.thickness));
   ClothMesh mesh;
@@ -108,7 +108,8 @@ Crease pleated(const Scene& given, const CreaseChoice& choice) {
   for (const Eigen::Vector3d& x : flat.rest) {
     mesh.pattern.push_back({x.x(), x.y()});
     const double along = x.x() - begin, angle = std::clamp(along / radius, 0.0, turn * kDegree);
-    const double straight = along - radius * angle;  // before the pleat's line (< 0) or beyond it
+    // Signed length before the pleat's line (< 0) or beyond it.
+    const double straight = along - radius * angle;
     mesh.rest.push_back({begin + radius * std::sin(angle) + straight * std::cos(angle), x.y(),
                          radius * (1 - std::cos(angle)) + straight * std::sin(angle)});
   }

@@ -15,19 +15,19 @@
 namespace hysteron::experiments {
 namespace {
 
-constexpr double kLimbPart = 0.2;  // of the specimen's length, at either end
-constexpr double kFine = 0.075;    // of its length on either side of the crease
-constexpr double kFinest = 0.8;    // elements there, in thicknesses, for up to kCoarse triangles
-constexpr int kCoarse = 500;       // more triangles are smaller in both directions
-constexpr double kGrowth = 1.25;   // of columns from there on
-constexpr double kWidest = 0.05;   // column, of the length, likewise
-constexpr double kLoop = 0.1;      // radius of the hand's turn, of the length
+constexpr double kLimbPart = 0.2;  // held length at either end, over the specimen's length
+constexpr double kFine = 0.075;    // half width of the fine part, over the specimen's length
+constexpr double kFinest = 0.8;    // element size there, in thicknesses, for up to kCoarse triangles
+constexpr int kCoarse = 500;       // above this number, triangles are smaller in both directions
+constexpr double kGrowth = 1.25;   // ratio of neighbouring columns beyond the fine part
+constexpr double kWidest = 0.05;   // widest column there, over the specimen's length
+constexpr double kLoop = 0.1;      // radius of the pin's path, over the specimen's length
 constexpr double kFold = 0.4, kLower = 0.2, kSettle = 0.1, kPress = 0.3;  // durations [s]
-constexpr double kLetGo = 3;     // height at which the hand lets go, in thicknesses
+constexpr double kLetGo = 3;     // height at which the pin lets go, in thicknesses
 constexpr double kPlate = 2e-3;  // half the plate's thickness [m]
-constexpr double kRise = 0.04;   // of the plate [m]
+constexpr double kRise = 0.04;   // height by which the plate rises [m]
 
-// Column lines from the crease outwards to half the length, mirrored.
+// Returns the column lines from the crease outwards to half the length, mirrored.
 std::vector<double> columns(double length, double thickness, double fine, int triangles) {
   const double finer = std::min(1.0, std::sqrt(static_cast<double>(kCoarse) / triangles));
   std::vector<double> half{0};
@@ -63,7 +63,8 @@ Pin crease_clamp(const Scene& scene) { return held_between(-1, kLimbPart * scene
 
 namespace {
 
-// The far limb's end goes over by half a turn, then down; it is let go before the plate presses.
+// Returns the pin that takes the far limb's end over by 180 degrees, then down; it lets go before the plate
+// presses.
 Pin moving_pin(const Scene& scene, double ground, double lowered) {
   const double length = scene.cloth.length, radius = kLoop * length;
   Pin pin = held_between((1 - kLimbPart) * length, 2 * length);
@@ -75,7 +76,8 @@ Pin moving_pin(const Scene& scene, double ground, double lowered) {
   return pin;
 }
 
-// Above the folded specimen and beyond its crease; `lowest` is where its underside stops.
+// Returns the plate above the folded specimen and beyond its crease; `lowest` is where its underside stops
+// [m].
 Obstacle pressing_plate(const Scene& scene, const CreaseTimes& times, double lowest) {
   const double length = scene.cloth.length;
   const double ready = (2 + kLetGo) * scene.fabric.thickness;
@@ -180,7 +182,8 @@ std::vector<Eigen::Vector3d> Crease::profile(const std::vector<Eigen::Vector3d>&
 
 namespace {
 
-// The fold springs up against a plate that has not begun to press.
+// Reports that the fold already presses harder than the requested force against a plate that has not begun to
+// press.
 Error too_small_force(double asked, double found, double underside, double thickness) {
   return Error::simulation(
              "crease.force = " + number_text(asked) + " N must be > " + number_text(found, 3) +
@@ -198,8 +201,9 @@ double loaded_plate(const Scene& scene, const CreaseChoice& choice) {
   const Crease crease = creased(scene, choice, lowest);
   const auto simulation = make_simulation(crease.scene, crease.cloth);
   const Obstacle& plate = crease.scene.obstacle[1];
-  double before = 0, above = 0;  // force at the end of the step before, and where the underside was then
-  bool waits = true;             // the plate has not yet moved onto the fold
+  // Force at the end of the previous step [N], and the underside's height then [m].
+  double before = 0, above = 0;
+  bool waits = true;  // the plate has not yet moved onto the fold
   while (simulation->time() < crease.times.pressed) {
     simulation->advance(1);
     const double time = simulation->time();

@@ -1,5 +1,5 @@
-// The crease recovery specimen of ISO 2313 and AATCC 66: folded by a hand, loaded by a plate, let go; wrapped
-// around a rod instead; or pleated and pulled flat.
+// The crease recovery specimen of ISO 2313 and AATCC 66: a pin folds it, a plate loads it and lets it go.
+// Soft variants are wrapped around a rod, or pleated and pulled flat.
 #pragma once
 
 #include "experiments/workbench/app/experiment.h"
@@ -11,25 +11,25 @@ namespace hysteron::experiments {
 struct CreaseChoice {
   std::string fold = "plate";     // plate | rod | pleat
   std::string release = "slow";   // slow: from equilibrium to equilibrium | quick: let go in motion
-  double force = 10;              // of the plate [N] (ISO 2313)
-  double radius = 0.01;           // of the rod [m]
+  double force = 10;              // force of the plate [N] (ISO 2313)
+  double radius = 0.01;           // radius of the rod [m]
   double pleat = 60;              // angle between the limbs of the pleated specimen at rest [degree]
-  double hold = 0.2;              // under the whole load [s]
+  double hold = 0.2;              // time under the whole load [s]
   double lift = 1;                // time in which the plate of a slow release rises [s]
   double recovery = 1;            // time to recover [s]
-  std::string standard = "none";  // whose load and times these are
+  std::string standard = "none";  // the standard that sets load and times, or "none"
   double grow_after = 0;  // time of rest after which a step is twice the scene's [s]; 0: steps do not grow
 
-  // Of the plate: that of a quick release is gone in a tenth of a second.
+  // Returns the time in which the plate rises [s]; after a quick release that is a tenth of a second.
   double lifting() const { return release == "slow" ? lift : 0.1; }
 };
 
-// Load and times of a standard, with steps that grow:
+// Returns the load and times of a standard, with steps that grow:
 //   iso2313   10 N for 5 min, read after 5 min (ISO 2313-2)
 //   aatcc66   500 g for 5 min, read after 5 min (AATCC 66)
 CreaseChoice by_standard(const std::string& standard);
 
-// When things happen [s].
+// The times at which the phases of the test end [s].
 struct CreaseTimes {
   double folded, pressed, released, lifted, end;
 };
@@ -49,11 +49,11 @@ struct Crease {
   Scene scene;
   Cloth cloth;
   CreaseTimes times;
-  double rest_turn = 0;                 // of a pleat [degree]
-  std::vector<double> time_steps = {};  // [s]; empty: the scene's
-  double limb_part = 0.2;  // share of the length at either end of which the limbs' directions are taken
+  double rest_turn = 0;                 // angle of a pleat's bend at rest [degree]
+  std::vector<double> time_steps = {};  // lengths of the steps [s]; if empty, the scene's step
+  double limb_part = 0.2;  // share of the length at either end from which the limbs' directions are taken
 
-  // Force of the plate on the cloth at these positions [N]; 0 without a plate.
+  // Returns the force of the plate on the cloth at these positions [N]; 0 without a plate.
   double plate_force(const std::vector<Eigen::Vector3d>& x, double time) const;
   Limbs limbs(const std::vector<Eigen::Vector3d>& x) const;
   double opening(const std::vector<Eigen::Vector3d>& x) const { return limbs(x).opening(); }  // [degree]
@@ -62,17 +62,17 @@ struct Crease {
   double along(std::size_t vertex) const;  // the strip, at rest and flat [m]
 };
 
-// The crease that the law alone makes: each triangle is bent along the strip as the specimen was until its
+// Predicts the crease from the law alone: each triangle is bent along the strip as the specimen was until its
 // load had gone, and then let go, so that it carries no moment.  Bends that the rising load makes in the
-// limbs are among what is kept.
+// limbs are included.
 class LawOfCrease {
  public:
-  explicit LawOfCrease(const Crease& crease);  // which must outlive it
+  explicit LawOfCrease(const Crease& crease);  // must outlive this object
 
-  // A step [s] in which every triangle is bent to a curvature along the strip [1/m], one for each.
+  // Takes a step [s] in which every triangle is bent to its curvature along the strip [1/m].
   void bend(const std::vector<double>& along, double seconds);
-  void let_go(double seconds);  // a step in which no triangle carries a moment
-  double opening() const;       // of the limbs, if it were let go now [degree]
+  void let_go(double seconds);  // takes a step in which no triangle carries a moment
+  double opening() const;       // angle between the limbs if let go now [degree]
   void serialise(Archive& archive);
 
  private:
@@ -80,31 +80,32 @@ class LawOfCrease {
   std::vector<LawWalk> triangles_;
 };
 
-// Lengths of the steps from the start to the end: the scene's while anything moves; under the load and after
-// release they grow in proportion to the time t since that rest began, step (1 + t/grow_after), as relaxation
-// and recovery slow down.  Each phase ends with a step [s].
+// Returns the lengths of the steps [s] from the start to the end.  They are the scene's while anything moves;
+// under the load and after release they grow with the time t since that phase began, step (1 + t/grow_after),
+// as relaxation and recovery slow down.  Each phase ends with a step.
 std::vector<double> growing_steps(const CreaseTimes& times, double step, double grow_after);
 
-// A specimen of scene.cloth.length by scene.cloth.width whose elements are at most a thickness long across
-// the crease, which is in its middle.  Its near limb is clamped on a plane; a hand takes the end of the far
-// limb over by half a turn, then a plate presses both down to `plate` above the plane [m] at its underside,
-// stays, and goes.  No gravity, as the standards turn its moment away.
+// Builds a specimen of scene.cloth.length by scene.cloth.width whose elements are at most a thickness long
+// across the crease, which is in its middle.  Its near limb is clamped on a plane; a pin takes the end of the
+// far limb over by 180 degrees, then a plate presses both down until its underside is `plate` above the
+// plane [m], stays, and goes.  There is no gravity, as the standards turn its moment away.
 Crease creased(const Scene& scene, const CreaseChoice& choice, double plate);
 
-// A strip whose near limb is clamped; a hand wraps the rest by half a turn around a rod, holds it there, and
-// lets go as the rod is taken away.  Its limbs are `scene.cloth.length` long in all, beside what goes around
-// the rod.
+// Builds a strip whose near limb is clamped; a pin wraps the rest halfway around a rod, holds it there, and
+// lets go as the rod is taken away.  Its limbs are `scene.cloth.length` long in all, excluding the part
+// around the rod.
 Crease wrapped(const Scene& scene, const CreaseChoice& choice);
-// A strip that is at rest with a sharp pleat in its middle: a hand opens it until it is straight, holds it
-// there, and lets go.
+// Builds a strip that is at rest with a sharp pleat in its middle: a pin opens it until it is straight, holds
+// it there, and lets go.
 Crease pleated(const Scene& scene, const CreaseChoice& choice);
 
-// The specimen's mesh; columns across the crease are at most a thickness wide.  Shared by the three.
+// Returns the mesh that the three specimens share; columns across the crease are at most a thickness wide up
+// to `fine` [m] from it.
 ClothMesh crease_specimen(const Scene& scene, double fine);
-// Its near limb, held for good.
+// Returns the clamp that holds the near limb for the whole test.
 Pin crease_clamp(const Scene& scene);
 
-// Height of the plate's underside at which it first bears the force: found by pressing until it does [m].
+// Finds by pressing the height of the plate's underside at which it first bears the force [m].
 double loaded_plate(const Scene& scene, const CreaseChoice& choice);
 
 }  // namespace hysteron::experiments

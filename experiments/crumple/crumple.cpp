@@ -1,6 +1,7 @@
-// Crumpling: a sheet or a tube is crushed, opened, spread and hung, and keeps wrinkles (as the chapter's
-// Figure 4.1); with `--law all`, or several laws separated by commas, each of them, on one page.  The scene's
-// file says how: crumple-sphere, crumple-table, crumple-fist, crumple-knot, or one's own.
+// `hysteron crumple`: a sheet or a tube is crushed, opened, spread and hung, and keeps wrinkles (as the
+// chapter's Figure 4.1).  With `--law all`, or several laws separated by commas, it compares them on one
+// page.  The scene's file defines the motion: crumple-sphere, crumple-table, crumple-fist, crumple-knot, or
+// one's own.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -34,8 +35,8 @@ const KeyRow<C> kRows[] = {
 
 constexpr int kQuickTriangles = 1500;
 constexpr double kQuickFps = 10;
-constexpr int kBins = 40;           // of the histogram of curvatures, up to two K0
-constexpr float kHeadroom = 0.12f;  // of the picture above the cloth, for the caption
+constexpr int kBins = 40;           // bins of the histogram of curvatures, up to two K0
+constexpr float kHeadroom = 0.12f;  // share of the picture above the cloth, for the caption
 
 Setup defaults() {
   Setup setup;
@@ -49,9 +50,9 @@ Setup defaults() {
 }
 
 struct RidgeMetrics {
-  double ridges = 0;     // length [m]
-  double curvature = 0;  // of the shape, root mean square over the area [1/m]
-  double residual = 0;   // what would be left without load, likewise [1/m]
+  double ridges = 0;     // total length [m]
+  double curvature = 0;  // root mean square over the area [1/m]
+  double residual = 0;   // root mean square of the curvature without load [1/m]
 };
 
 RidgeMetrics measured_ridges(Session& session, const C& choice) {
@@ -64,7 +65,7 @@ RidgeMetrics measured_ridges(Session& session, const C& choice) {
           curvature_rms(simulation.curvature(), area, d), curvature_rms(size, area, d)};
 }
 
-// Where the cloth reaches that hangs from its only pin in the end.
+// Returns the lowest point that the cloth can reach when it finally hangs from its only pin.
 Eigen::Vector3d lowest_hanging(const Scene& scene, const Cloth& cloth) {
   const Eigen::Vector3d& held = cloth.start[cloth.pin_vertices[0].front()];
   double reach = 0;
@@ -72,7 +73,7 @@ Eigen::Vector3d lowest_hanging(const Scene& scene, const Cloth& cloth) {
   return placement(scene.pin[0].motion, scene.seconds)(held) + reach * scene.gravity.stableNormalized();
 }
 
-// Of the cloth at the start and of where hands take it.
+// Returns the bounds of the cloth at the start and along the motion of its pins.
 render::Box box_of_motion(const Scene& scene, const Cloth& cloth) {
   render::Box box;
   box.low = box.high = cloth.start[0].cast<float>();
@@ -107,7 +108,7 @@ RunPlan run_plan(Session& session, const C& choice, RidgeMetrics& last) {
   return plan;
 }
 
-// residual.csv: share of the area by the curvature that it would keep.
+// Writes residual.csv: the share of the area by residual curvature.
 void write_histogram(Session& session) {
   const int dimension = session.simulation().dimension();
   const std::vector<double> area = element_areas(session.cloth().mesh, dimension);

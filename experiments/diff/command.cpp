@@ -1,4 +1,4 @@
-// `hysteron diff`: two pictures, or the pictures of two folders, measured against each other and limits.
+// `hysteron diff` compares two pictures, or the pictures of two folders, with each other and with limits.
 #include <algorithm>
 #include <cmath>
 #include <iostream>
@@ -40,13 +40,13 @@ Keys bind_diff(DiffFlags& flags) {
 
 Json diff_json(const Measures& measures) {
   Json json;
-  for (const Measure& m : all_measures()) json[m.name] = measures.*m.value;  // null where infinite
+  for (const Measure& m : all_measures()) json[m.name] = measures.*m.value;  // infinite values become null
   return json;
 }
 
 std::string measure_text(double value) { return std::isinf(value) ? "inf" : number_field(value); }
 
-// One line on stderr for a pair beyond its limits.
+// Prints one line on stderr for a pair beyond its limits.
 void report_error(const fs::path& a, const fs::path& b, const std::vector<std::string>& broken) {
   if (!broken.empty())
     std::cerr << "hysteron diff: " << a.string() << " against " << b.string() << ": " << join(broken, "; ")
@@ -68,7 +68,7 @@ void make_parent_folder(const fs::path& file) {
   if (file.has_parent_path()) make_folders(file.parent_path());
 }
 
-// Inputs are not written onto.
+// Throws if the output would overwrite an input.
 void require_other(const fs::path& out, const fs::path& input) {
   std::error_code missing;
   if (fs::equivalent(out, input, missing))
@@ -77,7 +77,7 @@ void require_other(const fs::path& out, const fs::path& input) {
         .with_key("out", out.string());
 }
 
-// One that cannot be compared is told to the file of tests, too.
+// Compares two files; a pair that cannot be compared is also recorded in the JUnit file.
 Comparison compared_files(const fs::path& a, const fs::path& b, const DiffFlags& flags) {
   try {
     return compare_files(a, b, flags);
@@ -89,7 +89,7 @@ Comparison compared_files(const fs::path& a, const fs::path& b, const DiffFlags&
   }
 }
 
-// A file that limits none of these pictures was meant for something else, and would let all of them pass.
+// Throws if the file limits none of these pictures: it was meant for something else, and all would pass.
 void require_a_limit(const DiffFlags& flags, const std::vector<std::string>& names) {
   if (flags.limits_file.empty()) return;
   for (const std::string& name : names)
@@ -128,7 +128,7 @@ int diff_pictures(const fs::path& a, const fs::path& b, const DiffFlags& flags) 
   return broken.empty() ? 0 : kDiffers;
 }
 
-// What is written must not be found as a picture the next time.
+// Throws if the output lies in a compared folder, where the next comparison would find it as a picture.
 void require_outside(const fs::path& out, const fs::path& folder) {
   const fs::path inner = fs::weakly_canonical(out), outer = fs::weakly_canonical(folder);
   const auto [end, ignored] = std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end());
@@ -190,7 +190,7 @@ Json diff_json(const FolderDiff& diff) {
   return all;
 }
 
-// A row for each picture.
+// Writes a row for each picture.
 void write_table(const fs::path& path, const FolderDiff& diff) {
   std::vector<std::string> head = {"picture"};
   for (const Measure& m : all_measures()) head.push_back(m.column);
@@ -206,7 +206,8 @@ void write_table(const fs::path& path, const FolderDiff& diff) {
   table.write(path);
 }
 
-// Names of the heat maps that an earlier comparison has written into this folder, as its table has them.
+// Returns the names of the heat maps that an earlier comparison wrote into this folder, as listed in its
+// table.
 std::set<fs::path> earlier_heat_maps(const fs::path& out) {
   std::set<fs::path> names;
   std::error_code ignored;
@@ -218,12 +219,12 @@ std::set<fs::path> earlier_heat_maps(const fs::path& out) {
           stays_inside(name) && !is_behind_a_link(out / kHeatFolder, name))
         names.insert(name);
   } catch (const Error&) {
-    // A table that cannot be read names none.
+    // A table that cannot be read lists no heat maps.
   }
   return names;
 }
 
-// Removes those of pictures that were not compared this time.
+// Removes the earlier heat maps of pictures that were not compared this time.
 void remove_earlier_heat_maps(const fs::path& out, std::set<fs::path> earlier, const FolderDiff& diff) {
   for (const FolderDiff::Row& row : diff.rows)
     if (row.error.empty()) earlier.erase(row.name);
@@ -260,7 +261,7 @@ int diff_folders(const fs::path& a, const fs::path& b, const DiffFlags& flags) {
     write_table(fs::path(flags.out) / kDiffTable, diff);
   }
   std::vector<TestCase> cases;
-  int exit_code = 0;  // what could not be compared weighs more than what differs
+  int exit_code = 0;  // a failed comparison outweighs a difference
   for (const FolderDiff::Row& row : diff.rows) {
     const bool compared = row.error.empty();
     cases.push_back(compared ? test_case(row.name, row.broken) : case_not_compared(row.name, row.error));

@@ -17,8 +17,8 @@ std::string size_text(const render::Image& image) {
   return std::to_string(image.width()) + " x " + std::to_string(image.height());
 }
 
-// Names of pictures are collected below a folder and the folders that links lead to.  A link to a folder that
-// it stands in is not followed again.
+// Collects the names of pictures below a folder and the folders that links lead to.  A link to a folder that
+// contains it is not followed again.
 class PicturesUnder {
  public:
   explicit PicturesUnder(fs::path top) : top_(std::move(top)) { visit(top_); }
@@ -43,7 +43,7 @@ class PicturesUnder {
   }
 
   fs::path top_;
-  std::vector<fs::path> open_;  // the folders that lead to the one that is visited
+  std::vector<fs::path> open_;  // path of folders to the current one
   std::set<std::string> names_;
 };
 
@@ -68,7 +68,7 @@ Measures picture_measures(const render::Image& a, const render::Image& b, const 
           render::ssim(a, b), mean(flip), steps.pixels_over_8_percent};
 }
 
-// What it measures, as both look, and where they differ.
+// Returns the measures of two opaque pictures and the heat map of where they differ.
 std::pair<Measures, render::Image> compare_looks(const render::Image& a, const render::Image& b,
                                                  const DiffFlags& flags) {
   const render::Plane flip = render::flip_map(a, b, flags.pixels_per_degree);

@@ -1,4 +1,4 @@
-// How far two pictures, or the pictures of two folders, differ.
+// Measures how far two pictures, or the pictures of two folders, differ.
 #pragma once
 
 #include <filesystem>
@@ -11,55 +11,56 @@
 
 namespace hysteron::experiments {
 
-// In the folder of --out, for the heat maps of two folders' pictures.
+// Names within the folder of --out: the heat maps of two folders' pictures, and their table.
 inline constexpr const char* kHeatFolder = "heat";
 inline constexpr const char* kDiffTable = "diff.csv";
 
 struct DiffFlags {
   Measures limits = no_limits();
-  std::string limits_file;                              // "": none
-  Limits from_file;                                     // what it says
-  double pixels_per_degree = render::kPixelsPerDegree;  // of the eye that FLIP assumes
-  std::string map = "steps";                            // what heat maps show: steps | flip
-  std::string out;    // a PNG file, for folders a folder; "": nothing is written
-  std::string junit;  // an XML file; "": none
+  std::string limits_file;                              // "" if there is none
+  Limits from_file;                                     // contents of that file
+  double pixels_per_degree = render::kPixelsPerDegree;  // assumed by FLIP for the eye
+  std::string map = "steps";                            // quantity of the heat maps: steps | flip
+  std::string out;    // a PNG file, or a folder for folders; "": nothing is written
+  std::string junit;  // an XML file; "" if there is none
   bool json = false;
 
-  // Of the picture of that name: the file's, and in their place the flags'.
+  // Returns the limits of the picture of that name: the file's, overridden by the flags'.
   PictureLimits picture_limits(const std::string& name) const;
 };
 
-// Two pictures of one size, the measures, and the picture of where they differ.
+// Two pictures of one size, their measures, and the heat map of where they differ.
 struct Comparison {
   render::Image a, b, heat;
   Measures measures;
 };
-// Pictures that let something show through are compared as they look on black and on white, the worse of
-// both counting in each measure.  Error::invalid_input if the sizes differ.
+// Compares two pictures.  Transparent ones are compared on black and on white, and each measure is the worse
+// of both.  Throws Error::invalid_input if the sizes differ.
 Comparison compare_pictures(render::Image a, render::Image b, const DiffFlags& flags);
 // Throws Error::invalid_input, naming the file or both, if one cannot be read or the sizes differ.
 Comparison compare_files(const std::filesystem::path& a, const std::filesystem::path& b,
                          const DiffFlags& flags);
 
-// The pictures of two folders by their names within them.
+// The comparison of the pictures of two folders, by their names within them.
 struct FolderDiff {
   std::filesystem::path a, b;
   struct Row {
-    std::string name;  // "frames/0003.png"
+    std::string name;  // relative path: "frames/0003.png"
     Measures measures;
-    std::vector<std::string> broken;  // limits
-    std::string error;                // why it could not be compared; "": it was
-    int exit_code = 0;                // of that error
+    std::vector<std::string> broken;  // the limits that are broken
+    std::string error;                // why it could not be compared, or ""
+    int exit_code = 0;                // exit code of that error
   };
   std::vector<Row> rows;
-  Measures worst;  // of each measure by itself, of those that were compared
+  Measures worst;  // worst value of each measure over the compared pictures
 
   std::ptrdiff_t compared() const;
 };
 
-// Names of all PNG files under either folder, sorted.  Throws Error::invalid_input if there is none.
+// Returns the names of all PNG files under either folder, sorted.  Throws Error::invalid_input if there is
+// none.
 std::vector<std::string> pictures_in_either(const std::filesystem::path& a, const std::filesystem::path& b);
-// One that is missing, broken or of another size has its reason in the row.
+// Compares one pair; a picture that is missing, broken or of another size has its reason in the row.
 FolderDiff::Row compare_in_folders(const std::filesystem::path& a, const std::filesystem::path& b,
                                    const std::string& name, const DiffFlags& flags, render::Image& heat);
 

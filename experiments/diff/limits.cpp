@@ -34,7 +34,7 @@ const KeyRow<MetricLimit> kMetricRows[] = {
 };
 // clang-format on
 
-// A column's unit in brackets, "metrics.csv:tip [m]", is no set of letters.
+// Escapes brackets, because a column's unit, "metrics.csv:tip [m]", is no character class.
 bool matches(const std::string& pattern, const std::string& name) {
   std::string literal;
   for (const char c : pattern) literal += c == '[' ? "\\[" : std::string(1, c);

@@ -12,7 +12,7 @@
 namespace hysteron::experiments {
 namespace {
 
-constexpr unsigned kLongestForGpus = 60;  // [s] that a driver takes to start eight GPUs which were asleep
+constexpr unsigned kLongestForGpus = 60;  // time [s] in which a driver starts eight sleeping GPUs
 
 template <class Open>
 TriedDevice tried(const std::string& kind, const std::string& id, const Open& open) {
@@ -40,7 +40,7 @@ std::vector<TriedDevice> gpus() {
   return devices;
 }
 
-// A child process can say nothing but a text.
+// Encodes the devices as JSON, because a child process can return only a text.
 std::string text_of(const std::vector<TriedDevice>& devices) {
   Json list = Json::array();
   for (const TriedDevice& device : devices)
@@ -67,7 +67,7 @@ std::vector<TriedDevice> tried_gpus() {
   }
 }
 
-// Those of EGL, which is asked in a child, too: listing its devices loads its drivers.
+// Tries the devices of EGL, which is also asked in a child, as listing its devices loads its drivers.
 std::vector<TriedDevice> tried_egl() {
   std::vector<TriedDevice> devices;
   std::size_t count = 0;

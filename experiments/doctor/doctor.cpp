@@ -1,4 +1,4 @@
-// `hysteron doctor`: what of a run's needs this machine has, and what each lack costs.
+// `hysteron doctor` lists which requirements of a run this machine has, and what each lack costs.
 #include "experiments/doctor/findings.h"
 
 #include <iostream>

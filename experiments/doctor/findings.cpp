@@ -23,9 +23,9 @@ namespace fs = std::filesystem;
 
 constexpr const char* kRenderer = "renderer";
 constexpr double kGibibyte = 1 << 30;  // [byte]
-// Of a small run with its pictures, several times over [byte].
+// Free disk space [byte] several times that of a small run with its pictures.
 constexpr std::uintmax_t kLeastRoom = 64 << 20;
-constexpr unsigned kLongest = 20;  // [s] that another program takes to say what it is
+constexpr unsigned kLongest = 20;  // timeout [s] for another program to state its version
 
 Finding program_finding() {
   const Manifest program = this_program();
@@ -40,7 +40,7 @@ Finding program_finding() {
           .needed = true};
 }
 
-// "MemAvailable:   12345 kB" in bytes; 0 where the system does not say it.
+// Parses "MemAvailable:   12345 kB" and returns it in bytes; 0 if the system does not state it.
 double available_memory() {
   std::ifstream lines("/proc/meminfo");
   for (std::string name, unit; lines >> name;) {
@@ -62,8 +62,8 @@ Finding memory_finding() {
                           sysconf(_SC_NPROCESSORS_ONLN), all / kGibibyte, available_memory() / kGibibyte)};
 }
 
-// "580.159.04" of "NVRM version: NVIDIA UNIX Open Kernel Module for x86_64  580.159.04  Release Build"; ""
-// where there is no such file.
+// Returns "580.159.04" of "NVRM version: NVIDIA UNIX Open Kernel Module for x86_64  580.159.04  Release
+// Build"; "" if there is no such file.
 std::string nvidia_driver() {
   std::ifstream in("/proc/driver/nvidia/version");
   bool is_behind_module = false;
@@ -133,7 +133,7 @@ Finding fonts_finding(const render::gnuplot::Trial& trial) {
           .remedy = "apt install fontconfig fonts-dejavu-core"};
 }
 
-// gnuplot in a child of a child, which ends with it where it hangs.
+// Tries gnuplot in a child of a child, so that a hanging gnuplot ends with its parent.
 render::gnuplot::Trial tried_gnuplot() {
   try {
     const Json answer = Json::parse(answer_of_child(
@@ -149,7 +149,8 @@ render::gnuplot::Trial tried_gnuplot() {
   }
 }
 
-// The first line that a program writes to stdout.  Throws Error::system where it cannot be started or fails.
+// Returns the first line that a program writes to stdout.  Throws Error::system if it cannot be started or
+// fails.
 std::string first_line_of(const std::vector<std::string>& words) {
   return answer_of_child(
       [&] {

@@ -6,8 +6,8 @@
 namespace hysteron::experiments {
 namespace {
 
-// Before the program's own objects are made, some of them by such instructions: a line in place of "Illegal
-// instruction".
+// Runs before the program's own objects are constructed, some of them by such instructions, and prints a line
+// in place of "Illegal instruction".
 [[gnu::constructor(101)]] void refuse_other_cpu() {
   const char* missing = missing_instructions();
   if (!missing) return;

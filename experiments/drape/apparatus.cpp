@@ -16,7 +16,8 @@
 namespace hysteron::experiments {
 namespace {
 
-// Of the radius.  Templates cut to 1 mm in 150; the coefficient of a rim that is off by so much is by 3 %.
+// Tolerance of the rim over the radius.  Templates are cut to 1 mm in 150; a rim that deviates by 1 % changes
+// the coefficient by 3 %.
 constexpr double kRound = 0.01;
 
 using Points = std::vector<Eigen::Vector3d>;
@@ -29,8 +30,8 @@ Points rim_points(const Cloth& cloth) {
   return rim;
 }
 
-// The circle nearest to the points, however they are spaced: least squares of x^2 + y^2 = 2 a x + 2 b y + c
-// (Kasa 1976).
+// Returns the circle nearest to the points, however they are spaced: least squares of x^2 + y^2 = 2 a x + 2 b
+// y + c (Kasa 1976).
 Specimen circle_through(const Points& rim) {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   for (const Eigen::Vector3d& x : rim) mean += x / static_cast<double>(rim.size());
@@ -53,7 +54,7 @@ double cloth_area(const Cloth& cloth) {
   return area;
 }
 
-// Why it is no disc; "" if it is one.
+// Returns why the cloth is not a disc, or "" if it is one.
 std::string disc_fault(const Cloth& cloth, const Specimen& disc) {
   double nearest = INFINITY, farthest = 0, low = INFINITY, high = -INFINITY;
   for (const Eigen::Vector3d& x : cloth.start) low = std::min(low, x.z()), high = std::max(high, x.z());
@@ -77,7 +78,7 @@ std::string name_of_cloth(const Scene& scene) {
   return file.empty() ? shown(scene, "cloth.shape", scene.cloth.shape, "") : "mesh " + file;
 }
 
-// Up and down, from when the plate has let go.
+// Returns the strokes up and down that begin when the plate has let go.
 Motion shaking(const DrapeChoice& choice) {
   Motion motion;
   for (int k = 0; k <= 2 * choice.shakes; ++k)
@@ -93,7 +94,7 @@ Specimen disc_specimen(const Scene& scene, const Cloth& cloth) {
   const Specimen found = circle_through(rim);
   const std::string fault = disc_fault(cloth, found);
   if (!fault.empty()) {
-    // What is wrong with a mesh says why.
+    // A warning about the mesh may explain the fault.
     const std::string doubt = cloth.warnings.empty() ? "" : "; " + cloth.warnings.front();
     throw Error::invalid_input(name_of_cloth(scene) + " is no disc: " + fault + doubt);
   }
@@ -141,7 +142,7 @@ std::string other_tester_message(const Fabric& fabric, const DrapeChoice& choice
 }
 
 std::string tilt_warning(const Scene& scene) {
-  constexpr double kMost = 45, kNoticed = 0.1;  // [degree]
+  constexpr double kMost = 45, kNoticed = 0.1;  // limits of the tilt [degree]
   const Eigen::Vector3d& g = scene.gravity;
   const std::string gravity =
       shown(scene, "gravity", fmt::format("{:g} {:g} {:g}", g.x(), g.y(), g.z()), "m/s^2");
@@ -205,8 +206,8 @@ void add_apparatus(Scene& scene, const DrapeChoice& choice, const Specimen& spec
 
 namespace {
 
-// A Gaussian field of mean 0 and variance 1 by random waves (Shinozuka & Deodatis 1991): wave numbers of both
-// axes are normal with the standard deviation 1/l.
+// Returns a Gaussian field of mean 0 and variance 1 as a sum of random waves (Shinozuka & Deodatis 1991):
+// wave numbers of both axes are normal with the standard deviation 1/l.
 std::vector<double> random_field(const std::vector<Eigen::Vector2d>& at, double length, unsigned seed) {
   constexpr int kWaves = 400;
   Uniform uniform(seed);

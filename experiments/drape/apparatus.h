@@ -1,5 +1,5 @@
 // The apparatus of drape tests (Cusick 1968; ISO 9073-9, JIS L 1096): a pedestal on which a disc holds the
-// specimen, the plate that lets its ring down, and the shaking of the Japanese test; and the disc of cloth.
+// specimen, the plate that lowers its free ring, the shaking of the Japanese test, and the specimen.
 #pragma once
 
 #include <string>
@@ -14,12 +14,12 @@ struct Specimen {
   Eigen::Vector3d middle = {0, 0, 0};  // [m]
 };
 
-// Measured where the cloth starts; that of a cloth that is built is its scene's.  Throws Error::invalid_input
-// unless it is a disc that lies flat.
+// Measures the specimen where the cloth starts; generated cloth has its scene's radius and position.  Throws
+// Error::invalid_input unless it is a disc that lies flat.
 Specimen disc_specimen(const Scene& scene, const Cloth& cloth);
 
 struct DrapeChoice {
-  std::string standard = "iso9073";  // whose sizes and release these are
+  std::string standard = "iso9073";  // the standard that sets sizes and release
   std::string release = "lowered";   // lowered: a plate under the ring sinks; dropped: it is gone at once;
                                      // relifted: lowered, lifted flat again, lowered a second time; shaken:
                                      // lowered, then pedestal and disc go up and down
@@ -47,38 +47,39 @@ struct DrapeChoice {
   double released() const { return lowered() + (release == "shaken" ? shakes * period : 0); }
 };
 
-// The radius of a standard's specimen [m], and its choice: `iso9073` is the default's, with a specimen of 30
-// cm on a disc of 18 cm; `jis` one of 25.4 cm on 12.7 cm, shaken three times and read after a minute (a
-// Japanese teaching page on the tester; stroke and period, which no source states, are chosen here).
+// The radius of a standard's specimen [m], and its parameters: `iso9073` has the defaults, with a specimen of
+// 30 cm on a disc of 18 cm; `jis` has one of 25.4 cm on 12.7 cm, shaken three times and read after a minute
+// (a Japanese teaching page on the tester; stroke and period, which no source states, are chosen here).
 double specimen_radius(const std::string& standard);
 DrapeChoice drape_by_standard(const std::string& standard);
 
-// Whether a published number was measured on this tester: the standard that its fabric's file names, with the
+// True if a published number was measured on this tester: the fabric's file names its standard, with the
 // sizes and the release of that standard.
 bool is_own_tester(const PublishedNumber& number, const DrapeChoice& choice, double specimen_radius);
-// Why the drape that is published for the fabric is not set beside this one, and which tester to ask for; ""
-// where it is, and where none is published.
+// Returns why the fabric's published drape is not comparable with this one, and which tester to ask for; ""
+// if it is, or if none is published.
 std::string other_tester_message(const Fabric& fabric, const DrapeChoice& choice, double specimen_radius);
 
-// Error::invalid_input unless gravity pulls the specimen onto the pedestal, within 45 degrees of straight
-// down.  Returns the warning of any tilt, "" without one.
+// Throws Error::invalid_input unless gravity pulls the specimen onto the pedestal, within 45 degrees of
+// straight down.  Returns the warning of any tilt, or "".
 std::string tilt_warning(const Scene& scene);
 
 inline constexpr double kPedestalHeight = 0.14;  // [m]
 
-// Pedestal, the upper disc that holds the specimen (not shown), and the plate that lets the ring down; the
-// specimen is laid on the pedestal, middle on middle.
+// Adds the pedestal, the upper disc that holds the specimen (not shown), and the plate that lowers the ring;
+// the specimen is centred on the pedestal.
 void add_apparatus(Scene& scene, const DrapeChoice& choice, const Specimen& specimen);
 
-// Six folds of this height [m] strain the rim by 0.2 % at most; of half a millimetre, folds merge.
+// Height of the initial folds [m]: six of them strain the rim by 0.2 % at most; at half a millimetre, folds
+// merge.
 inline constexpr double kFoldSeed = 2e-3;
-// Real specimens are uneven where the disc is not.  Their rigidities vary along the cloth, drawn by the seed
-// from a lognormal field whose correlation falls as exp(-d^2/(2 l^2)) with the distance d, l = uneven_length;
-// and they curl: the rest shape is a cylinder, concave above where the curl is positive.
+// Makes the disc as uneven as real specimens are.  Rigidities vary along the cloth, drawn by the seed from a
+// lognormal field whose correlation falls as exp(-d^2/(2 l^2)) with the distance d, l = uneven_length; and
+// the cloth curls: its rest shape is a cylinder, concave above if the curl is positive.
 void make_uneven(ClothMesh& mesh, const DrapeChoice& choice, unsigned seed);
 
-// Raises the ring in as many waves as the choice has folds, highest at the rim by `kFoldSeed`: equilibria
-// under different methods are then compared with the same folds.
+// Raises the ring in `folds` waves, highest at the rim by `kFoldSeed`, so that equilibria under different
+// methods are compared with the same folds.
 void seed_folds(std::vector<Eigen::Vector3d>& start, const DrapeChoice& choice, double radius);
 
 }  // namespace hysteron::experiments

@@ -1,4 +1,4 @@
-// Drape tests: a disc of cloth, held on a smaller disc, hangs over its rim; the drape coefficient is the
+// `hysteron drape`: a disc of cloth, held on a smaller disc, hangs over its rim; the drape coefficient is the
 // share of the free ring that its shadow still covers (Cusick 1968; BS 5058, ISO 9073-9; JIS L 1096).
 #include <fmt/core.h>
 
@@ -38,31 +38,32 @@ const KeyRow<DrapeChoice> kRows[] = {
 };
 // clang-format on
 
-constexpr int kDirections = 3600;     // rays of the outline
-constexpr double kProminence = 2e-3;  // a fold stands out by more than this in the outline [m]
+constexpr int kDirections = 3600;     // number of rays of the outline
+constexpr double kProminence = 2e-3;  // least height of a fold in the outline [m]
 constexpr int kShadowPixels = 1000;
-constexpr double kFreeMotion = 0.6;  // at least, before the specimen counts as settled [s]
-// Of the plate with --quick [s].  A ring that follows it within 0.6 s folds 1.1 % of the edges of 1,000
-// triangles too sharply for them, within 1 s half as many; after other releases the cloth moves faster
-// anyway.
+constexpr double kFreeMotion = 0.6;  // least time before the specimen counts as settled [s]
+// Lowering time of the plate with --quick [s].  A ring that follows it within 0.6 s folds 1.1 % of the edges
+// of 1,000 triangles too sharply for them, within 1 s half as many; after other releases the cloth moves
+// faster anyway.
 constexpr double kQuickLowering = 0.6, kGentleQuickLowering = 1;
 
 Setup defaults() {
   Setup setup;
   Scene& scene = setup.scene = default_scene();
-  // Of all integrators it takes least from the cloth (docs/integrators.md).
+  // This integrator has the least numerical damping (docs/integrators.md).
   scene.integrator = Integrator::tr_bdf2;
   scene.step = 1.0 / 120;
   scene.cloth.shape = "disc";
   scene.cloth.radius = 0.15;
   scene.triangles = 6000;
-  scene.seconds = 3.4;  // after the plate
-  // What drapes is at rest: air would only decide how it gets there, and linear drag is that of one speed.
+  scene.seconds = 3.4;  // time after the plate's
+  // The drape is a shape at rest: air would only affect the way to it, and linear drag fits a single speed.
   scene.air_drag = 0;
-  // The coefficient is the same to 0.001 % as with 1e-6 and 1e-9 m/s; the step moves it a hundred times more.
+  // The coefficient is the same to 0.001 % as with 1e-6 and 1e-9 m/s; the step changes it a hundred times
+  // more.
   scene.newton_residual = 1e-3;
   scene.newton_velocity = 1e-5;
-  // Ten times that, and the integrator takes twice as much; a third, and the coefficient stays within 0.05
+  // With ten times this tolerance, numerical damping doubles; with a third, the coefficient stays within 0.05
   // points.
   scene.tolerance = 1e-5;
   setup.options.camera_direction = {0.3, -1.0, 0.5};
@@ -74,12 +75,12 @@ std::vector<DecidedKey> decided() {
   return {{"cloth.position", "the specimen lies in the middle of the pedestal"}};
 }
 
-// The tolerance is one for the default integrator: less accurate ones would creep to keep it.
+// Disables the tolerance for other integrators: less accurate ones would need tiny steps to keep it.
 void keep_the_step(Scene& scene) {
   if (scene.integrator != Integrator::tr_bdf2 && !is_given(scene, "tolerance")) scene.tolerance = 0;
 }
 
-// Otherwise nothing hangs over it, and no ring is there to be covered.
+// Throws unless the disc is smaller than the specimen, which otherwise has no free ring.
 void check_disc(const Scene& scene, const DrapeChoice& choice, const Specimen& specimen) {
   if (choice.disc < specimen.radius) return;
   const std::string file = rest_file(scene);
@@ -89,8 +90,8 @@ void check_disc(const Scene& scene, const DrapeChoice& choice, const Specimen& s
       .with_key("drape.disc", number_text(choice.disc));
 }
 
-// The specimen's middle lies on the pedestal, and its rim hangs over it all around: otherwise it slips off,
-// or parts of the ring are missing.
+// Throws unless the specimen's middle lies on the pedestal and its rim hangs over all around: otherwise it
+// slips off, or parts of the ring are missing.
 void check_offset(const DrapeChoice& choice, const Specimen& specimen) {
   const double ring = specimen.radius - choice.disc;
   if (choice.offset < std::min(choice.disc, ring)) return;
@@ -102,7 +103,7 @@ void check_offset(const DrapeChoice& choice, const Specimen& specimen) {
       .with_key("drape.offset", number_text(choice.offset));
 }
 
-// The specimen lies on the pedestal, and scene and cloth say so.
+// Lays the specimen on the pedestal, in the scene and in the cloth.
 Specimen lay_on_pedestal(Scene& scene, const DrapeChoice& choice, Cloth& cloth) {
   const Specimen specimen = disc_specimen(scene, cloth);
   check_disc(scene, choice, specimen);
@@ -114,7 +115,7 @@ Specimen lay_on_pedestal(Scene& scene, const DrapeChoice& choice, Cloth& cloth) 
   return specimen;
 }
 
-// A number beyond what a shadow can cover says that the specimen has slipped off or burst, not how it drapes.
+// Throws if the number is beyond what a shadow can cover: the specimen has then slipped off or burst.
 void check_coefficient(double percent) {
   if (is_drape_coefficient(percent)) return;
   throw Error::simulation(
@@ -123,7 +124,8 @@ void check_coefficient(double percent) {
                   percent));
 }
 
-// The cloth's shadow from above with the rim of the pedestal and of the flat specimen, and its dark area.
+// Draws the cloth's shadow from above with the rims of the pedestal and of the flat specimen, and returns the
+// drape coefficient of its dark area [%].
 double shadow_coefficient(Session& session, const DrapeChoice& choice, double radius) {
   double metres = 0;
   render::Image shadow = session.pictures()->silhouette(1.08 * radius, kShadowPixels, metres);
@@ -140,11 +142,11 @@ double shadow_coefficient(Session& session, const DrapeChoice& choice, double ra
 
 // Testers stand upright on earth.
 bool has_usual_gravity(const Scene& scene) {
-  constexpr double kNear = 0.05;  // [m/s^2]; nowhere is it farther from 9.81
+  constexpr double kNear = 0.05;  // [m/s^2]; gravity on earth deviates less from 9.81
   return (scene.gravity - Eigen::Vector3d(0, 0, -9.81)).norm() <= kNear;
 }
 
-// "--fabric.b2, --fabric.k0" where flags have changed the fabric that was measured; "" where none has.
+// Returns "--fabric.b2, --fabric.k0" if flags have changed the measured fabric; "" otherwise.
 std::string changed_numbers(const Scene& scene) {
   std::vector<std::string> flags;
   for (const auto& [key, origin] : scene.origin)
@@ -153,7 +155,7 @@ std::string changed_numbers(const Scene& scene) {
   return join(flags, ", ");
 }
 
-// Why what is published is of another drape than this one, and which that is; "" where it is of this one.
+// Returns why the published drape is of another test than this one, and of which; "" if it is comparable.
 std::string other_drape_message(const Scene& scene, const DrapeChoice& choice, double radius) {
   const std::string tester = other_tester_message(scene.fabric, choice, radius);
   const auto& published = scene.fabric.published;
@@ -205,7 +207,7 @@ void limit_to_quick(Setup& setup) {
   setup.options.fps = std::min(setup.options.fps, 10.0);
 }
 
-// A standard stands for the defaults of the other keys.
+// Sets up the run; a standard replaces the defaults of the other keys.
 Setup set_up_drape(const CommandLine& line, D& choice) {
   const auto with = [&](const D& of, const CommandLine& line) {
     Setup default_setup = defaults();
@@ -218,12 +220,12 @@ Setup set_up_drape(const CommandLine& line, D& choice) {
     });
   };
   CommandLine undecided = line;
-  undecided.listed.push_back("drape.release");  // which the standard may say
+  undecided.listed.push_back("drape.release");  // the standard may set it
   with({}, undecided);
   return with(drape_by_standard(choice.standard), line);
 }
 
-// What was measured on the tester that was simulated; of another one, which that is.
+// Records numbers published for this tester, or names the tester they are of.
 void note_published(Run& run, const Scene& scene, const DrapeChoice& choice, double radius) {
   for (const auto& [name, number] : scene.fabric.published) {
     if (!is_of_this_tester(number, scene, choice, radius)) continue;
@@ -328,7 +330,7 @@ int run_drape(const CommandLine& line) {
     plot_outlines(session, choice, radius, outlines);
     plot_series(session, choice, radius);
     const double shadow = shadow_coefficient(session, choice, radius);
-    // By less than its pixels; then the picture alone says so.
+    // A shadow may leave the possible range by less than its pixels; the metric is then null.
     run.metric("shadow_drape_coefficient_percent",
                is_drape_coefficient(shadow) ? MetricValue(shadow) : MetricValue());
     draw_maps(session);

@@ -12,7 +12,7 @@ constexpr double kPi = 3.14159265358979323846;
 void mark_edge(const Eigen::Vector2d& a, const Eigen::Vector2d& b, std::vector<double>& radius) {
   const int n = static_cast<int>(radius.size());
   const double from = std::atan2(a.y(), a.x());
-  double turn = std::atan2(b.y(), b.x()) - from;  // the edge sees less than half a turn of the axis
+  double turn = std::atan2(b.y(), b.x()) - from;  // the edge spans less than 180 degrees around the axis
   if (turn > kPi) turn -= 2 * kPi;
   if (turn < -kPi) turn += 2 * kPi;
   const double low = std::min(from, from + turn), high = std::max(from, from + turn);
@@ -69,7 +69,7 @@ Outline outline_from_above(const ClothMesh& mesh, const std::vector<Eigen::Vecto
   const auto mark = [&](const Edge& e) { mark_edge(x[e.p2].head<2>(), x[e.p3].head<2>(), outline.radius); };
   for (const Edge& e : mesh.edge)
     if (!e.interior()) mark(e);
-  // The border leaves few others that could reach any ray's end.
+  // The border excludes most interior edges, which are too near to reach any ray's end.
   constexpr double kRounding = 1e-9;
   const double shortest = (1 - kRounding) * *std::min_element(outline.radius.begin(), outline.radius.end());
   for (const Edge& e : mesh.edge)

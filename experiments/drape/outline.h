@@ -14,7 +14,8 @@ struct Outline {
   std::vector<double> radius;
 
   double area() const;  // [m^2]; the outline is star-shaped around the pedestal's axis
-  // Folds: maxima of the outline that stand out by more than `prominence` [m] from the minima on both sides.
+  // Counts the folds: maxima of the outline that stand out by more than `prominence` [m] from the minima on
+  // both sides.
   int nodes(double prominence) const;
 };
 
@@ -26,8 +27,7 @@ double overlap(const Outline& a, const Outline& b);
 
 // 100 (A - A_disc)/(A_specimen - A_disc) (Cusick 1968; BS 5058, ISO 9073-9) [%].
 double drape_coefficient(double projected_area, double disc_radius, double specimen_radius);
-// Whether it can be one [%]: the shadow covers the pedestal, and at most the flat specimen, but for a little
-// stretch.
+// True if the shadow covers the pedestal and at most the flat specimen, with 1 % for stretch.
 inline bool is_drape_coefficient(double percent) { return percent >= 0 && percent <= 101; }
 
 }  // namespace hysteron::experiments

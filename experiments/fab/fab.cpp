@@ -1,5 +1,5 @@
-// `hysteron fab`: the loop test of a FAB tester, a strip between clamps that is buckled or stretched in
-// growing cycles, along the clamps' own way where data are given, or to given compressions; as an elastica.
+// `hysteron fab` simulates the loop test of a FAB tester as an elastica: a strip between clamps is buckled or
+// stretched in growing cycles, along the clamps' recorded path if data are given, or to given compressions.
 #include <fmt/core.h>
 
 #include <nlohmann/json.hpp>
@@ -43,7 +43,7 @@ const KeyRow<TestFlags> kRows[] = {
 };
 // clang-format on
 constexpr int kQuickSteps = 20;
-constexpr int kFineSteps = 60;  // rows of a branch, between which chords leave out 0.2 % of a loop's area
+constexpr int kFineSteps = 60;  // rows of a branch, at which chords cut 0.2 % off a loop's area
 
 Keys option_keys(TestFlags& flags) { return with_output_options(bind(kRows, flags), flags.options); }
 
@@ -72,7 +72,7 @@ FabLoops loops_without_data(const TestFlags& flags, int steps) {
   FabLoops loops = made_up_loops(flags.test, flags.gauge, flags.slack, amplitudes, steps);
   loops.direction = flags.direction;
   loops.width = flags.width;
-  check_clamp_path(loops, "loops to be simulated", "fab");  // as fab.csv is, when it is read
+  check_clamp_path(loops, "loops to be simulated", "fab");  // as for fab.csv when it is read
   return loops;
 }
 
@@ -98,15 +98,16 @@ void print_cycles(const ComparedLoops& compared) {
   }
 }
 
-// Few rows are written as they are asked for, and read between: at the same forces, without the chords that a
-// sum over them takes for the branch.
+// Computes more rows than are written, so that areas are summed over the branch and not over its chords; the
+// forces are the same.
 ComparedLoops read_between_rows(const TestFlags& flags, const FabStrip& strip) {
   const int parts = (kFineSteps + flags.steps - 1) / flags.steps;
   const FabLoops loops = loops_without_data(flags, parts * flags.steps);
   return {loops, run_fab(loops, strip), false};
 }
 
-// The strip is an elastica of springs and stops, which has neither time nor a rest curvature of its own.
+// Warns that the strip is an elastica of springs and stops, which has neither time nor a rest curvature of
+// its own.
 std::string unsimulated_warning(const Fabric& fabric) {
   std::vector<std::string> parts;
   if (fabric.bending.set.on()) parts.push_back("[bending.set]");

@@ -23,7 +23,7 @@ constexpr const char *kMeasuredColor = "#777777", *kSimulatedColor = "#0072B2";
 
 const char* cycle_color(int cycle) { return kCycleColors[cycle % std::size(kCycleColors)]; }
 
-// Around the middle between its ends, which a shape and its mirror image share.
+// Adds a strip's shape relative to the middle between its ends, which a shape and its mirror image share.
 void add_line(const std::vector<Eigen::Vector2d>& line, double up, render::Series& series) {
   const double middle = (line.front().x() + line.back().x()) / 2;
   for (const Eigen::Vector2d& point : line) {
@@ -39,7 +39,7 @@ double rms_difference(const BranchForces& a, const BranchForces& b) {
   return std::sqrt(sum / static_cast<double>(count));
 }
 
-// Force [N/m] against distance [mm] of both branches of a cycle, one behind the other, without a label.
+// Returns the force [N/m] against the distance [mm] of both branches of a cycle as one curve without a label.
 render::Series cycle_series(const FabLoops& loops, const BranchForces& force, int cycle,
                             render::Series::Style style) {
   render::Series series{.label = "", .x = {}, .y = {}, .style = style, .color = cycle_color(cycle)};

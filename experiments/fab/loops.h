@@ -1,4 +1,4 @@
-// Loops of a FAB tester beside simulated ones: metrics, tables and plots, for `fab` and `fit --fab`.
+// Compares loops of a FAB tester with simulated ones in metrics, tables and plots, for `fab` and `fit --fab`.
 #pragma once
 
 #include <string>
@@ -9,23 +9,23 @@
 
 namespace hysteron::experiments {
 
-// Measured loops (forces are NaN where nobody measured) and a run along their way.
+// Measured loops (forces are NaN where not measured) and a run along their path.
 struct ComparedLoops {
   FabLoops loops;
   FabRun run;
   bool measured = true;
-  double zero = 0;  // of the measured force, found by this run [N/m]
+  double zero = 0;  // offset of the measured force, found by this run [N/m]
 
   ComparedLoops(FabLoops loops, FabRun run, bool measured);
-  BranchForces measured_forces() const;  // from that zero [N/m]
+  BranchForces measured_forces() const;  // relative to that offset [N/m]
 };
 
-// `si` | `fab`; Error::invalid_input for others.
+// Parses `si` or `fab`; throws Error::invalid_input for others.
 TesterUnits tester_units(const std::string& name);
 
-// Area, peak force and force range of each cycle, also as measured_...; rms, zero, energy balance.
+// Adds area, peak force and force range of each cycle, also as measured_...; rms, zero and energy balance.
 void add_metrics(Run& run, const ComparedLoops& compared);
-// In the columns that `fit --fab` reads, the measured force behind.
+// Writes the columns that `fit --fab` reads, with the measured force last.
 void write_loops(Run& run, const std::string& name, const ComparedLoops& compared);
 void draw_loops(Run& run, const std::string& name, const std::string& title, const ComparedLoops& compared);
 // A panel a cycle, named "cycle 2, fitted" by `kinds`: the simulated force as a line; what was measured as

@@ -1,4 +1,4 @@
-// `hysteron figures`: the chapter's figures as pictures, curves and captions in one folder.
+// `hysteron figures` draws the chapter's figures as pictures, curves and captions in one folder.
 #include <fmt/core.h>
 
 #include <iostream>
@@ -14,7 +14,7 @@
 namespace hysteron::experiments {
 namespace {
 
-// The curves and named points of a figure, one point per row.
+// Writes the curves and named points of a figure, one point per row.
 void write_curves(const std::filesystem::path& path, const Figure& figure) {
   const render::Plot& plot = figure.plot;
   AtomicFile file(path.string());
@@ -46,8 +46,8 @@ std::vector<KeyDescription> figure_fabric_keys() {
   return keys;
 }
 
-// Friction by stops has no transition curvature, of which every figure speaks, a set leaves other curvatures
-// than friction does, and branches relax.
+// Throws for fabrics beyond b1, b2, K0: friction by stops has no transition curvature, which every figure
+// shows; a set leaves other residual curvatures than friction does; branches relax.
 void check_three_numbers(const Fabric& fabric, const std::string& name) {
   const BendingParts& parts = fabric.bending;
   const std::string other = !parts.stops.empty()      ? " has friction by stops"

@@ -1,5 +1,6 @@
-// The letters are the chapter's: o rest; a, b elastic limits (+-K0, +-Ma); c, d reversals at +-Km; a', b'
-// ends of the quadratic branches that begin there; g reversal between Ma and 2 Ma; h, f residual curvatures.
+// The letters are the chapter's: o is rest; a, b are elastic limits (+-K0, +-Ma); c, d reversals at +-Km; a',
+// b' ends of the quadratic branches that begin there; g a reversal between Ma and 2 Ma; h, f residual
+// curvatures.
 #include "experiments/figures/figures.h"
 
 #include <fmt/core.h>
@@ -19,8 +20,8 @@ using render::Mark;
 using render::Plot;
 using render::Series;
 
-constexpr int kSteps = 200;     // points of a leg
-constexpr double kMilli = 1e3;  // moments are drawn in mN
+constexpr int kSteps = 200;     // points between two reversals
+constexpr double kMilli = 1e3;  // mN in 1 N: moments are drawn in mN
 constexpr const char* kBlue = "#0072B2";
 constexpr const char* kOrange = "#D55E00";
 constexpr const char* kGreen = "#007A55";
@@ -28,10 +29,10 @@ constexpr const char* kRed = "#C00000";
 constexpr const char* kGrey = "#999999";
 
 struct Trace {
-  std::vector<double> curvature, moment;  // [1/m], [N]
+  std::vector<double> curvature, moment;  // curvature [1/m], moment [N]
 };
 
-// From rest to each turning point in order; legs before the first `drawn` are not kept.
+// Returns the path from rest to each reversal in order; legs before the first `drawn` are not kept.
 Trace trace(const std::string& law, const VirginCurve& curve, const std::vector<double>& turns,
             const LawParameters& parameters = {}, std::size_t drawn = 0) {
   std::vector<LawRow> rows = {{0, 1, false}};
@@ -66,7 +67,7 @@ Series guide(std::vector<double> curvature, std::vector<double> moment) {
   return series;
 }
 
-// Above and left of a curve that rises, or below and right of it.
+// Places a letter above and left of a rising curve, or below and right of it.
 Mark above(const std::string& text, double curvature, double moment) {
   return {text, curvature, kMilli * moment, -0.8, 0.7};
 }
@@ -91,21 +92,22 @@ Plot empty_plot(const std::string& title, double low_k, double high_k, double lo
   return plot;
 }
 
-// What all figures of one fabric share.
+// The values that all figures of one fabric share.
 struct Chapter {
   std::string fabric;
   VirginCurve curve;
   double m0, ma;  // friction moment, moment at the elastic limit [N]
   double full;    // a reversal from which recovery ends on the straight line, |M| > 2 Ma [1/m]
 
-  double line(double curvature) const { return m0 + curve.b2 * curvature; }  // the upper straight line [N]
+  // Moment on the upper straight line [N].
+  double line(double curvature) const { return m0 + curve.b2 * curvature; }
   double curvature_at(double moment) const { return (moment - m0) / curve.b2; }
   double residual(const std::string& law, double curvature, double moment) const {
     return residual_by_formula(choose_law(law, curve, {}, LawUse::alone), curvature, moment);
   }
 };
 
-// The same root on the computed branch, to compare with the closed form.
+// Finds the same root on the computed branch, to compare with the closed form [1/m].
 double residual_by_root(const Trace& branch) {
   for (std::size_t i = 1; i < branch.moment.size(); ++i) {
     const double a = branch.moment[i - 1], b = branch.moment[i];
@@ -151,8 +153,8 @@ Figure figure_4_2b(const Chapter& c) {
           plot};
 }
 
-// A bending element in its own plane: the triangles (p2, p3, p0) and (p3, p2, p1), the wing of p1 turned by
-// theta about the edge, seen at a slant so that the dihedral angle shows.  Lengths in cm.
+// Draws a bending element in its own plane: the triangles (p2, p3, p0) and (p3, p2, p1), the wing of p1
+// rotated by theta about the edge, seen at a slant so that the dihedral angle shows.  Lengths are in cm.
 Figure figure_4_2a(const Chapter& c) {
   constexpr double kTurn = 50, kDegree = 3.14159265358979323846 / 180, kSlant = 0.45;
   const double s = std::sin(kTurn * kDegree), cosine = std::cos(kTurn * kDegree);
@@ -188,8 +190,7 @@ Figure figure_4_2a(const Chapter& c) {
   name("p₁", p1, 0.8, 0.4);
   name("p₂", p2, 0.6, -0.8);
   name("p₃", p3, -0.8, 0.7);
-  const Point between{0.3 * flat.x + 0.15 * p1.x, foot1.y,
-                      0.15 * p1.z};  // the heights of p1, flat and turned
+  const Point between{0.3 * flat.x + 0.15 * p1.x, foot1.y, 0.15 * p1.z};  // heights of p1, flat and rotated
   plot.marks.push_back({"θ", seen(between)[0], seen(between)[1], 0, 0, "#555555", false});
   return {
       "figure-4-2a",
@@ -200,7 +201,7 @@ Figure figure_4_2a(const Chapter& c) {
       plot, "x [cm],y [cm]"};
 }
 
-// Eq. 4.3 by difference quotients of the law's own moments.
+// Draws Eq. 4.3 by difference quotients of the law's own moments.
 Figure stiffness_figure(const Chapter& c) {
   const double end = 2.2 * c.curve.k0;
   const Trace up = trace("pabst", c.curve, {end});
@@ -288,7 +289,7 @@ Figure figure_4_4a(const Chapter& c) {
           plot};
 }
 
-// Levels Ma and 2 Ma, with their names at the left edge.
+// Draws the levels Ma and 2 Ma, with their names at the left edge.
 void draw_levels(const Chapter& c, double right, Plot& plot) {
   for (int i = 1; i <= 2; ++i) {
     if (kMilli * i * c.ma > plot.y.high) continue;
@@ -297,7 +298,7 @@ void draw_levels(const Chapter& c, double right, Plot& plot) {
   }
 }
 
-// Bending to `km` and recovery to no moment, bilinear and with the quadratic branch.
+// Plots bending to `km` [1/m] and recovery to zero moment, bilinear and with the quadratic branch.
 Plot recovery_plot(const Chapter& c, const std::string& title, double km, double residual) {
   const double mm = km > c.curve.k0 ? c.line(km) : c.curve.b1 * km + c.curve.c1() * km * km;
   const double right = 1.15 * std::max(km, c.curve.k0), level = mm > c.ma ? 2 * c.ma : c.ma;

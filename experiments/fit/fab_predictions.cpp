@@ -11,8 +11,8 @@
 namespace hysteron::experiments {
 namespace {
 
-constexpr double kMicroPerCentimetre = 1e4;  // µJ/cm of 1 J/m
-constexpr double kBarWidth = 0.27;           // of the distance between groups of three
+constexpr double kMicroPerCentimetre = 1e4;  // µJ/cm in 1 J/m
+constexpr double kBarWidth = 0.27;           // over the distance between groups of three
 
 std::string fitted_on(const FabAnswer& answer, const std::string& direction) {
   std::string cycles;
@@ -20,7 +20,7 @@ std::string fitted_on(const FabAnswer& answer, const std::string& direction) {
   return direction + " " + join(answer.tests, ", ") + " cycle " + cycles;
 }
 
-// The directions whose laws a strip along this one has; none if they were not identified.
+// Returns a fabric with the laws of warp and weft as far as they were identified.
 FabFabric fabric_with(const std::vector<FabBending>& bending, const std::vector<FabTension>& tension,
                       double density) {
   FabFabric fabric;
@@ -36,7 +36,7 @@ bool has(const std::vector<Found>& all, const std::string& direction) {
   return std::any_of(all.begin(), all.end(), [&](const Found& one) { return one.direction == direction; });
 }
 
-// A strip along a direction that was fitted, or along the bias of both.
+// True if the strip's direction was fitted, or is the bias and both warp and weft were fitted.
 template <class Found>
 bool can_predict(const std::vector<Found>& all, const std::string& direction) {
   return has(all, direction) || (direction == "B" && has(all, "L") && has(all, "W"));
@@ -101,7 +101,7 @@ std::vector<FabPrediction> predict(const FabAnswer& answer) {
     if (loops.bends() ? !can_predict(found.bending, along) : !can_predict(found.tension, along)) continue;
     const auto run_with = [&](const std::vector<FabBending>& bending) {
       const FabFabric fabric = fabric_with(only(bending, along), only(found.tension, along), answer.density);
-      return run_fab(loops, fabric.strip("B"));  // of one direction both halves are alike
+      return run_fab(loops, fabric.strip("B"));  // halves along one direction are alike
     };
     try {
       FabPrediction p{{loops, run_with(found.bending), true},
@@ -177,7 +177,7 @@ void draw_predictions(Run& run, const std::string& fabric, const std::vector<Fab
 
 namespace {
 
-// Has the strip the length between the clamps that it had in a test which was fitted?
+// True if the strip has the same gauge, the length between the clamps, as in a fitted test.
 bool has_fitted_gauge(const FabAnswer& answer, const FabLoops& loops) {
   return std::any_of(answer.tests.begin(), answer.tests.end(), [&](const std::string& test) {
     const FabLoops& fitted = find_loops(answer.loops, loops.direction, test);
@@ -223,7 +223,7 @@ struct FormRow {
   HeldOutErrors errors;
 };
 
-// The forms of one direction, the one asked for first, with what each leaves of the data.
+// Writes the forms of one direction, the requested one first, with the errors that each leaves.
 std::vector<FormRow> write_direction(Table& table, const FabAnswer& answer, std::size_t direction) {
   const FabBending& asked = answer.found.bending[direction];
   const Repeats& repeats = answer.repeats[direction];
@@ -244,7 +244,7 @@ std::vector<FormRow> write_direction(Table& table, const FabAnswer& answer, std:
   return rows;
 }
 
-// Forms that every direction has, over the cycles of all.
+// Writes the forms that every direction has, over the cycles of all.
 void write_all_directions(Table& table, const std::vector<std::vector<FormRow>>& directions) {
   for (const FormRow& first : directions.front()) {
     HeldOutErrors together;

@@ -1,4 +1,4 @@
-// Friction that was identified from some cycles of a FAB tester predicts all others in the same file.
+// Predicts all other cycles of a FAB tester's file by the friction that was identified from some of them.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace hysteron::experiments {
 
-// A test beside what the form asked for and what one stop say of it.
+// A test with the predictions of the requested form and of one stop.
 struct FabPrediction {
   ComparedLoops stops, one_stop;
   std::vector<bool> fitted;  // by cycle
@@ -17,25 +17,25 @@ struct FabPrediction {
   double noise = 0;          // of the force of the whole strip, from repeats where there are any [N]
 };
 
-// Every test of the directions that were fitted, and of the bias by the mean of both; tests that stretch
-// where stretch was fitted.  A test that a law cannot follow is left out.
+// Predicts every test of the fitted directions, and of the bias by the mean of both; tests that stretch only
+// if stretch was fitted.  A test that a law cannot follow is left out.
 std::vector<FabPrediction> predict(const FabAnswer& answer);
 
-// predictions.csv; loops_<loops>.csv of each: simulated and measured forces; plot_<loops> of each, and
-// plot_areas of all that bend.
+// Writes predictions.csv; loops_<loops>.csv of each test with simulated and measured forces; plot_<loops> of
+// each, and plot_areas of all that bend.
 void write_predictions(Run& run, const std::vector<FabPrediction>& predictions);
 void write_compared_loops(Run& run, const std::vector<FabPrediction>& predictions);
 void draw_predictions(Run& run, const std::string& fabric, const std::vector<FabPrediction>& predictions);
 
-// Sizes of the errors of a law on the cycles that it was not fitted to, of all tests that bend along the same
-// direction with the same gauge: of the loops' areas and of the ranges of force [%].
+// The errors of a law on the cycles that it was not fitted to, over all tests that bend along the same
+// direction with the same gauge: unsigned, of the loops' areas and of the ranges of force [%].
 struct HeldOutErrors {
-  std::vector<double> area, range;  // by cycle; empty: there is none, or the law cannot follow one
+  std::vector<double> area, range;  // by cycle; empty if there is none or the law cannot follow one
 };
 HeldOutErrors held_out_errors(const FabAnswer& answer, const std::string& direction, const StopsLaw& law);
 
-// forms.csv: what every form of friction leaves of the data it was fitted to and of those it was not, and how
-// surely the data exclude it. The rows "all" hold means over the directions' held-out cycles together.
+// Writes forms.csv: the errors of every form of friction on fitted and held-out data, and how surely the data
+// exclude it.  The rows "all" are means over the held-out cycles of all directions.
 void write_forms(Run& run, const FabAnswer& answer);
 
 }  // namespace hysteron::experiments

@@ -1,4 +1,5 @@
-// `hysteron fit`: a fabric from measurements, with standard errors and with what they leave open.
+// `hysteron fit` identifies a fabric from measurements, with standard errors and with what they leave
+// undetermined.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -29,8 +30,8 @@ namespace {
 
 struct DecayFlags {
   std::string file;
-  double length = 0;    // of the strip below the clamp [m]
-  double noise = 5e-4;  // of the amplitudes [m]
+  double length = 0;    // free length of the strip below the clamp [m]
+  double noise = 5e-4;  // standard deviation of the amplitudes [m]
 };
 
 struct FitFlags {
@@ -51,8 +52,8 @@ struct FitFlags {
   Options options;
 };
 
-constexpr double kSameResidual = 1e-4;  // relative: what numerical differences leave
-constexpr double kNoResidual = 1e-9;    // residuals below this share of the largest moment are none
+constexpr double kSameResidual = 1e-4;  // relative error left by numerical differences
+constexpr double kNoResidual = 1e-9;    // residuals below this share of the largest moment count as zero
 
 using F = FitFlags;
 using M = Measured;
@@ -116,14 +117,14 @@ std::vector<std::string> requested_laws(const std::string& text) {
   return laws;
 }
 
-// What a fit is from, one of the ways in.
+// The result of a fit, with the kind of data it is from.
 struct Answer {
-  std::vector<Identification> fits;  // the best first
+  std::vector<Identification> fits;  // by residual, the best first
   std::string from;
-  std::vector<std::string> warnings = {};  // of the data and the request
+  std::vector<std::string> warnings = {};  // about the data and the request
 };
 
-// The best first; laws that the data do not tell apart stay in the order in which they were asked for.
+// Sorts the best first; laws that the data cannot distinguish stay in the requested order.
 void rank(std::vector<Identification>& fits) {
   const auto digits = [](const Identification& fit) {
     return std::lround(std::log(fit.residual_rms() / fit.largest_moment() + kNoResidual) / kSameResidual);
@@ -186,7 +187,7 @@ Answer from_kes(const FitFlags& flags) {
   return answer;
 }
 
-// Units of its own have the tester that measures a loop of bending, and the one that buckles strips.
+// Throws unless the tester's own units go with its data: kes with a loop of bending, fab with buckled strips.
 void check_units(const FitFlags& flags) {
   const std::string other = flags.loop.empty() ? "kes" : "fab";
   if (flags.units == other)
@@ -200,7 +201,8 @@ using WayIn = void (*)(const CommandLine&, const FitFlags&, const Keys&);
 
 std::optional<double> if_given(double x) { return std::isnan(x) ? std::nullopt : std::optional(x); }
 
-// The manifest's `scene`, where the flag --fab is the file among the keys fab.*, and --decay likewise.
+// Returns the manifest's `scene`, where the flag --fab becomes fab.file among the keys fab.*, and --decay
+// likewise.
 Json resolved(Keys keys) {
   for (BoundKey& key : keys)
     if (key.description.path == "fab" || key.description.path == "decay") key.description.path += ".file";
@@ -247,7 +249,7 @@ void draw_decay(Run& run, const DecaySeries& series, const std::vector<double>& 
 // A free vibration and what was identified from it.
 struct DecayAnswer {
   DecaySeries series;
-  std::string large;  // what is said of amplitudes that were too large, or ""
+  std::string large;  // warning of too large amplitudes, or ""
   DecayQuestion question;
   FabAnswer found;
 };
@@ -273,7 +275,7 @@ DecayAnswer identify_vibration(const FitFlags& flags, const std::string& from) {
   return answer;
 }
 
-// b1, b2 and k0 of the friction that was found beside the rigidity that was given.
+// Returns b1, b2 and k0 from the friction that was found and the rigidity that was given.
 Identification three_numbers(const FabBending& found, double rigidity, const std::string& from) {
   Identification numbers;
   const double k0 = saturation_curvature(found.form), stiffness = 2 * found.law.friction() / k0;
@@ -290,7 +292,7 @@ Identification three_numbers(const FabBending& found, double rigidity, const std
   return numbers;
 }
 
-// fabric.toml, forms.csv, decay.csv (measured and by the fit), a plot and metrics; what a reader is told.
+// Writes fabric.toml, forms.csv, decay.csv (measured and fitted), a plot and metrics; returns the summary.
 std::string report_decay(Run& run, const DecayAnswer& answer, const FabricNotes& notes) {
   const FabBending& b = answer.found.found.bending[0];
   std::vector<std::string> warnings = decay_warnings(answer.series, answer.question);
@@ -353,8 +355,8 @@ void fit_curve(const CommandLine& line, const FitFlags& flags, const Keys& keys)
   finish(run, flags, summary(answer.fits), notes);
 }
 
-// The fabric of a sheet, its file, and what virtual testers read of it.  What the laboratory weighed and
-// measured wins over what is given by hand; `thickness`: its row.
+// Fits the fabric of a sheet, writes its file, and compares what virtual testers read of it.  Values from the
+// laboratory override those given by hand; `thickness` names its row.
 void fit_sheet(const CommandLine& line, const FitFlags& flags, const Keys& keys, LaboratorySheet sheet,
                const std::string& thickness,
                SheetFabric (*fabric_of)(const LaboratorySheet&, const Assumptions&),
@@ -392,7 +394,7 @@ void fit_fast_sheet(const CommandLine& line, const FitFlags& flags, const Keys& 
             read_by_cantilever);
 }
 
-// The one that the flags ask for.
+// Returns the kind of fit that the flags request.
 WayIn way_in(const FitFlags& flags) {
   std::vector<WayIn> requested;
   const auto add = [&](bool is_requested, WayIn way) {
@@ -401,7 +403,7 @@ WayIn way_in(const FitFlags& flags) {
   add(!flags.loop.empty(), fit_curve<from_loop>);
   add(flags.virgin.b1.given() || flags.virgin.c1.given() || !flags.virgin_file.empty(),
       fit_curve<from_virgin>);
-  const bool with_decay = !flags.decay.file.empty();  // which takes a rigidity for itself
+  const bool with_decay = !flags.decay.file.empty();  // decay itself takes a rigidity from kes.b
   add(flags.kes.two_hb.given() || (flags.kes.b.given() && !with_decay), fit_curve<from_kes>);
   add(!flags.fab.file.empty(), fit_loops_of_fab);
   add(with_decay, fit_decay);
@@ -414,7 +416,7 @@ WayIn way_in(const FitFlags& flags) {
       std::string(requested.empty() ? "" : ", not several"));
 }
 
-// That of the sheet whose flag stands beside --template.
+// Prints the template of the sheet whose flag stands beside --template.
 void print_template(const CommandLine& line, const FitFlags& flags) {
   for (const auto& [path, file] : {std::pair{"kes-sheet", flags.sheet}, {"fast-sheet", flags.fast_sheet}})
     if (!file.empty())

@@ -20,11 +20,11 @@
 namespace hysteron::experiments {
 namespace {
 
-// Farther from the data, what was fitted is not what was measured: rms over the noise of bending, and over
-// the largest force of stretch, which no law of stops follows to less than some percent.
+// Limits of a credible fit: rms over the noise for bending, and over the largest force for stretch, which no
+// law of stops follows to better than some percent.
 constexpr double kMaxOverNoise = 3, kMaxOfStretch = 0.1;
 
-// This is a fraction of HB: the data must hold most of a shape to determine it.
+// Largest share of HB beyond the data's reach: the data must cover most of a shape to determine it.
 constexpr double kMostBeyondReach = 0.5;
 
 std::vector<double> parsed_numbers(const std::string& text, const std::string& key) {
@@ -54,8 +54,9 @@ std::vector<int> parsed_cycles(const std::string& text) {
 
 bool is_bias(const std::string& direction) { return strip_direction(direction) == StripDirection::bias; }
 
-// Those asked for, of which the first is warp and the second weft: a bias is neither, unless it is alone.
-// None asked for: warp before weft, whatever their order in the file, or the bias where it is alone.
+// Returns the requested directions, of which the first is warp and the second weft; a bias is neither, unless
+// it is alone.  By default warp comes before weft, whatever their order in the file, or the bias if it is
+// alone.
 std::vector<std::string> requested_directions(const std::string& text, const std::vector<FabLoops>& loops) {
   std::vector<std::string> directions = split(text);
   if (directions.size() > 1 && (is_bias(directions[0]) || is_bias(directions[1])))
@@ -106,7 +107,7 @@ void check_fit(const FabTension& t, double width, double noise) {
                  t.residual_rms * width);
 }
 
-// Loops of one direction that bend, or that stretch, among the tests asked for.
+// Returns the loops of one direction that bend, or that stretch, among the requested tests.
 std::vector<FabLoops> requested(const FabAnswer& answer, const std::string& direction, bool bending) {
   std::vector<FabLoops> loops;
   for (const std::string& test : answer.tests) {
@@ -116,13 +117,13 @@ std::vector<FabLoops> requested(const FabAnswer& answer, const std::string& dire
   return loops;
 }
 
-// These fits are of one direction; fits that nobody asked for have no rows.
+// The fits of one direction; fits that were not requested have no rows.
 struct DirectionFits {
-  FabBending bending, free, shaped, one;  // as asked; beside it by free stops, by a shape, by one stop
+  FabBending bending, free, shaped, one;  // requested form; free stops, a shape, and one stop for comparison
   std::vector<FabForm> even;
   FabTension stretch;
 
-  // Other forms of friction than the one asked for.
+  // Returns the forms of friction other than the requested one.
   std::vector<FabForm> forms(const std::string& name_of_free) const {
     std::vector<FabForm> all;
     if (free.rows > 0) all.push_back({name_of_free, free});
@@ -131,7 +132,7 @@ struct DirectionFits {
     all.insert(all.end(), even.begin(), even.end());
     return all;
   }
-  // Without those of the family that was asked for: a parabola's own error says how far k0 may lie.
+  // Drops the forms of the requested family: a parabola's own error already states how far k0 may lie.
   std::vector<FabForm> other_families(std::vector<FabForm> all) const {
     if (bending.is_parabola()) std::erase_if(all, [](const FabForm& form) { return form.fixes_k0; });
     return all;
@@ -160,7 +161,7 @@ void write_spectrum(Run& run, const FabIdentification& found) {
   table.write(run.path("spectrum.csv"));
 }
 
-// k0 of all directions together: of its logarithms the mean, each by its error.
+// Adds the common k0 of all directions: the mean of its logarithms, weighted by their errors.
 void add_common_saturation(Run& run, const std::vector<FabBending>& bending) {
   double weights = 0, sum = 0;
   for (const FabBending& b : bending) {
@@ -255,7 +256,8 @@ FabAnswer fit_fab(const FabFlags& flags, const std::string& units, double densit
   tension.cycles = answer.cycles;
   tension.noise = std::max(tension.noise, flags.noise);
   std::vector<DirectionFits> fits(directions.size());
-  std::vector<std::function<void()>> requests, others;  // what is asked for; forms that are compared with it
+  // Fits of the requested form; fits that are compared with it.
+  std::vector<std::function<void()>> requests, others;
   for (std::size_t i = 0; i < directions.size(); ++i) {
     DirectionFits& fit = fits[i];
     if (const auto loops = requested(answer, directions[i], true); !loops.empty()) {
@@ -301,7 +303,7 @@ FabAnswer fit_fab(const FabFlags& flags, const std::string& units, double densit
 
 namespace {
 
-// How a record is named, and what may bring a fit nearer to it.
+// The words for a kind of data, and for what may improve a fit to it.
 struct RecordTexts {
   const char *data, *larger, *range, *remedy, *better_form;
 };
@@ -315,7 +317,7 @@ constexpr RecordTexts kDecayTexts = {
     "the first one", "see plot_decay and decay.csv; another length, density, rigidity may be nearer",
     "forms.csv has its numbers"};
 
-// A form that describes the record better than the one asked for, by more than chance.
+// Warns if another form describes the data significantly better than the requested one.
 std::string better_form_warning(const FabBending& b, const std::vector<FabForm>& forms,
                                 const Repeats& repeats, const RecordTexts& texts) {
   const FabForm* best = nullptr;
@@ -333,7 +335,7 @@ std::string better_form_warning(const FabBending& b, const std::vector<FabForm>&
           : "forms.csv has its numbers");
 }
 
-// Friction that the record does not reach is the form's, not the data's.
+// Warns if friction that slips beyond the data's reach comes from the assumed form, not from the data.
 std::string beyond_reach_warning(const FabBending& b, const RecordTexts& texts) {
   const double beyond = 1 - b.friction_within_reach() / b.law.friction();
   if (!(beyond > kMostBeyondReach)) return "";
@@ -343,14 +345,14 @@ std::string beyond_reach_warning(const FabBending& b, const RecordTexts& texts) 
       b.direction, 100 * beyond, b.reach, texts.larger);
 }
 
-// The numbers may mean little where the law stays this far from the data.
+// Warns that the numbers may mean little because the law stays this far from the data.
 std::string misses_warning(const FabBending& b, const RecordTexts& texts) {
   if (!(b.residual_share > kDoubtfulMiss)) return "";
   return fmt::format("along {} the fit misses the fitted {} by {:.2g} % of {} (rms): {}", b.direction,
                      texts.data, 100 * b.residual_share, texts.range, texts.remedy);
 }
 
-// Says that the file has loops along the bias and the fabric does not; "" otherwise.
+// Warns that the file has loops along the bias and the fabric does not; "" otherwise.
 std::string unused_bias_warning(const FabAnswer& answer) {
   const auto& fitted = answer.found.bending;
   const auto is_of_bias = [](const auto& one) { return is_bias(one.direction); };
@@ -406,7 +408,7 @@ void report_fab(Run& run, const FabAnswer& answer, const FabricNotes& notes) {
   draw_predictions(run, notes.name, predictions);
 }
 
-// A free vibration's rigidity is given, without an error of it.
+// Formats the rigidity; with a free vibration it is given, so it has no error.
 std::string rigidity_text(const FabBending& b) {
   if (b.spring_error == 0) return fmt::format("{:.3g} N m (of kes.b, taken as exact)", b.law.spring);
   return fmt::format("{:.3g} +- {:.2g} N m", b.law.spring, b.spring_error);

@@ -1,5 +1,5 @@
-// `fit --fab`: a fabric's friction elements from the loops of a FAB tester, and what they predict of the
-// loops that were not fitted.
+// `fit --fab` identifies a fabric's friction elements from the loops of a FAB tester, and predicts the loops
+// that were not fitted.
 #pragma once
 
 #include <string>
@@ -16,36 +16,36 @@ struct FabFlags {
   double noise = 7.5e-4;
 };
 
-// Loops that were identified from, and all others of the file.
+// The identification from some loops of a file, and all of its loops.
 struct FabAnswer {
   FabIdentification found;
   std::vector<FabBending> one_stop;         // by direction, as found.bending
-  std::vector<std::vector<FabForm>> forms;  // that friction could have as well, by direction
-  std::vector<Repeats> repeats;             // of the fitted cycles, by direction
+  std::vector<std::vector<FabForm>> forms;  // alternative forms of friction, by direction
+  std::vector<Repeats> repeats;             // repeats of the fitted cycles, by direction
   double density = 0;                       // [kg/m^2]
-  std::vector<FabLoops> loops;              // of the whole file
-  std::vector<std::string> tests;           // that were fitted
+  std::vector<FabLoops> loops;              // all loops of the file
+  std::vector<std::string> tests;           // the fitted tests
   std::vector<int> cycles;
 };
 
-// Throws Error::invalid_input for what the file does not have.
+// Identifies the fabric.  Throws Error::invalid_input if the file lacks what is requested.
 FabAnswer fit_fab(const FabFlags& flags, const std::string& units, double density);
 
-// fabric.toml, one_stop.toml (what a constant 2HB makes of the same data), spectrum.csv, forms.csv,
+// Writes fabric.toml, one_stop.toml (a constant 2HB fitted to the same data), spectrum.csv, forms.csv,
 // predictions.csv, plots and metrics.
 void report_fab(Run& run, const FabAnswer& answer, const FabricNotes& notes);
 
-// k0, or median and spread, where friction was sought in that form; names begin with `prefix`.
+// Adds k0, or median and spread, if friction was fitted in that form; names begin with `prefix`.
 void add_shape(Run& run, const FabBending& found, const std::string& prefix);
 
-// These warnings say what is doubtful about a fit of bending, beside the other forms.
+// Returns warnings about what is doubtful in a fit of bending, compared with the other forms.
 std::vector<std::string> bending_warnings(const FabBending& found, const std::vector<FabForm>& forms,
                                           const Repeats& repeats);
-// The same of a fit to a free vibration, which has amplitudes in place of loops.
+// Returns the same for a fit to a free vibration, which has amplitudes in place of loops.
 std::vector<std::string> decay_fit_warnings(const FabBending& found, const std::vector<FabForm>& forms,
                                             const Repeats& repeats);
 
-// What a reader is told.
+// Returns the summary that is printed.
 std::string summary(const FabAnswer& answer);
 
 }  // namespace hysteron::experiments

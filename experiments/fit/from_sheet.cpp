@@ -15,7 +15,7 @@
 namespace hysteron::experiments {
 namespace {
 
-constexpr double kAgrees = 1, kSidesAgree = 0.5;  // percent: less is not worth a reason
+constexpr double kAgrees = 1, kSidesAgree = 0.5;  // [%]; smaller differences need no reason
 
 Along direction_of(SheetColumn column) { return column == SheetColumn::weft ? Along::weft : Along::warp; }
 
@@ -35,7 +35,7 @@ constexpr const char *kStraight = "tension is a straight line without friction: 
                      *kMostGrowth =
                          "friction that grew so much would leave no stiffness on the way back to no shear";
 
-// Why 2HG5 is not what was entered.
+// Returns why the tester's 2HG5 differs from the entered one.
 const char* second_width_reason(const KesSheet& sheet, double read) {
   if (!sheet.has("2HG")) return kNoFriction;
   const double entered = sheet.mean("2HG5"), first = sheet.mean("2HG");
@@ -44,7 +44,7 @@ const char* second_width_reason(const KesSheet& sheet, double read) {
   return entered > 5 * first ? kNoCloth : kMostGrowth;
 }
 
-// The numbers of the sheet along one direction, beside those that a tester reads.
+// Compares the sheet's numbers along one direction with those that a tester reads.
 struct Beside {
   const LaboratorySheet& sheet;
   SheetColumn column;
@@ -109,7 +109,7 @@ namespace {
 
 std::string write_comparison(Run& run, const std::vector<SheetReading>& all) {
   Table table("quantity,direction,unit,entered,read,difference [%],reason");
-  std::size_t longest = 5;  // of "2HG5"
+  std::size_t longest = 5;  // length of "2HG5"
   for (const SheetReading& b : all) longest = std::max(longest, std::strlen(b.quantity));
   const std::size_t width = longest + 1;
   std::string text =

@@ -1,4 +1,5 @@
-// `fit --kes-sheet`, `--fast-sheet`: what the virtual testers read of the fabric that was made from a sheet.
+// `fit --kes-sheet` and `--fast-sheet` check the fabric made from a sheet by what the virtual testers read of
+// it.
 #pragma once
 
 #include <string>
@@ -11,24 +12,24 @@
 
 namespace hysteron::experiments {
 
-// One number of the sheet beside the virtual tester's, in SI.
+// One number of the sheet and the virtual tester's, in SI.
 struct SheetReading {
-  const char *quantity, *unit, *si;  // "B", the unit that sheets print, that of the numbers here
+  const char *quantity, *unit, *si;  // "B", its unit on sheets, its SI unit here
   SheetColumn column;
   double entered, read;
-  const char* reason;  // where they may differ
+  const char* reason;  // why they may differ
 
-  double difference() const { return 100 * (read / entered - 1); }  // [%]
+  double difference() const { return 100 * (read / entered - 1); }  // relative difference [%]
 };
-// Every number of the sheet that a virtual tester reads in so many steps is there, along warp and weft.
+// Returns every number of the sheet that a virtual tester reads in so many steps, along warp and weft.
 std::vector<SheetReading> read_by_testers(const KesSheet& sheet, const Fabric& fabric, int steps = 2000);
 
-// The same of a FAST sheet: its bending lengths by the elastica, its extensions.
+// Returns the same for a FAST sheet: its bending lengths by the elastica, and its extensions.
 std::vector<SheetReading> read_by_cantilever(const FastSheet& sheet, const Fabric& fabric);
 
-// sheet.csv: what was entered beside what virtual testers read of the fabric along warp and weft, with the
-// reason where they differ; the same as metrics.  Returns what a reader is told: that table, what was
-// assumed, and the lines to go on with.
+// Writes sheet.csv and metrics: the entered numbers, what virtual testers read of the fabric along warp and
+// weft, and the reason where they differ.  Returns the printed summary: that table, the assumptions, and the
+// next commands.
 std::string report_sheet(Run& run, const LaboratorySheet& sheet, const SheetFabric& found,
                          const std::vector<SheetReading>& readings);
 

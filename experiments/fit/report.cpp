@@ -75,7 +75,7 @@ std::string fit_summary(const Identification& found) {
   return text;
 }
 
-// ---- data beside the law, and what the law leaves of them ----
+// ---- data beside the law, and the law's residuals ----
 
 using Style = render::Series::Style;
 constexpr const char* kDataColor = "#9FB6C8";
@@ -100,7 +100,7 @@ double largest(const std::vector<double>& values) {
   return top;
 }
 
-// Around the values, and around zero where they have both signs.
+// Returns an axis around the values, and around zero if they have both signs.
 render::Axis axis(const std::string& label, const std::vector<double>& values) {
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
   const double top = kHeadroom * largest(values), below = *low < -0.2 * *high ? -top : -0.04 * top;
@@ -111,13 +111,13 @@ std::string share_text(const Identification& fit) {
   return fmt::format("rms {:.3g} %", 100 * fit.residual_rms() / fit.largest_moment());
 }
 
-// The law's curve in the order of the data, from the virgin state if that comes first.
+// Returns the data and the law's curve in their order, from the virgin state if that comes first.
 std::vector<render::Series> curves(const Identification& fit) {
   return {{"data", fit.curvature, milli(fit.moment), Style::points, kDataColor},
           {fit.law + ", " + share_text(fit), fit.curvature, milli(fit.model), Style::line, kLawColor, 1.8}};
 }
 
-// The residuals and a frame of one rms above and below zero.
+// Returns the residuals and a frame of one rms above and below zero.
 std::vector<render::Series> residuals(const Identification& fit) {
   const auto [low, high] = std::minmax_element(fit.curvature.begin(), fit.curvature.end());
   const double rms = 1e3 * fit.residual_rms();
@@ -140,7 +140,7 @@ void draw_one(Run& run, const Identification& fit, const std::string& title) {
   run.plot("plot_residual", left);
 }
 
-// One panel a law, the best first, on common axes.
+// Draws one panel a law, the best first, on common axes.
 void draw_panels(Run& run, const std::vector<Identification>& fits, const std::string& title) {
   render::Panels data{"Bending of " + title, "dots: data; line: the law", {}, {}, {}};
   render::Panels left{"Data minus law, " + title, "dashed: one rms", {}, {}, {}};
@@ -162,7 +162,7 @@ void draw_panels(Run& run, const std::vector<Identification>& fits, const std::s
   run.plot("plot_residual", left, render::write_panels);
 }
 
-// plot_fit and plot_residual; a panel for each of several laws.
+// Draws plot_fit and plot_residual, with a panel for each of several laws.
 void draw_fits(Run& run, const std::vector<Identification>& fits, const std::string& title) {
   if (fits.size() == 1) {
     draw_one(run, fits[0], title);

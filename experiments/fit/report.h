@@ -1,4 +1,4 @@
-// The folder of a fit: the fabric's file, the data beside the law, plots, metrics, and what is said of them.
+// Writes the folder of a fit: the fabric's file, the data beside the law, plots, metrics, and the summary.
 #pragma once
 
 #include <string>
@@ -9,12 +9,12 @@
 
 namespace hysteron::experiments {
 
-// Writes fabric.toml, fit.csv, both plots and the metrics into the run.  Of several laws the first is the
+// Writes fabric.toml, fit.csv, both plots and the metrics into the run.  The first of several laws is the
 // best; metrics are then called `<law>.<key>`.
 void report_fits(Run& run, const std::vector<Identification>& fits, const FabricNotes& notes);
 
-// What a reader is told: a line per law if there are several; of the best, numbers with standard errors, what
-// is undetermined, statements.
+// Returns the printed summary: a line per law if there are several; then the best one's numbers with standard
+// errors, what is undetermined, and statements.
 std::string summary(const std::vector<Identification>& fits);
 
 }  // namespace hysteron::experiments

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kMillimetre = 1e-3;
 
-// How far the cloth hangs from the clamps where gravity draws it, or lies from them without gravity [m].
+// Returns how far the cloth hangs from the clamps along gravity, or lies from them without gravity [m].
 double farthest(const std::vector<Eigen::Vector3d>& x, const Eigen::Vector3d& gravity) {
   double distance = 0;
   for (const Eigen::Vector3d& p : x) {
@@ -38,7 +38,7 @@ std::vector<std::string> FlexingMachine::columns() {
   return {"clamp_distance [m]", "crown_curvature [1/m]", "crown_moment [N]"};
 }
 
-// Between two watched instants the law goes on to here for the row alone.
+// Between two watched instants the law is continued on a copy, for this row alone.
 std::vector<double> FlexingMachine::measure(const Snapshot& instant) const {
   const double curvature = gauge_.crown(session_.simulation().curvature());
   LawPoint crown = crown_;
@@ -61,7 +61,7 @@ void FlexingMachine::watch(const Snapshot& instant) {
   ++count_;
 }
 
-// A return ends one cycle and begins the next.
+// Adds the state to its cycle's loop; a return ends one cycle and begins the next.
 void FlexingMachine::add_to_loops() {
   const int period = 2 * fold_.half;
   const auto add = [&](int cycle, bool begins) {

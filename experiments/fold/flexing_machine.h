@@ -1,4 +1,4 @@
-// What is read from a specimen while it is folded again and again.
+// Records a specimen while it is folded again and again.
 #pragma once
 
 #include <string>
@@ -12,32 +12,33 @@
 namespace hysteron::experiments {
 
 struct FoldReading {
-  double recovery_angle = 180;  // less the largest turn of the residual curvature [degree]
+  double recovery_angle = 180;  // 180 degrees less the largest angle of the residual curvature [degree]
   double set = 0;               // residual curvature of the crown [1/m]
-  double lowest = 0;            // point of the cloth now, below the clamps [mm]
-  double sag = 0;               // the same at the last return [mm]
-  MaterialReading material;     // of the crown, at the last chosen cycle
+  double lowest = 0;            // current lowest point of the cloth, below the clamps [mm]
+  double sag = 0;               // the lowest point at the last return [mm]
+  MaterialReading material;     // reading of the crown, at the last chosen cycle
 };
 
-// Watches instants that --fps does not move; writes a row of cycles.csv at each return and of material.csv at
-// the chosen ones.
+// Watches instants that do not depend on --fps; writes a row of cycles.csv at each return and of material.csv
+// at the chosen ones.
 class FlexingMachine {
  public:
   FlexingMachine(const Fold& fold, Session& session);
 
-  // Columns of metrics.csv: distance between the clamps; curvature of the crown; the law's moment there,
-  // driven alone through the crown's curvatures.
+  // The columns of metrics.csv are the distance between the clamps, the curvature of the crown, and the
+  // moment there of the law alone, driven through the crown's curvatures.
   static std::vector<std::string> columns();
   std::vector<double> measure(const Snapshot& instant) const;
   void watch(const Snapshot& instant);
-  // Both ends of the stroke in cycles 1, 10, 100, ... and the last; the end.
+  // True at both ends of the stroke in cycles 1, 10, 100, ... and the last, and at the end.
   bool pictured(double time) const;
   std::string progress(const Snapshot& instant) const;
   void finish();
-  void serialise(Archive& archive);  // all that has been read
+  void serialise(Archive& archive);  // saves everything read so far
 
   const FoldReading& reading() const { return reading_; }
-  const std::vector<render::Series>& loops() const { return loops_; }  // of the crown, in pictured cycles
+  // Moment over curvature at the crown, in pictured cycles.
+  const std::vector<render::Series>& loops() const { return loops_; }
 
  private:
   void add_to_loops();
@@ -48,15 +49,15 @@ class FlexingMachine {
   FoldGauge gauge_;
   LawWalk material_;
   Record cycles_, materials_;
-  int count_ = 0;          // watched instants so far
-  LawPoint crown_;         // the law's, at the crown
-  double curvature_ = 0;   // of the crown now [1/m]
-  double largest_ = 0;     // in this cycle [1/m]
-  double lost_ = 0;        // by bending friction before this cycle [J]
-  double crown_lost_ = 0;  // by the law at the crown before this cycle [J/m^2]
-  double time_ = 0;        // of the last watched instant [s]
+  int count_ = 0;          // number of watched instants
+  LawPoint crown_;         // state of the law at the crown
+  double curvature_ = 0;   // current curvature of the crown [1/m]
+  double largest_ = 0;     // largest curvature in this cycle [1/m]
+  double lost_ = 0;        // loss by bending friction before this cycle [J]
+  double crown_lost_ = 0;  // loss of the law at the crown before this cycle [J/m^2]
+  double time_ = 0;        // time of the last watched instant [s]
   FoldReading reading_;
-  int ended_ = 0;  // cycles
+  int ended_ = 0;  // number of completed cycles
   std::vector<render::Series> loops_;
 };
 

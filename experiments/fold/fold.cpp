@@ -1,6 +1,6 @@
-// Repeated folding (De Mattia flexing, ISO 7854): what is left of a fabric's bending friction after
-// many folds, and what they leave in the cloth; with `--law all`, or several laws separated by commas, each
-// on one page.
+// `hysteron fold` measures what repeated folding (De Mattia flexing, ISO 7854) leaves of a fabric's bending
+// friction, and which set it leaves in the cloth.  With `--law all`, or several laws separated by commas, it
+// compares them on one page.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -73,7 +73,7 @@ struct Request {
   Json keys;
 };
 
-// A dissipation that is asked for needs a law that tires by it.
+// Throws if a dissipation is requested for a law without fatigue.
 void check_fatigue(const CommandLine& line, const Request& request) {
   const std::string given = last_text(line.flags, "fold.fatigue", "");
   if (given.empty() || request.choice.fatigue == 0) return;
@@ -111,7 +111,7 @@ std::string what(const Scene& scene) { return scene.fabric.name + ", law " + law
 
 using Numbers = std::vector<std::pair<std::string, double>>;
 
-// Of the last cycle, as metrics; a page shows the first.
+// Returns the readings of the last cycle as metrics; a page shows the first.
 Numbers cycle_numbers(const FoldReading& last) {
   return {{"recovery_angle_deg", last.recovery_angle},
           {"2HB_N", last.material.loop_width},
@@ -139,7 +139,7 @@ TablePlot over_cycles(const std::string& name, const render::Plot& plot, const s
   return {name, plot, file, "cycle", y, render::Series::Style::line_and_points, scale};
 }
 
-// What runs over cycles, of a fabric and law.
+// Returns the plots over cycles, of a fabric and law.
 std::vector<TablePlot> fold_plots(bool law_alone, const std::string& name) {
   const render::Axis cycles{"cycles", true};
   const render::Plot width{(law_alone ? "2HB, " : "2HB of the crown, ") + name, cycles, {"2HB [mN]"}};
@@ -242,8 +242,8 @@ void fold_once(const CommandLine& line) {
   request.choice.law_alone ? fold_law(line, request) : fold_cloth(line, request);
 }
 
-// Laws that know fatigue come twice: without it, and with it as NAME-fatigue.  Where the line has a flag for
-// it (`has_flag`), others are told to leave it out.
+// Lists laws with fatigue twice: without it, and with it as NAME-fatigue.  If the line has a flag for it
+// (`has_flag`), the others get a flag that disables it.
 std::vector<Variant> with_and_without_fatigue(const std::vector<Variant>& laws,
                                               const std::string& default_law, bool has_flag) {
   std::vector<Variant> all;

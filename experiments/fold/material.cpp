@@ -8,18 +8,18 @@
 namespace hysteron::experiments {
 namespace {
 
-constexpr int kTestSteps = 100;  // of each part of a KES cycle
-// Of each leg of a cycle.  Fatigue acts from step to step: this many err by less than 0.1 % in M0.
+constexpr int kTestSteps = 100;  // steps of each part of a KES cycle
+// Steps of each half cycle.  Fatigue acts from step to step: with this many, M0 errs by less than 0.1 %.
 constexpr int kSteps = 50;
 
-// What the last of the steps leaves.
+// Bends in equal steps and returns the state after the last.
 LawPoint bend(LawWalk& walk, double from, double to, int steps, double seconds) {
   LawPoint end;
   for (int i = 1; i <= steps; ++i) end = walk.to({from + (to - from) * i / steps, seconds / steps});
   return end;
 }
 
-// Along the strip, whatever the angle of its warp.
+// Returns the law along the strip, whatever the angle of its warp.
 LawRequest scene_law(const Scene& scene) { return {scene.law, curve_along(scene), scene.param}; }
 
 }  // namespace
@@ -39,7 +39,7 @@ MaterialReading test_material(const LawWalk& material, double curvature) {
   const double low_back = go(-kes.width_at), high_back = go(kes.width_at);
   MaterialReading reading;
   reading.loop_width = (high_back - high + low_back - low) / 2;
-  // Before the test; without fatigue the test changes nothing.
+  // These are read before the test, which wears the material; without fatigue the test changes nothing.
   reading.permanent_set = material.permanent_set();
   const double friction = material.friction_moment();
   reading.friction = std::isnan(friction) ? reading.loop_width / 2 : friction;
@@ -54,7 +54,7 @@ LawRequest law_in_cloth(const Scene& scene) {
 
 std::vector<BendingCycle> bend_repeatedly(const Scene& scene, const FoldChoice& choice) {
   LawRequest law = scene_law(scene);
-  // Exact: between two turning points no more than these are remembered.
+  // This memory is exact: between two reversals no more of them are remembered.
   if (law.name == "prandtl" && !law.parameters.contains("memory")) law.parameters.try_emplace("stack", "8");
   LawWalk walk(law);
   std::vector<BendingCycle> cycles;

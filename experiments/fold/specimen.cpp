@@ -11,11 +11,11 @@
 namespace hysteron::experiments {
 namespace {
 
-constexpr double kClampPart = 0.1;  // of the specimen's length, in either clamp
-constexpr double kSlack = 0.02;     // at the return, of the length between the clamps
-constexpr double kHang = 1;         // after the last return, from one clamp [s]
+constexpr double kClampPart = 0.1;  // length held in either clamp, over the specimen's
+constexpr double kSlack = 0.02;     // slack at the return, over the length between the clamps
+constexpr double kHang = 1;         // time of hanging from one clamp after the last return [s]
 constexpr double kJaw = 2e-3;       // half the height of a clamp [m]
-constexpr double kNoContact = 3;    // between cloth and the clamps that are seen, in thicknesses
+constexpr double kNoContact = 3;    // gap between cloth and the drawn clamps, in thicknesses
 
 Keyframe shifted(double time, double distance) { return {time, {-distance, 0, 0}}; }
 
@@ -29,7 +29,8 @@ Motion clamp_motion(const FoldChoice& choice, double free_length) {
   return motion;
 }
 
-// For the eye: beyond the cloth's end, which is the middle of a clamp's held cells.
+// Returns a clamp that is only drawn: it lies beyond the cloth's end, which is the middle of a clamp's held
+// cells.
 Obstacle jaw(const Scene& scene, double end, double outwards) {
   const double half = kClampPart * scene.cloth.length / 2;
   Obstacle body;
@@ -40,7 +41,8 @@ Obstacle jaw(const Scene& scene, double end, double outwards) {
   return body;
 }
 
-// A name for what is seen around either end of the stroke; to half a step they take the scene's seconds.
+// Returns a named phase around either end of each stroke; their times sum to the scene's seconds to half a
+// step.
 std::vector<Phase> phases(const FoldChoice& choice, const Scene& scene) {
   const double quarter = choice.period / 4;
   std::vector<Phase> all = {{"straight", quarter}};
@@ -98,7 +100,7 @@ Fold folded(const Scene& given, const FoldChoice& choice, double rate) {
   fold.rate = 1 / apart;
   fold.period = choice.period;
   fold.cycles = choice.cycles;
-  const double released = choice.cycles * choice.period;  // the moving clamp lets go [s]
+  const double released = choice.cycles * choice.period;  // when the moving clamp lets go [s]
   scene.seconds = released + std::round(kHang / apart) * apart;
   scene.phase = phases(choice, scene);
 
@@ -123,7 +125,7 @@ FoldGauge::FoldGauge(const Fold& fold) : width_(fold.scene.cloth.width) {
   const ClothMesh& mesh = fold.cloth.mesh;
   double length = 0;
   for (const Eigen::Vector3d& x : mesh.rest) length = std::max(length, x.x());
-  spacing_ = length - fold.free_length;  // half a column is in either clamp
+  spacing_ = length - fold.free_length;  // because either clamp holds half a column
   middle_ = length / 2;
   columns_ = static_cast<int>(std::lround(length / spacing_));
   for (int f = 0; f < mesh.faces(); ++f) {
@@ -142,7 +144,8 @@ double FoldGauge::along(int face, const std::vector<double>& curvature) const {
 }
 
 double FoldGauge::crown(const std::vector<double>& curvature) const {
-  constexpr double kReach = 0.75;  // of a column: the middle one, or the two beside the middle
+  // Half width of the crown, in columns: the middle one, or the two beside the middle.
+  constexpr double kReach = 0.75;
   double sum = 0, area = 0;
   for (std::size_t f = 0; f < area_.size(); ++f) {
     if (std::abs(x_[f] - middle_) > kReach * spacing_) continue;
@@ -157,7 +160,7 @@ double FoldGauge::largest_turn(const std::vector<double>& curvature) const {
   for (std::size_t f = 0; f < area_.size(); ++f)
     turn[column_[f]] += along(static_cast<int>(f), curvature) / width_;
   const double sense = crown(curvature) < 0 ? -1 : 1;
-  double here = 0, largest = 0;  // of the parts that end here, of all parts
+  double here = 0, largest = 0;  // largest angle of a part that ends here, and of any part [rad]
   for (double t : turn) {
     here = std::max(0.0, here + sense * t);
     largest = std::max(largest, here);

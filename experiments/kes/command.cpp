@@ -1,5 +1,5 @@
-// `hysteron kes`: the KES-FB2 pure bending test of laws, alone or on strips of cloth; with --test the tests
-// of KES-FB1 (in_plane.h).
+// `hysteron kes` runs the KES-FB2 pure bending test on laws, alone or on strips of cloth; with --test it runs
+// the tests of KES-FB1 (in_plane.h).
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -73,14 +73,15 @@ Keys option_keys(KesFlags& flags) {
   return with_output_options(keys, flags.options);
 }
 
-// All that can be tested: a strip gets no orders on its way.
+// Returns the requested laws; a strip excludes grinspun-edit, as it gets no edits during the test.
 std::vector<std::string> chosen_laws(const std::string& list, bool on_strip) {
   std::vector<std::string> every = law_names();
   if (on_strip) std::erase(every, "grinspun-edit");
   return listed(list, every);
 }
 
-// With several laws each takes the parameters that it has; one that no law has is refused.
+// Returns the parameters that this law accepts; of several laws each takes its own, and one that no law has
+// is refused.
 LawParameters accepted_parameters(const std::string& law, const std::vector<std::string>& laws,
                                   const Parameters& given) {
   if (laws.size() == 1) return given;
@@ -99,15 +100,18 @@ LawParameters accepted_parameters(const std::string& law, const std::vector<std:
   return own;
 }
 
-constexpr double kJawLength = 2.5e-3;                            // [m]
-constexpr double kJawOverhang = 0.6e-3, kJawThickness = 0.7e-3;  // beyond either edge; of both halves [m]
+constexpr double kJawLength = 2.5e-3;  // [m]
+// Overhang beyond either edge; thickness of both halves [m].
+constexpr double kJawOverhang = 0.6e-3, kJawThickness = 0.7e-3;
 
-constexpr float kFieldOfView = 28;                 // [degree]
-constexpr double kReach = 9.5e-3;                  // of clamp and jaw to either side [m]
-constexpr double kShown = 5.2e-3, kLift = 3.2e-3;  // half the height shown, its middle at the amplitude [m]
+constexpr float kFieldOfView = 28;  // [degree]
+constexpr double kReach = 9.5e-3;   // distance shown beyond clamp and jaw [m]
+// Half the height shown, and the rise of its middle at the amplitude [m].
+constexpr double kShown = 5.2e-3, kLift = 3.2e-3;
 
-// For the eye: cloth does not touch it, its pins hold it.  Grips a strip along x, `width` wide from y = 0 on,
-// from `from` to `to`; bodies are drawn smaller by the look's inset.
+// Returns a jaw that is only drawn: its pins hold the cloth, which does not touch it.  It covers a strip
+// along x, `width` wide from y = 0 on, between x = `from` and x = `to`; bodies are drawn smaller by the
+// look's inset.
 Obstacle jaw(double from, double to, double width) {
   const double inset = render::Look{}.obstacle_inset;
   Obstacle box;
@@ -118,14 +122,15 @@ Obstacle jaw(double from, double to, double width) {
   return box;
 }
 
-// From jaw to jaw; `turn` from -1 to 1 moves up and down with the strip.
+// Returns bounds from jaw to jaw that follow the strip up and down; `turn` from -1 to 1 is the share of the
+// amplitude.
 render::Box framed(double turn, float width, double half_height) {
   const double middle = turn * kLift;
   return {{-2e-3f, 0, static_cast<float>(middle - half_height)},
           {12e-3f, width, static_cast<float>(middle + half_height)}};
 }
 
-// The strip in its clamps, seen at some curvatures of the test.
+// Takes pictures of the strip in its clamps at some curvatures of the test.
 class StripPictures {
  public:
   // `strip` must outlive the pictures.
@@ -140,7 +145,7 @@ class StripPictures {
     rows_ = {turn[1] / 2, turn[1], (turn[1] + turn[2]) / 2, turn[2]};
   }
 
-  // A StripWatch: keeps a picture of the rows that are worth one.
+  // Takes a picture if the row is a chosen one; it is used as a StripWatch.
   void watch(std::size_t row, Simulation& simulation) {
     if (taken_.size() == rows_.size() || row != rows_[taken_.size()]) return;
     const float width = static_cast<float>(strip_.scene.cloth.width);
@@ -163,7 +168,7 @@ class StripPictures {
     if (taken_.size() == rows_.size()) pictures_.reset();
   }
 
-  // With the moments of those rows.
+  // Returns the pictures with the moments of their rows.
   std::vector<StripPicture> taken(const StripTest& test) {
     for (std::size_t i = 0; i < taken_.size(); ++i) taken_[i].moment = test.moment[rows_[i]];
     return std::move(taken_);
@@ -180,7 +185,7 @@ class StripPictures {
   std::string renderer_;
 };
 
-// Where no equilibrium is found, the test of other laws goes on.
+// Tests one law on a strip; if no equilibrium is found, the test of other laws goes on.
 StripResult strip_tested(const Fabric& fabric, const KesFlags& flags, const LawRequest& law) {
   StripResult result;
   StripShape shape = flags.strip;
@@ -202,7 +207,7 @@ StripResult strip_tested(const Fabric& fabric, const KesFlags& flags, const LawR
   return result;
 }
 
-// Parameters that neither the laws alone read nor, where there are strips, those of the cloth.
+// Warns of parameters that neither the laws alone nor the strips' laws read.
 void warn_of_parameters(const KesTests& tests, const std::vector<std::string>& laws, const KesFlags& flags,
                         Run& run) {
   const VirginCurve curve = tests.fabric.virgin_curve();
@@ -222,7 +227,7 @@ void warn_of_parameters(const KesTests& tests, const std::vector<std::string>& l
   }
 }
 
-// Steps that are too long, and strips of another number of triangles than was asked for.
+// Warns of too long steps, and of strips with another number of triangles than requested.
 void warn_of_sizes(const CommandLine& line, const KesTests& tests, const KesFlags& flags, Run& run) {
   for (const std::string& warning : coarse_steps_warnings(tests, flags.protocol.steps, flags.strip.steps))
     run.warn(warning);
@@ -233,7 +238,7 @@ void warn_of_sizes(const CommandLine& line, const KesTests& tests, const KesFlag
   if (!warning.empty()) run.warn(warning);
 }
 
-// Their strips are missing in the tables.
+// Warns of failed strips, which are missing in the tables.
 void warn_of_failures(const KesTests& tests, Run& run) {
   for (const KesResult& result : tests.results)
     if (result.strip && !result.strip->failure.empty())
@@ -241,14 +246,15 @@ void warn_of_failures(const KesTests& tests, Run& run) {
                result.strip->failure);
 }
 
-// Not a single strip could be tested.
+// Throws if not a single strip could be tested.
 void throw_if_all_failed(const KesTests& tests) {
   for (const KesResult& result : tests.results)
     if (!result.strip || result.strip->failure.empty()) return;
   throw Error::simulation(tests.results.back().strip->failure);
 }
 
-// Branches that relax are the fabric's: without them `chapman` takes no time.
+// Throws if a rate is given and no law depends on time; relaxing branches are the fabric's, without which
+// `chapman` does not.
 void check_rate(const CommandLine& line, const KesFlags& flags, const std::vector<std::string>& laws,
                 const Fabric& fabric) {
   const std::string rate = last_text(line.flags, "rate", "");
@@ -274,7 +280,7 @@ KesTests tested(const Fabric& fabric, const KesFlags& flags, const std::vector<s
   return tests;
 }
 
-// The manifest's `scene`: all keys resolved, and the fabric with its sources.
+// Returns the manifest's `scene`: all keys resolved, and the fabric with its sources.
 Json resolved(KesFlags& flags, const std::vector<std::string>& laws, const Fabric& fabric) {
   Json keys = to_json(bind(kRows, flags));
   if (flags.on == "strip") keys.update(to_json(bind(kStripRows, flags)), true);
@@ -316,12 +322,12 @@ int run_kes(const CommandLine& line) {
   return 0;
 }
 
-// A number that a tester reads.
+// Returns the headline of a number that a tester reads.
 Headline reading(const char* metric, const char* words, const char* unit, double scale = 1) {
   return {metric, words, unit, "{:.4g}", scale, kNoErrors};
 }
 
-// By how much the strip's is larger than the law's.
+// Returns the headline of the strip's reading relative to the law's.
 Headline strip_apart(const char* metric, const char* words) {
   return {metric, words, "%", "{:+.2f}", 1, kNoErrors};
 }

@@ -25,8 +25,9 @@ namespace {
 
 struct InPlaneSpecimen {
   std::string mesh = "aligned";
-  int triangles = 2000;  // about
-  int steps = 16;        // equilibria from zero to the largest: a multiple of 16 reads shear where they are
+  int triangles = 2000;  // approximate number
+  // Equilibria from zero to the largest strain; a multiple of 16 puts rows at the angles where shear is read.
+  int steps = 16;
 };
 
 struct InPlaneFlags {
@@ -45,7 +46,7 @@ const KeyRow<InPlaneFlags> kOwnRows[] = {
     {"along", at<&F::along>, "", any(), "", "shear, tension: the direction from clamp to clamp"},
     {"load", at<&F::protocol, &P::largest>, "N/m", positive(), "", "tension: largest force per width; the tester's is 500 gf/cm"},
 };
-// As of the bending test's.
+// These keys are shared with the bending test.
 const KeyRow<InPlaneFlags> kSharedRows[] = {
     {"test", at<&F::test>, "", any(), "bending | shear | tension", "KES-FB2 bending, KES-FB1 shear or tension"},
     {"on", at<&F::on>, "", any(), "law | strip", "the law alone, or beside it a specimen of cloth"},
@@ -62,24 +63,24 @@ Keys option_keys(InPlaneFlags& flags) {
   return with_output_options(keys, flags.options);
 }
 
-// ---- on a specimen of cloth between two clamps: one equilibrium per row, no weight of its own ----
+// ---- the tests on a specimen of cloth between two clamps: one equilibrium per row, without weight ----
 
-constexpr double kInPlaneGauge = 0.05, kInPlaneWidth = 0.2;  // of the tester's specimen [m]
+constexpr double kInPlaneGauge = 0.05, kInPlaneWidth = 0.2;  // size of the tester's specimen [m]
 
-// Clamps lead along the way that uniform strain takes; what the free edges change, their forces show.  The
-// cloth stays in its plane, which it does not leave without a disturbance.
+// The result of a test on cloth.  The clamps follow the path of uniform strain; the effect of the free edges
+// shows in their forces.  The cloth stays in its plane, which it does not leave without a disturbance.
 template <class Test>
 struct InPlaneCloth {
-  Test test;           // its rows and readings, of the specimen
+  Test test;           // rows and readings of the specimen
   Test law;            // the law alone through the same rows
-  double tension = 0;  // per width, mean over the rows of shear [N/m]
+  double tension = 0;  // mean tension per width over the rows of shear [N/m]
   int triangles = 0;
-  double seconds = 0;  // wall clock
+  double seconds = 0;  // wall clock [s]
 };
 
 using Clock = std::chrono::steady_clock;
 
-// Where the moving clamp goes, over the gauge: apart and along itself.
+// The moving clamp's displacement over the gauge: away from the other clamp, and along itself.
 struct ClampPlace {
   double apart, along;
 };
@@ -109,7 +110,7 @@ Scene strip_scene(const Fabric& fabric, Along along, const InPlaneSpecimen& spec
   return scene;
 }
 
-// Of the moving clamp at each place, per width: apart and along itself [N/m].
+// The moving clamp's forces per width at each place: away from the other clamp, and along itself [N/m].
 struct ClampForces {
   std::vector<ClampPlace> force;
   int triangles = 0;
@@ -135,7 +136,8 @@ ClampForces forces_at(const Fabric& fabric, Along along, const InPlaneSpecimen& 
   return result;
 }
 
-// `along`: the direction from clamp to clamp.  Throws Error::simulation where no equilibrium is found.
+// Shears a specimen; `along` is the direction from clamp to clamp.  Throws Error::simulation if no
+// equilibrium is found.
 InPlaneCloth<ShearTest> shear_cloth(const Fabric& fabric, Along along, const InPlaneSpecimen& specimen,
                                     InPlaneProtocol protocol) {
   protocol.steps = specimen.steps;
@@ -175,25 +177,25 @@ constexpr auto names(InPlaneTest) { return std::array{"shear", "tension"}; }
 
 // A number that the tester reads.
 struct InPlaneNumber {
-  const char* key;    // of the metric, with its unit
-  const char* label;  // in table.csv, with its unit
+  const char* key;    // name of the metric, with its unit
+  const char* label;  // label in table.csv, with its unit
   double value;
 };
 
-// A loop and what is read of it; `x` in degrees of shear or percent of extension.
+// A loop and the numbers read from it; `x` is in degrees of shear or percent of extension.
 struct InPlaneLoop {
-  std::vector<double> x, force;  // force in N/m
+  std::vector<double> x, force;  // x, and force per width [N/m]
   std::vector<InPlaneNumber> numbers;
 };
 
 struct InPlaneResult {
   Fabric fabric;
   InPlaneLoop law;
-  // Of the specimen of cloth and of one of a quarter of the triangles; without numbers where none was asked
-  // for.
+  // The loops of the specimen of cloth and of one with a quarter of the triangles; they have no numbers if no
+  // cloth was requested.
   InPlaneLoop cloth, coarse;
   InPlaneLoop law_through_rows;  // the law alone through the specimen's rows
-  double tension = 0;            // of the specimen in shear [N/m]
+  double tension = 0;            // tension of the specimen in shear [N/m]
   int triangles = 0;
   double seconds = 0;
 };
@@ -216,7 +218,7 @@ constexpr PrintedNumber kPrinted[] = {
     {"EMT_percent", "EMT", "%", 1},
 };
 
-double published(const Fabric& fabric, const std::string& key) {  // in SI; NaN: not published
+double published(const Fabric& fabric, const std::string& key) {  // in SI; NaN if not published
   for (const PrintedNumber& printed : kPrinted) {
     const auto found = fabric.published.find(printed.name);
     if (key == printed.key && found != fabric.published.end() && found->second.unit == printed.unit)
@@ -225,12 +227,12 @@ double published(const Fabric& fabric, const std::string& key) {  // in SI; NaN:
   return NAN;
 }
 
-constexpr double kNothing = 1e-9;  // [N/m], [J/m^2]: what an elastic law's loop has of width and area
+constexpr double kNothing = 1e-9;  // [N/m], [J/m^2]: rounding in width and area of an elastic law's loop
 
-// Over another, minus 1 [percent].
+// Returns a/b - 1 [%].
 double difference(double a, double b) { return 100 * (a / b - 1); }
-// Of a specimen's number over the law's, and of one with fewer triangles over the specimen's; NaN where the
-// law reads nothing.
+// The differences [%] of the specimen's number from the law's, and of a coarser specimen's from the
+// specimen's; NaN where the law reads zero.
 struct ClothDifference {
   double law = NAN, mesh = NAN;
 };
@@ -272,8 +274,8 @@ InPlaneLoop in_plane_loop(const TensionTest& test) {
   return loop;
 }
 
-// Numbers of the law; strip_* of the specimen, by how much they differ from the law's, and how much they
-// change from a quarter of the triangles on.
+// Writes the numbers of the law; as strip_* those of the specimen, their differences from the law's, and
+// their change from a quarter of the triangles on.
 void write_in_plane_metrics(Run& run, const InPlaneResult& result) {
   for (const InPlaneNumber& n : result.law.numbers) {
     run.metric(n.key, n.value);
@@ -295,8 +297,8 @@ void write_in_plane_metrics(Run& run, const InPlaneResult& result) {
   run.metric("strip_solve_s", result.seconds);
 }
 
-// Numbers of the specimen that its few rows make wrong, as they do the law's, and a mesh that is not what was
-// asked for.
+// Warns of numbers that too few rows make wrong, for the specimen as for the law, and of a mesh with another
+// number of triangles than requested.
 void warn_of_sizes(const CommandLine& line, const InPlaneFlags& flags, const InPlaneResult& result,
                    Run& run) {
   constexpr double kMostPercent = 0.5;
@@ -315,7 +317,7 @@ void warn_of_sizes(const CommandLine& line, const InPlaneFlags& flags, const InP
   if (!warning.empty()) run.warn(warning);
 }
 
-// loops.csv, strip.csv, and table.csv: beside what the fabric's file says was published.
+// Writes loops.csv, strip.csv, and table.csv, which includes the fabric's published values.
 void write_in_plane_tables(Run& run, const InPlaneResult& result, InPlaneTest test) {
   const auto write = [&](const std::string& name, const InPlaneLoop& loop) {
     Table({{strain_axis_label(test), loop.x}, {"force per width [N/m]", loop.force}}).write(run.path(name));
@@ -332,7 +334,7 @@ void write_in_plane_tables(Run& run, const InPlaneResult& result, InPlaneTest te
   table.write(run.path("table.csv"));
 }
 
-// plot_loops.
+// Draws plot_loops.
 void write_in_plane_plot(Run& run, const InPlaneResult& result, InPlaneTest test) {
   render::Plot plot{.title = "KES-FB1 " + enum_name(test) + " of " + result.fabric.name,
                     .x = {strain_axis_label(test)},
@@ -402,7 +404,8 @@ int run_in_plane(const CommandLine& line) {
 std::vector<KeyDescription> in_plane_keys() {
   std::vector<KeyDescription> keys = key_descriptions(kOwnRows);
   std::erase_if(keys,
-                [](const KeyDescription& key) { return key.path == "along"; });  // the bending test's, too
+                // The bending test has it, too.
+                [](const KeyDescription& key) { return key.path == "along"; });
   for (const KeyDescription& key : scene_keys()) {
     const bool stiffness =
         key.path == "fabric.warp" || key.path == "fabric.weft" || key.path == "fabric.shear";

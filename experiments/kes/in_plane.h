@@ -1,4 +1,4 @@
-// `hysteron kes --test shear|tension`.
+// `hysteron kes --test shear|tension` runs the KES-FB1 tests.
 #pragma once
 
 #include "experiments/workbench/app/experiment.h"
@@ -6,7 +6,7 @@
 namespace hysteron::experiments {
 
 int run_in_plane(const CommandLine& line);
-// What its flags have that the bending test's have not.
+// Returns the keys of the in-plane tests that the bending test does not have.
 std::vector<KeyDescription> in_plane_keys();
 
 }  // namespace hysteron::experiments

@@ -17,14 +17,14 @@ std::string prefix(const KesResult& result) { return result.name.empty() ? "" : 
 
 double curvature_amplitude(const KesResult& result) { return result.test.walk.rows.back().curvature; }
 
-// Of the names of a result's own files.
+// Returns the suffix of a result's own files.
 std::string ending(const std::string& name) { return name.empty() ? "" : "_" + name; }
 
 std::string moment_column(const KesResult& result) {
   return (result.name.empty() ? result.law : result.name) + " moment [N]";
 }
 
-// Every so many rows, and all where a leg ends.
+// Returns every so many rows, and the last row of each leg.
 std::vector<std::size_t> shown_rows(const KesWalk& walk, int steps) {
   const std::size_t stride = std::max(1, steps / kShownSteps);
   std::vector<std::size_t> rows;
@@ -99,8 +99,8 @@ constexpr const char* kLawColor = "#0072B2";
 constexpr const char* kReferenceColor = "#C8C8C8";
 constexpr const char* kMinorColors[] = {"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00"};
 constexpr int kDrawnSteps = 50;    // points from zero to the amplitude
-constexpr double kSettled = 0.01;  // change of the area from cycle to cycle that counts as settled
-constexpr double kHeadroom = 1.7;  // of the axis over the largest moment of `prandtl`
+constexpr double kSettled = 0.01;  // relative change of the area between cycles below which it is settled
+constexpr double kHeadroom = 1.7;  // top of the axis over the largest moment of `prandtl`
 
 render::Series curve(const std::vector<double>& curvature, const std::vector<double>& moment, int steps,
                      const std::string& color, double width) {
@@ -127,7 +127,7 @@ double largest_moment(const KesTest& test) {
   return largest;
 }
 
-// What must be known to read a law's loop.
+// Returns remarks that are needed to read a law's loop.
 std::vector<std::string> remarks(const KesResult& result, double shown_moment) {
   std::vector<std::string> lines;
   if (result.law == "grinspun-edit") lines.push_back("rest curvature edited at both ends");
@@ -138,7 +138,7 @@ std::vector<std::string> remarks(const KesResult& result, double shown_moment) {
   return lines;
 }
 
-// "face 11.57, back 16.2": what a tester reads on both sides.
+// Formats the readings of both sides: "face 11.57, back 16.2".
 std::string of_sides(double face, double back) { return fmt::format("face {:.4g}, back {:.4g}", face, back); }
 
 std::vector<std::string> readings(const KesReading& r, const Faces& faces) {
@@ -229,10 +229,10 @@ void write_metrics(Run& run, const KesTests& tests) {
 
 namespace {
 
-// "law kim, steps = 10: the area of the loop is 23.5 % too small by the length of its steps"; "" where it is
-// right.
+// Returns "law kim, steps = 10: the area of the loop is 23.5 % too small by the length of its steps"; "" if
+// the error is small.
 std::string coarse_steps_warning(const std::string& what, double error) {
-  constexpr double kMostError = 5e-3;  // what testers and meshes are not asked to resolve
+  constexpr double kMostError = 5e-3;  // relative error below the resolution of testers and meshes
   if (!(std::abs(error) > kMostError)) return "";
   return fmt::format("{}: the area of the loop is {:.1f} % too {} by the length of its steps: take more",
                      what, 100 * std::abs(error), error < 0 ? "small" : "large");
@@ -247,7 +247,7 @@ std::vector<std::string> coarse_steps_warnings(const KesTests& tests, int steps,
         coarse_steps_warning(fmt::format("law {}, steps = {}", result.law, steps), result.test.area_error));
     const double area = result.test.reading.loop_area;
     if (!result.strip || !result.strip->failure.empty() || area == 0) continue;
-    // The law alone through the strip's curvatures, with as long steps, is as far off as the strip.
+    // The law alone, through the strip's curvatures in the same steps, has the same error as the strip.
     const double error = result.strip->test.law_reading.loop_area / area - 1;
     warnings.push_back(coarse_steps_warning(
         fmt::format("strip under law {}, strip-steps = {}", result.law, strip_steps), error));

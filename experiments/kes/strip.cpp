@@ -15,8 +15,9 @@ namespace hysteron::experiments {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-// Where a chain of chords as long as the columns' spacing ends that bends uniformly through K L: its chords'
-// middles lie on a circle of radius d/(2 tan(K d/2)), a little less than 1/K.
+// Returns the clamp's position at the end of a chain of chords, as long as the columns' spacing, that bends
+// uniformly through K L: its chords' middles lie on a circle of radius d/(2 tan(K d/2)), a little less than
+// 1/K.
 Keyframe bent(double curvature, double spacing, double time) {
   const double angle = curvature * kGauge;
   Keyframe key{time, {0, 0, 0}, angle * 180 / kPi};
@@ -39,7 +40,7 @@ Scene strip_scene(const StripShape& shape, const LawRequest& law, const Fabric& 
   scene.step = walk.rows.back().seconds;
   scene.seconds = scene.step * static_cast<double>(walk.rows.size());
   scene.device = DeviceChoice::cpu;
-  scene.threads = 1;  // strips are small
+  scene.threads = 1;  // a strip is too small for more
   return scene;
 }
 
@@ -68,8 +69,8 @@ void check_strip(const StripShape& shape, const LawRequest& law, const KesProtoc
 
 using Clock = std::chrono::steady_clock;
 
-// Of the forces of the moving clamp about the axis through its middle, per width [N]; positive where they
-// bend the strip towards +z.
+// Returns the moment of the moving clamp's forces about the axis through its middle, per width [N]; it is
+// positive if they bend the strip towards +z.
 double clamp_moment(const ClampedStrip& strip, std::size_t row, const std::vector<Eigen::Vector3d>& x,
                     const std::vector<Eigen::Vector3d>& force) {
   const Eigen::Vector3d middle = strip.clamp(row)(strip.middle());
@@ -79,7 +80,8 @@ double clamp_moment(const ClampedStrip& strip, std::size_t row, const std::vecto
   return torque.dot(strip.scene.pin[1].motion.axis) / strip.scene.cloth.width;
 }
 
-double clamp_force(const ClampedStrip& strip, const std::vector<Eigen::Vector3d>& force) {  // [N/m]
+// Force over the width [N/m].
+double clamp_force(const ClampedStrip& strip, const std::vector<Eigen::Vector3d>& force) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < force.size(); ++i)
     if (strip.cloth.pin[i] == 1) sum += force[i];
@@ -88,7 +90,7 @@ double clamp_force(const ClampedStrip& strip, const std::vector<Eigen::Vector3d>
 
 double free_curvature(const ClampedStrip& strip, const std::vector<double>& curvature) {
   const ClothMesh& mesh = strip.cloth.mesh;
-  // S_xx where warp lies along the strip, S_yy where weft does.
+  // This is S_xx if warp lies along the strip, S_yy if weft does.
   const int along = lies_along_weft(strip.scene) ? 1 : 0;
   double sum = 0, area = 0;
   for (int f = 0; f < mesh.faces(); ++f) {
@@ -99,7 +101,7 @@ double free_curvature(const ClampedStrip& strip, const std::vector<double>& curv
   return sum / area;
 }
 
-// The memory that a cloth has, if none is asked for; alone a law has an exact one.
+// Gives the law the memory that it has in a cloth, unless the user chose one; alone a law has an exact one.
 LawRequest as_in_cloth(LawRequest law) {
   if (law.name == "prandtl") law.parameters.try_emplace("memory", "stops");
   return law;
@@ -114,7 +116,7 @@ const std::vector<std::string>& strip_meshes() {
 }
 
 KesWalk strip_walk(const KesProtocol& p, int steps) {
-  const int between = 2 * steps - 1;  // amplitudes
+  const int between = 2 * steps - 1;  // in amplitudes
   const double step = 2 * p.amplitude / between, seconds = step / p.rate;
   KesWalk walk{{LawRow{0, seconds, false}}, {0}};
   for (int i = 1; i <= steps; ++i) walk.rows.push_back({p.amplitude * (2 * i - 1) / between, seconds, false});
@@ -152,7 +154,7 @@ ClampedStrip clamped_strip(const StripShape& shape, const LawRequest& law, const
   scene.triangles = clamped.mesh.faces();
   scene.pin = {held_between(-1, clamped.near()), held_between(clamped.far(), 1)};
   Motion& motion = scene.pin[1].motion;
-  motion.axis = {0, -1, 0};  // warp turns towards +z
+  motion.axis = {0, -1, 0};  // bends warp towards +z
   motion.center = {kGauge + d / 2, shape.width / 2, 0};
   for (std::size_t i = 0; i < strip.walk.rows.size(); ++i)
     motion.keys.push_back(bent(strip.walk.rows[i].curvature, d, static_cast<double>(i) * scene.step));

@@ -11,7 +11,8 @@
 namespace hysteron::experiments {
 namespace {
 
-constexpr double kNothing = 1e-4;  // of what the largest moment could make of a reading: the law reads zero
+// Readings below this share of what the largest moment could give count as zero.
+constexpr double kNothing = 1e-4;
 
 double largest(const std::vector<double>& values) {
   double result = 0;
@@ -19,7 +20,7 @@ double largest(const std::vector<double>& values) {
   return result;
 }
 
-// Mean curvature between the clamps over that of the gauge, at the amplitude, minus 1 [percent].
+// Returns the mean curvature between the clamps relative to the nominal one at the amplitude [%].
 double bend_between(const StripResult& result) {
   if (result.test.free_curvature.empty()) return NAN;
   const std::size_t row = result.strip.walk.start[1];
@@ -48,12 +49,12 @@ void write_strip_readings(Run& run, const std::string& p, const StripResult& res
   run.metric(p + "strip_solve_s", test.seconds);
 }
 
-// ---- the loop over the law's, what separates them, and pictures, on one page ----
+// ---- one page with the loop over the law's, their difference, and pictures ----
 
 constexpr const char* kLawAloneColor = "#C8C8C8";
 constexpr const char* kStripColor = "#0072B2";
 constexpr int kPlotWidth = 1100, kLoopHeight = 700, kDifferenceHeight = 400;  // [pixels]
-constexpr int kPictureWidth = 640, kGap = 16;                                 // at most
+constexpr int kPictureWidth = 640, kGap = 16;                                 // largest sizes [pixels]
 
 render::Series series(const StripResult& result, const std::vector<double>& values, double factor) {
   render::Series series{.label = "", .x = {}, .y = {}, .color = kStripColor, .line_width = 1.6};
@@ -93,12 +94,12 @@ render::Plot differences(const StripResult& result) {
   return plot;
 }
 
-// Plots on the left, pictures in two columns on the right.
+// Composes the plots on the left and the pictures in two columns on the right.
 render::Image page(const render::Image& loop, const render::Image& difference,
                    const std::vector<StripPicture>& pictures) {
   const int height = loop.height() + difference.height();
   const int rows = static_cast<int>(pictures.size() + 1) / 2, cell = height / rows;
-  const render::Image& first = pictures.front().image;  // all are equally large
+  const render::Image& first = pictures.front().image;  // all have the same size
   const double scale = std::min(static_cast<double>(kPictureWidth) / first.width(),
                                 static_cast<double>(cell - kGap) / first.height());
   const int wide = static_cast<int>(scale * first.width()), high = static_cast<int>(scale * first.height());

@@ -1,4 +1,4 @@
-// `hysteron law`: one law alone, from a list of curvatures to moments and energies.
+// `hysteron law` runs one law alone, from a list of curvatures to moments and energies.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -25,10 +25,10 @@ namespace {
 struct LawFlags {
   std::string law = "prandtl";
   std::string fabric = "cotton-broad";
-  VirginCurve curve{};  // with the parts of the fabric
+  VirginCurve curve{};  // includes the fabric's bending parts
   Parameters param;
-  std::string in;   // columns `curvature [1/m]`, optional `time [s]`, `edit`
-  std::string out;  // curvature, moment, tangent, stored, dissipated (cumulative)
+  std::string in;   // input with columns `curvature [1/m]`, optional `time [s]`, `edit`
+  std::string out;  // output: curvature, moment, tangent, stored, dissipated (cumulative)
 };
 
 using L = LawFlags;
@@ -53,7 +53,7 @@ void warn(const std::string& text) {
   if (!text.empty()) std::cerr << "warning: " << text << std::endl;
 }
 
-// Of the fabric, and of what is given in place of its numbers.
+// Warns of doubtful numbers, of the fabric and of those given in their place.
 void check_numbers(const CommandLine& line, const LawFlags& flags) {
   std::vector<std::string> warnings = checked_fabric_warnings(flags.fabric);
   const std::pair<const char*, double> numbers[] = {
@@ -83,7 +83,7 @@ void check_curve(const VirginCurve& curve) {
   if (!(curve.k0 >= 0) || !std::isfinite(curve.k0)) refuse("k0", curve.k0, "1/m", "finite and >= 0");
 }
 
-// None where the column is not there.
+// Returns a column's numbers, or nothing if the table lacks the column.
 std::vector<double> metric_values(const Table& table, const std::string& column) {
   return table.find(column) ? table.numbers(column) : std::vector<double>{};
 }
@@ -107,7 +107,7 @@ void check_edit(const Table& table) {
   }
 }
 
-constexpr double kSharpest = 1e6;  // [1/m] of a bend; fibres are thicker than its radius, 1 um
+constexpr double kSharpest = 1e6;  // limit of a bend [1/m]; fibres are thicker than its radius, 1 um
 
 void check_curvature(const Table& table) {
   const std::vector<double> curvature = table.numbers(kCurvature);
@@ -118,7 +118,7 @@ void check_curvature(const Table& table) {
   }
 }
 
-// Parameters of any size are allowed; what they make of a curvature may be beyond all numbers.
+// Throws if a result is not finite: parameters of any size are allowed, and may overflow.
 void check_results(const std::vector<Column>& results, const Table& table) {
   for (size_t row = 0; row < table.lines.size(); ++row) {
     for (const Column& column : results) {
@@ -143,7 +143,7 @@ std::vector<LawRow> law_table_rows(const Table& table) {
   return rows;
 }
 
-// Laws that take time need to know it: from rows whose times never rise no time passes.
+// Throws if a law that depends on time gets times that never rise.
 void check_time_passes(const Table& table, const LawRequest& request) {
   const std::vector<double> time = metric_values(table, kTime);
   if (time.size() < 2 || time.back() > time.front() || !takes_time(request)) return;
@@ -158,12 +158,12 @@ std::string time_warning(const Table& table, const LawRequest& request) {
          " takes time: every row is taken as a step of 1 s";
 }
 
-constexpr int kParts = 8;  // that each row's step is cut into, to see what its length does
-constexpr std::size_t kMostPartSteps = 100000;  // more are not tried
-constexpr double kMostByLength = 0.02;          // by which results may differ, of their largest
-constexpr double kRoundingOfEnergy = 1e-9;      // of the largest moment times the largest curvature
+constexpr int kParts = 8;  // steps that each row is divided into, to see the effect of its length
+constexpr std::size_t kMostPartSteps = 100000;  // larger inputs are not checked
+constexpr double kMostByLength = 0.02;          // largest relative difference allowed
+constexpr double kRoundingOfEnergy = 1e-9;  // rounding over the largest moment times the largest curvature
 
-// Each row as `kParts` equal steps that take its time together; an edit follows the last.
+// Divides each row into `kParts` equal steps that take its time together; an edit follows the last.
 std::vector<LawRow> rows_in_parts(const std::vector<LawRow>& rows) {
   std::vector<LawRow> parts;
   double before = 0;
@@ -182,8 +182,8 @@ double largest_of(const std::vector<double>& values) {
   return largest;
 }
 
-// How much the last moment, the largest moment and the lost energy differ by, of their largest, at the rows'
-// own ends; 0 where a number of either run is not finite, or is rounding of laws that lose no energy.
+// Returns the largest relative difference of the last moment, the largest moment and the lost energy at the
+// rows' ends; 0 if a number of either run is not finite, or is rounding in laws that lose no energy.
 double difference_by_length(const std::vector<LawRow>& rows, const LawRun& whole, const LawRun& parts) {
   LawRun ends;
   for (std::size_t i = kParts - 1; i < parts.moment.size(); i += kParts) {
@@ -205,7 +205,8 @@ double difference_by_length(const std::vector<LawRow>& rows, const LawRun& whole
                    over(whole.dissipated.back() - ends.dissipated.back(), most_lost)});
 }
 
-// For laws whose answer depends on how long a step is: narain, kim, those that take time, and fatigue.
+// Warns if the answer depends on the steps' lengths, as with narain, kim, laws that depend on time, and
+// fatigue.
 std::string step_length_warning(const LawRequest& request, const std::vector<LawRow>& rows,
                                 const LawRun& whole) {
   if (rows.size() * kParts > kMostPartSteps) return "";
@@ -217,7 +218,7 @@ std::string step_length_warning(const LawRequest& request, const std::vector<Law
       request.name, 100 * difference);
 }
 
-// What a bending tester would read of the fabric's stops.
+// Returns what a bending tester would read of the fabric's stops.
 std::string stops_summary(const LawRequest& request) {
   if (request.curve.parts.stops.empty()) return "";
   const KesProtocol p;
@@ -241,17 +242,17 @@ std::string recovery_summary(const LawRequest& request, const std::vector<LawRow
   return text + "\n";
 }
 
-// b1 and k0 by hand are friction of three numbers.
+// Drops the fabric's stops if b1 or k0 is given, because these mean friction of three numbers.
 void drop_stops_unless_asked_for(const CommandLine& line, LawFlags& flags) {
   const bool by_hand = std::any_of(line.flags.begin(), line.flags.end(),
                                    [](const Flag& flag) { return flag.path == "b1" || flag.path == "k0"; });
   if (by_hand) flags.curve.parts.stops = flags.curve.parts.weft_stops = {};
 }
 
-// What stands in the first line of every table of results.
+// The end of the first line of every table of results.
 constexpr const char* kResultsMark = ",moment [N],tangent [N m],stored [J/m2],dissipated [J/m2]";
 
-// The flags over the fabric's numbers.
+// Reads the fabric and applies the flags over its numbers.
 LawFlags read_flags(const CommandLine& line) {
   LawFlags flags;
   const Keys keys = bind(kRows, flags);
@@ -263,7 +264,7 @@ LawFlags read_flags(const CommandLine& line) {
     const std::optional<double> k0 = flag.path == "k0" ? number_in(flag.text) : std::nullopt;
     if (!k0 || !fabric.kes.gives_numbers()) continue;
     fabric.k0 = *k0;
-    fabric.follow_kes();  // B and 2HB stay
+    fabric.follow_kes();  // so that B and 2HB stay
   }
   flags.curve = fabric.virgin_curve();
   for (const Flag& flag : line.flags) apply(flag);
@@ -277,11 +278,11 @@ LawFlags read_flags(const CommandLine& line) {
   return flags;
 }
 
-// The first row is the first curvature visited from rest, every row is one accepted step, which takes the
-// difference of the two times (the first row: 0 s), or 1 s where there is no `time`, which laws that take
-// time are warned of; it must not fall.
-// `edit` = 1 sets the rest curvature to that of the row (grinspun-edit; others ignore it).  Prints the
-// reversals by recovery case, and the residual curvature after the last row.
+// Runs the table through the law.  The first row is the first curvature visited from rest; every row is one
+// accepted step, which takes the difference of the two times (the first row: 0 s), or 1 s without a `time`
+// column, with a warning for laws that depend on time; time must not fall.  `edit` = 1 sets the rest
+// curvature to that of the row (grinspun-edit; others ignore it).  Prints the reversals by recovery case, and
+// the residual curvature after the last row.
 int run_law_command(const CommandLine& line) {
   const LawFlags flags = read_flags(line);
   check_curve(flags.curve);

@@ -1,4 +1,4 @@
-// `hysteron list`: what there is, on stdout.
+// `hysteron list` prints what is available: fabrics, laws, scenes and so on.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -27,7 +27,7 @@ void print_row(const std::vector<std::string>& cells, const std::vector<int>& wi
   std::cout << aligned(cells, widths) << "\n";
 }
 
-// Who measured the bending: the source of the first published number, else that of B or b2.
+// Returns who measured the bending: the source of the first published number, else that of B or b2.
 std::string bending_source(const FabricFile& file) {
   for (const char* key : {"B", "ke-0-small", "b1-warp"}) {
     const auto found = file.fabric.published.find(key);
@@ -36,14 +36,14 @@ std::string bending_source(const FabricFile& file) {
   return file.shown(file.fabric.provenance.at(file.fabric.kes.on() ? "kes-b" : "b2"));
 }
 
-// Of a list, or of one number, over which Json goes as over a list of it.
+// Formats a list of numbers, or a single one, which Json iterates like a list.
 std::string listed(const Json& numbers) {
   std::vector<std::string> words;
   for (const Json& x : numbers) words.push_back(short_number(x.get<double>()));
   return join(words, ", ");
 }
 
-// A line for each part that the fabric has beyond three numbers, with where it comes from.
+// Prints a line for each bending part beyond three numbers, with its source.
 void print_parts(const FabricFile& file) {
   const Fabric& fabric = file.fabric;
   const BendingParts& parts = fabric.bending;
@@ -94,8 +94,8 @@ void print_fabrics() {
   std::cout << "-: no bending friction published; none assumed (b1 = b2)\n";
 }
 
-// Every number that the file states, in the order of the keys: a value or a list of them, its unit, how it is
-// known, between which numbers it may lie where that is stated, and its source.
+// Returns every number that the file states, in the order of the keys: a value or a list of them, its unit,
+// its confidence, its range if stated, and its source.
 Json stated_numbers(const FabricFile& file) {
   Scene scene;
   scene.fabric = file.fabric;
@@ -116,7 +116,7 @@ Json stated_numbers(const FabricFile& file) {
   return numbers;
 }
 
-// With the numbers as published.
+// Returns the fabric with the numbers as published.
 Json fabric_json(const FabricFile& file) {
   Json published = Json::object();
   for (const auto& [name, number] : file.fabric.published) {
@@ -184,7 +184,7 @@ Json devices() { return devices_json(tried_devices()); }
 
 void print_devices() { print_findings("out"); }
 
-// A cell must not end at a bar.
+// Escapes bars, which would end a Markdown cell.
 std::string cell(const std::string& text) {
   std::string safe;
   for (const char c : text) safe += c == '|' ? std::string("\\|") : std::string(1, c);
@@ -214,7 +214,7 @@ std::string keys_table(const Keys& keys) {
   return table;
 }
 
-// Those of a fabric are its file's, and in `--help fabric`.
+// Leaves out the fabric's keys, which belong to its file and to `--help fabric`.
 Keys without_fabric(Keys keys) {
   std::erase_if(keys, [](const BoundKey& key) {
     return key.description.path.starts_with("fabric.") && key.description.path != "fabric.name";
@@ -226,8 +226,8 @@ std::string section(const std::string& title, const Keys& keys) {
   return "\n### " + title + "\n" + keys_table(keys);
 }
 
-// The keys of scene files as tables in Markdown, one for each kind of key, from the tables that reading,
-// flags, --help and checks come from; fabrics and runs have theirs in --help.
+// Returns the keys of scene files as Markdown tables, one for each kind of key, from the same tables as
+// reading, flags, --help and checks; fabrics and runs have theirs in --help.
 std::string key_tables() {
   Scene scene = default_scene();
   Pin pin;

@@ -21,7 +21,8 @@ std::string rest_note(const Manifest& manifest, const std::string& number) {
       2 * manifest.seconds_simulated.value_or(1));
 }
 
-// Recorded studies: specimen-uneven (0) and drapes-jis (docs/validation.md) are of the same four fabrics.
+// The numbers come from recorded studies of the same four fabrics: specimen-uneven (0) and drapes-jis
+// (docs/validation.md).
 std::string drape_mesh_note(const Manifest& manifest) {
   const std::string metric = "drape_coefficient_percent";
   if (!has_number(manifest, metric) || manifest.metrics.contains(metric + kMeshError))
@@ -55,7 +56,7 @@ std::string tester_note(const Manifest& manifest) {
 }
 
 std::string assumed_note(const Manifest& manifest) {
-  // In the order in which they move the drapes of the shipped fabrics (validate --parts budget).
+  // The keys are in the order in which they move the drapes of the shipped fabrics (validate --parts budget).
   const std::vector<std::string> assumed =
       assumed_of(manifest, {"bias-bending", "shear", "weft-bending", "k0"});
   if (assumed.empty()) return "";
@@ -77,7 +78,7 @@ std::string set_note(const Manifest& manifest, const std::string& kept) {
          "([bending.set], [bending.branches])";
 }
 
-// What the shape of a decay says of friction.
+// Explains what the shape of a decay says about friction.
 std::string decay_note(const Manifest& manifest, const std::string& shape) {
   if (shape == "saturating") {
     const double knee = manifest.metrics.number("decay_knee_fraction");
@@ -154,7 +155,7 @@ Notes crumple_notes(const Manifest& manifest) {
           set_note(manifest, "wrinkles are kept")};
 }
 
-// A list of numbers of the scene; empty where it has none there.
+// Returns a list of numbers of the scene, or nothing if there is none at this path.
 std::vector<double> numbers_at(const Manifest& manifest, const std::string& path) {
   const Json list = Json::parse(manifest.text(path), nullptr, false);
   std::vector<double> numbers;
@@ -163,7 +164,7 @@ std::vector<double> numbers_at(const Manifest& manifest, const std::string& path
   return numbers;
 }
 
-// Gravity on a strip that is level, as the standard's is [m/s^2]; 0 of one that is not.
+// Returns gravity [m/s^2] across a level strip, as in the standard; 0 if it is not level.
 double level_gravity(const Manifest& manifest) {
   const std::vector<double> gravity = numbers_at(manifest, "gravity"),
                             rotation = numbers_at(manifest, "cloth.rotation");
@@ -172,8 +173,8 @@ double level_gravity(const Manifest& manifest) {
   return std::abs(gravity[2]);
 }
 
-// KES-FB2 reads this along the strip where it sags, to its back [N m], or to both sides of laws that have the
-// mean; 0 of one that is neither of warp nor of weft.
+// Returns the rigidity [N m] that KES-FB2 reads along the strip as it sags: towards its back, or of both
+// sides for laws with the mean; 0 if the strip lies along neither warp nor weft.
 double sagging_rigidity(const Manifest& manifest) {
   const double warp_angle = std::abs(manifest.number("cloth.warp-angle")),
                weft = manifest.number("fabric.weft-bending"), back = manifest.number("fabric.back-bending");

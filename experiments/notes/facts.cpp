@@ -50,7 +50,7 @@ std::string errors_note(const Manifest& manifest, const std::string& metric, con
     return "how far mesh and step move the " + name + size + " is not known: --errors measures it";
   }
   struct Share {
-    double error;  // in the metric's unit; NaN where it is not known
+    double error;  // in the metric's unit; NaN if unknown
     const char* note;
   };
   const Share shares[] = {

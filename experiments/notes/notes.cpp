@@ -23,8 +23,7 @@ Notes notes_on(const Manifest& manifest) {
   const auto* const found = std::find_if(std::begin(kNotes), std::end(kNotes), [&](const auto& entry) {
     return manifest.experiment == entry.first;
   });
-  // A study says which of its runs failed; of others that did not come to their end the error is what there
-  // is to say.
+  // A sweep notes which of its runs failed; other incomplete runs have only their error to report.
   const bool is_study = manifest.experiment == "sweep";
   if (found == std::end(kNotes) || (!manifest.complete && !is_study)) return {};
   Notes notes = found->second(manifest);

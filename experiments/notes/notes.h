@@ -1,5 +1,6 @@
-// The last lines of a run on the terminal: what its result means and what to do next, as a compiler's notes
-// say it.  They are made from the manifest alone, change no file and are absent with --quiet and --json.
+// Notes are the last lines of a run on the terminal, like a compiler's: they say what its result means and
+// what to do next.  They are made from the manifest alone, change no file and are absent with --quiet and
+// --json.
 #pragma once
 
 #include <filesystem>
@@ -10,36 +11,36 @@
 
 namespace hysteron::experiments {
 
-inline constexpr std::size_t kMostNotes = 3;  // more are not read
+inline constexpr std::size_t kMostNotes = 3;  // most users read no more
 
 using Notes = std::vector<std::string>;  // the most important first
 
-// At most kMostNotes of them, a line each; none where there is nothing to say.
+// Returns at most kMostNotes notes, a line each; none if there is nothing to say.
 Notes notes_on(const Manifest& manifest);
 
-// "note: without --errors ..." for each of them, of the run in that folder.
+// Formats "note: without --errors ..." for each note on the run in that folder.
 std::string closing_notes(const std::filesystem::path& folder);
 
-// An option of the run or of its experiment, "drape.disc"; 0 where it has none.
+// Returns an option of the run or of its experiment, such as "drape.disc"; 0 if there is none.
 double option_number(const Manifest& manifest, const std::string& path);
 
-// Whether a metric is there and a number.
+// True if the metric exists and is a number.
 bool has_number(const Manifest& manifest, const std::string& metric);
 
-// Keys of the fabric whose numbers its file calls assumed, of these, in this order.
+// Returns those of the fabric's `keys` whose numbers its file calls assumed, in this order.
 std::vector<std::string> assumed_of(const Manifest& manifest, const std::vector<std::string>& keys);
 
-// "k0", "k0 and shear", "k0, shear and bias-bending".
+// Joins words: "k0", "k0 and shear", "k0, shear and bias-bending".
 std::string enumerated(const std::vector<std::string>& names);
 
-// Whether the fabric has nothing but friction that keeps a deformation: no permanent set, no relaxing branch.
+// True if only friction keeps a deformation: the fabric has no permanent set and no relaxing branch.
 bool has_friction_alone(const Manifest& manifest);
 
-// Of a metric that --errors can repeat, `name` in words: that its errors are not known, or which of them is
-// the largest and what makes it smaller.  "" where the run has no such number.
+// Returns a note on the errors of a metric that --errors can measure, with `name` in words: that they are
+// unknown, or which of them is the largest and how to reduce it.  "" if the run has no such number.
 std::string errors_note(const Manifest& manifest, const std::string& metric, const std::string& name);
 
-// Notes on one experiment each, as many as there are.
+// Each of these notes on one experiment, without a limit on their number.
 Notes drape_notes(const Manifest& manifest);
 Notes swing_notes(const Manifest& manifest);
 Notes crease_notes(const Manifest& manifest);

@@ -18,7 +18,7 @@ constexpr double kGramForceCentimetre = 9.80665e-3;   // [N] in 1 gf cm/cm
 
 using Columns = std::vector<std::pair<std::string, Metrics>>;
 
-// Laws whose pair is within a hundredth of that of another one: the tester prints the same of them.
+// Notes laws whose B and 2HB agree with another one's within 1 %: the tester cannot distinguish them.
 std::string alike_note(const Columns& columns) {
   constexpr double kAlike = 0.01;
   const auto is_near = [](double a, double b) { return std::abs(a - b) <= kAlike * std::abs(b); };
@@ -43,7 +43,7 @@ std::string printed_pair_note(const Manifest& manifest) {
                      b / kGramForceCentimetre2, width / kGramForceCentimetre);
 }
 
-// Friction that saturates before the tester begins to read.
+// Notes friction that saturates before the tester begins to read.
 std::string hidden_k0_note(const Manifest& manifest) {
   const double k0 = manifest.number("fabric.k0"), from = manifest.number("slope-from");
   if (manifest.text("test") != "bending" || !(k0 > 0) || k0 >= from) return "";
@@ -54,7 +54,7 @@ std::string hidden_k0_note(const Manifest& manifest) {
       k0, is_assumed ? ", assumed," : "", from);
 }
 
-// The largest standard error over its own number.
+// Notes the number with the largest relative standard error.
 std::string uncertain_note(const Manifest& manifest) {
   constexpr double kLarge = 0.2;
   std::string worst;
@@ -72,7 +72,7 @@ std::string uncertain_note(const Manifest& manifest) {
       100 * largest);
 }
 
-// A list among metrics is its JSON in a manifest that was read.
+// Returns the undetermined numbers; a list among a manifest's metrics is read as its JSON text.
 std::vector<std::string> undetermined(const Manifest& manifest) {
   const MetricValue& list = manifest.metrics["undetermined"];
   if (!list.is_text()) return {};
@@ -82,10 +82,10 @@ std::vector<std::string> undetermined(const Manifest& manifest) {
   return names;
 }
 
-// "cotton-broad.bias-bending=0.54.change_percent" in parts; empty of others.
+// Splits "cotton-broad.bias-bending=0.54.change_percent" into its parts; other metrics are skipped.
 struct Change {
   std::string fabric, number, value;
-  double points = 0;  // of the drape coefficient [%]
+  double points = 0;  // change of the drape coefficient [%]
 };
 std::vector<Change> changes_in(const Metrics& metrics) {
   const std::string ending = ".change_percent";

@@ -20,7 +20,7 @@ bool have_numbers(const Sequences& sequences) {
                       [](const TimedSequence* s) { return s->number.empty(); });
 }
 
-// The number that is frame 0.
+// Returns the number in a file's name that becomes frame 0.
 std::int64_t first_number(const Sequences& sequences) {
   const std::int64_t first = sequences.front()->number.front();
   const bool common = std::all_of(sequences.begin(), sequences.end(),
@@ -60,7 +60,7 @@ std::int64_t missing_frames(const TimedSequence& s) {
   return s.frame.back() - s.frame.front() + 1 - static_cast<std::int64_t>(s.frame.size());
 }
 
-// The file before the first gap.
+// Returns the name of the file before the first gap.
 std::string last_before_gap(const TimedSequence& s) {
   std::size_t i = 1;
   while (i < s.frame.size() && s.frame[i] == s.frame[i - 1] + 1) ++i;
@@ -73,7 +73,7 @@ std::string unnumbered_warning(const TimedSequence& s, bool among_others) {
       s.unnumbered, among_others ? " of all sequences" : "", among_others ? "their files" : "the files");
 }
 
-// Where frames of a known rate may not be at the instants that their files were written at.
+// Warns if the frames of a known rate may not be at the instants when their files were written.
 void add_clock_warnings(const TimedSequence& s, std::vector<std::string>& warnings) {
   const std::int64_t step = (s.number[1] - s.number[0]) / std::max<std::int64_t>(s.frame[1] - s.frame[0], 1);
   if (step > 1)
@@ -99,7 +99,7 @@ std::string different_first_warning(const std::vector<const TimedSequence*>& seq
   return "";
 }
 
-// Times of one unit: seconds where every rate is known, else frames.
+// Converts frames to times of one unit: seconds if every rate is known, else frames.
 class Clock {
  public:
   explicit Clock(const Sequences& sequences)
@@ -112,9 +112,9 @@ class Clock {
   }
   double duration(const TimedSequence& s) const { return time(s, s.frame.size() - 1) - time(s, 0); }
 
-  // The file within half a frame of that time.
+  // Returns the index of the file within half a frame of that time.
   std::optional<int> file_at(const TimedSequence& s, double time) const {
-    constexpr double kHalf = 0.5 + 1e-9;  // of a frame; times are quotients that are rounded
+    constexpr double kHalf = 0.5 + 1e-9;  // half a frame; times are rounded quotients
     const double frame = time * rate(s);
     const auto after =
         std::lower_bound(s.frame.begin(), s.frame.end(), static_cast<std::int64_t>(std::lround(frame)));
@@ -126,8 +126,8 @@ class Clock {
   bool timed_;
 };
 
-// The sequence whose frames are the instants: that of the lowest rate, so that the others have a frame near
-// each; of equal rates the shortest.
+// Returns the sequence whose frames are the instants: that of the lowest rate, so that the others have a
+// frame near each; among equal rates the shortest.
 const TimedSequence& coarsest(const Sequences& sequences, const Clock& clock) {
   return **std::min_element(sequences.begin(), sequences.end(),
                             [&](const TimedSequence* a, const TimedSequence* b) {
@@ -185,7 +185,7 @@ std::vector<std::string> frame_warnings(const std::vector<const TimedSequence*>&
 void choose_instants(const Sequences& sequences, int most) {
   const Clock clock(sequences);
   const TimedSequence& base = coarsest(sequences, clock);
-  std::vector<std::vector<int>> instants;  // the file of each sequence
+  std::vector<std::vector<int>> instants;  // by instant: the file of each sequence
   for (std::size_t k = 0; k < base.frame.size(); ++k) {
     std::vector<int> files;
     for (const TimedSequence* s : sequences)

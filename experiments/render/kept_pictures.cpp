@@ -24,13 +24,13 @@ namespace fs = std::filesystem;
 constexpr const char* kOut = "out/render";
 constexpr const char *kFilm = "render.video", *kFilmSize = "render.video-size", *kTitle = "render.title";
 
-// What the flags ask for in place of what the run was drawn with.
+// Overrides the options that the run was drawn with by those of the flags.
 void apply_flags(const CommandLine& line, Options& options) {
   const Keys keys = bind_options(options);
   for (const Flag& flag : line.flags) {
     const std::string path = flag.path == "render.range" ? "curvature-range" : flag.path;
     if (path == "render.part" || path == kFilm || path == kFilmSize || path == kTitle)
-      continue;  // of the page, not of a picture
+      continue;  // these are options of the page, not of a picture
     if (path.starts_with("render.") || path == "fps")
       throw Error::invalid_input(flag.path + " is of mesh files, not of kept geometry (--" + flag.path + ")")
           .with_key(flag.path, flag.text);
@@ -39,7 +39,7 @@ void apply_flags(const CommandLine& line, Options& options) {
   if (options.out.empty()) options.out = kOut;
 }
 
-// The colour bar of pictures that show none would not change.
+// Throws if no requested picture has the colour bar that the range would change.
 void require_range_is_used(const CommandLine& line, const std::vector<std::string>& looks) {
   static const std::set<std::string> kCurvatures = {"curvature", "residual", "difference"};
   const std::string range = last_text(line.flags, "render.range", "");
@@ -52,7 +52,7 @@ void require_range_is_used(const CommandLine& line, const std::vector<std::strin
       .with_key("render.range", range);
 }
 
-// The probe's path up to an instant.
+// Returns the probe's path up to an instant.
 render::Path loop_until(const Json& sheet, std::size_t points) {
   render::Path path;
   if (!sheet.is_object() || !sheet.contains("loop")) return path;
@@ -64,7 +64,7 @@ render::Path loop_until(const Json& sheet, std::size_t points) {
   return path;
 }
 
-// Every instant, then the sheet, as its record says where there is one.
+// Draws every instant, then the sheet as its record describes it, if there is one.
 void draw_instants(Run& run, const Setup& setup, const DrawnMesh& mesh, const KeptCloth& cloth,
                    const Json& sheet, const std::string& title) {
   auto subject = std::make_unique<KeptSubject>(mesh, cloth.instants);
@@ -101,7 +101,7 @@ void draw_run(const CommandLine& line, const fs::path& file, const Kept& kept) {
   finish_with_report(run);
 }
 
-// Beside the look that is asked for, those that the page needs.
+// Returns the requested looks and those that the page needs beside them.
 std::string page_looks(const ComparisonPage& page, const std::string& requested,
                        const std::string& recorded) {
   if (requested.empty()) return recorded;
@@ -111,7 +111,7 @@ std::string page_looks(const ComparisonPage& page, const std::string& requested,
   return looks;
 }
 
-// Looks of all columns.
+// Returns the looks of all columns.
 std::vector<std::string> shown_looks(const CommandLine& line, const fs::path& file, const Kept& kept,
                                      const ComparisonPage& page) {
   std::vector<std::string> all;
@@ -130,7 +130,7 @@ ChildRun draw_column(const CommandLine& line, const fs::path& file, const Kept& 
   apply_flags(line, setup.options);
   setup.options.out = (out / cloth.name).string();
   setup.options.look = page_looks(page, last_text(line.flags, "look", ""), recorded);
-  setup.options.plain = true;  // the page has the letters
+  setup.options.plain = true;  // the page adds the text
   setup.options.json = false;
   Run run(line, setup.options, keys_of_kept(file, cloth));
   draw_instants(run, setup, kept.meshes.at(cloth.mesh), cloth, {}, cloth.name);
@@ -140,7 +140,7 @@ ChildRun draw_column(const CommandLine& line, const fs::path& file, const Kept& 
   return redrawn_column(cloth, run.folder(), run.manifest().frames);
 }
 
-// Films that the line asks for.
+// Stores the films that the line requests in the page.
 void take_films(const CommandLine& line, ComparisonPage& page) {
   page.films = film_formats(kFilm, last_text(line.flags, kFilm, "none"));
   const std::string most = last_text(line.flags, kFilmSize, "");
@@ -153,7 +153,7 @@ void take_films(const CommandLine& line, ComparisonPage& page) {
   page.film_bytes = 1e6 * megabytes;
 }
 
-// A film shows every instant, which the columns' own folders have.
+// Replaces the sheet's instants by all instants, which a film shows and the columns' own folders keep.
 void take_all_instants(const fs::path& file, Kept& kept) {
   for (KeptCloth& cloth : kept.cloths) {
     const fs::path frames = file.parent_path() / cloth.name / kKeptFrames;

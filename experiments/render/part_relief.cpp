@@ -25,7 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kTable = "lightness.csv";
-constexpr long kFewest = 100;  // pixels that a median is taken of
+constexpr long kFewest = 100;  // least number of pixels for a median
 
 Error refusal(const std::string& name, const std::string& what) {
   return Error::invalid_input("render.part = " + name + " " + what + " (--render.part)")
@@ -44,7 +44,7 @@ MetricRequest request_named(const std::string& name, const fs::path& manifest, c
                                     : "must be " + join(names, " | ") + suggestion(name, names));
 }
 
-// Tells of each triangle whether it belongs to the part.
+// Returns for each triangle whether it belongs to the part.
 std::vector<char> triangles_of_part(Scene scene, const MetricRequest& request, const DrawnMesh& drawn,
                                     const fs::path& manifest) {
   find_meshes(scene, read_manifest(manifest).meshes, manifest);
@@ -57,7 +57,7 @@ std::vector<char> triangles_of_part(Scene scene, const MetricRequest& request, c
   return part;
 }
 
-// The map holds what is nearest to the eye in each pixel, rows from the top.
+// A depth buffer: it holds what is nearest to the eye in each pixel, rows from the top.
 class Nearest {
  public:
   Nearest(const render::Camera& camera, int width, int height)
@@ -68,7 +68,7 @@ class Nearest {
         cloth(depth_.size(), 0),
         part(depth_.size(), 0) {}
 
-  // A triangle in the world [m], as cloth or not.
+  // Adds a triangle in world coordinates [m], which belongs to the cloth or hides it.
   void add(const std::array<Eigen::Vector3f, 3>& corner, bool is_cloth, bool is_part) {
     std::array<Eigen::Vector2d, 3> at;
     Eigen::Vector3d depth;
@@ -125,7 +125,7 @@ void fade(render::Image& image, const std::vector<char>& part) {
           image.at(x, y)[c] = static_cast<std::uint8_t>(255 - (255 - image.at(x, y)[c]) / 4);
 }
 
-// Finds the last kept instant that is not after a time, but for rounding; the first one where there is none.
+// Returns the last kept instant that is not after a time, up to rounding; the first one if there is none.
 std::size_t instant_at(const std::vector<KeptState>& instants, double time) {
   constexpr double kRounding = 1e-9;  // [s]
   std::size_t found = 0;
@@ -134,7 +134,7 @@ std::size_t instant_at(const std::vector<KeptState>& instants, double time) {
   return found;
 }
 
-// That before the wrinkles, those at the ends of cycles, the last one.
+// Returns the instants before the wrinkles, at the ends of cycles, and at the end.
 std::vector<std::size_t> chosen_instants(const std::vector<KeptState>& instants, const MetricRequest& request,
                                          const Scene& scene) {
   std::vector<std::size_t> chosen = {instant_at(instants, request.from)};
@@ -156,7 +156,7 @@ class PartRelief {
     pictures_ = std::make_unique<Pictures>(setup, std::move(subject), cloth.bounds, cloth.floor);
   }
 
-  // At that instant; its picture is the next one.
+  // Returns the deviation of lightness at an instant and draws its picture.
   double deviation(std::size_t instant) {
     subject_->go_to(instant);
     const render::Camera camera = pictures_->camera();
@@ -174,7 +174,7 @@ class PartRelief {
     pixels_ = found.pixels;
     return found.median;
   }
-  long pixels() const { return pixels_; }  // of the last one
+  long pixels() const { return pixels_; }  // pixels of the part in the last picture
 
  private:
   Nearest seen(const KeptState& state, const render::Camera& camera, int width, int height) const {

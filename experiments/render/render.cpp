@@ -1,5 +1,6 @@
-// `hysteron render`: sequences of OBJ or PLY files, of this program or another, in the look, light and camera
-// of its own runs; several of them side by side.  A folder of its own runs is drawn again as it was.
+// `hysteron render` draws sequences of OBJ or PLY files, of this program or another, in the look, light and
+// camera of its own runs, and several of them side by side.  A folder of its own runs is drawn again as it
+// was.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -33,7 +34,7 @@ namespace {
 struct RenderFlags {
   std::string fps, unit = "metre", up = "z";  // one for all sequences, or one for each, separated by commas
   std::string title, ground = "none", body, curvature = "geometry", fabric, part;
-  double range = 100;  // [1/m] 2 k0 of the shipped fabrics, as in the pictures of their runs
+  double range = 100;  // [1/m]; 2 k0 of the shipped fabrics, as in the pictures of their runs
   Eigen::Vector3d low{0, 0, 0}, high{0, 0, 0}, also{0, 0, 0};
   std::string video = "none";
   double video_size = 4;
@@ -61,7 +62,7 @@ const KeyRow<F> kRows[] = {
 };
 // clang-format on
 
-constexpr int kCells = 12, kInstants = 5;  // pictures on the sheet of one sequence; of each of several
+constexpr int kCells = 12, kInstants = 5;  // pictures on the sheet of one sequence, or of each of several
 
 Keys option_keys(F& flags) {
   static const std::set<std::string> kNames = {"size",       "quality", "renderer", "look", "light",
@@ -89,11 +90,11 @@ std::optional<float> ground_height(const F& flags) {
   return height;
 }
 
-// A sequence with how its files are to be taken, and which of its frames the sheet shows.
+// A sequence with the axes of its files, and the frames that the sheet shows.
 struct Column : TimedSequence {
   FileAxes axes;
 
-  // "t = 0.50 s", or "frame 12" where the rate is unknown; nothing for a picture alone.
+  // Returns "t = 0.50 s", or "frame 12" if the rate is unknown; "" for a single picture.
   std::string instant(std::size_t file) const {
     if (fps > 0) return fmt::format("t = {:.2f} s", static_cast<double>(frame[file]) / fps);
     return files.size() > 1 ? fmt::format("frame {}", frame[file]) : "";
@@ -104,7 +105,7 @@ std::string after(const std::string& separator, const std::string& text) {
   return text.empty() ? "" : separator + text;
 }
 
-// The i-th of `count` values in a list of one for all or one for each; "" for an empty list.
+// Returns the i-th of `count` values in a list of one for all or one for each; "" for an empty list.
 std::string listed_value(const std::string& key, const std::string& list, std::size_t i, std::size_t count) {
   const std::vector<std::string> values = split(list);
   if (values.empty()) return "";
@@ -131,7 +132,8 @@ double frame_rate(const std::string& fps) {
   return rate;
 }
 
-// At which a run has exported these meshes [1/s]; 0: they are of no run, or it does not say.
+// Returns the rate at which a run exported these meshes [1/s]; 0 if they are of no run, or it does not state
+// it.
 double recorded_rate(const MeshSequence& sequence) {
   const std::filesystem::path folder = sequence.files.front().parent_path();
   if (folder.filename() != "mesh") return 0;
@@ -141,7 +143,7 @@ double recorded_rate(const MeshSequence& sequence) {
   return fps.is_number() ? fps.get<double>() : 0;
 }
 
-// As asked for, or that of the run whose meshes they are.
+// Returns the requested rate, or that of the run whose meshes they are.
 double frame_rate(const std::string& asked, const MeshSequence& sequence) {
   const double rate = frame_rate(asked), recorded = recorded_rate(sequence);
   if (rate > 0 && recorded > 0 && rate != recorded)
@@ -177,7 +179,7 @@ Surface moving_obstacle(const F& flags, const FileAxes& axes) {
   return read_frame(flags.body, axes);
 }
 
-// As a cloth, whose triangles must be two sides of a surface.
+// Returns the frame as a cloth, whose edges must have at most two triangles.
 ClothMesh frame_mesh(const Surface& frame, const std::string& what) {
   ClothMesh mesh;
   mesh.rest = frame.vertex;
@@ -196,7 +198,7 @@ void check_curvature(const F& flags, const Surface& frame, const std::string& wh
   frame_mesh(frame, what);
 }
 
-// What is doubtful about each sequence's first mesh: curvature needs an edge between two triangles.
+// Warns of what is doubtful about each sequence's first mesh: curvature needs an edge between two triangles.
 void warn_of_loose_parts(const F& flags, const std::vector<Column>& columns, Run& run) {
   if (flags.options.look != "curvature" || flags.curvature == "file") return;
   for (const Column& column : columns) {
@@ -206,7 +208,8 @@ void warn_of_loose_parts(const F& flags, const std::vector<Column>& columns, Run
   }
 }
 
-// Reads every file once before anything is written: what is wrong with one of them is known at the start.
+// Reads every file once before anything is written, so that faults are found at the start; returns the box of
+// all.
 render::Box checked_box(const F& flags, const std::vector<Column>& columns) {
   std::optional<render::Box> box;
   const auto add = [&](const Surface& surface) {
@@ -253,7 +256,7 @@ void note_sequences(const std::vector<Column>& columns, Run& run) {
 }
 
 std::string direction_words(const Eigen::Vector3d& direction) {
-  constexpr double kSteep = 0.9;  // sine of the elevation
+  constexpr double kSteep = 0.9;  // limit of the sine of the elevation
   return direction.normalized().z() > kSteep ? "from above" : "from elsewhere";
 }
 
@@ -326,7 +329,7 @@ class FramesAndSheet {
     return pictures_.picture(frame, what);
   }
 
-  // Instants that look like one before in every sequence are left out; cells stand sequence by sequence.
+  // Leaves out instants that look like an earlier one in every sequence; cells are ordered by sequence.
   void drop_repeated_instants() {
     const std::size_t count = cells_.size() / columns_.size();
     const auto are_alike = [&](std::size_t a, std::size_t b) {
@@ -345,7 +348,8 @@ class FramesAndSheet {
     cells_ = std::move(kept);
   }
 
-  // The cells stand sequence by sequence.  Of several each has a column, of one each instant has.
+  // Composes the sheet from cells that are ordered by sequence.  Each of several sequences has a column; of a
+  // single one each instant has.
   void write_sheet() {
     drop_repeated_instants();
     render::ComparisonSheet sheet;
@@ -372,7 +376,7 @@ class FramesAndSheet {
   struct Cell {
     render::Image image;
     std::string when;
-    Frames::Instant shown;  // where the cloth is
+    Frames::Instant shown;  // region of the cloth in the picture
     double metres_per_pixel;
   };
 
@@ -384,14 +388,15 @@ class FramesAndSheet {
   render::PngWriter writer_;
 };
 
-// Friction and what stays of curvature are not in mesh files.
+// Throws for looks that show friction or residual curvature, which mesh files do not hold.
 void check_look(const std::string& look) {
   static const std::vector<std::string> kLooks = {"cloth",     "grid",      "clay",
                                                   "curvature", "wireframe", "silhouette"};
   if (!std::count(kLooks.begin(), kLooks.end(), look)) throw refusal("look", look, join(kLooks, " | "));
 }
 
-// A folder that holds what its sheet was drawn from, meshes in a folder a column, is drawn from them again.
+// Draws a folder again from the meshes within, if it keeps what its sheet was drawn from in a folder per
+// column.
 CommandLine from_within(CommandLine line) {
   namespace fs = std::filesystem;
   if (line.positionals.size() != 1) return line;

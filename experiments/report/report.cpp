@@ -1,4 +1,4 @@
-// `hysteron report`: a run's folder, or a folder of runs, as one page.
+// `hysteron report` writes a page on a run's folder, or on a folder of runs.
 #include <algorithm>
 #include <iostream>
 
@@ -27,7 +27,7 @@ const KeyRow<ReportFlags> kRows[] = {
 };
 // clang-format on
 
-// "results/" as "results", so that messages and paths read well.
+// Returns "results/" as "results", so that messages and paths read well.
 fs::path named_folder(const std::string& name) {
   const fs::path path = fs::path(name).lexically_normal();
   const fs::path folder = path.has_filename() || !path.has_parent_path() ? path : path.parent_path();
@@ -50,7 +50,7 @@ void write(const fs::path& folder, PageForm form) {
   const bool of_a_run = has_manifest(folder);
   require_own_file(folder / (of_a_run ? "report.html" : "index.html"), kOwnPage, "a page", "");
   if (of_a_run) {
-    const FolderLock still(folder);  // a run that is not over writes this page itself
+    const FolderLock still(folder);  // an unfinished run will write this page itself
     std::cout << write_report(folder, form).string() << std::endl;
   } else {
     std::cout << write_gallery(folder, form).string() << std::endl;

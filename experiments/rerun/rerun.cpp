@@ -1,4 +1,4 @@
-// A run once more, exactly as its manifest has it.
+// `hysteron rerun` repeats a run exactly as its manifest describes it.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -35,7 +35,8 @@ const KeyRow<R> kRows[] = {
 };
 // clang-format on
 
-// Where it runs is not part of what it computes: on one device every number of threads has the same bits.
+// Returns the keys of the device, which do not change the results: on one device every number of threads
+// gives the same bits.
 std::vector<KeyDescription> device_keys() {
   std::vector<KeyDescription> keys = scene_keys();
   std::erase_if(keys,
@@ -58,7 +59,7 @@ std::string folder_for(const RecordedRun& run) {
   return "out/rerun-" + (name.empty() ? run.manifest.experiment : name);
 }
 
-// A warning of a run that is over: said, and kept in its manifest and on its page.
+// Adds a warning to a finished run: on stderr, in its manifest and on its page.
 void add_warning(const fs::path& folder, const std::string& text) {
   std::cerr << "warning: " << text << std::endl;
   const fs::path file = folder / "manifest.json";
@@ -68,7 +69,7 @@ void add_warning(const fs::path& folder, const std::string& text) {
   if (fs::exists(folder / "report.html")) write_report(folder);
 }
 
-// "state 70f23134675a1e81, as recorded"
+// Prints "state 70f23134675a1e81, as recorded".
 void say_outcome(const Manifest& before, const fs::path& folder, bool quiet) {
   const std::optional<Manifest> now = manifest_or_none(folder / "manifest.json");
   if (!now || !now->state_hash || !before.state_hash) return;
@@ -79,20 +80,21 @@ void say_outcome(const Manifest& before, const fs::path& folder, bool quiet) {
     std::cerr << "state " << *now->state_hash << ", as recorded" << std::endl;
 }
 
-// A simulated run has its scene and fabric in its manifest; others read their files as they are now.
+// Reports changed inputs.  The manifest of a simulated run holds its scene and fabric; other runs read their
+// files as they are now.
 void say_inputs(const Manifest& before, const fs::path& folder) {
   if (before.options || !has_manifest(folder)) return;
   for (const std::string& change : input_changes(before.inputs))
     add_warning(folder, change + " since the recorded run, and is read as it is now");
 }
 
-constexpr double kMinutes = 60;  // [s]
-constexpr double kSlack = 4;     // of other machines, and of a GPU's work on a CPU
+constexpr double kMinutes = 60;  // least time limit [s]
+constexpr double kSlack = 4;     // allowance for other machines, and for a GPU's work on a CPU
 constexpr int kMinMinutes = 30;
 constexpr double kMegabyte = 1e6;
 constexpr int kMinMemory = 1000;  // [MB]
 
-// Manifests below, in the order of their names; of a run's folder its own alone.
+// Returns the manifests below, in the order of their names; for a run's folder only its own.
 std::vector<fs::path> manifests_below(const fs::path& folder) {
   std::set<fs::path> found;
   std::error_code failure;
@@ -113,20 +115,20 @@ std::vector<fs::path> manifests_below(const fs::path& folder) {
   return {found.begin(), found.end()};
 }
 
-// "crease-laws", "scenes/hanging-square-half".
+// Returns "crease-laws", "scenes/hanging-square-half".
 std::string workflow_name(const fs::path& manifest, const fs::path& folder) {
   fs::path name = fs::relative(manifest, folder).replace_extension();
   return (name.filename() == "manifest" ? name.parent_path() : name).generic_string();
 }
 
-// Why it cannot be repeated; "" if it can.
+// Returns why a run cannot be repeated, or "" if it can.
 std::string why_left_out(const RecordedRun& run, const CommandLine& line) {
   if (!run.manifest.complete) return "is not complete";
   const std::string input = missing_input(line);
   return input.empty() ? "" : "needs " + input + ", which is not here";
 }
 
-// On a GPU, or a page of runs one of which was.
+// True if the run was on a GPU, or is a page of runs one of which was.
 bool had_gpu(const RecordedRun& run, const CommandLine& line) {
   if (last_text(line.flags, "device", "").starts_with("cuda")) return true;
   if (run.manifest.device) return run.manifest.device->starts_with("cuda");
@@ -151,11 +153,11 @@ JobResources job_resources(const RecordedRun& run, const CommandLine& line, cons
   return resources;
 }
 
-// A folder of recorded runs as a workflow that writes all of it anew, as results/ was written: a job for
-// every manifest below, whatever its file's name; those inside another run's folder belong to it.  OUT/NAME
-// is the repetition of FOLDER/NAME, and OUT/index.html the page of all.  Runs ask for as many cores as they
-// had, for a GPU where they had one, unless `flags` (of rerun: threads, device, ...) say otherwise, and for
-// four times as long as they took.  `left_out`: runs that cannot be repeated, in words.
+// Returns a folder of recorded runs as a workflow that writes all of it anew, as results/ was written.  Every
+// manifest below is a job, whatever its file's name; those inside another run's folder belong to it.
+// OUT/NAME is the repetition of FOLDER/NAME, and OUT/index.html the page of all.  Runs ask for as many cores
+// as they had, for a GPU if they had one, unless `flags` (of rerun: threads, device, ...) override that, and
+// for four times as long as they took.  `left_out` receives a text for each run that cannot be repeated.
 Workflow workflow_of_runs(const fs::path& folder, const fs::path& out, const std::vector<Flag>& flags,
                           std::vector<std::string>& left_out) {
   const fs::path target = fs::absolute(out).lexically_normal();
@@ -182,7 +184,7 @@ Workflow workflow_of_runs(const fs::path& folder, const fs::path& out, const std
   return workflow;
 }
 
-// Of all runs below a folder, with what the line asks of each.
+// Writes the workflow of all runs below a folder, with the flags of the line for each.
 int write_runs(const CommandLine& line, const std::string& flow) {
   const fs::path folder = line.positionals.front();
   std::vector<Flag> flags = line.flags;

@@ -1,4 +1,4 @@
-// A scene of one's own, as it stands: nothing is added to what its file says.
+// `hysteron run` simulates a user's scene exactly as its file describes it.
 #include <fmt/core.h>
 
 #include <filesystem>
@@ -16,7 +16,7 @@
 namespace hysteron::experiments {
 namespace {
 
-constexpr const char* kSceneName = "scene_name";  // in the manifest
+constexpr const char* kSceneName = "scene_name";  // key in the manifest
 
 Setup defaults() {
   Setup setup;
@@ -32,7 +32,7 @@ void limit_to_quick(Setup& setup) {
   setup.options.fps = std::min(setup.options.fps, 10.0);
 }
 
-// The scene as an argument is that of --scene.
+// Turns a scene given as an argument into a --scene flag.
 CommandLine with_scene(CommandLine line) {
   if (line.positionals.size() > 1)
     throw Error::invalid_input("takes one scene, not " + std::to_string(line.positionals.size()));
@@ -50,9 +50,9 @@ bool has_built_mesh(const Scene& scene) {
   return !from_file && !scene.mesh.ends_with(".obj");
 }
 
-// --quick that leaves the simulation as long as it was is said to do so.
+// Sets up the run and warns if --quick leaves the simulation as long as it was.
 Setup set_up_run(const CommandLine& line) {
-  int asked = 0;  // triangles without --quick
+  int asked = 0;  // number of triangles without --quick
   Setup setup = set_up(line, defaults(), {}, [&](Setup& quick) {
     asked = quick.scene.triangles;
     limit_to_quick(quick);
@@ -71,8 +71,8 @@ std::string scene_stem(const std::string& scene) {
   return path.filename() == "manifest.json" ? path.parent_path().filename().string() : path.stem().string();
 }
 
-// For titles, which a repetition in another folder shares: of a manifest the scene that its run was first
-// asked for, or the experiment that has changed it since.
+// Returns the scene's name for titles, which a repetition in another folder shares.  For a manifest it is the
+// scene that its run was first asked for, or the experiment that has changed it since.
 std::string scene_name(const std::string& scene) {
   if (!scene.ends_with(".json")) return scene_stem(scene);
   const Manifest manifest = read_manifest(scene);

@@ -16,24 +16,24 @@ constexpr double kUpright = 7.837347, kEdge = 12.853763;
 
 // Twist stretches cloth, bending does not: on edge Newton's method needs the smaller tilt.
 double initial_tilt(Buckling kind) { return kind == Buckling::upright ? 1e-3 : 1e-5; }  // [rad]
-constexpr double kMax = 2.5;       // of the reference's weight
-constexpr double kStep = 0.1;      // likewise
-constexpr double kNear = 0.8;      // of the threshold, for the last state
-constexpr double kAgreed = 0.01;   // of the threshold, between the last two estimates
-constexpr double kPrecise = 1e-5;  // of a deflection of tilt times length, for the last correction
-constexpr double kAlike = 1e-6;    // relative, of slopes at rest to face and back
+constexpr double kMax = 2.5;       // largest weight over the reference's
+constexpr double kStep = 0.1;      // increment of the weight over the reference's
+constexpr double kNear = 0.8;      // load of the last state over the threshold
+constexpr double kAgreed = 0.01;   // relative difference allowed between the last two estimates
+constexpr double kPrecise = 1e-5;  // precision of the last state, over tilt times length
+constexpr double kAlike = 1e-6;    // relative tolerance of slopes at rest to face and back
 constexpr double kSag = 2e-3;      // bending rigidity out of the plane over that in it, on edge
 
 enum class Side { face, back };
 
-// Slope of the law at rest over b2, of bends to that side.
+// Returns the slope of the law at rest over b2, for bends to that side.
 double stiffness_to(Side side, const Scene& scene) {
-  const double small = side == Side::face ? 1e-6 : -1e-6;  // [1/m]
+  const double small = side == Side::face ? 1e-6 : -1e-6;  // curvature [1/m]
   const LawRun run = run_law({scene.law, strip_curve(scene), scene.param}, {{0}, {small}});
   return run.moment[1] / (small * scene.fabric.b2);
 }
 
-// A strip without faces that differ buckles to its face.
+// Returns the side to which the strip buckles, the face if both sides are alike.
 Side softer_side(const Scene& scene) {
   if (!scene.fabric.bending.faces.on()) return Side::face;
   const double face = stiffness_to(Side::face, scene), back = stiffness_to(Side::back, scene);
@@ -42,10 +42,10 @@ Side softer_side(const Scene& scene) {
 
 double stiffness_at_rest(const Scene& scene) { return stiffness_to(softer_side(scene), scene); }
 
-// GJ over the rigidity along warp and the width: that along weft has the same.
+// Returns GJ over the width and the rigidity along warp; a strip along weft has the same.
 double torsion(const Fabric& fabric) { return 4 * fabric.bias_bending - 1 - fabric.weft_bending; }
 
-// A strip cut between warp and weft twists as it bends.
+// Throws for a strip cut between warp and weft, which twists as it bends.
 void check_axis(const Scene& scene) {
   const double angle = scene.cloth.warp_angle;
   if (scene.fabric.bends_alike() || std::abs(std::remainder(angle, 90)) < 1e-9) return;
@@ -57,8 +57,8 @@ void check_axis(const Scene& scene) {
       .with_key("cloth.warp-angle", fmt::format("{:g}", angle));
 }
 
-// A twist bends one diagonal to the face and the other to the back, and which of them is the stiffer one
-// changes along the strip with the bend beside it.
+// Throws for unequal sides: a twist bends one diagonal to the face and the other to the back, and which of
+// them is the stiffer one changes along the strip with the bend beside it.
 void check_sides(const Scene& scene) {
   if (!scene.fabric.bending.faces.on()) return;
   const double ratio = stiffness_to(Side::back, scene) / stiffness_to(Side::face, scene);
@@ -75,7 +75,7 @@ double weight_number(const Scene& scene, double length) {
   return scene.fabric.density * scene.gravity.norm() * std::pow(length, 3) / scene.fabric.b2;
 }
 
-// Second divided difference of y over the last three x.
+// Returns the second divided difference of y over the last three x.
 double second_difference(const std::vector<double>& x, const std::vector<double>& y) {
   const std::size_t n = x.size();
   const double before = (y[n - 2] - y[n - 3]) / (x[n - 2] - x[n - 3]);
@@ -83,7 +83,8 @@ double second_difference(const std::vector<double>& x, const std::vector<double>
   return (after - before) / (x[n - 1] - x[n - 3]);
 }
 
-// Threshold by the last three states: with x = Gamma^power, deflection/Gamma = (a + b x)/(1 - x/critical).
+// Extrapolates the threshold from the last three states: with x = Gamma^power, deflection/Gamma = (a + b
+// x)/(1 - x/critical).
 double extrapolated_threshold(const Southwell& plot, int power) {
   std::vector<double> x, compliance, product;
   for (std::size_t k = 0; k < plot.gamma.size(); ++k) {
@@ -149,7 +150,8 @@ BucklingStrip buckling_strip(Scene scene, Buckling kind, double length, double t
 BucklingStrip measured_strip(Scene scene, Buckling kind, double length) {
   const double tilt = initial_tilt(kind);
   scene.step = kStep;
-  scene.newton_residual = 1e-11;  // of all forces, most of them in the plane: the correction decides
+  // Relative to all forces, most of them in the plane, so the velocity decides.
+  scene.newton_residual = 1e-11;
   scene.newton_velocity = kPrecise * tilt * length;
   if (kind == Buckling::edge) {
     Fabric& f = scene.fabric;
@@ -158,7 +160,7 @@ BucklingStrip measured_strip(Scene scene, Buckling kind, double length) {
     f.warp = std::max(f.warp, stiff);
     f.weft = std::max(f.weft, stiff);
     f.shear = std::max(f.shear, 0.3 * stiff);
-    // Means at nodes would leave a strip of a cell or two too soft to bend in its plane.
+    // Nodal averages would leave a strip of a cell or two too soft to bend in its plane.
     scene.membrane_element = MembraneElement::constant;
   }
   return buckling_strip(std::move(scene), kind, length, tilt, kMax);

@@ -17,34 +17,35 @@ namespace hysteron::experiments {
 namespace {
 
 constexpr double kDegree = 3.14159265358979323846 / 180;
-constexpr double kSlope = 41.5 * kDegree;  // of the chord, ASTM D1388 and ISO 9073-7
-// Along the strip: a weight that is tilted by 48.5 degrees towards the free end pulls no chord to 41.5.
+constexpr double kSlope = 41.5 * kDegree;  // angle of the chord, ASTM D1388 and ISO 9073-7
+// Largest tilt of the weight along the strip: one of 48.5 degrees towards the free end pulls no chord to
+// 41.5.
 constexpr double kMostTilt = 30 * kDegree;
-constexpr double kSideways = 1e-6;    // of the weight, which is rounding
-constexpr double kMostLengths = 100;  // overhang over the bending length: 10 segments of the elastica bend
-constexpr double kWhole = 1e-4;     // of the weight; a timetable ends so near to the time that was asked for
-constexpr double kMostSteps = 1e6;  // in which the weight grows, or goes
-// Rounded in-plane forces over the weight of a step.  Strips at 1.3e-3 are answered; from 2e-3 on some are
-// searched for minutes without an end, and at 6e-2 no equilibrium is found.
+constexpr double kSideways = 1e-6;  // share of the weight across the strip that is rounding
+// Overhang over the bending length, at which 10 segments of the elastica bend.
+constexpr double kMostLengths = 100;
+constexpr double kWhole = 1e-4;     // tolerance of the weight: a timetable ends so near to the requested time
+constexpr double kMostSteps = 1e6;  // steps in which the weight grows, or goes
+// Largest rounding error of in-plane forces over the weight of a step.  Strips at 1.3e-3 are solved; from
+// 2e-3 on some are searched for minutes without an end, and at 6e-2 no equilibrium is found.
 constexpr double kMostRounding = 1.5e-3;
-constexpr int kMaxTrials = 30;  // overhangs that a search measures
-constexpr double kSlopeFound =
-    0.01;  // how far from 41.5 degrees the chord of the found overhang may be [rad]
+constexpr int kMaxTrials = 30;        // most overhangs in a search
+constexpr double kSlopeFound = 0.01;  // tolerance of the chord's angle at the found overhang [rad]
 
 double areal_weight(const Scene& scene) { return scene.fabric.density * scene.gravity.norm(); }
 
-// The weight's direction in the strip's axes: x along it, z up from its face.
+// Returns the weight's direction in the strip's axes: x along it, z up from its face.
 Eigen::Vector3d direction_of_weight(const Scene& scene) {
   return start_rotation(scene.cloth).transpose() * scene.gravity.normalized();
 }
 
-// From straight down towards the free end [rad].
+// Returns the weight's angle from straight down towards the free end [rad].
 double tilt_of_weight(const Scene& scene) {
   const Eigen::Vector3d down = direction_of_weight(scene);
   return std::atan2(down.x(), -down.z());
 }
 
-// The same fabric with its back for its face.
+// Returns the curve of the same fabric with face and back exchanged.
 VirginCurve turned_over(VirginCurve curve) {
   const Faces faces = curve.parts.faces;
   const double friction = faces.friction * (curve.b1 - curve.b2);
@@ -56,21 +57,21 @@ VirginCurve turned_over(VirginCurve curve) {
   return curve;
 }
 
-// As the law has it where the strip sags, downwards to its back.
+// Returns the curve for the direction in which the strip sags, downwards to its back.
 VirginCurve sagging_curve(const Scene& scene) {
   const VirginCurve curve = scene.fabric.virgin_curve();
   if (!scene.fabric.bending.faces.on()) return curve;
   return has_faces(scene.law) ? turned_over(curve) : mean_of_faces(curve);
 }
 
-// (B/w)^(1/3), which is half the overhang of the test without friction (Peirce 1930) [m].
+// Returns (B/w)^(1/3) [m], half the overhang of the test without friction (Peirce 1930).
 double natural_length(const Scene& scene) {
   const VirginCurve curve = sagging_curve(scene);
   const double rigidity = rigidity_along(scene) * (curve.b2 > 0 ? curve.b2 : curve.b1);
   return std::cbrt(rigidity / areal_weight(scene));
 }
 
-// Slope of the chord of a strip with this overhang under its whole weight.
+// Returns the chord's angle [rad] of a strip with this overhang under its whole weight.
 double slope_of_elastica(const Scene& scene, double length) {
   HeavyStrip strip = strip_elastica(scene, length);
   strip.segments = 150;
@@ -85,8 +86,8 @@ double slope_of_cloth(const Scene& scene, double length) {
   return std::atan2(end.y(), end.x());
 }
 
-// The overhang at which `slope`, which grows with it, reaches 41.5 degrees: by the secant method from
-// `first`, kept between the longest one known to be too short and the shortest one known to be too long.
+// Finds the overhang [m] at which `slope`, which grows with it, reaches 41.5 degrees, by the secant method
+// from `first`, kept between the longest known too short and the shortest known too long.
 template <class Slope>
 double critical_overhang(double first, double precision, const Slope& slope) {
   double low = 0, high = std::numeric_limits<double>::infinity();
@@ -138,10 +139,10 @@ void check_weight(const Scene& scene) {
                     std::abs(tilt) / kDegree, kMostTilt / kDegree, kSlope / kDegree));
 }
 
-// Weight over stiffness, w L^3/B.
+// Returns weight over stiffness, w L^3/B.
 double gamma_of(const Scene& scene) { return std::pow(scene.cloth.length / natural_length(scene), 3); }
 
-// Rounding of positions makes in-plane forces of its own, which the weight of a step must not be lost in.
+// Throws if the weight of a step is lost in the in-plane forces that rounding of positions makes.
 void check_weight_is_resolved(const Scene& scene) {
   const Fabric& fabric = scene.fabric;
   const double length = scene.cloth.length, width = scene.cloth.width;
@@ -188,7 +189,8 @@ bool follows_weft_stops(const Scene& scene) {
   return !scene.fabric.bending.weft_stops.empty() && (scene.law == "prandtl" || scene.law == "chapman");
 }
 
-// Between warp and weft such a strip has no scalar law.
+// True if friction differs from the rigidity in its anisotropy; between warp and weft such a strip has no
+// scalar law.
 bool rubs_otherwise(const Scene& scene) {
   return scene.fabric.rubs_otherwise() && has_friction_beside_b2(scene.law);
 }
@@ -247,7 +249,7 @@ VirginCurve curve_along(const Fabric& fabric, Along along, const std::string& la
 HeavyStrip strip_elastica(const Scene& scene, double length) {
   HeavyStrip strip;
   strip.law = {scene.law, strip_curve(scene), scene.param};
-  // Downwards is K > 0 of the elastica and K < 0 of the cloth, whose face becomes convex.
+  // A downward bend is K > 0 in the elastica and K < 0 in the cloth, whose face becomes convex.
   if (scene.fabric.bending.faces.on()) strip.law.curve = turned_over(strip.law.curve);
   strip.rigidity = rigidity_along(scene);
   strip.weight = areal_weight(scene);

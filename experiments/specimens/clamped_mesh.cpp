@@ -10,15 +10,16 @@
 namespace hysteron::experiments {
 namespace {
 
-constexpr double kOnTheLine = 1e-9;  // [m] of an end's vertices
+constexpr double kOnTheLine = 1e-9;  // tolerance of an end's vertices [m]
 
-// What is added to the free cloth's mesh.
+// The vertices and triangles that are added to the free cloth's mesh.
 struct Growth {
   std::vector<Eigen::Vector2d> points;
   std::vector<Eigen::Vector3i> triangles;
 };
 
-// Joins a column of cells, ending at x = `outer`, to the vertices of `mesh` at x = `inner` (both of `mesh`).
+// Joins a column of cells, ending at x = `outer` [m], to the vertices of `mesh` at x = `inner` (both in its
+// coordinates).
 void add_column(const ClothMesh& mesh, double inner, double outer, double shift, Growth& growth) {
   std::vector<int> line;
   for (int i = 0; i < mesh.vertices(); ++i)
@@ -46,8 +47,8 @@ ClampedMesh clamped_mesh(const std::string& family, double free_length, double w
   const double height = row_height(kind), cell = 2 * free_length * width / triangles;
   // Half a column of every clamp bends.
   const long wished = std::lround(free_length / std::sqrt(cell / height) - clamps / 2.0);
-  // A strip that is far longer than wide has one row of cells, one that is far wider than long two columns:
-  // of either no more than triangles are asked for.
+  // A strip that is far longer than wide has one row of cells, one that is far wider than long two columns;
+  // neither has more triangles than requested.
   const int columns = static_cast<int>(std::clamp<long>(wished, 2, std::max(2, triangles)));
   const double d = free_length / (columns + clamps / 2.0);
   const int rows =

@@ -1,4 +1,4 @@
-// Meshes of strips whose clamps hold whole columns of cells, for every mesh family.
+// Builds meshes of strips whose clamps hold whole columns of cells, for every mesh family.
 #pragma once
 
 #include <string>
@@ -13,27 +13,28 @@ namespace hysteron::experiments {
 // between them on, because the curvature at the inner one stands for half a cell on either side.
 struct ClampedMesh {
   ClothMesh mesh;
-  double spacing = 0;                              // of a clamp's columns [m]
-  double length = 0;                               // of the whole strip [m]
-  double near() const { return spacing; }          // the near clamp holds x up to here [m]
-  double far() const { return length - spacing; }  // the far clamp, if there is one, x from here on [m]
+  double spacing = 0;                              // distance of a clamp's columns [m]
+  double length = 0;                               // length of the whole strip [m]
+  double near() const { return spacing; }          // end of the near clamp along x [m]
+  double far() const { return length - spacing; }  // beginning of the far clamp along x, if there is one [m]
 };
 
-// `free_length` is that of the cloth that bends: between the clamps' middles, or from the clamp's middle to
-// the free end [m].  About `triangles` triangles on it.  Error::invalid_input for impossible meshes.
+// Builds the mesh with about `triangles` triangles on the bending cloth, whose `free_length` [m] is between
+// the clamps' middles, or from the clamp's middle to the free end.  Throws Error::invalid_input for
+// impossible meshes.
 ClampedMesh clamped_mesh(const std::string& family, double free_length, double width, int triangles,
                          int clamps, unsigned seed);
 
-// Keys of scenes that say nothing of such a mesh, and what then holds it.
+// Returns the keys of scenes that do not affect such a mesh, and what fixes them.
 std::vector<DecidedKey> unused_by_clamped_meshes();
-// The same, and what is decided where the cloth is always such a strip.
+// Returns the same keys and those that are fixed if the cloth is always such a strip.
 std::vector<DecidedKey> decided_by_clamped_strips();
 
-// Holds what lies in between along x at rest, over the whole width [m].
+// Returns a pin that holds everything in between along x at rest, over the whole width [m].
 Pin held_between(double from, double to);
 
-// A rectangle of the scene's family, scene.cloth.length long, whose clamp ends at the line x = `line` [m]:
-// the clamp becomes the scene's only pin.  The mesh keeps one column of cells of what is clamped.
+// Builds a rectangle of the scene's family, scene.cloth.length long, whose clamp ends at the line x = `line`
+// [m]: the clamp becomes the scene's only pin.  The mesh keeps one column of the clamped cells. Throws
 // Error::invalid_input for impossible meshes.
 Cloth clamp_at(Scene& scene, double line);
 

@@ -1,4 +1,5 @@
-// `hysteron stability`: maps of what stays stable, and the explicit limit against the bound in use.
+// `hysteron stability` maps which simulations stay stable, and compares the explicit limit with the bound in
+// use.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -24,7 +25,7 @@ namespace hysteron::experiments {
 namespace {
 
 constexpr const char *kLimitSweep = "explicit-limit", *kRippleSweep = "ripple";
-// Those that simulate cells, have integrators, have laws.
+// Conditions of keys: sweeps that simulate cells, that have integrators, that have laws.
 constexpr const char* kCellSweeps = "sweep = all | *-step | chapter-method | mesh | contact | scenes*";
 constexpr const char* kIntegratorSweeps =
     "sweep = all | *-step | chapter-method | mesh | contact | scenes* | ripple";
@@ -60,7 +61,7 @@ int thread_choice(const F& flags) {
   return flags.device == "cuda" ? 1 : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
-// Some of the known names, each once, or all of them.
+// Returns the listed ones of the known names, each once, or all of them.
 std::vector<std::string> chosen_names(const std::string& key, const std::string& list,
                                       const std::vector<std::string>& known) {
   if (list == "all") return known;
@@ -97,7 +98,7 @@ std::vector<SweepCell> tried(const F& flags, const std::vector<Sweep>& sweeps, R
   return cells;
 }
 
-// cells.csv: a row for each cell; what was not measured of those that were refused is empty.
+// Returns cells.csv with a row for each cell; the unmeasured values of refused cells are empty.
 Table cell_table(const std::vector<SweepCell>& cells) {
   Table table(
       "sweep,integrator,variant,x,y,law,element,precision,step [s],outcome,energy growth,"
@@ -131,8 +132,8 @@ Table cell_table(const std::vector<SweepCell>& cells) {
   return table;
 }
 
-// cells, ended, retried, refused, diverged of all and of each integrator, these also on stdout;
-// diverged_default.
+// Counts the cells by outcome (ended, retried, refused, diverged), in all and for each integrator, with a
+// table on stdout; diverged_default.
 void count(Run& run, const Table& cells, bool print) {
   std::vector<std::vector<std::string>> lines = {{"integrator"}};
   const auto add = [&](const Table& rows, const std::string& prefix) {
@@ -154,13 +155,14 @@ void count(Run& run, const Table& cells, bool print) {
     if (print) fmt::print("{}\n", aligned(line, {-14, 9}));
 }
 
-// Apart for colour-blind eyes and in grey (Okabe & Ito 2008, lightened so that numbers can be read on them).
+// These colours differ for colour-blind eyes and in grey (Okabe & Ito 2008, lightened so that numbers can be
+// read on them).
 const std::vector<render::CellKind> kKinds = {{"ended", "#BFE3D5"},
                                               {"retried", "#F5E27A"},
                                               {"refused, with the reason", "#C9C9C9"},
                                               {"diverged", "#D55E00"}};
 
-// plot_SWEEP: a map for each integrator and variant.
+// Draws plot_SWEEP with a map for each integrator and variant.
 void draw_maps(Run& run, const std::vector<Sweep>& sweeps, const Table& cells) {
   for (const Sweep& sweep : sweeps) {
     const Table part = cells.where("sweep", sweep.name);
@@ -180,7 +182,7 @@ void draw_maps(Run& run, const std::vector<Sweep>& sweeps, const Table& cells) {
   }
 }
 
-// "explicit-limit: 2 of 20 cases stay bounded up to ..."; "" where every limit was found.
+// Returns "explicit-limit: 2 of 20 cases stay bounded up to ..."; "" if every limit was found.
 std::string beyond_search_warning(const std::vector<MeasuredLimit>& limits, double steps) {
   std::vector<std::string> beyond;
   for (const MeasuredLimit& limit : limits) {
@@ -196,7 +198,7 @@ std::string beyond_search_warning(const std::vector<MeasuredLimit>& limits, doub
       beyond.size(), limits.size(), kMaxRatio, join(beyond, ", "), steps);
 }
 
-// limit.csv, limit_smallest_ratio and limit_largest_ratio.
+// Writes limit.csv, limit_smallest_ratio and limit_largest_ratio.
 void measure_limits(const F& flags, Run& run) {
   const std::vector<LimitCase> cases = limit_cases(flags.options.quick);
   std::vector<MeasuredLimit> limits(cases.size());
@@ -224,7 +226,7 @@ void measure_limits(const F& flags, Run& run) {
   if (least_resonant < kMaxRatio) run.metric("undamped_resonance_smallest_ratio", least_resonant);
 }
 
-// plot_ripple-INTEGRATOR: amplitudes over the first against time, of the largest first amplitude.
+// Draws plot_ripple-INTEGRATOR: relative amplitudes against time, for the largest first amplitude.
 void draw_ripples(Run& run, const std::vector<Ripple>& ripples) {
   std::map<Integrator, render::Plot> plots;
   for (const Ripple& r : ripples) {
@@ -240,8 +242,8 @@ void draw_ripples(Run& run, const std::vector<Ripple>& ripples) {
   for (const auto& [integrator, plot] : plots) run.plot("plot_ripple-" + enum_name(integrator), plot);
 }
 
-// ripple.csv: a row for each case; ripple-amplitudes.csv: what is drawn of them.  ripple_verdict: whether
-// hysteresis damps what is left at short steps.
+// Writes ripple.csv with a row for each case, ripple-amplitudes.csv with the drawn curves, and
+// ripple_verdict, which states whether hysteresis damps ripples at short steps.
 void measure_ripples(const F& flags, Run& run) {
   const SweepChoice choice = sweep_choice(flags);
   std::vector<std::string> laws = choice.laws;
@@ -283,7 +285,7 @@ void check_limit_steps(double steps) {
       .with_key("limit-steps", fmt::format("{:g}", steps));
 }
 
-// Names of sweeps as they are given; `all` stands alone.
+// Returns the names of the requested sweeps; `all` stands alone.
 std::vector<std::string> named_parts(const std::string& sweep) {
   check_listed_names("sweep", sweep);
   std::vector<std::string> names = split(sweep);

@@ -15,15 +15,15 @@ namespace {
 constexpr double kLength = 0.2;  // [m]
 // Ratios of the steps that are tried first: bent cloth resonates at isolated steps, in narrow ranges.
 constexpr double kCoarse = 1.41421356, kFine = 1.08;
-constexpr double kResolution = 1.01;  // ratio to which the limit is measured
-constexpr double kGrowing = 2;        // energy of the second half over the first
+constexpr double kResolution = 1.01;  // relative precision of the limit
+constexpr double kGrowing = 2;        // ratio of the energy in the second half to the first
 // Below the limit the true energy is at most 1/(1 - r^2) times the one that symplectic Euler conserves, with
 // r the step over the limit: 100 at r = 0.995.  Beyond it waves grow until the implicit membrane holds them.
 constexpr double kLargest = 100;
-constexpr int kEnergyLooks = 200;  // times that the energy is measured: what blows up makes the solver slow
+constexpr int kEnergyLooks = 200;  // number of energy samples; a diverging run makes the solver slow
 
-constexpr double kCoupledWave = 2e-4;  // [m] see LimitCase::amplitude
-// How the waves are; 0.1 ms is the damping of shipped fabrics.
+constexpr double kCoupledWave = 2e-4;  // [m], see LimitCase::amplitude
+// The properties of the waves; 0.1 ms is the damping of shipped fabrics.
 struct Waves {
   const char* law;
   double damping, amplitude;
@@ -53,7 +53,7 @@ Scene limit_scene(const LimitCase& of) {
   return scene;
 }
 
-// Random, so that every mode has a share.
+// Shakes the vertices at random, so that every mode has a share.
 Cloth shaken_cloth(const Scene& scene, double amplitude) {
   Cloth cloth = make_cloth(scene);
   std::mt19937 generator(12);
@@ -71,11 +71,11 @@ double energy(Simulation& simulation) {
 
 double time_step_bound(const LimitCase& of) {
   Scene scene = limit_scene(of);
-  scene.step = 1e-9;  // any step is allowed that is short enough
+  scene.step = 1e-9;  // so that any shorter step is allowed
   return make_simulation(scene, make_cloth(scene))->limits().bending_step;
 }
 
-// The program refuses steps beyond its bound, so that its back end is asked directly.
+// Asks the back end directly, as the program refuses steps beyond its bound.
 bool is_bounded(const LimitCase& of, double amplitude, double step, int substeps) {
   Scene scene = limit_scene(of);
   scene.step = step;
@@ -90,7 +90,7 @@ bool is_bounded(const LimitCase& of, double amplitude, double step, int substeps
     long done = 0;
     for (int look = 0; look < kEnergyLooks; ++look) {
       const long until = static_cast<long>(substeps) * (look + 1) / kEnergyLooks;
-      if (until == done) continue;  // fewer steps than looks
+      if (until == done) continue;  // fewer steps than samples
       simulation->advance(static_cast<int>(until - done));
       done = until;
       double& most = half[2 * look / kEnergyLooks];
@@ -98,7 +98,7 @@ bool is_bounded(const LimitCase& of, double amplitude, double step, int substeps
       if (!(most < kLargest * initial) || half[1] > kGrowing * half[0]) return false;
     }
   } catch (const Error&) {
-    return false;  // no longer finite
+    return false;  // not finite
   }
   return true;
 }

@@ -9,8 +9,8 @@ namespace {
 
 struct NumberSweep {
   const char *name, *title, *label;
-  int from, to;                 // decades of the property
-  void (*set)(Scene&, double);  // gives it a value
+  int from, to;                 // powers of ten of the property
+  void (*set)(Scene&, double);  // sets the property
 };
 
 const NumberSweep kNumberSweeps[] = {
@@ -28,8 +28,8 @@ const NumberSweep kNumberSweeps[] = {
      }},
     {"density-step", "Density against the step", "density [kg/m²]", -2, 1,
      [](Scene& scene, double density) { scene.fabric.density = density; }},
-    // M0 stays, so that k0 -> 0 is Coulomb friction beside b2; from the fabric's own k0 on b1 stays, so that
-    // k0 -> infinity is elastic with b1.
+    // M0 is kept, so that k0 -> 0 is Coulomb friction beside b2; from the fabric's own k0 on b1 is kept, so
+    // that k0 -> infinity is elastic with b1.
     {"friction-step", "Curvature k0 at which friction saturates (below 50/m at the same M0) against the step",
      "k0 [1/m]", -3, 5,
      [](Scene& scene, double k0) {
@@ -52,11 +52,11 @@ std::string decade_name(int exponent) {
   return short_enough ? number_text(std::pow(10.0, exponent)) : "1e" + std::to_string(exponent);
 }
 
-// A square held level by two corners and let go: it swings down, folds and sways.
+// Returns a square that is held level by two corners and let go: it swings down, folds and sways.
 Scene falling_square() {
   constexpr double kLength = 0.2;  // [m]
   Scene scene = default_scene("cotton-broad-k50");
-  scene.seconds = 1e30;  // it never ends
+  scene.seconds = 1e30;  // longer than any run
   scene.cloth.length = kLength;
   scene.triangles = 128;
   for (const double x : {0.0, kLength}) {
@@ -67,7 +67,8 @@ Scene falling_square() {
   return scene;
 }
 
-// A map for each variant, of which `vary` makes a scene that has its value and its step.
+// Returns a sweep with a map for each variant; `vary` applies the variant to a scene that has its value and
+// its step.
 Sweep against_step(const NumberSweep& of, const SweepChoice& choice, const std::vector<std::string>& variants,
                    const std::function<void(Scene& scene, int variant)>& vary) {
   Sweep sweep{of.name, of.title, {of.label, {}}, {"step", {}}, variants, {}};
@@ -91,7 +92,7 @@ Sweep against_step(const NumberSweep& of, const SweepChoice& choice, const std::
   return sweep;
 }
 
-// The chapter's method, as printed and with the force that does the work of the moment.
+// Returns the sweep of the chapter's method, with the printed force and with the energy-consistent one.
 Sweep chapter_sweep(const SweepChoice& choice) {
   NumberSweep of = kNumberSweeps[0];
   of.name = "chapter-method";

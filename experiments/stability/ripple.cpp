@@ -16,9 +16,9 @@ namespace {
 
 constexpr double kRipplePi = 3.14159265358979323846;
 constexpr double kRippleSide =
-    0.04;  // of the square [m]; its ripples of k0 = 8/m stretch it by less than 1e-5
+    0.04;  // side of the square [m]; its ripples of k0 = 8/m stretch it by less than 1e-5
 constexpr int kRippleTriangles = 128;  // few enough for a dense matrix of all modes
-constexpr double kNoTurn = 1e-3;       // of the first amplitude: smaller ones are not followed
+constexpr double kNoTurn = 1e-3;       // smaller relative amplitudes are not followed
 
 Scene ripple_scene(const RippleCase& of) {
   Scene scene = default_scene();
@@ -40,12 +40,12 @@ Scene ripple_scene(const RippleCase& of) {
 
 struct Mode {
   double frequency = 0;                 // at rigidity b1 [rad/s]
-  std::vector<double> height;           // of each vertex, the largest curvature of a hinge being 1/m [m^2]
-  std::vector<double> weight;           // amplitude = sum of weight times height
-  std::vector<double> area, curvature;  // of each hinge [m^2], of 1/m
+  std::vector<double> height;           // by vertex, for a largest curvature of 1/m [m^2]
+  std::vector<double> weight;           // by vertex: amplitude = sum of weight times height
+  std::vector<double> area, curvature;  // by hinge: area [m^2], curvature relative to the largest
 };
 
-// How the curvature of each hinge changes with the height of each vertex of the flat cloth [1/m^2].
+// Returns the rate of each hinge's curvature with the height of each vertex of the flat cloth [1/m^2].
 Eigen::MatrixXd curvature_rates(const ClothMesh& mesh, const CurvatureOperator& op) {
   Eigen::MatrixXd rates = Eigen::MatrixXd::Zero(op.elements(), mesh.vertices());
   for (int i = 0; i < op.elements(); ++i)
@@ -83,17 +83,17 @@ Mode highest_mode(const Scene& scene, const ClothMesh& mesh) {
           list(curvature)};
 }
 
-// What a loop of this amplitude [1/m], at most k0, takes [J/m^2].
+// Returns the energy lost in a loop of this amplitude [1/m], at most k0 [J/m^2].
 double loop_area(const std::string& law, const VirginCurve& curve, double amplitude) {
   const double cubic = std::abs(curve.c1()) * amplitude * amplitude * amplitude;
   if (law == "prandtl") return 4.0 / 3 * cubic;
   if (law == "linear") return 0;
-  const double a = amplitude / curve.k0;  // the closed form of `wong`: docs/model.md
+  const double a = amplitude / curve.k0;  // closed form for `wong`: docs/model.md
   return 8.0 / 3 * cubic / (1 + (2 * a - 1 + std::sqrt(1 + 4 * a - 4 * a * a)) / 2);
 }
 
-// By the energy balance of one mode, dA/dn = -losses over d(stored)/dA, as free_decay.h of `accuracy` has it.
-// Friction is taken to leave the mode its shape.
+// Returns the decay by the energy balance of one mode, dA/dn = -losses over d(stored)/dA, as in free_decay.h
+// of `accuracy`.  Friction is assumed to leave the mode's shape as it is.
 double closed_form_decay(const RippleCase& of, const Scene& scene, const Mode& mode) {
   if (of.law != "linear" && of.law != "prandtl" && of.law != "wong") return NAN;
   const VirginCurve curve = scene.fabric.virgin_curve();
@@ -106,7 +106,7 @@ double closed_form_decay(const RippleCase& of, const Scene& scene, const Mode& m
     }
     return loss / slope;
   };
-  constexpr int kParts = 16;  // of a period, in a method of second order
+  constexpr int kParts = 16;  // steps per period of the second-order method
   double amplitude = of.amplitude;
   for (int i = 0; i < kRipplePeriods * kParts; ++i) {
     const double middle = amplitude - rate(amplitude) / (2 * kParts);
@@ -116,11 +116,11 @@ double closed_form_decay(const RippleCase& of, const Scene& scene, const Mode& m
 }
 
 struct Decay {
-  std::vector<double> times, amplitudes;  // [s], over the first
+  std::vector<double> times, amplitudes;  // [s], relative to the first
   double per_period = 0;
 };
 
-// A motion is followed until it has turned 2 kRipplePeriods + 1 times, or no longer turns.
+// Follows a motion through 2 kRipplePeriods + 1 reversals, or until there are no more.
 Decay decay_of(const RippleCase& of, const Scene& scene, const Cloth& flat, const Mode& mode) {
   Cloth cloth = flat;
   const double first = of.amplitude * scene.fabric.k0;
@@ -144,7 +144,7 @@ Decay decay_of(const RippleCase& of, const Scene& scene, const Cloth& flat, cons
     if (a.turn >= 2 * kRipplePeriods) break;
     decay.times.push_back(a.time);
     decay.amplitudes.push_back(a.value);
-    decay.per_period = 1 - std::pow(a.value, 2.0 / (a.turn + 1));  // turning point 0: half a period
+    decay.per_period = 1 - std::pow(a.value, 2.0 / (a.turn + 1));  // reversal 0 is half a period
   }
   if (decay.times.size() == 1) decay.per_period = 1;
   return decay;
@@ -157,7 +157,7 @@ Ripple measure_ripple(const RippleCase& of) {
   Scene scene = ripple_scene(of);
   const Cloth flat = make_cloth(scene);
   const Mode mode = highest_mode(scene, flat.mesh);
-  // Numerical damping goes by steps per period, and friction makes cloth stiffer: each law has its own
+  // Numerical damping depends on steps per period, and friction makes cloth stiffer, so each law uses its own
   // period.
   const Fabric& fabric = scene.fabric;
   const double softer = of.law == "linear" ? std::sqrt(fabric.b1 / fabric.b2) : 1;

@@ -1,5 +1,5 @@
-// Sweeps of named cases: meshes that no builder makes on purpose, and scenes that ask too much of bending, of
-// the membrane and of contact.
+// Sweeps of named cases: meshes that no builder makes on purpose, and scenes that overload bending, the
+// membrane and contact.
 #include <cmath>
 #include <numbers>
 
@@ -11,8 +11,8 @@
 namespace hysteron::experiments {
 namespace {
 
-constexpr double kSide = 0.2;                              // of squares [m]
-constexpr double kHappens = 0.3;                           // [s] in which the scenes' motions are over
+constexpr double kSide = 0.2;                              // side of squares [m]
+constexpr double kHappens = 0.3;                           // time in which the scenes' motions end [s]
 constexpr double kShortStep = 1e-3, kLongStep = 1.0 / 60;  // [s]
 
 // A row of a map.
@@ -23,7 +23,7 @@ struct NamedAttempt {
 
 // ---- meshes ----
 
-// The mesh with its vertices moved within its plane.
+// Returns the mesh with its vertices moved within its plane.
 template <class Move>
 ClothMesh moved(ClothMesh mesh, const Move& move) {
   for (auto& x : mesh.rest) x = move(x);
@@ -31,14 +31,14 @@ ClothMesh moved(ClothMesh mesh, const Move& move) {
   return mesh;
 }
 
-// Strip of 0.2 m with 4 x 6 cells, `aspect` times as long as wide.
+// Returns a strip of 0.2 m with 4 x 6 cells, each `aspect` times as long as wide.
 ClothMesh stretched_cells(double aspect) {
   constexpr double kLength = 0.2;
   return make_grid(kLength, kLength / 4 * 6 / aspect, 4, 6, MeshFamily::aligned, 1);
 }
 
-// Square of 0.2 m with 8 x 8 cells, in which every other vertex of every other row comes so close to the next
-// one that its two triangles there have 1/1000 of their height.
+// Returns a square of 0.2 m with 8 x 8 cells, in which every other vertex of every other row comes so close
+// to the next one that its two triangles there have 1/1000 of their height.
 ClothMesh slivers() {
   constexpr double kLength = 0.2, kCell = kLength / 8, kLeft = 1e-3;
   return moved(make_grid(kLength, kLength, 8, 8, MeshFamily::aligned, 1), [](Eigen::Vector3d x) {
@@ -48,7 +48,7 @@ ClothMesh slivers() {
   });
 }
 
-// Square of 0.2 m with 10 x 10 cells whose sides grow from one corner by a factor of 100.
+// Returns a square of 0.2 m with 10 x 10 cells whose sides grow from one corner by a factor of 100.
 ClothMesh mixed_sizes() {
   constexpr double kLength = 0.2;
   constexpr int kCells = 10;
@@ -79,7 +79,7 @@ Scene scene_of(const std::string& shape, double length, int triangles) {
   return scene;
 }
 
-// The left edge of a square is held, the rest swings down.
+// Returns a square whose left edge is held while the rest swings down.
 Scene hanging(void (*change)(Scene&)) {
   Scene scene = scene_of("square", kSide, 160);
   scene.pin = {held_between(0, 1e-6)};
@@ -98,7 +98,8 @@ void soften_to_coulomb(Scene& scene) {
   f.k0 = kCurvature;
 }
 
-// A strip of 10 cm x 3 cm, held up to `near` and from `far` on [m], where a hand moves it.
+// Returns a strip of 10 cm x 3 cm, held up to x = `near` and from x = `far` on [m], where the pin moves by
+// `keys`.
 Scene clamped(double near, double far, const std::vector<Keyframe>& keys) {
   Scene scene = scene_of("strip", 0.1, 160);
   scene.cloth.width = 0.03;
@@ -107,12 +108,12 @@ Scene clamped(double near, double far, const std::vector<Keyframe>& keys) {
   return scene;
 }
 
-// Between two clamps of 4 cm; the right one turns about the middle by `degrees`.
+// Returns a strip between two clamps of 4 cm, the right one of which rotates about the middle by `degrees`.
 Scene folded(double degrees) {
   return clamped(0.04, 0.06, {{0, {0, 0, 0}, 0}, {0.8 * kHappens, {0, 0, 0}, degrees}});
 }
 
-// The same bent to 100 k0: over the 2 cm between the clamps 180 degrees are pi/0.02 m.
+// Returns the same strip bent to 100 k0: over the 2 cm between the clamps 180 degrees are pi/0.02 m.
 Scene bent_far() {
   Scene scene = folded(180);
   Fabric& f = scene.fabric;
@@ -122,7 +123,7 @@ Scene bent_far() {
   return scene;
 }
 
-// The same bent slowly to 90 degrees in steps of +15 and -10.
+// Returns the same strip bent slowly to 90 degrees in steps of +15 and -10.
 Scene rippled() {
   std::vector<Keyframe> keys;
   for (int k = 0; k <= 34; ++k)
@@ -130,7 +131,7 @@ Scene rippled() {
   return clamped(0.04, 0.06, keys);
 }
 
-// Its right clamp moves by `metres` along the strip, in kHappens/2.
+// Returns a strip whose right clamp moves by `metres` along it, in kHappens/2.
 Scene pulled(double metres) {
   return clamped(0.04, 0.06, {{0, {0, 0, 0}, 0}, {kHappens / 2, {metres, 0, 0}, 0}});
 }
@@ -143,8 +144,9 @@ Obstacle solid(ObstacleKind kind, const Eigen::Vector3d& center, double radius =
   return obstacle;
 }
 
-// A ball of 3 cm comes up through a square held at its corners, at 100 m/s where it meets the cloth: the
-// middle of a smooth motion from rest to rest is 3/2 as fast as the mean.  In steps of 10 µs it moves 1 mm.
+// Returns a square held at its corners through which a ball of 3 cm comes up, at 100 m/s when it meets the
+// cloth: the middle of a smooth motion from rest to rest is 3/2 as fast as the mean.  In steps of 10 µs it
+// moves 1 mm.
 Scene hit(double step) {
   Scene scene = scene_of("square", kSide, 160);
   scene.step = step;
@@ -155,7 +157,7 @@ Scene hit(double step) {
   return scene;
 }
 
-// A wall whose upper edges are sharp.
+// Returns a wall whose upper edges are sharp.
 Obstacle sharp_wall(double x, double y) {
   Obstacle box = solid(ObstacleKind::box, {x, y, -0.05});
   box.size = {0.03, kSide, 0.05};
@@ -202,7 +204,7 @@ std::vector<NamedAttempt> extreme_scenes() {
 
 // ---- contact ----
 
-// Newton's criteria are those of the crumpling scenes, without their limit of iterations.
+// Enables self-contact with Newton's criteria of the crumpling scenes, without their limit of iterations.
 Scene with_self_contact(Scene scene) {
   scene.self_contact = true;
   scene.newton_residual = 1e-3;
@@ -220,9 +222,9 @@ Scene closing_sphere(double friction) {
   return scene;
 }
 
-// Six layers under a plate that stops at this many thicknesses a layer.
+// Returns six layers under a plate that stops at this many thicknesses a layer.
 Scene pressed(double thicknesses) {
-  constexpr double kHeight = 0.026;  // of the plate's lower side at the start [m]
+  constexpr double kHeight = 0.026;  // initial height of the plate's lower side [m]
   Scene scene = with_self_contact(scene_of("strip", kSide, 400));
   scene.cloth.start = "pleats";
   scene.cloth.pleats = 6;
@@ -237,7 +239,7 @@ Scene pressed(double thicknesses) {
   return scene;
 }
 
-// Sheets one above the other, the lowest 1 cm above z = 0.
+// Returns sheets one above the other, the lowest 1 cm above z = 0.
 Scene sheets(int copies, const Obstacle& obstacle) {
   Scene scene = with_self_contact(scene_of("square", kSide, 100 * copies));
   scene.cloth.copies = copies;
@@ -247,14 +249,14 @@ Scene sheets(int copies, const Obstacle& obstacle) {
   return scene;
 }
 
-// A ball that comes up at 1 m/s.
+// Returns a ball that comes up at 1 m/s.
 Obstacle slow_ball() {
   Obstacle ball = solid(ObstacleKind::sphere, {0, 0, -0.06}, 0.03);
   ball.motion.keys = {{0, {0, 0, 0}, 0}, {0.15, {0, 0, 0.1}, 0}};
   return ball;
 }
 
-// The right clamp of a strip is led over the left one and through it, by a hand of this strength.
+// Returns a strip whose right clamp is led over the left one and through it, by a pin of this strength.
 Scene led_through_itself(double strength) {
   Scene scene = with_self_contact(clamped(0.02, 0.08,
                                           {{0, {0, 0, 0}, 0},
@@ -279,7 +281,7 @@ std::vector<NamedAttempt> contact_scenes() {
 
 // ---- sweeps ----
 
-// Rows under some laws; `set` makes the variant of a scene.
+// Returns a sweep of the rows under some laws; `set` makes the variant of a scene.
 Sweep sweep_of(const std::string& name, const std::string& title, const std::string& label,
                const std::vector<NamedAttempt>& rows, const std::vector<std::string>& laws,
                const std::vector<std::string>& variants, void (*set)(Scene&, int variant)) {

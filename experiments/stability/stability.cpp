@@ -15,11 +15,11 @@
 namespace hysteron::experiments {
 namespace {
 
-// Times that energy and stretch are measured in a run: at most steps, because what blows up may be damped
+// Number of samples of energy and stretch in a run, at most one a step, because what diverges may be damped
 // away within a few more.
 constexpr int kLooks = 400;
 
-// m g L [J]
+// Returns m g L [J].
 double weight_energy(const Scene& scene, const ClothMesh& mesh) {
   double area = 0;
   for (const double a : mesh.vertex_area) area += a;
@@ -34,7 +34,7 @@ long planned_steps(const Simulation& simulation, const Scene& scene, const CellE
   return std::max(1L, std::lround(std::min(scene.seconds / scene.step, std::floor(effort.work / work))));
 }
 
-// Energy and stretch as they are now; `most_work` is what hands and obstacles have done so far [J].
+// Measures energy and stretch; `most_work` is the largest work of pins and obstacles so far [J].
 void look(Simulation& simulation, double weight, double& most_work, Finding& finding) {
   const Ledger l = simulation.ledger();
   const double stretch = simulation.largest_stretch();
@@ -72,7 +72,7 @@ void simulate(const Scene& scene, const Cloth& cloth, const CellEffort& effort, 
   for (int n = 1; n <= kLooks && finding.outcome == Outcome::ended; ++n) {
     const long until = steps * n / kLooks;
     if (until == finding.steps) continue;
-    finding.steps = until;  // also where advance() breaks off on the way
+    finding.steps = until;  // set also if advance() throws on the way
     simulation->advance(static_cast<int>(until - simulation->steps()));
     finding.seconds_simulated = simulation->time();
     look(*simulation, weight, most_work, finding);

@@ -1,4 +1,4 @@
-// Curves and maps of a study.
+// Draws the curves and maps of a study.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ constexpr std::size_t kMaxPanels = 24;
 const char* const kColorNames[render::kMethodColors] = {"blue",     "vermilion", "green", "pink",
                                                         "sky blue", "orange",    "black"};
 
-// A metric as plots show it: "tip drop over length", "lost to friction in bending [mJ]".
+// A metric with its words and axis label: "tip drop over length", "lost to friction in bending [mJ]".
 struct ShownMetric {
   std::string name, words, label;
   double scale = 1;
@@ -38,7 +38,7 @@ ShownMetric shown_metric(const std::string& experiment, const std::string& metri
   return {metric, parts.name, parts.text()};
 }
 
-// The runs by their values along some axes, "dahl, 0.1", in the order of the study.
+// The runs grouped by their values along some axes, "dahl, 0.1", in the order of the study.
 using Groups = std::vector<std::pair<std::string, std::vector<std::size_t>>>;
 
 class StudyPlots {
@@ -93,7 +93,7 @@ class StudyPlots {
 
   double axis_value(std::size_t a, std::size_t run) const { return *number_in(study_.runs[run].values[a]); }
 
-  // Dots for the runs and, on a grid, a line through their means at each value.
+  // Adds dots for the runs and, on a grid, a line through their means at each value.
   void add_series(std::vector<render::Series>& series, const std::string& name, std::size_t color,
                   const std::vector<std::size_t>& which, std::size_t x,
                   const std::vector<double>& numbers) const {
@@ -115,7 +115,8 @@ class StudyPlots {
     series.push_back(std::move(dots));
   }
 
-  // The axis with the most values that still have colours of their own, texts first; none: `free_.size()`.
+  // Returns the axis that colours the curves, the first with few enough values for a colour each, texts
+  // before numbers; nothing if there is none.
   std::vector<std::size_t> colored_by(std::size_t x) const {
     std::vector<std::size_t> best;
     for (const std::size_t a : free_) {
@@ -163,7 +164,7 @@ class StudyPlots {
         groups.begin());
   }
 
-  // A plot's key names the colours.
+  // Draws a page of one panel as a plot, whose key names the colours.
   void draw_one(const std::string& name, const render::Panels& page) {
     render::Plot plot{page.title, page.x, page.y};
     plot.series = page.panels.front().series;
@@ -219,21 +220,21 @@ class StudyPlots {
                           {},
                           {}};
     page.cell_width = 70;
-    std::vector<double> means;  // of the cells, by their kinds
+    std::vector<double> means;  // by the cells' kinds
     add_maps(page, runs, {{"panel"}, "x", "y"}, [&](const std::vector<std::size_t>& which) {
       means.push_back(selected_mean(numbers, which).value);
       return render::HeatMapCell{static_cast<int>(means.size()) - 1, ""};
     });
     if (!color_cells(page, means)) return;
-    if (!axis(y).numeric) {  // names are read from above
+    if (!axis(y).numeric) {  // so that names are read from above
       std::reverse(page.y.ticks.begin(), page.y.ticks.end());
       for (render::HeatMap& map : page.maps) std::reverse(map.rows.begin(), map.rows.end());
     }
     run_.plot(name, page, render::write_heat_maps);
   }
 
-  // Cells whose kinds are places in `means`, by equal parts of the range of all; light colours, so that
-  // numbers can be read on them.  False if no mean is known.
+  // Colours cells, whose kinds are indices into `means`, by equal parts of the range of all; the colours are
+  // light, so that numbers can be read on them.  Returns false if no mean is known.
   static bool color_cells(render::HeatMaps& page, const std::vector<double>& means) {
     constexpr int kParts = 5;
     constexpr float kDarkest = 0.55f;
@@ -259,7 +260,7 @@ class StudyPlots {
 
   Run& run_;
   const Study& study_;
-  std::vector<std::size_t> free_;  // axes with several values, without that of repeated draws
+  std::vector<std::size_t> free_;  // axes with several values, except that of repeated draws
 };
 
 }  // namespace

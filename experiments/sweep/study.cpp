@@ -14,11 +14,11 @@ namespace hysteron::experiments {
 namespace {
 
 constexpr std::size_t kLongestName =
-    200;  // file systems take 255 bytes; files beside the folder may add some
+    200;  // file systems allow 255 bytes; names of files beside the folder are longer
 
 std::string last_part(const std::string& key) { return key.substr(key.rfind('.') + 1); }
 
-// "k0" of "fabric.k0", unless another axis ends so.
+// Returns "k0" for "fabric.k0", unless another axis ends in the same.
 std::string short_name(const std::vector<StudyAxis>& axes, const StudyAxis& axis) {
   const std::string last = last_part(axis.key);
   const auto shared = std::count_if(axes.begin(), axes.end(),
@@ -26,7 +26,7 @@ std::string short_name(const std::vector<StudyAxis>& axes, const StudyAxis& axis
   return shared > 1 ? axis.key : last;
 }
 
-// A value as part of a file's name; other characters than these mean something to shells.
+// Returns a value as part of a file's name, without characters that are special in shells.
 std::string plain(const std::string& value) {
   std::string name = column_name(value);
   for (char& c : name)
@@ -36,13 +36,13 @@ std::string plain(const std::string& value) {
   return name;
 }
 
-// `number` with as many digits as `most` has.
+// Returns `number` with as many digits as `most` has.
 std::string padded(std::size_t number, std::size_t most) {
   const std::string digits = std::to_string(number);
   return std::string(std::to_string(most).size() - digits.size(), '0') + digits;
 }
 
-// What runs are combined of: one axis, or all that are sampled.
+// A factor of the combinations: one axis, or all sampled axes together.
 struct Part {
   std::vector<std::size_t> axes;
   std::size_t size;
@@ -50,7 +50,7 @@ struct Part {
 
 std::vector<Part> axis_parts(const std::vector<StudyAxis>& axes) {
   std::vector<Part> parts;
-  std::size_t sample = axes.size();  // its part
+  std::size_t sample = axes.size();  // index of the sampled part
   for (std::size_t a = 0; a < axes.size(); ++a) {
     if (axes[a].sampled && sample < axes.size()) {
       parts[sample].axes.push_back(a);
@@ -85,7 +85,8 @@ void name_runs(const std::vector<StudyAxis>& axes, const std::vector<Part>& part
   for (std::size_t r = 0; r < runs.size(); ++r) runs[r].name = "run=" + padded(r + 1, runs.size());
 }
 
-// The standard fixes the engine's numbers, not those of its distributions.
+// Returns a uniform number in [0, 1); the standard fixes the engine's numbers, not those of its
+// distributions.
 double uniform(std::mt19937_64& engine) { return static_cast<double>(engine() >> 11) * 0x1p-53; }
 
 }  // namespace
@@ -133,7 +134,7 @@ CommandLine run_command_line(const Study& study, const StudyRun& run) {
   CommandLine line{study.experiment, "hysteron " + study.experiment, study.shared, {}};
   for (std::size_t a = 0; a < study.axes.size(); ++a)
     line.flags.push_back(flag_of(study.axes[a].key, run.values[a]));
-  // A structured mesh is the same in every repetition.
+  // Drops the seed of a structured mesh, which is the same in every repetition.
   if (last_text(line.flags, "mesh", "random") != "random")
     std::erase_if(line.flags, [](const Flag& flag) { return flag.path == kSeedKey; });
   return line;

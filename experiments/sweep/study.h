@@ -1,4 +1,4 @@
-// A study: one experiment, what all of its runs are asked for, and the axes along which they differ.
+// A study is one experiment with the flags that all of its runs share and the axes along which they differ.
 //
 //   study file -> axes -> runs, every combination of their values -> a folder each, OUT/runs/NAME/
 #pragma once
@@ -14,56 +14,56 @@
 namespace hysteron::experiments {
 
 struct StudyAxis {
-  std::string key;                  // of a scene or the experiment: "fabric.k0", "param.stack"
-  std::string unit;                 // of its values, "" for texts
-  std::vector<std::string> values;  // as flags take them, in the order in which they are run
-  bool numeric = false;             // all of them are numbers
-  bool logarithmic = false;         // in plots
-  bool sampled = false;             // together with the other axes that are, not on a grid
+  std::string key;                  // key of a scene or the experiment: "fabric.k0", "param.stack"
+  std::string unit;                 // unit of its values, "" for texts
+  std::vector<std::string> values;  // as flags take them, in the order of the runs
+  bool numeric = false;             // true if all values are numbers
+  bool logarithmic = false;         // scale in plots
+  bool sampled = false;             // drawn together with the other sampled axes, not on a grid
 };
 
-// The axis of repeated draws.
+// The key of the axis of repeated draws.
 inline constexpr const char* kSeedKey = "seed";
 bool is_seed(const StudyAxis& axis);
 
 struct StudyRun {
-  std::string name;                 // of its folder: "k0=12.5,law=dahl,seed=3"
-  std::vector<std::string> values;  // one of each axis
+  std::string name;                 // name of its folder: "k0=12.5,law=dahl,seed=3"
+  std::vector<std::string> values;  // one value of each axis
 };
 
 struct Study {
-  std::string file;  // or a sweep's manifest
-  std::string name;  // as it was called
+  std::string file;  // the study file, or a sweep's manifest
+  std::string name;  // name as the user gave it
   std::string experiment;
-  std::vector<Flag> shared;  // keys that all runs have in common
+  std::vector<Flag> shared;  // flags that all runs share
   std::vector<StudyAxis> axes;
-  std::vector<std::string> metrics;  // that pages show; empty: the experiment's headlines
-  std::string metrics_place;         // "study.toml:2"
-  JobResources resources;            // of a job on a cluster
-  int runs_a_job = 1;                // one after the other
+  std::vector<std::string> metrics;  // metrics on pages; if empty, the experiment's headlines
+  std::string metrics_place;         // where the file sets them: "study.toml:2"
+  JobResources resources;            // resources of a job on a cluster
+  int runs_a_job = 1;                // number of runs in a job, one after the other
   std::vector<StudyRun> runs;
 };
 
-// Of a file, of assets/studies, or, by its manifest, of a sweep: all but its [resources].  Throws
-// Error::system if it cannot be read, Error::invalid_input with file, line, key and what is allowed for
-// everything that a run would refuse of a single key.
+// Reads a study from a file, from assets/studies, or from a sweep's manifest, which lacks its [resources].
+// Throws Error::system if it cannot be read, Error::invalid_input with file, line, key and the allowed values
+// for everything that a run would refuse of a single key.
 Study read_study(const std::string& name_or_file);
 
-// Every combination of the axes' values, the last axis first; sampled axes go together.  Names are those of
-// files everywhere and differ from each other.
+// Returns every combination of the axes' values, the last axis varying fastest; sampled axes go together.
+// Names are valid file names everywhere and differ from each other.
 std::vector<StudyRun> runs_on_axes(const std::vector<StudyAxis>& axes);
 
-// `n` numbers in [0, 1) of each of `axes`, by axis: every n-th part of an axis is drawn from once, in an
-// order of its own (McKay, Beckman & Conover 1979, Technometrics 21:239).  The same seed gives the same
+// Returns `n` numbers in [0, 1) for each of `axes`, by axis: every n-th part of an axis is drawn from once,
+// in an order of its own (McKay, Beckman & Conover 1979, Technometrics 21:239).  The same seed gives the same
 // numbers on every machine.
 std::vector<std::vector<double>> latin_hypercube(std::size_t axes, std::size_t n, std::uint64_t seed);
 
-// The flag that gives the key of a study this value: {"param", "stack=8"} for "param.stack".
+// Returns the flag that sets a study's key to this value: {"param", "stack=8"} for "param.stack".
 Flag flag_of(const std::string& key, const std::string& value);
-// What the run is asked for.
+// Returns the command line of a run.
 CommandLine run_command_line(const Study& study, const StudyRun& run);
 
-// What the manifest keeps of it.
+// Returns the study as the manifest keeps it.
 Json study_record(const Study& study);
 
 }  // namespace hysteron::experiments

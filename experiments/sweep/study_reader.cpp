@@ -21,13 +21,13 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kMaxValues = 100000, kMaxRuns = 1e6;
-constexpr int kDigits = 6;  // of values that a range or a sample gives: they stand in names and tables
+constexpr int kDigits = 6;  // digits of values from a range or a sample, which appear in names and tables
 
-// Of those that a study leaves to `sweep` itself.
+// Flags of `sweep` itself, which a study must not set.
 const std::set<std::string> kSweepFlags = {"out", "quiet", "json", "resume", "threads", "explain"};
 
-// It writes a folder with a manifest, and flags alone say what; one whose argument is a scene takes it as
-// --scene, too.
+// True if the experiment writes a folder with a manifest and flags alone define it; if its argument is a
+// scene, it also takes this as --scene.
 bool can_be_repeated(const Experiment& experiment) {
   const bool by_flags = !*experiment.positionals || (experiment.simulates && experiment.defaults);
   if (!experiment.run || !by_flags) return false;
@@ -35,16 +35,16 @@ bool can_be_repeated(const Experiment& experiment) {
   return has_key(keys, "out") && has_key(keys, "quiet");
 }
 
-// "fabric.k0=12", "param=stack=8".
+// Splits "fabric.k0=12" or "param=stack=8" into key and value.
 ValueTree shared_node(std::string flag) {
   if (flag.starts_with("param=")) flag[5] = '.';
   const std::size_t end = flag.find('=');
   return {ValueTree::Kind::value, flag.substr(0, end), 0, flag.substr(end + 1), {}};
 }
 
-// A study as the manifest of its sweep keeps it, which outlives the file that it was read from: as a study
-// file would have it, beside what that cannot say, "scale" and "sampled" of an axis whose values stand there.
-// Throws Error::invalid_input, naming `file`, where the manifest is not of a sweep.
+// Returns a study from the manifest of its sweep, which outlives the study file.  The tree is that of a study
+// file, with "scale" and "sampled" for axes whose values are listed, which a file cannot express. Throws
+// Error::invalid_input, naming `file`, if the manifest is not of a sweep.
 ValueTree recorded_study(const Manifest& manifest, const std::string& file) {
   for (const char* key : {"experiment", "shared", "axes"})
     if (manifest.experiment != "sweep" || !manifest.keys || !manifest.keys->contains(key))
@@ -62,7 +62,7 @@ ValueTree recorded_study(const Manifest& manifest, const std::string& file) {
   return root;
 }
 
-// As a flag takes it: integers without an exponent.
+// Formats a number as flags take it: integers without an exponent.
 std::string flag_text(double x) {
   constexpr double kExact = 1e15;
   return x == std::floor(x) && std::abs(x) < kExact ? fmt::format("{:.0f}", x) : number_text(x);
@@ -80,7 +80,7 @@ std::string flag_text(const Value& value) {
 
 class StudyFile {
  public:
-  // recorded: `root` is of a manifest.
+  // `recorded` is true if `root` is from a manifest.
   StudyFile(const std::string& file, const std::string& name, bool recorded)
       : file_(file), recorded_(recorded) {
     study_.file = file;
@@ -138,7 +138,7 @@ class StudyFile {
     return *text;
   }
 
-  // One value as flags take it; files that stand beside the study are found there.
+  // Returns one value as flags take it; it finds files that lie beside the study.
   std::string one_value(const ValueTree& node, const std::string& name) const {
     if (node.kind != ValueTree::Kind::value) throw refusal(node, name + " must be one value");
     const std::string text = flag_text(node.value);
@@ -182,10 +182,10 @@ class StudyFile {
       keys_.push_back({key, Field{}});
   }
 
-  // As flags are called.
+  // Returns the key's name on the command line.
   static std::string called_flag(const std::string& key) { return key == "fabric.name" ? "fabric" : key; }
 
-  // A key of the experiment by its name in the study, "param.stack" being of key "param".
+  // Returns a key of the experiment by its name in the study; "param.stack" belongs to key "param".
   const KeyDescription& known_key(const std::string& key, const ValueTree& node) const {
     if (kSweepFlags.contains(key))
       throw refusal(node, key + " is given to sweep (--" + key + "), not to its runs").with_key(key, "");
@@ -259,7 +259,7 @@ class StudyFile {
     study_.axes.push_back(std::move(axis));
   }
 
-  // [from, to, n], or [from, to] where it is sampled: its ends are then checked as its values.
+  // Reads [from, to, n], or [from, to] for a sampled axis, whose ends are then checked as its values.
   void read_range(StudyAxis& axis, const ValueTree& given) {
     const std::string name = axis.key + ": " + given.key;
     const auto* range = std::get_if<std::vector<double>>(&given.value);
@@ -282,7 +282,7 @@ class StudyFile {
     for (int i = 0; i < n; ++i) axis.values.push_back(between_ends(axis, from, to, i / (n - 1)));
   }
 
-  // The number at `part` of the way, rounded as it is shown; the ends are exact.
+  // Returns the number at the fraction `part` of the range, rounded as it is shown; the ends are exact.
   std::string between_ends(const StudyAxis& axis, double from, double to, double part) const {
     if (part == 0) return flag_text(from);
     if (part == 1) return flag_text(to);
@@ -290,7 +290,7 @@ class StudyFile {
     return flag_text(*number_in(fmt::format("{:.{}g}", x, kDigits)));
   }
 
-  // Each integer has a part of the range of its own, the last one too.
+  // Returns an integer; each one has an equal part of the range, the last one too.
   std::string integer_between(const StudyAxis& axis, double low, double high, double part) const {
     return flag_text(std::min(high, std::floor(*number_in(between_ends(axis, low, high + 1, part)))));
   }
@@ -370,8 +370,8 @@ class StudyFile {
   std::string file_;
   bool recorded_;
   Study study_;
-  Keys keys_;                  // without fields
-  std::set<std::string> set_;  // by [scene] or an axis
+  Keys keys_;                  // without their fields
+  std::set<std::string> set_;  // keys set by [scene] or an axis
 };
 
 }  // namespace

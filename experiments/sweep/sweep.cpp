@@ -1,5 +1,6 @@
-// One experiment over the axes of a study: a run for each combination of their values, each with a folder, a
-// process each or for several, and one table, curves, maps and a page of all.
+// `hysteron sweep` runs one experiment over the axes of a study: each combination of their values is a run
+// with a folder, in a process of its own or shared by several, and all are shown in one table, curves, maps
+// and a page.
 //
 //   study file -> OUT/runs/NAME/ -> OUT/table.csv, OUT/means.csv -> plots -> OUT/report.html
 #include <fmt/core.h>
@@ -82,7 +83,7 @@ SweepJobs sweep_jobs(const SweepChoice& choice, const std::vector<ChildRun>& run
   return jobs;
 }
 
-// The study as a workflow: a job for each run, or for a few, and one that makes the table.
+// Writes the study as a workflow: a job for each run, or for a few, and one that makes the table.
 void write_study(const SweepChoice& choice, const Study& study, const std::filesystem::path& out) {
   namespace fs = std::filesystem;
   const auto all = static_cast<int>(study.runs.size());
@@ -107,7 +108,7 @@ void write_study(const SweepChoice& choice, const Study& study, const std::files
   std::cout << all << " runs in " << jobs << " jobs: " << starting_words(choice.snakemake) << "\n";
 }
 
-// What the study says as its runs end, and what it counts.
+// Reports and counts the runs of a study as they end.
 class Progress {
  public:
   Progress(const Run& run, std::size_t all) : run_(run), all_(all) {}
@@ -122,7 +123,7 @@ class Progress {
                               time_left(static_cast<long>(done_), all, seconds(), false)));
   }
 
-  // How far long runs are, every now and then.
+  // Reports the progress of long runs now and then.
   void running(const std::string& line) {
     constexpr double kPatience = 30;  // [s]
     if (seconds() - said_ < kPatience) return;
@@ -130,7 +131,8 @@ class Progress {
     run_.progress("running: " + line);
   }
 
-  // `at_once` ideal cores would have taken the runs' own time over their number.
+  // The overhead compares with `at_once` ideal cores, which would take the sum of the runs' own times over
+  // their number.
   void note(Run& run, int at_once) const {
     run.metric("runs_count", all_);
     run.metric("kept_count", kept_);
@@ -149,14 +151,15 @@ class Progress {
   Clock::time_point start_ = Clock::now();
 };
 
-// A table needs no more of a manifest than what it found: a hundred thousand of them have to fit.
+// Drops what a table does not need of a manifest, because a hundred thousand of them have to fit into memory.
 void drop_scene(ChildRun& column) {
   if (!column.manifest) return;
   column.manifest->keys.reset();
   column.manifest->own.clear();
 }
 
-// As soon as a run has found something.  Others may find more: only in the end it is refused.
+// Warns of an unknown metric as soon as one run has ended.  Others may still have it, so it is refused only
+// at the end.
 void warn_of_unknown_metric(Run& run, const Study& study, const ChildRun& first) {
   const std::string unknown = unknown_metric(study, {&first, 1});
   if (!unknown.empty())
@@ -172,7 +175,7 @@ void throw_if_unknown_metric(const Study& study, const std::vector<ChildRun>& ru
         .with_key("metrics", "");
 }
 
-// Where every run is there already, what it has found is known before anything is touched.
+// Throws for an unknown metric before anything is touched, if every run is already complete.
 void check_known_metrics(const Study& study, std::vector<ChildRun> runs) {
   if (study.metrics.empty()) return;
   for (ChildRun& column : runs) {
@@ -220,7 +223,7 @@ void collect(Run& run, std::vector<ChildRun>& runs) {
 
 bool is_not_complete(const ChildRun& run) { return !run.stopped.empty(); }
 
-// The manifest of a study that lacks runs is not complete, either.
+// Writes tables, plots and page; the manifest of a study is incomplete if runs are missing.
 void write_results(Run& run, const Study& study, const std::vector<ChildRun>& runs, bool with_plots) {
   table_of_runs(study, runs).write(run.path("table.csv"));
   const std::vector<std::string> metrics = metrics_shown(study, runs);
@@ -233,7 +236,7 @@ void write_results(Run& run, const Study& study, const std::vector<ChildRun>& ru
     finish_with_report(run);
 }
 
-// The study cannot be said to be done where runs are missing: exit code 3, with the first reason.
+// Throws if runs are missing, which gives exit code 3 with the first reason.
 void throw_if_failed(const Run& run, const std::vector<ChildRun>& runs) {
   const auto count = std::ranges::count_if(runs, is_not_complete);
   if (count == 0) return;
@@ -243,7 +246,7 @@ void throw_if_failed(const Run& run, const std::vector<ChildRun>& runs) {
                                       first.stopped));
 }
 
-// The runs that --only or --part names.
+// Returns the runs that --only or --part selects.
 std::vector<ChildRun> chosen(const std::vector<ChildRun>& runs, const SweepChoice& choice) {
   std::vector<ChildRun> some;
   if (!choice.only.empty()) {
@@ -268,8 +271,8 @@ std::vector<ChildRun> chosen(const std::vector<ChildRun>& runs, const SweepChoic
   return {end(k - 1), end(k)};
 }
 
-// Without the study's own files, beside others that do so.  A run that is refused or cannot go on would end
-// so in another attempt, too; one whose machine fails ends this.
+// Runs a part of the study without its common files, beside other such processes.  A run that is refused or
+// cannot go on would do so in another attempt, too; a failing machine ends this part.
 int run_some(std::vector<ChildRun> runs, const SweepChoice& choice, bool quiet) {
   for (const ChildRun& column : runs)
     if (std::filesystem::is_directory(column.folder)) const FolderLock free(column.folder);
@@ -322,7 +325,7 @@ Experiment sweep() {
           .run = run_sweep,
           .own_keys = own_keys,
           .positionals = "STUDY",
-          // How runs share the machine may be said of a study whichever way it is worked off.
+          // The flags that distribute a study's runs over a machine go with any of these modes.
           .conditions = {{"resume", "not collect and not only and not part"},
                          {"resume | collect | only | part", "not snakemake"},
                          {"part", "not only"},

@@ -9,7 +9,7 @@
 namespace hysteron::experiments {
 namespace {
 
-// Numbers, truths and texts as a field of a table; "" for others.
+// Returns a number, boolean or text as a field of a table; "" for others.
 std::string metric_field(const MetricValue& value) {
   if (value.is_number()) return number_text(value.number());
   if (value.is_text()) return value.text();
@@ -18,7 +18,7 @@ std::string metric_field(const MetricValue& value) {
 
 bool has_field(const MetricValue& value) { return !metric_field(value).empty(); }
 
-// By the runs' scenes.
+// Returns the metrics that any of the runs' scenes requests.
 std::vector<std::string> requested_of_any(const std::vector<ChildRun>& runs) {
   std::vector<std::string> names;
   for (const ChildRun& run : runs)
@@ -34,7 +34,7 @@ bool differs(const std::vector<ChildRun>& runs, const std::string& metric) {
   return !known.empty() && std::any_of(known.begin(), known.end(), [&](double x) { return x != known[0]; });
 }
 
-// Numbers of the runs by their values but for the seed, in the order of the first.
+// Groups the runs' indices by their values except the seed, in the order of the first.
 std::vector<std::pair<std::vector<std::string>, std::vector<std::size_t>>> study_points(const Study& study) {
   std::vector<std::pair<std::vector<std::string>, std::vector<std::size_t>>> points;
   std::map<std::vector<std::string>, std::size_t> places;

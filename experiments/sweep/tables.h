@@ -1,5 +1,5 @@
-// What a study has found, as tables, a row a run and a row for each point of the axes over its repeated
-// draws; and as curves and maps.
+// Returns the results of a study as tables, with a row for each run or for each point of the axes over its
+// repeated draws, and as curves and maps.
 #pragma once
 
 #include <cmath>
@@ -12,29 +12,28 @@
 
 namespace hysteron::experiments {
 
-// Of the runs' columns, in their order: `run`, a column for each axis, each metric that any of them has in
-// the order in which they come (truths as 0 and 1), `wall_s` and `state_hash` of its manifest, `exit_code`,
-// `stopped`: why it is not complete.  What is not known is empty.
+// Returns a row for each run, in order, with the columns `run`, each axis, each metric that any run has
+// (booleans as 0 and 1), `wall_s` and `state_hash` of its manifest, `exit_code`, and `stopped`, why it is not
+// complete.  Unknown fields are empty.
 Table table_of_runs(const Study& study, const std::vector<ChildRun>& runs);
 
-// The metrics that the study names, or the headlines of its experiment, or those that the runs' scenes ask
-// for, or else the first few that differ between runs; of those that any run has.
+// Returns those metrics that any run has: of the study's own, or else of its experiment's headlines, or of
+// those that the runs' scenes request, or else the first few that differ between runs.
 std::vector<std::string> metrics_shown(const Study& study, const std::vector<ChildRun>& runs);
 
-// Says of the first metric that the study names and none of these runs has what it may have meant:
-// "bending_frictoin_J (did you mean bending_friction_J?)"; "" where there is none, or no run has found
-// anything.
+// Returns a text on the first metric that the study names and none of these runs has: "bending_frictoin_J
+// (did you mean bending_friction_J?)"; "" if there is none, or no run has any metric.
 std::string unknown_metric(const Study& study, std::span<const ChildRun> runs);
 
-// Of the runs of equal values but for the seed: each axis, `draws`, and METRIC_mean with its standard error,
-// METRIC_stderr, over those that have the metric.
+// Returns a row for the runs that differ in the seed alone: each axis, `draws`, and METRIC_mean with its
+// standard error, METRIC_stderr, over those that have the metric.
 Table table_of_means(const Study& study, const std::vector<ChildRun>& runs,
                      const std::vector<std::string>& metrics);
 
-// The metric of each run; NaN where it is not known.
+// Returns the metric of each run; NaN if unknown.
 std::vector<double> metric_values(const std::vector<ChildRun>& runs, const std::string& metric);
 
-// Mean and its standard error of those numbers that are known.
+// The mean of the known numbers, and its standard error.
 struct Mean {
   int count = 0;
   double value = NAN;
@@ -42,9 +41,9 @@ struct Mean {
 };
 Mean selected_mean(const std::vector<double>& numbers, const std::vector<std::size_t>& which);
 
-// Of each metric: plot_METRIC-KEY, a curve over each axis of numbers (dots: runs; lines: means over repeated
-// draws), one colour for each value of another axis, one panel for the others; plot_METRIC-map, a map over
-// the two longest axes of a grid.  Axes of texts alone become bars.
+// Draws for each metric plot_METRIC-KEY, a curve over each numeric axis (dots: runs; lines: means over
+// repeated draws) with a colour for each value of another axis and a panel for each of the others; and
+// plot_METRIC-map over the two longest axes of a grid.  Axes of texts alone become bars.
 void plot_study(Run& run, const Study& study, const std::vector<ChildRun>& runs,
                 const std::vector<std::string>& metrics);
 

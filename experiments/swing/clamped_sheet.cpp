@@ -16,14 +16,14 @@ namespace {
 
 constexpr double kFlat = 0.01;   // thickness of a box around a flat sheet over its longest side
 constexpr double kLevel = 1e-3;  // cosine between gravity and the normal below which gravity is in the plane
-constexpr double kAside = 0.1;   // by which the first guess of the pins' line is off a symmetry of the sheet
-constexpr int kPowers = 200;     // enough to tell sides of 10 and 9 apart
-constexpr double kParallel = 1e-6;  // sine between two directions that are taken for one
+constexpr double kAside = 0.1;   // offset of the first guess of the pins' line from a symmetry of the sheet
+constexpr int kPowers = 200;     // iterations that distinguish sides of 10 and 9
+constexpr double kParallel = 1e-6;  // sine of the angle between directions that count as parallel
 
-// The sheet on the flat cloth: x is along it.
+// The flat cloth's sheet, with x along it.
 struct RestSheet {
   Eigen::AlignedBox3d box;
-  int across = 1, normal = 2;  // axes
+  int across = 1, normal = 2;  // indices of axes
 
   bool is_flat() const { return box.sizes()[normal] < kFlat * box.sizes().maxCoeff(); }
 };
@@ -32,7 +32,7 @@ RestSheet rest_sheet(const Scene& scene, const ClothMesh& mesh) {
   RestSheet sheet;
   for (const Eigen::Vector3d& x : mesh.rest) sheet.box.extend(x);
   if (sheet.box.sizes().z() > sheet.box.sizes().y()) std::swap(sheet.across, sheet.normal);
-  // A strip that is built ends where the scene says, though its clamp is a little longer.
+  // A generated strip ends where the scene says, though its clamp is a little longer.
   if (is_flat_rectangle(scene)) {
     const double width = scene.cloth.shape == "square" ? scene.cloth.length : scene.cloth.width;
     sheet.box = Eigen::AlignedBox3d(Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(scene.cloth.length, width, 0));
@@ -53,7 +53,7 @@ std::string sheet_name(const Scene& scene) {
   return file.empty() ? "the " + scene.cloth.shape : "mesh " + file;
 }
 
-// "0 90 0"
+// Formats "0 90 0".
 std::string rotation_text(const Eigen::Vector3d& degrees) {
   return fmt::format("{:g} {:g} {:g}", degrees.x(), degrees.y(), degrees.z());
 }
@@ -113,8 +113,8 @@ void clamp_low_end(Scene& scene) {
 
 namespace {
 
-// The horizontal direction at right angles to `across`; `other` where that one is vertical.  It points where
-// `outwards` does.
+// Returns the horizontal direction at right angles to `across`, or `other` if `across` is vertical.  It
+// points to the side of `outwards`.
 Eigen::Vector3d swing_direction(const Eigen::Vector3d& across, const Eigen::Vector3d& up,
                                 const Eigen::Vector3d& other, const Eigen::Vector3d& outwards) {
   Eigen::Vector3d along = across.cross(up);
@@ -123,7 +123,7 @@ Eigen::Vector3d swing_direction(const Eigen::Vector3d& across, const Eigen::Vect
   return along.dot(outwards) < 0 ? Eigen::Vector3d(-along) : along;
 }
 
-// The vertices that pins hold at the start, or all of the first pin's that come later.
+// Returns the vertices that pins hold at the start, or all of the first pin's if it closes later.
 std::vector<Eigen::Vector3d> held_points(const Cloth& cloth) {
   std::vector<Eigen::Vector3d> points;
   for (std::size_t i = 0; i < cloth.start.size(); ++i)
@@ -133,15 +133,15 @@ std::vector<Eigen::Vector3d> held_points(const Cloth& cloth) {
   return points;
 }
 
-// The direction in which the points lie that are held; where that is one point, at right angles to
+// Returns the direction of the line through the held points; for a single point, one at right angles to
 // `outwards`.
 Eigen::Vector3d line_of_pins(const std::vector<Eigen::Vector3d>& held, const Eigen::Vector3d& middle,
                              const Eigen::Vector3d& up, const Eigen::Vector3d& outwards) {
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
   for (const Eigen::Vector3d& x : held) spread += (x - middle) * (x - middle).transpose();
   if (spread.trace() < kParallel * outwards.squaredNorm()) return up.cross(outwards).stableNormalized();
-  // By powers of the matrix.  Eigen's solver would be compiled here with other flags than in the simulation,
-  // and the linker keeps one of the two.
+  // The power method is used because Eigen's solver would be compiled here with other flags than in the
+  // simulation, and the linker keeps one of the two.
   Eigen::Vector3d line = up.cross(outwards) + kAside * outwards;
   for (int i = 0; i < kPowers; ++i) line = (spread * line).stableNormalized();
   return line;

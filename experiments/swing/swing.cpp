@@ -1,5 +1,5 @@
-// A strip clamped at one end, held out straight and let go: it swings under gravity and comes to rest.  What
-// stops it, friction in bending, viscosity or the integrator, is told apart by the ledger.
+// `hysteron swing`: a strip clamped at one end is held out straight and let go; it swings under gravity and
+// comes to rest.  The ledger distinguishes what stops it: friction in bending, viscosity or the integrator.
 #include <fmt/core.h>
 
 #include <cmath>
@@ -17,13 +17,14 @@
 namespace hysteron::experiments {
 namespace {
 
-constexpr double kOnion = 0.5;    // of the swing, in one picture: there and back [s]
-constexpr double kProbed = 0.06;  // of the length, from the clamp to where pictures show moment and curvature
+constexpr double kOnion = 0.5;    // time span of the swing in one picture: there and back [s]
+constexpr double kProbed = 0.06;  // distance of the probe from the clamp, over the length
 
 Setup defaults() {
   Setup setup;
   Scene& scene = setup.scene = default_scene();
-  // 0.4 % of the length in `hysteron accuracy`, problem swing: the cheapest within 1 %.
+  // This mesh and step err by 0.4 % of the length in `hysteron accuracy`, problem swing: the cheapest within
+  // 1 %.
   scene.integrator = Integrator::bdf2;
   scene.cloth.shape = "strip";
   scene.cloth.length = 0.09;
@@ -39,12 +40,12 @@ Setup defaults() {
   return setup;
 }
 
-// The resolution of a swing from turn to turn, of the length: smaller ones are not counted, so that
-// amplitudes end at half of it, 0.45 mm of the strip by default.  Time steps leave some 1e-6 of a turning
-// point; below its lowest threshold a law of eight stops with k0 = 8/m rings at 0.1 mm.
+// Smallest counted swing between two reversals, over the length, so that amplitudes end at half of it, 0.45
+// mm of the strip by default.  Time steps change a reversal by some 1e-6 of it; below its lowest threshold a
+// law of eight stops with k0 = 8/m rings at 0.1 mm.
 constexpr double kMinTurn = 0.01;
-// Of the free length: with viscosity alone, whose decay is exponential when small, larger amplitudes fall
-// with exponents of 1.5 and more; below, with 1.1.
+// Largest amplitude for fits, over the free length: with viscosity alone, whose decay is exponential when
+// small, larger amplitudes fall with exponents of 1.5 and more; below, with 1.1.
 constexpr double kSmallSwing = 0.5;
 
 constexpr const char* kDecayCaption =
@@ -52,16 +53,16 @@ constexpr const char* kDecayCaption =
     "neighbours, and "
     "the shape that describes it best. Friction that saturates makes a line that ends in a hyperbola, "
     "saturated friction a line, friction that has not saturated a hyperbola, viscosity an exponential.";
-// turns.csv: a row for each amplitude.
+// Writes turns.csv with a row for each amplitude.
 void write_turns(Run& run, const std::vector<Amplitude>& amplitudes) {
   Record file(run.path("turns.csv"), {"turn", "time [s]", "amplitude [mm]"});
   for (const Amplitude& a : amplitudes) file.row({1.0 * a.turn, a.time, 1e3 * a.value});
   file.finish();
 }
 
-// By how far amplitudes down to a fifth of the first are from the line that is nearest to them, at most and
-// over the first: cloth's swings are reported to fall along one so far (Matsudaira & Zhang 1996).  NaN for
-// fewer than three.
+// Returns the largest distance of amplitudes down to a fifth of the first from their nearest line, over the
+// first: cloth's swings are reported to fall along a line so far (Matsudaira & Zhang 1996).  NaN for fewer
+// than three.
 double line_departure(const std::vector<Amplitude>& amplitudes, const Decay& decay) {
   constexpr double kFifth = 0.2;
   std::vector<Amplitude> large;
@@ -103,7 +104,7 @@ void note_decay(Run& run, const std::vector<Amplitude>& amplitudes, const Decay&
     run.metric("decay_line_departure_percent", 100 * departure);
 }
 
-// Amplitudes against time, and the fits over those that they were made from: the best one.
+// Plots amplitudes against time with the best fit, over the amplitudes that it was made from.
 void plot_decay(Session& session, const std::vector<Amplitude>& amplitudes, const Decay& decay) {
   constexpr int kDrawn = 200;
   constexpr const char* kFitColor = "#222222";
@@ -147,8 +148,8 @@ void limit_to_quick(Setup& setup) {
   setup.options.fps = std::min(setup.options.fps, 20.0);
 }
 
-// Meshes that are built here have a column of vertices on either side of the clamp's end; of others, all
-// vertices up to there are held.  There is no clamp where the scene has pins of its own.
+// Clamps the cloth unless the scene has pins of its own.  Generated meshes have a column of vertices on
+// either side of the clamp's end; of others, all vertices up to there are held.
 std::optional<Cloth> clamp(const CommandLine& line, Setup& setup) {
   Scene& scene = setup.scene;
   if (!scene.pin.empty()) return {};

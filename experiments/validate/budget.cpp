@@ -10,21 +10,21 @@
 namespace hysteron::experiments {
 namespace {
 
-// Columns of budget.csv.
+// The columns of budget.csv.
 constexpr const char* kMean = "mean drape coefficient [%]";
 constexpr const char* kError = "standard error [%]";
 constexpr const char* kChange = "change [%]";
 constexpr const char* kPublished = "published [%]";
 
-// A row of budget.csv.  Coefficients [%] are means of the meshes.
+// A row of budget.csv.  Coefficients [%] are means over the meshes.
 struct BudgetRow {
   std::string fabric, number, value;
   int meshes = 0;
-  double coefficient = NAN, error = NAN;  // the mean's standard error
-  double change = NAN, published = NAN;   // from what the fabric's file says
+  double coefficient = NAN, error = NAN;  // mean and its standard error
+  double change = NAN, published = NAN;   // difference from the nominal row
 };
 
-// All rows are of one fabric, the first one as its file says.
+// Returns the plot of one fabric's rows, the first of which is nominal.
 render::Plot budget_plot(const std::vector<BudgetRow>& rows) {
   render::Plot plot{
       "Drape of " + rows.at(0).fabric + ", one unknown at a time", {""}, {"drape coefficient [%]"}};
@@ -37,7 +37,7 @@ render::Plot budget_plot(const std::vector<BudgetRow>& rows) {
     if (!second) plot.x.categories.push_back(rows[i].number);
     render::Series& series = second || single ? high : low;
     series.add(static_cast<double>(plot.x.categories.size() - 1), rows[i].coefficient);
-    for (const double sign : {-1., 1., double(NAN)}) {  // NaN: a gap between bars
+    for (const double sign : {-1., 1., double(NAN)}) {  // NaN makes a gap between bars
       errors.add(series.x.back(), rows[i].coefficient + sign * rows[i].error);
     }
   }
@@ -67,7 +67,7 @@ Drape on_other_tester(Drape drape) {
   return drape;
 }
 
-// Of trial `number`, a drape a mesh.
+// Returns the drapes of trial `number`, one for each mesh.
 std::vector<Drape> trial_drapes(const Trial& trial, std::size_t number, int draws) {
   std::vector<Drape> drapes;
   for (int draw = 1; draw <= draws; ++draw) {

@@ -1,4 +1,4 @@
-// What each unknown of a fabric explains of a drape: one at a time at both ends of its range.
+// Measures how much each unknown of a fabric explains of a drape, one at a time at both ends of its range.
 #pragma once
 
 #include <string>
@@ -8,16 +8,16 @@
 
 namespace hysteron::experiments {
 
-// A drape that is told one thing more: "shear", "30".
+// A drape with one number changed: "shear", "30".
 struct Trial {
   std::string number, value;
   Drape drape;
 };
-// As the fabric's file says, each number that states a range at its low and its high end, the other tester,
-// four times the triangles.
+// Returns the nominal drape, each number with a stated range at its low and its high end, the other tester,
+// and four times the triangles.
 std::vector<Trial> budget_trials(const std::string& fabric, const ValidateFlags& flags);
 
-// What each unknown explains.  For each fabric under the first law, each trial on `draws` meshes: budget.csv,
+// Runs each trial of each fabric under the first law on `draws` meshes, and writes budget.csv and
 // plot_budget_<fabric>.
 void write_budget(const ValidateFlags& flags, Run& run);
 

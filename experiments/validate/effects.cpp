@@ -16,7 +16,7 @@ NumberEffects number_effects(const std::map<std::string, std::vector<double>>& d
                              const std::map<std::string, Range>& ranges,
                              const std::vector<double>& coefficients) {
   const auto drapes = static_cast<Eigen::Index>(coefficients.size());
-  const auto unknowns = static_cast<Eigen::Index>(drawn.size()) + 1;  // and the mean
+  const auto unknowns = static_cast<Eigen::Index>(drawn.size()) + 1;  // one for the mean
   NumberEffects result{{}, 0, coefficients.size(), 2 * static_cast<std::size_t>(unknowns)};
   if (drawn.empty() || result.drapes < result.needed) return result;
   Eigen::MatrixXd rows(drapes, unknowns);
@@ -48,7 +48,7 @@ NumberEffects number_effects(const std::map<std::string, std::vector<double>>& d
 
 namespace {
 
-// The column that has this number as it was drawn; "" where the table does not tell it.
+// Returns the column with this number as drawn; "" if the table lacks it.
 std::string drawn_column(const Table& spread, const std::string& number) {
   const auto has = [&](const std::string& name) {
     return std::ranges::find(spread.head, name) != spread.head.end();
@@ -70,7 +70,7 @@ NumberEffects effects_of_spread(const Table& spread, const FabricFile& file) {
     for (const auto& [number, range] : ranges) {
       const std::string column = drawn_column(spread, number);
       double value = spread.number(row, column);
-      // Tables that do not tell what was drawn have bias beside the ratio of weft (keep_what_was_measured()).
+      // In tables without the drawn numbers, bias depends on the ratio of weft (keep_what_was_measured()).
       if (column == "bias-bending" && ranges.contains("weft-bending"))
         value *= (1 + file.fabric.weft_bending) / (1 + spread.number(row, "weft-bending"));
       drawn[number].push_back(value);
@@ -107,7 +107,7 @@ void note_effects(Run& run, const EffectsByFabric& all) {
 
 namespace {
 
-// Numbers of all fabrics, that first which moves any drape most.
+// Returns the numbers of all fabrics, ordered by their largest effect on any drape.
 std::vector<std::string> numbers_by_effect(const EffectsByFabric& all) {
   std::map<std::string, double> largest;
   for (const auto& [fabric, found] : all)
@@ -122,7 +122,7 @@ std::vector<std::string> numbers_by_effect(const EffectsByFabric& all) {
 }  // namespace
 
 render::Plot effects_plot(const EffectsByFabric& all) {
-  constexpr double kApart = 0.14;  // of the places of two numbers: fabrics beside each other
+  constexpr double kApart = 0.14;  // offset of fabrics, over the distance between two numbers
   render::Plot plot{"What moves a drape, each number over its range", {""}, {"drape coefficient [points]"}};
   plot.x.categories = numbers_by_effect(all);
   render::Series errors{"standard error", {}, {}, render::Series::Style::line, "#888888"};

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 using Style = render::Series::Style;
 
-// What is recorded where, below one folder.
+// The paths of recorded results, below one folder.
 constexpr const char* kLoops = "fab-shirley/loops_L_D1.csv";
 constexpr const char* kSwing = "swing-cotton-broad";
 constexpr const char* kTurns = "swing-cotton-broad/turns.csv";
@@ -29,7 +29,7 @@ constexpr const char* kModelColor = "#D55E00";
 constexpr const char* kMeasuredColor = "#6F7F8F";
 constexpr const char* kLineColor = "#888888";
 
-// Force per width against the distance of the clamps, cycle by cycle.
+// Plots force per width against the distance of the clamps, cycle by cycle.
 render::PagePlot loops_plot(const fs::path& csv) {
   const Table table = read_table(csv);
   render::Plot plot{"Loops of a knit, fitted on the middle one",
@@ -46,7 +46,7 @@ render::PagePlot loops_plot(const fs::path& csv) {
   return {plot, "top left"};
 }
 
-// Those that a decay was read from; those before are too large.
+// Reads the amplitudes that a decay was fitted to; those before are too large.
 std::vector<Amplitude> read_amplitudes(const fs::path& swing) {
   const Table turns = read_csv(swing / "turns.csv", {"turn", "time [s]", "amplitude [mm]"}, {}, "validate");
   std::vector<Amplitude> amplitudes;
@@ -60,8 +60,7 @@ std::vector<Amplitude> read_amplitudes(const fs::path& swing) {
   return {amplitudes.end() - static_cast<std::ptrdiff_t>(count), amplitudes.end()};
 }
 
-// The saturating shape of a decay, from its first amplitude to its last, which stand at `start` and `end`
-// [s].
+// Returns the saturating shape of a decay, from its first amplitude at `start` to its last at `end` [s].
 render::Series decay_curve(const DecayFit& fit, double start, double end) {
   constexpr int kPoints = 200;
   render::Series curve{"the chapter's closed form", {}, {}, Style::line, kModelColor};
@@ -93,13 +92,13 @@ render::PagePlot decay_plot(const fs::path& swing) {
   return {plot, "top right"};
 }
 
-// A bar from the low to the high end of an interval.
+// Returns a bar from the low to the high end of an interval.
 render::Series interval(const PredictedDrape& drape, const std::string& color, const std::string& label) {
   return {label, {drape.measured, drape.measured}, {drape.low, drape.high}, Style::line, color, 5};
 }
 
-// A fabric's name, where the diagonal is not: of limp fabrics below the interval and to the right, of stiff
-// ones above it and to the left.
+// Places a fabric's name away from the diagonal: for limp fabrics below the interval and to the right, for
+// stiff ones above it and to the left.
 render::Mark drape_mark(const PredictedDrape& drape, bool stiff, const std::string& color) {
   constexpr double kAway = 3.5;  // [%]
   if (stiff) return {drape.fabric, drape.measured + 1, drape.high + kAway, -0.1, 0, color, false};
@@ -125,7 +124,7 @@ render::PagePlot drapes_plot(const std::vector<PredictedDrape>& drapes) {
   return {plot, "top left"};
 }
 
-// Of the fabrics in this order, which their colours have.
+// Plots the folds of the fabrics in this order, which determines their colours.
 render::PagePlot fold_counts_plot(const std::vector<CountedDrape>& counted,
                                   const std::vector<PredictedDrape>& order) {
   render::Plot plot{"Folds of drapes, 300 mm on 180 mm",
@@ -157,7 +156,7 @@ std::vector<PredictedDrape> read_drapes(const fs::path& means, const fs::path& s
                            [&](const PredictedDrape& drape) { return drape.fabric == fabric; });
     if (at == drapes.end()) {
       const Table known =
-          read_table(spread / fabric / "predictions.csv");  // the coefficient first, then folds
+          read_table(spread / fabric / "predictions.csv");  // has the coefficient first, then folds
       if (known.rows.empty())
         throw Error::invalid_input("validate: " + (spread / fabric).string() + " has no drape");
       at = drapes.insert(drapes.end(), {.fabric = fabric,

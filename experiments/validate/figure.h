@@ -1,4 +1,4 @@
-// The figure of a validation, from raw loop to decay, drape and folds, drawn from recorded results.
+// Draws the figure of a validation, from raw loop to decay, drape and folds, from recorded results.
 #pragma once
 
 #include <filesystem>
@@ -10,29 +10,29 @@
 
 namespace hysteron::experiments {
 
-// What is measured or known of a drape, beside what is predicted of it [%].
+// The measured drape coefficient of a fabric and its prediction [%].
 struct PredictedDrape {
   std::string fabric;
   double measured = NAN;
   double mean = NAN,
-         elastic = NAN;          // under `prandtl` and `linear`, on several meshes; other laws are left out
-  double low = NAN, high = NAN;  // 95 %, with the fabric's uncertain numbers in their ranges
+         elastic = NAN;          // under `prandtl` and `linear`, over several meshes; other laws are left out
+  double low = NAN, high = NAN;  // 95 % interval over the ranges of the fabric's uncertain numbers
 };
-// From the means of a study and, for each of its fabrics, FABRIC/predictions.csv in the folder `spread`.
+// Reads the means of a study and, for each of its fabrics, FABRIC/predictions.csv in the folder `spread`.
 std::vector<PredictedDrape> read_drapes(const std::filesystem::path& means,
                                         const std::filesystem::path& spread);
 
-// One for each fabric in all plots, which colour-blind eyes can tell apart (Okabe & Ito 2008).
+// Returns a fabric's colour in all plots, which colour-blind eyes can distinguish (Okabe & Ito 2008).
 std::string fabric_color(std::size_t fabric);
 
-// Loops, decay, drapes and folds, from the folders below `recorded`.  Throws Error::system,
-// Error::invalid_input where one of their files is missing or another than it was.
+// Draws loops, decay, drapes and folds, from the folders below `recorded`.  Throws Error::system,
+// Error::invalid_input if one of their files is missing or has another format.
 render::PlotPage validation_page(const std::filesystem::path& recorded);
 
 // Throws Error::invalid_input, naming the first of these files that is missing.
 void check_recorded(const std::filesystem::path& recorded);
 
-// plot_validation; plot_folds; plot_effects of the fabrics of the spread.
+// Draws plot_validation, plot_folds, and plot_effects of the fabrics of the spread.
 void draw_recorded(const std::filesystem::path& recorded, Run& run);
 
 }  // namespace hysteron::experiments

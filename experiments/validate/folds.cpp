@@ -9,14 +9,14 @@
 namespace hysteron::experiments {
 namespace {
 
-// What was counted on real drapes of one fabric.
+// The coefficients and folds of the real drapes of one fabric.
 struct RealDrapes {
   double coefficient, deviation;  // mean and standard deviation [%]
-  int fewest, most;               // folds
+  int fewest, most;               // numbers of folds
 };
 
-// Of ten fabrics, 300 mm on 180 mm: Gong, Mao, Wang 2024, a public set of meshes of 584 drapes of 25 fabrics,
-// outlines counted with a prominence of 3 mm.  By rising coefficient.
+// Returns the drapes of ten fabrics, 300 mm on 180 mm, by rising coefficient: Gong, Mao, Wang 2024, a public
+// set of meshes of 584 drapes of 25 fabrics, outlines counted with a prominence of 3 mm.
 const std::vector<RealDrapes>& real_drapes() {
   static const std::vector<RealDrapes> kAll = {
       {16.4, 1.0, 10, 14}, {20.4, 0.5, 10, 11}, {30.3, 1.0, 8, 9}, {48.3, 3.3, 7, 10}, {57.4, 6.2, 6, 8},
@@ -25,14 +25,14 @@ const std::vector<RealDrapes>& real_drapes() {
   return kAll;
 }
 
-// By "FABRIC-LAW".
+// Groups the drapes by "FABRIC-LAW".
 std::map<std::string, std::vector<CountedDrape>> by_column(const std::vector<CountedDrape>& drapes) {
   std::map<std::string, std::vector<CountedDrape>> columns;
   for (const CountedDrape& drape : drapes) columns[drape.fabric + "-" + drape.law].push_back(drape);
   return columns;
 }
 
-// Each drape's coefficient and folds over the ranges of real ones.
+// Plots each drape's coefficient and folds over the ranges of real ones.
 render::Plot folds_plot(const std::vector<CountedDrape>& drapes) {
   render::Plot plot{
       "Folds of drapes, simulated and real (Gong, Mao, Wang 2024)", {"drape coefficient [%]"}, {"folds"}};
@@ -70,7 +70,7 @@ std::vector<CountedDrape> read_counted(const std::filesystem::path& csv) {
 }
 
 std::vector<render::Series> real_drape_boxes(const std::string& label) {
-  constexpr double kRoom = 0.2;  // of a fold, so that a count lies within its box
+  constexpr double kRoom = 0.2;  // margin in folds, so that a count lies within its box
   std::vector<render::Series> boxes;
   for (const RealDrapes& real : real_drapes()) {
     const double low = real.coefficient - real.deviation, high = real.coefficient + real.deviation,

@@ -1,5 +1,5 @@
-// Fold counts of drapes against those of real cloth: a coefficient alone does not tell whether a drape looks
-// like one.
+// Compares the folds of drapes with those of real cloth, because a coefficient alone does not show whether a
+// drape looks like one.
 #pragma once
 
 #include <filesystem>
@@ -11,8 +11,8 @@
 
 namespace hysteron::experiments {
 
-// The range of folds that real drapes of this coefficient [%] have, 300 mm on 180 mm: between those of the
-// two fabrics around it.
+// The range of folds of real drapes with this coefficient [%], 300 mm on 180 mm, between the two neighbouring
+// fabrics.
 struct FoldRange {
   double fewest, most;
 
@@ -22,16 +22,16 @@ FoldRange real_folds(double coefficient);
 
 struct CountedDrape {
   std::string fabric, law;
-  double coefficient, folds;  // [%]
+  double coefficient, folds;  // coefficient [%], number of folds
 };
-// Of a study's table.csv; those that have no coefficient are left out.  Throws as read_table() and
+// Reads a study's table.csv and leaves out rows without a coefficient.  Throws as read_table() and
 // Table::at() do.
 std::vector<CountedDrape> read_counted(const std::filesystem::path& csv);
 
-// What was counted on real drapes, a box for each fabric: its label on the first.
+// Returns a box for each fabric of the real drapes; the first has the label.
 std::vector<render::Series> real_drape_boxes(const std::string& label);
 
-// plot_folds; metrics: of each fabric and law the share of its drapes within.
+// Draws plot_folds, and adds for each fabric and law the share of its drapes within the range.
 void compare_folds(Run& run, const std::vector<CountedDrape>& drapes, bool pictures);
 
 }  // namespace hysteron::experiments

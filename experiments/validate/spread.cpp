@@ -1,4 +1,4 @@
-// Drapes with the fabric's uncertain numbers anywhere in their ranges.
+// Drapes with the fabric's uncertain numbers drawn from their ranges.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -21,11 +21,11 @@
 namespace hysteron::experiments {
 namespace {
 
-// Where one more drape lies with 95 %, beside what was measured.
+// The 95 % interval of one more drape, and the measured value.
 struct Prediction {
-  std::string question;  // "drape of wool-tropical"
+  std::string question;  // name of the predicted quantity: "drape of wool-tropical"
   std::string unit, fitted_on;
-  double predicted, measured, low, high;  // measured: NaN where nothing was
+  double predicted, measured, low, high;  // `measured` is NaN if unknown
 
   std::optional<bool> contains_measured() const {
     if (std::isnan(measured)) return std::nullopt;
@@ -33,13 +33,13 @@ struct Prediction {
   }
 };
 
-// "yes", "no"; "" where nothing was measured.
+// Returns "yes" or "no"; "" if nothing was measured.
 std::string answer_text(const std::optional<bool>& answer) {
   if (!answer) return "";
   return *answer ? "yes" : "no";
 }
 
-// Names what was measured of a fabric, beside a drape.
+// Lists what was measured of a fabric, apart from its drape.
 std::string fitted_on(const Fabric& fabric) {
   std::vector<std::string> measured;
   for (const auto& [name, number] : fabric.published)
@@ -60,7 +60,7 @@ void write_predictions(Run& run, const std::vector<Prediction>& predictions) {
   table.write(run.path("predictions.csv"));
 }
 
-// 0 to count - 1 in an order by chance (Fisher & Yates).
+// Returns 0 to count - 1 in random order (Fisher & Yates).
 std::vector<int> shuffled(int count, Uniform& uniform) {
   std::vector<int> order(count);
   std::iota(order.begin(), order.end(), 0);
@@ -68,7 +68,7 @@ std::vector<int> shuffled(int count, Uniform& uniform) {
   return order;
 }
 
-// What drapes of one fabric say together: the mean, and where one more would lie.
+// Returns the mean over drapes of one fabric, and the interval of one more.
 Prediction together(const std::vector<Drape>& drapes, const std::string& metric, const std::string& question,
                     const std::string& unit, const std::string& fitted_on) {
   std::vector<double> values;
@@ -79,7 +79,7 @@ Prediction together(const std::vector<Drape>& drapes, const std::string& metric,
 
 using DrapesOf = std::vector<std::pair<std::string, std::vector<Drape>>>;
 
-// Numbers that were drawn and that drapes were told otherwise, since what was measured was kept.
+// Returns the drawn numbers that drapes received with other values, because what was measured was kept.
 std::set<std::string> retold_numbers(const DrapesOf& all) {
   std::set<std::string> retold;
   for (const auto& [fabric, drapes] : all)
@@ -138,8 +138,8 @@ double mean_value(const std::vector<double>& values) {
 
 namespace {
 
-// Probability that Student's t of so many degrees of freedom is within +-sqrt(freedom) tan(angle): finite
-// sums (Abramowitz & Stegun 1964, 26.7.3 and 26.7.4).
+// Returns the probability that Student's t with `freedom` degrees of freedom is within +-sqrt(freedom)
+// tan(angle), by finite sums (Abramowitz & Stegun 1964, 26.7.3 and 26.7.4).
 double student_within(int freedom, double angle) {
   const double cosine = std::cos(angle), sine = std::sin(angle);
   const bool is_odd = freedom % 2 != 0;
@@ -179,7 +179,7 @@ double number_or(const Sample& sample, const std::string& key, double otherwise)
   return found == sample.end() ? otherwise : found->second;
 }
 
-// Nothing of a sample changes bending along warp.
+// True if no number of the sample changes bending along warp.
 bool unstated(const Sample& sample) {
   return std::ranges::none_of(std::array{"k0", "B", "2HB", "weft-bending", "weft-friction"},
                               [&](const char* key) { return sample.count(key) > 0; });
@@ -187,8 +187,8 @@ bool unstated(const Sample& sample) {
 
 bool has_bending_length(const Fabric& fabric) { return fabric.published.contains("bending-length"); }
 
-// B [N m]; of a fabric whose cantilever was measured that with which its bending length along warp stays,
-// beside another friction or weight.
+// Returns B [N m]; if the fabric's cantilever was measured, it keeps the bending length along warp with
+// another friction or weight.
 double rigidity_beside(const Fabric& fabric, double density, double two_hb, double k0) {
   if (!has_bending_length(fabric)) return fabric.b2;
   const PublishedNumber& measured = fabric.published.at("bending-length");
@@ -198,7 +198,7 @@ double rigidity_beside(const Fabric& fabric, double density, double two_hb, doub
   });
 }
 
-// Throws Error::invalid_input where the bending length of [published] makes another B than the file has.
+// Throws Error::invalid_input if the bending length of [published] gives another B than the file has.
 void check_bending_length(const Fabric& fabric) {
   constexpr double kOtherwise = 0.05;
   if (!has_bending_length(fabric)) return;
@@ -211,7 +211,7 @@ void check_bending_length(const Fabric& fabric) {
         .with_key("fabrics", fabric.name);
 }
 
-// Ranges that would be drawn and then change nothing, or a friction that stops have already.
+// Throws for ranges that would change nothing, and for a friction that stops already determine.
 void check_ranges(const FabricFile& file, const std::map<std::string, Range>& ranges) {
   const auto has = [&](const char* key) { return ranges.contains(key); };
   const auto refuse = [&](const std::string& what) {
@@ -246,7 +246,7 @@ std::map<std::string, Range> uncertain_numbers(const FabricFile& file) {
 
 namespace {
 
-// Friction moment along weft over that along warp.
+// Returns the friction moment along weft over that along warp.
 double friction_ratio(const Fabric& fabric, const Sample& sample) {
   const double own = number_or(sample, "weft-friction", fabric.weft_friction);
   return own > 0 ? own : std::sqrt(number_or(sample, "weft-bending", fabric.weft_bending));
@@ -260,7 +260,7 @@ void keep_what_was_measured(const Fabric& fabric, Sample& sample) {
   const double warp = (1 + fabric.weft_bending) / (1 + weft),
                rubs = (1 + friction_ratio(fabric, {})) / (1 + friction_ratio(fabric, sample));
   if (sample.count("bias-bending")) sample["bias-bending"] *= (1 + weft) / (1 + fabric.weft_bending);
-  if (!fabric.bending.stops.empty()) return;  // which keep their friction along warp
+  if (!fabric.bending.stops.empty()) return;  // stops keep their friction along warp
   if (fabric.kes.on() && (sample.count("weft-bending") || sample.count("weft-friction"))) {
     sample["kes-b"] = warp * number_or(sample, "kes-b", fabric.kes.read.rigidity);
     sample["kes-2hb"] = rubs * number_or(sample, "kes-2hb", fabric.kes.read.loop_width);
@@ -270,7 +270,7 @@ void keep_what_was_measured(const Fabric& fabric, Sample& sample) {
                  two_hb = number_or(sample, "2HB", 2 * fabric.virgin_curve().friction_moment()),
                  density = number_or(sample, "density", fabric.density),
                  b = number_or(sample, "B", rigidity_beside(fabric, density, two_hb, k0));
-    const bool is_of_warp = has_bending_length(fabric);  // its B is no mean
+    const bool is_of_warp = has_bending_length(fabric);  // then B is no mean
     sample["b2"] = (is_of_warp ? 1 : warp) * b;
     sample["b1"] = sample["b2"] + (is_of_warp ? 1 : rubs) * two_hb / k0;
     sample.erase("B");
@@ -327,7 +327,7 @@ void predict_spread(const ValidateFlags& flags, Run& run) {
       drapes.push_back(std::move(drape));
     }
     run_drapes(drapes, flags, run);
-    const Table spread = write_spread(run, all, keys);  // a run that is cut short keeps what it has found
+    const Table spread = write_spread(run, all, keys);  // so that an interrupted run keeps its results
     const std::string with = fabric + " with uncertain numbers in their ranges";
     const Prediction p = together(drapes, "drape_coefficient_percent", "drape of " + with, "%",
                                   fitted_on(file.fabric)),

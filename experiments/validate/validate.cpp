@@ -1,6 +1,6 @@
-// `hysteron validate`: where the model stands against measurements.  Cusick's drape of the fabrics that
-// publish both a KES pair and a drape coefficient, with their uncertain numbers anywhere in their ranges and
-// one at a time at the ends of these; what is recorded of loops, decay, drapes and folds as a figure.
+// `hysteron validate` compares the model with measurements: Cusick's drape of the fabrics that publish both a
+// KES pair and a drape coefficient, with their uncertain numbers drawn from their ranges and one at a time at
+// the ends of these; and recorded loops, decay, drapes and folds as a figure.
 #include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -40,7 +40,7 @@ const KeyRow<F> kRows[] = {
 
 Keys option_keys(F& flags) { return with_output_options(bind(kRows, flags), flags.options); }
 
-// Drapes are filed under their fabrics' names.
+// Throws if two fabrics have one name, under which their drapes would be stored.
 void check_fabrics(const std::string& list) {
   check_listed_names("fabrics", list);
   std::map<std::string, std::string> files;

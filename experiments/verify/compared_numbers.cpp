@@ -14,7 +14,7 @@ namespace {
 bool has_part(const std::string& name, const char* part) { return name.find(part) != name.npos; }
 
 std::string metric_change(const std::string& name, double before, double now) {
-  constexpr double kSmall = 1e-4;  // below, the digits that are printed are the same
+  constexpr double kSmall = 1e-4;  // below this difference the printed digits are the same
   const double part = std::abs(now - before) / std::max(std::abs(before), std::abs(now));
   return part < kSmall ? fmt::format("{} by {:.1e} of itself", name, part)
                        : fmt::format("{} {:.6g} -> {:.6g}", name, before, now);

@@ -18,8 +18,8 @@ namespace fs = std::filesystem;
 
 std::string column_name(const std::string& file, const std::string& column) { return file + ":" + column; }
 
-// The metric of the run whose history the column is: plate_force_N of "plate_force [N]"; a page's columns are
-// metrics by their own names.  "" where there is none.
+// Returns the metric whose history the column is: plate_force_N for "plate_force [N]"; a page's columns are
+// metrics by their own names.  "" if there is none.
 std::string metric_of_column(const Metrics& metrics, const std::string& column) {
   if (metrics.contains(column)) return column;
   for (const auto& [name, value] : metrics)
@@ -29,7 +29,8 @@ std::string metric_of_column(const Metrics& metrics, const std::string& column) 
   return "";
 }
 
-// Part of a number that its last printed digit is: a table of words and numbers has six digits, a series all.
+// Returns the relative size of the last printed digit: a table of words and numbers has six digits, a series
+// all.
 double printed_round_off(const std::string& text) {
   constexpr int kTableDigits = 6;
   const std::size_t first = std::min(text.find_first_of("123456789"), text.size());
@@ -39,15 +40,15 @@ double printed_round_off(const std::string& text) {
   return digits > kTableDigits ? 0 : std::pow(10., 1 - kTableDigits);
 }
 
-// The column's name without what makes a mean or a standard error of draws of a metric.
+// Returns the column's name without the ending of a mean or a standard error over draws.
 std::string drawn_metric(const std::string& column) {
   for (const std::string ending : {"_mean", "_stderr"})
     if (column.ends_with(ending)) return column.substr(0, column.size() - ending.size());
   return column;
 }
 
-// Durations, and what goes with the machine's load as they do: memory, and the front of the cheapest
-// settings.  They are known by their units, too: a scene may call a length `wall`.
+// True for durations and columns that like them depend on the machine's load: memory, and the front of the
+// cheapest settings.  They are recognised by their units, too, as a scene may call a length `wall`.
 bool is_duration_column(const std::string& column) {
   static const std::set<std::string> kNames = {"computing [s]", "wall [s]", "memory [byte]", "on front"};
   return is_duration(drawn_metric(column)) || kNames.contains(column);
@@ -57,7 +58,7 @@ bool is_effort_column(const std::string& column) {
   return is_effort(drawn_metric(column)) || column == "remainder [J]";
 }
 
-// Two columns of one name, as they stand in the tables.
+// Compares two columns of one name as written in the tables.
 class ColumnPair {
  public:
   ColumnPair(const Table& before, const Table& now, const std::string& column)
@@ -66,7 +67,8 @@ class ColumnPair {
   }
 
   bool is_same() const { return !differs_; }
-  // The row of the first pair of which one is no number; none where all that differ are numbers.
+  // Returns the first row in which the two differ and one is no number; nothing if all that differ are
+  // numbers.
   std::optional<std::size_t> word_row() const { return word_row_; }
   std::size_t worst_row() const { return worst_row_; }
   double before() const { return *number_in(before_.rows[worst_row_][i_]); }
@@ -120,8 +122,8 @@ class TablePair {
     }
   }
 
-  // Columns of the repetition that the recorded table has not: the same program writes the same, and a later
-  // one what the scene asks for.
+  // Records the columns that only the repetition has: the same program writes the same ones, and a later one
+  // those that the scene requests.
   void add_unrecorded(const Manifest& recorded, const Manifest& now, Repetition& repetition) const {
     for (const std::string& column : now_.head) {
       if (before_.find(column) || is_duration_column(column)) continue;
@@ -139,7 +141,7 @@ class TablePair {
     ComparedNumbers& found = repetition.series;
     if (!own_limit && is_effort_column(column))
       found.effort.push_back(name);
-    else if (column == "state_hash")  // of each run of a study: other bits, no more
+    else if (column == "state_hash")  // by run of a study; other bits are no difference
       found.rounded.push_back(name);
     else if (const auto row = pair.word_row())
       found.beyond.push_back(fmt::format("{} in row {}", name, *row + 1));

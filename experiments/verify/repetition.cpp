@@ -19,10 +19,10 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kMinRoundOff = 1e-6;
-constexpr double kSolverToleranceFraction = 0.1;  // times its tolerance
+constexpr double kSolverToleranceFraction = 0.1;  // share of the solver's tolerance
 
-// What --errors adds to a metric that the run has, and a repetition without it does not: an ending of its
-// name.
+// True for metrics that --errors adds to a metric of the run, by their ending; a repetition without --errors
+// lacks them.
 bool is_error(const std::string& name, const Metrics& metrics) {
   for (const std::string ending :
        {kStepError, kMeshError, kDrawError, kDrawMean, kDrawMeanError, kPathDifference}) {
@@ -34,7 +34,7 @@ bool is_error(const std::string& name, const Metrics& metrics) {
   return false;
 }
 
-// Metrics that are read off pictures.
+// True for metrics that are read off pictures.
 bool is_drawn(const std::string& name) { return name == "shadow_drape_coefficient_percent"; }
 
 void compare_metric(const std::string& name, const Metrics& recorded, const MetricValue& now,
@@ -68,7 +68,7 @@ const double* find_term(const EnergyTerms& terms, const std::string& name) {
   return found == terms.end() ? nullptr : &found->second;
 }
 
-// The terms of one balance share one round-off: that of the largest.
+// Compares the terms of a balance, which share the round-off of the largest.
 void compare_energies(const Manifest& recorded, const Manifest& now, const Limits& limits,
                       Repetition& repetition) {
   double largest = 0;
@@ -99,8 +99,8 @@ void compare_energies(const Manifest& recorded, const Manifest& now, const Limit
     if (find_term(recorded.energy, name) == nullptr) repetition.unrecorded.push_back(energy_name(name));
 }
 
-// Whether a file of a run is a table that its repetition does not hold: it runs without --errors, and the
-// cheapest settings of `accuracy` are chosen by durations.
+// True for tables that a repetition does not reproduce: it runs without --errors, and the cheapest settings
+// of `accuracy` are chosen by durations.
 bool is_table_of_one_run(const std::string& file) { return file == "errors.csv" || file == "cheapest.csv"; }
 
 bool is_table(const std::string& file) { return file.ends_with(".csv") && !is_table_of_one_run(file); }
@@ -113,12 +113,12 @@ bool is_compared_file(const std::string& file, bool with_pictures) {
   return is_table(file) || is_table_of_one_run(file) || is_data(file) || (with_pictures && is_picture(file));
 }
 
-// On the CPU the number of threads changes no bits.
+// Returns the device without the number of threads, which on the CPU changes no bits.
 std::string without_threads(const std::string& device) {
   return device.starts_with("cpu") ? device.substr(0, device.rfind(", ")) : device;
 }
 
-// Programs that did not note their compiler have recorded results with this one.
+// Returns the compiler; programs that did not note it have recorded results with this one.
 std::string compiler_of(const Manifest& run) { return run.compiler.empty() ? "g++ 12" : run.compiler; }
 
 bool share_bits(const Manifest& recorded, const Manifest& now) {
@@ -126,8 +126,8 @@ bool share_bits(const Manifest& recorded, const Manifest& now) {
          without_threads(recorded.device.value_or("")) == without_threads(now.device.value_or(""));
 }
 
-// What the repetition has found and the manifest does not hold.  Programs of later commits may measure more,
-// but they hash the state and find the headlines that every program does.
+// Records what the repetition has and the manifest lacks.  Programs of later commits may measure more, but
+// every program hashes the state and has the headlines.
 void add_unrecorded(const Manifest& recorded, const Manifest& now, Repetition& repetition) {
   if (now.state_hash && !recorded.state_hash) repetition.unrecorded.push_back("the state");
   const std::vector<std::string>& requested = now.requested_metrics;

@@ -1,4 +1,4 @@
-// A run beside its repetition: what is the same, and what is not.
+// Compares a run with its repetition and lists what is the same and what is not.
 #pragma once
 
 #include <filesystem>
@@ -11,81 +11,81 @@
 
 namespace hysteron::experiments {
 
-// How far the two agree.
+// The level at which the two agree.
 enum class Agreement { bits, errors, none };
 
 struct Repetition {
   bool has_state = false;               // positions and velocities were hashed
-  bool same_state = false;              // and are the same, bit for bit
-  bool bits_are_due = false;            // other bits are a failure
-  double round_off = 0;                 // what may lie between two builds, of a number's size
-  ComparedNumbers metrics;              // that both have
+  bool same_state = false;              // they are the same, bit for bit
+  bool bits_are_due = false;            // true if other bits are a failure
+  double round_off = 0;                 // relative difference allowed between two builds
+  ComparedNumbers metrics;              // metrics that both have
   ComparedNumbers energies;             // terms of the closing balance, "energy.kinetic"
   ComparedNumbers series;               // columns of tables, "metrics.csv:plate_force [N]"
-  std::vector<std::string> missing;     // that are no longer measured: a difference
-  std::vector<std::string> unrecorded;  // that are measured, and the manifest does not hold: likewise
-  std::vector<std::string> lost;        // files of the manifest that its folder lacks: likewise
-  std::vector<std::string> edited;      // tables that are not repeated and not as they were written: likewise
-  int trimmed_files = 0;                // those of a folder that keeps only a part of its run: no difference
+  std::vector<std::string> missing;     // metrics no longer measured: a difference
+  std::vector<std::string> unrecorded;  // results that the manifest lacks: a difference
+  std::vector<std::string> lost;        // files of the manifest that its folder lacks: a difference
+  std::vector<std::string> edited;      // changed tables that are not repeated: a difference
+  int trimmed_files = 0;  // missing files of a folder that keeps only a part of its run: no difference
   int pictures = 0;
-  std::vector<std::string> pictures_beyond;  // in words
+  std::vector<std::string> pictures_beyond;  // texts on differing pictures
   int data_files = 0;                        // fabric files and exported meshes
-  std::vector<std::string> data_beyond;      // in words
-  std::vector<std::string> data_otherwise;   // that another program has written in another way
+  std::vector<std::string> data_beyond;      // texts on differing data
+  std::vector<std::string> data_otherwise;   // names of data that another program wrote differently
 
   Agreement agreement() const;
 };
 
-// Builds for other instruction sets, and other versions of the mathematical library, round the last bits
-// differently.  What becomes of that: a step ends wherever its forces balance to `newton-residual` of the
-// load, and last bits decide where.  Short of chaos and of snaps a tenth of that tolerance is
-// enough, and runs without such steps stay within 1e-6.  (Measured on a dozen quick runs, without fused
-// multiplication in the mathematical library and with the simulation built for AVX-512: at most 2e-5 where
-// the tolerance is 1e-3, but 1.03e-4 of the integrator's share in `crease --quick`; 5e-8 where it is 1e-6.)
+// Returns the relative round-off of a run.  Builds for other instruction sets, and other versions of the
+// mathematical library, round the last bits differently, and a step ends wherever its forces balance to
+// `newton-residual` of the load, which last bits decide.  Except for chaos and snaps, a tenth of that
+// tolerance is enough, and runs without such steps stay within 1e-6.  (Measured on a dozen quick runs,
+// without fused multiplication in the mathematical library and with the simulation built for AVX-512: at most
+// 2e-5 for a tolerance of 1e-3, but 1.03e-4 of the integrator's share in `crease --quick`; 5e-8 for 1e-6.)
 double round_off_bound(const Manifest& run);
 
-// The name of a term of the closing energy balance, as limits have it: "energy.kinetic".
+// Returns the name of a term of the closing energy balance, as limits use it: "energy.kinetic".
 std::string energy_name(const std::string& term);
 
-// Whether the metric of a run with these metrics is no duration and no error that --errors has stated.
+// True if the metric of a run with these metrics is no duration and no error that --errors has stated.
 bool is_compared(const std::string& metric, const Metrics& metrics);
 
-// Numbers are compared exactly, then with the limits of `limits` or else the errors that --errors has stated
-// of them, then with round-off; counts, texts and truths exactly.  What only one of them has is a difference,
-// but for what a newer program measures besides, and for the errors themselves, which are not repeated.  How
-// often a solver iterated, and what it left over, says nothing of the cloth and is only counted, unless a
-// limit is set on it.  Durations are not compared.
+// Compares numbers exactly, then with `limits` or else with the errors that --errors has stated, then with
+// round-off; counts, texts and booleans exactly.  What only one run has is a difference, except what a newer
+// program measures besides, and stated errors, which are not repeated.  The solver's iterations and residuals
+// say nothing about the cloth and are only counted, unless they have a limit.  Durations are not compared.
 //
-// The same bits are due where one compiler's same instructions ran on the same device, and where `exact` asks
-// for them.
+// The same bits are required if one compiler's same instructions ran on the same device, and if `exact` is
+// set.
 Repetition compare_runs(const Manifest& recorded, const Manifest& now, const Limits& limits, bool exact);
 
-// Whether the file of a run is a picture of its cloth: plots are none, since they belong to gnuplot's
-// version.
+// True if the file of a run is a picture of its cloth; plots depend on gnuplot's version and are not.
 bool is_picture(const std::string& file);
 
-// A run's folder holds every picture, table, fabric file and mesh that its manifest lists, as long as its
-// page stands in it. One without its page keeps only a part, which is compared.
+// The files of a run that can be compared.  A folder with its page holds every picture, table, fabric file
+// and mesh that its manifest lists; one without keeps only a part, which is compared.
 struct ComparableFiles {
-  std::vector<std::string> pictures;  // that are there (is_picture())
-  std::vector<std::string> tables;    // series and others, but for those of --errors, which are not repeated
+  std::vector<std::string> pictures;  // existing pictures (is_picture())
+  std::vector<std::string> tables;    // series and others, except those of --errors, which are not repeated
   std::vector<std::string> data;      // fabric files and exported meshes
-  std::vector<std::string> edited;    // tables that are not as their manifest's hash has them
-  std::vector<std::string> lost;      // that are not there, although the page is
-  int trimmed = 0;                    // that are not there, and the page is not either
+  std::vector<std::string> edited;    // tables that differ from their manifest's hash
+  std::vector<std::string> lost;      // missing files of a folder with its page
+  int trimmed = 0;                    // number of missing files of a folder without its page
 };
 ComparableFiles comparable_files(const Manifest& recorded, const std::filesystem::path& folder,
                                  bool with_pictures);
 void compare_pictures(const std::vector<std::string>& names, const std::filesystem::path& recorded,
                       const std::filesystem::path& now, const Limits& limits, Repetition& repetition);
-// Byte for byte where one program of the same bits wrote both; another may write them in another way.
+// Compares data byte for byte if one program with the same bits wrote both; another may write them
+// differently.
 void compare_data(const std::vector<std::string>& names, const std::filesystem::path& recorded,
                   const std::filesystem::path& now, bool same_program, Repetition& repetition);
-// Pictures, tables and data of the repetition that a manifest of the same program does not list.
+// Records pictures, tables and data of the repetition that a manifest of the same program does not list.
 void add_unlisted_files(const Manifest& recorded, const Manifest& now, bool with_pictures,
                         Repetition& repetition);
 
-// What else differs between the two and may be why: program, device, keys of the scene; "" for nothing.
+// Returns other differences between the two that may be the reason: program, device, keys of the scene; "" if
+// there are none.
 std::string reasons_between(const Manifest& recorded, const Manifest& now);
 
 }  // namespace hysteron::experiments

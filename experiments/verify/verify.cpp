@@ -1,4 +1,4 @@
-// Runs repeated and compared with what their manifests hold: one of them, or a folder of many.
+// `hysteron verify` repeats runs and compares them with their manifests: one of them, or a folder of many.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -41,7 +41,7 @@ const KeyRow<V> kRows[] = {
 // clang-format on
 
 constexpr double kQuickSeconds = 4;
-constexpr const char* kRunsSeconds = "runs_wall_s";  // of all runs of a sweep, each by itself
+constexpr const char* kRunsSeconds = "runs_wall_s";  // sum over all runs of a sweep
 
 Keys bind_verify(VerifyChoice& choice, Options& options) {
   Keys keys = with_output_options(bind(kRows, choice), options);
@@ -62,7 +62,7 @@ struct Line {
   std::string words;
 };
 
-// Every folder below that holds a manifest, in the order of their names.
+// Returns every folder below that holds a manifest, in the order of their names.
 std::vector<fs::path> folders_below(const fs::path& folder) {
   std::set<fs::path> found;
   std::error_code failure;
@@ -76,7 +76,7 @@ std::vector<fs::path> folders_below(const fs::path& folder) {
   return {found.begin(), found.end()};
 }
 
-// Columns of a comparison, or those of a sweep in its folder `runs`.
+// True if the folder holds columns of a comparison, or runs of a sweep in its folder `runs`.
 bool has_runs_inside(const fs::path& folder) {
   std::error_code ignored;
   for (const fs::path& inner : {folder, folder / "runs"})
@@ -85,7 +85,7 @@ bool has_runs_inside(const fs::path& folder) {
   return false;
 }
 
-// Why there is nothing to repeat, or not now; "" if there is.
+// Returns why the run is not repeated, or "" if it is.
 std::string why_skipped(const Manifest& m, const fs::path& folder, const VerifyChoice& choice) {
   if (!m.complete) return "is not complete";
   if (experiment_named(m.experiment).timed) return "measures durations, which no two runs share";
@@ -101,7 +101,7 @@ std::string why_skipped(const Manifest& m, const fs::path& folder, const VerifyC
   return "";
 }
 
-// What all three kinds of numbers have in one of their lists.
+// Joins one of the lists over the three kinds of numbers.
 std::vector<std::string> listed(const Repetition& r, std::vector<std::string> ComparedNumbers::*list) {
   std::vector<std::string> all;
   for (const ComparedNumbers* numbers : {&r.metrics, &r.energies, &r.series})
@@ -109,12 +109,12 @@ std::vector<std::string> listed(const Repetition& r, std::vector<std::string> Co
   return all;
 }
 
-// "3 pictures the same", where there are any and all are.
+// Returns "3 pictures the same" if there are any and all are.
 std::string all_same_text(int count, bool all_same, const std::string& thing) {
   return count > 0 && all_same ? fmt::format("{} {} the same", count, thing + (count == 1 ? "" : "s")) : "";
 }
 
-// "remainder, newton_residual_largest and 3 others"
+// Returns "remainder, newton_residual_largest and 3 others".
 std::string first_names(const std::vector<std::string>& names) {
   constexpr std::size_t kMost = 4;
   if (names.size() <= kMost) return join(names, ", ");
@@ -160,7 +160,7 @@ Outcome verified_outcome(Agreement agreement) {
   return agreement == Agreement::errors ? Outcome::within : Outcome::differs;
 }
 
-// A folder's run, and what has come of its repetition.
+// A folder's run, and the result of its repetition.
 struct RepeatedRun {
   std::string name;
   RecordedRun recorded;
@@ -169,7 +169,7 @@ struct RepeatedRun {
   double seconds = 0;
 };
 
-// A run whose manifest is damaged has failed; the others are repeated.
+// Reads the run of a folder; a damaged manifest is a failure, and the others are repeated.
 RepeatedRun run_in(const fs::path& folder, const std::string& name) {
   try {
     return {name, recorded_run(folder.string()), {}};
@@ -201,7 +201,7 @@ Line compared(const RepeatedRun& run, const ChildRun& now, const VerifyChoice& c
           repetition_text(repetition, reasons_between(before, *now.manifest))};
 }
 
-// The runs that are repeated as columns below OUT; of the others it is said why they are not.
+// Returns the runs that are repeated as columns below OUT, and reports why the others are not.
 std::vector<ChildRun> repeated_columns(std::vector<RepeatedRun>& runs, const VerifyChoice& choice,
                                        const Options& options) {
   std::vector<ChildRun> columns;
@@ -246,7 +246,7 @@ TestCase test_case(const std::string& name, const Line& said, double seconds) {
   return {name, kCases[static_cast<int>(said.outcome)], said.words, seconds};
 }
 
-// A limit that no run below the folder has anything for was meant for something else.
+// Throws for a limit that matches nothing in any run below the folder: it was meant for something else.
 void refuse_unused_limits(const Limits& limits, const std::vector<RepeatedRun>& runs) {
   std::vector<std::string> metrics, pictures;
   NotCompared others{{}, "durations depend on the machine, and stated errors are not repeated"};
@@ -270,7 +270,7 @@ void refuse_unused_limits(const Limits& limits, const std::vector<RepeatedRun>& 
   limits.refuse_unused_pictures(pictures, plots);
 }
 
-// Limits that were asked for, and are held to nothing since no picture is drawn.
+// Warns if limits on pictures are given and no picture is drawn.
 void warn_of_idle_limits(const CommandLine& line, const Limits& limits, const Options& options) {
   if (!options.no_images || !limits.has_pictures()) return;
   if (const std::string file = last_text(line.flags, "limits", ""); !file.empty())
@@ -278,7 +278,7 @@ void warn_of_idle_limits(const CommandLine& line, const Limits& limits, const Op
               << std::endl;
 }
 
-// One line, with the first reason.
+// Throws one line with the first reason.
 [[noreturn]] void throw_first_failure(const std::vector<RepeatedRun>& runs, int count) {
   const RepeatedRun& first = *std::find_if(runs.begin(), runs.end(), [](const RepeatedRun& run) {
     return run.said && run.said->outcome == Outcome::failed;
@@ -304,7 +304,7 @@ int run_verify(const CommandLine& line) {
   warn_of_idle_limits(line, limits, options);
   int count[5] = {};
   std::vector<TestCase> cases;
-  const auto say = [&] {  // in the order of their names, as far as they are known
+  const auto say = [&] {  // in the order of their names, as far as they are finished
     for (std::size_t next = cases.size(); next < runs.size() && runs[next].said; ++next) {
       const auto& [outcome, words] = *runs[next].said;
       cases.push_back(test_case(runs[next].name, *runs[next].said, runs[next].seconds));

@@ -18,7 +18,7 @@ from .runs import Comparison, Run, Sweep, run_in
 PathLike = Union[str, "os.PathLike[str]"]
 Progress = Union[bool, Callable[[str], Any], None]
 
-_FAILURES = {1: MachineError, 2: RequestError, 3: RunError}  # by the program's exit codes
+_FAILURES = {1: MachineError, 2: RequestError, 3: RunError}  # keys are the program's exit codes
 
 
 class Job:
@@ -42,7 +42,7 @@ class Job:
         self._outcome: Union[Run, Error, None] = None
         self._said: "queue.SimpleQueue[Optional[str]]" = queue.SimpleQueue()
         self._printed = tempfile.TemporaryFile()
-        try:  # a group of its own: Ctrl-C reaches the program through wait(), once
+        try:  # in a group of its own, so that Ctrl-C reaches the program once, by wait()
             self._process = subprocess.Popen(self.words, stdin=subprocess.DEVNULL, stdout=self._printed,
                                              stderr=subprocess.PIPE, start_new_session=True)
         except OSError as failure:
@@ -61,7 +61,7 @@ class Job:
         A run with the option `checkpoint` writes one first, at the end of its step.  A second call, half a second or
         more after the first, ends the program at once.  From any thread."""
         self._cancelled = self._cancelled or self.running
-        # A shell's background jobs inherit that SIGINT is ignored.
+        # SIGTERM is used if SIGINT is ignored, as a shell's background jobs inherit.
         self._signal(signal.SIGTERM if signal.getsignal(signal.SIGINT) is signal.SIG_IGN else signal.SIGINT)
 
     def wait(self) -> Run:
@@ -179,7 +179,7 @@ class Job:
         if self._process.returncode == 0:
             return f"hysteron {self._experiment} had come to its end in {self.path}"
         line = self._last_line()
-        if "SIGINT" in line or "SIGTERM" in line:  # it has said how far it came
+        if "SIGINT" in line or "SIGTERM" in line:  # the line says how far it came
             return f"{line} ({self.path})"
         return f"hysteron {self._experiment} was cancelled; {self._kept()}"
 

@@ -40,7 +40,7 @@ def main() -> None:
     program = find_program()
     if os.path.samefile(program, sys.argv[0]):
         raise SystemExit(f"hysteron: {program} starts the program and is not it; reinstall hysteron-cloth")
-    signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # which Python ignores, and the program would inherit
+    signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # Python ignores it, which the program would inherit
     os.execv(program, [program, *sys.argv[1:]])
 
 
@@ -72,7 +72,7 @@ def _check_version(program: str, _changed: int, _inode: int) -> None:
 @functools.lru_cache(maxsize=None)
 def _options(experiment: str) -> Mapping[str, str]:
     """The options of an experiment by their names in Python, {"drape_standard": "drape.standard"}."""
-    scene = [row["key"] for row in _hysteron.scene_keys()]  # those that the experiment decides are its own to refuse
+    scene = [row["key"] for row in _hysteron.scene_keys()]  # the experiment itself refuses those that it fixes
     return {_python_name(name): name for name in scene + _hysteron._experiment_options(experiment)}
 
 
@@ -92,7 +92,7 @@ def option_name(experiment: str, keyword: str) -> str:
 
 def _text(option: str, value: Any) -> str:
     """A value as a command line spells it; a list has commas."""
-    if hasattr(value, "tolist"):  # of numpy
+    if hasattr(value, "tolist"):  # an array or number of numpy
         value = value.tolist()
     if isinstance(value, bool):
         return "true" if value else "false"

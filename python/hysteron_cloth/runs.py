@@ -14,7 +14,7 @@ Table = dict[str, np.ndarray]
 
 
 def _column(name: str, cells: list[str]) -> np.ndarray:
-    if name in ("run", "state_hash"):  # texts, even where all are digits
+    if name in ("run", "state_hash"):  # these are texts, even if all are digits
         return np.array(cells)
     try:
         return np.array([float(cell) if cell else np.nan for cell in cells])

@@ -10,9 +10,9 @@
 namespace hysteron::experiments {
 namespace {
 
-constexpr float kGroundReach = 4;  // half a side of the ground over the radius of what is framed
+constexpr float kGroundReach = 4;  // half a side of the ground over the radius of the framed bounds
 
-// Normals are weighted by area, as the pictures' shader normals.vert has them.
+// Returns normals weighted by area, as in the pictures' shader normals.vert.
 std::vector<Eigen::Vector3f> vertex_normals(const std::vector<Eigen::Vector3f>& points,
                                             const std::vector<std::uint32_t>& triangles) {
   std::vector<Eigen::Vector3d> sum(points.size(), Eigen::Vector3d::Zero());
@@ -29,7 +29,8 @@ std::vector<Eigen::Vector3f> vertex_normals(const std::vector<Eigen::Vector3f>& 
   return normals;
 }
 
-// Along a sewn seam each side has coordinates of its own.
+// Returns one coordinate per vertex; with sewn seams one per triangle corner, as each side of a seam has its
+// own.
 TextureCoordinates texture_coordinates(const ClothMesh& mesh, const ClothShape& shape) {
   TextureCoordinates texture;
   if (const std::vector<float> uv = pattern_coordinates(mesh, shape); !uv.empty()) {
@@ -63,7 +64,7 @@ Pose pose_of(const Obstacle& obstacle, double time) {
   return {placed.topRightCorner<3, 1>(), Eigen::Quaternionf(rotation).normalized(), scale};
 }
 
-// The square stands in the plane's own frame, below the middle of what is framed.
+// Returns the ground as a square in the plane's own frame, below the middle of the framed bounds.
 AnimatedPart ground_part(const Obstacle& plane, const PictureView& view) {
   const Eigen::Matrix4f placed = placed_at(plane, 0);
   const Eigen::Vector3f middle =
@@ -73,7 +74,7 @@ AnimatedPart ground_part(const Obstacle& plane, const PictureView& view) {
   return part;
 }
 
-// A body of triangles that changes its shape: its vertices where they are in the world.
+// Returns a body of triangles that changes its shape, with its vertices in world coordinates.
 AnimatedPart deforming_part(const Obstacle& body, const PictureView& view) {
   AnimatedPart part{"", linear_light(view.look.obstacle)};
   for (const Eigen::Vector3i& face : body.mesh->face)

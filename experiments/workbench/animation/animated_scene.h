@@ -1,4 +1,5 @@
-// A run as one scene in motion, which files for other programs are written from: surfaces, instants, view.
+// A run as one animated scene of surfaces, instants and view, from which files for other programs are
+// written.
 //
 // Surfaces that change their shape are in memory one instant at a time.
 #pragma once
@@ -23,60 +24,61 @@ struct Pose {
 
 struct Instant {
   double time;         // [s]
-  std::size_t number;  // among all that the run has kept
+  std::size_t number;  // index among all instants that the run has kept
 };
 
-// Warp and weft coordinates [m], one for each vertex or, where seams part them, for each triangle's corner.
+// Warp and weft coordinates [m], one for each vertex or, if seams divide the cloth, for each triangle's
+// corner.
 struct TextureCoordinates {
   std::vector<Eigen::Vector2f> at;
   bool of_corners = false;
 };
 
 struct SurfaceState {
-  std::vector<Eigen::Vector3f> points, normals;  // [m], unit
+  std::vector<Eigen::Vector3f> points, normals;  // [m]; unit vectors
 };
 
-// A surface that either changes its shape or, as a rigid body, its place.
+// A surface that either changes its shape or, as a rigid body, its pose.
 struct AnimatedPart {
   std::string name;       // letters, digits and _: "cloth", "sphere_0" of the scene's obstacle[0]
-  Eigen::Vector3f color;  // of linear light
+  Eigen::Vector3f color;  // in linear light
   TextureCoordinates texture = {};
-  render::TriangleMesh shape = {};  // triangles; of a rigid body its points and normals, too
-  std::function<std::vector<Eigen::Vector3f>(const Instant&)> points_at = {};  // [m]; empty: a rigid body
-  std::function<Pose(const Instant&)> pose_at = {};  // empty: it stands where its points are
-  double from = 0, until = 1e30;                     // [s] it is seen
-  float inset = 0;                                   // by which it is smaller than the obstacle [m]
+  render::TriangleMesh shape = {};  // triangles; for a rigid body also its points and normals
+  std::function<std::vector<Eigen::Vector3f>(const Instant&)> points_at = {};  // [m]; empty for a rigid body
+  std::function<Pose(const Instant&)> pose_at = {};  // empty if the body's points are in world coordinates
+  double from = 0, until = 1e30;                     // times at which it is visible [s]
+  float inset = 0;                                   // how much smaller than the obstacle it is [m]
 
   bool is_rigid() const { return !points_at; }
   bool is_seen(const Instant& at) const { return from <= at.time && at.time < until; }
 };
 
-// A part at that instant, before it is posed; normals cost more than points.
+// Return a part at that instant, before it is posed; normals cost more than points.
 std::vector<Eigen::Vector3f> points_at(const AnimatedPart& part, const Instant& instant);
 SurfaceState surface_at(const AnimatedPart& part, const Instant& instant);
 
 struct AnimatedScene {
   std::vector<AnimatedPart> parts;
   std::vector<Instant> instants;  // at least one, ascending
-  double rate = 0;                // instants a second, nearly [1/s]
+  double rate = 0;                // approximate rate of instants [1/s]
   PictureView view;
 };
 
-// Poses of a rigid body at each instant; of the two quaternions of an orientation the nearer one to the
-// instant before is taken.
+// Returns the poses of a rigid body at each instant; of the two quaternions of an orientation it takes the
+// one nearer to the previous instant.
 std::vector<Pose> poses_at(const AnimatedPart& part, const std::vector<Instant>& instants);
 
-// Linear light of a colour as a screen shows it.
+// Converts a colour as a screen shows it to linear light.
 Eigen::Vector3f linear_light(const render::Rgb8& color);
 
-// The cloth without its points.
+// Returns the cloth's part without its points.
 AnimatedPart animated_cloth(const ClothMesh& mesh, const ClothShape& shape, const PictureView& view);
-// Bodies are what pictures show beside the cloth: visible obstacles from the same triangles, as much smaller
-// as they draw them, and the ground as a square around what they frame.  `side`: of the cloth's triangles
-// [m].
+// Returns the bodies that pictures show beside the cloth: visible obstacles from the same triangles and with
+// the same inset, and the ground as a square around the framed bounds.  `side` is that of the cloth's
+// triangles [m].
 std::vector<AnimatedPart> animated_bodies(const Scene& scene, const PictureView& view, float side);
 
-// Every second instant, and the last.
+// Keeps every second instant, and the last.
 void halve(std::vector<Instant>& instants);
 
 }  // namespace hysteron::experiments

@@ -1,4 +1,4 @@
-// Source of the format: Khronos Group 2021, glTF 2.0 Specification, 3.6 (buffers, accessors).
+// The format is specified in Khronos Group 2021, glTF 2.0 Specification, 3.6 (buffers, accessors).
 #include "experiments/workbench/animation/glb_arrays.h"
 
 #include <algorithm>
@@ -10,10 +10,10 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "numbers are stored as they lie in memory");
 
-constexpr int kUnsigned = 5125, kFloat = 5126;          // types of numbers
-constexpr int kVertexBuffer = 34962, kIndices = 34963;  // what a view of the buffer is for
+constexpr int kUnsigned = 5125, kFloat = 5126;          // codes of number types
+constexpr int kVertexBuffer = 34962, kIndices = 34963;  // codes of a buffer view's purpose
 
-// Least and largest of each component.
+// Finds the least and largest value of each component.
 class Bounds {
  public:
   explicit Bounds(std::size_t components) : low_(components, INFINITY), high_(components, -INFINITY) {}

@@ -1,4 +1,4 @@
-// Source of the format: Khronos Group 2021, glTF 2.0 Specification, 3.7.2 (meshes, morph targets), 3.10
+// The format is specified in Khronos Group 2021, glTF 2.0 Specification, 3.7.2 (meshes, morph targets), 3.10
 // (cameras), 3.11 (animations), 4.4 (binary files).
 #include "experiments/workbench/animation/write_glb.h"
 
@@ -18,16 +18,18 @@ namespace {
 
 using GlbJson = nlohmann::ordered_json;
 
-constexpr std::uint32_t kMagic = 0x46546C67, kVersion = 2;  // "glTF"
+constexpr std::uint32_t kMagic = 0x46546C67, kVersion = 2;  // magic number "glTF", and version
 constexpr std::uint32_t kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942;
-constexpr std::size_t kHeads = 7 * sizeof(std::uint32_t);  // of the file and its two chunks
+// Size of the headers of the file and its two chunks.
+constexpr std::size_t kHeads = 7 * sizeof(std::uint32_t);
 constexpr std::size_t kAligned = 4;
-constexpr std::size_t kDescription = 500;  // bytes of JSON for an array, at most
+constexpr std::size_t kDescription = 500;  // upper bound of the JSON for an array [bytes]
 constexpr double kMatte = 0.9;             // roughness of cloth and bodies
 
-// Vertices of a part as the file has them, where a vertex has one place in the texture: seams part them.
+// The vertices of a part in the file, where each vertex has a single texture coordinate, so that seams
+// duplicate them.
 struct FileVertices {
-  std::vector<std::uint32_t> vertex;  // of the part
+  std::vector<std::uint32_t> vertex;  // index in the part
   std::vector<Eigen::Vector2f> texture;
   std::vector<std::uint32_t> triangles;
 
@@ -71,7 +73,7 @@ std::vector<Eigen::Vector3f> change(std::vector<Eigen::Vector3f> now,
   return now;
 }
 
-// The format counts the texture's second coordinate from the top.
+// Flips the texture's second coordinate, which the format counts from the top.
 std::vector<Eigen::Vector2f> from_the_top(std::vector<Eigen::Vector2f> texture) {
   for (Eigen::Vector2f& at : texture) at.y() = 1 - at.y();
   return texture;
@@ -109,16 +111,16 @@ class GlbFile {
   void add_place(std::size_t node, const AnimatedPart& part);
   std::size_t add_seen_node(std::size_t node, const AnimatedPart& part);
   void add_camera();
-  // Has a node's property follow an array with an entry, or a row, for each instant.
+  // Animates a node's property by an array with an entry, or a row, for each instant.
   void animate(std::size_t node, const char* path, const char* interpolation, std::size_t array);
-  // The same of numbers that are kept, unless all are the first ones.
+  // Does the same with kept numbers, unless all instants have equal ones.
   void animate(std::size_t node, const char* path, const char* interpolation, int components,
                std::vector<float> numbers);
 
   const AnimatedScene& scene_;
-  std::size_t targets_;  // morph targets
+  std::size_t targets_;  // number of morph targets
   GlbArrays arrays_;
-  std::size_t times_ = 0;  // accessor
+  std::size_t times_ = 0;  // index of its accessor
   GlbJson json_;
 };
 
@@ -161,7 +163,7 @@ void GlbFile::animate(std::size_t node, const char* path, const char* interpolat
           arrays_.add({scene_.instants.size(), components, kept_numbers(std::move(numbers))}));
 }
 
-// At each instant but the first the weight of its own target alone.
+// Returns the weights: at each instant but the first its own target has weight 1, the others 0.
 GlbArrays::Array GlbFile::weights() const {
   return {(targets_ + 1) * targets_, 1, [targets = targets_](const GlbArrays::Sink& sink) {
             std::vector<float> row(targets, 0);
@@ -236,7 +238,7 @@ void GlbFile::add_place(std::size_t node, const AnimatedPart& part) {
   animate(node, "scale", "LINEAR", 3, std::move(scales));
 }
 
-// A node above that is scaled to nothing while the part is not seen, which the format recommends (3.5.2).
+// Adds a parent node that is scaled to zero while the part is not seen, as the format recommends (3.5.2).
 std::size_t GlbFile::add_seen_node(std::size_t node, const AnimatedPart& part) {
   std::vector<float> scales;
   for (const Instant& at : scene_.instants) scales.insert(scales.end(), 3, part.is_seen(at) ? 1.0f : 0.0f);

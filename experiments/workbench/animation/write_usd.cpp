@@ -1,5 +1,5 @@
-// Source of the format: Pixar 2016-2024, OpenUSD, "USD Crate and Text File Formats" and the schemas usdGeom,
-// usdLux and usdShade (openusd.org).
+// The format is specified in Pixar 2016-2024, OpenUSD, "USD Crate and Text File Formats" and the schemas
+// usdGeom, usdLux and usdShade (openusd.org).
 #include "experiments/workbench/animation/write_usd.h"
 
 #include <fmt/format.h>
@@ -16,17 +16,17 @@
 namespace hysteron::experiments {
 namespace {
 
-constexpr double kDefaultRate = 24;    // time codes a second, of the format
-constexpr double kCodes = 1e6;         // time codes are rounded to its inverse
-constexpr double kFilmHeight = 0.024;  // of a camera for film of 36 x 24 mm [m]
-constexpr double kTenths = 10;         // of a unit of length, in which lenses and films are measured
+constexpr double kDefaultRate = 24;    // the format's default of time codes per second
+constexpr double kCodes = 1e6;         // time codes are rounded to 1/kCodes
+constexpr double kFilmHeight = 0.024;  // height of the camera's film of 36 x 24 mm [m]
+constexpr double kTenths = 10;         // lenses and films are measured in tenths of a unit of length
 constexpr double kDull = 0.9;          // roughness of cloth and bodies
 
 double codes_a_second(const AnimatedScene& scene) { return scene.rate > 0 ? scene.rate : kDefaultRate; }
 
 std::string triple(const Eigen::Vector3f& v) { return fmt::format("({}, {}, {})", v.x(), v.y(), v.z()); }
 
-// `append`: writes one value behind a text.
+// Formats a list; `append` writes one value behind a text.
 template <class Values, class Append>
 std::string list(const Values& values, const Append& append) {
   std::string all = "[";
@@ -48,7 +48,7 @@ std::string point_list(const std::vector<Eigen::Vector3f>& points) {
   });
 }
 
-// Unit vectors are rounded: a hundred-thousandth turns them by 0.0006 degrees.
+// Formats unit vectors, rounded to five digits, which rotates them by at most 0.0006 degrees.
 std::string direction_list(const std::vector<Eigen::Vector3f>& directions) {
   return list(directions, [](std::string& to, const Eigen::Vector3f& v) {
     fmt::format_to(std::back_inserter(to), "({:.5g}, {:.5g}, {:.5g})", v.x(), v.y(), v.z());
@@ -64,7 +64,7 @@ std::string extent(const std::vector<Eigen::Vector3f>& points) {
   return "[" + triple(low) + ", " + triple(high) + "]";
 }
 
-// The format writes matrices for row vectors.
+// Formats the transposed matrix, as the format's matrices act on row vectors.
 std::string transform_rows(const Eigen::Matrix4d& m) {
   std::string rows;
   for (int j = 0; j < 4; ++j)
@@ -81,14 +81,14 @@ class Properties {
   void sample(double time, const std::string& value) {
     line(fmt::format("    {}: {},", time_code(scene_, time), value));
   }
-  // A sample for each instant, made when it is written.
+  // Writes a sample for each instant, generated when it is written.
   template <class ValueText>
   void samples(const std::string& attribute, const ValueText& text) {
     line(attribute + ".timeSamples = {");
     for (const Instant& at : scene_.instants) sample(at.time, text(at));
     line("}");
   }
-  // A value for each instant; one alone where all are the same.
+  // Writes a value for each instant, or a single one if all are equal.
   void samples_or_one(const std::string& attribute, const std::vector<std::string>& values) {
     if (std::count(values.begin(), values.end(), values.front()) == std::ssize(values))
       return line(attribute + " = " + values.front());
@@ -192,7 +192,7 @@ void write_transform(Properties& prim, const Eigen::Matrix4d& matrix) {
   prim.line("uniform token[] xformOpOrder = [\"xformOp:transform\"]");
 }
 
-// Its own z points away from what it looks at, as the format has it, too.
+// Writes the camera; its own z points away from what it looks at, here and in the format.
 void write_camera(std::ostream& out, const AnimatedScene& scene) {
   const PictureView& view = scene.view;
   const Eigen::Matrix4d projection = view.camera.projection(view.aspect()).cast<double>();
@@ -216,8 +216,8 @@ void write_light_color(Properties& light, const Eigen::Vector3f& color) {
   light.line("color3f inputs:color = " + triple(color / brightest));
 }
 
-// A white surface under the key light, or under the sky, is as bright as the pictures' exposure makes it:
-// a normalised distant light states its irradiance, a sky its radiance.
+// Writes the lights so that a white surface under the key light, or under the sky, is as bright as the
+// pictures' exposure makes it: a normalised distant light states its irradiance, a sky its radiance.
 void write_lights(std::ostream& out, const AnimatedScene& scene) {
   const render::StudioLight studio = render::studio_light(scene.view.look.room);
   const Eigen::Vector3d to_light =

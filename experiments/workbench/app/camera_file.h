@@ -1,4 +1,4 @@
-// Cameras as files: what a run was pictured from, for another run or another program.
+// Reads and writes a run's camera as a file for another run or another program.
 #pragma once
 
 #include <string>
@@ -8,12 +8,12 @@
 
 namespace hysteron::experiments {
 
-// JSON: {"camera": {"direction": [x, y, z], "fov": degree, "target": [x, y, z], "distance": m}, "size":
-// "1280x720"}; metres, z up.  From the target the eye is `distance` along `direction`; the vertical angle is
-// `fov`.
+// Returns the JSON {"camera": {"direction": [x, y, z], "fov": degree, "target": [x, y, z], "distance": m},
+// "size": "1280x720"} in metres, z up.  The eye is `distance` from the target along `direction`; the vertical
+// angle is `fov`.
 std::string camera_text(const render::Camera& camera, const std::string& size);
-// Sets the keys camera.* that the file has.  Throws Error::invalid_input where the file is missing or no such
-// JSON, with what is wrong in it.
+// Sets the keys camera.* that the file has.  Throws Error::invalid_input, saying what is wrong, if the file
+// is missing or no such JSON.
 void read_camera(const std::string& file, Options& options);
 
 }  // namespace hysteron::experiments

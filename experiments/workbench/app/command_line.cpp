@@ -1,4 +1,4 @@
-// The only file that includes CLI11: it costs seconds to compile.
+// This is the only file that includes CLI11, which costs seconds to compile.
 #include "experiments/workbench/app/command_line.h"
 
 #include <CLI/CLI.hpp>
@@ -33,7 +33,7 @@ CLI::Option* add_flag(CLI::App& app, const KeyDescription& key) {
   return option->take_last();
 }
 
-// The experiment's own, then those of every simulated run.
+// Returns the experiment's own options, then those of every simulated run.
 std::vector<KeyDescription> every_option(const Experiment& experiment, Defaults defaults) {
   std::vector<KeyDescription> keys = experiment.own_keys();
   if (!experiment.simulates) return keys;
@@ -48,7 +48,7 @@ std::vector<KeyDescription> every_option(const Experiment& experiment, Defaults 
   return keys;
 }
 
-// A word that the shell reads back as it is.
+// Quotes a word so that the shell reads it back unchanged.
 std::string quoted(const std::string& word) {
   const std::string_view safe = "-_./=,:+@%";
   const auto plain = [&](char c) {
@@ -60,7 +60,7 @@ std::string quoted(const std::string& word) {
   return text + "'";
 }
 
-// Values that a flag is given beside the one that counts, the last.
+// Warns of other values of a repeated flag than the last, which counts.
 void warn_of_repeated(const std::string& path, const CLI::Option& option) {
   const std::vector<std::string>& given = option.results();
   if (option.reduced_results().size() > 1 || given.empty()) return;
@@ -72,8 +72,8 @@ void warn_of_repeated(const std::string& path, const CLI::Option& option) {
   }
 }
 
-// Options that the experiment decides itself are added, too: what it says to such a flag is more than that it
-// is unknown.
+// Adds a subcommand.  Options that the experiment fixes are added, too, because the refusal of such a flag
+// says more than that it is unknown.
 void add_command(CLI::App& program, const Experiment& experiment, Command& command) {
   command.experiment = &experiment;
   command.app = program.add_subcommand(experiment.name, experiment.question);
@@ -90,8 +90,8 @@ std::string shell_command(std::vector<std::string> words) {
   return shell_text(words);
 }
 
-// Of an option that wants a value CLI11 takes any next word for it, an option as well, and so it does for one
-// that is empty, "--key=".
+// Checks values before CLI11 does: for an option that needs a value it would take any next word, even another
+// option, and likewise after an empty one, "--key=".
 std::vector<std::string> with_their_values(const std::vector<std::string>& words, const Command& command) {
   const auto wants = [&](const std::string& name) {
     return std::any_of(command.flags.begin(), command.flags.end(), [&](const auto& flag) {
@@ -110,7 +110,7 @@ std::vector<std::string> with_their_values(const std::vector<std::string>& words
       all.emplace_back();
     } else if (equals == std::string::npos && i + 1 < words.size()) {
       const std::string& value = words[++i];
-      if (value == "--template") {  // `--kes-sheet --template` asks for an empty sheet, of no file
+      if (value == "--template") {  // `--kes-sheet --template` asks for an empty sheet without a file
         --i;
         all.emplace_back();
         continue;
@@ -127,7 +127,7 @@ std::vector<std::string> with_their_values(const std::vector<std::string>& words
   return all;
 }
 
-// Of the subcommand that the words begin with, the value that each option is given.
+// Returns the words with the checked value of each option of their subcommand.
 std::vector<std::string> checked(const std::vector<std::string>& words,
                                  const std::vector<Command>& commands) {
   for (const Command& command : commands)
@@ -135,8 +135,8 @@ std::vector<std::string> checked(const std::vector<std::string>& words,
   return words;
 }
 
-// CLI11 leaves what it does not know, and the "--" behind which nothing is a flag; say which flag that is,
-// and what was meant.
+// Throws for an unknown flag, naming it and the nearest known one; CLI11 leaves it over, as it does the "--"
+// after which nothing is a flag.
 void throw_if_unknown(const Command& command) {
   std::vector<std::string> unknown = command.app->remaining();
   std::erase(unknown, "--");
@@ -157,7 +157,7 @@ void throw_if_unknown(const Command& command) {
       .with_experiment(experiment);
 }
 
-// A word before the subcommand, or instead of one.
+// Throws for a word before the subcommand, or instead of one.
 void throw_if_stray_word(const std::string& word, const std::vector<Experiment>& experiments) {
   if (word.starts_with('-')) throw Error::invalid_input("unknown option " + word + " before the subcommand");
   std::vector<std::string> known;
@@ -223,7 +223,7 @@ std::optional<CommandLine> parse_command_line(const std::vector<std::string>& wo
   };
   try {
     std::vector<std::string> all = checked(given, commands);
-    std::reverse(all.begin(), all.end());  // as CLI11 takes words
+    std::reverse(all.begin(), all.end());  // CLI11 takes words in reverse
     program.parse(std::move(all));
   } catch (const CLI::Success& requested) {
     program.exit(requested);

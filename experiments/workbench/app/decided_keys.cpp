@@ -42,8 +42,8 @@ void note_setter(Scene& scene, const std::string& experiment, const DecidedKey& 
 
 namespace {
 
-// A number that the fabric's own file states and neither flag nor scene: naming a fabric asks for no more
-// than what of it is used.
+// True if the number comes from the fabric's own file and neither flag nor scene: naming a fabric requests
+// only those of its numbers that are used.
 bool is_of_fabric_file(const Scene& scene, const std::string& path) {
   const std::string prefix = "fabric.";
   if (!path.starts_with(prefix)) return false;
@@ -53,7 +53,7 @@ bool is_of_fabric_file(const Scene& scene, const std::string& path) {
 
 }  // namespace
 
-// A file that was dumped has every key: those that are as the experiment has them by itself ask for nothing.
+// A dumped file has every key; those that equal the experiment's defaults request nothing.
 std::vector<std::string> lost_words(const CommandLine& line, const Setup& setup) {
   std::vector<std::string> words;
   const auto defaults = experiment_named(line.experiment).defaults;
@@ -95,9 +95,9 @@ std::vector<std::string> late_table_warnings(const Scene& scene) {
 
 void refuse_late_tables(const Setup& setup) {
   const std::vector<std::string> late = late_table_warnings(setup.scene);
-  const std::string place = key_origin(setup.scene, "seconds");  // "scene.toml:3"
+  const std::string place = key_origin(setup.scene, "seconds");  // the place: "scene.toml:3"
   if (late.empty() || setup.options.quick || place == "--seconds") return;
-  if (is_dumped_scene(place.substr(0, place.rfind(':')))) return;  // its end may have been a flag's
+  if (is_dumped_scene(place.substr(0, place.rfind(':')))) return;  // its end may be from a flag of that run
   throw Error::invalid_input(late.front()).with_key("from", "");
 }
 

@@ -1,4 +1,4 @@
-// How a command line ends, in whatever way, and what its exit code says.
+// Converts the end of a command line, normal or not, to an exit code.
 #pragma once
 
 #include <functional>
@@ -8,14 +8,14 @@ namespace hysteron::experiments {
 
 inline constexpr int kMachineFailed = 1;
 inline constexpr int kRefused = 2;
-inline constexpr int kCouldNotGoOn = 3;  // those below it: sim/base/error.h
+inline constexpr int kCouldNotGoOn = 3;  // lower exit codes: sim/base/error.h
 inline constexpr int kDiffers = 4;
 
 struct ExitCode {
   int code;
   const char* meaning;
 };
-// Those that every subcommand has.
+// The exit codes that every subcommand has.
 inline constexpr ExitCode kExitCodes[] = {
     {0, "done"},
     {kMachineFailed, "the machine failed (file, disk, GPU, renderer)"},
@@ -24,11 +24,12 @@ inline constexpr ExitCode kExitCodes[] = {
 
 struct Ending {
   int exit_code = 0;
-  std::string error{};  // its line on stderr; "": none
+  std::string error{};  // the line for stderr; "" if there is none
 };
 
-// What `body`, a job (sim/base/job.h), returns or throws.  The error names the experiment, which `body` may
-// set before it throws: "hysteron drape: fabric.b2 = -1 N m must be >= 0 (drape.toml:7)".
+// Runs `body`, a job (sim/base/job.h), and returns what it returns or throws.  The error names the
+// experiment, which `body` may set before it throws: "hysteron drape: fabric.b2 = -1 N m must be >= 0
+// (drape.toml:7)".
 Ending run_ending(const std::string& experiment, const std::function<int()>& body);
 
 }  // namespace hysteron::experiments

@@ -86,7 +86,7 @@ std::string whose(const std::string& key) {
 
 namespace {
 
-// The same with whose key it is, where it is another experiment's.
+// Returns the error with the name of the experiment that has its key, if this one does not.
 Error with_owner(const Error& error, const Keys& known) {
   if (has_key(scene_keys(), error.key()) || has_key(descriptions(known), error.key())) return error;
   const std::string owner = error.key().empty() ? "" : whose(error.key());
@@ -94,8 +94,8 @@ Error with_owner(const Error& error, const Keys& known) {
                        : Error::invalid_input(error.what() + ("; " + owner)).with_key(error.key(), "");
 }
 
-// What asks for more throws std::bad_alloc, which ends the run (ending.h).  [MB], of the process; 0: no
-// limit.
+// Limits the memory of the process [MB]; 0: no limit.  An allocation beyond it throws std::bad_alloc, which
+// ends the run (ending.h).
 void limit_memory(double megabytes) {
   if (megabytes == 0) return;
   rlimit limit{};
@@ -104,7 +104,7 @@ void limit_memory(double megabytes) {
   ::setrlimit(RLIMIT_DATA, &limit);
 }
 
-// Without those that change no file of a run, or whose outcome is in the scene.
+// Returns the resolved options without those that change no file of a run, or whose outcome is in the scene.
 std::shared_ptr<const nlohmann::ordered_json> resolved_options(Keys keys) {
   static const std::set<std::string> kOthers = {"scene",        "camera",      "out",          "quick",
                                                 "explain",      "quiet",       "json",         "errors",
@@ -114,7 +114,7 @@ std::shared_ptr<const nlohmann::ordered_json> resolved_options(Keys keys) {
   return std::make_shared<const nlohmann::ordered_json>(to_json(keys));
 }
 
-// Of the scene, and of keys beside it.
+// Returns the values of the scene's keys and of further ones.
 KeyValues all_values(Scene& scene, const Keys& extra) {
   KeyValues values = key_values(bind_scene(scene));
   values.merge(key_values(extra));
@@ -141,8 +141,8 @@ Setup set_up(const CommandLine& line, Setup setup, const Keys& own,
   if (!setup.options.scene.empty() && !setup.options.scene.ends_with(".json"))
     setup.unread = unread_key_warnings(line, all_values(setup.scene, extra), usual);
   if (setup.options.quick && quick) {
-    quick(setup);  // which may ask what the flags say
-    // As large as sheets show them: full pictures would take most of a quick run's time.
+    quick(setup);  // it may depend on the flags
+    // Pictures are as large as on sheets: full ones would take most of a quick run's time.
     setup.options.size =
         std::to_string(setup.options.width() / 2) + "x" + std::to_string(setup.options.height() / 2);
     apply_flags(setup.scene, line.flags, extra);

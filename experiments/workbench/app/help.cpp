@@ -23,10 +23,10 @@ constexpr int kUsualWidth = 100, kMinWidth = 40, kWidestName = 28;
 struct Group {
   const char* name;
   const char* about;
-  std::vector<std::string> beginnings;  // of the keys that it has
+  std::vector<std::string> beginnings;  // prefixes of its keys
 };
-// In the order of --help.  The first takes the keys of scenes that no other does, the last the options of
-// runs.
+// Returns the groups in the order of --help.  The first takes the keys of scenes that no other does, the last
+// the options of runs.
 const std::vector<Group>& groups() {
   static const std::vector<Group> all = {
       {"scene", "cloth, its mesh and start, gravity, contact, the scene's file", {"scene", "dump-scene"}},
@@ -45,7 +45,7 @@ const std::vector<Group>& groups() {
   return all;
 }
 
-// "step" is no beginning of "steps-of-something".
+// True if the path begins with the prefix; "step" is no prefix of "steps-of-something".
 bool begins(const std::string& path, const std::string& beginning) {
   const bool open = beginning.ends_with('.') || beginning.ends_with('-');
   return open ? path.starts_with(beginning) : path == beginning;
@@ -58,7 +58,8 @@ std::string option_group_name(const KeyDescription& key, const std::set<std::str
   return of_scenes.contains(key.path) ? "scene" : "running";
 }
 
-// Of a comparison's own options those of the experiment that it compares: "drape" of "drape.disc".
+// Returns the other experiment that owns an option, "drape" for "drape.disc", as a comparison has options of
+// the one it compares.
 std::string other_owner(const KeyDescription& key, const std::string& experiment) {
   const std::string name = key.path.substr(0, key.path.find('.'));
   if (name == experiment || name == key.path) return "";
@@ -67,7 +68,7 @@ std::string other_owner(const KeyDescription& key, const std::string& experiment
   return "";
 }
 
-// Words of a text; lists without spaces that are longer than `most` in parts that end with a comma.
+// Splits a text into words; lists without spaces that are longer than `most` are split after commas.
 std::vector<std::string> breakable_words(const std::string& text, std::size_t most) {
   std::istringstream stream(text);
   std::vector<std::string> words;
@@ -81,7 +82,7 @@ std::vector<std::string> breakable_words(const std::string& text, std::size_t mo
   return words;
 }
 
-// Lines of whole words; those after the first begin with `indent` spaces, and the first has `begun` already.
+// Wraps a text; lines after the first are indented by `indent`, and the first already has `begun` columns.
 std::string wrapped(const std::string& text, int width, int indent, int begun) {
   std::string all;
   int column = begun;
@@ -100,7 +101,7 @@ std::string wrapped(const std::string& text, int width, int indent, int begun) {
   return all;
 }
 
-// A line, or more, for each: the name, and beside it what it means.
+// Formats one or more lines for each name and its meaning.
 std::string entries(const std::vector<std::pair<std::string, std::string>>& all, int width) {
   int widest = 0;
   for (const auto& [name, meaning] : all)
@@ -116,7 +117,7 @@ std::string entries(const std::vector<std::pair<std::string, std::string>>& all,
   return text;
 }
 
-// "radius of the pedestal [m], > 0, default 0.09"
+// Formats "radius of the pedestal [m], > 0, default 0.09".
 std::string option_help(const KeyDescription& key, const std::string& condition) {
   std::string text = key.doc;
   if (!key.choices.empty()) text += ": " + join(key.choices, " | ");
@@ -146,7 +147,7 @@ std::string group_text(const Experiment& experiment, const OptionGroup& group, i
   return wrapped(title, width, 0, 0) + "\n" + options_text(experiment, group.keys, width);
 }
 
-// Those that every subcommand has and, unless it is "", what 4 says.
+// Formats the common exit codes and, unless it is "", the meaning of 4.
 std::string exit_codes_text(const std::string& differs, int width) {
   std::vector<std::pair<std::string, std::string>> all;
   for (const ExitCode& exit : kExitCodes) all.emplace_back(std::to_string(exit.code), exit.meaning);
@@ -154,7 +155,7 @@ std::string exit_codes_text(const std::string& differs, int width) {
   return "Exit codes:\n" + entries(all, width);
 }
 
-// The other groups, a line each.
+// Lists the other groups, a line each.
 std::string group_list(const Experiment& experiment, const std::vector<OptionGroup>& others, int width) {
   const std::string command = std::string("hysteron ") + experiment.name + " --help";
   std::vector<std::pair<std::string, std::string>> all;
@@ -172,7 +173,7 @@ std::string opening(const Experiment& experiment, int width) {
          wrapped("Usage: " + name + names + " [options]", width, 2, 0) + "\n\n";
 }
 
-// Where the fabric of the defaults cannot be read, the options are listed all the same.
+// Lists the options without defaults if the fabric of the defaults cannot be read.
 std::vector<KeyDescription> shown_options(const Experiment& experiment) {
   try {
     return experiment_options(experiment, Defaults::shown);
@@ -224,7 +225,7 @@ std::vector<OptionGroup> option_groups(const Experiment& experiment, std::vector
   std::set<std::string> of_scenes;
   for (const KeyDescription& key : scene_keys()) of_scenes.insert(key.path);
   const std::vector<KeyDescription> own = experiment.own_keys(), fabric = fabric_keys();
-  // Of a test of fabrics, which simulates none.
+  // True for a test of fabrics, which simulates no cloth.
   const bool takes_fabrics = std::all_of(fabric.begin(), fabric.end(),
                                          [&](const KeyDescription& key) { return has_key(own, key.path); });
   std::vector<OptionGroup> all = {{experiment.name, "", {}}};
@@ -269,7 +270,7 @@ std::optional<std::string> help_asked(const std::vector<std::string>& words,
   if (experiment == known.end() && asks == words.begin()) experiment = named(std::exchange(group, ""));
   if (experiment == known.end() && (asks == words.begin() || words.front().starts_with('-')))
     return program_help(known, width);
-  if (experiment == known.end()) return std::nullopt;  // an unknown subcommand
+  if (experiment == known.end()) return std::nullopt;  // the subcommand is unknown
   return group.empty() ? help_text(*experiment, *asks == "--help-all", width)
                        : help_of_group(*experiment, group, width);
 }

@@ -1,4 +1,4 @@
-// What --help prints: options by group, as wide as the terminal.
+// Formats what --help prints: options by group, as wide as the terminal.
 #pragma once
 
 #include <optional>
@@ -8,18 +8,19 @@
 namespace hysteron::experiments {
 
 struct OptionGroup {
-  std::string name;   // as --help takes it: "fabric"
-  std::string about;  // "the fabric's numbers, the law of bending and its parameters"
+  std::string name;   // name that --help takes: "fabric"
+  std::string about;  // description: "the fabric's numbers, the law of bending and its parameters"
   std::vector<KeyDescription> keys;
 };
-// The experiment's own options first, under its name, even if there are none; then those of scenes and runs.
+// Returns the experiment's own options first, under its name, even if there are none; then those of scenes
+// and runs.
 std::vector<OptionGroup> option_groups(const Experiment& experiment, std::vector<KeyDescription> keys);
 
-// Columns of the terminal that stdout is, or as COLUMNS says; 100 without one.
+// Returns the columns of the terminal on stdout, or as COLUMNS says; 100 without one.
 int terminal_width();
 
-// The answer to --help, -h, --help GROUP or --help-all among the words behind `hysteron`; none if they do not
-// ask.  Throws Error::invalid_input for a group that is not there.
+// Returns the answer to --help, -h, --help GROUP or --help-all among the words behind `hysteron`; nothing if
+// they do not ask.  Throws Error::invalid_input for an unknown group.
 std::optional<std::string> help_asked(const std::vector<std::string>& words,
                                       const std::vector<Experiment>& known, int width);
 

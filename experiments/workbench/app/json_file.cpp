@@ -9,15 +9,15 @@
 namespace hysteron::experiments {
 namespace {
 
-constexpr int kDeepest = 64;  // its texts are put together by recursion
+constexpr int kDeepest = 64;  // limit of nesting, as texts are assembled by recursion
 constexpr std::size_t kMaxJsonBytes = std::size_t{256} << 20;
 
 std::string json_text(const std::filesystem::path& file) {
   return utf8_text(whole_file(file, "cannot read " + file.string(), kMaxJsonBytes));
 }
 
-// Says what has happened to a text that is no JSON but may have been some: "is empty", "was cut off or
-// edited"; "" of a text that does not begin as one.
+// Returns the damage of a text that is no JSON but may have been: "is empty", "was cut off or edited"; "" if
+// it does not begin as JSON.
 std::string damage_of(const std::string& text) {
   const std::string_view content = trimmed(text);
   if (content.empty()) return "is empty";

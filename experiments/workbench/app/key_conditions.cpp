@@ -16,7 +16,7 @@ using Json = nlohmann::ordered_json;
 constexpr const char* kBuiltMesh = "a cloth whose mesh is built, not read from a file";
 constexpr const char* kNewton = "--integrator implicit, bdf2, tr-bdf2 or quasi-static, or --self-contact";
 
-// Of every simulation.
+// The conditions of every simulation.
 const KeyCondition kSceneConditions[] = {
     {"triangles", "cloth.shape != file | pattern and mesh != *.obj", kBuiltMesh},
     {"seed",
@@ -48,8 +48,8 @@ const KeyCondition kSceneConditions[] = {
      "--precision double and --integrator implicit, bdf2, tr-bdf2 or quasi-static, or --self-contact"},
     {"ramp | unload", "integrator = quasi-static", ""},
 };
-// These concern what a run does besides simulating.  Options that say how pictures look have no condition:
-// the manifest keeps them, and scripts draw pictures or leave them out by one flag.  The renderer has one.
+// The conditions of what a run does besides simulating.  Options for the look of pictures have none: the
+// manifest keeps them, and scripts draw pictures or leave them out by one flag.  The renderer has one.
 const KeyCondition kRunConditions[] = {
     {"errors.draws | errors.jobs | errors.batch", "errors", ""},
     {"reference", "look = difference", ""},
@@ -71,10 +71,10 @@ bool names_key(const KeyCondition& condition, const std::string& key) {
   return false;
 }
 
-// "not fab", "cloth.copies > 1", "crease.fold = rod | pleat".
+// A term of a condition: "not fab", "cloth.copies > 1", "crease.fold = rod | pleat".
 struct Term {
   std::string key;
-  std::string relation;  // "", "not", "=", "!=" or ">"
+  std::string relation;  // one of "", "not", "=", "!=" or ">"
   std::vector<std::string> values;
 };
 
@@ -120,7 +120,7 @@ std::string shown_value(const Json& value) {
   return value.is_string() ? value.get<std::string>() : value.dump();
 }
 
-// Something other than an empty text, false, zero, or a number that nobody has given.
+// True unless the value is an empty text, false, zero, or an unset number.
 bool is_on(const Json& value) {
   if (value.is_boolean()) return value.get<bool>();
   if (value.is_number()) return std::isfinite(value.get<double>()) && value.get<double>() != 0;
@@ -128,13 +128,13 @@ bool is_on(const Json& value) {
   return value.is_structured() && !value.empty();
 }
 
-// The flag is there, and says something.
+// True if the flag is present and neither empty nor false.
 bool is_given(const CommandLine& line, const std::string& key) {
   const std::string text = last_text(line.flags, key, "");
   return !text.empty() && text != "false";
 }
 
-// A request, by which conditions hold or do not.
+// A request, for which conditions hold or do not.
 class Request {
  public:
   Request(const CommandLine& line, const KeyValues& values) : line_(line), values_(values) {}
@@ -148,7 +148,7 @@ class Request {
     return false;
   }
 
-  // "crease.fold = plate": what the keys are for which the condition does not hold.
+  // Returns the values for which the condition does not hold: "crease.fold = plate".
   std::string state(const KeyCondition& condition) const {
     std::vector<std::string> states;
     for (const std::string& alternative : parts(condition.needs, " or "))
@@ -165,7 +165,7 @@ class Request {
  private:
   const Json& value(const std::string& key) const { return values_.at(key); }
 
-  // What is not known yet may hold.
+  // True if the term holds or is not yet known.
   bool holds(const Term& term) const {
     if (std::count(line_.listed.begin(), line_.listed.end(), term.key) || !values_.contains(term.key))
       return true;
@@ -187,7 +187,7 @@ class Request {
   const KeyValues& values_;
 };
 
-// The first condition of the key that does not hold; null if all do.
+// Returns the first condition of the key that does not hold; null if all do.
 const KeyCondition* broken_condition(const std::vector<KeyCondition>& conditions, const Request& request,
                                      const std::string& key) {
   for (const KeyCondition& condition : conditions)
@@ -201,8 +201,7 @@ std::string unread_message(const Request& request, const KeyCondition& condition
          ")";
 }
 
-// Conditions of keys that depend on a key that the experiment sets itself, whatever is asked for, are its own
-// to declare.
+// True if a condition depends on a key that the experiment fixes; it must then declare that condition itself.
 bool depends_on_fixed_key(const KeyCondition& condition, const std::vector<DecidedKey>& fixed) {
   for (const std::string& alternative : parts(condition.needs, " or "))
     for (const std::string& term : parts(alternative, " and "))

@@ -12,7 +12,7 @@ constexpr render::Rgb8 kGrey{96, 99, 104};
 
 struct Family {
   const char* name;
-  std::vector<std::string> laws;  // from dark to light
+  std::vector<std::string> laws;  // coloured from dark to light
 };
 
 const std::vector<Family>& families() {

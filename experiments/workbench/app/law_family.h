@@ -1,4 +1,4 @@
-// Laws by what they keep of a bend, as pages group and colour them.
+// Groups laws by how much of a bend they keep, as pages order and colour them.
 #pragma once
 
 #include <string>
@@ -7,10 +7,10 @@
 
 namespace hysteron::experiments {
 
-// "elastic": nothing is kept; "plastic": a rest curvature beyond a yield; "hysteretic": friction; "" of a law
-// that is unknown.
+// Returns "elastic" if nothing is kept, "plastic" for a rest curvature beyond a yield, "hysteretic" for
+// friction, and "" for an unknown law.
 std::string family_of_law(const std::string& law);
-// The same on every page; no two laws have one colour.  Grey of a law that is unknown.
+// Returns the law's colour, the same on every page and different for all laws; grey for an unknown law.
 render::Rgb8 color_of_law(const std::string& law);
 
 }  // namespace hysteron::experiments

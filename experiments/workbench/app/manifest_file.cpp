@@ -20,7 +20,7 @@ Json to_json(const MetricValue& value) {
       value.variant());
 }
 
-// An object with these entries, null without any.
+// Returns an object with these entries, or null without any.
 template <class T>
 Json to_json(const std::vector<std::pair<std::string, T>>& entries) {
   Json object;
@@ -28,7 +28,7 @@ Json to_json(const std::vector<std::pair<std::string, T>>& entries) {
   return object;
 }
 
-// A list of one law's, else lists by law.
+// Returns a list for one law, else lists by law.
 Json to_json(const std::vector<Statements>& all) {
   if (all.size() == 1) return all[0].sentences;
   Json object;
@@ -104,9 +104,9 @@ bool is_there(const T& value) {
     return static_cast<bool>(value);
 }
 
-enum class Where { always, if_there };  // a field stands in the file
+enum class Where { always, if_there };  // whether a field is always in the file
 
-// The fields of a manifest, and what stands under its "hysteron", in the order in which they are written.
+// Visits the fields of a manifest, and those under its "hysteron", in the order in which they are written.
 template <class M, class Visit>
 void visit_program(M& m, const Visit& visit) {
   visit("version", m.version, Where::always);
@@ -161,7 +161,7 @@ void visit_fields(M& m, const Visit& visit, const VisitOwn& visit_own) {
   visit("complete", m.complete, Where::always);
 }
 
-// Null if there is nothing.
+// Returns the value, or null if there is none.
 const Json& at(const Json& json, const char* key) {
   static const Json kNothing;
   if (!json.is_object()) return kNothing;
@@ -193,14 +193,14 @@ std::optional<T> known_at(const Json& json, const char* key) {
   return known_in<T>(at(json, key));
 }
 
-// As it is shown, a list as JSON.
+// Returns the value as text, a list as JSON.
 std::string shown(const Json& value) { return value.is_string() ? value.get<std::string>() : value.dump(); }
 std::string shown_at(const Json& json, const char* key) {
   const Json& value = at(json, key);
   return value.is_null() ? "–" : shown(value);
 }
 
-// "fabric.b2" in `keys`; null if there is nothing.
+// Returns the value at "fabric.b2" in `keys`; null if there is none.
 const Json& at_path(const std::shared_ptr<const Json>& keys, const std::string& path) {
   static const Json kNothing;
   return keys ? json_at(*keys, path) : kNothing;
@@ -214,7 +214,7 @@ std::vector<std::string> texts_in(const Json& list) {
 }
 std::vector<std::string> texts_at(const Json& json, const char* key) { return texts_in(at(json, key)); }
 
-// A list or an object is its text.
+// Converts a JSON value; a list or an object becomes its text.
 MetricValue metric_value(const Json& json) {
   if (json.is_boolean()) return json.get<bool>();
   if (json.is_number_integer()) return json.get<std::int64_t>();
@@ -232,7 +232,7 @@ std::array<double, 4> cloth_box(const Json& instant) {
   return cloth;
 }
 
-// take(): the member, where a value is of its kind; else it stays as it is.
+// Each take() sets the member if the value is of its type; otherwise it leaves the member unchanged.
 void take(const Json& json, bool& truth) { truth = json == Json(true); }
 void take(const Json& json, std::string& text) {
   if (!json.is_null()) text = shown(json);
@@ -305,7 +305,7 @@ void take(const Json& json, std::vector<Curve>& curves) {
                       is_true_at(curve, "logarithmic_x"), text_at(curve, "knee")});
 }
 
-// The first key without which a JSON is no manifest; "" if it has all.
+// Returns the first required key that a manifest's JSON lacks; "" if it has all.
 std::string missing_in(const Json& json) {
   const Json& program = at(json, "hysteron");
   if (!program.is_object()) return "object hysteron";
@@ -322,7 +322,7 @@ std::string json_kind(const Json& value) {
   return value.is_array() ? "a list" : "an object";
 }
 
-// What stands at a place, if anything does; null is nothing.
+// The required type of a value, if there is one that is not null.
 struct Rule {
   const char* path;
   const char* kind;
@@ -347,7 +347,7 @@ const Rule kRules[] = {{"experiment", "a text"},
 // Lists of names may also be one text, "linear,prandtl".
 const char* const kNames[] = {"scene.law", "scene.laws", "scene.element", "scene.elements"};
 
-// Entries of which each is an object with these keys.
+// A list of objects that must have these keys.
 struct Entries {
   const char* path;
   std::vector<std::string> keys;
@@ -357,7 +357,7 @@ const Entries kEntries[] = {{"frames.moments", {"s"}},
                             {"scene.fabric.provenance", {"confidence", "source"}},
                             {"scene.fabric.published", {"value", "unit", "confidence", "source"}}};
 
-// Whether its keys are of the types that they have.
+// Throws unless the manifest's keys have the right types.
 void check_manifest(const Json& manifest, const std::filesystem::path& file) {
   const auto refuse = [&](const std::string& path, const std::string& problem) {
     throw Error::invalid_input(file.string() + " is no manifest of hysteron: " + path + " " + problem);
@@ -402,7 +402,7 @@ Json to_json(const Manifest& m) {
 Manifest parsed_manifest(const Json& json) {
   Manifest m;
   m.version = m.commit = "–";
-  m.experiment = "run";  // of the first programs
+  m.experiment = "run";  // for manifests of the first programs
   m.keys = std::make_shared<const Json>();
   const auto reads_from = [](const Json& object) {
     return [&object](const char* key, auto& value, Where) { take(at(object, key), value); };

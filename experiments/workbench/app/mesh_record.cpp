@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 std::string mesh_hash(const fs::path& name) {
   std::vector<fs::path> files = files_like(name.string());
-  if (files.empty()) files = {name};  // which cannot be read
+  if (files.empty()) files = {name};  // the name itself, which cannot be read
   std::uint64_t hash = kFnv1aStart;
   for (const fs::path& file : files) {
     const std::string bytes = whole_file(file, "cannot read mesh " + file.string());
@@ -27,7 +27,7 @@ std::string mesh_hash(const fs::path& name) {
 
 bool names_files(const fs::path& name) { return !files_like(name.string()).empty(); }
 
-// Of /a/b/c.obj: folder/c.obj, folder/b/c.obj ..., if one of them has these bytes.
+// Returns the first of folder/c.obj, folder/b/c.obj, ... for /a/b/c.obj that has the recorded bytes.
 std::optional<fs::path> below(const fs::path& folder, const MeshRecord& record) {
   const fs::path path = fs::path(record.file).relative_path();
   fs::path tail;
@@ -47,8 +47,8 @@ std::string found(const MeshRecord& record, const fs::path& manifest) {
   }
 }
 
-// Obstacles may have other numbers in a record than in the scene that was asked for: an experiment adds its
-// own.
+// Finds the record by file, or else by key, because obstacles may have other numbers in a record than in the
+// requested scene: an experiment adds its own.
 const MeshRecord* record_of(const MeshFile& mesh, const std::vector<MeshRecord>& records) {
   const auto same_file = std::ranges::find(records, *mesh.path, &MeshRecord::file);
   if (same_file != records.end()) return &*same_file;

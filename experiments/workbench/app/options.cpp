@@ -53,10 +53,10 @@ const KeyRow<Options> kRows[] = {
 };
 // clang-format on
 
-constexpr int kSmallestSide = 16;    // [pixels] captions need some room
-constexpr int kLargestSide = 16384;  // [pixels] of textures in OpenGL drivers
+constexpr int kSmallestSide = 16;    // [pixels]; captions need some room
+constexpr int kLargestSide = 16384;  // [pixels]; limit of textures in OpenGL drivers
 
-// {0, 0} if the text is no WIDTHxHEIGHT.
+// Parses WIDTHxHEIGHT; {0, 0} for any other text.
 std::pair<int, int> sides(const std::string& size) {
   int width = 0, height = 0;
   const char* end = size.data() + size.size();
@@ -75,7 +75,7 @@ void check_look(const std::string& look) {
       .with_key("look", look);
 }
 
-// Of as many numbers as it takes, or none.
+// Throws unless the key has the wanted number of numbers, or none.
 void check_place(const Numbers& given, std::size_t wanted, const char* key) {
   if (given.empty() || given.size() == wanted) return;
   throw Error::invalid_input(

@@ -15,7 +15,8 @@ namespace hysteron::experiments {
 namespace {
 namespace fs = std::filesystem;
 
-// Of programs that noted no more than the command, which is quoted for a shell; none where it is not.
+// Splits a command quoted for a shell, for programs that recorded nothing else; returns nothing if it cannot
+// be parsed.
 std::vector<std::string> command_words(const std::string& command) {
   wordexp_t found{};
   if (wordexp(command.c_str(), &found, WRDE_NOCMD | WRDE_UNDEF) != 0) return {};
@@ -43,7 +44,7 @@ CommandLine recorded_line(const RecordedRun& run) {
   return *line;
 }
 
-// The experiment's own scene in a file that is no longer there is the one that the manifest holds.
+// Replaces an experiment's scene file that no longer exists by the manifest, which holds the scene.
 void find_scene(CommandLine& line, const RecordedRun& run) {
   for (Flag& flag : line.flags) {
     if (flag.path != "scene" || !flag.text.ends_with(".toml") || fs::exists(flag.text)) continue;
@@ -51,12 +52,13 @@ void find_scene(CommandLine& line, const RecordedRun& run) {
   }
 }
 
-// Without a simulation there are no threads, and of some experiments no pictures.
+// True if the experiment takes the key: without a simulation there are no threads, and some experiments have
+// no pictures.
 bool takes(const Experiment& experiment, const std::string& key) {
   return experiment.simulates || has_key(experiment.own_keys(), key);
 }
 
-// As it is typed: "hysteron drape --scene=a.toml".
+// Returns the line as typed: "hysteron drape --scene=a.toml".
 std::string typed_command(const CommandLine& line) {
   std::vector<std::string> words = {"hysteron", line.experiment};
   words.insert(words.end(), line.positionals.begin(), line.positionals.end());
@@ -95,7 +97,7 @@ CommandLine line_that_repeats(const RecordedRun& run, const std::vector<Flag>& l
     find_scene(line, run);
   }
   if (m.experiment == "sweep")
-    line.positionals = {run.file.string()};  // its study's file may be another by now
+    line.positionals = {run.file.string()};  // the study's file may have changed since
   if (!with_errors)
     std::erase_if(line.flags, [](const Flag& flag) { return flag.path.starts_with("errors"); });
   for (const Flag& flag : later) {

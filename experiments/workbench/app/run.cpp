@@ -34,7 +34,7 @@ std::string utc_now() {
   return text;
 }
 
-// What is known at the start.
+// Returns a manifest with what is known at the start.
 Manifest first_entries(const CommandLine& line, const Json& scene) {
   const auto text = [&](const char* key) {
     return scene.contains(key) && scene[key].is_string() ? std::optional(scene[key].get<std::string>())
@@ -59,7 +59,7 @@ fs::path accepted_folder(const CommandLine& line, const Options& options) {
   return options.out.empty() ? "out/" + line.experiment : options.out;
 }
 
-// All that --resume asks a run for that is interrupted as soon as it has begun.
+// Returns a manifest with all that --resume needs of a run that is interrupted as soon as it has begun.
 Manifest first_entries(const CommandLine& line, const Setup& setup) {
   Manifest manifest = first_entries(line, to_json(setup.scene));
   manifest.options = setup.resolved;
@@ -101,7 +101,7 @@ Run::~Run() {
     finish_plots();
     keep();
   } catch (const Error& error) {
-    // The exception that ended the run is on its way; this one can only be mentioned.
+    // The exception that ended the run is in flight; this one can only be mentioned.
     unwritten_ = error.what();
   }
 }
@@ -180,7 +180,7 @@ void Run::finish_plots() {
     try {
       plot.drawn.get();
       if (!fs::exists(folder() / (plot.name + ".pdf")))
-        forget(plot.name + ".pdf");  // this gnuplot writes none
+        forget(plot.name + ".pdf");  // this gnuplot writes no PDF
     } catch (const Error& error) {
       for (const char* ending : kPlotEndings) forget(plot.name + ending);
       manifest_.plots_missing.push_back(plot.name + ": " + error.what());
@@ -241,7 +241,7 @@ void Run::write_last_manifest(bool complete) {
 }
 
 std::string time_left(long done, long all, double seconds, bool at_most) {
-  constexpr long kFewSteps = 5;  // the first are slower: buffers, threads, shaders
+  constexpr long kFewSteps = 5;  // the first steps are slower: buffers, threads, shaders
   if (done < kFewSteps || done >= all) return "";
   const long left =
       std::lround(std::ceil(seconds * static_cast<double>(all - done) / static_cast<double>(done)));

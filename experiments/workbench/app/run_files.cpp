@@ -9,7 +9,7 @@ namespace hysteron::experiments {
 namespace {
 namespace fs = std::filesystem;
 
-// "metrics.csv" of "metrics.csv.part" and "metrics.csv.part-71-3"; "" of other names.
+// Returns "metrics.csv" for "metrics.csv.part" and "metrics.csv.part-71-3"; "" for other names.
 std::string half_written(const std::string& name) {
   const std::size_t part = name.rfind(".part");
   if (part == name.npos || part == 0) return "";
@@ -17,7 +17,7 @@ std::string half_written(const std::string& name) {
   return end.find_first_not_of("-0123456789") == end.npos ? name.substr(0, part) : "";
 }
 
-// "frames/0013.png" of "frames/0012.png".
+// Returns "frames/0013.png" for "frames/0012.png".
 fs::path next_in_sequence(const fs::path& name) {
   std::string digits = name.stem().string();
   const std::size_t grows = digits.find_last_not_of('9');
@@ -28,8 +28,8 @@ fs::path next_in_sequence(const fs::path& name) {
   return name.parent_path() / (digits + name.extension().string());
 }
 
-// An interrupted run lists the first file of a sequence only: the others follow it without a gap, up to the
-// one that was about to be written.  Files behind a gap are another's.
+// Adds the files of sequences.  An interrupted run lists the first file of each only: the others follow it
+// without a gap, up to the one that was about to be written.  Files behind a gap belong to others.
 std::set<fs::path> with_their_sequences(const fs::path& folder, const fs::path& beside,
                                         const std::vector<fs::path>& listed) {
   const auto is_there = [&](const fs::path& name) {
@@ -43,7 +43,7 @@ std::set<fs::path> with_their_sequences(const fs::path& folder, const fs::path& 
   return names;
 }
 
-// What an interrupted run has left beyond what its manifest lists.
+// Adds what an interrupted run has left beyond the list in its manifest.
 void add_interrupted(const fs::path& folder, const fs::path& beside, const std::vector<fs::path>& listed,
                      std::set<fs::path>& left) {
   std::set<fs::path> names = with_their_sequences(folder, beside, listed), folders = {""};

@@ -34,7 +34,7 @@ fs::path made(const fs::path& folder) {
   return folder;
 }
 
-// The run before, by its manifest.
+// Returns the manifest of the earlier run.
 std::optional<Manifest> run_before_in(const fs::path& folder) {
   const fs::path file = folder / kManifestFile;
   if (!stands(file)) return {};
@@ -53,7 +53,7 @@ bool is_within(const fs::path& inner, const fs::path& outer) {
   return std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end()).first == outer.end();
 }
 
-// A fabric file that was edited since it was written is its editor's work.
+// Throws if a fabric file was edited since it was written, as it then is its editor's work.
 void throw_if_edited(const std::optional<Manifest>& run, const fs::path& folder) {
   if (!run) return;
   for (const InputRecord& file : run->tables)
@@ -63,7 +63,8 @@ void throw_if_edited(const std::optional<Manifest>& run, const fs::path& folder)
                                  kElsewhere + ", or move this file");
 }
 
-// `what`, "--loop", names files: one of them would be moved away before the run, or replaced by it.
+// Throws if a file named by `text`, the value of `what`, "--loop", would be moved away before the run, or
+// replaced by it.
 void throw_if_input(const std::string& what, const std::string& text, const fs::path& folder,
                     const std::vector<fs::path>& names) {
   std::error_code missing;
@@ -84,7 +85,7 @@ void throw_if_inputs(const CommandLine& line, const fs::path& folder, const std:
   for (const std::string& text : line.positionals) throw_if_input("", text, folder, names);
 }
 
-// The same of files that a scene or a study names.
+// Does the same for files that a scene or a study names.
 void throw_if_read(const fs::path& folder, const std::vector<fs::path>& names,
                    const std::vector<std::string>& kept) {
   if (!Job::current()) return;
@@ -94,7 +95,7 @@ void throw_if_read(const fs::path& folder, const std::vector<fs::path>& names,
   }
 }
 
-// The first folder on the way there that is not there yet; "" if it is there.
+// Returns the first folder of the path that does not exist; "" if all do.
 fs::path first_missing(const fs::path& folder) {
   fs::path missing;
   for (fs::path path = fs::absolute(folder).lexically_normal(); !path.empty() && !stands(path);
@@ -117,7 +118,8 @@ FolderLock::FolderLock(const fs::path& folder, const std::string& otherwise)
 
 FolderLock::~FolderLock() { ::close(handle_); }
 
-// What outlives the object until the job has ended: only then is it known whether the request was refused.
+// The state that outlives the object until the job has ended: only then is it known whether the request was
+// refused.
 struct RunFolder::Held {
   Held(const fs::path& path, const CommandLine& line)
       : path(path),
@@ -129,7 +131,7 @@ struct RunFolder::Held {
     throw_if_edited(run_before, path);
   }
 
-  // Of what this run replaces when it is complete.
+  // Returns the names of files that this run replaces when it is complete.
   std::vector<fs::path> names() const {
     std::vector<fs::path> all = recorded_files(run_before, path);
     const fs::path waiting = fs::proximate(aside.place(), path);
@@ -149,8 +151,8 @@ struct RunFolder::Held {
   bool complete = false, stays = false;
 };
 
-// All is as it was before the run, but for parts that are complete and have replaced nothing: work that the
-// page, asked rightly, takes again with --resume.
+// Restores everything as before the run, except parts that are complete and have replaced nothing: the
+// corrected page reuses them with --resume.
 void RunFolder::Held::take_back() {
   for (auto part = parts.rbegin(); part != parts.rend(); ++part) {
     if (part->has_new_complete_run()) continue;
@@ -158,14 +160,14 @@ void RunFolder::Held::take_back() {
     remove_empty_folders(path, {fs::proximate(part->place(), path)});
   }
   aside.restore();
-  // Folders that were made for it, if nobody else has written into them.
+  // These folders were made for the run, and are removed if nobody else has written into them.
   std::error_code ignored;
   for (fs::path folder = fs::absolute(path).lexically_normal();
        !missing.empty() && is_within(folder, missing); folder = folder.parent_path())
     if (!fs::remove(folder, ignored)) return;
 }
 
-// A wrong request leaves the run before, and so does a machine that fails before there is a result.
+// A wrong request keeps the earlier run, and so does a machine that fails before there is a result.
 void RunFolder::Held::settle(int exit_code) {
   if (complete) return;
   const bool nothing_since = aside.has_run() && !aside.has_results_since();

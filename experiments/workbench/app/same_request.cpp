@@ -25,31 +25,31 @@ constexpr std::string_view kAssets = "assets/";
 
 std::string hash_text(std::uint64_t hash) { return fmt::format("{:016x}", hash); }
 
-// Without links; as it is named where that cannot be found out.
+// Returns the path without links, or unchanged if that fails.
 fs::path canonical_or_same(const fs::path& path) {
   std::error_code failure;
   fs::path canonical = fs::weakly_canonical(path, failure);
   return failure ? path : canonical;
 }
 
-// Both without links.
+// Both paths must be without links.
 bool is_inside(const fs::path& file, const fs::path& folder) {
   return std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end();
 }
 
-// assets/..., or from the working folder what lies below it, however its path was made absolute; else as it
-// was named.
+// Returns assets/..., or the path relative to the working folder if it is below that, however it was made
+// absolute; otherwise the given name.
 std::string input_name(const fs::path& file, const fs::path& canonical, const fs::path& here) {
   std::string name = file.lexically_normal().string();
   try {
     name = asset_name(name);
-  } catch (const Error&) {  // an installation without assets
+  } catch (const Error&) {  // in an installation without assets
   }
   const bool is_below = fs::path(name).is_absolute() && is_inside(canonical, here);
   return is_below ? canonical.lexically_relative(here).string() : name;
 }
 
-// Where a recorded file is on this machine.
+// Returns the place of a recorded file on this machine.
 fs::path place_of(const InputRecord& input) {
   if (!input.file.starts_with(kAssets)) return input.file;
   const fs::path shipped = assets_folder() / input.file.substr(kAssets.size());
@@ -57,9 +57,9 @@ fs::path place_of(const InputRecord& input) {
   return fs::exists(shipped, ignored) ? shipped : fs::path(input.file);
 }
 
-// Nothing where it cannot be read.
+// Returns nothing if the file cannot be read.
 std::optional<std::string> hash_of(const fs::path& file) {
-  const WorkingFor nobody(nullptr);  // to compare a file is not to read it for the request
+  const WorkingFor nobody(nullptr);  // a comparison does not count as reading the file for the request
   try {
     const std::string bytes = whole_file(file, "cannot read " + file.string());
     return hash_text(fnv1a(bytes.data(), bytes.size()));
@@ -113,7 +113,7 @@ std::vector<std::string> input_changes(const std::vector<InputRecord>& then,
   std::vector<std::string> changes;
   for (const InputRecord& input : then) {
     const InputRecord* const same_file = find_file(now, input.file);
-    // From another working folder it has another name.
+    // The file has another name when seen from another working folder.
     if (!same_file && has_bytes(now, input.hash)) continue;
     const std::optional<std::string> hash = same_file ? same_file->hash : hash_of(place_of(input));
     if (!hash)

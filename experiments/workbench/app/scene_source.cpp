@@ -16,7 +16,7 @@
 namespace hysteron::experiments {
 namespace {
 
-// What was given: keys and tables that have a place, and the fabric.
+// Returns what was given: keys and tables that have a place, and the fabric.
 Json given_in(const Json& scene, const Json& origin, const std::string& path = "") {
   Json given = Json::object();
   for (const auto& [name, value] : scene.items()) {
@@ -29,7 +29,7 @@ Json given_in(const Json& scene, const Json& origin, const std::string& path = "
   return given;
 }
 
-// The scene that this experiment is to start from.
+// Returns the scene from which this experiment starts.
 Json scene_for(const std::string& experiment, const Manifest& manifest) {
   Json scene = *manifest.keys;
   if (manifest.experiment != experiment) return scene;
@@ -38,7 +38,7 @@ Json scene_for(const std::string& experiment, const Manifest& manifest) {
   return scene;
 }
 
-// As a file has it; a table in one line.
+// Formats a value as in a TOML file; a table in one line.
 std::string toml_value(const Json& value) {
   if (!value.is_structured()) return value.dump();
   std::vector<std::string> entries;
@@ -48,7 +48,7 @@ std::string toml_value(const Json& value) {
   return value.is_object() ? "{" + inner + "}" : "[" + inner + "]";
 }
 
-// Keys with the paths of all values in a tree of objects; of a list its own.
+// Collects keys with the paths of all values in a tree of objects; a list is one value.
 void collect_leaves(const Json& tree, const std::string& path, std::vector<FurtherKey>& leaves) {
   for (const auto& [name, value] : tree.items()) {
     const std::string key = path.empty() ? name : path + "." + name;
@@ -138,8 +138,8 @@ void refuse_two_scenes(const CommandLine& line) {
 
 bool is_dumped_scene(const std::string& file) { return has_mark(file, kResolvedSceneMark); }
 
-// What was asked for, since the experiment will change it once more; but the time and the steps that it has
-// set, which it sets only where they are not given, and all hands and obstacles.
+// Writes the request, since the experiment will change it once more; but the time and the steps that it has
+// set, which it sets only if they are not given, and all pins and obstacles.
 void dump_scene(const Setup& setup) {
   require_own_file(setup.options.dump_scene, kResolvedSceneMark, "a resolved scene", "dump-scene");
   Scene scene = *setup.requested;

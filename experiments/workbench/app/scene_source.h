@@ -1,4 +1,4 @@
-// Where a scene is read from: a file of one's own, a shipped one, or the manifest of an earlier run.
+// Reads a scene from a user's file, a shipped one, or the manifest of an earlier run.
 #pragma once
 
 #include "experiments/workbench/app/experiment.h"
@@ -6,7 +6,7 @@
 
 namespace hysteron::experiments {
 
-// A place for a value of each type, which is only checked, or read and dropped.
+// A place for a value of each type that is only checked, or read and dropped.
 struct Scratch {
   bool flag = false;
   int integer = 0;
@@ -27,28 +27,27 @@ struct Scratch {
   }
 };
 
-// Applies what `--scene` names.  Of a manifest that is the scene that its run resolved: if it is of this
-// experiment, as it was asked of it, since it will change it once more, with the keys `extra`; else as it was
-// simulated.  Programs that did not note what was asked have noted which keys were given: of their manifests
-// only these are applied to the same experiment.  `extra` as in apply_scene_file.  Throws
-// Error::invalid_input, Error::system.
+// Applies the scene that `--scene` names.  For a manifest of the same experiment this is the requested scene,
+// since the experiment will change it once more, with the keys `extra`; for one of another experiment it is
+// the scene as simulated.  Older manifests record which keys were given instead of the request: only these
+// are applied to the same experiment.  `extra` is as in apply_scene_file.  Throws Error::invalid_input,
+// Error::system.
 void apply_scene(Setup& setup, const std::string& experiment, const std::string& name, const Keys& extra);
 
-// What an experiment's defaults and the scene's file of a line say, without its flags: scene and options;
-// keys of the experiment's own are not kept.  Throws as apply_scene() does.
+// Returns scene and options from an experiment's defaults and the scene's file of a line, without its flags;
+// the experiment's own keys are not kept.  Throws as apply_scene() does.
 Setup setup_of_file(const CommandLine& line);
 
-// Throws what the experiment of that line refuses before it builds a cloth or takes its folder, and does
-// neither.
+// Throws what the experiment of that line refuses, without building a cloth or taking its folder.
 void check_request(const CommandLine& line);
 
-// The merge patch that turns the scene as it was simulated into the one that was asked for.
+// Returns the merge patch from the simulated scene to the requested one.
 Json requested_patch(const Json& simulated, const Json& requested);
 
 // Writes the scene of a set-up, with the keys of the run and its experiment, as the TOML file that
 // `--dump-scene` names.  Throws Error::system.
 void dump_scene(const Setup& setup);
-// Whether that file was written so.
+// True if that file was written by dump_scene().
 bool is_dumped_scene(const std::string& file);
 
 // Throws Error::invalid_input for a line that names a scene and has --scene as well.

@@ -29,8 +29,8 @@ void remove_if_empty(const fs::path& folder) {
   if (fs::is_empty(folder, ignored)) fs::remove(folder, ignored);
 }
 
-// What waits there; nothing else in that folder is touched.  A run that goes on has kept the first files of
-// its sequences in its own folder.
+// Removes the run that waits there and nothing else in that folder.  A continued run has kept the first files
+// of its sequences in its own folder.
 void remove_waiting(const fs::path& slot) {
   const auto manifest = manifest_or_none(slot / kManifestFile);
   if (!manifest) return;
@@ -75,11 +75,11 @@ void SetAside::move(const std::set<fs::path>& kept) {
       move_file(folder_ / name, slot_ / name);
       moved_.push_back(name);
     }
-    // The last one: until then the folder is that of the run, whatever happens to this process.
+    // The manifest is moved last: until then the folder is that of the run, whatever happens to this process.
     move_file(folder_ / kManifestFile, slot_ / kManifestFile);
     moved_.emplace_back(kManifestFile);
   } catch (const Error&) {
-    restore();  // what was moved so far
+    restore();  // moves back what was moved so far
     throw;
   }
   remove_empty_folders(folder_, moved_);
@@ -108,7 +108,7 @@ void SetAside::restore() {
   std::error_code ignored;
   const bool is_moved = std::ranges::find(moved_, kManifestFile) != moved_.end();
   const auto since = manifest_or_none(folder_ / kManifestFile);
-  // Where it was not moved yet, the manifest that stands there is not the successor's.
+  // If nothing was moved yet, the manifest in the folder is not the successor's.
   if (since && (is_moved || slot_.empty())) {
     std::set<fs::path> names = files_since();
     names.insert(kManifestFile);

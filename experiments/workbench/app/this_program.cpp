@@ -17,7 +17,7 @@
 namespace hysteron::experiments {
 namespace {
 
-// That this program was built for: sums of vectors of another width round differently.
+// The instruction set of this build: sums of vectors of another width round differently.
 constexpr const char* kIsa =
 #if defined(__AVX512F__)
     "x86-64-v4";
@@ -31,7 +31,7 @@ constexpr const char* kIsa =
     "others";
 #endif
 
-// Compilers vectorise differently, and the last bits with them.
+// Returns the compiler, because compilers vectorise differently, which changes the last bits.
 std::string compiler_name() {
 #if defined(__clang__)
   return "clang++ " + std::to_string(__clang_major__);
@@ -48,7 +48,7 @@ std::string hexadecimal(std::string_view bytes) {
   return text;
 }
 
-// The description of the build ID among the notes of a segment; "" where there is none.
+// Returns the description of the build ID among the notes of a segment; "" if there is none.
 std::string_view build_id_in(std::string_view notes) {
   constexpr auto kAligned = [](std::size_t bytes) { return (bytes + 3) / 4 * 4; };
   while (notes.size() >= sizeof(ElfW(Nhdr))) {
@@ -63,7 +63,7 @@ std::string_view build_id_in(std::string_view notes) {
   return {};
 }
 
-// Called with each object that is loaded; the executable is the first.
+// Is called with each loaded object; the executable is the first.
 int take_build_id(dl_phdr_info* object, std::size_t, void* target) {
   for (int i = 0; i < object->dlpi_phnum; ++i) {
     const auto& segment = object->dlpi_phdr[i];

@@ -1,4 +1,4 @@
-// Which program this is: what a manifest says of the one that wrote it.
+// Identifies this program for the manifests that it writes.
 #pragma once
 
 #include <string>
@@ -7,15 +7,15 @@
 
 namespace hysteron::experiments {
 
-// A manifest with what is known of the program and nothing else.
+// Returns a manifest with the description of the program and nothing else.
 Manifest this_program();
 
-// The build ID that the linker has made of all that it linked; without one a hash of the executable.  Commits
-// do not tell two builds of a modified tree apart.
+// Returns the build ID that the linker has made of all that it linked, or a hash of the executable.  Commits
+// do not distinguish two builds of a modified tree.
 const std::string& program_build();
 
-// "another program made it (0.1.0 (commit 1f3a...))", where results of that manifest may not be this
-// program's own; "": they are.
+// Returns "another program made it (0.1.0 (commit 1f3a...))" if results of that manifest may differ from this
+// program's; "" otherwise.
 std::string program_change(const Manifest& before);
 
 }  // namespace hysteron::experiments

@@ -19,8 +19,8 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kShown = 2;  // numbers behind a name, unless a page asks for more
 
-// What each experiment is asked for, then what any run has, in the order in which pages show it; and what
-// stands before the number in a picture's line, "" where the unit says enough.
+// The headlines of each experiment, then metrics of any run, in the order in which pages show them; with the
+// symbol before the number in a picture's line, "" if the unit says enough.
 constexpr std::pair<const char*, const char*> kShownNumbers[] = {{"drape_coefficient_percent", "DC"},
                                                                  {"node_count", "folds"},
                                                                  {"recovery_angle_deg", ""},
@@ -45,13 +45,13 @@ bool is_shown(const MetricValue& value) {
   return value.is_number() || (value.is_text() && value.text() != "unknown");
 }
 
-// Three digits and no exponent, for 0.001 to 999999.
+// Formats three digits without an exponent, for 0.001 to 999999.
 std::string three_digits(double value) {
   const double size = std::abs(value);
   return fmt::format("{:.{}f}", value, size >= 99.95 || size == 0 ? 0 : size >= 9.995 ? 1 : 2);
 }
 
-// Of a unit that takes prefixes from half of one on, "0.94 mN"; of others as it is.
+// Formats "0.94 mN", with prefixes for units that take them, from half of one on.
 std::string with_unit(double value, const std::string& unit) {
   constexpr double kNothing = 1e-9;
   if (std::abs(value) < kNothing) value = 0;
@@ -63,7 +63,7 @@ std::string with_unit(double value, const std::string& unit) {
   return three_digits(value / factor) + (unit.empty() ? "" : " " + std::string(prefix) + unit);
 }
 
-// The law of a column, or "" where its manifest is missing.
+// Returns the law of a column, or "" if its manifest is missing.
 std::string column_law(const ChildRun& column) { return column.manifest ? column.manifest->text("law") : ""; }
 
 bool differ_in_laws(const std::vector<ChildRun>& columns) {
@@ -83,7 +83,7 @@ std::vector<std::string> head_numbers(const ChildRun& column, const std::vector<
   return numbers;
 }
 
-// Those of the requested metrics, or of kShownNumbers where none is requested, that any column knows.
+// Returns those of the requested metrics, or of kShownNumbers if none is requested, that any column has.
 std::vector<std::string> shown_metrics(const std::vector<ChildRun>& columns,
                                        const std::vector<std::string>& requested) {
   std::vector<std::string> metrics = requested;
@@ -97,7 +97,7 @@ std::vector<std::string> shown_metrics(const std::vector<ChildRun>& columns,
   return metrics;
 }
 
-// The words say what a shape of decay means.
+// Describes a shape of decay.
 std::string decay_words(const std::string& shape) {
   static const std::map<std::string, std::string> kWords = {
       {"linear", "decays straight"},           {"two-step", "decays at two rates"},
@@ -144,7 +144,7 @@ std::vector<render::Rgb8> column_colors(const std::vector<ChildRun>& columns) {
 
 namespace {
 
-// "fabric.damping=0.006378" as one would write it: "damping 0.00638".
+// Formats "fabric.damping=0.006378" for readers: "damping 0.00638".
 std::string setting_words(const std::string& setting) {
   const std::size_t equal = setting.find('=');
   std::string key = setting.substr(0, equal), value = setting.substr(std::min(setting.size(), equal + 1));
@@ -156,7 +156,7 @@ std::string setting_words(const std::string& setting) {
   return key + " " + (!value.empty() && *end == '\0' ? fmt::format("{:.3g}", number) : value);
 }
 
-// This is the integrator's share of what the column lost in time, where a curve shows it [%]; else 0. Statics
+// Returns the integrator's share of what the column lost in time, if a curve shows it [%]; else 0. Statics
 // lose nothing in time.
 double integrators_share(const ChildRun& column) {
   constexpr double kShown = 5;
@@ -276,7 +276,7 @@ void Crop::widen(double to) {
   constexpr double kWasted = 1.8;
   const double more = (to - width()) / 2;
   if (width() == 0 || more <= 0 || to > kWasted * width()) return;
-  // Within the picture: what is beyond one border is added at the other.
+  // The crop stays within the picture: what is beyond one border is added at the other.
   const double left = std::max(0.0, box_[0] - more), right = std::min(1.0, box_[2] + more);
   box_[0] = std::max(0.0, std::min(left, right - to));
   box_[2] = std::min(1.0, std::max(right, left + to));
@@ -313,7 +313,7 @@ render::Image Crop::of(const render::Image& picture) const {
 
 namespace {
 
-// The curves of the first probe's moments that a manifest names, one a direction.
+// Returns the curves of the first probe's moments that a manifest names, one per direction.
 std::vector<Curve> probed_curves(const ChildRun& column) {
   std::vector<Curve> curves;
   if (!column.manifest) return curves;
@@ -334,7 +334,7 @@ double most_bent(const ChildRun& column, const Curve& curve) {
 
 ProbedLoops::ProbedLoops(const std::vector<ChildRun>& columns)
     : loops_(columns.size()), colors_(column_colors(columns)) {
-  std::string direction;  // the plot's name
+  std::string direction;  // name of the plot
   double most = 0;
   for (const ChildRun& column : columns)
     for (const Curve& curve : probed_curves(column))

@@ -20,7 +20,7 @@ Cell metric_field(const MetricValue& value) {
 
 constexpr std::size_t kMaxTexts = 20, kMaxNames = 4;
 
-// "linear, dahl, kim, wong and 3 others"
+// Returns "linear, dahl, kim, wong and 3 others".
 std::string listed_names(const std::vector<std::string>& names) {
   if (names.size() <= kMaxNames) return join(names, ", ");
   const std::vector<std::string> first(names.begin(), names.begin() + kMaxNames);

@@ -20,13 +20,13 @@
 namespace hysteron::experiments {
 namespace {
 
-constexpr const char* kDifference = "difference";  // the look of it
+constexpr const char* kDifference = "difference";  // name of the look
 constexpr int kDifferenceScale = 64;               // 8-bit steps at the end of the difference's colours
-constexpr std::size_t kMaxOutlined = 4;            // columns beside which outlines of all find a place
+constexpr std::size_t kMaxOutlined = 4;            // most columns that leave room for outlines of all
 
 double second(const ChildRun& column, std::size_t frame) { return instants(column).at(frame).time; }
 
-// The column that went on longest; null where none has a picture.
+// Returns the column that went on longest; null if none has a picture.
 const ChildRun* longest_column(const std::vector<ChildRun>& columns) {
   const ChildRun* longest = nullptr;
   for (const ChildRun& c : columns)
@@ -36,7 +36,8 @@ const ChildRun* longest_column(const std::vector<ChildRun>& columns) {
   return longest;
 }
 
-// How far the cloth goes from each picture of the longest column to the next, in the column where it is most.
+// Returns how far the cloth moves from each picture of the longest column to the next [m], in the column
+// where it moves most.
 std::vector<double> frame_displacements(const ChildRun& longest, const std::vector<ChildRun>& columns) {
   std::vector<double> moved(instants(longest).size(), 0);
   for (const ChildRun& c : columns)
@@ -45,8 +46,8 @@ std::vector<double> frame_displacements(const ChildRun& longest, const std::vect
   return moved;
 }
 
-// Of pictures of the column that went on longest: those nearest to the page's own times, or apart by what
-// moves between them, without the first picture, which is the same in all columns.
+// Returns times of pictures of the longest column [s]: those nearest to the page's own times, or spread by
+// displacement, without the first picture, which is the same in all columns.
 std::vector<double> shown_times(const ComparisonPage& page, const std::vector<ChildRun>& columns) {
   const ChildRun* longest = longest_column(columns);
   std::vector<double> times;
@@ -59,7 +60,7 @@ std::vector<double> shown_times(const ComparisonPage& page, const std::vector<Ch
   return times;
 }
 
-// The time, and what happens then.  Times of one's own may be milliseconds apart.
+// Returns the time, and the phase at it.  Times given by the user may be milliseconds apart.
 std::pair<std::string, std::string> instant_text(const ComparisonPage& page,
                                                  const std::vector<ChildRun>& columns, double time) {
   const bool in_hundredths = std::abs(100 * time - std::round(100 * time)) < 1e-6;
@@ -91,7 +92,7 @@ class PageTable {
         if (has_frames(c)) crop.include(instants(c)[frame_at(c, time)]);
     return crop;
   }
-  // Whether every column looks the same at both times.
+  // True if every column looks the same at both times.
   bool look_alike(double a, double b) const {
     const Crop both = crop_at({a, b});
     return std::all_of(columns_.begin(), columns_.end(), [&](const ChildRun& c) {
@@ -114,7 +115,7 @@ class PageTable {
       sheet_.columns.back().cells.push_back({outlines(time, crop)});
   }
 
-  // What moves up to then, in one picture.
+  // Adds a row with everything that moves up to `end` [s] in one picture.
   void add_onion(double end, const Crop& crop) {
     sheet_.rows.push_back({fmt::format("0–{:.2f} s", end), "", scale()});
     for (std::size_t c = 0; c < columns_.size(); ++c) sheet_.columns[c].cells.push_back(onion(c, end, crop));
@@ -131,10 +132,10 @@ class PageTable {
 
   render::ComparisonSheet& sheet() { return sheet_; }
 
-  // Of all frames of a film, which has one row.
+  // The layout of all frames of a film, which has one row.
   struct FilmPlace {
-    Crop crop;                        // all that they show
-    std::vector<render::Image> busy;  // of each column that has loops: they over each other, cropped
+    Crop crop;                        // covers everything shown
+    std::vector<render::Image> busy;  // for each column with loops: its pictures over each other, cropped
     std::vector<render::ComparisonRow> rows;
   };
   FilmPlace film_place(const std::vector<double>& times) const {
@@ -149,14 +150,15 @@ class PageTable {
       place.busy.push_back(all_over_each_other(c, times, place.crop));
     return place;
   }
-  // As many as make a picture about as high as wide: four columns are two above two.
+  // Returns the number of columns in a row that makes a picture about as high as wide: four are two above
+  // two.
   static int film_columns(std::size_t count) {
     constexpr std::size_t kInARow = 3;
     const int square = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(count))));
     return count <= kInARow ? static_cast<int>(count) : std::min(square, render::kMaxBeside);
   }
-  // A film's picture: the row at that time, laid out as all others.  Numbers, which are of the end, are left
-  // out.
+  // Returns a film's picture: the row at that time, laid out as all others, without numbers, which belong to
+  // the end.
   render::Image film_picture(double time, const FilmPlace& place) {
     add_row(time, place.crop);
     for (render::ComparisonColumn& column : sheet_.columns) column.numbers.clear();
@@ -299,7 +301,7 @@ PageTable columns_table(const ComparisonPage& page, const std::vector<ChildRun>&
   return table;
 }
 
-// Rows that show something new; all of those that are asked for.
+// Returns the times of rows that show something new, or all requested ones.
 std::vector<double> telling_times(const ComparisonPage& page, const std::vector<ChildRun>& columns,
                                   const std::vector<double>& times) {
   if (!page.times.empty()) return times;
@@ -311,8 +313,8 @@ std::vector<double> telling_times(const ComparisonPage& page, const std::vector<
   return telling;
 }
 
-// A page of many columns is twice as high as wide at most: the first of its instants go, unless they are
-// asked for.
+// Draws the sheet, at most twice as high as wide: of many columns the first instants are dropped, unless they
+// were requested.
 render::Image page_sheet(const ComparisonPage& page, const std::vector<ChildRun>& columns,
                          const std::vector<double>& shown) {
   render::Image sheet;
@@ -322,7 +324,7 @@ render::Image page_sheet(const ComparisonPage& page, const std::vector<ChildRun>
   }
 }
 
-// All columns side by side at each instant, at the columns' own speed; the part that is shown stays the same.
+// Draws films of all columns side by side at each instant, at the columns' own speed, with a fixed crop.
 void draw_films(Run& run, const ComparisonPage& page, const std::vector<ChildRun>& columns) {
   std::vector<double> times;
   if (const ChildRun* longest = longest_column(columns))
@@ -338,8 +340,8 @@ void draw_films(Run& run, const ComparisonPage& page, const std::vector<ChildRun
     write_film(run, "compare.video", format, rate, page.film_bytes);
 }
 
-// Of each column the frames in its rows, or up to the end of what moves in one picture, and the first, which
-// tells of no motion before them.
+// Returns for each column the frames in its rows, or up to the end of the motion in one picture, and the
+// first, which is needed for the motion before them.
 std::vector<std::vector<int>> shown_frames(const ComparisonPage& page, const std::vector<ChildRun>& columns,
                                            const std::vector<double>& times) {
   std::vector<std::vector<int>> frames(columns.size());

@@ -1,4 +1,4 @@
-// The plots of a comparison: a line or a bar for each column.
+// Draws the plots of a comparison, with a line or a bar for each column.
 #include <algorithm>
 #include <cmath>
 
@@ -12,7 +12,7 @@
 namespace hysteron::experiments {
 namespace {
 
-// What the first column notes that notes anything: lists of series, of curves.
+// Returns a list, of series or of curves, from the first column whose list is not empty.
 template <class List>
 List first_list(const std::vector<ChildRun>& columns, List (*noted)(const Manifest&)) {
   for (const ChildRun& c : columns)
@@ -20,13 +20,13 @@ List first_list(const std::vector<ChildRun>& columns, List (*noted)(const Manife
   return {};
 }
 
-// "probe1_curvature_warp [1/m]" as an axis says it.
+// Returns "probe1_curvature_warp [1/m]" as the title of an axis.
 std::string axis_title_words(std::string column) {
   std::replace(column.begin(), column.end(), '_', ' ');
   return column;
 }
 
-// The experiment's own columns of metrics.csv against time.
+// Plots the experiment's own columns of metrics.csv against time.
 void plot_series(Run& run, const ComparisonPage& page, const std::vector<ChildRun>& columns) {
   using Names = std::vector<std::string>;
   for (const std::string& name :
@@ -42,7 +42,7 @@ void plot_series(Run& run, const ComparisonPage& page, const std::vector<ChildRu
   }
 }
 
-// Tables of its own that the experiment names in its manifest.
+// Plots the tables that the experiment names in its manifest.
 void plot_curves(Run& run, const ComparisonPage& page, const std::vector<ChildRun>& columns) {
   for (const Curve& curve :
        first_list<std::vector<Curve>>(columns, [](const Manifest& m) { return m.curves; })) {
@@ -62,7 +62,7 @@ void plot_curves(Run& run, const ComparisonPage& page, const std::vector<ChildRu
   }
 }
 
-// The error is that of step, mesh and draw together, or of a fit; NaN where none is known.
+// Returns the error of step, mesh and draw together, or of a fit; NaN if none is known.
 double error_of(const Metrics& metrics, const std::string& key) {
   double square = 0;
   for (const char* ending : {kStepError, kMeshError, kDrawError, kStandardError})
@@ -71,7 +71,7 @@ double error_of(const Metrics& metrics, const std::string& key) {
   return square > 0 ? std::sqrt(square) : NAN;
 }
 
-// The page's metrics, or what these experiments are asked for, a bar a column; none where all are zero.
+// Draws the page's metrics, or these default headlines, as a bar per column; no plot if all are zero.
 void plot_answers(Run& run, const ComparisonPage& page, const std::vector<ChildRun>& columns) {
   const std::vector<std::string> default_metrics = {"drape_coefficient_percent", "recovery_angle_deg"};
   for (const std::string& key : page.metrics.empty() ? default_metrics : page.metrics) {

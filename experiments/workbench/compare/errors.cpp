@@ -15,10 +15,10 @@
 namespace hysteron::experiments {
 namespace {
 
-constexpr int kFiner = 4;  // times the triangles
+constexpr int kFiner = 4;  // factor of the triangles
 constexpr std::size_t kDrawsForAMean = 3;
 
-// Structured ones; those of a tube close at its seam.
+// Returns the other structured families; those for a tube close at its seam.
 std::vector<std::string> other_families(const Scene& scene) {
   if (scene.mesh == "random") return {};
   std::vector<std::string> families = {"unionjack", "equilateral"};
@@ -27,7 +27,7 @@ std::vector<std::string> other_families(const Scene& scene) {
   return families;
 }
 
-// Draw 1, 2 ...: other families first, then random meshes of other seeds.
+// Returns the changes of draw 1, 2 ...: other families first, then random meshes of other seeds.
 std::vector<Flag> resampled_mesh(const Scene& scene, int mesh_sample) {
   const std::vector<std::string> families = other_families(scene);
   const int random = mesh_sample - static_cast<int>(families.size());
@@ -35,7 +35,7 @@ std::vector<Flag> resampled_mesh(const Scene& scene, int mesh_sample) {
   return {{"mesh", "random"}, {"seed", std::to_string(scene.seed + static_cast<unsigned>(random))}};
 }
 
-// Draw 1, 2 ...: 3/2, 2/3, 2, 1/2 ... times the triangles.
+// Returns the changes of draw 1, 2 ...: 3/2, 2/3, 2, 1/2 ... times the triangles.
 std::vector<Flag> resized_mesh(const Scene& scene, int mesh_sample) {
   const int halves = 2 + (mesh_sample + 1) / 2;
   const int number = mesh_sample % 2 ? scene.triangles / 2 * halves : scene.triangles * 2 / halves;
@@ -51,7 +51,7 @@ Flag finer_mesh(const Scene& scene) {
 
 ChildRun child_run(const Run& run, const CommandLine& line, const ErrorRun& error_run) {
   std::vector<Flag> own = error_run.changes;
-  // A scene's file may say otherwise.
+  // These flags override the scene's file.
   own.insert(own.end(), {{"errors", "false"},
                          {"json", "false"},
                          {"no-images", "true"},
@@ -69,7 +69,7 @@ ChildRun child_run(const Run& run, const CommandLine& line, const ErrorRun& erro
   return child_run(error_run.name, once, own, run.folder() / "errors");
 }
 
-// How the run's cloth was let go, from what it noted: "drape.release" is `release` of "drape".
+// Returns how the run's cloth was let go, from what it recorded: "drape.release" is `release` of "drape".
 std::string noted_release(const Run& run, const Headlines& headlines) {
   const std::size_t dot = headlines.release.find('.');
   if (dot == std::string::npos) return "";
@@ -78,20 +78,20 @@ std::string noted_release(const Run& run, const Headlines& headlines) {
   return "";
 }
 
-// "step=0.0005 seed=2", with `before` before each.
+// Returns "step=0.0005 seed=2", with `before` before each.
 std::string changes_text(const std::vector<Flag>& flags, const std::string& before) {
   std::string text;
   for (const Flag& flag : flags) text += (text.empty() ? "" : " ") + before + flag.path + "=" + flag.text;
   return text;
 }
 
-// It ended in the run's own state.
+// True if it ended in the run's own state.
 bool is_unchanged(const ChildRun& column, const Run& run) {
   return column.manifest && column.manifest->state_hash &&
          column.manifest->state_hash == run.manifest().state_hash;
 }
 
-// Beyond what the run itself warns of.
+// Warns of what the columns report beyond the run's own warnings.
 void warn_about_columns(const std::vector<ChildRun>& columns, Run& run) {
   ColumnWarnings warnings;
   const std::vector<std::string>& own = run.manifest().warnings;
@@ -105,7 +105,7 @@ void warn_about_columns(const std::vector<ChildRun>& columns, Run& run) {
   warnings.say(run);
 }
 
-// errors.csv: a row for each repeat.
+// Writes errors.csv with a row for each repeat.
 void write_table(Run& run, const std::vector<std::string>& metrics, const std::vector<ErrorRun>& error_runs,
                  const std::vector<ChildRun>& columns) {
   std::vector<std::string> head = {"repeat", "differs"};
@@ -129,7 +129,8 @@ void write_table(Run& run, const std::vector<std::string>& metrics, const std::v
   table.write(run.path("errors.csv"));
 }
 
-// Parts of adaptive steps, too: the error that they keep is of third order, with `implicit` of second.
+// Tightens the tolerance of adaptive steps, too: the error that they keep is of third order, with `implicit`
+// of second.
 std::vector<Flag> half_the_step(const Scene& scene) {
   std::vector<Flag> changes = {{"step", number_text(scene.step / 2)}};
   if (scene.tolerance > 0)
@@ -138,7 +139,7 @@ std::vector<Flag> half_the_step(const Scene& scene) {
   return changes;
 }
 
-// From the metrics of repeats to the errors of a run.
+// Estimates the errors of a run from the metrics of its repeats.
 class Estimate {
  public:
   Estimate(const std::vector<std::string>& headlines, const Metrics& metrics,
@@ -160,8 +161,8 @@ class Estimate {
   }
 
  private:
-  // A repeat that leaves every bit as it was tells nothing of an error: what it changes is not used.  Two
-  // paths may be the same.
+  // True if a repeat reproduces every bit, because its change had no effect and shows no error.  Two paths
+  // may be the same.
   static bool unused(const ErrorRunResult& r) { return r.unchanged && r.error_run.name != "path"; }
 
   bool is_usable(const ErrorRunResult& r) {
@@ -173,7 +174,7 @@ class Estimate {
     return r.stopped.empty() && !unused(r);
   }
 
-  // The headline's values in the repeats of that name, "draw-2" being a "draw".
+  // Returns the headline's values in the repeats of that name, "draw-2" being a "draw".
   std::vector<double> values(const std::string& name, const std::string& kind) {
     std::vector<double> found;
     for (std::size_t i = 0; i < error_runs_.size(); ++i) {
@@ -202,7 +203,7 @@ class Estimate {
     const double n = static_cast<double>(all.size());
     double mean = 0, squares = 0;
     for (double value : all) mean += value;
-    mean /= n;  // of counts that are alike that count itself
+    mean /= n;  // the mean of equal counts is exactly that count
     for (double value : all) squares += (value - mean) * (value - mean);
     const double deviation = std::sqrt(squares / (n - 1));
     errors_.metrics.set(name + kDrawError, deviation);
@@ -233,7 +234,7 @@ std::vector<ErrorRun> planned_error_runs(const std::string& experiment, const Sc
   const Headlines& headlines = experiment_headlines(experiment);
   std::vector<ErrorRun> error_runs;
   const bool drawn = !from_a_file(scene);
-  // The longest first: they run side by side.
+  // The longest runs come first, because they run side by side.
   error_runs.push_back({"mesh", {finer_mesh(scene)}});
   if (!headlines.equilibria) error_runs.push_back({"step", half_the_step(scene)});
   for (int mesh_sample = 1; drawn && mesh_sample <= mesh_samples; ++mesh_sample)

@@ -1,5 +1,5 @@
-// Every headline number carries its error (--errors): the run again at half the step, with four times the
-// triangles, on other meshes and, where release matters, along the other path.
+// Measures the error of every headline number (--errors) by running again at half the step, with four times
+// the triangles, on other meshes and, if release matters, along the other path.
 //
 //   run -> repeats (a process each, in OUT/errors/NAME/) -> <metric>_step_error ... , OUT/errors.csv
 #pragma once
@@ -11,33 +11,34 @@
 
 namespace hysteron::experiments {
 
-// Key of the finer mesh of a cloth whose triangles come from a file.
+// The key of the finer mesh of a cloth whose triangles come from a file.
 inline constexpr const char* kSubdivisions = "cloth.subdivisions";
 
-// One run more: what differs from the first.  Its name is "step", "mesh", "path" or "draw-1", "draw-2" ...
+// An additional run, with its changes from the first.  Its name is "step", "mesh", "path" or "draw-1",
+// "draw-2" ...
 struct ErrorRun {
   std::string name;
   std::vector<Flag> changes;
 };
-// Of a resolved scene.  `release` is how its cloth is let go, "" where there is one path only.  The triangles
-// of a file are subdivided, and there are no other draws of them.
+// Returns the repeats of a resolved scene.  `release` is how its cloth is let go, "" if there is one path
+// only.  The triangles of a file are subdivided, and there are no other draws of them.
 std::vector<ErrorRun> planned_error_runs(const std::string& experiment, const Scene& scene,
                                          const std::string& release, int mesh_samples);
 
-// What came of one.
+// The result of a repeat.
 struct ErrorRunResult {
   ErrorRun error_run;
   Metrics metrics{};
-  std::string stopped{};   // why it is not complete; empty: it is
+  std::string stopped{};   // why it is not complete; empty if it is
   bool unchanged = false;  // it ended in the run's own state, bit for bit
 };
 
-// For each headline and each of `requested` among the metrics of the run:
+// Returns for each headline and each of `requested` among the metrics of the run:
 //   _step_error, _mesh_error   |its value there - the run's|
 //   _draw_error                standard deviation over the run and the draws
 //   _mean, _mean_stderr        of the same, from three draws on
 //   _path_difference           its value there - the run's
-// An error that is not known is null, and a sentence says why.
+// An unknown error is null, and a sentence gives the reason.
 struct Errors {
   Metrics metrics{};
   std::vector<std::string> missing;

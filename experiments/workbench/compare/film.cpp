@@ -20,13 +20,13 @@ namespace fs = std::filesystem;
 
 struct Format {
   const char* name;
-  const char* quality;  // the encoder's option; "": it has none
-  int best, least;      // values of it; what is worse than `least` flickers
+  const char* quality;  // the encoder's option; "" if it has none
+  int best, least;      // its values; worse ones than `least` flicker
   std::vector<std::string> words;
 };
 
-// WebP and GIF go on from the start.  WebP is written without loss: what stands still in the pictures stands
-// still in it, which compressed ones of smooth cloth do not.
+// WebP and GIF repeat from the start.  WebP is lossless, because lossy pictures of smooth cloth flicker where
+// nothing moves.
 const std::vector<Format>& formats() {
   static const std::vector<Format> kFormats = {
       {"mp4",
@@ -43,12 +43,12 @@ const Format& format_named(const std::string& name) {
   return *std::find_if(formats().begin(), formats().end(), [&](const Format& f) { return f.name == name; });
 }
 
-// How a film is written: the encoder's quality, and so many pixels across.
+// The parameters of writing a film: the encoder's quality, and the width in pixels.
 struct Attempt {
   int quality, width;
 };
 
-// Attempts at one file, each of which replaces the one before.
+// Writes one file several times, each attempt replacing the one before.
 class Encoder {
  public:
   Encoder(Run& run, const Format& format, double rate)
@@ -57,9 +57,9 @@ class Encoder {
         pictures_(run.folder() / "film" / "%04d.png"),
         file_(run.path(std::string("film.") + format.name)) {}
 
-  // Throws Error::system where ffmpeg does not write it.
+  // Throws Error::system if ffmpeg does not write it.
   void write(const Attempt& attempt) {
-    // Encoders of MP4 need even sides.
+    // The picture is padded because encoders of MP4 need even sides.
     const std::string filter =
         fmt::format("scale={}:-1:flags=area,pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white", attempt.width);
     std::vector<std::string> words = {
@@ -87,7 +87,7 @@ class Encoder {
   Attempt written_{};
 };
 
-// Between a quality whose file is too large and one whose file is not.
+// Bisects between a quality whose file is too large and one whose file is not.
 void write_best(Encoder& encoder, int too_large, int small_enough, int width, double most_bytes) {
   while (std::abs(too_large - small_enough) > 1) {
     const int between = (too_large + small_enough) / 2;
@@ -96,7 +96,8 @@ void write_best(Encoder& encoder, int too_large, int small_enough, int width, do
   if (encoder.written().quality != small_enough) encoder.write({small_enough, width});
 }
 
-// So much narrower that the next file will be small enough: a file grows with about this power of its width.
+// Returns a smaller width for which the next file should be small enough: a file grows with about this power
+// of its width.
 int narrower(int width, double times_too_large) {
   constexpr double kPower = 1.5, kReserve = 0.98, kAtOnce = 0.5;
   return static_cast<int>(width * std::max(kAtOnce, kReserve * std::pow(times_too_large, -1 / kPower)));

@@ -11,7 +11,8 @@ namespace hysteron::experiments {
 namespace {
 namespace fs = std::filesystem;
 
-// What a page reads of a column's manifest; the scene stands beside it, pictures are noted anew.
+// Returns the part of a column's manifest that a page reads; the scene is kept beside it, pictures are
+// recorded anew.
 Json page_manifest(const Manifest& manifest) {
   Json json = to_json(manifest);
   for (const char* key : {"spec", "scene", "options", "asked", "meshes", "frames", "files"}) json.erase(key);
@@ -24,7 +25,7 @@ KeptRecord with_column(KeptRecord record, const ChildRun& column, std::size_t me
   setup["stopped"] = column.stopped;
   std::error_code ignored;
   if (const fs::path probes = column.folder / "probes.csv"; fs::exists(probes, ignored))
-    setup["probes"] = whole_file(probes, "cannot read " + probes.string());  // of the loops on the page
+    setup["probes"] = whole_file(probes, "cannot read " + probes.string());  // for the loops
   const std::string text = setup.dump();
   record.head["name"] = column.name;
   record.head["mesh"] = mesh;
@@ -33,7 +34,7 @@ KeptRecord with_column(KeptRecord record, const ChildRun& column, std::size_t me
   return record;
 }
 
-// The place of the mesh among those that are written already, where it is appended if it is new.
+// Returns the index of the mesh among those already written; a new one is appended.
 std::size_t mesh_index(const KeptRecord& mesh, std::vector<KeptRecord>& known, std::vector<KeptRecord>& all) {
   for (std::size_t i = 0; i < known.size(); ++i)
     if (known[i].head == mesh.head && known[i].blocks == mesh.blocks) return i;

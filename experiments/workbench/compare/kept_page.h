@@ -1,4 +1,4 @@
-// What a comparison's page was drawn from, in one file, and back.
+// Keeps the data of a comparison's page in one file, and reads it back.
 #pragma once
 
 #include <vector>
@@ -8,15 +8,15 @@
 
 namespace hysteron::experiments {
 
-// Writes sheet.hyg: of each column what it kept of these of its frames, in ascending order, its manifest and
-// why it stopped; columns on one mesh have it once.  Columns that kept nothing are left out.
+// Writes sheet.hyg: for each column the kept geometry of these of its frames, in ascending order, its
+// manifest and why it stopped; columns on one mesh share it.  Columns that kept nothing are left out.
 void keep_page(Run& run, const ComparisonPage& page, const std::vector<ChildRun>& columns,
                const std::vector<std::vector<int>>& frames);
 
-// The page of a kept comparison; it is of one if `sheet` has it.
+// `is_page` is true if `sheet` is that of a comparison; `kept_comparison_page` reads it.
 bool is_page(const Json& sheet);
 ComparisonPage kept_comparison_page(const Json& sheet);
-// The column whose pictures were drawn again into that folder, as `frames` say.
+// Returns the column whose pictures were drawn again into that folder, described by `frames`.
 ChildRun redrawn_column(const KeptCloth& cloth, const std::filesystem::path& folder,
                         const std::optional<Frames>& frames);
 

@@ -7,12 +7,12 @@
 namespace hysteron::experiments {
 namespace {
 
-constexpr int kSteps = 2000;          // to the curvature
-constexpr double kAlmostFlat = 1e-6;  // of k0: where the slope at rest is taken
-constexpr double kExact = 1e-9;       // relative
+constexpr int kSteps = 2000;          // steps to the curvature
+constexpr double kAlmostFlat = 1e-6;  // share of k0 at which the slope at rest is taken
+constexpr double kExact = 1e-9;       // relative tolerance
 constexpr int kMaxIterations = 60;
 
-// Slope of the moment at rest [N m].
+// Returns the slope of the moment at rest [N m].
 double initial_stiffness(const LawRequest& law, double side) {
   const double flat = side * kAlmostFlat * law.curve.k0;
   return run_law(law, {{0, 0}, {flat, 1e-6}}).moment.back() / flat;
@@ -22,7 +22,7 @@ double measure(LawRequest law, double scale, Match match, double curvature) {
   law.curve.b1 *= scale;
   law.curve.b2 *= scale;
   law.curve.parts = stiffened(law.curve.parts, scale);
-  const auto to_side = [&](double side) {  // 1: the face, -1: the back
+  const auto to_side = [&](double side) {  // 1 for the face, -1 for the back
     return match == Match::energy ? bending_work(law, side * curvature) : initial_stiffness(law, side);
   };
   return law.curve.parts.faces.on() ? (to_side(1) + to_side(-1)) / 2 : to_side(1);

@@ -40,9 +40,9 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-constexpr int kNotRun = -1;  // as an exit code
+constexpr int kNotRun = -1;  // in place of an exit code
 
-// Words after `hysteron`.
+// Returns the words after `hysteron`.
 std::vector<std::string> line_arguments(const CommandLine& line) {
   std::vector<std::string> words = {line.experiment};
   words.insert(words.end(), line.positionals.begin(), line.positionals.end());
@@ -50,13 +50,14 @@ std::vector<std::string> line_arguments(const CommandLine& line) {
   return words;
 }
 
-// What a page keeps for itself of the flags of its columns, and adds to them: no part of what they are asked.
+// Returns the flags that a page handles itself or adds to its columns' flags; they are no part of the
+// columns' requests.
 const std::set<std::string>& page_flags() {
   static const std::set<std::string> kPageFlags = {"out", "json", "quiet", "resume", "threads"};
   return kPageFlags;
 }
 
-// What was asked of a column that has ended; how stands beside it in its folder.
+// Returns the request of a column that has ended, which its folder keeps with its outcome.
 Json requested(const ChildRun& column) {
   return {{"commit", kGitCommit},
           {"dirty", kGitDirty},
@@ -71,7 +72,7 @@ std::vector<std::string> words_in(const Json& list) {
   return words;
 }
 
-// As a run's manifest has it.
+// Returns the words recorded in a run's manifest.
 std::vector<std::string> noted_words(const RunSpec& spec, const std::string& experiment) {
   CommandLine line{experiment, "", {}, spec.positionals};
   for (const auto& [path, text] : spec.flags)
@@ -79,7 +80,7 @@ std::vector<std::string> noted_words(const RunSpec& spec, const std::string& exp
   return line_arguments(line);
 }
 
-// As the manifest of the column's run will have it: in the parser's order.
+// Returns the words that the manifest of the column's run will record, in the parser's order.
 std::vector<std::string> words_to_note(const ChildRun& column) {
   std::vector<std::string> words = line_arguments(column.line);
   words.insert(words.begin(), "hysteron");
@@ -87,13 +88,13 @@ std::vector<std::string> words_to_note(const ChildRun& column) {
   return line ? line_arguments(*line) : words;
 }
 
-// "--gravity differs"
+// Adds "--gravity differs" for each differing flag.
 void add_differing_words(const std::vector<std::string>& then, const std::vector<std::string>& now,
                          std::vector<std::string>& changes) {
   for (const std::string& name : changed_words(then, now)) changes.push_back(name + " differs");
 }
 
-// What has changed since a run that was interrupted before the page could note how it ended.
+// Returns the changes since a run that was interrupted before the page could record how it ended.
 std::vector<std::string> changes_since(const ChildRun& column, const Manifest& manifest) {
   std::vector<std::string> changes;
   if (manifest.spec)
@@ -103,7 +104,7 @@ std::vector<std::string> changes_since(const ChildRun& column, const Manifest& m
   return changes;
 }
 
-// Since one that has ended; a run that was refused has read its files, but its manifest is not there.
+// Returns the changes since a run that has ended; a refused run has read its files, but left no manifest.
 std::vector<std::string> changes_since(const ChildRun& column, const Manifest* manifest,
                                        const Json& outcome) {
   std::vector<std::string> changes;
@@ -115,27 +116,27 @@ std::vector<std::string> changes_since(const ChildRun& column, const Manifest* m
   return changes;
 }
 
-// What a process gets of the machine.
+// The share of the machine that a process gets.
 struct ProcessShare {
   int threads = 1;
-  int gpu = -1;  // -1: none of its own
+  int gpu = -1;  // -1 if it has none of its own
 };
 
 bool takes_checkpoints(const ChildRun& column) {
   return last_text(column.line.flags, "checkpoint", "0") != "0";
 }
 
-// This program with its share of the machine.
+// Returns the command of this program with its share of the machine.
 std::vector<std::string> program_with(ProcessShare process_share) {
   std::vector<std::string> words = {"env"};
   if (process_share.gpu >= 0) words.push_back("CUDA_VISIBLE_DEVICES=" + visible_gpu(process_share.gpu));
-  for (const char* others : {"OMP_NUM_THREADS=", "LP_NUM_THREADS="})  // libraries' and Mesa's own threads
+  for (const char* others : {"OMP_NUM_THREADS=", "LP_NUM_THREADS="})  // threads of libraries and of Mesa
     words.push_back(others + std::to_string(process_share.threads));
   words.push_back(fs::read_symlink("/proc/self/exe").string());
   return words;
 }
 
-// Words after `hysteron` of the column's run.
+// Returns the words after `hysteron` for the column's run.
 std::vector<std::string> child_arguments(const ChildRun& column, const SweepJobs& jobs, int threads) {
   std::vector<std::string> words = line_arguments(column.line);
   words.push_back("--quiet=true");
@@ -147,13 +148,13 @@ std::vector<std::string> child_arguments(const ChildRun& column, const SweepJobs
   return words;
 }
 
-// Why a run ended without having finished.
+// Returns why a run ended without having finished.
 std::string ending_reason(int exit_code, const std::string& first_error_line) {
   if (!first_error_line.empty()) return first_error_line;
   return exit_code < 0 ? "ended by a signal" : "ended with exit code " + std::to_string(exit_code);
 }
 
-// Of a run without a folder nothing is left.
+// Records how the column ended in its folder; without a folder nothing is recorded unless `make_folder`.
 void write_outcome(const ChildRun& column, bool make_folder) {
   std::error_code ignored;
   if (make_folder) fs::create_directories(column.folder, ignored);
@@ -163,7 +164,7 @@ void write_outcome(const ChildRun& column, bool make_folder) {
   write_text(column.folder / kOutcomeFile, outcome.dump(2) + "\n");
 }
 
-// What the run has left.
+// Collects the results that the run has left.
 void take_back(ChildRun& column, const SweepJobs& jobs, int exit_code, const std::string& error) {
   const bool has_results = exit_code == 0 || exit_code == kCouldNotGoOn;
   column.exit_code = exit_code;
@@ -176,7 +177,7 @@ void take_back(ChildRun& column, const SweepJobs& jobs, int exit_code, const std
   write_outcome(column, jobs.keep_reasons);
 }
 
-// Why the run cannot share a process; "": it can.
+// Returns why the run cannot share a process, or "" if it can.
 std::string why_not_batchable(const CommandLine& line) {
   const Experiment& experiment = experiment_named(line.experiment);
   if (!experiment.simulates || experiment.timed)
@@ -189,9 +190,9 @@ std::string why_not_batchable(const CommandLine& line) {
   return "";
 }
 
-// Runs the columns of the chunk in one process, `hysteron batch`, which says of them as they end, and takes
-// from each what it has left; `ended` is called with its place.  A run that fails leaves the others alone:
-// the errors of run_columns() are thrown after their end.
+// Runs the columns of the chunk in one process, `hysteron batch`, which reports runs as they end, and
+// collects their results; `ended` is called with each column's index.  A failing run does not affect the
+// others: the errors of run_columns() are thrown after their end.
 void run_chunk(std::vector<ChildRun>& columns, const Chunk& chunk, const SweepJobs& jobs,
                ProcessShare process_share, const std::function<void(std::size_t)>& ended) {
   std::set<std::size_t> waiting(chunk.begin(), chunk.end());
@@ -223,17 +224,17 @@ void run_chunk(std::vector<ChildRun>& columns, const Chunk& chunk, const SweepJo
   if (failure) std::rethrow_exception(failure);
 }
 
-// The last whole line of a table that grows; "" before it has a row.
+// Returns the last complete line of a growing table; "" before it has a row.
 std::string last_row(const fs::path& file) {
   std::ifstream stream(file);
   std::string last, line;
-  std::getline(stream, line);  // the head
+  std::getline(stream, line);  // skips the head
   while (std::getline(stream, line) && !stream.eof()) last = line;
   return last;
 }
 
-// Says every few seconds how far the columns are that run, or `most` of them, where that has changed, until
-// its end.
+// Reports the progress of the running columns, or of `most` of them, every few seconds if it has changed,
+// until destruction.
 class Watch {
  public:
   Watch(const std::vector<ChildRun>& columns, int most, const std::function<void(const std::string&)>& say)
@@ -276,14 +277,14 @@ class Watch {
   std::condition_variable_any wake_;
   std::set<std::size_t> running_;
   std::string said_;
-  std::jthread thread_;  // the last: it reads the others
+  std::jthread thread_;  // declared last, because it reads the others
 };
 
-// The GPU with the fewest runs on it, for each run that begins.
+// Assigns the GPU with the fewest runs to each run that begins.
 class GpuQueue {
  public:
   explicit GpuQueue(int gpus) : runs_(gpus) {}
-  // -1 where there is none.
+  // Returns -1 if there is no GPU.
   int take() {
     const std::lock_guard lock(mutex_);
     if (runs_.empty()) return -1;
@@ -301,7 +302,7 @@ class GpuQueue {
   std::vector<int> runs_;
 };
 
-// How the columns are run: in chunks, so many at a time, which share GPUs and cores.
+// The division of columns into chunks, and how many run at a time on the GPUs and cores that they share.
 struct Division {
   std::vector<Chunk> chunks;
   int at_once, gpus, cores;
@@ -314,7 +315,7 @@ Division divided(const std::vector<ChildRun>& columns, const SweepJobs& jobs) {
   const int most = jobs.at_once > 0 ? jobs.at_once
                    : gpus > 0       ? gpus
                                     : std::max(1, cores / std::max(1, jobs.threads));
-  // No larger than leaves something to each GPU or core.
+  // A chunk is small enough to leave work for each GPU or core.
   const int largest = std::min(jobs.batch, (static_cast<int>(columns.size()) + most - 1) / most);
   const std::vector<Chunk> chunks = batch_chunks(columns, largest, jobs.first);
   return {chunks, std::min(static_cast<int>(chunks.size()), most), gpus, cores};
@@ -369,8 +370,8 @@ bool recall(ChildRun& column) {
 
 namespace {
 
-// What a complete run wrote and is not there any more: a study that goes on runs it again, while one that is
-// collected needs none of it.
+// True if a file of a complete run is missing: a study that goes on repeats that run, while a collected one
+// needs no files.
 bool lacks_a_file(ChildRun& column) {
   const std::vector<std::string> lost = lost_files(*column.manifest, column.folder);
   if (lost.empty()) return false;
@@ -407,7 +408,7 @@ void check_batch(const std::vector<ChildRun>& columns, int batch) {
 
 std::vector<Chunk> batch_chunks(const std::vector<ChildRun>& columns, int largest, int first) {
   std::vector<Chunk> chunks;
-  std::map<std::pair<std::string, bool>, std::size_t> open;  // those that take more columns of a kind
+  std::map<std::pair<std::string, bool>, std::size_t> open;  // chunks that take more columns of a kind
   for (std::size_t i = 0; i < columns.size(); ++i) {
     const bool alone = static_cast<int>(i) == first || largest <= 1;
     const std::pair kind{last_text(columns[i].line.flags, "device", ""), takes_checkpoints(columns[i])};

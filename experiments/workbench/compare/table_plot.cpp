@@ -65,10 +65,11 @@ double largest(const render::Series& series) {
   return most;
 }
 
-// "prandtl (integrator 7 %)" is prandtl.
+// Returns "prandtl" for "prandtl (integrator 7 %)".
 std::string bare_name(const std::string& label) { return label.substr(0, label.find(" (")); }
 
-// Takes out the series that are zero beside the others, or beside what sums of doubles leave; their names.
+// Removes the series that are zero compared with the others, or with rounding of sums, and returns their
+// names.
 std::vector<std::string> take_what_shows_nothing(std::vector<render::Series>& all) {
   constexpr double kBeside = 1e-6, kLeft = 1e-12;
   double most = 0;
@@ -82,11 +83,11 @@ std::vector<std::string> take_what_shows_nothing(std::vector<render::Series>& al
   return names;
 }
 
-// Lines that lie on each other become one with all their names, or where these are many with the first; then
-// the line that says so.
+// Unites lines that coincide into one with all their names, or with the first if these are many; returns the
+// line that says so.
 std::string unite_equal(std::vector<render::Series>& all) {
-  constexpr double kSeen = 1e-3;     // of the largest value
-  constexpr std::size_t kMost = 30;  // letters of names at a line's end
+  constexpr double kSeen = 1e-3;     // share of the largest value
+  constexpr std::size_t kMost = 30;  // characters of names at a line's end
   double most = 0;
   for (const render::Series& series : all) most = std::max(most, largest(series));
   const auto lie_on_each_other = [&](const render::Series& a, const render::Series& b) {
@@ -116,7 +117,7 @@ std::string unite_equal(std::vector<render::Series>& all) {
   return note;
 }
 
-// Where a value stands among those that came before it, of which it becomes the last if it is new.
+// Returns the index of a value among the earlier ones; a new one is appended.
 std::size_t place_in(std::vector<std::string>& values, const std::string& value) {
   const auto at = std::find(values.begin(), values.end(), value);
   const auto place = static_cast<std::size_t>(at - values.begin());

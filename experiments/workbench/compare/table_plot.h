@@ -1,5 +1,5 @@
-// What runs have written, drawn: two columns of a table in each run's folder as a line, the rows of a table
-// by the values of an x and a y column as maps, a panel for those of others.
+// Draws the tables of runs: two columns of a table in each run's folder as a line, or the rows of a table by
+// the values of an x and a y column as maps, with a panel for the values of others.
 #pragma once
 
 #include <functional>
@@ -15,15 +15,15 @@
 namespace hysteron::experiments {
 
 struct TablePlot {
-  std::string name;   // of its files
-  render::Plot plot;  // still without the table's series
+  std::string name;   // name of its files
+  render::Plot plot;  // plot without the table's series
   std::string file, x, y;
   render::Series::Style style = render::Series::Style::line;
   double scale = 1;    // of y, from the table's unit to the axis'
   std::string knee{};  // the metric of Curve::knee, whose place is marked; "": none
 };
 
-// This draws one run, from its own folder: "prandtl, simulated" in its law's colour.
+// Draws one run, from its own folder: "prandtl, simulated" in its law's colour.
 void draw(Run& run, TablePlot plot, const std::string& law);
 // A line for each column of a comparison that has the file and rows in it, named as column_labels() has it.
 // Those that are zero throughout are named below the title instead, and lines that lie on each other are one;
@@ -33,12 +33,12 @@ void draw(Run& run, TablePlot plot, const std::vector<ChildRun>& columns,
           const std::vector<std::string>& names = {});
 
 struct MapColumns {
-  std::vector<std::string> panels;  // whose values title a map: "implicit, prandtl"
+  std::vector<std::string> panels;  // columns whose values title a map: "implicit, prandtl"
   std::string x, y;
 };
 
-// Adds the table's maps and its values along both axes to a page, in the order in which they come; `cell`
-// makes one of the numbers of its rows.
+// Adds the table's maps and its values along both axes to a page, in their order; `cell` makes a cell from
+// the indices of its rows.
 void add_maps(render::HeatMaps& page, const Table& table, const MapColumns& columns,
               const std::function<render::HeatMapCell(const std::vector<std::size_t>& rows)>& cell);
 

@@ -16,7 +16,7 @@ namespace {
 const KeyRow<SweepJobs> kRows[] = {
     {"batch", at<&SweepJobs::batch>, "", between(1, kLargestBatch), "", kBatchDoc}};
 
-// Takes the page's keys off the line.
+// Removes the page's keys from the line and returns them.
 SweepJobs taken_from(CommandLine& line) {
   SweepJobs jobs{.tolerates_failures = true};
   for (const BoundKey& key : bind(kRows, jobs))
@@ -28,7 +28,7 @@ SweepJobs taken_from(CommandLine& line) {
   return jobs;
 }
 
-// A comparison of the columns' last instants, of those that have one; plots.
+// Draws a comparison of the last instants of the columns that have one, and plots.
 void draw_page(Run& run, const VariantPage& page, const std::vector<ChildRun>& columns) {
   std::vector<ChildRun> shown;
   for (const ChildRun& column : columns) {
@@ -87,7 +87,7 @@ int run_variants(const CommandLine& given, void (*once)(const CommandLine&),
   if (page.setup.options.explain) return explain_columns(columns), 0;
   check_batch(columns, jobs.batch);
   check_columns(columns);
-  page.keys["fabric"] = to_json(scene)["fabric"];  // of variants that name none
+  page.keys["fabric"] = to_json(scene)["fabric"];  // for variants that name none
   for (const Variant& variant : variants) page.keys["variants"].push_back(variant.name);
   Run run(line, page.setup.options, page.keys);
   reserve_page(run, page);

@@ -18,7 +18,7 @@
 namespace hysteron::experiments {
 namespace {
 
-// What the flag sets: of parameters one.
+// Returns the key that the flag sets; for parameters a single one.
 std::string flag_key(const Flag& flag) {
   if (flag.path == "param") return "param." + flag.text.substr(0, flag.text.find('='));
   return flag.path == "fabric.name" ? "fabric" : flag.path;
@@ -30,7 +30,7 @@ bool is_list(const Flag& flag) {
          (flag.text == "all" || flag.text.find_first_of(",+") != std::string::npos);
 }
 
-// What the last flag of that key names, `all` being `every`; one empty name without the flag.
+// Returns the names in the last flag of that key, `all` being `every`; one empty name without the flag.
 std::vector<std::string> names_in(const CommandLine& line, const std::string& key,
                                   const std::vector<std::string>& every) {
   std::string text;
@@ -40,7 +40,7 @@ std::vector<std::string> names_in(const CommandLine& line, const std::string& ke
   return text == "all" ? every : split(text);
 }
 
-// "linear" is --law linear; "linear+fabric.damping=1e-3" is --fabric.damping 1e-3 besides.
+// Adds flags: "linear" is --law linear; "linear+fabric.damping=1e-3" adds --fabric.damping 1e-3.
 void add_flags(std::vector<Flag>& flags, const std::string& path, const std::string& text) {
   std::istringstream parts(text);
   std::string part;
@@ -54,7 +54,7 @@ void add_flags(std::vector<Flag>& flags, const std::string& path, const std::str
   }
 }
 
-// Each variant with each of the names, which stand in its own name where there are several.
+// Combines each variant with each of the names, which become part of its own name if there are several.
 std::vector<Variant> multiplied(const std::vector<Variant>& variants, const std::string& path,
                                 const std::vector<std::string>& names) {
   std::vector<Variant> result;
@@ -71,7 +71,7 @@ std::vector<Variant> multiplied(const std::vector<Variant>& variants, const std:
   return result;
 }
 
-// Each has a folder: those of files with equal stems are numbered.
+// Makes the names of folders distinct: those of files with equal stems are numbered.
 void name_apart(std::vector<Variant>& variants) {
   std::set<std::string> taken;
   for (std::size_t i = 0; i < variants.size(); ++i) {
@@ -114,7 +114,7 @@ std::string column_name(const std::string& text) {
   std::istringstream parts(text);
   std::string name;
   for (std::string part; std::getline(parts, part, '+');) {
-    const std::size_t value = part.find('=') + 1;  // 0 without one
+    const std::size_t value = part.find('=') + 1;  // 0 if there is none
     const std::filesystem::path file = part.substr(value);
     const bool is_file = file.has_parent_path() || file.extension() == ".toml";
     name += (name.empty() ? "" : "+") + part.substr(0, value) + (is_file ? file.stem() : file).string();
@@ -122,13 +122,13 @@ std::string column_name(const std::string& text) {
   return name.empty() || name.front() == '.' ? "column" + name : name;
 }
 
-// File systems take 255 bytes; files beside the folder, a number or a key that is tuned may add some.
+// File systems allow 255 bytes; files beside the folder, a number or a tuned key may add some.
 std::string folder_name(const std::string& name) {
   constexpr std::size_t kLongest = 180;  // [bytes]
   if (name.size() <= kLongest) return name;
   const std::string hash = fmt::format("-{:016x}", fnv1a(name.data(), name.size()));
   std::size_t end = kLongest - hash.size();
-  const auto is_inside_a_letter = [&](std::size_t at) {  // of UTF-8
+  const auto is_inside_a_letter = [&](std::size_t at) {  // in UTF-8
     return (static_cast<unsigned char>(name[at]) & 0xc0) == 0x80;
   };
   while (end > 0 && is_inside_a_letter(end)) --end;

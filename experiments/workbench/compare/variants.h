@@ -1,5 +1,5 @@
-// What a comparison compares: one experiment under each of several laws, with each of several fabrics or
-// integrators.
+// Lists the variants of a comparison: one experiment under each of several laws, with each of several fabrics
+// or integrators.
 #pragma once
 
 #include <string>
@@ -9,37 +9,36 @@
 
 namespace hysteron::experiments {
 
-// What differs from the line: a law, a fabric, further flags.
+// The differences of a variant from the line: a law, a fabric, further flags.
 struct Variant {
   std::string name;
   std::vector<Flag> flags;
 };
 
-// What --fabric, --law and --integrator name, each `all` or names separated by commas: every combination of
-// them. A name may carry further keys for itself: "linear+fabric.damping=1e-3".  One variant, without a name
-// where nothing is named, where none is a list.  Throws Error::invalid_input where two are the same.
+// Returns every combination of what --fabric, --law and --integrator name, each `all` or names separated by
+// commas.  A name may have further keys of its own: "linear+fabric.damping=1e-3".  If nothing is a list there
+// is one variant, without a name if nothing is named.  Throws Error::invalid_input if two are the same.
 std::vector<Variant> named_variants(const CommandLine& line);
-// Of a variant that a list calls so, and of its folder: files go by their stems, "../mine/wool.toml" by
-// "wool".
+// Returns the name of a variant and of its folder: files go by their stems, "../mine/wool.toml" by "wool".
 std::string column_name(const std::string& text);
-// The same name where a file system takes it; a longer one is cut, and told apart by a hash of the whole.
+// Returns the name if a file system allows it; a longer one is cut, and made distinct by a hash of the whole.
 std::string folder_name(const std::string& name);
-// The one key in which they differ: "law", "fabric", "integrator"; "column" where it is several.
+// Returns the one key in which they differ: "law", "fabric", "integrator"; "column" if there are several.
 std::string varied_key(const std::vector<Variant>& variants);
-// The flags and behind them the later ones, which take the place of those that set the same.
+// Returns the flags and behind them the later ones, which replace those of the same key.
 std::vector<Flag> with_later(std::vector<Flag> flags, const std::vector<Flag>& later);
-// The line of that variant.
+// Returns the line of that variant.
 CommandLine with_variant(CommandLine line, const Variant& variant);
-// The line without lists: what the page itself is set up with.
+// `without_lists` returns the line without lists, with which the page itself is set up.
 CommandLine without_lists(const CommandLine& line);
 bool lists_fabrics(const CommandLine& line);
 
-// The flag --camera.box of what the cloth of any variant passes through; none where the experiment frames all
-// alike, the line draws no pictures, or says itself what they frame.
+// Returns the flag --camera.box around everything that the cloth of any variant passes through; none if the
+// experiment frames all alike, or if the line draws no pictures or sets what they frame.
 std::vector<Flag> shared_framing(const CommandLine& line, const std::vector<Variant>& variants);
 
-// Flags of columns whose pictures are cells of a page: without letters and, where they show cloth and the
-// line does not say otherwise, on white.
+// Returns the flags of columns whose pictures are cells of a page: without text and, if they show cloth and
+// the line does not override it, on white.
 std::vector<Flag> for_sheets(const CommandLine& line);
 
 }  // namespace hysteron::experiments

@@ -12,7 +12,7 @@ namespace hysteron::experiments {
 namespace {
 namespace fs = std::filesystem;
 
-// The files of a workflow, and what stands in each.
+// The files of a workflow, and a mark in each.
 constexpr std::pair<const char*, const char*> kFiles[] = {{"Snakefile", "# Runs of hysteron as jobs"},
                                                           {"slurm/config.yaml", "# Snakemake's profile"},
                                                           {"config.json", "\"working_folder\""}};

@@ -13,7 +13,7 @@
 namespace hysteron::experiments {
 namespace {
 
-// "86.0 % ± 0.10 step ± 0.6 mesh ± 0.8 draw"; "" where the run has no such number.
+// Returns "86.0 % ± 0.10 step ± 0.6 mesh ± 0.8 draw"; "" if the run has no such number.
 std::string value_words(const Headline& headline, const Metrics& metrics) {
   const MetricValue& value = metrics[headline.metric];
   if (value.is_text()) return value.text();
@@ -25,10 +25,11 @@ std::string row(const std::string& words, const std::string& value) {
   return "  " + words + std::string(words.size() < kColumn ? kColumn - words.size() : 1, ' ') + value + "\n";
 }
 
-// A result that was asked for: "recovery angle", "86.0 degree".
+// A requested result: "recovery angle", "86.0 degree".
 using Finding = std::pair<std::string, std::string>;
 
-// Headlines of the manifest's experiment and what its scene asks for, as far as they are among `metrics`.
+// Returns the headlines of the manifest's experiment and the metrics that its scene requests, if they are
+// among `metrics`.
 std::vector<Finding> findings_in(const Manifest& manifest, const Metrics& metrics) {
   std::vector<Finding> findings;
   for (const Headline& headline : column_headlines(manifest))
@@ -48,7 +49,7 @@ std::string one_line(const Manifest& manifest, const Metrics& metrics) {
   return text + (text.empty() || rest_warning.empty() ? "" : "; ") + rest_warning;
 }
 
-// A study counts its runs (experiments/sweep).
+// Returns why a manifest is incomplete; a study counts its runs (experiments/sweep).
 std::string incomplete_reason(const Metrics& metrics) {
   const MetricValue &all = metrics["runs_count"], &failed = metrics["failed_count"];
   if (!all.is_number() || !failed.is_number() || failed.number() == 0)

@@ -15,15 +15,15 @@ constexpr std::pair<const char*, const char*> kSources[] = {
 
 bool is_number(const Metrics& metrics, const std::string& name) { return metrics[name].is_number(); }
 
-// The power of ten that an error is rounded to.
+// Returns the power of ten to which an error is rounded.
 int decimal_place(double error) {
-  const std::string text = fmt::format("{:.0e}", error);  // "8e-01"
+  const std::string text = fmt::format("{:.0e}", error);  // as in "8e-01"
   return std::atoi(text.c_str() + 2) - (text[0] == '1' ? 1 : 0);
 }
 
-// To 10^place; small numbers in powers of ten.
+// Rounds to 10^place; small numbers are in powers of ten.
 std::string rounded(double x, int place) {
-  constexpr int kSmallest = -3;  // first digit's place
+  constexpr int kSmallest = -3;  // place of the first digit
   const int first = x == 0 ? place : static_cast<int>(std::floor(std::log10(std::abs(x))));
   const bool small = x != 0 && first < kSmallest;
   return small ? fmt::format("{:.{}e}", x, std::max(0, first - place))
@@ -32,14 +32,14 @@ std::string rounded(double x, int place) {
 
 std::string rounded_error(double error) { return error > 0 ? rounded(error, decimal_place(error)) : "0"; }
 
-// With the decimals of its largest error, in another unit.
+// Formats a value times `scale` with the decimals of its largest error.
 std::string value_text(const MetricValue& value, double largest, double scale) {
   if (value.is_integer() && scale == 1) return shown(value);
   if (largest > 0) return rounded(scale * value.number(), decimal_place(largest));
   return shown(scale == 1 ? value : MetricValue(scale * value.number()));
 }
 
-// Value and errors of a headline whose errors were asked for.
+// Formats value and errors of a headline whose errors were measured.
 ShownQuantity scaled_words(const Metrics& metrics, const std::string& name, double scale) {
   const auto metric_error = [&](const std::string& key) { return scale * std::abs(metrics[key].number()); };
   ShownQuantity words;

@@ -21,7 +21,7 @@ namespace hysteron::experiments {
 namespace {
 namespace fs = std::filesystem;
 
-// "cpu: CPU", whatever the number of threads.
+// Returns "cpu: CPU", without the number of threads.
 std::string without_threads(const std::string& device) {
   const std::size_t comma = device.rfind(", ");
   return comma != device.npos && device.ends_with("threads") ? device.substr(0, comma) : device;
@@ -49,7 +49,7 @@ std::string gallery_facts(const std::vector<ExhibitGroup>& groups) {
   return facts;
 }
 
-// Where the page has its numbers from.
+// Says where the page's numbers come from.
 std::string data_origin(PageForm form) {
   return form == PageForm::linked
              ? "Every number and picture is read from the folders beside this page; a picture "
@@ -58,16 +58,16 @@ std::string data_origin(PageForm form) {
                "file.";
 }
 
-// "drape" as "Drape"; names of instruments stay names.
+// Returns "drape" as "Drape"; names of instruments stay as they are.
 std::string experiment_title(std::string experiment) {
   if (experiment == "kes") return "KES";
   return first_upper(experiment);
 }
 
-// The picture that the README above the gallery shows first, if it is one of the gallery's: what a reader saw
-// who comes from there.
+// Returns the picture that the README above the gallery shows first, if it is one of the gallery's: readers
+// who come from there have seen it.
 std::string gallery_teaser(const fs::path& folder, PageForm form) {
-  constexpr int kWidth = 1200;  // [pixels] of an embedded picture
+  constexpr int kWidth = 1200;  // width of an embedded picture [pixels]
   const fs::path above = fs::absolute(folder).lexically_normal(), readme = above.parent_path() / "README.md";
   const std::string name = above.filename().string() + "/";
   if (!is_there(readme)) return "";
@@ -94,7 +94,7 @@ std::vector<std::string> all_html(const std::vector<ExhibitGroup>& groups, PageF
   return html;
 }
 
-// Folders below this one with a report.html, by name.
+// Returns the folders below this one that have a report.html, by name.
 std::vector<fs::path> reports_below(const fs::path& folder) {
   std::vector<fs::path> found;
   std::error_code failure;

@@ -1,4 +1,4 @@
-// A folder of runs as one page.
+// Writes a folder of runs as one page.
 #pragma once
 
 #include <filesystem>
@@ -9,12 +9,12 @@
 
 namespace hysteron::experiments {
 
-// HTML of all that exhibits_in() finds, grouped by experiment under its question, a card each that unfolds:
+// Returns all that exhibits_in() finds as HTML, grouped by experiment under its question, with a card each,
 // below the folder's own questions (questions_html()), or the picture that the README beside the folder shows
-// first. The page works from disk without a network: pictures are linked, or embedded and shrunk.  Everything
-// is read from the folders, nothing is computed again, and the same folders give the same bytes.  Throws
-// Error::invalid_input, naming the file, if a picture, table or manifest is broken or there is nothing to
-// show.
+// first.  The page works from disk without a network: pictures are linked, or embedded and shrunk.
+// Everything is read from the folders, nothing is computed again, and the same folders give the same bytes.
+// Throws Error::invalid_input, naming the file, if a picture, table or manifest is broken or there is nothing
+// to show.
 std::string gallery_page(const std::filesystem::path& folder, PageForm form = PageForm::linked);
 
 // Writes it as FOLDER/index.html and returns that path.  Throws Error::system if it cannot be written.
@@ -27,8 +27,8 @@ struct StalePage {
   bool missing = false;
 };
 
-// Makes the page of `folder`, and that of every run below it that has a report.html, again, and compares:
-// linked pages, whose bytes are the same on every machine.
+// Makes the page of `folder`, and that of every run below it that has a report.html, again, and compares
+// them.  These are linked pages, whose bytes are the same on every machine.
 // Throws what making them throws.
 std::vector<StalePage> stale_pages(const std::filesystem::path& folder);
 

@@ -19,18 +19,18 @@ namespace hysteron::experiments {
 namespace {
 namespace fs = std::filesystem;
 
-constexpr int kWidth = 900;                        // [pixels] of an embedded picture
-constexpr std::uintmax_t kLargestDrawing = 60000;  // [byte] SVG files above this are linked, and shown as PNG
+constexpr int kWidth = 900;                        // width of an embedded picture [pixels]
+constexpr std::uintmax_t kLargestDrawing = 60000;  // larger SVG files are linked, and shown as PNG [bytes]
 constexpr int kExhibitFrames = 12;
 
-// As in --help; others follow in the order of their names.
+// Returns the index in the order of --help; others follow by name.
 std::ptrdiff_t catalogue_index(const std::string& name) {
   const auto& all = experiments();
   return std::find_if(all.begin(), all.end(), [&](const Experiment& e) { return name == e.name; }) -
          all.begin();
 }
 
-// A link to a folder through which it was reached has no last subfolder.
+// Throws for a link back to a folder through which it was reached.
 void throw_if_loop(const fs::path& folder) {
   std::error_code ignored;
   if (!fs::is_symlink(folder, ignored)) return;
@@ -72,7 +72,7 @@ void collect(const fs::path& folder, const std::string& name, std::vector<Exhibi
   if (holds_anything(exhibit)) beside.push_back(std::move(exhibit));
 }
 
-// What names of files mean, see Options::look and Options::light.
+// Explains the names of files, see Options::look and Options::light.
 std::string stem_words(std::string stem) {
   static const std::map<std::string, std::string> kWords = {
       {"sheet", "contact sheet"},
@@ -88,7 +88,7 @@ std::string stem_words(std::string stem) {
   return stem;
 }
 
-// What the run, or one of its columns, says of a plot; "" if nothing.
+// Returns the caption of a plot from the run, or one of its columns; "" if there is none.
 std::string curve_caption(const Exhibit& exhibit, const std::string& plot) {
   if (exhibit.manifest)
     for (const Curve& curve : exhibit.manifest->curves)
@@ -98,7 +98,7 @@ std::string curve_caption(const Exhibit& exhibit, const std::string& plot) {
   return "";
 }
 
-// What write_captions() left in FOLDER/README.md: "![title](NAME.png)", and after it "**title** text".
+// Reads the captions that write_captions() left in README.md: "![title](NAME.png)", then "**title** text".
 std::map<std::string, std::string> written_captions(const fs::path& folder) {
   std::map<std::string, std::string> captions;
   const fs::path readme = folder / "README.md";
@@ -119,14 +119,14 @@ std::map<std::string, std::string> written_captions(const fs::path& folder) {
   return captions;
 }
 
-// The first sentences of a caption; README.md has the others.
+// Returns the first sentences of a caption; README.md has the others.
 std::string first_sentences(const std::string& caption) {
-  constexpr std::size_t kEnough = 100;  // letters
+  constexpr std::size_t kEnough = 100;  // least number of characters
   const std::size_t end = caption.find(". ", kEnough);
   return caption.substr(0, end == caption.npos ? end : end + 1);
 }
 
-// ": cotton-broad, law prandtl, 0 to 3.67 s"
+// Returns ": cotton-broad, law prandtl, 0 to 3.67 s".
 std::string subject_words(const Manifest& manifest) {
   std::string words = scene_subject(manifest);
   if (const auto& seconds = manifest.seconds_simulated)
@@ -134,18 +134,18 @@ std::string subject_words(const Manifest& manifest) {
   return words.empty() ? "" : ": " + words;
 }
 
-// Plots are written as PNG and SVG.
+// True for plots, which are written as PNG and SVG.
 bool is_drawn(const fs::path& file) {
   return is_plot(file) || is_there(fs::path(file).replace_extension(".svg"));
 }
 
 struct Picture {
-  fs::path file;        // PNG, or SVG where there is no PNG
+  fs::path file;        // PNG, or SVG if there is no PNG
   std::string link;     // relative to the gallery
   std::string caption;  // text
 };
 
-// Of the exhibit and its parts, the contact sheet first and plots last.
+// Returns the pictures of the exhibit and its parts, the contact sheet first and plots last.
 std::vector<Picture> exhibit_pictures(const Exhibit& exhibit, const std::string& prefix) {
   std::vector<fs::path> files = files_ending(exhibit.folder, ".png");
   for (const fs::path& file : files_ending(exhibit.folder, ".svg")) {
@@ -189,7 +189,7 @@ std::string figure(const Exhibit& exhibit, const Picture& picture, PageForm form
                  {"drawing", linked && drawn && !as_drawing ? html_link(svg, "SVG") : ""}});
 }
 
-// The contact sheet over the full width, what else was drawn and plotted beside each other, frames to be
+// Returns the contact sheet over the full width, other pictures and plots side by side, and frames to be
 // played.
 std::string pictures_html(const Exhibit& exhibit, PageForm form) {
   std::string large, beside, plots;
@@ -203,7 +203,7 @@ std::string pictures_html(const Exhibit& exhibit, PageForm form) {
 
 constexpr std::size_t kMaxCards = 4;
 
-// What the experiment is asked for, else the first of what it found; the manifest has all.
+// Returns the experiment's headlines, else its first results; the manifest has all.
 std::string metrics_html(const Manifest& manifest) {
   if (const std::string answers = answer_cards(manifest); !answers.empty()) return answers;
   Metrics first;
@@ -214,25 +214,25 @@ std::string metrics_html(const Manifest& manifest) {
   return metric_cards(first);
 }
 
-// The first of them, in one line.
+// Returns the first warning in one line.
 std::string warnings_note(const std::vector<std::string>& all) {
   if (all.empty()) return "";
   return "Warning: " + all[0] +
          (all.size() > 1 ? "; " + std::to_string(all.size() - 1) + " more in manifest.json" : "");
 }
 
-// Small, of the first picture; "" without any.
+// Returns a small version of the first picture; "" if there is none.
 std::string thumbnail_html(const Exhibit& exhibit, PageForm form) {
-  constexpr int kThumbnail = 320;  // [pixels] of an embedded one
+  constexpr int kThumbnail = 320;  // width of an embedded one [pixels]
   const std::vector<Picture> pictures = exhibit_pictures(exhibit, "");
   if (pictures.empty()) return "";
   return image_element({pictures[0].file, pictures[0].link, exhibit.name, kThumbnail}, form);
 }
 
-// Complete is what a run is expected to be.
+// Returns a badge for an incomplete run.
 std::string warning(const Manifest& manifest) { return manifest.complete ? "" : " " + state_badge(manifest); }
 
-// Manifests of the runs that it is the summary of.
+// Returns links to the manifests of the runs that it summarises.
 std::string parts_links(const Exhibit& exhibit, PageForm form) {
   std::string links;
   for (const Exhibit& part : exhibit.parts) {
@@ -244,7 +244,7 @@ std::string parts_links(const Exhibit& exhibit, PageForm form) {
   return links;
 }
 
-// Links to files, apart by dots.
+// Returns links to files, separated by dots.
 std::string exhibit_links(const Exhibit& exhibit, PageForm form) {
   std::string links;
   const auto add = [&](const std::string& name) {

@@ -1,4 +1,4 @@
-// What stands in a folder of results, in the order in which a reader wants it, as HTML; and the captions that
+// Shows the contents of a folder of results as HTML, in the order of a reader's interest, with captions that
 // a run may leave for it.
 #pragma once
 
@@ -16,9 +16,9 @@ struct Exhibit {
   std::string name;  // its path in the gallery, "stability/bdf2"
   std::filesystem::path folder;
   std::optional<Manifest> manifest;
-  std::vector<Exhibit> parts;  // runs in its subfolders, of which it is the summary
+  std::vector<Exhibit> parts;  // runs in its subfolders, which it summarises
 
-  // The manifest's, without one the first word of the name: "speed".
+  // Returns the manifest's, without one the first word of the name: "speed".
   std::string experiment() const;
   bool has_pictures() const;
 };
@@ -28,7 +28,7 @@ struct ExhibitGroup {
   std::vector<Exhibit> exhibits;  // those with pictures first, else by name
 };
 
-// Subfolders of a gallery's folder by experiment: first what is to be looked at, then what is measured.  The
+// Returns a gallery's subfolders by experiment: first those with pictures, then those with measurements.  The
 // subfolders of one without a manifest stand beside it, those of a run are its parts; empty folders and those
 // of sequences (frames/, frames-LOOK/, film/, mesh/) are passed over.  Throws Error::invalid_input, naming
 // the file, if a manifest is broken or if there is nothing to show.
@@ -36,22 +36,22 @@ std::vector<ExhibitGroup> exhibits_in(const std::filesystem::path& gallery);
 
 // A figure with its caption, for readers and for the gallery, which shows captions below its pictures.
 struct FigureCaption {
-  std::string file;   // in the same folder, "sheet.png"
-  std::string title;  // of one line
-  std::string text;   // what it shows, in sentences; one paragraph without line ends
+  std::string file;   // file in the same folder, "sheet.png"
+  std::string title;  // one line
+  std::string text;   // description in sentences; one paragraph without line ends
 };
 
-// A page of Markdown beside the figures: a heading, an introduction, and each figure above its caption.
+// Writes Markdown beside the figures: a heading, an introduction, and each figure above its caption.
 // Throws Error::system if the file cannot be written.
 void write_captions(const std::filesystem::path& path, const std::string& heading,
                     const std::string& introduction, const std::vector<FigureCaption>& figures);
 
-// "stability/bdf2" -> "stability-bdf2": name of its place on the page.
+// Returns the name of its place on the page: "stability/bdf2" -> "stability-bdf2".
 std::string page_anchor(const Exhibit& exhibit);
 
-// A card with a small picture and the first answer, which unfolds to contact sheet, metrics, pictures and
-// plots, the command, links to the files; of what has neither pictures nor numbers these links alone.  Links
-// are relative to the gallery.  Throws Error::invalid_input, naming the file, if a picture is broken.
+// Returns a card with a small picture and the first answer, which unfolds to contact sheet, metrics,
+// pictures, plots, command and links to the files; without pictures and numbers it has these links alone.
+// Links are relative to the gallery.  Throws Error::invalid_input, naming the file, if a picture is broken.
 std::string exhibit_html(const Exhibit& exhibit, PageForm form);
 
 }  // namespace hysteron::experiments

@@ -12,7 +12,7 @@ namespace hysteron::experiments {
 namespace {
 namespace fs = std::filesystem;
 
-constexpr int kQuestionWidth = 900;  // [pixels] of an embedded picture
+constexpr int kQuestionWidth = 900;  // width of an embedded picture [pixels]
 
 std::string text_of(const Json& entry, const char* key, const fs::path& file) {
   if (!entry.is_object() || !entry.contains(key) || !entry[key].is_string())
@@ -20,7 +20,7 @@ std::string text_of(const Json& entry, const char* key, const fs::path& file) {
   return entry[key];
 }
 
-// With its errors, or where it has none in three digits.
+// Formats a metric with its errors, or in three digits if it has none.
 ShownQuantity number_words(const fs::path& folder, const std::string& metric, const fs::path& file) {
   const fs::path manifest = folder / "manifest.json";
   if (!is_there(manifest))

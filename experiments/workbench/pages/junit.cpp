@@ -13,9 +13,9 @@ namespace {
 
 using Outcome = TestCase::Outcome;
 
-constexpr const char* kOwnClasses = "hysteron.";  // before the subcommand
+constexpr const char* kOwnClasses = "hysteron.";  // prefix of the subcommand
 
-// XML 1.0 has no control characters but white space, not even escaped.
+// Returns an XML attribute; XML 1.0 allows no control characters but white space, not even escaped.
 std::string attribute(const std::string& name, std::string text) {
   std::replace_if(
       text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7F; }, ' ');

@@ -13,7 +13,7 @@
 namespace hysteron::experiments {
 namespace {
 
-// "law prandtl", "laws prandtl, linear", "14 laws".
+// Returns "law prandtl", "laws prandtl, linear", "14 laws".
 std::string named_or_counted(const std::vector<std::string>& names, const std::string& one) {
   constexpr std::size_t kMaxNames = 4;
   if (names.empty()) return "";
@@ -21,7 +21,7 @@ std::string named_or_counted(const std::vector<std::string>& names, const std::s
   return one + (names.size() > 1 ? "s " : " ") + join(names, ", ");
 }
 
-// Of one fabric or several.
+// Returns the names of one fabric or several.
 std::string fabric_names(const Manifest& manifest) {
   if (const std::string name = manifest.text("fabric.name"); !name.empty()) return name;
   const std::string several = named_or_counted(manifest.names("fabric"), "fabric");
@@ -140,7 +140,7 @@ std::string about_html(const Manifest& m) {
   facts.push_back(m.started.substr(0, 10));
   facts.push_back(program_description(m));
   for (std::string& fact : facts) {
-    if (!fact.empty()) fact = "<span>" + escaped(fact) + "</span>";  // broken across lines between facts
+    if (!fact.empty()) fact = "<span>" + escaped(fact) + "</span>";  // lines break between facts only
   }
   return "<p class=\"about\">" + joined(facts, " · ") + "</p>\n";
 }

@@ -44,7 +44,7 @@ std::string html_cards(const std::vector<Fields>& cards) {
   return cards.empty() ? "" : filled("cards.html", {{"cards", cards}});
 }
 
-// The same with the prefix of SI for readers.
+// Replaces value and unit by those with an SI prefix.
 ShownQuantity prefixed(ShownQuantity words, const Metrics& metrics, const std::string& key) {
   const ShownQuantity quantity = shown_quantity(metrics[key], split_unit(key).unit);
   return {quantity.value, quantity.unit, std::move(words.errors)};
@@ -57,9 +57,9 @@ Fields headline_card(const Metrics& metrics, const Headline& headline, const std
   return card(has_errors || headline.scale == 1 ? words : prefixed(words, metrics, key), name);
 }
 
-// Of laws or fabrics the first headline that they have, a card each.
+// Returns a card for each law or fabric with the first headline that they have.
 std::vector<Fields> column_cards(const Manifest& manifest) {
-  constexpr std::size_t kMax = 8;  // more are a table
+  constexpr std::size_t kMax = 8;  // more become a table
   const auto columns = columns_in(manifest.metrics);
   for (const Headline& headline : column_headlines(manifest)) {
     std::vector<Fields> cards;

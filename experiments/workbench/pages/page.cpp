@@ -1,4 +1,4 @@
-// The only file that includes the template engine.
+// This is the only file that includes the template engine.
 #include "experiments/workbench/pages/page.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// Pieces of an HTML page that needs no network, from the files in templates/
-// (https://mustache.github.io/mustache.5.html), which the build puts into the binary.
+// Builds pieces of an HTML page that needs no network, from the files in templates/
+// (https://mustache.github.io/mustache.5.html), which the build embeds into the binary.
 #pragma once
 
 #include <cstdint>
@@ -13,58 +13,61 @@
 
 namespace hysteron::experiments {
 
-// What a template is filled with, by name: {{text}} escaped or {{{html}}} as it is, {{#truth}} and {{#list}}
-// for sections.  An empty text is one that is not there.
+// The values that fill a template, by name: {{text}} escaped or {{{html}}} as it is, {{#truth}} and {{#list}}
+// for sections.  An empty text counts as absent.
 using Fields = nlohmann::ordered_json;
 
-// The template of that file name, "table.html", filled.  std::logic_error if the file is no template.
+// Returns the filled template of that file name, "table.html".  Throws std::logic_error if the file is no
+// template.
 std::string filled(const std::string& name, const Fields& fields);
 
-// A file of templates/ as it is; Error::system if a list forgotten in CMakeLists.txt has left it out.
+// Returns a file of templates/ as it is; throws Error::system if the list in CMakeLists.txt lacks it.
 std::span<const unsigned char> embedded_file(std::string_view name);
 std::string embedded_text(const std::string& name);
 
-// Text as HTML: & < > " escaped.
+// Escapes & < > " for HTML.
 std::string escaped(const std::string& text);
 
 enum class PageForm {
   linked,          // pictures are files beside the page
-  self_contained,  // pictures are inside and nothing leads to another file: the page can be sent alone
+  self_contained,  // pictures are embedded and nothing leads to another file, so the page can be sent alone
 };
 
-// RFC 4648, with padding.
+// Encodes by RFC 4648, with padding.
 std::string base64(std::span<const std::uint8_t> bytes);
 
-// An image, which is HTML, with a caption, which is text.
+// Returns a figure of `image`, which is HTML, with a caption, which is text.
 std::string html_figure(const std::string& image, const std::string& caption);
 
-// Cells are text; columns in `numeric` are set right-aligned with tabular figures.  Most are, but the first
-// is not: only cells that differ from that carry a class, which makes a page of tables an eighth smaller.
+// Returns a table of text cells; columns in `numeric` are right-aligned with tabular figures.  By default all
+// but the first are: only cells that differ from that carry a class, which makes a page of tables an eighth
+// smaller.
 std::string html_table(const std::vector<std::string>& head,
                        const std::vector<std::vector<std::string>>& rows,
                        const std::vector<std::size_t>& numeric);
 
-// A relative path as the target of a link: what is no letter, digit, /, -, _, . or ~ as %XX.
+// Encodes a relative path as the target of a link: characters other than letters, digits, /, -, _, . and ~
+// become %XX.
 std::string relative_url(const std::string& path);
 std::string html_link(const std::string& target, const std::string& text);
-// The same to a file beside the page; the text alone where the page is self-contained.
+// Returns a link to a file beside the page; only the text if the page is self-contained.
 std::string file_link(const std::string& target, const std::string& text, PageForm form);
 
-// Folded away under a line that unfolds it.
+// Returns a section folded under a line that unfolds it.
 std::string html_details(const std::string& summary, const std::string& body, bool open);
 
-// Figures or charts beside each other, "grid", "charts"; "" without content, which is HTML.
+// Returns figures or charts beside each other, "grid", "charts"; `content` is HTML; "" without content.
 std::string html_group(const std::string& kind, const std::string& content);
-// A paragraph of text on where things come from; "" without text.
+// Returns a paragraph on the origin of data; "" without text.
 std::string html_about(const std::string& text);
 
 std::string html_section(const std::string& title, const std::string& body);
 
-// What every page has in its style, by which the program knows it as its own.
+// A part of every page's style, by which the program recognises it as its own.
 inline constexpr const char* kOwnPage = "color-scheme: light dark; --ink";
 
-// The whole document, with style, and with the script where something plays or opens.
-// `kind`: class of the body, "gallery" for many runs.
+// Returns the whole document, with style, and with the script if something plays or opens.  `kind` is the
+// class of the body, "gallery" for many runs.
 std::string html_page(const std::string& title, const std::string& body, const std::string& kind = "");
 
 }  // namespace hysteron::experiments

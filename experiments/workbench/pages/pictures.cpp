@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 constexpr int kFrameWidth = 480;  // [pixels]
 
-// `name="1200"` of a tag; 0 where it is missing or in another unit.
+// Returns the value of an attribute `name="1200"` of a tag; 0 if it is missing or in another unit.
 int whole_number(const std::string& tag, const std::string& name) {
   for (std::size_t at = 0; (at = tag.find(name + "=\"", at + 1)) != tag.npos;) {
     const std::size_t begin = at + name.size() + 2, end = tag.find('"', begin);
@@ -29,10 +29,10 @@ int whole_number(const std::string& tag, const std::string& name) {
   return 0;
 }
 
-// A line through (x, y), scaled to its own extent, with the ends of both axes written.
+// Returns a chart of a line through (x, y), scaled to its own extent, with the ends of both axes labelled.
 std::string line_chart(const std::string& title, const std::vector<double>& x, const std::string& x_name,
                        const std::vector<double>& y) {
-  constexpr double kLeft = 12, kTop = 40, kWidth = 396, kHeight = 120;  // of the line in chart.svg
+  constexpr double kLeft = 12, kTop = 40, kWidth = 396, kHeight = 120;  // place of the line in chart.svg
   constexpr std::size_t kMaxPoints = 600;
   const auto [x_low, x_high] = std::minmax_element(x.begin(), x.end());
   const auto [y_low, y_high] = std::minmax_element(y.begin(), y.end());
@@ -41,7 +41,8 @@ std::string line_chart(const std::string& title, const std::vector<double>& x, c
   std::string points;
   const std::size_t count = std::min(kMaxPoints, x.size());
   for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t row = count < 2 ? 0 : i * (x.size() - 1) / (count - 1);  // the first and the last, too
+    // Includes the first and the last.
+    const std::size_t row = count < 2 ? 0 : i * (x.size() - 1) / (count - 1);
     points += fmt::format("{:.1f},{:.1f} ", kLeft + kWidth * (x[row] - *x_low) / x_span,
                           kTop + kHeight * (1 - (y[row] - *y_low) / y_span));
   }

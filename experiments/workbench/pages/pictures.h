@@ -1,4 +1,4 @@
-// Pictures, frames and series of a run's folder, as pieces of a page.
+// Builds pieces of a page from pictures, frames and series of a run's folder.
 #pragma once
 
 #include <cstdint>
@@ -10,10 +10,10 @@
 
 namespace hysteron::experiments {
 
-// Not a link that leads nowhere, or to itself.
+// True if the file exists and is no broken or circular link.
 bool is_there(const std::filesystem::path& file);
 
-// Files of the folder with that ending (".png"), by name; none if it is no folder.
+// Returns the files of the folder with that ending (".png"), by name; none if it is no folder.
 std::vector<std::filesystem::path> files_ending(const std::filesystem::path& folder,
                                                 const std::string& ending);
 
@@ -22,17 +22,17 @@ std::vector<std::uint8_t> content_bytes(const std::filesystem::path& file);
 
 bool is_plot(const std::filesystem::path& file);
 
-// A PNG file of a picture, shrunk to at most `width` pixels.  Error::invalid_input, naming
-// the file, if it is no picture.
+// Returns a PNG of the picture, shrunk to at most `width` pixels.  Throws Error::invalid_input, naming the
+// file, if it is no picture.
 std::vector<std::uint8_t> thumbnail(const std::filesystem::path& file, int width);
 
-// Of an SVG file; 0 x 0 where its first tag does not say it in numbers alone.
+// Returns the size of an SVG file; 0 x 0 if its first tag does not state it in plain numbers.
 render::ImageSize drawing_size(const std::filesystem::path& file);
 
-// An <img> of a PNG or SVG file.  `path` is where it lies, seen from the page, which reads it once it comes
-// near the window; `words` stand for it where it cannot be seen.  Where the page is self-contained, a PNG
-// picture is shrunk to `width` pixels, 0: embedded as it is.  Throws Error::invalid_input, naming the file,
-// if a PNG picture that is linked or shrunk is broken.
+// Returns an <img> of a PNG or SVG file.  `path` is relative to the page, which loads it once it comes near
+// the window; `words` replace it if it cannot be seen.  If the page is self-contained, a PNG picture is
+// shrunk to `width` pixels, 0: embedded as it is.  Throws Error::invalid_input, naming the file, if a PNG
+// picture that is linked or shrunk is broken.
 struct PagePicture {
   std::filesystem::path file;
   std::string path, words;
@@ -40,11 +40,11 @@ struct PagePicture {
 };
 std::string image_element(const PagePicture& picture, PageForm form);
 
-// FOLDER/frames as a sequence that plays; at most `count` of them, spread over the whole of it.  `path` is
-// where the folder lies, seen from the page: "" or "NAME/".  "" if there are none.
+// Returns FOLDER/frames as a sequence that plays, with at most `count` frames spread over the whole.  `path`
+// is the folder relative to the page: "" or "NAME/".  "" if there are no frames.
 std::string player(const std::filesystem::path& folder, const std::string& path, int count, PageForm form);
 
-// Charts of the columns of FOLDER/metrics.csv against its first.  "" if there is no series.
+// Returns charts of the columns of FOLDER/metrics.csv against its first; "" if there is no series.
 std::string series_charts(const std::filesystem::path& folder);
 
 }  // namespace hysteron::experiments

@@ -75,13 +75,13 @@ std::string picture(const fs::path& file, const std::string& words, PageForm for
   return html_figure(image_element({file, file.filename().string(), words}, form), words);
 }
 
-// Moment against curvature: of a probe, of cycles, of a law.
+// True for plots of moment against curvature, of a probe, of cycles or of a law.
 bool is_loop(const fs::path& file) {
   const std::string name = file.stem().string();
   return name == "plot_probe_moment" || name.find("_moment") != name.npos || name.find("loop") != name.npos;
 }
 
-// Files of the run itself: what lies beside them is another's.  Early programs listed none.
+// Returns the files of the run itself, as other files beside them are another's.  Early programs listed none.
 std::vector<fs::path> own_files(const fs::path& folder, const Manifest& manifest, const std::string& ending) {
   std::vector<fs::path> files = files_ending(folder, ending);
   const auto& own = manifest.files;
@@ -96,7 +96,7 @@ bool has_frames(const Manifest& manifest) {
   return manifest.files.empty() || std::ranges::any_of(manifest.files, is_frame);
 }
 
-// SVG where there is one.
+// Returns the plots, as SVG if there is one.
 std::string plots(const fs::path& folder, const Manifest& manifest, bool loops, PageForm form) {
   std::string html;
   for (const fs::path& file : own_files(folder, manifest, ".svg"))
@@ -108,7 +108,7 @@ std::string plots(const fs::path& folder, const Manifest& manifest, bool loops, 
   return html.empty() ? "" : "<div class=\"plot\">" + html + "</div>\n";
 }
 
-// What else was drawn.
+// Returns the other pictures.
 std::string pictures(const fs::path& folder, const Manifest& manifest, PageForm form) {
   std::string html;
   for (const fs::path& file : own_files(folder, manifest, ".png")) {
@@ -118,9 +118,9 @@ std::string pictures(const fs::path& folder, const Manifest& manifest, PageForm 
   return html;
 }
 
-// Kept geometry of a usual size stands in the page, which a script shows.
+// Returns the cloth as a view that a script rotates; kept geometry of usual size is embedded in the page.
 std::string turning_cloth(const fs::path& folder) {
-  constexpr std::uintmax_t kMax = 400000;  // [byte]
+  constexpr std::uintmax_t kMax = 400000;  // [bytes]
   const fs::path file = folder / kKeptSheet;
   if (!is_there(file) || fs::file_size(file) > kMax) return "";
   return filled("turn.html",
@@ -128,7 +128,7 @@ std::string turning_cloth(const fs::path& folder) {
                  {"data", base64(content_bytes(file))}});
 }
 
-// The question, the numbers and the picture that answer it.
+// Returns the question, and the numbers and the picture that answer it.
 std::string answer(const fs::path& folder, const Manifest& manifest, PageForm form) {
   const std::vector<fs::path> drawn = own_files(folder, manifest, ".png");
   const fs::path sheet = folder / "sheet.png";
@@ -141,7 +141,7 @@ std::string answer(const fs::path& folder, const Manifest& manifest, PageForm fo
          "</div>\n";
 }
 
-// How the solver fared, for who doubts the numbers above.
+// Returns the section on solver, energy and times, for readers who doubt the numbers above.
 std::string numerics_html(const fs::path& folder, const Manifest& manifest) {
   const std::string all =
       metric_cards(numerics(manifest.metrics)) + html_section("Energy", energy_table(manifest)) +
@@ -149,17 +149,17 @@ std::string numerics_html(const fs::path& folder, const Manifest& manifest) {
   return html_details("Numerics: solver, energy, times", all, false);
 }
 
-// Tables of a study (`hysteron sweep`), from the CSV files in its folder.
+// The following functions show tables of a study (`hysteron sweep`), from the CSV files in its folder.
 
 Table table_if_there(const fs::path& file) { return is_there(file) ? read_table(file) : Table{}; }
 
-// Columns that say the same in every row stand above the table.
+// Shows a table; columns with the same value in every row are listed above it.
 std::string shown_table(Table table) {
   const std::string common = take_common(table);
   return (common.empty() ? "" : html_about("In all rows " + common)) + text_table_html(table);
 }
 
-// "1, 2, 3"; of many the first few and the last.
+// Returns "1, 2, 3"; for many values the first few and the last.
 std::string listed_values(const Json& values) {
   constexpr std::size_t kMax = 16;
   std::string text;
@@ -171,7 +171,7 @@ std::string listed_values(const Json& values) {
   return text;
 }
 
-// What the study asked for: the keys that its runs share, and the axes.
+// Returns the study's request: the keys that its runs share, and the axes.
 std::string study_keys(const Manifest& manifest) {
   if (!manifest.keys) return "";
   const Json& keys = *manifest.keys;
@@ -186,21 +186,21 @@ std::string study_keys(const Manifest& manifest) {
   return html_table({"", ""}, rows, {});
 }
 
-// "" where there is no means.csv.
+// Returns "" if there is no means.csv.
 std::string study_means(const fs::path& folder) {
   const Table means = table_if_there(folder / "means.csv");
   return means.rows.empty() ? "" : shown_table(means);
 }
 
-// The runs that are not complete, and why.
+// Returns the incomplete runs, and the reasons.
 std::string study_failures(const fs::path& folder) {
   Table table = table_if_there(folder / "table.csv").only({"run", "exit_code", "stopped"});
   std::erase_if(table.rows, [](const auto& row) { return row.back().empty(); });
   return table.rows.empty() ? "" : text_table_html(table);
 }
 
-// A row for each run, folded away: its name, the metrics that means.csv has, or all that differ, and the
-// time.
+// Returns a folded table with a row for each run: its name, the metrics in means.csv, or else all that
+// differ, and the time.
 std::string study_runs(const fs::path& folder) {
   Table table = table_if_there(folder / "table.csv");
   if (table.rows.empty()) return "";
@@ -223,7 +223,7 @@ std::string report_page(const fs::path& folder, PageForm form) {
   const Manifest manifest = read_manifest(folder / "manifest.json");
   const Metrics& metrics = manifest.metrics;
   const bool study = manifest.experiment == "sweep";
-  if (study) form = PageForm::self_contained;  // plots and tables only, made to be sent
+  if (study) form = PageForm::self_contained;  // plots and tables only, to be sent alone
   const std::pair<const char*, std::string> sections[] = {
       {"Not complete", study ? study_failures(folder) : ""},
       {"Loop", plots(folder, manifest, true, form)},
@@ -240,7 +240,7 @@ std::string report_page(const fs::path& folder, PageForm form) {
   all += numerics_html(folder, manifest);
   std::vector<Fields> warnings;
   for (const std::string& text : manifest.warnings) warnings.push_back({{"text", text}});
-  // A cloth that still moves has no shape that could be measured: the page says so before any number.
+  // Before any number the page warns if the cloth still moves, because its shape cannot be measured then.
   const std::string body = filled("report.html", {{"title", report_title(manifest, ": ")},
                                                   {"badge", state_badge(manifest)},
                                                   {"unrest", not_at_rest_warning(metrics)},

@@ -9,7 +9,7 @@
 namespace hysteron::experiments {
 namespace {
 
-// Six significant digits of a number that has more, other texts as they are.
+// Shortens a number to six significant digits; other texts stay.
 std::string short_field(const std::string& text) {
   if (text.find_first_of(".e") == text.npos || text.size() < 8) return text;
   const std::optional<double> value = number_in(text);
@@ -31,7 +31,7 @@ bool same_everywhere(const Table& table, std::size_t column) {
                      [&](const auto& row) { return row[column] == table.rows[0][column]; });
 }
 
-// "set_curvature_per_m" and "set_curvature [1/m]" are both "set curvature [1/m]".
+// Returns "set curvature [1/m]" for both "set_curvature_per_m" and "set_curvature [1/m]".
 std::string column_name(std::string name) {
   if (name.find('[') == name.npos) return split_unit(name).text();
   std::replace(name.begin(), name.end(), '_', ' ');

@@ -1,4 +1,4 @@
-// Tables of words and numbers, to be shown.
+// Formats tables of words and numbers for a page.
 #pragma once
 
 #include <string>
@@ -7,11 +7,11 @@
 
 namespace hysteron::experiments {
 
-// Takes columns out that say the same in every row, "device: cpu, precision: double"; empty ones are left
-// out.  A table of one row stays whole.
+// Removes columns with the same value in every row and returns them, "device: cpu, precision: double"; empty
+// ones are left out.  A table of one row stays whole.
 std::string take_common(Table& table);
 
-// HTML: names with their units apart, long numbers with six digits, numbers to the right.
+// Returns HTML with units apart from names, long numbers in six digits, and numbers right-aligned.
 std::string text_table_html(const Table& table);
 
 }  // namespace hysteron::experiments

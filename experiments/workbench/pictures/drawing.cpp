@@ -6,8 +6,8 @@
 namespace hysteron::experiments {
 namespace {
 
-constexpr int kShownWidth = 640;      // [pixels] of a picture on a page
-constexpr float kRakingRoom = 0.45f;  // raking light is of a dim room
+constexpr int kShownWidth = 640;      // width of a picture on a page [pixels]
+constexpr float kRakingRoom = 0.45f;  // raking light is in a dim room
 
 render::Box framed_box(const Options& options, render::Box box) {
   if (!options.camera_box.empty()) {
@@ -15,7 +15,7 @@ render::Box framed_box(const Options& options, render::Box box) {
     box = {low.cast<float>(), high.cast<float>()};
   }
   if (options.camera_target.empty()) return box;
-  // As far to every side of the target as the box reaches from it.
+  // Extends the box to every side of the target as far as it reaches from it on either.
   const Eigen::Vector3f target =
       Eigen::Map<const Eigen::Vector3d>(options.camera_target.data()).cast<float>();
   const Eigen::Vector3f reach = (box.high - target).cwiseAbs().cwiseMax((target - box.low).cwiseAbs());
@@ -25,8 +25,8 @@ render::Box framed_box(const Options& options, render::Box box) {
 }  // namespace
 
 render::PictureSize picture_size(const Options& options) {
-  constexpr int kDraftSamples = 4;   // drawn at once
-  constexpr int kFigurePasses = 16;  // 192 directions of light
+  constexpr int kDraftSamples = 4;   // samples drawn at once
+  constexpr int kFigurePasses = 16;  // passes with 192 directions of light
   render::PictureSize size{options.width(), options.height()};
   if (options.quality == "draft") size.samples = kDraftSamples;
   if (options.quality == "figure") size.figure_passes = kFigurePasses;

@@ -1,4 +1,4 @@
-// What pictures of runs and pictures of files have in common: camera, light and letters.
+// Sets up camera, light and text for pictures of runs and of files alike.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,20 +14,21 @@
 
 namespace hysteron::experiments {
 
-// The options' size and quality.
+// Returns the size and quality of the options' pictures.
 render::PictureSize picture_size(const Options& options);
-// Width over height.
+// Returns width over height.
 float picture_aspect(const Options& options);
-// The options' camera: as near as `bounds`, or the options' box, stays whole, unless they give a distance.
+// Returns the options' camera, as near as `bounds`, or the options' box, is entirely visible, unless they
+// give a distance.
 render::Camera framed_camera(const Options& options, const render::Box& bounds);
-// The look in the options' light, "studio" or "raking", before their background.
+// Returns the look in the options' light, "studio" or "raking", before their background is applied.
 render::Look lit(render::Look look, const Options& options);
 
-// Caption, scale bar (it holds at `middle`) and, where there is one, colour bar.
+// Draws caption, scale bar (valid at `middle`) and, if there is one, colour bar.
 void letter(render::Image& image, const render::Camera& camera, const Eigen::Vector3f& middle,
             const std::string& caption, const std::optional<render::ColorBar>& bar);
 
-// Triangles and points as the renderer takes them.
+// Convert triangles and points to the renderer's flat arrays.
 std::vector<int> flat_triangles(const std::vector<Eigen::Vector3i>& face);
 std::vector<float> flat_points(const std::vector<Eigen::Vector3d>& points);
 

@@ -19,7 +19,8 @@ std::vector<float> drawn_body(const Obstacle& body, double time, double quantum)
   return quantum > 0 ? rounded(xyz, quantum) : xyz;
 }
 
-// Cloth lies on its triangles, not only with its vertices: they cut nothing from it.
+// The surface is not rounded, because cloth lies on its triangles, not only with its vertices; they cut
+// nothing from it.
 render::TriangleMesh body_surface(const BodyMesh& body, const std::vector<float>& xyz) {
   std::vector<Eigen::Vector3d> position;
   for (std::size_t i = 0; i + 2 < xyz.size(); i += 3) position.emplace_back(xyz[i], xyz[i + 1], xyz[i + 2]);

@@ -1,5 +1,5 @@
-// Bodies of triangles as pictures show and keep them: their vertices are whole multiples of a quantum, as the
-// cloth's are.
+// Rounds the vertices of bodies of triangles to whole multiples of a quantum, as pictures show and keep them,
+// like the cloth's.
 #pragma once
 
 #include <vector>
@@ -9,11 +9,11 @@
 
 namespace hysteron::experiments {
 
-// That of the cloth [m], at the largest size that the body's motion gives it.
+// Returns the cloth's quantum [m] in the body's own frame, at the largest scale of its motion.
 double body_quantum(const Obstacle& body, double cloth_quantum);
-// Vertices in the body's own frame at `time` [s], 3 numbers each [m]; quantum 0: as they are.
+// Returns vertices in the body's own frame at `time` [s], 3 numbers each [m]; quantum 0: unrounded.
 std::vector<float> drawn_body(const Obstacle& body, double time, double quantum);
-// The surface of these vertices.
+// Returns the surface of these vertices, 3 numbers each [m].
 render::TriangleMesh body_surface(const BodyMesh& body, const std::vector<float>& xyz);
 
 }  // namespace hysteron::experiments

@@ -10,7 +10,7 @@
 namespace hysteron::experiments {
 namespace {
 
-constexpr double kLightening = 0.3;  // of a back that the file does not name, toward white
+constexpr double kLightening = 0.3;  // shift to white of a back that the file does not define
 
 struct FabricLook {
   Eigen::Vector3d colour{0, 0, 0}, back{0, 0, 0};

@@ -12,8 +12,8 @@ namespace hysteron::experiments {
 namespace {
 
 constexpr int kTriangles = 400;
-constexpr double kRate = 30;  // of the instants that are looked at [1/s]
-// Of the box's diagonal: a fine mesh passes a little beside a coarse one.
+constexpr double kRate = 30;  // rate of the checked instants [1/s]
+// Margin over the box's diagonal: a fine mesh moves a little outside a coarse one's box.
 constexpr float kRoom = 0.03f;
 
 render::Box bounding_box(const std::vector<Eigen::Vector3d>& x) {
@@ -29,9 +29,9 @@ render::Box with_room(render::Box box) {
   return box;
 }
 
-// But for what the border of a picture allows.
+// True if the known box contains the other, within the margin at a picture's border.
 bool holds(const render::Box& known, const render::Box& box) {
-  constexpr float kSlack = 1e-3f;  // of the diagonal
+  constexpr float kSlack = 1e-3f;  // over the diagonal
   const float slack = kSlack * (known.high - known.low).norm();
   return (known.low.array() - slack <= box.low.array()).all() &&
          (box.high.array() <= known.high.array() + slack).all();
@@ -43,7 +43,8 @@ struct Trial {
   std::unique_ptr<Simulation> simulation;
 };
 
-// On the scene's own mesh where a coarse one cannot start, as when pins select none of its vertices.
+// Returns a trial on a coarse mesh, or on the scene's own if a coarse one cannot start, as when pins select
+// none of its vertices.
 std::unique_ptr<Trial> framing_trial(const Scene& scene) {
   if (scene.triangles <= kTriangles && scene.cloth.subdivisions == 0) return std::make_unique<Trial>(scene);
   Scene coarse = scene;

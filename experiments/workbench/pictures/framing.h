@@ -1,4 +1,5 @@
-// What pictures frame where the scene alone says where its cloth goes: all that the cloth passes through.
+// Finds what pictures frame if the scene alone determines where its cloth goes: all that the cloth passes
+// through.
 #pragma once
 
 #include <optional>
@@ -12,16 +13,17 @@ namespace hysteron::experiments {
 
 struct Framing {
   render::Box box;        // [m]
-  int triangles = 0;      // of the trial that it was found by
-  std::string stopped{};  // why that ended early; empty: it did not
+  int triangles = 0;      // number of triangles of the trial
+  std::string stopped{};  // why the trial ended early; empty if it did not
 };
 
-// Simulates the scene on a coarse mesh, or on its own where that is a file, and frames `known`, which the
-// cloth is expected to pass through; where it leaves that at some of its instants, which --fps does not move,
-// with some room, what it passes through as well.  Throws what make_cloth() and make_simulation() do.
+// Simulates the scene on a coarse mesh, or on its own if that is a file.  The result frames `known`, which
+// the cloth is expected to pass through, and if the cloth leaves that at some instants, which are independent
+// of --fps, also what it passes through, with some room.  Throws what make_cloth() and make_simulation()
+// throw.
 Framing scene_framing(const Setup& setup, const render::Box& known);
-// The same before the run, so that several have one; nothing where it draws no pictures or its options say
-// what they frame.
+// Does the same before the run, so that several runs share a box; nothing if it draws no pictures or its
+// options set what they frame.
 std::optional<render::Box> planned_framing(const Setup& setup,
                                            render::Box (*known)(const Scene&, const Cloth&));
 

@@ -15,7 +15,7 @@ namespace hysteron::experiments {
 namespace {
 namespace fs = std::filesystem;
 
-constexpr double kStepsAcross = 1024;  // quanta from end to end of a look's colours
+constexpr double kStepsAcross = 1024;  // quanta over the range of a look's colours
 
 bool draws(const std::string& option) {
   static const std::set<std::string> kOptions = {"size",  "quality", "look",      "curvature-range",
@@ -23,7 +23,7 @@ bool draws(const std::string& option) {
   return kOptions.contains(option) || option.starts_with("camera.");
 }
 
-// What decides how a state is drawn: sources of numbers do not.
+// Returns the scene and options that determine how a state is drawn, which sources of numbers do not.
 Json setup_json(const Setup& setup) {
   Json scene = to_json(setup.scene);
   scene.erase("origin");
@@ -64,7 +64,7 @@ std::vector<KeptBody> kept_bodies(const std::vector<Obstacle>& obstacles, double
   return bodies;
 }
 
-// Its positions where they are kept: at the instants, or once for all.
+// Returns the body with its kept positions: at the instants, or once for all.
 std::shared_ptr<const BodyMesh> body_mesh(const KeptBody& body, const std::vector<KeptState>& instants) {
   auto mesh = std::make_shared<BodyMesh>();
   mesh->closed = body.closed;

@@ -12,7 +12,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kFormat = 1;
-constexpr std::size_t kMaxHead = 1 << 20;  // [byte] of a record's line
+constexpr std::size_t kMaxHead = 1 << 20;  // largest line of a record [bytes]
 
 std::vector<int> all_steps(std::span<const float> values, double quantum) {
   std::vector<int> steps(values.size());
@@ -26,7 +26,7 @@ std::vector<float> all_values(const std::vector<int>& steps, double quantum) {
   return values;
 }
 
-// The next record, taken off the text; nothing where it is not whole.
+// Removes the next record from the text and returns it; nothing if it is not complete.
 std::optional<KeptRecord> next_record(std::string_view& text) {
   const std::size_t end = text.substr(0, kMaxHead).find('\n');
   if (end == text.npos) return {};
@@ -86,13 +86,13 @@ KeptBody kept_body(const KeptRecord& record) {
   return body;
 }
 
-// What reads the instants of a cloth.
+// The decoders for the instants of a cloth.
 struct Packers {
   const MeshPacker* cloth;
   std::vector<MeshPacker> bodies;
 };
 
-// Of those that change their shape, behind the values from block `next` on.
+// Reads the bodies that change their shape, behind the values, from block `next` on.
 void read_bodies(const KeptRecord& record, std::size_t next, const KeptCloth& cloth, const Packers& packers,
                  KeptState& instant) {
   for (const Json& number : record.head.value("bodies", Json::array())) {

@@ -1,18 +1,16 @@
-// What pictures were drawn from, in one file: cloth at each instant, with the scene and options that draw it.
+// One file keeps the data of pictures: cloth at each instant, with the scene and options that draw it.
 //
 //   {"record": "mesh", ...}      triangles and pattern, once for all cloth that has them
-//   {"record": "cloth", ...}     scene, options, what is framed; the instants that follow are its
-//   {"record": "body", ...}      triangles of an obstacle that a file holds, and, where it keeps its shape,
-//   their
+//   {"record": "cloth", ...}     scene, options and framed box, for the instants that follow
+//   {"record": "body", ...}      triangles of an obstacle from a file, and, if it keeps its shape, their
 //                                vertices
 //   {"record": "instant", ...}   positions and values at the vertices
-//   {"record": "sheet", ...}     how the contact sheet, or a comparison's page, is headed
+//   {"record": "sheet", ...}     heads of the contact sheet, or of a comparison's page
 //
 // Each record is a line of JSON and, behind it, as many packed blocks (packing.h) as its "bytes" has lengths.
 // Records are appended while a run goes on: a file that ends within one has all before it, and the last comes
-// with the sheet.  Numbers are whole
-// multiples of a "quantum": pictures are drawn from positions that are rounded so, unless they go from CUDA
-// to OpenGL on one GPU.
+// with the sheet.  Numbers are whole multiples of a "quantum": pictures are drawn from positions rounded in
+// this way, unless they go from CUDA to OpenGL on one GPU.
 #pragma once
 
 #include <filesystem>
@@ -29,43 +27,44 @@
 
 namespace hysteron::experiments {
 
-inline constexpr const char* kKeptFrames = "frames.hyg";  // of all pictures of a run
-inline constexpr const char* kKeptSheet = "sheet.hyg";    // of those on its sheet
+inline constexpr const char* kKeptFrames = "frames.hyg";  // data of all pictures of a run
+inline constexpr const char* kKeptSheet = "sheet.hyg";    // data of those on its sheet
 
-// The nearest multiple.
+// Returns the nearest multiple of `quantum`, as a count, or for each value.
 int quantum_count(double value, double quantum);
 std::vector<float> rounded(std::span<const float> values, double quantum);
-// The same, but what is within three quarters of a quantum of where it was before stays there: cloth that
-// creeps by less does not jump to and fro between two multiples.  `before`: multiples; empty: none.
+// Does the same, but a value within three quarters of a quantum of its previous multiple stays there, so that
+// slow creep does not alternate between two multiples.  `before` has the previous multiples, one a value;
+// empty: none.
 std::vector<float> rounded(std::span<const float> values, double quantum, std::span<const float> before);
 
 struct DrawnMesh {
   std::size_t vertices = 0;
-  std::vector<int> triangles;  // 3 each, counter-clockwise seen from the front
-  std::vector<float> pattern;  // warp and weft coordinates, 2 a vertex [m]; may be empty
-  double quantum = 0;          // of positions [m]
+  std::vector<int> triangles;  // 3 per triangle, counter-clockwise seen from the front
+  std::vector<float> pattern;  // warp and weft coordinates, 2 per vertex [m]; may be empty
+  double quantum = 0;          // quantum of positions [m]
 };
 
 struct KeptState {
   double time = 0;                                   // [s]
-  std::vector<float> xyz;                            // 3 a vertex [m]
-  std::map<std::string, std::vector<float>> values;  // by look, one a vertex
-  std::size_t loop = 0;  // points of the probe's path up to here, which stands with the sheet
-  std::map<std::size_t, std::vector<float>> bodies;  // by obstacle: of those that change their shape
+  std::vector<float> xyz;                            // 3 per vertex [m]
+  std::map<std::string, std::vector<float>> values;  // by look, one per vertex
+  std::size_t loop = 0;  // number of points of the probe's path so far, which is in the sheet's record
+  std::map<std::size_t, std::vector<float>> bodies;  // by obstacle, for those that change their shape
 };
 
 // An obstacle of kind mesh.
 struct KeptBody {
-  std::size_t obstacle = 0;  // in the scene
-  DrawnMesh mesh;            // without a pattern
+  std::size_t obstacle = 0;  // index in the scene
+  DrawnMesh mesh;            // has no pattern
   bool closed = false;
-  std::vector<float> xyz;  // 3 a vertex in its own frame [m]; empty: as the instants have it
+  std::vector<float> xyz;  // 3 per vertex in its own frame [m]; empty if the instants have them
 };
 
 struct KeptCloth {
-  std::string name;  // of a comparison's column
+  std::string name;  // name of a comparison's column
   std::size_t mesh = 0;
-  Json setup;  // "scene", "options"; of a column also "manifest" and "stopped"
+  Json setup;  // "scene", "options"; for a column also "manifest" and "stopped"
   render::Box bounds;
   std::optional<float> floor;  // [m]
   std::vector<KeptState> instants;
@@ -75,10 +74,10 @@ struct KeptCloth {
 struct Kept {
   std::vector<DrawnMesh> meshes;
   std::vector<KeptCloth> cloths;
-  Json sheet;  // null: the file has none
+  Json sheet;  // null if the file has none
 };
 
-// A record as it stands in the file.
+// A record as stored in the file.
 struct KeptRecord {
   Json head;
   std::vector<std::string> blocks;
@@ -86,26 +85,27 @@ struct KeptRecord {
 };
 
 KeptRecord mesh_record(const DrawnMesh& mesh);
-// Without the number of its mesh.
+// These records lack the index of their mesh, which is added when they are written.
 KeptRecord cloth_record(const KeptCloth& cloth);
 KeptRecord body_record(const KeptBody& body);
-// `quanta`: of each look's values.  Bodies are added to it.
+// `quanta` are those of each look's values.  Bodies are added by add_body().
 KeptRecord instant_record(const DrawnMesh& mesh, const MeshPacker& packer, const KeptState& instant,
                           const std::map<std::string, double>& quanta);
-// The vertices of a body at that instant; `packer` is of its mesh.
+// Adds the vertices of a body at that instant, 3 numbers each [m]; `packer` is that of its mesh.
 void add_body(KeptRecord& instant, const KeptBody& body, const MeshPacker& packer,
               const std::vector<float>& xyz);
 
 std::string record_text(const KeptRecord& record);
-// Whole records; what stands behind the last one is left out.  Throws Error::invalid_input, naming the file,
-// for what is no file of these, Error::system if it cannot be read.
+// Returns the complete records and drops what follows the last.  Throws Error::invalid_input, naming the
+// file, if it has another format, Error::system if it cannot be read.
 std::vector<KeptRecord> read_records(const std::filesystem::path& file);
-// Throws Error::invalid_input, naming the file, for damaged records.
+// Reads the file.  Throws Error::invalid_input, naming the file, for damaged records.
 Kept read_kept(const std::filesystem::path& file);
-// The first mesh of it alone; throws alike.
+// Reads its first mesh alone; throws as read_kept() does.
 DrawnMesh read_kept_mesh(const std::filesystem::path& file);
 
-// Of a run's or a recorded folder: all frames, else those of the sheet; "" if it keeps none.
+// Returns the file of a run's or a recorded folder: that of all frames, else that of the sheet; "" if there
+// is none.
 std::filesystem::path kept_file_in(const std::filesystem::path& folder);
 
 }  // namespace hysteron::experiments

@@ -1,5 +1,5 @@
-// Instants of a run that its contact sheet may show: the shapes themselves, so that they can be framed by
-// what they turn out to be.
+// Keeps instants of a run that its contact sheet may show, as shapes, so that they can be framed by their
+// final extent.
 #pragma once
 
 #include <cmath>
@@ -14,21 +14,22 @@ namespace hysteron::experiments {
 
 struct KeptInstant {
   double time = 0;            // [s]
-  std::vector<float> xyz;     // [m], x, y, z of each vertex
-  std::vector<float> values;  // one a vertex, in looks that show one
+  std::vector<float> xyz;     // x, y, z of each vertex [m]
+  std::vector<float> values;  // one per vertex, in looks that show a value
   std::string caption;
-  render::Path loop;  // of a probe up to here
+  render::Path loop;  // path of a probe up to here
 };
 
 class KeptInstants {
  public:
-  // Keeps it, and of too many lets that one go that is nearest to the one before it; the first and the last
-  // stay.  Returns how far the vertices are from those of the instant added before, root mean square [m].
+  // Adds an instant, and if there are too many drops the one nearest to its predecessor; the first and the
+  // last stay.  Returns how far the vertices are from those of the instant added before, root mean square
+  // [m].
   double add(KeptInstant instant);
   bool empty() const { return all_.empty(); }
   const KeptInstant& last() const { return all_.back(); }
   const std::vector<KeptInstant>& all() const { return all_; }
-  // `count` of those up to a time [s], apart by what moves between them.
+  // Returns `count` of the instants up to a time [s], spread by displacement.
   std::vector<KeptInstant> chosen(int count, double until = INFINITY) const;
   void serialise(Archive& archive);
 
@@ -36,8 +37,8 @@ class KeptInstants {
   static constexpr std::size_t kMax = 48;
 
   std::vector<KeptInstant> all_;
-  std::vector<double> moved_;  // of each from the one before [m]
-  std::vector<float> last_;    // of the instant added before
+  std::vector<double> moved_;  // displacement of each from its predecessor [m]
+  std::vector<float> last_;    // vertices of the instant added before
 };
 
 }  // namespace hysteron::experiments

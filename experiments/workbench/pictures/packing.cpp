@@ -10,7 +10,7 @@ namespace hysteron::experiments {
 namespace {
 
 constexpr int kPlanes = 4;                  // bytes of a number, from the lowest
-constexpr std::size_t kMaxInflated = 1032;  // bytes that one byte of zlib's can stand for
+constexpr std::size_t kMaxInflated = 1032;  // most bytes that zlib can encode in one
 
 Error damaged() { return Error::invalid_input("packed numbers are damaged"); }
 
@@ -21,7 +21,7 @@ std::int32_t unfolded(std::uint32_t value) {
   return static_cast<std::int32_t>(value >> 1) ^ -static_cast<std::int32_t>(value & 1);
 }
 
-// The lowest bytes of all numbers, then the next ones: the high ones are mostly zero.
+// Compresses the lowest bytes of all numbers, then the next ones: the high ones are mostly zero.
 std::string packed_planes(const std::vector<std::int32_t>& values) {
   std::string bytes(kPlanes * values.size(), '\0');
   for (std::size_t i = 0; i < values.size(); ++i)
@@ -69,7 +69,7 @@ std::string deflated(std::string_view bytes) {
 }
 
 std::string inflated(std::string_view bytes, std::size_t size) {
-  if (size / kMaxInflated > bytes.size()) throw damaged();  // before memory is asked for
+  if (size / kMaxInflated > bytes.size()) throw damaged();  // before memory is allocated
   std::string plain(size, '\0');
   uLongf found = size;
   const int code = uncompress(reinterpret_cast<Bytef*>(plain.data()), &found,
@@ -131,7 +131,7 @@ std::int64_t MeshPacker::expected(std::size_t vertex, std::span<const int> value
     sum += c < 0 ? at(a) : at(a) + at(b) - at(c);
   }
   const auto n = static_cast<std::int64_t>(count);
-  return sum >= 0 ? sum / n : -((-sum + n - 1) / n);  // towards minus infinity
+  return sum >= 0 ? sum / n : -((-sum + n - 1) / n);  // rounds towards minus infinity
 }
 
 std::string MeshPacker::packed(std::span<const int> values, int components) const {

@@ -1,4 +1,4 @@
-// What the pictures of a run show, for files that other programs draw.
+// Describes the pictures of a run for files that other programs draw.
 #pragma once
 
 #include <optional>
@@ -14,13 +14,13 @@ struct PictureView {
   render::Camera camera;
   render::Look look;
   int width = 0, height = 0;   // [pixels]
-  render::Box bounds;          // of what is lit [m]
+  render::Box bounds;          // lit bounds [m]
   std::optional<float> floor;  // height of the visible ground [m]
 
   float aspect() const { return static_cast<float>(width) / static_cast<float>(height); }
 };
 
-// What the options' pictures show, in the look of cloth where theirs shows a value.
+// Returns the view of the options' pictures, in the look of cloth if theirs shows a value.
 PictureView picture_view(const Setup& setup, const render::Box& bounds, std::optional<float> floor);
 
 }  // namespace hysteron::experiments

@@ -19,13 +19,13 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int kSheetCells = 8;             // pictures on the contact sheet, at most
-constexpr double kCellPixels = 560 * 420;  // drawn for each of them
-constexpr float kSheetRoom = 0.06f;        // around what is shown there, of either side
-constexpr int kSkins = 14;                 // of a motion in one picture
-constexpr float kInsetFraction = 0.18f;    // of a picture, which is wide
+constexpr int kSheetCells = 8;             // most pictures on the contact sheet
+constexpr double kCellPixels = 560 * 420;  // pixels drawn for each of them
+constexpr float kSheetRoom = 0.06f;        // margin around its contents on either side
+constexpr int kSkins = 14;                 // instants of a motion in one picture
+constexpr float kInsetFraction = 0.18f;    // share of a picture, which is wide
 
-// "frames/0012.png"; of further looks "frames-LOOK/0012.png".
+// Returns "frames/0012.png"; for further looks "frames-LOOK/0012.png".
 std::string frame_file(const std::string& look, bool first, int number) {
   return fmt::format("{}/{:04}.png", first ? "frames" : "frames-" + look, number);
 }
@@ -35,7 +35,7 @@ Error no_cloth_in(const std::string& picture, double time) {
       fmt::format("{} shows no cloth at t = {:.3f} s: frame where it is (--camera.box)", picture, time));
 }
 
-// Those that look different, in their order.
+// Returns those that look different, in their order.
 std::vector<render::SheetEntry> distinct_cells(const std::vector<render::SheetEntry>& cells) {
   std::vector<render::SeenPicture> seen;
   for (const render::SheetEntry& cell : cells) seen.push_back(render::on_front_page(cell.image));
@@ -52,7 +52,7 @@ std::vector<double> instant_times(const std::vector<KeptInstant>& instants) {
   return times;
 }
 
-// Adds the time from now until its end.
+// Adds the time from construction to destruction.
 class Stopwatch {
  public:
   explicit Stopwatch(double& seconds) : seconds_(seconds) {}
@@ -98,7 +98,7 @@ Pictures::Pictures(const Setup& setup, std::unique_ptr<Subject> subject, const r
 
 render::Camera Pictures::camera() const { return framed_camera(options_, bounds_); }
 
-// The studio's thread reads the options while it draws.
+// Waits because the studio's thread reads the options while it draws.
 void Pictures::set_light(const std::string& light) {
   scene_renderer_.wait();
   options_.light = light;
@@ -120,7 +120,7 @@ std::string Pictures::caption(double time) const {
   return scene_.fabric.name + ", law " + scene_.law + "\n" + when(time);
 }
 
-// A figure, whose background is transparent, has a caption of its own.
+// Returns no caption for a figure, whose background is transparent, as it has a caption of its own.
 std::string Pictures::captioned(const std::string& text) const {
   return options_.background == render::Background::transparent ? "" : text;
 }
@@ -141,7 +141,7 @@ void Pictures::picture_file(const std::filesystem::path& file, const std::string
           SceneRenderer& studio) { write(file, single(studio, look, camera(), text, shown)); });
 }
 
-// On the studio's thread.
+// Draws one picture on the studio's thread.
 render::Image Pictures::single(SceneRenderer& studio, const std::string& look, const render::Camera& camera,
                                const std::string& text, const SceneRenderer::Shown& shown) {
   const Stopwatch watch(render_seconds_);
@@ -152,7 +152,7 @@ render::Image Pictures::single(SceneRenderer& studio, const std::string& look, c
   return image;
 }
 
-// What a page that compares runs has to know of their pictures.
+// Records what a page that compares runs needs to know of their pictures.
 void Pictures::note_frame(Run& run, const std::vector<Order>& orders, const std::vector<float>& xyz,
                           std::optional<double> difference) {
   std::optional<Frames>& frames = run.manifest().frames;
@@ -219,7 +219,7 @@ void Pictures::frame(Run& run, const std::vector<float>& xyz, const render::Path
   });
 }
 
-// On the studio's thread.
+// Draws a job's picture on the studio's thread.
 void Pictures::fill(SceneRenderer& studio, const Order& order) {
   render::Image image =
       studio.draw_with_ghosts(scene_look(scene_, options_, order.look), camera(), order.shown);
@@ -273,8 +273,8 @@ void Pictures::serialise(Archive& archive, Run& run) {
   if (frames_ > 0) kept_frames_.continue_file(run.path(kKeptFrames), static_cast<std::size_t>(frames_));
 }
 
-// As near as all of the instants stay whole, unless the options say what is framed; its aspect is that of
-// what they show.
+// Returns a view as near as all instants are entirely visible, unless the options set it; its aspect is that
+// of their contents.
 SheetView Pictures::sheet_view(const std::vector<KeptInstant>& instants) const {
   constexpr float kTallest = 0.7f, kWidest = 2.4f;
   const Options& o = options_;
@@ -291,7 +291,7 @@ SheetView Pictures::sheet_view(const std::vector<KeptInstant>& instants) const {
   return {render::Camera::around(all, direction, fov, aspect, kSheetRoom), aspect};
 }
 
-// On white paper, where the look allows: cells of a page have no boxes.
+// Uses white paper, if the look allows it: cells of a page have no boxes.
 render::Look Pictures::sheet_look() const {
   Options options = options_;
   const std::string look = options.looks().front();
@@ -308,7 +308,7 @@ render::Image Pictures::sheet_picture(SceneRenderer& studio, const KeptInstant& 
   return image;
 }
 
-// Instants that look like one before are left out, but for the last.
+// Leaves out instants that look like an earlier one, but keeps the last.
 std::vector<render::SheetEntry> Pictures::sheet_cells(const std::vector<KeptInstant>& instants,
                                                       const std::vector<KeptInstant>& motion,
                                                       const SheetView& view) {
@@ -334,7 +334,7 @@ std::vector<render::SheetEntry> Pictures::sheet_cells(const std::vector<KeptInst
   });
 }
 
-// At the scale of the others, of the last instant.
+// Draws the last instant at the scale of the others.
 render::SheetEntry Pictures::further_cell(SceneRenderer& studio, const FurtherView& from,
                                           const SheetView& view) const {
   const KeptInstant& last = kept_.last();
@@ -380,7 +380,7 @@ void Pictures::show_as(const Json& sheet) {
   }
 }
 
-// At these times, or `count` of those up to `until` [s] where none are given.
+// Returns the instants at these times, or `count` of those up to `until` [s] if none are given.
 std::vector<KeptInstant> Pictures::chosen(const std::vector<double>& times, int count, double until) const {
   if (times.empty()) return kept_.chosen(count, until);
   std::vector<KeptInstant> found;
@@ -389,7 +389,7 @@ std::vector<KeptInstant> Pictures::chosen(const std::vector<double>& times, int 
   return found;
 }
 
-// Those of the sheet, of frames by their times.
+// Keeps the sheet's geometry, found among the frames by their times.
 void Pictures::keep_sheet(Run& run, const std::vector<KeptInstant>& cells,
                           const std::vector<KeptInstant>& skins, const std::string& title) const {
   const std::filesystem::path frames = run.folder() / kKeptFrames;

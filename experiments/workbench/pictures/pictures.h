@@ -1,7 +1,7 @@
-// The pictures of a run: a sequence of frames, single pictures, a contact sheet.
+// Draws the pictures of a run: a sequence of frames, single pictures, a contact sheet.
 //
 //   simulation at rest:  positions (CUDA -> OpenGL, or by the host), values   -> studio's thread
-//   simulation goes on:  draw, letter                                         -> PNG writer's threads
+//   simulation goes on:  draw, annotate                                       -> PNG writer's threads
 #pragma once
 
 #include <filesystem>
@@ -21,10 +21,10 @@
 
 namespace hysteron::experiments {
 
-// What finish() and frame() write under these options, for Run::reserve().
+// Returns the files that finish() and frame() write under these options, for Run::reserve().
 std::vector<std::string> picture_files(const Options& options);
 
-// What every cell of a contact sheet is drawn with.
+// The camera and shape of every cell of a contact sheet.
 struct SheetView {
   render::Camera camera;
   float aspect;  // width over height
@@ -32,52 +32,52 @@ struct SheetView {
 
 class Pictures {
  public:
-  // `simulation`: what is drawn; it must outlive the pictures.  `bounds`: what every picture of the sequence
-  // frames; `floor`: height of the visible ground [m].
+  // Draws `simulation`, which must outlive the pictures.  Every picture of the sequence frames `bounds`;
+  // `floor` is the height of the visible ground [m].
   Pictures(const Setup& setup, const Cloth& cloth, Simulation& simulation, const render::Box& bounds,
            std::optional<float> floor);
-  // Of any subject, which becomes the pictures'.
+  // Draws any subject, which the pictures then own.
   Pictures(const Setup& setup, std::unique_ptr<Subject> subject, const render::Box& bounds,
            std::optional<float> floor);
 
   const std::string& renderer() const { return renderer_; }
-  // How positions reach the renderer: "CUDA-GL" without passing the host, or "host (why)".
+  // Returns how positions reach the renderer: "CUDA-GL" without passing the host, or "host (why)".
   std::string positions_route() const { return why_host_.empty() ? "CUDA-GL" : "host (" + why_host_ + ")"; }
 
-  // Has the present state drawn as the next of frames/, captioned with what is simulated and the time; in
-  // further looks as the next of frames-LOOK/.  Returns when positions and values are taken; throws what went
-  // wrong with an earlier one, Error::simulation where it shows no cloth.  `xyz`: the positions, of which
-  // the first beyond the picture's border is a warning; `loop`: of a probe so far, shown in a corner unless
-  // it is empty.  What it is drawn from is added to frames.hyg.
+  // Draws the present state as the next of frames/, captioned with what is simulated and the time; in
+  // further looks as the next of frames-LOOK/.  Returns when positions and values are copied; throws errors
+  // of earlier pictures, and Error::simulation if it shows no cloth.  `xyz` has 3 numbers a vertex [m], of
+  // which the first beyond the picture's border is a warning; `loop` is a probe's so far, shown in a corner
+  // unless it is empty.  The picture's data are added to frames.hyg.
   void frame(Run& run, const std::vector<float>& xyz, const render::Path& loop = {});
-  // Draws the present state in a look of its own, with caption and colour bar.  Error::simulation where it
-  // shows no cloth.
+  // Draws the present state in a look of its own, with caption and colour bar.  Throws Error::simulation if
+  // it shows no cloth.
   render::Image picture(const std::string& look, const render::Camera& camera, const std::string& caption);
-  // The same by the sequence's camera into a file, as frame() does: it returns, and throws, likewise.
+  // Draws the same with the sequence's camera into a file; it returns, and throws, as frame() does.
   void picture_file(const std::filesystem::path& file, const std::string& look, const std::string& caption);
-  // Has a picture written beside what follows.
+  // Writes a picture on another thread.
   void write(const std::filesystem::path& file, render::Image image) {
     writer_.write(file, std::move(image), render::PngEffort::best);
   }
-  // The last instant from there too, as a further cell of the contact sheet; `words` say from where.
+  // Adds the last instant seen from there as a further cell of the contact sheet; `words` name the direction.
   void also_from(const Eigen::Vector3f& direction, const std::string& words) {
     further_.push_back({direction, words});
   }
-  // The contact sheet begins with all that moves up to then in one picture.
+  // Begins the contact sheet with one picture of all that moves up to `until` [s].
   void begin_with_onion_skin(double until) { onion_until_ = until; }
-  // The contact sheet is to show what that of a kept run shows, as its record says.
+  // Makes the contact sheet show what that of a kept run shows, by its record.
   void show_as(const Json& sheet);
-  // "studio" or "raking", for the pictures to come; single pictures are raked in the plane that the cloth
-  // lies in most nearly.
+  // Sets "studio" or "raking" light for the next pictures; single pictures are raked in the plane that the
+  // cloth lies in most nearly.
   void set_light(const std::string& light);
-  // The sequence's camera.
+  // Returns the sequence's camera.
   render::Camera camera() const;
-  // The cloth's shadow from straight above; `metres_per_pixel` of the picture.
+  // Draws the cloth's shadow from straight above; `metres_per_pixel` receives the picture's scale.
   render::Image silhouette(double half_width, int pixels, double& metres_per_pixel);
   // Waits for the files so far.  Throws Error::system.
   void serialise(Archive& archive, Run& run);
-  // Waits for the files and writes sheet.png: instants apart by what moves between them, framed by what they
-  // show; and what its pictures were drawn from, sheet.hyg.
+  // Waits for the files and writes sheet.png with instants spread by displacement, framed by their contents,
+  // and sheet.hyg with the data of its pictures.
   void finish(Run& run, const std::string& title);
 
  private:
@@ -95,7 +95,7 @@ class Pictures {
   };
 
   void take_positions(const std::vector<float>& xyz);
-  // `difference`: root mean square of what look "difference" shows, if it is drawn.
+  // `difference` is the root mean square of what look "difference" shows, if it is drawn.
   void note_frame(Run& run, const std::vector<Order>& orders, const std::vector<float>& xyz,
                   std::optional<double> difference);
   void watch_border(Run& run, const std::filesystem::path& file, const std::vector<float>& xyz);
@@ -113,7 +113,7 @@ class Pictures {
   std::vector<KeptInstant> chosen(const std::vector<double>& times, int count, double until) const;
   void keep_sheet(Run& run, const std::vector<KeptInstant>& cells, const std::vector<KeptInstant>& skins,
                   const std::string& title) const;
-  std::string when(double time) const;  // "t = 0.50 s, lift"
+  std::string when(double time) const;  // returns "t = 0.50 s, lift"
   std::string caption(double time) const;
   std::string captioned(const std::string& text) const;
 
@@ -122,17 +122,17 @@ class Pictures {
   std::unique_ptr<Subject> subject_;
   render::Box bounds_;
   KeptFrames kept_frames_;
-  std::string why_host_;  // positions pass the host; empty: they do not
+  std::string why_host_;  // why positions pass the host; empty if they do not
   render::PngWriter writer_;
   int frames_ = 0;
-  KeptInstants kept_;  // for the contact sheet
+  KeptInstants kept_;  // instants for the contact sheet
   std::vector<FurtherView> further_;
   double onion_until_ = 0;                       // [s]; 0: none
-  std::vector<double> cell_times_, skin_times_;  // of a kept sheet [s]; empty: found
-  bool is_cut_off_ = false;                      // of one of them the border cuts off cloth
-  double encode_seconds_ = 0;                    // before the run was interrupted
-  double waited_seconds_ = 0;                    // of the simulation, for its pictures
-  // The studio's thread writes these while a picture is drawn.
+  std::vector<double> cell_times_, skin_times_;  // times of a kept sheet [s]; empty: found
+  bool is_cut_off_ = false;                      // the border of some picture cuts off cloth
+  double encode_seconds_ = 0;                    // time before an interruption [s]
+  double waited_seconds_ = 0;                    // time that the simulation waited for its pictures [s]
+  // The studio's thread writes these while it draws a picture.
   double render_seconds_ = 0;
   std::string renderer_;
   OwnThread<SceneRenderer> scene_renderer_;

@@ -1,4 +1,4 @@
-// Triangles on a grid of cells.
+// Rasterises triangles on a grid of cells.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,7 +9,7 @@
 namespace hysteron::experiments {
 
 // Calls `take(i, j)` for each cell of a grid of this size whose middle, (i + 1/2, j + 1/2), lies in a
-// triangle; of one that is seen edge on for none.  Corners are in units of cells.
+// triangle; for none if it is seen edge-on.  Corners are in units of cells.
 template <class Take>
 void for_each_cell(const std::array<Eigen::Vector2d, 3>& corner, int columns, int rows, const Take& take) {
   const auto [low, high] = std::minmax({corner[0].y(), corner[1].y(), corner[2].y()});
@@ -19,7 +19,7 @@ void for_each_cell(const std::array<Eigen::Vector2d, 3>& corner, int columns, in
     double from = HUGE_VAL, to = -HUGE_VAL;
     for (int k = 0; k < 3; ++k) {
       const Eigen::Vector2d &a = corner[k], &b = corner[(k + 1) % 3];
-      // The other two edges tell where a level one ends.
+      // The ends of a level edge follow from the other two edges.
       if (a.y() == b.y() || std::min(a.y(), b.y()) > y || std::max(a.y(), b.y()) < y) continue;
       const double x = a.x() + (y - a.y()) / (b.y() - a.y()) * (b.x() - a.x());
       from = std::min(from, x);

@@ -10,14 +10,14 @@
 namespace hysteron::experiments {
 namespace {
 
-// Where `value` crosses the threshold between two points, of which one alone lies above it.
+// Returns the point where `value` crosses the threshold between two points, exactly one of which is above it.
 Eigen::Vector3d crossing(const Eigen::Vector3d& a, double value_a, const Eigen::Vector3d& b, double value_b,
                          double threshold) {
   return a + (threshold - value_a) / (value_b - value_a) * (b - a);
 }
 
-// Length of the line within a triangle on which a value, linear between its corners, is the threshold: it
-// cuts off the one corner that lies on its own side.
+// Returns the length of the line within a triangle on which a value, linear between its corners, equals the
+// threshold: it cuts off the one corner on its own side.
 double contour_length(const std::array<Eigen::Vector3d, 3>& corner, const double (&value)[3],
                       double threshold) {
   for (int k = 0; k < 3; ++k) {
@@ -31,7 +31,7 @@ double contour_length(const std::array<Eigen::Vector3d, 3>& corner, const double
   return 0;
 }
 
-// The part of an edge on which a value, linear between its ends, exceeds the threshold.
+// Returns the share of an edge on which a value, linear between its ends, exceeds the threshold.
 double fraction_above(double from, double to, double threshold) {
   const bool first = from > threshold, last = to > threshold;
   if (first == last) return first ? 1 : 0;
@@ -39,7 +39,7 @@ double fraction_above(double from, double to, double threshold) {
   return first ? crossed : 1 - crossed;
 }
 
-// Copies side by side along the first coordinate.
+// Places copies side by side along the first coordinate.
 void place_apart(std::vector<Eigen::Vector2d>& at, int copies) {
   const std::size_t each = at.size() / copies;
   const auto first = at.begin(), end = first + static_cast<std::ptrdiff_t>(each);
@@ -52,10 +52,10 @@ void place_apart(std::vector<Eigen::Vector2d>& at, int copies) {
 
 // The weight exp(-pi (r/(alpha cutoff))^2) with alpha^2 = ln 2/pi is exp(-kDecay (r/cutoff)^2).
 constexpr double kDecay = std::numbers::pi * std::numbers::pi / std::numbers::ln2;
-constexpr double kReach = 0.6;  // of the cutoff, beyond which weights are below 0.6 %
+constexpr double kReach = 0.6;  // over the cutoff; weights beyond are below 0.6 %
 constexpr double kTail = 0.05;
 
-// Directions of the surface at its vertices, as long as twice the areas of the triangles around them [m^2].
+// Returns normals at the vertices, of length twice the areas of the triangles around them [m^2].
 std::vector<Eigen::Vector3d> vertex_normals(const ClothMesh& mesh, const std::vector<Eigen::Vector3d>& x) {
   std::vector<Eigen::Vector3d> normal(x.size(), Eigen::Vector3d::Zero());
   for (const Eigen::Vector3i& t : mesh.face) {
@@ -65,7 +65,7 @@ std::vector<Eigen::Vector3d> vertex_normals(const ClothMesh& mesh, const std::ve
   return normal;
 }
 
-// Vertices that a path along edges leads to without leaving the ball of this radius around one [m].
+// Finds the vertices that a path along edges reaches without leaving the ball of this radius around one [m].
 class Neighbourhood {
  public:
   Neighbourhood(const ClothMesh& mesh, double radius)
@@ -89,11 +89,11 @@ class Neighbourhood {
 
   const ClothMesh& mesh_;
   const double radius_;
-  std::vector<int> seen_;  // by the search around which vertex
+  std::vector<int> seen_;  // by vertex: the last search that reached it
   std::vector<int> found_;
 };
 
-// Of values in ascending order with their weights, between the middles of two neighbours in proportion.
+// Returns the weighted percentile of ascending values, interpolated between the middles of two neighbours.
 double percentile(const std::vector<std::pair<double, double>>& values, double share) {
   double sum = 0, below = 0;
   for (const auto& [value, weight] : values) sum += weight;
@@ -156,7 +156,7 @@ double ridge_height(const ClothMesh& mesh, const std::vector<Eigen::Vector3d>& x
                     const std::vector<int>& vertices, double cutoff) {
   const std::vector<Eigen::Vector3d> normal = vertex_normals(mesh, x);
   Neighbourhood near(mesh, kReach * cutoff);
-  std::vector<std::pair<double, double>> heights;  // with the areas that they stand for
+  std::vector<std::pair<double, double>> heights;  // pairs of height and the area that it represents
   for (const int v : vertices) {
     Eigen::Vector3d middle = Eigen::Vector3d::Zero(), up = middle;
     double sum = 0;

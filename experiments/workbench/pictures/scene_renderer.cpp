@@ -13,18 +13,18 @@
 namespace hysteron::experiments {
 namespace {
 
-constexpr int kShadowSamples = 4, kShadowTile = 512;  // of and by pixels
+constexpr int kShadowSamples = 4, kShadowTile = 512;  // samples per pixel; tile of pixels
 constexpr double kCurvatureRange = 2;                 // colours span this many K0 on either side
 
-// [1/m].  What stays and what differs is half of what bends.
+// Returns the range of the colours [1/m], half as wide for residuals and differences as for curvature.
 double curvature_range(const Scene& scene, const Options& options, const std::string& look) {
   const double range = options.curvature_range > 0 ? options.curvature_range
                                                    : kCurvatureRange * scene.fabric.friction_curvature();
   return look == "curvature" ? range : range / 2;
 }
 
-constexpr double kMuch = 0.2;  // of the cloth that is hidden: obstacles let it shine through
-constexpr int kGhost = 90;     // of 256: how solid they are then
+constexpr double kMuch = 0.2;  // share of hidden cloth above which obstacles become translucent
+constexpr int kGhost = 90;     // their opacity then, of 256
 
 render::Image between(render::Image bare, const render::Image& whole, int fraction) {
   for (std::size_t i = 0; i < bare.pixels().size(); ++i)

@@ -1,4 +1,4 @@
-// The room in which a scene is pictured: the cloth at one instant, its obstacles, ground, light and camera.
+// Draws a scene: the cloth at one instant, its obstacles, ground, light and camera.
 #pragma once
 
 #include <memory>
@@ -16,51 +16,51 @@
 
 namespace hysteron::experiments {
 
-// An obstacle's surface before it is placed; none of what is drawn otherwise, or not at all.  Of a body of
-// triangles it is that at `time` [s], on multiples of `quantum` [m] (drawn_body.h).
+// Returns an obstacle's surface before it is placed; nothing if it is drawn otherwise, or not at all.  The
+// surface of a body of triangles is that at `time` [s], rounded to multiples of `quantum` [m] (drawn_body.h).
 std::optional<render::TriangleMesh> obstacle_mesh(const Obstacle& obstacle,
                                                   const render::ShapeDetail& detail = render::kSeen,
                                                   double time = 0, double quantum = 0);
-// Where it is at `time` [s].
+// Returns its placement at `time` [s].
 Eigen::Matrix4f placed_at(const Obstacle& obstacle, double time);
 
-// The colours of a look that shows a value.
+// Returns the colours of a look that shows a value.
 render::ColorMap look_color_map(const std::string& look);
-// Light, and the ends of the colour map, of the options' look `name` ("cloth", "curvature", "residual",
-// "difference", ...) for a scene.
+// Returns light, and the ends of the colour map, of the options' look `name` ("cloth", "curvature",
+// "residual", "difference", ...) for a scene.
 render::Look scene_look(const Scene& scene, const Options& options, const std::string& name);
-// Of looks that show a value.
+// Returns the colour bar of looks that show a value.
 std::optional<render::ColorBar> value_color_bar(const Scene& scene, const Options& options,
                                                 const std::string& name);
 
 // All of it belongs to the thread that made it, as its OpenGL context does.
 class SceneRenderer {
  public:
-  // `bounds`: what casts shadows in the whole sequence [m]; `floor`: height of the visible ground [m];
-  // `cuda_device`: tried first, -1: none.
+  // `bounds` contain what casts shadows in the whole sequence [m]; `floor` is the height of the visible
+  // ground [m]; `cuda_device` is tried first, -1: none.
   SceneRenderer(const Scene& scene, const Options& options, const DrawnMesh& mesh, const render::Box& bounds,
                 std::optional<float> floor, int cuda_device);
 
   const render::Offscreen& offscreen() const { return *offscreen_; }
-  render::ClothView& view() { return *view_; }  // to set the cloth's positions
-  // Pictures to come have this size.  Positions have to be set anew.
+  render::ClothView& view() { return *view_; }  // for setting the cloth's positions
+  // Changes the size of the next pictures.  Positions have to be set anew.
   void take_size(const render::PictureSize& size);
 
-  // What a picture shows beside positions.
+  // The state that a picture shows beside positions.
   struct Shown {
-    double time = 0;            // [s], of the obstacles
-    std::vector<float> values;  // one a vertex, in looks that show one
+    double time = 0;            // time of the obstacles [s]
+    std::vector<float> values;  // one per vertex, in looks that show a value
   };
   render::Image draw(const render::Look& look, const render::Camera& camera, const Shown& shown);
-  // The same, but obstacles that hide much of what is behind them let it shine through.
+  // Does the same, but obstacles that hide much of what is behind them are translucent.
   render::Image draw_with_ghosts(const render::Look& look, const render::Camera& camera, const Shown& shown);
-  // The cloth alone from straight above, black on white; `xyz` of its vertices [m].  Positions have to be set
-  // anew.
+  // Draws the cloth alone from straight above, black on white; `xyz` has 3 numbers a vertex [m].  Positions
+  // have to be set anew.
   render::Image silhouette(const std::vector<float>& xyz, const render::Camera& camera, int pixels);
 
  private:
   void place_obstacles(double time, bool visible);
-  // The surface of a body of triangles, as pictures show it at `time` [s].
+  // Returns the surface of a body of triangles, as pictures show it at `time` [s].
   std::optional<render::TriangleMesh> surface_of(const Obstacle& obstacle, const render::ShapeDetail& detail,
                                                  double time) const;
 
@@ -71,8 +71,8 @@ class SceneRenderer {
   std::unique_ptr<render::Offscreen> offscreen_;
   std::unique_ptr<render::ClothView> view_;
   render::PictureSize size_;
-  std::vector<int> body_;  // the view's number of each obstacle, -1 = not a body
-  double shaped_at_ = 0;   // for which bodies that change their shape have it [s]
+  std::vector<int> body_;  // by obstacle: its index in the view, -1 = not a body
+  double shaped_at_ = 0;   // time of the current shapes of bodies that change them [s]
 };
 
 }  // namespace hysteron::experiments

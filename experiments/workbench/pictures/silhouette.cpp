@@ -8,7 +8,7 @@
 namespace hysteron::experiments {
 namespace {
 
-constexpr double kCells = 1000;  // along the longer side
+constexpr double kCells = 1000;  // number along the longer side
 
 using Points = std::vector<Eigen::Vector2d>;
 

@@ -21,7 +21,7 @@ namespace hysteron::experiments {
 namespace {
 namespace fs = std::filesystem;
 
-constexpr double kStepsAnEdge = 256;  // quanta in the mean edge: normals turn by 0.2 degrees at most
+constexpr double kStepsAnEdge = 256;  // quanta in the mean edge: normals rotate by 0.2 degrees at most
 
 double mean_edge(const ClothMesh& mesh) {
   double sum = 0;
@@ -29,7 +29,7 @@ double mean_edge(const ClothMesh& mesh) {
   return sum / static_cast<double>(mesh.edge.size());
 }
 
-// Of each vertex, 0 of the lowest to 1 of the highest.
+// Returns the height of each vertex, from 0 for the lowest to 1 for the highest.
 std::vector<float> heights(const std::vector<float>& xyz) {
   std::vector<float> height;
   for (std::size_t i = 2; i < xyz.size(); i += 3) height.push_back(xyz[i]);
@@ -39,7 +39,7 @@ std::vector<float> heights(const std::vector<float>& xyz) {
   return height;
 }
 
-// Length of the side between two vertices in a drawn mesh's pattern [m].
+// Returns the length of the side between two vertices in a drawn mesh's pattern [m].
 double pattern_length(const DrawnMesh& mesh, int a, int b) {
   const auto at = [&](int vertex) {
     const float* uv = &mesh.pattern[2 * static_cast<std::size_t>(vertex)];
@@ -48,11 +48,11 @@ double pattern_length(const DrawnMesh& mesh, int a, int b) {
   return (at(a) - at(b)).norm();
 }
 
-// Whether two meshes of the same triangles have sides of the same length at rest, as far as pictures keep it:
-// in the mean, and one by one where both have a pattern, which warp may lie in at any angle.
+// True if two meshes of the same triangles have sides of the same length at rest, to the precision of
+// pictures: in the mean, and one by one if both have a pattern, in which warp may have any angle.
 bool has_same_rest_shape(const DrawnMesh& a, const DrawnMesh& b) {
-  constexpr double kRounding = 1e-6;  // of the mean side, relative
-  constexpr double kQuanta = 2;       // by which rounded places change a side
+  constexpr double kRounding = 1e-6;  // relative, for the mean side
+  constexpr double kQuanta = 2;       // largest change of a side by rounding
   if (std::abs(a.quantum - b.quantum) > kRounding * a.quantum) return false;
   if (a.pattern.empty() || a.pattern.size() != b.pattern.size()) return true;
   for (std::size_t t = 0; t + 2 < a.triangles.size(); t += 3)
@@ -64,10 +64,10 @@ bool has_same_rest_shape(const DrawnMesh& a, const DrawnMesh& b) {
   return true;
 }
 
-// Another run of the same cloth, whose curvature this one's is compared with.
+// Another run of the same cloth, whose curvature is subtracted from this one's.
 class ReferenceRun {
  public:
-  // `folder`: of a run with pictures and `--export ply`.  Throws Error::invalid_input if it is none.
+  // Reads the `folder` of a run with pictures and `--export ply`.  Throws Error::invalid_input if it is none.
   explicit ReferenceRun(fs::path folder) : folder_(std::move(folder)) {
     const fs::path file = folder_ / "manifest.json";
     const Json json = json_or_none(file);
@@ -81,7 +81,7 @@ class ReferenceRun {
       throw refusal("must be the folder of a run with pictures and --export ply");
   }
 
-  // Throws Error::invalid_input if its triangles, or what they are at rest, are not those of `mesh`.
+  // Throws Error::invalid_input if its triangles, or their rest shape, are not those of `mesh`.
   void check(const ClothMesh& mesh, const ClothShape& shape) const {
     curvature_in(mesh, 0);
     const fs::path kept = folder_ / kKeptFrames;
@@ -92,14 +92,15 @@ class ReferenceRun {
           "mesh");
   }
 
-  // Whether one of its instants is that of `time` [s] of a run with steps of `step` [s]: both runs record the
-  // step that is nearest to an instant, so that they agree to half of both.
+  // True if one of its instants is that of `time` [s] of a run with steps of `step` [s]: both runs record the
+  // step nearest to an instant, so that they agree to half of both.
   bool has_instant(double time, double step) const {
-    constexpr double kRounding = 1e-9;  // of sums of steps [s]
+    constexpr double kRounding = 1e-9;  // rounding in sums of steps [s]
     return std::abs(time_[nearest(time)] - time) <= (step + step_) / 2 + kRounding;
   }
 
-  // One a vertex [1/m], at that run's instant nearest to `time` [s].  Throws as check() for other triangles.
+  // Returns one curvature per vertex [1/m], at that run's instant nearest to `time` [s].  Throws as check()
+  // does for other triangles.
   std::vector<float> curvature(const ClothMesh& mesh, double time) const {
     return curvature_in(mesh, nearest(time));
   }
@@ -124,8 +125,8 @@ class ReferenceRun {
   }
 
   fs::path folder_;
-  std::vector<double> time_;  // of each instant [s]
-  double step_ = 0;           // that it took [s]; 0: not noted
+  std::vector<double> time_;  // times of its instants [s]
+  double step_ = 0;           // its time step [s]; 0: unknown
 };
 
 class SimulatedSubject : public Subject {

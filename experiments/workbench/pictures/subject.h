@@ -1,4 +1,4 @@
-// What is pictured: a cloth that is simulated, or one that was kept.
+// The source of a picture: a simulated cloth, or one from a file.
 #pragma once
 
 #include <memory>
@@ -19,37 +19,38 @@ class Subject {
   virtual const DrawnMesh& mesh() const = 0;
   virtual double time() const = 0;             // [s]
   virtual std::vector<float> positions() = 0;  // x, y, z of each vertex [m]
-  // One a vertex, in looks that show a value; none in others.
+  // Returns one value per vertex, in looks that show a value; none in others.
   virtual std::vector<float> values(const std::string& look) = 0;
-  // False of look "difference" where the run to subtract has no instant of this time: its values are 0 then.
+  // False for look "difference" if the run to subtract has no instant of this time; the values are then 0.
   virtual bool has_values(const std::string&) const { return true; }
-  // That each vertex stands for in means over the cloth [m^2].
+  // Returns the area that each vertex represents in means over the cloth [m^2].
   virtual std::vector<double> vertex_areas() const = 0;
   virtual int cuda_device() const { return -1; }
-  // As Simulation::share_positions().
+  // Shares positions as Simulation::share_positions() does.
   virtual std::unique_ptr<GlPositions> share_positions(unsigned gl_buffer, int gl_device,
                                                        std::string& reason) = 0;
 };
 
-// Warp and weft coordinates of each vertex where the cloth lies at rest, 2 a vertex [m].  None of panels that
-// are sewn together: a vertex on a seam is at several places of the pattern.
+// Returns warp and weft coordinates of each vertex of the cloth at rest, 2 per vertex [m].  Panels that are
+// sewn together have none: a vertex on a seam is at several places of the pattern.
 std::vector<float> pattern_coordinates(const ClothMesh& mesh, const ClothShape& shape);
-// As pictures draw it; its quantum is a fraction of the mean edge.
+// Returns the mesh for pictures; its quantum is a fraction of the mean edge.
 DrawnMesh drawn_mesh(const ClothMesh& mesh, const ClothShape& shape);
 
-// A third of the triangles around each vertex, as they lie now [m^2].
+// Returns a third of the area of the triangles around each vertex, in their current shape [m^2]; `triangles`
+// has 3 indices each, `xyz` 3 numbers a vertex [m].
 std::vector<double> vertex_areas(const std::vector<int>& triangles, const std::vector<float>& xyz);
 
-// `reference`: the folder of the run that look "difference" subtracts; "": none.  Cloth and simulation must
-// outlive it.
+// `reference` is the folder of the run that look "difference" subtracts; "": none.  Cloth and simulation must
+// outlive the result.
 std::unique_ptr<Subject> simulated(const Scene& scene, const Cloth& cloth, Simulation& simulation,
                                    const std::string& reference);
 
-// Throws Error::invalid_input where `reference` is no such folder, or of a run with other triangles or
-// another rest shape; of "" never.
+// Throws Error::invalid_input if `reference` is no such folder, or of a run with other triangles or another
+// rest shape; never for "".
 void check_reference(const std::string& reference, const ClothMesh& mesh, const ClothShape& shape);
 
-// Cloth as it was kept, one instant after the other.  What was kept must outlive it.
+// Cloth from a file, one instant after the other.  The kept data must outlive it.
 class KeptSubject : public Subject {
  public:
   KeptSubject(const DrawnMesh& mesh, const std::vector<KeptState>& instants)
@@ -60,10 +61,10 @@ class KeptSubject : public Subject {
   const DrawnMesh& mesh() const override { return mesh_; }
   double time() const override { return instants_[now_].time; }
   std::vector<float> positions() override { return instants_[now_].xyz; }
-  // Curvature that was not kept is that of the shape.  Throws Error::invalid_input for other values that were
-  // not.
+  // Returns kept values, or the curvature of the shape if it was not kept.  Throws Error::invalid_input for
+  // other values that were not.
   std::vector<float> values(const std::string& look) override;
-  // Those of the first instant: the cloth at rest was not kept.
+  // Returns the areas at the first instant, because the cloth at rest was not kept.
   std::vector<double> vertex_areas() const override {
     return experiments::vertex_areas(mesh_.triangles, instants_.front().xyz);
   }

@@ -32,7 +32,8 @@ AnimationExport::~AnimationExport() {
   if (is_written_ || times_.empty()) return;
   try {
     write();
-  } catch (const std::exception&) {  // what ended the run is on its way, and the positions are kept
+    // An exception that ended the run is in flight, and the positions are kept.
+  } catch (const std::exception&) {
     run_->forget(animation_file(format_));
   }
 }

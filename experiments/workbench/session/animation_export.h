@@ -1,4 +1,5 @@
-// A run as one animated file, OUT/mesh/cloth.usda or cloth.glb, with its bodies and the pictures' camera.
+// Exports a run as one animated file, OUT/mesh/cloth.usda or cloth.glb, with its bodies and the pictures'
+// camera.
 #pragma once
 
 #include <optional>
@@ -9,19 +10,19 @@
 
 namespace hysteron::experiments {
 
-// Positions are kept in a point cache beside it, mesh/cloth.pc2, while the run goes on: of a process that is
-// killed it is what there is, and a run that goes on does so from it.  The file is written from it at the end
-// of a run, also of one that ends early, and the point cache goes when the run's results are there.
+// While the run goes on, positions are kept in a point cache beside the file, mesh/cloth.pc2: a killed
+// process leaves it, and a continued run goes on from it.  At the end of a run, also of one that ends early,
+// the file is written from the cache, which is removed when the run's results are complete.
 class AnimationExport : public Observer {
  public:
-  // Whether it writes this format of `--export`.
+  // True if it writes this format of `--export`.
   static bool writes(const std::string& format);
-  // What it writes, for Run::reserve().
+  // Returns the files that it writes, for Run::reserve().
   static std::vector<std::string> files(const std::string& format);
 
   ~AnimationExport() override;
   void begin(Session& session) override;
-  // One instant; one that is not later than the last takes its place.
+  // Records one instant; one that is not later than the last replaces it.
   void record(Session& session, const Snapshot& instant) override;
   void close() override;
   void finish(Session& session, const std::string& title) override;
@@ -35,7 +36,7 @@ class AnimationExport : public Observer {
   Run* run_ = nullptr;
   std::string format_;
   AnimatedScene scene_;
-  std::vector<double> times_;  // of the instants so far [s]
+  std::vector<double> times_;  // times of the recorded instants [s]
   bool is_written_ = false;
 };
 

@@ -1,4 +1,4 @@
-// Magic with the format's number, size and hash of the rest, owner, state.
+// The file consists of magic with the format's number, size and hash of the rest, owner, and state.
 #include "experiments/workbench/session/checkpoint.h"
 
 #include "sim/base/archive.h"
@@ -21,7 +21,7 @@ struct Seal {
 
 Seal content_seal(std::string_view body) { return {body.size(), fnv1a(body.data(), body.size())}; }
 
-// What stands behind magic and seal.
+// Returns the contents behind magic and seal.
 std::string_view checked_body(const fs::path& file, std::string_view all) {
   if (all.substr(0, kMagic.size()) != kMagic.substr(0, all.size()))
     refuse_checkpoint(file, "it is no checkpoint");
@@ -69,7 +69,7 @@ std::optional<std::string> read_checkpoint(const fs::path& file, const Checkpoin
   try {
     archive(there.device);
     archive(there.cloth);
-  } catch (const Error&) {  // its seal holds by chance, or somebody has made it
+  } catch (const Error&) {  // the seal matches by chance, or somebody has made the file
     refuse_checkpoint(file, "it is damaged");
   }
   if (there.device != owner.device)

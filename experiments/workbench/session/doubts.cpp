@@ -18,14 +18,14 @@
 namespace hysteron::experiments {
 namespace {
 
-// Woven cloth tears at strains of some 10 to 40 %, and the membrane's stiffness is that of small ones.
+// Woven cloth tears at strains of some 10 to 40 %, and the membrane's stiffness is valid for small ones.
 constexpr double kExtremeStretch = 0.5;
-// Positions that are rounded to more of the thickness make strains, and forces, of their own.
+// Positions rounded to a larger share of the thickness cause strains, and forces, of their own.
 constexpr double kCoarsest = 0.01;
-// Speed that the energy stored by contact at the start would give all of the cloth [m/s].
+// Smallest reported speed that the energy stored by contact at the start would give the cloth [m/s].
 constexpr double kNoticed = 0.1;
 
-// Pressed layers push each other off as soon as they may.
+// Warns of pressed layers, which push each other off as soon as they may.
 std::string pressed_words(const Scene& scene, const Cloth& cloth, Simulation& simulation) {
   const double stored = simulation.ledger().contact;
   const auto& areas = cloth.mesh.vertex_area;
@@ -57,7 +57,7 @@ std::string resolution_words(const Scene& scene, const Cloth& cloth, const std::
       scene.precision == Precision::fp32 ? "take precision = double" : "let it start nearer");
 }
 
-// A command acts on the elements whose centres lie in its box.
+// Warns of commands without an element: a command acts on those whose centres lie in its box.
 std::string command_warning(const Scene& scene, const Cloth& cloth, int dimension) {
   if (scene.command.empty()) return "";
   const std::vector<Eigen::Vector3d> centers = cloth.element_centers(dimension);
@@ -71,7 +71,7 @@ std::string command_warning(const Scene& scene, const Cloth& cloth, int dimensio
   return "";
 }
 
-// Pins that hold something else than they seem to.
+// Warns of pins that hold something else than they seem to.
 std::vector<std::string> pin_warnings(const Scene& scene, const Cloth& cloth) {
   std::vector<std::string> warnings;
   for (std::size_t p = 0; p < scene.pin.size() && p < cloth.pin_vertices.size(); ++p) {
@@ -95,10 +95,10 @@ std::vector<std::string> pin_warnings(const Scene& scene, const Cloth& cloth) {
   return warnings;
 }
 
-// Cuts lie on the chords of a bend, and what was bent evenly becomes facets with twice the bend at their
-// edges.
+// Warns of a subdivided bent start: new vertices lie on the chords of a bend, so that an even bend becomes
+// facets with twice the bend at their edges.
 std::string facets_warning(const Scene& scene, Simulation& simulation) {
-  // A pattern is sewn flat: how it is laid out at first is no bend that it had.
+  // A pattern is sewn flat, so its initial layout is no bend that it had.
   const bool is_sewn = scene.cloth.shape == "pattern";
   if (scene.cloth.subdivisions == 0 || is_sewn || !(simulation.ledger().bending > 0)) return "";
   return shown(scene, "cloth.subdivisions", scene.cloth.subdivisions, "") +
@@ -107,9 +107,9 @@ std::string facets_warning(const Scene& scene, Simulation& simulation) {
          "remembers them so";
 }
 
-// Limits within which a step has ended before it begins: Newton's method then moves nothing.
+// Warns of limits at which a step has ended before it begins, so that Newton's method moves nothing.
 std::string loose_newton_warning(const Scene& scene) {
-  constexpr double kLoose = 0.05;  // of the load, or of what the load moves in a step
+  constexpr double kLoose = 0.05;  // share of the load, or of the motion by the load in a step
   if (!scene.is_implicit()) return "";
   if (scene.newton_residual > kLoose)
     return shown(scene, "newton-residual", scene.newton_residual, "") +
@@ -121,9 +121,9 @@ std::string loose_newton_warning(const Scene& scene) {
          number_text(fall, 3) + " m/s that gravity gives in a step: cloth may not move at all";
 }
 
-// Pins, obstacles and commands act from the start of a step on.
+// Warns that pins, obstacles and commands act only from the start of a step on.
 std::vector<std::string> instant_warnings(const Scene& scene) {
-  constexpr double kRounding = 1e-4;  // of a step, as a run's length may miss a whole number of them
+  constexpr double kRounding = 1e-4;  // in steps, as a run's length may miss a whole number of them
   std::vector<std::string> warnings;
   const auto check = [&](const std::string& key, double time) {
     const double steps = time / scene.step;
@@ -146,7 +146,7 @@ std::vector<std::string> instant_warnings(const Scene& scene) {
   return warnings;
 }
 
-// Statics that end while the weight still grows, or has not yet gone again.
+// Warns of statics that end while the weight still grows, or has not yet gone again.
 std::string partial_load_warning(const Scene& scene) {
   if (scene.integrator != Integrator::quasi_static || !(scene.seconds > 0)) return "";
   const double end = scene.seconds, left = 1 - 1e-6;
@@ -211,7 +211,7 @@ std::vector<std::string> doubts_at_end(const Scene& scene, const Cloth& cloth,
 }
 
 std::string drawing_words(const Scene& scene, const Cloth& cloth) {
-  constexpr double kSeen = 0.1;  // of the thickness
+  constexpr double kSeen = 0.1;  // share of the thickness
   double farthest = 0;           // [m]
   for (const Eigen::Vector3d& x : cloth.start) farthest = std::max(farthest, x.cwiseAbs().maxCoeff());
   const double step = farthest * std::numeric_limits<float>::epsilon();

@@ -1,4 +1,4 @@
-// What makes a run doubtful although it goes on: a sentence each, for its warnings.
+// Finds what makes a run doubtful although it goes on, and returns a sentence for each as its warnings.
 #pragma once
 
 #include <string>
@@ -8,31 +8,30 @@
 
 namespace hysteron::experiments {
 
-// Before the first step: a membrane that locks (sim/membrane/locking.h), layers or obstacles that press
-// already.
+// Checks before the first step for a membrane that locks (sim/membrane/locking.h), and for layers or
+// obstacles that press already.
 std::vector<std::string> doubts_at_start(const Scene& scene, const Cloth& cloth, Simulation& simulation);
 
-// Says that the law does not follow a friction of the fabric's own along weft; "" where it does, or there is
+// Warns if the law does not follow a friction of the fabric's own along weft; "" if it does, or there is
 // none.
 std::string weft_friction_warning(const Fabric& fabric, const std::string& law);
 
-// Says that the mesh has a tenth more or fewer triangles than were asked for, since its rows and columns must
-// be whole and some specimens need more; "" where it has not.  `asked` and `origin` are those of the key
-// triangles.
+// Warns if the mesh has a tenth more or fewer triangles than requested, since its rows and columns must be
+// whole and some specimens need more; "" otherwise.  `asked` and `origin` are those of the key triangles.
 std::string triangle_count_warning(int asked, const std::string& origin, int triangles);
 
-// After the last: cloth that stretched as none does (`stretched`: largest principal stretch minus 1), or went
-// so far that the precision no longer resolves it.  `x`: its positions [m].
+// Checks after the last step for cloth that stretched as none does (`stretched` is the largest principal
+// stretch minus 1), or went so far that the precision no longer resolves it.  `x` are its positions [m].
 std::vector<std::string> doubts_at_end(const Scene& scene, const Cloth& cloth,
                                        const std::vector<Eigen::Vector3d>& x, double stretched);
 
-// Of what holds floats in the world's coordinates, pictures and point caches: where these round the start so
-// far from the origin that it shows; "" where they do not.
+// Warns if pictures and point caches, which hold floats in world coordinates, visibly round a start far from
+// the origin; "" otherwise.
 std::string drawing_words(const Scene& scene, const Cloth& cloth);
 
-// Where the integrator took more than a quarter of all energy that was dissipated; "" where it did not.  The
-// step [s] that would do is an estimate, the share being taken to fall as the step does: it is not named
-// where it would be less than a hundredth of the one taken, nor of cloth that dissipates nothing itself.
+// Warns if the integrator dissipated more than a quarter of all dissipated energy; "" otherwise.  The step
+// [s] that it recommends is an estimate, assuming that the share falls as the step does: it is not named if
+// it is less than a hundredth of the current one, nor for cloth that dissipates nothing itself.
 std::string integrator_words(double fraction, double step);
 
 }  // namespace hysteron::experiments

@@ -46,7 +46,7 @@ constexpr ReadKey<Obstacle> kObstacles[] = {
     {"motion-axis", "a keyframe's angle", [](const Obstacle& o) { return turns(o.motion); }},
 };
 
-// Keys of the scene itself, where a flag gives them: a scene's file may state what some of its runs read.
+// Checks keys of the scene itself that a flag sets; a scene's file may state what only some of its runs read.
 std::vector<std::string> idle_flags(const Scene& scene) {
   const bool is_still = scene.integrator == Integrator::quasi_static,
              touches = !scene.obstacle.empty() || scene.self_contact;

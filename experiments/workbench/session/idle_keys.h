@@ -1,4 +1,5 @@
-// Keys that are set and that nothing in the scene reads: a sentence each, for a run's warnings.
+// Finds keys that are set and that nothing in the scene reads, and returns a sentence for each as a run's
+// warnings.
 #pragma once
 
 #include <functional>
@@ -10,16 +11,16 @@
 
 namespace hysteron::experiments {
 
-// A key of a table, and whether the table reads it.
+// A key of a table, and the condition under which the table reads it.
 template <class Table>
 struct ReadKey {
   const char* key;
-  const char* by;  // what would read it: "select = box"
+  const char* by;  // the condition in words: "select = box"
   bool (*is_read)(const Table&);
 };
 
-// "[[pin]] 2: home = 0.5 changes nothing, select = box alone reads it", of each key that is not as a table of
-// its kind is made and that this one does not read.
+// Returns "[[pin]] 2: home = 0.5 changes nothing, select = box alone reads it" for each key that differs from
+// its default and that this table does not read.
 template <class Table, std::size_t n>
 std::vector<std::string> idle_keys_of(const std::vector<Table>& tables, const std::string& name,
                                       Keys (*bind)(Table&), const ReadKey<Table> (&rows)[n]) {
@@ -37,7 +38,8 @@ std::vector<std::string> idle_keys_of(const std::vector<Table>& tables, const st
   return warnings;
 }
 
-// Says which of the scene's flags, and of the keys of its pins and obstacles, nothing reads.
+// Returns a warning for each of the scene's flags, and of the keys of its pins and obstacles, that nothing
+// reads.
 std::vector<std::string> idle_key_warnings(const Scene& scene);
 
 }  // namespace hysteron::experiments

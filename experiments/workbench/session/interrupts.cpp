@@ -7,13 +7,13 @@ namespace hysteron::experiments {
 namespace {
 
 volatile std::sig_atomic_t g_seen = 0;
-timespec g_when;  // the first one came; read by the handler alone
+timespec g_when;  // time of the first signal; read by the handler alone
 
-// Runs of a batch are many at once.
+// Counts the living objects, as a batch has many runs at once.
 int g_living = 0;
 struct sigaction g_interrupt_before, g_terminate_before;
 
-// Calls only what a handler may call.
+// Handles a signal; it calls only functions that are safe in handlers.
 void keep(int signal) {
   constexpr double kOneAndTheSame = 0.5;  // [s]
   timespec now;

@@ -1,13 +1,13 @@
-// SIGINT and SIGTERM as a question that the run asks itself between two instants.
+// Turns SIGINT and SIGTERM into a question that the run asks itself between two instants.
 #pragma once
 
 #include <string>
 
 namespace hysteron::experiments {
 
-// While one of them lives, the first of these signals is kept, for all of them; a second one ends the process
-// as it always does, unless it comes within half a second: `timeout` and batch systems signal a process and
-// its group.  They come and go on one thread at a time.
+// While an object lives, the first of these signals is stored, for all objects; a second one ends the process
+// as usual, unless it comes within half a second, because `timeout` and batch systems signal a process and
+// its group.  Objects are created and destroyed on one thread at a time.
 class Interrupts {
  public:
   Interrupts();
@@ -15,7 +15,7 @@ class Interrupts {
   Interrupts(const Interrupts&) = delete;
   Interrupts& operator=(const Interrupts&) = delete;
 
-  // "SIGTERM"; "" while none has come.
+  // Returns "SIGTERM"; "" until one has come.
   static std::string seen();
 };
 

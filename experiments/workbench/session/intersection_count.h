@@ -12,11 +12,11 @@
 
 namespace hysteron::experiments {
 
-// Behind a GPU an instant is counted on a thread of its own while the next steps run, and told with the next
+// With a GPU an instant is counted on a separate thread while the next steps run, and reported with the next
 // one.
 class IntersectionCount : public Observer {
  public:
-  // `tell` gets a warning for each instant that has some, on the caller's thread.
+  // `tell` gets a warning for each instant with intersections, on the caller's thread.
   IntersectionCount(std::vector<Eigen::Vector3i> face, bool behind_a_gpu,
                     std::function<void(const std::string&)> tell)
       : face_(std::move(face)), behind_a_gpu_(behind_a_gpu), tell_(std::move(tell)) {}
@@ -24,24 +24,24 @@ class IntersectionCount : public Observer {
   void watch(Session& session, const Snapshot& instant) override;
   void finish(Session& session, const std::string& title) override;
   void see(double time, const std::vector<Eigen::Vector3d>& x);
-  // Pairs of all instants seen; waits for the last of them.
+  // Returns the number of pairs over all instants; waits for the last count.
   long pairs();
   void serialise(Archive& archive) override;
 
  private:
   struct Found {
     long pairs = 0;
-    std::string line;  // empty: none
+    std::string line;  // empty if there are none
   };
   Found found_in(double time, const std::vector<Eigen::Vector3d>& x) const;
-  void take();  // what is being counted, if anything is
+  void take();  // adds the pending count, if there is one
   void add(const Found& found);
 
   std::vector<Eigen::Vector3i> face_;
   bool behind_a_gpu_;
   std::function<void(const std::string&)> tell_;
   long pairs_ = 0;
-  std::future<Found> counting_;  // the last: its thread reads the faces
+  std::future<Found> counting_;  // declared last, as its thread reads the faces
 };
 
 }  // namespace hysteron::experiments

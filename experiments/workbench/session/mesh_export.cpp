@@ -27,7 +27,7 @@ std::string mesh_file(std::size_t number, const std::string& format) {
 }
 
 std::string scene_file(std::size_t number) { return fmt::format("mesh/{:04}.xml", number); }
-// Of one that changes its shape there is one for each instant.
+// Returns the name of a body's file; a body that changes its shape has one for each instant.
 std::string body_file(std::size_t number, std::optional<std::size_t> instant = {}) {
   return instant ? fmt::format("bodies/{:04}-{:04}.ply", number, *instant)
                  : fmt::format("bodies/{:04}.ply", number);
@@ -40,7 +40,7 @@ VtkField velocities(Simulation& simulation) {
   return field;
 }
 
-// At a vertex the mean of the norms around it.
+// Returns at each vertex the mean of the norms around it.
 VtkField mean_size(const char* name, const ClothMesh& mesh, const std::vector<double>& element,
                    int dimension) {
   const std::vector<float> mean = vertex_average(mesh, curvature_size(element, dimension), dimension);
@@ -80,13 +80,13 @@ std::vector<std::string> MeshExport::files(const std::string& format) {
   return {mesh_file(0, format)};
 }
 
-// What pictures of format mitsuba show.
+// Prepares the pictures' view for format mitsuba.
 void MeshExport::begin(Session& session) {
   if (session.setup().options.export_format == "mitsuba")
     view_ = picture_view(session.setup(), session.bounds(), session.plan().floor);
 }
 
-// Bodies that keep their shape are written with the first scene.
+// Writes a Mitsuba scene; bodies that keep their shape are written with the first one only.
 void MeshExport::write_scene(Session& session, std::size_t number, const Snapshot& instant) {
   Run& run = session.run();
   const std::vector<Obstacle>& obstacles = session.scene().obstacle;

@@ -70,12 +70,12 @@ const std::map<std::string, std::pair<const char*, const char*>> kUnits = {
     {"ridge-height", {"m", "_m"}},
     {"silhouette", {"%", "_percent"}}};
 
-// Results of every run whose names end as those of requests do.
+// The results of every run whose names could be those of requests.
 const std::set<std::string> kOwnResults = {"hand_lag_m", "residual_curvature_rms_per_m",
                                            "residual_curvature_formula_rms_per_m"};
 
 void check_names(const std::vector<MetricRequest>& requests) {
-  // Columns of every series, and of crumple's.
+  // These are the columns of every series, and of crumple's.
   std::set<std::string> seen = {"time", "fastest", "cycle", "ridge_length", "curvature_rms"};
   for (const auto& [name, joules] : Ledger{}.rows()) seen.insert(name);
   for (const MetricRequest& request : requests) {
@@ -106,7 +106,7 @@ MetricRequest metric_request(ValueTree table, const std::string& file, const Sce
   return request;
 }
 
-// [[metric]] of a scene file, or of the manifest of a run that was asked for them.
+// Reads [[metric]] of a scene file, or of the manifest of a run that had such requests.
 ValueTree metric_tables(const std::string& file) {
   if (file.ends_with(".json"))
     return json_tree(

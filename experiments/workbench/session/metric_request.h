@@ -1,4 +1,4 @@
-// Numbers that a scene asks for by name, as tables [[metric]] of its file:
+// A scene requests numbers by name, as tables [[metric]] of its file:
 //
 //   [[metric]]
 //   name = "gap"            # column `gap` of metrics.csv, metric `gap_m`
@@ -32,24 +32,25 @@ struct MetricRequest {
   double threshold = 20;
   double cutoff = 0.04;
   double from = -1;
-  std::string origin;  // "scene.toml:7"; no key
+  std::string origin;  // place of the table, "scene.toml:7"; it is no key
 
-  std::string column() const;  // "gap [m]"
-  // "gap_m"; at the end of the second cycle "gap_cycle_2_m".
+  std::string column() const;  // returns "gap [m]"
+  // Returns "gap_m"; at the end of the second cycle "gap_cycle_2_m".
   std::string metric(int cycle = 0) const;
-  bool has_part() const;  // between low and high
+  bool has_part() const;  // true if measured on a part, between low and high
   Error refusal(const std::string& what) const;
 };
 
 Keys bind_metric(MetricRequest& request);
 Json to_json(const std::vector<MetricRequest>& requests);
-// Of the scene file that is called so, or of a manifest whose run asked for them; `scene` is what it says.
-// Throws Error::invalid_input with file and line.
+// Returns the requests of the scene file of that name, or of a manifest whose run had them; `scene` is the
+// scene of that file.  Throws Error::invalid_input with file and line.
 std::vector<MetricRequest> metrics_in(const std::string& name, const Scene& scene);
-// Those of a set-up's scene, noted there for manifest, last words and --errors.  Throws likewise.
+// Returns the requests of a set-up's scene, and stores them there for manifest, summary and --errors.  Throws
+// as metrics_in() does.
 std::vector<MetricRequest> take_requests(Setup& setup);
 
-// A sentence for each key that its kind does not read.
+// Returns a sentence for each key that its kind does not read.
 std::vector<std::string> idle_metric_warnings(const std::vector<MetricRequest>& requests);
 
 }  // namespace hysteron::experiments

@@ -16,9 +16,9 @@
 namespace hysteron::experiments {
 namespace {
 
-constexpr int kSamples = 256, kDepth = 8;  // paths a pixel, reflections
-constexpr double kFar = 40;                // distance of the key light in radii of what is lit
-constexpr double kThrough = 0.10;          // of the light on cloth, as in figure_cloth.frag
+constexpr int kSamples = 256, kDepth = 8;  // paths per pixel, reflections per path
+constexpr double kFar = 40;                // distance of the key light, in radii of the lit bounds
+constexpr double kThrough = 0.10;          // share of light that passes cloth, as in figure_cloth.frag
 
 std::string numbers(const Eigen::Vector3d& v) {
   return fmt::format("{:.9g}, {:.9g}, {:.9g}", v.x(), v.y(), v.z());
@@ -38,8 +38,9 @@ std::string diffuse(const render::Rgb8& color) {
   return "<bsdf type=\"diffuse\">" + rgb("reflectance", linear(color)) + "</bsdf>";
 }
 
-// A sheet with a colour on either side that passes a share of its light on.  Mitsuba's one material that does
-// is Disney's for thin surfaces, which without a step of the refractive index shines at no angle.
+// Returns the material of a sheet with a colour on either side that transmits a share of its light.
+// Mitsuba's one such material is Disney's for thin surfaces, which without a step of the refractive index
+// shines at no angle.
 std::string cloth_material(const render::Look& look) {
   return fmt::format(
       "<bsdf type=\"blendbsdf\"><float name=\"weight\" value=\"{}\"/><bsdf type=\"twosided\">{}{}</bsdf>"
@@ -63,7 +64,8 @@ std::string matrix(const Eigen::Matrix4f& m) {
 
 std::string sensor(const PictureView& view) {
   const float aspect = view.aspect();
-  const double slope = 1 / view.camera.projection(aspect)(1, 1);  // half a height at unit distance, or at all
+  // Half the height at unit distance, or of parallel rays.
+  const double slope = 1 / view.camera.projection(aspect)(1, 1);
   const Eigen::Vector3d eye = view.camera.eye().cast<double>(),
                         forward = view.camera.forward().cast<double>(),
                         up = view.camera.view().block<1, 3>(1, 0).transpose().cast<double>();
@@ -89,13 +91,13 @@ Eigen::Vector3d key_light_direction(const PictureView& view) {
   return render::key_direction(view.look, view.camera, {}).normalized().cast<double>();
 }
 
-// Radiance of a disc that throws the key light's irradiance, and of a sky that throws its own; a diffuse
+// Returns a disc whose radiance gives the key light's irradiance, and a sky with its own radiance; a diffuse
 // surface is as bright as its colour under light of the exposure's inverse.
 std::string lights(const PictureView& view) {
   const render::StudioLight studio = render::studio_light(view.look.room);
   const Eigen::Vector3d to_light = key_light_direction(view), middle = view.bounds.center().cast<double>();
   const double distance = kFar * view.bounds.radius(), slope = studio.key_radius;
-  const double disc = slope * slope / (1 + slope * slope);  // its share of what a hemisphere would throw
+  const double disc = slope * slope / (1 + slope * slope);  // its share of a hemisphere's irradiance
   const Eigen::Vector3d key = studio.exposure / disc * studio.key.cast<double>(),
                         sky = studio.exposure * studio.sky.cast<double>(),
                         side = Eigen::Vector3d::UnitX().cross(to_light).normalized();
@@ -115,8 +117,8 @@ std::string level(double height, const PictureView& view, const std::string& mat
       kFar * view.bounds.radius(), numbers(middle), material);
 }
 
-// The grey table that lights a figure from below, where pictures draw it; without a ground the studio's
-// floor, which is too deep to be shaded.
+// Returns the grey table that lights a figure from below, where pictures draw it; without a ground the
+// studio's floor, which is too far below to be shaded.
 std::string ground(const PictureView& view) {
   const render::StudioLight studio = render::studio_light(view.look.room);
   const Eigen::Vector3d floor = studio.floor.cast<double>();

@@ -1,5 +1,6 @@
-// A picture's scene for the path tracer Mitsuba 3 (Jakob et al. 2022), whose plugins and parameters are those
-// of https://mitsuba.readthedocs.io: for the last per cent of light that a rasteriser leaves out.
+// Writes a picture's scene for the path tracer Mitsuba 3 (Jakob et al. 2022), whose plugins and parameters
+// are those of https://mitsuba.readthedocs.io: it adds the last per cent of light that a rasteriser leaves
+// out.
 #pragma once
 
 #include <string>
@@ -10,15 +11,15 @@
 
 namespace hysteron::experiments {
 
-// XML of a scene: the cloth in the file `cloth`, diffuse on both sides, and `bodies`, a file for each visible
-// obstacle and "" for others, where they are at `time` [s]; key light, sky and floor of a figure.  The ground
-// is the grey floor by whose light cloth is drawn, not the page; where no surface is, the picture is
+// Returns the XML of a scene: the cloth in the file `cloth`, diffuse on both sides; `bodies`, a file for each
+// visible obstacle and "" for others, placed as at `time` [s]; key light, sky and floor of a figure.  The
+// ground is the grey floor by whose light cloth is drawn, not the page; where no surface is, the picture is
 // transparent.
 std::string mitsuba_scene(const PictureView& view, const Scene& scene, double time, const std::string& cloth,
                           const std::vector<std::string>& bodies);
 
-// An obstacle's surface, before it is placed, as a PLY file; smaller, as pictures draw it below cloth whose
-// triangles have sides of that length [m].  Throws Error::system.
+// Writes an obstacle's surface, before it is placed, as a PLY file; it is shrunk as in pictures below cloth
+// whose triangles have sides of length `side` [m].  Throws Error::system.
 void write_body(const std::string& file, const render::TriangleMesh& body, const render::Look& look,
                 float side);
 

@@ -1,4 +1,4 @@
-// The observers of every run, but for those with a file of their own.
+// The observers of every run, except those with a file of their own.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ namespace {
 
 constexpr const char* kMetricsFile = "metrics.csv";
 
-// metrics.csv: time, speed, the experiment's own columns, the ledger.
+// Writes metrics.csv: time, speed, the experiment's own columns, the ledger.
 class Series : public Observer {
  public:
   void begin(Session& session) override {
@@ -48,7 +48,7 @@ class Series : public Observer {
   std::optional<Record> rows_;
 };
 
-// Frames with the loop of a probe, the contact sheet, the plots of probes.
+// Draws frames with the loop of a probe, the contact sheet, and the plots of probes.
 class Drawing : public Observer {
  public:
   explicit Drawing(const Probes& probes) : probes_(probes) {}
@@ -76,7 +76,7 @@ class Drawing : public Observer {
   Pictures* pictures_ = nullptr;
 };
 
-// What the solver says: energies, how well it has converged, what gave way.
+// Records the solver's statistics: energies, convergence, largest stretch.
 class Account : public Observer {
  public:
   void begin(Session& session) override;
@@ -87,7 +87,7 @@ class Account : public Observer {
   void serialise(Archive& archive) override { archive(stretched_); }
 
  private:
-  double stretched_ = 0;  // largest principal stretch minus 1, of the instants watched
+  double stretched_ = 0;  // largest principal stretch minus 1 over the watched instants
 };
 
 void Account::begin(Session& session) {
@@ -98,7 +98,7 @@ void Account::begin(Session& session) {
   if (draws && !doubt.empty()) session.run().warn(doubt);
 }
 
-// Of a batch the launches and waits are not one run's.
+// Records launches and waits per step, except in a batch, whose runs share them.
 void note_device_work(Run& run, const Diagnostics& counts) {
   if (run.manifest().batch) return;
   run.note("device_per_step", {{"launches", counts.per_step(counts.device.loops)},
@@ -116,8 +116,8 @@ void fill_manifest(Run& run, Simulation& simulation, const Diagnostics& counts) 
   note_device_work(run, counts);
 }
 
-// Of statics the integrator's share is what jumps from one equilibrium to the next set free, whatever the
-// step, and what the mean of the forces misses, of second order in it.
+// Records the energy balance.  In statics the integrator's share is the energy released by jumps from one
+// equilibrium to the next, whatever the step, and the second-order error of the mean of the forces.
 void note_energy(Run& run, const Ledger& ledger, const Scene& scene) {
   run.manifest().energy = ledger.rows();
   const double fraction = ledger.integrator_share();
@@ -128,7 +128,7 @@ void note_energy(Run& run, const Ledger& ledger, const Scene& scene) {
   if (!doubt.empty()) run.warn(doubt);
 }
 
-// How much was left unbalanced, in the units of --newton-residual and --newton-velocity.
+// Records how much was left unbalanced, in the units of --newton-residual and --newton-velocity.
 void note_convergence(Run& run, const Diagnostics& counts, const Scene& scene) {
   run.metric("solver_iterations_per_step", counts.per_step(counts.linear));
   if (scene.finds_equilibrium()) {
@@ -224,15 +224,16 @@ class Folds : public Observer {
   void serialise(Archive& archive) override { archive(largest_); }
 
  private:
-  // An edge folded by an angle of 0.25 is 0.6 % too soft in the `shape` element, by 0.5 2.5 %, by 1 9 %.
+  // An edge folded by an angle of 0.25 rad is 0.6 % too soft in the `shape` element, by 0.5 rad 2.5 %, by 1
+  // rad 9 %.
   static constexpr double kSharp = 0.5;
 
   const ClothMesh& mesh_;
   std::vector<double> rest_angle_;
-  double largest_ = 0;  // share of sharply folded edges
+  double largest_ = 0;  // largest share of sharply folded edges
 };
 
-// Of --errors: the run again, when all that it is compared by is known.
+// Measures errors (--errors) by running again, when all results for comparison are known.
 class MeasuredErrors : public Observer {
  public:
   void finish(Session& session, const std::string&) override {

@@ -39,7 +39,7 @@ std::vector<Eigen::Vector2d> parsed_points(const std::string& text) {
   return places;
 }
 
-// "x in [0, 0.3] and y in [0, 0.2] m"
+// Returns "x in [0, 0.3] and y in [0, 0.2] m".
 std::string flat_extent(const ClothMesh& mesh) {
   Eigen::AlignedBox2d box;
   for (int f = 0; f < mesh.faces(); ++f)
@@ -50,7 +50,8 @@ std::string flat_extent(const ClothMesh& mesh) {
                      high.y());
 }
 
-// Of one element, as its columns have them: (S_xx, S_yy, sqrt2 S_xy) of a face as its tensor's components.
+// Appends the values of one element for its columns: (S_xx, S_yy, sqrt2 S_xy) of a face become its tensor's
+// components.
 void append(std::vector<double>& row, const std::vector<double>& values, int element, int dimension) {
   for (int c = 0; c < dimension; ++c)
     row.push_back(values[element * dimension + c] / (c == 2 ? std::numbers::sqrt2 : 1));

@@ -1,4 +1,4 @@
-// A time series on disk, growing row by row.
+// Writes a time series to disk, row by row.
 #pragma once
 
 #include <filesystem>
@@ -12,21 +12,22 @@ class Archive;
 
 namespace hysteron::experiments {
 
-// CSV with named columns and units in the header, "time [s]".  Every row is flushed, so that a run can be
-// watched in FILE.part; the file gets its name in finish() or, after an exception elsewhere, on destruction.
-// A file that could not be written (full disk) never gets it.
+// The file is a CSV with named columns and units in the header, "time [s]".  Every row is flushed, so that a
+// run can be watched in FILE.part; the file gets its name in finish() or, after an exception elsewhere, on
+// destruction.  A file that could not be written (full disk) never gets it.
 class Record {
  public:
-  // Throws Error::system if the file cannot be created or written, like the others below.
+  // Throws Error::system if the file cannot be created or written, as the others below do.
   Record(std::filesystem::path file, const std::vector<std::string>& columns);
   ~Record();
   Record(const Record&) = delete;
   Record& operator=(const Record&) = delete;
 
-  // One number per column, with 17 significant digits.
+  // Writes one number per column, with 17 significant digits.
   void row(const std::vector<double>& values);
   void finish();
-  // Rows so far, which a run that goes on begins with.  Throws Error::invalid_input where columns differ.
+  // Serialises the rows so far, with which a continued run begins.  Throws Error::invalid_input if columns
+  // differ.
   void serialise(Archive& archive);
 
  private:
@@ -35,8 +36,8 @@ class Record {
   std::filesystem::path file_, growing_;
   std::ofstream stream_;
   std::size_t columns_;
-  std::string text_;   // written so far
-  bool whole_ = true;  // every row so far is on disk
+  std::string text_;   // text written so far
+  bool whole_ = true;  // true if every row so far is on disk
   bool finished_ = false;
 };
 

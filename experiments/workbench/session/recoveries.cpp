@@ -12,13 +12,13 @@ namespace hysteron::experiments {
 Recoveries::Recoveries(const Scene& scene) : curve_(mean_of_faces(scene.fabric.virgin_curve())) {
   if (scene.law == "pabst" || scene.law == "linear") return;
   if (has_faces(scene.law) && scene.fabric.bending.faces.on()) return;
-  if (scene.fabric.rubs_otherwise()) return;  // elasticity has other directions than friction has
+  if (scene.fabric.rubs_otherwise()) return;  // elasticity and friction differ in anisotropy
   counts_ = has_residual_formula(choose_law(scene.law, curve_, scene.param));
 }
 
 namespace {
 
-// The simulation's moments as its law gives them [N].
+// Returns the simulation's moments as its law gives them [N].
 std::vector<double> law_moment(Simulation& simulation) {
   std::vector<double> moment = simulation.moment();
   const std::vector<double> metric = simulation.metric();
@@ -26,7 +26,7 @@ std::vector<double> law_moment(Simulation& simulation) {
   return moment;
 }
 
-// The curvature [1/m] that the closed form leaves of each element, components as the simulation's.
+// Returns the residual curvature of each element by the closed form [1/m], with the simulation's components.
 std::vector<double> residual_of_elements(Simulation& simulation, const LawChoice& law) {
   const int d = simulation.dimension();
   const std::vector<double> metric = simulation.metric(), m = law_moment(simulation);

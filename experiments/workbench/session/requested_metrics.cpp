@@ -28,7 +28,7 @@ int requested_vertex(const ClothMesh& mesh, const MetricRequest& request, const 
   return vertex;
 }
 
-// Of the faces, by their areas.
+// Returns the mean normal of the faces, weighted by area.
 Eigen::Vector3d mean_normal(const ClothMesh& mesh, const std::vector<int>& faces,
                             const std::vector<Eigen::Vector3d>& x) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -39,7 +39,7 @@ Eigen::Vector3d mean_normal(const ClothMesh& mesh, const std::vector<int>& faces
   return sum;
 }
 
-// Of the edges at these vertices [m].
+// Returns the mean length of the edges at these vertices [m].
 double mean_edge(const ClothMesh& mesh, const std::vector<int>& vertices) {
   std::vector<char> chosen(mesh.vertices(), 0);
   for (const int v : vertices) chosen[v] = 1;
@@ -243,7 +243,7 @@ void RequestedMetrics::join_cycles(RunPlan& plan) {
   };
 }
 
-// What is requested stands last in each row.
+// Writes cycles.csv; the requested metrics are the last columns of each row.
 void RequestedMetrics::write_cycles() {
   std::vector<std::string> head = {"cycle", "time [s]"};
   head.insert(head.end(), columns_.begin(), columns_.end());

@@ -1,4 +1,4 @@
-// The metrics that a scene asks for, measured while it is simulated.
+// Measures the metrics that a scene requests, while it is simulated.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,20 +13,20 @@
 
 namespace hysteron::experiments {
 
-// A request with what it is measured on.
+// A request with the part of the cloth that it is measured on.
 class RequestedMetric {
  public:
-  // Throws Error::invalid_input where it selects nothing, asks for a hand that there is not, for the force on
-  // one of an integrator that knows none, or for a silhouette without direction or instant to compare with.
+  // Throws Error::invalid_input if the request selects nothing, names a missing pin, asks for a pin's force
+  // with an integrator that has none, or for a silhouette without direction or instant to compare with.
   RequestedMetric(const MetricRequest& request, const Scene& scene, const Cloth& cloth, int dimension);
 
   const MetricRequest& request() const { return request_; }
-  // Why it may not say what was meant in a run of so long [s]; "": no reason is seen.
+  // Returns why it may not measure what was meant in a run of so long [s]; "" if there is no reason.
   std::string doubt(double seconds) const;
   bool has_begun() const { return has_begun_; }
-  // At the time `from`: later values are against this one.
+  // Stores the state at the time `from`, to which later values are relative.
   void begin(Simulation& simulation, const std::vector<Eigen::Vector3d>& x);
-  // Of a request that has not begun 0.
+  // Returns the value; 0 for a request that has not begun.
   double value(Simulation& simulation, const std::vector<Eigen::Vector3d>& x) const;
   void serialise(Archive& archive);
 
@@ -44,25 +44,25 @@ class RequestedMetric {
   MetricRequest request_;
   const Scene& scene_;
   const Cloth& cloth_;
-  std::vector<int> items_, others_;  // vertices, faces or bending elements
+  std::vector<int> items_, others_;  // indices of vertices, faces or bending elements
   bool has_begun_ = false;
-  double before_ = 0;                      // at `from`
-  std::vector<Eigen::Vector3d> x_before_;  // of a silhouette [m]
+  double before_ = 0;                      // value at `from`
+  std::vector<Eigen::Vector3d> x_before_;  // positions at `from` for a silhouette [m]
 };
 
-// All that a scene asks for: columns of metrics.csv, plots, and metrics at the end.  Of phases that are gone
-// through several times also at the end of each cycle, with the experiment's own columns in cycles.csv.
+// Writes everything that a scene requests: columns of metrics.csv, plots, and metrics at the end.  If phases
+// are repeated, also at the end of each cycle, with the experiment's own columns in cycles.csv.
 class RequestedMetrics {
  public:
   // Warns of keys that nothing reads and refuses names of files as Run::reserve() does.  The session must
-  // outlive it.
+  // outlive this object.
   RequestedMetrics(const std::vector<MetricRequest>& requests, Session& session);
 
-  // Adds what is requested to the plan, which it must outlive: columns, measures, instants, checkpoints.
+  // Adds the requests to the plan, which this object must outlive: columns, measures, instants, checkpoints.
   void join(RunPlan& plan);
-  // "  gap [m] = 0.12" for each, as last measured.
+  // Returns "  gap [m] = 0.12" for each, as last measured.
   std::string words() const;
-  // Metrics and plots, when the run is over.
+  // Writes metrics and plots when the run is over.
   void finish();
 
  private:
@@ -73,8 +73,8 @@ class RequestedMetrics {
   Session& session_;
   std::vector<RequestedMetric> metrics_;
   std::vector<double> last_;
-  std::vector<std::string> columns_;         // of the plan, without that of the cycle
-  std::vector<std::vector<double>> cycles_;  // time and these columns at the end of each
+  std::vector<std::string> columns_;         // columns of the plan, except the cycle's
+  std::vector<std::vector<double>> cycles_;  // by cycle: time and these columns at its end
 };
 
 }  // namespace hysteron::experiments

@@ -13,7 +13,7 @@ namespace hysteron::experiments {
 namespace {
 
 constexpr int kMaxSteps = 20;
-constexpr double kStill = 0.01;  // of the thickness
+constexpr double kStill = 0.01;  // share of the thickness
 
 Rest step_to_rest(Simulation& simulation, double still) {
   simulation.become_static();
@@ -66,7 +66,8 @@ void wait_at_rest(Simulation& simulation, double seconds, double step) {
   }
 }
 
-// What a search leads to that does not end is no state of the cloth: the last one in motion stays the run's.
+// Searches for rest.  The result of a failed search is no state of the cloth, so the last one in motion stays
+// the run's.
 bool Session::find_rest() {
   const Rest rest = seek_rest(*simulation_, setup_.scene.fabric.thickness);
   if (rest.failure.empty()) {

@@ -1,4 +1,4 @@
-// At the end of a run's motion: on to the equilibrium nearby, where there is one.
+// Continues from the end of a run's motion to the equilibrium nearby, if there is one.
 #pragma once
 
 #include <string>
@@ -8,19 +8,19 @@
 
 namespace hysteron::experiments {
 
-// Largest distance of a vertex from where it was [m].
+// Returns the largest displacement of a vertex [m].
 double farthest_moved(const std::vector<Eigen::Vector3d>& now, const std::vector<Eigen::Vector3d>& before);
 
 struct Rest {
-  double moved = 0;     // by the last step, a vertex at most [m]
-  std::string failure;  // why none is near; "": the simulation is at rest
+  double moved = 0;     // largest displacement of a vertex by the last step [m]
+  std::string failure;  // why there is no equilibrium nearby; "" if the simulation is at rest
 };
 // Takes steps without inertia until one of them ends in equilibrium and moves no vertex farther than a
-// hundredth of the thickness [m].  Where none does, the simulation is where it was, history, losses and
-// counts included; it is only good for looking at then.
+// hundredth of the thickness [m].  If none does, the simulation returns to its previous state, including
+// history, losses and counts; it may then only be read.
 Rest seek_rest(Simulation& simulation, double thickness);
-// From rest on for so long [s], from equilibrium to equilibrium, by steps that begin with `step` and grow to
-// a fifth of the time passed.
+// Waits `seconds` [s] at rest, from equilibrium to equilibrium, by steps that begin with `step` [s] and grow
+// to a fifth of the time passed.
 void wait_at_rest(Simulation& simulation, double seconds, double step);
 
 }  // namespace hysteron::experiments

@@ -35,7 +35,7 @@ CheckpointOwner checkpoint_owner(const Cloth& cloth, const Simulation& simulatio
   return {simulation.device(), cloth_hash(cloth)};
 }
 
-// The run that left the checkpoint is this one, by its manifest.
+// Throws unless the run that left the checkpoint is this one, by its manifest.
 void throw_if_another(const fs::path& file, const std::optional<Manifest>& before, const CommandLine& line,
                       const Setup& setup) {
   if (!before) refuse_checkpoint(file, "there is no manifest.json beside it");

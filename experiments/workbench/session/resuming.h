@@ -1,4 +1,4 @@
-// Checkpoints of a session: what is in them, when they are taken, how a run goes on from one.
+// Checkpoints of a session: their content, when they are taken, and how a run goes on from one.
 #pragma once
 
 #include <chrono>
@@ -9,20 +9,20 @@
 
 namespace hysteron::experiments {
 
-// The last of the observers: a run that goes on does so when all others have begun.
+// This is the last of the observers: a run goes on from its checkpoint when all others have begun.
 class Checkpoints : public Observer {
  public:
-  // With --resume a run that is complete and was asked for the same is not repeated; one that was asked for
-  // something else is, and stderr says what differs.  Of one that is not complete the checkpoint is read.
-  // Throws Error::invalid_input for a checkpoint of another request.
+  // With --resume a complete run of the same request is not repeated; one of another request is, and stderr
+  // says what differs.  The checkpoint of an incomplete run is read.  Throws Error::invalid_input for a
+  // checkpoint of another request.
   Checkpoints(const CommandLine& line, const Setup& setup, const Cloth& cloth, const Simulation& simulation);
 
-  bool is_complete() const { return is_complete_; }  // the run of --resume
-  // Files of the interrupted run; its others are written anew.
+  bool is_complete() const { return is_complete_; }  // true if the run of --resume is complete
+  // Returns the files of the interrupted run that are kept; its others are written anew.
   std::vector<std::string> kept_files() const;
 
-  void begin(Session& session) override;  // goes on from the checkpoint
-  // Takes one if one is due.  Throws Error::simulation where a signal has asked for the end.
+  void begin(Session& session) override;  // restores the checkpoint
+  // Takes a checkpoint if one is due.  Throws Error::simulation if a signal has asked for the end.
   void step(Session& session) override;
   void finish(Session& session, const std::string& title) override;
   void serialise(Archive& archive) override { archive(resumed_at_); }
@@ -33,9 +33,9 @@ class Checkpoints : public Observer {
   void take(Session& session);
 
   bool is_complete_ = false, is_repeated_ = false;
-  std::string state_;                       // to go on from; empty: none, or gone on
-  std::vector<double> resumed_at_;          // [s]
-  Clock::time_point taken_ = Clock::now();  // or begun
+  std::string state_;                       // state to restore; empty if there is none or it is restored
+  std::vector<double> resumed_at_;          // times of earlier restarts [s]
+  Clock::time_point taken_ = Clock::now();  // time of the last checkpoint, or of the beginning
 };
 
 }  // namespace hysteron::experiments

@@ -31,7 +31,7 @@ const Setup& checked(const Setup& setup) {
   return setup;
 }
 
-// Instants that are watched in a second, unless the experiment's plan says otherwise [1/s].
+// Returns the rate of watched instants [1/s], unless the experiment's plan sets another.
 double default_rate(const CommandLine& line) {
   const Experiment& experiment = experiment_named(line.experiment);
   return experiment.defaults ? experiment.defaults().options.fps : Options{}.fps;
@@ -66,7 +66,7 @@ void explain(const Scene& scene, const Cloth& cloth, const Simulation& simulatio
 }
 
 namespace {
-thread_local std::optional<Scene>* planned = nullptr;  // what planned_scene() waits for
+thread_local std::optional<Scene>* planned = nullptr;  // receives the result of planned_scene()
 
 struct Planning {
   explicit Planning(std::optional<Scene>& scene) { planned = &scene; }
@@ -129,7 +129,8 @@ void Session::describe_start() {
   for (const std::string& doubt : doubts_at_start(setup_.scene, cloth_, *simulation_)) run_->warn(doubt);
 }
 
-// A file has the triangles that it has, and a number that nobody has given may be made to fit.
+// Warns if the number of triangles differs from the request, except for a mesh file, and for a default
+// number, which may be adapted.
 void Session::warn_of_triangle_count() {
   if (!setup_.requested || !is_given(*setup_.requested, "triangles") || !rest_file(setup_.scene).empty())
     return;
@@ -165,7 +166,7 @@ void Session::record(const Snapshot& instant, const std::string& left) {
   run_->progress(plan_->progress(instant) + left);
 }
 
-// "cotton-broad, law prandtl, 6,000 triangles, 4 s in 480 steps on cpu"
+// Returns "cotton-broad, law prandtl, 6,000 triangles, 4 s in 480 steps on cpu".
 std::string Session::opening_words() const {
   const Scene& scene = setup_.scene;
   return scene.fabric.name + ", law " + scene.law + ", " + grouped(cloth_.mesh.faces()) + " triangles, " +
@@ -173,9 +174,9 @@ std::string Session::opening_words() const {
          simulation_->device();
 }
 
-// Instants of --fps that lie beside their times are told, with by how much.
+// Reports by how much instants of --fps deviate from their times.
 void Session::note_rounded_instants() {
-  constexpr double kNoticed = 1e-3;  // of a step
+  constexpr double kNoticed = 1e-3;  // in steps
   const double fps = setup_.options.fps, step = setup_.scene.step;
   if (fps * step > 1 + kNoticed) {
     run_->progress(fmt::format(
@@ -223,7 +224,7 @@ bool Session::look(const std::string& left) {
   return settled;
 }
 
-// All instants; those before a checkpoint have been recorded.  Returns whether the question is settled.
+// Runs all instants; those before a checkpoint have been recorded.  Returns true if the question is settled.
 bool Session::run_to_end() {
   std::optional<Interrupts> interrupts;
   if (setup_.options.checkpoint > 0) interrupts.emplace();

@@ -1,4 +1,4 @@
-// One simulated run from set-up to manifest: what every experiment shares.
+// One simulated run from set-up to manifest, which every experiment shares.
 #pragma once
 
 #include <chrono>
@@ -23,7 +23,7 @@ class Checkpoints;
 class Probes;
 class Session;
 
-// What is known of an instant that is recorded, watched, or the end of a step.
+// The state at an instant that is recorded, watched, or the end of a step.
 struct Snapshot {
   double time;                            // [s]
   const std::vector<Eigen::Vector3d>& x;  // positions [m]
@@ -35,69 +35,70 @@ struct Snapshot {
 //
 // Three functions are called while it is simulated, each of them at the start and at the end, too:
 //   measure     at the instants of --fps, for the row of metrics.csv that belongs to a picture
-//   watch       at instants of the experiment's own, `watch_rate`, which --fps does not move
+//   watch       at instants of the experiment's own, `watch_rate`, independent of --fps
 //   each_step   after every step
 // and `instants` at times of their own.
 // No result may depend on the rate of pictures: all that becomes a metric, or ends the run, is collected in
 // watch(), each_step() or instants, or read from the simulation when simulate() has returned; measure() only
-// shows it. Where several are due at one instant, each_step() is called first, then instants, and measure()
-// last.  What they collect is named in serialise().  each_step() costs a copy of all positions a step: of a
-// GPU that is felt.
+// shows it.  If several are due at one instant, each_step() is called first, then instants, and measure()
+// last.  serialise() covers what they collect.  each_step() costs a copy of all positions a step, which is
+// noticeable on a GPU.
 struct RunPlan {
-  render::Box bounds;                // framed by the pictures [m]
-  bool wanders = false;              // the scene may lead the cloth beyond: a trial widens them
+  render::Box bounds;                // box framed by the pictures [m]
+  bool wanders = false;              // the scene may lead the cloth out of the box, so a trial run widens it
   std::optional<float> floor;        // height of the visible ground [m]
-  std::vector<std::string> columns;  // own columns of metrics.csv, with units
+  std::vector<std::string> columns;  // the experiment's columns of metrics.csv, with units
   std::function<std::vector<double>(const Snapshot&)> measure;
   std::function<void(const Snapshot&)> watch;
-  double watch_rate = 0;  // [1/s]; 0: the default of --fps of this experiment, whatever fps is
+  double watch_rate = 0;  // [1/s]; 0: the experiment's default of --fps, whatever fps is
   std::function<void(const Snapshot&)> each_step;
-  // Instants of their own, which neither rate moves, each looked at once: at the first end of a step that is
-  // not before its time, so never where that is behind the end; its speed is NaN.
+  // An instant independent of either rate, which is looked at once: at the first end of a step not before its
+  // time, so never if its time is after the end; its speed is NaN.
   struct Instant {
     double time;  // [s]
     std::function<void(const Snapshot&)> look;
   };
   std::vector<Instant> instants;
-  std::function<bool(const Snapshot&)> settled;  // ends the run early; asked when it is watched
-  // Of every step, where they are not all the scene's [s]; one that is longer ends in an instant of its own.
+  std::function<bool(const Snapshot&)> settled;  // ends the run early; called at watched instants
+  // Length of every step, if they are not all the scene's [s]; each longer one ends in an instant of its own.
   std::vector<double> time_steps;
-  bool to_rest = false;  // at the end, without inertia, on to the equilibrium nearby, where that can be
-  double wait = 0;  // then, for laws that relax: so long at rest, by steps that grow with the time passed [s]
-  std::function<bool(const Snapshot&)> pictured;  // which instants are drawn and exported; empty: all of them
+  bool to_rest = false;  // continues without inertia to the equilibrium nearby, if possible
+  double wait = 0;       // then, for laws that relax, time at rest by growing steps [s]
+  // Selects the drawn and exported instants; empty: all of them.
+  std::function<bool(const Snapshot&)> pictured;
   std::function<std::string(const Snapshot&)> progress;
-  // What the experiment has collected in watch() and its like, for checkpoints.
+  // Serialises what the experiment has collected in watch() and the like, for checkpoints.
   std::function<void(Archive&)> serialise = [](Archive&) {};
 };
 
-// What watches a run: a series of numbers, pictures, a count, doubts.  The session calls all of them in the
-// order of one list, and knows nothing else of them.
+// An observer watches a run: a series of numbers, pictures, a count, warnings.  The session calls all
+// observers in the order of one list, and knows nothing else of them.
 class Observer {
  public:
   virtual ~Observer() = default;
   virtual void begin(Session&) {}                    // before the first instant
-  virtual void step(Session&) {}                     // before the steps to the next one
-  virtual void watch(Session&, const Snapshot&) {}   // an instant that --fps does not move, for results
-  virtual void record(Session&, const Snapshot&) {}  // an instant of --fps, for series and pictures
-  virtual void close() {}                            // after the last one: its series can be read
-  // After the experiment's own results: metrics, warnings and entries of the manifest.
+  virtual void step(Session&) {}                     // before the steps to the next instant
+  virtual void watch(Session&, const Snapshot&) {}   // at an instant independent of --fps, for results
+  virtual void record(Session&, const Snapshot&) {}  // at an instant of --fps, for series and pictures
+  virtual void close() {}                            // after the last instant, so that its series can be read
+  // Is called after the experiment's own results, for metrics, warnings and entries of the manifest.
   virtual void finish(Session&, const std::string& /*title*/) {}
-  virtual void serialise(Archive&) {}  // what it has collected, for checkpoints
+  virtual void serialise(Archive&) {}  // saves what it has collected, for checkpoints
 };
 
 using Observers = std::vector<std::unique_ptr<Observer>>;
-// Of every run, in the order of their calls: metrics.csv, whose row the experiment measures, probes,
-// pictures, which show a probe's loop, what the solver says, crossings, folds, recoveries, meshes, errors,
-// an animation, whose kept positions a checkpoint needs, checkpoints, which go when all else is there.
-// Refuses files that Run::reserve() does.
+// Returns the observers of every run, in the order of their calls: metrics.csv, whose row the experiment
+// measures, probes, pictures, which show a probe's loop, solver statistics, crossings, folds, recoveries,
+// meshes, errors, an animation, whose kept positions a checkpoint needs, and checkpoints, which are removed
+// when all else exists.  Refuses files that Run::reserve() does.
 Observers session_observers(Session& session, std::unique_ptr<Probes> probes,
                             std::unique_ptr<Checkpoints> checkpoints);
 
 // Prints what the scene includes and leaves out, with bytes and loops (--explain).
 void explain(const Scene& scene, const Cloth& cloth, const Simulation& simulation);
 
-// The scene as the experiment of that line changes it, without the run; nothing where it simulates no cloth.
-// Throws what the run would throw before its first step.
+// Returns the scene as the experiment of that line changes it, without the run; nothing if it simulates no
+// cloth.  Throws what the run would throw before its first step.
 std::optional<Scene> planned_scene(CommandLine line);
 
 class Session {
@@ -105,8 +106,8 @@ class Session {
   // Builds the cloth, unless the experiment brings its own, and the simulation; makes the run's folder.
   Session(const CommandLine& line, const Setup& setup, std::optional<Cloth> cloth = {});
 
-  // There is nothing to simulate: --explain or --dump-scene, which is done already, or --resume of a complete
-  // run.
+  // True if there is nothing to simulate: --explain or --dump-scene, which is done already, or --resume of a
+  // complete run.
   bool is_over() const { return !run_; }
   Run& run() { return *run_; }
   const CommandLine& line() const { return line_; }
@@ -114,47 +115,47 @@ class Session {
   const Scene& scene() const { return setup_.scene; }
   const Cloth& cloth() const { return cloth_; }
   Simulation& simulation() { return *simulation_; }
-  const RunPlan& plan() const { return *plan_; }         // while it is simulated
-  const render::Box& bounds() const { return bounds_; }  // framed by the pictures [m]
-  bool is_pictured(const Snapshot& instant) const {      // drawn and exported
+  const RunPlan& plan() const { return *plan_; }         // only while it is simulated
+  const render::Box& bounds() const { return bounds_; }  // box framed by the pictures [m]
+  bool is_pictured(const Snapshot& instant) const {      // true if drawn and exported
     return !plan_->pictured || plan_->pictured(instant);
   }
   Pictures* pictures() { return pictures_.get(); }  // null with --no-images
   void draw_by(std::unique_ptr<Pictures> pictures) { pictures_ = std::move(pictures); }
 
-  // Refuses what Run::reserve() does: the experiment's own files, and what it draws, if it draws.
+  // Refuses as Run::reserve() does: the experiment's own files, and those of its pictures, if it draws.
   void reserve(const std::vector<std::string>& files, const std::vector<std::string>& drawn = {});
-  // Simulates, watches, records and draws, until the time is over or the question is settled,
-  // and then to rest if the question asks for it.  Returns whether it is settled or, then, at rest.
+  // Simulates, watches, records and draws, until the time is over or the question is settled, and then to
+  // rest if the plan asks for it.  Returns true if it is settled or, then, at rest.
   bool simulate(const RunPlan& plan);
-  // A line below the title says that all is simulated, where no label says it.
+  // Writes a plot; a line below the title says that all is simulated, unless a label does.
   void plot(const std::string& name, render::Plot plot);
-  // Of what its law does, in plots: "#RRGGBB".
+  // Returns the colour of the scene's law in plots: "#RRGGBB".
   std::string law_color() const { return render::hex(color_of_law(scene().law)); }
-  // Metrics that every simulated run has, the manifest, the report.
+  // Writes the metrics that every simulated run has, the manifest, and the report.
   void finish(const std::string& title);
-  // All that outlives an instant; files of the run first.
+  // Serialises all that outlives an instant; files of the run first.
   void serialise(Archive& archive);
 
  private:
   void describe_start();
   void warn_of_triangle_count();
-  // Where the cloth was at the last instant of a kind.
+  // The cloth's positions at the last instant of a kind.
   struct Before {
     long step = 0;
     std::vector<Eigen::Vector3d> x;  // [m]
   };
 
   double fastest_since(Before& before, const std::vector<Eigen::Vector3d>& x) const;
-  // An instant at which results are made.  Returns whether the question is settled.
+  // Handles an instant at which results are made.  Returns true if the question is settled.
   bool watch(const Snapshot& instant);
-  // An instant of the series and its picture.
+  // Handles an instant of the series and its picture.
   void record(const Snapshot& instant, const std::string& left);
   void note_rounded_instants();
   render::Box framed();
   // Takes the steps to the next instant of any kind.
   void go_on();
-  // Calls what is due after these steps.  Returns whether the question is settled.
+  // Calls what is due after these steps.  Returns true if the question is settled.
   bool look(const std::string& left);
   bool run_to_end();
   bool find_rest();
@@ -165,14 +166,14 @@ class Session {
   Setup setup_;
   Cloth cloth_;
   std::unique_ptr<Simulation> simulation_;
-  std::unique_ptr<Run> run_;  // null where there is nothing to simulate
+  std::unique_ptr<Run> run_;  // null if there is nothing to simulate
   std::unique_ptr<Pictures> pictures_;
   Observers observers_;
   const RunPlan* plan_ = nullptr;
   render::Box bounds_;
   Timetable timetable_{0, 1};
   double watch_rate_ = 0;            // [1/s]
-  std::vector<long> instant_steps_;  // that the plan's instants are the ends of, in its order
+  std::vector<long> instant_steps_;  // by instant of the plan: the step that ends in it
   bool has_begun_ = false;
   Before recorded_, watched_;
 };
