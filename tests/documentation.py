@@ -444,7 +444,7 @@ def write_tables(page):
     page.text = block.sub(as_it_should_be, before)
 
 
-# What the program says
+# These texts come from the program itself.
 
 
 def exit_codes(hysteron):

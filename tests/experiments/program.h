@@ -14,7 +14,7 @@ struct Outcome {
   std::string out, err;
 };
 
-// What is said on stderr beside warnings.
+// Returns the lines of stderr that are not warnings.
 inline std::string without_warnings(const std::string& err) {
   std::istringstream lines(err);
   std::string remainder;
@@ -38,7 +38,7 @@ inline Outcome ended(int exit_code, const std::string& arguments) {
   return outcome;
 }
 inline Outcome finished(const std::string& arguments) { return ended(0, arguments); }
-// What the program says to arguments that it refuses as a wrong request.
+// Returns the program's message to arguments that it refuses as a wrong request.
 inline std::string refused(const std::string& arguments) { return ended(2, arguments).err; }
 
 // A run into a folder of its own, which ends well.

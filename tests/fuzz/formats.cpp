@@ -88,7 +88,7 @@ std::uint32_t big_endian(const std::string& bytes, std::size_t at) {
   return value;
 }
 
-// Without them no reader looks further.
+// Readers stop at a wrong check sum, so that these are set right.
 std::string with_check_sums(std::string png) {
   for (std::size_t at = 8; at + 12 <= png.size();) {
     const std::size_t length = big_endian(png, at);
@@ -105,7 +105,7 @@ Format png() {
   return {"png", "png", ".png", {[](const fs::path& file) { render::read_png(file); }}, with_check_sums};
 }
 
-// What `rerun`, `verify` and --scene take from it.
+// This format covers what `rerun`, `verify` and --scene take from a manifest.
 Format manifest() {
   return {"manifest",
           "manifest",

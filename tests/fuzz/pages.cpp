@@ -20,7 +20,7 @@ fs::path placed(const fs::path& file, const char* name) {
   return folder;
 }
 
-// What stands beside tables: a manifest that is whole.
+// A whole manifest stands beside tables.
 const fs::path kManifest = fs::path(HYSTERON_SEEDS) / "manifest" / "manifest.json";
 
 Format page() {

@@ -1,5 +1,5 @@
-// What a picture must not add to what it shows: stairs along edges, bands in gradients, a gap below cloth
-// that lies on the ground, colours that are not those of the bar.
+// A picture must not add to what it shows: no stairs along edges, no bands in gradients, no gap below cloth
+// that lies on the ground, no colours that are not those of the bar.
 
 #include <algorithm>
 #include <cmath>
@@ -135,7 +135,7 @@ TEST_F(FidelityTest, FieldsKeepTheColoursOfTheBar) {
     }
 }
 
-// Of a cell of a sheet, whose cloth is blue.
+// Returns the deviation of a cell of a sheet, whose cloth is blue.
 double deviation_of_cell(const Image& sheet, int left, int width, int bottom) {
   std::vector<char> cloth(static_cast<std::size_t>(sheet.width()) * sheet.height(), 0);
   for (int y = 0; y < bottom; ++y)

@@ -1,5 +1,5 @@
-// What a figure promises: light that models the cloth, shadows without steps, a page that stays white, edges
-// as thick as the cloth.
+// A figure has light that models the cloth, shadows without steps, a page that stays white, and edges as
+// thick as the cloth.
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -57,7 +57,7 @@ void expect_white_edges(const Image& image) {
       for (int c = 0; c < 3; ++c) ASSERT_EQ(image.at(x, y)[c], 255) << x << ", " << y;
 }
 
-// What is no cloth and no pedestal is ground: seen again without both, the page is white there.
+// A pixel that is neither cloth nor pedestal is ground: drawn again without both, the page is white there.
 TEST_F(FigureTest, StudioLightModelsClothOnAWhitePageLighterThanIt) {
   const Image image = figure({});
   const std::vector<double> cloth = on_cloth(image);

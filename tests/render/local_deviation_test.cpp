@@ -64,7 +64,7 @@ TEST(LocalDeviation, OfASineOfWholeWavesIsItsAmplitudeOverTheRootOfTwo) {
   EXPECT_EQ(found.pixels, (kReliefWidth - 20) * (kReliefHeight - 20));
 }
 
-// Of a slope the root of (21^2 - 1)/12 times what it rises in a pixel.
+// A slope has the root of (21^2 - 1)/12 times its rise in a pixel.
 TEST(LocalDeviation, OfASlopeIsThatOfItsSquare) {
   const Image image = picture([](int x, int y) { return 20 + 0.5 * x + 0.2 * y; });
   const double rise = std::hypot(0.5, 0.2);

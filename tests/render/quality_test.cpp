@@ -1,4 +1,4 @@
-// What pictures promise to a paper: true lengths, sky light by what is in the way, transparent backgrounds.
+// Pictures for a paper have true lengths, sky light that obstacles occlude, and transparent backgrounds.
 
 #include <cmath>
 #include <numbers>

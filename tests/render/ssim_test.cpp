@@ -46,7 +46,7 @@ TEST(Ssim, IsOneForEqualPicturesOnly) {
   EXPECT_LT(ssim(test::texture(), changed), 1);
 }
 
-// Without variance only the luminance term is left (Wang et al. 2004, Eq. 6).
+// Only the luminance term is left where there is no variance (Wang et al. 2004, Eq. 6).
 TEST(Ssim, OfUniformPicturesIsTheLuminanceTerm) {
   const double u = 100, v = 140;
   EXPECT_NEAR(ssim(Image(20, 15, Rgb8{100, 100, 100}), Image(20, 15, Rgb8{140, 140, 140})),

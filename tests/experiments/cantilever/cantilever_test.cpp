@@ -109,7 +109,7 @@ TEST(Cantilever, ComparesWithTheElasticaOfItsOwnDirection) {
   }
 }
 
-// What hangs makes its face convex: the back's B and 2HB carry it.
+// A hanging strip makes its face convex: the back's B and 2HB carry it.
 TEST(Cantilever, ComparesWithTheElasticaOfTheSideThatItBendsTo) {
   constexpr double kNear = 1.5, kRounding = 1e-12;  // percent; relative
   Scene scene = default_scene();
@@ -125,7 +125,8 @@ TEST(Cantilever, ComparesWithTheElasticaOfTheSideThatItBendsTo) {
   EXPECT_LT(std::abs(metrics["error_percent"].get<double>()), kNear);
 }
 
-// What is too long for its weight hangs straight down: 8 times as stiff a back allows for twice the length.
+// A strip that is too long for its weight hangs straight down: 8 times as stiff a back allows for twice the
+// length.
 TEST(Cantilever, IsAsLongAsTheSideThatItBendsToCarries) {
   Scene scene = default_scene();
   scene.law = "linear";
@@ -213,7 +214,7 @@ TEST(Recoveries, GoByTheLastReversalFromPastTheElasticLimit) {
   EXPECT_EQ(of({2.5, -1.5, 0}), 2);
 }
 
-// Of a law that bends both ways alike: M = Ma by the means of B and 2HB.
+// A law that bends both ways alike has M = Ma by the means of B and 2HB.
 TEST(Recoveries, OfALawWithoutSidesGoByTheMeansOfBoth) {
   Scene scene;
   scene.law = "wong";

@@ -257,7 +257,7 @@ TEST_F(Fit, WarnsOfACurvatureWhoseZeroIsOffAndFindsItOnRequest) {
   }
 }
 
-// What is doubtful of a fit of loops, beside another form.
+// These tests check the warnings of a fit of loops, beside another form.
 TEST(FitWarnings, NameAFormThatDescribesTheLoopsFarBetterAndFrictionBeyondTheirReach) {
   FabBending found;
   found.direction = "L";

@@ -24,7 +24,7 @@ class LawCommand : public ::testing::Test {
     all.insert(all.end(), flags.begin(), flags.end());
     return experiment_named("law").run({"law", "hysteron law", all, {}});
   }
-  // What is said on stderr to a request that is answered.
+  // Returns the text on stderr of a request that is answered.
   std::string warnings(const std::vector<Flag>& flags = {}) {
     testing::internal::CaptureStderr();
     EXPECT_EQ(run(flags), 0);

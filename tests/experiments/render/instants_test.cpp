@@ -84,7 +84,7 @@ TEST(Instants, OfASequenceAloneWithoutNumbersAreWarnedOf) {
           "counted in the order of the files"}));
 }
 
-// Without every other file of 0 to 6 the remaining ones would be twice as fast in silence.
+// If every other file of 0 to 6 is missing, the remaining ones would play twice as fast without a message.
 TEST(Instants, OfNumbersInStepsOfMoreThanOneAreWarnedOf) {
   TimedSequence halved = numbered("halved", {0, 2, 4, 6}, 10), late = numbered("late", {5, 6, 7}, 10);
   number_frames({&halved});

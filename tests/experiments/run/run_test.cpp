@@ -307,7 +307,7 @@ TEST_F(Scenes, WarnWhereTheBorderOfThePicturesCutsOffCloth) {
             1);
 }
 
-// Of all programs only env is found, which starts the columns.
+// The program finds only env, which starts the columns.
 TEST_F(Scenes, AreComparedInOneFrameAndWarnOfPlotsAndFilmsThatCannotBeMade) {
   const std::string scene =
       folder_.write("mine.toml", kSquare + "[[metric]]\nname = \"side\"\nto = [0.2, 0, 0]\n");

@@ -161,7 +161,7 @@ TEST_F(Recorded, ManifestIsASceneOfItsExperiment) {
   EXPECT_EQ(manifest_in(run())["state_hash"], manifest_in(in("again"))["state_hash"]);
 }
 
-// Without what it was asked for, as older programs left it, the keys that were given are known.
+// Older programs left out `asked`; the keys that were given are known nevertheless.
 TEST_F(Recorded, ManifestOfAnOlderProgramIsRepeatedByItsCommand) {
   record(kCrease);
   edit([](Json& json) { json.erase("options"), json.erase("asked"); });

@@ -1,4 +1,4 @@
-// What a study file asks for.
+// These tests read study files.
 #include "experiments/sweep/study.h"
 
 #include <cmath>

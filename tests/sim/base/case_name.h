@@ -17,7 +17,7 @@ inline std::string case_name(std::string name) {
   return name;
 }
 
-// Of a case that is a text, has a name, or is of an enumeration that has names.
+// Names a case that is a text, has a name, or is of an enumeration that has names.
 struct CaseName {
   template <class Case>
   std::string operator()(const ::testing::TestParamInfo<Case>& info) const {

@@ -247,8 +247,9 @@ TEST(ImplicitBending, TakesTheShorterWayToWhereAStepBegins) {
   EXPECT_NEAR(energy_at(1.2), energy_at(-0.8), kForceRounding * energy_at(-0.8));
 }
 
-// Of a fabric with these stops on the bias, behind the metric Q = (1, 0.6, 0.6): stiffnesses
-// (p + p')/4 + 0.3 sqrt(p p'/0.6), squares of friction moments (f^2 + f'^2)/4 + 0.3 f f'/sqrt(0.6).
+// Returns the spectrum on the bias of a fabric with these stops, behind the metric Q = (1, 0.6, 0.6):
+// stiffnesses (p + p')/4 + 0.3 sqrt(p p'/0.6), squares of friction moments (f^2 + f'^2)/4 + 0.3 f
+// f'/sqrt(0.6).
 Spectrum on_the_bias(const Spectrum& warp, const Spectrum& weft) {
   Spectrum bias;
   for (std::size_t j = 0; j < warp.size(); ++j) {

@@ -105,7 +105,7 @@ TEST_P(EveryFamily, ChangesItsSignWithTheOrientation) {
   }
 }
 
-// What a run's pictures show: the element's curvature over the shape at rest.
+// A run's pictures show the element's curvature over the shape at rest.
 TEST_P(EveryFamily, IsThatOfTheShapeElementOnUnstretchedCloth) {
   const ClothMesh mesh = sheet(GetParam(), 4000);
   const std::vector<Vector3d> x = rolled(mesh, kRadius);

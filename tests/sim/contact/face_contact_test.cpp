@@ -38,7 +38,7 @@ double least_distance(const Obstacle3<double>& obstacle, const Vector3d (&x)[3])
   return least;
 }
 
-// Of all triangles of a simulation from all its obstacles [m].
+// Returns the least distance of a simulation's triangles from its obstacles [m].
 double least_distance(const Trial& trial, Simulation& simulation) {
   const auto set = obstacles_during<double>(trial.scene.obstacle, 0.3, simulation.time(), simulation.time());
   const auto position = simulation.positions();
@@ -83,7 +83,7 @@ TEST(PlacedObstacle, IsABoxTurnedWithItsEdgesAlongZ) {
   }
 }
 
-// What is convex, with edges, corners and rounded sides.
+// These obstacles are convex, with edges, corners and rounded sides.
 std::vector<Obstacle> convex_obstacles() {
   Obstacle cylinder = rod(0.01, {0, 0, 0});
   cylinder.kind = ObstacleKind::cylinder;

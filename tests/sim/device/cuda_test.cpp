@@ -235,7 +235,7 @@ TEST_F(Gpu, CarriesClothOnABodyOfTrianglesAsTheCpuDoes) {
   }
 }
 
-// What yields, and by how much, is the same on both but for rounding; on one, to the bit.
+// The vertices that yield, and by how much, are the same on both but for rounding; on one device, to the bit.
 TEST_F(Gpu, PinchesClothBetweenBodiesOfTrianglesAsTheCpuDoes) {
   const double t = Fabric{}.thickness;
   const Scene scene = test::between_plates(Integrator::tr_bdf2, -t, 0.1).scene;

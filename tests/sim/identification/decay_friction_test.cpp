@@ -84,7 +84,7 @@ TEST(DecayFriction, ReturnsK0AndHBWithinATenthFromAmplitudesWithNoise) {
   EXPECT_GT(found.friction_error, 0);
 }
 
-// Of friction that does not saturate by far, each turn loses what its curvature's cube times HB/k0^2 is: as
+// Friction that is far from saturating loses in each half period the cube of its curvature times HB/k0^2: as
 // k0 is doubled beyond the reach, HB is fourfold, and the fit as good.
 TEST(DecayFriction, FindsTheMomentOfFrictionThatSaturatesFarBeyondReach) {
   constexpr double kCubic = 0.3;  // of the fourfold

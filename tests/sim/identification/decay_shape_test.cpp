@@ -22,7 +22,7 @@ std::vector<Amplitude> amplitude_series(const std::vector<double>& values) {
 
 constexpr int kTurns = 16;
 
-// Of those turns, from 60 mm.
+// Returns the amplitudes of those half periods, from 60 mm.
 template <class Law>
 std::vector<Amplitude> decaying(const Law& law) {
   std::vector<double> values;

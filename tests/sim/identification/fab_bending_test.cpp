@@ -160,7 +160,7 @@ TEST(FabBending, KnowsFrictionOnlyAsFarAsItsLoopsReach) {
   EXPECT_FALSE(found.knows_friction());
 }
 
-// Of one other form, as likely, the weight is a half; of one that is excluded, none.
+// One other form that is as likely has a weight of a half; one that is excluded has none.
 TEST(FabBending, WidensItsErrorsByWhatEquallyLikelyFormsFind) {
   FabBending found = found_with(1e-3, 1);
   widen_errors(found, {{"another", found_with(2e-3, 1)}, {"excluded", found_with(9e-3, 10)}});

@@ -72,7 +72,7 @@ FabLoops noisy_loops(const DrawnFabric& fabric, unsigned seed) {
   return loops;
 }
 
-// What other forms find in the same loops, as `fit --fab` compares them.
+// Returns what other forms find in the same loops, as `fit --fab` compares them.
 std::vector<FabForm> other_forms(const FabLoops& loops, double density) {
   FabBendingQuestion question;
   question.density = density;

@@ -1,5 +1,5 @@
-// What FAB loops identify, as a fabric's file: scenes take it, and the virtual tester reads the same laws of
-// it.
+// FAB loops identify a fabric, written as a file: scenes take it, and the virtual tester reads the same laws
+// of it.
 #include "sim/identification/fab_fabric.h"
 
 #include <gtest/gtest.h>
@@ -77,7 +77,7 @@ TEST(FabFabric, IsOneOfScenesWithItsStopsOfBendingAndInThePlane) {
   expect_same(tested.strip("W").stretch, found.tension[1].law);
 }
 
-// What scenes would refuse gets no name, and leaves nothing.
+// A fabric that scenes would refuse gets no name, and leaves nothing.
 TEST(FabFabric, ThatNoSceneWouldTakeIsNotWritten) {
   const test::Folder folder;
   const FabricNotes notes{"mine", "a test", 0.3, 2e-4};

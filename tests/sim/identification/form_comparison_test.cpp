@@ -80,7 +80,7 @@ Eigen::VectorXd drawn(int rows, double size, unsigned seed) {
   return result;
 }
 
-// Of two forms that miss the data by as much, each is preferred as often as chance has it.
+// Two forms that miss the data by as much are each preferred as often as by chance.
 TEST(FormComparison, PrefersNeitherOfTwoFormsThatAreAsFarFromTheData) {
   constexpr int kDraws = 400;
   int nearer = 0, farther = 0;
@@ -102,7 +102,7 @@ TEST(FormComparison, PrefersTheFormThatIsNearerByMoreThanChanceAndItsNumbers) {
   EXPECT_TRUE(beside.is_excluded);
   EXPECT_FALSE(beside.is_nearer);
   EXPECT_TRUE(compare_forms(with_residuals(near, 2), with_residuals(far, 2).found, {}).is_nearer);
-  // What many numbers gain for nothing does not count.
+  // A gain by many numbers that mean nothing does not count.
   const double gained = 60 * (1 - 0.9 * 0.9);
   const FormComparison many =
       compare_forms(with_residuals(0.9 * near, 30), with_residuals(near, 2).found, {});

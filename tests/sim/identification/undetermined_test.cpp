@@ -1,4 +1,4 @@
-// What the data cannot fix is named, and what they can is not.
+// A number that the data cannot determine is named, and one that they can is not.
 #include <gtest/gtest.h>
 
 #include "sim/identification/curve.h"

@@ -164,7 +164,7 @@ TEST_P(Cholesky, GoesOnFromAnArchiveWithTheSameBits) {
   EXPECT_EQ(two.solver->factorisations(), 0);
 }
 
-// Of a chain the factor has no more blocks than the matrix.
+// The factor of a chain has no more blocks than the matrix.
 TEST(Elimination, OfAChainFillsNothingThatIsNotWorthwhile) {
   constexpr int kNodes = 500;
   CouplingList list(kNodes);

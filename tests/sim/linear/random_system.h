@@ -72,7 +72,7 @@ struct RandomSystem {
     }
     return a;
   }
-  // Of this matrix, with held rows at zero.
+  // Returns the solution of this matrix, with held rows at zero.
   Field solution_of(Eigen::MatrixXd a) const {
     Eigen::VectorXd b(3 * n());
     for (int i = 0; i < n(); ++i) {

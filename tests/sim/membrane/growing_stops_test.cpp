@@ -132,7 +132,7 @@ TEST(GrowingStops, TakeOneLongStepAsManyShortOnes) {
   });
 }
 
-// What stops of a constant limit computed before there was any other, bit by bit.
+// Growing stops without growth compute what stops of a constant limit computed before, bit by bit.
 TEST(GrowingStops, WithoutGrowthAreTheStopsOfConstantLimits) {
   for_each_history([&](unsigned seed, const std::vector<double>& turns) {
     GrowingStops<double> stops(seed, false);

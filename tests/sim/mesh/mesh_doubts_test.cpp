@@ -1,4 +1,4 @@
-// What is said about meshes that can be simulated and are hardly what was meant.
+// These tests check warnings about meshes that can be simulated but are hardly intended.
 #include "sim/mesh/topology.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ namespace {
 using test::says;
 using Doubts = std::vector<std::string>;
 
-// Of an OBJ with this content, without "mesh FILE: ".
+// Returns the warnings about an OBJ with this content, without "mesh FILE: ".
 Doubts obj_doubts(const std::string& content, double weld = 0) {
   const test::Folder folder;
   const std::string file = folder.write("cloth.obj", content);

@@ -95,7 +95,7 @@ TEST(PlySurface, VerticesOfNoFaceAreLeftOutWithTheirCurvature) {
   EXPECT_EQ(surface.face, std::vector<Eigen::Vector3i>{Eigen::Vector3i(0, 1, 2)});
 }
 
-// What could not be simulated can be drawn.
+// A surface that could not be simulated can be drawn.
 TEST(ObjSurface, TakesEdgesOfThreeFacesTurnedNeighboursAndFacesWithoutArea) {
   const Folder folder;
   const Surface surface = read_surface(folder.write(

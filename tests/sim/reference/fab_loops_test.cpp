@@ -138,7 +138,7 @@ class FabRecord : public testing::Test {
       for (std::size_t i = 0; i < loops_.branches[b].distance.size(); ++i)
         loops_.branches[b].force[i] = 1e3 * (loops_.branches[b].distance[i] - 0.021) + (b % 2 ? 0.2 : -0.2);
   }
-  // What reading the file says of these loops.
+  // Returns the message of reading the file with these loops.
   std::string said() const {
     return refusal([&] { read_fab(folder_.write("a.csv", text()), TesterUnits::si, "t"); });
   }

@@ -76,7 +76,7 @@ TEST_P(ShippedFabric, StatesASourceAndAConfidenceForEveryNumber) {
   }
 }
 
-// What a validation varies: what the source does not give, and nothing that it does.
+// A validation varies the numbers that the source does not give, and none that it does.
 TEST_P(DrapedFabric, StatesARangeForWhatIsAssumedOfItAlone) {
   for (const char* key : {"shear", "warp", "weft", "friction", "weft-bending", "bias-bending"})
     EXPECT_TRUE(file.range.count(key)) << key;

@@ -70,7 +70,7 @@ TEST(FrictionOfAFabric, IsNotSaidTwiceByOneSource) {
     }
 }
 
-// Of a fabric whose file states the pair, one of both may be given anew.
+// A fabric whose file states the pair may be given one number of it anew.
 TEST(FrictionOfAFabric, OfAPairIsChangedByEitherNumberOfIt) {
   const test::Folder folder;
   const std::string file =

@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Of one's own numbers, with stops, a parameter of the law and a switched-off default.
+// Returns a scene with numbers of its own, stops, a parameter of the law and a switched-off default.
 Scene unusual() {
   Scene scene = test::shipped_scene("strip-over-sphere");
   apply_flags(scene, {{"fabric.b1", "3.3e-05"},

@@ -34,7 +34,7 @@ inline Scene scene_of(const std::string& text) {
 
 namespace test {
 
-// What shipped scenes set of their pictures, which the simulation knows nothing of.
+// Shipped scenes set these keys of their pictures, which the simulation does not know.
 struct Pictures {
   std::string size;
   Eigen::Vector3d direction;

@@ -1,4 +1,5 @@
-// What bending does in a whole simulation: B means B, history, residual curvature, and what a scene pays for.
+// Bending in a whole simulation has the input rigidity, a history, a residual curvature, and only the costs
+// of its scene.
 #include <gtest/gtest.h>
 
 #include <numbers>

@@ -74,7 +74,7 @@ TEST(BlockedPins, OfTwoRigidHandsLeadNothingThroughEachOtherAndReturn) {
   }
 }
 
-// What no step can reach is not written as its end.
+// A place that no step can reach is not written as its end.
 TEST(BlockedPins, AreNotPutWhereTheyCouldNotGo) {
   const Trial trial = led_through(kAll);
   const auto simulation = trial.at(kTime);

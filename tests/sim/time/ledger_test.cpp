@@ -106,7 +106,7 @@ TEST(Ledger, ClosesForClothFallingOnTheGround) {
   }
 }
 
-// What has been moving is brought to rest: nothing moves any more, and what was kinetic energy is booked.
+// A moving cloth is brought to rest: nothing moves any more, and its kinetic energy is booked.
 TEST(Ledger, ClosesWhenAMotionIsEndedAtItsEquilibrium) {
   for (const char* integrator : {"implicit", "bdf2"}) {
     const Trial trial = test::rippled(law_scene("prandtl", integrator), 3e-3);

@@ -1,4 +1,4 @@
-// What scenes that leave device and linear solver open are given.
+// These tests check what is chosen for scenes that leave device and linear solver open.
 #include "sim/time/method_choice.h"
 
 #include <gtest/gtest.h>

@@ -195,7 +195,7 @@ void expect_derivative_of_second_order(Step& step, const Positions& x, const Pos
   EXPECT_GT(std::log10(error(1e-6) / error(1e-7)), 1.7);
 }
 
-// Without stress the Gauss-Newton stiffness is the whole Hessian.
+// The Gauss-Newton stiffness is the whole Hessian where there is no stress.
 TEST_P(OfACloth, StiffnessIsTheDerivativeOfTheGradientWhereNothingIsStressed) {
   Step step(GetParam());
   step.begin();

@@ -105,7 +105,7 @@ inline Scene hanging_square(int triangles = 200) {
   return scene;
 }
 
-// Of a scene whose cloth starts from waves of some mm instead of flat, so that every force acts at once.
+// Returns a trial whose cloth starts from waves of some mm instead of flat, so that every force acts at once.
 inline Trial rippled(const Scene& scene, double height) {
   Trial trial(scene);
   for (int i = 0; i < trial.cloth.mesh.vertices(); ++i) {
@@ -116,7 +116,7 @@ inline Trial rippled(const Scene& scene, double height) {
   return trial;
 }
 
-// What a simulation pays for under this name.
+// Returns the part of a simulation that has this name.
 inline ScenePart scene_part(const Simulation& simulation, const std::string& name) {
   for (const ScenePart& part : simulation.parts())
     if (part.name == name) return part;

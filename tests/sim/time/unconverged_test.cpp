@@ -18,7 +18,7 @@ Scene capped(int iterations) {
   return scene;
 }
 
-// What the solve leaves unbalanced is a term of its own, so that the ledger closes nevertheless.
+// The unbalanced remainder of a solve is a term of its own, so that the ledger closes nevertheless.
 TEST(UnconvergedSteps, CloseTheLedger) {
   const Trial one = test::rippled(capped(1), 3e-3);
   const auto simulation = one.after(20);
@@ -73,7 +73,7 @@ TEST(HandsThatBringHome, AreThereInTime) {
   EXPECT_LT(ledger.remainder_relative, 1e-6);
 }
 
-// Without weight and hands only the cloth's own motion says what is small.
+// Only the cloth's own motion tells what is small where there are neither weight nor pins.
 class FreeCloth : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Integrators, FreeCloth, testing::Values("implicit", "bdf2", "tr-bdf2"));
 

@@ -1,4 +1,4 @@
-// What a run warns of although it goes on.
+// These tests check warnings of a run that goes on.
 #include "experiments/workbench/session/doubts.h"
 
 #include <fmt/core.h>

@@ -1,4 +1,4 @@
-// What a simulation will write is refused before it begins where another's file of that name stands.
+// A simulation is refused before it begins where another's file has a name that it will write.
 #include <fstream>
 
 #include "tests/experiments/program.h"

@@ -108,7 +108,7 @@ Spectrum bias() {
   return mean;
 }
 
-// Of a hinge in this direction (CurvatureOperator).
+// Returns a hinge in this direction (CurvatureOperator).
 Strip in_direction(const Spectrum& along_warp, const Spectrum& along_weft, double warp_part,
                    double weft_part) {
   const double direction[2] = {warp_part, weft_part};
