@@ -57,7 +57,7 @@ Format ply() {
   return {"ply", "ply", ".ply", {[](const fs::path& file) { read_surface(file.string()); }}};
 }
 
-// The motion of a body.
+// A point cache has the motion of a body.
 Format pc2() {
   return {"pc2", "pc2", ".pc2", {[](const fs::path& file) { read_point_cache(file.string()); }}};
 }

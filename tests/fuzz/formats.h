@@ -15,7 +15,7 @@ struct Format {
   std::function<std::string(std::string)> repaired = nullptr;  // with check sums of what is there now
 };
 
-// OBJ, PLY, PC2, MDD, TOML, CSV, PNG, manifests and checkpoints.
+// Returns OBJ, PLY, PC2, MDD, TOML, CSV, PNG, manifests and checkpoints.
 std::vector<Format> formats();
 // Returns what a page shows of a manifest, and of a table beside one.
 std::vector<Format> pages();

@@ -17,7 +17,7 @@ std::vector<SheetEntry> entries(int count, int width = 640, int height = 360) {
   return list;
 }
 
-// Distinct entry colours along the middle of each picture row, in reading order.
+// Returns the distinct entry colours along the middle of each picture row, in reading order.
 std::vector<int> reading_order(const Image& sheet) {
   std::vector<int> order;
   for (int y = 0; y < sheet.height(); ++y)

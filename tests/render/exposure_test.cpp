@@ -93,7 +93,7 @@ TEST(Exposure, ColoursOfTransparentPicturesAreNotMultipliedByAlpha) {
   EXPECT_EQ(image.at(1, 0)[3], 0);
 }
 
-// The standard pattern of four samples (D3D 11, Vulkan), in eighths of a pixel.
+// Each pass has the standard pattern of four samples (D3D 11, Vulkan), in eighths of a pixel.
 TEST(PassShift, TwoPassesOfFourSamplesShareNoRowAndNoColumn) {
   constexpr double kPattern[4][2] = {{3, 1}, {7, 3}, {1, 5}, {5, 7}};
   std::set<long> columns, rows;

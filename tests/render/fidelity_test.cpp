@@ -109,7 +109,7 @@ bool is_within(const Image& silhouette, int x, int y) {
   return true;
 }
 
-// Wherever the cloth faces, and in either light.
+// The colours hold wherever the cloth faces, and in either light.
 TEST_F(FidelityTest, FieldsKeepTheColoursOfTheBar) {
   constexpr int kWidth = 160, kHeight = 90;
   Look look = look_named("curvature");

@@ -94,7 +94,7 @@ TEST_F(FigureTest, ShadowsHaveNoSteps) {
   const auto view = test::cloth_view(*offscreen_, {.width = kSide, .height = kSide, .figure_passes = kPasses},
                                      test::flat_square(8, 0.12f, 0.12f), {});
   view->set_ground(0.0f);
-  // From below the sheet's height: the ground behind it.
+  // The camera is below the sheet's height and sees the ground behind it.
   const Image image = view->draw(Camera::perspective({0, -0.9f, 0.35f}, {0, 0, 0.03f}, 26));
   const auto columns = [&](int left, int right, int top) {
     std::vector<double> values;

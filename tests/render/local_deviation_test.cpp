@@ -16,7 +16,7 @@ namespace {
 constexpr int kReliefWidth = 80, kReliefHeight = 60;
 constexpr double kGreyStep = 0.25;  // of L*, between two greys
 
-// The lightness of each grey.
+// Returns the lightness of each grey.
 std::vector<double> grey_lightness() {
   std::vector<double> all;
   for (int g = 0; g < 256; ++g) {

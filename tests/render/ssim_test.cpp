@@ -72,7 +72,7 @@ TEST(Ssim, AgreesWithScikitImage) {
   EXPECT_NEAR(ssim(test::first_shapes(), test::second_shapes()), 0.952702637, kDigits);
 }
 
-// Opposite pictures anticorrelate.
+// Opposite pictures have a negative correlation.
 TEST(Ssim, IsNegativeWhereStructureIsInverted) {
   const Image a = test::drawn(32, 32, [](int x, int y) {
     const int v = (x + y) % 2 ? 200 : 55;

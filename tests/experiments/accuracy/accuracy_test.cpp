@@ -1,4 +1,4 @@
-// Fronts and orders on made-up findings; the problems' own answers at small size.
+// These tests check fronts and orders on made-up findings, and the problems' own answers at small size.
 #include <algorithm>
 #include <cmath>
 

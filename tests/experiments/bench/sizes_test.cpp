@@ -68,7 +68,7 @@ TEST(TimesBySize, AreOfOneStableStep) {
   EXPECT_GT(at(1, "newton_iterations_per_step"), 0);
   // One launch a loop of explicit steps, whatever their number; with the sum that looks for divergence.
   EXPECT_NEAR(at(0, "launches_per_step"), at(2, "launches_per_step"), 1);
-  // Four times the triangles: twice the vertices along an edge, less one.
+  // Four times the triangles have twice the vertices along an edge, less one.
   EXPECT_GT(at(2, "bytes_per_step"), 3 * at(0, "bytes_per_step"));
   EXPECT_LT(at(2, "bytes_per_step"), 5 * at(0, "bytes_per_step"));
 }

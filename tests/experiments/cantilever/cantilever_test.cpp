@@ -1,4 +1,4 @@
-// The sagging strip against the elastica.
+// These tests compare the sagging strip with the elastica.
 #include "experiments/specimens/cantilever_strip.h"
 #include "experiments/specimens/clamped_mesh.h"
 #include "experiments/workbench/session/recoveries.h"
@@ -313,7 +313,7 @@ TEST(Cantilever, AlongWeftFollowsTheStopsOfWeft) {
               1, kWithin);
 }
 
-// Two columns at least, and the clamp's.
+// There are two columns at least, and the clamp's.
 TEST(Cantilever, HasNotManyMoreCellsThanAreAskedForHoweverLongOrShortItIs) {
   constexpr int kTriangles = 128;
   for (const double length : {1e-8, 1e-4, 0.1, 10.0, 1e6}) {

@@ -106,7 +106,7 @@ TEST(Difference, LeavesOutInstantsThatTheOtherRunDoesNotHave) {
   EXPECT_EQ(has_difference("beyond"), (std::vector<bool>{true, false, false}));
 }
 
-// The same triangles, every side twice as long.
+// The triangles are the same, with every side twice as long.
 TEST(Difference, RefusesARunOfAnotherRestShape) {
   const Folder folder;
   const std::string scene =

@@ -26,7 +26,7 @@ class Draped : public testing::Test {
   std::string refusal(const Scene& scene) {
     return test::refusal([&] { disc_specimen(scene, make_cloth(scene)); });
   }
-  // A command line.
+  // Returns a command line.
   std::string drape(const std::string& flags) const {
     return "drape --quick --no-images --quiet --device cpu --threads 1" + out_flag(folder_.path() / "out") +
            " " + flags;

@@ -1,4 +1,4 @@
-// `hysteron fab` from flags to its folder.
+// These tests run `hysteron fab` from flags to its folder.
 #include <fstream>
 
 #include "sim/base/csv.h"

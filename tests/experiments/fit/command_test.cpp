@@ -1,4 +1,4 @@
-// `hysteron fit` from flags to its folder.
+// These tests run `hysteron fit` from flags to its folder.
 #include "experiments/fit/from_fab.h"
 #include "experiments/fit/report.h"
 #include "sim/base/atomic_file.h"
@@ -150,7 +150,7 @@ TEST_F(Fit, RefusesRequestsThatMakeNoSense) {
   refuses({{"kes.b", "0"}, {"kes.2hb", "1e-3"}}, "must be > 0");
 }
 
-// Friction of 1 mN beside a spring that it exceeds tenfold.
+// Friction of 1 mN acts beside a spring that it exceeds tenfold.
 TEST_F(Fit, WarnsOfALawThatDoesNotDescribeTheData) {
   const fs::path file = folder_.path() / "friction.csv";
   Column curvature{"curvature [1/m]", {}}, moment{"moment [N]", {}};
@@ -165,7 +165,8 @@ TEST_F(Fit, WarnsOfALawThatDoesNotDescribeTheData) {
   EXPECT_TRUE(says(manifest_in(out()).at("warnings").dump(), "linear does not"));
 }
 
-// M = B K + c K^3: a line misses a curve that stiffens by some ten percent of the largest moment.
+// The data are M = B K + c K^3: a line misses a curve that stiffens by some ten percent of the largest
+// moment.
 TEST_F(Fit, WarnsOfALawThatIsNotNearTheData) {
   const fs::path file = folder_.path() / "stiffens.csv";
   Column curvature{"curvature [1/m]", {}}, moment{"moment [N]", {}};

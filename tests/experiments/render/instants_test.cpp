@@ -37,7 +37,7 @@ TEST(Instants, PairEqualTimesWhereRatesDiffer) {
   choose(slow, fast);
   EXPECT_EQ(slow.shown, (Files{0, 2}));
   EXPECT_EQ(fast.shown, (Files{0, 2}));
-  // The slower one's files decide, whichever lasts shorter.
+  // The files of the slower one decide, whichever lasts shorter.
   TimedSequence brief = numbered("brief", {0, 1, 2}, 20), lasting = numbered("lasting", {0, 1, 2, 3}, 10);
   choose(brief, lasting);
   EXPECT_EQ(brief.shown, (Files{0, 2}));

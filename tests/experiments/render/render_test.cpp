@@ -95,7 +95,7 @@ std::string metres(double x, double y, double z) {
 }
 std::string millimetres_y_up(double x, double y, double z) { return metres(1000 * x, 1000 * z, -1000 * y); }
 
-// Quads of an upright sheet of n x n that sways; another n from time to time.
+// Returns quads of an upright sheet of n x n that sways; n differs from time to time.
 std::string swaying(double time, Axes vertex) {
   std::string text;
   const int n = 4 + static_cast<int>(time / 0.1 + 0.01) % 2;

@@ -124,7 +124,7 @@ from = 0.1
     EXPECT_NEAR(column[n], n < 5 ? 0 : -9.81 * 0.01 * 0.01 * (n * (n + 1) - 5 * 6) / 2, kRounding) << n;
 }
 
-// A hand lifts a whole square and lowers it again, three times.
+// A pin lifts a whole square and lowers it again, three times.
 const std::string kLifted = kSquare + R"([[phase]]
 name = "hold"
 seconds = 0.03

@@ -1,4 +1,4 @@
-// The comparison with measurements, small.
+// These tests run a small comparison with measurements.
 #include <cmath>
 #include <fstream>
 #include <numbers>

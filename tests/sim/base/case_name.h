@@ -11,7 +11,7 @@
 
 namespace hysteron::test {
 
-// "tr_bdf2" of "tr-bdf2".
+// Returns "tr_bdf2" of "tr-bdf2".
 inline std::string case_name(std::string name) {
   std::replace(name.begin(), name.end(), '-', '_');
   return name;

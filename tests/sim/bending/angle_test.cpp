@@ -14,7 +14,7 @@ using Eigen::Vector3d;
 using Hinge = std::array<Vector3d, 4>;  // p0, p1, p2, p3
 
 constexpr double kPi = 3.14159265358979323846;
-// Some tens of operations on numbers of order one.
+// An angle takes some tens of operations on numbers of order one.
 constexpr double kRounding = 1e-13;
 // The second term of the error series changes the observed order by about (size of the difference)^2.
 constexpr double kOrderSlack = 0.05;

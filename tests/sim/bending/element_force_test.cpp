@@ -277,7 +277,7 @@ Positions rolled(const ClothMesh& mesh, double curvature, double d) {
   return x;
 }
 
-// Cut along warp, bias and weft.
+// Hinges are cut along warp, bias and weft.
 TEST(HingesOfAFabric, FollowTheClosedLoopsOfTheStopsAcrossTheirEdges) {
   constexpr double kSpacing = 5e-3, kFar = 90;  // [m], [1/m]
   const Spectrum warp = {{4, 15, 60}, {9e-6, 5e-6, 8e-7}}, weft = {{10, 40, 80}, {4e-6, 6e-6, 2e-6}};

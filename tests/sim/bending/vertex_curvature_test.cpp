@@ -72,7 +72,7 @@ TEST_P(EveryFamily, OfAPlaneIsZeroHoweverItLies) {
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(1, Vector3d(1, 2, 3).normalized()).toRotationMatrix();
   std::vector<Vector3d> x;
   for (const Vector3d& p : mesh.rest) x.push_back(turn * p + Vector3d(1, 2, 3));
-  // Rounding of coordinates of some metres over triangles of millimetres.
+  // The tolerance is for rounding of coordinates of some metres over triangles of millimetres.
   for (const float k : surface_curvature(x, mesh.face, "plane")) EXPECT_NEAR(k, 0, 1e-7);
 }
 

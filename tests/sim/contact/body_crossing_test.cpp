@@ -38,7 +38,8 @@ Obstacle moving(Obstacle body, const Vector3d& way, int steps, double step) {
   return body;
 }
 
-// A tetrahedron with a vertex, an edge or a face towards the sheet, above `at`, its lowest point 5 mm up.
+// Returns a tetrahedron with a vertex, an edge or a face towards the sheet, above `at`, its lowest point 5 mm
+// up.
 Obstacle tetrahedron_with(int lowest, const Vector3d& at) {
   constexpr double kUp = 0.005, kHigh = 0.02;
   std::vector<Vector3d> x;

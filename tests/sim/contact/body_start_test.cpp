@@ -64,7 +64,7 @@ TEST_F(StartBesideBody, IsRefusedNearerThanAnyStepMayBringIt) {
                    "move the cloth or the obstacle"));
 }
 
-// Smaller than a triangle, and between its vertices.
+// The body is smaller than a triangle, and between its vertices.
 TEST_F(StartBesideBody, IsRefusedWithASmallBodyInATriangle) {
   const Cloth cloth = make_cloth(scene_);
   const Eigen::Vector3i& f = cloth.mesh.face[40];

@@ -23,7 +23,7 @@ constexpr int kDivisions = 20;  // of a triangle's edges: 231 points
 
 using Triangle = Vector3d[3];
 
-// Points of a triangle on a grid.
+// Returns points of a triangle on a grid.
 std::vector<Vector3d> grid_on(const Vector3d (&x)[3]) {
   std::vector<Vector3d> points;
   for (int i = 0; i <= kDivisions; ++i)
@@ -352,8 +352,8 @@ TEST(FaceContact, SavedInTheMiddleGoesOnBitForBit) {
   EXPECT_GT(whole->ledger().contact_friction, 0);
 }
 
-// By their curvature against the mesh's edges: triangles with edges of 10 mm dip 0.5 mm into a sphere of 33
-// mm.
+// The curvature of obstacles is compared with the mesh's edges: triangles with edges of 10 mm dip 0.5 mm into
+// a sphere of 33 mm.
 TEST(FaceContact, IsThereOnlyForObstaclesSharperThanTheMesh) {
   Scene scene = sheet(200);
   const Trial trial(scene);

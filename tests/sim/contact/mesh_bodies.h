@@ -9,7 +9,7 @@
 
 namespace hysteron::test {
 
-// A rigid body with these vertices [m].
+// Returns a rigid body with these vertices [m].
 inline Obstacle body_of(std::vector<Eigen::Vector3d> vertices, std::vector<Eigen::Vector3i> faces) {
   auto mesh = std::make_shared<BodyMesh>();
   mesh->face = std::move(faces);

@@ -25,7 +25,7 @@ void add_press(Scene& scene, double lowest) {
   scene.obstacle = {Obstacle{}, plate};
 }
 
-// A sheet on the ground under the plate.
+// Returns a sheet on the ground under the plate.
 Trial pressed_sheet(const std::string& integrator, double lowest) {
   Scene scene = test::free_square(60);
   scene.cloth.length = 0.1;

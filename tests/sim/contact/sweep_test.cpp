@@ -22,7 +22,7 @@ constexpr double kHalf = 5e-4;      // of a plate of 1 mm [m]
 constexpr double kSweptSide = 0.1;  // of the cloth [m]
 constexpr double kSweptClosed = 1e-9;
 
-// A square in the plane z = 0 around the origin, without weight.
+// Returns a square in the plane z = 0 around the origin, without weight.
 Scene sheet(const std::string& integrator, int triangles = 100) {
   Scene scene = test::free_square(triangles);
   scene.cloth.length = kSweptSide;

@@ -95,7 +95,7 @@ test::Rows counted_rows(const std::vector<int>& counts) {
   return rows;
 }
 
-// None, one, both sides of a warp, and more.
+// Rows have no item, one, as many as both sides of a warp, or more.
 TEST_P(DevicePrimitives, RowsOfAnyLengthAreSummedWholeByWhoeverTakesThem) {
   const std::vector<int> lengths = {0, 1, 31, 32, 33, 0, 7, 100, 64, 1};
   for (const int n : {0, 1, 3, 4, 5, 1000, 70000}) {

@@ -66,7 +66,7 @@ TEST(DecayFriction, ComesBackFromNoisyAmplitudesAndExcludesLateSaturation) {
   EXPECT_GT(compare_forms(forms.back(), found, {}).misfit, 10) << forms.back().name;
 }
 
-// Noise of 2 % of each amplitude.
+// Each amplitude has noise of 2 %.
 TEST(DecayFriction, ReturnsK0AndHBWithinATenthFromAmplitudesWithNoise) {
   constexpr double kTenth = 0.1, kK0 = 8, kHB = 6e-4;
   std::mt19937 random(5);

@@ -45,7 +45,7 @@ TEST(TurningPoints, OfASineAreItsExtremesBetweenTheSamples) {
   }
 }
 
-// x = 2 - (t - 0.12)^2 at 0, 0.1 and 0.13 s, a parabola itself.
+// x = 2 - (t - 0.12)^2 is sampled at 0, 0.1 and 0.13 s, and is a parabola itself.
 TEST(TurningPoints, OfUnequalSamplesAreThoseOfTheParabolaThroughThem) {
   constexpr double kRounding = 1e-12;
   const auto x = [](double t) { return 2 - std::pow(t - 0.12, 2); };
@@ -153,7 +153,7 @@ TEST(HalfPeriodLoss, IsReadBetweenTheAmplitudesAround) {
   EXPECT_TRUE(std::isnan(half_period_loss({}, 0, 0.5)));
 }
 
-// Noise of 1 % of the first amplitude, the same for all.
+// The noise is 1 % of the first amplitude, the same for all.
 TEST(DecayShape, IsNamedRightIn95Of100NoisySeries) {
   std::mt19937 random(7);
   std::normal_distribution<double> noise(0, 0.01 * 0.06);

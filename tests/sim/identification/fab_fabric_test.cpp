@@ -102,7 +102,7 @@ TEST(FabFabric, WithoutStopsBendsAsItsThreeNumbersSay) {
   EXPECT_NEAR(law.friction(), curve.friction_moment(), kRounding * curve.friction_moment());
 }
 
-// With or without stops: B times (1 + 0.5)/2, friction times (1 + 2)/2.
+// B is multiplied by (1 + 0.5)/2 and friction by (1 + 2)/2, with or without stops.
 TEST(FabFabric, WhoseFacesDifferBendsAsTheMeanOfBoth) {
   Fabric alike;
   alike.weft_bending = 0.8;

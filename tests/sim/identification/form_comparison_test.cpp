@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kRecordWidth = 0.04;  // [m]
 
-// Two records of one strip, bent down and up, with noise of this size and correlation [N].
+// Returns two records of one strip, bent down and up, with noise of this size and correlation [N].
 std::vector<FabLoops> two_records(double noise, double correlation, unsigned seed) {
   const StopsLaw law{1e-5, {4, 16}, {4e-5, 1e-5}};
   std::vector<FabLoops> records;
@@ -110,7 +110,7 @@ TEST(FormComparison, PrefersTheFormThatIsNearerByMoreThanChanceAndItsNumbers) {
   EXPECT_GT(many.preference, 0);
 }
 
-// The misfit by hand: 60 rows, one larger by a half.
+// The misfit is computed here for 60 rows, one larger by a half.
 TEST(FormComparison, MeasuresMisfitInTheNoiseOfRepeatsWhereTheFormAskedForIsWithinIt) {
   Eigen::VectorXd asked(60), form(60);
   for (int i = 0; i < 60; ++i) asked[i] = i % 2 ? 1 : -1;

@@ -1,4 +1,4 @@
-// A fabric from b1 and c1, and from B and 2HB.
+// A fabric is made from b1 and c1, and from B and 2HB.
 #include "sim/identification/published.h"
 
 #include <gtest/gtest.h>

@@ -9,11 +9,11 @@ namespace hysteron::test {
 // Returns the eigenvalues of a symmetric matrix, in increasing order.
 Eigen::VectorXd eigenvalues(const Eigen::MatrixXd& symmetric);
 
-// The nearest positive semidefinite matrix to a symmetric one (Higham 1988): without its negative
+// Returns the nearest positive semidefinite matrix to a symmetric one (Higham 1988): without its negative
 // eigenvalues.
 Eigen::MatrixXd positive_part(const Eigen::MatrixXd& symmetric);
 
-// x of a x = b.
+// Returns x of a x = b.
 Eigen::VectorXd solution(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
 
 }  // namespace hysteron::test

@@ -79,7 +79,7 @@ TEST_F(BodyFile, ThatIsNoSurfaceIsRefusedWithTheLine) {
   EXPECT_TRUE(says(refusal([&] { read("", "body.stl"); }), "its name must end in .obj or .ply"));
 }
 
-// Moves along x by as many metres as frames.
+// The body moves along x by as many metres as frames.
 class BodySequence : public BodyFile {
  protected:
   std::string frame(const std::string& name, double x) const {

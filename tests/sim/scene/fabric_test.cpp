@@ -103,7 +103,7 @@ TEST_P(DrapedFabric, KeepsTheMeasuredDrapeForComparison) {
   EXPECT_GE(published("node-count"), 2);
 }
 
-// (Wang, O'Brien, Ramamoorthi 2011): rigidity = ke/4.
+// The rigidity is ke/4 (Wang, O'Brien, Ramamoorthi 2011).
 TEST_P(FabricMeasuredInThreeDirections, HasTheirRigiditiesAndNoFriction) {
   const double warp = published("ke-0-small");
   EXPECT_NEAR(fabric.b2, 1e-6 * warp / 4, kRounding * warp);

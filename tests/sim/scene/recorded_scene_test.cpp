@@ -103,7 +103,7 @@ double with_all_bits(const Range& range) {
   return low + (std::isfinite(range.high) ? range.high - low : 1) / 3;
 }
 
-// All numbers of a scene.
+// Returns all numbers of a scene.
 std::vector<double> number_values(Scene scene) {
   std::vector<double> all;
   for (const BoundKey& key : bind_scene(scene)) {

@@ -16,7 +16,7 @@ class TextFile {
       : path_(folder_.write("file" + ending, text)) {}
 
   const std::string& path() const { return path_; }
-  // "file.toml:3"
+  // Returns "file.toml:3".
   std::string line(int number) const { return path() + ":" + std::to_string(number); }
 
  private:

@@ -37,7 +37,7 @@ Scene lifted(const Vector3d& place) {
   return scene;
 }
 
-// Where the same scene leads at the origin and far from it, relative to its place.
+// Returns the difference of the same scene at the origin and far from it, relative to its place.
 double difference(Precision precision) {
   test::Positions at[2];
   for (const bool far : {false, true}) {

@@ -1,4 +1,4 @@
-// The incremental potential of a whole cloth, its gradient, its stiffness and its minimum.
+// These tests check the incremental potential of a whole cloth, its gradient, its stiffness and its minimum.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -256,7 +256,7 @@ TEST_P(OfACloth, TheAssembledStiffnessIsThatOfTheParts) {
   }
 }
 
-// Fronts of the stiffness without softening, four parts and what separates them.
+// The fronts are those of the stiffness without softening, four parts and what separates them.
 TEST_P(OfACloth, AFactorisationInFrontsSolvesItInAFewIterations) {
   constexpr double kTolerance = 1e-10;
   Step step(GetParam());

@@ -12,7 +12,7 @@
 namespace hysteron::experiments {
 namespace {
 
-// Values of an attribute, in the order of the page.
+// Returns the values of an attribute, in the order of the page.
 std::vector<std::string> attribute_values(const std::string& html, const std::string& name) {
   const std::string begin = " " + name + "=\"";
   std::vector<std::string> values;

@@ -13,7 +13,7 @@ namespace {
 constexpr int kSide = 20;
 constexpr double kQuantum = 2e-5;  // [m]
 
-// A square grid of 1 cm on a wave, cut by parallel diagonals.
+// Returns a square grid of 1 cm on a wave, cut by parallel diagonals.
 DrawnMesh grid() {
   DrawnMesh mesh{kSide * kSide, {}, {}, kQuantum};
   for (int j = 0; j + 1 < kSide; ++j)

@@ -105,7 +105,7 @@ std::vector<Eigen::Vector3d> rippled(const ClothMesh& mesh, double wavelength, d
   return x;
 }
 
-// Vertices farther than this from the sheet's border [m].
+// Returns the vertices that are farther than this from the sheet's border [m].
 std::vector<int> inside(const ClothMesh& mesh, double margin) {
   std::vector<int> found;
   for (int v = 0; v < mesh.vertices(); ++v)

@@ -98,7 +98,7 @@ TEST(End, WithClothStretchedAsNoneIsSaysByHowMuch) {
   EXPECT_TRUE(doubts_at_end(trial.scene, trial.cloth, x, 0.3).empty());
 }
 
-// A hand that tears at one side of a sheet of 10 cm.
+// A pin tears at one side of a sheet of 10 cm.
 constexpr const char* kTorn = R"(
 seconds = 0.3
 triangles = 100

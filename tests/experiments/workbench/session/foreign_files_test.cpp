@@ -6,7 +6,7 @@
 namespace hysteron::experiments {
 namespace {
 
-// Few triangles, for a short time.
+// Runs have few triangles and a short time.
 class ForeignFiles : public testing::TestWithParam<const char*> {};
 
 TEST_P(ForeignFiles, AreRefusedBeforeTheSimulation) {

@@ -69,7 +69,7 @@ void expect_same_results(const fs::path& a, const fs::path& b) {
   EXPECT_EQ(first["complete"], true);
 }
 
-// Runs the program into this folder; how long that took [ms].
+// Runs the program into this folder and returns the time that it took [ms].
 int time_of_whole(const std::string& arguments, const fs::path& out) {
   const auto start = std::chrono::steady_clock::now();
   finished(arguments + out_flag(out));
@@ -198,7 +198,7 @@ TEST(Resuming, TwoSignalsAtOnceAreOneAndTwoApartEndTheProcess) {
       124);  // of `timeout`, which signals the process and its group
   EXPECT_TRUE(fs::exists(out / "checkpoint")) << file_content(err);
   EXPECT_EQ(manifest_in(out)["complete"], false);
-  // Seconds before the next instant.
+  // The next instant is seconds away.
   const std::string slow =
       "run hanging-square --no-images --quiet --threads 1 --device cpu --triangles 6000 --step 1e-4 --fps 1";
   const pid_t child = started(slow + " --checkpoint 1000" + out_flag(folder.path() / "slow"));

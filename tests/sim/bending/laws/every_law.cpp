@@ -25,7 +25,7 @@ Spectrum stop_spectrum(const VirginCurve& curve, int count) {
   return stops;
 }
 
-// Yields at 1.2 k0, branches of a third and a half of the friction's stiffness.
+// The set yields at 1.2 k0, and branches have a third and a half of the friction's stiffness.
 BendingParts sample_parts(int which, const VirginCurve& curve) {
   BendingParts parts;
   const double g = curve.b1 - curve.b2;
