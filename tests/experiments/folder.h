@@ -50,7 +50,7 @@ inline Json metrics_with(const std::string& experiment, std::vector<Flag> flags)
   return metrics_of(folder.path());
 }
 
-// In a folder while it exists.
+// The process works in a folder while this object exists.
 class InFolder {
  public:
   explicit InFolder(const fs::path& folder) { fs::current_path(folder); }

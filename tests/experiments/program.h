@@ -41,7 +41,7 @@ inline Outcome finished(const std::string& arguments) { return ended(0, argument
 // Returns the program's message to arguments that it refuses as a wrong request.
 inline std::string refused(const std::string& arguments) { return ended(2, arguments).err; }
 
-// A run into a folder of its own, which ends well.
+// This struct is a run into a folder of its own, which must end well.
 struct FinishedRun {
   explicit FinishedRun(const std::string& arguments) : outcome(finished(arguments + out_flag(out))) {}
   Json manifest() const { return manifest_in(out); }

@@ -122,7 +122,7 @@ Format manifest() {
            }}};
 }
 
-// As a run begins to read it.
+// Reads the state as a run begins to read it.
 void read_state(const fs::path& file) {
   const std::string state = experiments::read_checkpoint(file, {"cpu", 1}).value_or("");
   Archive archive{state};

@@ -20,7 +20,7 @@ std::vector<Format> formats();
 // Returns what a page shows of a manifest, and of a table beside one.
 std::vector<Format> pages();
 
-// How many of the readers took it, the others having refused it by an Error of one line.  Throws what
+// Returns how many of the readers took it, the others having refused it by an Error of one line.  Throws what
 // anything else threw.
 int taken(const Format& format, const std::filesystem::path& file);
 

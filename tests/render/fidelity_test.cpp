@@ -60,7 +60,7 @@ int plateaus(const Image& image) {
   return found;
 }
 
-// As drawn, and as a sheet shows it.
+// The picture is checked as drawn, and as a sheet shows it.
 TEST_F(FidelityTest, GradientsHaveNoPlateauWiderThanSixPixels) {
   for (const int passes : {0, kFigure}) {
     Image image = draped({}, passes);

@@ -38,8 +38,8 @@ class ObstacleTest : public test::OffscreenTest {
   }
 };
 
-// A square of `cells` a side, 0.3 m, laid around a horizontal cylinder about the y axis through the origin:
-// its vertices touch the upper half, the rest hangs straight down.
+// Returns a square of `cells` a side, 0.3 m, laid around a horizontal cylinder about the y axis through the
+// origin: its vertices touch the upper half, the rest hangs straight down.
 test::Cloth around_cylinder(int cells, float radius) {
   test::Cloth cloth = test::flat_square(cells, 0.3f, 0.0f);
   const float quarter = 0.5f * std::numbers::pi_v<float> * radius;
@@ -63,7 +63,7 @@ TEST_F(ObstacleTest, NoCylinderShowsThroughTheClothAroundIt) {
   }
 }
 
-// From above the drape hides its pedestal, however coarse it is.
+// The drape hides its pedestal from above, however coarse it is.
 TEST_F(ObstacleTest, NoRimShowsThroughACoarseDrape) {
   for (const int rings : {7, 8, 11, 16}) {
     auto view = viewed_cloth(test::draped_disc(rings, 4 * rings));

@@ -35,7 +35,7 @@ Cloth flat_square(int cells, float side, float z);
 // triangles.
 Cloth draped_disc(int rings, int sectors);
 
-// A view of the draped disc on its pedestal on the ground, ready to draw.
+// Returns a view of the draped disc on its pedestal on the ground, ready to draw.
 std::unique_ptr<ClothView> draped_view(Offscreen& offscreen, const PictureSize& size, const Look& look);
 Camera draped_camera(float aspect);
 

@@ -355,7 +355,7 @@ TEST(Compare, SetsFabricsOfASceneSideBySide) {
   }
 }
 
-// By the same scene that it runs: parameters of its file, and those that only one column has.
+// Laws are matched by the scene that runs: parameters of its file, and those that only one column has.
 TEST(Compare, MatchesTheLawThatItRuns) {
   const Folder folder;
   const auto scene = [&](const std::string& parameters) {

@@ -99,7 +99,7 @@ TEST_F(Fit, ComparesLawsOnTheSameDataTheBestFirst) {
       read_csv(out() / "fit.csv", {"curvature [1/m]", "model_prandtl [N]", "residual_linear [N]"}, {}, "t"));
 }
 
-// A strip of 8 cm whose amplitudes follow from k0 = 8/m and HB = 0.6 mN.
+// The amplitudes of a strip of 8 cm follow from k0 = 8/m and HB = 0.6 mN.
 TEST_F(Fit, OfAFreeVibrationWritesTheThreeNumbersOfAFabric) {
   constexpr double kTenth = 0.1, kB = 1.16e-5, kHB = 6e-4, kK0 = 8;
   DecaySeries series;
@@ -340,7 +340,7 @@ TEST_F(FitOfFab, FindsTheirFrictionAndPredictsWhatWasNotFitted) {
   EXPECT_EQ(warned_, "");
 }
 
-// A force that no strip has, ten times the noise, up and down from row to row.
+// The force is one that no strip has, ten times the noise, up and down from row to row.
 TEST_F(FitOfFab, FarOutsideTheNoiseIsRefusedUnlessTheNoiseIsSaidToBeThatLarge) {
   double sign = 1;
   const std::string file = changed([&](std::vector<std::string>& row) {

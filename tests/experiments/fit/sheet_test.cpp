@@ -58,7 +58,7 @@ int expect_read_back(const KesSheet& sheet, const fs::path& folder, const std::s
   return grown;
 }
 
-// In SI, within what clothing has, log-uniform.
+// Returns a sheet in SI, within what clothing has, log-uniform.
 KesSheet drawn_sheet(unsigned seed) {
   std::mt19937 random(seed);
   const auto between = [&](double low, double high) {

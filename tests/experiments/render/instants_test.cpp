@@ -18,7 +18,7 @@ TimedSequence numbered(const std::string& name, const Numbers& numbers, double f
   return sequence;
 }
 
-// After both functions, with as many instants as there are.
+// Calls both functions, with as many instants as there are.
 void choose(TimedSequence& a, TimedSequence& b) {
   number_frames({&a, &b});
   choose_instants({&a, &b}, 100);

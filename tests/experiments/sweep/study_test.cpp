@@ -126,7 +126,7 @@ TEST(Study, RefusesInOneLineWithFileLineKeyAndRange) {
   }
 }
 
-// A run that found these metrics.
+// Returns a run that found these metrics.
 ChildRun found(const Metrics& metrics) {
   ChildRun column;
   column.manifest.emplace();

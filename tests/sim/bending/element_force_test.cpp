@@ -113,7 +113,7 @@ TEST_P(CrumpledCloth, PullsWithMinusTheGradientOfItsIncrementalPotential) {
   const Positions x = crumpled(mesh, 9);
   const Positions f = Bent(mesh, element, law, x).forces(mesh);
   ASSERT_GT(size(f), 0.01);
-  // Along one random direction: the whole gradient, at the cost of four evaluations.
+  // One random direction checks the whole gradient, at the cost of four evaluations.
   std::mt19937 generator(10);
   std::normal_distribution<double> normal;
   Positions along = x;
@@ -199,8 +199,8 @@ TEST(ChapterForce, KeepsAngularMomentumOnASymmetricHinge) {
     EXPECT_LT(OneHinge(0.5, 0.5, 0.8, 0.8, theta).torque_defect(), kForceRounding);
 }
 
-// Its forces on the edge share one t between both wings: the finding that made the energy-consistent force
-// the default.
+// Its forces on the edge share one t between both wings, which is the finding that made the energy-consistent
+// force the default.
 TEST(ChapterForce, BreaksAngularMomentumOnASkewHinge) {
   constexpr double kNoticeable = 0.2;
   double worst = 0;

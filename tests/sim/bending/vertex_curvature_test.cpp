@@ -23,7 +23,7 @@ constexpr double kRadius = 0.03;  // [m]
 constexpr double kCoarse = 6.5e-4;
 constexpr double kOrder = 0.25;  // random meshes are not refinements of each other
 
-// A sheet of 60 x 40 mm rolled around an axis along y below it or, with a positive sign, above it.
+// Returns a sheet of 60 x 40 mm rolled around an axis along y below it or, with a positive sign, above it.
 std::vector<Vector3d> rolled(const ClothMesh& flat, double radius) {
   std::vector<Vector3d> x;
   for (const Vector3d& p : flat.rest)
@@ -53,7 +53,7 @@ std::set<int> inner_vertices(const ClothMesh& mesh) {
   return inner;
 }
 
-// Largest error of the curvature over the inner vertices, relative to `expected`.
+// Returns the largest error of the curvature over the inner vertices, relative to `expected`.
 double curvature_error(const ClothMesh& mesh, const std::vector<Vector3d>& x, double expected) {
   const std::vector<float> k = surface_curvature(x, mesh.face, "test");
   double worst = 0;

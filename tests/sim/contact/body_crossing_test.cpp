@@ -21,7 +21,7 @@ int body_crossings(const Trial& trial, Simulation& simulation, double time) {
   return static_cast<int>(count);
 }
 
-// A free sheet without weight in z = 0, near the origin.
+// Returns a free sheet without weight in z = 0, near the origin.
 Scene floating_sheet(int triangles) {
   Scene scene = test::free_square(triangles);
   scene.cloth.length = 0.1;

@@ -13,7 +13,7 @@ namespace {
 using test::kAccepted;
 using test::says;
 
-// A free square of 0.2 m in z = 0 and a body with its middle at `center`.
+// The fixture has a free square of 0.2 m in z = 0 and a body with its middle at `center`.
 class StartBesideBody : public testing::Test {
  protected:
   std::string start(const test::Body& body, const Eigen::Vector3d& center) {

@@ -106,8 +106,7 @@ TEST(Contact, HeatOfSlidingIsFrictionTimesWay) {
   EXPECT_NEAR(simulation->ledger().contact_friction / heat, 1, kOneStep);
 }
 
-// A table that drives off gently (its greatest acceleration, 6 s/T^2 = 1.5 m/s^2, stays below mu g) and
-// stops.
+// The table drives off gently (its greatest acceleration, 6 s/T^2 = 1.5 m/s^2, stays below mu g) and stops.
 TEST(Contact, MovingTableCarriesItsCloth) {
   constexpr double kTravel = 0.04, kSeconds = 0.4;
   constexpr double kSlip = 1e-5;  // [m]: the stop's elastic slip is up to 5e-6 m

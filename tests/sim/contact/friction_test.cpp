@@ -1,4 +1,4 @@
-// A sheet on a slope, of ground and of cloth: it slips where tan(slope) = mu, and beyond with Coulomb's
+// A sheet lies on a slope of ground or of cloth: it slips where tan(slope) = mu, and beyond with Coulomb's
 // acceleration g (sin - mu cos).
 #include <gtest/gtest.h>
 

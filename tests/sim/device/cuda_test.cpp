@@ -171,8 +171,8 @@ TEST_F(Gpu, InSinglePrecisionStaysNearTheCpusDouble) {
   EXPECT_LT(test::farthest(run_on("cuda", scene)->positions(), exact), kNear);
 }
 
-// A strip whose end a hand takes over until it lies on the other one.
-// Explicit bending's substeps grow with the square of the fineness.
+// A pin leads the end of a strip over until it lies on the other one.  Explicit bending's substeps grow with
+// the square of the fineness.
 Scene folding_strip(const std::string& integrator) {
   Scene scene = test::free_square(integrator == "implicit" ? 600 : 100);
   scene.cloth.shape = "strip";
@@ -245,7 +245,7 @@ TEST_F(Gpu, PinchesClothBetweenBodiesOfTrianglesAsTheCpuDoes) {
   EXPECT_EQ(gpu->state_hash(), again->state_hash());
 }
 
-// A strip that swings by one end.
+// Returns a strip that swings by one end.
 Scene swinging_strip() {
   Scene scene = busy_scene("prandtl", "shape", "implicit");
   scene.cloth.shape = "strip";

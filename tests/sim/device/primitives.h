@@ -23,7 +23,8 @@ class Primitives {
  public:
   virtual ~Primitives() = default;
 
-  // A loop of n adds i + 1 to element i of a new buffer with one element more; the buffer after it.
+  // Runs a loop of n that adds i + 1 to element i of a new buffer with one element more; returns the buffer
+  // after it.
   virtual std::vector<int> visits(int n) = 0;
   // Sums of values, their squares and ones; how often the sums were finished.
   virtual Totals totals(const std::vector<double>& values) = 0;
@@ -41,7 +42,7 @@ class Primitives {
 
   // Returns a value that a loop has written where the host reads it, without a download.
   virtual double written_to_host(double value) = 0;
-  // Values uploaded to a buffer, that buffer moved twice, and downloaded.
+  // Returns values that were uploaded to a buffer, moved twice with it, and downloaded.
   virtual std::vector<double> through_a_buffer(const std::vector<double>& values) = 0;
   // Elements that a growing buffer holds after each of these wishes.
   virtual std::vector<std::size_t> grown(const std::vector<std::size_t>& wishes) = 0;

@@ -13,7 +13,7 @@ namespace {
 constexpr int kProfiledSteps = 4;
 constexpr double kVector = 3 * sizeof(double), kBlock = 9 * sizeof(double);
 
-// A square that hangs by two corners.
+// Returns a square that hangs by two corners.
 Scene hanging(const char* integrator, const char* device) {
   Scene scene = test::hanging_square();
   scene.law = "prandtl";

@@ -14,7 +14,7 @@ namespace hysteron {
 namespace {
 
 using test::says;
-// A strip of cotton of 8 cm whose turns take 0.15 s.
+// The strip of cotton has 8 cm, and its half periods take 0.15 s.
 DecayQuestion question() { return {0.08, 0.1238, 1.16e-5, 2e-4}; }
 
 DecaySeries turns(int count) {

@@ -1,4 +1,5 @@
-// How a swing's amplitude falls: turning points of known series, names of the closed laws of decay.
+// These tests check how a swing's amplitude falls: turning points of known series, names of the closed laws
+// of decay.
 #include "sim/identification/decay_shape.h"
 
 #include <gtest/gtest.h>

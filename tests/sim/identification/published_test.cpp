@@ -111,7 +111,7 @@ TEST(VirginCurve, ThatStiffensIsRefusedWithTheReason) {
   }
 }
 
-// Mean and standard error of the mean of 1, 2, 3: 2 and 1/sqrt(3).
+// The mean of 1, 2, 3 and its standard error are 2 and 1/sqrt(3).
 TEST(VirginCurve, OfSeveralSpecimensIsTheirMeanWithItsError) {
   const test::Folder folder;
   const VirginNumbers numbers =

@@ -175,7 +175,7 @@ TEST(InPlaneFriction, TurnsWithTheClothAndLosesNothingByThat) {
               100 * kFrictionRounding * still.membrane.friction_loss());
 }
 
-// From a history in which some stops slip and some hold.
+// Steps begin from a history in which some stops slip and some hold.
 struct Dragged : Square {
   Positions x;
   explicit Dragged(const Fabric& fabric) : Square(fabric) {

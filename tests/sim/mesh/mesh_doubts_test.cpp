@@ -42,12 +42,12 @@ TEST(MeshDoubts, TrianglesThatShareNoVerticesAreCountedAndTheWeldIsNamed) {
   EXPECT_EQ(doubts[0], "200 triangles in 200 parts that share no edge, with 0 hinges");
   const int coincident = 3 * mesh.faces() - mesh.vertices();
   EXPECT_TRUE(says(doubts[1], std::to_string(coincident) + " vertices on its boundary lie on others"));
-  // A thousandth of the mean edge (20 mm and its diagonals), rounded down to a power of ten.
+  // The weld is a thousandth of the mean edge (20 mm and its diagonals), rounded down to a power of ten.
   EXPECT_TRUE(says(doubts[1], "cloth.weld = 1e-05 m joins them"));
   EXPECT_EQ(obj_doubts(soup, 1e-5), Doubts());
 }
 
-// Two strips of n cells, the seam between them stored twice.
+// The seam between two strips of n cells is stored twice.
 TEST(MeshDoubts, SeamThatIsStoredTwiceIsCounted) {
   constexpr int n = 7;
   std::ostringstream text;

@@ -10,7 +10,7 @@ namespace hysteron {
 namespace {
 namespace fs = std::filesystem;
 
-// An empty file, in a folder of its own if its name says so.
+// Writes an empty file, in a folder of its own if its name says so.
 std::string touch(const test::Folder& folder, const std::string& name) {
   fs::create_directories(fs::path(folder.file(name)).parent_path());
   return folder.write(name, "");

@@ -41,7 +41,7 @@ struct Pictures {
   Numbers box;
 };
 
-// A shipped scene without what experiments add to it.
+// Returns a shipped scene without what experiments add to it.
 inline Scene shipped_scene(const std::string& name) {
   static const KeyRow<Pictures> kRows[] = {{"size", at<&Pictures::size>, "", any(), "", ""},
                                            {"camera.direction", at<&Pictures::direction>, "", any(), "", ""},

@@ -13,7 +13,8 @@ using test::Trial;
 
 const Vector3d kFarAway(1e4, -1e4, 1e3);  // [m]
 
-// A flat sheet that a turning hand lifts by a corner, off a tilted ground and a turning sphere that comes up.
+// Returns a flat sheet that a rotating pin lifts by a corner, off a tilted ground and a rotating sphere that
+// comes up.
 Scene lifted(const Vector3d& place) {
   Scene scene = test::free_square(100);
   scene.integrator = Integrator::implicit;

@@ -166,7 +166,7 @@ TEST(Ledger, IntegratorsLossShrinksWithFirstOrderInTheStep) {
   EXPECT_NEAR(loss_order("semi-implicit", 1e-4, 1e-4), 1, kSlack);
 }
 
-// A corner is pulled away, without weight, through equilibria: what the hand does is stored, but for what the
+// A corner is pulled away, without weight, through equilibria: the pin's work is stored, but for what the
 // mean of the forces over a step misses.
 TEST(Ledger, OfEquilibriaMissesWorkWithSecondOrderInTheStep) {
   double missed[2], stored = 0;

@@ -11,7 +11,7 @@ namespace {
 using test::Method;
 using test::Trial;
 
-// A free sheet without weight that starts from waves and swings.
+// Returns a free sheet without weight that starts from waves and swings.
 Trial rippled(const Method& method, const BendingParts& parts) {
   Scene scene = test::free_square(60);
   scene.law = method.law;

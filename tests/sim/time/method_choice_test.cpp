@@ -113,7 +113,7 @@ TEST(MethodChoice, HasNothingToDoInFloatWhereAllIsOrNewtonsMethodIsNotUsed) {
   EXPECT_FALSE(choice_for(scene, 0).in_float);
 }
 
-// A band of half width w nodes: about n w^2/2 blocks' products, 27 multiplications each; a square's
+// A band of half width w nodes has about n w^2/2 blocks' products, 27 multiplications each; a square's
 // separators grow with its side.
 TEST(MethodChoice, CountsWorkThatGrowsWithTheLengthOfAStripButWithTheSquareOfASheet) {
   const auto work = [](const Scene& scene) {

@@ -17,7 +17,7 @@ namespace hysteron::test {
 
 using Positions = std::vector<Eigen::Vector3d>;
 
-// A scene on the CPU with its cloth, from which simulations start.
+// This struct has a scene on the CPU with its cloth, from which simulations start.
 struct Trial {
   Scene scene;
   Cloth cloth;

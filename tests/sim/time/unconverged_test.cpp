@@ -1,4 +1,4 @@
-// Steps that are taken before Newton's method has converged, and hands that bring cloth home.
+// These tests take steps before Newton's method has converged, and let pins bring cloth home.
 #include <gtest/gtest.h>
 
 #include "tests/sim/time/scenes.h"
@@ -50,8 +50,8 @@ TEST(UnconvergedSteps, AreWhatASearchForRestTakesWhereThereIsNone) {
   EXPECT_EQ(simulation->counts().retried, 0);
 }
 
-// Taken late and far from where it was, a corner is back after the pin's time for that, and the hand's work
-// is booked.
+// A corner that is taken late and far from where it was is back after the pin's time for that, and the pin's
+// work is booked.
 TEST(HandsThatBringHome, AreThereInTime) {
   Scene scene = test::hanging_square();
   scene.integrator = Integrator::implicit;
@@ -98,7 +98,7 @@ TEST_P(FreeCloth, SolvesItsStepsAndKeepsItsMomentum) {
   EXPECT_LT(sum.linear.norm(), 1e-5 * sum.size);
 }
 
-// Thrown by a hand that lets go: what rounding makes of forces is all that acts then.
+// A pin throws the cloth as it lets go: what rounding makes of forces is all that acts then.
 TEST_P(FreeCloth, DriftsSlowlyInSinglePrecision) {
   constexpr double kSpeed = 1e-4;  // [m/s]
   Scene scene = weightless(GetParam());

@@ -194,7 +194,7 @@ TEST_F(GlbFile, TextureRunsFromTheTop) {
   }
 }
 
-// A tube of two panels: each of two seams doubles its vertices.
+// Each of two seams of a tube of two panels doubles its vertices.
 TEST_F(GlbFile, AVertexOfASeamIsThereOnceForEachPlaceInTheTexture) {
   using Tube = test::PanelTube;
   Tube tube;

@@ -38,7 +38,7 @@ class UsdFile : public testing::Test {
     }
     return text.substr(at, end - at);
   }
-  // Values of a sampled attribute by time code, as texts.
+  // Returns the values of a sampled attribute by time code, as texts.
   static std::map<double, std::string> samples(const std::string& prim, const std::string& attribute) {
     std::map<double, std::string> values;
     const std::size_t begin = prim.find(" " + attribute + ".timeSamples = {\n");

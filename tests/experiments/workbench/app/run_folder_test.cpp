@@ -27,7 +27,7 @@ void earlier_run(const fs::path& out, const std::string& file) {
   run.finish();
 }
 
-// In a child that ends as by `kill -9` at the end of `body`.
+// Runs `body` in a child that ends as by `kill -9` at its end.
 template <class Body>
 void killed(Body body) {
   const pid_t child = fork();
@@ -186,7 +186,7 @@ TEST_F(RunFolder, IsNotWhereTheRunReads) {
   EXPECT_EQ(file_content(loops), "mine");
 }
 
-// A complete run in a folder, and another one there that ends in different ways.
+// The fixture has a complete run in a folder, and another one there that ends in different ways.
 class SuccessorOfARun : public RunFolder {
  protected:
   SuccessorOfARun() {

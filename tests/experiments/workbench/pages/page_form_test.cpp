@@ -70,7 +70,7 @@ void write_run(const fs::path& folder) {
   run.finish();
 }
 
-// A gallery of a run with a part, a folder without a run, and a list of manifests.
+// The fixture has a gallery of a run with a part, a folder without a run, and a list of manifests.
 class PageForms : public testing::Test {
  protected:
   PageForms() {

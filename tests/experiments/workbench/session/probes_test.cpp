@@ -33,7 +33,7 @@ void expect_linear(const std::string& element, const std::vector<std::string>& c
       EXPECT_EQ(left[i], 0);
     }
   }
-  // Along the strip, which bends; the first component.
+  // The first component is along the strip, which bends.
   EXPECT_GT(std::abs(column(probes, "probe1_curvature" + components[0] + " [1/m]").back()), 1);
   EXPECT_EQ(column(probes, "time [s]"), column(run.out / "metrics.csv", "time [s]"));
 }

@@ -43,8 +43,8 @@ int after_a_checkpoint(const std::string& arguments, const fs::path& out, const 
   return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
 }
 
-// All files but those that tell of wall clock, and of the command.  A PDF of cairo 1.18 tells, too, packed
-// away.
+// Returns all files but those that tell of wall clock, and of the command.  A PDF of cairo 1.18 tells, too,
+// packed away.
 std::map<std::string, std::string> results_in(const fs::path& out) {
   std::map<std::string, std::string> files;
   for (const auto& entry : fs::recursive_directory_iterator(out)) {
@@ -233,7 +233,7 @@ TEST(Resuming, ACompleteRunIsNotRepeatedAndOneWithoutCheckpointBeginsAnew) {
   EXPECT_EQ(manifest_in(run.out)["law"], "linear");
 }
 
-// One folder with a checkpoint for all of them: a refusal changes nothing in it.
+// One folder has a checkpoint for all of them: a refusal changes nothing in it.
 class RefusedCheckpoint : public testing::Test {
  protected:
   RefusedCheckpoint() {

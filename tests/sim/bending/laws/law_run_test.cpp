@@ -1,4 +1,4 @@
-// One law driven through a list of curvatures: names, parameters, rows.
+// One law is driven through a list of curvatures: names, parameters, rows.
 #include "sim/bending/laws/law_run.h"
 
 #include <gtest/gtest.h>

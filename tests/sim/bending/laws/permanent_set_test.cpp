@@ -1,5 +1,5 @@
-// A rest curvature that sets beyond a yield curvature: closed forms of one bend, beside friction and
-// branches.
+// A rest curvature sets beyond a yield curvature: these tests have closed forms of one bend, beside friction
+// and branches.
 #include <gtest/gtest.h>
 
 #include "sim/bending/laws/law_run.h"
