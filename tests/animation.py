@@ -69,7 +69,7 @@ def in_single(x):
 
 
 class Run:
-    """What the same run has as plain meshes."""
+    """Reads what the same run has as plain meshes."""
 
     def __init__(self):
         self.frames = [ply(file) for file in sorted(exported("ply").glob("*.ply"))]

@@ -99,7 +99,7 @@ EOF
   } >"$copy"
 }
 
-# A page that frames the copy at both widths and says on the console what they report.
+# Writes a page that frames the copy at both widths and prints on the console what they report.
 write_frame() {
   cat >"$2" <<EOF
 <!doctype html><title>frame</title>
@@ -161,7 +161,7 @@ check() {
   [[ -z $faults ]] || { echo "$faults"; return 1; }
 }
 
-# A run's folder with frames: another run's manifest, its pictures as frames.
+# Makes a run's folder with frames: another run's manifest, its pictures as frames.
 run_with_frames() {
   local results=$1 run=$scratch/made/run picture number=0 manifests
   manifests=("$results"/drape-*/manifest.json)

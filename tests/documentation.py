@@ -87,7 +87,7 @@ def hint(name, known):
 
 
 def number_in(text):
-    """None of a text that is no finite number."""
+    """Returns the number, or None for a text that is not a finite number."""
     try:
         value = float(text)
     except ValueError:
@@ -260,7 +260,7 @@ def errors_text(number, form, factor):
 
 
 def number_from(target, title, folder):
-    """What the source says now.  Raises Wrong if the title is wrong or there is no such number."""
+    """Returns what the source says now.  Raises Wrong if the title is wrong or there is no such number."""
     words = Words(title)
     number, factor = found_number(target, folder, words), 1
     word = words.next("a format")
@@ -444,7 +444,7 @@ def write_tables(page):
     page.text = block.sub(as_it_should_be, before)
 
 
-# What the program says
+# These texts come from the program itself.
 
 
 def exit_codes(hysteron):
@@ -492,7 +492,7 @@ def documentation(folder, hysteron):
 
 
 def tell_or_write(page, folder, check):
-    """Whether there are faults; those that writing the page again mends are told only where that is not done."""
+    """Returns whether there are faults; those that writing the page mends are told only where it is not written."""
     told = [fault for fault in page.faults if check or not fault[2]]
     for line, what, mended in told:
         remedy = f"; write it again: tests/documentation.py {folder}" if mended else ""

@@ -1,4 +1,4 @@
-"""What documentation.py writes and finds wrong: `documentation_test.py HYSTERON`."""
+"""These tests check what documentation.py writes and finds wrong: `documentation_test.py HYSTERON`."""
 import json
 import subprocess
 import sys
@@ -48,7 +48,7 @@ class Checkout(unittest.TestCase):
         return subprocess.run(command, capture_output=True, text=True, check=False)
 
     def faults(self):
-        """What --check says of the page, without the page's name and the remedy."""
+        """Returns what --check says of the page, without the page's name and the remedy."""
         outcome = self.run_script("--check")
         self.assertEqual(outcome.returncode, 4 if outcome.stderr else 0)
         return outcome.stderr.replace(f"{self.page}:", "").replace(

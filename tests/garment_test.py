@@ -29,7 +29,7 @@ SMALLEST_GAP = 0.006  # between the cloth at the start and the leg [m]
 
 
 def script(name, out, *options):
-    """What it says."""
+    """Runs a script of the assets and returns its output."""
     command = [sys.executable, ASSETS / name, "--out", out, *options]
     return subprocess.run(command, check=True, capture_output=True, text=True).stdout
 
@@ -48,8 +48,8 @@ class Obj:
         self.face, self.flat = np.array(corners)[..., 0], np.array(corners)[..., -1]
 
     def sides(self):
-        """Of each pair of vertices, the smaller number first, the triangles' sides between them: vertices in the order
-        of the triangle, texture coordinates in that of the pair."""
+        """Returns for each pair of vertices, the smaller number first, the triangles' sides between them: vertices in
+        the order of the triangle, texture coordinates in that of the pair."""
         found = collections.defaultdict(list)
         for face, flat in zip(self.face, self.flat):
             for k in range(3):
@@ -59,7 +59,7 @@ class Obj:
 
 
 def mdd(file):
-    """Times, and points of all frames."""
+    """Returns times, and points of all frames."""
     data = Path(file).read_bytes()
     frames, points = np.frombuffer(data, ">i4", 2)
     return (np.frombuffer(data, ">f4", frames, 8).astype(float),
@@ -67,7 +67,7 @@ def mdd(file):
 
 
 def normals(points, faces):
-    """Of triangles, twice as long as their area."""
+    """Returns normals of triangles, twice as long as their area."""
     a, b, c = (points[faces[:, k]] for k in range(3))
     return np.cross(b - a, c - a)
 

@@ -1,4 +1,4 @@
-"""What results/speed/peers.py makes of a table that it measured: the comparison at equal errors and the figure.
+"""These tests check what results/speed/peers.py makes of its table: the comparison at equal errors and the figure.
 
 The measurement itself needs other people's solvers and a GPU, which a test has not.
 """

@@ -1,4 +1,4 @@
-"""What results/speed/steps.py writes of programs that take turns.
+"""These tests check what results/speed/steps.py writes of programs that take turns.
 
     steps_test.py build/hysteron
 """

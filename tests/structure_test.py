@@ -24,7 +24,7 @@ def layer(folder):
 
 
 def folders_in(root):
-    """What each folder includes."""
+    """Returns what each folder includes."""
     folders = {}
     for file in (file for name in LAYERS for file in (root / name).rglob("*")):
         if file.suffix in (".h", ".cpp", ".in"):

@@ -1,4 +1,4 @@
-// What a run in a folder of its own needs.
+// This header has what a run in a folder of its own needs.
 #pragma once
 
 #include <sys/wait.h>
@@ -32,7 +32,7 @@ inline int occurrences(const std::string& text, const std::string& part) {
   return count;
 }
 
-// What a run has noted in its folder.
+// Reads the manifest that a run has written into its folder.
 inline Json manifest_in(const fs::path& run) { return read_json(run / "manifest.json"); }
 inline Json metrics_of(const fs::path& run) { return manifest_in(run)["metrics"]; }
 
@@ -50,7 +50,7 @@ inline Json metrics_with(const std::string& experiment, std::vector<Flag> flags)
   return metrics_of(folder.path());
 }
 
-// In a folder while it exists.
+// The process works in a folder while this object exists.
 class InFolder {
  public:
   explicit InFolder(const fs::path& folder) { fs::current_path(folder); }

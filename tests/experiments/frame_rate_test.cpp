@@ -1,4 +1,4 @@
-// No result depends on the rate of pictures: every experiment that simulates, at several of them.
+// No result depends on the rate of pictures: every experiment that simulates runs at several of them.
 #include <map>
 
 #include "tests/experiments/folder.h"

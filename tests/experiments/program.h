@@ -14,7 +14,7 @@ struct Outcome {
   std::string out, err;
 };
 
-// What is said on stderr beside warnings.
+// Returns the lines of stderr that are not warnings.
 inline std::string without_warnings(const std::string& err) {
   std::istringstream lines(err);
   std::string remainder;
@@ -38,10 +38,10 @@ inline Outcome ended(int exit_code, const std::string& arguments) {
   return outcome;
 }
 inline Outcome finished(const std::string& arguments) { return ended(0, arguments); }
-// What the program says to arguments that it refuses as a wrong request.
+// Returns the program's message to arguments that it refuses as a wrong request.
 inline std::string refused(const std::string& arguments) { return ended(2, arguments).err; }
 
-// A run into a folder of its own, which ends well.
+// This struct is a run into a folder of its own, which must end well.
 struct FinishedRun {
   explicit FinishedRun(const std::string& arguments) : outcome(finished(arguments + out_flag(out))) {}
   Json manifest() const { return manifest_in(out); }

@@ -81,7 +81,8 @@ TEST(Program, NeedsNoHomeAndNoPlaceForTemporaryFiles) {
   EXPECT_EQ(without_warnings(file_content(err)), "");
 }
 
-// What was cut out of long sources: authors who are two, sentences without their ends, "assumed: assumed".
+// Long sources were shortened wrongly in these ways: two authors as one, sentences without their ends,
+// "assumed: assumed".
 TEST(Program, ListsSourcesOfFabricsByTheirShortNames) {
   const std::string table = program("list fabrics").out;
   for (const std::string& name : list_assets("fabrics")) {

@@ -57,7 +57,7 @@ Format ply() {
   return {"ply", "ply", ".ply", {[](const fs::path& file) { read_surface(file.string()); }}};
 }
 
-// The motion of a body.
+// A point cache has the motion of a body.
 Format pc2() {
   return {"pc2", "pc2", ".pc2", {[](const fs::path& file) { read_point_cache(file.string()); }}};
 }
@@ -88,7 +88,7 @@ std::uint32_t big_endian(const std::string& bytes, std::size_t at) {
   return value;
 }
 
-// Without them no reader looks further.
+// Readers stop at a wrong check sum, so that these are set right.
 std::string with_check_sums(std::string png) {
   for (std::size_t at = 8; at + 12 <= png.size();) {
     const std::size_t length = big_endian(png, at);
@@ -105,7 +105,7 @@ Format png() {
   return {"png", "png", ".png", {[](const fs::path& file) { render::read_png(file); }}, with_check_sums};
 }
 
-// What `rerun`, `verify` and --scene take from it.
+// This format covers what `rerun`, `verify` and --scene take from a manifest.
 Format manifest() {
   return {"manifest",
           "manifest",
@@ -122,7 +122,7 @@ Format manifest() {
            }}};
 }
 
-// As a run begins to read it.
+// Reads the state as a run begins to read it.
 void read_state(const fs::path& file) {
   const std::string state = experiments::read_checkpoint(file, {"cpu", 1}).value_or("");
   Archive archive{state};

@@ -1,4 +1,4 @@
-// What is read of the files that a user names.
+// These formats are those of the files that a user names.
 #pragma once
 
 #include <filesystem>
@@ -15,12 +15,12 @@ struct Format {
   std::function<std::string(std::string)> repaired = nullptr;  // with check sums of what is there now
 };
 
-// OBJ, PLY, PC2, MDD, TOML, CSV, PNG, manifests and checkpoints.
+// Returns OBJ, PLY, PC2, MDD, TOML, CSV, PNG, manifests and checkpoints.
 std::vector<Format> formats();
-// What a page shows of a manifest, and of a table beside one.
+// Returns what a page shows of a manifest, and of a table beside one.
 std::vector<Format> pages();
 
-// How many of the readers took it, the others having refused it by an Error of one line.  Throws what
+// Returns how many of the readers took it, the others having refused it by an Error of one line.  Throws what
 // anything else threw.
 int taken(const Format& format, const std::filesystem::path& file);
 

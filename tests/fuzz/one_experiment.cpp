@@ -1,5 +1,5 @@
-// What a program that reads files only has instead of a solver: one experiment stands for those that
-// manifests and studies name, and no run has others beside it.
+// A program that reads files only has no solver: one experiment stands for those that manifests and studies
+// name, and no run has others beside it.
 #include "experiments/workbench/app/experiment.h"
 #include "sim/time/together.h"
 

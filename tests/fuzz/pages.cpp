@@ -12,7 +12,7 @@ void copy_anew(const fs::path& file, const fs::path& copy) {
   fs::copy_file(file, copy);
 }
 
-// A run's folder beside the file, with a copy of it under a name of its own.
+// Makes a run's folder beside the file, with a copy of it under a name of its own.
 fs::path placed(const fs::path& file, const char* name) {
   const fs::path folder = file.parent_path() / "results" / "run";
   fs::create_directories(folder);
@@ -20,7 +20,7 @@ fs::path placed(const fs::path& file, const char* name) {
   return folder;
 }
 
-// What stands beside tables: a manifest that is whole.
+// A whole manifest stands beside tables.
 const fs::path kManifest = fs::path(HYSTERON_SEEDS) / "manifest" / "manifest.json";
 
 Format page() {

@@ -1,4 +1,4 @@
-// What libFuzzer calls, for one format a program: HYSTERON_FORMAT, as the build names it.
+// libFuzzer calls this file, for one format a program: HYSTERON_FORMAT, as the build names it.
 #include <unistd.h>
 
 #include <algorithm>

@@ -30,7 +30,7 @@ class Program(unittest.TestCase):
         self.folder = pathlib.Path(folder.name).resolve()
 
     def found(self, **variables):
-        """What is found by a package in self.folder/lib/hysteron_cloth with these variables of the environment."""
+        """Returns what a package in self.folder/lib/hysteron_cloth finds with these variables of the environment."""
         package = self.folder / "build" / "python" / "hysteron_cloth"
         with mock.patch.object(LOCATION, "__file__", str(package / "program.py")), \
                 mock.patch.dict(os.environ, {"PATH": str(self.folder / "path"), **variables}):

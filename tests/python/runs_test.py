@@ -17,7 +17,7 @@ SMALL = dict(quick=True, no_images=True, triangles=40, seconds=0.1, threads=1)
 WORDS = ["--quick", "--no-images", "--triangles", "40", "--seconds", "0.1", "--threads", "1"]
 LONG = dict(no_images=True, triangles=100, seconds=0.2, step=1e-3, threads=1)  # many steps
 
-# An obstacle that appears where the cloth is.
+# The obstacle appears where the cloth is.
 HOPELESS = """
 seconds = 0.1
 step = 0.01

@@ -1,4 +1,4 @@
-"""What the tests of the package share; ends the script as skipped (77) where there is no numpy."""
+"""This module has what the tests of the package share; it ends the script as skipped (77) where there is no numpy."""
 
 import os
 import subprocess

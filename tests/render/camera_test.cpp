@@ -68,7 +68,7 @@ TEST(Camera, FramesPointsWithinItsBorder) {
   EXPECT_FALSE(frames({0, -3, 0})) << "behind the eye";
 }
 
-// A strip, a disc without thickness and a tall box, from all sides, in wide and narrow pictures.
+// A strip, a disc without thickness and a tall box are framed from all sides, in wide and narrow pictures.
 TEST(Camera, FramingHoldsExtremeShapes) {
   const Box boxes[] = {{{-0.5f, -0.005f, 0}, {0.5f, 0.005f, 0.0001f}},
                        {{-0.15f, -0.15f, 0.1f}, {0.15f, 0.15f, 0.1f}},

@@ -17,7 +17,7 @@ std::vector<SheetEntry> entries(int count, int width = 640, int height = 360) {
   return list;
 }
 
-// Distinct entry colours along the middle of each picture row, in reading order.
+// Returns the distinct entry colours along the middle of each picture row, in reading order.
 std::vector<int> reading_order(const Image& sheet) {
   std::vector<int> order;
   for (int y = 0; y < sheet.height(); ++y)
@@ -64,7 +64,7 @@ std::size_t read_by(const Body& body) {
   return pixels_shrunk() - before;
 }
 
-// As runs do: a thumbnail of 640 pixels a frame, so that the page never reads a whole frame again.
+// Runs keep a thumbnail of 640 pixels a frame, so that the page never reads a whole frame again.
 std::vector<SheetEntry> thumbnails(int frames) {
   std::vector<SheetEntry> all;
   const Image frame(1280, 720, cell_color(1));
@@ -106,7 +106,7 @@ TEST(Distinct, LeavesOutWhatWasThereBeforeAndEndsWithTheLast) {
   EXPECT_TRUE(distinct(0, [](std::size_t, std::size_t) { return true; }).empty());
 }
 
-// A grey page, and a square on it of one pixel of what a front page shows, or of thirty a side.
+// The page is grey, with a square of one pixel of what a front page shows, or of thirty a side.
 TEST(LookAlike, IsWhatAFrontPageCannotTellApart) {
   const Image page(300, 300, Rgb8{200, 200, 200});
   Image dotted = page, marked = page;

@@ -80,7 +80,7 @@ TEST(Exposure, SupersamplingAveragesBlocks) {
   EXPECT_NEAR(image.at(1, 0)[0], 9, 1);
 }
 
-// Half covered by a colour: the colour itself at half the alpha, not the colour darkened.
+// A pixel half covered by a colour has the colour itself at half the alpha, not the colour darkened.
 TEST(Exposure, ColoursOfTransparentPicturesAreNotMultipliedByAlpha) {
   Exposure exposure(2, 1, 1);
   exposure.add(Light{light(200), light(100), light(50), 1, 0, 0, 0, 0});
@@ -93,7 +93,7 @@ TEST(Exposure, ColoursOfTransparentPicturesAreNotMultipliedByAlpha) {
   EXPECT_EQ(image.at(1, 0)[3], 0);
 }
 
-// The standard pattern of four samples (D3D 11, Vulkan), in eighths of a pixel.
+// Each pass has the standard pattern of four samples (D3D 11, Vulkan), in eighths of a pixel.
 TEST(PassShift, TwoPassesOfFourSamplesShareNoRowAndNoColumn) {
   constexpr double kPattern[4][2] = {{3, 1}, {7, 3}, {1, 5}, {5, 7}};
   std::set<long> columns, rows;

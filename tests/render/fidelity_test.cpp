@@ -1,5 +1,5 @@
-// What a picture must not add to what it shows: stairs along edges, bands in gradients, a gap below cloth
-// that lies on the ground, colours that are not those of the bar.
+// A picture must not add to what it shows: no stairs along edges, no bands in gradients, no gap below cloth
+// that lies on the ground, no colours that are not those of the bar.
 
 #include <algorithm>
 #include <cmath>
@@ -60,7 +60,7 @@ int plateaus(const Image& image) {
   return found;
 }
 
-// As drawn, and as a sheet shows it.
+// The picture is checked as drawn, and as a sheet shows it.
 TEST_F(FidelityTest, GradientsHaveNoPlateauWiderThanSixPixels) {
   for (const int passes : {0, kFigure}) {
     Image image = draped({}, passes);
@@ -109,7 +109,7 @@ bool is_within(const Image& silhouette, int x, int y) {
   return true;
 }
 
-// Wherever the cloth faces, and in either light.
+// The colours hold wherever the cloth faces, and in either light.
 TEST_F(FidelityTest, FieldsKeepTheColoursOfTheBar) {
   constexpr int kWidth = 160, kHeight = 90;
   Look look = look_named("curvature");
@@ -135,7 +135,7 @@ TEST_F(FidelityTest, FieldsKeepTheColoursOfTheBar) {
     }
 }
 
-// Of a cell of a sheet, whose cloth is blue.
+// Returns the deviation of a cell of a sheet, whose cloth is blue.
 double deviation_of_cell(const Image& sheet, int left, int width, int bottom) {
   std::vector<char> cloth(static_cast<std::size_t>(sheet.width()) * sheet.height(), 0);
   for (int y = 0; y < bottom; ++y)

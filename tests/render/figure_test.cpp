@@ -1,5 +1,5 @@
-// What a figure promises: light that models the cloth, shadows without steps, a page that stays white, edges
-// as thick as the cloth.
+// A figure has light that models the cloth, shadows without steps, a page that stays white, and edges as
+// thick as the cloth.
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -57,7 +57,7 @@ void expect_white_edges(const Image& image) {
       for (int c = 0; c < 3; ++c) ASSERT_EQ(image.at(x, y)[c], 255) << x << ", " << y;
 }
 
-// What is no cloth and no pedestal is ground: seen again without both, the page is white there.
+// A pixel that is neither cloth nor pedestal is ground: drawn again without both, the page is white there.
 TEST_F(FigureTest, StudioLightModelsClothOnAWhitePageLighterThanIt) {
   const Image image = figure({});
   const std::vector<double> cloth = on_cloth(image);
@@ -94,7 +94,7 @@ TEST_F(FigureTest, ShadowsHaveNoSteps) {
   const auto view = test::cloth_view(*offscreen_, {.width = kSide, .height = kSide, .figure_passes = kPasses},
                                      test::flat_square(8, 0.12f, 0.12f), {});
   view->set_ground(0.0f);
-  // From below the sheet's height: the ground behind it.
+  // The camera is below the sheet's height and sees the ground behind it.
   const Image image = view->draw(Camera::perspective({0, -0.9f, 0.35f}, {0, 0, 0.03f}, 26));
   const auto columns = [&](int left, int right, int top) {
     std::vector<double> values;

@@ -22,7 +22,7 @@ TEST(Flip, OfEqualPicturesIsZeroEverywhere) {
   EXPECT_EQ(*std::max_element(map.values.begin(), map.values.end()), 0);
 }
 
-// L*a*b* of sRGB's green and blue, from tables.
+// L*a*b* of sRGB's green and blue are from tables.
 double largest_hyab() {
   const double green[] = {87.7347, -86.1827, 83.1793}, blue[] = {32.2970, 79.1875, -107.8602};
   const double g = 0.01 * green[0], b = 0.01 * blue[0];  // Hunt
@@ -71,7 +71,7 @@ TEST(Flip, AtOtherDistancesAgreesWithTheAuthorsProgram) {
   EXPECT_NEAR(flip(test::first_shapes(), test::second_shapes(), 134), 0.0279989, kSinglePrecision);
 }
 
-// On the lone pixel, the rectangle's left border, its other border, and inside.
+// The places are on the lone pixel, the rectangle's left border, its other border, and inside.
 TEST(Flip, OfSinglePixelsAgreesWithTheAuthorsProgram) {
   const Plane map = flip_map(test::first_shapes(), test::second_shapes());
   constexpr double kPixel = 3e-5;  // means are closer

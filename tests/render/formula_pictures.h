@@ -25,7 +25,7 @@ inline std::array<int, 3> texture_at(int x, int y) {
   return {(5 * x + 3 * y) % 256, (x * x / 16 + 7 * y) % 256, (x / 8 + y / 8) % 2 == 1 ? 200 : 60};
 }
 
-// Ramps that wrap around, and a board of squares.
+// Returns ramps that wrap around, and a board of squares.
 inline Image texture() { return drawn(kFormulaWidth, kFormulaHeight, texture_at); }
 
 // The same with up to 15 steps of grey noise.
@@ -43,7 +43,7 @@ inline Image moved_texture() {
                [](int x, int y) { return texture_at((x + kFormulaWidth - 1) % kFormulaWidth, y); });
 }
 
-// A rectangle from `left` on and lone pixels, white and black, on a ramp.
+// Returns a rectangle from `left` on and lone pixels, white and black, on a ramp.
 inline Image shapes(int left, const std::array<int, 3>& fill, bool star, int lone) {
   return drawn(kFormulaWidth, kFormulaHeight, [&](int x, int y) -> std::array<int, 3> {
     if (star && x == 10 && y == 10) return {255, 255, 255};

@@ -6,7 +6,8 @@
 namespace hysteron::render {
 namespace {
 
-// Two maps of 3 x 2 cells: all of the first kind, and one of the second kind in the lower left corner.
+// Returns two maps of 3 x 2 cells: all cells are of the first kind, but one of the second kind in the lower
+// left corner.
 HeatMaps two_maps() {
   HeatMaps page{"Outcomes",
                 "numbers: steps",

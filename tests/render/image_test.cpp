@@ -63,7 +63,7 @@ TEST(Png, WhatIsNoPictureIsRefused) {
   }
 }
 
-// A PNG of one row of grey 16-bit pixels, without any chunk that says what their values mean.
+// Returns a PNG of one row of grey 16-bit pixels, without any chunk that says what their values mean.
 std::vector<std::uint8_t> grey16(const std::vector<std::uint8_t>& values) {
   std::vector<std::uint8_t> bytes = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
   const auto number = [](std::vector<std::uint8_t>& to, std::uint32_t n) {
@@ -133,7 +133,7 @@ TEST(Png, AHeaderThatCannotBeTrueIsRefusedBeforeAnythingIsAllocated) {
             "reading a.png: its header announces 900000x290 pixels, more than its bytes can hold");
 }
 
-// A bit in the header's size, in the compressed rows.
+// The wrong bit is in the header's size, or in the compressed rows.
 TEST(Png, AWrongBitIsFound) {
   const auto whole = encode_png(gradient(60, 60, 3));
   for (const size_t at : {size_t{19}, whole.size() / 2}) {

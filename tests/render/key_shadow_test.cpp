@@ -43,7 +43,7 @@ class KeyShadowTest : public test::OffscreenTest {
   const double metres_ = camera_.metres_per_pixel({0, 0, 0}, kSide);
 };
 
-// A sheet on z = 0 and another square, of four corners counter-clockwise, in one cloth.
+// Returns a sheet on z = 0 and another square, of four corners counter-clockwise, in one cloth.
 test::Cloth sheet_and(const std::array<Eigen::Vector3f, 4>& corners) {
   test::Cloth cloth = test::flat_square(40, 0.26f, 0.0f);
   const int first = static_cast<int>(cloth.positions.size() / 3);
@@ -53,12 +53,12 @@ test::Cloth sheet_and(const std::array<Eigen::Vector3f, 4>& corners) {
   return cloth;
 }
 
-// A roof to the left of x = 0, `height` above the sheet [m].
+// Returns a sheet under a roof to the left of x = 0, `height` above the sheet [m].
 test::Cloth under_roof(float height) {
   return sheet_and({{{-0.1f, -0.1f, height}, {0, -0.1f, height}, {0, 0.1f, height}, {-0.1f, 0.1f, height}}});
 }
 
-// Where the light first passes a share, right of pixel `from`, between pixels.
+// Returns where the light first passes a share, right of pixel `from`, between pixels.
 double crossing(const std::vector<double>& light, double fraction, int from) {
   for (size_t x = static_cast<size_t>(from); x + 1 < light.size(); ++x)
     if (light[x] < fraction && light[x + 1] >= fraction)
@@ -101,7 +101,7 @@ TEST_F(KeyShadowTest, AnEdgeNearTheSheetIsAsSharpAsTheMap) {
   EXPECT_LE((crossing(light, 0.9, shadow) - crossing(light, 0.1, shadow)) * metres_, kResolved);
 }
 
-// A wall on the sheet: its shadow begins at its foot.
+// A wall stands on the sheet: its shadow begins at its foot.
 TEST_F(KeyShadowTest, NoLightLeaksWhereAWallStands) {
   const std::vector<double> light =
       light_along_x(sheet_and({{{0, -0.1f, 0}, {0, 0.1f, 0}, {0, 0.1f, 0.08f}, {0, -0.1f, 0.08f}}}));

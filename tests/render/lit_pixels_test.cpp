@@ -9,7 +9,7 @@ namespace {
 
 using Pixels = std::vector<float>;
 
-// Columns of light, RGBA each, in two rows.
+// Returns columns of light, RGBA each, in two rows.
 Pixels two_rows(const std::vector<float>& columns) {
   Pixels rgba;
   for (int row = 0; row < 2; ++row)

@@ -16,7 +16,7 @@ namespace {
 constexpr int kReliefWidth = 80, kReliefHeight = 60;
 constexpr double kGreyStep = 0.25;  // of L*, between two greys
 
-// The lightness of each grey.
+// Returns the lightness of each grey.
 std::vector<double> grey_lightness() {
   std::vector<double> all;
   for (int g = 0; g < 256; ++g) {
@@ -64,7 +64,7 @@ TEST(LocalDeviation, OfASineOfWholeWavesIsItsAmplitudeOverTheRootOfTwo) {
   EXPECT_EQ(found.pixels, (kReliefWidth - 20) * (kReliefHeight - 20));
 }
 
-// Of a slope the root of (21^2 - 1)/12 times what it rises in a pixel.
+// A slope has the root of (21^2 - 1)/12 times its rise in a pixel.
 TEST(LocalDeviation, OfASlopeIsThatOfItsSquare) {
   const Image image = picture([](int x, int y) { return 20 + 0.5 * x + 0.2 * y; });
   const double rise = std::hypot(0.5, 0.2);

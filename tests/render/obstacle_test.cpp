@@ -38,8 +38,8 @@ class ObstacleTest : public test::OffscreenTest {
   }
 };
 
-// A square of `cells` a side, 0.3 m, laid around a horizontal cylinder about the y axis through the origin:
-// its vertices touch the upper half, the rest hangs straight down.
+// Returns a square of `cells` a side, 0.3 m, laid around a horizontal cylinder about the y axis through the
+// origin: its vertices touch the upper half, the rest hangs straight down.
 test::Cloth around_cylinder(int cells, float radius) {
   test::Cloth cloth = test::flat_square(cells, 0.3f, 0.0f);
   const float quarter = 0.5f * std::numbers::pi_v<float> * radius;
@@ -63,7 +63,7 @@ TEST_F(ObstacleTest, NoCylinderShowsThroughTheClothAroundIt) {
   }
 }
 
-// From above the drape hides its pedestal, however coarse it is.
+// The drape hides its pedestal from above, however coarse it is.
 TEST_F(ObstacleTest, NoRimShowsThroughACoarseDrape) {
   for (const int rings : {7, 8, 11, 16}) {
     auto view = viewed_cloth(test::draped_disc(rings, 4 * rings));
@@ -126,7 +126,7 @@ TEST(Inset, SeesTheLongSidesOfACloth) {
   EXPECT_EQ(long_side({}, cloth.positions, 3), 0);
 }
 
-// A cuboid of eight corners.
+// Returns a cuboid of eight corners.
 TriangleMesh cuboid(const Eigen::Vector3f& half) {
   TriangleMesh mesh;
   for (int i = 0; i < 8; ++i) {
@@ -174,14 +174,14 @@ TEST_F(ObstacleTest, APlateOfEightCornersIsDarkBelowASheet) {
     auto view = viewed_cloth(test::flat_square(20, 0.1f, height), look);
     view->add_obstacle(cuboid({0.15f, 0.15f, 0.01f}), Eigen::Matrix4f::Identity());
     view->set_bounds({{-0.15f, -0.15f, -0.01f}, {0.15f, 0.15f, 0.3f}});
-    // A point 1 cm before the middle, seen below the sheet's near edge.
+    // A point 1 cm before the middle is seen below the sheet's near edge.
     const Image image = view->draw(camera);
     light.push_back(linear_of_srgb8()[image.at(kObstaclePicture / 2, kObstaclePicture / 2 + 3)[0]]);
   }
   EXPECT_LT(light[0], 0.6 * light[1]);
 }
 
-// A square without thickness that faces up.
+// Returns a square without thickness that faces up.
 TriangleMesh open_square(float half, float z) {
   const std::vector<Eigen::Vector3d> corner = {
       {-half, -half, z}, {half, -half, z}, {half, half, z}, {-half, half, z}};

@@ -44,7 +44,7 @@ TEST(Offscreen, EveryEglCandidateIsUsableOrSaysWhyNot) {
   EXPECT_GE(usable, 1);
 }
 
-// In a process of its own, because other tests of this one open EGL.
+// The test runs in a process of its own, because other tests of this one open EGL.
 TEST(OffscreenDeathTest, OSMesaAloneOpensNoOtherGl) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");
   enum { kClean = 10, kOthersOpen = 11, kNoOSMesa = 12 };

@@ -10,7 +10,7 @@
 namespace hysteron::render {
 namespace {
 
-// 150 rows: more than two strips of the filter.
+// 150 rows are more than two strips of the filter.
 Plane waves(int width = 37, int height = 150) {
   Plane plane(width, height);
   for (int y = 0; y < height; ++y)

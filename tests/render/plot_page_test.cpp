@@ -16,7 +16,7 @@ PlotPage two_plots() {
 
 using PlotPageTest = test::GnuplotTest;
 
-// The first plot in the left half, the second in the right.
+// The first plot is in the left half, the second in the right.
 TEST_F(PlotPageTest, HasItsPlotsBesideEachOtherWithTheirOwnAxesKeysAndMarks) {
   write_plot_page(folder_.file("p"), two_plots());
   EXPECT_EQ(folder_.names(), (std::vector<std::string>{"p.pdf", "p.png", "p.svg"}));

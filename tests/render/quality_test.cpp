@@ -1,4 +1,4 @@
-// What pictures promise to a paper: true lengths, sky light by what is in the way, transparent backgrounds.
+// Pictures for a paper have true lengths, sky light that obstacles occlude, and transparent backgrounds.
 
 #include <cmath>
 #include <numbers>
@@ -106,7 +106,7 @@ test::Cloth askew(float x) {
   return cloth;
 }
 
-// A square of `half` half width around the cloth's middle, from above or tilted by 0.9 rad.
+// Returns a square of `half` half width around the cloth's middle, from above or tilted by 0.9 rad.
 Image close_up(Offscreen& offscreen, float x, float half, bool tilted, const PictureSize& size) {
   const auto view = test::cloth_view(offscreen, size, askew(x), {});
   view->set_bounds({{x - 0.5f, -0.5f, 0}, {x + 0.5f, 0.5f, 0.1f}});

@@ -15,7 +15,7 @@ const Eigen::Vector3f& corner(const TriangleMesh& mesh, size_t triangle, int k) 
   return mesh.positions[mesh.triangles[3 * triangle + k]];
 }
 
-// By the divergence theorem; positive only if the triangles face outward.
+// Returns the volume by the divergence theorem; it is positive only if the triangles face outward.
 double volume(const TriangleMesh& mesh) {
   double sum = 0;
   for (size_t t = 0; t < mesh.triangle_count(); ++t)

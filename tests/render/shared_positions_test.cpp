@@ -1,4 +1,4 @@
-// A view and what writes its position buffer from outside; here a writer that needs no GPU.
+// A view's position buffer is written from outside; here by a writer that needs no GPU.
 
 #include <optional>
 

@@ -46,7 +46,7 @@ TEST(Ssim, IsOneForEqualPicturesOnly) {
   EXPECT_LT(ssim(test::texture(), changed), 1);
 }
 
-// Without variance only the luminance term is left (Wang et al. 2004, Eq. 6).
+// Only the luminance term is left where there is no variance (Wang et al. 2004, Eq. 6).
 TEST(Ssim, OfUniformPicturesIsTheLuminanceTerm) {
   const double u = 100, v = 140;
   EXPECT_NEAR(ssim(Image(20, 15, Rgb8{100, 100, 100}), Image(20, 15, Rgb8{140, 140, 140})),
@@ -72,7 +72,7 @@ TEST(Ssim, AgreesWithScikitImage) {
   EXPECT_NEAR(ssim(test::first_shapes(), test::second_shapes()), 0.952702637, kDigits);
 }
 
-// Opposite pictures anticorrelate.
+// Opposite pictures have a negative correlation.
 TEST(Ssim, IsNegativeWhereStructureIsInverted) {
   const Image a = test::drawn(32, 32, [](int x, int y) {
     const int v = (x + y) % 2 ? 200 : 55;

@@ -45,8 +45,8 @@ class StillCloth : public test::OffscreenTest {
   int ball_ = 0;
 };
 
-// Of three by three pixels around each, which are cloth, to the left of `end`; a pixel alone changes by a
-// step of its 8 bits if at all, 0.3 to 0.5 where cloth is dark.
+// Returns the changes of the means of three by three pixels, which are cloth, to the left of `end`; a single
+// pixel changes by a step of its 8 bits if at all, 0.3 to 0.5 where cloth is dark.
 std::vector<double> changes(const Image& before, const Image& now, int end) {
   constexpr int kBright = 200;  // of cloth that is lit
   std::vector<double> all;

@@ -9,7 +9,8 @@ namespace {
 
 constexpr float kPedestalRadius = 0.045f, kPedestalHeight = 0.12f;
 
-// Meridian of the drape: flat on the pedestal, then bending down, less so on the six ridges.
+// Returns a point of the drape's meridian: flat on the pedestal, then bending down, less so on the six
+// ridges.
 Eigen::Vector3f draped_point(float distance, float angle) {
   const float gap = 0.0003f;
   float r = std::min(distance, kPedestalRadius), z = kPedestalHeight + gap;

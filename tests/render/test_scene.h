@@ -28,24 +28,25 @@ struct Cloth {
   ClothTopology topology() const { return {positions.size() / 3, triangles, pattern}; }
 };
 
-// Flat square of 2 * cells^2 triangles with its front up, `side` wide, at height z [m]; no pattern, values 0.
+// Returns a flat square of 2 * cells^2 triangles with its front up, `side` wide, at height z [m]; no pattern,
+// values 0.
 Cloth flat_square(int cells, float side, float z);
 // Disc draped over a pedestal of 45 mm radius and 120 mm height with six analytic folds: 2 * rings * sectors
 // triangles.
 Cloth draped_disc(int rings, int sectors);
 
-// A view of the draped disc on its pedestal on the ground, ready to draw.
+// Returns a view of the draped disc on its pedestal on the ground, ready to draw.
 std::unique_ptr<ClothView> draped_view(Offscreen& offscreen, const PictureSize& size, const Look& look);
 Camera draped_camera(float aspect);
 
-// Such a picture of this look.
+// Draws such a picture of this look.
 Image draped_picture(Offscreen& offscreen, const PictureSize& size, const Look& look);
 
 // A view of a cloth that lies free, ready to draw.
 std::unique_ptr<ClothView> cloth_view(Offscreen& offscreen, const PictureSize& size, const Cloth& cloth,
                                       const Look& look);
 
-// Mean of the channels over a square of pixels around (x, y).
+// Returns the mean of the channels over a square of pixels around (x, y).
 double brightness(const Image& image, int x, int y, int half_side = 2);
 
 // How many pixels are such, those between left and right, top and bottom: all of the picture, if not said.

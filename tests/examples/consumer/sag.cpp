@@ -1,4 +1,4 @@
-// A program of one's own that simulates: a square held along one edge sags, by the library.
+// This program of one's own simulates by the library: a square held along one edge sags.
 #include <algorithm>
 #include <cstdio>
 

@@ -1,4 +1,4 @@
-// The hinges of a program of one's own, bent by the law `prandtl`.
+// These hinges of a program of one's own bend by the law `prandtl`.
 #pragma once
 
 #include <vector>

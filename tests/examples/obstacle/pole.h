@@ -1,4 +1,4 @@
-// All within `radius` of the z axis, without end.
+// The pole is all within `radius` of the z axis, without end.
 template <class Real>
 HYST_HD inline Distance<Real> pole_distance(const Shape<Real>& s, const Vec3<Real>& p) {
   using std::sqrt;

@@ -1,4 +1,4 @@
-// A kind of obstacle from the worked example in docs/developing.md.
+// These tests check the kind of obstacle from the worked example in docs/developing.md.
 #include <gtest/gtest.h>
 
 #include "sim/contact/signed_distance.h"

@@ -6,7 +6,7 @@ scene = hysteron_cloth.Scene(cloth_shape="strip", cloth_length=0.1, cloth_width=
 sim = hysteron_cloth.Simulation(scene)
 while sim.time < 0.1:
     lowest = sim.positions[:, 2].min()  # [m]; a view of the simulation's memory
-    sim.drive(0, velocity=(0, 0, -0.5 * lowest))  # the hand rises as the cloth falls [m/s]
+    sim.drive(0, velocity=(0, 0, -0.5 * lowest))  # the pin rises as the cloth falls [m/s]
     sim.advance()
 
 print(sim.ledger["bending_friction"], sim.hand(0), sim.state_hash)

@@ -1,4 +1,4 @@
-// Fronts and orders on made-up findings; the problems' own answers at small size.
+// These tests check fronts and orders on made-up findings, and the problems' own answers at small size.
 #include <algorithm>
 #include <cmath>
 
@@ -54,7 +54,8 @@ TEST(ObservedOrders, AreThoseOfTheErrors) {
 
 const Effort kQuick{true, DeviceChoice::cpu};
 
-// Of the crease: law, element, force and order of stages, beside the same splitting of the default model.
+// The crease has the chapter's law, element, force and order of stages, beside the same splitting of the
+// default model.
 TEST(Crease, HasTheChaptersMethodAsPrintedUnderItsOwnName) {
   Solution solution{crease_problem(kQuick), {}};
   std::vector<std::string> names;

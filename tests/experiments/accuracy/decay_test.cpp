@@ -15,8 +15,9 @@ namespace {
 constexpr double kPi = 3.14159265358979323846;
 constexpr int kCycles = 20;
 const std::vector<double> kUniform = {1};  // a strip that bends alike everywhere
-// Of lost amplitudes: 36 triangles leave 0.6 %, bdf2 in 150 steps a period takes 0.9 % more.  Friction that
-// is stronger by 5 % changes the hyperbolic loss by 3.4 %, the linear one by 5 %.
+// The tolerance is a fraction of the lost amplitude: 36 triangles leave 0.6 %, bdf2 in 150 steps a period
+// takes 0.9 % more.  Friction that is stronger by 5 % changes the hyperbolic loss by 3.4 %, the linear one by
+// 5 %.
 constexpr double kTolerance = 0.02;
 
 double mean(const std::vector<double>& values, int power) {

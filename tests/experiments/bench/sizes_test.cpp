@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kRounding = 1e-12;
 
-// A square that hangs from two corners.
+// Returns a square that hangs from two corners.
 Scene hanging() {
   Scene scene = default_scene();
   scene.mesh = "aligned";
@@ -66,9 +66,9 @@ TEST(TimesBySize, AreOfOneStableStep) {
   EXPECT_EQ(at(3, "step_s"), 1.0 / 60);
   EXPECT_EQ(at(0, "solver_iterations_per_step"), 0);
   EXPECT_GT(at(1, "newton_iterations_per_step"), 0);
-  // One launch a loop of explicit steps, whatever their number; with the sum that looks for divergence.
+  // Explicit steps have one launch a loop, whatever their number, with the sum that looks for divergence.
   EXPECT_NEAR(at(0, "launches_per_step"), at(2, "launches_per_step"), 1);
-  // Four times the triangles: twice the vertices along an edge, less one.
+  // Four times the triangles have twice the vertices along an edge, less one.
   EXPECT_GT(at(2, "bytes_per_step"), 3 * at(0, "bytes_per_step"));
   EXPECT_LT(at(2, "bytes_per_step"), 5 * at(0, "bytes_per_step"));
 }

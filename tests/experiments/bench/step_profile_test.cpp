@@ -58,7 +58,7 @@ TEST(StepProfile, SetsBytesBesideACopy) {
   EXPECT_GT(stated, 8);
 }
 
-// A square that hangs from two corners.
+// Returns a square that hangs from two corners.
 Scene hanging(Integrator integrator, int triangles) {
   Scene scene = default_scene();
   scene.mesh = "aligned";
@@ -92,8 +92,8 @@ TEST(StepProfile, KnowsTheBytesOfEveryLoop) {
           << enum_name(scene.integrator) << ", " << name;
 }
 
-// A block of 3 x 3 numbers for each vertex and each end of an edge with the number of its column, where each
-// row begins, and the vectors.
+// A product reads a block of 3 x 3 numbers for each vertex and each end of an edge with the number of its
+// column, where each row begins, and the vectors.
 TEST(StepProfile, CountsAMatrixAndItsVectorsOnceAProduct) {
   Scene scene = hanging(Integrator::semi_implicit, 200);
   scene.fabric.warp = scene.fabric.weft =

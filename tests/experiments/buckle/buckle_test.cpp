@@ -31,7 +31,7 @@ double first_zero(double low, double high, const Ratio& ratio) {
   return low;
 }
 
-// The first zero j of J_{-1/3}; Gamma = (9/4) j^2 (Greenhill 1881).
+// With j the first zero of J_{-1/3}, Gamma is (9/4) j^2 (Greenhill 1881).
 TEST(BucklingReference, UprightIsTheZeroOfABesselFunction) {
   const double j = first_zero(1.5, 2.2, [](double x, int k) { return -x * x / 4 / (k * (k - 1.0 / 3)); });
   EXPECT_NEAR(reference_gamma(Buckling::upright, scene_with("linear")) / (9 * j * j / 4), 1, 1e-6);

@@ -1,4 +1,4 @@
-// The sagging strip against the elastica.
+// These tests compare the sagging strip with the elastica.
 #include "experiments/specimens/cantilever_strip.h"
 #include "experiments/specimens/clamped_mesh.h"
 #include "experiments/workbench/session/recoveries.h"
@@ -109,7 +109,7 @@ TEST(Cantilever, ComparesWithTheElasticaOfItsOwnDirection) {
   }
 }
 
-// What hangs makes its face convex: the back's B and 2HB carry it.
+// A hanging strip makes its face convex: the back's B and 2HB carry it.
 TEST(Cantilever, ComparesWithTheElasticaOfTheSideThatItBendsTo) {
   constexpr double kNear = 1.5, kRounding = 1e-12;  // percent; relative
   Scene scene = default_scene();
@@ -125,7 +125,8 @@ TEST(Cantilever, ComparesWithTheElasticaOfTheSideThatItBendsTo) {
   EXPECT_LT(std::abs(metrics["error_percent"].get<double>()), kNear);
 }
 
-// What is too long for its weight hangs straight down: 8 times as stiff a back allows for twice the length.
+// A strip that is too long for its weight hangs straight down: 8 times as stiff a back allows for twice the
+// length.
 TEST(Cantilever, IsAsLongAsTheSideThatItBendsToCarries) {
   Scene scene = default_scene();
   scene.law = "linear";
@@ -213,7 +214,7 @@ TEST(Recoveries, GoByTheLastReversalFromPastTheElasticLimit) {
   EXPECT_EQ(of({2.5, -1.5, 0}), 2);
 }
 
-// Of a law that bends both ways alike: M = Ma by the means of B and 2HB.
+// A law that bends both ways alike has M = Ma by the means of B and 2HB.
 TEST(Recoveries, OfALawWithoutSidesGoByTheMeansOfBoth) {
   Scene scene;
   scene.law = "wong";
@@ -312,7 +313,7 @@ TEST(Cantilever, AlongWeftFollowsTheStopsOfWeft) {
               1, kWithin);
 }
 
-// Two columns at least, and the clamp's.
+// There are two columns at least, and the clamp's.
 TEST(Cantilever, HasNotManyMoreCellsThanAreAskedForHoweverLongOrShortItIs) {
   constexpr int kTriangles = 128;
   for (const double length : {1e-8, 1e-4, 0.1, 10.0, 1e6}) {

@@ -19,7 +19,7 @@ const VirginCurve kCurve{2e-5, 5e-6, 40};  // b1, b2 [N m], k0 [1/m]
 
 LawRequest law_called(const std::string& name) { return {name, kCurve, {}}; }
 
-// Virgin curve: moment b1 K - (b1 - b2) K^2/(2 k0) to k0, then M0 + b2 K.
+// The virgin curve has the moment b1 K - (b1 - b2) K^2/(2 k0) to k0, then M0 + b2 K.
 TEST(Matching, OfEnergyGivesEqualWorkToTheCurvature) {
   const double k = 100, m0 = (kCurve.b1 - kCurve.b2) * kCurve.k0 / 2;
   const double work =
@@ -355,7 +355,7 @@ TEST(Compare, SetsFabricsOfASceneSideBySide) {
   }
 }
 
-// By the same scene that it runs: parameters of its file, and those that only one column has.
+// Laws are matched by the scene that runs: parameters of its file, and those that only one column has.
 TEST(Compare, MatchesTheLawThatItRuns) {
   const Folder folder;
   const auto scene = [&](const std::string& parameters) {

@@ -1,4 +1,4 @@
-// What the curvature of a cloth differs by from that of another run of the same mesh.
+// These tests compare the curvature of a cloth with that of another run of the same mesh.
 #include <cmath>
 #include <vector>
 
@@ -78,8 +78,8 @@ TEST(Difference, OfARunToItselfIsNone) {
   EXPECT_TRUE(says(finer.err, "other triangles"));
 }
 
-// Of instants at 0, 1/30, 2/30 and 0.1 s those at 0 and 0.1 s are also the other run's, that at 0.05 s is
-// none of them, and one that ended at 0.04 s has none at 0.05 and at 0.1 s.
+// Among instants at 0, 1/30, 2/30 and 0.1 s those at 0 and 0.1 s are also the other run's and that at 0.05 s
+// is none of them; a run that ended at 0.04 s has none at 0.05 and at 0.1 s.
 TEST(Difference, LeavesOutInstantsThatTheOtherRunDoesNotHave) {
   const Folder folder;
   const auto run = [&](const std::string& name, const std::string& more) {
@@ -106,7 +106,7 @@ TEST(Difference, LeavesOutInstantsThatTheOtherRunDoesNotHave) {
   EXPECT_EQ(has_difference("beyond"), (std::vector<bool>{true, false, false}));
 }
 
-// The same triangles, every side twice as long.
+// The triangles are the same, with every side twice as long.
 TEST(Difference, RefusesARunOfAnotherRestShape) {
   const Folder folder;
   const std::string scene =

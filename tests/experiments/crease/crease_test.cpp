@@ -103,7 +103,7 @@ TEST(CreaseSpecimen, HasAnOpeningWhereNoColumnLiesInAWindow) {
   EXPECT_NEAR(crease.opening(crease.cloth.start), 180, 1e-6);
 }
 
-// Both laws by one command.
+// One command runs both laws.
 TEST(Crease, OpensWithoutAnIntersectionAndKeepsWhatTheLawKeeps) {
   const FinishedRun run(
       "crease --law linear,prandtl --triangles 200 --crease.hold 0.05 --crease.recovery 0.3 "
@@ -139,7 +139,7 @@ Json soft_fold(const char* fold, std::vector<Flag> flags = {}) {
   return metrics_with("crease", std::move(flags));
 }
 
-// Opens to within `tolerance` of the law alone and between the limits [degree].
+// The crease opens to within `tolerance` of the law alone and between the limits [degree].
 void expect_opening(const char* fold, double tolerance, double least, double most) {
   const auto metrics = soft_fold(fold);
   EXPECT_EQ(metrics["intersections"], 0);

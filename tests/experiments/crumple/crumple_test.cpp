@@ -6,7 +6,7 @@
 namespace hysteron::experiments {
 namespace {
 
-// Of a scene beside this file, or of a shipped one.
+// Returns the path of a scene beside this file, or of a shipped one.
 std::string scene_named(const std::string& name) {
   const auto file = fs::path(__FILE__).parent_path() / "scenes" / (name + ".toml");
   return fs::exists(file) ? file.string() : "crumple-" + name;

@@ -34,7 +34,7 @@ render::Image marked(int side, int steps) {
 
 bool one_line(const std::string& text) { return std::count(text.begin(), text.end(), '\n') == 1; }
 
-// Two pictures that differ in 8 x 8 of 64 x 48 pixels by 20 steps.
+// The fixture has two pictures that differ in 8 x 8 of 64 x 48 pixels by 20 steps.
 class Diff : public testing::Test {
  protected:
   Diff() {
@@ -184,7 +184,7 @@ TEST_F(Diff, WritesOntoNeitherPicture) {
   }
 }
 
-// Two folders with pictures in two places; the second picture differs.
+// The fixture has two folders with pictures in two places; the second picture differs.
 class DiffOfFolders : public testing::Test {
  protected:
   DiffOfFolders() {

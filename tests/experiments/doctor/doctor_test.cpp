@@ -7,7 +7,7 @@
 namespace hysteron::experiments {
 namespace {
 
-// With variables of the environment before it.
+// Runs doctor with variables of the environment before it.
 Outcome doctor_with(const std::string& environment, const std::string& arguments = "") {
   const Folder folder;
   const std::string out = folder.path() / "out", err = folder.path() / "err";

@@ -1,4 +1,4 @@
-// What is draped: measured where it is, and refused where it is no disc.
+// A draped specimen is measured where it is, and refused where it is not a disc.
 #include "experiments/drape/apparatus.h"
 
 #include <cmath>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kRadius = 0.12;  // [m]
 
-// Of an OBJ with these vertices.
+// The fixture drapes an OBJ with these vertices.
 class Draped : public testing::Test {
  protected:
   Scene disc_scene(const ClothMesh& mesh, const std::vector<Eigen::Vector3d>& at) {
@@ -26,7 +26,7 @@ class Draped : public testing::Test {
   std::string refusal(const Scene& scene) {
     return test::refusal([&] { disc_specimen(scene, make_cloth(scene)); });
   }
-  // A command line.
+  // Returns a command line.
   std::string drape(const std::string& flags) const {
     return "drape --quick --no-images --quiet --device cpu --threads 1" + out_flag(folder_.path() / "out") +
            " " + flags;
@@ -96,7 +96,7 @@ TEST_F(Draped, SpecimenThatLiesBesideThePedestalIsRefused) {
   finished("drape --drape.offset 0.055 --triangles 100 --explain");
 }
 
-// Without friction and on a steep slope, the specimen slides off the pedestal.
+// The specimen slides off the pedestal where there is no friction and the slope is steep.
 TEST_F(Draped, CoefficientThatNoShadowHasIsNoResult) {
   const Outcome outcome = ended(
       3,

@@ -1,4 +1,4 @@
-// `hysteron fab` from flags to its folder.
+// These tests run `hysteron fab` from flags to its folder.
 #include <fstream>
 
 #include "sim/base/csv.h"
@@ -44,7 +44,7 @@ TEST_F(FabCommand, OfAFabricWithoutFrictionClosesItsBalance) {
   EXPECT_LT(metrics().at("energy_imbalance_percent"), 0.1);
 }
 
-// What it writes are data: going their way the same fabric meets them.
+// The command writes data: the same fabric, driven along them, reproduces them.
 TEST_F(FabCommand, OnItsOwnRecordMeetsWhatItRecorded) {
   ASSERT_EQ(fab({{"fabric", "cotton-broad"}, {"fab.steps", "60"}}),
             0);  // with fewer it reads between its rows

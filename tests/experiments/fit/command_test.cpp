@@ -1,4 +1,4 @@
-// `hysteron fit` from flags to its folder.
+// These tests run `hysteron fit` from flags to its folder.
 #include "experiments/fit/from_fab.h"
 #include "experiments/fit/report.h"
 #include "sim/base/atomic_file.h"
@@ -99,7 +99,7 @@ TEST_F(Fit, ComparesLawsOnTheSameDataTheBestFirst) {
       read_csv(out() / "fit.csv", {"curvature [1/m]", "model_prandtl [N]", "residual_linear [N]"}, {}, "t"));
 }
 
-// A strip of 8 cm whose amplitudes follow from k0 = 8/m and HB = 0.6 mN.
+// The amplitudes of a strip of 8 cm follow from k0 = 8/m and HB = 0.6 mN.
 TEST_F(Fit, OfAFreeVibrationWritesTheThreeNumbersOfAFabric) {
   constexpr double kTenth = 0.1, kB = 1.16e-5, kHB = 6e-4, kK0 = 8;
   DecaySeries series;
@@ -150,7 +150,7 @@ TEST_F(Fit, RefusesRequestsThatMakeNoSense) {
   refuses({{"kes.b", "0"}, {"kes.2hb", "1e-3"}}, "must be > 0");
 }
 
-// Friction of 1 mN beside a spring that it exceeds tenfold.
+// Friction of 1 mN acts beside a spring that it exceeds tenfold.
 TEST_F(Fit, WarnsOfALawThatDoesNotDescribeTheData) {
   const fs::path file = folder_.path() / "friction.csv";
   Column curvature{"curvature [1/m]", {}}, moment{"moment [N]", {}};
@@ -165,7 +165,8 @@ TEST_F(Fit, WarnsOfALawThatDoesNotDescribeTheData) {
   EXPECT_TRUE(says(manifest_in(out()).at("warnings").dump(), "linear does not"));
 }
 
-// M = B K + c K^3: a line misses a curve that stiffens by some ten percent of the largest moment.
+// The data are M = B K + c K^3: a line misses a curve that stiffens by some ten percent of the largest
+// moment.
 TEST_F(Fit, WarnsOfALawThatIsNotNearTheData) {
   const fs::path file = folder_.path() / "stiffens.csv";
   Column curvature{"curvature [1/m]", {}}, moment{"moment [N]", {}};
@@ -257,7 +258,7 @@ TEST_F(Fit, WarnsOfACurvatureWhoseZeroIsOffAndFindsItOnRequest) {
   }
 }
 
-// What is doubtful of a fit of loops, beside another form.
+// These tests check the warnings of a fit of loops, beside another form.
 TEST(FitWarnings, NameAFormThatDescribesTheLoopsFarBetterAndFrictionBeyondTheirReach) {
   FabBending found;
   found.direction = "L";
@@ -339,7 +340,7 @@ TEST_F(FitOfFab, FindsTheirFrictionAndPredictsWhatWasNotFitted) {
   EXPECT_EQ(warned_, "");
 }
 
-// A force that no strip has, ten times the noise, up and down from row to row.
+// The force is one that no strip has, ten times the noise, up and down from row to row.
 TEST_F(FitOfFab, FarOutsideTheNoiseIsRefusedUnlessTheNoiseIsSaidToBeThatLarge) {
   double sign = 1;
   const std::string file = changed([&](std::vector<std::string>& row) {

@@ -19,7 +19,7 @@ constexpr double kBending = 0.5, kInPlane = 2;  // percent that entered and read
 // much of its width at 0.5 degree may have grown since no shear.
 constexpr double kSteepest = 0.45, kMostGrown = 0.5;
 
-// Whether friction that grows with the angle can have both 2HG and 2HG5.
+// Returns whether friction that grows with the angle can have both 2HG and 2HG5.
 bool can_grow(const KesSheet& sheet) {
   if (!sheet.has("2HG5")) return false;
   const double at = std::tan(0.5 * kDegree), second = std::tan(5 * kDegree);
@@ -58,7 +58,7 @@ int expect_read_back(const KesSheet& sheet, const fs::path& folder, const std::s
   return grown;
 }
 
-// In SI, within what clothing has, log-uniform.
+// Returns a sheet in SI, within what clothing has, log-uniform.
 KesSheet drawn_sheet(unsigned seed) {
   std::mt19937 random(seed);
   const auto between = [&](double low, double high) {
@@ -211,7 +211,8 @@ TEST(FitKesSheet, WritesAFabricTheComparisonAndTheLinesToGoOnWith) {
   EXPECT_EQ(read_table(out / "sheet.csv").rows.size(), 2u * 3);
 }
 
-// Of one direction or of means the ratio is that of what was measured, not of what fills the other column.
+// The ratio of one direction or of means is that of the measured numbers, not of those that fill the other
+// column.
 TEST(FitKesSheet, HasTheRatioToTheBackThatWasMeasured) {
   const Folder folder;
   const std::string head =

@@ -67,7 +67,7 @@ TEST(FoldSpecimen, TakesAsLongAsItsPhases) {
   }
 }
 
-// Half of it bent to K one way, half of it the other way.
+// Half of it is bent to K one way, half of it the other way.
 TEST(FoldGauge, ReadsTheBendOfTheLimbsInAnyWarpDirection) {
   for (double warp_angle : {0.0, 90.0, 30.0}) {
     Scene scene = small_scene();
@@ -169,7 +169,7 @@ TEST(BentRepeatedly, WeakensInInverseProportionToTheCycles) {
   }
 }
 
-// An elastic law, and a hysteretic one without and with fatigue, by one command.
+// One command runs an elastic law, and a hysteretic one without and with fatigue.
 TEST(Fold, RepeatsWithoutFatigueAndWeakensAndSetsWithIt) {
   const FinishedRun fold(
       "fold --law linear,prandtl --triangles 150 --fold.cycles 3 --fold.fatigue 1 --threads 1 --no-images "

@@ -1,4 +1,4 @@
-// `hysteron kes` of the law alone: its metrics, tables and flags.
+// These tests run `hysteron kes` of the law alone: its metrics, tables and flags.
 #include <fstream>
 
 #include "experiments/workbench/pages/closing_summary.h"

@@ -38,7 +38,7 @@ StripTest tested(const StripShape& shape, const LawRequest& law, const Fabric& f
   return test_strip(clamped_strip(shape, law, fabric, kProtocol), law, kProtocol);
 }
 
-// Rigidity, width and area of the strip's loop over those of the law's.
+// Returns rigidity, width and area of the strip's loop over those of the law's.
 std::array<double, 3> over_law(const StripTest& strip) {
   const KesReading &found = strip.reading, &law = strip.law_reading;
   return {found.rigidity / law.rigidity, found.loop_width / law.loop_width, found.loop_area / law.loop_area};
@@ -101,7 +101,7 @@ TEST_P(LawOfThreeNumbers, HasRigidityAndFrictionAlongWeftOfTheirOwn) {
   }
 }
 
-// The rigidity of a strip cut along weft over that of the law along weft.
+// Returns the rigidity of a strip cut along weft over that of the law along weft.
 double rigidity_along_weft(const Fabric& fabric, const std::string& law) {
   StripShape shape = small("aligned");
   shape.warp_angle = 90;

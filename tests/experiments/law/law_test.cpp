@@ -1,4 +1,4 @@
-// `hysteron law` from file to file.
+// These tests run `hysteron law` from file to file.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -17,14 +17,14 @@ class LawCommand : public ::testing::Test {
   void SetUp() override { write("curvature [1/m],time [s]\n50,0\n100,1\n"); }
 
   void write(const std::string& text) { std::ofstream(in_) << text; }
-  // The flags in place of, or beside, those of the usual law.
+  // The flags replace those of the usual law, or are added to them.
   int run(std::vector<Flag> flags = {}) {
     std::vector<Flag> all = {{"law", "wong"}, {"b1", "4e-5"}, {"b2", "1e-5"}, {"k0", "50"}};
     all.insert(all.end(), {{"in", in_}, {"out", out_}});
     all.insert(all.end(), flags.begin(), flags.end());
     return experiment_named("law").run({"law", "hysteron law", all, {}});
   }
-  // What is said on stderr to a request that is answered.
+  // Returns the text on stderr of a request that is answered.
   std::string warnings(const std::vector<Flag>& flags = {}) {
     testing::internal::CaptureStderr();
     EXPECT_EQ(run(flags), 0);
@@ -121,7 +121,7 @@ TEST_F(LawCommand, GivesTimeAndCommandsToTheLawsThatTakeThem) {
   EXPECT_NEAR(moments("grinspun-edit")[1], -50e-5, kRounding);
 }
 
-// Legs of so many rows each, to 100 1/m and to -100 1/m.
+// Returns legs of so many rows each, to 100 1/m and to -100 1/m.
 std::string way_there_and_back(int rows) {
   std::string text = "curvature [1/m],time [s]\n";
   for (int i = 1; i <= rows; ++i) text += fmt::format("{:.12g},{:.12g}\n", 100. * i / rows, 1. * i / rows);

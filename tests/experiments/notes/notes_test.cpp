@@ -139,7 +139,7 @@ TEST(Notes, OfAComparisonWeighDifferencesByErrors) {
   EXPECT_TRUE(says(first_note(manifest_of("compare", metrics, keys)), "no more than the errors allow"));
 }
 
-// A rigidity of c^3 times the weight of an area (ASTM D1388).
+// The rigidity is c^3 times the weight of an area (ASTM D1388).
 TEST(Notes, OfACantileverSayWhatAStandardReadsFromItsLength) {
   Json keys = {{"fabric", {{"name", "test"}, {"b2", 1e-5}, {"density", 0.1}, {"weft-bending", 0.4}}},
                {"gravity", {0, 0, -9.81}},

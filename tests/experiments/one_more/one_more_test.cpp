@@ -9,7 +9,7 @@ namespace {
 class OneMore : public testing::Test {
  protected:
   std::string in(const std::string& name) const { return (folder_.path() / name).string(); }
-  // What the program says to that, which goes well.
+  // Returns the output of the program, which must succeed with these arguments.
   static std::string said(const std::string& arguments) { return finished(arguments).out; }
 
   Folder folder_;

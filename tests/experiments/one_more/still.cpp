@@ -1,4 +1,5 @@
-// A cloth that nothing moves: one folder, whose line in the catalogue the build adds (one_more_test.cpp).
+// This experiment is a cloth that nothing moves, in one folder, whose line in the catalogue the build adds
+// (one_more_test.cpp).
 #include "experiments/workbench/pictures/drawing.h"
 #include "experiments/workbench/session/session.h"
 #include "render/camera.h"

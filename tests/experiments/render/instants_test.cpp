@@ -18,7 +18,7 @@ TimedSequence numbered(const std::string& name, const Numbers& numbers, double f
   return sequence;
 }
 
-// After both functions, with as many instants as there are.
+// Calls both functions, with as many instants as there are.
 void choose(TimedSequence& a, TimedSequence& b) {
   number_frames({&a, &b});
   choose_instants({&a, &b}, 100);
@@ -37,7 +37,7 @@ TEST(Instants, PairEqualTimesWhereRatesDiffer) {
   choose(slow, fast);
   EXPECT_EQ(slow.shown, (Files{0, 2}));
   EXPECT_EQ(fast.shown, (Files{0, 2}));
-  // The slower one's files decide, whichever lasts shorter.
+  // The files of the slower one decide, whichever lasts shorter.
   TimedSequence brief = numbered("brief", {0, 1, 2}, 20), lasting = numbered("lasting", {0, 1, 2, 3}, 10);
   choose(brief, lasting);
   EXPECT_EQ(brief.shown, (Files{0, 2}));
@@ -84,7 +84,7 @@ TEST(Instants, OfASequenceAloneWithoutNumbersAreWarnedOf) {
           "counted in the order of the files"}));
 }
 
-// Without every other file of 0 to 6 the remaining ones would be twice as fast in silence.
+// If every other file of 0 to 6 is missing, the remaining ones would play twice as fast without a message.
 TEST(Instants, OfNumbersInStepsOfMoreThanOneAreWarnedOf) {
   TimedSequence halved = numbered("halved", {0, 2, 4, 6}, 10), late = numbered("late", {5, 6, 7}, 10);
   number_frames({&halved});

@@ -1,4 +1,4 @@
-// A run's folder drawn again without simulating.
+// A run's folder is drawn again without simulating.
 #include <fmt/core.h>
 
 #include <cmath>

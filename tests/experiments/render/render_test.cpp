@@ -48,7 +48,7 @@ struct Twins {
                       {"export", format},    {"seconds", "0.3"}, {"probe", "none"}};
     flags.insert(flags.end(), common.begin(), common.end());
     experiment_named("swing").run({"swing", "hysteron swing", flags, {}});
-    // Of swing's own: its strip is 90 x 30 mm.
+    // Swing's own strip is 90 x 30 mm
     flags = {
         {"camera.direction", "0.2 -1 0.3"},
         {"camera.fov", "24"},
@@ -95,7 +95,7 @@ std::string metres(double x, double y, double z) {
 }
 std::string millimetres_y_up(double x, double y, double z) { return metres(1000 * x, 1000 * z, -1000 * y); }
 
-// Quads of an upright sheet of n x n that sways; another n from time to time.
+// Returns quads of an upright sheet of n x n that sways; n differs from time to time.
 std::string swaying(double time, Axes vertex) {
   std::string text;
   const int n = 4 + static_cast<int>(time / 0.1 + 0.01) % 2;
@@ -119,7 +119,7 @@ std::string sequence(const fs::path& folder, int frames, double fps, Axes vertex
   return folder.string();
 }
 
-// Without the line of the caption that names the sequence.
+// Returns the picture without the line of the caption that names the sequence.
 render::Image without_name(const fs::path& file) {
   const render::Image image = render::read_png(file);
   const int cut = image.height() / 5;
@@ -280,7 +280,7 @@ TEST(RenderedFiles, OfAHundredThousandTrianglesAreDrawn) {
   write_ply(folder.path() / "large.ply", mesh, x, {});
   EXPECT_EQ(
       rendered(folder.path() / "out", {(folder.path() / "large.ply").string()}, {{"look", "curvature"}}), 0);
-  // Of z = a sin(qx) along its length: a q^2/sqrt(2) if it were shallow; the arc of a steep one bends less.
+  // A shallow z = a sin(qx) has a q^2/sqrt(2) along its length; the arc of a steep one bends less.
   const double rms = manifest_in(folder.path() / "out")["metrics"]["large.curvature_rms_per_m"];
   EXPECT_GT(rms, 3);
   EXPECT_LT(rms, 0.05 * std::pow(2 * std::numbers::pi / 0.5, 2) / std::sqrt(2));

@@ -1,4 +1,4 @@
-// Two runs compared: numbers, energies, tables and files.
+// Two runs are compared: numbers, energies, tables and files.
 #include <fstream>
 
 #include "experiments/verify/recorded_tables.h"

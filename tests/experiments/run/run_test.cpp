@@ -124,7 +124,7 @@ from = 0.1
     EXPECT_NEAR(column[n], n < 5 ? 0 : -9.81 * 0.01 * 0.01 * (n * (n + 1) - 5 * 6) / 2, kRounding) << n;
 }
 
-// A hand lifts a whole square and lowers it again, three times.
+// A pin lifts a whole square and lowers it again, three times.
 const std::string kLifted = kSquare + R"([[phase]]
 name = "hold"
 seconds = 0.03
@@ -307,7 +307,7 @@ TEST_F(Scenes, WarnWhereTheBorderOfThePicturesCutsOffCloth) {
             1);
 }
 
-// Of all programs only env is found, which starts the columns.
+// The program finds only env, which starts the columns.
 TEST_F(Scenes, AreComparedInOneFrameAndWarnOfPlotsAndFilmsThatCannotBeMade) {
   const std::string scene =
       folder_.write("mine.toml", kSquare + "[[metric]]\nname = \"side\"\nto = [0.2, 0, 0]\n");

@@ -6,7 +6,7 @@
 namespace hysteron::experiments {
 namespace {
 
-// A run in a folder of its own.
+// The fixture has a run in a folder of its own.
 class Recorded : public testing::Test {
  protected:
   void record(const std::string& arguments) {
@@ -32,7 +32,7 @@ class Recorded : public testing::Test {
 const std::string kCrease = "crease --crease.fold pleat --crease.recovery 0.02 --triangles 60 --no-images";
 const std::string kDrape = "drape --quick --triangles 120 --seconds 0.1 --no-images";
 
-// A crease changes the scene that it is asked for: number of triangles, hands, plate.
+// A crease changes the scene that it is asked for: number of triangles, pins, plate.
 TEST_F(Recorded, RunIsRepeatedToTheBit) {
   for (const std::string& command : {kDrape, kCrease, std::string("swing --quick --no-images")}) {
     record(command);
@@ -110,7 +110,7 @@ TEST_F(Recorded, SceneNeedsItsFileNoMore) {
   EXPECT_EQ(manifest_in(run())["metrics"]["edge_m"], manifest_in(in("again"))["metrics"]["edge_m"]);
 }
 
-// A scene beside a mesh, named from its own folder, and its run beside both.
+// The fixture has a scene beside a mesh, named from its own folder, and its run beside both.
 class RecordedMesh : public testing::Test {
  protected:
   RecordedMesh() {
@@ -161,7 +161,7 @@ TEST_F(Recorded, ManifestIsASceneOfItsExperiment) {
   EXPECT_EQ(manifest_in(run())["state_hash"], manifest_in(in("again"))["state_hash"]);
 }
 
-// Without what it was asked for, as older programs left it, the keys that were given are known.
+// Older programs left out `asked`; the keys that were given are known nevertheless.
 TEST_F(Recorded, ManifestOfAnOlderProgramIsRepeatedByItsCommand) {
   record(kCrease);
   edit([](Json& json) { json.erase("options"), json.erase("asked"); });

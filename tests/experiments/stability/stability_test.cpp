@@ -14,7 +14,7 @@ namespace {
 
 const CellEffort kShort{0.05, 200};
 
-// A small square that hangs by an edge.
+// Returns a small square that hangs by an edge.
 Attempt hanging() {
   Attempt attempt{default_scene()};
   attempt.scene.cloth.length = 0.1;

@@ -162,7 +162,7 @@ class Batch : public testing::Test {
   std::string swing(const std::string& name, const std::string& more = "") const {
     return std::string(kSwing) + " --device cpu" + out_flag(folder_.path() / name) + more;
   }
-  // What it has said of its runs, by their number.
+  // Returns the reports of the batch about its runs, by their number.
   static std::vector<Json> reports_in(const std::string& text, std::size_t runs) {
     std::vector<Json> reports(runs);
     std::istringstream lines(text);

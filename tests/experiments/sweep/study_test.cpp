@@ -1,4 +1,4 @@
-// What a study file asks for.
+// These tests read study files.
 #include "experiments/sweep/study.h"
 
 #include <cmath>
@@ -126,7 +126,7 @@ TEST(Study, RefusesInOneLineWithFileLineKeyAndRange) {
   }
 }
 
-// A run that found these metrics.
+// Returns a run that found these metrics.
 ChildRun found(const Metrics& metrics) {
   ChildRun column;
   column.manifest.emplace();

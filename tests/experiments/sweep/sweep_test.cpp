@@ -121,7 +121,7 @@ TEST_F(Sweep, RefusesMetricsThatNoRunHasFoundAndNamesTheNearest) {
   write(std::string("metrics = [\"B_N_m\", \"2HB_M\"]\n") + kStudy);
   EXPECT_FALSE(says(run(2, "--quiet").err, "warning: "));
   EXPECT_EQ(page(), before);
-  // Of four runs that all have found the same, each name is said once.
+  // Four runs have found the same metrics, and each name is listed once.
   write(std::string("metrics = [\"nonsense\"]\n") + kStudy);
   const std::string all = run(2, "--quiet").err;
   ASSERT_TRUE(says(all, "2HB_N")) << all;

@@ -16,7 +16,7 @@ inline Table without_column(Table table, const std::string& name) {
   return table;
 }
 
-// All but times: metrics, hashes, exit codes and reasons.
+// Expects all but times to be the same: metrics, hashes, exit codes and reasons.
 inline void expect_same(const Table& a, const Table& b) {
   const Table one = without_column(a, "wall_s"), other = without_column(b, "wall_s");
   EXPECT_EQ(one.head, other.head);

@@ -1,4 +1,5 @@
-// What each unknown of a fabric explains of a drape: trials, rows, means and their errors.
+// The budget tells how much of a drape each unknown of a fabric explains: trials, rows, means and their
+// errors.
 #include "experiments/validate/budget.h"
 
 #include <cmath>
@@ -42,7 +43,7 @@ TEST(BudgetTrials, ChangeOneThingEach) {
   EXPECT_TRUE(mesh.drape.further.empty());
 }
 
-// What is published is B and 2HB, the means of warp and weft: with every ratio and every k0.
+// B and 2HB, the means of warp and weft, are published and stay the same with every ratio and every k0.
 TEST(BudgetTrials, KeepWhatWasMeasured) {
   constexpr double kRounding = 1e-12;
   const FabricFile file = read_fabric("cotton-broad", "test");

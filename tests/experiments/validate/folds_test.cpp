@@ -1,4 +1,4 @@
-// Folds of drapes against those of real cloth.
+// These tests compare folds of drapes with those of real cloth.
 #include "experiments/validate/folds.h"
 
 #include "tests/experiments/folder.h"
@@ -6,7 +6,7 @@
 namespace hysteron::experiments {
 namespace {
 
-// Gong, Mao, Wang 2024: 7 to 10 folds at 48.3 %, 6 to 8 at 57.4, 2 to 3 at 91.2, 10 to 14 at 16.4.
+// Gong, Mao, Wang 2024 measured 7 to 10 folds at 48.3 %, 6 to 8 at 57.4, 2 to 3 at 91.2, 10 to 14 at 16.4.
 TEST(RealFolds, RangeIsThatOfBothFabricsAround) {
   const FoldRange between = real_folds(50);
   EXPECT_EQ(between.fewest, 6);

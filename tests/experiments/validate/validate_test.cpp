@@ -1,4 +1,4 @@
-// The comparison with measurements, small.
+// These tests run a small comparison with measurements.
 #include <cmath>
 #include <fstream>
 #include <numbers>
@@ -40,7 +40,7 @@ TEST(Validate, HandsItsDrapesTheirNumbersBitForBit) {
     EXPECT_EQ(to_json(scene)["fabric"][key].get<double>(), value) << key;
 }
 
-// Each number once in each part of its range, in the logarithm; friction as published.
+// Each number is drawn once in each part of its range, in the logarithm; friction stays as published.
 TEST(Validate, DrawsUncertainNumbersFromALatinHypercubeThatKeepsTheFrictionMoment) {
   constexpr int kCount = 7;
   constexpr double kRounding = 1e-12;

@@ -11,13 +11,13 @@
 
 namespace hysteron::test {
 
-// "tr_bdf2" of "tr-bdf2".
+// Returns "tr_bdf2" of "tr-bdf2".
 inline std::string case_name(std::string name) {
   std::replace(name.begin(), name.end(), '-', '_');
   return name;
 }
 
-// Of a case that is a text, has a name, or is of an enumeration that has names.
+// Names a case that is a text, has a name, or is of an enumeration that has names.
 struct CaseName {
   template <class Case>
   std::string operator()(const ::testing::TestParamInfo<Case>& info) const {

@@ -1,4 +1,4 @@
-// A folder of its own for each test, and the error that a call throws.
+// This header has a folder of its own for each test, and the error that a call throws.
 #pragma once
 
 #include <filesystem>
@@ -10,7 +10,7 @@
 
 namespace hysteron::test {
 
-// A folder of this test and process alone, removed with all it holds.
+// This folder is of this test and process alone, and is removed with all it holds.
 class Folder {
  public:
   Folder();

@@ -1,4 +1,4 @@
-// What a command line has read, and what is settled when it ends.
+// A job has what a command line has read, and what is settled when it ends.
 #include "sim/base/job.h"
 
 #include <fstream>

@@ -1,4 +1,4 @@
-// Numbers as texts and back.
+// Numbers are written as texts and read back.
 #include "sim/base/number_in.h"
 
 #include <gtest/gtest.h>

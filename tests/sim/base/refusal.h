@@ -1,4 +1,4 @@
-// What a call says that is refused, and whether a text says something.
+// These functions return the message of a refused call, and check that a text has given parts.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -11,7 +11,8 @@ namespace hysteron::test {
 
 inline constexpr const char* kAccepted = "(accepted)";
 
-// Of a wrong request, or of what else ends with this exit code; kAccepted if it is not refused.
+// Returns the message of a wrong request, or of another error with this exit code; kAccepted if it is not
+// refused.
 template <class Body>
 std::string refusal(const Body& body, int exit_code = 2) {
   try {
@@ -23,7 +24,7 @@ std::string refusal(const Body& body, int exit_code = 2) {
   return kAccepted;
 }
 
-// Whether the text has all these parts; the failure shows it.
+// Checks that the text has all these parts; the failure shows it.
 template <class... Parts>
 ::testing::AssertionResult says(const std::string& text, const Parts&... parts) {
   for (const std::string& part : {std::string(parts)...})

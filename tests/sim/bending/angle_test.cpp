@@ -14,7 +14,7 @@ using Eigen::Vector3d;
 using Hinge = std::array<Vector3d, 4>;  // p0, p1, p2, p3
 
 constexpr double kPi = 3.14159265358979323846;
-// Some tens of operations on numbers of order one.
+// An angle takes some tens of operations on numbers of order one.
 constexpr double kRounding = 1e-13;
 // The second term of the error series changes the observed order by about (size of the difference)^2.
 constexpr double kOrderSlack = 0.05;
@@ -26,7 +26,7 @@ Hinge gradient(const Angle<double>& a) {
   return {a.g0, a.g1, -(1 - a.t0) * a.g0 - (1 - a.t1) * a.g1, -a.t0 * a.g0 - a.t1 * a.g1};
 }
 
-// A hinge with skew triangles, opened to any angle: p0 beside the edge's middle, p1 beyond its end.
+// Returns a hinge with skew triangles, opened to any angle: p0 beside the edge's middle, p1 beyond its end.
 Hinge folded(double theta) {
   const double half = theta / 2;
   return {Vector3d(-0.7 * std::cos(half), 0.3, 0.7 * std::sin(half)),

@@ -1,4 +1,4 @@
-// Which vertices bending couples.
+// This header finds which vertices bending couples.
 #pragma once
 
 #include <set>

@@ -113,7 +113,7 @@ TEST_P(CrumpledCloth, PullsWithMinusTheGradientOfItsIncrementalPotential) {
   const Positions x = crumpled(mesh, 9);
   const Positions f = Bent(mesh, element, law, x).forces(mesh);
   ASSERT_GT(size(f), 0.01);
-  // Along one random direction: the whole gradient, at the cost of four evaluations.
+  // One random direction checks the whole gradient, at the cost of four evaluations.
   std::mt19937 generator(10);
   std::normal_distribution<double> normal;
   Positions along = x;
@@ -199,8 +199,8 @@ TEST(ChapterForce, KeepsAngularMomentumOnASymmetricHinge) {
     EXPECT_LT(OneHinge(0.5, 0.5, 0.8, 0.8, theta).torque_defect(), kForceRounding);
 }
 
-// Its forces on the edge share one t between both wings: the finding that made the energy-consistent force
-// the default.
+// Its forces on the edge share one t between both wings, which is the finding that made the energy-consistent
+// force the default.
 TEST(ChapterForce, BreaksAngularMomentumOnASkewHinge) {
   constexpr double kNoticeable = 0.2;
   double worst = 0;
@@ -247,8 +247,9 @@ TEST(ImplicitBending, TakesTheShorterWayToWhereAStepBegins) {
   EXPECT_NEAR(energy_at(1.2), energy_at(-0.8), kForceRounding * energy_at(-0.8));
 }
 
-// Of a fabric with these stops on the bias, behind the metric Q = (1, 0.6, 0.6): stiffnesses
-// (p + p')/4 + 0.3 sqrt(p p'/0.6), squares of friction moments (f^2 + f'^2)/4 + 0.3 f f'/sqrt(0.6).
+// Returns the spectrum on the bias of a fabric with these stops, behind the metric Q = (1, 0.6, 0.6):
+// stiffnesses (p + p')/4 + 0.3 sqrt(p p'/0.6), squares of friction moments (f^2 + f'^2)/4 + 0.3 f
+// f'/sqrt(0.6).
 Spectrum on_the_bias(const Spectrum& warp, const Spectrum& weft) {
   Spectrum bias;
   for (std::size_t j = 0; j < warp.size(); ++j) {
@@ -276,7 +277,7 @@ Positions rolled(const ClothMesh& mesh, double curvature, double d) {
   return x;
 }
 
-// Cut along warp, bias and weft.
+// Hinges are cut along warp, bias and weft.
 TEST(HingesOfAFabric, FollowTheClosedLoopsOfTheStopsAcrossTheirEdges) {
   constexpr double kSpacing = 5e-3, kFar = 90;  // [m], [1/m]
   const Spectrum warp = {{4, 15, 60}, {9e-6, 5e-6, 8e-7}}, weft = {{10, 40, 80}, {4e-6, 6e-6, 2e-6}};

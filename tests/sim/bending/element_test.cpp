@@ -1,4 +1,4 @@
-// The bending elements as linear maps from small deflections to curvature, on every mesh family.
+// The bending elements are linear maps from small deflections to curvature, on every mesh family.
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -22,7 +22,7 @@ using std::numbers::pi;
 constexpr double kReproduced = 1e-10;
 constexpr int kDirections = 24;
 
-// Rate of the angles by the vertices' height at rest, hinges x vertices [1/m].
+// Returns the rate of the angles by the vertices' height at rest, hinges x vertices [1/m].
 MatrixXd angle_rates(const ClothMesh& mesh) {
   MatrixXd rate = MatrixXd::Zero(mesh.interior_edges, mesh.vertices());
   for (int h = 0; h < mesh.interior_edges; ++h) {
@@ -37,7 +37,7 @@ MatrixXd angle_rates(const ClothMesh& mesh) {
   return rate;
 }
 
-// C, (D x elements) x hinges [1/m].
+// Returns C, (D x elements) x hinges [1/m].
 MatrixXd dense(const CurvatureOperator& op, int hinges) {
   const int d = op.dimension;
   MatrixXd c = MatrixXd::Zero(d * op.elements(), hinges);
@@ -47,7 +47,7 @@ MatrixXd dense(const CurvatureOperator& op, int hinges) {
   return c;
 }
 
-// J^T C^T A C J, the stiffness against small deflections for a rigidity of one.
+// Returns J^T C^T A C J, the stiffness against small deflections for a rigidity of one.
 MatrixXd stiffness(const ClothMesh& mesh, const CurvatureOperator& op) {
   const MatrixXd cj = dense(op, mesh.interior_edges) * angle_rates(mesh);
   VectorXd area(cj.rows());
@@ -55,7 +55,7 @@ MatrixXd stiffness(const ClothMesh& mesh, const CurvatureOperator& op) {
   return cj.transpose() * area.asDiagonal() * cj;
 }
 
-// Heights z = x^T H x/2, H = (H_xx, H_yy, sqrt2 H_xy).
+// Returns heights z = x^T H x/2, H = (H_xx, H_yy, sqrt2 H_xy).
 VectorXd uniformly_bent(const ClothMesh& mesh, const Vector3d& h) {
   VectorXd z(mesh.vertices());
   for (int i = 0; i < mesh.vertices(); ++i) {
@@ -175,7 +175,7 @@ TEST(StiffenedHinge, HasTheRigidityAcrossItsEdge) {
   }
 }
 
-// Behind the metric Q = (1, 0.6, 0.6): nu = (1/2, 1/2, sqrt(1/2)) on the bias.
+// The metric is Q = (1, 0.6, 0.6), so that nu = (1/2, 1/2, sqrt(1/2)) on the bias.
 TEST(DirectedHinge, HasTheComponentsOfABendAcrossItsEdge) {
   const ClothMesh mesh = make_grid(1, 1, 2, 2, MeshFamily::aligned, 0);  // edges along warp, weft and bias
   CurvatureOperator op = make_hinge_operator(mesh);
@@ -248,7 +248,7 @@ TEST_P(Family, RestShapeHasNoCurvatureWhateverItsAngles) {
               angles);
 }
 
-// Energy of a cylinder over the plate's on the hinges of a few whole periods of a grid.
+// Returns the energy of a cylinder over the plate's on the hinges of a few whole periods of a grid.
 double hinge_ratio(const ClothMesh& mesh, double direction, const Vector2d& low, const Vector2d& high) {
   const VectorXd k = dense(make_hinge_operator(mesh), mesh.interior_edges) *
                      (angle_rates(mesh) * uniformly_bent(mesh, cylinder(direction)));

@@ -23,7 +23,7 @@ constexpr double kRadius = 0.03;  // [m]
 constexpr double kCoarse = 6.5e-4;
 constexpr double kOrder = 0.25;  // random meshes are not refinements of each other
 
-// A sheet of 60 x 40 mm rolled around an axis along y below it or, with a positive sign, above it.
+// Returns a sheet of 60 x 40 mm rolled around an axis along y below it or, with a positive sign, above it.
 std::vector<Vector3d> rolled(const ClothMesh& flat, double radius) {
   std::vector<Vector3d> x;
   for (const Vector3d& p : flat.rest)
@@ -53,7 +53,7 @@ std::set<int> inner_vertices(const ClothMesh& mesh) {
   return inner;
 }
 
-// Largest error of the curvature over the inner vertices, relative to `expected`.
+// Returns the largest error of the curvature over the inner vertices, relative to `expected`.
 double curvature_error(const ClothMesh& mesh, const std::vector<Vector3d>& x, double expected) {
   const std::vector<float> k = surface_curvature(x, mesh.face, "test");
   double worst = 0;
@@ -72,7 +72,7 @@ TEST_P(EveryFamily, OfAPlaneIsZeroHoweverItLies) {
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(1, Vector3d(1, 2, 3).normalized()).toRotationMatrix();
   std::vector<Vector3d> x;
   for (const Vector3d& p : mesh.rest) x.push_back(turn * p + Vector3d(1, 2, 3));
-  // Rounding of coordinates of some metres over triangles of millimetres.
+  // The tolerance is for rounding of coordinates of some metres over triangles of millimetres.
   for (const float k : surface_curvature(x, mesh.face, "plane")) EXPECT_NEAR(k, 0, 1e-7);
 }
 
@@ -105,7 +105,7 @@ TEST_P(EveryFamily, ChangesItsSignWithTheOrientation) {
   }
 }
 
-// What a run's pictures show: the element's curvature over the shape at rest.
+// A run's pictures show the element's curvature over the shape at rest.
 TEST_P(EveryFamily, IsThatOfTheShapeElementOnUnstretchedCloth) {
   const ClothMesh mesh = sheet(GetParam(), 4000);
   const std::vector<Vector3d> x = rolled(mesh, kRadius);

@@ -38,7 +38,7 @@ TEST(BodyContact, BearsClothWithinItsThickness) {
   }
 }
 
-// On slopes 1 % below and above the angle of friction.
+// The slopes are 1 % below and above the angle of friction.
 TEST(BodyContact, HoldsBelowTheFrictionAngleAndSlidesByCoulombsLawAboveIt) {
   constexpr double kFriction = 0.3, kCreep = 1e-11;  // in the fifth second, of settling [m]
   const double below = 0.99 * std::atan(kFriction), above = 1.01 * std::atan(kFriction);
@@ -124,8 +124,8 @@ TEST(BodyContact, CarriesClothBeforeAFastBody) {
   }
 }
 
-// As on the sphere of the same radius, but for the facets, and for the triangles of the cloth, which the
-// sphere enters between their vertices.
+// The drape is as on the sphere of the same radius, but for the facets, and for the triangles of the cloth,
+// which the sphere enters between their vertices.
 TEST(BodyContact, DrapesClothAsASphereDoes) {
   Scene scene = test::free_square(600);
   scene.integrator = Integrator::implicit;

@@ -21,7 +21,7 @@ int body_crossings(const Trial& trial, Simulation& simulation, double time) {
   return static_cast<int>(count);
 }
 
-// A free sheet without weight in z = 0, near the origin.
+// Returns a free sheet without weight in z = 0, near the origin.
 Scene floating_sheet(int triangles) {
   Scene scene = test::free_square(triangles);
   scene.cloth.length = 0.1;
@@ -38,7 +38,8 @@ Obstacle moving(Obstacle body, const Vector3d& way, int steps, double step) {
   return body;
 }
 
-// A tetrahedron with a vertex, an edge or a face towards the sheet, above `at`, its lowest point 5 mm up.
+// Returns a tetrahedron with a vertex, an edge or a face towards the sheet, above `at`, its lowest point 5 mm
+// up.
 Obstacle tetrahedron_with(int lowest, const Vector3d& at) {
   constexpr double kUp = 0.005, kHigh = 0.02;
   std::vector<Vector3d> x;

@@ -13,7 +13,7 @@ namespace {
 using test::kAccepted;
 using test::says;
 
-// A free square of 0.2 m in z = 0 and a body with its middle at `center`.
+// The fixture has a free square of 0.2 m in z = 0 and a body with its middle at `center`.
 class StartBesideBody : public testing::Test {
  protected:
   std::string start(const test::Body& body, const Eigen::Vector3d& center) {
@@ -64,7 +64,7 @@ TEST_F(StartBesideBody, IsRefusedNearerThanAnyStepMayBringIt) {
                    "move the cloth or the obstacle"));
 }
 
-// Smaller than a triangle, and between its vertices.
+// The body is smaller than a triangle, and between its vertices.
 TEST_F(StartBesideBody, IsRefusedWithASmallBodyInATriangle) {
   const Cloth cloth = make_cloth(scene_);
   const Eigen::Vector3i& f = cloth.mesh.face[40];

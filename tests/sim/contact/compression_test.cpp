@@ -1,4 +1,4 @@
-// What obstacles' shells answer to pressure.
+// These tests press on obstacles and measure their response.
 #include "sim/contact/compression.h"
 
 #include <gtest/gtest.h>

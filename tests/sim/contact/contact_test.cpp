@@ -30,7 +30,7 @@ Trial on_slope(double slope, double friction) {
   return Trial(scene);
 }
 
-// Mean displacement down the slope [m].
+// Returns the mean displacement down the slope [m].
 double slid(const Trial& trial, Simulation& simulation, double slope) {
   const Vector3d down(std::cos(slope), 0, -std::sin(slope));
   const auto x = simulation.positions();
@@ -63,7 +63,7 @@ TEST(Contact, LiesFlatOnTheGroundAtTheDepthThatBearsItsWeight) {
   for (const Vector3d& x : trial.after(300)->positions()) EXPECT_NEAR(t - x.z(), sink, 0.01 * sink);
 }
 
-// a = g (sin slope - mu cos slope) beyond the friction angle.
+// The acceleration is a = g (sin slope - mu cos slope) beyond the friction angle.
 TEST(Contact, LetsAClothSlideByCoulombsLawAboveTheFrictionAngle) {
   constexpr double kFriction = 0.3;
   constexpr double kOneStep =
@@ -106,8 +106,7 @@ TEST(Contact, HeatOfSlidingIsFrictionTimesWay) {
   EXPECT_NEAR(simulation->ledger().contact_friction / heat, 1, kOneStep);
 }
 
-// A table that drives off gently (its greatest acceleration, 6 s/T^2 = 1.5 m/s^2, stays below mu g) and
-// stops.
+// The table drives off gently (its greatest acceleration, 6 s/T^2 = 1.5 m/s^2, stays below mu g) and stops.
 TEST(Contact, MovingTableCarriesItsCloth) {
   constexpr double kTravel = 0.04, kSeconds = 0.4;
   constexpr double kSlip = 1e-5;  // [m]: the stop's elastic slip is up to 5e-6 m

@@ -23,7 +23,7 @@ constexpr int kDivisions = 20;  // of a triangle's edges: 231 points
 
 using Triangle = Vector3d[3];
 
-// Points of a triangle on a grid.
+// Returns points of a triangle on a grid.
 std::vector<Vector3d> grid_on(const Vector3d (&x)[3]) {
   std::vector<Vector3d> points;
   for (int i = 0; i <= kDivisions; ++i)
@@ -38,7 +38,7 @@ double least_distance(const Obstacle3<double>& obstacle, const Vector3d (&x)[3])
   return least;
 }
 
-// Of all triangles of a simulation from all its obstacles [m].
+// Returns the least distance of a simulation's triangles from its obstacles [m].
 double least_distance(const Trial& trial, Simulation& simulation) {
   const auto set = obstacles_during<double>(trial.scene.obstacle, 0.3, simulation.time(), simulation.time());
   const auto position = simulation.positions();
@@ -83,7 +83,7 @@ TEST(PlacedObstacle, IsABoxTurnedWithItsEdgesAlongZ) {
   }
 }
 
-// What is convex, with edges, corners and rounded sides.
+// These obstacles are convex, with edges, corners and rounded sides.
 std::vector<Obstacle> convex_obstacles() {
   Obstacle cylinder = rod(0.01, {0, 0, 0});
   cylinder.kind = ObstacleKind::cylinder;
@@ -352,8 +352,8 @@ TEST(FaceContact, SavedInTheMiddleGoesOnBitForBit) {
   EXPECT_GT(whole->ledger().contact_friction, 0);
 }
 
-// By their curvature against the mesh's edges: triangles with edges of 10 mm dip 0.5 mm into a sphere of 33
-// mm.
+// The curvature of obstacles is compared with the mesh's edges: triangles with edges of 10 mm dip 0.5 mm into
+// a sphere of 33 mm.
 TEST(FaceContact, IsThereOnlyForObstaclesSharperThanTheMesh) {
   Scene scene = sheet(200);
   const Trial trial(scene);

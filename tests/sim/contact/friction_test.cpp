@@ -1,4 +1,4 @@
-// A sheet on a slope, of ground and of cloth: it slips where tan(slope) = mu, and beyond with Coulomb's
+// A sheet lies on a slope of ground or of cloth: it slips where tan(slope) = mu, and beyond with Coulomb's
 // acceleration g (sin - mu cos).
 #include <gtest/gtest.h>
 
@@ -39,7 +39,8 @@ void tilt(Scene& scene, double slope) {
   scene.fabric.friction = kFriction;
 }
 
-// A sheet of 10 cm on the ground, sunk in as deep as its weight wants: 1e-4 of the thickness for all of g.
+// Returns a sheet of 10 cm on the ground, which has sunk in by its weight: by 1e-4 of the thickness for all
+// of g.
 Trial on_ground(double slope, const std::string& integrator) {
   Scene scene = test::free_square(60);
   scene.cloth.length = 0.1;

@@ -9,7 +9,7 @@
 
 namespace hysteron::test {
 
-// A rigid body with these vertices [m].
+// Returns a rigid body with these vertices [m].
 inline Obstacle body_of(std::vector<Eigen::Vector3d> vertices, std::vector<Eigen::Vector3i> faces) {
   auto mesh = std::make_shared<BodyMesh>();
   mesh->face = std::move(faces);
@@ -20,7 +20,7 @@ inline Obstacle body_of(std::vector<Eigen::Vector3d> vertices, std::vector<Eigen
   return body;
 }
 
-// A square plate of this half width around `center`, its front upwards, turned about y by `slope`.
+// Returns a square plate of this half width around `center`, its front upwards, turned about y by `slope`.
 inline Obstacle plate_at(const Eigen::Vector3d& center, double half, double slope = 0) {
   constexpr int kCells = 5;
   std::vector<Eigen::Vector3d> vertices;

@@ -18,14 +18,14 @@ using test::Trial;
 constexpr double kDown = 0.1;   // time in which the plate comes down [s]
 constexpr int kCannotGoOn = 3;  // exit code
 
-// A plate of 2 cm over the ground whose underside comes down from 1 cm to `lowest` [m].
+// Adds a plate of 2 cm over the ground whose underside comes down from 1 cm to `lowest` [m].
 void add_press(Scene& scene, double lowest) {
   Obstacle plate = test::box_at({0.05, 0.05, 0.02}, {0.2, 0.2, 0.01});
   plate.motion.keys = {{0, {0, 0, 0}, 0}, {kDown, {0, 0, lowest - 0.01}, 0}};
   scene.obstacle = {Obstacle{}, plate};
 }
 
-// A sheet on the ground under the plate.
+// Returns a sheet on the ground under the plate.
 Trial pressed_sheet(const std::string& integrator, double lowest) {
   Scene scene = test::free_square(60);
   scene.cloth.length = 0.1;
@@ -117,7 +117,7 @@ TEST(Press, AgainstAPinIsCounted) {
   EXPECT_GT(simulation->counts().pinched, 0);
 }
 
-// Two solids that meet in the middle of a sheet, from both sides, and part again.
+// Returns two solids that meet in the middle of a sheet, from both sides, and part again.
 std::vector<Obstacle> two_solids(const std::string& kind, double apart) {
   constexpr double kStart = 0.01, kSize = 0.02;
   const Vector3d middle(0.05, 0.05, 0);

@@ -36,7 +36,7 @@ Vector3d force_on_upper(SelfContact<double, Cpu>& contact, const Trial& trial, c
   return force;
 }
 
-// What the list's areas are chosen for: the layers' force is that of the barrier times the upper one's area,
+// The list's areas are chosen such that the layers' force is that of the barrier times the upper one's area,
 // on meshes with edges of 4 to 22 thicknesses, pressed together by a tenth to two fifths; in the mean over
 // several places of one mesh on the other.
 TEST(SelfContact, OfFlatLayersHasTheBarriersPressureOnAnyMesh) {

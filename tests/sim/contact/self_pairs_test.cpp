@@ -1,4 +1,5 @@
-// Closest points, collision detection, barrier, and the list of pairs, against slower or simpler answers.
+// Closest points, collision detection, barrier and the list of pairs are compared with slower or simpler
+// answers.
 #include "sim/contact/self_pairs.h"
 
 #include <gtest/gtest.h>
@@ -21,7 +22,7 @@ Vector random_vector(std::mt19937& random) {
   return {x, y, z};
 }
 
-// Least distance over a grid of points of both figures.
+// Returns the least distance over a grid of points of both figures.
 double sampled_distance(const Vector (&x)[4], bool edges, int parts) {
   double least = 1e30;
   for (int i = 0; i <= parts; ++i)

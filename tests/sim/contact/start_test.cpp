@@ -18,7 +18,7 @@ using test::kAccepted;
 using test::says;
 using test::Trial;
 
-// What make_simulation(), through which every experiment goes, says.
+// Returns the message of make_simulation(), through which every experiment goes.
 std::string start_refusal(const Trial& trial) {
   return test::refusal([&] { trial.simulation(); });
 }
@@ -49,7 +49,7 @@ TEST(Start, ThatPassesThroughItselfIsRefusedWithTheTriangles) {
   EXPECT_EQ(start_refusal(trial), kAccepted);
 }
 
-// Of pairs that are far apart at rest.
+// Returns the least distance of pairs that are far apart at rest.
 double least_start_distance(double thickness) {
   SelfPair<double> pair{};
   pair.shell = thickness;
@@ -193,7 +193,7 @@ TEST(Start, OfHeldVerticesInsideAnObstacleIsFine) {
   EXPECT_TRUE(says(failure, "inside obstacle[1] (sphere)", "at t = 0.005 s a pin releases the cloth"));
 }
 
-// What comes later cannot be known at the start.
+// An obstacle that comes later cannot be known at the start.
 TEST(Obstacle, ThatAppearsWhereTheClothIsEndsTheRunWithPlaceAndTime) {
   for (const char* integrator : {"semi-implicit", "implicit"}) {
     Trial trial = sheet_with({ObstacleKind::box, {0.1, 0.1, -0.04}, 0});

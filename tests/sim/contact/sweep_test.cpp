@@ -22,7 +22,7 @@ constexpr double kHalf = 5e-4;      // of a plate of 1 mm [m]
 constexpr double kSweptSide = 0.1;  // of the cloth [m]
 constexpr double kSweptClosed = 1e-9;
 
-// A square in the plane z = 0 around the origin, without weight.
+// Returns a square in the plane z = 0 around the origin, without weight.
 Scene sheet(const std::string& integrator, int triangles = 100) {
   Scene scene = test::free_square(triangles);
   scene.cloth.length = kSweptSide;
@@ -42,7 +42,7 @@ Obstacle plate_at(const Vector3d& center) {
   return plate;
 }
 
-// What is least over the vertices of the cloth's height over a point that moves along.
+// Returns the least height of the cloth's vertices over a point that moves along.
 double lowest_over(Simulation& simulation, double height) {
   double least = 1e30;
   for (const Vector3d& x : simulation.positions()) least = std::min(least, x.z() - height);
@@ -183,7 +183,7 @@ TEST_P(SweepInMotion, HollowSphereThatClosesKeepsTheClothInside) {
   EXPECT_LT(simulation->ledger().remainder_relative, kSweptClosed);
 }
 
-// Of a vertex that goes `displacement` from `from`, beside an obstacle.
+// Returns the free fraction of a vertex that goes `displacement` from `from`, beside an obstacle.
 double free_fraction_of(const Obstacle3<double>& obstacle, const Vector3d& from,
                         const Vector3d& displacement) {
   return free_fraction(Path<double, 1>{{from}, {displacement}}, obstacle);
@@ -205,8 +205,8 @@ TEST(FreeFraction, EndsHalfwayToTheMiddleOfTheThinnestPart) {
   EXPECT_EQ(free_fraction_of(plate, inside, Vector3d(0, 0, 0.1)), 1);
 }
 
-// Of every kind that has another side, at rest and in motion: no point of a free path is past the middle, and
-// a barred guess ends outside.
+// Every kind that has another side is tried, at rest and in motion: no point of a free path is past the
+// middle, and a barred guess ends outside.
 TEST(FreeFraction, LeadsNoPathPastTheMiddleOfAnySolid) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> within(-0.03, 0.03);
@@ -259,7 +259,7 @@ TEST(FreeFraction, OfObstaclesWithoutAnotherSideIsNotLookedFor) {
   EXPECT_TRUE(obstacles_during<float>({ground, plate_at({0, 0, 0})}, 0.3, 0, 0).has_thin());
 }
 
-// What the obstacle carries along stays where it is in its frame, whatever turns, grows or moves.
+// A point that the obstacle carries along stays where it is in its frame, whatever turns, grows or moves.
 TEST(Carried, PointsKeepTheirDistanceInUnitsOfTheObstacle) {
   Obstacle plate = plate_at({0.1, 0.2, 0.3});
   plate.motion.axis = {0.6, 0, 0.8};

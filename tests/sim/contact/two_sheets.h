@@ -1,4 +1,4 @@
-// Two sheets of one cloth, one above the other: what the tests of self-contact start from.
+// The tests of self-contact start from two sheets of one cloth, one above the other.
 #pragma once
 
 #include "tests/sim/time/scenes.h"
@@ -43,7 +43,7 @@ inline std::vector<int> upper_vertices(const Trial& trial) {
   return result;
 }
 
-// The upper sheet, or its part up to `most_x` [m] from its own edge, gets a hand of its own.
+// The upper sheet, or its part up to `most_x` [m] from its own edge, gets a pin of its own.
 inline void hold_upper(Trial& trial, const Pin& moving_pin, double most_x) {
   trial.scene.pin.push_back(moving_pin);
   trial.cloth.pin_vertices.emplace_back();

@@ -30,7 +30,7 @@ CountedStep counted_step(Simulation& simulation) {
           simulation.counts().newton - solved.newton};
 }
 
-// A square that hangs by two corners: no obstacle, no self-contact.
+// The square hangs by two corners, without an obstacle or self-contact.
 std::vector<CountedStep> recorded_steps(const char* integrator, const char* device) {
   Scene scene = test::hanging_square();
   scene.law = "prandtl";

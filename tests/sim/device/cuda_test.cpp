@@ -112,7 +112,7 @@ TEST_F(Gpu, BendsAFabricOfManyPartsAsTheCpuDoes) {
   }
 }
 
-// Positions, losses and residual curvatures of both devices, and the GPU's bits twice.
+// Expects positions, losses and residual curvatures of both devices to agree, and the GPU's bits to repeat.
 void expect_bent_alike(const Scene& scene, const std::string& element) {
   constexpr double kNear = 1e-6;  // of the largest: histories of cloth that agrees to 1e-9 m
   const auto cpu = run_on("cpu", scene), gpu = run_on("cuda", scene);
@@ -126,7 +126,7 @@ void expect_bent_alike(const Scene& scene, const std::string& element) {
   EXPECT_EQ(run_on("cuda", scene)->state_hash(), gpu->state_hash()) << element;
 }
 
-// Elasticity beside the friction, on hinges of every direction and on faces.
+// The fabric has elasticity beside its friction, on hinges of every direction and on faces.
 TEST_F(Gpu, RubsOtherwiseAlongWeftAsTheCpuDoes) {
   for (const char* element : {"hinge", "shape"}) {
     Scene scene = busy_scene("prandtl", element, "semi-implicit");
@@ -135,7 +135,7 @@ TEST_F(Gpu, RubsOtherwiseAlongWeftAsTheCpuDoes) {
   }
 }
 
-// Another B and another 2HB to the back, the excess along directions of its own, on hinges and faces.
+// The back has another B and another 2HB, the excess along directions of its own, on hinges and faces.
 TEST_F(Gpu, BendsAFabricWhoseFacesDifferAsTheCpuDoes) {
   for (const char* element : {"hinge", "shape"}) {
     Scene scene = busy_scene("prandtl", element, "semi-implicit");
@@ -171,8 +171,8 @@ TEST_F(Gpu, InSinglePrecisionStaysNearTheCpusDouble) {
   EXPECT_LT(test::farthest(run_on("cuda", scene)->positions(), exact), kNear);
 }
 
-// A strip whose end a hand takes over until it lies on the other one.
-// Explicit bending's substeps grow with the square of the fineness.
+// A pin leads the end of a strip over until it lies on the other one.  Explicit bending's substeps grow with
+// the square of the fineness.
 Scene folding_strip(const std::string& integrator) {
   Scene scene = test::free_square(integrator == "implicit" ? 600 : 100);
   scene.cloth.shape = "strip";
@@ -220,7 +220,7 @@ TEST_P(SelfContactOnBothDevices, FoldsAlikeWithAFactorisation) {
   expect_folded_alike(scene);
 }
 
-// A plate of triangles that drives off with its sheet.
+// A plate of triangles drives off with its sheet.
 TEST_F(Gpu, CarriesClothOnABodyOfTrianglesAsTheCpuDoes) {
   constexpr double kAgreement = 1e-6;  // [m]
   for (const Preconditioning solver : {Preconditioning::multigrid, Preconditioning::cholesky}) {
@@ -235,7 +235,7 @@ TEST_F(Gpu, CarriesClothOnABodyOfTrianglesAsTheCpuDoes) {
   }
 }
 
-// What yields, and by how much, is the same on both but for rounding; on one, to the bit.
+// The vertices that yield, and by how much, are the same on both but for rounding; on one device, to the bit.
 TEST_F(Gpu, PinchesClothBetweenBodiesOfTrianglesAsTheCpuDoes) {
   const double t = Fabric{}.thickness;
   const Scene scene = test::between_plates(Integrator::tr_bdf2, -t, 0.1).scene;
@@ -245,7 +245,7 @@ TEST_F(Gpu, PinchesClothBetweenBodiesOfTrianglesAsTheCpuDoes) {
   EXPECT_EQ(gpu->state_hash(), again->state_hash());
 }
 
-// A strip that swings by one end.
+// Returns a strip that swings by one end.
 Scene swinging_strip() {
   Scene scene = busy_scene("prandtl", "shape", "implicit");
   scene.cloth.shape = "strip";

@@ -95,7 +95,7 @@ class LinearSolvesOn : public LinearSolves {
     device_upload(device_, rows.view().diagonal, diagonal.data(), diagonal.size() * sizeof(Eigen::Matrix3d));
   }
 
-  // Of the rows from the first one on.
+  // Returns the largest residual of the rows from the first one on.
   static double residual(const BlockRows<double, Device>& rows, const std::vector<Eigen::Vector3d>& x,
                          int first) {
     auto off_diagonal = rows.off_diagonal(), diagonal = rows.diagonal();

@@ -20,7 +20,7 @@ constexpr double kTolerance = 1e-11;
 // is larger by the root of the preconditioner's condition at most, some hundreds for these springs.
 constexpr double kPlain = 1e-8;
 
-// Hierarchies without a level, with small levels only, and with levels of more than a thousand nodes.
+// Hierarchies have no level, small levels only, or levels of more than a thousand nodes.
 constexpr int kTriangles[] = {2, 3000, 40000};
 
 ClothMesh random_rectangle(int triangles) {
@@ -119,7 +119,7 @@ TEST_P(LinearSolvesOnEachDevice, OrderNoLoopForAnIterationThatTheGpuRepeatsItsel
   EXPECT_EQ(tight.loops, loose.loops);
 }
 
-// One front, one level of fronts below another, and more of both; long strips.
+// Long strips have one front, one level of fronts below another, or more of both.
 TEST_P(LinearSolvesOnEachDevice, FactoriseStripsAndSolveThemInAnIterationOrTwo) {
   for (const int triangles : {2, 300, 2400}) {
     const ClothMesh mesh = make_rectangle(0.5, 0.03, triangles, MeshFamily::random, 1);

@@ -1,5 +1,5 @@
-// What the device layer offers, called with values of the host: the tests are compiled by the C++ compiler
-// alone, the loops that they try on a GPU by nvcc.
+// These calls use the device layer with values of the host: the tests are compiled by the C++ compiler alone,
+// the loops that they try on a GPU by nvcc.
 #pragma once
 
 #include <cstddef>
@@ -23,11 +23,13 @@ class Primitives {
  public:
   virtual ~Primitives() = default;
 
-  // A loop of n adds i + 1 to element i of a new buffer with one element more; the buffer after it.
+  // Runs a loop of n that adds i + 1 to element i of a new buffer with one element more; returns the buffer
+  // after it.
   virtual std::vector<int> visits(int n) = 0;
   // Sums of values, their squares and ones; how often the sums were finished.
   virtual Totals totals(const std::vector<double>& values) = 0;
-  // Of each row of items the sum of their values, and the sum of those and how many rows there were.
+  // Returns for each row of items the sum of their values; row_totals adds the sum of those and the number of
+  // rows.
   virtual std::vector<double> row_sums(const Rows& rows, const std::vector<double>& values) = 0;
   virtual Totals row_totals(const Rows& rows, const std::vector<double>& values) = 0;
   // A loop that counts rounds until `goal` is reached, ordered `times` times over; how far n elements have
@@ -38,9 +40,9 @@ class Primitives {
   virtual float smallest(const std::vector<float>& values, float otherwise) = 0;
   virtual Rows group(const std::vector<int>& key, int rows) = 0;
 
-  // What a loop has written where the host reads it, without a download.
+  // Returns a value that a loop has written where the host reads it, without a download.
   virtual double written_to_host(double value) = 0;
-  // Values uploaded to a buffer, that buffer moved twice, and downloaded.
+  // Returns values that were uploaded to a buffer, moved twice with it, and downloaded.
   virtual std::vector<double> through_a_buffer(const std::vector<double>& values) = 0;
   // Elements that a growing buffer holds after each of these wishes.
   virtual std::vector<std::size_t> grown(const std::vector<std::size_t>& wishes) = 0;

@@ -40,7 +40,7 @@ Totals totals(Device& device, const std::vector<double>& values) {
   return {result[0], result[1], result[2], result[3]};
 }
 
-// A lane's part of a row's sum.
+// Returns a lane's part of a row's sum.
 template <class LanesOfRow>
 HYST_HD Vec<double, 1> part_of_row(const LanesOfRow& lanes, const int* start, const int* item,
                                    const double* value, int row) {

@@ -17,9 +17,9 @@ namespace {
 
 using test::Primitives;
 
-// None, one, both sides of a warp, of a GPU's block, of a CPU's partial sum, of its shortest parallel loop,
-// and of the most blocks that a sum on a GPU has; each followed by smaller ones, which find what the larger
-// left behind.
+// The sizes are none, one, both sides of a warp, of a GPU's block, of a CPU's partial sum, of its shortest
+// parallel loop, and of the most blocks that a sum on a GPU has; each is followed by smaller ones, which find
+// what the larger left behind.
 constexpr int kSizes[] = {100003, 0,   1,    2,    3,     31,    33, 127, 129,
                           255,    257, 2047, 2049, 67583, 67585, 1,  0,   257};
 
@@ -95,7 +95,7 @@ test::Rows counted_rows(const std::vector<int>& counts) {
   return rows;
 }
 
-// None, one, both sides of a warp, and more.
+// Rows have no item, one, as many as both sides of a warp, or more.
 TEST_P(DevicePrimitives, RowsOfAnyLengthAreSummedWholeByWhoeverTakesThem) {
   const std::vector<int> lengths = {0, 1, 31, 32, 33, 0, 7, 100, 64, 1};
   for (const int n : {0, 1, 3, 4, 5, 1000, 70000}) {

@@ -13,7 +13,7 @@ namespace {
 constexpr int kProfiledSteps = 4;
 constexpr double kVector = 3 * sizeof(double), kBlock = 9 * sizeof(double);
 
-// A square that hangs by two corners.
+// Returns a square that hangs by two corners.
 Scene hanging(const char* integrator, const char* device) {
   Scene scene = test::hanging_square();
   scene.law = "prandtl";
@@ -107,7 +107,7 @@ TEST_P(ProfileOfSteps, EvaluatesThePotentialOncePerTrial) {
   EXPECT_LE(evaluated, 3 * kProfiledSteps + tried);  // the first guess is taken up again where it was better
 }
 
-// Without the linear solver's own and the three of each product of bending, Newton's method may launch
+// Newton's method may launch, without the linear solver's own and the three of each product of bending,
 //   6 per evaluation   membrane, angles, law, forces of bending, forces on vertices, sums
 //   7 per iteration    matrix, softening, tangents, masses, stiffness of hinges, diagonal, correction
 //   2 more on a GPU    which assembles the matrix: rates of vertices, blocks

@@ -1,4 +1,4 @@
-// What is said of GPUs that a run cannot have.
+// These tests check the messages about GPUs that a run cannot have.
 #include "sim/device/visible_gpus.h"
 
 #include <gtest/gtest.h>

@@ -14,7 +14,7 @@ namespace hysteron {
 namespace {
 
 using test::says;
-// A strip of cotton of 8 cm whose turns take 0.15 s.
+// The strip of cotton has 8 cm, and its half periods take 0.15 s.
 DecayQuestion question() { return {0.08, 0.1238, 1.16e-5, 2e-4}; }
 
 DecaySeries turns(int count) {
@@ -66,7 +66,7 @@ TEST(DecayFriction, ComesBackFromNoisyAmplitudesAndExcludesLateSaturation) {
   EXPECT_GT(compare_forms(forms.back(), found, {}).misfit, 10) << forms.back().name;
 }
 
-// Noise of 2 % of each amplitude.
+// Each amplitude has noise of 2 %.
 TEST(DecayFriction, ReturnsK0AndHBWithinATenthFromAmplitudesWithNoise) {
   constexpr double kTenth = 0.1, kK0 = 8, kHB = 6e-4;
   std::mt19937 random(5);
@@ -84,7 +84,7 @@ TEST(DecayFriction, ReturnsK0AndHBWithinATenthFromAmplitudesWithNoise) {
   EXPECT_GT(found.friction_error, 0);
 }
 
-// Of friction that does not saturate by far, each turn loses what its curvature's cube times HB/k0^2 is: as
+// Friction that is far from saturating loses in each half period the cube of its curvature times HB/k0^2: as
 // k0 is doubled beyond the reach, HB is fourfold, and the fit as good.
 TEST(DecayFriction, FindsTheMomentOfFrictionThatSaturatesFarBeyondReach) {
   constexpr double kCubic = 0.3;  // of the fourfold

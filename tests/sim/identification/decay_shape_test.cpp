@@ -1,4 +1,5 @@
-// How a swing's amplitude falls: turning points of known series, names of the closed laws of decay.
+// These tests check how a swing's amplitude falls: turning points of known series, names of the closed laws
+// of decay.
 #include "sim/identification/decay_shape.h"
 
 #include <gtest/gtest.h>
@@ -22,7 +23,7 @@ std::vector<Amplitude> amplitude_series(const std::vector<double>& values) {
 
 constexpr int kTurns = 16;
 
-// Of those turns, from 60 mm.
+// Returns the amplitudes of those half periods, from 60 mm.
 template <class Law>
 std::vector<Amplitude> decaying(const Law& law) {
   std::vector<double> values;
@@ -45,7 +46,7 @@ TEST(TurningPoints, OfASineAreItsExtremesBetweenTheSamples) {
   }
 }
 
-// x = 2 - (t - 0.12)^2 at 0, 0.1 and 0.13 s, a parabola itself.
+// x = 2 - (t - 0.12)^2 is sampled at 0, 0.1 and 0.13 s, and is a parabola itself.
 TEST(TurningPoints, OfUnequalSamplesAreThoseOfTheParabolaThroughThem) {
   constexpr double kRounding = 1e-12;
   const auto x = [](double t) { return 2 - std::pow(t - 0.12, 2); };
@@ -153,7 +154,7 @@ TEST(HalfPeriodLoss, IsReadBetweenTheAmplitudesAround) {
   EXPECT_TRUE(std::isnan(half_period_loss({}, 0, 0.5)));
 }
 
-// Noise of 1 % of the first amplitude, the same for all.
+// The noise is 1 % of the first amplitude, the same for all.
 TEST(DecayShape, IsNamedRightIn95Of100NoisySeries) {
   std::mt19937 random(7);
   std::normal_distribution<double> noise(0, 0.01 * 0.06);

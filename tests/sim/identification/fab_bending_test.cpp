@@ -17,7 +17,7 @@ constexpr unsigned kFabSeeds = 3;
 constexpr double kWidth = 0.04, kDensity = 0.3, kNoise = 7.5e-4;  // [m], [kg/m^2], [N]
 const StopsLaw kLaw{4e-6, {4, 16, 64}, {2e-5, 2e-6, 8e-7}};
 
-// As a tester records: rows every half millimetre, an unknown zero of force.
+// Returns loops as a tester records them: rows every half millimetre, an unknown zero of force.
 FabLoops recorded(const StopsLaw& law, const std::string& test, unsigned seed, double noise = kNoise) {
   FabLoops loops = made_up_loops(test, 0.021, 0.0015, {0.0039, 0.0064, 0.0089}, 13);
   loops.direction = "L";
@@ -160,7 +160,7 @@ TEST(FabBending, KnowsFrictionOnlyAsFarAsItsLoopsReach) {
   EXPECT_FALSE(found.knows_friction());
 }
 
-// Of one other form, as likely, the weight is a half; of one that is excluded, none.
+// One other form that is as likely has a weight of a half; one that is excluded has none.
 TEST(FabBending, WidensItsErrorsByWhatEquallyLikelyFormsFind) {
   FabBending found = found_with(1e-3, 1);
   widen_errors(found, {{"another", found_with(2e-3, 1)}, {"excluded", found_with(9e-3, 10)}});

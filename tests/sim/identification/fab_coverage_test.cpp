@@ -32,7 +32,7 @@ constexpr int kFewFits = 6;
 // Strips of short gauges are simulated fastest: ctest tests no others [m].
 constexpr double kShortestGauge = 0.015, kLongestGauge = 0.05, kLongestOfFew = 0.02;
 constexpr double kStripWidth = 0.04, kForceNoise = 7.5e-4;  // [m], [N] of the whole strip
-// Over the gauge, as the tester's 1.5 mm and 3.8, 6.3, 8.8 mm on 21 mm.
+// Distances are relative to the gauge, as the tester's 1.5 mm and 3.8, 6.3, 8.8 mm on 21 mm.
 constexpr double kSlack = 0.07;
 const std::vector<double> kCompressions = {0.18, 0.30, 0.42};
 constexpr int kBranchRows = 15;
@@ -72,7 +72,7 @@ FabLoops noisy_loops(const DrawnFabric& fabric, unsigned seed) {
   return loops;
 }
 
-// What other forms find in the same loops, as `fit --fab` compares them.
+// Returns what other forms find in the same loops, as `fit --fab` compares them.
 std::vector<FabForm> other_forms(const FabLoops& loops, double density) {
   FabBendingQuestion question;
   question.density = density;
@@ -82,7 +82,7 @@ std::vector<FabForm> other_forms(const FabLoops& loops, double density) {
   return forms;
 }
 
-// A fit of a drawn fabric beside the truth.
+// This struct compares a fit of a drawn fabric with the truth.
 struct DrawnFit {
   unsigned seed;
   std::string form;
@@ -90,7 +90,7 @@ struct DrawnFit {
   FabBending alone, widened;  // errors of the form alone; and with what other forms find, as `fit --fab` says
   bool is_widened = false;
 
-  // Distances of numbers from the truth over their errors, of logarithms.
+  // Returns the distance of numbers from the truth over their errors, of logarithms.
   static double distance(double value, double truth, double error) {
     return std::log(value / truth) / (error / value);
   }

@@ -1,5 +1,5 @@
-// What FAB loops identify, as a fabric's file: scenes take it, and the virtual tester reads the same laws of
-// it.
+// FAB loops identify a fabric, written as a file: scenes take it, and the virtual tester reads the same laws
+// of it.
 #include "sim/identification/fab_fabric.h"
 
 #include <gtest/gtest.h>
@@ -77,7 +77,7 @@ TEST(FabFabric, IsOneOfScenesWithItsStopsOfBendingAndInThePlane) {
   expect_same(tested.strip("W").stretch, found.tension[1].law);
 }
 
-// What scenes would refuse gets no name, and leaves nothing.
+// A fabric that scenes would refuse gets no name, and leaves nothing.
 TEST(FabFabric, ThatNoSceneWouldTakeIsNotWritten) {
   const test::Folder folder;
   const FabricNotes notes{"mine", "a test", 0.3, 2e-4};
@@ -102,7 +102,7 @@ TEST(FabFabric, WithoutStopsBendsAsItsThreeNumbersSay) {
   EXPECT_NEAR(law.friction(), curve.friction_moment(), kRounding * curve.friction_moment());
 }
 
-// With or without stops: B times (1 + 0.5)/2, friction times (1 + 2)/2.
+// B is multiplied by (1 + 0.5)/2 and friction by (1 + 2)/2, with or without stops.
 TEST(FabFabric, WhoseFacesDifferBendsAsTheMeanOfBoth) {
   Fabric alike;
   alike.weft_bending = 0.8;

@@ -1,4 +1,4 @@
-// Sheets of FAST laboratories and of cantilevers alone.
+// These tests read sheets of FAST laboratories and of cantilevers alone.
 #include "sim/identification/fast_sheet.h"
 
 #include <gtest/gtest.h>

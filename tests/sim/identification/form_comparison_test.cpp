@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kRecordWidth = 0.04;  // [m]
 
-// Two records of one strip, bent down and up, with noise of this size and correlation [N].
+// Returns two records of one strip, bent down and up, with noise of this size and correlation [N].
 std::vector<FabLoops> two_records(double noise, double correlation, unsigned seed) {
   const StopsLaw law{1e-5, {4, 16}, {4e-5, 1e-5}};
   std::vector<FabLoops> records;
@@ -80,7 +80,7 @@ Eigen::VectorXd drawn(int rows, double size, unsigned seed) {
   return result;
 }
 
-// Of two forms that miss the data by as much, each is preferred as often as chance has it.
+// Two forms that miss the data by as much are each preferred as often as by chance.
 TEST(FormComparison, PrefersNeitherOfTwoFormsThatAreAsFarFromTheData) {
   constexpr int kDraws = 400;
   int nearer = 0, farther = 0;
@@ -102,7 +102,7 @@ TEST(FormComparison, PrefersTheFormThatIsNearerByMoreThanChanceAndItsNumbers) {
   EXPECT_TRUE(beside.is_excluded);
   EXPECT_FALSE(beside.is_nearer);
   EXPECT_TRUE(compare_forms(with_residuals(near, 2), with_residuals(far, 2).found, {}).is_nearer);
-  // What many numbers gain for nothing does not count.
+  // A gain by many numbers that mean nothing does not count.
   const double gained = 60 * (1 - 0.9 * 0.9);
   const FormComparison many =
       compare_forms(with_residuals(0.9 * near, 30), with_residuals(near, 2).found, {});
@@ -110,7 +110,7 @@ TEST(FormComparison, PrefersTheFormThatIsNearerByMoreThanChanceAndItsNumbers) {
   EXPECT_GT(many.preference, 0);
 }
 
-// The misfit by hand: 60 rows, one larger by a half.
+// The misfit is computed here for 60 rows, one larger by a half.
 TEST(FormComparison, MeasuresMisfitInTheNoiseOfRepeatsWhereTheFormAskedForIsWithinIt) {
   Eigen::VectorXd asked(60), form(60);
   for (int i = 0; i < 60; ++i) asked[i] = i % 2 ? 1 : -1;

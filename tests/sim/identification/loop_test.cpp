@@ -22,13 +22,13 @@ Identification identified(const MomentSeries& series, const std::string& law = "
   return identify_curve(series, question);
 }
 
-// Whether one of its statements has this part.
+// Returns whether one of its statements has this part.
 bool states(const Identification& found, const std::string& part) {
   const auto has_part = [&](const std::string& text) { return text.find(part) != text.npos; };
   return std::any_of(found.statements.begin(), found.statements.end(), has_part);
 }
 
-// Of one number over many seeds.
+// This struct has one number's recovery over many seeds.
 struct Recovery {
   double truth;
   std::vector<double> values, errors;

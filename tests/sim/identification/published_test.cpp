@@ -1,4 +1,4 @@
-// A fabric from b1 and c1, and from B and 2HB.
+// A fabric is made from b1 and c1, and from B and 2HB.
 #include "sim/identification/published.h"
 
 #include <gtest/gtest.h>
@@ -111,7 +111,7 @@ TEST(VirginCurve, ThatStiffensIsRefusedWithTheReason) {
   }
 }
 
-// Mean and standard error of the mean of 1, 2, 3: 2 and 1/sqrt(3).
+// The mean of 1, 2, 3 and its standard error are 2 and 1/sqrt(3).
 TEST(VirginCurve, OfSeveralSpecimensIsTheirMeanWithItsError) {
   const test::Folder folder;
   const VirginNumbers numbers =

@@ -10,7 +10,7 @@
 namespace hysteron {
 namespace {
 
-// A mode bent by the curvature a [1/m]: b1, b2 [N m], k0 [1/m], period of one.
+// A mode is bent by the curvature a [1/m], with b1, b2 [N m], k0 [1/m] and a period of one.
 constexpr double kB1 = 7e-6, kB2 = 2e-6, kK0 = 8;
 constexpr double kMoment = (kB1 - kB2) * kK0 / 2;
 

@@ -1,4 +1,4 @@
-// What is accepted as a measured curve, and how a law is driven through it.
+// These tests check which measured curves are accepted, and how a law is driven through them.
 #include "sim/identification/series.h"
 
 #include <gtest/gtest.h>

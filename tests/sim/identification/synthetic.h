@@ -45,7 +45,7 @@ inline double largest(const std::vector<double>& values) {
   return top;
 }
 
-// Standard deviation `noise` times the largest moment, the same on all rows.
+// Adds noise with a standard deviation of `noise` times the largest moment, the same on all rows.
 inline void add_noise(std::vector<double>& moment, double noise, unsigned seed) {
   std::mt19937 random(seed);
   std::normal_distribution<double> normal(0, noise * largest(moment));

@@ -1,4 +1,4 @@
-// What the data cannot fix is named, and what they can is not.
+// A number that the data cannot determine is named, and one that they can is not.
 #include <gtest/gtest.h>
 
 #include "sim/identification/curve.h"
@@ -97,7 +97,7 @@ TEST(Undetermined, NumbersAreNotReplacedByAnAssumptionThatTheDataContradict) {
   EXPECT_LT(found.b2.value, 0.9 * found.b1.value);
 }
 
-// Two parameters that only enter as a sum.
+// Two parameters enter only as a sum.
 TEST(Covariance, OfADirectionThatTheResidualsDoNotSeeIsLarge) {
   Eigen::MatrixXd jacobian(10, 2);
   jacobian.col(0).setLinSpaced(10, 1, 2);

@@ -20,7 +20,7 @@ using Eigen::VectorXd;
 
 constexpr double kRounding = 1e-10;  // relative; of systems whose condition is below 1e5
 
-// Springs w^T w between four vertices, as of pairs that touch.
+// This struct has springs w^T w between four vertices, as of pairs that touch.
 struct Springs {
   std::vector<std::array<int, 4>> vertex;
   double stiffness = 50;
@@ -65,7 +65,7 @@ Factor make_factor(const std::string& kind, test::RandomSystem& of) {
       of.cpu, std::make_unique<RowsAlone<double>>(of.rows.pattern()), shape);
 }
 
-// With springs between far vertices.
+// The system has springs between far vertices.
 struct System : test::RandomSystem {
   Springs springs;
   std::vector<Vec3<double>> x;
@@ -164,7 +164,7 @@ TEST_P(Cholesky, GoesOnFromAnArchiveWithTheSameBits) {
   EXPECT_EQ(two.solver->factorisations(), 0);
 }
 
-// Of a chain the factor has no more blocks than the matrix.
+// The factor of a chain has no more blocks than the matrix.
 TEST(Elimination, OfAChainFillsNothingThatIsNotWorthwhile) {
   constexpr int kNodes = 500;
   CouplingList list(kNodes);

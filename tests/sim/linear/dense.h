@@ -1,19 +1,19 @@
-// What tests ask of dense matrices.  Eigen's solvers take g++ ten seconds, so that they are compiled once for
-// all tests.
+// Tests use these functions of dense matrices.  Eigen's solvers take g++ ten seconds, so that they are
+// compiled once for all tests.
 #pragma once
 
 #include <Eigen/Core>
 
 namespace hysteron::test {
 
-// Of a symmetric matrix, in increasing order.
+// Returns the eigenvalues of a symmetric matrix, in increasing order.
 Eigen::VectorXd eigenvalues(const Eigen::MatrixXd& symmetric);
 
-// The nearest positive semidefinite matrix to a symmetric one (Higham 1988): without its negative
+// Returns the nearest positive semidefinite matrix to a symmetric one (Higham 1988): without its negative
 // eigenvalues.
 Eigen::MatrixXd positive_part(const Eigen::MatrixXd& symmetric);
 
-// x of a x = b.
+// Returns x of a x = b.
 Eigen::VectorXd solution(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
 
 }  // namespace hysteron::test

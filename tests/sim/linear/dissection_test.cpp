@@ -41,7 +41,7 @@ TEST(Dissection, EliminatesEveryNodeOnce) {
   }
 }
 
-// What a level eliminates side by side must not meet: a front has all that its nodes see later.
+// Fronts that a level eliminates side by side must not meet: a front has all that its nodes see later.
 TEST(Dissection, HasNoCouplingBetweenFrontsOfOneLevelAndAPlaceForEveryOther) {
   const Adjacency graph = strip(6, 60);
   for (const auto& [depth, joined] : {std::array{3, 3}, std::array{3, 1}, std::array{4, 2}}) {

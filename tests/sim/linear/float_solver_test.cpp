@@ -19,7 +19,7 @@ using Field = std::vector<Vector3d>;
 using test::difference;
 using test::norm;
 
-// A spring between the first vertex and the last.
+// A spring connects the first vertex and the last.
 struct Spring {
   static constexpr double kStiffness = 30;
   std::vector<int> start, item = {0, 1};

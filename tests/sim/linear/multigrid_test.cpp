@@ -161,7 +161,7 @@ struct ImplicitMatrix {
   }
 };
 
-// The preconditioner of such a matrix, in the precision of its device code.
+// Returns the preconditioner of such a matrix, in the precision of its device code.
 template <class Real>
 struct Preconditioned {
   Cpu cpu;

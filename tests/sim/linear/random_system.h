@@ -25,8 +25,9 @@ inline double difference(Field a, const Field& b) {
   return norm(a);
 }
 
-// A symmetric matrix on a mesh's edges with random blocks off its diagonal, `diagonal` times the identity on
-// it, and a random right-hand side, the same each time; without softening, and with nothing held at first.
+// The system is a symmetric matrix on a mesh's edges with random blocks off its diagonal, `diagonal` times
+// the identity on it, and a random right-hand side, the same each time; without softening, and with nothing
+// held at first.
 struct RandomSystem {
   Cpu cpu{1};
   ClothMesh mesh = make_rectangle(0.3, 0.1, 120, MeshFamily::random, 1);
@@ -72,7 +73,7 @@ struct RandomSystem {
     }
     return a;
   }
-  // Of this matrix, with held rows at zero.
+  // Returns the solution of this matrix, with held rows at zero.
   Field solution_of(Eigen::MatrixXd a) const {
     Eigen::VectorXd b(3 * n());
     for (int i = 0; i < n(); ++i) {

@@ -1,4 +1,4 @@
-// The orthotropic membrane of one triangle, and of a cloth.
+// These tests check the orthotropic membrane of one triangle, and of a cloth.
 #include "sim/membrane/green_lagrange.h"
 
 #include <gtest/gtest.h>
@@ -20,11 +20,11 @@ using Stiffness = MembraneStiffness<double>;
 using Block9 = Eigen::Matrix<double, 9, 9>;
 
 constexpr Stiffness kOrthotropic{1000, 600, 150, 60};
-// A few dozen operations on numbers of order one.
+// The result takes a few dozen operations on numbers of order one.
 constexpr double kRounding = 1e-13;
 constexpr double kOrderSlack = 0.05;
 
-// One skew triangle in the plane, warp along x; lengths of order one.
+// Returns one skew triangle in the plane, warp along x; lengths are of order one.
 ClothMesh triangle() {
   ClothMesh mesh;
   mesh.rest = {{0, 0, 0}, {1.1, 0.2, 0}, {0.3, 0.9, 0}};
@@ -151,7 +151,7 @@ TEST(Membrane, ForcesHaveNoResultantAndNoTorque) {
   }
 }
 
-// F = diag(1 + e, 1): E11 = e + e^2/2 alone, so that S11 = C11 E11, S22 = C12 E11, S12 = 0; weft likewise.
+// F = diag(1 + e, 1) has E11 = e + e^2/2 alone, so that S11 = C11 E11, S22 = C12 E11, S12 = 0; weft likewise.
 TEST(Membrane, UniaxialStretchMeetsTheStiffnessOfItsOwnDirection) {
   constexpr double e = 0.1, strain = e + e * e / 2;
   const auto stretch_stress = [](double warp, double weft, double shear) {
@@ -166,7 +166,7 @@ TEST(Membrane, UniaxialStretchMeetsTheStiffnessOfItsOwnDirection) {
   EXPECT_NEAR(warp.s12, 0, slack);
   EXPECT_NEAR(weft.s22, kOrthotropic.weft * strain, slack);
   EXPECT_NEAR(weft.s11, kOrthotropic.coupling * strain, slack);
-  // Simple shear x = X + e Y: 2 E12 = e, E22 = e^2/2.
+  // Simple shear x = X + e Y has 2 E12 = e, E22 = e^2/2.
   EXPECT_NEAR(shear.s12, kOrthotropic.shear * e, slack);
   EXPECT_NEAR(shear.s22, kOrthotropic.weft * e * e / 2, slack);
 }

@@ -13,7 +13,7 @@ constexpr double kGrowingRounding = 1e-12;  // of some hundred operations, relat
 constexpr int kHistories = 200, kTurns = 40;
 constexpr double kWidest = 0.3;  // of the shears of a history
 
-// Up to three stops of shear of one place; a_j < 1.
+// This struct has up to three stops of shear of one place; a_j < 1.
 template <class Real>
 struct GrowingStops {
   std::vector<StrainStop<Real>> stop;
@@ -132,7 +132,7 @@ TEST(GrowingStops, TakeOneLongStepAsManyShortOnes) {
   });
 }
 
-// What stops of a constant limit computed before there was any other, bit by bit.
+// Growing stops without growth compute what stops of a constant limit computed before, bit by bit.
 TEST(GrowingStops, WithoutGrowthAreTheStopsOfConstantLimits) {
   for_each_history([&](unsigned seed, const std::vector<double>& turns) {
     GrowingStops<double> stops(seed, false);

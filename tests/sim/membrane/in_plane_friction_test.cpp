@@ -1,4 +1,4 @@
-// Friction in the plane of a few triangles: loops, losses, derivatives.
+// These tests check in-plane friction of a few triangles: loops, losses, derivatives.
 #include "sim/membrane/in_plane_friction.h"
 
 #include <gtest/gtest.h>
@@ -36,7 +36,7 @@ Fabric rubbing_more_with_shear() {
   return fabric;
 }
 
-// A square of two triangles, warp along x.
+// The square has two triangles, warp along x.
 struct Square : test::Sheet {
   explicit Square(const Fabric& fabric = rubbing())
       : Sheet(make_grid(kSide, kSide, 1, 1, MeshFamily::aligned, 1), fabric, MembraneElement::constant) {}
@@ -63,13 +63,14 @@ struct Square : test::Sheet {
     try_at(x);
     return Sheet::forces();
   }
-  // On the upper edge along x, over its length; of the lateral stress 2 E12 alone at x = X + gamma Y.
+  // Returns the force on the upper edge along x, over its length; of the lateral stress 2 E12 alone at x = X
+  // + gamma Y.
   double shear_force(double gamma) {
     const Positions x = sheared(gamma), f = forces(x);
     double force = 0;
     for (int i = 0; i < mesh.vertices(); ++i)
       if (mesh.rest[i].y() > kSide / 2) force -= f[i].x();
-    // S12 + gamma S22, the latter of E22 = gamma^2/2: elastic and of its stop.
+    // The force is S12 + gamma S22, the latter of E22 = gamma^2/2: elastic and of its stop.
     const double e22 = gamma * gamma / 2;
     const double s22 = fabric.weft * e22 + fabric.in_plane.weft.friction_at(e22);
     return force / kSide - gamma * s22;
@@ -174,7 +175,7 @@ TEST(InPlaneFriction, TurnsWithTheClothAndLosesNothingByThat) {
               100 * kFrictionRounding * still.membrane.friction_loss());
 }
 
-// From a history in which some stops slip and some hold.
+// Steps begin from a history in which some stops slip and some hold.
 struct Dragged : Square {
   Positions x;
   explicit Dragged(const Fabric& fabric) : Square(fabric) {

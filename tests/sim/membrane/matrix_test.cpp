@@ -1,4 +1,4 @@
-// The membrane's matrix of a whole cloth.
+// These tests check the membrane's matrix of a whole cloth.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -28,7 +28,7 @@ struct Crumpled {
     membrane.update(x.data(), test::Positions(x.size(), Vector3d::Zero()).data());
   }
 
-  // Triangle by triangle: off the diagonal, then on it.
+  // Returns the matrix triangle by triangle: off the diagonal, then on it.
   std::vector<Matrix3d> expected() const {
     const ClothMesh& mesh = trial.cloth.mesh;
     const Fabric& fabric = trial.scene.fabric;

@@ -132,9 +132,9 @@ TEST(NodalMembrane, PassesThePatchTest) {
   EXPECT_LT(inside, kNodeRounding * outside);
 }
 
-// What a sheet stores in its plane when it lies on a cylinder whose axis is at 30 degrees to the warp and its
-// vertices have slid there to rest: nothing if triangles did not lock, since a cylinder is developable.
-// Gauss-Newton steps in the coordinates along the axis and round the cylinder.
+// Returns the in-plane energy of a sheet that lies on a cylinder whose axis is at 30 degrees to the warp,
+// after its vertices have slid there to rest: it is zero if triangles do not lock, since a cylinder is
+// developable. Gauss-Newton steps are taken in the coordinates along the axis and round the cylinder.
 double energy_on_a_cylinder(Sheet& sheet, double curvature) {
   const Matrix2d turned = Eigen::Rotation2Dd(-30 * std::numbers::pi / 180).toRotationMatrix();
   const int n = sheet.mesh.vertices();

@@ -13,7 +13,7 @@ using test::PanelTube;
 
 constexpr MembraneStiffness<double> kFabric{1000, 300, 50, 60};  // [N/m]
 
-// Of the panels where they are sewn [J].
+// Returns the energy of the panels where they are sewn [J].
 double seam_energy(const PanelTube& panels) {
   const ClothMesh mesh = panels.mesh();
   const auto rest = membrane_rest(mesh);

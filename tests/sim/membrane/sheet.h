@@ -1,4 +1,4 @@
-// A membrane on its mesh, tried at positions: energy, forces, and its matrix as a dense one.
+// This header tries a membrane on its mesh at positions: energy, forces, and its matrix as a dense one.
 #pragma once
 
 #include <numeric>

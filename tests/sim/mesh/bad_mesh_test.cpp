@@ -101,7 +101,7 @@ TEST_F(BadObj, QuadWhoseSidesCross) {
          "line 5: sides of the quad cross: its corners must follow one another around it");
 }
 
-// To a reader that passes over what it does not know, the vertex would be lost and all others renumbered.
+// A reader that passes over unknown lines would lose the vertex and renumber all others.
 TEST_F(BadObj, VertexThatIsWrittenOtherwise) {
   expect("V 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "line 1: \"V\" must be plain \"v\"");
   expect("o a\n\xEF\xBB\xBFv 0 0 0\nv 1 0 0\nf 1 2 3\n", "line 2: \"\xEF\xBB\xBFv\" must be plain \"v\"");

@@ -10,7 +10,7 @@
 
 namespace hysteron::test {
 
-// Triangles that face outward.
+// The triangles face outward.
 struct Body {
   std::vector<Eigen::Vector3d> vertex;
   std::vector<Eigen::Vector3i> face;
@@ -32,7 +32,7 @@ struct Body {
   }
 };
 
-// With a corner in the origin and sides of 1 along the axes.
+// The tetrahedron has a corner in the origin and sides of 1 along the axes.
 inline Body tetrahedron() {
   return {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
 }

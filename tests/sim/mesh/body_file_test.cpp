@@ -79,7 +79,7 @@ TEST_F(BodyFile, ThatIsNoSurfaceIsRefusedWithTheLine) {
   EXPECT_TRUE(says(refusal([&] { read("", "body.stl"); }), "its name must end in .obj or .ply"));
 }
 
-// Moves along x by as many metres as frames.
+// The body moves along x by as many metres as frames.
 class BodySequence : public BodyFile {
  protected:
   std::string frame(const std::string& name, double x) const {
@@ -173,7 +173,8 @@ void add_word(std::string& bytes, std::uint32_t word) {
   for (int shift : {24, 16, 8, 0}) bytes += static_cast<char>(word >> shift & 0xff);
 }
 
-// As LightWave and Blender write it: counts, times, then all points frame by frame, the high byte first.
+// Returns an .mdd as LightWave and Blender write it: counts, times, then all points frame by frame, the high
+// byte first.
 std::string mdd(const std::vector<float>& time, const std::vector<Vertices>& frames) {
   std::string bytes;
   add_word(bytes, static_cast<std::uint32_t>(frames.size()));

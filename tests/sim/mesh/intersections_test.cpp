@@ -19,7 +19,7 @@ int plane_side(const Whole& a, const Whole& b, const Whole& c, const Whole& d) {
   return (volume > 0) - (volume < 0);
 }
 
-// Of a segment and a triangle; nothing where the segment lies in the triangle's plane.
+// Returns whether a segment and a triangle meet; nothing where the segment lies in the triangle's plane.
 std::optional<bool> share_an_end(const Whole& p, const Whole& q, const Triangle& t) {
   const int sp = plane_side(t[0], t[1], t[2], p), sq = plane_side(t[0], t[1], t[2], q);
   if (sp == 0 && sq == 0) return std::nullopt;
@@ -44,7 +44,7 @@ struct Soup {
       if ((face[g].array() == face[f][k]).any()) corners.push_back(k);
     return corners;
   }
-  // Whether sides of f meet g beyond a common corner; nothing where a coplanar side leaves it open.
+  // Returns whether sides of f meet g beyond a common corner; nothing where a coplanar side leaves it open.
   std::optional<bool> sides_meet(int f, int g) const {
     const Triangle t = triangle(f);
     const std::vector<int> common = shared(f, g);

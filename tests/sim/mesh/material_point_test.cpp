@@ -1,4 +1,4 @@
-// Points of the cloth by their places on the flat cloth.
+// Points of the cloth are found by their places on the flat cloth.
 #include "sim/mesh/material_point.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// What is said about meshes that can be simulated and are hardly what was meant.
+// These tests check warnings about meshes that can be simulated but are hardly intended.
 #include "sim/mesh/topology.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ namespace {
 using test::says;
 using Doubts = std::vector<std::string>;
 
-// Of an OBJ with this content, without "mesh FILE: ".
+// Returns the warnings about an OBJ with this content, without "mesh FILE: ".
 Doubts obj_doubts(const std::string& content, double weld = 0) {
   const test::Folder folder;
   const std::string file = folder.write("cloth.obj", content);
@@ -42,12 +42,12 @@ TEST(MeshDoubts, TrianglesThatShareNoVerticesAreCountedAndTheWeldIsNamed) {
   EXPECT_EQ(doubts[0], "200 triangles in 200 parts that share no edge, with 0 hinges");
   const int coincident = 3 * mesh.faces() - mesh.vertices();
   EXPECT_TRUE(says(doubts[1], std::to_string(coincident) + " vertices on its boundary lie on others"));
-  // A thousandth of the mean edge (20 mm and its diagonals), rounded down to a power of ten.
+  // The weld is a thousandth of the mean edge (20 mm and its diagonals), rounded down to a power of ten.
   EXPECT_TRUE(says(doubts[1], "cloth.weld = 1e-05 m joins them"));
   EXPECT_EQ(obj_doubts(soup, 1e-5), Doubts());
 }
 
-// Two strips of n cells, the seam between them stored twice.
+// The seam between two strips of n cells is stored twice.
 TEST(MeshDoubts, SeamThatIsStoredTwiceIsCounted) {
   constexpr int n = 7;
   std::ostringstream text;

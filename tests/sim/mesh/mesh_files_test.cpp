@@ -146,7 +146,7 @@ TEST(ObjFile, FacesWhoseTextureNoNeighbourTellsAreWarnedOf) {
                 "others have: none are used, and warp is along x at rest; give them to all faces");
 }
 
-// Of OBJ before 3.0.
+// OBJ had these faces before version 3.0.
 TEST(ObjFile, OldFacesAreFaces) {
   const Folder folder;
   EXPECT_EQ(

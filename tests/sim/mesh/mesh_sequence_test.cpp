@@ -10,7 +10,7 @@ namespace hysteron {
 namespace {
 namespace fs = std::filesystem;
 
-// An empty file, in a folder of its own if its name says so.
+// Writes an empty file, in a folder of its own if its name says so.
 std::string touch(const test::Folder& folder, const std::string& name) {
   fs::create_directories(fs::path(folder.file(name)).parent_path());
   return folder.write(name, "");
@@ -45,7 +45,7 @@ TEST(MeshSequences, NumbersAreThoseThatTellTheFilesApart) {
   EXPECT_EQ(numbers({"f12345678901234567890.obj", "f2.obj"}), Numbers{});
 }
 
-// Without its numbers the files 0, 1, 5 would be frames 0, 1, 2.
+// The files 0, 1, 5 would be frames 0, 1, 2 if their numbers were ignored.
 TEST(MeshSequences, AnOddNameInAFolderIsRefusedAndAmongFilesSaid) {
   const test::Folder folder;
   std::vector<std::string> files;

@@ -67,7 +67,7 @@ struct PanelTube {
   }
 
  private:
-  // At `s` around the cross section.
+  // Returns the point at `s` around the cross section.
   static Eigen::Vector3d around(double x, double s) {
     const double a = kSide;
     if (s <= a) return {x, s, 0};

@@ -114,7 +114,7 @@ TEST(Panels, OfAnotherSizeThanTheWornClothAreRefusedWithTheScaleThatFits) {
                          "cloth.texture-scale = 2.5 m"));
 }
 
-// What is doubted of the tube with other lengths along and around.
+// Returns the warnings about the tube with other lengths along and around.
 std::vector<std::string> doubts(double along, double around) {
   const auto stretched = [&](const Vector3d& x) {
     return Vector3d(along * x.x(), around * x.y(), around * x.z());

@@ -20,7 +20,8 @@ T at(const std::string& bytes, std::size_t offset) {
   return value;
 }
 
-// As Blender's `Mesh Cache` reads it: signature, version, points, first frame, step, samples, positions.
+// The file is as Blender's `Mesh Cache` reads it: signature, version, points, first frame, step, samples,
+// positions.
 TEST(PointCache, HoldsEachInstantAndMayGoOnFromAnEarlierOne) {
   const test::Folder folder;
   const std::string file = folder.file("cloth.pc2");

@@ -18,7 +18,7 @@ using test::Folder;
 const std::string kVertices = "property float x\nproperty float y\nproperty float z\n";
 const std::string kFaces = "property list uchar int vertex_indices\n";
 
-// ASCII file of that many vertices and faces.
+// Returns an ASCII file of that many vertices and faces.
 std::string ascii(int vertices, int faces, const std::string& body,
                   const std::string& vertex_properties = kVertices,
                   const std::string& face_properties = kFaces) {
@@ -64,7 +64,7 @@ TEST(PlySurface, AsciiWithCommentsOtherPropertiesElementsAndCarriageReturns) {
   EXPECT_EQ(surface.face, std::vector<Eigen::Vector3i>{Eigen::Vector3i(2, 0, 1)});
 }
 
-// The bytes of a number with the most significant one first.
+// Returns the bytes of a number with the most significant one first.
 template <class T>
 std::string big_endian(T value) {
   std::string bytes(sizeof(T), '\0');
@@ -95,7 +95,7 @@ TEST(PlySurface, VerticesOfNoFaceAreLeftOutWithTheirCurvature) {
   EXPECT_EQ(surface.face, std::vector<Eigen::Vector3i>{Eigen::Vector3i(0, 1, 2)});
 }
 
-// What could not be simulated can be drawn.
+// A surface that could not be simulated can be drawn.
 TEST(ObjSurface, TakesEdgesOfThreeFacesTurnedNeighboursAndFacesWithoutArea) {
   const Folder folder;
   const Surface surface = read_surface(folder.write(

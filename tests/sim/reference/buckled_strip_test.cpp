@@ -1,4 +1,4 @@
-// A strip buckled between clamps against the elastica's closed form, and its energy.
+// A strip buckled between clamps is compared with the elastica's closed form, and its energy is checked.
 #include "sim/reference/buckled_strip.h"
 
 #include <gtest/gtest.h>

@@ -24,7 +24,8 @@ double drop(double gamma, int segments, double b = 1) {
   return sagging_strips(strip, {1}, 20).back().drop();
 }
 
-// Drop over length for Gamma = w L^3/B, by shooting with a Runge-Kutta method of fourth order.
+// This struct has the drop over length for Gamma = w L^3/B, by shooting with a Runge-Kutta method of fourth
+// order.
 struct Known {
   double gamma, drop;
 };

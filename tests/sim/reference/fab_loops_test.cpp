@@ -20,7 +20,7 @@ constexpr const char* kHeadSi = "direction,test,branch,clamp_distance_m,force_N,
 constexpr const char* kHeadFab =
     "direction;test;branch;clamp_distance_cm;force_gf;gauge_length_cm;width_cm\n";
 
-// A parallelogram between 18 and 16 mm: forces 1 N/m apart over 2 mm.
+// Returns a parallelogram between 18 and 16 mm: forces are 1 N/m apart over 2 mm.
 std::string si_rows() {
   std::string text = kHeadSi;
   for (const char* row : {"0,0.018,-0.01", "0,0.0175,-0.01", "0,0.0165,-0.01", "0,0.016,-0.01",
@@ -128,7 +128,7 @@ TEST(FabLoops, OfAFileThatIsNotThereSayWhichFile) {
             "cannot read " + missing + ": No such file or directory");
 }
 
-// A spring of 1 N/mm and friction of 0.2 N, both per metre, along the clamps' way.
+// The record has a spring of 1 N/mm and friction of 0.2 N, both per metre, along the clamps' way.
 class FabRecord : public testing::Test {
  protected:
   FabRecord() : loops_(made_up_loops("D1", 0.021, 0.0015, {0.004, 0.006}, 20)) {
@@ -138,7 +138,7 @@ class FabRecord : public testing::Test {
       for (std::size_t i = 0; i < loops_.branches[b].distance.size(); ++i)
         loops_.branches[b].force[i] = 1e3 * (loops_.branches[b].distance[i] - 0.021) + (b % 2 ? 0.2 : -0.2);
   }
-  // What reading the file says of these loops.
+  // Returns the message of reading the file with these loops.
   std::string said() const {
     return refusal([&] { read_fab(folder_.write("a.csv", text()), TesterUnits::si, "t"); });
   }

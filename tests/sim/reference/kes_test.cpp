@@ -222,7 +222,7 @@ TEST(KesProtocol, ThatCannotBeReadIsRefusedWithItsNumbers) {
     EXPECT_TRUE(test::says(test::refusal([&] { check_protocol(p); }), "250 1/m"));
 }
 
-// Of a fabric's own stops the tester reads what they are within its window and its amplitude.
+// The tester reads a fabric's own stops within its window and its amplitude.
 TEST(Kes, ReadsTheStopsOfAFabricByTheirClosedForms) {
   const double b2 = 1e-5;
   const Spectrum stops{{3, 12, 40, 95, 300}, {9e-6, 7e-6, 3e-6, 1e-6, 4e-7}};

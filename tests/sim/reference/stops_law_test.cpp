@@ -46,7 +46,7 @@ TEST(StopsLaw, DissipatesTheClosedFormInACycle) {
     }
 }
 
-// y - y_r = 2 f((x - x_r)/2) (Masing 1926).
+// A branch is y - y_r = 2 f((x - x_r)/2) (Masing 1926).
 TEST(StopsLaw, ReturnsByTheVirginCurveDoubled) {
   for (const StopsLaw& law : kLaws) {
     Driven point{law};

@@ -160,7 +160,7 @@ const BadScene kBadScenes[] = {
 
 INSTANTIATE_TEST_SUITE_P(Scenes, BadSceneFile, testing::ValuesIn(kBadScenes), test::CaseName());
 
-// What the file says up to a quotation mark, a comment or a comma does not count for the key behind it.
+// Text of the file up to a quotation mark, a comment or a comma does not count for the key behind it.
 TEST(LongKey, CountsThePartsOfOneKeyOnly) {
   const Scene scene = scene_of("[cloth]\nposition = [0.1, 0.2, 0.3] # a.b.c." + std::string(80, '.') +
                                "\n[param]\nmemory = \"" + std::string(80, '.') + "\"\n");

@@ -22,7 +22,7 @@ using test::says;
 
 const std::string kBody = "[[obstacle]]\nkind = \"mesh\"\nfile = \"body.obj\"\n";
 
-// A scene's file with a ball of 10 cm beside it.
+// A scene's file has a ball of 10 cm beside it.
 class SceneWithBody : public testing::Test {
  protected:
   SceneWithBody() { folder_.write("body.obj", obj_text(ball_)); }

@@ -11,7 +11,7 @@
 namespace hysteron {
 namespace {
 
-// 0.5 s before the cycles, 1 s each, 0.25 s after them.
+// Phases take 0.5 s before the cycles, 1 s each, 0.25 s after them.
 const std::string kCyclicPhases =
     "[[phase]]\nname = \"hang\"\nseconds = 0.5\n[[phase]]\nname = \"bend\"\nseconds = 0.75\nrepeat = true\n"
     "[[phase]]\nname = \"rest\"\nseconds = 0.25\nrepeat = true\n[[phase]]\nname = \"spread\"\nseconds = "

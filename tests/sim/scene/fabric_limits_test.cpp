@@ -123,7 +123,7 @@ TEST(FabricLimits, HoldForWhatAFabricHasBeyondItsParameters) {
                    "fabric.membrane.stops.warp.thresholds = 20 must be in [0, 10]"));
 }
 
-// 20 to 60/m in 1/cm, and in 1/km.
+// The thresholds are 20 to 60/m in 1/cm, and in 1/km.
 TEST(FabricLimits, WarnOfThresholdsInAnotherUnit) {
   Scene scene = default_scene();
   for (const double factor : {0.01, 1.0, 1000.0}) {

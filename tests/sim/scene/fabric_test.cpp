@@ -76,7 +76,7 @@ TEST_P(ShippedFabric, StatesASourceAndAConfidenceForEveryNumber) {
   }
 }
 
-// What a validation varies: what the source does not give, and nothing that it does.
+// A validation varies the numbers that the source does not give, and none that it does.
 TEST_P(DrapedFabric, StatesARangeForWhatIsAssumedOfItAlone) {
   for (const char* key : {"shear", "warp", "weft", "friction", "weft-bending", "bias-bending"})
     EXPECT_TRUE(file.range.count(key)) << key;
@@ -103,7 +103,7 @@ TEST_P(DrapedFabric, KeepsTheMeasuredDrapeForComparison) {
   EXPECT_GE(published("node-count"), 2);
 }
 
-// (Wang, O'Brien, Ramamoorthi 2011): rigidity = ke/4.
+// The rigidity is ke/4 (Wang, O'Brien, Ramamoorthi 2011).
 TEST_P(FabricMeasuredInThreeDirections, HasTheirRigiditiesAndNoFriction) {
   const double warp = published("ke-0-small");
   EXPECT_NEAR(fabric.b2, 1e-6 * warp / 4, kRounding * warp);

@@ -13,7 +13,7 @@ const Json& at_path(const Json& tree, std::string path) {
   return tree.at(Json::json_pointer("/" + path));
 }
 
-// The manifest's value written as a flag.
+// Returns the manifest's value written as a flag.
 std::string flag_text(const Json& value) {
   if (value.is_string()) return value.get<std::string>();
   return value.dump();  // numbers, [x,y,z]
@@ -70,7 +70,7 @@ TEST(FrictionOfAFabric, IsNotSaidTwiceByOneSource) {
     }
 }
 
-// Of a fabric whose file states the pair, one of both may be given anew.
+// A fabric whose file states the pair may be given one number of it anew.
 TEST(FrictionOfAFabric, OfAPairIsChangedByEitherNumberOfIt) {
   const test::Folder folder;
   const std::string file =

@@ -102,7 +102,7 @@ TEST(BuiltCloth, LeavesNoFileUnread) {
   EXPECT_NO_THROW(check_scene(scene));
 }
 
-// A start in a file of its own.
+// The start is in a file of its own.
 class StartFile : public DiscFile {
  protected:
   Scene started(const std::vector<Eigen::Vector3d>& at) {

@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Of one's own numbers, with stops, a parameter of the law and a switched-off default.
+// Returns a scene with numbers of its own, stops, a parameter of the law and a switched-off default.
 Scene unusual() {
   Scene scene = test::shipped_scene("strip-over-sphere");
   apply_flags(scene, {{"fabric.b1", "3.3e-05"},
@@ -103,7 +103,7 @@ double with_all_bits(const Range& range) {
   return low + (std::isfinite(range.high) ? range.high - low : 1) / 3;
 }
 
-// All numbers of a scene.
+// Returns all numbers of a scene.
 std::vector<double> number_values(Scene scene) {
   std::vector<double> all;
   for (const BoundKey& key : bind_scene(scene)) {

@@ -16,7 +16,7 @@ class TextFile {
       : path_(folder_.write("file" + ending, text)) {}
 
   const std::string& path() const { return path_; }
-  // "file.toml:3"
+  // Returns "file.toml:3".
   std::string line(int number) const { return path() + ":" + std::to_string(number); }
 
  private:
@@ -34,14 +34,14 @@ inline Scene scene_of(const std::string& text) {
 
 namespace test {
 
-// What shipped scenes set of their pictures, which the simulation knows nothing of.
+// Shipped scenes set these keys of their pictures, which the simulation does not know.
 struct Pictures {
   std::string size;
   Eigen::Vector3d direction;
   Numbers box;
 };
 
-// A shipped scene without what experiments add to it.
+// Returns a shipped scene without what experiments add to it.
 inline Scene shipped_scene(const std::string& name) {
   static const KeyRow<Pictures> kRows[] = {{"size", at<&Pictures::size>, "", any(), "", ""},
                                            {"camera.direction", at<&Pictures::direction>, "", any(), "", ""},

@@ -44,7 +44,7 @@ Scene ten_sheets() {
   return scene;
 }
 
-// Of an edge, over its length at rest.
+// Returns the largest strain of an edge, over its length at rest.
 double largest_strain(const Cloth& cloth) {
   double largest = 0;
   for (const Edge& e : cloth.mesh.edge) {
@@ -54,7 +54,7 @@ double largest_strain(const Cloth& cloth) {
   return largest;
 }
 
-// Of two vertices that are far from each other on the flat cloth.
+// Returns the distance of the nearest two vertices that are far from each other on the flat cloth.
 double nearest_layers(const Cloth& cloth, double far) {
   double nearest = INFINITY;
   for (int i = 0; i < cloth.mesh.vertices(); ++i)

@@ -1,4 +1,4 @@
-// What is found in a TOML file before its parser, which would not survive it.
+// These faults of a TOML file are found before its parser runs, which would not survive them.
 #include <array>
 #include <random>
 

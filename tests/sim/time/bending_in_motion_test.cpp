@@ -1,4 +1,5 @@
-// What bending does in a whole simulation: B means B, history, residual curvature, and what a scene pays for.
+// Bending in a whole simulation has the input rigidity, a history, a residual curvature, and only the costs
+// of its scene.
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -112,7 +113,7 @@ struct Fold {
   std::unique_ptr<Simulation> at(double time) const {
     return trial.after(static_cast<int>(time / trial.scene.step));
   }
-  // Mean of the curvature along x over the faces of the strip's middle half.
+  // Returns the mean of the curvature along x over the faces of the strip's middle half.
   double mean(const std::vector<double>& curvature) const {
     double sum = 0, area = 0;
     for (int f = 0; f < trial.cloth.mesh.faces(); ++f) {
@@ -202,7 +203,7 @@ TEST(Scene, PaysForHistoryOnlyWhereTheLawRemembers) {
     EXPECT_EQ(history.bytes > 0, remembers) << law;
     EXPECT_EQ(history.reason.empty(), remembers) << law;
   }
-  // Eight stops of three components for each face.
+  // Each face has eight stops of three components.
   Trial trial(test::hanging_square());
   trial.scene.law = "prandtl";
   EXPECT_EQ(test::scene_part(*trial.simulation(), "bending history").bytes,

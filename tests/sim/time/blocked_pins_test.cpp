@@ -1,4 +1,4 @@
-// Rigid hands whose way cloth bars: what they hold goes as far as it can, and nothing tears.
+// Cloth bars the way of rigid pins: the pinned vertices go as far as they can, and nothing tears.
 #include <gtest/gtest.h>
 
 #include "sim/mesh/intersections.h"
@@ -30,7 +30,7 @@ Trial led_through(double most_x, Integrator integrator = Integrator::implicit) {
 constexpr double kPart = 0.7 * test::kUpperSide, kAll = 2 * test::kUpperSide;
 
 // The lower sheet is lifted by five times the gap in one step.  The upper one presses on it with its inertia
-// alone, a hair of what the hand may pull with.
+// alone, a hair of what the pin may pull with.
 TEST(BlockedPins, PushAFreeSheetByMoreThanTheGapInOneStep) {
   const double thickness = Fabric{}.thickness, gap = 1.1 * thickness, lift = 5 * gap;
   for (Integrator integrator : {Integrator::implicit, Integrator::bdf2, Integrator::tr_bdf2}) {
@@ -74,7 +74,7 @@ TEST(BlockedPins, OfTwoRigidHandsLeadNothingThroughEachOtherAndReturn) {
   }
 }
 
-// What no step can reach is not written as its end.
+// A place that no step can reach is not written as its end.
 TEST(BlockedPins, AreNotPutWhereTheyCouldNotGo) {
   const Trial trial = led_through(kAll);
   const auto simulation = trial.at(kTime);

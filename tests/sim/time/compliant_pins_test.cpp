@@ -1,4 +1,4 @@
-// Hands of limited strength: what they give, where they let the cloth lag, and that nothing tears.
+// Pins of limited strength are checked: their forces, where they let the cloth lag, and that nothing tears.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -18,7 +18,7 @@ using test::Trial;
 
 constexpr double kYieldFractionOfThickness = 0.5;
 
-// One vertex whose hand pulls with 2 N beyond 0.1 mm.
+// The pin of one vertex pulls with 2 N beyond 0.1 mm.
 struct OneCompliantPin {
   Vector3d place{1e-3, 2e-3, 3e-3};
   double strength = 2;
@@ -67,7 +67,7 @@ TEST(CompliantPin, LiesBelowTheParabolaOfItsStiffness) {
   }
 }
 
-// A square that hangs by two corners, each held with this strength [N].
+// Returns a square that hangs by two corners, each held with this strength [N].
 Trial hanging_by(double strength) {
   Scene scene = test::hanging_square(100);
   scene.gravity = {0, -9.81, 0};
@@ -110,7 +110,7 @@ TEST(PinsOfLimitedStrength, GiveInProportionToWhatTheyCarry) {
   EXPECT_EQ(simulation->counts().saturated_pins, 0);
 }
 
-// Free fall under what the hands do not carry.
+// The cloth falls freely under the weight that the pins do not carry.
 TEST(PinsOfLimitedStrength, LetGoOfWhatIsTooHeavyButPullOn) {
   Trial trial = hanging_by(1);
   const double weight = cloth_weight(trial), kFraction = 0.6;
@@ -152,7 +152,7 @@ TEST(PinsOfLimitedStrength, DoWorkThatTheBalanceCloses) {
   }
 }
 
-// Where a rigid hand gives way (blocked_pins_test.cpp).
+// A rigid pin gives way here (blocked_pins_test.cpp).
 TEST(PinsOfLimitedStrength, ThatPushTheClothThroughItselfLagBehind) {
   constexpr double kGap = 5e-3, kTravel = 1e-2, kTime = 0.1, kStrength = 0.5;  // [m], [s], [N]
   Trial trial = test::two_sheets(kGap, 60);
@@ -170,7 +170,7 @@ TEST(PinsOfLimitedStrength, ThatPushTheClothThroughItselfLagBehind) {
   EXPECT_TRUE(intersecting_triangles(trial.cloth.mesh.face, simulation->positions()).empty());
 }
 
-// Two sheets, the hands of both told to swap places: the stronger one gets where it wants.
+// The pins of two sheets are told to swap places: the stronger one gets where it wants.
 TEST(PinsOfLimitedStrength, AgainstEachOtherDoNotTear) {
   constexpr double kGap = 4e-3, kTime = 0.1;
   Trial trial = test::two_sheets(kGap, 60);

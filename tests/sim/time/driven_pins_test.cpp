@@ -1,4 +1,4 @@
-// Hands that a program drives from step to step.
+// A program drives these pins from step to step.
 #include <gtest/gtest.h>
 
 #include <cstring>

@@ -15,7 +15,7 @@ std::vector<std::string> law_names() {
   return names;
 }
 
-// A free sheet without weight that starts from waves of about the elastic limit, 50/m, and swings.
+// Returns a free sheet without weight that starts from waves of about the elastic limit, 50/m, and swings.
 Trial rippled(const std::string& law, const LawParameters& parameters = {}) {
   Scene scene = test::free_square(150);
   scene.law = law;

@@ -13,7 +13,8 @@ using test::Trial;
 
 const Vector3d kFarAway(1e4, -1e4, 1e3);  // [m]
 
-// A flat sheet that a turning hand lifts by a corner, off a tilted ground and a turning sphere that comes up.
+// Returns a flat sheet that a rotating pin lifts by a corner, off a tilted ground and a rotating sphere that
+// comes up.
 Scene lifted(const Vector3d& place) {
   Scene scene = test::free_square(100);
   scene.integrator = Integrator::implicit;
@@ -37,7 +38,7 @@ Scene lifted(const Vector3d& place) {
   return scene;
 }
 
-// Where the same scene leads at the origin and far from it, relative to its place.
+// Returns the difference of the same scene at the origin and far from it, relative to its place.
 double difference(Precision precision) {
   test::Positions at[2];
   for (const bool far : {false, true}) {

@@ -53,7 +53,7 @@ Trial crease() {
   return Trial(scene);
 }
 
-// Two sheets of which the upper one slides.
+// Returns two sheets of which the upper one slides.
 Trial layers() {
   Trial trial = test::two_sheets(Fabric{}.thickness * 1.2, 100);
   trial.scene.gravity = {6, 1, -9};

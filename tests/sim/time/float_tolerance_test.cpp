@@ -19,7 +19,8 @@ double iterations(Precision precision) {
   return counts.per_step(counts.linear);
 }
 
-// What is looked for beyond is the rounding of positions: it took 1.6 times as many here, and more the finer.
+// Iterations beyond this tolerance follow the rounding of positions: they were 1.6 times as many here, and
+// more the finer the mesh.
 TEST(SemiImplicitIntegrator, TakesNoMoreIterationsInSinglePrecisionThanInDouble) {
   constexpr double kMax = 1.1;
   EXPECT_LT(iterations(Precision::fp32), kMax * iterations(Precision::fp64));

@@ -61,7 +61,7 @@ TEST_P(Order, AgreesWithTinyExplicitStepsThroughReversals) {
   EXPECT_GT(std::log2(coarse / fine), c.order - 0.25);
 }
 
-// A strip held at its left end, bending by its own weight.
+// Returns a strip held at its left end, bending by its own weight.
 Scene cantilever(const std::string& law, const std::string& integrator) {
   Scene scene = test::free_square(120);
   scene.cloth.shape = "strip";

@@ -1,4 +1,4 @@
-// Friction in the plane of cloth in motion, under every integrator.
+// These tests check in-plane friction of cloth in motion, under every integrator.
 #include <gtest/gtest.h>
 
 #include "sim/scene/scene_reader.h"

@@ -106,7 +106,7 @@ TEST(Ledger, ClosesForClothFallingOnTheGround) {
   }
 }
 
-// What has been moving is brought to rest: nothing moves any more, and what was kinetic energy is booked.
+// A moving cloth is brought to rest: nothing moves any more, and its kinetic energy is booked.
 TEST(Ledger, ClosesWhenAMotionIsEndedAtItsEquilibrium) {
   for (const char* integrator : {"implicit", "bdf2"}) {
     const Trial trial = test::rippled(law_scene("prandtl", integrator), 3e-3);
@@ -166,7 +166,7 @@ TEST(Ledger, IntegratorsLossShrinksWithFirstOrderInTheStep) {
   EXPECT_NEAR(loss_order("semi-implicit", 1e-4, 1e-4), 1, kSlack);
 }
 
-// A corner is pulled away, without weight, through equilibria: what the hand does is stored, but for what the
+// A corner is pulled away, without weight, through equilibria: the pin's work is stored, but for what the
 // mean of the forces over a step misses.
 TEST(Ledger, OfEquilibriaMissesWorkWithSecondOrderInTheStep) {
   double missed[2], stored = 0;

@@ -11,7 +11,7 @@ namespace {
 using test::Method;
 using test::Trial;
 
-// A free sheet without weight that starts from waves and swings.
+// Returns a free sheet without weight that starts from waves and swings.
 Trial rippled(const Method& method, const BendingParts& parts) {
   Scene scene = test::free_square(60);
   scene.law = method.law;
@@ -31,8 +31,8 @@ const Method kMeasuredCases[] = {{"chapman", "shape", "semi-implicit"}, {"chapma
 
 INSTANTIATE_TEST_SUITE_P(Methods, MeasuredFabric, testing::ValuesIn(kMeasuredCases), test::CaseName());
 
-// What friction and relaxation have lost after six steps, each of which closes the balance and gives nothing
-// back.
+// This struct has the losses by friction and relaxation after six steps, each of which closes the balance and
+// gives nothing back.
 struct Lost {
   double friction = 0, relaxed = 0;
 };
@@ -169,7 +169,7 @@ TEST(LongStep, IsRefusedWhereStepsAreOfOneLength) {
     EXPECT_THROW(held_in_waves(integrator, 1).after(1)->advance_by(1), Error) << integrator;
 }
 
-// What is saved in between goes on at the same time.
+// A state that is saved in between goes on at the same time.
 TEST(LongStep, IsRememberedByAStateThatIsSaved) {
   const Trial trial = held_in_waves("quasi-static", 1);
   const auto simulation = trial.after(1), other = trial.simulation();

@@ -1,4 +1,4 @@
-// What scenes that leave device and linear solver open are given.
+// These tests check what is chosen for scenes that leave device and linear solver open.
 #include "sim/time/method_choice.h"
 
 #include <gtest/gtest.h>
@@ -113,7 +113,7 @@ TEST(MethodChoice, HasNothingToDoInFloatWhereAllIsOrNewtonsMethodIsNotUsed) {
   EXPECT_FALSE(choice_for(scene, 0).in_float);
 }
 
-// A band of half width w nodes: about n w^2/2 blocks' products, 27 multiplications each; a square's
+// A band of half width w nodes has about n w^2/2 blocks' products, 27 multiplications each; a square's
 // separators grow with its side.
 TEST(MethodChoice, CountsWorkThatGrowsWithTheLengthOfAStripButWithTheSquareOfASheet) {
   const auto work = [](const Scene& scene) {

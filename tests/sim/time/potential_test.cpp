@@ -1,4 +1,4 @@
-// The incremental potential of a whole cloth, its gradient, its stiffness and its minimum.
+// These tests check the incremental potential of a whole cloth, its gradient, its stiffness and its minimum.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -195,7 +195,7 @@ void expect_derivative_of_second_order(Step& step, const Positions& x, const Pos
   EXPECT_GT(std::log10(error(1e-6) / error(1e-7)), 1.7);
 }
 
-// Without stress the Gauss-Newton stiffness is the whole Hessian.
+// The Gauss-Newton stiffness is the whole Hessian where there is no stress.
 TEST_P(OfACloth, StiffnessIsTheDerivativeOfTheGradientWhereNothingIsStressed) {
   Step step(GetParam());
   step.begin();
@@ -256,7 +256,7 @@ TEST_P(OfACloth, TheAssembledStiffnessIsThatOfTheParts) {
   }
 }
 
-// Fronts of the stiffness without softening, four parts and what separates them.
+// The fronts are those of the stiffness without softening, four parts and what separates them.
 TEST_P(OfACloth, AFactorisationInFrontsSolvesItInAFewIterations) {
   constexpr double kTolerance = 1e-10;
   Step step(GetParam());

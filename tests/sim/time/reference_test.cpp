@@ -15,7 +15,8 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 using test::Trial;
 
-// A crumpled and stretched membrane with masses, as the implicit stage assembles it, and a random load.
+// This struct has a crumpled and stretched membrane with masses, as the implicit stage assembles it, and a
+// random load.
 struct ImplicitSystem {
   Trial trial{test::hanging_square(300)};
   Cpu cpu{1};

@@ -20,8 +20,8 @@ struct Saved {
   bool layers = false;   // two sheets, the upper one falls onto the lower one and slides
   bool chapter = false;  // implicit-every = step
   LawParameters param = {};
-  double strength = 0;    // of the second hand [N]
-  bool blocked = false;   // two layers: a rigid hand leads the upper one through the lower
+  double strength = 0;    // of the second pin [N]
+  bool blocked = false;   // two layers: a rigid pin leads the upper one through the lower
   bool parts = false;     // stops along warp and weft, branches and set
   bool in_plane = false;  // stops of the membrane
   Precision linear_precision = Precision::fp64;
@@ -84,8 +84,8 @@ const Saved kCases[] = {
      .in_plane = true},
 };
 
-// Between hands that move, one of which comes later, over a ball with friction that comes up; a command and
-// viscosity on top.
+// The cloth is between pins that move, one of which comes later, over a ball with friction that comes up,
+// with a command and viscosity on top.
 Scene over_a_ball() {
   Scene scene = test::free_square(80);
   scene.cloth.length = 0.1;
@@ -150,7 +150,7 @@ void expect_same(Simulation& a, Simulation& b) {
 TEST_P(SavedState, GoesOnBitForBit) {
   const Trial trial = saved_trial(GetParam());
   const auto first = trial.simulation();
-  for (const int steps : {5, 4}) {  // the second time with the hand that comes later, and the command
+  for (const int steps : {5, 4}) {  // the second time with the pin that comes later, and the command
     first->advance(steps);
     const std::string state = first->save();
     const auto second = trial.simulation();

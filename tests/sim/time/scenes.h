@@ -17,7 +17,7 @@ namespace hysteron::test {
 
 using Positions = std::vector<Eigen::Vector3d>;
 
-// A scene on the CPU with its cloth, from which simulations start.
+// This struct has a scene on the CPU with its cloth, from which simulations start.
 struct Trial {
   Scene scene;
   Cloth cloth;
@@ -80,12 +80,13 @@ inline BendingParts all_parts() {
           {15, 6e-6}};
 }
 
-// Friction in the plane on the scale of a light fabric.
+// Returns in-plane friction on the scale of a light fabric.
 inline InPlaneStops in_plane_stops() {
   return {{{0.004}, {300}}, {{0.003, 0.01}, {200, 80}}, {{0.005, 0.03}, {90, 40}}};
 }
 
-// A square of 0.2 m without pins or obstacles, linear bending, solver as exact as its arithmetic.
+// Returns a square of 0.2 m without pins or obstacles, with linear bending and a solver as exact as its
+// arithmetic.
 inline Scene free_square(int triangles = 200) {
   Scene scene;
   scene.cloth.length = 0.2;
@@ -98,14 +99,14 @@ inline Scene free_square(int triangles = 200) {
   return scene;
 }
 
-// The same hanging by two corners.
+// Returns the same square hanging by two corners.
 inline Scene hanging_square(int triangles = 200) {
   Scene scene = free_square(triangles);
   scene.pin = {pin_at(0, 0.2), pin_at(0.2, 0.2)};
   return scene;
 }
 
-// Of a scene whose cloth starts from waves of some mm instead of flat, so that every force acts at once.
+// Returns a trial whose cloth starts from waves of some mm instead of flat, so that every force acts at once.
 inline Trial rippled(const Scene& scene, double height) {
   Trial trial(scene);
   for (int i = 0; i < trial.cloth.mesh.vertices(); ++i) {
@@ -116,14 +117,14 @@ inline Trial rippled(const Scene& scene, double height) {
   return trial;
 }
 
-// What a simulation pays for under this name.
+// Returns the part of a simulation that has this name.
 inline ScenePart scene_part(const Simulation& simulation, const std::string& name) {
   for (const ScenePart& part : simulation.parts())
     if (part.name == name) return part;
   throw std::out_of_range("no part named " + name);
 }
 
-// Sums over the vertices.
+// This struct has sums over the vertices.
 struct Momenta {
   Eigen::Vector3d linear = Eigen::Vector3d::Zero(), angular = Eigen::Vector3d::Zero();
   double mass = 0, size = 0;  // size: of all vertices' momenta

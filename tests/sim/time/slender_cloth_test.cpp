@@ -6,8 +6,8 @@
 namespace hysteron {
 namespace {
 
-// Of strips so many squares wide and long, held at one end, that begin to swing: linear iterations by
-// Newton's.
+// Returns the linear iterations per Newton iteration of strips so many squares wide and long, held at one
+// end, that begin to swing.
 double iterations_of_a_solve(int wide, int long_, Preconditioning solver) {
   constexpr double kWidth = 0.02;
   Scene scene = test::free_square(2 * wide * long_);

@@ -67,7 +67,8 @@ TEST_P(StepBound, KeepsAShakenSheetBounded) {
   }
 }
 
-// Half as large again as 2/omega, past the check: the highest mode grows by (7 + sqrt(45))/2 = 6.9 a step.
+// The step is half as large again as 2/omega, past the check: the highest mode grows by (7 + sqrt(45))/2 =
+// 6.9 a step.
 TEST(StepBound, IsNotNeedlesslySmall) {
   for (const char* element : {"shape", "hinge"}) {
     Trial trial(unloaded(element, "linear"));

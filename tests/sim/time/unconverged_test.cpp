@@ -1,4 +1,4 @@
-// Steps that are taken before Newton's method has converged, and hands that bring cloth home.
+// These tests take steps before Newton's method has converged, and let pins bring cloth home.
 #include <gtest/gtest.h>
 
 #include "tests/sim/time/scenes.h"
@@ -18,7 +18,7 @@ Scene capped(int iterations) {
   return scene;
 }
 
-// What the solve leaves unbalanced is a term of its own, so that the ledger closes nevertheless.
+// The unbalanced remainder of a solve is a term of its own, so that the ledger closes nevertheless.
 TEST(UnconvergedSteps, CloseTheLedger) {
   const Trial one = test::rippled(capped(1), 3e-3);
   const auto simulation = one.after(20);
@@ -50,8 +50,8 @@ TEST(UnconvergedSteps, AreWhatASearchForRestTakesWhereThereIsNone) {
   EXPECT_EQ(simulation->counts().retried, 0);
 }
 
-// Taken late and far from where it was, a corner is back after the pin's time for that, and the hand's work
-// is booked.
+// A corner that is taken late and far from where it was is back after the pin's time for that, and the pin's
+// work is booked.
 TEST(HandsThatBringHome, AreThereInTime) {
   Scene scene = test::hanging_square();
   scene.integrator = Integrator::implicit;
@@ -73,7 +73,7 @@ TEST(HandsThatBringHome, AreThereInTime) {
   EXPECT_LT(ledger.remainder_relative, 1e-6);
 }
 
-// Without weight and hands only the cloth's own motion says what is small.
+// Only the cloth's own motion tells what is small where there are neither weight nor pins.
 class FreeCloth : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Integrators, FreeCloth, testing::Values("implicit", "bdf2", "tr-bdf2"));
 
@@ -98,7 +98,7 @@ TEST_P(FreeCloth, SolvesItsStepsAndKeepsItsMomentum) {
   EXPECT_LT(sum.linear.norm(), 1e-5 * sum.size);
 }
 
-// Thrown by a hand that lets go: what rounding makes of forces is all that acts then.
+// A pin throws the cloth as it lets go: what rounding makes of forces is all that acts then.
 TEST_P(FreeCloth, DriftsSlowlyInSinglePrecision) {
   constexpr double kSpeed = 1e-4;  // [m/s]
   Scene scene = weightless(GetParam());

@@ -1,4 +1,5 @@
-// How far a fabric springs back from one bend: its residual curvature under a law, without any cloth.
+// This experiment computes how far a fabric springs back from one bend: its residual curvature under a law,
+// without cloth.
 #include <nlohmann/json.hpp>
 
 #include "experiments/workbench/app/experiment.h"

@@ -1,4 +1,4 @@
-// What pictures show as surfaces in motion.
+// An animated scene has what pictures show as surfaces in motion.
 #include "experiments/workbench/animation/animated_scene.h"
 
 #include <gtest/gtest.h>
@@ -38,7 +38,7 @@ TEST(AnimatedScene, BodiesGoWhereTheirKeysLead) {
       << "a quarter turn about y";
 }
 
-// Of turns by a third the quaternions would jump to their negatives, between which a viewer may turn the long
+// In turns by a third the quaternions would jump to their negatives, between which a viewer may turn the long
 // way.
 TEST(AnimatedScene, OrientationsOfABodyThatGoesOnTurningAreNearEachOther) {
   AnimatedPart part{"wheel", {1, 1, 1}};
@@ -67,7 +67,7 @@ TEST(AnimatedScene, TheGroundIsASquareAtItsHeightAroundWhatIsFramed) {
   EXPECT_GT(box.high.y(), framed.high.y() + framed.radius());
 }
 
-// Of a scene without a ground, whose pictures have one, as a drape's.
+// The scene has no ground, but its pictures have one, as a drape's.
 TEST(AnimatedScene, AFloorOfPicturesAloneIsThere) {
   const MovingScene moving;
   const PictureView view = picture_view(moving.setup, {{0, 0, 0}, {1, 1, 1}}, -0.25f);
@@ -77,7 +77,7 @@ TEST(AnimatedScene, AFloorOfPicturesAloneIsThere) {
   EXPECT_EQ(poses_at(parts[0], {{0, 0}})[0].translation.z(), -0.25f);
 }
 
-// Of facets an angle apart the mean normal is the cylinder's to second order in it.
+// The mean normal of facets an angle apart is the cylinder's to second order in that angle.
 TEST(AnimatedScene, NormalsTurnWithTheCloth) {
   const MovingScene moving;
   const double kFacets = std::pow(MovingScene::kCurvature[2] * MovingScene::kLength / 8, 2);

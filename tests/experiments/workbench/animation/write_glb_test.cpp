@@ -53,7 +53,7 @@ struct Glb {
     }
     return {};
   }
-  // An attribute with all targets by the weights of that keyframe.
+  // Returns an attribute with all targets by the weights of that keyframe.
   std::vector<float> at(const std::string& name, const char* attribute, std::size_t frame) const {
     const Json& primitive = this->primitive(name);
     std::vector<float> values = floats(primitive["attributes"][attribute]);
@@ -194,7 +194,7 @@ TEST_F(GlbFile, TextureRunsFromTheTop) {
   }
 }
 
-// A tube of two panels: each of two seams doubles its vertices.
+// Each of two seams of a tube of two panels doubles its vertices.
 TEST_F(GlbFile, AVertexOfASeamIsThereOnceForEachPlaceInTheTexture) {
   using Tube = test::PanelTube;
   Tube tube;

@@ -29,7 +29,7 @@ class UsdFile : public testing::Test {
     write_usd(file, moving.scene);
     return file_content(file);
   }
-  // What stands between the braces of `def TYPE "NAME"`.
+  // Returns the text between the braces of `def TYPE "NAME"`.
   static std::string prim(const std::string& text, const std::string& name) {
     std::size_t at = text.find("{\n", text.find("def " + name)), end = at;
     for (int open = 1; open > 0 && end != text.npos;) {
@@ -38,7 +38,7 @@ class UsdFile : public testing::Test {
     }
     return text.substr(at, end - at);
   }
-  // Values of a sampled attribute by time code, as texts.
+  // Returns the values of a sampled attribute by time code, as texts.
   static std::map<double, std::string> samples(const std::string& prim, const std::string& attribute) {
     std::map<double, std::string> values;
     const std::size_t begin = prim.find(" " + attribute + ".timeSamples = {\n");
@@ -50,7 +50,7 @@ class UsdFile : public testing::Test {
     }
     return values;
   }
-  // What an attribute without samples is.
+  // Returns the value of an attribute without samples.
   static std::string value(const std::string& prim, const std::string& attribute) {
     const std::size_t at = prim.find(" " + attribute + " = ");
     if (at == prim.npos) return "";

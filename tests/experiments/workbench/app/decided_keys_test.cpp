@@ -1,4 +1,4 @@
-// What experiments decide themselves is refused as a flag, and told of where a file asks for it.
+// A key that experiments decide themselves is refused as a flag, and gives a warning where a file sets it.
 #include "experiments/workbench/app/decided_keys.h"
 
 #include <algorithm>
@@ -86,7 +86,7 @@ TEST(DecidedKeys, AreAllThatAnExperimentChangesButWhatItMakesFit) {
   }
 }
 
-// Of a cantilever with this scene file.
+// Runs a cantilever with this scene file.
 FinishedRun strip_run(const std::string& scene) {
   return FinishedRun("cantilever --triangles 32 --device cpu --no-images --quiet --scene " + scene);
 }

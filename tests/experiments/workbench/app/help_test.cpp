@@ -1,4 +1,4 @@
-// What --help prints: by group, no wider than the terminal.
+// --help prints by group, no wider than the terminal.
 #include "experiments/workbench/app/help.h"
 
 #include <map>

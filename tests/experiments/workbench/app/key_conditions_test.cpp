@@ -16,7 +16,7 @@ CommandLine line_with(const std::string& experiment, const std::vector<Flag>& fl
   return {experiment, "hysteron " + experiment, flags, {}};
 }
 
-// What the subcommand says to these flags.
+// Returns the subcommand's message to these flags.
 std::string said_to(const std::string& experiment, const std::vector<Flag>& flags) {
   return test::refusal([&] { experiment_named(experiment).run(line_with(experiment, flags)); });
 }

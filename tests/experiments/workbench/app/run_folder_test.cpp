@@ -1,4 +1,4 @@
-// What a run does to its folder: it is alone there, takes away only what runs have left, and stays inside.
+// A run is alone in its folder, removes only what runs have left, and stays inside.
 #include "experiments/workbench/app/run_folder.h"
 
 #include <fstream>
@@ -27,7 +27,7 @@ void earlier_run(const fs::path& out, const std::string& file) {
   run.finish();
 }
 
-// In a child that ends as by `kill -9` at the end of `body`.
+// Runs `body` in a child that ends as by `kill -9` at its end.
 template <class Body>
 void killed(Body body) {
   const pid_t child = fork();
@@ -57,7 +57,8 @@ TEST_F(RunFolder, HoldsOneRunAtATime) {
   EXPECT_EQ(refused_run(out_), "(accepted)");
 }
 
-// What lies behind its checkpoint is set aside without the first files of its sequence, and goes in the end.
+// Files later than its checkpoint are set aside without the first ones of its sequence, and are deleted in
+// the end.
 TEST_F(RunFolder, OfARunThatGoesOnHasNothingSetAsideInTheEnd) {
   killed([&] {
     auto* run = new ExperimentRun(drape_line(), setup_in(out_));
@@ -185,7 +186,7 @@ TEST_F(RunFolder, IsNotWhereTheRunReads) {
   EXPECT_EQ(file_content(loops), "mine");
 }
 
-// A complete run in a folder, and another one there that ends in different ways.
+// The fixture has a complete run in a folder, and another one there that ends in different ways.
 class SuccessorOfARun : public RunFolder {
  protected:
   SuccessorOfARun() {
@@ -193,7 +194,7 @@ class SuccessorOfARun : public RunFolder {
     write(out_ / "report.html", "the earlier page");
     write(out_ / "notes.txt");
   }
-  // Of every file below by its name.
+  // Returns the content of every file below the folder, by its name.
   std::map<std::string, std::string> contents() const {
     std::map<std::string, std::string> files;
     for (const auto& entry : fs::recursive_directory_iterator(out_))

@@ -155,7 +155,7 @@ TEST_F(SameRequest, NamesTheFilesThatHaveChangedOrAreGone) {
   write("a", "3");
   fs::remove(root_ / "b");
   EXPECT_EQ(input_changes(then), (std::vector{at("a") + " has changed", at("b") + " is not there any more"}));
-  // What has been read for the request is what counts; the same bytes by another name are the same file.
+  // The content that was read for the request counts; the same bytes by another name are the same file.
   const std::string hash_of_a = then[0].hash;
   EXPECT_EQ(input_changes({then[0]}, {{"elsewhere/a", hash_of_a}}), std::vector<std::string>());
   EXPECT_EQ(input_changes({then[0]}, {then[0], {"c", "5"}}), std::vector{std::string("c was not read")});

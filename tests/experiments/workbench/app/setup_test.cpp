@@ -95,7 +95,7 @@ TEST(Setup, ChecksTheSceneAsAWhole) {
       says(setup_error({{"fabric.b1", "1e-9"}}), "fabric.b1 = 1e-09 N m (--fabric.b1) must be >= fabric.b2"));
 }
 
-// What a scene that was dumped says, without the comments, which tell where each value comes from.
+// Returns the values of a dumped scene, without the comments, which tell where each value comes from.
 std::string dumped_values(const std::string& file) {
   std::istringstream lines(file_content(file));
   std::string values;

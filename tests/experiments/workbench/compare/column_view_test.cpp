@@ -42,7 +42,7 @@ ChildRun of_law(const std::string& law) {
   return run;
 }
 
-// What stands beside it does not change a law's colour.
+// A law keeps its colour whatever columns stand beside it.
 TEST(ColumnColors, AreTheLawsOwn) {
   const std::vector<ChildRun> once = {of_law("linear"), of_law("prandtl")},
                               twice = {of_law("linear"), of_law("prandtl"), of_law("prandtl")},

@@ -1,4 +1,4 @@
-// What columns warn of, as warnings of the page.
+// The page has the warnings of its columns.
 #include "experiments/workbench/compare/comparison.h"
 
 #include "tests/experiments/folder.h"

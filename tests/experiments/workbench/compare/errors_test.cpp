@@ -194,7 +194,7 @@ TEST(MetricTable, ShowsErrorsInTheHeadlinesCell) {
 
 const std::string kSmall = " --triangles 60 --seconds 0.05 --fps 30 --device cpu --no-images --quiet";
 
-// What a run with these flags loses by friction.
+// Returns the friction loss of a run with these flags.
 double friction_with(const std::string& flags) {
   return FinishedRun("swing --no-images --quiet --device cpu --seconds 0.05 --fps 30 " + flags)
       .metrics()["bending_friction_J"];

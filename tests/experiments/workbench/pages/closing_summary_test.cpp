@@ -1,4 +1,4 @@
-// What a run says first and last: results with their errors, rest, places, time left.
+// A run's first and last lines have results with their errors, rest, places, time left.
 #include "experiments/workbench/pages/closing_summary.h"
 
 #include "experiments/workbench/compare/sweep_columns.h"

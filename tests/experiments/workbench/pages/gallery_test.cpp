@@ -26,7 +26,7 @@ void write_picture(const fs::path& file, int width, int height) {
   render::write_png(file, picture);
 }
 
-// A finished run of `experiment` with one metric.
+// Writes a finished run of `experiment` with one metric.
 void write_run(const fs::path& folder, const std::string& experiment, double metric = 49.8) {
   ExperimentRun run({experiment, "hysteron " + experiment + " --quick", {}, {}}, setup_in(folder));
   run.manifest().device = "cpu: CPU, 2 threads";

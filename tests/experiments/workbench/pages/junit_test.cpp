@@ -1,4 +1,4 @@
-// JUnit files, as readers of them expect.
+// JUnit files are written as readers of them expect.
 #include "experiments/workbench/pages/junit.h"
 
 #include "tests/experiments/folder.h"

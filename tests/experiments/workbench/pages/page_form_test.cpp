@@ -12,7 +12,7 @@
 namespace hysteron::experiments {
 namespace {
 
-// Values of an attribute, in the order of the page.
+// Returns the values of an attribute, in the order of the page.
 std::vector<std::string> attribute_values(const std::string& html, const std::string& name) {
   const std::string begin = " " + name + "=\"";
   std::vector<std::string> values;
@@ -70,7 +70,7 @@ void write_run(const fs::path& folder) {
   run.finish();
 }
 
-// A gallery of a run with a part, a folder without a run, and a list of manifests.
+// The fixture has a gallery of a run with a part, a folder without a run, and a list of manifests.
 class PageForms : public testing::Test {
  protected:
   PageForms() {

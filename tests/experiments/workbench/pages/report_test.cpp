@@ -85,7 +85,7 @@ TEST_F(Report, ShowsNoPictureThatIsNotTheRuns) {
   render::write_png(folder_.path() / "plot_holiday.png", render::Image(64, 32));
   std::ofstream(folder_.path() / "plot_journey.svg") << "<svg xmlns=\"http://www.w3.org/2000/svg\"/>";
   EXPECT_EQ(html(), own);
-  // Of the same names, as pictures of the run they are shown.
+  // Files of the same names are shown if they are listed as pictures of the run.
   Json manifest = manifest_in(folder_.path());
   for (const char* name : {"holiday.png", "plot_holiday.png", "plot_journey.svg"})
     manifest["files"].push_back(name);

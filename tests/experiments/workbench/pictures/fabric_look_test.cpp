@@ -31,7 +31,7 @@ TEST(FabricLook, LeavesLooksThatShowSomethingElseAsTheyAre) {
 
 class FabricFileLook : public testing::Test {
  protected:
-  // What is wrong with a fabric's table [look], which begins in line 3.
+  // Returns the refusal of a fabric's table [look], which begins in line 3.
   std::string refusal(const std::string& lines) {
     folder_.write("look.toml", "name = \"x\"\n\n[look]\n" + lines);
     return test::refusal([&] { dressed({}, file_); });

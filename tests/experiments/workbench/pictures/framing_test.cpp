@@ -1,4 +1,4 @@
-// What pictures frame: none shows its cloth cut off, or none of it.
+// Pictures frame their cloth: none shows it cut off, and none is empty.
 #include <array>
 #include <cmath>
 #include <fstream>
@@ -20,7 +20,7 @@ struct Case {
   const char* line;
 };
 
-// What is framed does not depend on how it is drawn.
+// The frame does not depend on how the picture is drawn.
 const char* const kDraft = "--quality draft ";
 
 class PicturesOf : public testing::TestWithParam<Case> {};
@@ -79,7 +79,7 @@ TEST(CameraFile, IsRefusedWhereItIsNone) {
   EXPECT_EQ(options.camera_target, (Numbers{0, 0, 1}));
 }
 
-// What stands still is let go first; the first and the last stay.
+// Instants without motion are dropped first; the first and the last stay.
 TEST(KeptInstants, KeepThoseThatMove) {
   KeptInstants kept;
   for (int i = 0; i < 200; ++i) {

@@ -1,4 +1,4 @@
-// What pictures are drawn from, packed and back.
+// The geometry from which pictures are drawn is packed and unpacked here.
 #include "experiments/workbench/pictures/kept_geometry.h"
 
 #include <cmath>
@@ -13,7 +13,7 @@ namespace {
 constexpr int kSide = 20;
 constexpr double kQuantum = 2e-5;  // [m]
 
-// A square grid of 1 cm on a wave, cut by parallel diagonals.
+// Returns a square grid of 1 cm on a wave, cut by parallel diagonals.
 DrawnMesh grid() {
   DrawnMesh mesh{kSide * kSide, {}, {}, kQuantum};
   for (int j = 0; j + 1 < kSide; ++j)
@@ -63,7 +63,8 @@ TEST(KeptGeometry, RoundingTwiceIsRoundingOnce) {
   EXPECT_EQ(rounded(once, kQuantum), once);
 }
 
-// To and fro by a fifth of a quantum about the middle between two multiples, then by more than one.
+// The point moves to and fro by a fifth of a quantum about the middle between two multiples, then by more
+// than one.
 TEST(KeptGeometry, StaysWhereItWasUntilItMovesByMostOfAQuantum) {
   const auto at = [](double steps) { return std::vector<float>{static_cast<float>(steps * kQuantum)}; };
   std::vector<float> now = rounded(at(3.4), kQuantum);

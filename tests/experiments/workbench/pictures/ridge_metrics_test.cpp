@@ -67,7 +67,7 @@ TEST(RidgeLength, GoesAcrossTheSeamOfATube) {
   EXPECT_NEAR(ridge_length(tube, value, 0.5) / (2 * std::numbers::pi * kRadius), 1, 2 * kChords);
 }
 
-// Of cloth that is sewn the panels are at rest, whatever way their seams hold the vertices.
+// The panels of sewn cloth are at rest, whatever way their seams hold the vertices.
 TEST(RidgeLength, OfSewnClothIsMeasuredOnItsPanels) {
   ClothMesh mesh = sheet();
   const std::vector<float> value = ridge_across(mesh, 0.3);
@@ -105,7 +105,7 @@ std::vector<Eigen::Vector3d> rippled(const ClothMesh& mesh, double wavelength, d
   return x;
 }
 
-// Vertices farther than this from the sheet's border [m].
+// Returns the vertices that are farther than this from the sheet's border [m].
 std::vector<int> inside(const ClothMesh& mesh, double margin) {
   std::vector<int> found;
   for (int v = 0; v < mesh.vertices(); ++v)

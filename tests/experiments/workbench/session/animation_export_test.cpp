@@ -1,4 +1,4 @@
-// A run as one animated file: what it leaves in its folder, and what it warns of.
+// A run is exported as one animated file, whose folder and warnings are checked.
 #include "tests/experiments/program.h"
 
 namespace hysteron::experiments {

@@ -1,4 +1,4 @@
-// What a run warns of although it goes on.
+// These tests check warnings of a run that goes on.
 #include "experiments/workbench/session/doubts.h"
 
 #include <fmt/core.h>
@@ -98,7 +98,7 @@ TEST(End, WithClothStretchedAsNoneIsSaysByHowMuch) {
   EXPECT_TRUE(doubts_at_end(trial.scene, trial.cloth, x, 0.3).empty());
 }
 
-// A hand that tears at one side of a sheet of 10 cm.
+// A pin tears at one side of a sheet of 10 cm.
 constexpr const char* kTorn = R"(
 seconds = 0.3
 triangles = 100

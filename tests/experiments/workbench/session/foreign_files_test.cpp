@@ -1,4 +1,4 @@
-// What a simulation will write is refused before it begins where another's file of that name stands.
+// A simulation is refused before it begins where another's file has a name that it will write.
 #include <fstream>
 
 #include "tests/experiments/program.h"
@@ -6,7 +6,7 @@
 namespace hysteron::experiments {
 namespace {
 
-// Few triangles, for a short time.
+// Runs have few triangles and a short time.
 class ForeignFiles : public testing::TestWithParam<const char*> {};
 
 TEST_P(ForeignFiles, AreRefusedBeforeTheSimulation) {

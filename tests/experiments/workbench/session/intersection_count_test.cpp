@@ -47,7 +47,7 @@ TEST_P(CountOfCrossings, IsThatOfAllInstantsAndToldByTheCaller) {
   EXPECT_EQ(told.by, std::this_thread::get_id());
 }
 
-// What was seen before a checkpoint is in it, counted to the end.
+// A checkpoint contains what was seen before it, and the count goes on to the end.
 TEST_P(CountOfCrossings, GoesOnFromACheckpoint) {
   Told told;
   IntersectionCount before(kTwoTriangles, GetParam(), told.listener()),

@@ -29,7 +29,7 @@ std::string exported_xml(const Setup& setup, std::optional<float> floor) {
   return mitsuba_scene(view, setup.scene, 0, "0000.ply", {"bodies/0000.ply"});
 }
 
-// The numbers of an attribute's first appearance after a word.
+// Returns the numbers of an attribute's first appearance after a word.
 std::vector<double> numbers_after(const std::string& xml, const std::string& word,
                                   const std::string& attribute) {
   const std::size_t begin = xml.find(attribute + "=\"", xml.find(word)) + attribute.size() + 2;

@@ -56,7 +56,7 @@ class ClothBesideABall {
                mitsuba_scene(view_, setup_.scene, 0, "cloth.ply", {"ball.ply", ""}));
   }
 
-  // Whether a pixel shows cloth or ball alone: seen again in red without a trace of the page.
+  // Returns which pixels show cloth or ball alone: it draws them again in red without a trace of the page.
   std::vector<bool> bodies() const {
     render::Look red = view_.look;
     red.front = red.back = red.obstacle = {120, 0, 0};

@@ -1,4 +1,4 @@
-// The cloth at material points against time (--probe).
+// Probes record the cloth at material points against time (--probe).
 #include <algorithm>
 #include <cmath>
 
@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kRounding = 1e-12;
 
-// Equally stiff along warp and weft, without viscosity.
+// The strip is equally stiff along warp and weft, without viscosity.
 const std::string kSwing =
     "swing --triangles 60 --seconds 0.1 --fps 60 --device cpu --threads 1 --quiet --fabric.weft-bending 1 "
     "--fabric.bias-bending 1 --fabric.damping 0 --no-images";
@@ -33,7 +33,7 @@ void expect_linear(const std::string& element, const std::vector<std::string>& c
       EXPECT_EQ(left[i], 0);
     }
   }
-  // Along the strip, which bends; the first component.
+  // The first component is along the strip, which bends.
   EXPECT_GT(std::abs(column(probes, "probe1_curvature" + components[0] + " [1/m]").back()), 1);
   EXPECT_EQ(column(probes, "time [s]"), column(run.out / "metrics.csv", "time [s]"));
 }

@@ -43,8 +43,8 @@ int after_a_checkpoint(const std::string& arguments, const fs::path& out, const 
   return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
 }
 
-// All files but those that tell of wall clock, and of the command.  A PDF of cairo 1.18 tells, too, packed
-// away.
+// Returns all files but those that tell of wall clock, and of the command.  A PDF of cairo 1.18 tells, too,
+// packed away.
 std::map<std::string, std::string> results_in(const fs::path& out) {
   std::map<std::string, std::string> files;
   for (const auto& entry : fs::recursive_directory_iterator(out)) {
@@ -69,7 +69,7 @@ void expect_same_results(const fs::path& a, const fs::path& b) {
   EXPECT_EQ(first["complete"], true);
 }
 
-// Runs the program into this folder; how long that took [ms].
+// Runs the program into this folder and returns the time that it took [ms].
 int time_of_whole(const std::string& arguments, const fs::path& out) {
   const auto start = std::chrono::steady_clock::now();
   finished(arguments + out_flag(out));
@@ -198,7 +198,7 @@ TEST(Resuming, TwoSignalsAtOnceAreOneAndTwoApartEndTheProcess) {
       124);  // of `timeout`, which signals the process and its group
   EXPECT_TRUE(fs::exists(out / "checkpoint")) << file_content(err);
   EXPECT_EQ(manifest_in(out)["complete"], false);
-  // Seconds before the next instant.
+  // The next instant is seconds away.
   const std::string slow =
       "run hanging-square --no-images --quiet --threads 1 --device cpu --triangles 6000 --step 1e-4 --fps 1";
   const pid_t child = started(slow + " --checkpoint 1000" + out_flag(folder.path() / "slow"));
@@ -233,7 +233,7 @@ TEST(Resuming, ACompleteRunIsNotRepeatedAndOneWithoutCheckpointBeginsAnew) {
   EXPECT_EQ(manifest_in(run.out)["law"], "linear");
 }
 
-// One folder with a checkpoint for all of them: a refusal changes nothing in it.
+// One folder has a checkpoint for all of them: a refusal changes nothing in it.
 class RefusedCheckpoint : public testing::Test {
  protected:
   RefusedCheckpoint() {

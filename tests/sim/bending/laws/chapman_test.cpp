@@ -109,8 +109,8 @@ TEST(Chapman, RecoversFromAFoldWithoutFriction) {
   expect_recovery(cloth, [&](double t) { return first * std::exp(-t * kB / ((kB + kC) * kTau)); });
 }
 
-// With a frictional couple M0: b K + m = M0 while it opens, K(0+) = (M0 + c K1 (1 - exp(-T/tau)))/(b + c),
-// and K - M0/b decays at the same rate.
+// There is a frictional couple M0: b K + m = M0 while it opens, K(0+) = (M0 + c K1 (1 - exp(-T/tau)))/(b +
+// c), and K - M0/b decays at the same rate.
 TEST(Chapman, RecoversFromAFoldDownToWhatFrictionHolds) {
   const double m0 = 2e-4, stop = m0 / kB;
   Driven<Law> cloth(law(couple(m0)));

@@ -32,7 +32,7 @@ static_assert(!MomentCurvatureLaw<WithoutResidual>);
 static_assert(!MomentCurvatureLaw<ChangesItsHistory>);
 static_assert(!MomentCurvatureLaw<OfTwoDimensions>);
 
-// What a law has beyond the contract, and the laws made of others pass on.
+// A law may have more than the contract, and the laws made of others pass this on.
 static_assert(LawWithConvexTangent<Bridson<double, 3>> && !LawWithPotential<Bridson<double, 3>>);
 static_assert(LawWithPotential<Kim<float, 3>> && TimedLaw<Kim<float, 3>> && LawWithUse<Kim<float, 3>>);
 static_assert(LawWithTriedStep<Fatigue<PrandtlStops<double, 1, 8>>>);

@@ -27,7 +27,7 @@ TEST(Bridson, IsLinearAtFirstAndVanishesWhenFoldedAllTheWayRound) {
   EXPECT_NEAR(law.step(Vec<double, 1>(std::numbers::pi / h), {}).stored, 4 * kCotton.b2 / (h * h), kRounding);
 }
 
-// A spring of length 2 h between the tips: E = q (2 h cos(theta/2) - 2 h)^2/2, M = dE/dK.
+// A spring of length 2 h between the tips has E = q (2 h cos(theta/2) - 2 h)^2/2, M = dE/dK.
 TEST(FlexionSpring, IsTheSpringBetweenTheTipsOfAHinge) {
   const double h = 5e-3, step = 1e-4;
   const auto law = FlexionSpring<double, 1>::make(kCotton, h);

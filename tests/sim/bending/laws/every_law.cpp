@@ -11,7 +11,8 @@ namespace {
 
 using ExampleLaws = LawList<ExponentialLaw>;  // a law that no program ships
 
-// What a fabric has beyond three numbers, on the scale of these, so that extreme fabrics have it as well.
+// A fabric may have these parts beyond three numbers, on their scale, so that extreme fabrics have them as
+// well.
 enum Part { kStops = 1, kManyStops = 2, kWeft = 4, kBranches = 8, kSet = 16, kFaces = 32 };
 
 Spectrum stop_spectrum(const VirginCurve& curve, int count) {
@@ -24,7 +25,7 @@ Spectrum stop_spectrum(const VirginCurve& curve, int count) {
   return stops;
 }
 
-// Yields at 1.2 k0, branches of a third and a half of the friction's stiffness.
+// The set yields at 1.2 k0, and branches have a third and a half of the friction's stiffness.
 BendingParts sample_parts(int which, const VirginCurve& curve) {
   BendingParts parts;
   const double g = curve.b1 - curve.b2;

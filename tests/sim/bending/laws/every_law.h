@@ -47,7 +47,7 @@ class AnyLaw {
   virtual double largest_stiffness() const = 0;
   virtual bool runs_along_four_directions() const = 0;
 
-  // What of a tensor the law takes.
+  // Returns the part of a tensor that the law takes.
   Vec<double, 3> component(Vec<double, 3> tensor) const {
     tensor.tail(3 - dimension_).setZero();
     return tensor;

@@ -212,7 +212,7 @@ TEST_P(EveryLaw, IsFoundAsItWasLeft) {
   });
 }
 
-// |W(k + h d) - W(k - h d) - 2 h M.d|
+// Returns |W(k + h d) - W(k - h d) - 2 h M.d|.
 double quotient_error(const AnyLaw& law, const Vec<double, 3>& k, const Vec<double, 3>& d, double h) {
   return std::abs(law.potential(k + h * d) - law.potential(k - h * d) - 2 * h * law.step(k).moment.dot(d));
 }
@@ -235,7 +235,7 @@ TEST_P(EveryLaw, HasAPotentialWhoseDerivativeIsTheMoment) {
   });
 }
 
-// Least (M(a) - M(b)).(a - b)/|a - b|^2 over random pairs [N m].
+// Returns the least (M(a) - M(b)).(a - b)/|a - b|^2 over random pairs [N m].
 double least_secant(const AnyLaw& law, double largest) {
   const Path points = law.random_path(200, largest, 53);
   double least = 1e30;

@@ -25,7 +25,7 @@ template <int D = 1, class Real = double>
 WithFaces<Real, D, kStopCount> faced(double bending, double friction) {
   return WithFaces<Real, D, kStopCount>::make(cotton_with(bending, friction));
 }
-// The ratios of random fabrics: elasticity and friction on the same side or on different ones.
+// Returns the ratios of random fabrics: elasticity and friction on the same side or on different ones.
 double random_ratio(unsigned seed) { return std::exp2(0.013 * (seed * 37 % 151) - 1); }  // 1/2 to 2
 
 // int M dK of one step from the history before it, by the trapezoidal rule.
@@ -212,7 +212,7 @@ TEST(Faces, VirginClothLiesFlatWithoutMoment) {
     }
 }
 
-// B and HB of one side, from beyond k0 on and after a reversal from far.
+// B and HB of one side are measured from beyond k0 on and after a reversal from far.
 TEST(Faces, EachSideHasItsOwnRigidityAndFriction) {
   constexpr double kRounding = 1e-12, kOfDirections = 4e-3;  // four_directions.h
   const double bending = 1.4, friction = 0.7;

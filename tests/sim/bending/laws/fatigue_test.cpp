@@ -59,7 +59,7 @@ TEST(Fatigue, SetStaysWithinTheFrictionMomentLostOverTheRigidity) {
   }
 }
 
-// What is lost in a cycle falls with the strength m itself, so that m falls as 1/cycles.
+// The loss in a cycle falls with the strength m itself, so that m falls as 1/cycles.
 TEST(Fatigue, EndsAsAnElasticSheetWithAPermanentCrease) {
   Driven<Fatigue<TiringStops>> cloth(tired<TiringStops>({0.05, 0, 1}));
   double strength_after_half = 0;

@@ -51,7 +51,7 @@ struct Driven {
     return last;
   }
   double moment(double curvature) requires(D == 1) { return to(Vec<Real, 1>(Real(curvature))).moment[0]; }
-  // What a cycle of +-`amplitude` loses, after so many that settle it.
+  // Returns the loss in a cycle of +-`amplitude`, after so many cycles that settle it.
   double cycle_loss(double amplitude, int settling = 1) requires(D == 1) {
     double before = 0;
     for (int i = 0; i <= settling; ++i) {

@@ -1,4 +1,4 @@
-// One law driven through a list of curvatures: names, parameters, rows.
+// One law is driven through a list of curvatures: names, parameters, rows.
 #include "sim/bending/laws/law_run.h"
 
 #include <gtest/gtest.h>
@@ -86,7 +86,7 @@ TEST(LawRun, ParametersChooseTheMemoryAndTheRecovery) {
   EXPECT_LT(run_law({"wong", kCotton, {}}, path).moment[1], -0.1 * m0);
 }
 
-// `chapman` by its fabric's branches alone.
+// `chapman` depends on time by its fabric's branches alone.
 TEST(LawRun, TakesTimeWhereALawCreepsAgesOrRelaxes) {
   VirginCurve relaxing = kCotton;
   relaxing.parts.branches = {{1.0}, {1e-5}};

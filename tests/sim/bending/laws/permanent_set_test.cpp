@@ -1,5 +1,5 @@
-// A rest curvature that sets beyond a yield curvature: closed forms of one bend, beside friction and
-// branches.
+// A rest curvature sets beyond a yield curvature: these tests have closed forms of one bend, beside friction
+// and branches.
 #include <gtest/gtest.h>
 
 #include "sim/bending/laws/law_run.h"
@@ -68,7 +68,7 @@ TEST(PermanentSet, AndFrictionLeaveTheirResidualCurvaturesSideBySide) {
   EXPECT_NEAR(cloth.law.residual(cloth.history)[0], set + hb / kB2, kSetRounding * k);
 }
 
-// What a fold that was bent back beyond its yield has left does not depend on its elements' division.
+// The remainder of a fold that was bent back beyond its yield does not depend on its elements' division.
 TEST(PermanentSet, IsTheSameInOneStepAsInManyOfOneDirection) {
   const Spectrum friction{{5, 30}, {2e-5, 1e-5}};
   for (double turn : {700.0, -900.0}) {

@@ -124,7 +124,7 @@ TEST(Dahl, AStepInOnePieceEqualsManySmallOnes) {
   EXPECT_NEAR(one.dissipated, many.dissipated, 1e-12);
 }
 
-// A settled cycle of +-A: F reaches +-F_A with F_A = M0 tanh(A/l), and loses 4 (M0 A - l F_A).
+// In a settled cycle of +-A the friction F reaches +-F_A with F_A = M0 tanh(A/l), and loses 4 (M0 A - l F_A).
 TEST(Dahl, LoopAreaMatchesClosedForm) {
   const double m0 = kCotton.friction_moment(), l = kCotton.k0 / 2;
   for (double amplitude : {10., 50., 200.}) {

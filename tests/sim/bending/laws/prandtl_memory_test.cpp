@@ -1,4 +1,5 @@
-// What the two memories of `prandtl` remember: against very many stops, return points, the bounded stack.
+// The two memories of `prandtl` are compared with very many stops, by return points, and where the stack is
+// full.
 #include <gtest/gtest.h>
 
 #include "sim/bending/laws/prandtl_stack.h"

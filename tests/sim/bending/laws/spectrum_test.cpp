@@ -12,7 +12,7 @@ namespace {
 constexpr double kSpectrumB2 = 1e-5;         // [N m]
 constexpr double kSpectrumRounding = 1e-13;  // relative
 
-// Beyond the tester's amplitude of 250/m as well.
+// The thresholds reach beyond the tester's amplitude of 250/m as well.
 Spectrum warp() { return {{3, 12, 40, 95, 300}, {9e-6, 7e-6, 3e-6, 1e-6, 4e-7}}; }
 Spectrum weft() { return {{5, 10, 55, 60, 200}, {4e-6, 9e-6, 1e-6, 2e-6, 1e-7}}; }
 
@@ -108,7 +108,7 @@ Spectrum bias() {
   return mean;
 }
 
-// Of a hinge in this direction (CurvatureOperator).
+// Returns a hinge in this direction (CurvatureOperator).
 Strip in_direction(const Spectrum& along_warp, const Spectrum& along_weft, double warp_part,
                    double weft_part) {
   const double direction[2] = {warp_part, weft_part};
@@ -124,7 +124,7 @@ const Bend kBends[] = {{Strip::make(kSpectrumB2, warp(), {}), warp()},
                        {in_direction(warp(), weft(), 0, 1), weft()},
                        {in_direction(warp(), weft(), 0.25, 0.25), bias()}};
 
-// (Masing 1926): M = Mr + 2 f((K - Kr)/2), whatever the spectrum and the reversal.
+// A branch is M = Mr + 2 f((K - Kr)/2), whatever the spectrum and the reversal (Masing 1926).
 TEST(Spectra, ReturnOnTheVirginCurveOfTheirDirectionDoubled) {
   for (const Bend& of : kBends) {
     const auto own = [&](double k) { return kSpectrumB2 * k + of.own.friction_at(k); };

@@ -14,7 +14,7 @@
 namespace hysteron::testing {
 namespace {
 
-// Unit curvature of a cylinder bent in the direction `angle`, as (S_xx, S_yy, sqrt2 S_xy).
+// Returns the unit curvature of a cylinder bent in the direction `angle`, as (S_xx, S_yy, sqrt2 S_xy).
 Vec<double, 3> cylinder(double angle) {
   const double c = std::cos(angle), s = std::sin(angle);
   return {c * c, s * s, std::sqrt(2) * c * s};
@@ -66,7 +66,7 @@ TEST(FourDirections, StandAtTwentyTwoAndAHalfDegreesWithTheirWeights) {
   }
 }
 
-// Largest error of M.nu on a cylinder swept to +-3 K0, relative to the largest scalar moment.
+// Returns the largest error of M.nu on a cylinder swept to +-3 K0, relative to the largest scalar moment.
 template <class Tensor, class Scalar>
 double worst_bend_error(const Tensor& tensor, const Scalar& scalar, const VirginCurve& c, double angle) {
   Driven<Tensor> sheet(tensor);
