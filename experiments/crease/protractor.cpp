@@ -120,7 +120,7 @@ render::Plot protractor_plot(const std::string& title, const std::vector<Creased
                    kApart = 0.07;  // radius of the first arc and between arcs, of the profile's width
   render::Plot plot{title, {"x [mm]"}, {"height [mm]"}};
   plot.equal_scales = true;
-  constexpr double kNamed = 1.35;  // the part of the plot on the right is left to the names at the ends
+  constexpr double kNamed = 1.5;  // the part of the plot on the right is left to the names at the ends
   double width = 0, rightmost = 0;
   for (const CreasedStrip& strip : strips) {
     width = std::max(width, extent(strip));

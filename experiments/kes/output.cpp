@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiments/workbench/app/law_family.h"
 #include "render/panels.h"
 #include "sim/base/csv.h"
 
@@ -95,7 +96,6 @@ void write_readings(Run& run, const KesTests& tests) {
 
 // ---- small multiples of the loops: a panel per law ----
 
-constexpr const char* kLawColor = "#0072B2";
 constexpr const char* kReferenceColor = "#C8C8C8";
 constexpr const char* kMinorColors[] = {"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00"};
 constexpr int kDrawnSteps = 50;    // points from zero to the amplitude
@@ -157,7 +157,7 @@ render::Panels empty_grid(const KesTests& tests, const KesProtocol& p, const std
   const double moment = kMilli * kHeadroom * largest_moment(tests.reference);
   grid.x = {"curvature [1/m]", false, -1.08 * p.amplitude, 1.08 * p.amplitude};
   grid.y = {"moment per width [mN]", false, -moment, moment};
-  grid.columns = tests.results.size() > 4 ? (tests.results.size() + 2) / 3 : tests.results.size();
+  grid.columns = static_cast<int>(std::min<std::size_t>(3, tests.results.size()));  // wide enough to be read
   return grid;
 }
 
@@ -166,14 +166,14 @@ render::Panels loops(const KesTests& tests, const KesProtocol& p) {
   grid.subtitle = "from rest, then " + std::to_string(p.cycles) + " cycles" +
                   fmt::format(" to ±{:.4g}/m", p.amplitude) + fmt::format(" at {:.4g}/(m s);", p.rate) +
                   fmt::format(" B from {:.4g}", p.slope_from) + fmt::format(" to {:.4g}/m,", p.slope_to) +
-                  fmt::format(" 2HB at {:.4g}/m.", p.width_at) + "  Blue: the law, grey: prandtl";
+                  fmt::format(" 2HB at {:.4g}/m.", p.width_at) + "  In colour: the law, grey: prandtl";
   for (const KesResult& result : tests.results) {
     render::Panel panel{result.law,
                         {},
                         readings(result.test.reading, tests.fabric.bending.faces),
                         remarks(result, grid.y.high)};
     panel.series = {whole_walk(tests.reference, p.steps, kReferenceColor, 5),
-                    whole_walk(result.test, p.steps, kLawColor, 1.8)};
+                    whole_walk(result.test, p.steps, render::hex(color_of_law(result.law)), 1.8)};
     grid.panels.push_back(panel);
   }
   return grid;

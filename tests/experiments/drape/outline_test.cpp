@@ -41,6 +41,16 @@ Outline sampled(const Radius& radius) {
   return outline;
 }
 
+TEST(Outlines, OverlapByTheAreaOfBothOverThatOfEither) {
+  const Outline small = sampled(circle(0.1)), large = sampled(circle(0.12));
+  EXPECT_NEAR(overlap(small, large), std::pow(0.1 / 0.12, 2), kRounding);
+  EXPECT_EQ(overlap(large, small), overlap(small, large));
+  EXPECT_EQ(overlap(small, small), 1);
+  // Two lobes beside each other share what lies within both.
+  const Outline along = sampled(ellipse(0.14, 0.1)), across = sampled(ellipse(0.1, 0.14));
+  EXPECT_LT(overlap(along, across), 0.8);
+}
+
 // The rim of a draped cloth through `corners` points of the shape, at heights that must not matter, and
 // spokes from its middle to them.
 struct RoundSpecimen {

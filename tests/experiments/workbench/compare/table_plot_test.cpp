@@ -48,5 +48,29 @@ TEST_F(Plots, NameManyUnitedLinesBelowTheTitle) {
   EXPECT_TRUE(says(svg, "as linear: pabst, bridson, spring, grinspun-edit"));
 }
 
+// Amplitudes fall to a quarter at t = 3; at half the step they are 2 higher there.
+TEST_F(Plots, HaveBandsOfHalfTheStepAndAMarkAtTheKnee) {
+  ChildRun& column = columns_.back();
+  column.manifest->metrics.set("decay_knee_fraction", 0.5);
+  std::ofstream(column.folder / "turns.csv") << "time,amplitude\n1,40\n2,30\n3,10\n";
+  fs::create_directories(column.folder / "errors/step");
+  std::ofstream(column.folder / "errors/step/turns.csv") << "time,amplitude\n1,40\n2,30\n3,12\n";
+  ExperimentRun run({"compare", "hysteron compare", {}, {}}, setup_in(folder_.path() / "out"));
+  draw(run,
+       TablePlot{"plot_decay",
+                 {"Swing", {"time"}, {"amplitude"}},
+                 "turns.csv",
+                 "time",
+                 "amplitude",
+                 render::Series::Style::line,
+                 1,
+                 "decay_knee_fraction"},
+       {column});
+  run.finish();
+  const std::string svg = file_content(folder_.path() / "out/plot_decay.svg");
+  EXPECT_TRUE(says(svg, "bands: the change by half the step"));
+  EXPECT_TRUE(says(svg, ">knee<"));
+}
+
 }  // namespace
 }  // namespace hysteron::experiments
