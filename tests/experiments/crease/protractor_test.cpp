@@ -91,7 +91,7 @@ TEST_F(Protractor, DrawsLimbsAtTheAngleThatItPrints) {
     render::write_plot(folder_.file("p"), plot);
     const render::Image image = render::read_png(folder_.file("p.png"));
     const auto [near_dot, far_dot] = red_dots(image);
-    constexpr double kReach = 60;  // within a limb [pixels]
+    constexpr double kReach = 24;  // within a limb and clear of the arc [pixels]
     const double turn =
         std::remainder(fitted_heading(image, far_dot, kReach) - fitted_heading(image, near_dot, kReach), 180);
     // Axes have no sense: a turn of the strip by t is one by t - 180 degrees.
