@@ -255,8 +255,9 @@ void crease_once(const CommandLine& line) {
   if (choice.release == "quick") let_go_quickly(setup.scene);
   const bool pressed = choice.fold == "plate";
   const double plate = !pressed                ? 0.0
-                       : setup.options.explain ? 2 * setup.scene.fabric.thickness
-                                               : loaded_plate(setup.scene, choice);
+                       : setup.options.explain || Run::only_checks_requests
+                           ? 2 * setup.scene.fabric.thickness  // nothing is pressed
+                           : loaded_plate(setup.scene, choice);
   Crease crease = pressed                ? creased(setup.scene, choice, plate)
                   : choice.fold == "rod" ? wrapped(setup.scene, choice)
                                          : pleated(setup.scene, choice);

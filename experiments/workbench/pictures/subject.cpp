@@ -75,6 +75,7 @@ class ReferenceRun {
       if (const Manifest manifest = checked_manifest(json, file); manifest.frames) {
         for (const Frames::Instant& instant : manifest.frames->instants) time_.push_back(instant.time);
         if (manifest.keys) step_ = manifest.number("step");
+        rests_ = manifest.metrics["settled"].is(true);
       }
     std::error_code ignored;
     if (time_.empty() || !fs::exists(folder_ / "mesh" / "0000.ply", ignored))
@@ -93,10 +94,12 @@ class ReferenceRun {
   }
 
   // True if one of its instants is that of `time` [s] of a run with steps of `step` [s]: both runs record the
-  // step nearest to an instant, so that they agree to half of both.
+  // step nearest to an instant, so that they agree to half of both.  A run that has come to rest stays at its last
+  // instant.
   bool has_instant(double time, double step) const {
     constexpr double kRounding = 1e-9;  // rounding in sums of steps [s]
-    return std::abs(time_[nearest(time)] - time) <= (step + step_) / 2 + kRounding;
+    return (rests_ && time > time_.back()) ||
+           std::abs(time_[nearest(time)] - time) <= (step + step_) / 2 + kRounding;
   }
 
   // Returns one curvature per vertex [1/m], at that run's instant nearest to `time` [s].  Throws as check()
@@ -127,6 +130,7 @@ class ReferenceRun {
   fs::path folder_;
   std::vector<double> time_;  // times of its instants [s]
   double step_ = 0;           // its time step [s]; 0: unknown
+  bool rests_ = false;        // it has ended at rest
 };
 
 class SimulatedSubject : public Subject {

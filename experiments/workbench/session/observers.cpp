@@ -217,15 +217,14 @@ class Folds : public Observer {
     session.run().metric("sharp_edges_percent", 100 * largest_);
     if (largest_ < kMany) return;
     session.run().warn(fmt::format(
-        "up to {:.1f} % of the edges were folded by more than {:.1f} rad, where bending is more than 2.5 % "
-        "too soft: take more triangles",
+        "up to {:.1f} % of the edges were folded by more than {:.1f} rad, where triangles are coarse for the "
+        "fold and bending is off by some percent: take more triangles",
         100 * largest_, kSharp));
   }
   void serialise(Archive& archive) override { archive(largest_); }
 
  private:
-  // An edge folded by an angle of 0.25 rad is 0.6 % too soft in the `shape` element, by 0.5 rad 2.5 %, by 1
-  // rad 9 %.
+  // Facets that lie oblique to a fold of this angle an edge [rad] tilt along it (docs/limits.md, sharp folds).
   static constexpr double kSharp = 0.5;
 
   const ClothMesh& mesh_;

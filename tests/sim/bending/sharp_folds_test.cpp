@@ -1,0 +1,82 @@
+// What a fold costs that is sharp for its triangles: facets with vertices on a cylinder tilt along its axis unless an
+// edge lies along it, and their bending is too soft by two thirds of the mean square of that tilt.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "sim/bending/curvature_operator.h"
+#include "sim/mesh/cloth_mesh.h"
+
+namespace hysteron {
+namespace {
+
+constexpr double kSide = 0.2;  // of the cloth [m]
+constexpr int kTriangles = 2000;
+
+// Positions on a cylinder along y whose curvature along x is `curvature` [1/m], lengths kept.
+std::vector<Eigen::Vector3d> wrapped(const ClothMesh& mesh, double curvature) {
+  std::vector<Eigen::Vector3d> x;
+  for (const Eigen::Vector3d& p : mesh.rest)
+    x.emplace_back(std::sin(curvature * p.x()) / curvature, p.y(),
+                   (1 - std::cos(curvature * p.x())) / curvature);
+  return x;
+}
+
+// Returns the tilt of a facet along the cylinder's axis [rad]: curvature times the product of its sides' extents along
+// the bend over four areas.
+double tilt(const ClothMesh& mesh, int face, double curvature) {
+  const auto at = mesh.corners(face);
+  double product = 1;
+  for (int k = 0; k < 3; ++k) product *= at[(k + 1) % 3].x() - at[k].x();
+  return curvature * product / (4 * mesh.area[face]);
+}
+
+bool is_inner(const ClothMesh& mesh, int face) {
+  constexpr double kBorder = 0.2;  // of the side; the free edges' projection ends there
+  for (const Eigen::Vector3d& p : mesh.corners(face))
+    for (const double c : {p.x(), p.y()})
+      if (c < kBorder * kSide || c > (1 - kBorder) * kSide) return false;
+  return true;
+}
+
+struct Softness {
+  double measured, predicted;  // relative error of the bending energy
+};
+
+Softness softness(MeshFamily family, unsigned seed, double angle) {
+  const ClothMesh mesh = make_rectangle(kSide, kSide, kTriangles, family, seed);
+  const CurvatureOperator op = make_shape_operator(mesh, std::vector<char>(mesh.vertices()));
+  const double side = std::sqrt(2 * kSide * kSide / mesh.faces()), curvature = angle / side;
+  const std::vector<double> theta = hinge_angles(mesh, wrapped(mesh, curvature));
+  double energy = 0, area = 0, tilts = 0;
+  for (int f = 0; f < mesh.faces(); ++f) {
+    if (!is_inner(mesh, f)) continue;
+    Eigen::Vector3d s = Eigen::Vector3d::Zero();
+    for (int j = op.hinge.start[f]; j < op.hinge.start[f + 1]; ++j)
+      for (int k = 0; k < 3; ++k) s[k] += op.coefficient[3 * j + k] * theta[op.hinge.item[j]];
+    energy += op.area[f] * s.squaredNorm();
+    area += op.area[f];
+    tilts += op.area[f] * std::pow(tilt(mesh, f, curvature), 2);
+  }
+  return {energy / (curvature * curvature * area) - 1, -2.0 / 3 * tilts / area};
+}
+
+TEST(SharpFolds, CostNothingWhereEdgesLieAlongTheAxis) {
+  for (const double angle : {0.25, 0.5, 1.0})
+    EXPECT_NEAR(softness(MeshFamily::aligned, 1, angle).measured, 0, 1e-9) << angle;
+}
+
+// To fourth order in the angle; chords that are shorter than arcs add up to a fifth.
+TEST(SharpFolds, CostTwoThirdsOfTheFacetsMeanSquareTiltElsewhere) {
+  constexpr double kAngle = 0.25;
+  for (const unsigned seed : {1u, 2u, 3u}) {
+    const Softness random = softness(MeshFamily::random, seed, kAngle);
+    EXPECT_LT(random.predicted, 0);
+    EXPECT_NEAR(random.measured / random.predicted, 1, 0.35) << random.measured << " " << random.predicted;
+    const double twice = softness(MeshFamily::random, seed, 2 * kAngle).measured;
+    EXPECT_NEAR(twice / random.measured, 4, 0.6);
+  }
+}
+
+}  // namespace
+}  // namespace hysteron
