@@ -32,4 +32,4 @@ check() {
 }
 export -f check
 export build
-printf '%s\n' "${tests[@]}" | xargs -P "$(nproc)" -I{} bash -c 'check {}'
+printf '%s\n' "${tests[@]}" | xargs -P "$(nproc)" -I{} bash -c 'check {}' || exit 1
