@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # tests/sanitizers.sh [--clang] [TEST...]: tests of the simulation with AddressSanitizer and UndefinedBehaviorSanitizer,
-# built by the preset asan in build-asan/, or by clang++ in build-asan-clang/ (Debian: clang libclang-rt-14-dev
-# libomp-14-dev).  TEST is a program of tests/CMakeLists.txt; unless named, all of those below sim/.  GTEST_FILTER chooses
-# among their tests.  Exits 1 where one fails or a sanitizer finds something.
+# built by the preset asan in build-asan/, or by clang++, in half the time, in build-asan-clang/ (Debian: clang
+# libclang-rt-14-dev libomp-14-dev).  TEST is a program of tests/CMakeLists.txt; unless named, all of those below sim/.
+# GTEST_FILTER chooses among their tests.  Exits 1 where one fails or a sanitizer finds something.
 set -euo pipefail
 cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.."
 
