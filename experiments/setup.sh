@@ -135,9 +135,9 @@ install_missing() {
 
 # configure [CMAKE_OPTION...] keeps the options of an existing build folder unless they are named here.
 configure() {
-  local generator=()
-  [[ -f $build_folder/CMakeCache.txt ]] || generator=(-G Ninja -DCMAKE_BUILD_TYPE=Release)
-  logged "Configuring" cmake -S "$root" -B "$build_folder" "${generator[@]}" "$@"
+  local preset=()
+  [[ -f $build_folder/CMakeCache.txt ]] || preset=(--preset release)
+  logged "Configuring" cmake -S "$root" -B "$build_folder" "${preset[@]}" "$@"
 }
 
 build() { logged "Building" cmake --build "$build_folder" --parallel "$(nproc)" "$@"; }

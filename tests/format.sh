@@ -1,14 +1,27 @@
 #!/usr/bin/env bash
-# Fails if a source is not formatted as .clang-format says; 77 (skipped) without clang-format 14, because other
-# versions format differently.  tests/format.sh --fix rewrites the files.
+# tests/format.sh [--install] [--fix]: fails if a source is not formatted as .clang-format says; --fix rewrites the files.
+# Other versions than clang-format 14 format differently (19, which Debian 13 has, a file in twenty): 77 (skipped) without
+# it.  --install gets it from pip's index into build-format/ where the system has none.
 set -euo pipefail
 cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.."
 
-for program in clang-format-14 clang-format none; do
-  [[ $("$program" --version 2>/dev/null) == *"version 14."* ]] && break
-done
+wanted=14.0.6
+find_program() {
+  for program in clang-format-14 clang-format build-format/bin/clang-format none; do
+    if [[ $("$program" --version 2>/dev/null) == *"version ${wanted%%.*}."* ]]; then break; fi
+  done
+}
+find_program
+if [[ ${1:-} == --install ]]; then
+  shift
+  if [[ $program == none ]]; then
+    python3 -m venv build-format
+    build-format/bin/pip install --quiet "clang-format==$wanted"
+    find_program
+  fi
+fi
 if [[ $program == none ]]; then
-  echo "clang-format 14 is not installed: style not checked"
+  echo "clang-format ${wanted%%.*} is not installed: style not checked (tests/format.sh --install gets it)"
   exit 77
 fi
 

@@ -123,7 +123,7 @@ TEST_P(CrumpledCloth, PullsWithMinusTheGradientOfItsIncrementalPotential) {
     exact -= f[i].dot(along[i]);
   }
   ASSERT_NE(exact, 0);
-  const auto error = [&](double h) {
+  const auto error = [&, &element = element, &law = law](double h) {
     Positions plus = x, minus = x;
     for (std::size_t i = 0; i < x.size(); ++i) {
       plus[i] += h * along[i];

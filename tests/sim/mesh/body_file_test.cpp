@@ -221,7 +221,7 @@ TEST_F(BodySequence, OfADamagedPointCacheEndsInAnErrorAtMost) {
       damaged[at] = static_cast<char>(damaged[at] ^ 0x80);
       for (const std::string& bytes : {whole.substr(0, at), damaged}) {
         folder_.write(name, bytes);
-        refusals += refusal([&] { read_point_cache(folder_.file(name)); }) != test::kAccepted;
+        refusals += refusal([&, &name = name] { read_point_cache(folder_.file(name)); }) != test::kAccepted;
       }
     }
   EXPECT_GE(refusals, 128 + 112) << "each that is cut off";

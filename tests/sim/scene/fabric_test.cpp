@@ -209,7 +209,8 @@ TEST(FabricFiles, ReadAPublishedDrapeInPercentOfATesterThatThereIs) {
                                        {"{value = 829, unit = \"%\"}", "is no drape's"},
                                        {"{value = 82.9, unit = \"m\"}", "must have \"%\""},
                                        {"{value = 82.9, tester = \"jiss\"}", "must be jis | iso9073"}})
-    EXPECT_NE(test::refusal([&] { drape(number); }).find(reason), std::string::npos) << number;
+    EXPECT_NE(test::refusal([&, &number = number] { drape(number); }).find(reason), std::string::npos)
+        << number;
 }
 
 // kMinimal without b1 and k0, which follow from stops.
