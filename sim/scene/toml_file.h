@@ -24,9 +24,8 @@ struct TomlFault {
 
 // Finds the first place where a text breaks TOML in a way that toml++ only asserts, or that overflows its
 // recursion:
-//  - a letter beyond ASCII behind a backslash, or outside of texts and comments, where the library's tests
-//  for
-//    white space are undefined;
+//  - a letter beyond ASCII behind a backslash, or outside of texts and comments: the library's tests for
+//    white space do not expect it;
 //  - brackets outside of texts and comments that do not match;
 //  - a header that is not "[a.b]" or "[[a.b]]" in a line of its own;
 //  - a text that begins in the middle of a key or a value: 1"a";
