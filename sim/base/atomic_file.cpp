@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 // Returns the file that is to be replaced: a link is followed and keeps its name.  Devices and pipes are
 // never replaced, nor is what /dev/stdout leads to, even if that is a file.
 std::string plain_file(const std::string& target) {
-  constexpr int kMaxLinks = 40;  // as many as the kernel follows
+  constexpr int kMaxLinks = 40;  // the kernel follows no more
   std::error_code failure;
   bool plain = true;
   fs::path file = target;

@@ -77,7 +77,7 @@ class Rows {
     }
     return false;
   }
-  // The line at which the row that was read last begins.
+  // Returns the line at which the row that was read last begins.
   int line() const { return line_; }
 
  private:

@@ -44,7 +44,7 @@ struct Column {
 struct Table {
   std::vector<std::string> head{};
   std::vector<std::vector<std::string>> rows{};  // each as long as the head
-  std::vector<int> lines{};                      // where each row stands in the file it was read from
+  std::vector<int> lines{};                      // the line of each row in the file it was read from
   std::string file{}, reader{};  // the file that it was read from, and on whose behalf ("law")
   // The marks among "," and "." that may stand before decimals or between thousands: "1,000" is then not a
   // number.

@@ -18,7 +18,7 @@ struct Cycles {
   double end_of(int cycle) const { return start + cycle * length; }  // the first is 1 [s]
   // Returns how many cycles are over at `time` [s]; negative before them.
   double over(double time) const {
-    constexpr double kRounding = 1e-9;  // of a cycle, by which sums of steps miss its end
+    constexpr double kRounding = 1e-9;  // share of a cycle by which sums of steps miss its end
     return length > 0 ? std::floor((time - start) / length + kRounding) : -1;
   }
   // Returns the cycle that `time` [s] is in, the first being 1; 0 before and after them.

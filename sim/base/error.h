@@ -14,11 +14,11 @@ namespace hysteron {
 // the message.
 class Error : public std::runtime_error {
  public:
-  // The machine failed (file, disk, GPU, renderer): exit code 1.
+  // Makes an error of the machine (file, disk, GPU, renderer): exit code 1.
   static Error system(const std::string& message) { return Error(1, message); }
-  // The request is wrong (unknown key, wrong type, out of range, impossible mesh): exit code 2.
+  // Makes an error of the request (unknown key, wrong type, out of range, impossible mesh): exit code 2.
   static Error invalid_input(const std::string& message) { return Error(2, message); }
-  // The run could not go on (no convergence, no feasible state): exit code 3.
+  // Makes an error of a run that cannot go on (no convergence, no feasible state): exit code 3.
   static Error simulation(const std::string& message) { return Error(3, message); }
 
   // Returns the error with a key and the value that it was given: "fabric.b2", "-1".
@@ -41,7 +41,7 @@ class Error : public std::runtime_error {
 
   int exit_code() const { return exit_code_; }
   const std::string& key() const { return key_; }                // "" if no key is to blame
-  const std::string& value() const { return value_; }            // as text, without its unit
+  const std::string& value() const { return value_; }            // text without its unit
   const std::string& experiment() const { return experiment_; }  // "" if its message names none
 
  private:

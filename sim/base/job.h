@@ -13,8 +13,8 @@
 namespace hysteron {
 
 struct FileRead {
-  std::filesystem::path file;  // as it was named
-  std::uint64_t hash;          // of its bytes when it was first read
+  std::filesystem::path file;  // its name as the user gave it
+  std::uint64_t hash;          // hash of its bytes when it was first read
 };
 
 // The job of a thread.  A process has one, or one for each of the runs that share it.  Every file that a user

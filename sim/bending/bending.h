@@ -97,7 +97,7 @@ class Bending {
   int elements() const { return elements_; }
   const LawLoop<Real, Device>& law() const { return *law_; }
   int vertices() const { return static_cast<int>(vertex_start_.size()) - 1; }
-  std::size_t bytes() const;  // without the law's history
+  std::size_t bytes() const;  // does not count the law's history
   std::size_t force_bytes() const { return total_bytes(vertex_start_, vertex_item_, force_); }  // in forces()
 
   // Asks for the hinges' rates (angle - reference) * inverse_time.
@@ -140,13 +140,13 @@ class Bending {
   Buffer<Eigen::Vector4i, Device> corner_;  // p0, p1, p2, p3 of each hinge
   Buffer<int, Device> vertex_start_, vertex_item_;
   Buffer<Real, Device> angle_;        // continued angle minus rest angle [rad]
-  Buffer<Real, Device> rate_;         // of the angles [rad/s]; empty without viscosity
+  Buffer<Real, Device> rate_;         // rates of the angles [rad/s]; empty without viscosity
   Buffer<double, Device> viscous_;    // lost per element [J]; empty without viscosity
   Buffer<Real, Device> gradient_;     // 8 Reals per hinge: g0, g1, t0, t1
   Buffer<Real, Device> moment_area_;  // A M, D per element [N m^2]
   Buffer<Vec3<Real>, Device> force_;  // 4 per hinge [N]
   Buffer<double, Device> energy_;     // per element, scratch of measurements
-  Buffer<double, Device> taken_;      // by commands, per element [J]; empty until the first
+  Buffer<double, Device> taken_;      // energy taken by commands, per element [J]; empty until the first
   // State of implicit steps, empty before the first one.
   StepFormula formula_;
   Buffer<Real, Device> trial_angle_, tangent_, hinge_stiffness_;

@@ -19,7 +19,8 @@ struct CurvatureOperator {
   std::vector<double> rest_angle;   // theta0 per hinge [rad]
   Adjacency hinge;                  // rows: elements; items: hinges
   std::vector<double> coefficient;  // D numbers for each item [1/m], component by component within an item
-  // The same map by columns (rows: hinges; items: elements), so that torques are gathered in a fixed order.
+  // This is the same map by columns (rows: hinges; items: elements), so that torques are gathered in a fixed
+  // order.
   Adjacency element;
   std::vector<double> transposed;  // D numbers for each item of `element` [1/m]
   // Laws see the geometric curvatures times these factors, D per element, where a fabric bends differently

@@ -23,7 +23,7 @@ struct OperatorView {
   const Real* coefficient;          // D per item [1/m]
   const Real* direction = nullptr;  // 2 per element (CurvatureOperator); null: elements have none
   const Real* elastic = nullptr;    // D per element (CurvatureOperator) [N m]; null: none beside the law
-  std::size_t bytes = 0;            // of these arrays and a number per hinge; 0 where nobody asks
+  std::size_t bytes = 0;            // bytes of these arrays and a number per hinge; 0: not counted
 
   template <int D>
   HYST_HD Vec<Real, D> curvature(int i, const Real* angle_change) const {
@@ -45,8 +45,9 @@ struct OperatorView {
 // Measures of a law.  One loop serves all of them: each loop would take nvcc as long as a step of the law.
 enum class LawMeasure {
   stored_energy,       // recoverable [J]
-  residual_curvature,  // with zero moment on the recovery branch [1/m]
-  // How far friction or plasticity is used, from 0 (not) to 1 (slides, yields); 0 for laws without history.
+  residual_curvature,  // curvature of zero moment on the recovery branch [1/m]
+  // This says how far friction or plasticity is used, from 0 (not) to 1 (slides, yields); 0 for laws without
+  // history.
   slip
 };
 

@@ -135,8 +135,8 @@ class BodyVertices {
   double thickness_, deepest_ = 0;           // [m]
   std::vector<Vec3<Real>> end_;              // the scene's positions at end_time_ [m]
   double end_time_ = 0;                      // of the last stage [s]
-  // Of bodies alone [m]: they go start + fraction way, and began the stage at `from`; `dent` is how far they
-  // are from the scene's positions, `behind` how far they will be at the end of the stage.
+  // These are of bodies alone [m]: they go start + fraction way, and began the stage at `from`; `dent` is how
+  // far they are from the scene's positions, `behind` how far they will be at the end of the stage.
   Buffer<Vec3<Real>, Device> from_, start_, way_, dent_, behind_;
   GrowingBuffer<Vec3<Real>, Device> recede_;  // four per pair
   GrowingBuffer<Real, Device> length_;

@@ -34,7 +34,7 @@ struct Sweep {
   const Vec3<Real>*from, *direction;
   Vec3<Real> mean;
   Real step_length;
-  Real margin;  // by which boxes reach farther [m]
+  Real margin;  // boxes reach farther by this [m]
 
   HYST_HD void include(Box<Real>& box, int vertex) const {
     box.include(from[vertex]);

@@ -55,16 +55,16 @@ HYST_HD VertexTouch<Real> vertex_touch(const ObstacleSet<Real>& set, int o, cons
 // The forces of all obstacles on one contact point.
 template <class Real, int kCorners>
 struct Bearing {
-  double energy = 0;                          // of the shells [J]
-  Vec3<Real> force[kCorners];                 // of the shells on the corners [N]
-  Mat3<Real> stiffness = Mat3<Real>::Zero();  // of the shells at the points [N/m]
+  double energy = 0;                          // energy of the shells [J]
+  Vec3<Real> force[kCorners];                 // force of the shells on each corner [N]
+  Mat3<Real> stiffness = Mat3<Real>::Zero();  // stiffness of the shells at the points [N/m]
   bool inside = false;                        // true inside a solid
   // The following describe the obstacle that presses most.
   int index = -1;  // in the scene; -1: none
-  Real limit = 0;  // of friction [N]
+  Real limit = 0;  // limit of friction [N]
   Vec3<Real> normal = Vec3<Real>::Zero();
-  Vec3<Real> motion = Vec3<Real>::Zero();                    // of the obstacle's point over the step [m]
-  Vec<Real, kCorners> weight = Vec<Real, kCorners>::Zero();  // of the corners
+  Vec3<Real> motion = Vec3<Real>::Zero();  // motion of the obstacle's point over the step [m]
+  Vec<Real, kCorners> weight = Vec<Real, kCorners>::Zero();  // weights of the corners
 };
 
 template <class Real, class Points>

@@ -140,7 +140,7 @@ class SelfContact {
   SelfPairs<Real, Device> pairs_;
   bool ready_ = false, pending_ = false, stiffens_parallel_ = false;
   Real reach_ = 0;
-  double stored_ = 0, loss_ = 0;  // of friction [J]
+  double stored_ = 0, loss_ = 0;  // energies of friction [J]
   double body_work_ = 0;          // [J]
   Buffer<Vec3<Real>, Device> center_;
   GrowingBuffer<Real, Device> step_length_;

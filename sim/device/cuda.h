@@ -29,7 +29,7 @@ struct Cuda {
   CudaBatch* batch = nullptr;                   // it launches the loops; null: each is launched at once
   cudaStream_t stream = nullptr;
   std::size_t bytes = 0;
-  double* partial = nullptr;  // of for_each_sum(), one slot per block and term
+  double* partial = nullptr;  // scratch of for_each_sum(), one slot per block and term
   int partial_size = 0;
   unsigned* arrived = nullptr;  // number of blocks that have delivered their partial sums
   void* staging = nullptr;      // pinned memory of the host

@@ -26,7 +26,7 @@ template <int kThreads>
 struct LanesOfWarp {
   static constexpr int kWarp = 32, kCount = kThreads, kRows = kWarp / kThreads;
   HYST_HD int index() const { return in_warp() % kCount; }
-  // Among the warp's rows; kRows: none.
+  // Returns the index among the warp's rows; kRows: none.
   HYST_HD int slot() const { return kRows == 1 ? 0 : in_warp() / kCount; }
   HYST_HD bool leads() const { return index() == 0; }
   // Returns the value of the lane `by` places further; beyond the last it is arbitrary.

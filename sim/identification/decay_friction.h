@@ -22,10 +22,10 @@ struct DecaySeries {
 DecaySeries read_decay(const std::filesystem::path& file, const std::string& reader);
 
 struct DecayQuestion {
-  double length = 0;                      // of the strip below the clamp [m]
+  double length = 0;                      // length of the strip below the clamp [m]
   double density = 0;                     // [kg/m^2]
   double rigidity = 0;                    // B [N m]
-  double noise = 5e-4;                    // of the amplitudes [m]
+  double noise = 5e-4;                    // noise of the amplitudes [m]
   std::optional<FrictionForm> form = {};  // none: parabola_friction()
 };
 

@@ -75,9 +75,9 @@ struct FabBendingQuestion {
 };
 
 struct FabBending : FabStops {
-  double friction_error = kNone;      // of law.friction() [N]
+  double friction_error = kNone;      // standard error of law.friction() [N]
   double first = kNone;               // for a decay: its first amplitude [m]
-  std::string form_name;              // of FrictionForm
+  std::string form_name;              // name of the FrictionForm
   Eigen::VectorXd form, form_errors;  // parameters of the friction's form and their standard errors
   std::vector<double> zero_errors;    // standard errors [N/m]
   double noise = kNone;               // of the fitted data: the strip's force [N], or amplitudes [m]
@@ -97,7 +97,7 @@ struct FabBending : FabStops {
 // Identifies from loops of one direction that bend.  Throws Error::invalid_input if a cycle is missing.
 FabBending identify_fab_bending(const std::vector<FabLoops>& loops, const FabBendingQuestion& question);
 
-// The same loops fitted with another form of friction.
+// A fit of the same loops with another form of friction.
 struct FabForm {
   std::string name;
   FabBending found;

@@ -99,7 +99,7 @@ Identification three_numbers(const FabIdentification& found) {
   numbers.law = "stops";
   numbers.b2 = {b.law.spring, b.spring_error, static_cast<bool>(b.determined[0]),
                 "elasticity beside the stops, identified from " + found.from};
-  if (b.spring_error == 0)  // of a free vibration, whose rigidity is given
+  if (b.spring_error == 0)  // a free vibration is given its rigidity
     numbers.b2 = {
         b.law.spring, kNone, true,
         "the given B, taken as exact, without what KES-FB2 reads of the stops, which are identified "

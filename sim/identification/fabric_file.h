@@ -12,7 +12,7 @@ namespace hysteron {
 
 // The content of a fabric's file besides the fitted numbers.
 struct FabricNotes {
-  std::string name;  // of the fabric
+  std::string name;  // name of the fabric
   std::string from;  // one line on the data from which it was identified
   // [kg/m^2], [m]; none: another fabric's, marked as assumed.
   std::optional<double> density, thickness;

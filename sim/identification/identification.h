@@ -27,7 +27,7 @@ struct Identification {
   std::string law;  // the law with which the numbers were identified
   Estimate b1, b2, k0;
   std::vector<double> curvature, moment, model;         // data [1/m], [N], and the law's moments there [N]
-  int iterations = 0;                                   // of the solver; 0: closed form
+  int iterations = 0;                                   // iterations of the solver; 0: closed form
   std::vector<std::pair<std::string, double>> further;  // more metrics, names with units
   std::vector<std::string> statements;                  // plain sentences on what the data say and do not say
 

@@ -54,9 +54,9 @@ double neighbour_correlation(const Eigen::VectorXd& residuals);
 double rows_as_one(double correlation, int rows);
 
 struct Covariance {
-  Eigen::MatrixXd matrix;      // of the parameters, from the scatter of the residuals
+  Eigen::MatrixXd matrix;      // covariance of the parameters, from the scatter of the residuals
   Eigen::MatrixXd with_floor;  // at least that of noise kBestAccuracy: decides what is determined
-  double correlation = 0;      // of neighbouring residuals
+  double correlation = 0;      // correlation of neighbouring residuals
   double widening = 1;         // factor on standard errors for that correlation; included above
 };
 

@@ -12,7 +12,7 @@ namespace {
 using Eigen::VectorXd;
 
 constexpr double kTwoThirds = 2.0 / 3;
-constexpr int kMostNewton = 60;       // of iterations, which converge from one side
+constexpr int kMostNewton = 60;       // most iterations, which converge from one side
 constexpr double kConverged = 1e-13;  // relative change of the unknown
 
 // These are G of the header and its inverse, x >= 1.

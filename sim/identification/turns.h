@@ -30,7 +30,7 @@ struct SoughtTurn {
 // law turns there: it comes from rest, or (`cycling`) from the last row.
 std::vector<SoughtTurn> sought_turns(const MomentSeries& series, bool cycling, double step);
 
-// The largest step beside a turn [1/m]; 0 without turns.
+// Returns the largest step beside a turn [1/m]; 0 without turns.
 double largest_step(const std::vector<SoughtTurn>& turns);
 
 // The rows that drive a law, measured ones and turns between them.

@@ -21,7 +21,7 @@ template <class Real>
 struct BlockRowsView {
   int rows;            // n
   const int* row_ptr;  // n + 1 starts: the off-diagonal blocks of row i are row_ptr[i] ... row_ptr[i+1]-1
-  const int* col;      // of each off-diagonal block
+  const int* col;      // the column of each off-diagonal block
   Mat3<Real>* off_diagonal;  // [N/m], as are the diagonal ones
   Mat3<Real>* diagonal;      // n blocks
 

@@ -13,7 +13,7 @@ struct Dissection {
   std::vector<int> columns;  // number of columns of each front, in that order
 };
 
-// How often nodes are divided; the separators of the first `joined` divisions form one front.
+// `depth` is how often nodes are divided; the separators of the first `joined` divisions form one front.
 struct DissectionShape {
   int depth = 0, joined = 0;
 };
@@ -36,15 +36,15 @@ struct TiledFront {
 
 // The rough cost on an NVIDIA H100 [us]: few levels and few tiles in sequence are fast.
 struct TiledCost {
-  double renewal = 0;      // of a factorisation
-  double application = 0;  // of an application to a vector
+  double renewal = 0;      // cost of a factorisation
+  double application = 0;  // cost of an application to a vector
 };
 
 struct TiledPlan {
   Elimination elimination;
   std::vector<TiledFront> front;        // in the order of elimination.front
   std::vector<std::vector<int>> level;  // the fronts of each level, whose numbers are contiguous
-  std::size_t numbers = 0;              // of all fronts
+  std::size_t numbers = 0;              // how many numbers all fronts have
   int sources = 0;
   TiledCost cost;
 };

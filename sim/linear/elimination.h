@@ -64,7 +64,7 @@ struct Front {
   int place_start;             // in Elimination::place
   int block_start, block_end;  // in Elimination::block
   int parent;                  // the front that receives its update; -1: none
-  int children;                // that many of the last waiting fronts are its children
+  int children;                // its children are this many of the last waiting fronts
   std::size_t panel;           // start of its 3 rows x 3 pivots numbers in the factor
 
   int updated() const { return rows - pivots; }
@@ -83,7 +83,7 @@ struct Elimination {
   std::vector<int> row;    // for each front: the positions of its rows in the order
   std::vector<int> place;  // for each front's updated rows: the row of the parent
   std::vector<EnteringBlock> block;
-  std::size_t entries = 0;     // of the factor, including those above pivots
+  std::size_t entries = 0;     // entries of the factor, including those above pivots
   std::size_t stack = 0;       // the most numbers of waiting updates
   double multiplications = 0;  // in one factorisation
 };

@@ -79,7 +79,7 @@ struct RowDown {
   const SolvedRow* row;
   const double* number;
   const int* source;
-  const Real* b;  // as the levels below have left it
+  const Real* b;  // right-hand side after the levels below
   Real* z;
 
   template <class Lanes>

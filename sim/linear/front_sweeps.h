@@ -2,7 +2,7 @@
 // triangle alone.  Sweeping the pivots P of a front makes
 //
 //   P  C^T         -P^-1       .               C P^-1 carries right-hand sides from P's rows to the others,
-//   C   R    ->    C P^-1   R - C P^-1 C^T     R - C P^-1 C^T is what the parent front takes over
+//   C   R    ->    C P^-1   R - C P^-1 C^T     R - C P^-1 C^T is added to the parent front
 //
 // and, where no rows are left, minus the inverse: solves then are products, in which nothing waits.
 #pragma once

@@ -34,9 +34,9 @@ struct FrontChild {
 struct FrontTables {
   std::vector<int> source;  // the unknown of each front's columns; -1: a column of zeros
   std::vector<FrontTerm> term;
-  std::vector<std::vector<RowAbove>> above;      // by level
-  std::vector<std::vector<SolvedRow>> solved;    // by level
-  std::vector<std::vector<FrontOfLevel>> front;  // by level
+  std::vector<std::vector<RowAbove>> above;      // one list per level
+  std::vector<std::vector<SolvedRow>> solved;    // one list per level
+  std::vector<std::vector<FrontOfLevel>> front;  // one list per level
   std::vector<FrontChild> child;
   std::vector<int> child_row;
   std::vector<FrontBlock> block;  // blocks of the matrix's lower triangle

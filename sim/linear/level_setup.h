@@ -45,7 +45,7 @@ struct Coarsening {
   CoarseLevelView<Real> coarse;
   const UpperBlock* upper;
   const Real *plate_off_diagonal, *plate_diagonal;
-  Real rigidity;  // of the added plate
+  Real rigidity;  // rigidity of the added plate
 
   template <class Lanes>
   HYST_HD void operator()(int u, const Lanes& lanes) const {

@@ -26,7 +26,7 @@ struct Tile {
 // The lower triangle of a symmetric matrix in whole tiles.
 struct TiledMatrix {
   double* number;  // row-major
-  int stride;      // of a row
+  int stride;      // length of a row
 
   // Returns a number of tile (i, j), which is the transpose of (j, i).
   __device__ double& at(int i, int j, int row, int column) const {

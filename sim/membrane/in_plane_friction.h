@@ -33,8 +33,7 @@ struct StrainStop {
 // The response of all stops of a triangle or node at a strain.
 template <class Real>
 struct StopsReply {
-  Vec3<Real> stress{0, 0, 0}, tangent{0, 0, 0};  // by component: second Piola-Kirchhoff stress, its
-                                                 // derivative [N/m]
+  Vec3<Real> stress{0, 0, 0}, tangent{0, 0, 0};  // second Piola-Kirchhoff, its derivative [N/m]
   Real stored = 0, lost = 0;                     // at present, and on the way from the accepted state [J/m^2]
 };
 

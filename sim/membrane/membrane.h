@@ -132,7 +132,7 @@ class Membrane {
   std::size_t force_bytes() const {  // bytes that readers of forces() touch
     return total_bytes(vertex_start_, vertex_item_, rest_, deformation_) + faces_.stress_bytes();
   }
-  std::size_t bytes() const;  // without friction's history
+  std::size_t bytes() const;  // does not count friction's history
   std::size_t history_bytes() const {
     return faces_.history_bytes() + (nodes_ ? nodes_->sites.history_bytes() : 0);
   }

@@ -20,8 +20,7 @@
 
 namespace hysteron {
 
-inline constexpr double kMaxTriangleStiffness = 1000;  // the most that triangles keep along warp and weft
-                                                       // [N/m]
+inline constexpr double kMaxTriangleStiffness = 1000;  // triangles keep at most this [N/m]
 
 // The stiffness that acts on strains of triangles, and that on means at nodes (without shear).
 struct MembraneSplit {

@@ -11,7 +11,7 @@
 
 namespace hysteron {
 
-// For ParaView and VTK, meshes with fields: a .vtp file per instant, and a .pvd file that gives each its
+// ParaView and VTK read meshes with fields: a .vtp file per instant, and a .pvd file that gives each its
 // time.
 
 // The values of one field, `components` per vertex or per face.

@@ -42,7 +42,7 @@ struct PlyElement {
 struct PlyHeader {
   bool ascii = false, big_endian = false;
   std::vector<PlyElement> element;
-  std::size_t bytes = 0;  // of the header itself
+  std::size_t bytes = 0;  // bytes of the header itself
 
   // Finds an element, which may be named in singular or plural.
   const PlyElement* find(std::string_view one_name, std::string_view other_name) const {

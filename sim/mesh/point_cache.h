@@ -17,8 +17,8 @@ inline bool names_a_point_cache(const std::filesystem::path& file) {
 struct PointCache {
   std::vector<std::vector<Eigen::Vector3d>> frames;  // of all points each, in the file's unit
   double frames_per_sample = 1;                      // PC2: frames of the animation per sample
-  std::vector<double> time;  // MDD: time of each, from the first one on [s]; empty: they do not ascend,
-                             // or PC2
+  // MDD: the time of each from the first one on [s]; empty for times that do not ascend, and for PC2.
+  std::vector<double> time;
 };
 
 // Reads a cache by its ending: PC2 (3ds Max, Point Cache 2; Blender, Houdini) or MDD (LightWave; Blender,

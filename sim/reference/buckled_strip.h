@@ -34,7 +34,7 @@ struct BuckledStrip {
 
 class BuckledStripTest {
  public:
-  // How the first shape is reached.
+  // The first shape is reached in one of these ways.
   enum class Start {
     virgin,  // bent from straight in one step
     relaxed  // laid slack between the clamps, without friction in the first shape
@@ -47,11 +47,11 @@ class BuckledStripTest {
 
   double distance() const { return distance_; }
   double force() const { return force_; }            // F [N/m]
-  double energy() const;                             // of bending and weight per width [J/m]
+  double energy() const;                             // energy of bending and weight per width [J/m]
   double dissipated() const { return dissipated_; }  // since rest, per width [J/m]
   double peak_curvature() const;                     // largest |K| at present [1/m]
   double bend() const;                               // int |K| ds
-  std::vector<Eigen::Vector2d> line() const;         // of the whole strip, buckled upwards [m]
+  std::vector<Eigen::Vector2d> line() const;         // line of the whole strip, buckled upwards [m]
 
  private:
   struct Trial;

@@ -15,7 +15,7 @@ struct HeavyStrip {
   LawRequest law;
   double rigidity = 1;  // q, rigidity of the strip's direction over the law's: M = sqrt(q) M_law(sqrt(q) K)
   double weight = 1;    // per area, for load 1 [N/m^2]
-  double tilt = 0;      // of the load, from straight down towards the free end [rad]
+  double tilt = 0;      // angle of the load from straight down towards the free end [rad]
   double length = 1;    // [m]
   int segments = 200;   // number of segments, which are shorter towards the clamp
 };
@@ -26,8 +26,8 @@ struct SaggingStrip {
   std::vector<double> arc;  // distance from the clamp of the segments' ends: segments + 1 values [m]
   std::vector<Eigen::Vector2d> line;               // their positions: forward, down [m]
   std::vector<double> angle;                       // their slopes, downward positive [rad]
-  std::vector<double> curvature;                   // of each segment at its middle [1/m]
-  double drop() const { return line.back().y(); }  // of the free end [m]
+  std::vector<double> curvature;                   // curvature of each segment at its middle [1/m]
+  double drop() const { return line.back().y(); }  // drop of the free end [m]
   double chord_angle() const;                      // direction of the free end from the clamp [rad]
 };
 

@@ -44,7 +44,7 @@ enum class TesterUnits { si, fab };
 struct FabRequest {
   std::function<bool(const FabLoops&)> asks_for = {};  // which tests are asked for; none: every test
   std::vector<int> cycles = {};                        // requested cycles, the first being 1; none: all
-  double noise = 0;                                    // of forces of the whole width [N]
+  double noise = 0;                                    // noise of forces of the whole width [N]
 };
 std::vector<FabLoops> read_fab(const std::filesystem::path& file, TesterUnits units,
                                const std::string& reader, const FabRequest& request = {});

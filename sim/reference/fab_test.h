@@ -23,7 +23,7 @@ class StretchedStripTest {
   double energy() const;                   // stored, per width [J/m]
   double dissipated() const { return dissipated_; }  // per width, since the start [J/m]
   bool slack() const { return force_ == 0; }
-  double strain() const { return strain_; }  // of the strip, not of the clamps
+  double strain() const { return strain_; }  // strain of the strip, not of the clamps
 
  private:
   StopsLaw law_;
@@ -45,7 +45,7 @@ struct FabRun {
   BranchForces force;  // per branch of the loops, up to the last one simulated [N/m]
   // The shapes of a strip that bends: at first, and at each branch's end [m].
   std::vector<std::vector<Eigen::Vector2d>> shapes;
-  double work = 0, stored = 0, dissipated = 0;  // by the clamps, from the first distance on [J/m]
+  double work = 0, stored = 0, dissipated = 0;  // since the first distance [J/m]; the clamps' work
   double largest_work = 0;                      // the largest value of `work` on the way [J/m]
   double peak_curvature = 0;                    // [1/m]
 };

@@ -11,7 +11,7 @@
 namespace hysteron {
 
 struct KesProtocol : KesWindow {
-  double rate = 50;   // of curvature [1/(m s)]: 0.5 per cm and second
+  double rate = 50;   // rate of curvature [1/(m s)]: 0.5 per cm and second
   int steps = 20000;  // accepted steps to the amplitude; laws that take time need many to be exact to 1e-4
   int cycles = 3;     // the tester reads the first cycle; the area is that of the last
   bool minor_loops = true;  // adds cycles of smaller amplitudes and partial reversals
@@ -36,7 +36,7 @@ struct KesReading {
   double loop_width = 0;           // 2HB [N]
   double residual = 0;             // curvature at zero moment after release from the amplitude [1/m]
   double residual_by_formula = 0;  // the same in closed form [1/m]; NaN if the law has none
-  double loop_area = 0;            // of the last cycle [J/m^2]
+  double loop_area = 0;            // area of the last cycle's loop [J/m^2]
   double area_change = 0;          // relative change of the area by the last cycle; NaN if there was only one
   KesPair face, back;              // B [N m] and 2HB [N] on the positive and the negative side
 };

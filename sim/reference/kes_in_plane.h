@@ -35,7 +35,7 @@ struct InPlaneProtocol {
   double slope_from = 0.5, slope_to = 2.5;         // G is the slope between these [degree]
   double width_at = 0.5, second_width_at = 5;      // angles at which 2HG and 2HG5 are read [degree]
   double weight = 10 * kGramForcePerCentimetre;    // tension in the shear test [N/m]
-  double largest = 500 * kGramForcePerCentimetre;  // of the tension test [N/m]
+  double largest = 500 * kGramForcePerCentimetre;  // largest tension of the tension test [N/m]
   int steps = 2000;                                // accepted steps from zero to the largest
 };
 

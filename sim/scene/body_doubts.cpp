@@ -12,8 +12,7 @@
 namespace hysteron {
 namespace {
 
-constexpr double kFarthest = 0.2;  // the farthest plausible way of a vertex in a frame, over the body's
-                                   // diagonal
+constexpr double kFarthest = 0.2;  // the farthest way in a frame, over the body's diagonal
 constexpr double kFastest = 50;    // the largest plausible speed [m/s]: that of a whip's tip; limbs reach 20
 
 // Names an obstacle: "obstacle[0], mesh torso.obj".

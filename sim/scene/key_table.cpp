@@ -268,8 +268,7 @@ std::string nearest_name(const std::string& name, const std::vector<std::string>
   std::string nearest;
   std::size_t fewest = std::max<std::size_t>(2, name.size() / 3) + 1;
   for (const std::string& candidate : candidates) {
-    std::vector<std::size_t> edits(candidate.size() + 1);  // a row of the distance table of Levenshtein
-                                                           // (1966)
+    std::vector<std::size_t> edits(candidate.size() + 1);  // a row of distances (Levenshtein 1966)
     for (std::size_t j = 0; j <= candidate.size(); ++j) edits[j] = j;
     for (std::size_t i = 1; i <= name.size(); ++i) {
       std::size_t diagonal = std::exchange(edits[0], i);

@@ -55,8 +55,8 @@ NamedValue named_value(E* value) {
           [](const void* of) { return static_cast<std::size_t>(*static_cast<const E*>(of)); }};
 }
 
-// What a key can point to: a flag, integer, count, number, vector, text, parameters by name, an enumeration,
-// or a list of numbers of any length.
+// A key can point to a flag, integer, count, number, vector, text, parameters by name, an enumeration, or a
+// list of numbers of any length.
 using Parameters = std::map<std::string, std::string>;
 using Numbers = std::vector<double>;
 using Field = std::variant<bool*, int*, unsigned*, double*, Eigen::Vector3d*, std::string*, Parameters*,

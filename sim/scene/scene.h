@@ -36,7 +36,7 @@ constexpr std::array<const char*, 6> names(Integrator) {
   return {"semi-implicit", "implicit", "bdf2", "tr-bdf2", "quasi-static", "explicit"};
 }
 
-// How often semi_implicit solves: with every substep of bending, or once per step as the chapter does.
+// semi_implicit solves with every substep of bending, or once per step as the chapter does.
 enum class ImplicitEvery { substep, step };
 constexpr std::array<const char*, 2> names(ImplicitEvery) { return {"substep", "step"}; }
 
@@ -47,8 +47,8 @@ constexpr std::array<const char*, 4> names(Preconditioning) {
   return {"auto", "multigrid", "cholesky", "block-jacobi"};
 }
 
-// Where the membrane takes its strains along warp and weft: constant takes them from each triangle; nodal
-// takes their means at nodes for the part of the stiffness beyond 1 kN/m (membrane/membrane_nodes.h).
+// The membrane takes its strains along warp and weft from each triangle (constant), or as means at nodes for
+// the part of the stiffness beyond 1 kN/m (nodal; membrane/membrane_nodes.h).
 enum class MembraneElement { constant, nodal };
 constexpr std::array<const char*, 2> names(MembraneElement) { return {"constant", "nodal"}; }
 
@@ -59,8 +59,8 @@ constexpr std::array<const char*, 3> names(DeviceChoice) { return {"auto", "cpu"
 enum class Precision { fp64, fp32 };
 constexpr std::array<const char*, 2> names(Precision) { return {"double", "float"}; }
 
-// Where a number of a fabric comes from.  Its confidence is published, fitted, derived, assumed, or given
-// (scene file or flag).
+// This is where a number of a fabric comes from.  Its confidence is published, fitted, derived, assumed, or
+// given (scene file or flag).
 struct Provenance {
   std::string source;
   std::string confidence;
@@ -72,7 +72,7 @@ struct PublishedNumber {
   double value = 0;  // in `unit`
   std::string unit;
   Provenance provenance;
-  std::string tester = "";  // of a drape: the standard of its apparatus (`drape.standard`); "": not known
+  std::string tester = "";  // a drape's standard, which names its apparatus (`drape.standard`); "": not known
 };
 
 // Friction elements in the plane beside the membrane's stiffness: springs [N/m] that slip at strains [-],
@@ -84,8 +84,8 @@ struct InPlaneStops {
   bool empty() const { return warp.empty() && weft.empty() && shear.empty(); }
 };
 
-// What KES-FB2 printed for a fabric, in place of b1 and b2, which follow from it: b2 = B and b1 = B + 2HB/k0,
-// or with a shape of friction b1, b2, k0 and bending.stops (friction_shape.h).
+// These numbers of KES-FB2 replace b1 and b2, which follow from them: b2 = B and b1 = B + 2HB/k0, or with a
+// shape of friction b1, b2, k0 and bending.stops (friction_shape.h).
 struct KesFriction {
   KesPair read = {};  // B [N m], 2HB [N]
   FrictionShape shape = {};
@@ -115,7 +115,7 @@ struct Fabric {
   BendingParts bending = {};
   InPlaneStops in_plane = {};
 
-  std::map<std::string, Provenance> provenance;      // of each parameter above that has one, by its key
+  std::map<std::string, Provenance> provenance;  // the provenance of each parameter that has one, by its key
   std::map<std::string, PublishedNumber> published;  // B, 2HB, drape-coefficient, node-count, ... as printed
 
   void follow_kes();                 // derives the numbers that follow from `kes`, with provenance
@@ -126,7 +126,7 @@ struct Fabric {
   bool bends_alike() const { return weft_bending == 1 && bias_bending == 1 && !rubs_otherwise(); }
   // Does friction along weft have a ratio of its own, which is not that of the rigidities?
   bool rubs_otherwise() const { return weft_friction > 0 && weft_friction != std::sqrt(weft_bending); }
-  // The ratios of rigidity, and of the stiffness of friction that has not slipped.
+  // Return the ratios of rigidity, and of the stiffness of friction that has not slipped.
   DirectionRatios rigidity_ratios() const { return {weft_bending, bias_bending}; }
   DirectionRatios friction_ratios() const;
   double widening_of_twist() const;  // the value of Faces::wider
@@ -270,7 +270,7 @@ struct Scene {
   std::vector<Obstacle> obstacle;
   std::vector<Command> command;
   std::vector<Phase> phase;
-  // For messages: where each key that is not at its default was set, "scene.toml:7" or "--step", by key
+  // Messages use where each key that is not at its default was set, "scene.toml:7" or "--step", by key
   // ("step", "obstacle[0].radius") and by table ("pin[1]").
   std::map<std::string, std::string> origin;
 

@@ -28,7 +28,7 @@ struct Body {
   Body(std::unique_ptr<Device> device, const Scene& scene, const Cloth& cloth, const CurvatureOperator& op);
 
   std::unique_ptr<Device> device;
-  // In the world [m]: positions here and in scene and cloth are relative to it (cloth.h).
+  // The origin is in the world [m]; positions here and in scene and cloth are relative to it (cloth.h).
   Eigen::Vector3d origin;
   Scene scene;
   Cloth cloth;

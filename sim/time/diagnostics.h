@@ -35,9 +35,9 @@ struct Diagnostics {
   double pin_lag = 0;
   long newton = 0, linear = 0;  // iterations of all implicit solves
   double time_steps = 0;        // sum over Newton's iterations, 1 for a full step
-  // What Newton's method left at the ends of stages: the largest unbalanced force over load; and the velocity
-  // that it would give free masses within the stage, the largest and the sum, each a root mean square over
-  // the cloth [m/s].
+  // These say what Newton's method left at the ends of stages: the largest unbalanced force over load; and
+  // the velocity that it would give free masses within the stage, the largest and the sum, each a root mean
+  // square over the cloth [m/s].
   double largest_residual = 0, largest_velocity = 0, velocities = 0;
   DeviceCounts device;    // launches, waits and allocations of all steps
   std::size_t bytes = 0;  // on the device

@@ -45,7 +45,7 @@ class ImplicitIntegrator : public TimeIntegrator<Real, Device> {
   ImplicitStep<Real, Device> solver_;
   int substeps_;                // of lagged bending
   double tolerance_;            // [m]; 0: steps are not divided
-  NewtonOutcome last_outcome_;  // of the last attempt
+  NewtonOutcome last_outcome_;  // outcome of the last attempt
   double part_ = 0;             // the next part of an adaptive step [s]
 };
 

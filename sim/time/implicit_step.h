@@ -42,7 +42,7 @@ struct Unbalanced {
   Eigen::Vector3d position{0, 0, 0};  // [m]
 };
 
-inline constexpr double kTrapezoidalFraction = 0.58578643762690495;  // of a step of tr-bdf2: 2 - sqrt 2
+inline constexpr double kTrapezoidalFraction = 0.58578643762690495;  // of tr-bdf2's step: 2 - sqrt 2
 
 template <class Real, class Device>
 class ImplicitStep {
@@ -115,7 +115,7 @@ class ImplicitStep {
   bool two_step_, two_stage_, static_, bending_lags_;
   bool knows_acceleration_ = false;  // acceleration_ is that of the state accepted last
   bool evaluated_ = false;           // the potential was last evaluated at the end of the solve
-  Real fraction_ = 1;                // of the weight that acts
+  Real fraction_ = 1;                // acting share of the weight
   double total_mass_;
   IncrementalPotential<Real, Device> potential_;
   std::unique_ptr<LinearSolver<Real, Device>> solver_;

@@ -2,7 +2,7 @@
 // moment is a function of curvature from the accepted history on):
 //
 //   Phi(x) = sum m/2 |x - y|^2/beta_dt^2 + drag m/2 |x - r|^2/beta_dt - m g.(x - x_n)
-//            + membrane + bending law + viscosity + contact + friction + hands of limited strength [J]
+//            + membrane + bending law + viscosity + contact + friction + pins of limited strength [J]
 //
 // Bending that lags (in `semi-implicit`) has the force of the state accepted last: -f.(x - x_n) takes the
 // place of its energy.
@@ -28,13 +28,13 @@ namespace hysteron {
 // The data from which a step starts; pointers are to arrays of n vertices.
 template <class Real>
 struct StepStart {
-  StepFormula formula, rates;              // of motion; of strains and angles, for viscosity
+  StepFormula formula, rates;              // for motion, and for the strain and angle rates of viscosity
   const Vec3<Real>*now, *before;           // x_n, x_{n-1} [m] (the latter unused without extrapolation)
   const Vec3<Real>*reference, *predicted;  // r, y [m]
   const char* held;                        // n flags
   Vec3<Real> gravity;                      // [m/s^2]
   Real drag;                               // air drag over mass [1/s]
-  Real fraction;                           // of the weight that acts: statics let the load grow
+  Real fraction;                           // acting share of the weight: statics let the load grow
   CompliantPins<Real> compliant_pins = {};
 };
 

@@ -14,7 +14,7 @@ namespace hysteron {
 // The five integrator terms come from their own formulas (headers of semi_implicit.cpp and
 // implicit_step.cpp), so the remainder is the arithmetic's alone.
 struct Ledger {
-  // At present; gravity from the start.
+  // These are present energies; gravity's is relative to the start.
   double kinetic = 0, gravitational = 0, membrane = 0, bending = 0, contact = 0;
   double initial = 0;                                                       // their sum at the start
   double handle_work = 0, obstacle_work = 0;                                // done on the cloth
@@ -40,12 +40,12 @@ struct Ledger {
 
 // The running sums of one vertex [J]; the sums' differences are the ledger's integrator terms.
 struct VertexLedger {
-  double bending_work = 0;   // of bending forces over the displacements
-  double gravity_work = 0;   // of gravity
+  double bending_work = 0;   // work of bending forces over the displacements
+  double gravity_work = 0;   // work of gravity
   double air = 0;            // lost to air drag
   double inertia = 0;        // lost by the integrator: work of all forces less the change of kinetic energy
   double unbalanced = 0;     // taken by forces that the solve has left unbalanced
-  double implicit_work = 0;  // of membrane and contact
+  double implicit_work = 0;  // work of membrane and contact
   double handle_work = 0;    // done on the cloth by the pin that moves this vertex
 };
 

@@ -95,12 +95,12 @@ class Pins {
   Real yield_distance_;
   Real behind_ = 0;                   // how far pins that gave way lagged in the stage accepted last [m]
   std::vector<char> rigid_;           // the flags of held vertices if no pin gave way
-  std::vector<double> times_;         // of all takes and releases [s]
+  std::vector<double> times_;         // times of all takes and releases [s]
   Buffer<Vec3<Real>, Device> start_;  // each pin's vertices before it moves [m]
   Buffer<Vec3<Real>, Device> home_;   // vertices at t = 0, if a pin brings them back there [m]
   Buffer<Vec3<Real>, Device> arc_;
   Buffer<int, Device> pin_;
-  Buffer<Vec3<Real>, Device> place_;  // of compliant pins' vertices [m]
+  Buffer<Vec3<Real>, Device> place_;  // places of compliant pins' vertices [m]
   Buffer<Real, Device> strength_, lag_;
   Buffer<Vec3<Real>, Device> displacement_;  // of held vertices in a stage [m], where pins might meet
   std::unique_ptr<PinSweep<Real, Device>> sweep_;

@@ -77,11 +77,11 @@ class Simulation {
   virtual std::vector<Eigen::Vector3d> handle_forces() = 0;
   virtual Ledger ledger() = 0;
   virtual double largest_stretch() = 0;    // largest principal stretch minus 1
-  virtual std::uint64_t state_hash() = 0;  // of positions and velocities, bit for bit
+  virtual std::uint64_t state_hash() = 0;  // hashes positions and velocities, bit for bit
 
   virtual std::vector<std::pair<std::string, double>> stage_seconds() = 0;
   virtual std::vector<ScenePart> parts() const = 0;
-  virtual double copy_bandwidth() = 0;  // of this device, bytes read plus written, measured [byte/s]
+  virtual double copy_bandwidth() = 0;  // measured on this device, bytes read plus written [byte/s]
   // Times every loop by its name from now on; kernel_costs() returns the sums since then.  On a GPU each
   // includes the launch, which alone takes launch_seconds(), measured.
   virtual void profile() = 0;
@@ -93,7 +93,7 @@ class Simulation {
   const std::string& device() const { return device_; }  // "cpu: ..." or "cuda: ..."
   int cuda_device() const { return cuda_device_; }       // -1: the CPU
 
-  MethodChoice method = {};  // as make_simulation() chose
+  MethodChoice method = {};  // the choice of make_simulation()
 
  protected:
   Simulation(const StepLimits& limits, int dimension, std::string device, int cuda_device)

@@ -79,7 +79,7 @@ class Stepper : public Simulation {
 
   Body<Real, Device> body_;
   std::unique_ptr<TimeIntegrator<Real, Device>> integrator_;
-  double extra_time_ = 0;  // by which steps of other lengths have exceeded the scene's [s]
+  double extra_time_ = 0;  // excess of steps of other lengths over the scene's [s]
 };
 
 }  // namespace hysteron

@@ -44,7 +44,7 @@ class TimeIntegrator {
 
 // The lengths of the parts of adaptive steps.
 
-inline constexpr int kMaxHalvings = 12;  // of a step
+inline constexpr int kMaxHalvings = 12;  // a step is halved at most so often
 
 // Returns the next part after one of h [s], if h grown by `growth` would have met the tolerance: it aims
 // below it, and changes slowly (Hairer, Norsett & Wanner 1993, II.4).

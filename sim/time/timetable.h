@@ -44,7 +44,7 @@ class Timetable {
 
   double step_;
   long even_ = 0;                // number of steps of `step_` that come first
-  std::vector<double> lengths_;  // of the steps behind them [s]
+  std::vector<double> lengths_;  // lengths of the steps behind them [s]
   std::vector<double> times_;    // at which these steps end [s]
 };
 

@@ -26,7 +26,7 @@ struct PlasticReturn {
     return f * n > y ? PlasticReturn{f * n, f} : PlasticReturn{y, 0};
   }
 
-  // [1/m^2]; times the rigidity it is [J/m^2].
+  // Return losses [1/m^2], which times the rigidity are [J/m^2].
   HYST_HD Real lost_by_yielding(Real n, Real y) const { return (n - held) * (y + held) / 2; }
   HYST_HD Real lost_by_creep(Real n) const { return (n - held) * (n + held) / 2; }
 };

@@ -176,7 +176,7 @@ struct PrandtlStack {
   }
   HYST_HD static bool runs_out(const Memory& m) { return count(m) == 1 && m[kSlippedThrough] != 0; }
 
-  // Returns the position at which the branch hands over to another one.
+  // Returns the position at which the branch ends and another one begins.
   HYST_HD Real branch_end(const Branch& b, const Memory& m) const {
     using std::abs;
     const int n = count(m);

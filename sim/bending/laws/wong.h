@@ -70,7 +70,7 @@ struct Wong {
   static constexpr int kVirgin = 0, kTurned = 1, kReturning = 2;
 
   HYST_HD static Real travelled(const Memory& m, Real k) { return m[kDirection] * (k - m[kTurnCurvature]); }
-  // |s M0 - F_r| [N]
+  // Returns |s M0 - F_r| [N].
   HYST_HD Real gap(const Memory& m) const { return m0 - m[kDirection] * m[kTurnFriction]; }
   HYST_HD Real span(const Memory& m) const { return g > 0 ? 2 * gap(m) / g : Real(0); }  // S [1/m]
 
