@@ -43,7 +43,7 @@ class Bending {
   // tried last.  Angles are continued from where linearise() was called last, so that they follow Newton's
   // iterates: within a step a hinge may turn by more than half a turn, and its energy has no jump there.
   void begin_step(const StepFormula& formula);
-  void evaluate(const Vec3<Real>* position);                 // fills forces() and energies()
+  void evaluate(const Vec3<Real>* position);  // fills forces() and energies(); position: n vertices [m]
   const double* energies() const { return energy_.data(); }  // incremental potential per element [J]
   void linearise();  // forms the tangents where evaluate() was called last
   // Sets forces() = -K p [N], p n vertices [m], with K the Gauss-Newton stiffness J^T C^T (A dM/dK) C J of
@@ -106,7 +106,8 @@ class Bending {
     const Real* reference = nullptr;  // one per hinge [rad]
     Real inverse_time = 0;            // [1/s]
   };
-  // The parts of commit(); public because nvcc allows no device lambda in a private member function.
+  // The parts of commit(), with one angle per hinge [rad]; public because nvcc allows no device lambda in a
+  // private member function.
   void compute_angles(const Vec3<Real>* position, const Real* previous, Real* change, AngleRates rates = {});
   void compute_rates(const Vec3<Real>* velocity);
   void compute_forces(const Vec3<Real>* position);
@@ -127,7 +128,7 @@ class Bending {
   std::size_t column_bytes() const { return total_bytes(column_start_, column_element_, transposed_); }
   std::vector<double> measured(LawMeasure what, int numbers);          // `numbers` of them per element
   std::vector<double> geometric(std::vector<double> curvature) const;  // divides by the metric
-  double sum_over_elements(const double* on_device);  // sums in the elements' order; 0 for null
+  double sum_over_elements(const double* on_device);                   // one number per element; 0 for null
 
   Device& device_;
   int dimension_, elements_, hinges_;

@@ -51,6 +51,8 @@ enum class LawMeasure {
   slip
 };
 
+// A law's loop over a cloth's elements.  Pointers are to arrays on the device; angle_change has one number
+// per hinge [rad].
 template <class Real, class Device>
 class LawLoop {
  public:
@@ -84,8 +86,8 @@ class LawLoop {
   // away (or gives, if negative) to taken[i] [J].  Laws without history ignore it.
   virtual void command(Device& device, const OperatorView<Real>& op, const Real* angle_change,
                        CommandKind kind, const char* chosen, double* taken) = 0;
-  // Evaluates a measure of each element at the accepted state, which it does not change: D numbers for a
-  // curvature, else one.
+  // Evaluates a measure of each element at the accepted state, which it does not change, and writes D
+  // numbers per element for a curvature, else one.
   virtual void measure(Device& device, const OperatorView<Real>& op, const Real* angle_change,
                        LawMeasure what, double* result) = 0;
   virtual double largest_stiffness() const = 0;  // bound on dM/dK [N m]

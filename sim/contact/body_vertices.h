@@ -98,8 +98,9 @@ class BodyVertices {
   // Is the way of bodies that have not arrived barred? Their first steps find out, unless they were pressed
   // in before.
   bool are_barred() const { return !have_arrived() && steps_ >= (deepest_ > 0 ? 1 : kPatience); }
-  // Shortens the bodies' way where it would press cloth beyond the yield, for all vertices at x that go along
-  // `direction`, if the cloth is held or pressed from its other side; other cloth gets out of their way.
+  // Shortens the bodies' way where it would press cloth beyond the yield, for all() vertices at x [m] that go
+  // along `direction` [m], if the cloth is held or pressed from its other side; other cloth gets out of their
+  // way.
   void yield(const PressedPairs<Real>& pairs, const Vec3<Real>* x, const Vec3<Real>* direction,
              const char* held);
   // Ends the stage: what bodies stayed back by becomes their dents.

@@ -46,8 +46,9 @@ class Contact {
   bool path_is_clear(const Vec3<Real>* start, const Vec3<Real>* end, const char* held);
   double feasible_step(const Vec3<Real>* x, const Vec3<Real>* direction, const char* held, double max_step);
 
-  // Accepts the positions: slips, losses and the obstacles' work, for quasi-static scenes that of the mean of
-  // the forces before and after.  Returns how many vertices and triangles are in a solid.
+  // Accepts the positions (n vertices [m]; held: n flags): slips, losses and the obstacles' work, for
+  // quasi-static scenes that of the mean of the forces before and after.  Returns how many vertices and
+  // triangles are in a solid.
   int commit(const Vec3<Real>* position, const Vec3<Real>* before, const char* held);
   // Sets the vertices that may be in obstacles while they are held, since they were when they or the obstacle
   // came.

@@ -18,8 +18,9 @@ class PointContact {
         fraction_(device),
         scratch_(device) {}
 
-  // These work as in Contact. evaluate() passes its forces to `target` (give() of the points) and, unless it
-  // is null, its energy per point to `energy` [J]; store_energies() adds those of the stops.
+  // These work as in Contact. x, before, start, end and direction have n vertices [m], held n flags, energy
+  // one number per point [J] or is null. evaluate() passes its forces to `target` (give() of the points);
+  // store_energies() adds the stops' energies.
   void lag(const Points& points, const Vec3<Real>* x);
   void evaluate(const Points& points, const Vec3<Real>* x, const Vec3<Real>* before, Vec3<Real>* target,
                 double* energy);

@@ -76,7 +76,7 @@ class SelfContact {
   // Tells that held vertices have become free: the next prepare() finds their pairs, too.
   void invalidate_pairs() { pending_ = ready_; }
 
-  // These work as in Contact.
+  // These work as in Contact: x, before and gradient have n vertices, those of the cloth.
   void lag(const Vec3<Real>* x);
   void evaluate(const Vec3<Real>* x, const Vec3<Real>* before, Vec3<Real>* gradient);
   const double* energies() const { return energy_.data(); }  // one per pair [J]
@@ -84,7 +84,8 @@ class SelfContact {
   // Makes the next linearise() include the stiffness against the turning of nearly parallel edges.
   void stiffen_parallel_edges(bool on) { stiffens_parallel_ = on; }
   bool stiffens_parallel_edges() const { return stiffens_parallel_; }
-  // Finds the stiffnesses (sliding_fraction: sliding_stop.h).
+  // Finds the stiffnesses (sliding_fraction: sliding_stop.h); add_stiffness_diagonal() adds their n diagonal
+  // blocks [N/m].
   void linearise(const Vec3<Real>* x, const Vec3<Real>* before, Real sliding_fraction);
   void add_stiffness_diagonal(Mat3<Real>* diagonal);
   // Adds the push of the rest of the bodies' way on the cloth, n vertices [N].

@@ -42,9 +42,10 @@ class SelfPairs {
   SelfPairs(Device& device, const ClothMesh& mesh, double thickness)
       : SelfPairs(device, mesh, thickness, mesh.vertices(), true) {}
 
-  // Makes a new list; the caller carries over data of pairs that stay: `old_start`, with as many rows, and
-  // old_pairs() are those of the list before.  With `pin`, the number of the pin at each vertex, it lists the
-  // pairs whose vertices are all held, but not all by one pin.
+  // Makes a new list from n vertices x [m], n directions [m] and n held flags; the caller carries over data
+  // of pairs that stay: `old_start`, with as many rows, and old_pairs() are those of the list before.  With
+  // `pin`, the number of the pin at each vertex, it lists the pairs whose vertices are all held, but not all
+  // by one pin.
   void find(const Vec3<Real>* x, const Vec3<Real>* direction, Real step_length, const char* held, Real reach,
             const int* pin = nullptr);
   // Saves or loads the list; find() makes boxes and the list before anew.

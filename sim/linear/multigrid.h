@@ -26,10 +26,10 @@ class Multigrid : public Preconditioner<Real, Device> {
   Multigrid(Device& device, const ClothMesh& mesh, const RestHierarchy& hierarchy);
 
   // Follows a new linearisation, in the matrix's units:
-  //   matrix            mass, membrane and contact; read now only
-  //   bending_diagonal  diagonal blocks of the bending stiffness, those of the hinges at least; null without
+  //   matrix            mass, membrane and contact; only read now
+  //   bending_diagonal  n diagonal blocks of the bending stiffness, at least those of the hinges; null: none
   //   bending           rigidity in the matrix's units: b1 for mass/step^2 + stiffness
-  //   held              rows that apply() leaves zero; read by apply() too
+  //   held              n flags of rows that apply() leaves zero; read by apply() too
   void rebuild(BlockRowsView<Real> matrix, const Mat3<Real>* bending_diagonal, Real bending,
                const char* held);
   // Renews the finest level and keeps the coarse levels of the last rebuild(), which held the same rows.

@@ -42,6 +42,7 @@ class MembraneSites {
   // The tangents of stops where update() or evaluate() was called last, by site [N/m]; null without stops.
   const Vec3<Real>* friction_tangents() const { return tangent_.data(); }
 
+  // Arrays of positions and velocities have n vertices [m], [m/s].
   void update(const Vec3<Real>* position, const Vec3<Real>* velocity);
   void begin_step(const StepFormula& formula, const Vec3<Real>* now, const Vec3<Real>* before);
   void evaluate(const Vec3<Real>* position, double* energy);  // sets one energy per site [J]

@@ -33,7 +33,7 @@ struct StopsPoint {
 // Evaluates the law at x, with the `anchors` (S_j, one per stop) of the last accepted step; it is exact if x
 // is monotone in the step. stored + dissipated is the incremental potential, whose slope is the response.
 StopsPoint respond(const StopsLaw& law, const double* anchors, double x);
-// Drags the anchors along to x.
+// Drags the anchors (one per stop) along to x.
 void accept(const StopsLaw& law, double* anchors, double x);
 
 }  // namespace hysteron
