@@ -1,4 +1,5 @@
-// What outlives a step, as bytes: one visit() of a class serves saving and loading, so that the two agree.
+// Saves and loads the state that outlives a step, as bytes: one visit() of a class serves both directions, so
+// that the two agree.
 #pragma once
 
 #include <cstdint>
@@ -13,18 +14,19 @@
 
 namespace hysteron {
 
-// Bytes are those of this machine and this program: whoever keeps them says which, and that they are whole.
+// The bytes are those of this machine and this program: whoever stores them records which, and checks that
+// they are whole.
 class Archive {
  public:
   Archive() = default;                                                        // saves
   explicit Archive(std::string_view bytes) : loaded_(bytes), loads_(true) {}  // loads what was saved
 
   bool loads() const { return loads_; }
-  std::string take() { return std::move(saved_); }        // what was saved
-  bool at_end() const { return loaded_.empty(); }         // all has been loaded
-  std::string_view remainder() const { return loaded_; }  // what has not been loaded yet
+  std::string take() { return std::move(saved_); }        // hands over the bytes saved so far
+  bool at_end() const { return loaded_.empty(); }         // true once all bytes are loaded
+  std::string_view remainder() const { return loaded_; }  // the bytes that are not loaded yet
 
-  // Bytes of an array, as they stand in memory.
+  // Saves or loads `count` bytes at `memory`, as they stand there.
   void bytes(void* memory, std::size_t count) {
     if (!loads_) {
       saved_.append(static_cast<const char*>(memory), count);
@@ -40,8 +42,8 @@ class Archive {
     static_assert(std::is_trivially_copyable_v<T>);
     bytes(&value, sizeof value);
   }
-  // A count of what follows: no more of it than there are bytes left, so that nothing damaged asks for
-  // memory.
+  // Saves or loads the number of elements that follow.  A loaded number never exceeds the bytes that are
+  // left, so that a damaged archive cannot ask for memory.
   std::size_t size(std::size_t count) {
     std::uint64_t number = count;
     (*this)(number);
@@ -64,7 +66,7 @@ class Archive {
   void operator()(std::pair<A, B>& pair) {
     (*this)(pair.first, pair.second);
   }
-  // Several, one after the other.
+  // Visits several objects, one after the other.
   template <class First, class... Others>
   requires(sizeof...(Others) > 0) void operator()(First& first, Others&... others) {
     (*this)(first);

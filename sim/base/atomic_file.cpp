@@ -14,10 +14,10 @@ namespace hysteron {
 namespace {
 namespace fs = std::filesystem;
 
-// What is to be replaced: a link keeps its name, and devices and pipes are not for replacing; neither is what
-// /dev/stdout leads to, though it may be a file.
+// Returns the file that is to be replaced: a link is followed and keeps its name.  Devices and pipes are
+// never replaced, nor is what /dev/stdout leads to, even if that is a file.
 std::string plain_file(const std::string& target) {
-  constexpr int kMaxLinks = 40;  // as many as the kernel follows
+  constexpr int kMaxLinks = 40;  // the kernel follows no more
   std::error_code failure;
   bool plain = true;
   fs::path file = target;
@@ -31,7 +31,8 @@ std::string plain_file(const std::string& target) {
   return file.string();
 }
 
-// Unique within the process (worker threads) and between processes; same folder, so that rename is atomic.
+// The name is unique within the process (worker threads) and between processes; it lies in the same folder,
+// so that the rename is atomic.
 std::string temporary_name(const std::string& target) {
   static std::atomic<unsigned> count{0};
   return target + ".part-" + std::to_string(getpid()) + "-" + std::to_string(count++);
@@ -70,7 +71,7 @@ void AtomicFile::commit() {
 
 namespace {
 
-// The first part of the path that is a link to nothing; empty if there is none.
+// Returns the first part of the path that is a link to nothing; empty if there is none.
 fs::path dangling_link(const fs::path& path) {
   std::error_code ignored;
   fs::path part;

@@ -7,9 +7,9 @@
 
 namespace hysteron {
 
-// Writes beside the target under a temporary name and renames on commit(), so that a reader (or a full
-// disk, or a killed run) never leaves half a file under the final name.  Without commit() the temporary
-// file is removed on destruction.  Of a link the file is replaced that it leads to.
+// Writes beside the target under a temporary name and renames on commit(), so that a reader (or a full disk,
+// or a killed run) never leaves half a file under the final name.  Without commit() the temporary file is
+// removed on destruction.  If the target is a link, the file that it leads to is replaced.
 class AtomicFile {
  public:
   // Opens the temporary file (binary).  Throws Error::system with the file's name and the system's reason,
@@ -20,7 +20,7 @@ class AtomicFile {
   AtomicFile& operator=(const AtomicFile&) = delete;
 
   std::ostream& stream() { return stream_; }
-  // For writers that open a file by name themselves (plot programs, image libraries).
+  // This name serves writers that open a file themselves (plot programs, image libraries).
   const std::string& temporary() const { return temporary_; }
   // Flushes, closes, checks and renames.  Throws Error::system; the target is then as it was before.
   void commit();
@@ -32,11 +32,11 @@ class AtomicFile {
   bool committed_ = false;
 };
 
-// The folder and those it lies in.  Throws Error::system, which says so where a link on the way leads to
+// Makes the folder and its parents.  Throws Error::system, which says so where a link on the way leads to
 // nothing.
 void make_folders(const std::filesystem::path& folder);
 
-// A whole file at once.
+// Writes a whole file at once.
 void write_text(const std::filesystem::path& file, const std::string& text);
 
 }  // namespace hysteron

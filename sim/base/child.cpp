@@ -16,7 +16,7 @@
 namespace hysteron {
 namespace {
 
-constexpr char kAnswer = 'a', kFailure = 'f';  // the first byte of what a child writes says which one follows
+constexpr char kAnswer = 'a', kFailure = 'f';  // a child's first byte says which one follows
 
 void write_all(int end, std::string_view text) {
   while (!text.empty()) {
@@ -46,7 +46,7 @@ std::string outcome_of(const std::function<std::string()>& call) {
   }
 }
 
-// The child has none of the parent's handlers of signals.
+// Runs in the child, with none of the parent's signal handlers.
 [[noreturn]] void call_and_end(const std::function<std::string()>& call, int answers, unsigned longest) {
   for (const int signal : {SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGALRM}) std::signal(signal, SIG_DFL);
   const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);

@@ -1,4 +1,4 @@
-// Lists as flags give them: "linear,prandtl".
+// Splits lists as flags give them: "linear,prandtl".
 #pragma once
 
 #include <sstream>

@@ -17,7 +17,7 @@
 namespace hysteron {
 namespace {
 
-// What separates the fields of a table with this head: a semicolon or a tab that stands there outside of
+// Returns the separator of the fields below this head: a semicolon or a tab that stands there outside of
 // quotes, else the comma.
 char separator_in(std::string_view head) {
   bool quoted = false, tab = false;
@@ -38,7 +38,7 @@ std::string_view without_plus(std::string_view field) {
 
 std::optional<double> vector_component(std::string_view field) { return number_in(without_plus(field)); }
 
-// "-0,35" is "-0.35"; what is no number stays.
+// Turns "-0,35" into "-0.35"; a text that is not a number stays.
 std::string with_decimal_point(std::string field) {
   const std::size_t comma = field.find(',');
   if (comma == field.npos) return field;
@@ -57,10 +57,11 @@ class Rows {
   Rows(const std::string& text, const std::string& file) : text_(text), file_(file) { find_head(); }
 
   char separator() const { return separator_; }
-  // Names in a comment above the first row, where that has numbers alone; empty: the first row is the head.
+  // The names in a comment above the first row, where that row has numbers alone; empty: the first row is the
+  // head.
   const std::vector<std::string>& head_in_comment() const { return head_; }
 
-  // The next row that is neither blank nor a comment; false at the end.
+  // Reads the next row that is neither blank nor a comment; false at the end.
   bool next(std::vector<std::string>& fields) {
     while (at_ < text_.size()) {
       line_ += lines_read_;
@@ -76,7 +77,7 @@ class Rows {
     }
     return false;
   }
-  // Where the row begins that was read last.
+  // Returns the line at which the row that was read last begins.
   int line() const { return line_; }
 
  private:
@@ -97,7 +98,7 @@ class Rows {
     return fields;
   }
 
-  // The separator, from the first line that is neither blank nor a comment; or from the comment above it, if
+  // Finds the separator in the first line that is neither blank nor a comment, or in the comment above it if
   // that names the columns of a line of numbers, as numpy.savetxt writes it.
   void find_head() {
     std::string_view comment, first;
@@ -153,7 +154,8 @@ class Rows {
   char separator_ = ',';
 };
 
-// Up to three digits, this mark, and three digits: "1,000" and "-12.500", but not "0,125" and "1,5".
+// Is true for up to three digits, this mark, and three digits: "1,000" and "-12.500", but not "0,125" and
+// "1,5".
 bool may_be_thousands(std::string_view field, char mark) {
   field = without_plus(field);
   if (field.starts_with('-')) field.remove_prefix(1);
@@ -164,14 +166,15 @@ bool may_be_thousands(std::string_view field, char mark) {
   return digits.find_first_not_of("0123456789") == digits.npos;
 }
 
-// Whether the field is a number with this mark before its decimals, and cannot be one with thousands.
+// Is the field a number with this mark before its decimals that cannot be one with thousands?
 bool shows_decimals(const std::string& field, char mark) {
   if (field.find(mark) == field.npos || may_be_thousands(field, mark)) return false;
   return field.find(mark == ',' ? '.' : ',') == field.npos && vector_component(with_decimal_point(field));
 }
 
-// The marks of thousands or decimals that this table, whose columns no comma separates, leaves open.  Other
-// numbers of the table can show that a comma stands before decimals; points do unless commas do.
+// Returns the marks that may stand before decimals or between thousands in this table, whose columns no comma
+// separates.  Other numbers of the table can show that a comma stands before decimals; points do unless
+// commas do.
 std::string doubtful_marks(const Table& table) {
   bool comma = false, point = false;
   for (const std::vector<std::string>& row : table.rows)
@@ -182,7 +185,8 @@ std::string doubtful_marks(const Table& table) {
   return std::string(comma && !point ? "" : ",") + (comma ? "." : "");
 }
 
-// Decimal commas become points where they are certain.  "1,125" becomes "1.1250", which cannot be thousands.
+// Turns decimal commas into points where they are certain.  "1,125" becomes "1.1250", which cannot have
+// thousands.
 void read_decimal_commas(Table& table) {
   table.doubtful_marks = doubtful_marks(table);
   const bool certain = table.doubtful_marks.find(',') == table.doubtful_marks.npos;
@@ -194,7 +198,7 @@ void read_decimal_commas(Table& table) {
     }
 }
 
-// Why a field that may have thousands is not read.
+// Says why a field that may have thousands is not read.
 std::string thousands_message(const std::string& column, std::string_view field, char mark) {
   std::string whole(field);
   std::replace(whole.begin(), whole.end(), mark, ' ');
@@ -206,7 +210,7 @@ std::string thousands_message(const std::string& column, std::string_view field,
       column, field, mark == ',' ? "a comma before" : "a point before", whole, decimal);
 }
 
-// Why a column is not the one that is wanted: another name would not change its numbers.
+// Says why a column is not the wanted one; another name would not change its numbers.
 std::string other_unit(std::string_view column, const std::string& wanted) {
   const std::string name = quantity_in(column), unit = unit_in(column), must = unit_in(wanted);
   if (must.empty()) return fmt::format("column '{}' must be called '{}'", trimmed(column), wanted);
@@ -217,8 +221,7 @@ std::string other_unit(std::string_view column, const std::string& wanted) {
                      must);
 }
 
-// Gives the column its wanted name; refuses one that stands twice or is there in another unit, or one of
-// words.
+// Gives the column its wanted name; refuses a column that stands twice, is in another unit or holds words.
 void name_column(Table& table, const std::string& wanted, bool needed) {
   bool found = false;
   for (std::string& name : table.head) {
@@ -245,7 +248,7 @@ std::string exact_field(double value) { return fmt::format("{:.17g}", value); }
 
 namespace {
 
-// Where the unit of a column's name stands, "[1/m]" or "(1/m)" at its end.
+// Returns the positions of the brackets around a column's unit, "[1/m]" or "(1/m)" at its end.
 std::pair<std::size_t, std::size_t> unit_place(std::string_view column) {
   const std::size_t open = column.find('['), close = column.rfind(']');
   if (open != column.npos && close != column.npos && close > open) return {open, close};
@@ -254,7 +257,7 @@ std::pair<std::size_t, std::size_t> unit_place(std::string_view column) {
   return {std::min(open, column.size()), column.npos};
 }
 
-// Testers call time "t [s]"; "t [mm]" is a thickness.
+// Is true for units of time: testers write "t [s]" for time, while "t [mm]" is a thickness.
 bool may_be_of_time(const std::string& unit) {
   constexpr const char* kUnits[] = {"", "s", "sec", "ms", "us", "min", "h"};
   return std::find(std::begin(kUnits), std::end(kUnits), unit) != std::end(kUnits);

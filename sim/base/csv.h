@@ -1,5 +1,5 @@
 // The one table of words and numbers: named columns, with units in their names, `curvature [1/m],moment [N]`;
-// written as CSV and read back (RFC 4180: a field that needs it stands in quotes).  Read are also tables
+// written as CSV and read back (RFC 4180: a field that needs it stands in quotes).  Tables are also read
 // whose head is separated by semicolons or tabs, with decimal points or commas, in every encoding that
 // plain_text() knows.  Blank lines and comments, which begin with #, are passed over; a comment above rows of
 // numbers is their head.
@@ -16,15 +16,15 @@
 
 namespace hysteron {
 
-// The quantity of "Curvature (1/m)" and "curvature [m^-1]" is "curvature", its unit "1/m" (plain_unit()); ""
-// without one.
+// Split a column's name: the quantity of "Curvature (1/m)" and "curvature [m^-1]" is "curvature", its unit
+// "1/m" (plain_unit()), or "" without one.
 std::string quantity_in(std::string_view column);
 std::string unit_in(std::string_view column);
 
-// Six significant digits, empty unless the number is finite.
+// Writes six significant digits, and nothing for a number that is not finite.
 std::string number_field(double value);
 
-// A field of a table, as it is written.
+// A field of a table, as it is written to the file.
 struct Cell {
   std::string text;
 
@@ -44,63 +44,64 @@ struct Column {
 struct Table {
   std::vector<std::string> head{};
   std::vector<std::vector<std::string>> rows{};  // each as long as the head
-  std::vector<int> lines{};                      // where each row stands in the file it was read from
-  std::string file{}, reader{};                  // that it was read from, and on whose behalf ("law")
-  // Of "," and ".", those that stand before decimals or between thousands: "1,000" is then no number.
+  std::vector<int> lines{};                      // the line of each row in the file it was read from
+  std::string file{}, reader{};  // the file that it was read from, and on whose behalf ("law")
+  // The marks among "," and "." that may stand before decimals or between thousands: "1,000" is then not a
+  // number.
   std::string doubtful_marks{};
 
   Table() = default;
-  // "fabric,law,step [s]"
+  // Takes the names of the columns: "fabric,law,step [s]".
   explicit Table(const std::string& names);
   explicit Table(std::vector<std::string> names) : head(std::move(names)) {}
-  // Columns of one length, with 17 significant digits, so that reading gives the same doubles.
+  // Takes columns of one length and writes 17 significant digits, so that reading gives the same doubles.
   explicit Table(const std::vector<Column>& columns);
 
   void row(const std::vector<Cell>& cells);
   void write(const std::filesystem::path& csv) const;  // throws as AtomicFile does
 
   std::optional<std::size_t> find(const std::string& column) const;
-  // Error::invalid_input, naming the file, if there is no such column.
+  // Throws Error::invalid_input, naming the file, if there is no such column.
   std::size_t at(const std::string& column) const;
   const std::string& word(std::size_t row, const std::string& column) const { return rows[row][at(column)]; }
-  double number(std::size_t row, const std::string& column) const;  // NaN of a cell that is none
-  // The mark for which a field may be one number or another; 0 if it is certain.
+  double number(std::size_t row, const std::string& column) const;  // NaN if the cell is not a number
+  // Returns the mark for which a field may be one number or another; 0 if the number is certain.
   char doubtful_mark(std::string_view field) const;
-  // Error::invalid_input, with file and line, of a cell that is no finite number.
+  // Throws Error::invalid_input, with file and line, if the cell is not a finite number.
   double finite(std::size_t row, std::size_t column) const;
-  // The same, of all rows.
+  // Returns the finite numbers of all rows; throws as finite() does.
   std::vector<double> numbers(std::size_t column) const;
   std::vector<double> numbers(const std::string& column) const { return numbers(at(column)); }
 
-  // Each value of a column once, in the order in which they come.
+  // Returns each value of a column once, in the order in which they come.
   std::vector<std::string> values(const std::string& column) const;
-  // The rows whose cell in `column` is `value`, or the same number.
+  // Returns the rows whose cell in `column` is `value`, or the same number.
   Table where(const std::string& column, const std::string& value) const;
-  // These columns, of those that there are.
+  // Returns those of these columns that the table has.
   Table only(const std::vector<std::string>& columns) const;
 
-  // Error::invalid_input of a row that was read: "law: loop.csv:3: WHAT".
+  // Returns an Error::invalid_input about a row that was read: "law: loop.csv:3: WHAT".
   Error refusal(std::size_t row, const std::string& what) const;
 };
 
 // Throws Error::system if the file cannot be read, Error::invalid_input (with file:line) if a row has another
 // number of fields or a quote is not closed.
 Table read_table(const std::filesystem::path& csv);
-// The same of the bytes of a file of that name.
+// Reads the same from the bytes of a file of that name.
 Table table_in(const std::string& bytes, const std::string& file);
-// A table of which the columns `required` and, where present, `optional` are numbers.  `reader` says on whose
+// Reads a table whose columns `required` and, where present, `optional` are numbers.  `reader` says on whose
 // behalf ("law"), for errors.  Throws also Error::invalid_input if one of them is missing, named twice, in
-// another unit or has a cell that is no finite number, or if there are no rows.
+// another unit or has a cell that is not a finite number, or if there are no rows.
 Table read_csv(const std::filesystem::path& file, const std::vector<std::string>& required,
                const std::vector<std::string>& optional, const std::string& reader);
 
-// A line of a table, its end included.
+// Returns a line of a table, its end included.
 std::string csv_row(const std::vector<std::string>& fields);
-// Of numbers with 17 significant digits.
+// Returns a line of numbers with 17 significant digits.
 std::string exact_csv_row(const std::vector<double>& numbers);
 
-// Cells beside each other on a terminal, each in its width, to the left of a negative one; further ones are
-// as wide as the last.  Blanks at the end are left out.
+// Sets cells beside each other for a terminal, each as wide as its width says, left-aligned if that is
+// negative; further cells are as wide as the last.  Blanks at the end are left out.
 std::string aligned(const std::vector<std::string>& cells, const std::vector<int>& widths);
 
 }  // namespace hysteron

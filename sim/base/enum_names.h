@@ -1,4 +1,4 @@
-// Names of enumerations.  One that has names declares them beside it, in the order of its values:
+// Names of enumerations.  An enumeration that has names declares them beside it, in the order of its values:
 //   enum class Fruit { apple, pear };
 //   constexpr std::array<const char*, 2> names(Fruit) { return {"apple", "pear"}; }
 #pragma once
@@ -21,7 +21,7 @@ std::string enum_name(E value) {
   return names(value)[static_cast<std::size_t>(value)];
 }
 
-// The value of that name; Error::invalid_input for another, with the names that there are.
+// Returns the value of that name; throws Error::invalid_input for another, listing the names that there are.
 template <Named E>
 E value_named(const std::string& name) {
   std::string all;

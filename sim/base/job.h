@@ -1,4 +1,4 @@
-// One command line while it is answered: which files it has read, and what is settled when it has ended.
+// Tracks one command line while it is answered: which files it has read, and what is settled when it ends.
 #pragma once
 
 #include <cstdint>
@@ -13,30 +13,30 @@
 namespace hysteron {
 
 struct FileRead {
-  std::filesystem::path file;  // as it was named
-  std::uint64_t hash;          // of its bytes when it was first read
+  std::filesystem::path file;  // its name as the user gave it
+  std::uint64_t hash;          // hash of its bytes when it was first read
 };
 
 // The job of a thread.  A process has one, or one for each of the runs that share it.  Every file that a user
 // names passes whole_file(), which enters it here, so that no reader can forget to say what it has read.
 class Job {
  public:
-  // Becomes the job of this thread until it is destroyed; the one before waits.
+  // Becomes the job of this thread until it is destroyed; the job before it waits.
   Job();
   ~Job();
   Job(const Job&) = delete;
   Job& operator=(const Job&) = delete;
 
-  // Null where there is none, as in other programs that use the library.
+  // Is null where there is no job, as in other programs that use the library.
   static Job* current() { return current_; }
-  // Gives the thread another one and returns its own: of threads and fibers that work for a job.
+  // Gives this thread or fiber another job to work for and returns the one it had.
   static Job* exchange(Job* job);
 
   void has_read(const std::filesystem::path& file, std::string_view bytes);
-  // Each file once, in the order in which they were read.
+  // Returns each file once, in the order in which they were read.
   std::vector<FileRead> files_read() const;
 
-  // Has end() call `settle` with the exit code, the last one first.
+  // Makes end() call `settle` with the exit code, the last one registered first.
   void at_end(std::function<void(int exit_code)> settle);
   void end(int exit_code);
 
@@ -50,7 +50,7 @@ class Job {
   std::vector<std::function<void(int)>> settlements_;
 };
 
-// Lets a thread work for a job.
+// Lets a thread work for a job while this object lives.
 class WorkingFor {
  public:
   explicit WorkingFor(Job* job) : own_(Job::exchange(job)) {}

@@ -1,4 +1,4 @@
-// Numbers in texts.
+// Numbers and their texts.
 #pragma once
 
 #include <charconv>
@@ -9,7 +9,7 @@
 
 namespace hysteron {
 
-// In C notation, whatever the locale; none unless all of the text is one.
+// Reads a number in C notation, whatever the locale; returns none unless all of the text is one.
 inline std::optional<double> number_in(std::string_view text) {
   double value = 0;
   const char* end = text.data() + text.size();
@@ -18,14 +18,14 @@ inline std::optional<double> number_in(std::string_view text) {
   return value;
 }
 
-// Texts of numbers.
+// Writing numbers.
 
-// The shortest that number_in() reads back as the same number: "0.1", "1e-300".
+// Returns the shortest text that number_in() reads back as the same number: "0.1", "1e-300".
 inline std::string number_text(double x) {
   char text[32];
   return {text, std::to_chars(text, text + sizeof text, x).ptr};
 }
-// Of so many significant digits, as printf's %g writes it.
+// Returns the number with so many significant digits, as printf's %g writes it.
 inline std::string number_text(double x, int digits) {
   char text[32];
   return {text, std::to_chars(text, text + sizeof text, x, std::chars_format::general, digits).ptr};

@@ -20,8 +20,8 @@ class OwnThread {
  public:
   using Job = std::function<void(Owned&)>;
 
-  // Throws what `make` throws.  The destructor does what was posted; its errors are lost: call wait() to see
-  // them.
+  // Throws what `make` throws.  The destructor finishes the posted job, whose errors are lost: call wait() to
+  // see them.
   explicit OwnThread(std::function<std::unique_ptr<Owned>()> make)
       : job_([this, make = std::move(make)] { owned_ = make(); }),
         worker_([this](const std::stop_token& stop) { work(stop); }) {
@@ -30,8 +30,8 @@ class OwnThread {
   OwnThread(const OwnThread&) = delete;
   OwnThread& operator=(const OwnThread&) = delete;
 
-  // Has `job` done there and returns at once, or as soon as an earlier one is done.  Throws what the earlier
-  // one threw; `job` is not done then.
+  // Starts `job` on that thread and returns at once, or as soon as an earlier one is done.  Throws what the
+  // earlier one threw; `job` is not done then.
   void post(Job job) {
     std::unique_lock lock(mutex_);
     wait_until_idle(lock);
@@ -39,12 +39,12 @@ class OwnThread {
     lock.unlock();
     changed_.notify_all();
   }
-  // Waits for what was posted and throws what it threw.
+  // Waits for the posted job and throws what it threw.
   void wait() {
     std::unique_lock lock(mutex_);
     wait_until_idle(lock);
   }
-  // The same with `job`, and its result.
+  // Posts `body`, waits for it and returns its result.
   template <class Body>
   auto run(const Body& body) -> std::invoke_result_t<Body, Owned&> {
     std::packaged_task<std::invoke_result_t<Body, Owned&>(Owned&)> task(std::cref(body));

@@ -1,4 +1,4 @@
-// Independent pieces of work on several threads.
+// Runs independent pieces of work on several threads.
 #pragma once
 
 #include <atomic>
@@ -10,8 +10,8 @@
 
 namespace hysteron {
 
-// body(i) for i in [0, n), in this order but `threads` at a time.  An exception of a body ends its thread and
-// is thrown again when the others are done.
+// Calls body(i) for i in [0, n), in this order but `threads` at a time.  An exception of a body ends its
+// thread and is thrown again when the others are done.
 template <class Body>
 void in_parallel(std::size_t n, int threads, const Body& body) {
   std::atomic<std::size_t> next = 0;

@@ -29,7 +29,7 @@ void append_utf8(std::uint32_t code, std::string& text) {
 bool is_high_surrogate(std::uint32_t unit) { return unit >= 0xD800 && unit < 0xDC00; }
 bool is_low_surrogate(std::uint32_t unit) { return unit >= 0xDC00 && unit < 0xE000; }
 
-// Behind the byte order mark.  A surrogate alone becomes the replacement character.
+// Converts the text behind the byte order mark.  An unpaired surrogate becomes the replacement character.
 std::string from_utf16(std::string_view bytes, bool big_endian) {
   constexpr std::uint32_t kReplacement = 0xFFFD;
   const auto unit = [&](std::size_t at) {
@@ -51,7 +51,7 @@ std::string from_utf16(std::string_view bytes, bool big_endian) {
   return text;
 }
 
-// How many bytes follow the first one of a character; -1 of a byte that begins none.
+// Returns how many bytes follow the first one of a character; -1 if no character begins with this byte.
 int bytes_that_follow(unsigned char first) {
   if (first < 0x80) return 0;
   if (first >= 0xC2 && first < 0xE0) return 1;
@@ -77,7 +77,7 @@ std::string from_latin1(std::string_view bytes) {
 
 using Replacement = std::pair<std::string_view, std::string_view>;
 
-// The replacement whose first text begins here; none if there is no such one.
+// Returns the replacement whose first text begins here, or null.
 template <std::size_t N>
 const Replacement* replacement_at(const Replacement (&all)[N], std::string_view text, std::size_t at) {
   for (const Replacement& one : all)
@@ -124,13 +124,13 @@ constexpr Replacement kSameUnits[] = {
 
 bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }
 
-// "gf.cm/cm" has a dot between letters; "0.1 N" has none.
+// Is true for the dot between letters of "gf.cm/cm", not for that of "0.1 N".
 bool is_dot_of_product(std::string_view text, std::size_t at) {
   return text[at] == '.' && at > 0 && at + 1 < text.size() && is_letter(text[at - 1]) &&
          is_letter(text[at + 1]);
 }
 
-// One space between words, none at the ends and beside a slash.
+// Leaves one space between words, none at the ends and beside a slash.
 std::string with_single_spaces(std::string_view text) {
   std::string result;
   for (std::size_t at = 0; at < text.size(); ++at) {

@@ -42,12 +42,12 @@ struct Pipes {
   Pipe input, output, errors;
 };
 
-// Between fork and exec: our pipes at its stdin and stderr, and at its stdout, which else goes nowhere, so
-// that it stays out of ours.  It gets SIGTERM when the thread that started it is gone: we may be killed, and
-// it is not to compute for nobody.
+// Runs between fork and exec.  The child gets our pipes as stdin and stderr, and as stdout if there is one
+// for it; else its stdout goes to /dev/null, so that it stays out of ours.  It gets SIGTERM when the thread
+// that started it is gone, so that it does not compute for nobody when we are killed.
 [[noreturn]] void become(char* const* arguments, const Pipes& pipes, const Pipe& failure, pid_t parent) {
   ::prctl(PR_SET_PDEATHSIG, SIGTERM);
-  if (::getppid() != parent) ::_exit(EXIT_FAILURE);  // gone before it could be asked for
+  if (::getppid() != parent) ::_exit(EXIT_FAILURE);  // the parent ended before prctl()
   const int output = pipes.output.in() >= 0 ? pipes.output.in() : ::open("/dev/null", O_WRONLY | O_CLOEXEC);
   if (::dup2(pipes.input.out(), STDIN_FILENO) >= 0 && ::dup2(output, STDOUT_FILENO) >= 0 &&
       ::dup2(pipes.errors.in(), STDERR_FILENO) >= 0)
@@ -57,7 +57,7 @@ struct Pipes {
   ::_exit(EXIT_FAILURE);
 }
 
-// False if there is no such program.
+// Returns false if there is no such program.
 bool spawn(const std::vector<std::string>& words, const Pipes& pipes, pid_t& child) {
   std::vector<char*> arguments;
   for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
@@ -77,7 +77,7 @@ bool spawn(const std::vector<std::string>& words, const Pipes& pipes, pid_t& chi
   return false;
 }
 
-// A pipe through which no more comes is closed.
+// Reads what has arrived; closes a pipe at its end.
 void read_more(Pipe& pipe, std::string& text) {
   char buffer[4096];
   const ssize_t read = ::read(pipe.out(), buffer, sizeof buffer);
@@ -91,7 +91,7 @@ void write_more(Pipe& pipe, std::string_view& text) {
   if (text.empty() || (written < 0 && errno != EAGAIN && errno != EINTR)) pipe.close_in();
 }
 
-// Takes whole lines off the text.
+// Removes whole lines from the text and passes each to `said`.
 void take_lines(std::string& text, const std::function<void(const std::string&)>& said) {
   std::size_t begin = 0;
   for (std::size_t end; (end = text.find('\n', begin)) != text.npos; begin = end + 1)
@@ -99,14 +99,14 @@ void take_lines(std::string& text, const std::function<void(const std::string&)>
   text.erase(0, begin);
 }
 
-// Writes the input while reading what is said: a child that fills one pipe must not wait for us forever.
-// Returns its errors.
+// Writes the input while reading the child's output: a child that fills one pipe must not wait for us
+// forever.  Returns what it wrote to stderr.
 std::string exchange(Pipes& pipes, std::string_view text,
                      const std::function<void(const std::string&)>& said) {
   std::string errors, output;
   ::fcntl(pipes.input.in(), F_SETFL, O_NONBLOCK);
   while (pipes.errors.out() >= 0 || pipes.output.out() >= 0) {
-    // Those that are closed have no number, and poll() passes over them.
+    // Closed pipes have the number -1, which poll() passes over.
     pollfd ends[3] = {
         {pipes.errors.out(), POLLIN, 0}, {pipes.output.out(), POLLIN, 0}, {pipes.input.in(), POLLOUT, 0}};
     if (::poll(ends, 3, -1) < 0) {
@@ -123,7 +123,7 @@ std::string exchange(Pipes& pipes, std::string_view text,
   return errors;
 }
 
-// What a program warns of it says before it fails, and is not why.
+// Returns the first line that is not blank and no warning: warnings do not say why a program failed.
 std::string first_line_with_text(const std::string& said) {
   std::string first;
   for (size_t begin = 0; (begin = said.find_first_not_of(" \t\r\n", begin)) != said.npos;) {
@@ -136,7 +136,7 @@ std::string first_line_with_text(const std::string& said) {
   return first.empty() ? "it said nothing" : first;
 }
 
-// A child that exits before reading its input must not end us.
+// Ignores SIGPIPE: a child that exits before reading its input must not end us.
 class IgnoreBrokenPipe {
  public:
   IgnoreBrokenPipe() : before_(std::signal(SIGPIPE, SIG_IGN)) {}

@@ -1,4 +1,4 @@
-// The root mean square of a field over a cloth, each value by the area that it stands for.
+// The root mean square of a field over a cloth, each value weighted by the area that it stands for.
 #pragma once
 
 #include <cmath>
@@ -7,8 +7,8 @@
 
 namespace hysteron {
 
-// `area` has one number for each element or vertex [m^2], `values` equally many components for each of them:
-// the mean is over the cloth, whatever its mesh.  Of no area: 0.
+// `area` has one number for each element or vertex [m^2], `values` equally many components for each of them.
+// The mean is over the area, so that it does not depend on the mesh; it is 0 without area.
 template <class Number>
 double root_mean_square(const std::vector<Number>& values, const std::vector<double>& area) {
   const std::size_t components = area.empty() ? 1 : values.size() / area.size();

@@ -16,7 +16,7 @@ struct KnownUnit {
   double factor;
 };
 
-// Of one quantity together; another spelling of a unit stands below it.
+// The rows of one quantity stand together; another spelling of a unit stands below it.
 constexpr KnownUnit kUnits[] = {
     {"N m", "gf cm^2/cm", kGramForce * 1e-2},
     {"N m", "gf cm", kGramForce * 1e-2},

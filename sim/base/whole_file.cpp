@@ -36,7 +36,7 @@ std::string whole_file(const std::filesystem::path& file, const std::string& att
   struct stat status {};
   if (stat(file.c_str(), &status) != 0) throw failure(attempt, errno);
   check_kind(status, attempt);
-  // What becomes a pipe after it was looked at does not wait for a writer.
+  // O_NONBLOCK: a file that was replaced by a pipe after the check does not wait for a writer.
   const int number = open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> stream(number < 0 ? nullptr : fdopen(number, "rb"),
                                                                &std::fclose);

@@ -1,4 +1,4 @@
-// Every file that a user names is read here, and entered in the job of the thread (job.h).
+// Reads every file that a user names, and enters it in the job of the thread (job.h).
 #pragma once
 
 #include <cstddef>
@@ -7,13 +7,14 @@
 
 namespace hysteron {
 
-inline constexpr std::size_t kMaxBytes = (std::size_t{1} << 31) - 1;  // what image libraries can count
+// The most that image libraries can count
+inline constexpr std::size_t kMaxBytes = (std::size_t{1} << 31) - 1;
 
-// The bytes of a regular file; pipes and devices, which may never end, are not opened.  Throws
+// Returns the bytes of a regular file; pipes and devices, which may never end, are not opened.  Throws
 // Error::system, "ATTEMPT: reason", if it cannot be read, Error::invalid_input if it is larger than `most`.
 std::string whole_file(const std::filesystem::path& file, const std::string& attempt,
                        std::size_t most = kMaxBytes);
-// The same where the name is part of a request: every failure is Error::invalid_input.
+// Reads the same where the name is part of a request: every failure is Error::invalid_input.
 std::string file_named(const std::filesystem::path& file, const std::string& attempt);
 
 }  // namespace hysteron

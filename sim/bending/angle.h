@@ -43,7 +43,7 @@ HYST_HD inline Angle<Real> dihedral_angle(const Vec3<Real>& p0, const Vec3<Real>
   return a;
 }
 
-// d theta/d p of corner p0, p1, p2 or p3, from the eight numbers g0, g1, t0, t1.
+// Returns d theta/d p [rad/m] of corner p0, p1, p2 or p3, from the eight numbers g0, g1, t0, t1.
 template <class Real>
 HYST_HD inline Vec3<Real> angle_gradient(const Real* g, int corner) {
   const Vec3<Real> g0(g[0], g[1], g[2]), g1(g[3], g[4], g[5]);
@@ -53,8 +53,8 @@ HYST_HD inline Vec3<Real> angle_gradient(const Real* g, int corner) {
   return corner == 3 ? g3 : Vec3<Real>(-(g0 + g1 + g3));
 }
 
-// The angle that differs from `previous` by less than pi and equals `theta` up to full turns: a hinge folded
-// past flat-on-itself keeps turning instead of jumping by 2 pi.
+// Returns the angle [rad] that differs from `previous` by less than pi and equals `theta` up to full turns: a
+// hinge folded past flat-on-itself keeps turning instead of jumping by 2 pi.
 template <class Real>
 HYST_HD inline Real continued_angle(Real theta, Real previous) {
   using std::floor;

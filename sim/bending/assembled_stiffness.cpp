@@ -17,7 +17,8 @@ Adjacency vertices_of_elements(Device& device, const BendingFactors<Real>& facto
   return hysteron::vertices_of_elements(factors.elements, start.data(), hinge.data(), corner.data());
 }
 
-// Off-diagonal blocks of vertices that share an element, or a block of the narrower matrix.
+// Returns the off-diagonal blocks: pairs of vertices that share an element, or a block of the narrower
+// matrix.
 template <class Real, class Device>
 Adjacency stiffness_pattern(const Adjacency& elements, const BlockRows<Real, Device>& narrow) {
   const int n = static_cast<int>(narrow.row_ptr().size()) - 1;
@@ -38,7 +39,7 @@ int slot_in(const int* row_ptr, const std::vector<int>& col, int row, int column
   return at != last && *at == column ? static_cast<int>(at - col.begin()) : -1;
 }
 
-// Of each upper block the pairs of items that add to it, in the order of their elements.
+// Lists for each upper block the pairs of items that add to it, in the order of their elements.
 template <class Pair>
 void pairs_of_blocks(const Adjacency& elements, const Adjacency& pattern,
                      const std::vector<UpperBlock>& upper, std::vector<int>& start, std::vector<Pair>& pair) {

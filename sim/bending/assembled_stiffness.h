@@ -1,5 +1,5 @@
-// A system's matrix with the membrane's softening and bending's stiffness in it: a product reads the rows of
-// one matrix where it would take four loops, one after the other, and twice the bytes.
+// A system's matrix into which the membrane's softening and bending's stiffness are added: a product then
+// reads the rows of one matrix where it would take four loops, one after the other, and twice the bytes.
 #pragma once
 
 #include "sim/bending/bending.h"
@@ -11,7 +11,7 @@ namespace hysteron {
 template <class Real, class Device>
 class AssembledStiffness : public DefiniteMatrix<Real> {
  public:
-  // Two of an element's vertices, each as an item of its elements' vertices.
+  // Two vertices of an element, each as an index into its list of vertices.
   struct Pair {
     int first, second;
   };
@@ -20,7 +20,8 @@ class AssembledStiffness : public DefiniteMatrix<Real> {
   AssembledStiffness(Device& device, const BlockRows<Real, Device>& rows,
                      const Bending<Real, Device>& bending);
 
-  // Of `rows`, softening (null: none) and bending where it was linearised last [N/m].
+  // Adds up the values of `rows`, softening (null: none) and bending's stiffness where it was linearised last
+  // [N/m].
   BlockRowsView<Real> assemble(const BlockRowsView<Real>& matrix, const ScalarRowsView<Real>& softening);
   BlockRowsView<Real> assemble(const BlockRowsView<Real>& matrix) override { return assemble(matrix, {}); }
   Adjacency pattern() const override { return {row_ptr_.download(), col_.download()}; }
@@ -38,11 +39,11 @@ class AssembledStiffness : public DefiniteMatrix<Real> {
  private:
   Device& device_;
   const Bending<Real, Device>& bending_;
-  // How each element's curvature changes with each of its vertices: D rows of three [1/m^2].
+  // The rate of each element's curvature by each of its vertices: D rows of three [1/m^2].
   Buffer<int, Device> element_, vertex_;
   Buffer<Real, Device> rate_;
-  // For each block its pairs, in the order of their elements, and where it stands in the system's matrix, its
-  // diagonal among the diagonals; -1: nowhere.
+  // For each block: its pairs, in the order of their elements, and its place in the system's matrix (among
+  // the diagonals for a diagonal block); -1: it has none.
   Buffer<UpperBlock, Device> upper_;
   Buffer<int, Device> pair_start_, narrow_;
   Buffer<Pair, Device> pair_;

@@ -31,8 +31,8 @@ Adjacency vertex_hinges(const ClothMesh& mesh) {
   return compressed(items);
 }
 
-// The chapter's printed distribution (Wong, Leach, Zambetta 2013, 4.3.1), kept as printed: a factor 1/2, no
-// |e|, and one common t for both forces, which breaks angular momentum unless t = 1/2.
+// The chapter's printed distribution (Wong, Leach, Zambetta 2013, 4.3.1) is kept as printed: it has a factor
+// 1/2, no |e|, and one common t for both forces, which breaks angular momentum unless t = 1/2.
 template <class Real>
 HYST_HD void chapter_forces(const Vec3<Real>& p0, const Vec3<Real>& p1, const Vec3<Real>& p2,
                             const Vec3<Real>& p3, Real moment, Vec3<Real>* force) {

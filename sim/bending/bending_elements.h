@@ -1,4 +1,4 @@
-// Bending's Gauss-Newton stiffness J^T C^T (A dM/dK) C J, element by element, on the CPU.
+// Forms bending's Gauss-Newton stiffness J^T C^T (A dM/dK) C J element by element, on the CPU.
 #pragma once
 
 #include "sim/bending/bending.h"
@@ -6,12 +6,13 @@
 
 namespace hysteron {
 
-// Rows: elements; items: the vertices of the hinges that their curvatures depend on, each once.  `start` and
-// `hinge` are the operator's rows, `corner` the vertices of each hinge, on the host.
+// Returns a row per element with the vertices of the hinges that its curvature depends on, each once.
+// `start` and `hinge` are the operator's rows, `corner` the four vertices of each hinge, all on the host.
 Adjacency vertices_of_elements(int elements, const int* start, const int* hinge,
                                const Eigen::Vector4i* corner);
 
-// An element couples all vertices of the hinges whose angles its curvature depends on.
+// The stiffness of single elements: an element couples all vertices of the hinges whose angles its curvature
+// depends on.
 template <class Real>
 class BendingElements : public ElementStiffness {
  public:
@@ -28,10 +29,10 @@ class BendingElements : public ElementStiffness {
  private:
   const Bending<Real, Cpu>& bending_;
   Adjacency vertex_;                        // rows: elements
-  std::vector<std::array<int, 4>> corner_;  // of each item of the operator: where its hinge's vertices stand
+  std::vector<std::array<int, 4>> corner_;  // per item of the operator: its hinge's vertices in the list
 };
 
-// The bending stiffness of a scene of double precision as a product in single precision.
+// Applies the bending stiffness of a scene of double precision in single precision.
 template <class Device>
 class FloatBending : public FloatStiffness<Device> {
  public:
@@ -51,7 +52,7 @@ class FloatBending : public FloatStiffness<Device> {
 
   Device& device_;
   const Bending<double, Device>& bending_;
-  // As in Bending.
+  // Copies of the arrays of Bending.
   Buffer<float, Device> coefficient_, transposed_, gradient_, tangent_;
   Buffer<float, Device> rate_, moment_area_;
   Buffer<Vec3<float>, Device> force_;

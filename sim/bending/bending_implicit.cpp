@@ -20,7 +20,7 @@ void Bending<Real, Device>::make_trials() {
   if (viscosity_ > 0) angle_before_ = Buffer<Real, Device>(device_, hinges_);
 }
 
-// The moments are there for measurements before the next step.
+// The moments are saved because measurements before the next step read them.
 template <class Real, class Device>
 void Bending<Real, Device>::serialise(Archive& archive) {
   bool tries = trial_angle_.size() > 0;
@@ -87,7 +87,7 @@ void Bending<Real, Device>::apply_stiffness(const Vec3<Real>* p) {
   compute_energy_forces();
 }
 
-// The forces are those that were tried: the moments of a step do not depend on whether it is remembered.
+// Keeps the forces of the trial: a step's moments do not depend on whether it is committed.
 template <class Real, class Device>
 void Bending<Real, Device>::accept() {
   if (viscosity_ > 0) std::swap(angle_before_, angle_);
@@ -97,7 +97,7 @@ void Bending<Real, Device>::accept() {
                moment_area_.data());
 }
 
-// For each hinge c^T (A dM/dK) c of its column c of C, summed over the elements.
+// Computes for each hinge c^T (A dM/dK) c with its column c of C, summed over the elements.
 template <class Real, class Device>
 template <int D>
 void Bending<Real, Device>::gather_stiffness() {
@@ -118,7 +118,7 @@ void Bending<Real, Device>::gather_stiffness() {
       });
 }
 
-// The hinges' stiffness times their gradients' squares.
+// Adds each hinge's stiffness times the squares of its gradients.
 template <class Real, class Device>
 void Bending<Real, Device>::add_stiffness_diagonal(Mat3<Real>* diagonal) {
   dimension_ == 1 ? gather_stiffness<1>() : gather_stiffness<3>();

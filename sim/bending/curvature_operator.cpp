@@ -22,7 +22,7 @@ std::vector<double> hinge_angles(const ClothMesh& mesh, const std::vector<Eigen:
 std::array<Eigen::Vector3d, 4> rest_hinge(const ClothMesh& mesh, int hinge) {
   const Edge& e = mesh.edge[hinge];
   if (!mesh.sewn) return {mesh.rest[e.p0], mesh.rest[e.p1], mesh.rest[e.p2], mesh.rest[e.p3]};
-  // Where the corner opposite to the edge lies: along the edge, from its middle, and above it.
+  // Returns where the corner opposite to the edge lies: along the edge, from its middle, and above it.
   const auto tip = [&](int f) {
     const auto [corner, from, to] = mesh.side(f, hinge);
     const double length = (to - from).norm();
@@ -80,24 +80,24 @@ CurvatureOperator make_hinge_operator(const ClothMesh& mesh) {
 
 namespace {
 
-constexpr double kOnAxis = 1e-12;  // parts of a direction below this are rounding
+constexpr double kOnAxis = 1e-12;  // smaller components of a direction are rounding
 
-// Q over the rigidity along warp.
+// Returns the diagonal of Q over the rigidity along warp.
 Eigen::Vector3d rigidities(double weft, double bias) {
   return {1, weft, std::max(0.0, 2 * bias - (1 + weft) / 2)};
 }
 
-// nu of a bend across interior edge i, in the frame of its first face.
+// Returns nu of a bend across interior edge i, in the frame of its first face.
 Eigen::Vector3d across(const ClothMesh& mesh, int i) {
   const int f = mesh.edge[i].face0;
   const auto axes = mesh.face_axes(f);
   const FaceSide side = mesh.side(f, i);
   const Eigen::Vector3d along = (side.to - side.from).normalized();
-  const double x = along.dot(axes[1]), y = along.dot(axes[0]);  // of the edge's normal, up to signs
+  const double x = along.dot(axes[1]), y = along.dot(axes[0]);  // the edge's normal, up to signs
   return {x * x, y * y, std::sqrt(2.0) * x * y};
 }
 
-// Factors of the D components of element i, with Q as the header has it.
+// Returns the factors of the D components of element i, with Q as in the header.
 Eigen::Vector3d component_factors(const CurvatureOperator& op, const ClothMesh& mesh, int i,
                                   const Eigen::Vector3d& q) {
   if (op.dimension == 3) return q.cwiseSqrt();
@@ -169,7 +169,7 @@ CurvatureOperator make_curvature_operator(BendingElement element, const ClothMes
 
 namespace {
 
-// Angles and their gradients at rest, and the map v -> M^-1 J^T C^T A C J v.
+// Holds angles and their gradients at rest, and applies v -> M^-1 J^T C^T A C J v.
 class RestBending {
  public:
   RestBending(const ClothMesh& mesh, const CurvatureOperator& op) : mesh_(mesh), op_(op) {
@@ -181,7 +181,7 @@ class RestBending {
     moment_.resize(static_cast<std::size_t>(op.elements()) * op.dimension);
   }
 
-  // w = J^T C^T A C J v
+  // Sets w = J^T C^T A C J v.
   void apply(const std::vector<Eigen::Vector3d>& v, std::vector<Eigen::Vector3d>& w) {
     const int d = op_.dimension;
     for (std::size_t h = 0; h < angle_.size(); ++h) {

@@ -1,4 +1,5 @@
-// The fixed linear map from changes of dihedral angle to curvatures: what distinguishes bending elements.
+// The fixed linear map from changes of dihedral angle to curvatures, which distinguishes the bending
+// elements.
 #pragma once
 
 #include <array>
@@ -9,37 +10,39 @@
 
 namespace hysteron {
 
-// K_i = sum over j of coefficient_ij * (theta_ij - theta0_ij), with D curvature components for each element
-// i. An element is a hinge (D = 1) or a face (D = 3, S = (S_xx, S_yy, sqrt2 S_xy) in the face's warp-weft
-// frame).
+// The map is K_i = sum over j of coefficient_ij * (theta_ij - theta0_ij), with D curvature components for
+// each element i.  An element is a hinge (D = 1) or a face (D = 3, S = (S_xx, S_yy, sqrt2 S_xy) in the face's
+// warp-weft frame).
 struct CurvatureOperator {
-  int dimension = 1;                // D
+  int dimension = 1;                // D, 1 or 3
   std::vector<double> area;         // A per element [m^2], times the mesh's bending_factor
   std::vector<double> rest_angle;   // theta0 per hinge [rad]
   Adjacency hinge;                  // rows: elements; items: hinges
   std::vector<double> coefficient;  // D numbers for each item [1/m], component by component within an item
-  // The same map by columns, so that torques are gathered in a fixed order: rows: hinges; items: elements.
+  // This is the same map by columns (rows: hinges; items: elements), so that torques are gathered in a fixed
+  // order.
   Adjacency element;
-  std::vector<double> transposed;  // D numbers for each item of `element`
-  // Curvatures are multiples of the geometric ones where a fabric bends differently along warp, weft and
-  // bias: D factors per element; empty: 1.
+  std::vector<double> transposed;  // D numbers for each item of `element` [1/m]
+  // Laws see the geometric curvatures times these factors, D per element, where a fabric bends differently
+  // along warp, weft and bias; empty: 1.
   std::vector<double> metric;
-  // Elasticity beside the law's where it differs by direction otherwise than friction does, of moment and
-  // curvature behind the metric: D numbers per element, a diagonal [N m]; empty: none.
+  // Elasticity beside the law's, where it differs by direction otherwise than friction does, between moment
+  // and curvature behind the metric: a diagonal of D numbers per element [N m]; empty: none.
   std::vector<double> elastic;
-  // Of hinges of a fabric whose stops differ by direction: u_xx^2 and u_yy^2 of each hinge's curvature behind
-  // the metric, u the unit tensor of a bend across its edge; empty: nobody asks.
+  // For hinges of a fabric whose stops differ by direction: u_xx^2 and u_yy^2 of each hinge, u the unit
+  // tensor, behind the metric, of a bend across its edge; empty: no law needs it.
   std::vector<double> direction;
 
   int elements() const { return static_cast<int>(area.size()); }
 };
 
-// The chapter's element: K = (theta - theta0)/h, A = |e| h, h the rest average height (Wong et al. 2013,
-// Eq. 4.1).
+// Makes the chapter's element: K = (theta - theta0)/h, A = |e| h, h the rest average height (Wong et al.
+// 2013, Eq. 4.1).
 CurvatureOperator make_hinge_operator(const ClothMesh& mesh);
 
-// One curvature tensor per face that reproduces uniform curvature on any mesh.  `held` marks vertices fixed
-// for the whole run: a boundary edge between two held vertices is clamped, every other boundary edge is free.
+// Makes one curvature tensor per face that reproduces uniform curvature on any mesh.  `held` marks vertices
+// fixed for the whole run: a boundary edge between two held vertices is clamped, every other boundary edge is
+// free.
 CurvatureOperator make_shape_operator(const ClothMesh& mesh, const std::vector<char>& held);
 
 CurvatureOperator make_curvature_operator(BendingElement element, const ClothMesh& mesh,
@@ -52,27 +55,27 @@ CurvatureOperator make_curvature_operator(BendingElement element, const ClothMes
 // 1/sqrt(q) times those along warp.  Needs 4 bias >= 1 + weft.
 void stiffen(CurvatureOperator& op, const ClothMesh& mesh, double weft, double bias);
 
-// Where rigidities have the ratios of another Q': after stiffen() with the Q of friction, the elasticity b2
-// [N m] that elements have of their law becomes that along each direction, b2 Q'/Q in the law's curvatures.
-// The sum is a potential, so that what friction loses is what it loses alone.  Chosen here.
+// Makes rigidities have the ratios of another Q': after stiffen() with the Q of friction, the elasticity b2
+// [N m] of the elements' law becomes b2 Q'/Q along each direction, in the law's curvatures.  The sum is a
+// potential, so that friction's loss stays what it is alone.  Chosen here.
 void set_rigidity(CurvatureOperator& op, const ClothMesh& mesh, double b2, DirectionRatios rigidity,
                   DirectionRatios friction);
 
-// The same Q's directions of hinges: u = Q^1/2 nu(n)/|Q^1/2 nu(n)|, n across the edge.
+// Sets the hinges' directions for the same Q: u = Q^1/2 nu(n)/|Q^1/2 nu(n)|, n across the edge.
 void set_directions(CurvatureOperator& op, const ClothMesh& mesh, double weft, double bias);
 
-// Rigidity over that along warp of a free strip cut at `angle` from warp [rad]: its edges carry no moment, so
-// that it bends as the inverse of Q says, 1/(nu^T Q^-1 nu), and off the axes twists as it bends.  Along warp
-// and weft, where it does not, that is nu^T Q nu.
+// Returns the rigidity, over that along warp, of a free strip cut at `angle` from warp [rad]: its edges carry
+// no moment, so that it bends as the inverse of Q says, 1/(nu^T Q^-1 nu), and off the axes twists as it
+// bends.  Along warp and weft it does not twist, and that is nu^T Q nu.
 double strip_rigidity(double weft, double bias, double angle);
 
-// Angles of all hinges of the mesh in the given configuration, within (-pi, pi].
+// Returns the angles of all hinges at the given positions [m], within (-pi, pi].
 std::vector<double> hinge_angles(const ClothMesh& mesh, const std::vector<Eigen::Vector3d>& position);
 
-// The vertices p0, p1, p2, p3 of a hinge at rest [m].  Panels that are sewn together lie flat there, across a
-// seam as within a panel: side by side, with the middles of the seam's two sides on each other.
+// Returns the vertices p0, p1, p2, p3 of a hinge at rest [m].  Panels that are sewn together lie flat there,
+// across a seam as within a panel: side by side, with the middles of the seam's two sides on each other.
 std::array<Eigen::Vector3d, 4> rest_hinge(const ClothMesh& mesh, int hinge);
-// Angles of all hinges at rest, within (-pi, pi].
+// Returns the angles of all hinges at rest, within (-pi, pi].
 std::vector<double> rest_angles(const ClothMesh& mesh);
 
 // Fills element/transposed from hinge/coefficient.

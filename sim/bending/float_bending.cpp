@@ -59,7 +59,7 @@ void FloatBending<Device>::apply_moments(const BendingFactors<double>& factors) 
                                  moment_area_.data(), gradient_.data(), force_.data()});
 }
 
-// Where forces of double precision would be twice as large.
+// Counts the bytes of forces() that float saves over double.
 template <class Device>
 std::size_t FloatBending<Device>::force_bytes() const {
   return bending_.force_bytes() - force_.bytes();

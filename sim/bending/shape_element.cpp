@@ -1,4 +1,4 @@
-// The `shape` element: one curvature tensor per face, exact for uniform curvature on every mesh.
+// The `shape` element has one curvature tensor per face, which is exact for uniform curvature on every mesh.
 //
 // For vertices on z = x^T H x / 2 the angle of a hinge is linear in H = (H_xx, H_yy, sqrt2 H_xy):
 //   theta_e = R_e H = h H_nn + (a0 - a1) H_nt - [a0 (L-a0)/h0 + a1 (L-a1)/h1]/2 H_tt,   h = (h0 + h1)/2,
@@ -31,7 +31,7 @@ constexpr double kRankTolerance = 1e-12;
 constexpr int kLargestRing = 4;
 
 Row nu(const Vector2d& n) { return {n.x() * n.x(), n.y() * n.y(), std::sqrt(2.0) * n.x() * n.y()}; }
-Row mixed(const Vector2d& n, const Vector2d& t) {  // row of H -> n^T H t
+Row mixed(const Vector2d& n, const Vector2d& t) {  // the row that maps H to n^T H t
   return {n.x() * t.x(), n.y() * t.y(), (n.x() * t.y() + n.y() * t.x()) / std::sqrt(2.0)};
 }
 
@@ -95,7 +95,7 @@ FlatHinge flat_hinge(const ClothMesh& mesh, const Edge& e, const Patch& patch) {
   return h;
 }
 
-// Row c of (V^T)^-1 that belongs to edge e in face f: the share of H that this edge contributes to S.
+// Returns row c of (V^T)^-1 that belongs to edge e in face f: the share of H that this edge contributes to S.
 Row edge_share(const ClothMesh& mesh, int e, int f, const Patch& patch) {
   const auto& corner = patch.at(f);
   Eigen::Matrix3d v;
@@ -114,7 +114,7 @@ void add_hinges(const ClothMesh& mesh, int f, std::vector<int>& hinges) {
       hinges.push_back(e);
 }
 
-// Hinges of the two faces at e, unfolded; each `ring` adds the hinges of the neighbouring faces.
+// Returns the hinges of the two faces at e, unfolded; each `ring` adds the hinges of the neighbouring faces.
 std::vector<int> stencil(const ClothMesh& mesh, int e, int rings, Patch& patch) {
   const Edge& edge = mesh.edge[e];
   patch[edge.face0] = flat_face(mesh, edge.face0);
@@ -133,7 +133,7 @@ std::vector<int> stencil(const ClothMesh& mesh, int e, int rings, Patch& patch) 
   return hinges;
 }
 
-// psi_e as a combination of the stencil's angles: hinge -> coefficient [-].
+// Returns psi_e as a combination of the stencil's angles: hinge -> coefficient [-].
 std::map<int, double> correction(const ClothMesh& mesh, int e) {
   for (int rings = 0;; ++rings) {
     Patch patch;
@@ -145,8 +145,8 @@ std::map<int, double> correction(const ClothMesh& mesh, int e) {
       inverse_height[i] = 1 / h.height;
       rows.row(i) = h.angle * inverse_height[i];
     }
-    // pinv(rows) from the eigenvectors of rows^T rows; its eigenvalues are the squared singular values,
-    // ascending.
+    // pinv(rows) follows from the eigenvectors of rows^T rows; its eigenvalues are the squared singular
+    // values, ascending.
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> normal(rows.transpose() * rows);
     Vector3d inverse = normal.eigenvalues();
     const double largest = inverse[2];
@@ -165,7 +165,7 @@ std::map<int, double> correction(const ClothMesh& mesh, int e) {
   }
 }
 
-// I - B^+ B with rows nu of the face's free edges: a free edge carries no moment about itself.
+// Returns I - B^+ B with rows nu of the face's free edges: a free edge carries no moment about itself.
 Eigen::Matrix3d free_edge_projection(const ClothMesh& mesh, int f, const std::vector<char>& held) {
   const auto corner = flat_face(mesh, f);
   Eigen::MatrixX3d b(0, 3);

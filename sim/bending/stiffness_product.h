@@ -1,12 +1,11 @@
-// What bending's stiffness J^T C^T T C J (BendingFactors) makes of displacements, loop by loop.
+// Applies bending's stiffness J^T C^T T C J (BendingFactors) to displacements, loop by loop.
 #pragma once
 
 #include "sim/bending/law_loop.h"
 
 namespace hysteron {
 
-// So many numbers of an array whose beginning and parts lie on boundaries of 16 bytes, which a GPU moves
-// at once.
+// N numbers of an array, aligned to 16 bytes, which a GPU moves at once.
 template <class Real, int N>
 struct alignas(16) Aligned {
   Real value[N];
@@ -16,7 +15,7 @@ struct alignas(16) Aligned {
   HYST_HD static Aligned& of(Real* array, int i) { return reinterpret_cast<Aligned*>(array)[i]; }
 };
 
-// Of each hinge's angle along v: J v.
+// Computes the rate of each hinge's angle along v: J v.
 template <class Real>
 struct HingeRates {
   const Eigen::Vector4i* corner;
@@ -34,7 +33,7 @@ struct HingeRates {
   }
 };
 
-// A M of each element: T C rate.
+// Computes A M of each element: T C rate.
 template <class Real, int D>
 struct ElementMoments {
   OperatorView<Real> op;
@@ -54,7 +53,7 @@ struct ElementMoments {
   }
 };
 
-// Torque of each hinge, and the forces of its gradients: -J^T C^T A M.
+// Computes the torque of each hinge, and the forces along its gradients: -J^T C^T A M.
 template <class Real, int D>
 struct HingeForces {
   const int *start, *element;  // columns of C: hinges

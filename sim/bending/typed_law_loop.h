@@ -1,4 +1,4 @@
-// LawLoop for one law type.  Included by the files that instantiate it.
+// Implements LawLoop for one law type.  Only files that instantiate it include it.
 #pragma once
 
 #include <cmath>
@@ -12,7 +12,7 @@
 
 namespace hysteron {
 
-// Numbers of a law's history, one set per element, in the device's preferred order.
+// Load and store a law's history, one set per element, in the device's preferred order.
 template <class Law, class Real>
 HYST_HD inline History<Real, Law::kHistory> load_history(const Real* memory, int i, int n) {
   History<Real, Law::kHistory> h;
@@ -38,8 +38,9 @@ constexpr bool is_long_law() {
     return false;
 }
 
-// What sweeps over fabrics run: a batch of cloths launches these loops once for all.  nvcc would compile
-// others a second time for it: there each cloth launches them by itself.
+// These are the laws that sweeps over fabrics use: a batch of cloths launches their loops once for all
+// cloths. nvcc would have to compile other laws a second time for that: there each cloth launches them by
+// itself.
 template <class Law>
 constexpr bool runs_in_batches() {
   return Law::kHistory == 0 || (!is_long_law<Law>() && requires(Law & law) { innermost(law).limit; });
@@ -201,7 +202,7 @@ class LawLoopOf : public LawLoop<Real, Device> {
   const double* relaxed() const override { return relaxed_.data(); }
 
  private:
-  // History read and moments written; viscosity's own left out.
+  // Counts the history read and the moments written, without viscosity's own arrays.
   std::size_t step_bytes(int elements) const { return history_.bytes() + elements * D * sizeof(Real); }
 
   Law law_;
@@ -210,8 +211,8 @@ class LawLoopOf : public LawLoop<Real, Device> {
   Buffer<double, Device> dissipated_, relaxed_;
 };
 
-// Loops of a group of laws.  law_loops.cpp.in instantiates them, a file for each group, dimension and
-// precision: they are the slowest to compile.
+// Makes the loops of a group of laws. law_loops.cpp.in instantiates them, a file for each group, dimension
+// and precision: they are the slowest to compile.
 template <class Group, class Real, class Device, int D>
 std::unique_ptr<LawLoop<Real, Device>> make_group_loop(Device& device, const LawChoice& choice,
                                                        int elements) {

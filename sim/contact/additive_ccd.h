@@ -1,4 +1,5 @@
-// How far four vertices may go along their directions until a point meets a triangle, or an edge an edge.
+// Bounds how far four vertices may go along their directions until a point meets a triangle, or an edge an
+// edge.
 //
 // Source: Li, Kaufman & Jiang 2021 (Codimensional Incremental Potential Contact), additive continuous
 // collision detection: each advance is no longer than the distance that is left over the fastest approach.
@@ -8,19 +9,19 @@
 
 namespace hysteron {
 
-// Closest points of a point and a triangle, and of two segments, as weights of their four vertices.
+// Finds the closest points of a point and a triangle, and of two segments, as weights of their four vertices.
 //
 // Source: Ericson 2005, Real-Time Collision Detection, 5.1.5 and 5.1.9 (the regions by their sign tests).
 
-// offset = sum of weight[k] x[k] leads from the second figure's closest point to the first one's; its length
-// is the distance, whose gradient by vertex k is weight[k] offset/|offset|.
+// The vector offset = sum of weight[k] x[k] [m] leads from the second figure's closest point to the first
+// one's; its length is the distance, whose gradient by vertex k is weight[k] offset/|offset|.
 template <class Real>
 struct ClosestPoints {
   Vec<Real, 4> weight;
   Vec3<Real> offset;
 };
 
-// Barycentric coordinates of the point of a triangle nearest to p.
+// Returns the barycentric coordinates of the point of a triangle nearest to p.
 template <class Real>
 HYST_HD Vec3<Real> nearest_in_triangle(const Vec3<Real>& p, const Vec3<Real>& a, const Vec3<Real>& b,
                                        const Vec3<Real>& c) {
@@ -60,7 +61,7 @@ HYST_HD Real within_unit(Real value) {
   return value < 0 ? Real(0) : (value > 1 ? Real(1) : value);
 }
 
-// Segments x0-x1 and x2-x3, neither of them a point.
+// Finds the closest points of the segments x0-x1 and x2-x3, neither of them a point.
 template <class Real>
 HYST_HD ClosestPoints<Real> edge_edge(const Vec3<Real> (&x)[4]) {
   const Vec3<Real> u = x[1] - x[0], v = x[3] - x[2], r = x[0] - x[2];
@@ -81,7 +82,7 @@ HYST_HD ClosestPoints<Real> edge_edge(const Vec3<Real> (&x)[4]) {
   return closest;
 }
 
-// Upper bound of the relative displacement of any two points of the two figures.
+// Returns an upper bound of the relative displacement of any two points of the two figures [m].
 template <class Real>
 HYST_HD Real fastest_approach(const Vec3<Real> (&direction)[4], bool edges) {
   using std::sqrt;
@@ -91,7 +92,7 @@ HYST_HD Real fastest_approach(const Vec3<Real> (&direction)[4], bool edges) {
   return edges ? sqrt(larger(n0, n1)) + sqrt(larger(n2, n3)) : sqrt(n0) + sqrt(larger(n1, larger(n2, n3)));
 }
 
-// Takes the motion that all four have in common out of their directions.
+// Subtracts the mean of the four directions from each.
 template <class Real>
 HYST_HD void remove_mean(Vec3<Real> (&direction)[4]) {
   const Vec3<Real> mean = Real(0.25) * (direction[0] + direction[1] + direction[2] + direction[3]);
@@ -103,7 +104,7 @@ HYST_HD Real pair_distance(const Vec3<Real> (&x)[4], bool edges) {
   return (edges ? edge_edge(x) : point_triangle(x)).offset.norm();
 }
 
-// Two figures at the start of a path: nowhere on it are they nearer than distance - speed.
+// Two figures at the start of a path: nowhere on it are they nearer than distance - speed [m].
 template <class Real>
 struct Approach {
   Real distance, speed;
@@ -115,9 +116,9 @@ HYST_HD Approach<Real> approach(const Vec3<Real> (&x)[4], Vec3<Real> (&direction
   return {pair_distance(x, edges), fastest_approach(direction, edges)};
 }
 
-// Step length in [0, 1] along the directions up to which the distance stays above `least`: 1, or where
-// between a twentieth and a tenth of what the distance exceeded `least` by is left.  `start` is the approach
-// of x and direction, which are spoilt.
+// Returns the step length in [0, 1] along the directions up to which the distance stays above `least` [m]: 1,
+// or the point where a twentieth to a tenth of the initial excess over `least` is left.  `start` is the
+// approach of x and direction, which are overwritten.
 template <class Real>
 HYST_HD Real feasible_step(const Approach<Real>& start, Vec3<Real> (&x)[4], Vec3<Real> (&direction)[4],
                            bool edges, Real least) {

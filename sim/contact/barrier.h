@@ -1,7 +1,7 @@
-// The barrier between two layers of cloth: no force at a distance of the shell, one that grows without bound
-// as the gap, what the distance exceeds the hardest compression by, becomes small against its range.  Where
-// next to nothing of it is left, the force goes on growing with constant stiffness: a step that does not end
-// in equilibrium must not leave a pair so near that nothing can move any more.
+// The barrier between two layers of cloth exerts no force at a distance of the shell, and one that grows
+// without bound as the gap (the distance less that of the hardest compression) becomes small against its
+// range.  Where hardly any gap is left, the force goes on growing with constant stiffness: a step that does
+// not end in equilibrium must not leave a pair so near that nothing can move any more.
 //
 // Source: Li, Ferguson, Schneider, Langlois, Zorin, Panozzo, Jiang & Kaufman 2020 (Incremental Potential
 // Contact), eq. 6 and, for nearly parallel edges, eq. 24.
@@ -25,7 +25,8 @@ HYST_HD Barrier<Real> operator+(const Barrier<Real>& a, const Barrier<Real>& b) 
 
 inline constexpr double kStiffest = 0.05;
 
-// Of a gap below the range; k [N/m^3].  The stiffness stays below `stiffest` of the range.
+// Returns the barrier of a gap [m] below the range [m], with k [N/m^3].  The stiffness stays constant below
+// `stiffest` times the range.
 template <class Real>
 HYST_HD Barrier<Real> barrier(Real k, Real gap, Real range, Real stiffest = static_cast<Real>(kStiffest)) {
   using std::log;
@@ -36,11 +37,11 @@ HYST_HD Barrier<Real> barrier(Real k, Real gap, Real range, Real stiffest = stat
   return {energy + beyond * (slope + beyond * stiffness / 2), slope + beyond * stiffness, stiffness};
 }
 
-// Fades the energy of two edges out as they become parallel, where their closest points jump.  c = squared
-// norm of the edges' cross product, `full` where the factor becomes 1.
+// Fades the energy of two edges out as they become parallel, where their closest points jump. c is the
+// squared norm of the edges' cross product [m^4]; the factor is 1 from `full` on.
 template <class Real>
 struct Fade {
-  Real factor, slope;  // by c
+  Real factor, slope;  // factor, and its derivative by c [1/m^4]
 };
 template <class Real>
 HYST_HD Fade<Real> parallel_fade(Real c, Real full) {

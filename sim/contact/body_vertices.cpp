@@ -32,7 +32,7 @@ std::vector<Vec3<Real>> positions_at(const std::vector<Obstacle>& bodies, double
   return all;
 }
 
-// Share of a shell of a body and cloth at which it bears kYieldPressure.
+// Returns the share of a shell of a body and cloth at which it bears kYieldPressure.
 double yield_share(double thickness) {
   SelfPair<double> pair{};
   pair.shell = thickness;
@@ -95,8 +95,8 @@ void BodyVertices<Real, Device>::move(double start, double end) {
   aim(1);
 }
 
-// From where bodies are at the start of the stage and at its end in the scene, which stand in start_ and
-// way_, and the share of their dents that is left at its end.
+// Begins the way between the scene's positions at the stage's start and end, which are in start_ and way_;
+// kept_dent is the share of their dents that is left at its end.
 template <class Real, class Device>
 void BodyVertices<Real, Device>::begin_way(double kept_dent) {
   const Real kept = static_cast<Real>(kept_dent);
@@ -118,7 +118,7 @@ void BodyVertices<Real, Device>::begin_guess() {
   if (has_yielded_) restart_way();
 }
 
-// Those that have yielded go from where the stage began to the same end.
+// Makes bodies that have yielded go from where the stage began to the same end.
 template <class Real, class Device>
 void BodyVertices<Real, Device>::restart_way() {
   const Vec3<Real>* from = from_.data();
@@ -151,7 +151,8 @@ const Vec3<Real>* BodyVertices<Real, Device>::joined(const Vec3<Real>* cloth,
   return to;
 }
 
-// How far each pair asks the vertices of its body to stay back: all that bear it, equally far.
+// Finds how far each pair asks the vertices of its body to stay back: all vertices that carry it, equally
+// far.
 template <class Real, class Device>
 void BodyVertices<Real, Device>::find_recession(const PressedPairs<Real>& pressed, const Vec3<Real>* x,
                                                 const Vec3<Real>* direction, const char* held) {
@@ -184,8 +185,8 @@ void BodyVertices<Real, Device>::find_recession(const PressedPairs<Real>& presse
       });
 }
 
-// Each vertex stays back by what its pairs ask for, one after the other: the next for what the ones before
-// have left of it.
+// Makes each vertex stay back as its pairs ask, one after the other: each asks only for what the ones before
+// have left missing.
 template <class Real, class Device>
 void BodyVertices<Real, Device>::yield(const PressedPairs<Real>& pairs, const Vec3<Real>* x,
                                        const Vec3<Real>* direction, const char* held) {
@@ -216,7 +217,7 @@ template <class Real, class Device>
 void BodyVertices<Real, Device>::keep_dents() {
   if (!has_yielded_ && deepest_ == 0) return;
   deepest_ = measure_dents();
-  constexpr double kSeen = 0.01;  // of the thickness
+  constexpr double kSeen = 0.01;  // over the thickness
   if (deepest_ >= kSeen * thickness_) {
     std::swap(dent_, behind_);
     return;
@@ -244,7 +245,7 @@ const char* BodyVertices<Real, Device>::held(const char* cloth) {
   return to;
 }
 
-// Between steps they have arrived.
+// Between steps the bodies have arrived.
 template <class Real, class Device>
 void BodyVertices<Real, Device>::serialise(Archive& archive) {
   hysteron::serialise(archive, device_, start_, way_, dent_);

@@ -38,7 +38,7 @@ std::vector<int> along_curve(const std::vector<std::array<int, 3>>& corners,
   return order;
 }
 
-// By node: whether an item of the cloth is below.
+// Tells for each node whether an item of the cloth is below it.
 std::vector<char> nodes_with_cloth(const std::vector<int>& vertices, int leaves, int cloth) {
   std::vector<char> has(2 * static_cast<std::size_t>(leaves));
   for (std::size_t rank = 0; 3 * rank < vertices.size(); ++rank)

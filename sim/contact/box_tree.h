@@ -1,5 +1,6 @@
-// A hierarchy of boxes around the triangles, or the edges, of a cloth.  Its shape is made once, from the rest
-// shape: what is near on the cloth stays near in space, however it folds.  Only the boxes follow the motion.
+// A hierarchy of boxes around the triangles, or the edges, of a cloth.  Its structure is made once, from the
+// rest shape: neighbours on the cloth stay near in space, however it folds.  Only the boxes follow the
+// motion.
 #pragma once
 
 #include <array>
@@ -26,14 +27,14 @@ struct Box {
   }
 };
 
-// Where vertices go within a step: from `from` to from + step_length (direction - mean); the mean is what
-// they have in common.
+// The motion of vertices within a step: from `from` [m] to from + step_length (direction - mean); the mean is
+// their common displacement.
 template <class Real>
 struct Sweep {
   const Vec3<Real>*from, *direction;
   Vec3<Real> mean;
   Real step_length;
-  Real margin;  // boxes reach farther by this
+  Real margin;  // boxes reach farther by this [m]
 
   HYST_HD void include(Box<Real>& box, int vertex) const {
     box.include(from[vertex]);
@@ -52,10 +53,10 @@ struct BoxTreeView {
   int leaves, count;
   const int* item;  // by rank
   const Box<Real>* box;
-  const char* has_cloth;  // below a node
+  const char* has_cloth;  // true for nodes with cloth below
 
-  // Calls visit(rank) for each leaf of rank `from` or more whose box overlaps, or for those of the cloth
-  // alone.
+  // Calls visit(rank) for each leaf of rank `from` or more whose box overlaps, or only for those of the
+  // cloth.
   template <class Visit>
   HYST_HD void find(const Box<Real>& query, int from, bool cloth_alone, const Visit& visit) const {
     constexpr int kDeepest = 32;
@@ -73,7 +74,7 @@ struct BoxTreeView {
         visit(node - leaves);
         continue;
       }
-      for (int child = 1; child >= 0; --child) {  // the left one is looked at first
+      for (int child = 1; child >= 0; --child) {  // the left one is visited first
         ++top;
         stack[top] = 2 * node + child;
         level[top] = below / 2;
@@ -85,12 +86,12 @@ struct BoxTreeView {
 template <class Real, class Device>
 class BoxTree {
  public:
-  // `corners` of each item: three vertices, or two with the last one repeated; vertices from `cloth` on are
-  // bodies'.
+  // `corners` of each item are three vertices, or two with the last one repeated; vertices from `cloth` on
+  // are bodies'.
   BoxTree(Device& device, const std::vector<std::array<int, 3>>& corners,
           const std::vector<Eigen::Vector3d>& rest, int cloth);
 
-  // Boxes around everything that the items touch within a sweep.
+  // Fits boxes around all that the items touch within a sweep.
   void fit(const Sweep<Real>& sweep);
   BoxTreeView<Real> view() const { return {leaves_, count_, item_.data(), box_.data(), has_cloth_.data()}; }
   std::size_t bytes() const { return item_.bytes() + corner_.bytes() + box_.bytes() + has_cloth_.bytes(); }

@@ -18,9 +18,9 @@ ObstacleShell<double> obstacle_shell(const Scene& scene) {
 
 double distance_under(const ObstacleShell<double>& shell, double pressure) {
   const Barrier<double> surface = shell.at(0);
-  if (-surface.slope < pressure) return -(pressure + surface.slope) / surface.stiffness;  // in the solid
+  if (-surface.slope < pressure) return -(pressure + surface.slope) / surface.stiffness;  // inside the solid
   double low = 0, high = shell.thickness;
-  constexpr double kWithin = 1e-12;  // of the thickness
+  constexpr double kWithin = 1e-12;  // over the thickness
   while (high - low > kWithin * shell.thickness) {
     const double middle = (low + high) / 2;
     (-shell.at(middle).slope > pressure ? low : high) = middle;

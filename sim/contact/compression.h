@@ -1,7 +1,7 @@
-// How cloth gives in to pressure, between layers and against obstacles alike.
+// Models how cloth yields to pressure, between layers and against obstacles alike.
 //
-// The only number: at the pressure of the KES compression test, 50 gf/cm^2 = 4.9 kPa (Kawabata 1980), a
-// barrier has given in by a fifth of the thickness; an assumed softness, the same for all fabrics.
+// It has one number: at the pressure of the KES compression test, 50 gf/cm^2 = 4.9 kPa (Kawabata 1980), a
+// barrier is compressed by a fifth of the thickness; this softness is assumed, the same for all fabrics.
 #pragma once
 
 #include "sim/contact/barrier.h"
@@ -10,28 +10,28 @@
 namespace hysteron {
 
 inline constexpr double kTestPressure = 50 * 98.0665;  // 50 gf/cm^2 [Pa]
-inline constexpr double kHardest = 0.5;                // share of a shell to which pressure can press it
-inline constexpr double kCompressed = 0.2;             // of the shell, at the pressure of the test
-inline constexpr double kCrushed = 0.4;   // of the thickness: where an obstacle's last barrier begins
-inline constexpr double kLastGap = 0.01;  // of its range: from there on its stiffness stays
-inline constexpr double kYieldPressure = 130 * kTestPressure;  // under which solids yield [Pa]
-inline constexpr double kElasticSlip = 0.01;                   // of friction, over the thickness
+inline constexpr double kHardest = 0.5;                // share of a shell to which pressure can compress it
+inline constexpr double kCompressed = 0.2;  // share of the shell by which the test's pressure compresses it
+inline constexpr double kCrushed = 0.4;     // share of the thickness where an obstacle's last barrier begins
+inline constexpr double kLastGap = 0.01;    // share of its range below which its stiffness is constant
+inline constexpr double kYieldPressure = 130 * kTestPressure;  // pressure at which solids yield [Pa]
+inline constexpr double kElasticSlip = 0.01;                   // slip of friction over the thickness
 
-// Stiffness k of the barrier of such a shell [N/m^3].
+// Returns the stiffness k of the barrier of a shell of this thickness [m] in N/m^3.
 double barrier_stiffness(double thickness);
 
-// How an obstacle's shell answers: a barrier up to the compression that was measured; beyond, its stiffness
-// stays.  Where it is crushed to kCrushed, under some five times the test's pressure, a last barrier begins,
-// which ends at the surface of the solid: what presses single vertices, as the tips of folds do, grows with
-// the mesh.  Steps that do not end in equilibrium, as explicit ones, have none: a blow would end in it beyond
-// the stiffness that they bear.  Under kYieldPressure, next to the surface, the solid yields: from there on
-// it is no stiffer than the compression that was measured, so that solids which close on cloth pinch it and
-// go on.
+// The response of an obstacle's shell is a barrier up to the compression that was measured; beyond, its
+// stiffness stays.  Where it is crushed to kCrushed, under some five times the test's pressure, a last
+// barrier begins, which ends at the surface of the solid: the pressure on single vertices, such as the tips
+// of folds, grows with the mesh.  Steps that do not end in equilibrium, as explicit ones, have no last
+// barrier: a blow would end in it beyond the stiffness that they bear.  Under kYieldPressure, next to the
+// surface, the solid yields: from there on it is no stiffer than the compression that was measured, so that
+// solids which close on cloth pinch it and go on.
 template <class Real>
 struct ObstacleShell {
   Real thickness;  // of the shell [m]
   Real k;          // of the barrier [N/m^3]
-  Real last;       // distance at which the last one begins [m]; 0: none
+  Real last;       // distance at which the last barrier begins [m]; 0: none
   Real yield;      // distance below which the solid yields [m]
 
   HYST_HD Barrier<Real> at(Real distance) const {
@@ -40,7 +40,7 @@ struct ObstacleShell {
     const Real deeper = distance - yield, stiffness = stiffest();
     return {b.energy + deeper * (b.slope + deeper * stiffness / 2), b.slope + deeper * stiffness, stiffness};
   }
-  // Of the cloth, beyond the compression that was measured [N/m^3].
+  // Returns the stiffness of the cloth beyond the compression that was measured [N/m^3].
   HYST_HD Real stiffest() const { return measured(0).stiffness; }
 
  private:
@@ -50,25 +50,26 @@ struct ObstacleShell {
     return cloth + barrier(k, distance, last, static_cast<Real>(kLastGap));
   }
   HYST_HD Barrier<Real> measured(Real distance) const {
-    constexpr double kMeasured = (1 - kHardest - kCompressed) / (1 - kHardest);  // share of the range left
+    // Share of the range left at the test's pressure.
+    constexpr double kMeasured = (1 - kHardest - kCompressed) / (1 - kHardest);
     const Real hardest = static_cast<Real>(kHardest) * thickness;
     return barrier(k, distance - hardest, thickness - hardest, static_cast<Real>(kMeasured));
   }
 };
 
-// That of a scene: `contact-stiffness` is its stiffness at the compression of the test.
+// Returns a scene's shell: `contact-stiffness` is its stiffness at the compression of the test.
 ObstacleShell<double> obstacle_shell(const Scene& scene);
-// Distance at which a shell bears a pressure that it does not yield to [Pa].
+// Returns the distance [m] at which a shell bears a pressure [Pa] that it does not yield to.
 double distance_under(const ObstacleShell<double>& shell, double pressure);
 
-// What contact of vertices and of triangles with obstacles have in common.
+// The common model of contact with obstacles for vertices and triangles.
 template <class Real>
 struct ContactModel {
   ObstacleShell<Real> shell;
   Real slip;        // elastic slip of friction [m]
-  Real tangential;  // most of its stiffness [N/m^3]
+  Real tangential;  // bound on the stiffness of friction [N/m^3]
 
-  // Stiffness of friction's stop [N/m].
+  // Returns the stiffness of friction's stop [N/m].
   HYST_HD Real stop_stiffness(Real limit, Real area) const {
     const Real most = tangential * area;
     return limit < most * slip ? limit / slip : most;

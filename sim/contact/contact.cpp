@@ -8,7 +8,7 @@ namespace hysteron {
 
 namespace {
 
-// Most of the stiffness of friction's stop, over that of the shell at its stiffest.
+// The largest stiffness of friction's stop, over that of the shell at its stiffest.
 constexpr double kTangential = 0.5;
 
 template <class Real>
@@ -52,7 +52,7 @@ void Contact<Real, Device>::serialise(Archive& archive) {
   if (faces_) faces_->stops().serialise(archive, device_);
 }
 
-// Triangles take this as an implicit step's parts.
+// For triangles this takes the parts of an implicit step one after the other.
 template <class Real, class Device>
 void Contact<Real, Device>::add(const Vec3<Real>* x, const Vec3<Real>* before, Real step, Vec3<Real>* rhs,
                                 const BlockRowsView<Real>* matrix) {
@@ -138,13 +138,13 @@ void Contact<Real, Device>::add_stiffness(const Vec3<Real>* x, const Vec3<Real>*
   if (faces_) faces_->add_stiffness(faces_->points(set_), x, before, Real(1), matrix, sliding_fraction);
 }
 
-// The guess of a step: each vertex by itself, so that one does not hold up the others.
+// Clips the guess of a step, each vertex by itself, so that one does not hold up the others.
 template <class Real, class Device>
 void Contact<Real, Device>::clip_to_obstacles(const Vec3<Real>* start, Vec3<Real>* end, const char* held) {
   if (!set_.has_thin()) return;
   const VertexPoints<Real> vertices = points();
   const Real rest_distance =
-      static_cast<Real>(1 - kCompressed) * model_.shell.thickness;  // where it is pressed back
+      static_cast<Real>(1 - kCompressed) * model_.shell.thickness;  // cloth is pressed back to here
   for_each(
       device_, "contact: guess", vertices_.count(), HYST_KERNEL(int i) {
         if (!held[i]) clip_path(vertices, i, start, end, rest_distance);

@@ -1,6 +1,6 @@
-// What of the cloth touches obstacles: vertices, and triangles at their point nearest to an obstacle that is
-// sharper than the mesh.  Either moves with its corners by barycentric weights, of which a vertex has one, 1;
-// its force is spread over them alike.
+// The points of the cloth that touch obstacles: vertices, and triangles at their point nearest to an obstacle
+// that is sharper than the mesh.  Either moves with its corners by barycentric weights, which for a vertex is
+// one weight of 1; its force is spread over them alike.
 #pragma once
 
 #include "sim/contact/face_touch.h"
@@ -9,16 +9,17 @@
 
 namespace hysteron {
 
-// One vertex in the shell of one obstacle, or of the body that it is part of, as FaceTouch of a triangle.
+// One vertex in the shell of one obstacle, or of the body that the obstacle is part of; like FaceTouch for
+// triangles.
 template <class Real>
 struct VertexTouch {
   double energy = 0;              // [J]
-  Real force = 0, stiffness = 0;  // [N], [N/m]; by the distance
-  Vec3<Real> direction;           // of the force: the distance's gradient
+  Real force = 0, stiffness = 0;  // [N], [N/m], by the distance
+  Vec3<Real> direction;           // gradient of the distance, along the force
   Vec3<Real> outward;             // unit vector along it
   Real limit = 0;                 // force, times the coefficient of friction [N]
-  int nearest = 0;                // the obstacle in the set that it is
-  bool inside = false;            // of the solid
+  int nearest = 0;                // index of the nearest obstacle in the set
+  bool inside = false;            // true inside the solid
 
   HYST_HD bool bears() const { return force > 0; }
   HYST_HD Vec3<Real> normal() const { return outward; }
@@ -27,9 +28,9 @@ struct VertexTouch {
   HYST_HD Vec3<Real> on_corner(int) const { return force * direction; }
 };
 
-inline constexpr double kBlend = 2;  // width over which bodies' members are joined, over the thickness
+inline constexpr double kBlend = 2;  // width over which bodies' members are blended, over the thickness
 
-// Against the body of the obstacle `o`, the first of its members.
+// Computes the touch with the body of the obstacle `o`, the first of its members.
 template <class Real>
 HYST_HD VertexTouch<Real> vertex_touch(const ObstacleSet<Real>& set, int o, const ContactModel<Real>& model,
                                        const Vec3<Real>& x, Real area) {
@@ -51,19 +52,19 @@ HYST_HD VertexTouch<Real> vertex_touch(const ObstacleSet<Real>& set, int o, cons
   return touch;
 }
 
-// A contact point against all obstacles that it feels.
+// The forces of all obstacles on one contact point.
 template <class Real, int kCorners>
 struct Bearing {
-  double energy = 0;                          // of the shells [J]
-  Vec3<Real> force[kCorners];                 // of them on the corners [N]
-  Mat3<Real> stiffness = Mat3<Real>::Zero();  // of them at the points [N/m]
-  bool inside = false;                        // of a solid
-  // Of the obstacle that presses most:
+  double energy = 0;                          // energy of the shells [J]
+  Vec3<Real> force[kCorners];                 // force of the shells on each corner [N]
+  Mat3<Real> stiffness = Mat3<Real>::Zero();  // stiffness of the shells at the points [N/m]
+  bool inside = false;                        // true inside a solid
+  // The following describe the obstacle that presses most.
   int index = -1;  // in the scene; -1: none
-  Real limit = 0;  // of friction [N]
+  Real limit = 0;  // limit of friction [N]
   Vec3<Real> normal = Vec3<Real>::Zero();
-  Vec3<Real> motion = Vec3<Real>::Zero();                    // of its point over the step [m]
-  Vec<Real, kCorners> weight = Vec<Real, kCorners>::Zero();  // of the corners
+  Vec3<Real> motion = Vec3<Real>::Zero();  // motion of the obstacle's point over the step [m]
+  Vec<Real, kCorners> weight = Vec<Real, kCorners>::Zero();  // weights of the corners
 };
 
 template <class Real, class Points>
@@ -97,7 +98,7 @@ HYST_HD HYST_NOINLINE Bearing<Real, Points::kCorners> bearing(const Points& poin
   return all;
 }
 
-// Stretch of a point's stop, with its friction as lag() saw it.
+// Returns the stretch of a point's stop [m], with its friction as fixed by lag().
 template <class Real, class Points>
 HYST_HD Vec3<Real> lagged_slip(const Points& points, int point, const typename Points::Friction& friction,
                                const Vec3<Real>* x, const Vec3<Real>* before) {
@@ -116,7 +117,7 @@ HYST_HD bool is_held(const Points& points, int point, const char* held) {
   return false;
 }
 
-// Vertices against all obstacles; travels with a kernel launch by value.
+// All vertices against all obstacles; travels with a kernel launch by value.
 template <class Real>
 struct VertexPoints {
   static constexpr int kCorners = 1;
@@ -124,8 +125,9 @@ struct VertexPoints {
 
   ContactModel<Real> model;
   ObstacleSet<Real> set;
-  const Real* area;
-  const char* exempted;  // they may be in solids while they are held
+  const Real* area;  // n areas [m^2]
+  // Flags of n vertices that may be in solids while they are held.
+  const char* exempted;
 
   HYST_HD int vertex(int i, int) const { return i; }
   HYST_HD bool feels(int obstacle) const { return set.item[obstacle].body == obstacle; }
@@ -134,13 +136,13 @@ struct VertexPoints {
   HYST_HD VertexTouch<Real> touch(int i, int obstacle, const Vec3<Real>* x) const {
     return vertex_touch(set, obstacle, model, x[i], area[i]);
   }
-  // Against the obstacle that presses most, for lag().
+  // Fixes friction against the obstacle that presses most, for lag().
   HYST_HD Friction friction(int i, const Bearing<Real, 1>& b, const StopView<Real>& stops) const {
     Friction friction{b.normal, -b.motion, b.limit};
     if (stops.goes_on(i, b.index)) friction.start += stops.slip[i];
     return friction;
   }
-  // Of the stop over the step that ends at x.
+  // Returns the slip of the stop over the step that ends at x.
   HYST_HD Slip<Real> slip(int i, const Bearing<Real, 1>& b, const Vec3<Real>* x, const Vec3<Real>* before,
                           const StopView<Real>& stops) const {
     Vec3<Real> e = x[i] - before[i] - b.motion;
@@ -148,7 +150,7 @@ struct VertexPoints {
     e -= b.normal * b.normal.dot(e);
     return slip_within<Real>(e, b.limit, model.stop_stiffness(b.limit, area[i]));
   }
-  // Adds what evaluate() has found to the gradient [N].
+  // Adds the forces of evaluate() to the gradient [N].
   HYST_HD void give(int i, const Vec3<Real>* pressed, const Friction& friction, const Vec3<Real>& back,
                     Vec3<Real>* gradient) const {
     gradient[i] -= pressed[0];
@@ -165,7 +167,7 @@ struct FaceFriction : LaggedFriction<Real> {
   HYST_HD Real weight_of(int corner) const { return weight[corner]; }
 };
 
-// Triangles against all obstacles that are sharper than the mesh; travels with a kernel launch by value.
+// All triangles against all obstacles that are sharper than the mesh; travels with a kernel launch by value.
 template <class Real>
 struct FacePoints {
   static constexpr int kCorners = 3;
@@ -174,7 +176,7 @@ struct FacePoints {
   ContactModel<Real> model;
   ObstacleSet<Real> set;
   const Real* area;
-  Real sharp;  // below this radius of curvature an obstacle is [m]
+  Real sharp;  // radius of curvature below which an obstacle is sharper [m]
   const Eigen::Vector3i* corner;
 
   HYST_HD int vertex(int f, int k) const { return corner[f][k]; }
@@ -195,7 +197,7 @@ struct FacePoints {
     const Vec3<Real> e = lagged_slip(*this, f, friction(f, b, stops), x, before);
     return slip_within<Real>(e, b.limit, model.stop_stiffness(b.limit, area[f]));
   }
-  // Writes what evaluate() has found: the forces on the corners [N], three for each triangle.
+  // Stores the forces of evaluate() on the corners [N], three for each triangle.
   HYST_HD void give(int f, const Vec3<Real>* pressed, const Friction& friction, const Vec3<Real>& back,
                     Vec3<Real>* force) const {
     for (int k = 0; k < 3; ++k) {

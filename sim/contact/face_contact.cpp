@@ -31,7 +31,7 @@ void FaceContact<Real, Device>::add_forces(const FacePoints<Real>& faces, const 
       HYST_KERNEL(int i) { target[i] += factor * forces.at(i); });
 }
 
-// One obstacle after the other, so that a face has one point at a time.
+// Handles one obstacle after the other, so that a face has one point at a time.
 template <class Real, class Device>
 void FaceContact<Real, Device>::add_stiffness(const FacePoints<Real>& faces, const Vec3<Real>* x,
                                               const Vec3<Real>* before, Real factor,
@@ -86,8 +86,8 @@ void FaceContact<Real, Device>::gather_stiffness(Real factor, BlockRowsView<Real
       });
 }
 
-// Corners go the least fraction of those of their triangles; where some then go farther than others and a
-// triangle is blocked again, the same once more, and at last they stay beside the obstacle.
+// Each corner goes the least fraction that its triangles allow.  If some corners then go farther than others
+// and a triangle is blocked again, this is repeated; in the last rounds the corners stay beside the obstacle.
 template <class Real, class Device>
 void FaceContact<Real, Device>::clip_to_obstacles(const FacePoints<Real>& faces, const Vec3<Real>* start,
                                                   Vec3<Real>* end, const char* held, Real rest_distance) {
@@ -99,7 +99,7 @@ void FaceContact<Real, Device>::clip_to_obstacles(const FacePoints<Real>& faces,
   }
 }
 
-// The least fraction of its displacement that a corner has kept.
+// Returns the least fraction of its displacement that a corner has kept.
 template <class Real, class Device>
 Real FaceContact<Real, Device>::end_before(const FacePoints<Real>& faces, int o, const Vec3<Real>* start,
                                            Vec3<Real>* end, const char* held, Real rest_distance, bool stay) {

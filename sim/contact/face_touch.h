@@ -1,13 +1,13 @@
-// One triangle against one obstacle that is sharper than the mesh: what its corners do not feel.
+// Computes one triangle against one obstacle that is sharper than the mesh, beyond what its corners feel.
 //
 // With B the shell's energy per area at the nearest point and V_k those at the corners,
 //
 //   E = A/6 B prod_k (1 - V_k/B)_+^2
 //
-// Where a corner is the nearest point, as on anything flat, E = 0: corners bear alone, and nothing is counted
-// twice.  Where none of them is in the shell, the point bears with the shell's pressure on half of a corner's
-// share of the area.  E has a gradient everywhere outside the solid, and never attracts a corner by more than
-// the corner's own shell repels it.  Stiffness is Gauss-Newton's, of the point's distance alone.
+// Where a corner is the nearest point, as on anything flat, E = 0: the corners carry all force, and nothing
+// is counted twice.  Where no corner is in the shell, the point carries the shell's pressure on half of a
+// corner's share of the area.  E has a gradient everywhere outside the solid, and never attracts a corner by
+// more than the corner's own shell repels it.  Stiffness is Gauss-Newton's, of the point's distance alone.
 #pragma once
 
 #include "sim/contact/compression.h"
@@ -28,10 +28,10 @@ template <class Real>
 struct FacePoint {
   Vec3<Real> weight;
   Real distance;      // d [m]
-  Vec3<Real> normal;  // gradient of phi; where phi has a kink the mean of both sides' that keeps the point
+  Vec3<Real> normal;  // gradient of phi; at a kink of phi, the mean of both sides' that keeps the point
 };
 
-// Slope of a convex function, with what it was found from.
+// The slope of a convex function, with the values it was found from.
 template <class Real>
 struct Incline {
   Real slope;
@@ -46,11 +46,12 @@ struct Lowest {
   Real inner;
 };
 
-// Where in [0, 1] a convex function is least: its slope's zero, by regula falsi (Illinois) with bisections.
+// Finds where in [0, 1] a convex function is least: the zero of its slope, by regula falsi (Illinois) with
+// bisections.
 template <class Real, class SlopeAt>
 HYST_HD Lowest<Real> lowest(const SlopeAt& slope_at) {
   constexpr int kMaxCuts = 60;
-  constexpr Real kFlat = sizeof(Real) == 8 ? Real(1e-11) : Real(1e-5);  // of the slopes' difference
+  constexpr Real kFlat = sizeof(Real) == 8 ? Real(1e-11) : Real(1e-5);  // relative to the slopes' difference
   constexpr Real kNarrow = sizeof(Real) == 8 ? Real(1e-13) : Real(1e-6);
   Incline<Real> low = slope_at(Real(0));
   if (!(low.slope < 0)) return {0, low.normal, low.inner};
@@ -78,19 +79,19 @@ HYST_HD Lowest<Real> lowest(const SlopeAt& slope_at) {
       side = 1;
     }
   }
-  const Real fraction = low.slope / (low.slope - high.slope);  // a kink: slopes of both sides that cancel
+  const Real fraction = low.slope / (low.slope - high.slope);  // at a kink the slopes of both sides cancel
   return {a + fraction * (b - a), low.normal + fraction * (high.normal - low.normal),
           low.inner + fraction * (high.inner - low.inner)};
 }
 
-// The slopes of nested minima ask for it in a dozen places: called there, since a GPU's compiler would take
-// longest for its copies.
+// Returns the signed distance.  The slopes of nested minima use it in a dozen places, which call it, since a
+// GPU's compiler would take longest for inlined copies.
 template <class Real>
 HYST_HD HYST_CALLED Distance<Real> distance_at(const Shape<Real>& shape, const Vec3<Real>& p) {
   return signed_distance(shape, p);
 }
 
-// Corners p and the point in the solid's frame; `centring` is c [m].
+// Finds the point for corners p in the solid's frame; `centring` is c [m].
 template <class Real>
 HYST_HD HYST_NOINLINE FacePoint<Real> face_point(const Shape<Real>& shape, const Vec3<Real> (&p)[3],
                                                  Real centring) {
@@ -116,7 +117,7 @@ HYST_HD HYST_NOINLINE FacePoint<Real> face_point(const Shape<Real>& shape, const
   return point;
 }
 
-// No point of the triangle is nearer to a convex solid.
+// Returns a bound below which no point of the triangle is near to a convex solid [m].
 template <class Real>
 HYST_HD Real least_possible(const Shape<Real>& shape, const Vec3<Real> (&p)[3]) {
   const Vec3<Real> centre = (p[0] + p[1] + p[2]) / 3;
@@ -129,7 +130,7 @@ HYST_HD Real least_possible(const Shape<Real>& shape, const Vec3<Real> (&p)[3]) 
   return d.value + least;
 }
 
-inline constexpr double kFaceFraction = 1.0 / 6;  // of a triangle's area
+inline constexpr double kFaceFraction = 1.0 / 6;  // share of a triangle's area
 inline constexpr double kCentring = 0.1;          // c of face_point(), over the thickness
 
 template <class Real>

@@ -1,5 +1,5 @@
-// Friction between obstacles and points of the cloth, vertices or nearest points of triangles: a Prandtl stop
-// in the tangent plane for each.
+// Computes friction between obstacles and points of the cloth, vertices or nearest points of triangles: each
+// has a Prandtl stop in the tangent plane.
 #pragma once
 
 #include <numeric>
@@ -10,15 +10,15 @@
 
 namespace hysteron {
 
-// Friction of one point as an implicit step sees it: what depends on the normal force, held fixed.
+// The friction of one point in an implicit step: the quantities that depend on the normal force, held fixed.
 template <class Real>
 struct LaggedFriction {
   Vec3<Real> normal;
-  Vec3<Real> start;  // slip from before, less the obstacle's motion over the step [m]
+  Vec3<Real> start;  // slip at the step's start, less the obstacle's motion over the step [m]
   Real limit;        // mu f_n [N]; 0: no contact
 
-  HYST_HD Real weight_of(int) const { return 1; }  // of a vertex in itself
-  // Energy of the stop at a stretch e in the tangent plane [J], and its gradient [N].
+  HYST_HD Real weight_of(int) const { return 1; }  // a vertex has one corner
+  // Returns the energy of the stop at a stretch e in the tangent plane [J], and sets its gradient [N].
   HYST_HD double energy_at(const Vec3<Real>& e, Real k, Vec3<Real>& gradient) const {
     const Real length = e.norm(), most = limit / k;
     const bool slides = length > most;
@@ -30,7 +30,7 @@ struct LaggedFriction {
   }
 };
 
-// Trial slip, the fraction of it that friction can hold, and the stiffness of the stop [N/m].
+// The trial slip [m], the fraction of it that friction can hold, and the stiffness of the stop [N/m].
 template <class Real>
 struct Slip {
   Vec3<Real> trial;
@@ -47,13 +47,15 @@ HYST_HD Slip<Real> slip_within(const Vec3<Real>& trial, Real limit, Real stiffne
 template <class Real>
 struct StopView {
   Vec3<Real>* slip;              // elastic slip E [m]
-  int* touching;                 // obstacle index + 1, 0 = free
-  double *stored, *loss, *work;  // of a stop, lost in it, and done by its moving obstacle [J]
-  Vec3<Real>* force;  // of contact at the positions accepted last [N]; null but in quasi-static scenes
+  int* touching;                 // obstacle index + 1; 0: free
+  double *stored, *loss, *work;  // stored in a stop, lost in it, and done by its moving obstacle [J]
+  // The contact forces at the positions accepted last [N]; null unless the scene is quasi-static.
+  Vec3<Real>* force;
 
-  // Whether the stop that presses against an obstacle, -1: none, is that of the step before.
+  // Is the stop that presses against an obstacle (-1: none) that of the step before?
   HYST_HD bool goes_on(int i, int obstacle) const { return touching[i] == obstacle + 1; }
-  // The obstacle that presses most, -1: none.  What the stop had stored against another one is lost.
+  // Sets the obstacle that presses most (-1: none).  The energy that the stop had stored against another one
+  // is lost.
   HYST_HD void touch(int i, int obstacle) const {
     if (touching[i] != 0 && !goes_on(i, obstacle)) {
       loss[i] += stored[i];
@@ -62,8 +64,8 @@ struct StopView {
     }
     touching[i] = obstacle + 1;
   }
-  // Returns by how much the stop is stretched [m].  Its stiffness follows the pressure: what the work done on
-  // it does not leave stored is lost.
+  // Returns the stretch of the stop [m].  Its stiffness follows the pressure: the work done on it that it
+  // does not store is lost.
   HYST_HD Vec3<Real> accept(int i, const Slip<Real>& s) const {
     const Vec3<Real> stretched = s.fraction * s.trial;
     const double kept = static_cast<double>(s.stiffness * stretched.squaredNorm() / 2);
@@ -72,8 +74,8 @@ struct StopView {
     slip[i] = stretched;
     return stretched;
   }
-  // Work on vertex `c` of a point over a step in which the obstacle moves by `motion`: that of the mean of
-  // the forces before and after, or of the one after.
+  // Adds the work on vertex `c` of a point over a step in which the obstacle moves by `motion` [m]: that of
+  // the mean of the forces before and after, or of the force after.
   HYST_HD void work_before(int i, int c, const Vec3<Real>& motion) const {
     work[i] += static_cast<double>(force[c].dot(motion) / 2);
     force[c].setZero();
@@ -86,7 +88,7 @@ struct StopView {
 
 template <class Real, class Device>
 struct FrictionStops {
-  // `forces`: of vertices of points in quasi-static scenes.
+  // `forces` is the number of the points' vertices in quasi-static scenes, else 0.
   FrictionStops(Device& device, int points, int forces)
       : slip(device, points),
         touching(device, points),
@@ -99,7 +101,7 @@ struct FrictionStops {
     return {slip.data(), touching.data(), stored.data(),
             loss.data(), work.data(),     force.size() > 0 ? force.data() : nullptr};
   }
-  // `between`: buffers that stand among its own.
+  // `between` are buffers that are saved among its own.
   template <class... Between>
   void serialise(Archive& archive, Device& device, Between&... between) {
     hysteron::serialise(archive, device, slip);

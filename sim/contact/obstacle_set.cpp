@@ -23,7 +23,7 @@ double radius_at_rest(const Obstacle& o) {
     case ObstacleKind::hollow:
     case ObstacleKind::cylinder:  // discs on whose rims recorded drapes hang
     case ObstacleKind::torus:
-    case ObstacleKind::mesh:  // its triangles touch by themselves
+    case ObstacleKind::mesh:  // the contact of triangles is separate
       break;
   }
   return INFINITY;

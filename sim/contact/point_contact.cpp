@@ -15,7 +15,7 @@ void PointContact<Real, Device, Points>::lag(const Points& points, const Vec3<Re
 }
 
 // Friction follows the normal force and therefore has no potential; with the force of the last iterate it has
-// one, a stop's: k_t |e|^2/2 up to the limit, then limit |e|.
+// that of a stop: k_t |e|^2/2 up to the limit, then limit |e|.
 template <class Real, class Device, class Points>
 void PointContact<Real, Device, Points>::evaluate(const Points& points, const Vec3<Real>* x,
                                                   const Vec3<Real>* before, Vec3<Real>* target,
@@ -83,7 +83,8 @@ bool PointContact<Real, Device, Points>::path_is_clear(const Points& points, con
   return least_fraction() > 0;
 }
 
-// Where all go the same fraction of their displacements, as along a direction of Newton's method.
+// Returns the step length where all points go the same fraction of their displacements, as along a direction
+// of Newton's method.
 template <class Real, class Device, class Points>
 double PointContact<Real, Device, Points>::feasible_step(const Points& points, const Vec3<Real>* x,
                                                          const Vec3<Real>* direction, const char* held,

@@ -1,4 +1,4 @@
-// Contact of vertices, or of triangles, with obstacles: what both do alike (contact_points.h).
+// The common part of the contact of vertices, or of triangles, with obstacles (contact_points.h).
 #pragma once
 
 #include "sim/contact/contact_points.h"
@@ -18,14 +18,15 @@ class PointContact {
         fraction_(device),
         scratch_(device) {}
 
-  // As in Contact.  evaluate() gives what it finds to `target` (give() of the points), its energy per point
-  // to `energy` unless that is null; store_energies() has those of the stops, too.
+  // These work as in Contact. x, before, start, end and direction have n vertices [m], held n flags, energy
+  // one number per point [J] or is null. evaluate() passes its forces to `target` (give() of the points);
+  // store_energies() adds the stops' energies.
   void lag(const Points& points, const Vec3<Real>* x);
   void evaluate(const Points& points, const Vec3<Real>* x, const Vec3<Real>* before, Vec3<Real>* target,
                 double* energy);
   void store_energies(const Points& points, const Vec3<Real>* x, double* energy);
   int commit(const Points& points, const Vec3<Real>* x, const Vec3<Real>* before, const char* held);
-  // Points with a held corner go where that leads them.
+  // Points with a held corner follow that corner.
   bool path_is_clear(const Points& points, const Vec3<Real>* start, const Vec3<Real>* end, const char* held);
   double feasible_step(const Points& points, const Vec3<Real>* x, const Vec3<Real>* direction,
                        const char* held, double max_step);
@@ -34,7 +35,7 @@ class PointContact {
   FrictionStops<Real, Device>& stops() { return stops_; }
   const FrictionStops<Real, Device>& stops() const { return stops_; }
   const typename Points::Friction* lagged() const { return lagged_.data(); }
-  Real* fractions() { return fraction_.reserve(count_); }  // of their paths, room for one each
+  Real* fractions() { return fraction_.reserve(count_); }  // of their paths, room for one per point
   Real least_fraction() { return smallest(device_, scratch_, fraction_.data(), count_, Real(1)); }
   std::size_t bytes() const { return total_bytes(stops_, lagged_, inside_, fraction_, scratch_); }
 

@@ -10,10 +10,10 @@ namespace hysteron {
 
 namespace {
 
-constexpr double kDisplacementOfEdge = 5;  // largest that is looked at, over the mean edge length
-constexpr double kReachOfEdge = 0.2;       // most that lists reach beyond a path, over the mean edge length
-constexpr double kPressedNearer = 0.9;     // most by which a guess takes pressed layers nearer
-constexpr double kSafely = 1.01;           // more than rounding makes of distances beside the thickness
+constexpr double kDisplacementOfEdge = 5;  // largest displacement of a step, over the mean edge length
+constexpr double kReachOfEdge = 0.2;       // largest reach of lists beyond a path, over the mean edge length
+constexpr double kPressedNearer = 0.9;  // share of their distance that a guess leaves pressed layers at least
+constexpr double kSafely = 1.01;        // exceeds the rounding of distances beside the thickness
 
 double mean_edge(const ClothMesh& mesh) {
   double sum = 0;
@@ -61,7 +61,7 @@ SelfContact<Real, Device>::SelfContact(Device& device, const ClothMesh& mesh,
       sum_(device, 2),
       clock_(device) {}
 
-// Of any vertex at the full step, without what all have in common.
+// Returns the longest displacement of any vertex of the cloth at the full step, less the mean of all [m].
 template <class Real, class Device>
 Real SelfContact<Real, Device>::longest_displacement(const Vec3<Real>* direction) {
   const Vec3<Real> mean = pairs_.mean_direction(direction);
@@ -72,7 +72,7 @@ Real SelfContact<Real, Device>::longest_displacement(const Vec3<Real>* direction
   return -smallest(device_, pairs_.scratch(), lengths, vertices_, Real(0));
 }
 
-// Largest distance of the step's end from where the list of pairs was made for.
+// Returns the largest distance of the step's end from the positions for which the list of pairs was made [m].
 template <class Real, class Device>
 Real SelfContact<Real, Device>::farthest(const Vec3<Real>* x, const Vec3<Real>* direction, Real step_length) {
   const Vec3<Real>* center = center_.data();
@@ -143,7 +143,7 @@ void SelfContact<Real, Device>::rebuild(const Vec3<Real>* x, const Vec3<Real>* d
   ready_ = pending_ = true;
 }
 
-// Which pairs each vertex is in, and room for what they say.
+// Finds the pairs of each vertex, and makes room for their results.
 template <class Real, class Device>
 void SelfContact<Real, Device>::index_corners() {
   const int count = pairs_.count();
@@ -240,7 +240,7 @@ void SelfContact<Real, Device>::evaluate(const Vec3<Real>* cloth, const Vec3<Rea
   clock_.end(Stage::contact);
 }
 
-// Numbers the stiffnesses of the pairs that press or rub; returns how many they are.
+// Numbers the stiffnesses of the pairs that touch or have friction; returns how many there are.
 template <class Real, class Device>
 int SelfContact<Real, Device>::find_pressing(const Vec3<Real>* x) {
   const int count = pairs_.count();
@@ -301,8 +301,8 @@ void SelfContact<Real, Device>::linearise(const Vec3<Real>* cloth, const Vec3<Re
   clock_.end(Stage::contact);
 }
 
-// Takes the bodies' vertices out of the stiffnesses: a vertex of the cloth stands for them without weight,
-// and what the rest of their way pushes is kept.
+// Takes the bodies' vertices out of the stiffnesses: a vertex of the cloth replaces them with weight 0, and
+// the push of the rest of their way is stored.
 template <class Real, class Device>
 void SelfContact<Real, Device>::leave_cloth_alone() {
   const int cloth = vertices_;
@@ -400,9 +400,11 @@ std::size_t SelfContact<Real, Device>::bytes() const {
          stiffness_rows_.bytes() + slot_.bytes() + energy_.bytes() + sum_.bytes();
 }
 
-// What friction between layers remembers: the stops' stretch from step to step and from list to list.
+// The following keep the memory of friction between layers: the stops' stretch from step to step and from
+// list to list.
 
-// Of each vertex the entries whose pairs bear, in the order of all: few, and most pairs look through them.
+// Gathers for each vertex the entries of active pairs, in the order of all: they are few, and most pairs
+// search them.
 template <class Real, class Device>
 void SelfContact<Real, Device>::gather_bearing() {
   const int *start = rows_.start.data(), *item = rows_.item.data();
@@ -417,7 +419,7 @@ void SelfContact<Real, Device>::gather_bearing() {
       });
 }
 
-// Friction of the pairs that stay in the list, or follow on neighbours.
+// Carries over the friction of pairs that stay in the list, or follow their neighbours.
 template <class Real, class Device>
 void SelfContact<Real, Device>::carry_over() {
   if (ready_) gather_bearing();
@@ -445,7 +447,7 @@ void SelfContact<Real, Device>::carry_over() {
       });
 }
 
-// The stops stretch and slide; work done against them that they do not store is lost.
+// Stretches and slides the stops; work done against them that they do not store is lost.
 template <class Real, class Device>
 void SelfContact<Real, Device>::commit(const Vec3<Real>* cloth, const Vec3<Real>* cloth_before) {
   if (bodies_.any()) {
@@ -485,8 +487,8 @@ void SelfContact<Real, Device>::commit(const Vec3<Real>* cloth, const Vec3<Real>
   clock_.end(Stage::contact);
 }
 
-// What moving bodies do on the cloth: the forces on their vertices over their way; in statics the mean of
-// those before and after it.
+// Adds the work of moving bodies on the cloth: that of the forces on their vertices over their way; in
+// statics of the mean of the forces before and after it.
 template <class Real, class Device>
 void SelfContact<Real, Device>::book_body_work() {
   const GatheredForces<Real> forces{rows_.start.data(), rows_.item.data(), slot_.data()};
@@ -506,7 +508,7 @@ void SelfContact<Real, Device>::book_body_work() {
   body_work_ += sum_.download()[0];
 }
 
-// To pairs that do not bear yet.
+// Passes the stretch of active pairs' stops on to pairs that are not active yet.
 template <class Real, class Device>
 void SelfContact<Real, Device>::pass_friction_on() {
   gather_bearing();

@@ -1,17 +1,18 @@
-// Cloth against itself and against bodies of triangles, in implicit steps: a barrier that keeps layers apart,
-// collision detection that bounds each correction so that none passes the barrier, and Coulomb friction.
+// Handles cloth against itself and against bodies of triangles, in implicit steps: a barrier keeps layers
+// apart, collision detection bounds each correction so that none passes the barrier, and there is Coulomb
+// friction.
 //
-// A start without intersections stays without: every path that Newton's method takes is checked
-// (additive_ccd.h) against all pairs that it could bring together (self_pairs.h).
+// A start without intersections stays so: every path that Newton's method takes is checked (additive_ccd.h)
+// against all pairs that it could bring together (self_pairs.h).
 //
-// Barrier: layers feel each other from a distance of the thickness on and never come nearer than half of it;
-// compression.h has its stiffness.
-// Friction: a Prandtl stop per pair as against obstacles (contact.h), which slides after an elastic slip of
-// 1 % of the thickness; its force limit is that of the last iterate that lag() saw.  A pair that begins to
-// bear takes over the stretch of its neighbours' stops.
-// Stiffness is Gauss-Newton's: positive semidefinite, without the second derivatives of distances.  Nor has
-// it what the fade of parallel edges (barrier.h) resists their turning by, unless stiffen_parallel_edges()
-// asks for that: where pressure holds such edges, full steps then turn them several times too far.
+// The barrier acts between layers from a distance of the thickness on and keeps them from coming nearer than
+// half of it; its stiffness is that of compression.h.  Friction is a Prandtl stop per pair as against
+// obstacles (contact.h), which slides after an elastic slip of 1 % of the thickness; its force limit is fixed
+// at the iterate of the last lag().  A pair that becomes active takes the stretch of its neighbours' stops.
+// The stiffness is Gauss-Newton's: positive semidefinite, without the second derivatives of distances.  It
+// also leaves out the resistance of the fade of parallel edges (barrier.h) to their turning, unless
+// stiffen_parallel_edges() asks for it: where pressure holds such edges, full steps then turn them several
+// times too far.
 #pragma once
 
 #include <optional>
@@ -28,23 +29,22 @@ namespace hysteron {
 
 template <class Real>
 struct PairFriction {
-  Vec3<Real> slip, normal;  // elastic slip at the start of the step [m]; the rest as lag() saw it
+  Vec3<Real> slip, normal;  // elastic slip at the start of the step [m]; the rest is from lag()
   Vec<Real, 4> weight;
   Real limit;  // mu f_n [N]; 0: no contact
 };
 
-// Entries of pairs' vertices, sorted by vertex.
+// The entries of pairs' vertices, sorted by vertex.
 template <class Device>
 struct PairRows {
   PairRows(Device& device, int vertices) : start(device, vertices + 1), item(device), key(device) {}
-  Buffer<int, Device> start;        // rows: vertices
+  Buffer<int, Device> start;        // n + 1 row starts, one row per vertex
   GrowingBuffer<int, Device> item;  // 4 * pair + corner
-  GrowingBuffer<int, Device> key;   // vertex of each entry
+  GrowingBuffer<int, Device> key;   // the vertex of each entry
   std::size_t bytes() const { return start.bytes() + item.bytes() + key.bytes(); }
 };
 
-// Of a PairRows the entries of pairs that bear: those of a vertex stand where all its entries do, and end
-// earlier.
+// The entries of active pairs in a PairRows: a vertex's begin where all its entries do, and end earlier.
 struct BearingRows {
   const int *start, *end, *item;
 };
@@ -59,66 +59,68 @@ class SelfContact {
  public:
   SelfContact(Device& device, const ClothMesh& mesh, const Scene& scene);
 
-  // Largest step length along `direction` from x, up to `max_step`, that keeps layers apart, by more than
-  // `kept_shell` of their shells or most of their distance, and no vertex farther than some edges from where
-  // the others go on average; afterwards evaluate() and its kind may be called on the path up to there.
-  // accept_iterate() tells which of its points was taken.
+  // Returns the largest step length along `direction` from x, up to `max_step`, that keeps layers apart by
+  // more than `kept_shell` of their shells or most of their distance, and no vertex farther than some edges
+  // from the mean displacement (arrays of n vertices [m], n flags).  Then evaluate() and the like may be
+  // called on the path up to there; accept_iterate() tells which of its points was taken.
   double prepare(const Vec3<Real>* x, const Vec3<Real>* direction, const char* held, double max_step = 1,
                  double kept_shell = 0);
-  // Bodies of triangles take the step, too: try_step() before evaluate(), accept_iterate() after it.
+  // Moves bodies of triangles along with the step: try_step() precedes evaluate(), accept_iterate() follows
+  // it.
   void try_step(double step_length) { bodies_.try_step(step_length); }
   void accept_iterate(const Vec3<Real>* x);
-  void move_bodies(double start, double end) { bodies_.move(start, end); }  // the stage begins [s]
+  void move_bodies(double start, double end) { bodies_.move(start, end); }  // the stage begins and ends [s]
   void begin_guess() { bodies_.begin_guess(); }
   void aim_bodies(double fraction) { bodies_.aim(fraction); }
   bool bodies_have_arrived() const { return bodies_.have_arrived(); }
-  // Vertices that were held are free: the next prepare() looks for their pairs, too.
+  // Tells that held vertices have become free: the next prepare() finds their pairs, too.
   void invalidate_pairs() { pending_ = ready_; }
 
-  // As in Contact.
+  // These work as in Contact: x, before and gradient have n vertices, those of the cloth.
   void lag(const Vec3<Real>* x);
   void evaluate(const Vec3<Real>* x, const Vec3<Real>* before, Vec3<Real>* gradient);
-  const double* energies() const { return energy_.data(); }  // of pairs() pairs [J]
+  const double* energies() const { return energy_.data(); }  // one per pair [J]
   int pairs() const { return pairs_.count(); }
-  // Whether the next linearise() has the stiffness against the turning of nearly parallel edges.
+  // Makes the next linearise() include the stiffness against the turning of nearly parallel edges.
   void stiffen_parallel_edges(bool on) { stiffens_parallel_ = on; }
   bool stiffens_parallel_edges() const { return stiffens_parallel_; }
-  // sliding_fraction: sliding_stop.h.
+  // Finds the stiffnesses (sliding_fraction: sliding_stop.h); add_stiffness_diagonal() adds their n diagonal
+  // blocks [N/m].
   void linearise(const Vec3<Real>* x, const Vec3<Real>* before, Real sliding_fraction);
   void add_stiffness_diagonal(Mat3<Real>* diagonal);
-  // What the rest of the bodies' way pushes the cloth by [N].
+  // Adds the push of the rest of the bodies' way on the cloth, n vertices [N].
   void add_push(Vec3<Real>* force);
-  // What linearise() has found, on the device.
+  // Returns the stiffnesses of linearise(), on the device.
   PairProduct<Real> product() const {
     return {stiffness_rows_.start.data(), stiffness_rows_.item.data(), stiffness_.data(), pressing_count_};
   }
-  // evaluate() was called at x last.
+  // Accepts x, where evaluate() was called last.
   void commit(const Vec3<Real>* x, const Vec3<Real>* before);
 
-  // What outlives a step: the list of pairs, which decides the order of sums and when the next one is made,
-  // and their stops.
+  // Saves or loads the state that outlives a step: the list of pairs, which decides the order of sums and
+  // when the next one is made, and their stops.
   void serialise(Archive& archive);
 
-  // For messages: the forces on vertices where evaluate() was called last [N], and the pair that limited the
-  // step of the last prepare().
+  // These serve messages: the forces on vertices where evaluate() was called last [N], and the pair that
+  // limited the step of the last prepare().
   std::vector<Vec3<Real>> forces() const;
   SelfPair<Real> blocking_pair() const;
 
   double stored_energy(const Vec3<Real>* x);                      // [J]
   double friction_loss() const { return loss_; }                  // since the start [J]
   double deepest_dent() const { return bodies_.deepest_dent(); }  // of the bodies, in the last stage [m]
-  double body_work() const { return body_work_; }  // of moving bodies on the cloth, since the start [J]
+  double body_work() const { return body_work_; }  // done by moving bodies on the cloth, since the start [J]
   double seconds() { return clock_.seconds()[static_cast<int>(Stage::contact)]; }
   std::size_t bytes() const;
 
-  // Parts; public because nvcc allows no device lambda in a private member function.
+  // These are parts of the above; public because nvcc allows no device lambda in a private member function.
   void rebuild(const Vec3<Real>* x, const Vec3<Real>* direction, Real step_length, const char* held,
                Real reach);
   void gather_bearing();
   void carry_over();
   void pass_friction_on();
   void index_corners();
-  // Of here on arrays of all vertices.
+  // From here on arrays have all vertices, the cloth's and the bodies'.
   Real longest_displacement(const Vec3<Real>* direction);
   Real farthest(const Vec3<Real>* x, const Vec3<Real>* direction, Real step_length);
   int find_pressing(const Vec3<Real>* x);
@@ -128,7 +130,7 @@ class SelfContact {
 
  private:
   bool rubs() const { return model_.friction > 0 || bodies_.rubs(); }
-  // `all`: with the bodies; empty without.
+  // `all` is the mesh with the bodies; empty without bodies.
   SelfContact(Device& device, const ClothMesh& mesh, const std::optional<ClothMesh>& all, const Scene& scene);
 
   Device& device_;
@@ -139,25 +141,25 @@ class SelfContact {
   SelfPairs<Real, Device> pairs_;
   bool ready_ = false, pending_ = false, stiffens_parallel_ = false;
   Real reach_ = 0;
-  double stored_ = 0, loss_ = 0;  // of friction [J]
+  double stored_ = 0, loss_ = 0;  // energies of friction [J]
   double body_work_ = 0;          // [J]
   Buffer<Vec3<Real>, Device> center_;
   GrowingBuffer<Real, Device> step_length_;
-  GrowingBuffer<char, Device> near_;  // of pairs: it may touch on the path of the last prepare(), or rubs
+  GrowingBuffer<char, Device> near_;  // the pair may touch on the path of the last prepare(), or has friction
   GrowingBuffer<PairFriction<Real>, Device> friction_, old_friction_;
-  // Stiffnesses of the pairs that press or rub where linearise() was called last, one for each or two: their
-  // numbers among all follow from `pressing_`, a running count.
+  // The stiffnesses of the pairs that touched or had friction at the last linearise(), one or two for each:
+  // `pressing_`, a running count, gives their indices.
   int pressing_count_ = 0;
   GrowingBuffer<int, Device> presses_, pressing_;
   GrowingBuffer<PairStiffness<Real>, Device> stiffness_;
   GrowingBuffer<Vec3<Real>, Device> push_;  // add_push() of each of them; with bodies alone
-  Buffer<Vec3<Real>, Device> body_force_;   // at the last commit(); quasi-static, with bodies alone [N]
+  Buffer<Vec3<Real>, Device> body_force_;   // at the last commit() of quasi-static scenes with bodies [N]
   PairRows<Device> rows_, stiffness_rows_;
-  Buffer<int, Device> bearing_end_;  // BearingRows of rows_
+  Buffer<int, Device> bearing_end_;  // the ends of BearingRows in rows_
   GrowingBuffer<int, Device> bearing_item_;
-  GrowingBuffer<Vec3<Real>, Device> slot_;  // four for each pair
+  GrowingBuffer<Vec3<Real>, Device> slot_;  // four per pair
   GrowingBuffer<double, Device> energy_;
-  Buffer<double, Device> sum_;  // two
+  Buffer<double, Device> sum_;  // two numbers
   StageClock<Device> clock_;
 };
 

@@ -8,7 +8,7 @@ namespace hysteron {
 
 namespace {
 
-constexpr double kRestDistanceFraction = 0.5;  // most of the distance at rest that a shell may take
+constexpr double kRestDistanceFraction = 0.5;  // largest share of the distance at rest that a shell may have
 constexpr double kParallel = 1e-3;             // sine squared at rest below which edges fade (Li et al. 2020)
 
 std::vector<std::array<int, 3>> triangle_corners(const ClothMesh& mesh) {
@@ -24,16 +24,16 @@ std::vector<std::array<int, 3>> edge_corners(const ClothMesh& mesh) {
 }
 
 template <class Real>
-struct Candidates {  // what the loops need, by value
+struct Candidates {  // the data of the loops, passed by value
   const Vec3<Real>* rest;
   const int *face, *edge;
   const Real *vertex_area, *edge_area;
   int cloth;    // vertices from here on are bodies'
-  bool layers;  // of the cloth among each other count, too
+  bool layers;  // pairs of the cloth with itself count, too
   Real thickness, reach;
   Sweep<Real> sweep;
   const char* held;
-  const int* pin;  // null: pairs that are not all held
+  const int* pin;  // null: only pairs that are not all held
 
   HYST_HD bool is_out(const int (&v)[4], bool edges) const {
     for (int i = 0; i < (edges ? 2 : 1); ++i)
@@ -44,7 +44,7 @@ struct Candidates {  // what the loops need, by value
     return !all_held || (pin[v[0]] == pin[v[1]] && pin[v[0]] == pin[v[2]] && pin[v[0]] == pin[v[3]]);
   }
 
-  // Whether the pair can matter; completes it.
+  // Can the pair matter? If so, completes it.
   HYST_HD bool complete(SelfPair<Real>& pair, bool edges) const {
     const bool with_body = (pair.v[0] < cloth) != (pair.v[3] < cloth);
     if ((!layers && !with_body) || is_out(pair.v, edges)) return false;
@@ -80,7 +80,7 @@ struct Candidates {  // what the loops need, by value
     return complete(pair, true);
   }
 
-  // Of a row and the rank of what it may meet in its tree.
+  // Makes the pair of a row with the item of a rank in its tree.
   HYST_HD bool pair_at_rank(int row, int vertices, int rank, const BoxTreeView<Real>& triangles,
                             SelfPair<Real>& pair) const {
     return row < vertices ? vertex_on_triangle(row, triangles.item[rank], pair)
@@ -88,11 +88,11 @@ struct Candidates {  // what the loops need, by value
   }
 };
 
-// Pairs in reach of each other bear beside those right above each other, the more the smaller triangles are
-// beside the thickness.  `triangle`: the mean area of one there [m^2].
+// Returns the factor by which pairs within reach exceed those right above each other, which grows as
+// triangles become small beside the thickness.  `triangle` is their mean area [m^2].
 double overcount(double triangle, double thickness) {
-  constexpr double kBeside =
-      2.5;  // on flat layers of random meshes: SelfContact.OfFlatLayersHasTheBarriersPressureOnAnyMesh
+  // Measured on flat layers of random meshes: SelfContact.OfFlatLayersHasTheBarriersPressureOnAnyMesh.
+  constexpr double kBeside = 2.5;
   return 1 + kBeside * thickness / std::sqrt(4 / std::sqrt(3.0) * triangle);
 }
 
@@ -155,8 +155,8 @@ Vec3<Real> SelfPairs<Real, Device>::mean_direction(const Vec3<Real>* direction) 
   return (sum_.download()[0] / vertices_).template cast<Real>();
 }
 
-// Counts the pairs of each row and keeps the first partners, or writes the pairs: by what was kept where that
-// is all, by a second walk where it is not.
+// Counts the pairs of each row and keeps the first partners, or writes the pairs: from the kept partners if
+// these are all, else by a second walk.
 template <class Real, class Device>
 template <bool kWrite>
 void SelfPairs<Real, Device>::search(const Sweep<Real>& sweep, const char* held, Real reach, const int* pin) {
@@ -214,7 +214,7 @@ void SelfPairs<Real, Device>::find(const Vec3<Real>* x, const Vec3<Real>* direct
   pair_.swap(old_pair_);
   const Sweep<Real> sweep{x, direction, mean_direction(direction), step_length, thickness_ + 2 * reach};
   triangle_tree_.fit(sweep);
-  Sweep<Real> half = sweep;  // both edges' boxes are wider
+  Sweep<Real> half = sweep;  // both edges' boxes are widened
   half.margin = sweep.margin / 2;
   edge_tree_.fit(half);
   search<false>(sweep, held, reach, pin);
@@ -241,7 +241,7 @@ template class SelfPairs<double, ThisDevice>;
 template class SelfPairs<float, ThisDevice>;
 
 namespace {
-constexpr double kNearer = 0.9;  // of the distance of layers that begin pressed as far as pressure can press
+constexpr double kNearer = 0.9;  // share of the initial distance, for layers that begin fully compressed
 }  // namespace
 
 template <class Real, class Device>

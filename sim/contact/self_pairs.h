@@ -1,4 +1,4 @@
-// Which vertices may come near which triangles, and which edges near which edges, while a cloth moves.
+// Lists the vertices that may come near triangles, and edges near edges, while a cloth moves.
 #pragma once
 
 #include "sim/contact/box_tree.h"
@@ -8,14 +8,14 @@
 
 namespace hysteron {
 
-// Vertex v[0] and triangle v[1..3], or edges v[0]v[1] and v[2]v[3].
+// A pair of vertex v[0] and triangle v[1..3], or of edges v[0]v[1] and v[2]v[3].
 template <class Real>
 struct SelfPair {
   int v[4];
-  int other;      // triangle, or rank of the second edge: with the row it names the pair
-  Real shell;     // distance from which on they repel each other [m]
-  Real area;      // share of the cloth for which the pair stands [m^2]
-  Real parallel;  // edges: where the fade of parallel ones ends [m^4]; a vertex and a triangle: 0
+  int other;      // triangle, or rank of the second edge: with the row it identifies the pair
+  Real shell;     // distance from which they repel each other [m]
+  Real area;      // share of the cloth that the pair represents [m^2]
+  Real parallel;  // for edges: where the fade of parallel ones ends [m^4]; otherwise 0
 
   HYST_HD bool is_edges() const { return parallel > 0; }
   HYST_HD void gather(const Vec3<Real>* values, Vec3<Real> (&out)[4]) const {
@@ -23,31 +23,32 @@ struct SelfPair {
   }
 };
 
-// The pairs that can matter while vertices go from x by a step along `direction`, and anywhere within `reach`
-// of a point of that path: all that come nearer to each other than their shells.  Rows: vertices, then edges
-// by rank in their tree.  Pairs that share a vertex are none, nor are those whose vertices are all held; of
-// those alone whose vertices are held by different pins there is a list of its own (PinSweep).
+// Lists the pairs that can matter while vertices go from x by a step along `direction`, and anywhere within
+// `reach` of a point of that path: all that come nearer to each other than their shells.  The rows are
+// vertices, then edges by rank in their tree.  Pairs that share a vertex are excluded, as are those whose
+// vertices are all held; PinSweep lists those whose vertices are held by different pins.
 //
-// A pair's shell is the cloth's thickness, or half its distance at rest if that is less: what is near on
-// the flat cloth is no contact.  On flat layers one upon the other the areas of vertices right above
+// A pair's shell is the cloth's thickness, or half its distance at rest if that is less: neighbours on the
+// flat cloth are not in contact.  On flat layers one upon the other the areas of vertices right above
 // triangles and of edges that cross add up to that of the contact, half by each (on average over directions).
-// Pairs beside these are in reach as well; for them all areas are less, so that the pressure of flat layers
-// is that of the barrier within 10 % where edges are 4 to 25 thicknesses long.
+// Pairs beside these are in reach as well; all areas are reduced for them, so that the pressure of flat
+// layers is that of the barrier within 10 % where edges are 4 to 25 thicknesses long.
 template <class Real, class Device>
 class SelfPairs {
  public:
   // `mesh` may have bodies behind the cloth's `cloth` vertices, which are held; pairs of a body with the
-  // cloth have shells of the whole thickness.  Without `layers` there are no pairs but these.
+  // cloth have shells of the whole thickness.  Without `layers` these are the only pairs.
   SelfPairs(Device& device, const ClothMesh& mesh, double thickness, int cloth, bool layers);
   SelfPairs(Device& device, const ClothMesh& mesh, double thickness)
       : SelfPairs(device, mesh, thickness, mesh.vertices(), true) {}
 
-  // Makes the list anew; what is kept of pairs that stay is the caller's to carry over: `old_start`, of as
-  // many rows, and old_pairs() are those of the list before.  With the number of the pin at each vertex
-  // `pin`: the pairs whose vertices are all held, but not all by one pin.
+  // Makes a new list from n vertices x [m], n directions [m] and n held flags; the caller carries over data
+  // of pairs that stay: `old_start`, with as many rows, and old_pairs() are those of the list before.  With
+  // `pin`, the number of the pin at each vertex, it lists the pairs whose vertices are all held, but not all
+  // by one pin.
   void find(const Vec3<Real>* x, const Vec3<Real>* direction, Real step_length, const char* held, Real reach,
             const int* pin = nullptr);
-  // The list; boxes and the list before are made anew by find().
+  // Saves or loads the list; find() makes boxes and the list before anew.
   void serialise(Archive& archive);
   Vec3<Real> mean_direction(const Vec3<Real>* direction);
   int count() const { return count_; }
@@ -69,7 +70,7 @@ class SelfPairs {
   bool layers_;
   Real thickness_;
   Buffer<Vec3<Real>, Device> rest_;
-  Buffer<int, Device> face_, edge_;  // 3 vertices a triangle, 2 an edge by rank
+  Buffer<int, Device> face_, edge_;  // 3 vertices per triangle, 2 per edge by rank
   Buffer<Real, Device> vertex_area_, edge_area_;
   BoxTree<Real, Device> triangle_tree_, edge_tree_;
   static constexpr int kKept = 24;                        // partners of a row kept from counting to writing
@@ -79,24 +80,24 @@ class SelfPairs {
   Buffer<Vec3<double>, Device> sum_;
 };
 
-// Whether pins lead the layers that they hold through each other: vertices that are all held are in no pair
-// of self-contact.
+// Checks whether pins lead their layers through each other: vertices that are all held are in no pair of
+// self-contact.
 template <class Real, class Device>
 class PinSweep {
  public:
   PinSweep(Device& device, const ClothMesh& mesh, double thickness)
       : device_(device), pairs_(device, mesh, thickness), fraction_(device) {}
 
-  // Whether layers that different pins hold stay as far apart as pressure could press them while held
-  // vertices go from x along `displacement` [m], which is 0 of free ones; `pin` is the number of the one at
-  // each vertex.
+  // Do layers that different pins hold stay as far apart as pressure could compress them while held vertices
+  // go from x along `displacement` (n vertices [m], 0 for free ones)? `pin` is the number of the pin at each
+  // vertex.
   bool is_free(const Vec3<Real>* x, const Vec3<Real>* displacement, const char* held, const int* pin);
   std::size_t bytes() const { return pairs_.bytes() + fraction_.bytes(); }
 
  private:
   Device& device_;
   SelfPairs<Real, Device> pairs_;
-  GrowingBuffer<Real, Device> fraction_;  // of its way that each pair may go
+  GrowingBuffer<Real, Device> fraction_;  // the fraction of its way that each pair may go
 };
 
 }  // namespace hysteron

@@ -1,4 +1,4 @@
-// One pair of cloth parts: its distance, the barrier's force, the stop of friction.
+// Computes one pair of cloth parts: its distance, the barrier's force, the stop of friction.
 #pragma once
 
 #include "sim/contact/additive_ccd.h"
@@ -8,17 +8,18 @@
 namespace hysteron {
 
 inline constexpr double kClosest = 0.1;    // share of a shell that no step goes below
-inline constexpr double kLast = 0.2;       // share from which on a second barrier keeps pairs off that
-inline constexpr double kLastStiff = 3e3;  // its stiffness over the first's
+inline constexpr double kLast = 0.2;       // share below which a second barrier protects that
+inline constexpr double kLastStiff = 3e3;  // stiffness of the second barrier over the first's
 
 template <class Real>
 HYST_HD Real least_distance(const SelfPair<Real>& pair) {
   return static_cast<Real>(kClosest) * pair.shell;
 }
 
-// Of a pair at this distance, below its shell.  What is near on the flat cloth has a small shell, and its
-// barrier is weak in proportion: a sharp fold of triangles finer than the thickness presses through it.  At
-// the least distance no step could then lead anywhere, so that a second barrier ends a little above it.
+// Returns the barrier of a pair at this distance, below its shell.  Neighbours on the flat cloth have a small
+// shell, and their barrier is weak in proportion: a sharp fold of triangles finer than the thickness presses
+// through it.  At the least distance no step could then lead anywhere, so that a second barrier ends a little
+// above it.
 template <class Real>
 HYST_HD Barrier<Real> pair_barrier(const SelfPair<Real>& pair, Real k, Real distance) {
   const Real hardest = static_cast<Real>(kHardest) * pair.shell, last = static_cast<Real>(kLast) * pair.shell;
@@ -35,8 +36,8 @@ struct SelfTouch {
   Vec<Real, 4> weight;
   double energy;             // [J]
   Real force, stiffness;     // [N], [N/m]
-  Real fade_slope = 0;       // of the energy by the squared cross product of the edges
-  Vec3<Real> first, second;  // the edges, where they are nearly parallel
+  Real fade_slope = 0;       // derivative of the energy by the squared cross product of the edges [J/m^4]
+  Vec3<Real> first, second;  // the edges, where they are nearly parallel [m]
 };
 
 template <class Real>
@@ -66,13 +67,13 @@ HYST_HD HYST_NOINLINE SelfTouch<Real> self_touch(const SelfPair<Real>& pair,
   return touch;
 }
 
-// Whether a pair at x are edges so nearly parallel that their energy fades.
+// Are the figures of a pair at x edges so nearly parallel that their energy fades?
 template <class Real>
 HYST_HD bool are_fading(const SelfPair<Real>& pair, const Vec3<Real> (&x)[4]) {
   return (x[1] - x[0]).cross(x[3] - x[2]).squaredNorm() < pair.parallel;
 }
 
-// Of edges a and b that fade, what resists their turning against each other.  With c = |a x b|^2 it is 2
+// Returns the resistance of fading edges a and b to turning against each other.  With c = |a x b|^2 it is 2
 // dE/dc J'J, the positive part of the fade's second derivative, where J is that of a x b; as b is nearly k a,
 // J (da, db) = a x (db - k da).
 template <class Real>
@@ -86,7 +87,7 @@ HYST_HD PairStiffness<Real> turning_stiffness(const SelfPair<Real>& pair, const 
   return s;
 }
 
-// Gradient of the barrier's energy by the pair's vertex k.
+// Returns the gradient of the barrier's energy by the pair's vertex k [N].
 template <class Real>
 HYST_HD Vec3<Real> barrier_gradient(const SelfTouch<Real>& touch, int k) {
   Vec3<Real> gradient = -touch.force * touch.weight[k] * touch.normal;
@@ -98,7 +99,7 @@ HYST_HD Vec3<Real> barrier_gradient(const SelfTouch<Real>& touch, int k) {
   return gradient;
 }
 
-// What a stop is stretched by turns with the tangent plane and keeps its length.
+// Turns a stop's stretch with the tangent plane, keeping its length.
 template <class Real>
 HYST_HD Vec3<Real> turned_into_plane(const Vec3<Real>& slip, const Vec3<Real>& normal) {
   using std::sqrt;
@@ -107,7 +108,7 @@ HYST_HD Vec3<Real> turned_into_plane(const Vec3<Real>& slip, const Vec3<Real>& n
   return 4 * left > all ? Vec3<Real>(sqrt(all / left) * flat) : flat;
 }
 
-// Tangential displacement since the stop was at rest.
+// Returns the tangential displacement since the stop was at rest [m].
 template <class Real>
 HYST_HD Vec3<Real> pair_slip(const SelfPair<Real>& pair, const PairFriction<Real>& friction,
                              const Vec3<Real>* position, const Vec3<Real>* before) {
@@ -117,7 +118,7 @@ HYST_HD Vec3<Real> pair_slip(const SelfPair<Real>& pair, const PairFriction<Real
          friction.normal * friction.normal.dot(moved);
 }
 
-// Whether figures of p and q share vertices, first with first and second with second.
+// Do the figures of p and q share vertices, first with first and second with second?
 template <class Real>
 HYST_HD bool are_neighbours(const SelfPair<Real>& p, const SelfPair<Real>& q, bool crosswise) {
   const int p_split = p.is_edges() ? 2 : 1, q_split = q.is_edges() ? 2 : 1;
@@ -130,8 +131,9 @@ HYST_HD bool are_neighbours(const SelfPair<Real>& p, const SelfPair<Real>& q, bo
   return first && second;
 }
 
-// Stretch of the stop with which a pair begins to bear: that of the neighbours which bear, the mean by their
-// limits.  A layer that is held, or slides, across an edge of another feels nothing of it.
+// Returns the stretch of the stop with which a pair becomes active: the mean of its active neighbours',
+// weighted by their limits, so that a layer which rests or slides across an edge of another does not feel
+// that edge.
 template <class Real>
 HYST_HD HYST_NOINLINE Vec3<Real> inherited_slip(const SelfPair<Real>& pair, const SelfPair<Real>* others,
                                                 const PairFriction<Real>* friction, const BearingRows& rows) {

@@ -1,4 +1,4 @@
-// Signed distances of the obstacles: negative inside, gradient = outward unit normal.
+// Computes signed distances of the obstacles: negative inside; the gradient is the outward unit normal.
 #pragma once
 
 #include <cmath>
@@ -8,8 +8,8 @@
 
 namespace hysteron {
 
-// A shape in its own frame: ground z <= 0; hollow: all but a sphere; cylinder, capsule and torus along z,
-// centred; box centred.
+// A shape in its own frame: ground is z <= 0, hollow all but a sphere; cylinder, capsule and torus lie along
+// z, centred; the box is centred.
 template <class Real>
 struct Shape {
   ObstacleKind kind;
@@ -23,7 +23,8 @@ struct Distance {
   Vec3<Real> normal;  // outward unit vector
 };
 
-// Rounded corner in two or three dimensions: q is the position relative to the corner of the shrunken box.
+// Returns the distance of a rounded corner in two or three dimensions: q is the position relative to the
+// corner of the shrunken box.
 template <class Real, int N>
 HYST_HD inline Distance<Real> rounded_corner(const Vec<Real, N>& q, Real rim, Vec<Real, N>& normal) {
   Vec<Real, N> outside = q.cwiseMax(Real(0));
@@ -87,7 +88,7 @@ HYST_HD inline Distance<Real> capsule_distance(const Shape<Real>& s, const Vec3<
   return sphere_distance(s, Vec3<Real>(p[0], p[1], p[2] - z));
 }
 
-// A ring around z: `half[0]` to the middle of its wire, whose radius is `half[2]`.
+// A torus is a ring around z: `half[0]` is the radius to the middle of its wire, whose radius is `half[2]`.
 template <class Real>
 HYST_HD inline Distance<Real> torus_distance(const Shape<Real>& s, const Vec3<Real>& p) {
   using std::sqrt;
@@ -98,7 +99,7 @@ HYST_HD inline Distance<Real> torus_distance(const Shape<Real>& s, const Vec3<Re
   return {length - s.half[2], length > 0 ? Vec3<Real>(from_wire / length) : radial};
 }
 
-// Its triangles are found otherwise: to these functions it is not there.
+// A mesh is absent for these functions: the contact of its triangles is separate.
 template <class Real>
 HYST_HD inline Distance<Real> mesh_distance(const Shape<Real>&, const Vec3<Real>&) {
   return {static_cast<Real>(1e30), Vec3<Real>::UnitZ()};

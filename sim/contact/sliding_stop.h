@@ -1,4 +1,4 @@
-// The stiffness of friction's stop, in contact with obstacles and between layers alike.
+// Computes the stiffness of friction's stop, in contact with obstacles and between layers alike.
 //
 // Once the stop slides, its energy grows as limit |e| with the stretch e.  The second derivative of this,
 // limit/|e| (P - e e'/|e|^2) with P the tangent plane's projection, has nothing along e: a direction of
@@ -12,7 +12,8 @@
 
 namespace hysteron {
 
-// Of a stop of stiffness k [N/m] that slides from |e| = `most` on [m]; `fraction` of e e'/|e|^2 is taken out.
+// Returns the stiffness of a stop of stiffness k [N/m] that slides from |e| = `most` on [m]; `fraction` of e
+// e'/|e|^2 is taken out.
 template <class Real>
 HYST_HD Mat3<Real> sliding_stiffness(const Vec3<Real>& e, const Vec3<Real>& normal, Real k, Real most,
                                      Real fraction) {

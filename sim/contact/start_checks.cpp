@@ -40,7 +40,7 @@ struct NearPair {
   double distance;  // [m]
 };
 
-// Pairs of the cloth, or of the cloth and the bodies behind it at x, from where no way is free.
+// Returns pairs of the cloth, or of the cloth and the bodies behind it at x, that are too near to move.
 std::vector<NearPair> too_near(const Scene& scene, const Cloth& cloth, const ClothMesh& all,
                                const std::vector<Eigen::Vector3d>& x, bool layers) {
   Cpu cpu(1);
@@ -64,7 +64,7 @@ const NearPair& nearest_of(const std::vector<NearPair>& pairs) {
   return *std::ranges::min_element(pairs, {}, &NearPair::distance);
 }
 
-// "vertex 12 and triangle 97", "edge 3-4 and edge 8-9"
+// Names a pair: "vertex 12 and triangle 97", "edge 3-4 and edge 8-9".
 std::string names(const SelfPair<double>& pair) {
   const auto edge = [&](int k) {
     return "edge " + std::to_string(pair.v[k]) + "-" + std::to_string(pair.v[k + 1]);
@@ -84,7 +84,8 @@ void throw_if_near(const Scene& scene, const Cloth& cloth) {
                              " such pairs in all): move its parts apart, or take a thinner fabric");
 }
 
-// Cloth thicker than it is long has no layers: all of it is near at rest, and looked at in vain.
+// Refuses cloth thicker than it is long, which has no layers: all of it is near at rest, and would be
+// searched in vain.
 void throw_if_thick(const Scene& scene, const ClothMesh& mesh) {
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& x : mesh.rest) box.extend(x);
@@ -107,7 +108,7 @@ void throw_if_immersed(const Scene& scene, const Cloth& cloth) {
       (origin.empty() ? "" : " (" + origin + ")"));
 }
 
-// "obstacle[1] (mesh torso.obj)"
+// Names a body: "obstacle[1] (mesh torso.obj)".
 std::string body_name(const Scene& scene, std::size_t number) {
   return "obstacle[" + std::to_string(number) + "] (mesh " + scene.obstacle[number].file + ")";
 }
@@ -123,7 +124,7 @@ std::string move_apart(const Scene& scene, std::size_t number) {
   return ": move the cloth or the obstacle" + (origin.empty() ? "" : " (" + origin + ")");
 }
 
-// Triangles that something can move.
+// Returns the triangles that are not held throughout.
 std::vector<Eigen::Vector3i> moving_triangles(const Scene& scene, const Cloth& cloth) {
   const std::vector<char> held = cloth.held_throughout(scene);
   std::vector<Eigen::Vector3i> face;
@@ -132,8 +133,8 @@ std::vector<Eigen::Vector3i> moving_triangles(const Scene& scene, const Cloth& c
   return face;
 }
 
-// Turns of a closed surface around a point: 1 inside one whose triangles face outward (solid angles by Van
-// Oosterom & Strackee 1983).
+// Returns how often a closed surface winds around a point: 1 inside one whose triangles face outward (solid
+// angles by Van Oosterom & Strackee 1983).
 double winding_number(const std::vector<Eigen::Vector3i>& face, const std::vector<Eigen::Vector3d>& x,
                       const Eigen::Vector3d& point) {
   double half_angles = 0;
@@ -171,7 +172,8 @@ void throw_if_across(const Scene& scene, const Cloth& cloth, std::size_t number,
                              std::to_string(pairs.front().second) + move_apart(scene, number));
 }
 
-// A part of the cloth that lies across no triangle is inside with all of its vertices, or with none.
+// Refuses cloth inside a body: a part of the cloth that crosses no triangle is inside with all of its
+// vertices, or with none.
 void throw_if_inside(const Scene& scene, const Cloth& cloth, std::size_t number,
                      const std::vector<Eigen::Vector3i>& moving, const std::vector<Eigen::Vector3d>& x) {
   const BodyMesh& body = *scene.obstacle[number].mesh;
@@ -192,7 +194,7 @@ void throw_if_inside(const Scene& scene, const Cloth& cloth, std::size_t number,
   }
 }
 
-// Of the body that the last vertex of a pair belongs to.
+// Returns the body of the last vertex of a pair.
 std::size_t number_of_body(const Scene& scene, const Cloth& cloth, const SelfPair<double>& pair) {
   int last = std::max(pair.v[0], pair.v[3]) - cloth.mesh.vertices();
   for (std::size_t i = 0; i < scene.obstacle.size(); ++i) {

@@ -1,4 +1,4 @@
-// What a start must be like so that contact can go on from it.
+// Checks that contact can go on from a start.
 #pragma once
 
 #include "sim/scene/cloth.h"

@@ -1,30 +1,30 @@
-// What a vertex or a triangle may do beside a solid: not go through it.  A segment of its path is followed by
-// the signed distance, which never exceeds the way to the surface (sphere tracing, Hart 1996, "conservative
-// advancement" of a point).  No point of a triangle goes farther than the corner that goes farthest, so that
-// its least distance can be followed as a vertex's is.
+// Keeps a vertex or a triangle from going through a solid.  A segment of its path is followed by the signed
+// distance, which never exceeds the way to the surface (sphere tracing, Hart 1996, "conservative advancement"
+// of a point).  No point of a triangle goes farther than the corner that goes farthest, so that its least
+// distance can be followed like a vertex's.
 //
 // Solids give way by design, so that a vertex may be a little inside; past the middle of the thinnest part
-// the shell would push it out on the other side.  A segment therefore leads at most half of what is left to
-// the middle deeper.  Where the obstacle moves, the path is that beside it: it starts where the vertex would
-// be had the obstacle carried it along, and is straight in the obstacle's frame.
+// the shell would push it out on the other side.  A segment therefore goes deeper by at most half of the
+// remaining way to the middle.  Where the obstacle moves, the path is that beside it: it starts where the
+// vertex would be had the obstacle carried it along, and is straight in the obstacle's frame.
 #pragma once
 
 #include "sim/contact/contact_points.h"
 
 namespace hysteron {
 
-inline constexpr int kMaxAdvances = 100;  // then the rest of the segment counts as blocked
-inline constexpr double kTouching =
-    0.02;  // of the distance at the start, or of the thinnest part: this near the path ends
+inline constexpr int kMaxAdvances = 100;  // after these the rest of the segment counts as blocked
+// The path ends this near to the surface, over the distance at the start or the thinnest part.
+inline constexpr double kTouching = 0.02;
 
-// Where x of the step's start would be at its end, had the obstacle carried it.
+// Returns where a point x of the step's start would be at its end, had the obstacle carried it [m].
 template <class Real>
 HYST_HD Vec3<Real> carried(const Obstacle3<Real>& obstacle, const Vec3<Real>& x) {
   const Real scale2 = obstacle.back_rotation.col(0).squaredNorm();
   return obstacle.back_rotation.transpose() * (x - obstacle.back_translation) / scale2;
 }
 
-// Distance of a vertex, and of a triangle's nearest point, in the solid's frame.
+// Returns the distance of a vertex, or of a triangle's nearest point, in the solid's frame [m].
 template <class Real>
 HYST_HD Real least_distance(const Shape<Real>& shape, const Vec3<Real> (&p)[1]) {
   return signed_distance(shape, p[0]).value;
@@ -34,7 +34,7 @@ HYST_HD Real least_distance(const Shape<Real>& shape, const Vec3<Real> (&p)[3]) 
   return face_point<Real>(shape, p, Real(0)).distance;
 }
 
-// Of the corners of a contact point.
+// The path of the corners of a contact point [m].
 template <class Real, int kCorners>
 struct Path {
   Vec3<Real> from[kCorners], displacement[kCorners];
@@ -53,7 +53,7 @@ struct Path {
     place(obstacle, fraction, p);
     return least_distance(obstacle.shape, p);
   }
-  // Whether that can be told without the triangle's nearest point.
+  // Does the path stay away, as far as can be told without the triangle's nearest point?
   HYST_HD bool stays_away(const Obstacle3<Real>& obstacle) const {
     if constexpr (kCorners == 1) {
       return false;
@@ -65,7 +65,7 @@ struct Path {
   }
 };
 
-// The path beside the obstacle; of one at rest `start` itself is where it begins.
+// Returns the path beside the obstacle; beside one at rest it begins at `start`.
 template <class Real, class Points>
 HYST_HD Path<Real, Points::kCorners> path_beside(const Obstacle3<Real>& obstacle, const Points& points,
                                                  int point, const Vec3<Real>* start, const Vec3<Real>* end) {
@@ -78,8 +78,8 @@ HYST_HD Path<Real, Points::kCorners> path_beside(const Obstacle3<Real>& obstacle
   return path;
 }
 
-// Fraction of a path on which what moves along it stays above `depth` below the surface, `distance` from
-// which it starts.
+// Returns the fraction of a path, which starts at `distance` [m], on which the point stays above `depth` [m]
+// below the surface.
 template <class Real, int kCorners>
 HYST_HD Real fraction_above(const Path<Real, kCorners>& path, const Obstacle3<Real>& obstacle, Real distance,
                             Real depth) {
@@ -101,8 +101,8 @@ HYST_HD Real fraction_above(const Path<Real, kCorners>& path, const Obstacle3<Re
   return gone / length;
 }
 
-// Fraction of a path on which nothing goes through the obstacle.  What is past the middle already may go
-// anywhere.
+// Returns the fraction of a path on which nothing goes through the obstacle.  A point that is past the middle
+// already may go anywhere.
 template <class Real, int kCorners>
 HYST_HD HYST_NOINLINE Real free_fraction(const Path<Real, kCorners>& path, const Obstacle3<Real>& obstacle) {
   if (path.stays_away(obstacle)) return 1;
@@ -111,8 +111,8 @@ HYST_HD HYST_NOINLINE Real free_fraction(const Path<Real, kCorners>& path, const
   return fraction_above(path, obstacle, distance, (deep + obstacle.thinnest) / 2);
 }
 
-// That on which it does not come within `rest_distance`, where the obstacle blocks the path; 1 where it does
-// not.
+// Returns the fraction on which the point does not come within `rest_distance` [m], where the obstacle blocks
+// the path; 1 where it does not.
 template <class Real, int kCorners>
 HYST_HD Real clipped_fraction(const Path<Real, kCorners>& path, const Obstacle3<Real>& obstacle,
                               Real rest_distance) {
@@ -120,7 +120,7 @@ HYST_HD Real clipped_fraction(const Path<Real, kCorners>& path, const Obstacle3<
   return fraction_above(path, obstacle, path.distance_at(obstacle, Real(0)), -rest_distance);
 }
 
-// Whether a contact point that was at `start` can be at `end` without having gone through an obstacle.
+// Can a contact point that was at `start` be at `end` without having gone through an obstacle?
 template <class Real, class Points>
 HYST_HD bool path_is_clear(const Points& points, int point, const Vec3<Real>* start, const Vec3<Real>* end) {
   for (int o = 0; o < points.set.count; ++o) {
@@ -131,7 +131,7 @@ HYST_HD bool path_is_clear(const Points& points, int point, const Vec3<Real>* st
   return true;
 }
 
-// Ends a vertex's path where it comes within `rest_distance` of an obstacle that blocks it.
+// Ends a vertex's path where it comes within `rest_distance` [m] of an obstacle that blocks it.
 template <class Real>
 HYST_HD void clip_path(const VertexPoints<Real>& vertices, int i, const Vec3<Real>* start, Vec3<Real>* end,
                        Real rest_distance) {

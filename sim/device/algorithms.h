@@ -1,4 +1,4 @@
-// Scans, extremes and groups on one device; the same bits whatever the number of threads.
+// Scans, minima and groups on one device, with the same bits whatever the number of threads.
 #pragma once
 
 #include <algorithm>
@@ -31,7 +31,7 @@ class GrowingBuffer {
   Buffer<T, Device> buffer_;
 };
 
-// Scratch of the functions below.
+// The scratch memory of the functions below.
 template <class Device>
 struct Scratch {
   explicit Scratch(Device& device) : memory(device), keys(device), items(device), result(device, 1) {}
@@ -41,7 +41,7 @@ struct Scratch {
   std::size_t bytes() const { return memory.bytes() + keys.bytes() + items.bytes() + result.bytes(); }
 };
 
-// start[i] = count[0] + ... + count[i-1] for i in [0, n]; start has n + 1 elements.  Returns start[n].
+// Sets start[i] = count[0] + ... + count[i-1] for i in [0, n]; start has n + 1 elements.  Returns start[n].
 inline int exclusive_scan(Cpu& cpu, Scratch<Cpu>&, const int* count, int n, int* start) {
   ++device_counts.loops;
   const Profiled<Cpu> profiled(cpu, {"scan", 2 * n * sizeof(int)});
@@ -50,7 +50,7 @@ inline int exclusive_scan(Cpu& cpu, Scratch<Cpu>&, const int* count, int n, int*
   return start[n];
 }
 
-// The least of n values, or `otherwise` if that is less.
+// Returns the least of n values, or `otherwise` if that is less.
 template <class Real>
 Real smallest(Cpu& cpu, Scratch<Cpu>&, const Real* value, int n, Real otherwise) {
   if (n == 0) return otherwise;
@@ -60,8 +60,8 @@ Real smallest(Cpu& cpu, Scratch<Cpu>&, const Real* value, int n, Real otherwise)
   return otherwise;
 }
 
-// Rows of items by their key in [0, rows): row r is item[start[r]] ... item[start[r+1]-1], in ascending
-// order. Negative keys belong to no row.
+// Groups n items by their key in [0, rows): row r is item[start[r]] ... item[start[r+1]-1], in ascending
+// order, with rows + 1 starts.  Negative keys belong to no row.
 inline void group(Cpu& cpu, Scratch<Cpu>& scratch, const int* key, int n, int rows, int* start, int* item) {
   ++device_counts.loops;
   const Profiled<Cpu> profiled(cpu, {"group", (2 * n + rows) * sizeof(int)});
@@ -76,7 +76,7 @@ inline void group(Cpu& cpu, Scratch<Cpu>& scratch, const int* key, int n, int ro
 }
 
 #ifdef __CUDACC__
-// The same by CUB (cuda_algorithms.cpp).
+// These do the same by CUB (cuda_algorithms.cpp).
 int exclusive_scan(Cuda& cuda, Scratch<Cuda>& scratch, const int* count, int n, int* start);
 template <class Real>
 Real smallest(Cuda& cuda, Scratch<Cuda>& scratch, const Real* value, int n, Real otherwise);

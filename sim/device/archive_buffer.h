@@ -1,4 +1,4 @@
-// Arrays of a device in an Archive.
+// Saves and loads a device's arrays in an Archive.
 #pragma once
 
 #include "sim/base/archive.h"
@@ -6,7 +6,7 @@
 
 namespace hysteron {
 
-// `count` elements from `data` on, which has room for them.
+// Saves or loads `count` elements at `data`, which has room for them.
 template <class T, class Device>
 void serialise(Archive& archive, Device& device, T* data, std::size_t count) {
   if (count == 0) return;
@@ -16,8 +16,8 @@ void serialise(Archive& archive, Device& device, T* data, std::size_t count) {
   if (archive.loads()) device_upload(device, data, copy.data(), copy.size());
 }
 
-// A whole buffer.  One whose size differs, as that of an array which is made when it is first needed, is made
-// anew.
+// Saves or loads a whole buffer.  If its size differs, as for an array that is made when first needed, it is
+// made anew.
 template <class T, class Device>
 void serialise(Archive& archive, Device& device, Buffer<T, Device>& buffer) {
   const std::size_t size = archive.size(buffer.size());
@@ -25,7 +25,7 @@ void serialise(Archive& archive, Device& device, Buffer<T, Device>& buffer) {
   serialise(archive, device, buffer.data(), size);
 }
 
-// Several, one after the other.
+// Visits several buffers, one after the other.
 template <class Device, class... T>
 requires(sizeof...(T) > 1) void serialise(Archive& archive, Device& device, Buffer<T, Device>&... buffers) {
   (serialise(archive, device, buffers), ...);

@@ -1,4 +1,4 @@
-// Memory that lives on one device.  Zero-initialised; moved, never copied by accident.
+// Memory that lives on one device.  It is zero-initialised, and moved, never copied by accident.
 #pragma once
 
 #include <numeric>
@@ -42,7 +42,7 @@ class Buffer {
     if (size_) device_download(*device_, values.data(), data_, bytes());
     return values;
   }
-  // Of all elements, added up by the host in their order.
+  // Returns the sum of all elements, which the host adds in their order.
   double sum() const {
     const std::vector<T> values = download();
     return std::accumulate(values.begin(), values.end(), 0.0);
@@ -59,7 +59,7 @@ class Buffer {
   std::size_t size_ = 0;
 };
 
-// What the device's array holds from `data` on.
+// Returns a copy of the device's array, `size` elements from `data` on.
 template <class T, class Device>
 std::vector<T> downloaded(Device& device, const T* data, std::size_t size) {
   std::vector<T> values(size);
@@ -67,7 +67,7 @@ std::vector<T> downloaded(Device& device, const T* data, std::size_t size) {
   return values;
 }
 
-// Of arrays that a loop reads or writes whole.
+// Counts the bytes of arrays that a loop reads or writes whole.
 template <class... Buffers>
 std::size_t total_bytes(const Buffers&... buffer) {
   return (std::size_t(0) + ... + buffer.bytes());

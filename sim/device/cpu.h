@@ -1,4 +1,4 @@
-// The CPU as a device: OpenMP threads over the same loop bodies that the GPU runs.
+// The CPU as a device runs OpenMP threads over the same loop bodies as the GPU.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 
 namespace hysteron {
 
-// Sums of K terms at once; a loop body adds to them, for_each_sum() adds the bodies' sums in a fixed order.
+// K sums at once; a loop body adds to them, and for_each_sum() adds the bodies' sums in a fixed order.
 template <int K>
 struct Sums {
   double term[K] = {};
@@ -22,11 +22,12 @@ struct Sums {
 
 // Loops shorter than this run on one thread: waking the others costs more than they do.
 inline constexpr int kSerialLoop = 512;
-// Elements per partial sum.  Fixed, so that the order of additions does not depend on the number of threads.
+// Elements per partial sum; the number is fixed, so that the order of additions does not depend on the number
+// of threads.
 inline constexpr int kSumBlock = 256;
 
-// Cores that others take meanwhile, as a renderer without graphics hardware does: threads that wait for one
-// that has no core would spin in vain.  No result depends on the number of threads.
+// The number of cores that others use meanwhile, as a renderer without graphics hardware does: threads that
+// wait for one that has no core would spin in vain.  No result depends on the number of threads.
 inline std::atomic<int> lent_cores = 0;
 class LentCore {
  public:
@@ -40,7 +41,7 @@ struct Cpu {
   static constexpr bool kGpu = false;
   int threads = 1;
   std::size_t bytes = 0;             // allocated by Buffers
-  std::vector<double> partial = {};  // scratch of for_each_sum
+  std::vector<double> partial = {};  // scratch of for_each_sum()
   std::unique_ptr<KernelProfile<Cpu>> profile = {};
 
   explicit Cpu(int thread_count);
@@ -50,10 +51,10 @@ struct Cpu {
   void synchronize() const {}
 };
 
-// Where part k of `parts` equal ones of n items begins.
+// Returns where part k of `parts` equal ones of n items begins.
 inline int part_begin(int n, int k, int parts) { return static_cast<int>(static_cast<long>(n) * k / parts); }
 
-// body(i) for i in [begin, end).  One instance serves one thread and many.  What the body has captured is
+// Calls body(i) for i in [begin, end).  One instance serves one thread and many.  The body's captures are
 // copied: stores of the loop cannot change the copy, so that its numbers stay in registers.
 template <class Body>
 HYST_NOINLINE void run_serially(int begin, int end, const Body& body) {
@@ -74,14 +75,14 @@ void for_each(Cpu& cpu, const Kernel& kernel, int n, const Body& body) {
     run_serially(part_begin(n, t, threads), part_begin(n, t + 1, threads), body);
 }
 
-// The same, of what is measured now and then: a batch of cloths on a GPU does not share its launch, so that
-// it is compiled once and not twice.
+// Runs a loop of rare measurements: a batch of cloths on a GPU does not share its launch, so that it is
+// compiled once and not twice.
 template <class Body>
 void for_each_alone(Cpu& cpu, const Kernel& kernel, int n, const Body& body) {
   for_each(cpu, kernel, n, body);
 }
 
-// Partial sums of the blocks [first, last).
+// Computes the partial sums of the blocks [first, last).
 template <int K, class Body>
 HYST_NOINLINE void sum_serially(int first, int last, int n, const Body& body, double* partial) {
   const Body own = body;
@@ -93,7 +94,7 @@ HYST_NOINLINE void sum_serially(int first, int last, int n, const Body& body, do
   }
 }
 
-// total[k] = sum over i of the terms that body(i, sums) adds; then finish(total) runs once.
+// Sets total[k] to the sum over i of the terms that body(i, sums) adds; then finish(total) runs once.
 template <int K, class Body, class Finish>
 void for_each_sum(Cpu& cpu, const Kernel& kernel, int n, const Body& body, const Finish& finish) {
   ++device_counts.loops;

@@ -1,4 +1,4 @@
-// Compiled by nvcc only.
+// Only nvcc compiles this file.
 #include "sim/device/cuda.h"
 
 #include <cstdlib>
@@ -14,7 +14,7 @@ namespace hysteron {
 
 namespace {
 
-constexpr std::size_t kPending = 4096;  // profiled launches before the host has to look
+constexpr std::size_t kPending = 4096;  // profiled launches before the host has to read them
 
 bool may_use_graphs() {
   const char* requested = std::getenv("HYSTERON_CUDA_GRAPHS");
@@ -74,14 +74,14 @@ void KernelProfile<Cuda>::begin(const Kernel& kernel) {
   check_cuda(cudaEventRecord(event_[2 * pending_.size()], cuda_.stream), kernel.name);
 }
 
-// What fails here is found by collect().
+// Failures here are found by collect().
 void KernelProfile<Cuda>::end(const Kernel& kernel) {
   cudaEventRecord(event_[2 * pending_.size() + 1], cuda_.stream);
   HYST_NVTX(nvtxRangePop());
   pending_.push_back(kernel);
 }
 
-// Waits, too, but not on behalf of the step: device_counts does not count it.
+// This waits, too, but not on behalf of the step: device_counts does not count it.
 void KernelProfile<Cuda>::collect() {
   check_cuda(cudaStreamSynchronize(cuda_.stream), "profile");
   for (std::size_t i = 0; i < pending_.size(); ++i) {

@@ -26,15 +26,15 @@ struct Cuda {
   static constexpr bool kGpu = true;
   static constexpr std::size_t kStaged = 4096;  // the most bytes of a download through `staging`
   int index = 0;                                // among the CUDA devices
-  CudaBatch* batch = nullptr;                   // which launches the loops; null: each is launched at once
+  CudaBatch* batch = nullptr;                   // it launches the loops; null: each is launched at once
   cudaStream_t stream = nullptr;
   std::size_t bytes = 0;
-  double* partial = nullptr;  // scratch of for_each_sum, one slot per block and term
+  double* partial = nullptr;  // scratch of for_each_sum(), one slot per block and term
   int partial_size = 0;
-  unsigned* arrived = nullptr;  // blocks that have delivered their partial sums
+  unsigned* arrived = nullptr;  // number of blocks that have delivered their partial sums
   void* staging = nullptr;      // pinned memory of the host
   bool graphs;                  // loops may be graphs (while_loop.h); HYSTERON_CUDA_GRAPHS=0: none
-  bool early_blocks;            // after_the_last_loop() works
+  bool early_blocks;            // does after_the_last_loop() work?
   std::unique_ptr<KernelProfile<Cuda>> profile;
 
   explicit Cuda(int device);
@@ -43,14 +43,14 @@ struct Cuda {
   Cuda& operator=(const Cuda&) = delete;
   std::string description() const;
   int cuda_device() const { return index; }
-  // Releases, by cudaFree or cudaFreeHost, memory that loops which have been ordered may use still.
+  // Releases, by cudaFree or cudaFreeHost, memory that ordered loops may still use.
   void release(void* memory, CudaBatch::Release by) const {
     if (batch)
       batch->release_later(memory, by);
     else
       by(memory);
   }
-  // Scratch of sums for so many numbers at least.
+  // Reserves scratch of sums for at least so many numbers.
   void reserve_partial(int numbers, const char* name);
   void synchronize() const {
     ++device_counts.synchronizations;
@@ -59,11 +59,12 @@ struct Cuda {
   }
 };
 
-// Number of usable GPUs; why there are none goes to `reason`.
+// Returns the number of usable GPUs; `reason` says why there are none.
 int cuda_device_count(std::string& reason);
 
-// Events around every launch, which the host reads when many are pending or their costs are asked for; NVTX
-// ranges where the toolkit has them.  A launch on an idle GPU takes as long as the host takes to send it.
+// Profiles by events around every launch, which the host reads when many are pending or their costs are asked
+// for, and by NVTX ranges where the toolkit has them.  A launch on an idle GPU takes as long as the host
+// takes to send it.
 template <>
 class KernelProfile<Cuda> {
  public:
@@ -78,17 +79,18 @@ class KernelProfile<Cuda> {
  private:
   void collect();
   Cuda& cuda_;
-  std::vector<cudaEvent_t> event_;  // two for each pending launch
+  std::vector<cudaEvent_t> event_;  // two per pending launch
   std::vector<Kernel> pending_;
   KernelCosts costs_;
 };
 
-// Loops of more blocks fill a GPU by themselves: a copy of 131,072 blocks took 168 us in place of 101.
+// Loops of more blocks fill a GPU by themselves: with early blocks a copy of 131,072 blocks took 168 us in
+// place of 101.
 inline constexpr unsigned kMaxEarlyBlocks = 4096;
 
-// Where a GPU can, a loop's blocks come while the last ones of the loop before are at work, so that they are
+// Where a GPU can, a loop's blocks start while the last ones of the loop before are at work, so that they are
 // there when it ends (programmatic dependent launch): here they wait for its end, and let the next loop's
-// come.  Every kernel that is launched so calls it first.
+// blocks start.  Every kernel that is launched so calls it first.
 __device__ inline void after_the_last_loop() {
 #if __CUDA_ARCH__ >= 900
   if (gridDim.x > kMaxEarlyBlocks) return;
@@ -158,7 +160,7 @@ void for_each(Cuda& cuda, const Kernel& kernel, int n, const Body& body) {
   if (n > 0) launch(cuda, kernel, EachLoop<Body>{blocks_for(n), n, body});
 }
 
-// Of a batch: at once, behind what this member has ordered.
+// In a batch this launches at once, behind the loops that this member has ordered.
 template <class Body>
 void for_each_alone(Cuda& cuda, const Kernel& kernel, int n, const Body& body) {
   if (n == 0) return;
@@ -167,7 +169,7 @@ void for_each_alone(Cuda& cuda, const Kernel& kernel, int n, const Body& body) {
   launch_now(cuda, kernel, EachLoop<Body>{blocks_for(n), n, body});
 }
 
-// Tree sum over the block in a fixed order; the result is valid in thread 0.
+// Sums over the block as a tree, in a fixed order; the result is valid in thread 0.
 template <int K>
 __device__ void block_sum(Sums<K>& sums) {
   __shared__ double shared[K][kThreadsPerBlock / 32];
@@ -183,8 +185,8 @@ __device__ void block_sum(Sums<K>& sums) {
       for (int w = 1; w < kThreadsPerBlock / 32; ++w) sums.term[k] += shared[k][w];
 }
 
-// One launch: the block that arrives last adds all partial sums in block order, so the bits do not depend on
-// the order in which blocks ran.
+// Sums in one launch: the block that arrives last adds all partial sums in block order, so the bits do not
+// depend on the order in which blocks ran.
 template <int K, class Body, class Finish>
 struct SumLoop {
   unsigned blocks;
@@ -218,10 +220,11 @@ struct SumLoop {
   }
 };
 
-inline constexpr int kSumBlocks =
-    528;  // four blocks for each multiprocessor of an H100; fixed for the bits' sake
+// Four blocks for each multiprocessor of an H100; the number is fixed so that the bits are.
+inline constexpr int kSumBlocks = 528;
 
-// Blocks of a sum of n elements or rows, so many for each; at most `most`, for which there is scratch.
+// Returns the number of blocks of a sum of n elements or rows with `per_block` each, at most `most`, for
+// which there is scratch.
 HYST_HD inline int sum_blocks(int n, int per_block, int most) {
   const int blocks = (n + per_block - 1) / per_block;
   return blocks < 1 ? 1 : blocks < most ? blocks : most;
@@ -266,14 +269,14 @@ struct CopyLoop {
   }
 };
 
-// Of few bytes, between places that the GPU can reach.
+// Copies few bytes between places that the GPU can reach.
 inline void copy_in_batch(Cuda& cuda, const char* name, void* to, const void* from, std::size_t bytes) {
   const int size = static_cast<int>(bytes);
   launch(cuda, name,
          CopyLoop{blocks_for(size), size, static_cast<const char*>(from), static_cast<char*>(to)});
 }
 
-// In a batch what is small travels with the loops.
+// In a batch small data travels with the loops.
 inline void device_upload(Cuda& cuda, void* to, const void* from, std::size_t bytes) {
   if (cuda.batch && bytes <= Cuda::kStaged)
     return copy_in_batch(cuda, "upload", to, cuda.batch->staged_copy(from, bytes), bytes);
@@ -281,7 +284,7 @@ inline void device_upload(Cuda& cuda, void* to, const void* from, std::size_t by
   check_cuda(cudaMemcpyAsync(to, from, bytes, cudaMemcpyHostToDevice, cuda.stream), "upload");
   cuda.synchronize();
 }
-// The driver copies what is small much faster into pinned memory.
+// The driver copies small data much faster into pinned memory.
 inline void device_download(Cuda& cuda, void* to, const void* from, std::size_t bytes) {
   void* target = bytes <= Cuda::kStaged ? cuda.staging : to;
   if (cuda.batch && target != to) {
@@ -293,7 +296,7 @@ inline void device_download(Cuda& cuda, void* to, const void* from, std::size_t 
   cuda.synchronize();
   if (target != to) std::memcpy(to, target, bytes);
 }
-// Pinned memory of the host, which loops can write.
+// Allocates pinned memory of the host, which loops can write.
 inline void* host_allocate(Cuda&, std::size_t bytes) {
   ++device_counts.allocations;
   void* memory = nullptr;

@@ -1,5 +1,5 @@
-// Scans, extremes and groups on a GPU, by CUB: a source of its own, since its headers are longer than most of
-// ours.
+// Scans, minima and groups on a GPU, by CUB; they are a source of their own, since CUB's headers are longer
+// than most of ours.
 #include <cub/device/device_radix_sort.cuh>
 #include <cub/device/device_reduce.cuh>
 #include <cub/device/device_scan.cuh>
@@ -62,7 +62,7 @@ void group(Cuda& cuda, Scratch<Cuda>& scratch, const int* key, int n, int rows, 
     });
   for_each(
       cuda, "group: rows", rows + 1, HYST_KERNEL(int r) {
-        int low = 0, high = n;  // first place whose key is r or more
+        int low = 0, high = n;  // the first place whose key is at least r
         while (low < high) {
           const int middle = (low + high) / 2;
           if (sorted[middle] < r)

@@ -1,4 +1,4 @@
-// Compiled by nvcc only.
+// Only nvcc compiles this file.
 #include <algorithm>
 #include <utility>
 
@@ -45,7 +45,7 @@ void CudaBatch::run(const std::function<void(int)>& job) {
   fibers_.run(static_cast<int>(member_.size()), job, [this] { launch_all(); });
 }
 
-// Where it does not fit, what was ordered is launched first.
+// Makes room; if an order does not fit, earlier orders are launched first.
 CudaBatch::Place CudaBatch::room(std::size_t size) {
   size = (size + kAlignment - 1) / kAlignment * kAlignment;
   if (member().used + size > kArena) {
@@ -57,7 +57,7 @@ CudaBatch::Place CudaBatch::room(std::size_t size) {
   return {arena_ + offset, arena_on_gpu_ + offset};
 }
 
-// For one round of a repeated loop, which must not be launched in parts.
+// Makes room for one round of a repeated loop, which must not be launched in parts.
 void CudaBatch::make_room() {
   if (member().used > kArena / 2) wait();
 }
@@ -89,7 +89,7 @@ void CudaBatch::launch_all() {
   collect_garbage();
 }
 
-// The member that has most before it leads: those that are ahead of it are met where they wait.
+// The member with the most remaining orders leads: members that are ahead of it wait for it.
 void CudaBatch::gather(std::vector<Pending> pending) {
   const auto left = [](const Pending& p) { return p.end - p.next; };
   for (;;) {
@@ -144,7 +144,7 @@ void CudaBatch::launch(std::size_t first, std::size_t end) {
 }
 
 void CudaBatch::launch_repeatedly(const Group& group, std::size_t first) {
-  constexpr int kRounds = 2, kThreads = 256;  // between two questions whether all are done
+  constexpr int kRounds = 2, kThreads = 256;  // kRounds: between two checks whether all are done
   do {
     for (int k = 0; k < kRounds; ++k) launch(first, group.end);
     all_done_kernel<<<1, kThreads, 0, stream_>>>(loop_on_gpu_ + group.first, group.members, all_done_);

@@ -1,5 +1,5 @@
-// Many small cloths on one GPU: what their simulations order is gathered, and loops that they have in common
-// are launched once for all of them.  Included by cuda.h.
+// Runs many small cloths on one GPU: the loops that their simulations order are gathered, and common ones are
+// launched once for all of them.  Included by cuda.h.
 #pragma once
 
 #include <cuda_runtime.h>
@@ -13,13 +13,13 @@
 
 namespace hysteron {
 
-// A loop of one member in the GPU's memory.
+// One member's loop in the GPU's memory.
 struct BatchedLoop {
   const void* loop;
-  const int* stop;  // nothing runs once *stop is not 0; null: whatever happens
+  const int* stop;  // the loop is skipped if *stop is not 0; null: never
 };
 
-// The blocks (., y) take the loop of the y-th member.
+// The blocks (., y) run the loop of the y-th member.
 template <class Loop>
 __device__ void run_batched(const BatchedLoop* ordered) {
   const BatchedLoop mine = ordered[blockIdx.y];
@@ -28,14 +28,14 @@ __device__ void run_batched(const BatchedLoop* ordered) {
   if (blockIdx.x < loop.blocks) loop();
 }
 
-// Simulations whose jobs take turns on one thread, each until it waits for the GPU.  Then all that they have
-// ordered is launched: loops that are next for several members in one launch.  A member's loops keep their
-// order and their blocks, so that its bits are those of a run by itself.
+// Simulations whose jobs take turns on one thread, each until it waits for the GPU.  Then all ordered loops
+// are launched: loops that are next for several members in one launch.  A member's loops keep their order and
+// their blocks, so that its bits are those of a run by itself.
 class CudaBatch {
  public:
   // Launches one kernel for so many members, with so many blocks each.
   using Launch = void (*)(const BatchedLoop*, unsigned blocks, unsigned members, cudaStream_t);
-  // cudaFree or cudaFreeHost.
+  // This is cudaFree or cudaFreeHost.
   using Release = cudaError_t (*)(void*);
 
   CudaBatch(int device, int members);
@@ -43,10 +43,10 @@ class CudaBatch {
   CudaBatch(const CudaBatch&) = delete;
   CudaBatch& operator=(const CudaBatch&) = delete;
 
-  // Runs job(i) for each member i; devices that a job makes belong to this batch.  Throws what the first of
-  // the jobs has thrown, after all have ended.
+  // Runs job(i) for each member i; devices that a job makes belong to this batch.  After all have ended it
+  // throws the first exception of a job.
   void run(const std::function<void(int)>& job);
-  // The one whose job the calling thread runs; null: none.
+  // Returns the batch whose job the calling thread runs; null: none.
   static CudaBatch* current();
 
   cudaStream_t stream() const { return stream_; }
@@ -58,8 +58,8 @@ class CudaBatch {
     new (place.host) Loop(loop);
     member().orders.push_back({launch, name, place.device, loop.blocks, nullptr, 0});
   }
-  // What orders() orders is repeated until *done, in the GPU's memory, is not 0; from then on it must change
-  // nothing.
+  // Repeats the loops that orders() orders until *done, in the GPU's memory, is not 0; from then on they must
+  // change nothing.
   template <class Orders>
   void repeat(const int* done, const Orders& orders) {
     make_room();
@@ -70,19 +70,19 @@ class CudaBatch {
     member().repeats = false;
     member().orders[first].end = static_cast<int>(member().orders.size());
   }
-  // Until the GPU has done what this member has ordered.
+  // Waits until the GPU has done the loops that this member has ordered.
   void wait() { fibers_.wait(); }
-  // The same if anything is ordered that has not been launched.
+  // Waits if any order has not been launched.
   void send() {
     if (!member().orders.empty()) wait();
   }
-  // Bytes of the host in the GPU's memory, until this member waits.
+  // Returns a copy of the host's bytes in the GPU's memory, valid until this member waits.
   const char* staged_copy(const void* bytes, std::size_t size) {
     const Place place = room(size);
     std::memcpy(place.host, bytes, size);
     return static_cast<const char*>(place.device);
   }
-  // Loops that have been ordered may use it still.
+  // Releases memory that ordered loops may still use, later.
   void release_later(void* memory, Release by) { garbage_.push_back({memory, by}); }
 
  private:
@@ -97,19 +97,19 @@ class CudaBatch {
   };
   struct Member {
     std::vector<Order> orders;
-    std::size_t used = 0;  // of its arena
+    std::size_t used = 0;  // bytes of its arena
     bool repeats = false;
   };
   struct Place {
     void* host;
     const void* device;
   };
-  // Orders of one member that are not in a launch yet.
+  // Orders of one member that no launch contains yet.
   struct Pending {
     int member, next, end;
     const int* stop;
   };
-  // One launch; without a kernel, the launches up to `end` until all its members are done.
+  // One launch; without a kernel it repeats the launches up to `end` until all its members are done.
   struct Group {
     Launch launch;
     const char* name;
@@ -136,7 +136,7 @@ class CudaBatch {
   cudaStream_t stream_ = nullptr;
   Fibers fibers_;
   std::vector<Member> member_;
-  char *arena_ = nullptr, *arena_on_gpu_ = nullptr;  // kArena bytes for each member
+  char *arena_ = nullptr, *arena_on_gpu_ = nullptr;  // kArena bytes per member
   std::vector<Group> group_;
   std::vector<BatchedLoop> loop_;
   BatchedLoop *pinned_loop_ = nullptr, *loop_on_gpu_ = nullptr;

@@ -1,4 +1,5 @@
-// Compiled by nvcc only.  The runtime's interop calls find the driver's OpenGL themselves: none is linked.
+// Only nvcc compiles this file.  The runtime's interop calls find the driver's OpenGL themselves: none is
+// linked.
 #include <cuda_gl_interop.h>
 
 #include "sim/device/share_positions.h"
@@ -6,8 +7,8 @@
 namespace hysteron {
 namespace {
 
-// Refusals are no errors here: there is another way for what would be written.  They leave no CUDA error
-// behind for the next launch to find.
+// Reports whether a call succeeds.  Refusals are no errors here: positions can be written another way.  They
+// leave no CUDA error behind for the next launch to find.
 bool succeeds(cudaError_t status, const char* name, std::string& reason) {
   if (status == cudaSuccess) return true;
   cudaGetLastError();
@@ -27,11 +28,11 @@ void write_floats(Cuda& cuda, const Buffer<Vec3<Real>, Cuda>& from, float* to) {
 template <class Real>
 class CudaGlPositions : public GlPositions {
  public:
-  // Registers the buffer for kernels of `cuda` that this thread launches; is_open() tells whether the driver
-  // agreed, `reason` why not.
+  // Registers the buffer for kernels of `cuda` that this thread launches; is_open() returns whether the
+  // driver agreed, `reason` says why not.
   CudaGlPositions(Cuda& cuda, const Buffer<Vec3<Real>, Cuda>& x, unsigned gl_buffer, std::string& reason)
       : cuda_(cuda), x_(x) {
-    // Each thread has a device of its own, and this one may be the renderer's.
+    // Each thread has a current device of its own, and this one may be the renderer's.
     if (!succeeds(cudaSetDevice(cuda.index), "select the device", reason)) return;
     if (!succeeds(cudaGraphicsGLRegisterBuffer(&resource_, gl_buffer, cudaGraphicsRegisterFlagsWriteDiscard),
                   "register the OpenGL buffer", reason))
@@ -58,8 +59,9 @@ class CudaGlPositions : public GlPositions {
   }
 
  private:
-  // The buffer's memory for kernels of cuda_.stream, after all GL calls made so far; its content is undefined
-  // until written.  Null, and why, if the driver refuses or the buffer holds fewer floats.
+  // Returns the buffer's memory for kernels of cuda_.stream, after all GL calls made so far; its content is
+  // undefined until written.  Returns null, and sets `reason`, if the driver refuses or the buffer holds
+  // fewer floats.
   float* map(std::string& reason) {
     if (!succeeds(cudaGraphicsMapResources(1, &resource_, cuda_.stream), "map the OpenGL buffer", reason))
       return nullptr;

@@ -1,4 +1,4 @@
-// What the calling thread has asked of its devices so far.  Tests bound it for each step: launches and
+// Counts the requests of the calling thread to its devices.  Tests bound them for each step: launches and
 // synchronisations are counted, where a time would depend on the machine.
 #pragma once
 

@@ -16,17 +16,17 @@
 namespace hysteron {
 namespace {
 
-// As a process has it by itself: a job may be a whole run.  Only what is touched takes memory.
+// A fiber's stack is as large as a process's: a job may be a whole run.  Only touched pages take memory.
 constexpr std::size_t kStack = std::size_t(8) << 20, kGuard = std::size_t(1) << 16;  // [bytes]
 
-// As the Itanium C++ ABI lays it out (2.2.2).
+// The layout is that of the Itanium C++ ABI (2.2.2).
 struct ExceptionState {
   void* caught = nullptr;
   unsigned uncaught = 0;
 };
 ExceptionState& exception_state() { return *reinterpret_cast<ExceptionState*>(abi::__cxa_get_globals()); }
 
-// What belongs to a job although the thread has it.
+// State that belongs to a job although the thread holds it.
 struct OfThread {
   DeviceCounts counts = {};
   ExceptionState exceptions = {};
@@ -38,7 +38,7 @@ void exchange_with_thread(OfThread& other) {
   other.job = Job::exchange(other.job);
 }
 
-// One that grows beyond its end meets the guard, which nobody may touch, and not another's memory.
+// A stack that grows beyond its end meets the guard, which may not be touched, and not another's memory.
 class Stack {
  public:
   Stack()
@@ -71,7 +71,7 @@ struct Fibers::Fiber {
 };
 
 namespace {
-thread_local void* beginning = nullptr;  // the fiber that runs for the first time
+thread_local void* beginning = nullptr;  // the fiber that begins to run
 }
 
 Fibers::Fibers() = default;

@@ -1,4 +1,4 @@
-// Functions that take turns on one thread.
+// Runs functions that take turns on one thread.
 #pragma once
 
 #include <functional>
@@ -7,9 +7,9 @@
 
 namespace hysteron {
 
-// Each job has a stack of its own and runs until it waits or ends, then the next one does.  What this program
-// keeps for each thread, device_counts, and what C++ does, exceptions that are being handled, each job has
-// for itself.
+// Each job has a stack of its own and runs until it waits or ends, then the next one does.  Each job also has
+// its own copy of the thread's state: this program's device_counts, and C++'s exceptions that are being
+// handled.
 class Fibers {
  public:
   Fibers();
@@ -18,10 +18,10 @@ class Fibers {
   Fibers& operator=(const Fibers&) = delete;
 
   // Runs job(i) for i in [0, count) to their ends.  Whenever all that have not ended wait, and once more when
-  // all have ended, it calls all_wait() and lets them go on.  Throws what the first of them has thrown, after
-  // all have ended; what all_wait() throws is thrown in each job that waits.
+  // all have ended, it calls all_wait() and lets them go on.  After all have ended it throws the first
+  // exception of a job; an exception of all_wait() is thrown in each job that waits.
   void run(int count, const std::function<void(int)>& job, const std::function<void()>& all_wait);
-  // Of the job that calls it.
+  // Makes the job that calls it wait.
   void wait();
   int current() const { return current_; }  // -1: none runs
 
@@ -33,7 +33,7 @@ class Fibers {
 
   std::vector<std::unique_ptr<Fiber>> fiber_;
   const std::function<void(int)>* job_ = nullptr;
-  std::exception_ptr failure_;  // of all_wait()
+  std::exception_ptr failure_;  // an exception of all_wait()
   int current_ = -1;
 };
 

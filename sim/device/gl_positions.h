@@ -1,11 +1,11 @@
-// The way of positions into a renderer's buffer on the same GPU.
+// Writes positions into a renderer's buffer on the same GPU.
 #pragma once
 
 #include <string>
 
 namespace hysteron {
 
-// An OpenGL buffer of three floats a vertex, opened by a simulation to write its positions into.
+// An OpenGL buffer of n x 3 floats, opened by a simulation to write its positions into.
 //
 // It is opened, written and closed (destroyed) with the buffer's context current on the calling thread, and
 // closed while the buffer and the simulation exist.
@@ -16,8 +16,8 @@ class GlPositions {
   GlPositions& operator=(const GlPositions&) = delete;
   virtual ~GlPositions() = default;
 
-  // x, y, z of every vertex at this instant [m]; GL calls that follow on this thread see them.  False, and
-  // why, if the driver refuses; the buffer's content is undefined then.
+  // Writes x, y, z of every vertex at present [m]; GL calls that follow on this thread see them.  Returns
+  // false, and sets `reason`, if the driver refuses; the buffer's content is undefined then.
   virtual bool write(std::string& reason) = 0;
 };
 

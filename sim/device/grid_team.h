@@ -1,6 +1,6 @@
-// An algorithm of many short loops in one launch: as many blocks as a GPU runs at once share every loop and
-// wait for one another behind it, which takes a microsecond where a launch takes several.  Sums have the bits
-// of for_each_sum() and for_each_row_sum(), whose blocks these take in groups of threads.
+// Runs an algorithm of many short loops in one launch: as many blocks as a GPU runs at once share every loop
+// and wait for one another behind it, which takes a microsecond where a launch takes several. Sums have the
+// bits of for_each_sum() and for_each_row_sum(), whose blocks these take in groups of threads.
 #pragma once
 
 #include "sim/device/rows.h"
@@ -8,15 +8,15 @@
 
 namespace hysteron {
 
-// Blocks of a launch that arrive here, in memory that is zero before it and after leave().
+// A barrier for the blocks of a launch, in memory that is zero before it and after leave().
 class GridBarrier {
  public:
   explicit __device__ GridBarrier(unsigned* arrived) : arrived_(arrived) {}
 
-  // Every thread waits until all blocks have come, and sees what they wrote before.
+  // Makes every thread wait until all blocks have come, and see their earlier writes.
   __device__ void wait() {
     __syncthreads();
-    expected_ += gridDim.x;  // less than 2^32 before the launch ends: some 10^7 times
+    expected_ += gridDim.x;  // stays below 2^32 for some 10^7 waits
     if (threadIdx.x == 0) {
       asm volatile("red.release.gpu.global.add.u32 [%0], 1;" ::"l"(arrived_) : "memory");
       unsigned now;
@@ -25,7 +25,8 @@ class GridBarrier {
     }
     __syncthreads();
   }
-  // After it none may wait.  The second number counts blocks that wait no longer.
+  // Ends the use of the barrier: no thread may wait after it.  The second number counts blocks that have
+  // left.
   __device__ void leave() {
     if (threadIdx.x == 0 && atomicAdd(arrived_ + 1, 1u) == gridDim.x - 1) arrived_[0] = arrived_[1] = 0;
   }
@@ -38,8 +39,8 @@ class GridBarrier {
 class GridTeam {
  public:
   static constexpr int kThreads = 1024;
-  static constexpr int kGroups = kThreads / kThreadsPerBlock;  // of a block
-  // Numbers of scratch: two sums of one term, since a block may be late to read the first.
+  static constexpr int kGroups = kThreads / kThreadsPerBlock;  // per block
+  // The size of the scratch: two sums of one term, since a block may be late to read the first.
   static constexpr int kScratch = 2 * kRowSumBlocks;
 
   __device__ GridTeam(double* scratch, unsigned* arrived) : scratch_(scratch), barrier_(arrived) {}
@@ -53,13 +54,13 @@ class GridTeam {
   template <class Lanes = Warp, class Body>
   __device__ void for_each_row(int rows, const Body& body) {
     constexpr int kWarps = kThreads / Warp::kCount;
-    // Neighbouring rows go to different multiprocessors: few rows use all of them.
+    // Neighbouring rows go to different multiprocessors, so that few rows use all of them.
     const int first = threadIdx.x / Warp::kCount * gridDim.x + blockIdx.x;
     for (int warp = first; warp < warps_for<Lanes>(rows); warp += gridDim.x * kWarps)
       run_on_warp_row<Lanes>(warp, rows, body);
     barrier_.wait();
   }
-  // The total, in every thread.
+  // Returns the total, in every thread.
   template <class Body>
   __device__ double sum(int n, const Body& body) {
     return sum_of_blocks(n, sum_blocks(n, kThreadsPerBlock, kSumBlocks), body);
@@ -74,7 +75,8 @@ class GridTeam {
  private:
   static __device__ int group() { return threadIdx.x / kThreadsPerBlock; }
   static __device__ int rank() { return threadIdx.x % kThreadsPerBlock; }
-  // As block_sum(), of each group: valid in its first thread.  All threads of the block call it.
+  // Sums over each group like block_sum(): the result is valid in its first thread.  All threads of the block
+  // call it.
   static __device__ double group_sum(double term) {
     __shared__ double shared[kGroups][kThreadsPerBlock / Warp::kCount];
     for (int offset = 16; offset > 0; offset /= 2) term += __shfl_down_sync(0xffffffffu, term, offset);
@@ -123,7 +125,7 @@ __global__ void __launch_bounds__(GridTeam::kThreads)
   team.leave();
 }
 
-// Runs body(team) if the GPU can; false: it cannot.  Nothing may have been ordered in a batch.
+// Runs body(team) and returns true if the GPU can run it.  No orders of a batch may be pending.
 template <class Body>
 bool for_grid_team(Cuda& cuda, const Kernel& kernel, const Body& body) {
   int can = 0, processors = 0;

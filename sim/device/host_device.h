@@ -1,6 +1,6 @@
-// The marks that let one source serve both devices.  Only sim/device/ knows which compiler is at work.
-// HYST_UNROLL(n) before a loop has nvcc write its body n times: 1 where a long body would take it minutes.
-// HYST_CALLED marks what nvcc compiles as one function for all loops that call it, and g++ as it likes.
+// These marks let one source serve both devices.  Only sim/device/ knows which compiler is at work.
+// HYST_UNROLL(n) before a loop makes nvcc write its body n times: 1 where a long body would take it minutes.
+// HYST_CALLED marks a function that nvcc compiles once for all loops that call it, and g++ as it likes.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,4 +1,4 @@
-// A few numbers that loops write and the host reads.
+// Holds a few numbers that loops write and the host reads.
 #pragma once
 
 #include <new>
@@ -8,8 +8,8 @@
 
 namespace hysteron {
 
-// On a GPU it lies in pinned memory of the host: once that has waited for the device, reading it costs
-// neither a copy nor another wait.  Loops write it once; what they add up belongs in a Buffer.
+// On a GPU they lie in pinned memory of the host: once it has waited for the device, reading them costs
+// neither a copy nor another wait.  Loops write them once; sums over loops belong in a Buffer.
 template <class T, class Device>
 class HostResult {
  public:
@@ -21,7 +21,7 @@ class HostResult {
   HostResult& operator=(const HostResult&) = delete;
 
   T* data() { return value_; }
-  const T& operator*() const { return *value_; }  // as of the last time that the host has waited
+  const T& operator*() const { return *value_; }  // as of the host's last wait
 
  private:
   Device& device_;

@@ -1,5 +1,5 @@
-// Where a step's time goes, loop by loop: calls, seconds and bytes by the names that loops carry.  A device
-// whose `profile` is empty pays one branch a loop.
+// Profiles the time of a step loop by loop: calls, seconds and bytes by the names that loops carry.  A device
+// whose `profile` is empty pays one branch per loop.
 #pragma once
 
 #include <chrono>
@@ -9,8 +9,8 @@
 
 namespace hysteron {
 
-// A loop's name in profiles and errors, and the least that it must move: every array that it reads once and
-// every one that it writes once [bytes]; 0 where that is not stated.
+// A loop's name in profiles and errors, and the least number of bytes that it must move: every array that it
+// reads once and every one that it writes once; 0: not stated.
 struct Kernel {
   const char* name;
   std::size_t bytes;
@@ -41,7 +41,7 @@ class KernelProfile<Cpu> {
   KernelCosts costs_;
 };
 
-// From here to the end of the block the device does what `kernel` names.
+// Profiles the device's work under the name of `kernel` until the end of the block.
 template <class Device>
 class Profiled {
  public:

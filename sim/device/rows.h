@@ -1,6 +1,6 @@
-// Loops over long rows.  On a GPU a warp takes each row, its lanes a part of it each, or nine of its threads
-// do where rows are many; on the CPU one lane walks the row from its first element to its last, as a plain
-// loop would.
+// Loops over long rows.  On a GPU a warp takes each row, with a part for each lane, or nine of its threads do
+// where rows are many; on the CPU one lane walks the row from its first element to its last, as a plain loop
+// would.
 #pragma once
 
 #include <type_traits>
@@ -9,7 +9,7 @@
 
 namespace hysteron {
 
-// Who walks a row on the CPU.
+// The single lane that walks a row on the CPU.
 struct SingleLane {
   static constexpr int kCount = 1;
   HYST_HD int index() const { return 0; }
@@ -20,15 +20,16 @@ struct SingleLane {
   }
 };
 
-// So many threads of a warp take a row on a GPU, 32 / kThreads rows a warp; all of a row's threads call these
-// functions together.
+// kThreads threads of a warp share a row on a GPU, with 32 / kThreads rows per warp; all of a row's threads
+// call these functions together.
 template <int kThreads>
 struct LanesOfWarp {
   static constexpr int kWarp = 32, kCount = kThreads, kRows = kWarp / kThreads;
   HYST_HD int index() const { return in_warp() % kCount; }
-  HYST_HD int slot() const { return kRows == 1 ? 0 : in_warp() / kCount; }  // of the warp's rows; kRows: none
+  // Returns the index among the warp's rows; kRows: none.
+  HYST_HD int slot() const { return kRows == 1 ? 0 : in_warp() / kCount; }
   HYST_HD bool leads() const { return index() == 0; }
-  // The value of the lane `by` places further; beyond the last, any.
+  // Returns the value of the lane `by` places further; beyond the last it is arbitrary.
   template <class Real>
   HYST_HD Real further(Real value, [[maybe_unused]] int by) const {
 #ifdef __CUDA_ARCH__
@@ -45,7 +46,7 @@ struct LanesOfWarp {
     return value;
 #endif
   }
-  // Sum of the lanes' matrices in a fixed order; valid in the lane that leads.
+  // Returns the sum of the lanes' matrices in a fixed order, valid in the leading lane.
   template <class Matrix>
   HYST_HD Matrix lane_sum(Matrix matrix) const {
     static_assert(kCount == kWarp, "halves of halves");
@@ -65,28 +66,29 @@ struct LanesOfWarp {
   HYST_HD unsigned threads() const { return (0xffffffffu >> (kWarp - kCount)) << (slot() * kCount); }
 };
 using Warp = LanesOfWarp<32>;
-// As many as a 3x3 block has numbers: the loads of three rows wait together; five threads idle.
+// Nine lanes match the numbers of a 3x3 block: the loads of three rows wait together; five threads idle.
 using NineLanes = LanesOfWarp<9>;
 
 template <class Device>
 using LanesOn = std::conditional_t<Device::kGpu, Warp, SingleLane>;
 
-// Runs body(i, lanes) for i in [0, rows).  On a GPU nothing runs once *stop, in its memory, is not 0; null:
-// whatever happens.
+// Runs body(i, lanes) for i in [0, rows).  On a GPU nothing runs once *stop, in its memory, is not 0; a null
+// `stop` never stops.
 template <class Body>
 void for_each_row(Cpu& cpu, const Kernel& kernel, int rows, const Body& body, const int* /*stop*/ = nullptr) {
   for_each(cpu, kernel, rows, [&](int i) { body(i, SingleLane{}); });
 }
 
-// As for_each_sum(), with body(i, lanes, sums); only the lane that leads adds to the sums.
+// Sums like for_each_sum(), with body(i, lanes, sums); only the leading lane adds to the sums.
 template <int K, class Body, class Finish>
 void for_each_row_sum(Cpu& cpu, const Kernel& kernel, int rows, const Body& body, const Finish& finish) {
   for_each_sum<K>(
       cpu, kernel, rows, [&](int i, Sums<K>& sums) { body(i, SingleLane{}, sums); }, finish);
 }
 
-// Blocks of a sum over rows for each of one over elements, at most: rows keep more loads waiting.  An H100
-// runs them all at once if a thread takes no more than 40 registers, and the most if it takes 32.
+// The most blocks of a sum over rows for each block of one over elements: rows keep more loads waiting.  An
+// H100 runs them all at once if a thread takes no more than 40 registers, and the larger number if it takes
+// 32.
 inline constexpr int kRowSumBlocksEach = 3, kMaxSumBlocksEach = 4;
 
 #ifdef __CUDACC__
@@ -97,7 +99,7 @@ HYST_HD int warps_for(int rows) {
   return (rows + Lanes::kRows - 1) / Lanes::kRows;
 }
 
-// What a thread does for its row, if it has one.
+// Runs the body for a thread's row, if it has one.
 template <class Lanes, class Body, class... Terms>
 __device__ void run_on_warp_row(int warp, int rows, const Body& body, Terms&... terms) {
   const Lanes lanes;
@@ -124,7 +126,7 @@ void for_each_row(Cuda& cuda, const Kernel& kernel, int rows, const Body& body, 
   if (rows > 0) launch(cuda, kernel, RowLoop<Lanes, Body>{blocks, rows, body, stop});
 }
 
-// Warps take rows in turn, which makes for_each_sum()'s elements of their threads.
+// Warps take rows in turn, so that their threads are for_each_sum()'s elements.
 template <class Lanes, class Body>
 struct LaneOfRow {
   int rows;

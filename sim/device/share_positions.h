@@ -1,4 +1,4 @@
-// Opens an OpenGL buffer for a device's positions, as far as the device can write one.
+// Opens an OpenGL buffer for a device's positions, if the device can write one.
 #pragma once
 
 #include <memory>
@@ -17,7 +17,7 @@ std::unique_ptr<GlPositions> share_positions(Cpu&, const Buffer<Vec3<Real>, Cpu>
 }
 
 #ifdef __CUDACC__
-template <class Real>  // cuda_gl_positions.cpp
+template <class Real>  // defined in cuda_gl_positions.cpp
 std::unique_ptr<GlPositions> share_positions(Cuda& cuda, const Buffer<Vec3<Real>, Cuda>& x,
                                              unsigned gl_buffer, int gl_device, std::string& reason);
 #endif

@@ -1,5 +1,5 @@
-// Seconds per stage of a step.  On the GPU stages are timed by events, which the host reads only when it asks
-// for the totals, so that timing does not stop the device.
+// Measures seconds per stage of a step.  On the GPU stages are timed by events, which the host reads only
+// when it asks for the totals, so that timing does not stop the device.
 #pragma once
 
 #include <array>
@@ -62,9 +62,9 @@ class StageClock<Cuda> {
   }
 
  private:
-  static constexpr std::size_t kPending = 2048;  // stages timed before the host has to look
+  static constexpr std::size_t kPending = 2048;  // timed stages before the host has to read them
   void record() {
-    if (cuda_.batch) return;  // whose launches are not one member's
+    if (cuda_.batch) return;  // launches of a batch are not one member's
     if (used_ == event_.size()) {
       event_.emplace_back();
       check_cuda(cudaEventCreate(&event_.back()), "stage clock");
@@ -89,7 +89,7 @@ class StageClock<Cuda> {
 };
 #endif
 
-// A run that goes on goes on counting.
+// A resumed run goes on counting.
 template <class Device>
 void serialise(Archive& archive, StageClock<Device>& clock) {
   StageSeconds seconds{};

@@ -5,7 +5,7 @@
 namespace hysteron {
 namespace {
 
-// "nvidia0", but not "nvidiactl" or "nvidia-uvm".
+// Is true for "nvidia0", but not for "nvidiactl" or "nvidia-uvm".
 bool names_a_gpu(const std::string& file) {
   const std::string kind = "nvidia";
   return file.size() > kind.size() && file.starts_with(kind) &&

@@ -1,5 +1,5 @@
-// Loops that a device repeats by itself until it finds them done: on a GPU a graph with a conditional node,
-// so that the host neither waits for each round nor sends rounds that are not needed.
+// Makes a device repeat loops by itself until it finds them done: on a GPU this is a graph with a conditional
+// node, so that the host neither waits for each round nor sends rounds that are not needed.
 #pragma once
 
 #include <utility>
@@ -15,7 +15,7 @@ class WhileLoop;
 template <>
 class WhileLoop<Cpu> {
  public:
-  // False: the caller repeats them.
+  // Returns false: the caller repeats the loops.
   template <class Order>
   bool run(Cpu&, const std::vector<const void*>&, const int*, const Order&) {
     return false;
@@ -40,8 +40,9 @@ class WhileLoop<Cuda> {
 
   // Repeats the loops that order() orders until *done, in the GPU's memory, is not 0; from then on they must
   // change nothing, for a round may follow.  Orders of one key are the same loops over the same memory: they
-  // are captured once, after a first round in which they may allocate what later ones use.  False where the
-  // driver cannot, where it must not, and where kernels are profiled one by one: the caller goes on.
+  // are captured once, after a first round in which they may allocate memory that later ones use.  Returns
+  // false, and leaves the rest to the caller, where the driver cannot do it, where it must not, and where
+  // kernels are profiled one by one.
   template <class Order>
   bool run(Cuda& cuda, const std::vector<const void*>& key, const int* done, const Order& order) {
     if (cuda.batch) {
@@ -82,7 +83,7 @@ class WhileLoop<Cuda> {
     works_ = cudaGraphCreate(&graph, 0) == cudaSuccess && capture(cuda, graph, done, order) &&
              cudaGraphInstantiate(&loop, graph, 0) == cudaSuccess;
     if (graph) cudaGraphDestroy(graph);
-    cudaGetLastError();  // what is refused here must not be found by the next launch
+    cudaGetLastError();  // clears the error, which the next launch must not find
     if (!works_) return nullptr;
     if (kept_.size() == kMaxKept) forget();
     kept_.push_back({key, cuda.partial, loop});
@@ -111,7 +112,7 @@ class WhileLoop<Cuda> {
     try {
       order();
       loop_condition_kernel<<<1, 1, 0, cuda.stream>>>(loop_condition, done);
-    } catch (const Error&) {  // a real one is met again without capture
+    } catch (const Error&) {  // a real error occurs again without capture
       ordered = false;
     }
     cuda.early_blocks = early_blocks;

@@ -22,21 +22,21 @@ struct Interval {
 
 struct Solution {
   CurvePoint best;
-  CurvePoint used;        // best, or best under an assumption
-  Covariance covariance;  // of MomentModel::parameters() at the best
+  CurvePoint used;        // the best point, or the best under an assumption
+  Covariance covariance;  // of MomentModel::parameters() at the best point
   Eigen::VectorXd residuals;
   Eigen::MatrixXd jacobian;  // by MomentModel::parameters()
   int iterations = 0;
-  Interval b1, b2, k0;       // what the scan allows (95 %)
-  bool k0_open = false;      // up to its end
+  Interval b1, b2, k0;       // 95 % intervals by the scan
+  bool k0_open = false;      // true if the interval of k0 reaches the scan's end
   Eigen::Vector3d errors;    // standard errors of the logarithms of b1, b2, k0, with their floor
-  UnreadNumbers unread;      // by the law
-  bool bend_unseen = false;  // too few rows lie on the bend after a turn whose place is sought
+  UnreadNumbers unread;      // numbers that the law does not read
+  bool bend_unseen = false;  // too few rows lie on the bend after a sought turn
   double noise = 0;          // variance of a residual, at least that of kBestAccuracy
 
-  // Twice the logarithm of the likelihood ratio between the best and another sum of squares.
+  // Returns twice the logarithm of the likelihood ratio between the best and another sum of squares.
   double fall(double sum) const { return (sum - best.sum) / noise; }
-  // By how much it would rise with a constant added to all residuals (score test; Rao 1948).
+  // Returns its rise with a constant added to all residuals (score test; Rao 1948).
   double rise_with_offset() const {
     const Eigen::VectorXd ones = Eigen::VectorXd::Ones(residuals.size());
     const Eigen::VectorXd beside = ones - jacobian * linear_least_squares(jacobian, ones);
@@ -45,7 +45,7 @@ struct Solution {
   }
 };
 
-// Standard errors of the logarithms of b1, b2, k0.
+// Returns the standard errors of the logarithms of b1, b2, k0.
 Eigen::Vector3d relative_errors(const CurvePoint& point, const Eigen::MatrixXd& covariance) {
   const double b1 = point.b2 + point.g;
   Eigen::MatrixXd to_named = Eigen::MatrixXd::Zero(3, covariance.cols());
@@ -74,7 +74,7 @@ const CurvePoint& deepest(const std::vector<CurvePoint>& points) {
                            [](const CurvePoint& a, const CurvePoint& b) { return a.sum < b.sum; });
 }
 
-// All parameters together, from a point.
+// Minimises over all parameters together, from a point.
 Solution minimum_from(const MomentModel& model, const CurvePoint& start, SearchLimits limits = {}) {
   if (!std::isfinite(start.sum))
     throw Error::simulation("no b1, b2 and k0 were found with which the law says anything of these data");
@@ -107,19 +107,19 @@ Solution solve(const MomentModel& model) {
   return solution;
 }
 
-// All parameters together, turns among them, from the minimum with turns at the rows.
+// Minimises over all parameters together, turns among them, from the minimum with turns at the rows.
 Solution minimum_with_turns(const MomentModel& model, const CurvePoint& at_rows) {
-  // Before a row and after it a turn shows differently: a search that crosses from one side to the other is
+  // A turn has another effect before a row than after it: a search that crosses from one side to the other is
   // slow to end.
   Solution solution = minimum_from(model, model.start_with_turns(at_rows), {50, 1e-7, 3});
-  // The few rows beside turns tell k0.  Where they lie on the law by chance, their noise is that of the
-  // others.
+  // The few rows beside turns determine k0.  If they lie on the law by chance, their noise is taken as that
+  // of the others.
   const Covariance even = covariance(solution.jacobian, solution.residuals, true);
   if (even.matrix(2, 2) > solution.covariance.matrix(2, 2)) solution.covariance = even;
   return solution;
 }
 
-// Turns follow k0 on both sides of the minimum as far as the data allow it.
+// Follows turns with k0 on both sides of the minimum as far as the data allow it.
 void find_intervals_with_turns(const MomentModel& model, Solution& solution) {
   constexpr SearchLimits kRough = {20, 1e-4, 3};
   std::vector<double> below, above = model.scanned_k0();
@@ -165,7 +165,7 @@ void say_undetermined(const Solution& solution, Identification& result) {
                        const char* unit) {
     if (estimate.determined) return;
     const bool local =
-        interval.narrow() && !open;  // other numbers can take its place, at the best fit already
+        interval.narrow() && !open;  // at the best fit other numbers can take its place already
     result.statements.push_back(
         std::string(name) + " is not determined: " +
         (local ? solution.bend_unseen ? "less than two rows lie on the bend of 2 k0 after a turn between rows"
@@ -183,7 +183,7 @@ void assume(Estimate& estimate, double value, const std::string& source) {
   estimate.confidence = "assumed";
 }
 
-// The law reads no b1: b2/b1 is assumed, or b1 = b2 where it reads no k0 either.
+// The law does not read b1: assumes b2/b1, or b1 = b2 if it does not read k0 either.
 void take_unread(const Assumptions& assumptions, Solution& solution, Identification& result) {
   const std::string unread = "no moment of law " + result.law + " changes with ";
   CurvePoint& used = solution.used;
@@ -200,7 +200,7 @@ void take_unread(const Assumptions& assumptions, Solution& solution, Identificat
                               " not determined: " + unread + (solution.unread.k0 ? "them" : "it"));
 }
 
-// b2 and k0 are open, the slope and the bend of the curve (b1 and c1) are not: b2 = ratio b1.
+// If b2 and k0 are open, but the slope and the bend of the curve (b1 and c1) are not, assumes b2 = ratio b1.
 bool assume_ratio(const MomentModel& model, const Assumptions& assumptions, Solution& solution,
                   Identification& result) {
   const CurvePoint& best = solution.best;
@@ -229,7 +229,7 @@ bool assume_ratio(const MomentModel& model, const Assumptions& assumptions, Solu
   return true;
 }
 
-// b2 is fixed and the way to it is not: k0 as for fabrics from KES.
+// If b2 is fixed but the way to it is not, assumes k0 as for fabrics from KES.
 bool assume_k0(const MomentModel& model, const Assumptions& assumptions, Solution& solution,
                Identification& result) {
   const CurvePoint start = model.best_at(assumptions.k0, result.iterations);
@@ -260,7 +260,7 @@ bool assume_k0(const MomentModel& model, const Assumptions& assumptions, Solutio
   return true;
 }
 
-// No bend and no loop beyond the noise: b1 is the slope, and nothing is seen of what comes beyond.
+// Is there no bend and no loop beyond the noise? Then b1 is the slope, and nothing is known beyond it.
 bool is_straight(const MomentModel& model, const Assumptions& assumptions, Solution& solution,
                  Identification& result) {
   const double b1 = solution.best.b2 + solution.best.g;
@@ -287,10 +287,10 @@ bool is_straight(const MomentModel& model, const Assumptions& assumptions, Solut
   return true;
 }
 
-// Numbers with standard errors into `result`.  A number is undetermined if the scan's interval or the
-// standard error's (from the singular values of the scaled Jacobian) is wider than kWidestFactor; where an
-// assumption then describes the data as well, it is taken, and Solution::used with it. `source` is noted for
-// what is fitted.
+// Puts numbers with standard errors into `result`.  A number is undetermined if the scan's interval or the
+// standard error's (from the singular values of the scaled Jacobian) is wider than kWidestFactor; if an
+// assumption then describes the data as well, it is used, and sets Solution::used.  `source` is noted for
+// fitted numbers.
 void identify(const MomentModel& model, const Assumptions& assumptions, const std::string& source,
               Solution& solution, Identification& result) {
   take(solution, source, result);
@@ -309,17 +309,17 @@ void identify(const MomentModel& model, const Assumptions& assumptions, const st
                               ") contradicts the data; the best fit stands");
 }
 
-// A cycle before the first row is believed when it lowers the residual to this share.
+// A cycle before the first row is accepted when it lowers the residual to this share.
 constexpr double kClearlyBetter = 0.95;
-// A constant that raises twice the logarithm of the likelihood by this much is none of chance (4 standard
+// A constant that raises twice the logarithm of the likelihood by this much is not due to chance (4 standard
 // errors).
 constexpr double kClearOffset = 16;
 
-// A turn that lies half a step beyond its row makes k0 smaller by so much of the step.  Where that is more
-// than 2 % of k0, turns are sought between the rows.
-constexpr double kLargestStepAtTurns = 1. / 25;  // of k0
+// A turn that lies half a step beyond its row lowers k0 by that share of the step.  Where that is more than 2
+// % of k0, turns are sought between the rows.
+constexpr double kLargestStepAtTurns = 1. / 25;  // over k0
 
-// The history before the first row is the virgin cloth's or that of the same cycles.
+// A reading of the data, whose history before the first row is the virgin cloth's or that of the same cycles.
 struct Reading {
   MomentModel model;
   Solution solution;
@@ -327,7 +327,7 @@ struct Reading {
   bool with_turns = false;
 };
 
-// Intervals are left to better_reading() where turns are sought.
+// Reads the data; better_reading() finds intervals where turns are sought.
 Reading reading(const MomentSeries& series, const CurveQuestion& question, SoughtBeside beside,
                 bool cycling) {
   const MomentModel at_rows(series, question.law, beside, cycling);
@@ -353,8 +353,8 @@ Reading better_reading(const MomentSeries& series, const CurveQuestion& question
   return best;
 }
 
-// Data that a law does not follow ask for a zero of curvature where it raises twice the logarithm of the
-// likelihood clearly, and lowers the residual clearly below what a zero of moment leaves.
+// Do the data ask for a zero of curvature? Data that a law does not follow do, if it raises twice the
+// logarithm of the likelihood clearly, and lowers the residual clearly below that with a zero of moment.
 bool asks_for_curvature_offset(const MomentSeries& series, const CurveQuestion& question,
                                const Solution& without) {
   if (question.curvature_offset || without.covariance.widening <= 1) return false;
@@ -365,7 +365,7 @@ bool asks_for_curvature_offset(const MomentSeries& series, const CurveQuestion& 
   return with.best.sum < kClearlyBetter * kClearlyBetter * of_moment;
 }
 
-// The instrument's zero that is not sought and that the data ask for.
+// Says which zero of the instrument the data ask for that is not sought.
 void say_offset(const MomentSeries& series, const CurveQuestion& question, const Solution& solution,
                 Identification& result) {
   const auto say = [&](const char* quantity, const char* flag) {
@@ -411,7 +411,7 @@ void add_offsets(const MomentSeries& series, const CurveQuestion& question, cons
                  Identification& result) {
   int sought = 0;
   const auto add = [&](const std::string& name, double unit) {
-    const int parameter = 3 + sought;  // after b2, g and k0
+    const int parameter = 3 + sought;  // parameters follow b2, g and k0
     result.further.emplace_back(name, solution.used.nuisance[sought] * unit);
     result.further.emplace_back(name + "_stderr",
                                 unit * std::sqrt(solution.covariance.matrix(parameter, parameter)));

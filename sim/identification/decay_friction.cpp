@@ -14,12 +14,12 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr int kParts = 8;              // of a turn
-constexpr double kFarthestNumber = 9;  // of a logarithm from its prior
+constexpr int kParts = 8;              // parts of a half period
+constexpr double kFarthestNumber = 9;  // largest distance of a logarithm from its prior
 constexpr std::size_t kFewest = 6;
-constexpr int kTabulated = 16;  // amplitudes at which the strip's fall is computed
-// Elasticity beside the friction that is tried is at least this part of B: stops that a tester reads as
-// steeper than B are refused once they are found.
+constexpr int kTabulated = 16;  // number of amplitudes at which the strip's fall is computed
+// Elasticity beside trial friction is at least this share of B: stops that a tester reads as steeper than B
+// are refused once they are found.
 constexpr double kLeastSpring = 0.05;
 
 class DecayModel {
@@ -58,7 +58,8 @@ class DecayModel {
     return all;
   }
 
-  // From nothing known and from each start of the form; of minima as deep, the first.
+  // Returns the deepest minimum of those from the prior and from each start of the form; of minima as deep,
+  // the first.
   LeastSquares deepest_minimum(const VectorXd& low, const VectorXd& high) const {
     const auto from = [&](const VectorXd& start, SearchLimits limits = {100, 1e-8}) {
       return minimize([&](const VectorXd& p) { return residuals(p); }, start, low, high, limits);
@@ -73,7 +74,7 @@ class DecayModel {
     return best;
   }
 
-  // The largest curvature that the strip has at its first amplitude [1/m].
+  // Returns the strip's largest curvature at its first amplitude [1/m].
   double reach() const { return elastic_.curvature; }
 
   VectorXd residuals(const VectorXd& p) const {
@@ -85,11 +86,12 @@ class DecayModel {
   }
 
  private:
-  // By amplitude: omega^2 times the loss of amplitude in half a period [m/s^2].
+  // A table by amplitude: omega^2 times the loss of amplitude in half a period [m/s^2].
   struct FallTable {
     std::vector<double> logarithm, fall;
 
-    // Between amplitudes as a power, which a line (0) and a hyperbola (2) are; below them as a hyperbola.
+    // Interpolates between amplitudes as a power, which a line (0) and a hyperbola (2) are; below them as a
+    // hyperbola.
     double at(double amplitude) const {
       const double x = std::log(std::max(amplitude, 1e-300));
       if (x <= logarithm.front()) return fall.front() * std::exp(2 * (x - logarithm.front()));
@@ -101,8 +103,8 @@ class DecayModel {
     }
   };
 
-  // From above the largest amplitude down to a fraction of it; the last table is kept, since a search asks
-  // for several first amplitudes of the same stops.
+  // Returns the table from above the largest amplitude down to a fraction of it; the last table is kept,
+  // since a search asks for several first amplitudes of the same stops.
   const FallTable& falls(const Spectrum& stops, double first) const {
     if (table_.logarithm.empty() || std::log(first) > table_.logarithm.back() ||
         stops.thresholds != tabulated_.thresholds || stops.stiffnesses != tabulated_.stiffnesses) {
@@ -125,7 +127,7 @@ class DecayModel {
     for (int i = 0; i < kTabulated; ++i) {
       const SwingState &before = states[std::max(i - 1, 0)], &after = states[std::min(i + 1, kTabulated - 1)],
                        &here = states[i];
-      // A dE/dA, from the power of A with which E rises.
+      // The loop computes A dE/dA from the power of A with which E rises.
       const double power =
           std::log(after.stored / before.stored) / std::log(after.amplitude / before.amplitude);
       table.logarithm.push_back(std::log(here.amplitude));
@@ -133,7 +135,7 @@ class DecayModel {
     }
     return table;
   }
-  // As measured between the amplitude i and the next [rad/s].
+  // Returns the measured omega between amplitude i and the next [rad/s].
   double omega_of_turn(std::size_t i) const {
     return std::numbers::pi / (series_.time[i + 1] - series_.time[i]);
   }
@@ -144,7 +146,7 @@ class DecayModel {
   SwingingStrip strip_;
   SwingState elastic_;         // at the first amplitude, as if there were no friction
   double prior_friction_ = 0;  // [N]
-  mutable FallTable table_;    // of the stops tabulated_
+  mutable FallTable table_;    // for the stops tabulated_
   mutable Spectrum tabulated_;
 };
 
@@ -166,10 +168,10 @@ DecaySeries read_decay(const std::filesystem::path& file, const std::string& rea
 
 namespace {
 
-constexpr double kShortestStrip = 5e-3, kLongestStrip = 2;  // [m] below a clamp in a laboratory
+constexpr double kShortestStrip = 5e-3, kLongestStrip = 2;  // below a clamp in a laboratory [m]
 constexpr double kMillimetre = 1e-3;                        // [m]
 
-// What the amplitude would be in millimetres, or as half of the way from peak to peak.
+// Suggests the amplitude in millimetres, or as half of the way from peak to peak.
 std::string amplitude_hint(double amplitude, double length) {
   if (amplitude * kMillimetre >= kMillimetre && amplitude * kMillimetre < length)
     return "; millimetres given as metres? Then it is " + rounded(amplitude * kMillimetre) + " m";
@@ -203,7 +205,7 @@ void check_decay(const DecaySeries& series, const DecayQuestion& question, const
 
 namespace {
 
-// How many amplitudes are above half of the strip's length, from the first on.
+// Returns the number of amplitudes above half of the strip's length, from the first on.
 std::size_t large_amplitudes(const DecaySeries& series, double length) {
   const auto small = std::ranges::find_if(series.amplitude, [&](double a) { return a <= length / 2; });
   return static_cast<std::size_t>(small - series.amplitude.begin());
@@ -229,7 +231,8 @@ std::string large_amplitudes_warning(const DecaySeries& series, double length) {
 }
 
 std::vector<std::string> decay_warnings(const DecaySeries& series, const DecayQuestion& question) {
-  // First modes: of a cantilever without weight, and of a chain that hangs (half of the first zero of J0).
+  // The first modes are those of a cantilever without weight, and of a hanging chain (half of the first zero
+  // of J0).
   constexpr double kCantilever = 3.516, kChain = 1.2024, kGravity = 9.81;
   // Large amplitudes slow a strip down; friction that has not slipped makes it stiffer, b1/b2 = 1 + 2
   // (HB/B)/k0: HB/B of clothing is up to some 50/m, and knees begin at 4/m.
@@ -286,7 +289,7 @@ FabBending identify_decay(const DecaySeries& series, const DecayQuestion& questi
   found.first = series.amplitude[0] * std::exp(best.parameters[n]);
   found.form_errors = c.diagonal().head(n).cwiseMax(0).cwiseSqrt();
   found.set_errors(0, of_stops);
-  found.spring_error = 0;  // whatever the sign of what is left of the rigidity
+  found.spring_error = 0;  // whatever the sign of the remaining rigidity
   found.friction_error = of_stops[found.law.stops()] * found.law.friction();
   found.rows = model.rows();
   found.residual_rms = std::sqrt(left.squaredNorm() / model.rows());
@@ -301,9 +304,9 @@ FabBending identify_decay(const DecaySeries& series, const DecayQuestion& questi
 }
 
 std::string pace_warning(const DecaySeries& series, const DecayQuestion& question, const FabBending& found) {
-  // Between amplitudes of every turn (a ratio of 1) and of every second one (2).
+  // Intervals may lie between amplitudes of every half period (a ratio of 1) and of every second one (2).
   const double different = std::sqrt(2);
-  constexpr std::size_t kLast = 3;  // turns whose mean time is compared
+  constexpr std::size_t kLast = 3;  // number of half periods whose mean time is compared
   const std::size_t n = series.time.size();
   const double measured = (series.time[n - 1] - series.time[n - 1 - kLast]) / kLast;
   const double amplitude = std::sqrt(series.amplitude[n - 1] * series.amplitude[n - 1 - kLast]);
@@ -323,7 +326,7 @@ std::vector<FabForm> even_forms(const DecaySeries& series, const DecayQuestion& 
   const auto identify = [&](const FrictionForm& form) {
     DecayQuestion one = question;
     one.form = form;
-    // Friction that saturates far beyond reach has a moment far beyond what it loses there.
+    // Friction that saturates far beyond reach has a moment far above its loss there.
     for (const double logarithm : {2., 5.}) one.form->starts.emplace_back(VectorXd::Constant(1, logarithm));
     FabBending found = identify_decay(series, one);
     if (!(found.law.spring > 0))

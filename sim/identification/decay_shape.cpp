@@ -9,11 +9,11 @@
 namespace hysteron {
 namespace {
 
-// Shares of the largest amplitude.  A turn falls by much more than its neighbours if it takes more than this
-// and so many times as much as the turn before and the one after.
+// The following are shares of the largest amplitude.  A half period loses much more than its neighbours if it
+// takes more than this and so many times as much as the one before and the one after.
 constexpr double kFallsLess = 0.25, kOverBefore = 1.5, kOverAfter = 2, kGrowsLess = 0.05;
-constexpr std::size_t kOnALine = 3;                 // amplitudes of each of two lines
-constexpr int kPlaces = 400;                        // of the second line's beginning that are tried
+constexpr std::size_t kOnALine = 3;                 // amplitudes on each of two lines
+constexpr int kPlaces = 400;                        // trial beginnings of the second line
 constexpr double kLowRate = 1e-3, kHighRate = 1e3;  // over the inverse of the whole time
 constexpr int kRates = 600;
 
@@ -41,7 +41,7 @@ DecayFit line(const Series& series) {
   return judged({DecayShape::linear, found[0], found[1]}, 2, series);
 }
 
-// The best of many beginnings of the second line, which is the flatter one.
+// Finds the best of many beginnings of the second line, which is the flatter one.
 DecayFit two_lines(const Series& series) {
   DecayFit best{DecayShape::two_step};
   best.rms = best.criterion = INFINITY;
@@ -59,7 +59,7 @@ DecayFit two_lines(const Series& series) {
   return best;
 }
 
-// A shape a g(b t): the best a at each of many b, then between the neighbours of the best b.
+// Fits a shape a g(b t): the best a at each of many b, then between the neighbours of the best b.
 DecayFit curve(DecayShape shape, const Series& series) {
   const double whole = series.time[series.size() - 1];
   const auto with = [&](double rate) {
@@ -93,14 +93,14 @@ DecayFit saturating(const Series& series) {
   return judged(fit, 4, series);
 }
 
-// Whether `wider` becomes `narrow` at some of its numbers, so that it describes the same series as well.
+// Does `wider` become `narrow` at some of its numbers, so that it describes the same series as well?
 bool is_limit(DecayShape narrow, DecayShape wider) {
   if (wider == DecayShape::two_step) return narrow == DecayShape::linear;
   return wider == DecayShape::saturating &&
          (narrow == DecayShape::linear || narrow == DecayShape::hyperbolic);
 }
 
-// In the order of the criterion, but a shape that is not clearly better than its limit comes behind it.
+// Ranks by the criterion, but a shape that is not clearly better than its limit comes behind it.
 void rank(std::vector<DecayFit>& fits) {
   std::stable_sort(fits.begin(), fits.end(),
                    [](const DecayFit& a, const DecayFit& b) { return a.criterion < b.criterion; });
@@ -111,7 +111,7 @@ void rank(std::vector<DecayFit>& fits) {
     std::rotate(fits.begin(), limit, limit + 1);
 }
 
-// Behind the last turn that a single mode does not make.
+// Returns the first amplitude behind the last half period that a single mode cannot make.
 std::size_t first_of_one_mode(const std::vector<Amplitude>& all) {
   std::size_t first = 0;
   double largest = 0;
@@ -126,7 +126,7 @@ std::size_t first_of_one_mode(const std::vector<Amplitude>& all) {
   return first;
 }
 
-// Behind the last one that is too large.
+// Returns the first amplitude behind the last one that is too large.
 std::size_t first_small(const std::vector<Amplitude>& all, double largest) {
   std::size_t first = 0;
   for (std::size_t i = 0; i < all.size(); ++i)
@@ -153,7 +153,7 @@ Eigen::Vector2d vertex_of_parabola(double before, double at, double after) {
 }
 
 Eigen::Vector2d vertex_of_parabola(double before, double after, const Eigen::Vector3d& x) {
-  constexpr double kEqual = 1e-9;  // difference of two intervals that rounding makes, over their size
+  constexpr double kEqual = 1e-9;  // relative difference of two intervals that rounding makes
   if (std::abs(after - before) < kEqual * after) {
     const Eigen::Vector2d vertex = vertex_of_parabola(x[0], x[1], x[2]);
     return {vertex.x() * after, vertex.y()};

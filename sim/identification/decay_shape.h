@@ -1,5 +1,5 @@
-// What takes the amplitude of a swing, read from how it falls in time: turning points, amplitudes, and the
-// one of five shapes that describes them best.
+// Reads the cause of a swing's decay from how its amplitude falls in time: turning points, amplitudes, and
+// the one of five shapes that describes them best.
 //
 //   linear       A = a - b t          friction that is saturated: its moment is constant
 //   two-step     two such lines       friction that saturates early, and another one below
@@ -10,10 +10,10 @@
 //   saturating                        the chapter's friction, a line above its knee and a hyperbola below
 //                                     (saturating_decay.h)
 //
-// Chosen by Schwarz's criterion n ln(s^2) + k ln n (1978), s^2 the mean square of what a shape of k numbers
-// leaves, no smaller than that of kBestAccuracy of the largest amplitude.  Two lines and the saturating shape
-// have four numbers, the others two.  A shape of four that is not clearly better than one of its limits (a
-// line; of the saturating shape also the hyperbola) gives way to it.
+// The shape is chosen by Schwarz's criterion n ln(s^2) + k ln n (1978), with s^2 the mean square residual of
+// a shape of k numbers, no smaller than that of kBestAccuracy of the largest amplitude.  Two lines and the
+// saturating shape have four numbers, the others two.  A shape of four that is not clearly better than one of
+// its limits (a line; of the saturating shape also the hyperbola) gives way to it.
 #pragma once
 
 #include <Eigen/Core>
@@ -24,12 +24,12 @@
 
 namespace hysteron {
 
-// Extreme of the parabola through three samples: its time from the middle one, and its value.  The middle one
-// where they lie on a line.  `before` and `after` are the times to the neighbours [s], both positive.
+// Returns the extreme of the parabola through three samples: its time from the middle one, and its value; the
+// middle one if they lie on a line.  `before` and `after` are the times to the neighbours [s], both positive.
 Eigen::Vector2d vertex_of_parabola(double before, double after, const Eigen::Vector3d& x);
 
-// Extreme of the parabola through three equally spaced samples: where, in samples from the middle one, and
-// its value.  The middle one where they lie on a line.
+// Returns the extreme of the parabola through three equally spaced samples: its place, in samples from the
+// middle one, and its value; the middle one if they lie on a line.
 Eigen::Vector2d vertex_of_parabola(double before, double at, double after);
 
 struct TurningPoint {
@@ -37,18 +37,18 @@ struct TurningPoint {
   double value;  // of the series
 };
 
-// Where a series in `time` turns and goes back by more than `least` and, once it has swung,
-// by more than the `fraction` of its last swing; by the parabola through the samples around.  Both of one
-// length; the start is none.
+// Returns the points where a series in `time` turns and goes back by more than `least` and, once it has
+// swung, by more than the `fraction` of its last swing, each by the parabola through the samples around it.
+// Both vectors have one length; the start is not a turn.
 std::vector<TurningPoint> turning_points(const std::vector<double>& time, const std::vector<double>& x,
                                          double least, double fraction = 0);
 
 struct Amplitude {
-  int turn;      // of the turning point, from 0
+  int turn;      // index of the turning point
   double time;   // [s]
-  double value;  // half of its distance to the mean of its neighbours
+  double value;  // half of its distance to the mean of its neighbours [m]
 };
-// Of every turning point between two others.
+// Returns the amplitude of every turning point between two others.
 std::vector<Amplitude> turning_amplitudes(const std::vector<TurningPoint>& turns);
 
 enum class DecayShape {
@@ -57,65 +57,68 @@ enum class DecayShape {
   exponential,
   hyperbolic,
   saturating,
-  plateau,  // a turn takes less than kPlateau: nothing brakes
-  unknown,  // too few amplitudes, they fall by less than kMinFall, or two shapes describe them alike
+  plateau,  // a half period loses less than kPlateau: nothing brakes
+  // There are too few amplitudes, they fall by less than kMinFall, or two shapes describe them alike.
+  unknown,
 };
 constexpr std::array<const char*, 7> names(DecayShape) {
   return {"linear", "two-step", "exponential", "hyperbolic", "saturating", "plateau", "unknown"};
 }
 
-constexpr double kPlateau = 0.01;          // of the amplitude, in a turn
+constexpr double kPlateau = 0.01;          // of the amplitude, in a half period
 constexpr std::size_t kMinAmplitudes = 6;  // two lines of three each
-constexpr double kMinFall = 0.2;           // of the first one by the last: of less, shapes are the same
-// Of the criterion: less is "not worth more than a bare mention", and less "positive", not "strong" (Kass &
-// Raftery 1995).
+constexpr double kMinFall = 0.2;           // relative fall up to the last one: of less, shapes are the same
+// Margins of the criterion: less is "not worth more than a bare mention", and less than the second
+// "positive", not "strong" (Kass & Raftery 1995).
 constexpr double kMinMargin = 2, kClearMargin = 6;
-// Of a swing: what goes back by less is a higher mode's ripple on it.
+// A share of a swing: smaller reversals are a higher mode's ripple on it.
 constexpr double kSwingRipple = 0.25;
 
-// One shape, fitted by least squares of the amplitudes.  t is time since the first one [s].
+// One shape, fitted by least squares of the amplitudes. t is the time since the first one [s].
 struct DecayFit {
   DecayShape shape = DecayShape::unknown;
   double first = 0;       // a: amplitude at t = 0 [m]
-  double rate = 0;        // b: of lines and of saturated friction [m/s], of the other shapes [1/s]
-  double step = 0;        // of two lines: where the second begins [s] ...
+  double rate = 0;        // b: for lines and saturated friction [m/s], for the other shapes [1/s]
+  double step = 0;        // for two lines: where the second begins [s] ...
   double last_rate = 0;   // ... and its b [m/s]
-  double knee = 0;        // of the saturating shape: the amplitude at its knee [m] ...
+  double knee = 0;        // for the saturating shape: the amplitude at its knee [m] ...
   double stiffening = 1;  // ... and how much stiffer the smallest swings are
-  double rms = 0;         // of what is left [m]
+  double rms = 0;         // root mean square residual [m]
   double criterion = 0;
 
   double at(double t) const;
 };
 
-// The line nearest to amplitudes, two at least.
+// Fits a line to at least two amplitudes.
 DecayFit line_through(const std::vector<Amplitude>& amplitudes);
 
 struct Decay {
   DecayShape shape = DecayShape::unknown;
-  std::size_t first = 0;  // of the amplitudes: those before are of several modes or too large
+  std::size_t first = 0;  // first amplitude used: earlier ones are of several modes or too large
   std::size_t used = 0;
-  double per_turn = 0;         // mean loss over the amplitude: 1 - (A_last/A_first)^(1/turns)
-  std::vector<DecayFit> fits;  // of all shapes, the best first; none of a plateau or of too few amplitudes
-  double margin = 0;           // of the criterion, from the best to the next that is another kind of shape
+  double per_turn = 0;  // mean relative loss: 1 - (A_last/A_first)^(1/turns)
+  // The fits of all shapes, the best first; none for a plateau or too few amplitudes.
+  std::vector<DecayFit> fits;
+  double margin = 0;  // of the criterion, from the best to the next of another kind
 
   const DecayFit& best() const { return fits.front(); }
-  const DecayFit& of(DecayShape shape) const;  // that shape, which was fitted
-  // Where the second line begins, over the first amplitude.
+  const DecayFit& of(DecayShape shape) const;  // the fit of that shape
+  // Returns where the second line begins, over the first amplitude.
   double step_fraction() const {
     return of(DecayShape::two_step).at(of(DecayShape::two_step).step) / best().first;
   }
-  // Amplitude at the knee of the saturating shape over its first one.
+  // Returns the amplitude at the knee of the saturating shape over its first one.
   double knee_fraction() const { return of(DecayShape::saturating).knee / of(DecayShape::saturating).first; }
 };
 
-// Amplitudes in the order of time, as turning_amplitudes() gives them; those above `largest` [m] are left
-// out, and what comes before the last turn that one mode alone would not make: one that grows, or that falls
-// by much more than those around it.
+// Analyses amplitudes in the order of time, as turning_amplitudes() returns them.  It leaves out those above
+// `largest` [m], and all before the last half period that one mode alone would not make: one that grows, or
+// that falls by much more than those around it.
 Decay decay_between_amplitudes(const std::vector<Amplitude>& amplitudes, double largest);
 
-// Loss in half a period over the amplitude where that is `fraction` of the one numbered `first`: between
-// neighbouring pairs, interpolated in the logarithm of their mean amplitude.  NaN where they do not reach it.
+// Returns the loss in half a period over the amplitude where that is `fraction` of the one numbered `first`:
+// between neighbouring pairs, interpolated in the logarithm of their mean amplitude.  NaN if they do not
+// reach it.
 double half_period_loss(const std::vector<Amplitude>& amplitudes, std::size_t first, double fraction);
 
 }  // namespace hysteron

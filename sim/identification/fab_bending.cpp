@@ -15,12 +15,12 @@ namespace {
 using Eigen::VectorXd;
 
 constexpr double kMomentSpread = 1.5;  // prior standard deviation of a logarithm: a factor of 4.5
-constexpr double kMedianSpread = 1.5, kShapeSpread = 0.7;
-constexpr double kMedianStarts[] = {5, 20, 80};              // [1/m]: fabrics' measured spectra lie between
-constexpr double kSaturationStarts[] = {4, 25, 60};          // [1/m]
-constexpr double kSpreadStarts[] = {0.4, 1.5};               // of one stop, nearly, and of measured spectra
-constexpr double kLargestMedian = 1000, kLargestSpread = 4;  // [1/m], 1: that fabrics' files may have
-constexpr double kFarthest = 9;                              // of a logarithm from its prior
+constexpr double kMedianSpread = 1.5, kShapeSpread = 0.7;  // prior standard deviations of logarithms
+constexpr double kMedianStarts[] = {5, 20, 80};            // fabrics' measured spectra lie between [1/m]
+constexpr double kSaturationStarts[] = {4, 25, 60};        // [1/m]
+constexpr double kSpreadStarts[] = {0.4, 1.5};  // those of nearly one stop, and of measured spectra
+constexpr double kLargestMedian = 1000, kLargestSpread = 4;  // bounds of fabric files [1/m], [-]
+constexpr double kFarthest = 9;                              // largest distance of a logarithm from its prior
 
 }  // namespace
 
@@ -58,8 +58,8 @@ FrictionForm shaped_friction() {
 double saturation_curvature(const VectorXd& p) { return kUsualSaturation * std::exp(p[1]); }
 
 FrictionForm parabola_friction() {
-  // Of a parabola that saturates at so many times the reach, half of the friction moment is in reach:
-  // 2 x - x^2 = 1/2 at x = 1 - sqrt(1/2).
+  // Half of the friction moment of a parabola is in reach if it saturates at this multiple of the reach: 2 x
+  // - x^2 = 1/2 at x = 1 - sqrt(1/2).
   constexpr double kHalfInReach = 3.41;
   FrictionForm form{kParabolaName, {kMomentSpread, kMedianSpread}, [](const VectorXd& p, double moment) {
                       const double k0 = saturation_curvature(p);
@@ -110,16 +110,17 @@ VectorXd stop_errors(const FrictionForm& form, const VectorXd& parameters,
 
 namespace {
 
-// HB/b2 that the prior of b2 is centred on [1/m]: the middle of the KES pairs of assets/fabrics, which have
+// The prior of b2 is centred on this HB/b2 [1/m], the middle of the KES pairs of assets/fabrics, which have
 // 18 to 53.  Its standard deviation is a factor of 2.7 in that ratio and, independently, kMomentSpread in HB.
 constexpr double kFrictionOverSpring = 31, kSpringSpread = 1.8;
 constexpr double kSaturations[] = {3.125, 6.25, 12.5, 25, 50, 100};  // k0 [1/m]
-// Strips of fabrics need fewer than 40 (gauges of 15 to 50 mm); one that needs more takes seconds.
+// Strips of fabrics need fewer than 40 halvings (gauges of 15 to 50 mm); one that needs more takes seconds.
 constexpr long kMostHalvings = 100;
 constexpr double kLargestZero = 10;  // [N/m]
 
-// The friction moment that loses as much as the loop: 2 HB times the change of int |K| ds, the same for any
-// elastic law without weight.  A loop as narrow as the noise [N/m] is none: its work there is the noise's.
+// Returns the friction moment with the loop's loss: 2 HB times the change of int |K| ds, which is the same
+// for any elastic law without weight.  A loop as narrow as the noise [N/m] is not counted: its work is the
+// noise's.
 double friction_of_loop(const FabLoops& loops, int cycle, double noise) {
   const FabBranch& out = loops.branches[2 * cycle];
   const auto [low, high] = std::minmax_element(out.distance.begin(), out.distance.end());
@@ -131,8 +132,8 @@ double friction_of_loop(const FabLoops& loops, int cycle, double noise) {
   return work / (2 * (elastica.bend() - before));
 }
 
-// Largest change of curvature from the first distance to the innermost one of the cycles [1/m]: that of the
-// elastica without weight, whatever its rigidity.
+// Returns the largest change of curvature from the first distance to the innermost one of the cycles [1/m]:
+// that of the elastica without weight, whatever its rigidity.
 double curvature_reach(const FabLoops& loops, const std::vector<int>& cycles) {
   double innermost = kInfinity;
   for (const int cycle : cycles)
@@ -145,8 +146,8 @@ double curvature_reach(const FabLoops& loops, const std::vector<int>& cycles) {
   return std::abs(elastica.peak_curvature() - before);
 }
 
-// Parameters: the logarithm of b2 over what the loops' work suggests, those of friction, then the zeros of
-// force.
+// The parameters are the logarithm of b2 over the one that the loops' work suggests, those of friction, then
+// the zeros of force.
 class BendingModel {
  public:
   BendingModel(const std::vector<FabLoops>& loops, const FabBendingQuestion& question)
@@ -173,7 +174,8 @@ class BendingModel {
     return {std::exp(p[0]) * prior_spring(), stops.thresholds, stops.stiffnesses};
   }
 
-  // Rows, then the distances of logarithms from their priors; not a number where no equilibrium is found.
+  // Returns the residuals of rows, then the distances of logarithms from their priors; NaN where no
+  // equilibrium is found.
   VectorXd residuals(const VectorXd& p) const {
     VectorXd result(size());
     try {
@@ -188,7 +190,7 @@ class BendingModel {
     return result;
   }
 
-  // Where nothing is known, the friction being as said.
+  // Returns the start at the prior, with the given parameters of friction.
   VectorXd start(const VectorXd& friction) const {
     VectorXd p = VectorXd::Zero(parameters());
     p.segment(1, numbers_) = friction;
@@ -199,7 +201,7 @@ class BendingModel {
     return p;
   }
 
-  // From there to the next minimum.
+  // Returns the next minimum from there.
   LeastSquares minimum(const VectorXd& start, SearchLimits limits = {}) const {
     VectorXd low = VectorXd::Constant(parameters(), -kFarthest), high = -low;
     if (form_.largest) high.segment(1, numbers_) = form_.largest(reach_);
@@ -220,7 +222,7 @@ class BendingModel {
   const std::vector<FabLoops>& loops_;
   const FabBendingQuestion& question_;
   FrictionForm form_;
-  int numbers_;  // of friction
+  int numbers_;  // number of friction's parameters
   std::vector<FabRow> rows_;
   double prior_friction_ = 0;  // [N]
   double reach_ = 0;           // [1/m]
@@ -230,7 +232,7 @@ class BendingModel {
 constexpr std::size_t kCoarseRows = 12;
 constexpr SearchLimits kCoarseSearch = {20, 1e-3};
 
-// The same loops with at most so many rows of a branch, the first and the last among them.
+// Returns the same loops with at most so many rows per branch, the first and the last among them.
 FabLoops thinned(FabLoops loops, std::size_t most) {
   for (FabBranch& branch : loops.branches) {
     const std::size_t rows = branch.distance.size();
@@ -246,7 +248,7 @@ FabLoops thinned(FabLoops loops, std::size_t most) {
   return loops;
 }
 
-// The deepest of the minima that the form's starts lead to; of those that are as deep, the first.
+// Returns the deepest of the minima that the form's starts lead to; of those that are as deep, the first.
 LeastSquares deepest_minimum(const BendingModel& model, const std::vector<FabLoops>& loops,
                              const FabBendingQuestion& question) {
   const VectorXd none = VectorXd::Zero(model.numbers());
@@ -316,7 +318,8 @@ std::vector<std::string> FabBending::undetermined() const {
 
 namespace {
 
-// Largest less smallest force of the fitted cycles, of the whole strip [N]; of several tests the largest.
+// Returns the largest less the smallest force of the fitted cycles, for the whole strip [N]; the largest of
+// several tests.
 double largest_force_range(const std::vector<FabLoops>& loops, const std::vector<int>& cycles) {
   double range = 0;
   for (const FabLoops& one : loops)

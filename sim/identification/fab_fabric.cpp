@@ -12,7 +12,7 @@
 namespace hysteron {
 namespace {
 
-constexpr double kWidestKnown = 10;  // factor beyond which the prior, of 19, decides
+constexpr double kWidestKnown = 10;  // a wider factor is decided by the prior, whose factor is 19
 
 std::string list(const std::vector<double>& values) {
   std::string text;
@@ -20,7 +20,7 @@ std::string list(const std::vector<double>& values) {
   return "[" + text + "]";
 }
 
-// What the data say of a stiffness.
+// Says how well the data determine a stiffness.
 std::string verdict(double relative_error, bool determined) {
   if (determined) return "identified";
   const double factor = std::exp(kNormal95 * relative_error);
@@ -28,7 +28,7 @@ std::string verdict(double relative_error, bool determined) {
                                : fmt::format("not determined, known within a factor of {:.1f}", factor);
 }
 
-// The stops with a comment on each: value, standard error, and what decided about it.
+// Writes the stops with a comment on each: value, standard error, and what decided about it.
 std::string stops_table(const std::string& name, const FabStops& found, const char* threshold_unit,
                         const char* unit, const std::string& from) {
   const StopsLaw& law = found.law;
@@ -43,7 +43,7 @@ std::string stops_table(const std::string& name, const FabStops& found, const ch
          "\"\nconfidence = \"fitted\"\n";
 }
 
-// "; friction slips about 18.9/m, ..."
+// Describes the shape: "; friction slips about 18.9/m, ...".
 std::string shape_text(const FabBending& b) {
   const FrictionShape shape = friction_shape(b.form);
   return fmt::format(
@@ -91,14 +91,15 @@ std::string tension_tables(const FabIdentification& found) {
 
 Estimate derived(double value, const std::string& source) { return {value, kNone, true, source, "derived"}; }
 
-// b1, b2 and k0 with the same first slope, last slope and friction moment, for laws that know no stops.
+// Derives b1, b2 and k0 with the same first slope, last slope and friction moment, for laws that know no
+// stops.
 Identification three_numbers(const FabIdentification& found) {
   Identification numbers;
   const FabBending& b = found.bending[0];
   numbers.law = "stops";
   numbers.b2 = {b.law.spring, b.spring_error, static_cast<bool>(b.determined[0]),
                 "elasticity beside the stops, identified from " + found.from};
-  if (b.spring_error == 0)  // of a free vibration, whose rigidity is given
+  if (b.spring_error == 0)  // a free vibration is given its rigidity
     numbers.b2 = {
         b.law.spring, kNone, true,
         "the given B, taken as exact, without what KES-FB2 reads of the stops, which are identified "
@@ -125,7 +126,7 @@ Identification three_numbers(const FabIdentification& found) {
   return numbers;
 }
 
-// In [parameters], behind what write_fabric() knows.
+// Writes further entries of [parameters], behind those of write_fabric().
 std::string further_parameters(const FabIdentification& found) {
   std::string text;
   if (found.bending.size() > 1) {
@@ -145,14 +146,14 @@ std::string further_parameters(const FabIdentification& found) {
   return text;
 }
 
-// The parabola of b1, b2 and k0 as stops.
+// Returns the parabola of b1, b2 and k0 as stops.
 StopsLaw of_three_numbers(const VirginCurve& curve) {
   if (!(curve.b1 > curve.b2)) return {curve.b2, {}, {}};
   const Spectrum stops = parabola_stops(curve.b1 - curve.b2, curve.k0);
   return {curve.b2, stops.thresholds, stops.stiffnesses};
 }
 
-// M = sqrt(q) M_law(sqrt(q) K): the metric by which cloth bends along weft and bias.
+// Returns M = sqrt(q) M_law(sqrt(q) K), by the metric with which cloth bends along weft and bias.
 StopsLaw scaled(StopsLaw law, double q) {
   law.spring *= q;
   for (double& threshold : law.thresholds) threshold /= std::sqrt(q);
@@ -160,7 +161,7 @@ StopsLaw scaled(StopsLaw law, double q) {
   return law;
 }
 
-// Half of each side by side: responses are the mean of both.
+// Returns the mean of both responses, half of each side by side.
 StopsLaw mean_law(const StopsLaw& a, const StopsLaw& b) {
   StopsLaw law{(a.spring + b.spring) / 2, {}, {}};
   for (const StopsLaw* of : {&a, &b}) {
@@ -170,9 +171,9 @@ StopsLaw mean_law(const StopsLaw& a, const StopsLaw& b) {
   return law;
 }
 
-// The law of a cylinder bent along the bias under stops along warp and along weft, over the fabric's rigidity
-// there: what SpectrumStops::turn() makes of a hinge across it.  `curve` is the fabric's as laws see it,
-// behind the metric, in which the tensor of that bend has the squares 1, weft and the rest of 4 bias.
+// Returns the law of a cylinder bent along the bias under stops along warp and along weft, over the fabric's
+// rigidity there: that of SpectrumStops::turn() for a hinge across it.  `curve` is the fabric's as laws see
+// it, behind the metric, in which the tensor of that bend has the squares 1, weft and the rest of 4 bias.
 StopsLaw turned_to_bias(const VirginCurve& curve, double weft_bending, double bias_bending) {
   const double warp = 1 / (4 * bias_bending), weft = weft_bending / (4 * bias_bending),
                twist = 1 - warp - weft;
@@ -190,8 +191,8 @@ StopsLaw turned_to_bias(const VirginCurve& curve, double weft_bending, double bi
   return law;
 }
 
-// Stretch along the bias at the width that the clamps hold: E along it is E/2 along warp and weft and a shear
-// 2 E12 = E, and of their stresses its force per width takes half, half, and all.
+// Returns the law of stretch along the bias at the width that the clamps hold: E along it is E/2 along warp
+// and weft and a shear 2 E12 = E, and its force per width takes half, half, and all of their stresses.
 StopsLaw bias_stretch(const Fabric& fabric) {
   const InPlaneStops& stops = fabric.in_plane;
   StopsLaw law = in_plane_law(fabric, Along::warp).shear;
@@ -206,8 +207,8 @@ StopsLaw bias_stretch(const Fabric& fabric) {
   return law;
 }
 
-// A buckled strip between clamps bends to both sides at once, to one in its middle and to the other beside
-// the clamps: turned over it is as stiff.
+// Returns the fabric with the mean of both faces: a buckled strip between clamps bends to both sides at once,
+// to one in its middle and to the other beside the clamps, so that turned over it is as stiff.
 Fabric with_mean_of_faces(Fabric fabric) {
   const VirginCurve mean = mean_of_faces({fabric.b1, fabric.b2, fabric.k0, fabric.bending});
   fabric.b1 = mean.b1;

@@ -11,10 +11,11 @@ namespace {
 using Eigen::VectorXd;
 
 constexpr double kTensionSpread = 1.5;  // prior standard deviation of logarithms
-constexpr double kFarthestTension = 9;  // of a logarithm from its prior
-constexpr double kSharedByStops = 0.5;  // of the force at the largest strain, that the prior is centred on
+constexpr double kFarthestTension = 9;  // largest distance of a logarithm from its prior
+constexpr double kSharedByStops = 0.5;  // share of the force at the largest strain that is the prior
 
-// Parameters: logarithms of the spring and of the forces p_j r_j over their priors, then the zeros of force.
+// The parameters are logarithms of the spring and of the forces p_j r_j over their priors, then the zeros of
+// force.
 class TensionModel {
  public:
   TensionModel(const std::vector<FabLoops>& loops, const FabTensionQuestion& question)

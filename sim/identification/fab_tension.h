@@ -1,5 +1,5 @@
-// Tension stiffness and friction elements of stretch from the loops of a FAB tester, as fab_bending.h has
-// those of bending: a fixed grid of thresholds (strain), a prior on logarithms.
+// Identifies tension stiffness and friction elements of stretch from the loops of a FAB tester, as
+// fab_bending.h does for bending: with a fixed grid of thresholds (strain) and a prior on logarithms.
 #pragma once
 
 #include <string>
@@ -10,20 +10,22 @@
 namespace hysteron {
 
 struct FabTensionQuestion {
-  std::vector<int> cycles = {2};                                        // the first being 1
-  std::vector<double> thresholds = {0.002, 0.005, 0.0125, 0.03, 0.08};  // (strain), rising
-  double noise = 2e-3;     // of the force of the whole strip [N], beside `fraction` of the largest force
-  double fraction = 0.01;  // that no such law describes to less
+  std::vector<int> cycles = {2};                                        // fitted cycles, the first being 1
+  std::vector<double> thresholds = {0.002, 0.005, 0.0125, 0.03, 0.08};  // strains, rising
+  // Noise of the force of the whole strip [N], beside `fraction` of the largest force, which no such law
+  // describes better.
+  double noise = 2e-3;
+  double fraction = 0.01;  // share of the largest force
 };
 
 struct FabTension : FabStops {  // [N/m] against strain
   double residual_rms = 0;      // [N/m]
   double largest_force = 0;     // of the fitted rows, over the zero [N/m]
 
-  std::vector<std::string> undetermined() const;  // "warp spring", "stop 0.08"
+  std::vector<std::string> undetermined() const;  // names "warp spring", "stop 0.08"
 };
 
-// From loops of one direction that stretch.  Throws Error::invalid_input if a cycle is not there.
+// Identifies from loops of one direction that stretch.  Throws Error::invalid_input if a cycle is missing.
 FabTension identify_fab_tension(const std::vector<FabLoops>& loops, const FabTensionQuestion& question);
 
 }  // namespace hysteron

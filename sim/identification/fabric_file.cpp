@@ -24,7 +24,7 @@ std::string given_or_default(const std::string& name, const std::optional<double
                        given ? "given" : "assumed"});
 }
 
-// What a scene would refuse of the fabric, before it has its name.
+// Refuses what a scene would refuse of the fabric, before the file has its name.
 void throw_if_unreadable(const std::string& temporary, const std::string& file) {
   Scene scene;
   try {

@@ -17,7 +17,7 @@ constexpr double kOverEdge = 41.5 * std::numbers::pi / 180;
 constexpr double kSmallLoad = 5 * kGramForcePerCentimetre, kMiddleLoad = 20 * kGramForcePerCentimetre,
                  kLargeLoad = 100 * kGramForcePerCentimetre;  // [N/m]
 
-// As a FAST chart prints them, and between which clothing has them (De Boos & Tester 1994).
+// The quantities as a FAST chart prints them, with the range of clothing (De Boos & Tester 1994).
 constexpr SheetQuantity kFastQuantities[] = {
     {"C", "mm", "m", "bending length (FAST-2, ASTM D1388); a row for each specimen, if you have them", 8, 60,
      true, true},
@@ -34,8 +34,8 @@ constexpr SheetQuantity kFastQuantities[] = {
     kDrapeOfIso,
 };
 
-// Chord angle [rad] to which an overhang of twice the bending length [m], of that weight [N/m^2], hangs after
-// first bending.
+// Returns the chord angle [rad] to which an overhang of twice the bending length [m], of that weight [N/m^2],
+// hangs after first bending.
 double chord_of_overhang(double bending_length, double weight, const VirginCurve& curve) {
   HeavyStrip strip;
   strip.law = {"prandtl", curve, {}};
@@ -46,8 +46,8 @@ double chord_of_overhang(double bending_length, double weight, const VirginCurve
   return sagging_strips(strip, {1}, kSteps).front().chord_angle();
 }
 
-// Where a function of the logarithm rises or falls through 0 between low and high: regula falsi, whose end
-// that stays counts half (Dowell & Jarratt 1971).
+// Finds where a function of the logarithm passes 0 between low and high, by regula falsi in which an end that
+// stays counts half (Dowell & Jarratt 1971).
 template <class Function>
 double root_between(double low, double high, const Function& function) {
   constexpr int kMostSteps = 30;
@@ -102,9 +102,9 @@ void check_fast_sheet(FastSheet& sheet, const std::string& file) {
   warn_of_contradicting_rows(sheet);
 }
 
-// b2 [N m] along a direction, for the assumed friction over rigidity [1/m].  Friction of another direction
-// than warp has its moments and curvatures apart as far as the rigidities are (Fabric::friction_ratios()):
-// its k0 is less by that ratio.
+// Returns b2 [N m] along a direction, for the assumed friction over rigidity [1/m].  Friction along other
+// directions than warp has moments and curvatures in the ratio of the rigidities (Fabric::friction_ratios()):
+// its k0 is smaller by that ratio.
 double rigidity_along(const FastSheet& sheet, SheetColumn column, double over_rigidity,
                       const std::function<double(double b2)>& k0) {
   return rigidity_of_bending_length(sheet.along("C", column), kLaboratoryGravity * sheet.mean("W"),

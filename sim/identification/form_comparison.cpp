@@ -10,7 +10,7 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr double kSameEnds = 0.03;  // of the way between the ends
+constexpr double kSameEnds = 0.03;  // over the way between the ends
 
 std::pair<double, double> ends(const FabLoops& loops, int cycle) {
   const std::vector<double>& out = loops.branches[2 * cycle].distance;
@@ -26,7 +26,7 @@ bool repeats(const FabLoops& a, int cycle, const FabLoops& b, int other) {
          std::abs(other_high - high) < same;
 }
 
-// The force there of a branch whose distances rise or fall; not a number beyond its ends.
+// Returns the force at a distance on a branch whose distances rise or fall; NaN beyond its ends.
 double force_at(const FabBranch& branch, double distance) {
   for (std::size_t i = 1; i < branch.distance.size(); ++i) {
     const double from = branch.distance[i - 1], to = branch.distance[i];
@@ -37,7 +37,7 @@ double force_at(const FabBranch& branch, double distance) {
   return kNone;
 }
 
-// Differences of the forces of whole strips at the rows of `a`, less their mean [N].
+// Returns the differences of the forces of whole strips at the rows of `a`, less their mean [N].
 std::vector<double> differences(const FabLoops& a, int cycle, const FabLoops& b, int other, double settling) {
   std::vector<double> all;
   for (int branch = 0; branch < 2; ++branch) {
@@ -84,7 +84,7 @@ Repeats find_repeats(const std::vector<FabLoops>& all, const std::vector<FabLoop
 FormComparison compare_forms(const FabForm& form, const FabBending& asked, const Repeats& repeats) {
   const VectorXd more = form.found.residuals.cwiseAbs2() - asked.residuals.cwiseAbs2();
   const double own = asked.residuals.squaredNorm() / static_cast<double>(more.size());
-  // Residuals are over the noise that is assumed, which counts where no repeats tell another.
+  // Residuals are over the assumed noise, which counts where no repeats give another.
   const double told = repeats.known() ? std::pow(repeats.noise / asked.noise, 2) : 1;
   const double variance = std::max(own, told);
   const int rows = static_cast<int>(more.size());
@@ -113,7 +113,7 @@ void widen_errors(FabBending& asked, const std::vector<FabForm>& others, const R
     of_spring += weight * std::pow(std::log(form.found.law.spring / asked.law.spring), 2);
     of_friction += weight * std::pow(std::log(form.found.law.friction() / asked.law.friction()), 2);
   }
-  if (asked.spring_error > 0)  // of a decay it is given
+  if (asked.spring_error > 0)  // for a decay it is given
     asked.spring_error = std::hypot(asked.spring_error, asked.law.spring * std::sqrt(of_spring / weights));
   asked.friction_error =
       std::hypot(asked.friction_error, asked.law.friction() * std::sqrt(of_friction / weights));

@@ -1,4 +1,4 @@
-// What a fit finds: a fabric's three numbers, how well the data fix each, and what was assumed instead.
+// The result of a fit: a fabric's three numbers, how well the data fix each, and what was assumed instead.
 #pragma once
 
 #include <array>
@@ -13,21 +13,21 @@ namespace hysteron {
 
 inline constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-// b1, b2 [N m] or k0 [1/m].
+// A number b1, b2 [N m] or k0 [1/m].
 struct Estimate {
   double value = 0;
-  double standard_error = kNone;  // kNone: not fixed by the data, or these carry no errors
+  double standard_error = kNone;  // kNone: not fixed by the data, or the data have no errors
   bool determined = true;         // the data fix it within a factor of kWidestFactor
   std::string source;             // for the fabric's file
   std::string confidence = "fitted";
-  double low = kNone, high = kNone;  // between which it may lie where it is assumed
+  double low = kNone, high = kNone;  // bounds of an assumed value
 };
 
 struct Identification {
-  std::string law;  // that the numbers were identified with
+  std::string law;  // the law with which the numbers were identified
   Estimate b1, b2, k0;
   std::vector<double> curvature, moment, model;         // data [1/m], [N], and the law's moments there [N]
-  int iterations = 0;                                   // of the solver; 0: closed form
+  int iterations = 0;                                   // iterations of the solver; 0: closed form
   std::vector<std::pair<std::string, double>> further;  // more metrics, names with units
   std::vector<std::string> statements;                  // plain sentences on what the data say and do not say
 
@@ -37,7 +37,7 @@ struct Identification {
   double largest_moment() const;  // [N]
 };
 
-// Four digits, for sentences.
+// Writes four digits, for sentences.
 std::string rounded(double x);
 
 inline constexpr double kNormal95 = 1.96;  // half width of a 95 % interval over the standard deviation
@@ -45,14 +45,14 @@ inline constexpr double kNormal95 = 1.96;  // half width of a 95 % interval over
 // A quantity whose 95 % interval spans more than this factor is called undetermined.
 inline constexpr double kWidestFactor = 3;
 
-// Twice the logarithm of the likelihood may fall by this much within a 95 % interval (Wilks 1938); what
-// lowers it more contradicts the data.
+// Twice the logarithm of the likelihood may fall by this much within a 95 % interval (Wilks 1938); numbers
+// that lower it more contradict the data.
 inline constexpr double kLikelihoodFall = 3.84;
 
-// What stands in where the data cannot decide.
+// The values that replace what the data cannot decide.
 struct Assumptions {
   double ratio = 0.5;  // b2/b1: no source gives it
-  double k0 = 8;       // [1/m] that of the shipped fabrics, whose files say where it comes from
+  double k0 = 8;       // [1/m], as the shipped fabrics have it, whose files give the source
 
   std::string ratio_source() const;
   std::string k0_source() const;

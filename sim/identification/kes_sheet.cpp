@@ -11,7 +11,7 @@ namespace {
 
 const std::string kKesReader = "fit --kes-sheet";
 
-// As KES-F prints them, and between which clothing has them (Kawabata 1980; the six denims of Kumari &
+// The quantities as KES-F prints them, with the range of clothing (Kawabata 1980; the six denims of Kumari &
 // Khurana 2016 and the four shipped pairs lie well within).
 constexpr SheetQuantity kKesQuantities[] = {
     {"LT", "1", "", "linearity of tension", 0.3, 1.3, true},
@@ -46,7 +46,7 @@ constexpr double kLargestPressure = 50 * 98.0665;              // [Pa]
 struct Doubts {
   KesSheet& sheet;
 
-  // Of one test: WT = LT T EMT/2 with T = 500 gf/cm.
+  // Returns WT over LT T EMT/2 with T = 500 gf/cm; in one test they are equal.
   double work_over_its_parts(SheetColumn of_work, SheetColumn of_parts) const {
     return sheet.along("WT", of_work) /
            (sheet.along("LT", of_parts) * kLargestTension * sheet.along("EMT", of_parts) / 2);
@@ -79,7 +79,7 @@ struct Doubts {
       sheet.warn("WC", "is " + number_text(ratio, 3) +
                            " times LC times 50 gf/cm^2 times (T0 - TM)/2, which it should be");
   }
-  // Over what woven cloth has; [low, high] in the unit that is said.
+  // Warns of a ratio beyond that of woven cloth, [low, high] in the given unit.
   void of_ratio(const char* above, const char* below, double unit, const char* text, double low,
                 double high) {
     if (!sheet.has(above) || !sheet.has(below)) return;
@@ -89,7 +89,7 @@ struct Doubts {
       if (!warning.empty()) sheet.warn(above, std::string("along ") + column_name(column) + " " + warning);
     }
   }
-  // Friction of one k0 for both would saturate in the tester's window along one of them.
+  // Warns if friction of one k0 for both directions would saturate in the tester's window along one of them.
   void of_directions() {
     constexpr double kFarApart = 25;
     const double ratio = sheet.along("2HB", SheetColumn::weft) / sheet.along("2HB", SheetColumn::warp);
@@ -98,7 +98,7 @@ struct Doubts {
                  "along weft is " + number_text(ratio, 3) +
                      " times that along warp: is one of them in another unit? This model cannot return both");
   }
-  // One sheet of cloth has two faces, of the same yarns.
+  // Warns of very different faces: one sheet of cloth has two faces of the same yarns.
   void of_faces() {
     constexpr double kFarApart = 3;
     for (const auto& [back, face] : {std::pair{"B-back", "B"}, {"2HB-back", "2HB"}})

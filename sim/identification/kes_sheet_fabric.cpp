@@ -1,4 +1,4 @@
-// The fabric's file from a KES-F sheet.
+// Makes a fabric's file from a KES-F sheet.
 #include <cmath>
 
 #include "sim/identification/kes_sheet.h"
@@ -11,9 +11,9 @@ namespace hysteron {
 namespace {
 
 constexpr double kTestedTension = InPlaneProtocol().largest;  // [N/m]
-// Chosen here: friction of shear has slipped before 0.5 degree, where the window of G begins.
+// It is chosen here that friction of shear has slipped before 0.5 degree, where the window of G begins.
 constexpr double kShearThreshold = 0.25 * kDegree;
-// The half width of the loop of shear grows per unit of shear by at most this much of G, chosen here: where
+// The half width of the loop of shear grows per unit of shear by at most this share of G (chosen here): where
 // stops slip on the way back to no shear the cloth has G less twice as much, which must stay positive.
 constexpr double kSteepestGrowth = 0.45;
 
@@ -22,8 +22,8 @@ void write_bending(SheetWriter& writer, const Assumptions& assumptions) {
   const auto along = [&](const char* row, SheetColumn column) { return sheet.along(row, column); };
   const double b = along("B", SheetColumn::warp), width = along("2HB", SheetColumn::warp),
                weft = along("B", SheetColumn::weft) / b, friction = along("2HB", SheetColumn::weft) / width;
-  // Along weft friction saturates at k0 over the ratio of its moments: neither direction shall be far from
-  // what is assumed.
+  // Along weft friction saturates at k0 over the ratio of its moments: this choice keeps both directions near
+  // the assumed value.
   const double spread = std::sqrt(friction);
   Estimate k0 = assumptions.assumed_k0();
   k0.value *= spread, k0.low *= spread, k0.high *= spread;
@@ -37,13 +37,13 @@ void write_bending(SheetWriter& writer, const Assumptions& assumptions) {
   writer.suppose_bias(weft);
 }
 
-// What bends to the back have over what bends to the face have: one ratio for warp and weft.
+// Writes the ratio of bends to the back to bends to the face: one ratio for warp and weft.
 void write_back(SheetWriter& writer, const char* key, const char* back, const char* face) {
   const KesSheet& sheet = writer.sheet;
   const auto ratio = [&](SheetColumn column) {
     return sheet.along(back, column) / sheet.along(face, column);
   };
-  // One direction alone, or means, give one ratio.
+  // One direction alone, or means, yield one ratio.
   const SheetRow& measured = sheet.row.at(back);
   const bool has_warp = measured.has(SheetColumn::warp), has_weft = measured.has(SheetColumn::weft);
   const double of_means = sheet.mean(back) / sheet.mean(face);
@@ -84,8 +84,8 @@ struct ShearFriction {
   double at_rest, rise;  // [N/m]
 
   double growth() const { return rise / at_rest; }  // per unit of shear
-  // On the way back from the tester's 8 degrees it has turned before 5, and on each loading before 0.5: the
-  // limits at both ends of a way are less than the way together.
+  // Returns the threshold.  On the way back from the tester's 8 degrees friction has turned before 5, and on
+  // each loading before 0.5: the limits at both ends of a way are less than the way together.
   double threshold() const {
     constexpr double kWellBefore = 0.9;
     const double largest = shear_at(InPlaneProtocol().angle), read = second_width_shear();
@@ -96,12 +96,13 @@ struct ShearFriction {
   static double second_width_shear() { return shear_at(InPlaneProtocol().second_width_at); }
 };
 
-// The loop is 2HG wide at 0.5 degree and 2HG5 at 5, as far as a cloth of the shear rigidity G bears it.
+// Returns friction whose loop is 2HG wide at 0.5 degree and 2HG5 at 5, as far as a cloth of the shear
+// rigidity G bears it.
 ShearFriction shear_friction(const KesSheet& sheet, double rigidity) {
   const double half = sheet.mean("2HG") / 2, first = ShearFriction::width_shear(),
                second = ShearFriction::second_width_shear();
   if (!(sheet.mean("2HG5") / 2 > half)) return {half, 0};
-  constexpr double kOfHalf = 0.5;  // at most this much of the half width at 0.5 degree has grown since zero
+  constexpr double kOfHalf = 0.5;  // largest share of the half width at 0.5 degree that has grown since zero
   const double rise = std::min({(sheet.mean("2HG5") / 2 - half) / (second - first),
                                 kSteepestGrowth * rigidity, kOfHalf * half / first});
   return {half - rise * first, rise};

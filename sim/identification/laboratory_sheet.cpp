@@ -83,7 +83,7 @@ class SheetReader {
                   place);
   }
 
-  // A number that clothing does not have, with the unit in which it would.
+  // Refuses a number that clothing does not have, with the unit in which it would.
   void check_size(const SheetQuantity& quantity, double si, const std::string& shown,
                   const std::string& place) const {
     const double printed = *factor_to(quantity.si, quantity.unit);
@@ -92,7 +92,7 @@ class SheetReader {
              value <= quantity.high * printed * kBeyondUsual;
     };
     if (fits(si)) return;
-    // The slip that leads nearest to the middle of what is usual.
+    // The likeliest slip leads nearest to the middle of the usual range.
     const double middle = std::sqrt(quantity.low * quantity.high) * printed;
     double likely = 0;
     for (const double slip :
@@ -130,7 +130,7 @@ class SheetReader {
         row.value[c] = std::accumulate(all.begin(), all.end(), 0.0) / static_cast<double>(all.size());
   }
 
-  // Beside a mean and one direction the other is known.
+  // Completes a row: a mean and one direction give the other.
   void complete(const std::string& name, SheetRow& row) const {
     if (!row.has(SheetColumn::mean) || row.has(SheetColumn::warp) == row.has(SheetColumn::weft)) return;
     const int other = row.has(SheetColumn::warp) ? 1 : 0;
@@ -146,7 +146,7 @@ class SheetReader {
                row.place + ", column " + column_name(column) + ", as the mean tells it");
   }
 
-  // A row that was not says nothing.
+  // Is the row filled in? An empty row is ignored.
   static bool is_filled_in(const SheetRow& row) {
     return std::any_of(std::begin(row.value), std::end(row.value), [](double x) { return std::isfinite(x); });
   }
@@ -156,7 +156,7 @@ class SheetReader {
     std::optional<std::size_t> unit, value[3];
   };
 
-  // The column of one of these names; refuses a second one, of the same name or of another of them.
+  // Returns the column of one of these names; refuses a second one, of the same name or of another of them.
   std::optional<std::size_t> column_named(const Table& table,
                                           std::initializer_list<const char*> names) const {
     std::optional<std::size_t> found;
@@ -264,7 +264,7 @@ class SheetReader {
     if (is_filled_in(row)) add(quantity, std::move(row));
   }
 
-  // What has no direction has one number, the mean of what stands in both columns.
+  // Warns if a quantity without directions has numbers in both columns, whose mean is taken.
   void warn_of_directions() {
     for (const SheetQuantity& quantity : quantities_) {
       if (quantity.has_directions || !sheet_.has(quantity.name)) continue;

@@ -15,7 +15,8 @@ namespace hysteron {
 
 namespace {
 
-// Of a parameter of order one: central differences then lose about 1e-8 to truncation and 1e-12 to rounding.
+// The step for a parameter of order one: central differences then lose about 1e-8 to truncation and 1e-12 to
+// rounding.
 constexpr double kDifference = 1e-4;
 
 Eigen::MatrixXd numerical_jacobian(const Residuals& residuals, const Eigen::VectorXd& at) {
@@ -31,8 +32,8 @@ Eigen::MatrixXd numerical_jacobian(const Residuals& residuals, const Eigen::Vect
   return jacobian;
 }
 
-// Ceres logs to stderr, whatever its options say, where numbers fail it; what comes of that is told by
-// whoever asked.
+// Silences Ceres, which logs numerical failures to stderr, whatever its options say; the caller reports their
+// consequences.
 void keep_ceres_quiet() {
   static const int once = FLAGS_minloglevel = google::GLOG_FATAL;
   (void)once;
@@ -109,10 +110,10 @@ Eigen::VectorXd linear_least_squares(const Eigen::MatrixXd& a, const Eigen::Vect
 
 namespace {
 
-constexpr double kSmallestSingular = 1e-9;  // of the largest: derivatives are no more accurate
+constexpr double kSmallestSingular = 1e-9;  // over the largest one: derivatives are no more accurate
 constexpr double kSignificant = 2;          // standard deviations of a correlation of independent residuals
 constexpr double kLargestCorrelation = 0.98;
-constexpr double kRounding = kBestAccuracy / 100;  // residuals below are no noise of an instrument
+constexpr double kRounding = kBestAccuracy / 100;  // smaller residuals are no noise of an instrument
 
 }  // namespace
 

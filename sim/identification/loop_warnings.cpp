@@ -9,13 +9,13 @@
 namespace hysteron {
 namespace {
 
-constexpr double kMisses = 0.25;  // of the largest moment: a law farther from the data (rms) is another's
-const VirginCurve kAnyCurve = {2e-5, 1e-5, 50, {}};  // in place of the one that is sought
+constexpr double kMisses = 0.25;  // over the largest moment: data farther from a law (rms) are another law's
+const VirginCurve kAnyCurve = {2e-5, 1e-5, 50, {}};  // stands for the sought curve
 
-// A tester that bends to opposite curvatures finds opposite moments.  Where the moments are opposite and the
-// curvatures are not, the zero of curvature is off.
+// Warns if the zero of curvature is off: a tester that bends to opposite curvatures finds opposite moments,
+// so that opposite moments at curvatures that are not opposite tell it.
 std::string curvature_zero_warning(const MomentSeries& series) {
-  constexpr double kNoticed = 0.02;  // of the half range of curvature
+  constexpr double kNoticed = 0.02;  // over the half range of curvature
   const auto [low, high] = std::ranges::minmax(series.curvature);
   const auto [least, most] = std::ranges::minmax(series.moment);
   const double middle = (low + high) / 2, half = (high - low) / 2;
@@ -26,7 +26,7 @@ std::string curvature_zero_warning(const MomentSeries& series) {
          number_text(middle, 3) + " 1/m, which b1 and k0 do not stand; --curvature-offset finds it";
 }
 
-// Laws that take time, from data that do not say it.
+// Warns of laws that take time, where the data have none.
 std::string time_warning(const MomentSeries& series, const std::vector<LawRequest>& laws) {
   const bool measured = !series.seconds.empty();
   const auto passes = [](double seconds) { return seconds > 0; };

@@ -1,4 +1,4 @@
-// Doubts about a measured loop and the laws that are asked of it, said by `fit` and by Python alike.
+// Warns of doubtful loops and laws for a fit, for `fit` and Python alike.
 //
 // A statement of an Identification says what the data show.  A warning says that a number may be wrong: the
 // zero of curvature is off, times are missing that a law takes, a parameter is not read, or the law stays far

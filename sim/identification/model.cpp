@@ -13,14 +13,14 @@ namespace {
 constexpr int kScanned = 36;                       // k0 a factor of 1.26 apart,
 constexpr double kScanLow = 1e-2, kScanHigh = 30;  // over the largest curvature
 constexpr double kLargestRigidity = 1e4;
-constexpr double kWide = 100;               // of nuisance: no bound
-constexpr double kFarthestFactor = 9;       // logarithm
-constexpr double kSmallestRigidity = 1e-6;  // over the measurement's slope: no logarithm of zero
+constexpr double kWide = 100;               // for nuisance parameters: no bound
+constexpr double kFarthestFactor = 9;       // of a logarithm
+constexpr double kSmallestRigidity = 1e-6;  // over the measurement's slope: avoids the logarithm of zero
 constexpr double kUsualK0 = 50;             // [1/m]
-constexpr double kUnread = 1e-9;            // of the largest moment: rounding
-constexpr double kSameModel = 1e-8;         // of the largest moment: the law is linear in b2 and g
+constexpr double kUnread = 1e-9;            // over the largest moment: rounding
+constexpr double kSameModel = 1e-8;         // over the largest moment: the law is linear in b2 and g
 
-// Least squares whose first two coefficients are >= 0, by trying which of them is zero.
+// Solves least squares whose first two coefficients are >= 0, by trying which of them is zero.
 Eigen::VectorXd nonnegative_solution(const Eigen::MatrixXd& columns, const Eigen::VectorXd& values) {
   Eigen::VectorXd best = Eigen::VectorXd::Zero(columns.cols());
   double least = INFINITY;
@@ -50,7 +50,7 @@ MomentModel::MomentModel(const MomentSeries& series, const LawRequest& law, Soug
       largest_(series.largest_moment()),
       curvature_(series.largest_curvature()),
       slope_(largest_ / curvature_) {
-  LawRequest request = law_;  // an unknown law or parameter is told here, and is no matter of the numbers
+  LawRequest request = law_;  // throws here for an unknown law or parameter, whatever the numbers are
   request.curve = {slope_, slope_ / 2, std::min(kUsualK0, curvature_)};
   run_law(request, {LawRow{}});
 }
@@ -71,7 +71,7 @@ Eigen::VectorXd MomentModel::law_moments(const CurvePoint& point) const {
   try {
     all = run_law(request, driven.rows).moment;
   } catch (const Error&) {
-    // The law has bounds on its numbers: there it describes nothing.
+    // The law has bounds on its numbers: beyond them it describes nothing.
   }
   if (!driven.is_added.empty()) all = without_added(all, driven);
   const Eigen::Map<const Eigen::VectorXd> moments(all.data(), static_cast<int>(all.size()));
@@ -150,7 +150,7 @@ UnreadNumbers MomentModel::unread(const CurvePoint& point) const {
   const auto differs = [&](const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
     return !((a - b).cwiseAbs().maxCoeff() <= kUnread * largest_);
   };
-  CurvePoint stiffer = point;  // with friction, where the best fit may have next to none
+  CurvePoint stiffer = point;  // with friction, which the best fit may hardly have
   stiffer.g += point.b2 + point.g;
   CurvePoint sooner = stiffer, later = stiffer;
   sooner.k0 /= 2;

@@ -1,4 +1,5 @@
-// A measured series of moments as a function of a fabric's three numbers, and its least squares.
+// Models a measured series of moments by a fabric's three numbers, and minimises the squares of the
+// residuals.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,18 +14,18 @@
 
 namespace hysteron {
 
-// What is sought beside the three numbers.
+// The unknowns beside the three numbers.
 struct SoughtBeside {
   bool moment = false, curvature = false;  // the instrument's zeros
-  double step_at_turns = INFINITY;         // turns between rows beside which there is a larger step [1/m]
+  double step_at_turns = INFINITY;         // seeks turns between rows beside a larger step [1/m]
 };
 
-// b2, g = b1 - b2, k0, and the instrument's zeros where they are sought, too.
+// b2, g = b1 - b2, k0, and the instrument's zeros if they are sought.
 struct CurvePoint {
   double b2 = 0, g = 0;  // [N m], >= 0
   double k0 = 0;         // [1/m]
-  // Zeros that are sought, of moment, of curvature, over the largest of the data; then, where turns are
-  // sought, how far beyond its row each is, over the step beside it.
+  // The sought zeros of moment and of curvature, over the largest of the data; then, if turns are sought, how
+  // far beyond its row each is, over the step beside it.
   Eigen::VectorXd nuisance;
   double sum = 0;  // of squared residuals
 
@@ -39,50 +40,53 @@ struct UnreadNumbers {
 // A law's moments along a measured series.
 class MomentModel {
  public:
-  // `law`: its curve is ignored.  `cycling`: as law_rows().  Throws Error::invalid_input as run_law() does.
+  // The curve of `law` is ignored; `cycling` is as in law_rows().  Throws Error::invalid_input as run_law()
+  // does.
   MomentModel(const MomentSeries& series, const LawRequest& law, SoughtBeside beside, bool cycling);
 
-  // Moments of the law at the series' rows [N] less the zero of curvature, the zero of moment added; not a
-  // number where the law does not take the numbers.
+  // Returns the moments of the law at the series' rows [N], at curvatures less the zero of curvature, with
+  // the zero of moment added; NaN where the law does not accept the numbers.
   Eigen::VectorXd moments(const CurvePoint& point) const;
-  // Model minus measurement over the largest moment.
+  // Returns model minus measurement over the largest moment.
   Eigen::VectorXd residuals(const CurvePoint& point) const;
-  // Best b2, g and nuisance at one k0.  Solved at once for laws whose moment is linear in b2 and g: all whose
-  // friction is a fixed shape, unless the zero of curvature is sought.  Turns stay at their rows.
+  // Returns the best b2, g and nuisance parameters at one k0.  They are solved directly for laws whose moment
+  // is linear in b2 and g: all whose friction is a fixed shape, unless the zero of curvature is sought.
+  // Turns stay at their rows.
   CurvePoint best_at(double k0, int& iterations) const;
 
-  // Which numbers change no moment of the law here: it does not read them.
+  // Returns the numbers that change no moment of the law here: it does not read them.
   UnreadNumbers unread(const CurvePoint& point) const;
 
-  // Parameters of the whole fit: logarithms of b2, g, k0 over their scales, then the nuisance.
+  // Returns the parameters of the whole fit: logarithms of b2, g, k0 over their scales, then the nuisance
+  // parameters.
   Eigen::VectorXd parameters(const CurvePoint& point) const;
   CurvePoint point(const Eigen::VectorXd& parameters) const;
-  // Their bounds, low and high.
+  // Returns their bounds, low and high.
   std::pair<Eigen::VectorXd, Eigen::VectorXd> bounds() const;
-  // Those of the nuisance.
+  // Returns those of the nuisance parameters.
   std::pair<Eigen::VectorXd, Eigen::VectorXd> nuisance_bounds() const;
 
-  // Best at each of many k0, in rising order.  Turns stay at their rows.
+  // Returns the best points at each of many k0, in rising order.  Turns stay at their rows.
   std::vector<CurvePoint> scan(int& iterations) const;
   std::vector<double> scanned_k0() const;  // [1/m]
-  // Best at the k0 of a point by iterations, from that point.
+  // Returns the best point at the k0 of `begin` by iterations from there.
   CurvePoint searched_from(const CurvePoint& begin, int& iterations, SearchLimits limits = {}) const;
 
-  // From which turns are sought, after the best with turns at their rows: at the rows, and where even steps
-  // put them, with some k0.
+  // Returns the point from which turns are sought, after the best with turns at their rows: at the rows, and
+  // where even steps put them, with some k0.
   CurvePoint start_with_turns(const CurvePoint& at_rows) const;
 
   double largest_curvature() const { return curvature_; }
-  double largest_step_at_turns() const { return largest_step(turns_); }  // that are sought [1/m]
-  // Where the law turns at the turns that are sought [1/m], in the order of the rows.
+  double largest_step_at_turns() const { return largest_step(turns_); }  // among those sought [1/m]
+  // Returns where the law turns at the sought turns [1/m], in the order of the rows.
   std::vector<double> turning_curvatures(const CurvePoint& point) const;
 
  private:
   struct LinearSolution {
     CurvePoint point;
-    bool holds;  // the law is linear in b2 and g
+    bool holds;  // true if the law is linear in b2 and g
   };
-  // Moments without the zero of moment [N].
+  // Returns the moments without the zero of moment [N].
   Eigen::VectorXd law_moments(const CurvePoint& point) const;
   int zeros() const { return (beside_.moment ? 1 : 0) + (beside_.curvature ? 1 : 0); }
   int nuisances() const { return zeros() + static_cast<int>(turns_.size()); }
@@ -90,28 +94,28 @@ class MomentModel {
     return point.nuisance.tail(static_cast<int>(turns_.size()));
   }
   double curvature_zero(const CurvePoint& point) const;  // [1/m]
-  // Best b2, g and zero of moment, if they enter linearly, beside the rest of a nuisance.
+  // Returns the best b2, g and zero of moment, if they enter linearly, beside the other nuisance parameters.
   LinearSolution linear_at(double k0, const Eigen::VectorXd& nuisance) const;
-  // From which the nuisance is searched: each zero of curvature that may be.
+  // Returns the starts of the search for nuisance parameters: each possible zero of curvature.
   std::vector<Eigen::VectorXd> nuisance_starts() const;
 
   LawRequest law_;
   std::vector<LawRow> rows_;
   Eigen::VectorXd moment_;  // measured [N]
   SoughtBeside beside_;
-  std::vector<SoughtTurn> turns_;  // none where they are not sought
+  std::vector<SoughtTurn> turns_;  // none unless turns are sought
   double largest_;                 // moment [N]
   double curvature_, slope_;       // scales: largest curvature [1/m], moment over curvature [N m]
 };
 
-// A fit in which the three numbers follow from fewer factors, and the nuisance is free.
+// A fit in which the three numbers follow from fewer factors, with free nuisance parameters.
 struct Tied {
   CurvePoint best;
   Eigen::VectorXd residuals;
-  Eigen::MatrixXd jacobian;  // by the logarithms of the factors, then the nuisance
+  Eigen::MatrixXd jacobian;  // by the logarithms of the factors, then the nuisance parameters
   int iterations = 0;
 };
-// The numbers (not the nuisance) at factors on a starting point, all 1 there.
+// Returns the numbers (not the nuisance parameters) at factors on a starting point, where all are 1.
 using FromFactors = std::function<CurvePoint(const Eigen::VectorXd&)>;
 
 Tied fit_tied(const MomentModel& model, const FromFactors& numbers, int factors, const CurvePoint& start,

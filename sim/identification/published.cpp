@@ -16,9 +16,9 @@ namespace {
 constexpr const char* kB1 = "b1 [N m]";
 constexpr const char* kC1 = "c1 [N m2]";
 constexpr KesWindow kWindow;                           // of KES-FB2's straight line
-constexpr double kLargestHbOverB = 1000;               // [1/m] residual curvature M0/b2 of a radius of 1 mm
-constexpr double kSmallestK0 = 0.1, kLargestK0 = 1e5;  // [1/m] bends of a radius of 10 m and of 10 um
-constexpr int kDrawn = 41;                             // points of a curve that stands for the numbers
+constexpr double kLargestHbOverB = 1000;               // [1/m]: residual curvature M0/b2 of a radius of 1 mm
+constexpr double kSmallestK0 = 0.1, kLargestK0 = 1e5;  // [1/m]: bends of a radius of 10 m and of 10 um
+constexpr int kDrawn = 41;  // number of points of a curve that illustrates the numbers
 
 double square(double x) { return x * x; }
 
@@ -39,8 +39,8 @@ Measured mean_measured(const std::vector<double>& values) {
   return {mean, n > 1 ? std::sqrt(scatter / (n - 1) / n) : kNone};
 }
 
-// Are the three numbers fixed by these observations, known to kBestAccuracy?  Rows: relative changes of the
-// observations (zeros: none); columns: logarithms of b1, b2, k0.
+// Are the three numbers fixed by these observations, if known to kBestAccuracy? The rows are relative changes
+// of the observations (zeros: none), the columns logarithms of b1, b2, k0.
 void set_determined(const Eigen::Matrix3d& derivatives, Identification& result) {
   const Eigen::Vector3d errors =
       covariance(derivatives, Eigen::Vector3d::Zero()).with_floor.diagonal().cwiseSqrt();
@@ -49,7 +49,7 @@ void set_determined(const Eigen::Matrix3d& derivatives, Identification& result) 
   result.k0.determined = is_determined(errors[2]);
 }
 
-// On the command line, or as the mean of a file of specimens.
+// Makes an estimate of a number from the command line, or the mean of a file of specimens.
 Estimate given(const Measured& number, const std::string& source) {
   return {number.value, number.standard_error, true, source + ", given to the fit", "given"};
 }
@@ -100,7 +100,7 @@ Identification identify_virgin(const VirginNumbers& numbers, const Assumptions& 
       k0, kNone, false,
       "k0 = (b2 - b1)/(2 c1) with c1 = " + number_text(c1) + " N m^2 and b2 " + assumptions.ratio_source(),
       "assumed"};
-  // ln c1 = ln(b1 - b2) - ln k0 - ln 2
+  // The last row follows from ln c1 = ln(b1 - b2) - ln k0 - ln 2.
   Eigen::Matrix3d derivatives;
   derivatives << 1, 0, 0, b1 / (b1 - b2), -b2 / (b1 - b2), -1, 0, 0, 0;
   set_determined(derivatives, result);
@@ -148,7 +148,7 @@ void check_kes(const KesNumbers& numbers) {
   }
 }
 
-// Both branches of the loop in the window, as the two numbers say they are: M = B K +- HB, up and down.
+// Draws both branches of the loop in the window, as the two numbers define them: M = B K +- HB, up and down.
 void draw_kes(const KesNumbers& numbers, Identification& result) {
   for (int i = 0; i < 2 * kDrawn; ++i) {
     const bool back = i >= kDrawn;
@@ -159,7 +159,7 @@ void draw_kes(const KesNumbers& numbers, Identification& result) {
   }
 }
 
-// The law's moments there: up from rest, on to the end of the test, and back.
+// Computes the law's moments there: up from rest, on to the end of the test, and back.
 void follow_kes(Identification& result) {
   std::vector<LawRow> rows;
   for (double k : result.curvature) {
@@ -196,7 +196,7 @@ Identification identify_kes(const KesNumbers& numbers, const Assumptions& assump
   result.b1 = {b1, known ? stiffness_error(numbers, k0) : kNone, known,
                "b1 = B + 2HB/k0, so that the friction moment (b1 - b2) k0/2 is HB; k0 " + result.k0.source,
                known ? "derived" : "assumed"};
-  // B = b2;  2HB = (b1 - b2) k0, as a share of B k0 because it may be zero;  k0.
+  // The rows are B = b2, then 2HB = (b1 - b2) k0 as a share of B k0, because it may be zero, and k0.
   Eigen::Matrix3d derivatives;
   derivatives << 0, 1, 0, b1 / b, -1, (b1 - b) / b, 0, 0, known ? 1 : 0;
   set_determined(derivatives, result);
@@ -226,7 +226,7 @@ std::string woven_ratio_warning(double ratio, const std::string& unit, const std
 
 std::string kes_warning(const KesNumbers& numbers) {
   const double width = numbers.two_hb.value;
-  if (width == 0) return "";  // an elastic fabric, which is asked for
+  if (width == 0) return "";  // the user asked for an elastic fabric
   const std::string text =
       woven_ratio_warning(width / numbers.b.value, "1/m", "kes.b", kLeastWidthOverB, kMostWidthOverB);
   return text.empty() ? "" : "kes.2hb " + text;

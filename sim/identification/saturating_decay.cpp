@@ -12,10 +12,10 @@ namespace {
 using Eigen::VectorXd;
 
 constexpr double kTwoThirds = 2.0 / 3;
-constexpr int kMostNewton = 60;       // iterations, which converge from one side
-constexpr double kConverged = 1e-13;  // of the unknown
+constexpr int kMostNewton = 60;       // most iterations, which converge from one side
+constexpr double kConverged = 1e-13;  // relative change of the unknown
 
-// G of the header and its inverse, x >= 1.
+// These are G of the header and its inverse, x >= 1.
 double time_above(double x) { return x + kTwoThirds * std::log(x - kTwoThirds); }
 double amplitude_above(double g, double largest) {
   double z = std::log(largest - kTwoThirds);  // z = ln(x - 2/3): e^z + 2/3 z + 2/3 = G is convex
@@ -27,7 +27,7 @@ double amplitude_above(double g, double largest) {
   return std::exp(z) + kTwoThirds;
 }
 
-// H of the header and its inverse, x <= 1.
+// These are H of the header and its inverse, x <= 1.
 double time_below(double x, double s) { return s / x + (s - 1) * std::log(x); }
 double amplitude_below(double h, double s) {
   double w = std::max(1.0, h);  // w = 1/x: s w - (s - 1) ln w = H is convex, and w <= H
@@ -39,7 +39,8 @@ double amplitude_below(double h, double s) {
   return 1 / w;
 }
 
-// Parameters of the search: logarithms of first amplitude, rate, knee, over the scales, and stiffening.
+// The parameters of the search are the logarithms of first amplitude, rate and knee, over the scales, and of
+// the stiffening.
 struct Search {
   const std::vector<double>& time;
   const std::vector<double>& amplitude;
@@ -56,7 +57,7 @@ struct Search {
       left[static_cast<Eigen::Index>(i)] = (found.at(time[i]) - amplitude[i]) / scale();
     return left;
   }
-  // With the rate that leads to the last amplitude.
+  // Returns a start with the rate that leads to the last amplitude.
   VectorXd start(double knee_fraction, double stiffening) const {
     const SaturatingDecay unit{scale(), scale() / time.back(), knee_fraction * scale(), stiffening};
     const double last = std::clamp(amplitude.back(), 1e-3 * scale(), 0.999 * scale());
@@ -87,9 +88,9 @@ double SaturatingDecay::time_to(double amplitude) const {
 }
 
 SaturatingDecay fit_saturating_decay(const std::vector<double>& time, const std::vector<double>& amplitude) {
-  constexpr double kKnees[] = {0.03, 0.1, 0.2, 0.35, 0.6, 1};  // of the first amplitude
+  constexpr double kKnees[] = {0.03, 0.1, 0.2, 0.35, 0.6, 1};  // over the first amplitude
   constexpr double kStiffenings[] = {1.1, 3, 8};
-  constexpr std::size_t kFollowed = 2;  // the nearest of these starts
+  constexpr std::size_t kFollowed = 2;  // number of best starts that are followed
   constexpr SearchLimits kCoarse = {10, 1e-3}, kFine = {40, 1e-7};
   const Search search{time, amplitude};
   std::vector<std::pair<double, VectorXd>> starts;
@@ -99,7 +100,8 @@ SaturatingDecay fit_saturating_decay(const std::vector<double>& time, const std:
       starts.emplace_back(search.residuals(p).squaredNorm(), p);
     }
   std::sort(starts.begin(), starts.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  // Bounds of the logarithms: a knee from 1 % to the sevenfold first amplitude, a stiffening up to 50.
+  // The bounds of the logarithms allow a knee from 1 % to the sevenfold first amplitude, and a stiffening up
+  // to 50.
   const Eigen::Vector4d low(-0.7, -12, -4.6, 0), high(0.7, 12, 2, 3.9);
   const auto from = [&](const VectorXd& start, SearchLimits limits) {
     return minimize([&](const VectorXd& p) { return search.residuals(p); }, start, low, high, limits);

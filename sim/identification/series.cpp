@@ -15,14 +15,14 @@ namespace hysteron {
 namespace {
 
 struct CurveUnits {
-  const char *flag, *curvature, *moment;  // of --units; of the columns
-  double per_metre, newton;               // one of them in 1/m, in N
+  const char *flag, *curvature, *moment;  // value of --units; units of the columns
+  double per_metre, newton;               // one unit of each in 1/m and in N
 };
 constexpr CurveUnits kSi = {"si", "1/m", "N", 1, 1};
 constexpr CurveUnits kKes = {"kes", "1/cm", "gf cm/cm", 100, kGramForceCentimetrePerCentimetre};
 
-// Work that a loop may give back, as a share of curvature range times moment range, before its rows must run
-// backwards: noise around a curve without a loop.
+// A loop may give back this work, as a share of curvature range times moment range, before its rows must run
+// backwards: noise around a curve without a loop does.
 constexpr double kWorkOfNoise = 0.05;
 
 double value_range(const std::vector<double>& values) {
@@ -36,7 +36,7 @@ double largest_magnitude(const std::vector<double>& values) {
   return largest;
 }
 
-// Rows where the curvature turns by more than `noise`, with the first and the last row.
+// Returns the rows where the curvature turns by more than `noise`, with the first and the last row.
 std::vector<int> turning_rows(const std::vector<double>& k, double noise) {
   std::vector<int> turns = {0};
   int extreme = 0, direction = 0;
@@ -55,7 +55,8 @@ std::vector<int> turning_rows(const std::vector<double>& k, double noise) {
   return turns;
 }
 
-// Nearest monotone sequence by pooling adjacent violators (Ayer et al. 1955), in place.
+// Replaces values by the nearest monotone sequence by pooling adjacent violators (Ayer et al. 1955), in
+// place.
 void make_monotone(double* values, int count, double direction) {
   struct Pool {
     double mean;
@@ -77,7 +78,7 @@ void make_monotone(double* values, int count, double direction) {
   }
 }
 
-// Slope of the straight line through all rows [N m].
+// Returns the slope of the straight line through all rows [N m].
 double overall_slope(const MomentSeries& series) {
   double k = 0, m = 0, kk = 0, km = 0;
   const double n = series.rows();
@@ -92,7 +93,7 @@ double overall_slope(const MomentSeries& series) {
   return km / kk;
 }
 
-// Work of bending along the rows, as a share of curvature range times moment range.
+// Returns the work of bending along the rows, as a share of curvature range times moment range.
 double relative_work(const MomentSeries& series) {
   double work = 0;
   for (int i = 1; i < series.rows(); ++i) {
@@ -101,8 +102,8 @@ double relative_work(const MomentSeries& series) {
   return work / (value_range(series.drive) * value_range(series.moment));
 }
 
-// Rows of a way from one turn to the next, on the average, below which there is no way but disorder: shuffled
-// rows have 1.5.
+// Rows are out of order if a way from one turn to the next has fewer rows on the average: shuffled rows have
+// 1.5.
 constexpr double kFewestRowsOfAWay = 2;
 
 void check_order(const MomentSeries& series) {
@@ -154,7 +155,7 @@ class CurveFile {
     return Error::invalid_input(name_ + ": " + what).with_experiment(reader_);
   }
 
-  // -1 where no column has that quantity.
+  // Returns -1 where no column has that quantity.
   int column(const std::string& quantity) const {
     int found = -1;
     for (int i = 0; i < static_cast<int>(table_.head.size()); ++i) {
@@ -197,7 +198,7 @@ class CurveFile {
     return values;
   }
 
-  // From the row before.
+  // Returns the steps from the row before.
   std::vector<double> steps(int column) const {
     if (const std::string unit = unit_in(table_.head[column]); unit != "s")
       throw refusal("time " + (unit.empty() ? "names no unit" : "is in " + unit) +

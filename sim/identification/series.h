@@ -1,4 +1,4 @@
-// A measured moment-curvature curve: what `fit` accepts as one, and what drives a law through it.
+// Reads a measured moment-curvature curve for `fit`, and drives a law through it.
 #pragma once
 
 #include <filesystem>
@@ -10,43 +10,44 @@
 namespace hysteron {
 
 struct MomentSeries {
-  std::string name;               // of the file, without its folder
+  std::string name;               // name of the file, without its folder
   std::vector<double> curvature;  // as measured [1/m], in the order of measurement
   std::vector<double> moment;     // [N]
   std::vector<double> seconds;    // from the row before [s]; empty: not measured
-  // Curvature that a law follows [1/m]: the nearest in the least squares sense that turns only where the
-  // measured one comes back by more than noise.  A law with memory would take every ripple for a reversal.
+  // The curvature that a law follows [1/m]: the nearest one in the least squares sense that turns only where
+  // the measured one comes back by more than noise.  A law with memory would take every ripple for a
+  // reversal.
   std::vector<double> drive;
   std::vector<int> turns;  // rows where `drive` turns
-  int reversals = 0;       // as many
+  int reversals = 0;       // their number
 
   int rows() const { return static_cast<int>(moment.size()); }
   double largest_curvature() const;  // of |drive| [1/m]
   double largest_moment() const;     // of |moment| [N]
 };
 
-// Columns `curvature [1/m]`, `moment [N]`, optional `time [s]`, in a table as testers write it
-// (tester_table.h). `ripple`: curvature that comes back by less than this share of its range is noise. Throws
-// Error::system, and Error::invalid_input for a file that is no moment-curvature curve: other units, which
+// Reads columns `curvature [1/m]`, `moment [N]`, optional `time [s]`, in a table as testers write it
+// (tester_table.h).  `ripple` is the share of the range below which a return of curvature is noise.  Throws
+// Error::system, and Error::invalid_input for a file that is not a moment-curvature curve: other units, which
 // are named with the flag that converts them, few rows, constant curvature or moments, moments that fall with
 // curvature, rows out of order or backwards, magnitudes that no fabric has (other units).
 MomentSeries read_series(const std::filesystem::path& file, double ripple, const std::string& reader);
 
-// The same from the units of KES-FB2: columns `curvature [1/cm]` and `moment [gf cm/cm]`.
+// Reads the same in the units of KES-FB2: columns `curvature [1/cm]` and `moment [gf cm/cm]`.
 MomentSeries read_kes_series(const std::filesystem::path& file, double ripple, const std::string& reader);
 
-// Fills `drive` and `reversals` from `curvature`; checks as read_series does.
+// Fills `drive` and `reversals` from `curvature`; checks as read_series() does.
 void prepare(MomentSeries& series, double ripple);
 
-// Accepted steps of a law: from rest, or (`cycling`) once through the whole series before it.
+// Returns the accepted steps of a law: from rest, or (`cycling`) after once through the whole series.
 std::vector<LawRow> law_rows(const MomentSeries& series, bool cycling);
 
 inline constexpr int kFewestRows = 8;              // three parameters, and five to see that they fit
-inline constexpr double kMinRigidity = 1e-8;       // [N m] no fabric is limper
-inline constexpr double kGreatestRigidity = 1e-3;  // [N m] no fabric is stiffer
+inline constexpr double kMinRigidity = 1e-8;       // [N m]: no fabric is limper
+inline constexpr double kGreatestRigidity = 1e-3;  // [N m]: no fabric is stiffer
 
-// Throws Error::invalid_input if `value` [N m] is no rigidity of a fabric, and says by which factor it is
-// one. `what`: "kes.b", "the slope of loop.csv".
+// Throws Error::invalid_input if `value` [N m] is not the rigidity of a fabric, and says by which factor it
+// would be.  `what` names it: "kes.b", "the slope of loop.csv".
 void check_rigidity(double value, const std::string& what);
 
 }  // namespace hysteron

@@ -1,5 +1,4 @@
-// The fabric's file that a sheet becomes, number by number: published, derived or assumed, each with its
-// rule.
+// Writes the fabric's file of a sheet, number by number: published, derived or assumed, each with its rule.
 #pragma once
 
 #include <string>
@@ -30,19 +29,19 @@ class SheetWriter {
     assumed.push_back(name + " = " + number_text(value, 4) + (unit.empty() ? "" : " " + unit) + ", between " +
                       number_text(low, 4) + " and " + number_text(high, 4) + ": " + why);
   }
-  // Along the bias the mean of both, which no sheet has.
+  // Assumes for the bias, which no sheet has, the mean of warp and weft.
   void suppose_bias(double weft);
-  // Density, thickness of the row of that name and friction; assumed where the sheet has none.
+  // Writes density, thickness of the row of that name and friction; assumed where the sheet has none.
   void write_rest(const std::string& thickness);
-  // warp or weft such that the load T [N/m] stretches the cloth by e, that of T = k (e + e^2/2) (1 + e).
+  // Derives warp or weft such that the load T [N/m] stretches the cloth by e: T = k (e + e^2/2) (1 + e).
   void derive_stiffness(const std::string& name, double load, double e, const std::string& rule) {
     derived(name, "N/m", load / ((e + e * e / 2) * (1 + e)), rule);
   }
-  // Says that k0 is assumed, which no sheet has.
+  // Tells that k0, which no sheet has, is assumed.
   void tell_k0(const Estimate& k0, const std::string& why);
-  // Drapes that were measured, which `drape` and `validate` set beside theirs.
+  // Writes measured drapes, which `drape` and `validate` compare with theirs.
   void write_drapes();
-  // `flag`: "fit --kes-sheet"; `description`: where the sheet comes from.
+  // Returns the fabric.  `flag` is "fit --kes-sheet"; `description` says where the sheet comes from.
   SheetFabric fabric(const std::string& flag, const std::string& description) const;
 
   const LaboratorySheet& sheet;

@@ -16,16 +16,16 @@ using Eigen::Vector4d;
 using Eigen::VectorXd;
 
 constexpr int kElements = 10;        // cubic, shorter near the clamp: the first mode to 1e-4
-constexpr double kGrading = 1.5;     // node i stands at L (i/n)^kGrading
+constexpr double kGrading = 1.5;     // node i is at L (i/n)^kGrading
 constexpr int kMostIterations = 16;  // of rigidities and mode in turn
-constexpr double kSameMode = 1e-3;   // change of phi'' over its largest, at which they agree
-constexpr double kRelaxed = 0.7;     // part of each new mode that is taken over
+constexpr double kSameMode = 1e-3;   // change of phi'' over its largest value at which they agree
+constexpr double kRelaxed = 0.7;     // share of each new mode in the mean
 
-// Abscissae and weights of Gauss on [0, 1].
+// The abscissae and weights of Gauss on [0, 1].
 constexpr std::array<double, 3> kGauss = {0.1127016653792583, 0.5, 0.8872983346207417};
 constexpr std::array<double, 3> kGaussWeight = {5.0 / 18, 8.0 / 18, 5.0 / 18};
 
-// Of a cubic element of length h at x in [0, 1]: values, slopes, second derivatives.
+// A cubic element of length h at x in [0, 1]: values, slopes, second derivatives.
 struct Hermite {
   Vector4d value, slope, second;
 
@@ -37,7 +37,7 @@ struct Hermite {
   }
 };
 
-// Of a stop's stiffness, what a cycle feels that is 1/u times as large as the threshold.
+// Returns the share of a stop's stiffness in a cycle that is 1/u times as large as the threshold.
 double felt_part(double u) {
   if (u >= 1) return 1;
   const double cosine = 1 - 2 * u, sine = 2 * std::sqrt(u * (1 - u));

@@ -1,5 +1,5 @@
-// A hanging strip that swings in its first mode with friction in bending: what it stores and loses at an
-// amplitude.
+// Computes a hanging strip that swings in its first mode with friction in bending: the energies that it
+// stores and loses at an amplitude.
 //
 // The mode is that of a beam of length L under its own weight, with the rigidity of each place that of a
 // cycle of its curvature k = A |phi''| (harmonic balance; Caughey 1960),
@@ -14,7 +14,7 @@
 //   stored at a turn  E = int B0 k^2/2 + sum_j p_j min(k, r_j)^2/2 ds + A^2/2 int T phi'^2 ds
 //   lost in a cycle   D = int sum_j 4 p_j r_j (k - r_j)+ ds
 //
-// Exact for small deflections and a loss in a cycle that is small beside what is stored.
+// It is exact for small deflections and a loss in a cycle that is small beside the energy stored.
 #pragma once
 
 #include <Eigen/Core>
@@ -36,23 +36,24 @@ struct SwingState {
 
 class SwingingStrip {
  public:
-  // Length below the clamp [m] and density [kg/m^2].
+  // Takes the length below the clamp [m] and the density [kg/m^2].
   SwingingStrip(double length, double density);
 
-  // At each of the amplitudes [m], which rise; `spring` is B0 > 0 [N m].
+  // Returns the states at the amplitudes [m], which rise; `spring` is B0 > 0 [N m].
   std::vector<SwingState> at(const std::vector<double>& amplitudes, double spring,
                              const Spectrum& stops) const;
 
  private:
-  // One that begins from phi, which becomes its mode.
+  // Returns the state found from the mode phi, which is replaced by the state's own.
   SwingState state(double amplitude, double spring, const Spectrum& stops, Eigen::VectorXd& phi) const;
-  // omega [rad/s], and phi from a guess of it, where the rigidity at the points is as given [N m].
+  // Returns omega [rad/s], and improves phi from a guess, with the given rigidity at the points [N m].
   double iterate_mode(const Eigen::VectorXd& rigidity, Eigen::VectorXd& phi) const;
 
-  double density_;                  // [kg/m^2]
-  Eigen::MatrixXd mass_, tension_;  // int phi^2 ds [m] and int T phi'^2 ds [N/m] by the free nodes' values
-  Eigen::MatrixXd second_;          // phi'' at the points by these values
-  Eigen::VectorXd weight_;          // of the points [m]
+  double density_;  // [kg/m^2]
+  // Int phi^2 ds [m] and int T phi'^2 ds [N/m] by the free nodes' values.
+  Eigen::MatrixXd mass_, tension_;
+  Eigen::MatrixXd second_;  // phi'' at the points by these values
+  Eigen::VectorXd weight_;  // length weights of the points [m]
 };
 
 }  // namespace hysteron

@@ -8,13 +8,13 @@ namespace {
 
 double sign(double x) { return x > 0 ? 1 : x < 0 ? -1 : 0; }
 
-// A turn at the first row, which the law reaches from curvature `before`.
+// Returns a turn at the first row, which the law reaches from curvature `before` [1/m].
 SoughtTurn first_turn(const MomentSeries& series, double before, double step) {
   const double direction = sign(series.drive[0] - before);
   return {0, direction, series.drive[0], step, -1, 0, 0};
 }
 
-// The direction of the way between the turn number `turn` (0: the first row) and the next.
+// Returns the direction of the way between the turn number `turn` (0: the first row) and the next.
 double direction_after(const MomentSeries& series, std::size_t turn) {
   const int from = turn == 0 ? 0 : series.turns[turn - 1];
   const int to = turn < series.turns.size() ? series.turns[turn] : series.rows() - 1;
@@ -78,7 +78,7 @@ DrivenRows with_turns(const std::vector<LawRow>& rows, int measured, const std::
     if (row == 0) turn = 0;
     while (turn < turns.size()) {
       const double p = beyond[static_cast<int>(turn)];
-      const int follows = turns[turn].row + (p > 0 ? 1 : 0);  // the row that the turn stands before
+      const int follows = turns[turn].row + (p > 0 ? 1 : 0);  // the row after the turn
       if (follows > row) break;
       if (p != 0) add_turn(turns[turn].curvature_at(p), next);
       ++turn;

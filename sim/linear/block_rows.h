@@ -1,4 +1,4 @@
-// The implicit solve's matrix: 3x3 blocks, one row per vertex, the diagonal kept apart.
+// The implicit solve's matrix: 3x3 blocks, one row per vertex, with the diagonal in an array of its own.
 #pragma once
 
 #include <utility>
@@ -10,7 +10,7 @@
 
 namespace hysteron {
 
-// A number for every block of a BlockRowsView: that multiple of the identity.
+// A number for every block of a BlockRowsView, which stands for that multiple of the identity.
 template <class Real>
 struct ScalarRowsView {
   Real* off_diagonal = nullptr;
@@ -19,18 +19,18 @@ struct ScalarRowsView {
 
 template <class Real>
 struct BlockRowsView {
-  int rows;
-  const int* row_ptr;  // off-diagonal blocks of row i: row_ptr[i] ... row_ptr[i+1]-1
-  const int* col;
-  Mat3<Real>* off_diagonal;
-  Mat3<Real>* diagonal;
+  int rows;            // n
+  const int* row_ptr;  // n + 1 starts: the off-diagonal blocks of row i are row_ptr[i] ... row_ptr[i+1]-1
+  const int* col;      // the column of each off-diagonal block
+  Mat3<Real>* off_diagonal;  // [N/m], as are the diagonal ones
+  Mat3<Real>* diagonal;      // n blocks
 
   HYST_HD Vec3<Real> times(int i, const Vec3<Real>* v) const {
     Vec3<Real> sum = diagonal[i] * v[i];
     for (int j = row_ptr[i]; j < row_ptr[i + 1]; ++j) sum += off_diagonal[j] * v[col[j]];
     return sum;
   }
-  // The same with `added` on top.
+  // Returns the product with `added` included.
   HYST_HD Vec3<Real> times(int i, const Vec3<Real>* v, const ScalarRowsView<Real>& added) const {
     Vec3<Real> sum = diagonal[i] * v[i] + added.diagonal[i] * v[i];
     for (int j = row_ptr[i]; j < row_ptr[i + 1]; ++j) {
@@ -44,9 +44,9 @@ struct BlockRowsView {
 template <class Real, class Device>
 class BlockRows {
  public:
-  // One off-diagonal block for each pair of vertices that share a triangle.
+  // Makes one off-diagonal block for each pair of vertices that share a triangle.
   BlockRows(Device& device, const ClothMesh& mesh) : BlockRows(device, neighbours_in(mesh)) {}
-  // Off-diagonal blocks of each row, columns ascending.
+  // Takes the off-diagonal blocks of each row, columns ascending.
   BlockRows(Device& device, Adjacency pattern)
       : pattern_(std::move(pattern)),
         row_ptr_(device, pattern_.start),
@@ -58,7 +58,7 @@ class BlockRows {
     return {static_cast<int>(diagonal_.size()), row_ptr_.data(), col_.data(), off_diagonal_.data(),
             diagonal_.data()};
   }
-  // Position of block (row, column) among the off-diagonal blocks.
+  // Returns the position of block (row, column) among the off-diagonal blocks.
   int slot(int row, int column) const { return slot_in_row(pattern_, row, column); }
   const Adjacency& pattern() const { return pattern_; }
   const std::vector<int>& row_ptr() const { return pattern_.start; }
@@ -75,18 +75,18 @@ class BlockRows {
   Buffer<Mat3<Real>, Device> off_diagonal_, diagonal_;
 };
 
-// The rows of a system's matrix with bending's stiffness in it, without softening.
+// Assembles the rows of a system's matrix with bending's stiffness in it, without softening.
 template <class Real>
 class DefiniteMatrix {
  public:
   virtual ~DefiniteMatrix() = default;
-  virtual Adjacency pattern() const = 0;  // of its off-diagonal blocks, on the host
-  // On the device, until it is called again.
+  virtual Adjacency pattern() const = 0;  // the off-diagonal blocks, on the host
+  // The result is on the device, valid until the next call.
   virtual BlockRowsView<Real> assemble(const BlockRowsView<Real>& matrix) = 0;
   virtual std::size_t bytes() const = 0;
 };
 
-// A system's matrix where nothing has to be added.
+// The matrix of a system to which nothing has to be added.
 template <class Real>
 class RowsAlone : public DefiniteMatrix<Real> {
  public:

@@ -1,11 +1,11 @@
-// Conjugate gradients preconditioned by a Cholesky factorisation of the whole matrix: mass, membrane and
+// Conjugate gradients are preconditioned by a Cholesky factorisation of the whole matrix: mass, membrane and
 // contact, and bending and self-contact, which products may apply element by element.
 //
 // A new factorisation solves a system in an iteration or two.  It is kept while it is worth it: the next
 // systems of Newton's method differ little, and where more iterations have been taken with it than a new one
-// would cost, or a system has not been solved after as many, the next system gets a new one.  What the
-// membrane's softening takes away is left out, so that the factorisation is that of a positive definite
-// matrix, and conjugate gradients find directions of negative curvature as with any other preconditioner.
+// would cost, or a system has not been solved after as many, the next system gets a new one.  The membrane's
+// softening is left out, so that the factorisation is that of a positive definite matrix, and conjugate
+// gradients find directions of negative curvature as with any other preconditioner.
 #pragma once
 
 #include <memory>
@@ -14,14 +14,14 @@
 
 namespace hysteron {
 
-// A factorisation of a system's matrix, which preconditions others like it.
+// A factorisation of a system's matrix that preconditions similar systems.
 template <class Real, class Device>
 class Factorisation : public Preconditioner<Real, Device> {
  public:
-  // Rows and columns of held vertices become those of the identity.
+  // Factorises anew; rows and columns of held vertices (n flags) become those of the identity.
   virtual void renew(const LinearSystem<Real, Device>& system, const char* held) = 0;
-  virtual int worth() const = 0;  // iterations that cost as much as renew()
-  // The matrix that it is of, which a loaded one factorises again; `held` as when that was made.
+  virtual int worth() const = 0;  // number of iterations that cost as much as renew()
+  // Saves the matrix, which is factorised again on loading; `held` is as when the factorisation was made.
   virtual void serialise(Archive& archive, const std::vector<char>& held) = 0;
 };
 
@@ -54,7 +54,7 @@ class CholeskySolver : public LinearSolver<Real, Device> {
     return {before + outcome.iterations, outcome.converged};
   }
   bool is_direct() const override { return true; }
-  // The factorisation as the matrix it is of, which later solves go on with.
+  // Saves or loads the factorisation as its matrix, with which later solves go on.
   void serialise(Archive& archive) override {
     pcg_.serialise(archive);
     archive(spent_);
@@ -67,9 +67,9 @@ class CholeskySolver : public LinearSolver<Real, Device> {
 
  private:
   static constexpr int kMaxIterations = 20000;
-  static constexpr int kWithNew = 2;  // iterations that a new factorisation takes, too
+  static constexpr int kWithNew = 2;  // iterations that even a new factorisation takes
 
-  // As when the factorisation was made.  A GPU's host asks where begin() was called alone.
+  // Are the same vertices held as when the factorisation was made? A GPU's host checks only after begin().
   bool holds_the_same(const char* held) {
     if (held_.empty()) return false;
     if (Device::kGpu && !may_hold_others_) return true;
@@ -88,7 +88,7 @@ class CholeskySolver : public LinearSolver<Real, Device> {
   int rows_;
   Pcg<Real, Device> pcg_;
   std::unique_ptr<Factorisation<Real, Device>> factor_;
-  std::vector<char> held_;  // when it was made; empty: there is none
+  std::vector<char> held_;  // flags when it was made; empty: there is none
   bool may_hold_others_ = true;
   int spent_ = 0;  // iterations with it that a new one would have saved
   long factorisations_ = 0;

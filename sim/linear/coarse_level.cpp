@@ -18,7 +18,7 @@ std::vector<DeviceInterpolation<Real>> device_form(const std::vector<Interpolati
   return result;
 }
 
-// Rows: coarse nodes; items: the finer nodes that see them, ascending.
+// Returns the finer nodes, ascending, that are interpolated from each coarse node (one row per coarse node).
 Adjacency transposed(const RestLevel& level) {
   std::vector<std::vector<int>> rows(level.nodes);
   for (std::size_t i = 0; i < level.finer.size(); ++i)

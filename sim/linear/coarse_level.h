@@ -1,4 +1,4 @@
-// One coarse level of the multigrid preconditioner on one device: interpolation, matrix and vectors.
+// Holds one coarse level of the multigrid preconditioner on one device: interpolation, matrix and vectors.
 #pragma once
 
 #include "sim/linear/block_rows.h"
@@ -12,7 +12,7 @@ struct DeviceInterpolation {
   int node[3];
   Real weight[3];
 
-  // Value interpolated from the coarse nodes' values.
+  // Returns the value interpolated from the coarse nodes' values.
   HYST_HD Vec3<Real> of(const Vec3<Real>* coarse) const {
     return weight[0] * coarse[node[0]] + weight[1] * coarse[node[1]] + weight[2] * coarse[node[2]];
   }
@@ -26,15 +26,16 @@ struct DeviceInterpolation {
 template <class Real>
 struct CoarseLevelView {
   int nodes;
-  const DeviceInterpolation<Real>* finer;  // for each finer node
-  // The same by coarse nodes: the finer nodes that see this one.
-  const int* start;
-  const int* item;
-  const Real* weight;
+  const DeviceInterpolation<Real>* finer;  // one per finer node
+  // The transpose: the finer nodes that are interpolated from each coarse node.
+  const int* start;    // nodes + 1 row starts
+  const int* item;     // finer nodes
+  const Real* weight;  // one per item
   BlockRowsView<Real> matrix;
-  Mat3<Real>* inverse;         // of the diagonal blocks
-  double* inverse_eigenvalue;  // of inverse * matrix, the largest
-  Vec3<Real>*b, *x, *y;        // right-hand side; sweeps go from x to y and back; the result is in y
+  Mat3<Real>* inverse;         // `nodes` inverted diagonal blocks
+  double* inverse_eigenvalue;  // 1 over the largest eigenvalue of inverse * matrix
+  // Vectors of `nodes`: right-hand side; sweeps go from x to y and back; the result is in y.
+  Vec3<Real>*b, *x, *y;
 
   template <class Vector>
   HYST_HD Vec3<Real> restricted(int i, const Vector& fine) const {

@@ -1,4 +1,4 @@
-// The parts of a multigrid cycle, node by node.
+// Defines the parts of a multigrid cycle, node by node.
 #pragma once
 
 #include "sim/linear/preconditioner.h"
@@ -6,12 +6,13 @@
 
 namespace hysteron {
 
-// Two sweeps of damped Jacobi whose dampings, over the largest eigenvalue, are those of the Chebyshev
+// Two sweeps of damped Jacobi have dampings, over the largest eigenvalue, that are those of the Chebyshev
 // polynomial for the upper three quarters of the spectrum: 1/(5/8 -+ 3/8 cos(pi/4)).  Together they reduce
 // that part to 0.22 at most and bear an eigenvalue found too small by a fifth.
 inline constexpr double kFirstDamping = 1.1233, kSecondDamping = 2.7790;
 
-// Right-hand side from the finer residual and, where the level is swept, the first sweep from zero: x.
+// Restricts the finer residual to the right-hand side b and, where the level is swept, makes the first sweep
+// from zero: x.
 template <class Real, class Vector = const Vec3<Real>*>
 struct Restriction {
   CoarseLevelView<Real> level;
@@ -37,7 +38,7 @@ struct Restriction {
   }
 };
 
-// One sweep of damped Jacobi.
+// Makes one sweep of damped Jacobi.
 template <class Real>
 struct JacobiSweep {
   CoarseLevelView<Real> level;
@@ -51,7 +52,7 @@ struct JacobiSweep {
     if constexpr (Lanes::kCount == 1) {
       const Vec3<Real> residual = level.b[i] - level.matrix.times(i, from);
       to[i] = from[i] + factor * (level.inverse[i] * residual);
-    } else {  // what waits for nothing is read first
+    } else {  // data that depends on nothing is read first
       const LaneBlock<Lanes, Real> inverse(lanes, level.inverse[i]);
       const int r = lanes.index() % 3;
       const Real b = vector_component(level.b, i, r), before = vector_component(from, i, r);
@@ -61,7 +62,7 @@ struct JacobiSweep {
   }
 };
 
-// What y leaves of b: x.
+// Sets x to the residual b - A y.
 template <class Real>
 struct LevelResidual {
   CoarseLevelView<Real> level;
@@ -85,7 +86,7 @@ struct CoarseCorrection {
   HYST_HD void operator()(int i) const { level.y[i] += coarser.finer[i].of(coarser.y); }
 };
 
-// A number of y = inverse b, by a matrix row by row.
+// Computes one number of y = inverse b, with a dense matrix of rows x stride numbers, row-major.
 template <class Real>
 struct DenseRow {
   const double* matrix;
@@ -110,18 +111,19 @@ struct DenseRow {
   }
 };
 
-// z = w D^-1 r + I y with the coarse levels' y, and r' z; before it the step that brings r, if there is one.
+// Computes z = w D^-1 r + I y with the coarse levels' y, and r' z, after the step that yields r, if there is
+// one.
 template <class Real>
 struct Combination {
-  const char* held;
-  const Mat3<Real>* inverse;
+  const char* held;           // n flags
+  const Mat3<Real>* inverse;  // n blocks
   Real weight;
   const DeviceInterpolation<Real>* finer;  // null: there is no coarse level
   const Vec3<Real>* correction;
   const Vec3<Real>* r;
   Vec3<Real>* z;
-  const PcgScalars* scalars;  // null: not of an iteration
-  Advance<Real> step;         // without q: none
+  const PcgScalars* scalars;  // null: this is no iteration
+  Advance<Real> step;         // without q: there is no step
 
   HYST_HD void operator()(int i, Sums<1>& sums) const {
     if (scalars && scalars->done) return;
@@ -140,10 +142,10 @@ struct Combination {
 template <class Real>
 struct CycleView {
   static constexpr int kMax = 4;
-  int levels = 0, swept = 0;  // the last is inverted densely unless it is swept
+  int levels = 0, swept = 0;  // the last level is inverted densely unless it is swept
   CoarseLevelView<Real> level[kMax] = {};
   DenseRow<Real> dense = {};
-  Combination<Real> combination = {};  // of which r, z and scalars are the caller's
+  Combination<Real> combination = {};  // the caller sets its r, z and scalars
 };
 
 }  // namespace hysteron

@@ -1,4 +1,4 @@
-// The inverse of the coarsest level's matrix, where a multigrid cycle turns.
+// Inverts the coarsest level's matrix, where a multigrid cycle turns.
 #pragma once
 
 #include <Eigen/LU>
@@ -8,29 +8,30 @@
 
 namespace hysteron {
 
-// Inverse of a symmetric positive semidefinite block; a direction without stiffness of its own, beyond
-// rounding, gets that of the rounding.  Zero for a zero block, which belongs to a node that nothing moves.
+// Returns the inverse of a symmetric positive semidefinite block; a direction whose stiffness is mere
+// rounding gets the stiffness of the rounding.  A zero block, which belongs to a node that nothing moves,
+// yields zero.
 template <class Real>
 HYST_HD inline Mat3<Real> safe_inverse(const Mat3<Real>& block) {
   const Real trace = block(0, 0) + block(1, 1) + block(2, 2);
   if (!(trace > 0)) return Mat3<Real>::Zero();
   Mat3<Real> scaled = block / trace;
   for (int k = 0; k < 3; ++k) scaled(k, k) += 2 * std::numeric_limits<Real>::epsilon();
-  const Mat3<Real> inverse = scaled.inverse();  // by itself: within an expression Eigen inverts on the host
+  const Mat3<Real> inverse = scaled.inverse();  // apart: in an expression Eigen would use host code
   return inverse / trace;
 }
 
-// Of a symmetric positive semidefinite matrix.  What it makes of nodes that nothing moves is not defined;
+// The inverse of a symmetric positive semidefinite matrix.  It is undefined for nodes that nothing moves;
 // they get no forces.
 template <class Real, class Device>
 class DenseInverse;
 
-// Block by block, in double: few nodes, which follow on further levels.
+// Inverts block by block, in double, for few nodes.
 template <class Real>
 class DenseInverse<Real, Cpu> {
  public:
-  // A level of so many nodes at most is inverted rather than coarsened; one that cannot be coarsened well, of
-  // kMax.
+  // A level of up to enough() nodes is inverted rather than coarsened; one that cannot be coarsened well, up
+  // to most().
   static int enough(const Cpu&) { return 24; }
   static int most(const Cpu&) { return 96; }
 
@@ -44,7 +45,7 @@ class DenseInverse<Real, Cpu> {
       std::swap(blocks_, next_);
     }
   }
-  // y = inverse b.
+  // Sets y = inverse b, both of n nodes.
   void apply(Cpu& cpu, const Vec3<Real>* b, Vec3<Real>* y, const int* /*stop*/) {
     const Eigen::Matrix3d* inverse = blocks_.data();
     const int n = nodes_;
@@ -68,7 +69,7 @@ class DenseInverse<Real, Cpu> {
       if (matrix.col[j] == column) return matrix.off_diagonal[j].template cast<double>();
     return Eigen::Matrix3d::Zero();
   }
-  // Gauss-Jordan without exchange of rows.
+  // Returns a block after Gauss-Jordan elimination without exchange of rows.
   Eigen::Matrix3d eliminated(int k, int e) const {
     const int n = nodes_, i = e / n, j = e % n;
     const Eigen::Matrix3d *a = blocks_.data(), *pivot = pivot_.data();
@@ -76,15 +77,15 @@ class DenseInverse<Real, Cpu> {
     if (j == k) return -a[e] * pivot[k];
     return a[e] - a[i * n + k] * (pivot[k] * a[k * n + j]);
   }
-  // A pivot is inverted by whoever finishes it.
+  // Whoever finishes a pivot block inverts it.
   void put(Blocks& to, int e, const Eigen::Matrix3d& block, int next_pivot) {
     to.data()[e] = block;
     if (e == next_pivot * nodes_ + next_pivot) pivot_.data()[next_pivot] = safe_inverse<double>(block);
   }
 
   int nodes_;
-  Blocks blocks_, next_;  // row by row, before a pivot and after it
-  Blocks pivot_;          // the inverse of each
+  Blocks blocks_, next_;  // row by row, before and after a pivot
+  Blocks pivot_;          // the inverse of each pivot
 };
 
 }  // namespace hysteron

@@ -1,12 +1,12 @@
-// The dense inverse on a GPU: a symmetric matrix of some hundred nodes as a front of which every row is
-// swept. Rows and columns are scaled to a diagonal of ones.  Included by dense_inverse.h, under nvcc only.
+// The dense inverse on a GPU treats a symmetric matrix of some hundred nodes as a front of which every row is
+// swept.  Rows and columns are scaled to a diagonal of ones.  Included by dense_inverse.h, under nvcc only.
 #pragma once
 
 #include "sim/linear/front_sweeps.h"
 
 namespace hysteron {
 
-// A row of blocks, left of the diagonal.
+// Writes a row of blocks, left of the diagonal, into the dense matrix.
 template <class Real>
 struct DenseBlocks {
   BlockRowsView<Real> matrix;
@@ -33,8 +33,7 @@ struct DenseBlocks {
 template <class Real>
 class DenseInverse<Real, Cuda> {
  public:
-  // By which a level of 512 nodes takes a sixth of what is in an H100's cache; GPUs for graphics are slow in
-  // double precision.
+  // A level of 512 nodes takes a sixth of an H100's cache; graphics GPUs are slow in double precision.
   static int enough(const Cuda& cuda) { return most(cuda); }
   static int most(const Cuda& cuda) {
     constexpr int kWhereDoubleIsFast = 512, kElsewhere = 96;
@@ -64,12 +63,12 @@ class DenseInverse<Real, Cuda> {
   DenseRow<Real> row(const Vec3<Real>* b, Vec3<Real>* y) const {
     return {matrix_.data(), stride(), rows_, b->data(), y->data()};
   }
-  // Half of that for each pivot, since several solves may take the more iterations.
+  // This is half of the iterations that take as long as make(), since several solves may take them.
   double worth() const { return tiles_ / 4.0; }
   std::size_t bytes() const { return total_bytes(matrix_, scratch_, scale_); }
 
   // The parts of make(); public because nvcc allows no device lambda in a private member function.
-  // The lower triangle, scaled; ones on the diagonal, where nothing moves a node, too.
+  // fill() sets the lower triangle, scaled; the diagonal is ones, even for nodes that nothing moves.
   void fill(Cuda& cuda, const BlockRowsView<Real>& matrix) {
     double *number = matrix_.data(), *scale = scale_.data();
     const int rows = rows_, width = stride();
@@ -84,7 +83,7 @@ class DenseInverse<Real, Cuda> {
     for_each_row(cuda, {"multigrid: dense blocks"}, matrix.rows,
                  DenseBlocks<Real>{matrix, scale, number, width});
   }
-  // The inverse itself, both triangles.
+  // Completes both triangles of the inverse.
   void finish(Cuda& cuda) {
     double* number = matrix_.data();
     const double* scale = scale_.data();
@@ -104,7 +103,7 @@ class DenseInverse<Real, Cuda> {
 
   int rows_, tiles_;
   Buffer<double, Cuda> matrix_;
-  Buffer<double, Cuda> scratch_;  // of the sweeps
+  Buffer<double, Cuda> scratch_;  // for the sweeps
   Buffer<double, Cuda> scale_;
 };
 

@@ -11,7 +11,7 @@ namespace hysteron {
 
 namespace {
 
-// An iteration of conjugate gradients takes an H100 so long beside the application [us].
+// The time that an iteration of conjugate gradients takes an H100 beside the application [us].
 constexpr double kIteration = 8;
 constexpr int kMinWorth = 6;  // as on the CPU
 
@@ -28,7 +28,7 @@ void sweep_level(Cuda& cuda, const Buffer<SweptFront, Cuda>& fronts, int tiles, 
 }
 #endif
 
-// Loops over a level's numbers count with int.
+// Checks that loops can count a level's numbers with int.
 void check_size(const TiledPlan& plan) {
   double most = static_cast<double>(plan.numbers);
   for (const std::vector<int>& level : plan.level)
@@ -38,13 +38,13 @@ void check_size(const TiledPlan& plan) {
     throw Error::system("the linear system is too large to be factorised: linear-solver = multigrid");
 }
 
-// A number of a level's fronts, each of which is given most x most.
+// A number of a level's fronts, each of which is given most x most of them.
 struct NumberOfLevel {
   FrontOfLevel front;
   int row, column;
   HYST_HD NumberOfLevel(const FrontOfLevel* fronts, int most, int e)
       : front(fronts[e / (most * most)]), row(e % (most * most) / most), column(e % most) {}
-  // Below the diagonal, or on it.
+  // Is it below the diagonal, or on it?
   HYST_HD bool is_lower() const { return column <= row && row < front.stride; }
 };
 
@@ -72,7 +72,7 @@ void DissectedFactorisation<Real, Device>::take_couplings(Couplings couplings) {
   check_size(plan_);
   pairs_.take_plan(plan_);
   const FrontTables tables = make_front_tables(plan_, matrix_.pattern());
-  number_ = {};  // before there is more
+  number_ = {};  // releases the old numbers first
   number_ = Buffer<double, Device>(device_, plan_.numbers);
   std::size_t scratch = 0;
   for (const TiledFront& front : plan_.front) scratch += SweptFront::scratch_of(front.tiles);
@@ -141,7 +141,7 @@ void DissectedFactorisation<Real, Device>::factorise(const char* held) {
   for (int l = 0; l < static_cast<int>(level_.size()); ++l) finish(l);
 }
 
-// The matrix's lower triangle, scaled to a diagonal of ones; ones, where nothing moves a node, too.
+// Fills in the matrix's lower triangle, scaled to a diagonal of ones, even for nodes that nothing moves.
 template <class Real, class Device>
 void DissectedFactorisation<Real, Device>::fill(const char* held) {
   const BlockRowsView<Real> matrix = matrix_.view();
@@ -178,7 +178,7 @@ void DissectedFactorisation<Real, Device>::fill(const char* held) {
       });
 }
 
-// What the sweeps of children have left, child after child.
+// Adds the updates that the sweeps of children have left, child after child.
 template <class Real, class Device>
 void DissectedFactorisation<Real, Device>::take_over(int level) {
   const FrontOfLevel* front = level_[level].front.data();
@@ -201,7 +201,7 @@ void DissectedFactorisation<Real, Device>::take_over(int level) {
       });
 }
 
-// P^-1 whole, C P^-1 and, where its mirror image stands, minus its transpose; of the matrix itself.
+// Completes P^-1, C P^-1 and its mirror image, which is minus its transpose, for the unscaled matrix.
 template <class Real, class Device>
 void DissectedFactorisation<Real, Device>::finish(int level) {
   const FrontOfLevel* front = level_[level].front.data();
@@ -276,7 +276,7 @@ void DissectedFactorisation<Real, Device>::serialise(Archive& archive, const std
   archive(couplings.start);
   archive(couplings.item);
   const bool is_other = couplings.start != couplings_.start || couplings.item != couplings_.item;
-  if (is_other) take_couplings(std::move(couplings));  // one that is loaded
+  if (is_other) take_couplings(std::move(couplings));  // a loaded one
   pairs_.serialise(archive);
   const BlockRowsView<Real> rows = matrix_.view();
   hysteron::serialise(archive, device_, rows.off_diagonal, matrix_.col().size());

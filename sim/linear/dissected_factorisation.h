@@ -1,8 +1,8 @@
-// A factorisation for CholeskySolver whose solves are products: fronts of a nested dissection, swept level by
-// level (Duff & Reid 1983: multifrontal).  On a GPU a factorisation takes a launch for each tile of pivots
-// that follow on one another, and a solve is three loops where the fronts have two levels.
+// A factorisation for CholeskySolver whose solves are products: the fronts of a nested dissection are swept
+// level by level (multifrontal: Duff & Reid 1983).  On a GPU a factorisation takes a launch for each tile of
+// pivots that follow on one another, and a solve is three loops where the fronts have two levels.
 //
-// Its numbers are doubles whatever the precision of the vectors.  All sums have a fixed order.
+// Its numbers are doubles, whatever the precision of the vectors.  All sums have a fixed order.
 #pragma once
 
 #include <memory>
@@ -17,7 +17,7 @@ namespace hysteron {
 template <class Real, class Device>
 class DissectedFactorisation : public Factorisation<Real, Device> {
  public:
-  // Without a shape that which is fastest.
+  // Without a given shape the fastest one is chosen.
   DissectedFactorisation(Device& device, std::unique_ptr<DefiniteMatrix<Real>> definite,
                          std::optional<DissectionShape> shape = {});
 
@@ -42,7 +42,7 @@ class DissectedFactorisation : public Factorisation<Real, Device> {
     Buffer<SweptFront, Device> swept;
     Buffer<RowAbove, Device> above;
     Buffer<SolvedRow, Device> solved;
-    int tiles = 0, pivot_tiles = 0;  // the most of a front
+    int tiles = 0, pivot_tiles = 0;  // largest numbers of a front
     int fronts() const { return static_cast<int>(front.size()); }
     int stride() const { return tiles * kTile; }
     std::size_t bytes() const { return total_bytes(front, swept, above, solved); }
@@ -56,9 +56,9 @@ class DissectedFactorisation : public Factorisation<Real, Device> {
   Device& device_;
   std::unique_ptr<DefiniteMatrix<Real>> definite_;
   DissectionShape shape_;
-  BlockRows<Real, Device> matrix_;  // of which the factorisation is, with the pairs
+  BlockRows<Real, Device> matrix_;  // the factorised matrix, with the pairs
   FrontPairs<Real, Device> pairs_;
-  Couplings couplings_;  // that the plan has; pairs that no longer press stay until others come
+  Couplings couplings_;  // of the plan; pairs that no longer touch stay until others come
   TiledPlan plan_;
   Buffer<double, Device> number_, scratch_, scale_;
   Buffer<int, Device> source_, child_row_;

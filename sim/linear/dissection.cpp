@@ -8,7 +8,7 @@ namespace hysteron {
 
 namespace {
 
-// Of a part of the graph: before | separator | after, of which the ends do not see one another.
+// A cut divides a part of the graph: nodes before and after the separator are not connected.
 struct Cut {
   std::vector<int> before, separator, after;
 };
@@ -48,7 +48,8 @@ class Dissector {
     result_.columns.push_back(static_cast<int>(nodes.size()));
   }
 
-  // The part's nodes by their distance from the first; where it has no way to go on, from any that is left.
+  // Returns the part's nodes by their distance from the first; where none is reachable it goes on from any
+  // that is left.
   Levels levels_from(int first, const std::vector<int>& nodes) {
     const int unvisited = mark(nodes), visited = ++marks_;
     Levels levels;
@@ -74,7 +75,7 @@ class Dissector {
     return levels;
   }
 
-  // From an end of the part (Gibbs, Poole & Stockmeyer 1976: where the levels are most).
+  // Returns the levels from an end of the part, where they are most (Gibbs, Poole & Stockmeyer 1976).
   Levels longest_levels(const std::vector<int>& nodes) {
     Levels longest = levels_from(nodes[0], nodes);
     for (;;) {
@@ -90,7 +91,7 @@ class Dissector {
   }
 
   Cut cut_in_the_middle(const std::vector<int>& nodes) {
-    constexpr double kLargest = 0.6;  // part of the nodes
+    constexpr double kLargest = 0.6;  // largest share of the nodes
     if (nodes.size() < 3) return {};
     const Levels levels = longest_levels(nodes);
     const int first = marks_ + 1;
@@ -110,8 +111,8 @@ class Dissector {
     return cut_at(levels, best < levels.size() ? best : middle, first);
   }
 
-  // Nodes of the level that do not see the next one, all of which are marked from `first` on, need not
-  // separate.
+  // Nodes of the level that are not connected to the next one, whose nodes are all marked from `first` on,
+  // need not be in the separator.
   Cut cut_at(const Levels& levels, std::size_t at, int first) const {
     Cut cut;
     for (std::size_t l = 0; l < levels.size(); ++l)
@@ -137,17 +138,17 @@ class Dissector {
   const Adjacency& graph_;
   DissectionShape shape_;
   int marks_ = 0;
-  std::vector<int> part_;  // of each node: the last set that marked it
+  std::vector<int> part_;  // the last set that marked each node
   std::vector<int> root_;
   Dissection result_;
 };
 
 int tiles_for(int nodes) { return (3 * nodes + kTile - 1) / kTile; }
 
-// Launches wait for one another; tiles of one launch share the processors.
+// Estimates the cost: launches wait for one another; tiles of one launch share the processors.
 TiledCost cost_of(const TiledPlan& plan) {
-  constexpr double kLaunch = 3.5, kLoop = 2, kTiles = 120, kNumbers = 3e5;  // the latter two each us
-  constexpr int kLaunchesBefore = 10;  // that assemble the matrix and fill the fronts
+  constexpr double kLaunch = 3.5, kLoop = 2, kTiles = 120, kNumbers = 3e5;  // kTiles, kNumbers: each us
+  constexpr int kLaunchesBefore = 10;  // these assemble the matrix and fill the fronts
   TiledCost cost{kLaunchesBefore * kLaunch, 0};
   double read = 0;
   for (const std::vector<int>& level : plan.level) {
@@ -206,7 +207,7 @@ TiledPlan plan_dissection(const Couplings& couplings, const DissectionShape& sha
 
 DissectionShape choose_shape(const Couplings& couplings) {
   constexpr int kMaxDepth = 6;
-  constexpr double kApplications = 15;  // for each renewal, as Newton's method asks for them
+  constexpr double kApplications = 15;  // per renewal, as Newton's method needs
   DissectionShape best;
   double least = std::numeric_limits<double>::infinity();
   for (int depth = 0; depth <= kMaxDepth; ++depth)

@@ -104,7 +104,8 @@ std::vector<int> minimum_degree_order(const Adjacency& graph) {
   return order;
 }
 
-// For each column of the factor the row of its first entry below the diagonal, -1 without any (Liu 1990, 4).
+// Returns for each column of the factor the row of its first entry below the diagonal, -1 if there is none
+// (Liu 1990, 4).
 std::vector<int> elimination_tree(const Adjacency& graph, const std::vector<int>& order) {
   const std::vector<int> rank = ranks(order);
   std::vector<int> parent(order.size(), -1), ancestor(order.size(), -1);
@@ -119,10 +120,10 @@ std::vector<int> elimination_tree(const Adjacency& graph, const std::vector<int>
   return parent;
 }
 
-// The same elimination with every subtree's nodes in sequence.
+// Reorders the elimination equivalently, with every subtree's nodes in sequence.
 std::vector<int> in_postorder(const std::vector<int>& order, const std::vector<int>& parent) {
   const int n = static_cast<int>(order.size());
-  std::vector<int> size(n, 1), next(n);  // of subtrees; where the next child's subtree goes
+  std::vector<int> size(n, 1), next(n);  // of subtrees; the start of the next child's subtree
   for (int k = 0; k < n; ++k)
     if (parent[k] >= 0) size[parent[k]] += size[k];
   std::vector<int> start(n), result(n);
@@ -136,12 +137,12 @@ std::vector<int> in_postorder(const std::vector<int>& order, const std::vector<i
   return result;
 }
 
-// Rows of each column of the factor below its diagonal.
+// Returns the rows of each column of the factor below its diagonal.
 std::vector<std::vector<int>> factor_columns(const Adjacency& graph, const std::vector<int>& order) {
   const std::vector<int> rank = ranks(order), parent = elimination_tree(graph, order);
   std::vector<std::vector<int>> column(order.size());
   for (int k = 0; k < static_cast<int>(order.size()); ++k) {
-    std::vector<int>& rows = column[k];  // those of children are there already
+    std::vector<int>& rows = column[k];  // the children's rows are there already
     for (int j = graph.start[order[k]]; j < graph.start[order[k] + 1]; ++j)
       rows.push_back(rank[graph.item[j]]);
     std::sort(rows.begin(), rows.end());
@@ -154,10 +155,10 @@ std::vector<std::vector<int>> factor_columns(const Adjacency& graph, const std::
 
 struct ColumnRange {
   int first, count;
-  double zeros;  // explicit ones, in blocks
+  double zeros;  // explicit zeros, in blocks
 };
 
-// Whether fronts of so many columns may hold such a part of zeros: small ones are not worth their overhead.
+// Is this share of zeros acceptable in fronts of so many columns? Small fronts are not worth their overhead.
 bool is_worthwhile(int columns, double zeros) {
   return zeros == 0 || zeros < (columns <= 4 ? 0.6 : columns <= 12 ? 0.3 : 0.08);
 }
@@ -201,7 +202,7 @@ void add_front(const ColumnRange& range, const std::vector<int>& beyond, Elimina
   plan.front.push_back(front);
 }
 
-// Which rows of their parents the fronts update.
+// Finds the rows of their parents that the fronts update.
 void link_fronts(Elimination& plan) {
   std::vector<int> owner(plan.order.size()), at(plan.order.size());
   for (std::size_t f = 0; f < plan.front.size(); ++f)
@@ -237,13 +238,13 @@ void place_blocks(const Adjacency& graph, const Couplings& below, Elimination& p
   }
 }
 
-// Numbers that an update takes.
+// Returns how many numbers an update takes.
 std::size_t update_size(const Front& front) {
   const std::size_t rows = 3 * static_cast<std::size_t>(front.updated());
   return rows * rows;
 }
 
-// An update is made above those of the children and then takes their place.
+// Returns the highest stack: an update is made above those of the children and then takes their place.
 std::size_t highest_stack(const std::vector<Front>& fronts) {
   std::vector<std::size_t> waiting;
   std::size_t height = 0, highest = 0;
@@ -283,7 +284,7 @@ Elimination plan_elimination(const Couplings& couplings, std::vector<int> order,
   std::vector<int> owner;
   for (std::size_t f = 0; f < columns.size(); ++f)
     owner.resize(owner.size() + columns[f], static_cast<int>(f));
-  std::vector<std::vector<int>> beyond(columns.size());  // those of children are there already
+  std::vector<std::vector<int>> beyond(columns.size());  // the children's rows are there already
   Elimination plan;
   plan.order = std::move(order);
   int first = 0;

@@ -1,10 +1,10 @@
-// Linear systems of double precision solved in single precision.
+// Solves linear systems of double precision in single precision.
 //
-// Newton's method asks for a direction that is right to its forcing term, which is never below 1e-5: single
-// precision has that, and its iterations move half the bytes.  What the direction is judged by, forces and
-// energies, stays in double, so that the steps end where they would.  Each system is rounded once, number by
-// number, where it was linearised; its right-hand side is divided by its norm first, so that nothing depends
-// on how small the forces have become.
+// Newton's method asks for a direction that is accurate to its forcing term, which is never below 1e-5:
+// single precision achieves that, and its iterations move half the bytes.  Forces and energies, by which the
+// direction is judged, stay in double, so that the steps end where they would.  Each system is rounded once,
+// number by number, where it was linearised; its right-hand side is divided by its norm first, so that
+// nothing depends on how small the forces have become.
 #pragma once
 
 #include <memory>
@@ -18,10 +18,10 @@ namespace hysteron {
 template <class Device>
 class FloatSolver : public LinearSolver<double, Device> {
  public:
-  // A tighter tolerance is taken as this one: rounding of the systems leaves no more.
+  // A tighter tolerance is replaced by this one: the rounding of the systems allows no less.
   static constexpr double kTightest = 1e-5;
 
-  // For matrices of this pattern; bending of the systems, null where they have none.
+  // Takes the pattern of the matrices, and bending's stiffness, null where systems have none.
   FloatSolver(Device& device, const BlockRows<double, Device>& pattern,
               std::unique_ptr<LinearSolver<float, Device>> solver,
               std::unique_ptr<FloatStiffness<Device>> bending);
@@ -46,10 +46,10 @@ class FloatSolver : public LinearSolver<double, Device> {
   std::unique_ptr<FloatStiffness<Device>> bending_;
   GrowingBuffer<PairStiffness<float>, Device> pair_;
   Buffer<Mat3<float>, Device> off_diagonal_, diagonal_, rest_diagonal_;
-  Buffer<Mat3<float>, Device> whole_off_diagonal_, whole_diagonal_;  // empty before the first whole system
+  Buffer<Mat3<float>, Device> whole_off_diagonal_, whole_diagonal_;  // empty until a system is assembled
   Buffer<float, Device> softening_off_diagonal_, softening_diagonal_;
   Buffer<Vec3<float>, Device> rhs_, x_;
-  Buffer<double, Device> norm_;  // of the right-hand side [N]; 1 if that is zero
+  Buffer<double, Device> norm_;  // norm of the right-hand side [N]; 1 if that is zero
 };
 
 }  // namespace hysteron

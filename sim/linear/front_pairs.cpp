@@ -9,7 +9,7 @@ namespace hysteron {
 
 namespace {
 
-// Blocks that enter in rows of this vertex, pair after pair.
+// Adds the blocks in rows of one vertex, pair after pair.
 template <class Real>
 struct PairsOfVertex {
   PairProduct<Real> pairs;
@@ -30,7 +30,7 @@ struct PairsOfVertex {
   template <class Lanes>
   HYST_HD void add(const FrontBlock& at, int i, const PairStiffness<Real>& pair, int a, int b,
                    const Lanes& lanes) const {
-    if (at.row != i) return;  // but in one of the other vertex
+    if (at.row != i) return;  // the block is in a row of the other vertex
     const double weight = static_cast<double>(pair.weight[a]) * static_cast<double>(pair.weight[b]);
     for (int e = lanes.index(); e < 9; e += Lanes::kCount) {
       const int r = e / 3, c = e % 3;

@@ -1,4 +1,5 @@
-// What pairs of layers that touch add to fronts: they come and go, and their stiffnesses stay on the device.
+// Adds the stiffness of touching layers' pairs to fronts: the pairs change, and their stiffnesses stay on the
+// device.
 #pragma once
 
 #include "sim/base/archive.h"
@@ -14,14 +15,15 @@ class FrontPairs {
  public:
   FrontPairs(Device& device, int vertices);
 
-  // Those of the next factorisation, which are copied.
+  // Copies the pairs of the next factorisation.
   void take(const PairProduct<Real>& pairs);
   void take_plan(const TiledPlan& plan);
-  // Whether a front of the plan has any two vertices of each; the host waits for the device.
+  // Has the plan a front for any two vertices of each pair? The host waits for the device.
   bool fit();
-  // The pattern's couplings and those of the pairs.
+  // Returns the couplings of the pattern and those of the pairs.
   Couplings couplings_with(const Adjacency& pattern) const;
-  // To the fronts' numbers, of rows and columns that are scaled, but for held vertices.
+  // Adds the pairs to the fronts' numbers, whose rows and columns are scaled by `scale` (n x 3), except for
+  // held vertices (n flags).
   void add(const char* held, const double* scale, double* number);
   void serialise(Archive& archive);
   std::size_t bytes() const;
@@ -32,11 +34,11 @@ class FrontPairs {
   Device& device_;
   int vertices_, count_ = 0;
   GrowingBuffer<PairStiffness<Real>, Device> pair_;
-  Buffer<int, Device> start_;  // rows: vertices
+  Buffer<int, Device> start_;  // row starts, one row per vertex
   GrowingBuffer<int, Device> item_;
   Buffer<int, Device> rank_, owner_, row_;
   Buffer<FrontRange, Device> front_;
-  HostResult<double, Device> strangers_;  // pairs that do not fit
+  HostResult<double, Device> strangers_;  // number of pairs that do not fit
 };
 
 }  // namespace hysteron

@@ -1,5 +1,5 @@
-// How swept fronts (front_sweeps.h) solve: rows of dense matrices times vectors, a level of the tree after
-// the other, which wait for nothing in between.
+// Solves with swept fronts (front_sweeps.h): rows of dense matrices times vectors, one level of the tree
+// after the other, in which no row waits for another.
 //
 //   up    b_R <- b_R - (C P^-1) b_P     at each level the rows of fronts above, each from all fronts below
 //   down  z_P = P^-1 b_P - (C P^-1)^T z_R
@@ -11,12 +11,12 @@
 
 namespace hysteron {
 
-// Vectors have three numbers a vertex, in the order of the vertices; an "unknown" is one of them.
+// Vectors have n x 3 numbers in the order of the vertices; an "unknown" is the index of one of them.
 
-// A part of a front's row, times the unknowns of its columns.
+// A part of a front's row, to be multiplied by the unknowns of its columns.
 struct FrontTerm {
-  std::size_t number;  // where it starts
-  int source;          // its first column among all fronts' columns
+  std::size_t number;  // start of its numbers
+  int source;          // its first column in the list of all fronts' columns
   int count;
 };
 
@@ -26,7 +26,7 @@ struct RowAbove {
   int first, end;
 };
 
-// An unknown that a level solves.  One without columns of its own is known already.
+// An unknown that a level solves.  An unknown without columns of its own is known already.
 struct SolvedRow {
   int unknown;
   FrontTerm own, above;
@@ -34,7 +34,7 @@ struct SolvedRow {
 
 template <class Lanes, class Real>
 HYST_HD double lane_part(const Lanes& lanes, const double* row, const int* source, int count, const Real* v) {
-  constexpr int kAtOnce = 8;  // loads that wait together
+  constexpr int kAtOnce = 8;  // loads that are in flight together
   double part[kAtOnce] = {};
   for (int first = lanes.index(); first < count; first += kAtOnce * Lanes::kCount)
     for (int k = 0; k < kAtOnce; ++k) {
@@ -46,7 +46,7 @@ HYST_HD double lane_part(const Lanes& lanes, const double* row, const int* sourc
   return sum;
 }
 
-// In the lane that leads.
+// Returns the total in the leading lane.
 template <class Lanes>
 HYST_HD double lane_total(const Lanes& lanes, double part) {
   Vec<double, 1> sum;
@@ -79,14 +79,14 @@ struct RowDown {
   const SolvedRow* row;
   const double* number;
   const int* source;
-  const Real* b;  // as the levels below have left it
+  const Real* b;  // right-hand side after the levels below
   Real* z;
 
   template <class Lanes>
   HYST_HD void operator()(int i, const Lanes& lanes) const {
     solve(row[i], lanes);
   }
-  // In the lane that leads.
+  // Returns z in the leading lane.
   template <class Lanes>
   HYST_HD Real solve(const SolvedRow& at, const Lanes& lanes) const {
     if (at.own.count == 0) return z[at.unknown];
@@ -100,11 +100,11 @@ struct RowDown {
   }
 };
 
-// The last level down, of which every unknown is a row, and r' z.
+// Computes the last level down, in which every unknown is a row, and r' z.
 template <class Real>
 struct LastRowDown {
   RowDown<Real> down;
-  const PcgScalars* scalars;  // null: not of an iteration
+  const PcgScalars* scalars;  // null: this is no iteration
 
   template <class Lanes>
   HYST_HD void operator()(int i, const Lanes& lanes, Sums<1>& sums) const {
@@ -115,7 +115,7 @@ struct LastRowDown {
   }
 };
 
-// All of it.
+// The rows and terms of all levels, with the fronts' numbers.
 template <class Real>
 struct FrontsView {
   int levels = 0;  // 0: there are no fronts
@@ -125,7 +125,7 @@ struct FrontsView {
   const RowAbove* above[kMaxFrontLevels] = {};
   const SolvedRow* solved[kMaxFrontLevels] = {};
   int above_rows[kMaxFrontLevels] = {}, solved_rows[kMaxFrontLevels] = {};
-  Real* b = nullptr;  // of the fronts above the first level
+  Real* b = nullptr;  // right-hand side of the fronts above the first level
 
   HYST_HD RowUp<Real> up(int level, const Real* r) const {
     return {above[level], term, number, source, level == 0 ? r : b, b};
@@ -136,7 +136,7 @@ struct FrontsView {
 };
 
 #ifdef __CUDACC__
-// z of r, and r' z in every thread.
+// Sets z from r (n vertices each), and returns r' z in every thread.
 template <class Real>
 __device__ double run_fronts(GridTeam& team, const FrontsView<Real>& fronts, const Vec3<Real>* r,
                              Vec3<Real>* z, const PcgScalars* scalars) {

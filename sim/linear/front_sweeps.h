@@ -1,8 +1,8 @@
-// Symmetric sweeps of dense matrices (Goodnight 1979: a tutorial on the sweep operator), of which the lower
-// triangle is kept.  Sweeping the pivots P of a front makes
+// Symmetric sweeps of dense matrices (Goodnight 1979: a tutorial on the sweep operator) keep the lower
+// triangle alone.  Sweeping the pivots P of a front makes
 //
 //   P  C^T         -P^-1       .               C P^-1 carries right-hand sides from P's rows to the others,
-//   C   R    ->    C P^-1   R - C P^-1 C^T     R - C P^-1 C^T is what the parent front takes over
+//   C   R    ->    C P^-1   R - C P^-1 C^T     R - C P^-1 C^T is added to the parent front
 //
 // and, where no rows are left, minus the inverse: solves then are products, in which nothing waits.
 #pragma once
@@ -15,21 +15,21 @@
 
 namespace hysteron {
 
-// A front in whole tiles, scaled to a diagonal of ones: a pivot that rounding has left nothing of is taken as
-// what rounding leaves.
+// A front in whole tiles, scaled to a diagonal of ones; a pivot that cancels to less than rounding is
+// replaced by the rounding.
 struct SweptFront {
-  double* number;          // stride x stride, row by row
+  double* number;          // stride x stride, row-major
   int tiles, pivot_tiles;  // rows of tiles, and those that are swept
   double* scratch;         // scratch_of(tiles) numbers
 
   HYST_HD int stride() const { return tiles * kTile; }
-  // Of a pivot and of the next one: its column, and its inverse.
+  // The scratch holds, for a pivot and the next one, its column and its inverse.
   static std::size_t scratch_of(int tiles) { return 2 * (tiles + 1) * kTile * kTile; }
   HYST_HD double* column_of(int pivot) const { return scratch + (pivot & 1) * stride() * kTile; }
   HYST_HD double* inverse_of(int pivot) const { return scratch + (2 * tiles + (pivot & 1)) * kTile * kTile; }
 };
 
-// On the CPU for tests: number by number.
+// Sweeps on the CPU, for tests, number by number.
 template <class Real>
 void sweep(const SweptFront& front) {
   constexpr double kMin = 2 * std::numeric_limits<Real>::epsilon();

@@ -8,7 +8,7 @@ namespace hysteron {
 
 namespace {
 
-// A front's row of tiles' numbers for a node that stands there as its `row`-th.
+// Returns the first row of numbers of the node that is the front's `row`-th.
 int first_number(const TiledFront& tiles, const Front& front, int row) {
   return row < front.pivots ? 3 * row : tiles.pivot_rows() + 3 * (row - front.pivots);
 }
@@ -92,7 +92,7 @@ class TableMaker {
     }
   }
 
-  // From the first level on every unknown of the fronts above, so that all are carried along.
+  // Lists from the first level every unknown of the fronts above, so that all are carried along.
   void list_rows_above(int level) {
     std::vector<std::vector<FrontTerm>> terms(3 * plan_.elimination.order.size());
     for (const int f : plan_.level[level]) {
@@ -116,7 +116,7 @@ class TableMaker {
         }
   }
 
-  // The first level's are those of all unknowns.
+  // Lists the rows that a level solves; the first level has those of all unknowns.
   void list_solved_rows(int level) {
     std::vector<SolvedRow>& rows = tables_.solved.emplace_back();
     for (const int f : plan_.level[level]) {

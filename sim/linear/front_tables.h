@@ -1,4 +1,4 @@
-// Where everything stands in the fronts of a plan: blocks of the matrix, updates of children, rows of solves.
+// Tables of all positions in the fronts of a plan: blocks of the matrix, updates of children, rows of solves.
 #pragma once
 
 #include <vector>
@@ -7,15 +7,16 @@
 
 namespace hysteron {
 
-// Where a block of the matrix enters; its row is eliminated after its column, or in the same block.
+// The position at which a block of the matrix enters; its row is eliminated after its column, or in the same
+// block.
 struct FrontBlock {
-  int slot;            // among the matrix's off-diagonal blocks; -1: a diagonal one
+  int slot;            // index among the off-diagonal blocks; -1: a diagonal one
   int row, column;     // vertices
-  std::size_t number;  // where its first number goes
+  std::size_t number;  // start of its numbers
   int stride;
 };
 
-// A front as its level's loops see it.
+// A front as its level's loops use it.
 struct FrontOfLevel {
   std::size_t number;
   int stride, pivot_rows;
@@ -23,7 +24,7 @@ struct FrontOfLevel {
   int first_child, end_child;
 };
 
-// What a front takes over from a child: for each of the front's rows the child's, -1 where it has none.
+// An update from a child: for each of the front's rows the child's row, -1 where it has none.
 struct FrontChild {
   std::size_t number;
   int stride;
@@ -31,33 +32,33 @@ struct FrontChild {
 };
 
 struct FrontTables {
-  std::vector<int> source;  // of each front's columns the unknowns; -1: a column of zeros
+  std::vector<int> source;  // the unknown of each front's columns; -1: a column of zeros
   std::vector<FrontTerm> term;
-  std::vector<std::vector<RowAbove>> above;      // of each level
-  std::vector<std::vector<SolvedRow>> solved;    // of each level
-  std::vector<std::vector<FrontOfLevel>> front;  // of each level
+  std::vector<std::vector<RowAbove>> above;      // one list per level
+  std::vector<std::vector<SolvedRow>> solved;    // one list per level
+  std::vector<std::vector<FrontOfLevel>> front;  // one list per level
   std::vector<FrontChild> child;
   std::vector<int> child_row;
-  std::vector<FrontBlock> block;  // of the matrix's lower triangle
+  std::vector<FrontBlock> block;  // blocks of the matrix's lower triangle
   std::vector<std::size_t> ones;  // diagonal numbers that fill up tiles
 };
 
-// A front as it is looked up.
+// A front for look-ups.
 struct FrontRange {
   int first, pivots, rows;  // nodes: when its first is eliminated, its own, all
-  int row_start;            // of Elimination::row
+  int row_start;            // in Elimination::row
   std::size_t number;
   int stride, pivot_rows;
 };
 
-// Where blocks enter, on either device.
+// Finds where blocks enter, on either device.
 struct FrontFinder {
   static constexpr std::size_t kNowhere = static_cast<std::size_t>(-1);
-  const int *rank, *owner;  // of each vertex: when it is eliminated, in which front
+  const int *rank, *owner;  // of each vertex: its position in the elimination, its front
   const FrontRange* front;
   const int* row;  // Elimination::row
 
-  // The block of two vertices, `slot` left open; a number of kNowhere: no front has both.
+  // Returns the block of two vertices without its `slot`; its number is kNowhere if no front has both.
   HYST_HD FrontBlock find(int i, int j) const {
     const int later = rank[i] < rank[j] ? j : i, sooner = later == i ? j : i;
     const FrontRange range = front[owner[sooner]];
@@ -75,7 +76,7 @@ struct FrontFinder {
     block.number = range.number + at * range.stride + 3 * (rank[sooner] - range.first);
     return block;
   }
-  HYST_HD bool couples(const int* vertex, int count) const {  // any two of them
+  HYST_HD bool couples(const int* vertex, int count) const {  // are any two coupled?
     for (int a = 0; a < count; ++a)
       for (int b = 0; b < a; ++b)
         if (find(vertex[a], vertex[b]).number == kNowhere) return false;
@@ -92,7 +93,7 @@ struct FrontPlaces {
   FrontFinder finder() const { return {rank.data(), owner.data(), front.data(), row.data()}; }
 };
 
-// For matrices of this pattern of off-diagonal blocks, all of whose couplings the plan has.
+// Makes the tables for matrices of this pattern of off-diagonal blocks, all of whose couplings the plan has.
 FrontTables make_front_tables(const TiledPlan& plan, const Adjacency& pattern);
 
 }  // namespace hysteron

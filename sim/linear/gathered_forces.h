@@ -1,4 +1,4 @@
-// Forces of elements on their vertices, gathered in a fixed order.
+// Gathers forces of elements on their vertices in a fixed order.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,9 +10,9 @@ namespace hysteron {
 
 template <class Real>
 struct GatheredForces {
-  const int* start = nullptr;         // rows: vertices; null: no elements
-  const int* item = nullptr;          // numbers of forces: 4 * element + corner
-  const Vec3<Real>* force = nullptr;  // [N]
+  const int* start = nullptr;         // n + 1 row starts, one row per vertex; null: no elements
+  const int* item = nullptr;          // indices of forces: 4 * element + corner
+  const Vec3<Real>* force = nullptr;  // elements x 4 [N]
   HYST_HD Vec3<Real> at(int vertex) const {
     Vec3<Real> f = Vec3<Real>::Zero();
     for (int j = start[vertex]; j < start[vertex + 1]; ++j) f += force[item[j]];
@@ -27,13 +27,13 @@ class FloatStiffness {
   virtual ~FloatStiffness() = default;
   // Rounds the stiffness as it was linearised last.
   virtual void round() = 0;
-  // What that makes of a displacement, as the StiffnessProduct of double precision that it stands for.
+  // Returns the product with a displacement (n vertices), like the StiffnessProduct of double precision.
   virtual GatheredForces<float> apply(const Vec3<float>* p) = 0;
-  virtual std::size_t force_bytes() const = 0;  // of what apply() returns
+  virtual std::size_t force_bytes() const = 0;  // bytes of the result of apply()
   virtual std::size_t bytes() const = 0;
 };
 
-// to[i] = from[i] for i in [0, count).
+// Sets to[i] = from[i] for i in [0, count).
 template <class Device>
 void round_all(Device& device, const char* name, std::size_t count, const double* from, float* to) {
   for_each(
@@ -43,8 +43,8 @@ void round_all(Device& device, const char* name, std::size_t count, const double
 
 // A stiffness that products apply element by element, in the parts from which it is assembled.
 
-// Sum over the elements of B^T T B with B: how up to three strains change with the positions of the
-// element's vertices, T: how its forces change with the strains.
+// The stiffness is the sum over the elements of B^T T B: B is the rate of up to three strains by the
+// positions of the element's vertices, T the rate of its forces by the strains.
 class ElementStiffness {
  public:
   using Rates = Eigen::Matrix<double, 3, Eigen::Dynamic>;  // B, three columns for each vertex [strain/m]
@@ -52,7 +52,7 @@ class ElementStiffness {
   virtual ~ElementStiffness() = default;
   virtual int elements() const = 0;
   virtual std::span<const int> vertices(int element) const = 0;
-  // B and T where the stiffness was linearised last; rows of strains that an element does not have are zero.
+  // Returns B and T where the stiffness was linearised last; rows of strains that an element lacks are zero.
   virtual void linearised(int element, Rates& rates, Eigen::Matrix3d& stiffness) const = 0;
 };
 

@@ -1,4 +1,4 @@
-// What multigrid makes of a new matrix, element by element: coarse matrices and power iteration.
+// Sets up multigrid for a new matrix, element by element: coarse matrices and power iteration.
 #pragma once
 
 #include "sim/linear/dense_inverse.h"
@@ -7,7 +7,7 @@ namespace hysteron {
 
 inline constexpr int kPowerSteps = 8;
 
-// L v with L L^T = block, lower triangular; zero rows stay zero.
+// Returns L v with L L^T = block, L lower triangular; zero rows stay zero.
 template <class Real>
 HYST_HD inline Vec3<Real> times_cholesky(const Mat3<Real>& block, const Vec3<Real>& v) {
   using std::sqrt;
@@ -24,7 +24,7 @@ HYST_HD inline Vec3<Real> times_cholesky(const Mat3<Real>& block, const Vec3<Rea
   return l * v;
 }
 
-// Between -1 and 1.
+// Returns a vector of rough numbers between -1 and 1.
 template <class Real>
 HYST_HD inline Vec3<Real> rough_vector(int i) {
   Vec3<Real> v;
@@ -35,16 +35,17 @@ HYST_HD inline Vec3<Real> rough_vector(int i) {
   return v;
 }
 
-// A block of the coarse matrix of a finer one, with its mirror image or, on the diagonal, its inverse.  Every
-// block gathers its own sum, in the order of the finer nodes; in double, for its terms cancel.
+// Computes a block of the coarse matrix from a finer one, with its mirror image or, on the diagonal, its
+// inverse.  Every block gathers its own sum, in the order of the finer nodes; it does so in double, for its
+// terms cancel.
 template <class Real>
 struct Coarsening {
   BlockRowsView<Real> finer;
-  const char* held;  // finer nodes that do not move; null: none
+  const char* held;  // flags of finer nodes that do not move; null: none
   CoarseLevelView<Real> coarse;
   const UpperBlock* upper;
   const Real *plate_off_diagonal, *plate_diagonal;
-  Real rigidity;  // of the plate that is added
+  Real rigidity;  // rigidity of the added plate
 
   template <class Lanes>
   HYST_HD void operator()(int u, const Lanes& lanes) const {
@@ -62,7 +63,7 @@ struct Coarsening {
     coarse.inverse[at.row] = safe_inverse<Real>(diagonal);
   }
 
-  // A lane's part: of a warp, eight lanes take a finer row together.
+  // Returns a lane's part: eight lanes of a warp share a finer row.
   template <class Lanes>
   HYST_HD Eigen::Matrix3d gathered(const UpperBlock& at, const Lanes& lanes) const {
     constexpr int kWide = Lanes::kCount == 1 ? 1 : 8;
@@ -94,7 +95,7 @@ struct Coarsening {
   }
 };
 
-// A fixed rough vector in which stiff and soft directions have equal energies: x.
+// Sets x to a fixed rough vector in which stiff and soft directions have equal energies.
 template <class Real>
 struct RoughStart {
   CoarseLevelView<Real> level;
@@ -103,7 +104,7 @@ struct RoughStart {
   }
 };
 
-// One step of power iteration on D^-1 A.
+// Takes one step of power iteration on D^-1 A.
 template <class Real>
 struct PowerStep {
   CoarseLevelView<Real> level;
@@ -124,7 +125,7 @@ struct PowerStep {
 
 static_assert(kPowerSteps % 2 == 0);  // the last vector is in y
 
-// Its last step: y' A y and y' D y, whose quotient needed no normalisation in between.
+// Takes its last step, y' A y and y' D y, whose quotient needs no normalisation before.
 template <class Real>
 struct RayleighTerms {
   CoarseLevelView<Real> level;
@@ -138,7 +139,7 @@ struct RayleighTerms {
   }
 };
 HYST_HD inline double inverse_eigenvalue(const Sums<2>& rayleigh) {
-  constexpr double kMargin = 1.1;  // power iteration leaves it too small by some percent
+  constexpr double kMargin = 1.1;  // power iteration underestimates by some percent
   return rayleigh.term[0] > 0 ? rayleigh.term[1] / (kMargin * rayleigh.term[0]) : 0;
 }
 

@@ -1,4 +1,4 @@
-// Preconditioners in one launch on a GPU: small levels of multigrid, which none of them fills, or fronts.
+// Runs preconditioners in one launch on a GPU: small levels of multigrid, none of which fills it, or fronts.
 #pragma once
 
 #include "sim/device/grid_team.h"
@@ -8,9 +8,10 @@
 
 namespace hysteron {
 
-// Rows beyond which launches of their own are faster (an H100: 66,000 rows are not yet, 150,000 are).
+// Above this number of rows separate launches are faster (on an H100 not yet for 66,000 rows, but for
+// 150,000).
 inline constexpr int kMaxRowsInOneLaunch = 80000;
-// Nodes of a level whose eigenvalue is found in one launch: warps take a row each.
+// The largest level whose eigenvalue is found in one launch: warps take a row each.
 inline constexpr int kMaxNodesInOneLaunch = kMaxRowsByWarps;
 
 template <class Real>
@@ -22,14 +23,14 @@ struct OneLaunchView {
 };
 
 inline bool may_take_one_launch(const Cpu&) { return false; }
-// False: the caller orders the loops, with the same bits.
+// Returns false: the caller orders the loops, with the same bits.
 template <class Real>
 bool eigenvalues_in_one_launch(Cpu&, const CycleView<Real>&) {
   return false;
 }
 
 #ifdef __CUDACC__
-// In a batch loops are shared with other cloths; a profile is of loops.
+// In a batch loops are shared with other cloths, and a profile times single loops: both exclude one launch.
 inline bool may_take_one_launch(const Cuda& cuda) { return cuda.graphs && !cuda.batch && !cuda.profile; }
 
 template <class Real>
@@ -65,7 +66,7 @@ bool eigenvalues_in_one_launch(Cuda& cuda, const CycleView<Real>& cycle) {
   return for_grid_team(cuda, "multigrid: eigenvalues", EigenvaluesTeam<Real>{cycle});
 }
 
-// From the finer level's residual to the first level's y.
+// Runs a cycle from the finer level's residual to the first level's y.
 template <class Real>
 __device__ void run_cycle(GridTeam& team, const CycleView<Real>& cycle, const NextResidual<Real>& residual) {
   for (int l = 0; l < cycle.levels; ++l) {

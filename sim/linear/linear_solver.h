@@ -1,4 +1,4 @@
-// The linear systems of Newton's method, solved to a relative tolerance.
+// Solves the linear systems of Newton's method to a relative tolerance.
 #pragma once
 
 #include "sim/linear/pcg.h"
@@ -9,14 +9,15 @@ template <class Real, class Device>
 class LinearSolver {
  public:
   virtual ~LinearSolver() = default;
-  // The systems that follow resemble one another until it is called again, and hold the same rows: those of a
-  // step, whatever its stages.
+  // Announces similar systems that hold the same rows until it is called again: those of a step, whatever its
+  // stages.
   virtual void begin() {}
-  // system * x = rhs for the rows that are not held, zero for those that are.
+  // Solves system * x = rhs (n vertices each) for the rows that are not held (n flags); x is zero on held
+  // rows.
   virtual PcgOutcome solve(const LinearSystem<Real, Device>& system, const char* held, const Vec3<Real>* rhs,
                            Vec3<Real>* x, double tolerance) = 0;
   virtual bool is_direct() const { return false; }  // a few iterations reach any tolerance
-  virtual void serialise(Archive& archive) = 0;     // what outlives a solve
+  virtual void serialise(Archive& archive) = 0;     // saves or loads the state that outlives a solve
   virtual std::size_t bytes() const = 0;
 };
 

@@ -11,8 +11,8 @@ namespace hysteron {
 
 namespace {
 
-// Weight of the finest level's diagonal beside the coarse levels.  Measured on flat, folded and rough cloth
-// of 2,000 ... 300,000 triangles: 0.35 ... 1 make 10 % of difference.
+// The weight of the finest level's diagonal beside the coarse levels.  Measured on flat, folded and rough
+// cloth of 2,000 ... 300,000 triangles, 0.35 ... 1 make 10 % of difference.
 constexpr double kFinestWeight = 0.6;
 // Linear interpolation bends at the edges of the coarse triangles, so that each coarser level's plate is too
 // stiff; measured, half of it is best from the second level on.
@@ -23,13 +23,13 @@ Kernel smoothing_kernel(const CoarseLevel<Real, Device>& level) {
   return {"multigrid: sweep", level.matrix_bytes() + total_bytes(level.inverse, level.b, level.x, level.y)};
 }
 
-// What a level adds to the share of the plate that its matrix has from the finer one.
+// Returns the change that a level makes to the share of the plate that its matrix has from the finer one.
 double plate_change(int level) {
   if (level == 0) return 1;
   return std::pow(kPlateSoftening, level) - std::pow(kPlateSoftening, level - 1);
 }
 
-// As many blocks as an H100 runs at once where the solve is not one launch.
+// Sums with as many blocks as an H100 runs at once, unless the solve is one launch.
 template <class Device, class Body, class Finish>
 void sum_over_vertices(Device& device, const Kernel& kernel, int n, const Body& body, const Finish& finish) {
   if constexpr (Device::kGpu) {
@@ -73,7 +73,7 @@ void Multigrid<Real, Device>::invert_diagonal(BlockRowsView<Real> matrix, const 
 template <class Real, class Device>
 void Multigrid<Real, Device>::coarsen(BlockRowsView<Real> finer, const char* held, Real rigidity,
                                       CoarseLevel<Real, Device>& level) {
-  // Beside the finer matrix.
+  // beside the finer matrix
   const std::size_t bytes = level.gather_bytes() + total_bytes(level.finer, level.upper, level.off_diagonal,
                                                                level.diagonal, level.inverse);
   for_each_row(device_, {"multigrid: coarse matrix", bytes}, static_cast<int>(level.upper.size()),

@@ -1,4 +1,4 @@
-// Preconditioner of the implicit solve: inverted diagonal blocks plus multigrid on the rest shape's coarser
+// Preconditions the implicit solve by inverted diagonal blocks plus multigrid on the rest shape's coarser
 // levels.
 //
 //   P r = w D^-1 r + I V(I^T r)      D   diagonal blocks, bending included;  I  interpolation from level 1
@@ -26,19 +26,19 @@ class Multigrid : public Preconditioner<Real, Device> {
   Multigrid(Device& device, const ClothMesh& mesh, const RestHierarchy& hierarchy);
 
   // Follows a new linearisation, in the matrix's units:
-  //   matrix            mass, membrane and contact; read now only
-  //   bending_diagonal  diagonal blocks of the bending stiffness, those of the hinges at least; null without
+  //   matrix            mass, membrane and contact; only read now
+  //   bending_diagonal  n diagonal blocks of the bending stiffness, at least those of the hinges; null: none
   //   bending           rigidity in the matrix's units: b1 for mass/step^2 + stiffness
-  //   held              rows that apply() leaves zero; read by apply() too
+  //   held              n flags of rows that apply() leaves zero; read by apply() too
   void rebuild(BlockRowsView<Real> matrix, const Mat3<Real>* bending_diagonal, Real bending,
                const char* held);
-  // The same with the coarse levels of the last rebuild(), which held the same rows.
+  // Renews the finest level and keeps the coarse levels of the last rebuild(), which held the same rows.
   void renew_finest(BlockRowsView<Real> matrix, const Mat3<Real>* bending_diagonal) {
     invert_diagonal(matrix, bending_diagonal, held_, inverse_.data());
   }
   void apply(const Vec3<Real>* r, Vec3<Real>* z, PcgScalars* scalars = nullptr) override;
   bool step_and_apply(const Advance<Real>& step, Vec3<Real>* z, PcgScalars* scalars) override;
-  // Iterations that take about as long as new coarse levels.
+  // Returns the number of iterations that take about as long as new coarse levels.
   double worth() const { return 2 + (dense_ ? dense_->worth() : 0); }
   bool in_one_launch(OneLaunchView<Real>& view) override;
   std::size_t bytes() const override;
@@ -52,24 +52,25 @@ class Multigrid : public Preconditioner<Real, Device> {
 
  private:
   Combination<Real> combination(const Vec3<Real>* r, Vec3<Real>* z, const PcgScalars* scalars) const;
-  int coarse() const { return static_cast<int>(level_.size()); }  // levels
+  int coarse() const { return static_cast<int>(level_.size()); }  // number of coarse levels
   int swept() const { return coarse() - (dense_ ? 1 : 0); }
   template <class Vector>
   void descend(const Vector& residual, const PcgScalars* scalars);
   void ascend(const PcgScalars* scalars);
-  // For one launch.
+  // Views for one launch.
   bool has_view_from(int first) const;
   CycleView<Real> view_from(int first);
-  // Coarse matrix of the next finer level's, and a plate of that rigidity; held may be null.
+  // Makes the coarse matrix from that of the next finer level, and a plate of that rigidity; held may be
+  // null.
   void coarsen(BlockRowsView<Real> finer, const char* held, Real rigidity, CoarseLevel<Real, Device>& level);
-  void sweep(CoarseLevel<Real, Device>& level, const int* stop);  // twice, from y to y
+  void sweep(CoarseLevel<Real, Device>& level, const int* stop);  // sweeps twice, from y to y
 
   Device& device_;
   int vertices_;
   const char* held_ = nullptr;
   Buffer<Mat3<Real>, Device> inverse_;
   std::vector<CoarseLevel<Real, Device>> level_;
-  std::optional<DenseInverse<Real, Device>> dense_;  // of the last one; none: it is swept as the others
+  std::optional<DenseInverse<Real, Device>> dense_;  // of the last level; none: it is swept like the others
 };
 
 }  // namespace hysteron

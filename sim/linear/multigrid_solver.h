@@ -9,7 +9,8 @@ namespace hysteron {
 template <class Real, class Device>
 class MultigridSolver : public LinearSolver<Real, Device> {
  public:
-  // rigidity: the largest slope of the bending law [N m]; the systems are of mass/step^2 + stiffness [N/m].
+  // Takes the rigidity, the largest slope of the bending law [N m]; the systems are mass/step^2 + stiffness
+  // [N/m].
   MultigridSolver(Device& device, const ClothMesh& mesh, const RestHierarchy& hierarchy, double rigidity)
       : multigrid_(device, mesh, hierarchy),
         pcg_(device, mesh.vertices(), true),
@@ -32,7 +33,7 @@ class MultigridSolver : public LinearSolver<Real, Device> {
     return outcome;
   }
   void begin() override { is_stale_ = true; }
-  // The levels are made anew where begin() was called.
+  // The levels need no saving: they are made anew after begin().
   void serialise(Archive& archive) override { pcg_.serialise(archive); }
   std::size_t bytes() const override { return multigrid_.bytes() + pcg_.bytes(); }
 
@@ -40,7 +41,7 @@ class MultigridSolver : public LinearSolver<Real, Device> {
   Multigrid<Real, Device> multigrid_;
   Pcg<Real, Device> pcg_;
   Real rigidity_;
-  bool is_stale_ = true;            // coarse levels have to be made anew
+  bool is_stale_ = true;            // the coarse levels have to be made anew
   double iterations_when_new_ = 0;  // of the solve after that, for each decade of its tolerance
 };
 

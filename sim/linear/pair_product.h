@@ -1,18 +1,18 @@
-// The stiffness between pairs of layers, as the rows of a product find it.
+// Applies the stiffness between pairs of layers in the rows of a product.
 #pragma once
 
 #include "sim/device/device.h"
 
 namespace hysteron {
 
-// Between the closest points of a pair, which are weighted sums of its four vertices.
+// The stiffness acts between the closest points of a pair, which are weighted sums of its four vertices.
 template <class Real>
 struct PairStiffness {
   int v[4];
   Mat3<Real> block;  // between the closest points [N/m]
   Vec<Real, 4> weight;
 
-  // How far a displacement takes the closest points apart [m].
+  // Returns how far a displacement takes the closest points apart [m].
   template <class Vector>
   HYST_HD Vec3<Real> apart(const Vector& displacement) const {
     Vec3<Real> sum = Vec3<Real>::Zero();
@@ -21,16 +21,16 @@ struct PairStiffness {
   }
 };
 
-// Every row finds the forces of its own pairs: each pair is taken four times, but no loop over pairs has to
-// be between, and few vertices touch.
+// Every row finds the forces of its own pairs: each pair is computed four times, but no separate loop over
+// pairs is needed, and few vertices touch.
 template <class Real>
 struct PairProduct {
-  const int* start = nullptr;  // rows: vertices; null: there are no layers
+  const int* start = nullptr;  // n + 1 row starts, one row per vertex; null: there are no layers
   const int* item = nullptr;   // 4 * pair + corner
   const PairStiffness<Real>* pair = nullptr;
-  int count = 0;  // of pairs
+  int count = 0;  // number of pairs
 
-  // Of a displacement of all vertices, on this one [N].
+  // Returns the force on this vertex under a displacement of all vertices [N].
   template <class Vector>
   HYST_HD Vec3<Real> at(int vertex, const Vector& displacement) const {
     Vec3<Real> force = Vec3<Real>::Zero();

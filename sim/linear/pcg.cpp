@@ -36,19 +36,20 @@ SystemProduct<Real> system_product(const LinearSystem<Real, Device>& system, con
   return {system.matrix, system.softening, product(system.bending, p), system.pairs};
 }
 
-// Blocks of a product's sum for each of one over elements: as many as an H100 runs at once.  A thread takes
-// 32 registers in single precision, 40 in double.  Fewer rows are summed as in one launch.
+// Returns the number of a product's blocks for each block of a sum over elements: as many as an H100 runs at
+// once.  A thread takes 32 registers in single precision, 40 in double.  Fewer rows are summed as in one
+// launch.
 template <class Real>
 int blocks_each(int rows) {
   return sizeof(Real) == 4 && rows > kMaxRowsInOneLaunch ? kMaxSumBlocksEach : kRowSumBlocksEach;
 }
 
-// Sent to a GPU between two questions whether they were enough.
+// A GPU gets so many iterations before the host asks whether they were enough.
 constexpr int kIterationsAtOnce = 4;
 
 }  // namespace
 
-// q = matrix * guess, and the factor alpha for which alpha * guess is nearest to the solution.
+// Sets q = matrix * guess, and finds the factor alpha for which alpha * guess is nearest to the solution.
 template <class Real, class Device>
 void Pcg<Real, Device>::project(const System& system, const char* held, const Vec3<Real>* rhs,
                                 const Vec3<Real>* guess) {
@@ -115,8 +116,7 @@ void Pcg<Real, Device>::start(const System& system, const char* held, const Vec3
       });
 }
 
-// The same with the caller's preconditioner.  Without known impulses and guess the first residual is the
-// scale.
+// Starts with the caller's preconditioner.  Without known impulses and guess the first residual is the scale.
 template <class Real, class Device>
 void Pcg<Real, Device>::start_preconditioned(const System& system, const char* held, const Vec3<Real>* rhs,
                                              const Vec3<Real>* known, const Vec3<Real>* guess, Vec3<Real>* x,
@@ -213,11 +213,11 @@ void Pcg<Real, Device>::iterate(const System& system, const char* held, Vec3<Rea
   for_each(device_, {"solve: direction", vectors(3)}, rows_, loops.direction);
 }
 
-// Pairs of layers, and what factorisations make of them, stand elsewhere from system to system: capturing
-// their loops would cost more than it saves.
+// Iterates in a graph on the device if it can.  Pairs of layers, and a factorisation's arrays, move from
+// system to system: capturing their loops would cost more than it saves.
 template <class Real, class Device>
 bool Pcg<Real, Device>::iterate_on_device(const System& system, const char* held, Vec3<Real>* x) {
-  if (!system.bending || system.whole.rows > 0) {  // no loops of bending's are between
+  if (!system.bending || system.whole.rows > 0) {  // no loops of bending's product are needed
     OneLaunchView<Real> view;
     const bool has_view = !system.preconditioner || system.preconditioner->in_one_launch(view);
     if (has_view && iterate_in_one_launch(device_, iterations(system, held, x), view)) return true;
@@ -241,9 +241,9 @@ bool Pcg<Real, Device>::iterate_on_device(const System& system, const char* held
   });
 }
 
-// The device decides when it is done; the host only asks, at first after as many iterations as the last solve
-// took for each decade of its tolerance.  While kernels are profiled it asks after each, so that what they
-// state is what was needed.
+// Iterates in batches: the device decides when it is done; the host only asks, at first after as many
+// iterations as the last solve took for each decade of its tolerance.  While kernels are profiled it asks
+// after each, so that the profile shows needed iterations alone.
 template <class Real, class Device>
 PcgScalars Pcg<Real, Device>::iterate_in_batches(const System& system, const char* held, Vec3<Real>* x,
                                                  PcgEnd end) {

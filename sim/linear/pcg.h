@@ -1,5 +1,5 @@
-// Conjugate gradients for the implicit solve, preconditioned by the inverted diagonal blocks or by what the
-// caller brings.
+// Conjugate gradients for the implicit solve, preconditioned by the inverted diagonal blocks or by the
+// caller's preconditioner.
 #pragma once
 
 #include <algorithm>
@@ -21,59 +21,62 @@ struct PcgOutcome {
   bool converged = false;
 };
 
-// How many times the tolerance makes a tenth of the residual.
+// Returns how many decades the tolerance reduces the residual by.
 inline double decades(double tolerance) {
   constexpr double kMin = 0.5;
   return std::max(-std::log10(tolerance), kMin);
 }
 
-// A stiffness that is applied element by element: what it makes of a displacement [m].
+// A stiffness that is applied element by element: it returns -K times a displacement (n vertices [m]).
 template <class Real>
 using StiffnessProduct = std::function<GatheredForces<Real>(const Vec3<Real>*)>;
 
-// matrix * p, plus the stiffness of bending and of self-contact where they are, plus the membrane's
-// softening, which no preconditioner knows.
+// The system applies matrix * p, plus the stiffness of bending and of self-contact where they exist, plus the
+// membrane's softening, which no preconditioner knows.
 template <class Real, class Device>
 struct LinearSystem {
   BlockRowsView<Real> matrix;
-  StiffnessProduct<Real> bending = {};  // -K p; empty: none
-  // Of bending and self-contact: added to the matrix's blocks before they are inverted.
+  StiffnessProduct<Real> bending = {};  // returns -K p; empty: none
+  // Blocks of bending and self-contact (n), which are added to the matrix's before these are inverted.
   const Mat3<Real>* rest_diagonal = nullptr;
   Preconditioner<Real, Device>* preconditioner = nullptr;  // null: the inverted diagonal blocks
   ScalarRowsView<Real> softening = {};                     // null: none
-  PairProduct<Real> pairs = {};                            // of self-contact; null: none
-  std::size_t bytes = 0;  // that a product reads at least beside vectors, where that is stated
-  // The matrix, softening and bending in one, which products then take; no rows: they are not assembled.
+  PairProduct<Real> pairs = {};                            // self-contact's; null: none
+  // The least number of bytes that a product reads beside vectors; 0: not stated.
+  std::size_t bytes = 0;
+  // The matrix, softening and bending in one, which products then use; no rows: they are not assembled.
   BlockRowsView<Real> whole = {};
-  std::size_t whole_blocks = 0;  // its off-diagonal ones
-  const Real* mass = nullptr;    // in the diagonal blocks, where a PcgEnd's rounding counts
+  std::size_t whole_blocks = 0;  // number of its off-diagonal blocks
+  // The masses in the diagonal blocks (n), for a PcgEnd's rounding; may be null otherwise.
+  const Real* mass = nullptr;
 };
 
 struct PcgEnd {
-  double tolerance;
+  double tolerance;  // relative
   int most_iterations;
-  // What x is uncertain by anyway: the residual need not be less than what the system's stiffness makes of
-  // it.  Counts in systems with their mass and without the caller's preconditioner.
+  // The inherent uncertainty of x: the residual need not be less than the system's stiffness makes of it.  It
+  // counts in systems with their mass and without the caller's preconditioner.
   double rounding = 0;
 };
 
 template <class Real, class Device>
 class Pcg {
  public:
-  // preconditioned: every system brings its preconditioner.
+  // preconditioned: every system has its own preconditioner.
   Pcg(Device& device, int rows, bool preconditioned = false);
 
   using System = LinearSystem<Real, Device>;
 
-  // Solves the system for the rows that are not held; held rows of x are zero, and rhs is not read there.
-  // Starts from the multiple of `guess` that is best in the matrix's norm, from x = 0 if guess is null;
-  // `guess` may be x itself. Ends when sqrt(r' P r) <= tolerance * sqrt(s' P s), s = rhs - known, P the
-  // preconditioner: where known impulses balance those of the implicit forces, these set the scale.
-  // known may be null.  Ends, too, after a step along a direction p with p' matrix p <= 0, taken
-  // downwards and as long as if that were its magnitude; then it has not converged.
+  // Solves the system for the rows that are not held (held: n flags); x (n vertices) is zero on held rows,
+  // where rhs (n vertices) is not read.  It starts from the multiple of `guess` (n vertices; may be x) that
+  // is best in the matrix's norm, from x = 0 if guess is null, and ends when sqrt(r' P r) <= tolerance *
+  // sqrt(s' P s), s = rhs - known, with P the preconditioner: where the known impulses (n vertices; may be
+  // null) balance those of the implicit forces, these set the scale.  It also ends, unconverged, after a step
+  // along a direction p with p' matrix p <= 0, which is taken downwards and as long as if that were its
+  // magnitude.
   PcgOutcome solve(const System& system, const char* held, const Vec3<Real>* rhs, const Vec3<Real>* known,
                    const Vec3<Real>* guess, Vec3<Real>* x, PcgEnd end);
-  // How fast the last solve converged, on which the batches depend that a GPU is sent.
+  // Saves or loads how fast the last solve converged, which sets the size of a GPU's batches.
   void serialise(Archive& archive) { archive(iterations_per_decade_); }
   std::size_t bytes() const;
 
@@ -90,7 +93,7 @@ class Pcg {
   void multiply(const ProductTerms<Real, kHasPairs>& product, std::size_t bytes);
 
  private:
-  // Its loops; orders those of bending's product.
+  // These are the loops of an iteration; iterations() orders those of bending's product.
   PcgIterations<Real> iterations(const System& system, const char* held, Vec3<Real>* x);
   bool iterate_on_device(const System& system, const char* held, Vec3<Real>* x);
   PcgScalars iterate_in_batches(const System& system, const char* held, Vec3<Real>* x, PcgEnd end);
@@ -99,7 +102,7 @@ class Pcg {
 
   Device& device_;
   int rows_;
-  double iterations_per_decade_ = 4;  // of the tolerance
+  double iterations_per_decade_ = 4;  // per decade of the tolerance
   Buffer<Mat3<Real>, Device> inverse_;
   Buffer<Vec3<Real>, Device> r_, z_, p_, q_;
   Buffer<Vec3<Real>, Device> other_p_;  // for iterations in one launch

@@ -1,4 +1,4 @@
-// All iterations of a solve in one launch on a GPU, for cloth that is too small to fill it.
+// Runs all iterations of a solve in one launch on a GPU, for cloth that is too small to fill it.
 #pragma once
 
 #include "sim/device/grid_team.h"
@@ -8,9 +8,9 @@
 
 namespace hysteron {
 
-// The loops of an iteration of conjugate gradients, row by row.
+// These are the loops of an iteration of conjugate gradients, row by row.
 
-// q = A p, and p' q.
+// Computes q = A p, and p' q.
 template <class Real, bool kHasPairs = true>
 struct ProductTerms {
   SystemProduct<Real, kHasPairs> product;
@@ -33,11 +33,11 @@ struct ProductTerms {
   }
 };
 
-// A step, z = D^-1 r, and r' z.
+// Takes a step, and computes z = D^-1 r and r' z.
 template <class Real>
 struct AdvanceTerms {
   Advance<Real> advance;
-  const Mat3<Real>* inverse;  // of the diagonal blocks
+  const Mat3<Real>* inverse;  // n inverted diagonal blocks
   Vec3<Real>* z;
 
   HYST_HD void operator()(int i, Sums<1>& sums) const {
@@ -49,7 +49,7 @@ struct AdvanceTerms {
   }
 };
 
-// The next direction.
+// Computes the next direction.
 template <class Real>
 struct Direction {
   const char* held;
@@ -73,14 +73,15 @@ struct PcgIterations {
   PcgScalars* scalars;  // in the device's memory
 };
 
-// False: the caller orders them.
+// Returns false: the caller orders the loops.
 template <class Real>
 bool iterate_in_one_launch(Cpu&, const PcgIterations<Real>&, const OneLaunchView<Real>&) {
   return false;
 }
 
 #ifdef __CUDACC__
-// The next direction p, q = A p, and p' q.  A row finds its neighbours' p itself: no loop has to be between.
+// Computes the next direction p, q = A p, and p' q.  A row computes its neighbours' p itself, so that no
+// separate loop is needed.
 template <class Real>
 struct NextProduct {
   SystemProduct<Real> product;
@@ -108,7 +109,7 @@ struct PcgTeam {
   PcgIterations<Real> of;
   OneLaunchView<Real> preconditioner;
 
-  // Every thread keeps the numbers of the iteration, and finds the same.
+  // Every thread keeps the numbers of the iteration, and computes the same.
   __device__ void operator()(GridTeam& team) const {
     PcgScalars own = *of.scalars;
     own.beta = 0;  // the first direction is known

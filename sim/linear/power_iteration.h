@@ -1,4 +1,4 @@
-// The largest eigenvalue of M^-1 K, the square of the highest frequency [1/s^2].
+// Finds the largest eigenvalue of M^-1 K, the square of the highest frequency [1/s^2].
 #pragma once
 
 #include <cmath>
@@ -9,9 +9,9 @@
 
 namespace hysteron {
 
-// Power iteration with Rayleigh quotients to a relative change of 1e-4, at most 400 products.  The quotient
-// approaches from below, so that callers keep a margin.  apply(v, w) sets w = K v; `held` vertices do not
-// move.
+// Iterates with Rayleigh quotients to a relative change of 1e-4, at most 400 products.  The quotient
+// approaches from below, so that callers keep a margin. apply(v, w) sets w = K v; mass: n masses [kg];
+// vertices with held flags do not move.
 inline double largest_eigenvalue(
     const std::vector<double>& mass, const std::vector<char>& held,
     const std::function<void(const std::vector<Eigen::Vector3d>&, std::vector<Eigen::Vector3d>&)>& apply) {
@@ -19,7 +19,7 @@ inline double largest_eigenvalue(
   constexpr double kConverged = 1e-4;
   const int n = static_cast<int>(mass.size());
   std::vector<Eigen::Vector3d> v(n), w(n);
-  for (int i = 0; i < n; ++i)  // any vector with a share of every mode
+  for (int i = 0; i < n; ++i)  // any vector with a share of every mode will do
     v[i] = Eigen::Vector3d(std::sin(1.0 + 7 * i), std::cos(2.0 + 3 * i), std::sin(5.0 * i + 0.5));
   double lambda = 0;
   for (int product = 0; product < kProducts; ++product) {

@@ -1,28 +1,28 @@
-// What conjugate gradients are preconditioned with.
+// Declares the preconditioner of conjugate gradients.
 #pragma once
 
 #include "sim/device/device.h"
 
 namespace hysteron {
 
-// Numbers of conjugate gradients, on the device: iterations need no word from the host.
+// The scalars of conjugate gradients live on the device, so that iterations do not wait for the host.
 struct PcgScalars {
   enum Done { kNotYet, kConverged, kIndefinite, kExhausted };
   double residual, target, alpha, beta;
   int iterations, most_iterations, done, indefinite;
 
-  HYST_HD void begin(double first_residual, int most) {  // the target is known
+  HYST_HD void begin(double first_residual, int most) {  // the target is set already
     residual = first_residual;
     iterations = 0;
     most_iterations = most;
     done = !(residual > target);
   }
-  HYST_HD void find_length(double curvature) {  // of the step along p, from p' A p
+  HYST_HD void find_length(double curvature) {  // sets the step length along p, from p' A p
     if (done) return;
     indefinite = !(curvature > 0);
     alpha = residual / (indefinite ? -curvature : curvature);
   }
-  HYST_HD void advance(double new_residual) {  // after a step that was not yet the last
+  HYST_HD void advance(double new_residual) {  // ends a step that was not the last
     if (done) return;
     beta = new_residual / residual;
     residual = new_residual;
@@ -36,11 +36,11 @@ struct PcgScalars {
   }
 };
 
-// A step along p: x, and the residual r.
+// Takes a step along p: updates x, and the residual r.
 template <class Real>
 struct Advance {
   const char* held = nullptr;
-  const Vec3<Real>*p = nullptr, *q = nullptr;  // q = A p; zero on held rows
+  const Vec3<Real>*p = nullptr, *q = nullptr;  // n vertices each; q = A p, zero on held rows
   Vec3<Real>*x = nullptr, *r = nullptr;
   const PcgScalars* scalars = nullptr;
 
@@ -61,17 +61,17 @@ template <class Real, class Device>
 class Preconditioner {
  public:
   virtual ~Preconditioner() = default;
-  // z = P r for the rows that are not held, z = 0 for those that are; P symmetric and positive definite, and
-  // the same for all calls within a solve.  r is zero on held rows.  With scalars: advances them by r' P r,
-  // and does nothing once they are done.
+  // Sets z = P r for the rows that are not held, z = 0 for those that are (n vertices each); P is symmetric
+  // and positive definite, and the same for all calls within a solve. r is zero on held rows.  With scalars
+  // it advances them by r' P r, and does nothing once they are done.
   virtual void apply(const Vec3<Real>* r, Vec3<Real>* z, PcgScalars* scalars) = 0;
-  // Takes the step and applies P to the residual that it leaves; false: it has done neither.  The scalars are
-  // on the device.
+  // Takes the step and applies P to the residual that it leaves, or returns false and does neither.  The
+  // scalars are on the device.
   virtual bool step_and_apply(const Advance<Real>& /*step*/, Vec3<Real>* /*z*/, PcgScalars* /*scalars*/) {
     return false;
   }
-  // Makes of the view what it does as loops that a GPU runs in one launch (levels_in_one_launch.h); false: it
-  // has none.
+  // Describes P in the view as loops that a GPU runs in one launch (levels_in_one_launch.h); false: it has
+  // none.
   virtual bool in_one_launch(OneLaunchView<Real>&) { return false; }
   virtual std::size_t bytes() const = 0;
 };

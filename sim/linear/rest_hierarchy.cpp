@@ -20,18 +20,17 @@ using Eigen::Vector3d;
 constexpr int kCoarsestNodes = 24;  // on a CPU a dense inverse of more takes longer than another level
 // A level that keeps more than this share of the nodes is not worth its cost (cloth in many small pieces).
 constexpr double kWorthwhile = 0.5;
-// Edges longer than this many of the shortest one at either end keep no root away: a mesh of slender
+// Edges longer than this many times the shortest one at either end do not keep roots apart: a mesh of slender
 // triangles is coarsened along its short edges first, which couple most.
 constexpr double kLongEdge = 2.5;
 constexpr double kInside = 1e-9;  // weights above minus this count as inside
 // Boundaries that turn by more keep their corner among the coarse nodes.
 constexpr double kCornerCosine = 0.9;
 
-// Nodes of one level on the rest shape.
+// The nodes of one level on the rest shape.
 struct Surface {
   std::vector<Vector3d> position, normal;
-  std::vector<int>
-      rank;  // 2: corners, 1: boundary, 0: inside; chosen in this order, so that the outline stays
+  std::vector<int> rank;  // 2: corners, 1: boundary, 0: inside; chosen in this order to keep the outline
   Adjacency neighbour;
   int size() const { return static_cast<int>(position.size()); }
 };
@@ -72,7 +71,7 @@ Surface mesh_surface(const ClothMesh& mesh) {
 
 double distance(const Surface& s, int i, int j) { return (s.position[i] - s.position[j]).norm(); }
 
-// The neighbours joined by edges that are not long.
+// Returns the neighbours joined by edges that are not long.
 Adjacency close_neighbours(const Surface& s) {
   const auto& [start, item] = s.neighbour;
   std::vector<double> shortest(s.size(), std::numeric_limits<double>::infinity());
@@ -90,7 +89,7 @@ Adjacency close_neighbours(const Surface& s) {
   return close;
 }
 
-// 1 for chosen nodes.
+// Returns 1 for chosen nodes.
 std::vector<char> choose_roots(const Surface& s) {
   std::vector<char> root(s.size(), 0), near(s.size(), 0);  // near: within one edge of a root
   const Adjacency close = close_neighbours(s);
@@ -109,7 +108,7 @@ std::vector<char> choose_roots(const Surface& s) {
   return root;
 }
 
-// For each node the nearest root along edges, as that root's number among the roots.
+// Returns for each node the nearest root along edges, as that root's number among the roots.
 std::vector<int> cells(const Surface& s, const std::vector<char>& root) {
   using Entry = std::pair<double, int>;  // distance, node
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> front;
@@ -158,7 +157,8 @@ Surface coarser(const Surface& s, const std::vector<char>& root, const std::vect
 
 double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-// The smallest circle through three of the points whose triangle contains the origin; false if none does.
+// Finds the triangle of three points that contains the origin and has the smallest circumscribed circle;
+// false if there is none.
 bool containing_triangle(const std::vector<Vector2d>& p, std::array<int, 3>& corner,
                          std::array<double, 3>& weight) {
   double smallest = std::numeric_limits<double>::infinity();
@@ -168,7 +168,7 @@ bool containing_triangle(const std::vector<Vector2d>& p, std::array<int, 3>& cor
       for (int k = j + 1; k < n; ++k) {
         const double area = cross(p[j] - p[i], p[k] - p[i]);
         const double wi = cross(p[j], p[k]) / area, wj = cross(p[k], p[i]) / area, wk = 1 - wi - wj;
-        if (!(wi > -kInside && wj > -kInside && wk > -kInside)) continue;  // nor where the area is zero
+        if (!(wi > -kInside && wj > -kInside && wk > -kInside)) continue;  // nor is a triangle without area
         const double radius =
             (p[i] - p[j]).norm() * (p[j] - p[k]).norm() * (p[k] - p[i]).norm() / std::abs(area);
         if (radius >= smallest) continue;
@@ -179,10 +179,10 @@ bool containing_triangle(const std::vector<Vector2d>& p, std::array<int, 3>& cor
   return smallest < std::numeric_limits<double>::infinity();
 }
 
-// Outside all triangles: the nearest point of the segments between the points, short ones preferred.
+// Outside all triangles, finds the nearest point of the segments between the points, preferring short ones.
 void nearest_segment(const std::vector<Vector2d>& p, std::array<int, 3>& corner,
                      std::array<double, 3>& weight) {
-  constexpr double kLength = 0.01;  // cost of a segment's length against distance from it
+  constexpr double kLength = 0.01;  // weight of a segment's length against the distance from it
   corner = {0, 0, 0};
   weight = {1, 0, 0};
   double best = std::numeric_limits<double>::infinity();
@@ -198,14 +198,14 @@ void nearest_segment(const std::vector<Vector2d>& p, std::array<int, 3>& corner,
     }
 }
 
-// The nodes and their neighbours, each once.
+// Returns the nodes and their neighbours, each once.
 std::vector<int> with_neighbours(std::vector<int> nodes, const Adjacency& neighbour) {
   for (int i : std::vector<int>(nodes))
     for (int j = neighbour.start[i]; j < neighbour.start[i + 1]; ++j) insert_once(nodes, neighbour.item[j]);
   return nodes;
 }
 
-// Positions seen from node i of the surface, in its tangent plane.
+// Returns positions relative to node i of the surface, in its tangent plane.
 std::vector<Vector2d> flattened(const Surface& s, int i, const std::vector<Vector3d>& position,
                                 const std::vector<int>& nodes) {
   const Vector3d normal = s.normal[i].normalized(), t1 = normal.unitOrthogonal(), t2 = normal.cross(t1);
@@ -218,7 +218,7 @@ std::vector<Vector2d> flattened(const Surface& s, int i, const std::vector<Vecto
 }
 
 Interpolation interpolate(const Surface& s, int i, int cell, const Surface& coarse) {
-  constexpr int kRings = 2;  // near the boundary the triangle may be farther away than in the first ring
+  constexpr int kRings = 2;  // near the boundary the triangle may be beyond the first ring
   std::vector<int> near{cell};
   std::vector<Vector2d> flat;
   std::array<int, 3> corner;
@@ -250,7 +250,7 @@ std::vector<Interpolation> interpolations(const Surface& s, const std::vector<ch
   return result;
 }
 
-// Couples all coarse nodes that two sets of finer ones see.
+// Couples all coarse nodes that interpolate two finer nodes.
 void couple(const Interpolation& a, const Interpolation& b, std::vector<std::vector<int>>& rows) {
   for (int k = 0; k < 3; ++k)
     for (int l = 0; l < 3; ++l) {
@@ -260,7 +260,7 @@ void couple(const Interpolation& a, const Interpolation& b, std::vector<std::vec
     }
 }
 
-// What the finer nodes' matrix couples.
+// Returns the couplings of coarse nodes that follow from the finer nodes' matrix.
 std::vector<std::vector<int>> coarse_rows(const Adjacency& fine, const RestLevel& level) {
   std::vector<std::vector<int>> rows(level.nodes);
   for (std::size_t i = 0; i + 1 < fine.start.size(); ++i) {
@@ -271,7 +271,7 @@ std::vector<std::vector<int>> coarse_rows(const Adjacency& fine, const RestLevel
   return rows;
 }
 
-// First level: what the plate's hinges couple, too.
+// Adds for the first level the couplings by the plate's hinges.
 void couple_hinges(const ClothMesh& mesh, const RestLevel& level, std::vector<std::vector<int>>& rows) {
   for (const Edge& e : mesh.edge) {
     const int corner[4] = {e.p2, e.p3, e.p0, e.interior() ? e.p1 : e.p0};
@@ -285,7 +285,7 @@ struct Coefficient {
   double value;
 };
 
-// Change of a flat hinge's angle with the heights of its vertices, seen from the coarse nodes.
+// Returns the rate of a flat hinge's angle by the heights of its vertices, in terms of the coarse nodes.
 std::vector<Coefficient> coarse_gradient(const ClothMesh& mesh, const Edge& e, const std::vector<char>& held,
                                          const RestLevel& level) {
   const Vector3d along = mesh.rest[e.p3] - mesh.rest[e.p2];
@@ -327,7 +327,7 @@ void first_plate(const ClothMesh& mesh, const std::vector<char>& held, RestLevel
     const double length = (mesh.rest[e.p3] - mesh.rest[e.p2]).norm();
     const double height = (mesh.face_area[e.face0] + mesh.face_area[e.face1]) / length;  // (h0 + h1)/2
     const auto gradient = coarse_gradient(mesh, e, held, level);
-    add(gradient, gradient, length / height, level);  // A/h^2 of the hinge, A = |e| h
+    add(gradient, gradient, length / height, level);  // A/h^2 of the hinge, with A = |e| h
   }
 }
 

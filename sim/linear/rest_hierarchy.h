@@ -1,4 +1,4 @@
-// Coarser and coarser vertex sets on the rest shape, and how fields on them are interpolated.
+// Makes coarser and coarser sets of nodes on the rest shape, and the interpolation of fields between them.
 #pragma once
 
 #include <array>
@@ -16,18 +16,19 @@ struct Interpolation {
 
 struct RestLevel {
   int nodes = 0;
-  std::vector<Interpolation> finer;  // for each node of the next finer level (the vertices, for the first)
+  std::vector<Interpolation> finer;  // one per node of the next finer level (for the first level, per vertex)
   Adjacency pattern;                 // off-diagonal blocks of a matrix on these nodes, columns ascending
-  std::vector<double> plate_off_diagonal, plate_diagonal;  // the former: an entry for each of the pattern's
+  std::vector<double> plate_off_diagonal, plate_diagonal;  // one per item of `pattern`; one per node
 };
 
-// From fine to coarse; empty for meshes too small to be worth it.  `plate` is the matrix of int (laplacian
-// w)^2/2 over the rest shape for a scalar field w: from the hinges as in Bergou et al. 2006 (A Quadratic
-// Bending Model for Inextensible Surfaces), as the interpolated fields have it.
+// The levels from fine to coarse; empty for meshes too small to be worth it.  `plate` is the matrix of int
+// (laplacian w)^2/2 over the rest shape for a scalar field w, computed from the hinges as in Bergou et al.
+// 2006 (A Quadratic Bending Model for Inextensible Surfaces) for the interpolated fields.
 using RestHierarchy = std::vector<RestLevel>;
 
-// Fields are interpolated linearly over triangles of coarse nodes in the rest shape.  They vanish on `held`
-// vertices, where plate counts that.  `couplings`: off-diagonal blocks of the vertices' matrix.
+// Makes the levels.  Fields are interpolated linearly over triangles of coarse nodes in the rest shape.  In
+// the plate they vanish on `held` vertices (n flags).  `couplings` are the off-diagonal blocks of the
+// vertices' matrix.
 RestHierarchy make_rest_hierarchy(const ClothMesh& mesh, const Adjacency& couplings,
                                   const std::vector<char>& held);
 

@@ -1,11 +1,11 @@
-// Rows of block matrices times vectors, by the lanes that a device gives a row (sim/device/rows.h).
+// Multiplies rows of block matrices by vectors, with the lanes that a device gives a row (sim/device/rows.h).
 //
-// Of each block a warp's lane takes one number, so that its loads lie side by side:
+// A warp's lane takes one number of each block, so that loads are contiguous:
 //
 //   lane = 9 b + 3 c + r      row r and column c of every third block, from the b-th on; five lanes idle
 //
-// and what it adds up belongs to component r of the product, r = lane % 3.  Of nine lanes b is 0, and each
-// reads its number of every block.
+// and its sum belongs to component r of the product, r = lane % 3.  With nine lanes b is 0, and each reads
+// its number of every block.
 #pragma once
 
 #include "sim/device/rows.h"
@@ -16,13 +16,13 @@
 
 namespace hysteron {
 
-// Component k of v[i].
+// Returns component k of v[i].
 template <class Real>
 HYST_HD Real vector_component(const Vec3<Real>* v, int i, int k) {
   return v[i].data()[k];
 }
 
-// z + beta p, found where it is read.
+// The next direction z + beta p, computed where it is read.
 template <class Real>
 struct NextDirection {
   const Vec3<Real>*z, *p;
@@ -34,7 +34,7 @@ HYST_HD Real vector_component(const NextDirection<Real>& v, int i, int k) {
   return v.z[i].data()[k] + v.beta * v.p[i].data()[k];
 }
 
-// The residual that a step leaves, found where it is read.
+// The residual after a step, computed where it is read.
 template <class Real>
 struct NextResidual {
   Advance<Real> step;
@@ -48,38 +48,38 @@ HYST_HD Real vector_component(const NextResidual<Real>& v, int i, int k) {
 
 template <class Lanes, class Real>
 class LaneSum {
-  static constexpr int kBlocks = Lanes::kCount / 9;  // at once
+  static constexpr int kBlocks = Lanes::kCount / 9;  // read at once
 
  public:
   HYST_HD explicit LaneSum(const Lanes& lanes)
       : lanes_(lanes), entry_(lanes.index() % 9), active_(lanes.index() < 9 * kBlocks) {}
 
   template <class Vector>
-  HYST_HD void add(const Mat3<Real>& block, const Vector& v, int i) {  // times v[i]
+  HYST_HD void add(const Mat3<Real>& block, const Vector& v, int i) {  // adds block * v[i]
     if (lanes_.index() < 9) part_ += block.data()[entry_] * vector_component(v, i, column());
   }
-  // block[j] times v[col[j]] for j in [first, last).
+  // Adds block[j] * v[col[j]] for j in [first, last).
   template <class Vector>
   HYST_HD void add(const Mat3<Real>* block, const int* col, int first, int last, const Vector& v) {
     if (!active_) return;
     for (int j = first + lanes_.index() / 9; j < last; j += kBlocks)
       part_ += block[j].data()[entry_] * vector_component(v, col[j], column());
   }
-  // factor[j] times v[index[j]] for j in [first, last).
+  // Adds factor[j] * v[index[j]] for j in [first, last).
   template <class Vector>
   HYST_HD void add(const Real* factor, const int* index, int first, int last, const Vector& v) {
     if (!active_) return;
     for (int j = first + lanes_.index() / 3; j < last; j += 3 * kBlocks)
       part_ += factor[j] * vector_component(v, index[j], lanes_.index() % 3);
   }
-  // sign times the forces on a vertex.
+  // Adds sign times the forces on a vertex.
   HYST_HD void add(Real sign, const GatheredForces<Real>& forces, int vertex) {
     if (!active_ || !forces.start) return;
     for (int j = forces.start[vertex] + lanes_.index() / 3; j < forces.start[vertex + 1]; j += 3 * kBlocks)
       part_ += sign * forces.force[forces.item[j]].data()[lanes_.index() % 3];
   }
 
-  // The forces of a vertex's pairs under v.
+  // Adds the forces of a vertex's pairs under v.
   template <class Vector>
   HYST_HD void add(const PairProduct<Real>& pairs, int vertex, const Vector& v) {
     if (!active_ || !pairs.start) return;
@@ -92,13 +92,13 @@ class LaneSum {
     }
   }
 
-  // Component r of the sum over the lanes, in lane r.
+  // Returns component r of the sum over the lanes, in lane r.
   HYST_HD Real component() const {
     Real sum = part_;
     if constexpr (kBlocks == 3) sum = part_ + lanes_.further(part_, 9) + lanes_.further(part_, 18);
     return sum + lanes_.further(sum, 3) + lanes_.further(sum, 6);
   }
-  // The sum over the lanes, in each of them.
+  // Returns the sum over the lanes, in each of them.
   HYST_HD Vec3<Real> total() const {
     const Real sum = component();
     return {lanes_.lane_value(sum, 0), lanes_.lane_value(sum, 1), lanes_.lane_value(sum, 2)};
@@ -112,7 +112,8 @@ class LaneSum {
   Real part_ = 0;
 };
 
-// A block, a number a lane, times a vector of which lane r has component r; so has the product.
+// Multiplies a block, one number per lane, by a vector of which lane r has component r, as it then has of the
+// product.
 template <class Lanes, class Real>
 class LaneBlock {
  public:
@@ -128,10 +129,10 @@ class LaneBlock {
   Real entry_;
 };
 
-// Rows that are given to a warp each; an H100 runs 8,448 warps at once, half of them in one launch.
+// Rows up to this number get a warp each; an H100 runs 8,448 warps at once, half of them in one launch.
 inline constexpr int kMaxRowsByWarps = 4096;
 
-// for_each_row() for a body that takes any lanes: on a GPU nine threads take each of many rows.
+// for_each_row() for a body that takes any lanes: on a GPU nine threads share each of many rows.
 template <class Device, class Body>
 void for_each_block_row(Device& device, const Kernel& kernel, int rows, const Body& body,
                         const int* stop = nullptr) {
@@ -150,7 +151,7 @@ void for_each_block_row_sum(Device& device, const Kernel& kernel, int rows, cons
   for_each_row_sum<K>(device, kernel, rows, body, finish);
 }
 #ifdef __CUDACC__
-// Team::for_each_row() and row_sum() (sim/device/grid_team.h) likewise.
+// These use Team::for_each_row() and row_sum() (sim/device/grid_team.h) likewise.
 template <class Team, class Body>
 __device__ void for_each_block_row(Team& team, int rows, const Body& body) {
   if (rows > kMaxRowsByWarps) return team.template for_each_row<NineLanes>(rows, body);
@@ -181,8 +182,8 @@ HYST_HD Vec3<Real> row_times(const Lanes& lanes, const BlockRowsView<Real>& matr
     return lane_sum_of_row(lanes, matrix, i, v).total();
 }
 
-// The product of a system's matrix, softening and elements with v.  A loop over rows without pairs takes
-// fewer registers, so that more of its blocks run at once.
+// Multiplies a system's matrix, softening and elements by v.  A loop over rows without pairs takes fewer
+// registers, so that more of its blocks run at once.
 template <class Real, bool kHasPairs = true>
 struct SystemProduct {
   BlockRowsView<Real> matrix;

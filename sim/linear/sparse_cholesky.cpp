@@ -7,18 +7,19 @@ namespace hysteron {
 
 namespace {
 
-constexpr double kVanished = 1e-14;  // pivot over the matrix's diagonal number; what rounding leaves
+constexpr double kVanished = 1e-14;  // smallest pivot over the matrix's diagonal number: less is rounding
 constexpr int kTileRows = 12, kTileColumns = 4;
-constexpr int kPanelColumns = 12;  // that are eliminated before the next ones are updated
+constexpr int kPanelColumns = 12;  // eliminated before the next ones are updated
 
-// A dense matrix by columns, of which the lower triangle counts.
+// A dense matrix by columns, of which only the lower triangle is used.
 struct Dense {
   double* at;
   std::ptrdiff_t stride;
   double* column(int j) const { return at + j * stride; }
 };
 
-// c -= a b^T of Rows x Columns numbers, with `depth` columns of a and b, whose strides are the same.
+// Subtracts a b^T from c, Rows x Columns numbers, with `depth` columns of a and b, which have the same
+// stride.
 template <int Rows, int Columns>
 void subtract_tile(Dense c, const double* a, const double* b, int depth, std::ptrdiff_t stride) {
   using Column = Eigen::Matrix<double, Rows, 1>;
@@ -30,7 +31,8 @@ void subtract_tile(Dense c, const double* a, const double* b, int depth, std::pt
   for (int j = 0; j < Columns; ++j) Eigen::Map<Column>(c.column(j)) -= sum.col(j);
 }
 
-// The first `columns` columns of c's lower part, `rows` long, lose a a^T; a has `depth` columns.
+// Subtracts a a^T from the first `columns` columns of c's lower part, which is `rows` long; a has `depth`
+// columns.
 void subtract_square(Dense c, Dense a, int rows, int columns, int depth) {
   for (int j = 0; j < columns; j += kTileColumns) {
     const int width = std::min(kTileColumns, columns - j);

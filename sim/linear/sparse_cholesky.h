@@ -1,6 +1,6 @@
 // Sparse Cholesky factorisation of a symmetric positive definite matrix of 3x3 blocks, front by front (Duff &
-// Reid 1983; Liu 1992), on the CPU: A = L L^T.  On one thread, in one order: the same bits whatever the
-// number of threads.
+// Reid 1983; Liu 1992), on the CPU: A = L L^T.  It runs on one thread, in one order, so that the bits do not
+// depend on the number of threads.
 #pragma once
 
 #include "sim/linear/elimination.h"
@@ -11,11 +11,11 @@ class SparseCholesky {
  public:
   explicit SparseCholesky(const Couplings& couplings);
 
-  // The matrix must have the couplings of the constructor.  A pivot that rounding leaves without a digit, as
-  // of a matrix that is singular, is replaced by the matrix's own diagonal number: L L^T is then another
-  // matrix, positive definite all the same.  Returns how many were.
+  // Factorises a matrix with the couplings of the constructor.  A pivot that rounding leaves without a digit,
+  // as in a singular matrix, is replaced by the matrix's own diagonal number: L L^T is then another matrix,
+  // but positive definite.  Returns how many pivots were replaced.
   int factorise(const SymmetricBlocks& matrix);
-  // L L^T x = x, three numbers a node.
+  // Solves L L^T x = x in place, n x 3 numbers in the order of the nodes.
   void solve(double* x) const;
 
   const Elimination& plan() const { return plan_; }

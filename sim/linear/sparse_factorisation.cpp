@@ -6,13 +6,13 @@ namespace hysteron {
 
 namespace {
 
-// What a number of the factor costs in an iteration's two triangular solves, in multiplications of a
-// factorisation, which work on what is in the cache.
+// The cost of a number of the factor in an iteration's two triangular solves, in multiplications of a
+// factorisation, which run on cached data.
 constexpr double kMultiplicationsOfEntry = 12;
-constexpr double kAssembly = 1.5;  // factorisation with assembly over without, at least
+constexpr double kAssembly = 1.5;  // least time of a factorisation with assembly over that without
 constexpr int kMinWorth = 6;
 
-// A system's pairs of layers as elements.
+// Presents a system's pairs of layers as elements.
 template <class Real>
 class PairElements : public ElementStiffness {
  public:
@@ -67,7 +67,7 @@ bool SparseFactorisation<Real>::are_coupled(const PairProduct<Real>& pairs) cons
   return true;
 }
 
-// Pairs that no longer press stay until others come.
+// Couples the vertices of pairs; pairs that no longer touch stay until others come.
 template <class Real>
 void SparseFactorisation<Real>::couple(const PairProduct<Real>& pairs) {
   CouplingList list(always_);

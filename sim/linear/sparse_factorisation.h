@@ -1,5 +1,5 @@
-// The CPU's factorisation for CholeskySolver, assembled on the host: the matrix's rows, bending element by
-// element, self-contact pair by pair.
+// The CPU's factorisation for CholeskySolver, assembled on the host from the matrix's rows, bending element
+// by element, self-contact pair by pair.
 #pragma once
 
 #include <memory>
@@ -13,7 +13,7 @@ namespace hysteron {
 template <class Real>
 class SparseFactorisation : public Factorisation<Real, Cpu> {
  public:
-  // The stiffness of bending, null where a system has none.
+  // Takes the stiffness of bending, null where systems have none.
   SparseFactorisation(Cpu& device, const BlockRows<Real, Cpu>& pattern,
                       std::unique_ptr<ElementStiffness> bending);
 
@@ -32,9 +32,9 @@ class SparseFactorisation : public Factorisation<Real, Cpu> {
   Cpu& device_;
   std::unique_ptr<ElementStiffness> bending_;
   Adjacency pattern_;  // of the systems' matrices
-  Couplings always_;   // of these and of bending
+  Couplings always_;   // of the pattern and of bending
   std::vector<int> row_slot_, bending_slot_;
-  SymmetricBlocks matrix_;  // of which the factorisation is
+  SymmetricBlocks matrix_;  // the factorised matrix
   std::optional<SparseCholesky> factor_;
   std::vector<char> held_;      // when it was made
   std::vector<double> values_;  // scratch of apply()

@@ -1,5 +1,5 @@
-// Sweeps on a GPU (front_sweeps.h), a tile of rows at a time.  With pivot tile P, its column C and every
-// other tile A_ij:
+// Sweeps fronts on a GPU (front_sweeps.h), a tile of rows at a time.  With pivot tile P, its column C and
+// every other tile A_ij:
 //
 //   A_ij <- A_ij - C_i P^-1 C_j^T     C_i <- C_i P^-1     P <- -P^-1
 //
@@ -13,7 +13,7 @@
 
 namespace hysteron {
 
-// In shared memory; the padding keeps a column's numbers in different banks.
+// A tile in shared memory; the padding keeps a column's numbers in different banks.
 struct Tile {
   double at[kTile][kTile + 1];
 
@@ -25,10 +25,10 @@ struct Tile {
 
 // The lower triangle of a symmetric matrix in whole tiles.
 struct TiledMatrix {
-  double* number;  // row by row
-  int stride;      // numbers of a row
+  double* number;  // row-major
+  int stride;      // length of a row
 
-  // Of tile (i, j), which is the transpose of (j, i).
+  // Returns a number of tile (i, j), which is the transpose of (j, i).
   __device__ double& at(int i, int j, int row, int column) const {
     return i >= j ? entry(i, j, row, column) : entry(j, i, column, row);
   }
@@ -39,7 +39,7 @@ struct TiledMatrix {
   }
 };
 
-// Each thread's part of a b^T: two rows, four columns.
+// A thread's part of a b^T: two rows, four columns.
 struct TileProduct {
   double sum[2][4] = {};
 
@@ -62,11 +62,11 @@ struct TileProduct {
   }
 };
 
-// Of a positive definite tile's lower triangle, by a block of threads: four take a row together.
+// Inverts a positive definite tile, given by its lower triangle, by a block of threads: four share a row.
 template <class Real>
 __device__ void invert(const Tile& tile, double* inverse) {
   constexpr int kColumnsPerThread = kTile / 4;
-  // A direction without stiffness beyond rounding gets that of the rounding; the diagonal was 1.
+  // A direction whose stiffness is mere rounding gets the stiffness of the rounding; the diagonal was 1.
   constexpr double kMin = 2 * std::numeric_limits<Real>::epsilon();
   __shared__ double shared_column[2][kTile], shared_inverse[2];
   const int row = threadIdx.x / 4, first = threadIdx.x % 4 * kColumnsPerThread;
@@ -95,7 +95,7 @@ __device__ void invert(const Tile& tile, double* inverse) {
   for (int c = 0; c < kColumnsPerThread; ++c) inverse[row * kTile + first + c] = -a[c];
 }
 
-// The front that a block works on, and the block's number among those of the front.
+// The front that a block works on, and the block's number within the front.
 struct FrontOfBlock {
   SweptFront front;
   int block;
@@ -108,7 +108,7 @@ struct OneFront {
     return {front, static_cast<int>(blockIdx.x)};
   }
 };
-// Several, in the GPU's memory; blocks beyond those of a smaller front have nothing to do.
+// Several fronts in the GPU's memory; blocks beyond those of a smaller front have nothing to do.
 struct ManyFronts {
   const SweptFront* front;
   int fronts;
@@ -118,15 +118,15 @@ struct ManyFronts {
   }
 };
 
-// A pivot k of every front.  The pivot's tile is inverted and its column kept beside the matrix by whoever
-// finishes them, in the launch before: no block reads what another one writes.  Each block finds C_i P^-1
-// itself, which takes less than a launch.
+// Sweeps a pivot k of every front.  The block that finishes the next pivot's tile and column inverts the tile
+// and keeps a copy of the column beside the matrix, in the launch before: no block reads what another one
+// writes.  Each block computes C_i P^-1 itself, which takes less than a launch.
 template <class Real, class Fronts>
 struct SweptPivot {
   unsigned blocks;
-  int blocks_each;  // tiles of the front's lower triangle, at least
+  int blocks_each;  // the most tiles of a front's lower triangle
   Fronts fronts;
-  int pivot;  // -1: nothing but what the first one needs
+  int pivot;  // -1: only prepares the first pivot
 
   __device__ void operator()() const {
     const FrontOfBlock mine = fronts.of_block(blocks_each);
@@ -150,7 +150,7 @@ struct SweptPivot {
   }
 
  private:
-  // Tile (i, j) after the pivot.
+  // Computes tile (i, j) after the pivot.
   __device__ void find(const SweptFront& front, int i, int j, Tile& result) const {
     __shared__ Tile left, right;
     const TiledMatrix matrix{front.number, front.stride()};
@@ -184,7 +184,7 @@ struct SweptPivot {
   }
 };
 
-// Every front's pivots, of which one has `pivots` tiles at most and `tiles` rows of tiles.
+// Sweeps every front's pivots; a front has at most `pivots` tiles of pivots and `tiles` rows of tiles.
 template <class Real, class Fronts>
 void sweep_fronts(Cuda& cuda, const Fronts& fronts, int tiles, int pivots, const Kernel& kernel) {
   const int each = tiles * (tiles + 1) / 2;

@@ -1,5 +1,5 @@
-// Orthotropic Green-Lagrange membrane on constant-strain triangles (Volino, Magnenat-Thalmann, Faure 2009;
-// St. Venant-Kirchhoff).
+// Defines an orthotropic Green-Lagrange membrane on constant-strain triangles (Volino, Magnenat-Thalmann,
+// Faure 2009; St.  Venant-Kirchhoff):
 //
 //   F = [F1 F2]: images of the warp and weft unit vectors;  E = (F^T F - I)/2 = (E11, E22, 2 E12)
 //   energy per rest area W = (C11 E11^2 + 2 C12 E11 E22 + C22 E22^2 + G (2 E12)^2)/2
@@ -19,7 +19,7 @@ struct MembraneStiffness {
   Real warp, weft, coupling, shear;  // C11, C22, C12, G [N/m]
 };
 
-// Rest geometry of a face: its area and the shape functions' gradients in the warp-weft frame.
+// The rest geometry of a face: its area and the shape functions' gradients in the warp-weft frame.
 template <class Real>
 struct MembraneRest {
   Real area;          // [m^2]
@@ -44,11 +44,11 @@ HYST_HD inline Deformation<Real> deformation(const MembraneRest<Real>& rest, con
 }
 
 template <class Real>
-HYST_HD inline Vec3<Real> green_strain(const Deformation<Real>& f) {  // (E11, E22, 2 E12)
+HYST_HD inline Vec3<Real> green_strain(const Deformation<Real>& f) {  // returns (E11, E22, 2 E12)
   return {(f.f1.squaredNorm() - 1) / 2, (f.f2.squaredNorm() - 1) / 2, f.f1.dot(f.f2)};
 }
 
-// Rate of the Green strain for velocity gradient g.
+// Returns the rate of the Green strain for velocity gradient g.
 template <class Real>
 HYST_HD inline Vec3<Real> green_strain_rate(const Deformation<Real>& f, const Deformation<Real>& g) {
   return {f.f1.dot(g.f1), f.f2.dot(g.f2), f.f1.dot(g.f2) + f.f2.dot(g.f1)};
@@ -72,9 +72,9 @@ HYST_HD inline Vec3<Real> membrane_force(const MembraneRest<Real>& rest, const D
   return -rest.area * ((s.s11 * b1 + s.s12 * b2) * f.f1 + (s.s12 * b1 + s.s22 * b2) * f.f2);
 }
 
-// Nearest positive semidefinite 2x2 stress: what compression would add to the Hessian is left out, so that
-// the implicit matrix stays positive definite (Teran et al. 2005 in spirit; here exact, the geometric term is
-// S x I).
+// Returns the nearest positive semidefinite 2x2 stress: the geometric term of compression is left out of the
+// Hessian, so that the implicit matrix stays positive definite (Teran et al. 2005 in spirit; here exact, the
+// geometric term is S x I).
 template <class Real>
 HYST_HD inline MembraneStress<Real> tensile_part(const MembraneStress<Real>& s) {
   using std::sqrt;
@@ -87,7 +87,7 @@ HYST_HD inline MembraneStress<Real> tensile_part(const MembraneStress<Real>& s) 
   return {scale * (radius + half), scale * (radius - half), scale * s.s12};
 }
 
-// What a stress adds to block (i, j) of the stiffness: this times the identity.
+// Returns the factor of the identity that a stress adds to block (i, j) of the stiffness [N/m].
 template <class Real>
 HYST_HD inline Real geometric_stiffness(const MembraneRest<Real>& rest, const MembraneStress<Real>& s, int i,
                                         int j) {
@@ -95,7 +95,8 @@ HYST_HD inline Real geometric_stiffness(const MembraneRest<Real>& rest, const Me
   return rest.area * (s.s11 * i1 * j1 + s.s22 * i2 * j2 + s.s12 * (i1 * j2 + i2 * j1));
 }
 
-// Block (i, j) of the Gauss-Newton stiffness is sum over a, b of f_a k_ab f_b^T.
+// The coefficients of block (i, j) of the Gauss-Newton stiffness, which is the sum over a, b of f_a k_ab
+// f_b^T.
 template <class Real>
 struct MembraneCoefficients {
   Real k11, k12, k21, k22;  // [N/m]
@@ -111,8 +112,8 @@ HYST_HD inline MembraneCoefficients<Real> membrane_coefficients(const MembraneRe
           a * (c.coupling * i2 * j1 + c.shear * i1 * j2), a * (c.weft * i2 * j2 + c.shear * i1 * j1)};
 }
 
-// Block (i, j) of the stiffness -df_i/dx_j: `factor` times the Gauss-Newton part plus the geometric part of
-// `tension`.
+// Returns block (i, j) of the stiffness -df_i/dx_j: `factor` times the Gauss-Newton part plus the geometric
+// part of `tension`.
 template <class Real>
 HYST_HD inline Mat3<Real> membrane_block(const MembraneRest<Real>& rest, const MembraneStiffness<Real>& c,
                                          Real factor, const Deformation<Real>& f,
@@ -127,7 +128,7 @@ HYST_HD inline Mat3<Real> membrane_block(const MembraneRest<Real>& rest, const M
   return block;
 }
 
-// One of its columns, the same bits.
+// Returns one of its columns, with the same bits.
 template <class Real>
 HYST_HD inline Vec3<Real> membrane_column(const MembraneRest<Real>& rest, const MembraneStiffness<Real>& c,
                                           Real factor, const Deformation<Real>& f,

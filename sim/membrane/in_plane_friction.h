@@ -1,17 +1,17 @@
-// Friction in the plane.
+// Computes friction in the plane.
 #pragma once
 
 #include "sim/device/device.h"
 
 namespace hysteron {
 
-// Friction elements on the components of Green's strain E = (E11, E22, 2 E12) of a triangle or node: springs
-// p that slip at strains r, as in bending (laws/spectrum_stops.h) but on each component by itself.
+// Friction elements act on the components of Green's strain E = (E11, E22, 2 E12) of a triangle or node:
+// springs p slip at strains r, as in bending (laws/spectrum_stops.h) but on each component by itself.
 //
 //   stress_c = sum_j p_j clip(E_c - S_j, r_j),   accepted: S_j = E_c - clip(E_c - S_j, r_j)
 //
-// From an accepted state on, the potential is sum_j p_j H_j(E_c - S_j), H(u) = u^2/2 where |u| <= r, else
-// r |u| - r^2/2: convex in strain.  It is what is stored and what is lost on the way.  Chosen here: three
+// From an accepted state on, the potential is sum_j p_j H_j(E_c - S_j), H(u) = u^2/2 where |u| <= r, else r
+// |u| - r^2/2: convex in strain.  It is the energy stored plus that lost on the way.  Chosen here: three
 // mechanisms, not one radial set, since yarns that are pulled and yarns that turn at their crossings rub at
 // different places.  Green's strain does not change with a rotation, and so neither does friction.
 //
@@ -21,25 +21,25 @@ namespace hysteron {
 //   r(x) = r (1 + g |x|),   a = r g < 1,   held = clip(x - S, r(x)),   accepted: S = x - held
 //
 // Where a stop slips its tangent is p a sign(x) sign(held), negative on the way back to no shear, so that
-// elasticity beside the stops has to have at least sum_j p_j a_j (scene/fabric.cpp): then the potential, what
-// is stored and what is lost, p held^2/2 + p int held dS, is convex.  Nothing is given back: r(x)
-// changes less than x does since a < 1, so that S moves only with the sign of held, and held dS >= 0.
+// elasticity beside the stops has to have at least sum_j p_j a_j (scene/fabric.cpp): then the potential, the
+// energy stored plus that lost, p held^2/2 + p int held dS, is convex.  Nothing is given back: r(x) changes
+// less than x does since a < 1, so that S moves only with the sign of held, and held dS >= 0.
 template <class Real>
 struct StrainStop {
-  Real limit;      // r (strain), where nothing is sheared
+  Real limit;      // r (strain), at zero shear
   Real stiffness;  // p [N/m]
 };
 
-// Of all stops of a triangle or node at a strain.
+// The response of all stops of a triangle or node at a strain.
 template <class Real>
 struct StopsReply {
-  Vec3<Real> stress{0, 0, 0}, tangent{0, 0, 0};  // by component: second Piola-Kirchhoff, its derivative [N/m]
-  Real stored = 0, lost = 0;                     // now, and on the way from the accepted state [J/m^2]
+  Vec3<Real> stress{0, 0, 0}, tangent{0, 0, 0};  // second Piola-Kirchhoff, its derivative [N/m]
+  Real stored = 0, lost = 0;                     // at present, and on the way from the accepted state [J/m^2]
 };
 
-// The loss of a stop that slips at x since S was accepted, over its stiffness p: int held dS from where it
-// began to slip, mirrored so that it slips forward, is the integral of r(y) (1 - a sign y) dy.  On either
-// side of y = 0 that is the distance slipped times the mean of the limits at its ends.
+// Returns the loss of a stop that has slipped at x since S was accepted, over its stiffness p: int held dS
+// from where it began to slip, mirrored so that it slips forward, is the integral of r(y) (1 - a sign y) dy.
+// On either side of y = 0 that is the distance slipped times the mean of the limits at its ends.
 template <class Real>
 HYST_HD Real growing_slip_loss(Real x, Real slip, Real r, Real a) {
   const Real forward = x < slip ? Real(-1) : Real(1), y = forward * x;
@@ -50,17 +50,17 @@ HYST_HD Real growing_slip_loss(Real x, Real slip, Real r, Real a) {
   return (y - forward * slip - last) * (first + last) / 2;
 }
 
-// The stops of every triangle or node: of E11, then of E22, then of 2 E12; and what each remembers.
+// The stops of every triangle or node, on E11, then on E22, then on 2 E12, with their memory.
 template <class Real>
 struct StrainStops {
   const StrainStop<Real>* stop;
-  int begin[4];  // of each component's
-  Real* slip;    // S: begin[3] for each
+  int begin[4];  // of each component's stops
+  Real* slip;    // S, begin[3] numbers for each triangle or node
   int faces;
-  Real growth = 0;  // g, of the limits of 2 E12
+  Real growth = 0;  // g, for the limits of 2 E12
 
   HYST_HD Real& slot_slip(int face, int j) const { return slip[slot_index(face, j, begin[3], faces)]; }
-  // Without branches, which would be guessed wrongly where some stops hold and some slip.
+  // Clips without branches, which would be predicted wrongly where some stops hold and some slip.
   HYST_HD static Real clipped(Real offset, Real limit) {
     const Real below = offset < limit ? offset : limit;
     return below > -limit ? below : -limit;
@@ -93,7 +93,7 @@ struct StrainStops {
     return sum;
   }
 
-  // Adds the stops of 2 E12 where their limits grow.
+  // Adds the stops of 2 E12 whose limits grow.
   HYST_HD void add_growing(int face, Real x, StopsReply<Real>& sum) const {
     for (int j = begin[2]; j < begin[3]; ++j) {
       const Real p = stop[j].stiffness, r = stop[j].limit, slip = slot_slip(face, j);
@@ -110,7 +110,7 @@ struct StrainStops {
     }
   }
 
-  // Stops that slip are dragged along.
+  // Accepts the strain: stops that slip are dragged along.
   HYST_HD void accept(int face, const Vec3<Real>& strain) const {
     for (int c = 0; c < 3; ++c)
       for (int j = begin[c]; j < begin[c + 1]; ++j) {

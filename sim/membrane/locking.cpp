@@ -12,11 +12,12 @@ namespace hysteron {
 
 namespace {
 
-// Drape coefficients of cotton broad (`drape --quick`), strains of triangles, and the number:
+// Measured drape coefficients of cotton broad (`drape --quick`) with strains of triangles, and the locking
+// number:
 //   warp, weft [kN/m]    1, 1          3, 3         10, 10        100, 100      100, 1
 //   600 triangles        76.0 % 2e4    79.6 % 7e4   84.5 % 2e5    90.9 % 2e6    87.1 % 2e6
 //   1,200                79.0 % 1e4                 86.4 % 1e5
-// Of each decade some 2 points are the sheet's own, as means at nodes show (results/drape-tension).
+// In each decade some 2 points are the sheet's own, as means at nodes show (results/drape-tension).
 constexpr double kLocks = 1e5;
 
 double mean_edge(const ClothMesh& mesh) {

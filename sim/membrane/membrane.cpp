@@ -19,7 +19,7 @@ std::vector<MembraneRest<Real>> rest_as(const ClothMesh& mesh) {
   return result;
 }
 
-// MembraneBlocks::sum.
+// Lists the terms of MembraneBlocks::sum.
 template <class Real, class Device>
 std::vector<Eigen::Vector2i> block_terms(const ClothMesh& mesh, const BlockRows<Real, Device>& rows) {
   std::vector<Eigen::Vector2i> terms(rows.col().size(), Eigen::Vector2i(-1, -1));
@@ -34,7 +34,7 @@ std::vector<Eigen::Vector2i> block_terms(const ClothMesh& mesh, const BlockRows<
   return terms;
 }
 
-// Of each node's triangles A_f/(3 A_v).
+// Returns A_f/(3 A_v) for each node's triangles.
 template <class Real>
 std::vector<Real> node_weights(const ClothMesh& mesh, const MembraneNodes& nodes) {
   std::vector<Real> weight;
@@ -52,7 +52,8 @@ HYST_HD void add_share(MembraneStress<Real>& to, const MembraneStress<Real>* of_
   to.s22 += (a.s22 + b.s22 + c.s22) / 3;
 }
 
-// Squares of the deformation of warp and weft, and their product: of a triangle, or means at a node.
+// Finds the principal stretch from the squares of the deformation of warp and weft, and their product: those
+// of a triangle, or means at a node.
 template <class Strains, class Real>
 HYST_HD Real principal_stretch(const Strains& strains, int i, const Vec3<Real>* x) {
   const Vec3<Real> squares = strains.squares(i, x);
@@ -120,7 +121,7 @@ void Membrane<Real, Device>::evaluate(const Vec3<Real>* x) {
   add_nodes(false);
 }
 
-// The stresses of nodes on those of their triangles, of which the tension is then known; where it is apart,
+// Adds the stresses of nodes to those of their triangles, whose tension is then complete; `tension_is_apart`:
 // it is not that of the whole stress.
 template <class Real, class Device>
 void Membrane<Real, Device>::add_nodes(bool tension_is_apart) {

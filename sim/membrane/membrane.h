@@ -1,5 +1,5 @@
-// The membrane of a whole cloth on one device: stresses by triangle and node, forces and implicit matrix by
-// vertex.
+// Computes the membrane of a whole cloth on one device: stresses by triangle and node, forces and implicit
+// matrix by vertex.
 #pragma once
 
 #include <optional>
@@ -9,16 +9,17 @@
 
 namespace hysteron {
 
-// Rest geometry of every face in its warp-weft frame.
+// Returns the rest geometry of every face in its warp-weft frame.
 std::vector<MembraneRest<double>> membrane_rest(const ClothMesh& mesh);
 
-// Largest eigenvalue of M^-1 K of the unstretched membrane, whose stops hold [1/s^2]; damping left out.
+// Returns the largest eigenvalue of M^-1 K of the unstretched membrane, whose stops hold [1/s^2], without
+// damping.  `mass` is per vertex [kg].
 double membrane_spectral_radius(const ClothMesh& mesh, const Fabric& fabric, MembraneElement element,
                                 const std::vector<double>& mass, const std::vector<char>& held);
 
 template <class Real>
 struct MembraneForceView {
-  const int* start;  // rows: vertices
+  const int* start;  // n + 1 row starts, one row per vertex
   const int* item;   // 3*face + corner
   const MembraneRest<Real>* rest;
   const Deformation<Real>* deformation;
@@ -33,17 +34,17 @@ struct MembraneForceView {
   }
 };
 
-// What the triangles add to the blocks of an implicit matrix, each of which gathers its terms: those off the
-// diagonal first, then the diagonal ones.  A term is numbered 9 * face + 3 * i + j for corners i and j.
+// The terms of triangles in the blocks of an implicit matrix, each of which gathers its own: off-diagonal
+// blocks first, then the diagonal ones.  A term is numbered 9 * face + 3 * i + j for corners i and j.
 template <class Real>
 struct MembraneBlocks {
-  int off_diagonal;  // how many
-  // Terms of each block off the diagonal: an edge has one triangle, then -1, or two.
+  int off_diagonal;  // number of off-diagonal blocks
+  // The terms of each off-diagonal block: an edge has one triangle, then -1, or two.
   const Eigen::Vector2i* sum;
-  const int *start, *item;  // of each diagonal block: rows of 3 * face + corner
+  const int *start, *item;  // for each diagonal block: rows of 3 * face + corner
   const MembraneRest<Real>* rest;
 
-  // Sum of term(face, i, j) over block b, from zero in the order of the row's triangles.
+  // Adds term(face, i, j) over block b to `value`, in the order of the row's triangles.
   template <class Value, class Term>
   HYST_HD Value gather(int b, Value value, const Term& term) const {
     if (b < off_diagonal) {
@@ -60,22 +61,22 @@ struct MembraneBlocks {
 template <class Real, class Device>
 class Membrane {
  public:
-  // `rows` couple what membrane_couplings() says.
+  // `rows` has to have the couplings of membrane_couplings().
   Membrane(Device& device, const ClothMesh& mesh, const Fabric& fabric, MembraneElement element,
            const BlockRows<Real, Device>& rows)
       : Membrane(device, mesh, fabric, split_membrane(fabric, element), rows) {}
 
-  // Strains and stresses (elastic, of friction, and viscous of `velocity`) at `position`; forces() then
-  // gathers them.
+  // Computes strains and stresses (elastic, of friction, and viscous of `velocity`) at `position` (n vertices
+  // each); forces() then gathers them.
   void update(const Vec3<Real>* position, const Vec3<Real>* velocity);
   MembraneForceView<Real> forces() const {
     return {vertex_start_.data(), vertex_item_.data(), rest_.data(), deformation_.data(), faces_.stress()};
   }
-  // matrix = factor * Gauss-Newton stiffness + geometric * stiffness of the tension at the last update, to
-  // which callers add mass and contact.  What compression adds is negative semidefinite and apart in
+  // Sets matrix = factor * Gauss-Newton stiffness + geometric * stiffness of the tension at the last update,
+  // to which callers add mass and contact.  The part of compression is negative semidefinite and goes to
   // `softening`, unless that is null.
   void assemble(Real factor, Real geometric, BlockRowsView<Real> matrix, ScalarRowsView<Real> softening = {});
-  // Parts of assemble(); public because nvcc allows no device lambda in a private member function.
+  // These are parts of assemble(); public because nvcc allows no device lambda in a private member function.
   void assemble_blocks(Real factor, Real geometric, BlockRowsView<Real> matrix);
   void assemble_columns(Real factor, Real geometric, BlockRowsView<Real> matrix);
   void assemble_softening(ScalarRowsView<Real> softening);
@@ -86,22 +87,23 @@ class Membrane {
   void add_nodes(bool tension_is_apart);
   Real damping() const { return faces_.damping(); }  // viscous over elastic stiffness [s]
 
-  // Implicit steps.  begin_step() fixes what strain rates are measured from: (1 + e) E(now) - e E(before),
-  // e the extrapolation (`before` may be null if e = 0).  evaluate() sets forces(), energies() of elastic,
-  // frictional and viscous stress, and what assemble() needs, at `position`.
+  // These serve implicit steps. begin_step() fixes the reference of strain rates: (1 + e) E(now) - e
+  // E(before), e the extrapolation (`before` may be null if e = 0). evaluate() sets forces(), energies() of
+  // elastic, frictional and viscous stress, and the input of assemble(), at `position` (n vertices [m]).
   void begin_step(const StepFormula& formula, const Vec3<Real>* now, const Vec3<Real>* before) {
     each([&](auto& sites, double*) { sites.begin_step(formula, now, before); });
   }
   void evaluate(const Vec3<Real>* position);
-  const double* energies() const { return energy_.data(); }  // of triangles, then of nodes [J]
+  const double* energies() const { return energy_.data(); }  // one per triangle, then one per node [J]
   int energies_count() const { return static_cast<int>(energy_.size()); }
-  // Viscous over elastic stiffness of a step: the factor of assemble() is 1 + this.
+  // Returns viscous over elastic stiffness of a step: the factor of assemble() is 1 + this.
   Real viscous_factor() const { return faces_.viscous_factor(); }
-  void add_viscous_loss() {  // of the step that evaluate() saw last
+  void add_viscous_loss() {  // for the last evaluated step
     each([](auto& sites, double*) { sites.add_viscous_loss(); });
   }
 
-  // Friction in the plane: accepts positions, of the start without a loss.  Nothing without stops.
+  // These serve friction in the plane: they accept positions, those of the start without a loss.  They do
+  // nothing without stops.
   bool has_friction() const { return faces_.has_friction() || (nodes_ && nodes_->sites.has_friction()); }
   void start_friction(const Vec3<Real>* position) { accept(position, true); }
   void commit_friction(const Vec3<Real>* position) { accept(position, false); }
@@ -109,7 +111,8 @@ class Membrane {
     return faces_.friction_loss() + (nodes_ ? nodes_->sites.friction_loss() : 0);
   }
 
-  // What outlives a step: losses, and what friction remembers; stresses follow from positions.
+  // Saves or loads the state that outlives a step: losses and the memory of friction; stresses follow from
+  // positions.
   void serialise(Archive& archive) {
     each([&](auto& sites, double*) { sites.serialise(archive); });
   }
@@ -118,25 +121,25 @@ class Membrane {
     each([&](auto& sites, double* energy) { sites.find_stored(position, energy); });
     return energy_.sum();
   }
-  void add_viscous_loss(const Vec3<Real>* velocity, Real step) {  // of the last update's geometry
+  void add_viscous_loss(const Vec3<Real>* velocity, Real step) {  // with the geometry of the last update
     each([&](auto& sites, double*) { sites.add_viscous_loss(velocity, step); });
   }
   double viscous_loss() const {  // since the start [J]
     return faces_.viscous_loss() + (nodes_ ? nodes_->sites.viscous_loss() : 0);
   }
-  // Largest principal stretch minus 1, of a triangle or of the means at a node.
+  // Returns the largest principal stretch minus 1, of a triangle or of the means at a node.
   double largest_stretch(const Vec3<Real>* position);
-  std::size_t force_bytes() const {  // of forces()
+  std::size_t force_bytes() const {  // bytes that readers of forces() touch
     return total_bytes(vertex_start_, vertex_item_, rest_, deformation_) + faces_.stress_bytes();
   }
-  std::size_t bytes() const;  // without friction's history
+  std::size_t bytes() const;  // does not count friction's history
   std::size_t history_bytes() const {
     return faces_.history_bytes() + (nodes_ ? nodes_->sites.history_bytes() : 0);
   }
 
  private:
   using Faces = FaceStrains<Real>;
-  // What is there with nodes alone.
+  // These exist with nodes alone.
   struct Nodes {
     Nodes(Device& device, const ClothMesh& mesh, const Fabric& fabric, const MembraneSplit& split,
           const MembraneNodes& nodes, const Faces& faces, const BlockRows<Real, Device>& rows);
@@ -159,7 +162,7 @@ class Membrane {
   void accept(const Vec3<Real>* position, bool is_start) {
     each([&](auto& sites, double*) { sites.commit_friction(position, is_start); });
   }
-  // visit(sites, their energies), of triangles and then of nodes.
+  // Calls visit(sites, their energies), with triangles and then with nodes.
   template <class Visit>
   void each(const Visit& visit) {
     visit(faces_, energy_.data());

@@ -1,5 +1,5 @@
-// The membrane's part of an implicit matrix.  Every block gathers what its triangles add: nothing is cleared
-// first, and no store depends on another.
+// Assembles the membrane's part of an implicit matrix.  Every block gathers its triangles' terms: nothing is
+// cleared first, and no store depends on another.
 #include "sim/membrane/membrane.h"
 
 namespace hysteron {
@@ -10,7 +10,8 @@ HYST_HD MembraneStress<Real> scaled(Real factor, const MembraneStress<Real>& s) 
   return {factor * s.s11, factor * s.s22, factor * s.s12};
 }
 
-// Of each triangle, what the factor multiplies: its C, and with stops what those that hold add to it.
+// The stiffness of each triangle that the factor multiplies: its C, and with stops the tangents of those that
+// hold.
 template <class Real>
 struct ElasticStiffness {
   MembraneStiffness<Real> c;
@@ -19,7 +20,7 @@ struct ElasticStiffness {
 template <class Real>
 struct StiffnessWithStops {
   MembraneStiffness<Real> c;
-  Real fraction;  // viscosity, a part of the factor, is of elasticity alone
+  Real fraction;  // viscosity, a part of the factor, acts on elasticity alone
   const Vec3<Real>* tangent;
   HYST_HD MembraneStiffness<Real> of(int face) const {
     const Vec3<Real> t = fraction * tangent[face];
@@ -60,7 +61,7 @@ void Membrane<Real, Device>::assemble_columns(Real factor, Real geometric, Block
                  [&](const auto& stiffness) { gather_columns(stiffness, factor, geometric, matrix); });
 }
 
-// A CPU computes what the entries of a block have in common once.
+// A CPU computes the common values of a block's entries once.
 template <class Real, class Device>
 template <class Stiffness>
 void Membrane<Real, Device>::gather_blocks(const Stiffness& stiffness, Real factor, Real geometric,
@@ -83,8 +84,8 @@ void Membrane<Real, Device>::gather_blocks(const Stiffness& stiffness, Real fact
       });
 }
 
-// On a GPU three threads take a block, a column each: neighbours store side by side, and what the numbers of
-// a column have in common is read once.
+// On a GPU three threads share a block, a column each: neighbours store side by side, and the common data of
+// a column is read once.
 template <class Real, class Device>
 template <class Stiffness>
 void Membrane<Real, Device>::gather_columns(const Stiffness& stiffness, Real factor, Real geometric,

@@ -24,7 +24,7 @@ void join_along(const ClothMesh& mesh, const Edge& edge, Sets& sets) {
   for (int k = 0; k < 2; ++k) sets.join(pair[k][0], pair[k][1]);
 }
 
-// Vertex by vertex: without seams the nodes are the vertices.
+// Numbers nodes vertex by vertex: without seams the nodes are the vertices.
 void number_nodes(const ClothMesh& mesh, MembraneNodes& nodes) {
   Sets sets(3 * mesh.faces());
   for (int e = 0; e < mesh.interior_edges; ++e) join_along(mesh, mesh.edge[e], sets);

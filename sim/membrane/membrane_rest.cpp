@@ -27,7 +27,7 @@ std::vector<MembraneRest<double>> membrane_rest(const ClothMesh& mesh) {
 
 namespace {
 
-// What the triangles' stress becomes by the means of their strain rates at nodes.
+// Adds to the triangles' stress that of the means of their strain rates at nodes.
 void add_nodal_stress(const ClothMesh& mesh, const MembraneNodes& nodes, const MembraneStiffness<double>& c,
                       const std::vector<Eigen::Vector3d>& strain,
                       std::vector<MembraneStress<double>>& stress) {

@@ -117,7 +117,7 @@ void MembraneSites<Strains, Device>::add_viscous_loss() {
   const Real viscous = viscous_factor();
   if (!(viscous > 0)) return;
   const MembraneStiffness<Real> c = stiffness_;
-  // dt damping dE/dt C dE/dt
+  // The loss is dt damping dE/dt C dE/dt.
   const Real factor = 2 * viscous * static_cast<Real>(formula_.dt / formula_.beta_dt);
   const Strains of = strains_;
   const Vec3<Real>* reference = reference_.data();

@@ -1,10 +1,10 @@
-// Stresses of all triangles, or of all nodes (strains.h), on one device: elastic, of friction, and viscous;
-// with their energies and losses.
+// Computes stresses of all triangles, or of all nodes (strains.h), on one device: elastic, frictional and
+// viscous, with their energies and losses.
 //
 // In an implicit step viscosity is the potential damping/beta_dt * W(E - E_ref), whose stress is damping * C
 // dE/dt with dE/dt = (E - E_ref)/beta_dt, so that a step is a minimum problem and rotations cost nothing.
 //
-// A fabric without stops has no memory here, and its cloth no loop for friction.
+// For a fabric without stops there is neither memory nor a loop for friction.
 #pragma once
 
 #include <cmath>
@@ -22,12 +22,11 @@ class MembraneSites {
  public:
   using Real = typename Strains::Real;
 
-  // What all strains read, and of it one vector for each vertex.
+  // Bytes that all strains read, and those of one vector per vertex.
   struct Bytes {
     std::size_t strains, vectors;
   };
-  // What `strains` points to must outlive it.  `is_last`: what it computes is final, and tension is
-  // projected.
+  // The arrays of `strains` must outlive it.  `is_last`: its stress is final, and tension is projected.
   MembraneSites(Device& device, const Strains& strains, int sites, const MembraneStiffness<double>& stiffness,
                 double damping, const InPlaneStops& stops, bool is_last, Bytes bytes);
 
@@ -37,26 +36,27 @@ class MembraneSites {
   Real damping() const { return damping_; }  // viscous over elastic stiffness [s]
   const MembraneStress<Real>* stress() const { return stress_.data(); }
   MembraneStress<Real>* stress() { return stress_.data(); }
-  // Of elasticity and friction after update(), of the whole stress after evaluate(); its tensile part if
-  // `is_last`.
+  // The tension: that of elasticity and friction after update(), of the whole stress after evaluate(); its
+  // tensile part if `is_last`.
   MembraneStress<Real>* tension() { return tension_.data(); }
-  // Of stops where update() or evaluate() was called last, by site [N/m]; null without stops.
+  // The tangents of stops where update() or evaluate() was called last, by site [N/m]; null without stops.
   const Vec3<Real>* friction_tangents() const { return tangent_.data(); }
 
+  // Arrays of positions and velocities have n vertices [m], [m/s].
   void update(const Vec3<Real>* position, const Vec3<Real>* velocity);
   void begin_step(const StepFormula& formula, const Vec3<Real>* now, const Vec3<Real>* before);
-  void evaluate(const Vec3<Real>* position, double* energy);  // sets a site's energy [J]
+  void evaluate(const Vec3<Real>* position, double* energy);  // sets one energy per site [J]
   Real viscous_factor() const {                               // viscous over elastic stiffness of a step
     return std::isfinite(formula_.beta_dt) ? damping_ / static_cast<Real>(formula_.beta_dt) : Real(0);
   }
-  void add_viscous_loss();  // of the step that evaluate() saw last
+  void add_viscous_loss();  // for the last evaluated step
   void add_viscous_loss(const Vec3<Real>* velocity, Real step);
-  void find_stored(const Vec3<Real>* position, double* energy);  // [J]
+  void find_stored(const Vec3<Real>* position, double* energy);  // one per site [J]
   double viscous_loss() const { return viscous_.sum(); }         // since the start [J]
 
   bool has_friction() const { return slip_.size() > 0; }
-  // Accepts positions.  What the stops lose on the way counts unless `is_start`: cloth starts with stops that
-  // its start shape has dragged along.
+  // Accepts positions.  The stops' loss on the way counts unless `is_start`: cloth starts with stops that its
+  // start shape has dragged along.
   void commit_friction(const Vec3<Real>* position, bool is_start);
   double friction_loss() const { return lost_.sum(); }  // since the start [J]
 
@@ -69,10 +69,10 @@ class MembraneSites {
   std::size_t bytes() const { return total_bytes(stress_, tension_, viscous_, reference_, stop_, tangent_); }
   std::size_t history_bytes() const { return total_bytes(slip_, lost_); }
 
-  // Parts of update(), evaluate() and find_stored(); public because nvcc allows no device lambda in a private
-  // member function.  Friction is added to stresses that are elastic and viscous, and to tension, which is
-  // elastic; in a step that is tried, with its potential in `energy`, tension becomes that of the whole
-  // stress.
+  // These are parts of update(), evaluate() and find_stored(); public because nvcc allows no device lambda in
+  // a private member function.  They add friction to stresses, which are elastic and viscous, and to tension,
+  // which is elastic; in a trial step, with friction's potential added to `energy`, tension becomes that of
+  // the whole stress.
   void add_friction(double* energy);
   void add_stored_friction(const Vec3<Real>* position, double* energy);
 
@@ -90,14 +90,14 @@ class MembraneSites {
   Bytes bytes_;
   Buffer<MembraneStress<Real>, Device> stress_, tension_;
   Buffer<double, Device> viscous_;  // lost, by site [J]
-  int end_[3];                      // of the stops of each component
+  int end_[3];                      // ends of each component's stops
   Real growth_;                     // StrainStops::growth
   Buffer<StrainStop<Real>, Device> stop_;
   Buffer<Real, Device> slip_;             // StrainStops::slip
   Buffer<Vec3<Real>, Device> tangent_;    // by component
   Buffer<double, Device> lost_;           // by site [J]
   StepFormula formula_;                   // of implicit steps
-  Buffer<Vec3<Real>, Device> reference_;  // strain from which rates are measured; empty without damping
+  Buffer<Vec3<Real>, Device> reference_;  // strain reference of rates; empty without damping
 };
 
 }  // namespace hysteron

@@ -4,7 +4,7 @@ namespace hysteron {
 
 namespace {
 
-// Of each block the pairs of items of the same ring that stand there, in the order of the nodes.
+// Lists for each block the pairs of items of the same ring that add to it, in the order of the nodes.
 template <class Real, class Device>
 void pairs_of_blocks(const Adjacency& ring, const BlockRows<Real, Device>& rows, std::vector<int>& start,
                      std::vector<Eigen::Vector2i>& pair) {
@@ -80,7 +80,7 @@ void NodalStiffness<Real, Device>::add(const MembraneSites<NodeStrains<Real>, De
   const Eigen::Vector2i* pair = pair_.data();
   const NodeRates<Real>* rate = rate_.data();
   const int blocks = static_cast<int>(pair_start_.size()) - 1, off_diagonal = blocks - matrix.rows;
-  // Three threads take a block, a column each.
+  // Three threads share a block, a column each.
   for_each(
       device_,
       {"nodal matrix", 2 * blocks * sizeof(Mat3<Real>) + total_bytes(node_, pair_start_, pair_, rate_)},

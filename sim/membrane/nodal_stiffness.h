@@ -1,5 +1,5 @@
-// What nodes (membrane_nodes.h) add to the membrane's matrix: A_v B^T (C - c) B with B the derivative of a
-// node's mean strains by the vertices of its ring.
+// Adds the part of nodes (membrane_nodes.h) to the membrane's matrix: A_v B^T (C - c) B with B the derivative
+// of a node's mean strains by the vertices of its ring.
 #pragma once
 
 #include "sim/linear/block_rows.h"
@@ -8,7 +8,7 @@
 
 namespace hysteron {
 
-// How a node's mean strains along warp and weft change with a vertex [1/m].
+// The rates of a node's mean strains along warp and weft by a vertex's position [1/m].
 template <class Real>
 struct NodeRates {
   Vec3<Real> warp, weft;
@@ -19,8 +19,8 @@ class NodalStiffness {
  public:
   NodalStiffness(Device& device, const MembraneNodes& nodes, const BlockRows<Real, Device>& rows);
 
-  // matrix += factor * elastic stiffness + of_stops * what stops add to warp and weft, where the triangles
-  // were evaluated last.
+  // Adds factor * elastic stiffness + of_stops * the stops' tangents along warp and weft to the matrix, where
+  // the triangles were evaluated last.
   void add(const MembraneSites<NodeStrains<Real>, Device>& nodes, Real factor, Real of_stops,
            BlockRowsView<Real> matrix);
   std::size_t bytes() const { return total_bytes(node_, corner_start_, corner_, rate_, pair_start_, pair_); }
@@ -30,9 +30,9 @@ class NodalStiffness {
 
  private:
   Device& device_;
-  Buffer<int, Device> node_, corner_start_, corner_;  // of each item of the rings
+  Buffer<int, Device> node_, corner_start_, corner_;  // for each item of the rings
   Buffer<NodeRates<Real>, Device> rate_;
-  // For each block, those off the diagonal first, the pairs of items that add to it.
+  // For each block, off-diagonal ones first, the pairs of items that add to it.
   Buffer<int, Device> pair_start_;
   Buffer<Eigen::Vector2i, Device> pair_;
 };

@@ -20,7 +20,7 @@ namespace {
 using PointList = std::vector<Eigen::Vector3d>;
 using FaceList = std::vector<Eigen::Vector3i>;
 
-// All vertices of a file, whether a face uses them or not, in its own unit.
+// All vertices of a file, whether a face uses them or not, in the file's unit.
 struct WholeMesh {
   PointList vertex;
   FaceList face;
@@ -40,7 +40,8 @@ WholeMesh read_whole(const std::string& file) {
   return {std::move(surface.vertex), std::move(surface.face), {what, {}, {}}};
 }
 
-// Quads may be cut otherwise: two triangles then have the same four corners.
+// Compares faces by their corners: quads may be cut differently, so that two triangles have the same four
+// corners.
 bool same_faces(const FaceList& a, const FaceList& b) {
   if (a.size() != b.size()) return false;
   const auto corners = [](const FaceList& face, std::size_t f) {
@@ -71,10 +72,10 @@ void check_like(const WholeMesh& first, const WholeMesh& frame) {
 }
 
 struct Frames {
-  std::vector<PointList> position;  // of all vertices
-  std::vector<std::string> name;    // of each, for messages
+  std::vector<PointList> position;  // of all vertices, in the file's unit
+  std::vector<std::string> name;    // of each frame, for messages
   double fps = 0;
-  std::vector<double> time;  // where fps does not say it [s]
+  std::vector<double> time;  // of each frame where fps does not give it [s]
 };
 
 Frames frames_of_cache(const BodyFiles& files, const WholeMesh& first) {
@@ -131,7 +132,8 @@ void compact(WholeMesh& whole, Frames& frames, LengthUnit unit) {
   }
 }
 
-// Throws for what is no surface in the first frame, and for triangles that have no normal in a later one.
+// Throws if the first frame is not a surface, or if a later one has triangles without a normal; returns
+// whether the surface is closed.
 bool checked_closed(const WholeMesh& whole, const Frames& frames) {
   ClothMesh mesh;
   mesh.face = whole.face;

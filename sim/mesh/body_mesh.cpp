@@ -7,7 +7,7 @@
 namespace hysteron {
 namespace {
 
-// The frame before an instant, and how far it is from there to the next one as a part of the way.
+// Returns the frame before time t [s], and the fraction of the way from there to the next one.
 std::pair<std::size_t, double> place_in(const BodyMesh& body, double t) {
   const double last = static_cast<double>(body.frames.size() - 1);
   if (body.time.empty()) {

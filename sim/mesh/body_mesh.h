@@ -1,4 +1,4 @@
-// The surface of a body of triangles, and where its vertices are over time.
+// The surface of a body of triangles, and its vertices' positions over time.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,9 +12,9 @@ namespace hysteron {
 struct BodyMesh {
   std::vector<Eigen::Vector3i> face;                 // counter-clockwise seen from outside
   std::vector<std::vector<Eigen::Vector3d>> frames;  // at least one; each of all vertices [m]
-  double fps = 0;            // frames a second, the first of them at t = 0; 0: rigid, or as `time` says
+  double fps = 0;            // frames per second, from t = 0 on; 0: rigid, or as `time` says
   std::vector<double> time;  // of the frames [s], ascending; empty: as fps says
-  Cycles cycles = {};        // in which the frames are gone through again
+  Cycles cycles = {};        // in which the frames are repeated
   bool closed = false;       // every edge has two triangles, wound alike
 
   int vertices() const { return static_cast<int>(frames.front().size()); }
@@ -23,8 +23,8 @@ struct BodyMesh {
   double time_of(std::size_t frame) const {  // [s]
     return time.empty() ? (fps > 0 ? static_cast<double>(frame) / fps : 0) : time[frame];
   }
-  // Straight from one frame to the next; before the first one and after the last one it stays.  In each
-  // further cycle it is where it is in the first.
+  // Returns the vertices at time t [s], interpolated linearly between frames [m]; the body rests before the
+  // first and after the last frame.  Each further cycle repeats the first.
   std::vector<Eigen::Vector3d> positions(double t) const;
 };
 

@@ -23,7 +23,7 @@ bool in_rows(MeshFamily family) {
   return family == MeshFamily::equilateral || family == MeshFamily::aligned45;
 }
 
-// Cells of size 1 x 1, vertices row by row.
+// Makes cells of size 1 x 1, with vertices row by row.
 Flat square_cells(int nx, int ny, MeshFamily family) {
   Flat flat;
   const int row = nx + 1;
@@ -41,8 +41,8 @@ Flat square_cells(int nx, int ny, MeshFamily family) {
   return flat;
 }
 
-// Rows of triangles of base 1 and height 1.  Odd rows are shifted by half a base; half triangles close the
-// ends, so that the outline is straight.
+// Makes rows of triangles of base 1 and height 1.  Odd rows are shifted by half a base; half triangles close
+// the ends, so that the outline is straight.
 Flat triangle_rows(int nx, int ny) {
   Flat flat;
   std::vector<int> start;
@@ -67,7 +67,7 @@ Flat triangle_rows(int nx, int ny) {
   return flat;
 }
 
-// Interior vertices of the square cells at random; the boundary keeps its even spacing.
+// Makes square cells whose interior vertices are moved at random; the boundary keeps its even spacing.
 Flat random_cells(int nx, int ny, unsigned seed) {
   Flat flat;
   Uniform uniform(seed);
@@ -84,7 +84,8 @@ Flat random_cells(int nx, int ny, unsigned seed) {
   return flat;
 }
 
-// Numbers of cells for about `triangles` triangles: the pair that best weighs the count against the shape.
+// Returns the numbers of cells for about `triangles` triangles: the pair that best balances the count and the
+// cells' shape.
 std::pair<int, int> cell_counts(double length, double width, int triangles, MeshFamily family) {
   const double height_over_width = row_height(family);
   const int extra = in_rows(family) ? 1 : 0;  // a row of n cells has 2 n + extra triangles
@@ -183,11 +184,12 @@ ClothMesh make_rectangle(double length, double width, int triangles, MeshFamily 
   return make_grid(length, width, nx, ny, family, seed);
 }
 
-// Tubes: a rectangle rolled up and sewn along its length, as a sleeve or a trouser leg is.
+// A tube is a rectangle rolled up and sewn along its length, as a sleeve or a trouser leg is.
 
 namespace {
 
-// Edges that lie on neither end are open: the two sides of the seam did not meet.
+// Is the seam closed? Boundary edges that lie on neither end are open: the two sides of the seam did not
+// meet.
 bool is_closed(const ClothMesh& mesh, double length) {
   const auto at_end = [&](int vertex) {
     const double x = mesh.rest[vertex].x();
@@ -210,7 +212,7 @@ ClothMesh make_tube(double length, double radius, int triangles, MeshFamily fami
     const double angle = x.y() / radius;
     rolled.push_back({x.x(), -radius * std::sin(angle), -radius * std::cos(angle)});
   }
-  constexpr double kSeam = 1e-6;  // of the radius: far below any edge, far above rounding
+  constexpr double kSeam = 1e-6;  // over the radius: far below any edge, far above rounding
   const std::vector<int> kept = nearby_representatives(rolled, kSeam * radius);
   std::vector<int> number(rolled.size());
   for (std::size_t i = 0; i < rolled.size(); ++i) {
@@ -228,9 +230,9 @@ ClothMesh make_tube(double length, double radius, int triangles, MeshFamily fami
 
 namespace {
 
-constexpr int kPieces = 4;  // of a triangle
+constexpr int kPieces = 4;  // pieces of a triangle
 
-// By the vertices of the whole and the middles m_i opposite to them:
+// Returns the pieces by the vertices of the whole and the middles m_i opposite to them:
 //
 //         2
 //        /  \            .

@@ -1,4 +1,4 @@
-// What the builders of flat meshes share.
+// The common parts of the builders of flat meshes.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,31 +9,33 @@
 
 namespace hysteron {
 
-// More triangles than this are a mistake in the request, and beyond what the Delaunay grid resolves.
+// A request for more triangles is a mistake, and beyond what the Delaunay grid resolves.
 inline constexpr int kMaxTriangles = 10'000'000;
 
-// Error::invalid_input "<what> mesh: <name> = <value> m must be > 0" unless it is a positive finite number.
+// Throws Error::invalid_input "<what> mesh: <name> = <value> m must be > 0" unless it is a positive finite
+// number.
 void check_length(const std::string& what, const std::string& name, double value);
-// Error::invalid_input unless 2 <= triangles <= kMaxTriangles.
+// Throws Error::invalid_input unless 2 <= triangles <= kMaxTriangles.
 void check_triangles(const std::string& what, int triangles);
 
-// Of a row of cells over their width, where they are regular.
+// Returns the height of a row of cells over their width, for regular cells.
 double row_height(MeshFamily family);
 
-// Whether the square cell (i, j) of a structured family is cut from its lower left to its upper right corner.
+// Is the square cell (i, j) of a structured family cut from its lower left to its upper right corner?
 bool rising_diagonal(MeshFamily family, int i, int j);
 
-// The mesh of these points in z = 0, triangles ordered by their lowest vertex, with its topology.
+// Makes the mesh of these points in z = 0, triangles ordered by their lowest vertex, with its topology.
 ClothMesh flat_mesh(const std::vector<Eigen::Vector2d>& points, std::vector<Eigen::Vector3i> triangles,
                     const std::string& what);
 
-// Finer meshes of the same surface: each triangle cut into four at the middles of its sides.
+// Finer meshes of the same surface have each triangle cut into four at the middles of its sides.
 
-// The same cloth, at rest and in texture coordinates: first its vertices, then the middle of each edge; the
-// triangles of each triangle one after another.  Throws Error::invalid_input beyond 10 million triangles.
+// Returns the subdivided cloth, at rest and in texture coordinates: first its vertices, then the middle of
+// each edge; the triangles of each triangle one after another.  Throws Error::invalid_input beyond 10 million
+// triangles.
 ClothMesh subdivided(const ClothMesh& mesh);
 
-// Places of the vertices [m], followed by those of the edges' middles.
+// Returns the positions of the vertices [m], followed by those of the edges' middles.
 std::vector<Eigen::Vector3d> with_middles(const ClothMesh& mesh, std::vector<Eigen::Vector3d> x);
 
 }  // namespace hysteron

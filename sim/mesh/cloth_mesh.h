@@ -1,4 +1,4 @@
-// A cloth at rest: vertices, triangles, and everything about them that never changes during a run.
+// A cloth at rest: vertices, triangles, and all their properties that never change during a run.
 #pragma once
 
 #include <Eigen/Core>
@@ -31,7 +31,7 @@ struct Edge {
   bool interior() const { return face1 >= 0; }
 };
 
-// Compressed rows: entries of row i stand at item[start[i]] ... item[start[i+1]-1].
+// Compressed rows: the entries of row i are item[start[i]] ... item[start[i+1]-1].
 struct Adjacency {
   std::vector<int> start;
   std::vector<int> item;
@@ -43,16 +43,15 @@ struct FaceSide {
 };
 
 struct ClothMesh {
-  std::vector<Eigen::Vector3d> rest;  // rest shape in space [m]; flat builders lie in z = 0
-  std::vector<Eigen::Vector3i> face;  // counter-clockwise seen from the front
-  std::vector<Eigen::Vector2d>
-      pattern;  // per vertex texture coordinates; empty: none, or several along seams
-  std::vector<std::array<Eigen::Vector2d, 3>> panel;  // then those of the triangles' corners; else empty
+  std::vector<Eigen::Vector3d> rest;     // rest shape in space [m]; flat builders lie in z = 0
+  std::vector<Eigen::Vector3i> face;     // counter-clockwise seen from the front
+  std::vector<Eigen::Vector2d> pattern;  // texture coordinates per vertex; empty: none, or several on seams
+  std::vector<std::array<Eigen::Vector2d, 3>> panel;  // on seams: those of the triangles' corners; else empty
   bool sewn = false;  // panels [m] are the cloth at rest, and `rest` is only where their seams hold them
-  std::vector<double> bending_factor;  // of each triangle: its bending moments over the fabric's; empty: 1
-  Eigen::Vector3d warp_axis{1, 0, 0};  // warp direction in texture coordinates; without any, in space
+  std::vector<double> bending_factor;  // per triangle: its bending moments over the fabric's; empty: 1
+  Eigen::Vector3d warp_axis{1, 0, 0};  // warp direction in texture coordinates, or in space if there are none
 
-  // Filled by build_topology():
+  // These are filled in by build_topology().
   std::vector<Edge> edge;                     // interior edges first, then boundary edges
   int interior_edges = 0;                     // number of hinges
   std::vector<std::array<int, 3>> face_edge;  // face_edge[f][i] is the edge opposite to corner i of f
@@ -62,16 +61,16 @@ struct ClothMesh {
 
   int vertices() const { return static_cast<int>(rest.size()); }
   int faces() const { return static_cast<int>(face.size()); }
-  // Corners of face f at rest [m]: of its panel, in z = 0, or in `rest`.
+  // Returns the corners of face f at rest [m]: those of its panel, in z = 0, or in `rest`.
   std::array<Eigen::Vector3d, 3> corners(int f) const;
-  // Face f at its edge e.
+  // Returns face f at its edge e.
   FaceSide side(int f, int e) const;
-  // Length of an edge at rest [m]; along a seam the mean of its two sides.
+  // Returns the length of an edge at rest [m]; along a seam the mean of its two sides.
   double edge_length(int e) const;
-  // Warp and weft unit vectors of face f among its corners at rest, in its plane and at right angles: where
-  // warp_axis lies in texture coordinates, or, without any and where they are degenerate, warp_axis
-  // projected; weft = normal x warp.  A triangle that warp_axis pierces at a right angle takes its first
-  // edge.
+  // Returns orthogonal warp and weft unit vectors of face f in its plane, relative to its corners at rest:
+  // warp is the direction of warp_axis in texture coordinates, or, where there are none or they are
+  // degenerate, warp_axis projected; weft = normal x warp.  A triangle that warp_axis pierces at a right
+  // angle takes its first edge.
   std::array<Eigen::Vector3d, 2> face_axes(int f) const;
 };
 
@@ -82,7 +81,7 @@ struct ClothMesh {
 // vertices, panels of another number than the triangles.
 void build_topology(ClothMesh& mesh, const std::string& what);
 
-// Mesh families of the builders (the accuracy of a bending element depends on them).
+// The mesh families of the builders, on which the accuracy of a bending element depends:
 //   aligned: squares cut by parallel diagonals; aligned-45: the same with the diagonals along x; flipped: the
 //   other diagonal; unionjack: alternating diagonals; equilateral: rows of equilateral triangles; random:
 //   jittered points, Delaunay triangulated.
@@ -92,41 +91,43 @@ constexpr std::array<const char*, 6> names(MeshFamily) {
 }
 MeshFamily mesh_family(const std::string& name);  // Error::invalid_input for an unknown name
 
-// Rectangle [0, length] x [0, width] in z = 0 with about `triangles` triangles; warp along x.
+// Makes the rectangle [0, length] x [0, width] in z = 0 with about `triangles` triangles and warp along x.
 // For structured families the cells are as square as the counts allow (equilateral: rows parallel to the
-// length, closed by half triangles).  random: seeded, the same bits on every machine; boundary vertices are
-// evenly spaced, angles mostly above 20 degrees.  Throws Error::invalid_input for lengths that are not
-// positive and triangles outside 2 ... 10 million.
+// length, closed by half triangles). random is seeded, with the same bits on every machine; its boundary
+// vertices are evenly spaced, its angles mostly above 20 degrees.  Throws Error::invalid_input for lengths
+// that are not positive and triangles outside 2 ... 10 million.
 ClothMesh make_rectangle(double length, double width, int triangles, MeshFamily family, unsigned seed);
-// Rectangle with exactly nx x ny cells (aligned, flipped, unionjack) of 2 triangles each; equilateral
+// Makes a rectangle of exactly nx x ny cells (aligned, flipped, unionjack) of 2 triangles each; equilateral
 // and aligned-45 have ny (2 nx + 1) triangles, random 2 nx ny.
 ClothMesh make_grid(double length, double width, int nx, int ny, MeshFamily family, unsigned seed);
-// Disc around the origin in z = 0; its outline is the polygon of the boundary vertices, all at `radius` and
-// evenly spaced.  Inside, the structured families are their lattice, axes along x and y, as far as 0.8 of its
-// spacing from the circle; a Delaunay triangulation joins it to the ring (angles above 28 degrees from 50
-// triangles on).  About `triangles` triangles: within 5 % or 8 triangles.  Errors as make_rectangle.
+// Makes a disc around the origin in z = 0; its outline is the polygon of the boundary vertices, all at
+// `radius` and evenly spaced.  Inside, the structured families are their lattice, with axes along x and y, up
+// to 0.8 of its spacing from the circle; a Delaunay triangulation joins it to the ring (angles above 28
+// degrees from 50 triangles on).  The number of triangles is within 5 % or 8 of `triangles`.  Throws as
+// make_rectangle() does.
 ClothMesh make_disc(double radius, int triangles, MeshFamily family, unsigned seed);
 
-// Tube of this radius around the x axis from x = 0 to `length`, warp along x, front outside: the rectangle
-// [0, length] x [0, 2 pi radius] sewn along its length at z = -radius.  Its vertices lie on the cylinder.
-// Errors as make_rectangle, and where the sides of the seam have different vertices.
+// Makes a tube of this radius around the x axis from x = 0 to `length`, with warp along x and the front
+// outside: the rectangle [0, length] x [0, 2 pi radius] sewn along its length at z = -radius.  Its vertices
+// lie on the cylinder.  Throws as make_rectangle() does, and where the sides of the seam have different
+// vertices.
 ClothMesh make_tube(double length, double radius, int triangles, MeshFamily family, unsigned seed);
 
-// That many of the same mesh, each `offset` further than the one before; vertices and triangles copy by copy.
+// Returns that many copies of the mesh, each `offset` [m] from the one before; vertices and triangles copy by
+// copy.
 ClothMesh copied_mesh(const ClothMesh& mesh, int copies, const Eigen::Vector3d& offset);
 
 // Reads a Wavefront OBJ of triangles and quads (quads are cut along the shorter diagonal) in that unit.
-// Texture coordinates, where every corner has one, become the pattern, or panels if they have seams.
-// weld > 0 merges each vertex into the first one closer than that distance [m].  Adds to `doubts`, where they
-// are asked for, those of mesh_doubts() (topology.h).
-// Throws Error::system for a file that cannot be read; Error::invalid_input, naming the file and the line,
-// for malformed lines, numbers that are not finite, quads that cross themselves, and all that build_topology
-// refuses.
+// Texture coordinates, where every corner has one, become the pattern, or panels if they have seams. weld > 0
+// merges each vertex into the first one closer than that distance [m].  Adds the doubts of mesh_doubts()
+// (topology.h) to `doubts` unless it is null.  Throws Error::system for a file that cannot be read;
+// Error::invalid_input, naming the file and the line, for malformed lines, numbers that are not finite, quads
+// that cross themselves, and meshes that build_topology refuses.
 ClothMesh read_obj(const std::string& file, double weld, LengthUnit unit = LengthUnit::metre,
                    std::vector<std::string>* doubts = nullptr);
-// Writers of one frame, atomic (temporary name, then rename): position [m] per vertex, value (a curvature
-// [1/m], or empty) per vertex as the property `curvature`.  OBJ in shortest exact decimals with its texture
-// coordinates; PLY binary little-endian, doubles.  Throw Error::system.
+// These write one frame, atomically (temporary name, then rename): position [m] per vertex, value (a
+// curvature [1/m], or empty) per vertex as the property `curvature`.  OBJ has shortest exact decimals with
+// its texture coordinates; PLY is binary little-endian, in doubles.  They throw Error::system.
 void write_obj(const std::string& file, const ClothMesh& mesh, const std::vector<Eigen::Vector3d>& position);
 void write_ply(const std::string& file, const ClothMesh& mesh, const std::vector<Eigen::Vector3d>& position,
                const std::vector<double>& value);

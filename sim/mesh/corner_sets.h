@@ -1,4 +1,4 @@
-// Corners of triangles, 3*face + corner, and numbers that are joined to sets.
+// Corners of triangles, numbered 3*face + corner, and sets of numbers.
 #pragma once
 
 #include <numeric>
@@ -8,7 +8,7 @@
 
 namespace hysteron {
 
-// Sets of numbers 0 ... n-1 that are joined one pair at a time.
+// Sets of the numbers 0 ... n-1, which are joined one pair at a time.
 class Sets {
  public:
   explicit Sets(int n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
@@ -23,7 +23,7 @@ class Sets {
   std::vector<int> parent_;
 };
 
-// 3*face + corner, where that face has the vertex.
+// Returns 3*face + corner, where that face has the vertex.
 inline int corner_at(const ClothMesh& mesh, int face, int vertex) {
   const Eigen::Vector3i& f = mesh.face[face];
   return 3 * face + (f[0] == vertex ? 0 : f[1] == vertex ? 1 : 2);

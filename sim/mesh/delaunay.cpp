@@ -109,7 +109,7 @@ class Sweep {
     return apex + 1;
   }
 
-  // `neighbour`, the point before p in the sweep, is on the hull and sees p.
+  // Joins p to the hull; `neighbour`, the point before p in the sweep, is on the hull and sees p.
   void join(int p, int neighbour) {
     int first = neighbour, last = neighbour;
     while (orientation(before_[first], first, p) < 0) first = before_[first];
@@ -162,8 +162,8 @@ class Sweep {
 
   std::vector<GridPoint> point_;
   std::vector<int> vertex_, twin_;
-  std::vector<int> after_, before_;  // hull, counter-clockwise
-  std::vector<int> side_;            // half-edge of the hull edge that starts at a vertex
+  std::vector<int> after_, before_;  // on the hull, counter-clockwise
+  std::vector<int> side_;            // the half-edge of the hull edge that starts at a vertex
 };
 
 }  // namespace

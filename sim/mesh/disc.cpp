@@ -1,4 +1,4 @@
-// Discs: an evenly spaced ring of vertices on the circle around a lattice or random points.
+// Makes discs: an evenly spaced ring of vertices on the circle around a lattice or random points.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -21,7 +21,7 @@ constexpr double kRingGap = 0.8;
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kRowHeight = 0.86602540378443864676;  // of equilateral triangles, sqrt(3)/2
 
-// The golden angle, pi (3 - sqrt 5).
+// The golden angle is pi (3 - sqrt 5).
 constexpr double kGoldenCos = -0.73736887807831985, kGoldenSin = 0.67549029426152361;
 
 struct Site {
@@ -29,17 +29,18 @@ struct Site {
   int i, j;  // lattice indices
 };
 
-// Spacing that gives `triangles` triangles of the lattice's shape the area of the unit disc.
+// Returns the spacing that gives `triangles` triangles of the lattice's shape the area of the unit disc.
 double even_spacing(int triangles, bool hexagonal) {
   return std::sqrt(2 * kPi / triangles / (hexagonal ? kRowHeight : 1.0));
 }
 
-// Ring vertices at that spacing, as many as the lattice's symmetry divides.
+// Returns the number of ring vertices at that spacing, a multiple of the lattice's symmetry.
 int ring_count(double spacing, int symmetry) {
   return symmetry * std::max(1, static_cast<int>(std::lround(2 * kPi / spacing / symmetry)));
 }
 
-// Lattice points inside the ring.  The centre of the disc is a lattice point, or else the middle of a cell.
+// Returns the lattice points inside the ring.  The centre of the disc is a lattice point, or else the middle
+// of a cell.
 std::vector<Site> lattice(double spacing, bool hexagonal, bool centred) {
   std::vector<Site> sites;
   const double reach = 1 - kRingGap * spacing, height = hexagonal ? kRowHeight : 1.0;
@@ -58,7 +59,7 @@ std::vector<Site> lattice(double spacing, bool hexagonal, bool centred) {
 // A triangulation of n points with r of them on the hull has 2 n - r - 2 triangles.
 int triangle_count(std::size_t sites, int ring) { return 2 * static_cast<int>(sites) + ring - 2; }
 
-// The lattice, over spacings near the even one and both centres, that comes closest to `triangles`.
+// Returns the lattice, over spacings near the even one and both centres, that comes closest to `triangles`.
 std::pair<std::vector<Site>, int> fitting_lattice(int triangles, bool hexagonal) {
   std::pair<std::vector<Site>, int> best;
   int least = std::numeric_limits<int>::max();
@@ -80,8 +81,8 @@ void append_ring(std::vector<Eigen::Vector2d>& points, int ring) {
   for (int i = 0; i < ring; ++i) points.push_back(circle_point(i, ring));
 }
 
-// In a square cell the Delaunay diagonal is arbitrary: put the family's in every cell whose corners all
-// exist.
+// Sets the family's diagonal in every square cell whose corners all exist, where the Delaunay diagonal is
+// arbitrary.
 void set_diagonals(std::vector<Eigen::Vector3i>& triangles, const std::vector<Site>& sites,
                    MeshFamily family) {
   std::map<std::array<int, 2>, int> at;
@@ -112,7 +113,7 @@ void set_diagonals(std::vector<Eigen::Vector3i>& triangles, const std::vector<Si
 ClothMesh lattice_disc(double radius, int triangles, MeshFamily family) {
   const bool hexagonal = family == MeshFamily::equilateral, turned = family == MeshFamily::aligned45;
   const Eigen::Rotation2Dd turn(turned ? kPi / 4 : 0);
-  if (turned) family = MeshFamily::flipped;  // whose diagonals the turn lays along x
+  if (turned) family = MeshFamily::flipped;  // the turn lays its diagonals along x
   const auto [sites, ring] = fitting_lattice(triangles, hexagonal);
   std::vector<Eigen::Vector2d> points;
   for (const Site& site : sites) points.push_back(site.at);
@@ -123,7 +124,7 @@ ClothMesh lattice_disc(double radius, int triangles, MeshFamily family) {
   return flat_mesh(points, std::move(faces), "disc mesh");
 }
 
-// Points of a sunflower (Vogel 1979), shaken: even in density and without a lattice's directions.
+// Makes points of a sunflower (Vogel 1979), jittered: even in density and without a lattice's directions.
 ClothMesh random_disc(double radius, int triangles, unsigned seed) {
   const double spacing = even_spacing(triangles, false);
   const int ring = ring_count(spacing, 1), inside = std::max(0, (triangles + 2 - ring + 1) / 2);

@@ -1,4 +1,4 @@
-// What a mesh file is by its name, in letters of either case.
+// Tells the kind of a mesh file by its name, in letters of either case.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 
 namespace hysteron {
 
-// ".obj" of "Shirt.OBJ".
+// Returns ".obj" for "Shirt.OBJ".
 inline std::string file_extension(const std::filesystem::path& file) {
   std::string ending = file.extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),

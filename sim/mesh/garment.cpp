@@ -11,15 +11,15 @@
 namespace hysteron {
 namespace {
 
-constexpr double kLargestStretch = 2;      // of all sides together; cloth that is sewn stretches by far less
-constexpr double kDoubtfulStretch = 1.15;  // of them, or along one texture coordinate over the other
+constexpr double kLargestStretch = 2;      // of all sides together; sewn cloth stretches by far less
+constexpr double kDoubtfulStretch = 1.15;  // of all sides, or along one texture coordinate over the other
 
 bool is_mirrored(const ClothMesh& mesh, int f) {
   const auto at = mesh.corners(f);
   return (at[1] - at[0]).cross(at[2] - at[0]).z() < 0;
 }
 
-// Flat cloth has one side up; of panels, each.
+// Refuses folded rest shapes: flat cloth has one side up, and so has each panel.
 void check_folds(const ClothMesh& mesh, const std::string& what) {
   for (int e = 0; e < mesh.interior_edges; ++e) {
     const Edge& edge = mesh.edge[e];
@@ -30,7 +30,7 @@ void check_folds(const ClothMesh& mesh, const std::string& what) {
   }
 }
 
-// Lengths of all triangles' sides together.
+// Returns the lengths of all triangles' sides together [m].
 double length_of_sides(const ClothMesh& mesh) {
   double sum = 0;
   for (int f = 0; f < mesh.faces(); ++f) {
@@ -40,12 +40,12 @@ double length_of_sides(const ClothMesh& mesh) {
   return sum;
 }
 
-// "1 2 12", counted as in files.
+// Lists vertices as files count them: "1 2 12".
 std::string vertex_list(const Eigen::Vector3i& face) {
   return std::to_string(face[0] + 1) + " " + std::to_string(face[1] + 1) + " " + std::to_string(face[2] + 1);
 }
 
-// Otherwise vertices of `start` say where others are.
+// Refuses other triangles: the vertices of `start` would then be others.
 void check_triangles(const ClothMesh& start, const ClothMesh& rest, const std::string& what) {
   if (start.vertices() != rest.vertices() || start.faces() != rest.faces())
     throw Error::invalid_input(
@@ -89,8 +89,8 @@ void check_scale(double stretch, double scale, const std::string& what) {
 
 bool is_doubtful(double stretch) { return stretch > kDoubtfulStretch || stretch < 1 / kDoubtfulStretch; }
 
-// How much longer the worn cloth is along the texture's first coordinate than along its second, in the root
-// mean square over the area.
+// Returns how much longer the worn cloth is along the texture's first coordinate than along its second, in
+// the root mean square over the area.
 double unevenness(const ClothMesh& mesh, const std::vector<Eigen::Vector3d>& worn) {
   Eigen::Array2d squares = Eigen::Array2d::Zero();
   for (int f = 0; f < mesh.faces(); ++f) {
@@ -106,7 +106,7 @@ double unevenness(const ClothMesh& mesh, const std::vector<Eigen::Vector3d>& wor
   return std::sqrt(squares[0] / squares[1]);
 }
 
-// "" where nothing is doubtful.
+// Warns of a doubtful size; "" where there is none.
 std::string size_doubt(double uneven, double stretch, double scale) {
   if (is_doubtful(uneven))
     return "where it starts, its triangles are " + number_text(uneven, 3) +

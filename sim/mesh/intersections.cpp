@@ -45,14 +45,14 @@ class Crossing {
     if (shared == 0)
       return !are_apart(corners(a), corners(b)) && CGAL::do_intersect(triangle(a), triangle(b));
     if (meet_only_at_their_corner(a, mine, b, theirs)) return false;
-    // Beyond the common corner: the side opposite to it meets the other triangle.
+    // Triangles meet beyond their common corner if the side opposite to it meets the other triangle.
     return CGAL::do_intersect(opposite(a, mine), triangle(b)) ||
            CGAL::do_intersect(opposite(b, theirs), triangle(a));
   }
 
  private:
-  // Most pairs are told apart by a plane found in plain arithmetic, with a margin far beyond its rounding;
-  // exact predicates, which take long where triangles lie almost in one plane, see the rest.
+  // A plane found in plain arithmetic, with a margin far beyond its rounding, tells most pairs apart; exact
+  // predicates, which take long where triangles lie almost in one plane, decide the rest.
   bool meet_only_at_their_corner(int a, int mine, int b, int theirs) const {
     const Eigen::Vector3d& corner = position_[face_[a][mine]];
     const auto side = [&](int f, int own, int k) { return position_[face_[f][(own + k) % 3]] - corner; };
@@ -70,15 +70,15 @@ class Crossing {
     if (all_above({between, size}, at, a) && all_above({-between, size}, at, b)) return true;
     return are_beside(a, b) || are_beside(b, a);
   }
-  // All of `other` on one side of a triangle's plane.
+  // Is all of `other` on one side of a triangle's plane?
   static bool are_beside(const Corners& triangle, const Corners& other) {
     const Eigen::Vector3d u = triangle[1] - triangle[0], v = triangle[2] - triangle[0], normal = u.cross(v);
     const double size = u.norm() * v.norm(), reach = u.norm() + v.norm();
     return all_above({normal, size, reach}, triangle[0], other) ||
            all_above({-normal, size, reach}, triangle[0], other);
   }
-  // A plane's normal, what its rounding is relative to, and how far from the plane's origin what lies in it
-  // reaches [m].
+  // A plane's normal, the size that its rounding is relative to, and the farthest point in it from the
+  // plane's origin [m].
   struct Side {
     Eigen::Vector3d normal;
     double size, reach = 0;
@@ -108,7 +108,7 @@ class Crossing {
   const std::vector<Eigen::Vector3d>& position_;
 };
 
-// The axes, those first along which the triangles spread farthest.
+// Returns the axes in descending order of the triangles' spread.
 std::array<int, 3> axes_by_spread(const std::vector<Bounds>& bounds) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero(), squares = sum;
   for (const Bounds& b : bounds) {
@@ -124,7 +124,7 @@ std::array<int, 3> axes_by_spread(const std::vector<Bounds>& bounds) {
 
 constexpr std::size_t kMost = 1000000;
 
-// Pairs whose boxes overlap and that `cross`, of those that are `asked` for.
+// Returns pairs whose boxes overlap and that `cross`, among those that are `asked` for.
 template <class Asked>
 std::vector<std::pair<int, int>> found_pairs(const std::vector<Eigen::Vector3i>& face,
                                              const std::vector<Eigen::Vector3d>& position,
@@ -136,7 +136,7 @@ std::vector<std::pair<int, int>> found_pairs(const std::vector<Eigen::Vector3i>&
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(),
             [&, axis = first](int a, int b) { return bounds[a].low[axis] < bounds[b].low[axis]; });
-  std::vector<Bounds> sorted;  // side by side as they are compared
+  std::vector<Bounds> sorted;  // contiguous in the order of comparison
   for (const int f : order) sorted.push_back(bounds[f]);
   const Crossing cross(face, position);
   std::vector<std::pair<int, int>> found;

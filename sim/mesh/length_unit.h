@@ -12,7 +12,7 @@ constexpr std::array<const char*, 4> names(LengthUnit) {
   return {"metre", "centimetre", "millimetre", "inch"};
 }
 
-// `x` of that unit [m]: divided, so that 15 centimetres have the bits of 0.15 m.
+// Converts `x` of that unit to metres, by division, so that 15 centimetres have the bits of 0.15 m.
 constexpr double in_metres(double x, LengthUnit unit) {
   switch (unit) {
     case LengthUnit::centimetre:

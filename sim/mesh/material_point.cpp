@@ -7,7 +7,7 @@
 namespace hysteron {
 namespace {
 
-constexpr double kSlack = 1e-9;  // [m], so that rounding leaves the cloth's edge on the cloth
+constexpr double kSlack = 1e-9;  // [m]; rounding then leaves the cloth's edge on the cloth
 
 double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
@@ -25,7 +25,7 @@ struct FlatFace {
       weight[k] = cross(corner[(k + 1) % 3] - p, corner[(k + 2) % 3] - p) / twice_area();
     return weight;
   }
-  // From the edge opposite to corner k to a point of that weight, positive inside [m].
+  // Returns the distance from the edge opposite to corner k to a point of that weight, positive inside [m].
   double distance(int k, double weight) const {
     return weight * std::abs(twice_area()) / (corner[(k + 2) % 3] - corner[(k + 1) % 3]).norm();
   }

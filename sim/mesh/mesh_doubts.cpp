@@ -1,4 +1,4 @@
-// What is doubtful about a cloth that a file holds.
+// Warns of doubtful features of a cloth in a file.
 #include <algorithm>
 #include <cmath>
 
@@ -10,10 +10,11 @@
 namespace hysteron {
 namespace {
 
-// Of the mean edge: nearer vertices are one to who drew the mesh.  Coordinates of six digits round by less.
+// Vertices nearer than this share of the mean edge were meant as one.  Coordinates of six digits round by
+// less.
 constexpr double kCoincident = 1e-3;
 
-// "3 vertices", "1 vertex"
+// Counts: "3 vertices", "1 vertex".
 std::string counted(int n, const char* one, const char* several) {
   return std::to_string(n) + " " + (n == 1 ? one : several);
 }
@@ -77,7 +78,7 @@ class Doubts {
         names_.vertex(boundary_[first[example]]) + "): cloth.weld = " + number_text(near_) + " m joins them");
   }
 
-  // Whether point i lies within the edge.
+  // Does point i lie within the edge?
   bool is_within(int i, std::size_t e) const {
     const Eigen::Vector3d along = to(e) - from(e), displacement = at_[i] - from(e);
     const double length = along.norm(), s = displacement.dot(along) / length;
@@ -129,8 +130,8 @@ class Doubts {
   const ClothMesh& mesh_;
   const MeshNames& names_;
   std::vector<int> boundary_;        // vertices, ascending
-  std::vector<Eigen::Vector3d> at_;  // where they are
-  double mean_, near_;               // of all edges; what coincides [m]
+  std::vector<Eigen::Vector3d> at_;  // their positions [m]
+  double mean_, near_;               // mean of all edges; distance of coincident vertices [m]
   std::vector<std::string> found_;
 };
 

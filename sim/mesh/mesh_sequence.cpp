@@ -22,7 +22,7 @@ bool is_mesh(const fs::path& file) {
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-// The digits from `at` on without leading zeros; moves `at` behind them.
+// Returns the digits from `at` on without leading zeros; moves `at` behind them.
 std::string number_at(const std::string& text, std::size_t& at) {
   while (at < text.size() && text[at] == '0') ++at;
   const std::size_t from = at;
@@ -30,7 +30,7 @@ std::string number_at(const std::string& text, std::size_t& at) {
   return text.substr(from, at - from);
 }
 
-// frame2 before frame10.
+// Orders frame2 before frame10.
 bool natural_less(const std::string& a, const std::string& b) {
   std::size_t i = 0, j = 0;
   while (i < a.size() && j < b.size()) {
@@ -47,7 +47,7 @@ bool natural_less(const std::string& a, const std::string& b) {
   return a < b;
 }
 
-// A name cut into its numbers and what stands between them: text, number, text, number, text.
+// Cuts a name into its numbers and the text between them: text, number, text, number, text.
 std::vector<std::string> cut_at_numbers(const std::string& name) {
   std::vector<std::string> parts(1);
   for (const char c : name) {
@@ -58,7 +58,8 @@ std::vector<std::string> cut_at_numbers(const std::string& name) {
   return parts;
 }
 
-// The place of the only number in which the names differ; none where they differ elsewhere, or in several.
+// Returns the place of the only number in which the names differ; none where they differ elsewhere, or in
+// several.
 std::optional<std::size_t> place_of_number(const std::vector<std::vector<std::string>>& names) {
   std::optional<std::size_t> found;
   for (const auto& parts : names) {
@@ -72,7 +73,7 @@ std::optional<std::size_t> place_of_number(const std::vector<std::vector<std::st
   return found;
 }
 
-// The file whose name has other text around its numbers than more than half of the names have, and one of
+// A file whose name has other text around its numbers than more than half of the names have, and one of
 // those.
 struct OddFile {
   std::string name, usual_name;
@@ -94,9 +95,9 @@ std::optional<OddFile> odd_file(const std::vector<fs::path>& files) {
   return {};
 }
 
-// Fills in the numbers, or why there are none.
+// Fills in the numbers, or the reason why there are none.
 void number_files(MeshSequence& sequence) {
-  constexpr std::size_t kMostDigits = 18;  // what 64 bits hold
+  constexpr std::size_t kMostDigits = 18;  // 64 bits hold no more
   if (sequence.files.size() < 2) return;
   std::vector<std::vector<std::string>> names;
   for (const fs::path& file : sequence.files) names.push_back(cut_at_numbers(file.stem().string()));
@@ -123,7 +124,8 @@ void number_files(MeshSequence& sequence) {
   sequence.number = numbers;
 }
 
-// Frames of a folder are numbered by their names: one that has none of its own would take the numbers of all.
+// Refuses a file without a number of its own: frames of a folder are numbered by their names, and it would
+// take the numbers from all.
 void refuse_odd_file(const fs::path& folder, const std::vector<fs::path>& files) {
   if (const std::optional<OddFile> odd = odd_file(files))
     throw Error::invalid_input(
@@ -144,7 +146,7 @@ std::vector<fs::path> meshes_in(const fs::path& folder) {
   return files;
 }
 
-// The last name of a path that may end in "/" or be ".".
+// Returns the last name of a path that may end in "/" or be ".".
 std::string sequence_name(const fs::path& path) {
   const fs::path whole = fs::weakly_canonical(path);
   const std::string name = (whole.has_filename() ? whole : whole.parent_path()).filename().string();
@@ -174,7 +176,7 @@ void name_files(MeshSequence& sequence) {
                       : sequence_name(fs::absolute(sequence.files.front()).parent_path());
 }
 
-// Names of folders in the results.
+// Makes names distinct, since they name folders in the results.
 void tell_apart(std::vector<MeshSequence>& sequences) {
   for (std::size_t i = 0; i < sequences.size(); ++i) {
     const std::string name = sequences[i].name;
@@ -186,7 +188,7 @@ void tell_apart(std::vector<MeshSequence>& sequences) {
   }
 }
 
-// Of all triangles, and of their images in the texture.
+// Returns the area of all triangles, and texture_area() that of their images in the texture.
 double surface_area(const Surface& surface) {
   double area = 0;
   for (const Eigen::Vector3i& f : surface.face)
@@ -207,7 +209,7 @@ double texture_area(const Surface& surface) {
   return area;
 }
 
-// Cloth stretches by less: texture coordinates within this factor of its lengths are lengths.
+// Cloth stretches by less: texture coordinates within this factor of its lengths are taken as lengths.
 constexpr double kStretch = 1.25;
 
 double texture_scale(const Surface& surface) {
@@ -222,7 +224,7 @@ bool holds_meshes(const fs::path& folder) { return fs::is_directory(folder) && !
 
 std::vector<MeshSequence> mesh_sequences(const std::vector<std::string>& words) {
   std::vector<MeshSequence> sequences;
-  std::ptrdiff_t loose = -1;  // the sequence of single files
+  std::ptrdiff_t loose = -1;  // index of the sequence of single files
   for (const std::string& word : words) {
     const fs::path path(word);
     if (!fs::exists(path)) throw Error::invalid_input("no such file or folder: " + word);

@@ -1,6 +1,6 @@
-// tinyobjloader resolves faces and relative indices; it reads a malformed number as 0, wraps one of more than
-// 32 bits and may round the last bit.  Numbers are read, and refused, here, and it sees only what it
-// resolves.
+// tinyobjloader resolves faces and relative indices, but reads a malformed number as 0, wraps one of more
+// than 32 bits and may round the last bit.  Numbers are therefore read, and refused, here, and the loader
+// only sees what it resolves.
 #include "sim/mesh/obj_soup.h"
 
 #include <tiny_obj_loader.h>
@@ -22,14 +22,14 @@ namespace hysteron {
 
 namespace {
 
-// The file's own vertices and texture coordinates, the lines on which vertices and faces stand, and what the
-// loader needs of each line.
+// The file's own vertices and texture coordinates, the lines of vertices and faces, and the loader's part of
+// each line.
 struct Lines {
   std::vector<Eigen::Vector3d> vertex;
   std::vector<Eigen::Vector2d> texture;
   std::vector<int> vertex_line, face_line;
   std::string resolved;
-  // The first face that counts back beyond the beginning, which not every version of the loader takes.
+  // The first face that counts back beyond the beginning, which some versions of the loader do not accept.
   struct BeforeFirst {
     int line;
     bool texture;
@@ -41,7 +41,7 @@ Error bad_line(const std::string& what, int line, const std::string& problem) {
   return Error::invalid_input(what + ": line " + std::to_string(line) + ": " + problem);
 }
 
-// Of a line without its comment.
+// Returns the words of a line without its comment.
 std::vector<std::string_view> words(std::string_view line) {
   constexpr std::string_view kBlanks = " \t";
   line = line.substr(0, line.find('#'));
@@ -63,8 +63,8 @@ double finite_number(std::string_view word, const std::string& what, int line) {
   return value;
 }
 
-// "vertex", "vertex/texture", "vertex//normal" or "vertex/texture/normal", counted from 1, or from -1
-// backwards.
+// Checks a corner, "vertex", "vertex/texture", "vertex//normal" or "vertex/texture/normal", counted from 1,
+// or from -1 backwards.
 void check_corner(std::string_view corner, const std::string& what, int line, Lines& lines) {
   for (std::size_t at = 0, place = 0; place < 3; ++place) {
     const std::size_t end = std::min(corner.find('/', at), corner.size());
@@ -90,8 +90,8 @@ void add_face(const std::vector<std::string_view>& word, std::string& line) {
   for (std::size_t i = 1; i < word.size(); ++i) line.append(" ").append(word[i]);
 }
 
-// A vertex or a face behind bytes that no editor shows, or in capitals, is none to a reader that passes over
-// what it does not know.
+// Refuses vertices and faces behind bytes that no editor shows, or in capitals: a reader that passes over
+// unknown records would miss them.
 void check_record(std::string_view word, const std::string& what, int line) {
   std::string letters;
   for (const unsigned char c : word)
@@ -100,7 +100,8 @@ void check_record(std::string_view word, const std::string& what, int line) {
   throw bad_line(what, line, "\"" + std::string(word) + "\" must be plain \"" + letters + "\"");
 }
 
-// "v x y z w": points of a triangle have the weight 1; readers differ in what they make of others.
+// Refuses weights other than 1 in "v x y z w": points of a triangle have the weight 1, and readers differ on
+// others.
 void check_weight(const std::vector<std::string_view>& word, const std::string& what, int line) {
   if (word.size() != 5 || finite_number(word[4], what, line) == 1) return;
   throw bad_line(
@@ -117,14 +118,14 @@ void scan_line(const std::vector<std::string_view>& word, const std::string& wha
     lines.vertex.emplace_back(finite_number(word[1], what, line), finite_number(word[2], what, line),
                               finite_number(word[3], what, line));
     lines.vertex_line.push_back(line);
-    lines.resolved += "v 0 0 0";  // counted only
+    lines.resolved += "v 0 0 0";  // only counted
   } else if (word[0] == "vt") {
     if (word.size() < 3) throw bad_line(what, line, "a texture coordinate needs two numbers");
     lines.texture.emplace_back(finite_number(word[1], what, line), finite_number(word[2], what, line));
-    lines.resolved += "vt 0 0";  // counted only
+    lines.resolved += "vt 0 0";  // only counted
   } else if (word[0] == "vn") {
-    lines.resolved += "vn 0 0 1";                  // counted only
-  } else if (word[0] == "f" || word[0] == "fo") {  // as files before OBJ 3.0 have it
+    lines.resolved += "vn 0 0 1";                  // only counted
+  } else if (word[0] == "f" || word[0] == "fo") {  // the notation of files before OBJ 3.0
     if (word.size() != 4 && word.size() != 5)
       throw bad_line(what, line,
                      "a face of " + std::to_string(word.size() - 1) +
@@ -148,13 +149,13 @@ Error no_such_index(const std::string& what, int line, const std::string& which,
   return bad_line(what, line, "the face uses " + which + "; the file has " + std::to_string(count));
 }
 
-// Walks through the lines of a text.  A vertex or a face goes on in the next line where its line ends in a
+// Walks through the lines of a text.  A vertex or a face continues in the next line where its line ends in a
 // backslash.
 class TextLines {
  public:
   explicit TextLines(std::string_view text) : text_(text) {}
 
-  // The next line, joined with those that continue it; false at the end.
+  // Reads the next line, joined with those that continue it; false at the end.
   bool next(std::string& line) {
     if (at_ >= text_.size()) return false;
     first_ = read_ + 1;
@@ -165,7 +166,7 @@ class TextLines {
     }
     return true;
   }
-  // The number of the line that next() has read, of its first where it is joined.
+  // Returns the number of the line that next() has read, the first one if it is joined.
   int number() const { return first_; }
 
  private:
@@ -177,7 +178,7 @@ class TextLines {
     return line;
   }
 
-  // Names of materials and comments may end in a backslash, too.
+  // Does the line continue? Names of materials and comments may end in a backslash, too.
   static bool goes_on(std::string_view line) {
     const std::vector<std::string_view> word = words(line);
     if (word.empty() || !word.back().ends_with('\\') || line.find('#') != line.npos) return false;
@@ -205,7 +206,7 @@ Lines scan(const std::string& text, const std::string& what) {
   return lines;
 }
 
-// Faces of three or four corners in the file's order, which the loader keeps.
+// Resolves faces of three or four corners in the file's order, which the loader keeps.
 class Faces {
  public:
   Faces(const std::string& what, const Lines& lines) : what_(what), lines_(lines) {
@@ -310,7 +311,7 @@ std::vector<Eigen::Vector2d> vertex_texture(const ObjSoup& soup, const std::vect
   return texture;
 }
 
-// Wavefront OBJ in, as a cloth.
+// The following reads a Wavefront OBJ as a cloth.
 
 namespace {
 
@@ -321,7 +322,7 @@ void check_weld(double distance, const std::string& what) {
   throw Error::invalid_input(text.str());
 }
 
-// No two triangles are such a quad.
+// Refuses quads that cross themselves, which no two triangles can represent.
 void check_quads(const ObjSoup& soup, const std::string& what) {
   if (soup.crossed_line.empty()) return;
   throw Error::invalid_input(what + ": line " + std::to_string(soup.crossed_line.front()) +
@@ -345,14 +346,14 @@ void weld_vertices(double distance, const ObjSoup& soup, ClothMesh& mesh, MeshNa
   for (auto& face : mesh.face) face = {number[face[0]], number[face[1]], number[face[2]]};
 }
 
-// "the face has no texture coordinates, nor have 3 further triangles"
+// Tells which faces lack texture coordinates: "the face has no texture coordinates, nor have 3 further
+// triangles".
 std::string without_texture(const std::string& what, const std::vector<int>& lines) {
   return what + ": line " + std::to_string(lines.front()) + ": the face has no texture coordinates" +
          (lines.size() > 1 ? ", nor have " + std::to_string(lines.size() - 1) + " further triangles" : "");
 }
 
-// Faces of which some have texture coordinates, which `continued` ones got from their neighbours, and others
-// none.
+// Warns if only some faces have texture coordinates, which `continued` ones got from their neighbours.
 std::string texture_doubt(const ObjSoup& soup, const std::vector<int>& continued, const std::string& what) {
   std::vector<int> without;
   for (std::size_t f = 0; f < soup.uv.size(); ++f)
@@ -366,7 +367,7 @@ std::string texture_doubt(const ObjSoup& soup, const std::vector<int>& continued
   return without_texture(what, continued) + ": those of neighbours go on there, and warp with them";
 }
 
-// Texture coordinates become the pattern where each vertex has one.  Along seams it has several: then each
+// Makes the texture coordinates the pattern where each vertex has one.  Along seams it has several: then each
 // triangle keeps those of its own corners.
 void take_pattern(const ObjSoup& soup, ClothMesh& mesh) {
   if (!has_texture(soup)) return;

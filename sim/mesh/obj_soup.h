@@ -1,4 +1,4 @@
-// The triangles of a Wavefront OBJ with the lines they stand on, before anything is asked of their topology.
+// The triangles of a Wavefront OBJ with their lines in the file, before any check of their topology.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,10 +11,10 @@
 
 namespace hysteron {
 
-// How a quadrilateral becomes two triangles.
+// These cut a quadrilateral into two triangles.
 
-// A quad a, b, c, d is cut along its shorter diagonal, unless only the other one lies inside it.  True: along
-// a-c, into (a, b, c) and (a, c, d); false: along b-d, into (a, b, d) and (b, c, d).
+// Decides how to cut a quad a, b, c, d: along its shorter diagonal, unless only the other one lies inside it.
+// Returns true for a-c, into (a, b, c) and (a, c, d); false for b-d, into (a, b, d) and (b, c, d).
 inline bool is_cut_from_first(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
                               const Eigen::Vector3d& d) {
   const auto folded = [](const auto& p, const auto& q, const auto& r, const auto& s) {  // along p-r
@@ -25,10 +25,10 @@ inline bool is_cut_from_first(const Eigen::Vector3d& a, const Eigen::Vector3d& b
   return (c - a).norm() <= (d - b).norm();
 }
 
-// Whether the side a-b meets c-d, or b-c meets d-a, as where the corners are not given in their order around.
+// Does the side a-b meet c-d, or b-c meet d-a, as where the corners are not given in their order around?
 inline bool crosses_itself(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
                            const Eigen::Vector3d& d) {
-  constexpr double kNear = 0.1;  // of the side's length: the quad need not be plane
+  constexpr double kNear = 0.1;  // over the side's length: the quad need not be plane
   const auto meet = [](const Eigen::Vector3d& p, const Eigen::Vector3d& q, const Eigen::Vector3d& r,
                        const Eigen::Vector3d& s) {
     const Eigen::Vector3d u = q - p, v = s - r, w = r - p;
@@ -47,28 +47,28 @@ struct ObjSoup {
   std::vector<Eigen::Vector3d> vertex;
   std::vector<int> vertex_line;
   std::vector<Eigen::Vector3i> face;  // quads are cut
-  // Texture coordinates at each triangle's corners; one that the file leaves out is that of its vertex in
-  // other faces, where these have one alone.
+  // Texture coordinates at each triangle's corners; one that the file leaves out is taken from its vertex in
+  // other faces, if these have one alone.
   std::vector<std::array<Uv, 3>> uv;
   std::vector<int> face_line;
-  std::vector<int> crossed_line;  // of quads with two sides that cross
+  std::vector<int> crossed_line;  // quads with two sides that cross
 };
 
-// `what` names the mesh in messages.  Throws Error::system for a file that cannot be read,
-// Error::invalid_input for what is no OBJ, malformed lines, numbers that are not finite, and faces that are
-// neither triangles nor quads.
+// Reads an OBJ; `what` names the mesh in messages.  Throws Error::system for a file that cannot be read,
+// Error::invalid_input for files that are not OBJ, malformed lines, numbers that are not finite, and faces
+// that are neither triangles nor quads.
 ObjSoup read_obj_soup(const std::string& file, const std::string& what);
 
-// Corners without a texture coordinate take that of their vertex in other triangles, where it has one alone.
+// Gives corners without a texture coordinate that of their vertex in other triangles, if it has one alone.
 // read_obj_soup() does so.
 void share_texture(ObjSoup& soup);
-// Triangles that still lack some continue the texture of a neighbour beyond the edge between them, as if they
-// lay in its plane.  Returns the lines of those that do.
+// Makes triangles that still lack texture coordinates continue the texture of a neighbour beyond the edge
+// between them, as if they lay in its plane.  Returns the lines of those that do.
 std::vector<int> continue_texture(ObjSoup& soup);
-// Whether every corner has a texture coordinate.
+// Has every corner a texture coordinate?
 bool has_texture(const ObjSoup& soup);
-// The texture coordinate of each vertex of `face` (which may be numbered otherwise than the soup); zero where
-// no face uses it.  Empty where a vertex has several, along seams.  The soup has_texture().
+// Returns the texture coordinate of each vertex of `face` (which may be numbered otherwise than the soup);
+// zero where no face uses it.  Empty where a vertex has several, along seams.  The soup must have texture.
 std::vector<Eigen::Vector2d> vertex_texture(const ObjSoup& soup, const std::vector<Eigen::Vector3i>& face,
                                             std::size_t vertices);
 

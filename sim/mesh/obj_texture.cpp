@@ -1,4 +1,4 @@
-// Texture coordinates that an OBJ leaves out.
+// Completes texture coordinates that an OBJ leaves out.
 #include <deque>
 #include <map>
 
@@ -11,7 +11,7 @@ bool is_whole(const std::array<Uv, 3>& corners) {
   return std::all_of(corners.begin(), corners.end(), [](const Uv& at) { return at.has_value(); });
 }
 
-// Triangles at each edge, by its vertices in ascending order.
+// The triangles at each edge, by its vertices in ascending order.
 using Edges = std::map<std::pair<int, int>, std::vector<std::size_t>>;
 
 std::pair<int, int> edge_at(const Eigen::Vector3i& face, int corner) {
@@ -21,7 +21,7 @@ std::pair<int, int> edge_at(const Eigen::Vector3i& face, int corner) {
 // A triangle's texture as a linear map of its plane, whose first axis is an edge from `origin`.
 class TextureMap {
  public:
-  // Of the triangle `face`, along the edge from its corner `corner` to the next one.
+  // Takes the triangle `face`, along the edge from its corner `corner` to the next one.
   TextureMap(const ObjSoup& soup, std::size_t face, int corner) {
     const int next = (corner + 1) % 3, last = (corner + 2) % 3;
     const auto at = [&](int i) { return soup.vertex[soup.face[face][i]]; };
@@ -34,9 +34,10 @@ class TextureMap {
     across_ = (uv(last) - texture_ - along(at(last)) * along_) / distance(at(last));
   }
 
-  // The edge's length in the texture.
+  // Returns the edge's length in the texture.
   double edge() const { return edge_; }
-  // Of a point on the other side of the edge, as if its triangle were turned into this one's plane.
+  // Returns the texture of a point on the other side of the edge, as if its triangle were turned into this
+  // one's plane.
   Eigen::Vector2d beyond(const Eigen::Vector3d& x) const {
     return texture_ + along(x) * along_ - distance(x) * across_;
   }
@@ -46,23 +47,23 @@ class TextureMap {
   double distance(const Eigen::Vector3d& x) const { return (x - origin_ - along(x) * axis_).norm(); }
 
   Eigen::Vector3d origin_, axis_;
-  Eigen::Vector2d texture_, along_, across_;  // of the origin; of a metre along the edge, and across it
+  Eigen::Vector2d texture_, along_, across_;  // of the origin; per metre along the edge, and across it
   double edge_ = 0;
 };
 
-// Coordinates that vertices have got.
+// The coordinates that vertices have got.
 using Computed = std::map<int, Eigen::Vector2d>;
 
-// What a vertex has got from another neighbour, where that is the same but for rounding: around a tube it is
-// not.
+// Returns the vertex's coordinates from another neighbour, where they are the same but for rounding: around a
+// tube they are not.
 Eigen::Vector2d without_rounding(const Eigen::Vector2d& uv, int vertex, const TextureMap& map,
                                  Computed& computed) {
-  constexpr double kRounding = 1e-6;  // of the neighbour's edge; OBJs are written with six digits and more
+  constexpr double kRounding = 1e-6;  // over the neighbour's edge; OBJs are written with six digits and more
   const auto [known, is_new] = computed.try_emplace(vertex, uv);
   return (known->second - uv).norm() <= kRounding * map.edge() ? known->second : uv;
 }
 
-// False where the neighbour's area is zero.
+// Returns false where the neighbour's area is zero.
 bool continue_from(std::size_t from, int corner, std::size_t face, ObjSoup& soup, Computed& computed) {
   const TextureMap map(soup, from, corner);
   std::array<Uv, 3> corners;

@@ -9,7 +9,7 @@
 namespace hysteron {
 namespace {
 
-// CGAL's public functions give points and polygons only, and no reason for a failure.
+// CGAL's public functions return points and polygons only, and no reason for a failure.
 using Element = CGAL::IO::internal::PLY_element;
 using Reader = CGAL::IO::internal::PLY_reader;
 
@@ -36,7 +36,7 @@ std::vector<std::int64_t> corners(Element& element) {
   return {};
 }
 
-// A binary integer of so many bytes, as two's complement.
+// Reads a binary integer of so many bytes, as two's complement.
 std::int64_t binary_integer(std::istream& in, std::size_t bytes, bool big_endian, bool with_sign) {
   unsigned char byte[8] = {};
   in.read(reinterpret_cast<char*>(byte), static_cast<std::streamsize>(bytes));
@@ -48,14 +48,14 @@ std::int64_t binary_integer(std::istream& in, std::size_t bytes, bool big_endian
          (with_sign && value >= half ? static_cast<std::int64_t>(2 * half) : 0);
 }
 
-// The largest number of items that a list can count.
+// Returns the largest number of items that a list can count.
 std::int64_t most_items(const PlyProperty& list) {
   const int bits = 8 * static_cast<int>(type_bytes(list.count_type)) - !list.count_type.starts_with('u');
   return (std::int64_t{1} << bits) - 1;
 }
 
-// Whether a list that begins here has room in what is left of the file: the reader allocates what it
-// announces, and goes through all of it behind the end.  A number that the type of the count does not hold
+// Does a list that begins here fit into the rest of the file? The reader allocates the announced number of
+// items, and goes through all of them behind the end.  A number that the type of the count does not hold
 // wraps there.
 bool has_room(const PlyProperty& list, const PlyHeader& header, std::size_t file_bytes, std::istream& in) {
   const std::streamoff begin = in.tellg();
@@ -69,7 +69,7 @@ bool has_room(const PlyProperty& list, const PlyHeader& header, std::size_t file
   in.clear();  // the end of the file, where the list is empty
   const std::size_t left = file_bytes - static_cast<std::size_t>(in.tellg());
   in.seekg(begin);
-  const std::size_t least = header.ascii ? 2 : type_bytes(list.type);  // a number and a separator
+  const std::size_t least = header.ascii ? 2 : type_bytes(list.type);  // at least a number and a separator
   return static_cast<std::size_t>(count) <= (left + 1) / least;
 }
 
@@ -79,7 +79,7 @@ struct ItemReader {
   std::size_t file_bytes;
   std::istream& in;
 
-  // False where a number is missing or malformed, or a list longer than the file.
+  // Returns false where a number is missing or malformed, or a list longer than the file.
   bool read(const PlyElement& announced, Element& element) const {
     for (std::size_t p = 0; p < announced.property.size(); ++p) {
       const PlyProperty& property = announced.property[p];
@@ -91,7 +91,7 @@ struct ItemReader {
   }
 };
 
-// Whether both readers understood the same header.
+// Do both readers agree on the header?
 bool agree(Reader& reader, const PlyHeader& header) {
   if (reader.number_of_elements() != header.element.size()) return false;
   for (std::size_t e = 0; e < header.element.size(); ++e)
@@ -99,7 +99,7 @@ bool agree(Reader& reader, const PlyHeader& header) {
   return true;
 }
 
-// What follows the last item announced.
+// Is nothing left after the last item announced?
 bool is_at_end(std::istream& in) { return (in >> std::ws).eof(); }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// The header is read here because CGAL's reader passes over what it does not know, and then takes the numbers
-// of one property for those of another.
+// The header is read here because CGAL's reader passes over unknown parts, and then takes the numbers of one
+// property for those of another.
 #include "sim/mesh/ply_header.h"
 
 #include <charconv>
@@ -22,7 +22,7 @@ std::size_t type_bytes(std::string_view type) {
 
 namespace {
 
-// Fewest bytes of one item: an ASCII number takes a digit and a separator, a list may be empty.
+// Returns the fewest bytes of one item: an ASCII number takes a digit and a separator, a list may be empty.
 std::size_t least_bytes(const PlyElement& element, bool ascii) {
   std::size_t sum = 0;
   for (const PlyProperty& p : element.property)
@@ -100,7 +100,7 @@ class HeaderReader {
     header_.element.back().property.push_back(std::move(property));
   }
 
-  // Before anything is allocated for them.
+  // Checks that the file can hold the elements, before anything is allocated for them.
   void check_room(const PlyElement& element) const {
     const std::size_t least = least_bytes(element, header_.ascii), left = text_.size() - at_ + 1;
     if (element.count == 0 || (least > 0 && element.count <= left / least)) return;

@@ -1,4 +1,4 @@
-// Point caches: where the vertices of one mesh are at several instants, in one file.
+// Reads point caches: the positions of one mesh's vertices at several instants, in one file.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,14 +15,16 @@ inline bool names_a_point_cache(const std::filesystem::path& file) {
 }
 
 struct PointCache {
-  std::vector<std::vector<Eigen::Vector3d>> frames;  // each of all points, in the file's unit
-  double frames_per_sample = 1;  // PC2: how many frames of the animation one of these stands for
-  std::vector<double> time;      // MDD: of each, from the first one on [s]; empty: they do not ascend, or PC2
+  std::vector<std::vector<Eigen::Vector3d>> frames;  // of all points each, in the file's unit
+  double frames_per_sample = 1;                      // PC2: frames of the animation per sample
+  // MDD: the time of each from the first one on [s]; empty for times that do not ascend, and for PC2.
+  std::vector<double> time;
 };
 
-// By the ending: PC2 (3ds Max, Point Cache 2; Blender, Houdini) or MDD (LightWave; Blender, Maya).  Throws
-// Error::system for a file that cannot be read; Error::invalid_input, naming it, for another ending, a header
-// that is none of these, a file that is shorter than its header says, and numbers that are not finite.
+// Reads a cache by its ending: PC2 (3ds Max, Point Cache 2; Blender, Houdini) or MDD (LightWave; Blender,
+// Maya).  Throws Error::system for a file that cannot be read; Error::invalid_input, naming it, for another
+// ending, a header of another format, a file that is shorter than its header says, and numbers that are not
+// finite.
 PointCache read_point_cache(const std::string& file);
 
 }  // namespace hysteron

@@ -18,7 +18,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "PC2 is read as numbers lie in memory");
 
-// Numbers of four bytes one after the other.
+// Reads numbers of four bytes one after the other.
 class Numbers4 {
  public:
   Numbers4(std::string_view bytes, bool big_endian, std::string what)
@@ -78,7 +78,7 @@ PointCache read_pc2(std::string_view bytes, const std::string& what) {
     throw Error::invalid_input(what + ": not a PC2: it does not begin with POINTCACHE2");
   Numbers4 numbers(bytes.substr(kSignature.size()), false, what);
   const std::int32_t version = numbers.integer(), points = numbers.integer();
-  numbers.real();  // the first frame: the sequence begins at t = 0
+  numbers.real();  // skips the first frame: the sequence begins at t = 0
   PointCache cache;
   cache.frames_per_sample = numbers.real();
   const Counts counts{numbers.integer(), points};

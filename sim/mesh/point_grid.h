@@ -1,4 +1,4 @@
-// Points by the cell of a grid that they lie in, for those near a place in expected constant time.
+// Sorts points into the cells of a grid, to find those near a place in expected constant time.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,8 +13,8 @@ namespace hysteron {
 
 class PointGrid {
  public:
-  // Cells are at least `width` [m] wide, so that the 27 cells around a place hold all that are nearer than
-  // that.
+  // Cells are at least `width` [m] wide, so that the 27 cells around a place hold all points that are nearer
+  // than that.
   PointGrid(const std::vector<Eigen::Vector3d>& points, double width) {
     double extent = 0;
     for (const auto& p : points) extent = std::max(extent, p.cwiseAbs().maxCoeff());

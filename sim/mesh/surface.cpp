@@ -11,7 +11,7 @@
 namespace hysteron {
 namespace {
 
-// Vertices, with what they carry, that a face uses.
+// Leaves out vertices, and their values, that no face uses.
 Surface without_loose_vertices(Surface surface) {
   std::vector<int> number(surface.vertex.size(), -1);
   for (const Eigen::Vector3i& face : surface.face)

@@ -12,8 +12,8 @@ namespace hysteron {
 
 namespace {
 
-// Below this height over longest edge a triangle has no normal worth computing with: its hinge angles would
-// be rounding noise of the vertices.
+// A triangle below this height over longest edge has no usable normal: its hinge angles would be rounding
+// noise of the vertices.
 constexpr double kMinHeightRatio = 1e-6;
 
 // One directed side of a triangle, opposite to its corner; lo and hi are its vertices in rising order.
@@ -67,7 +67,7 @@ double longest_side(const Corners& at) {
   return longest;
 }
 
-// All sides, those of one edge next to each other, the lower triangle first.
+// Returns all sides, those of one edge next to each other, the lower triangle first.
 std::vector<Side> sorted_sides(const ClothMesh& mesh) {
   std::vector<Side> sides;
   sides.reserve(3 * mesh.face.size());
@@ -94,7 +94,8 @@ void check_pair(const ClothMesh& mesh, const MeshNames& names, const Side& a, co
                                edge_name(names, a) + "; turn one over (a Moebius strip has no front)");
 }
 
-// Interior edges first, each kind in the order of its first triangle, which keeps neighbours near in memory.
+// Lists interior edges first, each kind in the order of its first triangle, which keeps neighbours near in
+// memory.
 void connect_edges(ClothMesh& mesh, const MeshNames& names) {
   const std::vector<Side> sides = sorted_sides(mesh);
   std::vector<std::array<int, 2>> interior, boundary;  // corners of the one or two sides
@@ -128,8 +129,8 @@ void connect_edges(ClothMesh& mesh, const MeshNames& names) {
   }
 }
 
-// Derivative of the position by the first texture coordinate over a triangle; zero where these coordinates
-// are degenerate.
+// Returns the derivative of the position by the first texture coordinate over a triangle; zero where these
+// coordinates are degenerate.
 Eigen::Vector3d texture_warp(const Corners& at, const std::array<Eigen::Vector2d, 3>& texture) {
   const Eigen::Vector2d u = texture[1] - texture[0], v = texture[2] - texture[0];
   const double det = u.x() * v.y() - u.y() * v.x();
@@ -223,7 +224,7 @@ std::array<Eigen::Vector3d, 2> ClothMesh::face_axes(int f) const {
   const bool textured = !warp.isZero(0);
   if (!textured) warp = warp_axis;
   Eigen::Vector3d in_plane = warp - normal * normal.dot(warp);
-  // A warp direction that pierces the triangle says nothing about it; any fixed choice serves.
+  // A warp direction that pierces the triangle does not define one in it; any fixed choice serves.
   if (in_plane.norm() <= kMinHeightRatio * warp.norm()) in_plane = at[1] - at[0];
   in_plane.normalize();
   if (textured) in_plane = warp_axis.x() * in_plane + warp_axis.y() * normal.cross(in_plane);

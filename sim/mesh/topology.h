@@ -1,4 +1,4 @@
-// Building the topology of a mesh whose triangles and vertices come from the lines of a file.
+// Builds the topology of a mesh whose triangles and vertices come from the lines of a file.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,7 +9,7 @@
 
 namespace hysteron {
 
-// How messages name the parts of a mesh: by the line of the file, or else counted from 0.
+// Names the parts of a mesh in messages: by the line of the file, or else counted from 0.
 struct MeshNames {
   std::string what;              // names the mesh ("mesh shirt.obj")
   std::vector<int> face_line;    // per triangle, or empty
@@ -19,16 +19,17 @@ struct MeshNames {
   std::string vertex(int v) const;
 };
 
-// As build_topology(mesh, what), with the file's lines in its messages.
+// Does the same as build_topology(mesh, what), with the file's lines in its messages.
 void build_topology(ClothMesh& mesh, const MeshNames& names);
 
-// Fills in the areas alone, of `face` at `rest`.  Throws Error::invalid_input for degenerate triangles.
+// Fills in the areas alone, from `face` and `rest`.  Throws Error::invalid_input for degenerate triangles.
 void measure_areas(ClothMesh& mesh, const MeshNames& names);
 
-// What is doubtful about a cloth that a file holds, though it can be simulated: what looks like one surface
+// These warnings concern a cloth in a file that can be simulated, but is doubtful: it looks like one surface
 // and is several.
 
-// A sentence for each of these that the mesh has, with how many there are and where the first one stands:
+// Returns a sentence for each of these features of the mesh, with their number and the place of the first
+// one:
 //
 //   several parts, or no hinge    parts of the surface that share no edge; nothing of a lone triangle bends
 //   coincident boundary vertices  exporters write them along seams and between triangles of a "soup"
@@ -39,10 +40,11 @@ void measure_areas(ClothMesh& mesh, const MeshNames& names);
 // A slit, a second cloth or an eyelet may be meant: none of these is refused.  The mesh has its topology.
 std::vector<std::string> mesh_doubts(const ClothMesh& mesh, const MeshNames& names);
 
-// Joining vertices that lie on each other, as exporters leave them along seams.
+// This joins vertices that lie on each other, as exporters leave them along seams.
 
-// For each point the lowest-numbered kept point closer than `distance` [m], or itself, which is then kept.
-// Kept points are at least `distance` apart.  Expected time linear in the points (spatial hash).
+// Returns for each point the lowest-numbered kept point closer than `distance` [m], or itself, which is then
+// kept.  Kept points are at least `distance` apart.  The expected time is linear in the points (spatial
+// hash).
 std::vector<int> nearby_representatives(const std::vector<Eigen::Vector3d>& points, double distance);
 
 }  // namespace hysteron

@@ -1,4 +1,4 @@
-// One frame of a cloth as OBJ or PLY.
+// Writes one frame of a cloth as OBJ or PLY.
 #include <bit>
 #include <cstdint>
 #include <cstring>

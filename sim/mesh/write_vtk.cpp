@@ -1,5 +1,5 @@
-// Source of the format: VTK File Formats, "XML File Formats" (docs.vtk.org): the data of every array stands
-// behind its own length in bytes, at the offset that its element states.
+// Source of the format: VTK File Formats, "XML File Formats" (docs.vtk.org): the data of every array follows
+// its own length in bytes, at the offset that its element states.
 #include <bit>
 #include <cstdint>
 
@@ -13,7 +13,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "numbers are stored as they lie in memory");
 
-// The elements of a file and what stands behind them.
+// Writes the elements of a file and the data that follow them.
 class Appended {
  public:
   template <class T>

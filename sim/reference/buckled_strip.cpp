@@ -12,28 +12,29 @@ namespace {
 using Eigen::VectorXd;
 
 constexpr int kMaxIterations = 60;
-constexpr double kConverged = 1e-10;                   // residuals, of the moment b1/L and of the length
-constexpr double kShortestStep = 1e-7;                 // of the clamps, of the length
-constexpr double kSmallestFraction = 1e-4;             // of a Newton step
-constexpr double kFirstRaise = 1e-3, kMaxRaise = 1e3;  // of the diagonal, of b1 over an element
-constexpr double kPenalty = 2;                         // on the gap, of the force
-constexpr double kArmijo = 0.1;                        // of the fall that the slope promises
-constexpr int kWeightSteps = 8;                        // in which weight is put on the first shape
+constexpr double kConverged = 1e-10;                   // of residuals, over the moment b1/L and the length
+constexpr double kShortestStep = 1e-7;                 // of the clamps, over the length
+constexpr double kSmallestFraction = 1e-4;             // smallest fraction of a Newton step
+constexpr double kFirstRaise = 1e-3, kMaxRaise = 1e3;  // raise of the diagonal, over b1 of an element
+constexpr double kPenalty = 2;                         // on the gap, over the force
+constexpr double kArmijo = 0.1;                        // share of the decrease that the slope predicts
+constexpr int kWeightSteps = 8;                        // in which the first shape gets its weight
 
 }  // namespace
 
-// Angles and force that are tried: the Lagrangian E - F (length along the line of the clamps - d)/2, its
-// gradient and its Hessian, a tridiagonal matrix, and the gradient of the constraint.
+// Angles and force of a trial: the Lagrangian E - F (length along the line of the clamps - d)/2, its gradient
+// and its Hessian, a tridiagonal matrix, and the gradient of the constraint.
 struct BuckledStripTest::Trial {
   VectorXd angle;
   double force = 0;
-  double energy = 0, gap = 0;  // E of half the strip; half of what the strip is too long for the distance
-  VectorXd residual, diagonal, above, border;  // above[i] couples i and i + 1; border: - gradient of the gap
-  double norm = 0;                             // of residual and gap, without units
+  double energy = 0, gap = 0;  // E of half the strip; half of the strip's excess length for the distance
+  // above[i] couples i and i + 1; border is minus the gradient of the gap.
+  VectorXd residual, diagonal, above, border;
+  double norm = 0;  // dimensionless norm of residual and gap
 
-  // What a step has to lower: exact where the penalty is larger than the force.
+  // Returns the merit that a step has to lower: it is exact where the penalty is larger than the force.
   double merit(double penalty) const { return energy + penalty * std::abs(gap); }
-  // Its derivative along a direction that closes the gap.
+  // Returns its derivative along a direction that closes the gap.
   double slope(const VectorXd& turn, double penalty) const {
     return (residual - force * border).dot(turn) - penalty * std::abs(gap);
   }
@@ -44,8 +45,8 @@ struct BuckledStripTest::Direction {
   double force = 0;
 };
 
-// Newton's step by two solutions with the tridiagonal matrix.  Its diagonal is raised until the energy is
-// convex along the constraint: the matrix has no negative pivot, or one that the border makes up for
+// Returns Newton's step by two solutions with the tridiagonal matrix.  Its diagonal is raised until the
+// energy is convex along the constraint: the matrix has no negative pivot, or one that the border compensates
 // (inertia of the bordered matrix; Nocedal & Wright 2006, section 16.2).
 BuckledStripTest::Direction BuckledStripTest::direction(const Trial& at) const {
   const auto n = static_cast<int>(at.angle.size());
@@ -112,8 +113,9 @@ void BuckledStripTest::assemble(Trial& t, double distance, double weight) const 
   t.norm = std::hypot(t.residual.norm() / moment, t.gap / strip_.length);
 }
 
-// Sequential quadratic programming (Nocedal & Wright 2006, section 18.3): steps are shortened until the merit
-// falls as it should, or the residuals by much, which near the end is no matter of rounding.
+// Solves by sequential quadratic programming (Nocedal & Wright 2006, section 18.3): steps are shortened until
+// the merit falls as it should, or the residuals fall strongly, a test that rounding does not disturb near
+// the end.
 bool BuckledStripTest::solve(double distance, double weight) {
   Trial at;
   at.angle = angle_;

@@ -1,7 +1,8 @@
-// Weight w per area, length L: at distance s from the clamp the law's moment balances the weight beyond,
+// With the weight w per area and the length L, at distance s from the clamp the law's moment balances the
+// weight beyond,
 //   M(K(s)) = load * w * int_s^L [(x(t) - x(s)) cos(tilt) - (y(t) - y(s)) sin(tilt)] dt,
 //   x' = cos theta, y' = sin theta, theta' = K, theta(0) = 0.
-// Curvatures sit at the segments' middles; Newton's method over all of them with the whole Jacobian.
+// Curvatures are at the segments' middles; Newton's method solves for all of them with the whole Jacobian.
 #include "sim/reference/elastica.h"
 
 #include <Eigen/LU>
@@ -17,7 +18,7 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kSeconds = 1;       // of a step, for laws with a clock
+constexpr double kSeconds = 1;       // of a step, for laws with a clock [s]
 constexpr double kBalanced = 1e-12;  // unbalanced moment over w L^2 load
 constexpr int kMaxNewtonSteps = 60, kMaxHalvings = 30;
 constexpr int kMaxLoadSteps = 5000;  // from one load to the next
@@ -39,7 +40,7 @@ class Points {
     for (int i = 0; i <= count; ++i) start_[i] = i;
     for (int i = 0; i < count; ++i) item_[i] = i;
   }
-  // M and dM/dK at these curvatures, from the accepted history.
+  // Computes M and dM/dK at these curvatures, from the accepted history.
   void look(const VectorXd& curvature, VectorXd& moment, VectorXd& tangent) {
     loop_->trial(cpu_, view(), curvature.data(), {kSeconds, kSeconds, 0, nullptr}, moment_.data(),
                  energy_.data());
@@ -56,7 +57,7 @@ class Points {
     return {static_cast<int>(area_.size()), area_.data(), start_.data(), item_.data(), coefficient_.data()};
   }
   Cpu cpu_;
-  double factor_;  // of the strip's curvatures that the law sees
+  double factor_;  // from the strip's curvatures to the law's
   std::unique_ptr<LawLoop<double, Cpu>> loop_;
   std::vector<double> area_, coefficient_;
   std::vector<int> item_, start_;
@@ -64,7 +65,7 @@ class Points {
   std::vector<double> energy_;
 };
 
-// Sums over the segments beyond a place, along one axis: their first moment, and its derivative by the
+// The sum over the segments beyond a place, along one axis: their first moment, and its derivative by the
 // curvatures.
 struct Beyond {
   double first = 0;
@@ -88,7 +89,7 @@ struct Curve {
 Curve deflection_curve(const VectorXd& h, const VectorXd& curvature, double weight, double tilt) {
   const int n = static_cast<int>(h.size());
   Curve c{VectorXd::Zero(n + 1), {{0, 0}}, VectorXd(n), MatrixXd(n, n)};
-  // Derivatives of the angles at the segments' middles, and of these middles, forward and down.
+  // These are the derivatives of the angles at the segments' middles, and of these middles, forward and down.
   MatrixXd turn = MatrixXd::Zero(n, n), forward_moves(n, n), down_moves(n, n);
   VectorXd forward(n), down(n), middle_angle(n);
   Eigen::RowVectorXd node_forward = Eigen::RowVectorXd::Zero(n), node_down = node_forward;
@@ -106,7 +107,7 @@ Curve deflection_curve(const VectorXd& h, const VectorXd& curvature, double weig
     node_down += h[i] * cosine * turn.row(i);
     c.node.push_back(c.node[i] + h[i] * Eigen::Vector2d(cosine, sine));
   }
-  // From the free end: the length beyond, and its first moments.
+  // The sums go from the free end: the length beyond, and its first moments.
   const double across = weight * std::cos(tilt), along = weight * std::sin(tilt);
   double length = 0;
   Beyond ahead(n), below(n);
@@ -132,14 +133,14 @@ class Solver {
         points_(strip.law, strip.rigidity, strip.segments),
         h_(strip.segments),
         curvature_(VectorXd::Zero(strip.segments)) {
-    const auto place = [&](int i) {  // ends at u = i/n: dense at the clamp, where heavy strips turn
+    const auto place = [&](int i) {  // ends at u = i/n are dense at the clamp, where heavy strips bend
       const double u = static_cast<double>(i) / strip.segments;
       return strip.length * u * (0.2 + 0.8 * u);
     };
     for (int i = 0; i < strip.segments; ++i) h_[i] = place(i + 1) - place(i);
   }
 
-  // From the accepted load to another.
+  // Goes from the accepted load to another.
   void go_to(double load, double longest) {
     double step = longest;
     for (int steps = 0, halvings = 0; load_ != load; ++steps) {
@@ -170,7 +171,7 @@ class Solver {
   }
 
  private:
-  // Newton's method with steps shortened until the unbalanced moment falls.
+  // Solves by Newton's method with steps shortened until the unbalanced moment falls.
   bool solve(double load) {
     const double scale = kBalanced * strip_.weight * strip_.length * strip_.length * std::max(1.0, load);
     VectorXd k = curvature_, moment, tangent;

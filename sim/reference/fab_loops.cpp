@@ -13,15 +13,15 @@ namespace hysteron {
 
 namespace {
 
-constexpr double kShortest = 1e-3, kLongest = 1;  // [m] no such strip is shorter or longer
-constexpr double kMaxStretch = 3;                 // of the gauge
-constexpr int kFewestRows = 4;                    // of a branch
-constexpr double kRipple = 0.05;  // of a branch's way that the clamps may come back: they turn late
-constexpr double kGap = 0.3;      // of a branch's way between its first row and the last of the branch before
-constexpr double kWorkOfNoise = 0.05;  // of force range times way, that noise around no loop may give back
+constexpr double kShortest = 1e-3, kLongest = 1;  // a strip is neither shorter nor longer [m]
+constexpr double kMaxStretch = 3;                 // over the gauge
+constexpr int kFewestRows = 4;                    // per branch
+constexpr double kRipple = 0.05;  // over a branch's way, by which the clamps may come back: they turn late
+constexpr double kGap = 0.3;  // over a branch's way, between its first row and the last of the branch before
+constexpr double kWorkOfNoise = 0.05;  // share of force range times way: noise may give back this work
 constexpr const char* kWithinDrift =
     ", by no more than they drift, or than another cycle contradicts: their sign is doubtful";
-constexpr double kFallOfFriction = 0.2;  // of the force range over the way: friction alone makes it flat
+constexpr double kFallOfFriction = 0.2;  // over force range and way: friction alone has no slope
 
 class Checks {
  public:
@@ -64,7 +64,7 @@ class Checks {
                          distance, 100 * kLargestStart, loops_.gauge));
   }
 
-  // What is doubtful of the forces of a cycle, whose noise is that [N]; "" where nothing is.
+  // Warns of doubtful forces in a cycle, whose noise is given [N]; "" where there are none.
   std::string forces(int cycle, double noise) const {
     const BranchForces force = branch_forces(loops_);
     const double range = force_range(force, cycle);
@@ -97,24 +97,24 @@ class Checks {
     throw Error::invalid_input(file_ + line + ": " + loops_.name() + ": " + what).with_experiment(reader_);
   }
 
-  // ":17" of a row that was read there.
+  // Returns the line of a row that was read there: ":17".
   std::string line(std::size_t b, std::size_t row) const {
     const std::vector<int>& lines = loops_.branches[b].lines;
     return lines.empty() ? "" : ":" + std::to_string(lines[row]);
   }
 
-  // 1 where the clamps part on this branch, -1 where they approach.
+  // Returns 1 where the clamps part on this branch, -1 where they approach.
   int sense(std::size_t b) const { return (b % 2 == 0) == loops_.bends() ? -1 : 1; }
 
-  // [m]
+  // Returns how far the clamps travel on a branch [m].
   double clamp_travel(std::size_t b) const {
     const auto [low, high] =
         std::minmax_element(loops_.branches[b].distance.begin(), loops_.branches[b].distance.end());
     return *high - *low;
   }
 
-  // The first row at which the clamps, going by this sense, have come back by more than a ripple; none: the
-  // number of rows.
+  // Returns the first row at which the clamps, going by this sense, have come back by more than a ripple, or
+  // the number of rows if there is none.
   std::size_t comes_back(std::size_t b, int sense) const {
     const std::vector<double>& distance = loops_.branches[b].distance;
     double farthest = -INFINITY;
@@ -143,12 +143,13 @@ class Checks {
         line(b, row));
   }
 
-  // By how much the cycle ends elsewhere than it began: by the instrument's drift, and by friction [N/m].
+  // Returns the difference of the force from the cycle's beginning to its end [N/m], due to the instrument's
+  // drift and to friction.
   static double drift(const BranchForces& force, int cycle) {
     return std::abs(force[2 * cycle + 1].back() - force[2 * cycle].front());
   }
 
-  // A tester's sign is one for the whole record.
+  // Does the force rise in another cycle? A tester's sign is the same for the whole record.
   bool rises_elsewhere(const BranchForces& force, int cycle) const {
     for (int other = 0; other < loops_.cycles(); ++other) {
       const double range = force_range(force, other);
@@ -159,7 +160,7 @@ class Checks {
     return false;
   }
 
-  // Of the straight line of force against distance through the cycle [N/m^2].
+  // Returns the slope of the straight line of force against distance through the cycle [N/m^2].
   double slope(const BranchForces& force, int cycle) const {
     double n = 0, d = 0, f = 0, dd = 0, df = 0;
     for (int b = 2 * cycle; b <= 2 * cycle + 1; ++b)
@@ -195,7 +196,7 @@ constexpr double kGramForce = 9.80665e-3;  // [N], by definition
 constexpr double kCentimetre = 1e-2;       // [m]
 
 struct UnitNames {
-  const char *flag, *length, *force;  // of --units; endings of columns
+  const char *flag, *length, *force;  // value of --units; endings of columns
   double metre, newton;
 };
 constexpr UnitNames kSi = {"si", "_m", "_N", 1, 1};
@@ -205,8 +206,8 @@ struct Columns {
   std::size_t direction, test, branch, distance, force, gauge, width;
 };
 
-// "clamp_distance_m" of "Clamp distance [m]" and "Clamp_distance_m": names are compared in small letters,
-// units as they are.
+// Returns "clamp_distance_m" for "Clamp distance [m]" and "Clamp_distance_m": names are compared in small
+// letters, units as they are.
 std::string fab_column(const std::string& field) {
   std::string name = quantity_in(field), unit = unit_in(field);
   std::replace(name.begin(), name.end(), ' ', '_');
@@ -216,7 +217,7 @@ std::string fab_column(const std::string& field) {
   return name.substr(0, ending) + field.substr(ending);
 }
 
-// "m" of "clamp_distance_m"; none unless the column is of that quantity.
+// Returns "m" for "clamp_distance_m"; none unless the column is of that quantity.
 std::optional<std::string> column_unit(const std::string& column, const std::string& quantity) {
   if (!column.starts_with(quantity)) return std::nullopt;
   const std::string ending = column.substr(quantity.size());
@@ -228,7 +229,7 @@ std::string unit_sentence(const UnitNames& units) {
   return std::string("--units ") + units.flag + " reads " + (units.length + 1) + " and " + (units.force + 1);
 }
 
-// A length or a force; where it is there in other units, these are named.
+// Finds the column of a length or a force; if it is there in other units, the error names them.
 std::size_t column_index(const Table& table, const std::string& quantity, const char* ending) {
   for (const std::string& column : table.head) {
     const std::optional<std::string> unit = column_unit(column, quantity);
@@ -299,7 +300,8 @@ std::pair<double, double> extremes(const BranchForces& force, int cycle) {
 
 namespace {
 
-// Of a test that is asked for, its cycles that count; of others, whether their way can be followed at all.
+// Checks the requested cycles of a test that is asked for; of other tests it checks whether the clamps' way
+// can be followed at all.
 void check_loops(FabLoops& loops, const FabRequest& request, const std::string& file,
                  const std::string& reader) {
   if (request.asks_for && !request.asks_for(loops)) {

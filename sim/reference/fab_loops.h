@@ -1,4 +1,4 @@
-// What a FAB tester records: a strip clamped at both ends, one clamp moved towards the other and back (it
+// Reads records of a FAB tester: a strip clamped at both ends, one clamp moved towards the other and back (it
 // buckles up or down) or away and back (it stretches), in cycles of growing amplitude; force against
 // distance.
 #pragma once
@@ -10,19 +10,20 @@
 
 namespace hysteron {
 
-struct FabBranch {                      // one way, out or back
-  std::vector<double> distance, force;  // of the clamps [m]; per width of the strip, tension > 0 [N/m]
-  std::vector<int> lines;               // of the file that it was read from; empty: of none
+struct FabBranch {  // one way, out or back
+  // Distances of the clamps [m]; forces per width of the strip, tension > 0 [N/m].
+  std::vector<double> distance, force;
+  std::vector<int> lines;  // lines of the file that it was read from; empty: no file
 };
 
 struct FabLoops {
-  std::string direction;                 // "L", "W", "B": along which the strip was cut
+  std::string direction;                 // "L", "W", "B": direction along which the strip was cut
   std::string test;                      // "U1" bends up, "D1" down, "S1" stretches; gauges 1, 2
   double gauge = 0;                      // length of the strip between the clamps [m]
   double width = 0;                      // [m]
   std::vector<FabBranch> branches;       // out, back, out, back, ...
-  std::vector<std::string> doubts = {};  // sentences on what may be wrong with the record
-  bool is_usable = true;                 // a test that nobody asked for may be none
+  std::vector<std::string> doubts = {};  // sentences on possible errors of the record
+  bool is_usable = true;                 // a test that nobody asked for may be unusable
 
   int cycles() const { return static_cast<int>(branches.size()) / 2; }
   bool bends() const { return test.front() != 'S'; }
@@ -32,43 +33,45 @@ struct FabLoops {
 
 enum class TesterUnits { si, fab };
 
-// A table with the columns direction, test, branch, clamp_distance, force, gauge_length, width, their units
-// as endings: _m and _N (si), or _cm and _gf (fab: the tester's own; lines before the head, semicolons and
-// decimal commas are read, too).  Force is of the whole width.  Throws Error::system, Error::invalid_input
-// with file and line: other units than said, a column or a number that is missing, branches out of order,
-// another gauge or width within a test.  Of what is asked for also: as check_clamp_path(), and forces that do
-// not vary, do not rise as the clamps part (tension > 0), or by which a cycle gives back work, beyond drift
-// and noise; within these it is a doubt.  The zero of force does not matter.
+// Reads a table with the columns direction, test, branch, clamp_distance, force, gauge_length, width, their
+// units as endings: _m and _N (si), or _cm and _gf (fab: the tester's own; lines before the head, semicolons
+// and decimal commas are read, too).  Forces in it are those of the whole width.  Throws Error::system,
+// Error::invalid_input with file and line: other units than stated, a column or a number that is missing,
+// branches out of order, another gauge or width within a test.  For requested tests it also throws as
+// check_clamp_path(), and for forces that do not vary, do not rise as the clamps part (tension > 0), or by
+// which a cycle gives back work, beyond drift and noise; within these it adds a doubt.  The zero of force
+// does not matter.
 struct FabRequest {
-  std::function<bool(const FabLoops&)> asks_for = {};  // none: for every test
-  std::vector<int> cycles = {};                        // that count, the first being 1; none: all
-  double noise = 0;                                    // of forces of the whole width [N]
+  std::function<bool(const FabLoops&)> asks_for = {};  // which tests are asked for; none: every test
+  std::vector<int> cycles = {};                        // requested cycles, the first being 1; none: all
+  double noise = 0;                                    // noise of forces of the whole width [N]
 };
 std::vector<FabLoops> read_fab(const std::filesystem::path& file, TesterUnits units,
                                const std::string& reader, const FabRequest& request = {});
 
-// Of the loops in a file; Error::invalid_input names what there is.
+// Finds a test among the loops of a file; Error::invalid_input names the tests that there are.
 const FabLoops& find_loops(const std::vector<FabLoops>& all, const std::string& direction,
                            const std::string& test);
 
-// Readings of one cycle, the first being 0, on which the zero of force has no influence: forces are taken
-// from their mean over the cycle.  `force`: per branch, as in the loops (theirs, or a model's).
+// The following readings of one cycle, the first being 0, do not depend on the zero of force: forces are
+// taken from their mean over the cycle.  `force` has a list per branch of the loops (measured, or a model's).
 using BranchForces = std::vector<std::vector<double>>;
 BranchForces branch_forces(const FabLoops& loops);
-// Of both branches by the trapezoidal rule, work lost > 0, per width [J/m].
+// Integrates both branches by the trapezoidal rule: work lost per width, > 0 [J/m].
 double loop_area(const FabLoops& loops, const BranchForces& force, int cycle);
-// Largest less smallest force [N/m].
+// Returns the largest less the smallest force [N/m].
 double force_range(const BranchForces& force, int cycle);
-// The largest push of a buckled strip, or pull of a stretched one, >= 0 unless the zero is elsewhere [N/m].
+// Returns the largest push of a buckled strip, or pull of a stretched one, >= 0 unless the zero is elsewhere
+// [N/m].
 double peak_force(const FabLoops& loops, const BranchForces& force, int cycle);
 
-// What the loops of a FAB tester must be like before anything is read off them or fitted to them.
+// The loops of a FAB tester have to pass these checks before anything is read off them or fitted to them.
 
-// Largest slack of a strip that bends, and largest stretch of one that is pulled, at the beginning of a test,
-// over its gauge: testers begin with a strip that is almost straight.
+// The largest slack of a strip that bends, and largest stretch of one that is pulled, at the beginning of a
+// test, over its gauge: testers begin with a strip that is almost straight.
 inline constexpr double kLargestStart = 0.25;
 
-// The way of the clamps: a test and a direction that there are, two branches a cycle, lengths of a strip, a
+// Checks the way of the clamps: a known test and direction, two branches a cycle, lengths of a strip, a
 // beginning near the gauge, rows in order, branches that go out and back, each from where the last ended.
 // Throws Error::invalid_input: "fit: loops.csv: L D1: ...".
 void check_clamp_path(const FabLoops& loops, const std::string& file, const std::string& reader);

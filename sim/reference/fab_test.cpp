@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kHalvings = 60;
 
-// Between strains of push and of pull.
+// Returns the strain without force, between strains of push and of pull.
 double strain_without_force(const StopsLaw& law, const double* anchors, double push, double pull) {
   for (int i = 0; i < kHalvings; ++i) {
     const double middle = (push + pull) / 2;
@@ -41,10 +41,10 @@ double StretchedStripTest::energy() const { return length_ * respond(law_, ancho
 namespace {
 
 constexpr double kElement = 0.33e-3;  // length of an element [m]: forces to 0.1 % at a gauge of 2 cm
-constexpr int kFewestElements = 32, kMaxElements = 256;  // of half a strip
-constexpr double kStep = 0.02;  // of the clamps, of the gauge: history in between is monotone
+constexpr int kFewestElements = 32, kMaxElements = 256;  // number of elements of half a strip
+constexpr double kStep = 0.02;  // step of the clamps over the gauge: history in between is monotone
 
-// Work of the clamps by the trapezoidal rule from one distance to the next.
+// Sums the work of the clamps by the trapezoidal rule from one distance to the next.
 class Work {
  public:
   double add(double distance, double force) {

@@ -1,4 +1,4 @@
-// The tests of a FAB tester, simulated along the clamps' own way: every distance that was recorded, in order.
+// Simulates the tests of a FAB tester along the recorded way of the clamps, distance by distance.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,20 +10,20 @@
 
 namespace hysteron {
 
-// A strip stretched between two clamps, its in-plane law with stops on the engineering strain d/L - 1.
+// A strip is stretched between two clamps, with an in-plane law of stops on the engineering strain d/L - 1.
 // Without tension it is slack: it buckles, and keeps the strain at which tension ended until it is taut
 // again.
 class StretchedStripTest {
  public:
-  // At its length L [m] between the clamps, virgin.  `law`: of force per width [N/m] against strain.
+  // The virgin strip has its length L [m] between the clamps.  `law` is force per width [N/m] against strain.
   StretchedStripTest(StopsLaw law, double length);
 
-  void go_to(double distance);                       // of the clamps [m], monotone from the one before
-  double force() const { return force_; }            // per width, >= 0 [N/m]
-  double energy() const;                             // stored, per width [J/m]
-  double dissipated() const { return dissipated_; }  // since the start, per width [J/m]
+  void go_to(double distance);             // distance of the clamps [m], monotone from the one before
+  double force() const { return force_; }  // per width, >= 0 [N/m]
+  double energy() const;                   // stored, per width [J/m]
+  double dissipated() const { return dissipated_; }  // per width, since the start [J/m]
   bool slack() const { return force_ == 0; }
-  double strain() const { return strain_; }  // of the strip, not of the clamps
+  double strain() const { return strain_; }  // strain of the strip, not of the clamps
 
  private:
   StopsLaw law_;
@@ -35,27 +35,28 @@ class StretchedStripTest {
 inline constexpr double kStandardGravity = 9.80665;  // [m/s^2]
 
 struct FabStrip {
-  StopsLaw bending;    // [N m] against curvature; of the direction along which the strip is cut
-  StopsLaw stretch;    // [N/m] against strain
-  double density = 0;  // weight bears on a strip that bends [kg/m^2]
+  StopsLaw bending;    // moment [N] against curvature [1/m], along the direction in which the strip is cut
+  StopsLaw stretch;    // force [N/m] against strain
+  double density = 0;  // [kg/m^2], whose weight acts on a strip that bends
   long most_halvings = BuckledStrip{}.most_halvings;
 };
 
 struct FabRun {
-  BranchForces force;  // per branch of the loops, up to the last simulated [N/m]
-  std::vector<std::vector<Eigen::Vector2d>> shapes;  // of a strip that bends: at first, at each branch's end
-  double work = 0, stored = 0, dissipated = 0;       // of the clamps, from the first distance on [J/m]
-  double largest_work = 0;                           // that was done at any distance on the way [J/m]
-  double peak_curvature = 0;                         // [1/m]
+  BranchForces force;  // per branch of the loops, up to the last one simulated [N/m]
+  // The shapes of a strip that bends: at first, and at each branch's end [m].
+  std::vector<std::vector<Eigen::Vector2d>> shapes;
+  double work = 0, stored = 0, dissipated = 0;  // since the first distance [J/m]; the clamps' work
+  double largest_work = 0;                      // the largest value of `work` on the way [J/m]
+  double peak_curvature = 0;                    // [1/m]
 };
 
-// All branches, or the first `branches`.  A strip that bends is laid slack at the first distance, where its
-// friction carries nothing, as recorded forces begin between the branches of the loop; its weight acts
-// against a bend up and with one down.  Throws Error::simulation where no equilibrium is found.
+// Simulates all branches, or the first `branches`.  A strip that bends is laid slack at the first distance,
+// where its friction carries nothing, as recorded forces begin between the branches of the loop; its weight
+// acts against a bend up and with one down.  Throws Error::simulation where no equilibrium is found.
 FabRun run_fab(const FabLoops& loops, const FabStrip& strip, int branches = -1);
 
-// A test that nobody recorded: cycles from `gauge` less `slack` to each of the compressions (`loops` bend) or
-// extensions and back [m], a branch in `steps` rows.
+// Makes a test that nobody recorded: cycles from `gauge` less `slack` to each of the compressions (`loops`
+// bend) or extensions and back [m], with `steps` rows per branch.
 FabLoops made_up_loops(const std::string& test, double gauge, double slack,
                        const std::vector<double>& amplitudes, int steps);
 

@@ -13,9 +13,9 @@ namespace {
 
 using Family = MinorLoop::Family;
 
-constexpr double kAmplitudes[] = {0.1, 0.25, 0.45, 0.65, 0.85};  // of the full amplitude
-constexpr double kPartialReversals[] = {0.5, 0.1, -0.3, -0.7};   // of the full amplitude
-constexpr double kAreaRounding = 1e-9;  // of amplitude times moment: what the sum over a closed line leaves
+constexpr double kAmplitudes[] = {0.1, 0.25, 0.45, 0.65, 0.85};  // over the full amplitude
+constexpr double kPartialReversals[] = {0.5, 0.1, -0.3, -0.7};   // over the full amplitude
+constexpr double kAreaRounding = 1e-9;  // over amplitude times moment: rounding of a closed sum
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
@@ -33,7 +33,7 @@ struct Leg {
     }
     return kNaN;
   }
-  // Where the moment, positive at first, has come down to zero.
+  // Returns the curvature at which the moment, positive at first, has fallen to zero [1/m].
   double root() const {
     for (std::size_t i = 0; i < count; ++i) {
       if (moment[i] > 0) continue;
@@ -43,7 +43,7 @@ struct Leg {
     }
     return kNaN;
   }
-  double work() const {  // int M dK
+  double work() const {  // int M dK [J/m^2]
     double sum = 0;
     for (std::size_t i = 1; i < count; ++i)
       sum += (moment[i - 1] + moment[i]) / 2 * (row[i].curvature - row[i - 1].curvature);
@@ -62,7 +62,7 @@ std::vector<double> cycled(double amplitude, int cycles) {
   return turns;
 }
 
-// From the amplitude to its opposite and back, the area that the moments enclose [J/m^2].
+// Returns the area that the moments enclose from the amplitude to its opposite and back [J/m^2].
 double area_of_cycle(int cycle, const KesWalk& walk, const std::vector<double>& moment) {
   const Leg down = leg(walk, moment, 1 + 2 * cycle), back = leg(walk, moment, 2 + 2 * cycle);
   const double area = down.work() + back.work();
@@ -70,7 +70,7 @@ double area_of_cycle(int cycle, const KesWalk& walk, const std::vector<double>& 
   return std::abs(area) > rounding ? area : 0;
 }
 
-// `moment` where a leg ends is that before the command.
+// Counts recovery cases; `moment` where a leg ends is that before the command.
 void count_cases(const VirginCurve& curve, const KesWalk& walk, const std::vector<double>& moment,
                  std::array<int, 3>& cases) {
   for (std::size_t i = 1; i + 1 < walk.start.size(); ++i) {
@@ -80,7 +80,7 @@ void count_cases(const VirginCurve& curve, const KesWalk& walk, const std::vecto
   }
 }
 
-// Rows from the `first` leg on.
+// Cuts out the rows from the `first` leg on.
 MinorLoop cut_out(Family family, double reversal, const KesWalk& walk, const std::vector<double>& moment,
                   std::size_t first) {
   MinorLoop loop{family, reversal, {}, {}};
@@ -102,9 +102,9 @@ void test_minor_loop(const LawRequest& request, const KesProtocol& p, Family fam
   test.minor_loops.push_back(cut_out(family, reversal, walk, moment, legs - 2));
 }
 
-constexpr int kFineSteps = 1000;  // to the amplitude: the sum over their chords is exact to 1e-4
+constexpr int kFineSteps = 1000;  // steps to the amplitude: the sum over their chords is exact to 1e-4
 
-// Reads the loop on the same way in parts of its steps, a thousand or more to the amplitude.
+// Reads the loop on the same way, with each step divided so that a thousand or more lead to the amplitude.
 KesReading read_between_steps(const LawRequest& request, KesProtocol p) {
   p.steps *= (kFineSteps + p.steps - 1) / p.steps;
   const KesWalk walk = walk_to(cycled(p.amplitude, p.cycles), p);

@@ -11,21 +11,21 @@ namespace {
 
 constexpr int kBisections = 60;
 constexpr double kMaxExtension = 2;
-// Of the largest tension, where the way back ends: cloth without any is in equilibrium wherever it lies.
+// The way back ends at this share of the largest tension: cloth without tension is in equilibrium anywhere.
 constexpr double kLeftOver = 1e-4;
 
 StopsLaw beside(double spring, const Spectrum& stops) {
   return {spring, stops.thresholds, stops.stiffnesses};
 }
 
-// The law's limits grow by `growth` times themselves per unit of strain.
+// Makes the law's limits grow by `growth` times themselves per unit of strain.
 StopsLaw growing(StopsLaw law, double growth) {
   if (growth > 0)
     for (const double r : law.thresholds) law.growths.push_back(growth * r);
   return law;
 }
 
-// Of an increasing function between low and high.
+// Returns the root of an increasing function between low and high.
 template <class Function>
 double root(const Function& of, double low, double high) {
   for (int i = 0; i < kBisections; ++i) {
@@ -60,7 +60,7 @@ KesProtocol as_bending(const InPlaneProtocol& p, double width_at) {
   return protocol;
 }
 
-// One cycle from rest through equal angles.
+// Walks one cycle from rest through equal angles.
 KesWalk shear_walk(const InPlaneProtocol& p) {
   KesWalk walk{{LawRow{0, 0, false}}, {0}};
   for (const auto& [from, to] : {std::pair(0, 1), std::pair(1, -1), std::pair(-1, 1)}) {

@@ -7,14 +7,14 @@
 namespace hysteron {
 namespace {
 
-// The loss of a stop that slips forward to x is this over its stiffness, but for a constant: int r dx - r^2/2
-// with the limit r at x, since S = x - r.
+// Returns, but for a constant, the loss of a stop that slips forward to x over its stiffness: int r dx -
+// r^2/2 with the limit r at x, since S = x - r.
 double lost_forward(double r, double a, double x) {
   const double limit = r + a * std::abs(x);
   return r * x + a * x * std::abs(x) / 2 - limit * limit / 2;
 }
 
-// The loss of a stop that began to slip where its limit met the strain, over its stiffness.
+// Returns the loss of a stop that began to slip where its limit met the strain, over its stiffness.
 double growing_loss(double r, double a, double anchor, double x) {
   if (x < anchor) return growing_loss(r, a, -anchor, -x);
   const double reach = anchor + r, onset = reach / (reach < 0 ? 1 + a : 1 - a);

@@ -8,7 +8,7 @@
 namespace hysteron {
 namespace {
 
-// Without blanks and quotes at either end.
+// Returns the text without blanks and quotes at either end.
 std::string bare(std::string text) {
   const auto is_blank = [](unsigned char c) { return std::isspace(c) || c == '"'; };
   while (!text.empty() && is_blank(text.back())) text.pop_back();
@@ -21,7 +21,8 @@ bool is_comment(const std::string& text, std::size_t at) {
   return first != text.npos && text[first] == '#';
 }
 
-// Where the line begins that names columns, of the comments or of the other lines; npos if none does.
+// Returns the beginning of the line that names columns, among the comments or among the other lines; npos if
+// there is none.
 std::size_t begin_of_head(const std::string& text, bool comments,
                           const std::function<bool(const std::string& field)>& is_of_head) {
   for (std::size_t at = 0; at < text.size();) {
@@ -49,7 +50,7 @@ Table read_tester_table(const std::filesystem::path& file,
   if (head == text.npos) head = begin_of_head(text, true, is_of_head);
   if (head == text.npos)
     throw Error::invalid_input(name + " has no line that names " + wanted).with_experiment(reader);
-  // Blank lines in place of those before the head: the rows keep their numbers.
+  // Blank lines replace those before the head, so that the rows keep their numbers.
   const std::size_t names = is_comment(text, head) ? text.find_first_not_of("# \t", head) : head;
   const auto before = static_cast<std::size_t>(std::count(text.begin(), text.begin() + head, '\n'));
   Table table;

@@ -10,7 +10,7 @@ namespace hysteron {
 namespace fs = std::filesystem;
 
 namespace {
-fs::path assets_place;  // of another program; empty: none
+fs::path assets_place;  // the folder of another program that uses the library; empty: none
 }
 
 void set_assets_place(const fs::path& folder) { assets_place = folder; }
@@ -38,7 +38,7 @@ fs::path find_asset(const std::string& kind, const std::string& name, const std:
   std::error_code ignored;
   if (fs::is_regular_file(name, ignored)) return name;
   const fs::path folder = assets_folder() / kind;
-  std::string hyphenated = name;  // as others spell the same names
+  std::string hyphenated = name;  // others spell the same names with hyphens
   std::replace(hyphenated.begin(), hyphenated.end(), '_', '-');
   for (const std::string& spelled : {name, hyphenated})
     if (const fs::path file = folder / (spelled + ".toml");

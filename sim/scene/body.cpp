@@ -12,7 +12,8 @@
 namespace hysteron {
 namespace {
 
-// Nothing that cloth lies on is larger or smaller [m]; of what is 1 m long in another unit one is beyond.
+// Nothing that cloth lies on is larger or smaller [m]: a body of 1 m read in a wrong unit is beyond these
+// limits.
 constexpr double kLargestBody = 100, kSmallestBody = 1e-3;
 
 bool is_plausible(double extent) { return extent >= kSmallestBody && extent <= kLargestBody; }
@@ -23,7 +24,7 @@ double extent_of(const BodyMesh& body) {
   return box.sizes().maxCoeff();
 }
 
-// "centimetre would make it 1.7 m, inch 4.3 m"
+// Lists the units in which the body has a plausible extent: "centimetre would make it 1.7 m, inch 4.3 m".
 std::string units_that_fit(double extent, LengthUnit unit) {
   std::string fitting;
   for (std::size_t i = 0; i < names(LengthUnit{}).size(); ++i) {
@@ -54,7 +55,7 @@ void load_body(const Scene& scene, Obstacle& o, const std::string& path) {
   BodyMesh body;
   try {
     body = read_body({o.file, o.sequence, o.unit, o.fps});
-  } catch (const Error& error) {  // of either key, since a sequence is compared with the file
+  } catch (const Error& error) {  // either key may be to blame, since a sequence is compared with the file
     throw error.with_origin(o.sequence.empty() ? origin("file") : path + ", " + key_origin(scene, path));
   }
   if (body.frames.size() > 1 && !body.moves())

@@ -1,4 +1,4 @@
-// Obstacles of kind mesh: bodies of triangles that files hold, as a scene places and moves them.
+// Obstacles of kind mesh: bodies of triangles that are read from files, placed and moved by a scene.
 #pragma once
 
 #include <string>
@@ -12,22 +12,22 @@ namespace hysteron {
 inline bool is_body(const Obstacle& o) { return o.kind == ObstacleKind::mesh; }
 
 // Reads the bodies of a scene that are not there yet.  Throws Error::system for files that cannot be read;
-// Error::invalid_input, naming file and key, for what is no surface (read_body(), sim/mesh/body_file.h) and
-// for bodies that are larger or smaller than any that cloth lies on.
+// Error::invalid_input, naming file and key, for files that hold no surface (read_body(),
+// sim/mesh/body_file.h) and for bodies that are larger or smaller than any that cloth lies on.
 void load_bodies(Scene& scene);
 
-// Where the vertices of an obstacle of kind mesh are at `time` [s] in the world [m]: those of its mesh, moved
-// by `center`, then by its motion.  Error::invalid_input where it has no mesh.
+// Returns where the vertices of an obstacle of kind mesh are at `time` [s] in the world [m]: those of its
+// mesh, moved by `center`, then by its motion.  Throws Error::invalid_input if it has no mesh.
 std::vector<Eigen::Vector3d> body_positions(const Obstacle& obstacle, double time);
 
-// Whether a body can be what was meant.
+// Warnings about bodies that were probably not meant so.
 
-// A sentence for each: a body that passes through itself, in the first of up to twelve frames; a closed one
-// whose triangles face inward, so that it is a hollow; a sequence in which a vertex goes farther from one
-// frame to the next than animations do, or whose files have no even numbers.
+// Returns a sentence for each doubtful body: one that passes through itself, in the first of up to twelve
+// frames; a closed one whose triangles face inward, so that it is a hollow; a sequence in which a vertex goes
+// farther from one frame to the next than animations do, or whose files have no even numbers.
 std::vector<std::string> body_doubts(const Scene& scene);
-// A line for each body, for --explain: "obstacle[0]: mesh torso.obj, 1280 triangles, 642 vertices, closed,
-// 0.42 x 0.3 x 0.9 m, 48 frames in 1.567 s".
+// Returns a line for each body, for --explain: "obstacle[0]: mesh torso.obj, 1280 triangles, 642 vertices,
+// closed, 0.42 x 0.3 x 0.9 m, 48 frames in 1.567 s".
 std::vector<std::string> body_lines(const Scene& scene);
 
 }  // namespace hysteron

@@ -1,4 +1,4 @@
-// What is doubtful about the bodies of a scene, and what they are.
+// Warns of doubtful bodies of a scene, and describes all of them.
 #include <Eigen/Geometry>
 #include <algorithm>
 
@@ -12,10 +12,10 @@
 namespace hysteron {
 namespace {
 
-constexpr double kFarthest = 0.2;  // of a body's diagonal, in which a vertex goes on in a frame
-constexpr double kFastest = 50;    // [m/s]: a whip's tip; limbs reach 20
+constexpr double kFarthest = 0.2;  // the farthest way in a frame, over the body's diagonal
+constexpr double kFastest = 50;    // the largest plausible speed [m/s]: that of a whip's tip; limbs reach 20
 
-// "obstacle[0], mesh torso.obj"
+// Names an obstacle: "obstacle[0], mesh torso.obj".
 std::string named(const Obstacle& o, std::size_t number) {
   return "obstacle[" + std::to_string(number) + "], mesh " + o.file;
 }
@@ -26,7 +26,8 @@ Eigen::AlignedBox3d box_of(const BodyMesh& body) {
   return box;
 }
 
-// By the divergence theorem, from tetrahedra with their tips in the middle of the box [m^3].
+// Returns the volume [m^3] by the divergence theorem, as the sum of signed tetrahedra with their tips in the
+// middle of the box.
 double signed_volume(const BodyMesh& body) {
   const std::vector<Eigen::Vector3d>& x = body.frames.front();
   const Eigen::Vector3d middle = box_of(body).center();
@@ -36,9 +37,10 @@ double signed_volume(const BodyMesh& body) {
   return volume;
 }
 
-// Frames that are looked at, evenly spread, the first and the last among them: fewer of larger bodies.
+// Returns the frames that are checked, evenly spread, the first and the last among them: fewer for larger
+// bodies.
 std::vector<std::size_t> looked_at(const BodyMesh& body) {
-  constexpr std::size_t kMostFrames = 12, kTriangles = 100000;  // the latter of all that are looked at
+  constexpr std::size_t kMostFrames = 12, kTriangles = 100000;  // kTriangles: the most of all frames together
   const std::size_t last = body.frames.size() - 1,
                     looks = std::min({body.frames.size(), kMostFrames,
                                       std::max<std::size_t>(1, kTriangles / body.face.size())});
@@ -68,12 +70,12 @@ std::string facing_doubt(const BodyMesh& body) {
 }
 
 struct Jump {
-  std::size_t frame = 0;  // from which it goes to the next one
+  std::size_t frame = 0;  // the vertex moves from this frame to the next one
   int vertex = 0;
   double distance = 0;  // [m]
 };
 
-// The farthest way of a vertex from a frame to the next one.
+// Returns the vertex that moves farthest from this frame to the next one.
 Jump farthest_way(const BodyMesh& body, std::size_t frame) {
   Jump jump{frame};
   for (int v = 0; v < body.vertices(); ++v) {
@@ -103,7 +105,7 @@ std::string jump_doubt(const BodyMesh& body) {
          ": is a frame missing, or fps another?";
 }
 
-// Files that a sequence lacks, by their numbers.
+// Names the files that a sequence lacks, by the gaps in their numbers.
 std::string numbering_doubt(const Obstacle& o) {
   if (o.sequence.empty() || names_a_point_cache(o.sequence)) return "";
   std::vector<std::string> words;

@@ -19,9 +19,9 @@ namespace hysteron {
 namespace {
 
 constexpr double kDegree = 3.14159265358979323846 / 180;
-constexpr double kSelectionSlack = 1e-9;  // [m]: box corners meet grid vertices in spite of rounding
+constexpr double kSelectionSlack = 1e-9;  // [m]: lets box corners meet grid vertices in spite of rounding
 
-// What is doubtful about a mesh that is read goes into `doubts`.
+// Builds or reads one copy's mesh.  Doubts about a mesh that is read go into `doubts`.
 ClothMesh one_rest_mesh(const Scene& scene, std::vector<std::string>& doubts) {
   const ClothShape& c = scene.cloth;
   const int triangles = scene.triangles / c.copies;
@@ -35,7 +35,7 @@ ClothMesh one_rest_mesh(const Scene& scene, std::vector<std::string>& doubts) {
   return make_rectangle(c.length, width, triangles, family, scene.seed);
 }
 
-// What is nearer than that at rest, contact takes for neighbours in one cloth.
+// Refuses copies whose boxes at rest are so near that contact takes them for neighbours in one cloth.
 void check_copies(const Scene& scene, const ClothMesh& one) {
   const ClothShape& c = scene.cloth;
   Eigen::AlignedBox3d box;
@@ -71,7 +71,7 @@ std::vector<int> selected(const ClothMesh& mesh, const Pin& pin) {
   return vertices;
 }
 
-// "(0, 0, 0) to (0.2, 0.1, 0) m"
+// Describes the mesh's extent: "(0, 0, 0) to (0.2, 0.1, 0) m".
 std::string reach_text(const ClothMesh& mesh) {
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& x : mesh.rest) box.extend(x);
@@ -114,7 +114,7 @@ NearestVertex nearest_vertex(const ClothMesh& mesh, const Eigen::Vector3d& point
   const bool is_level =
       std::ranges::all_of(mesh.rest, [&](const Eigen::Vector3d& x) { return x.z() == height; });
   Eigen::Vector3d between = *nearest - point;
-  if (is_level) between.z() = 0;  // a flat cloth's height is where its file has it
+  if (is_level) between.z() = 0;  // a flat cloth may lie at any height in its file
   const double distance = between.norm();
   return {static_cast<int>(nearest - mesh.rest.begin()), distance > longest ? distance : 0};
 }
@@ -181,8 +181,8 @@ Cloth place_cloth(const Scene& scene, ClothMesh mesh) {
 
 namespace {
 
-// The point of an infinite plane that is nearest to the cloth stands for it best: farther ones would bring
-// their distance's rounding along.
+// Represents an infinite plane by its point that is nearest to the cloth: farther points would bring their
+// distance's rounding along.
 Eigen::Vector3d near_origin(const Obstacle& o) {
   if (o.kind != ObstacleKind::ground) return o.center;
   const Eigen::Vector3d normal = o.axis.normalized();

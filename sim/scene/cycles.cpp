@@ -10,7 +10,7 @@
 namespace hysteron {
 namespace {
 
-constexpr double kNever = 1e30;  // [s], of `until`
+constexpr double kNever = 1e30;  // [s], the value of `until` for "never"
 
 std::string table_path(const std::string& list, std::size_t i) {
   return list + "[" + std::to_string(i) + "]";
@@ -35,7 +35,8 @@ void check_phases_that_repeat(const Scene& scene) {
         .with_key("cycles", std::to_string(scene.cycles));
 }
 
-// Hands take hold, obstacles appear and commands act once: what would have to happen again is refused.
+// Refuses what would have to happen again in each cycle: a pin that takes hold, an obstacle that appears, a
+// command.
 void check_happens_before(const Scene& scene, const std::string& path, const std::string& key, double time) {
   const double start = scene_cycles(scene).start;
   if (time <= start || time >= kNever) return;
@@ -48,7 +49,7 @@ void check_happens_before(const Scene& scene, const std::string& path, const std
       .with_key(of, number_text(time));
 }
 
-// A smooth motion ends each cycle where it begins: what is beyond rounding would jump.
+// Refuses a motion that does not end each cycle where it begins, beyond rounding: it would jump.
 void check_comes_back(const Scene& scene, const std::string& path, const Motion& motion) {
   constexpr double kRounding = 1e-9;
   Motion once = motion;

@@ -1,4 +1,4 @@
-// Phases that are gone through several times: what follows for times, motions and bodies of triangles.
+// Phases that a scene goes through several times: the cycles of its times, motions and bodies of triangles.
 #pragma once
 
 #include "sim/base/cycles.h"
@@ -7,23 +7,23 @@
 
 namespace hysteron {
 
-// When the phases that repeat are gone through; one cycle without length where there are none.
+// Returns when the repeating phases are gone through; one cycle without length where there are none.
 Cycles scene_cycles(const Scene& scene);
-// The cycle at this time, the first being 1; 0 before and after them.  The end of a scene that ends with its
-// last cycle belongs to that.
+// Returns the cycle at `time` [s], the first being 1; 0 before and after them.  The end of a scene that ends
+// with its last cycle belongs to that cycle.
 int cycle_at(const Scene& scene, double time);
-// Sum of all phases, with all cycles [s].
+// Returns the sum of all phases, with all cycles [s].
 double phases_end(const Scene& scene);
 
-// Has the motions of pins and obstacles repeat.
+// Makes the motions of pins and obstacles repeat.
 void repeat_motions(Scene& scene);
 
 // Throws Error::invalid_input, naming the key, for more than one cycle without phases that repeat; for phases
-// that repeat with others between them; and with several cycles for motions that do not come back, hands and
+// that repeat with others between them; and with several cycles for motions that do not come back, pins and
 // obstacles that come or go, and commands, from the first cycle on.
 void check_cycles(const Scene& scene);
-// The same for a body that does not come back to where its first cycle begins, but for a millionth of its
-// size.
+// Throws likewise for a body that misses its place at the beginning of its first cycle by more than a
+// millionth of its size.
 void check_cycles(const Scene& scene, const BodyMesh& body, const std::string& path);
 
 }  // namespace hysteron

@@ -9,9 +9,9 @@
 namespace hysteron {
 namespace {
 
-// Lists of one table: as many of the one as of the other, the first ascending.
+// Two lists of one table that must have equally many numbers, those of the first ascending.
 struct PairedLists {
-  const char* table;  // of the fabric
+  const char* table;  // the table's name in the fabric
   const char* first_name;
   const char* second_name;
   const std::vector<double>& first;
@@ -79,19 +79,20 @@ void follow_weft(Fabric& fabric) {
   fabric.provenance["bias-bending"] = {"the mean of warp and weft", "assumed"};
 }
 
-// Friction whose curvatures and moments are s times those along warp has s^2 times their stiffness; its bias
-// is to the mean of both directions as that of the rigidities is.
+// Friction whose curvatures and moments along weft are s times those along warp has s^2 times their stiffness
+// along weft; its bias ratio is to the mean of both directions as that of the rigidities is.
 DirectionRatios Fabric::friction_ratios() const {
   if (!rubs_otherwise()) return rigidity_ratios();
   const double weft = weft_friction * weft_friction;
   return {weft, bias_bending * (1 + weft) / (1 + weft_bending)};
 }
 
-// Twist has half of what bends along warp and along weft need (faces.h), and its own elasticity.
+// Returns the factor on the threshold of twist, which has half of what bends along warp and along weft need
+// (faces.h), and its own elasticity.
 double Fabric::widening_of_twist() const {
   const DirectionRatios rigidity = rigidity_ratios(), friction = friction_ratios();
   const auto twist = [](const DirectionRatios& q) { return 2 * q.bias - (1 + q.weft) / 2; };
-  if (!(twist(friction) > 0)) return 1;  // twist is free
+  if (!(twist(friction) > 0)) return 1;  // twist has no friction
   const double needed = (1 + rigidity.weft / friction.weft) / 2;
   return std::max(1.0, needed * twist(friction) / twist(rigidity));
 }
@@ -100,7 +101,7 @@ double Fabric::friction_curvature() const { return std::max(k0, KesWindow().slop
 
 VirginCurve Fabric::virgin_curve() const {
   VirginCurve curve{b1, b2, k0, bending};
-  // The metric (curvature_operator.h) has multiplied the curvatures that laws see by its root.
+  // Laws see curvatures multiplied by the root of the metric (curvature_operator.h).
   for (double& r : curve.parts.weft_stops.thresholds) r *= std::sqrt(weft_bending);
   for (double& p : curve.parts.weft_stops.stiffnesses) p /= weft_bending;
   if (rubs_otherwise()) {
@@ -112,7 +113,8 @@ VirginCurve Fabric::virgin_curve() const {
 
 namespace {
 
-// Laws without stops take b1 and k0: they must say the friction of the stops, or laws would differ by it.
+// Refuses b1 and k0 that say another friction than the stops: laws without stops take b1 and k0, and would
+// differ from the others by it.
 void check_numbers_of_stops(const Scene& scene) {
   constexpr double kDigits = 0.01;  // numbers in a file may be rounded to two digits
   if (scene.fabric.bending.stops.empty()) return;
@@ -130,8 +132,8 @@ void check_numbers_of_stops(const Scene& scene) {
   check("fabric.k0", scene.fabric.k0, follows.k0, "1/m");
 }
 
-// Where stops slip on the way back to no shear they push by g sum_j p_j r_j for each unit of it, against
-// the elasticity beside them: more than that has would make the cloth's energy concave.
+// Stops that slip on the way back to no shear push by g sum_j p_j r_j per unit of shear against the
+// elasticity beside them: if they exceeded it the cloth's energy would be concave.
 void check_growth(const Scene& scene) {
   const Spectrum& stops = scene.fabric.in_plane.shear;
   const double growth = scene.fabric.in_plane.shear_growth, shear = scene.fabric.shear;

@@ -10,7 +10,7 @@
 namespace hysteron {
 namespace {
 
-// Another unit in which a number may have been given, and one of it in the parameter's own.
+// Another unit in which a number may have been given by mistake, and its size in the parameter's own unit.
 struct UnitSlip {
   const char* unit;
   double factor;
@@ -19,12 +19,12 @@ struct UnitSlip {
 struct FabricLimit {
   const char* parameter;
   const char* unit;
-  double (*value)(const Fabric&);  // null of a list
-  Range possible, usual;  // zero, which stands for "none" of a rigidity or of friction, is always usual
+  double (*value)(const Fabric&);  // null for a list
+  Range possible, usual;           // zero, "none" for a rigidity or friction, is always usual
   UnitSlip slip;
 };
 
-// A list that a fabric may have beyond its parameters, each of whose numbers has these limits.
+// A list that a fabric may have beyond its parameters; each of its numbers has these limits.
 struct FabricListLimit {
   FabricLimit each;
   const std::vector<double>& (*values)(const Fabric&);
@@ -40,10 +40,10 @@ constexpr UnitSlip kMinutes = {"min", 60};
 constexpr UnitSlip kPerCentimetre = {"1/cm", 100};
 constexpr UnitSlip kNoSlip = {nullptr, 1};
 
-// From voile of 10 g/m^2 to felt and carpet; rigidities from silk's to leather's, a steel foil of 0.1 mm
-// having 0.02 N m, which a bending tester reads at most; studies of stability go beyond.  Stiffnesses from a
-// knit's to a coated weave's.
-// Numbers from which others follow come before them, so that a refusal names what was given.
+// Densities range from voile of 10 g/m^2 to felt and carpet; rigidities from silk's to leather's: a steel
+// foil of 0.1 mm has 0.02 N m, the most that a bending tester reads, and studies of stability go beyond.
+// Stiffnesses range from a knit's to a coated weave's.  A number from which others follow comes before them,
+// so that a refusal names the number that was given.
 const FabricLimit kLimits[] = {
     {"density", "kg/m^2", [](const Fabric& f) { return f.density; }, between(1e-3, 20), between(0.01, 1.5),
      kGramsPerSquareMetre},
@@ -80,8 +80,8 @@ const FabricLimit kLimits[] = {
      between(0, 1e3), between(0, 120), kNoSlip},
 };
 
-// A fit may leave a stop next to nothing, so that stiffnesses have no least usual one; thresholds of stops of
-// bending are judged together (threshold_warning()).
+// Stiffnesses have no least usual value, since a fit may leave a stop next to nothing; the thresholds of
+// bending's stops are judged together (threshold_warning()).
 const Range kUsualStrains = between(1e-5, 0.3);
 const FabricListLimit kListLimits[] = {
     {{"bending.stops.thresholds", "1/m", nullptr, between(0, 1e7), between(0, 1e7), kPerCentimetre},
@@ -126,8 +126,8 @@ std::string with_unit(const std::string& number, const FabricLimit& limit) {
   return *limit.unit ? number + " " + limit.unit : number;
 }
 
-// "; g/m^2 given? Then it is 0.124 kg/m^2", where that would be usual.  A ratio that is as small as a
-// rigidity is one.
+// Suggests a unit in which the value would be usual: "; g/m^2 given? Then it is 0.124 kg/m^2".  A ratio as
+// small as a rigidity was probably meant as a rigidity.
 std::string slip_text(const FabricLimit& limit, double value) {
   const std::string parameter = limit.parameter;
   if (parameter.ends_with("-bending") && between(1e-8, 1e-3).contains(value))
@@ -150,11 +150,11 @@ void check_number(const FabricLimit& limit, double value, const std::string& key
       .with_key(key, number_text(value));
 }
 
-// "" where the value is usual.
+// Warns of an unusual value; "" where it is usual.
 std::string number_warning(const FabricLimit& limit, double value, const std::string& key,
                            const std::string& origin) {
   if (value == 0 || limit.usual.contains(value)) return "";
-  const bool was_given = !origin.starts_with(kSetBy);  // nobody has mistaken the unit of any other number
+  const bool was_given = !origin.starts_with(kSetBy);  // only a number that was given can have the wrong unit
   return shown_number(limit, value, key) + " (" + origin + ") is unusual: fabrics have " +
          with_unit(three_digits(limit.usual.low) + " to " + three_digits(limit.usual.high), limit) +
          (was_given ? slip_text(limit, value) : "");
@@ -170,9 +170,9 @@ void for_each_number(const Fabric& fabric, const Visit& visit) {
       visit(list.each, value, std::string("fabric.") + list.each.parameter);
 }
 
-// Friction that saturates below all bending that a tester sees, or beyond all that cloth bears.
+// Warns of friction that saturates below all curvatures that a tester sees, or beyond all that cloth bears.
 std::string threshold_warning(const Spectrum& stops) {
-  const Range usual = between(2, 1e4);  // [1/m]; the largest, the smallest
+  const Range usual = between(2, 1e4);  // [1/m]: the largest threshold is above low, the smallest below high
   if (stops.empty() || (stops.thresholds.back() >= usual.low && stops.thresholds.front() <= usual.high))
     return "";
   return "thresholds of bending stops from " + three_digits(stops.thresholds.front()) + " to " +
@@ -200,7 +200,7 @@ void check_fabric_numbers(const Scene& scene) {
 
 std::vector<std::string> fabric_warnings(const Scene& scene) {
   std::vector<std::string> warnings;
-  std::string warned;  // the key of the last one: of a list one number says it
+  std::string warned;  // the key of the last warning: one number speaks for its list
   for_each_number(scene.fabric, [&](const FabricLimit& limit, double value, const std::string& key) {
     const std::string warning = number_warning(limit, value, key, key_origin(scene, key));
     if (warning.empty() || warned == key) return;

@@ -88,7 +88,7 @@ struct Reader {
     return x;
   }
 
-  // The text that a name stands for in [sources]; others stand for themselves.
+  // Returns the text that a name stands for in [sources]; other names stand for themselves.
   std::string source(const ValueTree* sources, const std::string& name) const {
     const ValueTree* node = sources ? sources->find(name) : nullptr;
     if (!node) return name;
@@ -105,8 +105,8 @@ struct Reader {
     return names;
   }
 
-  // {value = 1.157e-5, unit = "N m", source = "kes", confidence = "published"}, or the value alone, in the
-  // program's own unit, `own_unit`.  Without a source the file is it.
+  // Reads {value = 1.157e-5, unit = "N m", source = "kes", confidence = "published"}, or the value alone, in
+  // the program's own unit, `own_unit`.  Without a stated source the file is the source.
   PublishedNumber quantity(const ValueTree& node, const ValueTree* sources,
                            const std::string& own_unit) const {
     if (node.kind != ValueTree::Kind::table)
@@ -126,8 +126,8 @@ struct Reader {
     return number;
   }
 
-  // A drape coefficient in percent, whether it is printed so or as a share.
-  // Most of what a source prints is only shown; what drapes are held against has to have its name.
+  // [published] may hold any number, of which most are only shown; those that drapes are compared with must
+  // have these names.
   static constexpr const char* kReadNames[] = {"drape-coefficient", "node-count"};
   void check_published_name(const ValueTree& node) const {
     const std::vector<std::string> names(std::begin(kReadNames), std::end(kReadNames));
@@ -149,7 +149,7 @@ struct Reader {
                     node);
   }
 
-  // range = [low, high], around the value; none where the number does not state it.
+  // Reads range = [low, high], which must contain the value; returns none where the number does not state it.
   std::optional<Range> range(const ValueTree& number, double value) const {
     const ValueTree* node = number.find("range");
     if (!node) return {};
@@ -164,7 +164,7 @@ struct Reader {
     return range;
   }
 
-  // Of a table of lists, which may leave it out: then the file itself is the source.
+  // Reads the provenance of a table of lists, which may leave it out: then the file itself is the source.
   Provenance provenance(const ValueTree& table, const ValueTree* sources) const {
     Provenance from{place(file, table), "given"};
     if (table.find("source")) from.source = text(table, "source");
@@ -180,7 +180,7 @@ struct Reader {
   }
 };
 
-// The key fabric.NAME.
+// Reads the parameter `name` into the key fabric.NAME.
 void read_parameter(const Reader& reader, const ValueTree& node, const std::string& name,
                     const ValueTree* sources, Scene& scene, std::map<std::string, Range>& ranges) {
   const std::string origin = place(reader.file, node);
@@ -206,7 +206,7 @@ void read_parameter(const Reader& reader, const ValueTree& node, const std::stri
   scene.origin["fabric." + name] = origin;
 }
 
-// [bending] or [membrane] and the tables in it: the keys fabric.bending.* or fabric.membrane.* as bare
+// Reads [bending] or [membrane] and the tables in it: the keys fabric.bending.* or fabric.membrane.* as bare
 // values, each table with a source of its own; a number may have its own, {value, unit, ...}.
 void read_lists(const Reader& reader, const ValueTree& table, const std::string& path,
                 const ValueTree* sources, Scene& scene, std::map<std::string, Range>& ranges) {
@@ -228,7 +228,7 @@ void read_lists(const Reader& reader, const ValueTree& table, const std::string&
   }
 }
 
-// Where the file leaves them out.
+// Derives b1 and k0 from the stops where the file leaves them out.
 void note_three_numbers(Fabric& fabric) {
   Fabric follows = fabric;
   follow_stops(follows);
@@ -247,14 +247,14 @@ void read_parts(const Reader& reader, const ValueTree& table, const ValueTree* s
   check_fabric_lists(scene);
 }
 
-// What the file leaves out keeps the program's default and says so.
+// Records that a number that the file leaves out keeps the program's default.
 void note_defaults(Fabric& fabric) {
   if (!fabric.provenance.contains("bias-bending") && fabric.weft_bending != 1) follow_weft(fabric);
   for (const KeyDescription& key : scene_keys()) {
     if (!key.path.starts_with("fabric.") || key.path == "fabric.name") continue;
     if (std::any_of(std::begin(kOptional), std::end(kOptional),
                     [&](const char* prefix) { return key.path.starts_with(prefix); }))
-      continue;  // the fabric has none of it
+      continue;  // the fabric lacks this optional part
     fabric.provenance.try_emplace(key.path.substr(7), Provenance{"the program's default", "assumed"});
   }
 }

@@ -1,4 +1,4 @@
-// Fabrics as files: every number with its value, unit, source and confidence.
+// Reads fabrics from files: every number has its value, unit, source and confidence.
 //
 //   name = "cotton-broad"
 //   description = "100 % cotton broad cloth, plain weave"
@@ -38,16 +38,16 @@ namespace hysteron {
 struct FabricFile {
   Fabric fabric;
   std::string description;
-  std::map<std::string, std::string> place;        // of each parameter: "assets/fabrics/cotton-broad.toml:12"
-  std::map<std::string, Range> range;              // of each parameter that states one, in its unit
-  std::map<std::string, Range> published_range;    // of B and 2HB as printed, in their own units
+  std::map<std::string, std::string> place;        // by parameter: "assets/fabrics/cotton-broad.toml:12"
+  std::map<std::string, Range> range;              // by parameter, if it states one, in its unit
+  std::map<std::string, Range> published_range;    // for B and 2HB as printed, in their own units
   std::map<std::string, std::string> short_names;  // of sources, by their texts
 
-  // The source's short name, or its text.
+  // Returns the source's short name, or its text.
   const std::string& shown(const Provenance& from) const;
 };
 
-// KES units (Kawabata 1980) in SI; 1 gf = 9.80665e-3 N by definition.
+// KES units (Kawabata 1980) in SI units; 1 gf = 9.80665e-3 N by definition.
 inline constexpr double kGramForceSquareCentimetrePerCentimetre = 9.80665e-5;  // [N m]
 inline constexpr double kGramForceCentimetrePerCentimetre = 9.80665e-3;        // [N]
 
@@ -57,13 +57,13 @@ inline constexpr double kGramForceCentimetrePerCentimetre = 9.80665e-3;        /
 // keys, wrong units, missing sources, values out of range.
 FabricFile read_fabric(const std::string& name_or_file, const std::string& origin);
 
-// b1 and k0 become those that have the first slope and the friction moment of the stops; without stops
-// nothing changes.
+// Sets b1 and k0 to those with the first slope and the friction moment of the stops; without stops nothing
+// changes.
 void follow_stops(Fabric& fabric);
-// bias_bending becomes the mean of warp and weft, as where none is stated.
+// Sets bias_bending to the mean of warp and weft, as where none is stated.
 void follow_weft(Fabric& fabric);
 
-// All fabrics of the assets folder, by name.
+// Returns all fabrics of the assets folder, sorted by name.
 std::vector<FabricFile> list_fabrics();
 
 }  // namespace hysteron

@@ -41,7 +41,7 @@ std::string value_text(const Value& value) {
       value);
 }
 
-// "fabric.b2 = -1 N m must be >= 0 (scene.toml:7)"
+// Composes a refusal: "fabric.b2 = -1 N m must be >= 0 (scene.toml:7)".
 Error refusal(const KeyDescription& key, const std::string& value, const std::string& must,
               const std::string& origin) {
   return Error::invalid_input(key.path + " = " + value + " must be " + must)
@@ -82,7 +82,8 @@ double as_number(const KeyDescription& key, const Value& value, const std::strin
   throw wrong_type(key, value, origin);
 }
 
-// Also of a number with an exponent or a point, "1e3", if there is nothing behind the point.
+// Reads an integer, also from a number with an exponent or a point, "1e3", if nothing but zeros is behind the
+// point.
 std::int64_t as_integer(const KeyDescription& key, const Value& value, const std::string& origin) {
   constexpr double kExact = 9e15;  // below 2^53 every integer has a double of its own
   if (const auto* integer = std::get_if<std::int64_t>(&value)) return *integer;
@@ -127,7 +128,7 @@ const std::string& as_text(const KeyDescription& key, const Value& value, const 
   return *text;
 }
 
-// The whole text as a number; false if anything is left over.
+// Reads the whole text as a number; false if anything is left over.
 template <class Number>
 bool parse(std::string_view text, Number& number) {
   if (text.starts_with('+')) text.remove_prefix(1);
@@ -135,7 +136,7 @@ bool parse(std::string_view text, Number& number) {
   return error == std::errc() && end == text.data() + text.size();
 }
 
-// Numbers with blanks or commas between them, none of which stands alone; none of another text.
+// Reads numbers between blanks or commas; returns none if any part of the text is something else.
 std::vector<double> parse_components(std::string text) {
   std::ranges::replace_if(
       text, [](char c) { return c == '[' || c == ']'; }, ' ');
@@ -159,7 +160,7 @@ void split_choices(const char* text, KeyDescription& key) {
     if (word != "|") key.choices.push_back(word);
 }
 
-// Numbers with four digits; "" for what is not set.
+// Writes a default with four digits; "" for a value that is not set.
 std::string described_default(const Field& field) {
   const auto rounded = [](double x) {
     char text[32];
@@ -267,7 +268,7 @@ std::string nearest_name(const std::string& name, const std::vector<std::string>
   std::string nearest;
   std::size_t fewest = std::max<std::size_t>(2, name.size() / 3) + 1;
   for (const std::string& candidate : candidates) {
-    std::vector<std::size_t> edits(candidate.size() + 1);  // Levenshtein 1966: a row of the distance table
+    std::vector<std::size_t> edits(candidate.size() + 1);  // a row of distances (Levenshtein 1966)
     for (std::size_t j = 0; j <= candidate.size(); ++j) edits[j] = j;
     for (std::size_t i = 1; i <= name.size(); ++i) {
       std::size_t diagonal = std::exchange(edits[0], i);

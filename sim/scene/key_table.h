@@ -23,7 +23,7 @@ namespace hysteron {
 
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// Allowed numbers.  For a vector: of every component.
+// The allowed numbers; for a vector they hold for every component.
 struct Range {
   double low = -kInfinity;
   double high = kInfinity;
@@ -40,7 +40,7 @@ inline Range between(double low, double high) { return {low, high, false}; }
 // An enumeration of any type.
 struct NamedValue {
   void* value;
-  std::vector<std::string> names;  // of its values, in their order
+  std::vector<std::string> names;  // the names of its values, in their order
   void (*set)(void* value, std::size_t place);
   std::size_t (*place)(const void* value);
 
@@ -55,8 +55,8 @@ NamedValue named_value(E* value) {
           [](const void* of) { return static_cast<std::size_t>(*static_cast<const E*>(of)); }};
 }
 
-// What a key points to: flag, integer, count, number, vector, text, parameters by name, an enumeration, or
-// numbers, as many as there are.
+// A key can point to a flag, integer, count, number, vector, text, parameters by name, an enumeration, or a
+// list of numbers of any length.
 using Parameters = std::map<std::string, std::string>;
 using Numbers = std::vector<double>;
 using Field = std::variant<bool*, int*, unsigned*, double*, Eigen::Vector3d*, std::string*, Parameters*,
@@ -66,8 +66,8 @@ struct KeyDescription {
   std::string path;                  // "fabric.b2"
   std::string type;                  // flag | integer | number | vector | text | name=value | numbers
   std::string unit;                  // "N m", "" for plain numbers and texts
-  Range range;                       // of numbers
-  std::vector<std::string> choices;  // of texts; empty: any text
+  Range range;                       // the allowed numbers
+  std::vector<std::string> choices;  // the allowed texts; empty: any text
   std::string doc;                   // one line
   std::string default_text;          // the value when it was described, four digits; "": none, or a flag
 };
@@ -78,7 +78,7 @@ struct BoundKey {
 };
 using Keys = std::vector<BoundKey>;
 
-// One line of a table.  Choices are written "sphere | box"; those of an enumeration are its names.
+// One line of a table.  Choices are written "sphere | box"; for an enumeration they are its names.
 template <class Owner>
 struct KeyRow {
   const char* path;
@@ -119,20 +119,20 @@ using Value = std::variant<bool, std::int64_t, double, std::string, std::vector<
 // Sets a key.  `origin` ("scene.toml:7", "--step") ends every message.  Throws Error::invalid_input for a
 // wrong type, a number outside its range or not finite, or a text that is no choice.
 void assign(const BoundKey& key, const Value& value, const std::string& origin);
-// A flag's text as the value that a file would hold: numbers in C notation, vectors and lists as numbers
-// apart by spaces or commas.  A text that is none of these stays text (and is refused by assign).
+// Turns a flag's text into the value that a file would hold: numbers in C notation, vectors and lists as
+// numbers apart by spaces or commas.  Any other text stays text (and is refused by assign).
 Value parse_text(const KeyDescription& key, const std::string& text);
 
-// Throws Error::invalid_input for an unknown key, naming the nearest known one.
+// Finds a key; throws Error::invalid_input for an unknown key, naming the nearest known one.
 const BoundKey& find_key(const Keys& keys, const std::string& path, const std::string& origin);
 
-// Values of all keys, nested at the dots of their paths, in the table's order.
+// Returns the values of all keys, nested at the dots of their paths, in the table's order.
 nlohmann::ordered_json to_json(const Keys& keys);
 
-// The candidate with the fewest edits from `name`, or "" if none is near (a third of the letters, at least
-// two).
+// Returns the candidate with the fewest edits from `name`, or "" if none is near (a third of the letters, at
+// least two).
 std::string nearest_name(const std::string& name, const std::vector<std::string>& candidates);
-// "; did you mean NAME?" with it, for the end of a message; "" likewise.
+// Returns "; did you mean NAME?" with that candidate, for the end of a message, or "".
 std::string suggestion(const std::string& name, const std::vector<std::string>& candidates);
 
 std::string join(const std::vector<std::string>& words, const std::string& separator);

@@ -161,7 +161,7 @@ const KeyRow<Keyframe> kKeyframeRows[] = {
 };
 // clang-format on
 
-// An array of tables, with the keyframes of those that move.
+// Writes an array of tables, with the keyframes of those that move.
 template <class Item>
 Json tables_json(std::vector<Item> items, Keys (*bind_one)(Item&)) {
   Json tables = Json::array();
@@ -201,7 +201,7 @@ void note_origin(Scene& scene, const std::string& path, const std::string& origi
     scene.fabric.provenance[path.substr(kFabricPrefix.size())] = {origin, "given"};
 }
 
-// The fabric of that name, and where its numbers stand.
+// Loads the fabric of that name, and the places of its numbers.
 void load_fabric(Scene& scene, const std::string& name, const std::string& origin) {
   std::erase_if(scene.origin, [](const auto& entry) { return entry.first.starts_with(kFabricPrefix); });
   FabricFile loaded = read_fabric(name, origin);
@@ -210,7 +210,7 @@ void load_fabric(Scene& scene, const std::string& name, const std::string& origi
   scene.origin["fabric.name"] = origin;
 }
 
-// The file or the command line that an origin names, without its line.
+// Returns the file, or "--" for the command line, of an origin, without its line.
 std::string source_of(const std::string& origin) {
   return origin.starts_with("--") ? "--" : origin.substr(0, origin.rfind(':'));
 }
@@ -220,8 +220,9 @@ bool stand_together(const Scene& scene, const std::string& key, const std::strin
   return a != scene.origin.end() && b != scene.origin.end() && source_of(a->second) == source_of(b->second);
 }
 
-// Of a fabric without a shape: b1 or k0 takes the place of stops that were set elsewhere, and stops that of
-// b1 and k0. What one file states of both is left to check_fabric_lists().
+// Keeps one statement of friction where the fabric has no shape of it: b1 or k0 takes the place of stops that
+// were set elsewhere, and stops that of b1 and k0.  If one file states both, check_fabric_lists() compares
+// them.
 void reconcile_stops(const std::string& set, Scene& scene) {
   Fabric& fabric = scene.fabric;
   const bool stops = set == "bending.stops.thresholds" || set == "bending.stops.stiffnesses";
@@ -239,7 +240,7 @@ void reconcile_stops(const std::string& set, Scene& scene) {
   }
 }
 
-// Does what was set say nothing else than what follows from KES-FB2's pair, as in a scene that was written
+// Are the numbers that were set just those that follow from KES-FB2's pair, as in a scene that was written
 // out?
 bool follows_from_pair(const Fabric& fabric) {
   Fabric follows = fabric;
@@ -249,8 +250,8 @@ bool follows_from_pair(const Fabric& fabric) {
          follows.bending.stops.stiffnesses == fabric.bending.stops.stiffnesses;
 }
 
-// One source that states the pair and other numbers than follow from it says two things at once:
-// check_scene() refuses it, unless a shape, which may be set later, makes these numbers follow.
+// Notes that one source states the pair and other numbers than follow from it: check_scene() refuses it,
+// unless a shape, which may be set later, makes these numbers follow.
 void note_numbers_beside_pair(Scene& scene) {
   const Fabric& fabric = scene.fabric;
   if (fabric.kes.on()) scene.origin.erase(kSaidTwice);
@@ -266,7 +267,7 @@ void note_numbers_beside_pair(Scene& scene) {
   };
   if (!fabric.bending.stops.empty() && stand_together(scene, "bending.stops.thresholds", "kes-b"))
     note("bending.stops.thresholds");
-  // A fabric's file that states the pair has b1 and b2 of where kes-b stands: they follow from it.
+  // In a fabric's file with the pair, b1 and b2 follow from it and have the place of kes-b.
   const auto is_stated = [&](const std::string& key) {
     return key_origin(scene, "fabric." + key) != key_origin(scene, "fabric.kes-b") &&
            stand_together(scene, key, "kes-b");
@@ -275,8 +276,8 @@ void note_numbers_beside_pair(Scene& scene) {
   if (fabric.b1 != follows.b1 && is_stated("b1")) note("b1");
 }
 
-// Friction is said by KES-FB2's pair, with k0 or a shape, or by b1 with b2 and k0, or by stops: by what was
-// set last.  A number that follows from what is said already changes nothing.
+// Keeps the statement of friction that was set last: KES-FB2's pair, with k0 or a shape, or b1 with b2 and
+// k0, or stops.  Setting a number that already follows from the present statement changes nothing.
 void keep_friction_whole(bool was_shaped, const std::string& set, Scene& scene) {
   Fabric& fabric = scene.fabric;
   if (set.starts_with("kes-") || set == "stops-median" || set == "stops-spread") {
@@ -297,14 +298,15 @@ void keep_friction_whole(bool was_shaped, const std::string& set, Scene& scene) 
   if (stops) reconcile_stops(set, scene);
 }
 
-// The bias follows weft unless someone has stated it; a fabric's file that only assumes it has not.
+// Makes the bias ratio follow weft unless someone has stated it; a fabric's file that only assumes it has
+// not.
 void keep_bias_between(const std::string& set, Fabric& fabric) {
   if (set != "weft-bending") return;
   const auto bias = fabric.provenance.find("bias-bending");
   if (bias == fabric.provenance.end() || bias->second.confidence == "assumed") follow_weft(fabric);
 }
 
-// The laws are listed once, where they are written.
+// Adds the names of the laws, which law_catalogue() alone lists.
 void name_laws(KeyDescription& key) {
   for (const LawEntry& law : law_catalogue()) key.choices.push_back(law.name);
 }

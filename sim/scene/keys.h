@@ -10,10 +10,11 @@
 
 namespace hysteron {
 
-// Every key that a flag or the top level and plain tables of a scene file may set, in the manifest's order.
+// Describes every key that a flag or the top level and plain tables of a scene file may set, in the
+// manifest's order.
 std::vector<KeyDescription> scene_keys();
 
-// The same keys, and those of [[pin]], [[obstacle]], their keyframes and [[command]], bound to one object.
+// Bind the same keys, and those of [[pin]], [[obstacle]], their keyframes and [[command]], to one object.
 Keys bind_scene(Scene& scene);
 Keys bind_pin(Pin& pin);
 Keys bind_obstacle(Obstacle& obstacle);
@@ -25,10 +26,10 @@ Keys bind_keyframe(Keyframe& keyframe);
 // fabric (all its earlier values are replaced); another fabric.* key replaces one number, whose provenance
 // becomes `origin`, "given".  Throws Error::invalid_input as assign_text and find_key do.
 void set_key(Scene& scene, const std::string& path, const std::string& text, const std::string& origin);
-// The same from a file's value; `key` is one of bind_scene(scene).
+// Sets one key from a file's value; `key` is one of bind_scene(scene).
 void set_key(Scene& scene, const BoundKey& key, const Value& value, const std::string& origin);
 
-// The resolved scene: every key in SI units, the fabric's sources, and where each key was set.
+// Returns the resolved scene: every key in SI units, the fabric's sources, and where each key was set.
 nlohmann::ordered_json to_json(const Scene& scene);
 
 }  // namespace hysteron

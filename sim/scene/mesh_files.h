@@ -1,4 +1,4 @@
-// The files that a scene's cloth and its bodies of triangles are read from.
+// Lists the files that a scene's cloth and its bodies of triangles are read from.
 #pragma once
 
 #include <string>
@@ -8,11 +8,11 @@
 
 namespace hysteron {
 
-// Of the cloth at rest; "" of one that is built.
+// Returns the file of the cloth at rest; "" if the cloth is built.
 std::string rest_file(const Scene& scene);
 
-// The keys that name meshes which are read, "cloth.file" or "obstacle[0].sequence", and where their paths
-// stand; a sequence may be a pattern of several (files_like(), mesh/mesh_sequence.h).
+// Keys that name mesh files, "cloth.file" or "obstacle[0].sequence", and where their paths stand; a sequence
+// may be a pattern of several (files_like(), mesh/mesh_sequence.h).
 struct MeshFile {
   std::string key;
   std::string* path;

@@ -13,8 +13,8 @@ double slope(const std::vector<Keyframe>& keys, std::size_t i, const Track& valu
   return (value(keys[i + 1]) - value(keys[i])) / (keys[i + 1].time - keys[i].time);
 }
 
-// Tangent at key i: zero at the ends and where the motion turns or rests, else the harmonic mean of its
-// neighbours'.
+// The tangent at key i is zero at the ends and where the motion turns or rests, else the harmonic mean of the
+// slopes beside it.
 double tangent(const std::vector<Keyframe>& keys, std::size_t i, const Track& value) {
   if (i == 0 || i + 1 == keys.size()) return 0;
   const double a = slope(keys, i - 1, value), b = slope(keys, i, value);
@@ -32,8 +32,9 @@ double interpolate(const std::vector<Keyframe>& keys, double time, const Track& 
   return a + u * (ta + u * (3 * (b - a) - 2 * ta - tb + u * (2 * (a - b) + ta + tb)));
 }
 
-// Keyframes on a straight line are passed at a steady rate where there is another on either side.
-constexpr double kBeside = 1;  // [s]
+// Motion through keyframes on a straight line is steady where there is another key on either side:
+// steady_from() places keys so.
+constexpr double kBeside = 1;  // [s] from the given time to the key on either side
 constexpr double kFar = 1e6;   // [s] beyond any run
 
 }  // namespace

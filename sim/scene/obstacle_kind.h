@@ -19,7 +19,7 @@ inline constexpr std::array kObstacleNames = {
 };
 constexpr auto names(ObstacleKind) { return kObstacleNames; }
 
-// What the row of an obstacle o says.
+// The row's properties of an obstacle o.
 struct ObstacleForm {
   double half_thickness;  // [m]
   bool has_axis, has_rim;

@@ -1,4 +1,4 @@
-// Whether a cloth can be what was meant.
+// Warns of cloths that were probably not meant so.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -12,27 +12,26 @@
 namespace hysteron {
 namespace {
 
-// Beyond these a cloth is doubtful.  They are wide enough for every specimen and garment, and narrow enough
-// that one of 10 cm to 1 m is beyond them where centimetres or millimetres are read as metres, and the other
-// way round.
-constexpr double kSmallest = 5e-3;   // largest extent [m]: testers clamp specimens of 1 cm at least
-constexpr double kLargest = 10;      // [m]: curtains; looms are 2 to 5 m wide
-constexpr double kLightest = 1e-6;   // [kg]: 5 mm square of 0.04 kg/m^2, a light voile
-constexpr double kHeaviest = 5;      // [kg]: a winter coat weighs 3 kg
-constexpr double kShortestEdge = 1;  // mean, in thicknesses: below, cloth is no surface any more
-constexpr double kLongestEdge =
-    500;                            // mean, in thicknesses, 25 cm of cotton: folds are some centimetres wide
-constexpr double kStretched = 0.5;  // of an edge at the start: weaves tear at 0.1 to 0.3
+// A cloth beyond these limits is doubtful.  They are wide enough for every specimen and garment, and so
+// narrow that a cloth of 10 cm to 1 m exceeds them where centimetres or millimetres are read as metres, or
+// the other way round.
+constexpr double kSmallest = 5e-3;    // largest extent [m]: testers clamp specimens of 1 cm at least
+constexpr double kLargest = 10;       // [m]: curtains; looms are 2 to 5 m wide
+constexpr double kLightest = 1e-6;    // [kg]: 5 mm square of 0.04 kg/m^2, a light voile
+constexpr double kHeaviest = 5;       // [kg]: a winter coat weighs 3 kg
+constexpr double kShortestEdge = 1;   // mean, in thicknesses: shorter edges make cloth no surface any more
+constexpr double kLongestEdge = 500;  // mean, in thicknesses: 25 cm of cotton, much wider than its folds
+constexpr double kStretched = 0.5;    // strain of an edge at the start: weaves tear at 0.1 to 0.3
 
 struct Size {
-  double extent, weight, edge;  // [m], [kg], mean over the fabric's thickness
+  double extent, weight, edge;  // [m], [kg], mean edge over the fabric's thickness
 
-  // Of the same mesh with lengths times this.
+  // Returns the size of the same mesh with all lengths multiplied by `scale`.
   Size times(double scale) const { return {scale * extent, scale * scale * weight, scale * edge}; }
 };
 
 Size scene_size(const Scene& scene, const ClothMesh& mesh) {
-  const int faces = mesh.faces() / scene.cloth.copies;  // of one cloth
+  const int faces = mesh.faces() / scene.cloth.copies;  // one copy's faces
   Eigen::AlignedBox3d box;
   for (int f = 0; f < faces; ++f)
     for (const Eigen::Vector3d& x : mesh.corners(f)) box.extend(x);
@@ -45,14 +44,14 @@ Size scene_size(const Scene& scene, const ClothMesh& mesh) {
 
 bool is_within(double x, double low, double high) { return x >= low && x <= high; }
 
-// Three digits.
+// Writes three digits.
 std::string rounded(double x) {
   char text[32];
   std::snprintf(text, sizeof text, "%.3g", x);
   return text;
 }
 
-// What of it is beyond the limits: "is 24 m long (...), weighs 56 kg (...)"; "" where nothing is.
+// Describes what is beyond the limits: "is 24 m long (...), weighs 56 kg (...)"; "" where nothing is.
 std::string beyond(const Size& size) {
   std::vector<std::string> words;
   if (!is_within(size.extent, kSmallest, kLargest))
@@ -67,7 +66,7 @@ std::string beyond(const Size& size) {
   return join(words, ", ");
 }
 
-// Units in which nothing is beyond them: "cloth.unit = centimetre would make it 0.24 m long".
+// Lists the units in which nothing is beyond the limits: "cloth.unit = centimetre would make it 0.24 m long".
 std::string fitting_units(const Size& size, LengthUnit unit) {
   std::vector<std::string> fitting;
   for (std::size_t i = 0; i < names(LengthUnit{}).size(); ++i) {
@@ -80,8 +79,8 @@ std::string fitting_units(const Size& size, LengthUnit unit) {
   return fitting.empty() ? "" : "cloth.unit = " + join(fitting, ", ");
 }
 
-// The edges of cloth that is built are asked for, and no unit of length is to blame for the weight of one
-// whose density an experiment has set.
+// Warns of a size beyond the limits.  It ignores the edges of a cloth that is built, which were asked for,
+// and the weight if an experiment has set the density, since no unit of length is then to blame.
 std::string size_doubt(const Scene& scene, const ClothMesh& mesh) {
   Size size = scene_size(scene, mesh);
   if (is_set_by_experiment(scene, "fabric.density")) size.weight = kLightest;
@@ -91,7 +90,7 @@ std::string size_doubt(const Scene& scene, const ClothMesh& mesh) {
   if (what.empty()) return "";
   if (file.empty()) return "the cloth " + what + ": lengths are in metres";
   const LengthUnit unit = scene.cloth.unit;
-  // The rest shape of a pattern is not in that unit.
+  // The rest shape of a pattern is in units of its texture, which cloth.unit does not change.
   const bool is_pattern = scene.cloth.shape == "pattern" && !names_an_obj(scene.mesh);
   const std::string fitting = is_pattern ? "" : fitting_units(size, unit);
   return "mesh " + file + ", read in " +
@@ -99,7 +98,8 @@ std::string size_doubt(const Scene& scene, const ClothMesh& mesh) {
          (fitting.empty() ? "" : ": " + fitting);
 }
 
-// Neither a bend nor a weave's stretch: vertices in another order, or another cloth's.
+// Warns of edges that no bend or stretch of a weave makes so long or short: the vertices have another order,
+// or are another cloth's.
 std::string stretch_doubt(const Scene& scene, const ClothMesh& mesh,
                           const std::vector<Eigen::Vector3d>& start) {
   double largest = 0;

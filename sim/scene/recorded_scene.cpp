@@ -1,4 +1,4 @@
-// A scene back from what a run has recorded.
+// Restores a scene from a run's record.
 #include <nlohmann/json.hpp>
 
 #include "sim/base/error.h"
@@ -53,7 +53,7 @@ void read_published(const Json& entries, const std::string& file, Fabric& fabric
   }
 }
 
-// The entry of that name, taken out of the object; null if there is none.
+// Takes the entry of that name out of the object; null if there is none.
 Json taken(Json& object, const char* name) {
   if (!object.is_object() || !object.contains(name)) return nullptr;
   const Json entry = object[name];
@@ -65,7 +65,7 @@ Json taken(Json& object, const char* name) {
 
 void apply_recorded_scene(Scene& scene, Json tree, const std::string& file, const Keys& extra,
                           const std::vector<std::string>& left) {
-  scene.fabric.kes = {};  // manifests of before do not know of it
+  scene.fabric.kes = {};  // older manifests lack it
   if (tree.contains("param")) scene.param.clear();
   const Json origin = taken(tree, "origin");
   if (tree.contains("fabric")) {

@@ -17,12 +17,12 @@
 namespace hysteron {
 namespace {
 
-// What is wrong, and where that key or table was set.
+// Refuses with the place where that key or table was set.
 Error key_refusal(const Scene& scene, const std::string& key, const std::string& what) {
   return Error::invalid_input(what).with_origin(key_origin(scene, key));
 }
 
-// "pin[0]"
+// Names an entry of a list: "pin[0]".
 std::string path_in(const std::string& list, std::size_t i) { return list + "[" + std::to_string(i) + "]"; }
 
 template <class Item>
@@ -33,17 +33,17 @@ void check_each(const Scene& scene, const std::vector<Item>& items, const std::s
 
 bool is_flag(const std::string& origin) { return origin.starts_with("--"); }
 
-// A number of KES-FB2's friction that says nothing without another one.
+// Refuses a number of KES-FB2's friction that says nothing without another one.
 [[noreturn]] void refuse_kes_number(const Scene& scene, const std::string& key, double value,
                                     const std::string& unit, const std::string& what) {
   throw Error::invalid_input(shown(scene, key, value, unit) + " " + what).with_key(key, number_text(value));
 }
 
-// The pair B and 2HB, where no shape of friction stands beside it: both, or neither.
+// Requires both B and 2HB, or neither, where no shape of friction stands beside them.
 void check_kes_pair(const Scene& scene) {
   const KesPair& read = scene.fabric.kes.read;
   const bool has_stops =
-      is_flag(key_origin(scene, "fabric.bending.stops.thresholds"));  // in place of the pair
+      is_flag(key_origin(scene, "fabric.bending.stops.thresholds"));  // set in place of the pair
   const auto check_zero = [&](const std::string& key, double value, double other, const std::string& unit,
                               const std::string& instead) {
     const bool is_meant = other > 0 || (is_flag(key_origin(scene, key)) && !has_stops);
@@ -60,7 +60,8 @@ void check_kes_pair(const Scene& scene) {
     refuse_kes_number(scene, "fabric.kes-2hb", read.loop_width, "N", "needs fabric.kes-b" + both);
 }
 
-// The shape of friction has a median and a spread, and the pair says how much friction has it.
+// Checks the shape of friction: it has a median and a spread, and the pair says how much friction has that
+// shape.
 void check_kes_shape(const Scene& scene) {
   const KesFriction& kes = scene.fabric.kes;
   const double median = kes.shape.median, spread = kes.shape.spread;
@@ -79,7 +80,8 @@ void check_kes_shape(const Scene& scene) {
   need("fabric.kes-2hb", kes.read.loop_width, ", whose friction it shapes");
 }
 
-// Of a fabric whose face and back differ: what goes with it, and how far from flat it takes to change sides.
+// Checks a fabric whose face and back differ: which elements and laws allow it, and how far from flat it
+// changes sides.
 void check_faces(const Scene& scene) {
   const Fabric& f = scene.fabric;
   const Faces& faces = f.bending.faces;
@@ -94,7 +96,7 @@ void check_faces(const Scene& scene) {
     refuse(key, value, "goes without fabric.bending.set, whose rest curvature has no side");
   if (!f.bending.weft_stops.empty())
     refuse(key, value, "goes with one friction along all directions: without fabric.bending.stops.weft");
-  if (!has_faces(scene.law)) return;  // the mean of both sides
+  if (!has_faces(scene.law)) return;  // other laws take the mean of both sides
   const VirginCurve curve = f.virgin_curve();
   const double along_weft = f.rubs_otherwise() ? f.weft_friction : std::sqrt(f.weft_bending);
   const double width = curve.face_width() * std::max(1.0, 1 / (curve.parts.faces.weft_elastic * along_weft));
@@ -156,7 +158,8 @@ void check_mesh(const Scene& scene) {
                              " | FILE.obj" + suggestion(scene.mesh, families));
 }
 
-// The triangles of a file are its own; a file that no shape asks for would be left unread without a word.
+// Refuses a mesh beside a file with its own triangles, and a file that no shape asks for, which would
+// silently be left unread.
 void check_one_mesh(const Scene& scene) {
   const ClothShape& cloth = scene.cloth;
   const bool of_file = cloth.shape == "file" || cloth.shape == "pattern";
@@ -171,7 +174,7 @@ void check_one_mesh(const Scene& scene) {
                              " both define the triangles: leave one out");
 }
 
-// Lengths of keys are metres.
+// Refuses a unit of length without a file: keys are in metres.
 void check_unit(const Scene& scene) {
   const ClothShape& cloth = scene.cloth;
   if (cloth.unit == LengthUnit::metre || !rest_file(scene).empty() || names_an_obj(cloth.start)) return;
@@ -222,9 +225,9 @@ void check_pin(const Scene& scene, const Pin& pin, const std::string& path) {
       throw key_refusal(scene, path, path_in(path + ".keys", i) + ".scale is for obstacles");
 }
 
-// How far its middle comes in any one step [m].
+// Returns how far the obstacle's middle moves in any one step [m].
 double longest_stride(const Scene& scene, const Obstacle& solid) {
-  constexpr int kParts = 64;  // of the time between two keys, whose motion is a cubic in time
+  constexpr int kParts = 64;  // parts of the time between two keys, whose motion is a cubic in time
   double longest = 0;
   const auto& keys = solid.motion.keys;
   for (std::size_t i = 0; i + 1 < keys.size(); ++i) {
@@ -237,7 +240,8 @@ double longest_stride(const Scene& scene, const Obstacle& solid) {
   return longest;
 }
 
-// An obstacle that is beyond the cloth after one step pushes it out on the wrong side, or misses it.
+// Refuses an obstacle that moves farther in one step than its half thickness: it would push the cloth out on
+// the wrong side, or miss it.
 void check_stride(const Scene& scene, const Obstacle& solid, const std::string& path) {
   const double stride = longest_stride(scene, solid), most = obstacle_form(solid).half_thickness;
   if (stride <= most) return;
@@ -248,7 +252,8 @@ void check_stride(const Scene& scene, const Obstacle& solid, const std::string& 
                              number_text(scene.step * most / stride) + " s");
 }
 
-// A body of triangles keeps the cloth on the side where it is: it has to be there from the start.
+// Refuses a body of triangles that appears late: it keeps the cloth on the side where it is, so it has to be
+// there from the start.
 void check_body(const Scene& scene, const Obstacle& body, const std::string& path) {
   if (!is_body(body)) return;
   const auto refuse = [&](const std::string& key, const std::string& value, const std::string& what) {
@@ -286,7 +291,8 @@ void check_obstacle(const Scene& scene, const Obstacle& solid, const std::string
   check_stride(scene, solid, path);
 }
 
-// One parameter at a time, so that the message can say where it stands; then what they are together.
+// Checks the law's parameters one at a time, so that the message can say where each stands, and then
+// together.
 void check_parameters(const Scene& scene) {
   const VirginCurve curve = scene.fabric.virgin_curve();
   for (const auto& [name, text] : scene.param) {
@@ -304,7 +310,7 @@ void check_parameters(const Scene& scene) {
   }
 }
 
-// Otherwise a time that names the phase could mean either.
+// Refuses phases of the same name, which a time could not tell apart.
 void check_phases(const Scene& scene) {
   const auto table = [&](std::size_t i) {
     const std::string path = path_in("phase", i);
@@ -319,12 +325,12 @@ void check_phases(const Scene& scene) {
   }
 }
 
-// Where a key of a table stands, or the table if the key was left out.
+// Returns where a key of a table stands, or the table if the key was left out.
 std::string origin_in(const Scene& scene, const std::string& path, const std::string& key) {
   return key_origin(scene, path + "." + key, key_origin(scene, path));
 }
 
-// What falls due when the scene is over is never done.
+// Refuses a command that is due when the scene is over, and would never be carried out.
 void check_due(const Scene& scene, const Command& command, const std::string& path) {
   if (command.time < scene.seconds) return;
   throw Error::invalid_input(path + ".time = " + number_text(command.time) + " s (" +
@@ -341,7 +347,8 @@ void check_command(const Scene& scene, const Command& command, const std::string
         .with_origin(origin_in(scene, path, "kind"));
 }
 
-// Contact with triangles is a barrier that no step may cross: a term of what implicit steps minimise.
+// Refuses bodies of triangles without implicit steps: their contact is a barrier, a term of the potential
+// that such steps minimise.
 void check_body_steps(const Scene& scene) {
   if (scene.finds_equilibrium()) return;
   for (std::size_t i = 0; i < scene.obstacle.size(); ++i)

@@ -16,13 +16,14 @@ namespace hysteron {
 namespace {
 namespace fs = std::filesystem;
 
-// A value of the file with its full path: [cloth] length is "cloth.length".
+// A value of the file with its full path: [cloth] length has the path "cloth.length".
 struct Setting {
   std::string path;
   const ValueTree* node;
 };
 
-// `lists`: what is to be an array of tables, so that a plain table of that name is not taken apart.
+// Flattens a tree into settings.  Names in `lists` have to be arrays of tables; a plain table of that name is
+// not taken apart.
 void flatten(const std::string& prefix, const ValueTree& table, const std::vector<std::string>& lists,
              std::vector<Setting>& settings) {
   for (const ValueTree& child : table.children) {
@@ -35,7 +36,7 @@ void flatten(const std::string& prefix, const ValueTree& table, const std::vecto
   }
 }
 
-// Sets the keys of a scene, and further ones.
+// Sets the keys of a scene, and `extra` ones.
 class SceneKeys {
  public:
   SceneKeys(Scene& scene, std::string file, bool recorded, const Keys& extra,
@@ -102,13 +103,13 @@ class SceneKeys {
     set_key(scene_, key, located(path, value), origin);
   }
 
-  // The scene lasts as long as its phases, unless it says otherwise.
+  // Reads the phases; the scene lasts as long as they do, unless it says otherwise.
   void read_phases(const ValueTree& node) {
     read_tables(node, scene_.phase, bind_phase);
     scene_.seconds = phases_end(scene_);
   }
 
-  // Times may name a phase.
+  // Resolves a time that names a phase.
   Value timed(const BoundKey& key, const Value& value, const std::string& origin) const {
     const auto* text = std::get_if<std::string>(&value);
     if (!text || key.description.unit != "s") return value;
@@ -120,7 +121,7 @@ class SceneKeys {
                        [&](const BoundKey& k) { return k.description.path == path; });
   }
 
-  // Files that a scene names may stand beside it.
+  // Resolves the path of a file that may stand beside the scene file.
   Value located(const std::string& path, const Value& value) const {
     const bool of_obstacle = path.starts_with("obstacle["), is_sequence = path.ends_with(".sequence");
     if (of_obstacle
@@ -149,7 +150,7 @@ class SceneKeys {
     scene_.origin["param." + name] = origin;
   }
 
-  // The name of a table of keys: "cloth".
+  // Is this the name of a table of keys, such as "cloth"?
   bool is_table(const std::string& path) const {
     return std::any_of(known_.begin(), known_.end(),
                        [&](const BoundKey& key) { return key.description.path.starts_with(path + "."); });
@@ -213,7 +214,7 @@ class SceneKeys {
 
 Scene default_scene(const std::string& fabric) {
   Scene scene;
-  // Stable at any step; experiments that ask what stops a motion choose a method that damps less.
+  // The default is stable at any step; experiments on what damps a motion choose a method that damps less.
   scene.integrator = Integrator::implicit;
   scene.step = 1.0 / 60;
   set_key(scene, "fabric", fabric, "default");

@@ -12,7 +12,7 @@ namespace {
 
 constexpr const char* kOwn = "the experiment's own";
 
-// Such that it is a number of TOML, and an integer only where the key takes one.
+// Writes a number of TOML that is an integer only where the key takes one.
 std::string toml_number(double x) {
   const std::string text = number_text(x);
   const bool is_real = text.find_first_of(".en") != text.npos;  // "1e-05", "inf"
@@ -62,7 +62,7 @@ class TomlWriter {
   }
 
  private:
-  // "fabric.k0 = 50.0  # [1/m] --fabric.k0"
+  // Writes a line such as "fabric.k0 = 50.0 # [1/m] --fabric.k0".
   void line(const std::string& path, const std::string& value, const std::string& unit,
             const std::string& origin) {
     text_ << prefix_ << path << " = " << value;

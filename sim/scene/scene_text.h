@@ -1,4 +1,4 @@
-// A resolved scene as a TOML file that reads back to it.
+// Writes a resolved scene as a TOML file that reads back to it.
 #pragma once
 
 #include <set>
@@ -9,19 +9,19 @@
 
 namespace hysteron {
 
-// The file that a fabric of one's own stands in, as its numbers' places name it; else its name.
+// Returns the file of the user's own fabric, as the places of its numbers name it; else the fabric's name.
 std::string fabric_to_read(const Scene& scene);
 
-// A key beside those of scenes, of a run or its experiment, and its value as TOML has it.
+// A key of the run or its experiment, beside those of scenes, and its value in TOML.
 struct FurtherKey {
   std::string path, value;
 };
 
-// The beginning of every resolved scene's file.
+// The first line of every resolved scene's file.
 inline constexpr const char* kResolvedSceneMark = "# A resolved scene:";
 
-// Every key with its unit and where its value comes from as a comment.  `own`: keys that the experiment has
-// set itself.  Tables that it has added are commented out: it will add them again.
+// Writes every key with its unit and, as a comment, where its value comes from.  `own` are keys that the
+// experiment has set itself.  Tables that it has added are commented out: it will add them again.
 std::string scene_toml(const Scene& scene, const std::set<std::string>& own = {},
                        const std::vector<FurtherKey>& others = {});
 

@@ -1,4 +1,4 @@
-// What was given, and a key in a message: its value and where it was set.
+// Tells whether and where a key was set, and shows it in messages.
 #pragma once
 
 #include <string>
@@ -8,17 +8,19 @@
 
 namespace hysteron {
 
-// Stands in a scene's `origin` where one source has said its fabric's friction in two ways, with the message.
+// The entry of a scene's `origin`, with the message, where one source has said its fabric's friction in two
+// ways.
 inline constexpr const char* kSaidTwice = "friction said twice";
 
-// Begins the origin of a key that an experiment has set in place of what was given: "set by buckle: ...".
+// The beginning of the origin of a key that an experiment has set in place of the user's: "set by buckle:
+// ...".
 inline constexpr const char* kSetBy = "set by ";
 
-// Whether a file, a flag or a program has set this key or table, "pin[0]"; else it is as the program or the
-// experiment has it by itself.
+// Has a file, a flag or a program set this key or table, "pin[0]"?  Else it is the program's or the
+// experiment's default.
 inline bool is_given(const Scene& scene, const std::string& key) { return scene.origin.contains(key); }
 
-// Where a key or table was given.
+// Returns where a key or table was set.
 inline std::string key_origin(const Scene& scene, const std::string& key,
                               const std::string& otherwise = "default") {
   return is_given(scene, key) ? scene.origin.at(key) : otherwise;
@@ -28,7 +30,7 @@ inline bool is_set_by_experiment(const Scene& scene, const std::string& key) {
   return key_origin(scene, key).starts_with(kSetBy);
 }
 
-// "fabric.b1 = 1e-6 N m (--fabric.b1)"
+// Shows a key with its value and origin: "fabric.b1 = 1e-6 N m (--fabric.b1)".
 inline std::string shown(const Scene& scene, const std::string& key, const std::string& value,
                          const std::string& unit) {
   return key + " = " + value + (unit.empty() ? "" : " " + unit) + " (" + key_origin(scene, key) + ")";

@@ -17,18 +17,17 @@ namespace {
 using Eigen::Vector3d;
 constexpr double kPi = std::numbers::pi;
 
-// Of a knot.
-constexpr double kMinRadius = 5;  // in widths: below, the torsion stretches the strip by more than 1 %
-constexpr double kSway = 0.15;    // of the radius: how far loops swing in and out
-constexpr double kRise =
-    0.9;  // of the width: how far they swing up and down, which parts them where they cross
-constexpr double kDrift = 1.2;    // of the width: from the beginning to the end, which parts the tails
-constexpr double kEnd = 4 * kPi;  // two loops
-constexpr int kPieces = 4000;     // of its length
+// Proportions of a knot.
+constexpr double kMinRadius = 5;  // in widths: a smaller one stretches the strip by more than 1 % in torsion
+constexpr double kSway = 0.15;    // in radii: how far loops swing in and out
+constexpr double kRise = 0.9;     // in widths: how far loops swing up and down, which parts their crossings
+constexpr double kDrift = 1.2;    // in widths: the rise from beginning to end, which parts the tails
+constexpr double kEnd = 4 * kPi;  // two loops [rad]
+constexpr int kPieces = 4000;     // into which its length is divided
 
-// The middle line of a knot at angle u, 0 to kEnd, and its derivatives.
+// The middle line of a knot at angle u, 0 to kEnd [rad], and its derivatives.
 struct KnotCurve {
-  double width, radius;
+  double width, radius;  // [m]
 
   double rise(double u) const { return width * (kRise * std::sin(1.5 * u) + kDrift * (u / kEnd - 0.5)); }
   double reach(double u) const { return radius * (1 + kSway * std::cos(1.5 * u)); }
@@ -46,7 +45,7 @@ struct KnotCurve {
   }
 };
 
-// The same by its length, the tails along -x and +x.
+// The knot by the arc length of its middle line, with tails along -x and +x.
 class Knot {
  public:
   Knot(double width, double radius) : curve_{width, radius} {
@@ -57,13 +56,13 @@ class Knot {
           arc_length_.back() +
           h / 6 * (curve_.first(u - h).norm() + 4 * curve_.first(u - h / 2).norm() + curve_.first(u).norm()));
     }
-    // Its ends have the same direction, in the plane of x and z.
+    // Both ends have the same direction, in the plane of x and z; this rotation turns it to x.
     level_ = Eigen::Quaterniond::FromTwoVectors(curve_.first(0), Vector3d::UnitX()).toRotationMatrix();
   }
 
   double length() const { return arc_length_.back(); }
 
-  // At `s` from the knot's beginning along its middle line and `v` beside it.
+  // Returns the point at arc length `s` [m] from the knot's beginning and `v` [m] beside the middle line.
   Vector3d at(double s, double v) const {
     const double inside = std::clamp(s, 0.0, length()), u = angle_at(inside);
     const Vector3d along = curve_.first(u).normalized(),
@@ -83,12 +82,12 @@ class Knot {
   Eigen::Matrix3d level_;
 };
 
-// Length of a flat run.
+// Returns the length of a flat run [m].
 double flat_run_length(const ClothShape& c) {
   return (c.length - (c.pleats - 1) * kPi * c.radius) / c.pleats;
 }
 
-// Of a point at `s` along the cloth, in the plane of the pleats.
+// Returns where the point at `s` [m] along the cloth lies, in the plane of the pleats.
 Vector3d pleated(const ClothShape& c, double s, double y) {
   const double run = flat_run_length(c), period = run + kPi * c.radius;
   const int layer = std::clamp(static_cast<int>(s / period), 0, c.pleats - 1);
@@ -97,7 +96,7 @@ Vector3d pleated(const ClothShape& c, double s, double y) {
   return {layer % 2 ? run - along : along, y, c.radius * (2 * layer + 1 - std::cos(turn))};
 }
 
-// Turns and moves each copy by its draw.
+// Turns and moves each copy by its random draw.
 void draw_copies(const Scene& scene, std::vector<Vector3d>& x) {
   const ClothShape& c = scene.cloth;
   if (c.copy_turn == 0 && c.copy_scatter == 0) return;

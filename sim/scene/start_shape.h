@@ -1,4 +1,4 @@
-// Shapes in which a cloth starts that is flat at rest: bent, hardly stretched, and clear of itself.
+// Start shapes of a cloth that is flat at rest: bent, hardly stretched, and clear of itself.
 #pragma once
 
 #include "sim/mesh/cloth_mesh.h"
@@ -6,14 +6,16 @@
 
 namespace hysteron {
 
-// Shortest strip of which a knot with loops of this radius can be tied, with tails of a loop's radius [m].
+// Returns the length of the shortest strip in which a knot with loops of this radius can be tied, with tails
+// as long as a loop's radius [m].
 double knot_length(double width, double radius);
 
-// Error::invalid_input for a start that the cloth's shape, its sizes or the number of triangles do not allow.
+// Throws Error::invalid_input for a start that the cloth's shape, its sizes or the number of triangles do not
+// allow.
 void check_start_shape(const Scene& scene);
 
-// Where the vertices of the mesh start before the scene places them: rest shape, knot or pleats, each copy
-// with a draw of its own of turn and offset; or where a file has them.
+// Returns where the vertices of the mesh start [m] before the scene places them: in the rest shape, knot or
+// pleats, each copy with its own random turn and offset; or at a file's positions.
 //
 // knot: its middle line winds twice around z on a torus, a trefoil cut open at its outermost point, and goes
 // on straight along -x and +x.  The strip is swept along its binormal, so that its middle line bends about

@@ -4,7 +4,7 @@
 #include <vector>
 
 #define TOML_HEADER_ONLY 1
-#define TOML_MAX_NESTED_VALUES 32  // its trees are taken down by recursion
+#define TOML_MAX_NESTED_VALUES 32  // its trees are destroyed by recursion
 #include <toml++/toml.h>
 
 #include "sim/base/error.h"
@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t kMaxTomlBytes = std::size_t{16} << 20;
 
-// What is read, and what may stand in it.
+// A file that is read, and the lists that may stand in it.
 struct Source {
   const std::string& file;
   Lists lists;
@@ -31,7 +31,7 @@ bool all_numbers(const toml::array& array) {
   return std::all_of(array.begin(), array.end(), [](const toml::node& x) { return x.is_number(); });
 }
 
-// Keys and texts stand in messages of one line, in captions and in names of files.
+// Refuses control characters: keys and texts stand in messages of one line, in captions and in file names.
 void throw_if_control_characters(const std::string& text, const std::string& file, int line) {
   const auto is_control = [](unsigned char c) { return (c < 0x20 && c != '\t') || c == 0x7F; };
   if (std::none_of(text.begin(), text.end(), is_control)) return;
@@ -78,7 +78,7 @@ ValueTree convert(const Source& from, const std::string& key, const toml::node& 
       throw_if_control_characters(std::string(name.str()), from.file, line_number(child));
       node.children.push_back(convert(from, std::string(name.str()), child));
     }
-    // The library sorts by name; messages should come in reading order.
+    // The library sorts by name; messages should come in the file's order.
     std::stable_sort(node.children.begin(), node.children.end(),
                      [](const ValueTree& a, const ValueTree& b) { return a.line < b.line; });
     return node;

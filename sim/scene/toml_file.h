@@ -1,4 +1,4 @@
-// A TOML file as a tree that remembers source lines; the only door to the TOML library.
+// A TOML file as a tree that remembers source lines; this is the only user of the TOML library.
 #pragma once
 
 #include <optional>
@@ -10,10 +10,10 @@
 namespace hysteron {
 
 // Reads a whole file.  Throws Error::system if it cannot be read, Error::invalid_input with file and line if
-// it is no TOML, nests deeper than any scene, or holds what no key can take (dates, mixed arrays).
+// it is not TOML, nests deeper than any scene, or holds what no key can take (dates, mixed arrays).
 ValueTree read_toml(const std::string& file, Lists lists = Lists::refused);
 
-// What must be known of a text before it is parsed.
+// Checks that have to precede parsing.
 
 inline constexpr int kMaxKeyParts = 32;  // "cloth.length" has two
 
@@ -22,16 +22,15 @@ struct TomlFault {
   std::string what;  // "a key has more than 32 parts"
 };
 
-// The first place at which a text is no TOML in a way that toml++ only asserts, or that its recursion cannot
-// bear:
+// Finds the first place where a text breaks TOML in a way that toml++ only asserts, or that overflows its
+// recursion:
 //  - a letter beyond ASCII behind a backslash, or outside of texts and comments: the library's tests for
-//  white space
-//    are not defined for all of them;
+//    white space do not expect it;
 //  - brackets outside of texts and comments that do not match;
 //  - a header that is not "[a.b]" or "[[a.b]]" in a line of its own;
 //  - a text that begins in the middle of a key or a value: 1"a";
 //  - a key of more than kMaxKeyParts parts: each part is a table in the one before.
-// Whatever else is wrong with a text is left to the parser.
+// Other mistakes are left to the parser.
 std::optional<TomlFault> fault_before_parsing(std::string_view text);
 
 }  // namespace hysteron

@@ -1,4 +1,4 @@
-// What must be known of a TOML text before it is parsed.
+// Checks a TOML text before it is parsed.
 #include <algorithm>
 #include <cctype>
 #include <utility>
@@ -9,8 +9,8 @@
 namespace hysteron {
 namespace {
 
-// Behind the text that begins here with a quotation mark, "...", '...', or three of them; then up to two more
-// at its end belong to it.
+// Returns the position behind the text in quotation marks that begins here, "...", '...', or three of them;
+// then up to two more marks at its end belong to it.
 std::size_t behind_text(std::string_view text, std::size_t at) {
   const char mark = text[at];
   const std::string three(3, mark), end = text.substr(at, 3) == three ? three : three.substr(0, 1);
@@ -32,8 +32,7 @@ bool is_beyond_ascii(char c) { return static_cast<unsigned char>(c) >= 0x80; }
 
 bool is_among(char c, std::string_view characters) { return characters.find(c) != characters.npos; }
 
-// Whether a backslash of this text in quotation marks is followed, but for white space, by a letter beyond
-// ASCII.
+// Is a backslash of this text in quotation marks followed, but for white space, by a letter beyond ASCII?
 bool has_letter_behind_backslash(std::string_view text) {
   if (text[0] != '"') return false;
   for (std::size_t at = text.find('\\'); at != text.npos; at = text.find('\\', at + 2)) {
@@ -43,10 +42,11 @@ bool has_letter_behind_backslash(std::string_view text) {
   return false;
 }
 
-// Reads the characters outside of texts and comments in their order; of a text its first quotation mark.
+// Reads the characters outside of texts and comments in order; of each text it sees the first quotation mark
+// alone.
 class Structure {
  public:
-  // What is wrong at this character; empty: nothing so far.
+  // Returns what is wrong at this character; empty: nothing so far.
   std::string see(char c, int line) {
     const char before = std::exchange(before_, c);
     if (before == '\r' && c != '\n') return "a carriage return stands without a line feed";
@@ -61,7 +61,7 @@ class Structure {
     return take(c, line);
   }
 
-  // A bracket that is still open where the text ends.
+  // Returns a bracket that is still open where the text ends.
   std::optional<TomlFault> fault_at_end() const {
     if (open_.empty()) return {};
     return TomlFault{open_.back().line, "a bracket is not closed: a list, a table or a header is malformed"};

@@ -15,7 +15,7 @@ bool all(const Json& array, bool (Json::*is)() const noexcept) {
   return std::all_of(array.begin(), array.end(), [&](const Json& x) { return (x.*is)(); });
 }
 
-// `path`: "pin[0].low", for messages.
+// `path` is the key's full name for messages: "pin[0].low".
 ValueTree converted(const Json& json, const std::string& key, const std::string& path,
                     const std::string& file, Lists lists) {
   using Kind = ValueTree::Kind;

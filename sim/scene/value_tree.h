@@ -1,4 +1,4 @@
-// What a file of keys says, of whatever format: TOML (toml_file.h), JSON, or mappings of Python.
+// The content of a file of keys in any format: TOML (toml_file.h), JSON, or mappings of Python.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -14,27 +14,28 @@ struct ValueTree {
   Kind kind = Kind::table;
   std::string key;                  // empty for elements of an array
   int line = 0;                     // 1 = first line of the file; 0: not known
-  Value value;                      // Kind::value; an array of numbers is one value
-  std::vector<ValueTree> children;  // Kind::table, Kind::array; in the file's order
+  Value value;                      // for Kind::value; an array of numbers is one value
+  std::vector<ValueTree> children;  // for Kind::table and Kind::array, in the file's order
 
   const ValueTree* find(const std::string& name) const;
 };
 
-// Whether arrays of texts or of truths may stand in a file, which no key of a scene takes.
+// May arrays of texts or of truth values, which no key of a scene takes, stand in a file?
 enum class Lists { refused, allowed };
 
-// JSON as such a tree.  Throws Error::invalid_input, naming `file`, for null and lists that no key can take.
+// Converts JSON to such a tree.  Throws Error::invalid_input, naming `file`, for null and lists that no key
+// can take.
 ValueTree json_tree(const nlohmann::ordered_json& json, const std::string& file, Lists lists = Lists::refused,
                     const std::string& key = "");
 
-// Those of an array of tables, [[key]].  Throws Error::invalid_input where it is none.
+// Returns the tables of an array of tables, [[key]].  Throws Error::invalid_input where the node is none.
 const std::vector<ValueTree>& tables(const ValueTree& node, const std::string& file);
 
-// Sets the key PREFIX + node.key.  Throws Error::invalid_input as find_key and assign do, and for what is not
-// one value.
+// Sets the key PREFIX + node.key.  Throws Error::invalid_input as find_key and assign do, and for a node that
+// is not one value.
 void assign(const Keys& keys, const ValueTree& node, const std::string& file, const std::string& prefix = "");
 
-// "scene.toml:7"; without a line of its own "scene.toml".
+// Returns "scene.toml:7", or "scene.toml" if the node has no line.
 std::string place(const std::string& file, const ValueTree& node);
 
 }  // namespace hysteron

@@ -1,4 +1,5 @@
-// What the CPU build and the GPU build of the numerical sources each offer to host code.
+// Declares the functions that the CPU build and the GPU build of the numerical sources each offer to host
+// code.
 #pragma once
 
 #include <functional>
@@ -17,14 +18,14 @@ std::unique_ptr<Simulation> make_cpu_simulation(const Scene&, const Cloth&, cons
 std::unique_ptr<Simulation> make_gpu_simulation(const Scene&, const Cloth&, const CurvatureOperator&,
                                                 const StepLimits&);
 
-// Bound on dM/dK of the scene's law on an element of this dimension [N m].
+// Returns a bound on dM/dK of the scene's law on an element of this dimension [N m].
 double law_largest_stiffness(const Scene& scene, const CurvatureOperator& op);
 
-// Jobs that take turns on the calling thread (together.h).
+// Runs jobs that take turns on the calling thread (together.h).
 void run_on_gpu_together(int count, const std::function<void(int)>& job);
 
 std::string cpu_description();
-int gpu_count(std::string& reason);  // usable GPUs; why there are none
+int gpu_count(std::string& reason);  // usable GPUs; `reason` says why there are none
 std::string gpu_description(int index);
 
 }  // namespace hysteron

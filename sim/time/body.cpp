@@ -56,7 +56,8 @@ Body<Real, Device>::Body(std::unique_ptr<Device> on, const Scene& s, const Cloth
     self_contact->accept_iterate(x.data());
   }
   initial_ = energies();
-  // What a bend that never happened would have lost: cloth starts with the history of its bent start.
+  // A bent start gives cloth its history; the loss of that bend, which never happened, is subtracted from the
+  // ledger.
   initial_.bending_relaxation = bending.relaxed_energy();
   initial_.bending_friction = bending.dissipated_energy() - initial_.bending_relaxation;
   initial_.initial =

@@ -1,11 +1,11 @@
-// Pins of limited strength: each pulls its vertices towards where it holds them, by a spring that gives way
-// by `yield_distance` under the vertex's share of the strength, and beyond that with no more than this share.
-// The energy of a vertex that lags by r is
+// A pin of limited strength pulls its vertices towards their places on it: a spring gives by give =
+// `yield_distance` under the vertex's share of the strength, and beyond that pulls with just this share.  The
+// energy of a vertex that lags by r is
 //
 //   strength r^2/(2 give)  for r <= give,  strength (r - give/2)  beyond,
 //
-// and the pin's work is that of an outer force.  Its vertices are free: contact keeps them apart like
-// any others, and no motion of a hand is impossible.
+// and the pin's work is that of an outer force.  Its vertices are free: contact keeps them apart like any
+// others, so that every motion of the pin is possible.
 #pragma once
 
 #include "sim/contact/sliding_stop.h"
@@ -13,16 +13,17 @@
 
 namespace hysteron {
 
-// Arrays of vertices; travels with a kernel launch by value.
+// Holds arrays of n vertices; travels with a kernel launch by value.
 template <class Real>
 struct CompliantPins {
   const Vec3<Real>* place = nullptr;  // at the end of the stage [m]
-  const Real* strength = nullptr;     // each vertex's fraction [N], 0 where no pin holds it; null: none does
-  Real yield_distance = 0;            // [m]
+  // Each vertex's share [N], 0 where no pin holds it; null: no pin is compliant.
+  const Real* strength = nullptr;
+  Real yield_distance = 0;  // [m]
 
   HYST_HD bool any_at(int i) const { return strength && strength[i] > 0; }
   HYST_HD Real lag(int i, const Vec3<Real>& x) const { return any_at(i) ? (x - place[i]).norm() : Real(0); }
-  // On the vertex [N].
+  // Returns the force on the vertex [N].
   HYST_HD Vec3<Real> force(int i, const Vec3<Real>& x) const {
     if (!any_at(i)) return Vec3<Real>::Zero();
     const Vec3<Real> displacement = place[i] - x;
@@ -34,7 +35,7 @@ struct CompliantPins {
     const Real r = (x - place[i]).norm();
     return strength[i] * (r > yield_distance ? r - yield_distance / 2 : r * r / (2 * yield_distance));
   }
-  // As that of friction that slides (sliding_stop.h) [N/m].
+  // Returns the stiffness, formed like that of sliding friction (sliding_stop.h) [N/m].
   HYST_HD Mat3<Real> stiffness(int i, const Vec3<Real>& x, Real fraction) const {
     if (!any_at(i)) return Mat3<Real>::Zero();
     return sliding_stiffness<Real>(x - place[i], Vec3<Real>::Zero(), strength[i] / yield_distance,

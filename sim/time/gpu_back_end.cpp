@@ -1,4 +1,4 @@
-// Compiled by nvcc only.
+// Only nvcc compiles this file.
 #include "sim/device/visible_gpus.h"
 #include "sim/time/back_end.h"
 #include "sim/time/stepper.h"

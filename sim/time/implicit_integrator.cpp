@@ -26,8 +26,8 @@ void ImplicitIntegrator<Real, Device>::step(double start, double h) {
   take_interval(start, h, 0);
 }
 
-// Statics let the weight grow over the scene's `ramp` and fall over its `unload`: the cloth passes through
-// states of equilibrium.
+// Returns the share of the weight at `time`.  Statics let it grow over the scene's `ramp` and fall over its
+// `unload`: the cloth passes through states of equilibrium.
 template <class Real, class Device>
 double ImplicitIntegrator<Real, Device>::load_fraction(double time) const {
   const Scene& scene = body_.scene;
@@ -36,7 +36,7 @@ double ImplicitIntegrator<Real, Device>::load_fraction(double time) const {
   return scene.unload > 0 ? std::max(0.0, 1 - (time - scene.ramp) / scene.unload) : 1;
 }
 
-// Rigid hands give way where cloth bars theirs; as the last resort, wherever no equilibrium is found with
+// Rigid pins give way where cloth bars their way; as the last resort, wherever no equilibrium is found with
 // them.
 template <class Real, class Device>
 NewtonOutcome ImplicitIntegrator<Real, Device>::attempt(double start, double h, bool is_first_stage,
@@ -90,8 +90,8 @@ void ImplicitIntegrator<Real, Device>::take_interval(double start, double h, int
   outcome.converged ? finish(start, h, halvings) : take_halves(start, h, halvings, outcome);
 }
 
-// Takes the first stage, which stays, and goes the rest of the way: each stage leaves a state from which
-// steps can start.
+// Accepts the first stage and takes the rest of the way: each stage leaves a state from which steps can
+// start.
 template <class Real, class Device>
 void ImplicitIntegrator<Real, Device>::finish(double start, double h, int halvings) {
   const double first = first_stage(h), remainder = h - first;
@@ -116,9 +116,9 @@ void ImplicitIntegrator<Real, Device>::take_halves(double start, double h, int h
   if (halvings == 0 && body_.self_contact) body_.self_contact->stiffen_parallel_edges(false);
 }
 
-// For the rest of the step; whether that is new.  Layers that pressure holds edge along edge may leave
-// Newton's method without equilibrium in the shortest part of a step: each of its directions turns them too
-// far.
+// Stiffens parallel edges for the rest of the step; returns whether that is new.  Layers that pressure holds
+// edge along edge may leave Newton's method without equilibrium in the shortest part of a step: each of its
+// directions turns them too far.
 template <class Real, class Device>
 bool ImplicitIntegrator<Real, Device>::stiffen_parallel_edges() {
   if (!body_.self_contact || body_.self_contact->stiffens_parallel_edges()) return false;
@@ -126,7 +126,7 @@ bool ImplicitIntegrator<Real, Device>::stiffen_parallel_edges() {
   return true;
 }
 
-// Parts whose estimated error stays below the tolerance; one that does not is taken again, shorter.
+// Takes parts whose estimated error stays below the tolerance; a part that does not is taken again, shorter.
 template <class Real, class Device>
 void ImplicitIntegrator<Real, Device>::take_adaptive_step(double start, double whole) {
   const double end = start + whole, least = whole / (1 << kMaxHalvings);
@@ -150,8 +150,8 @@ void ImplicitIntegrator<Real, Device>::take_adaptive_step(double start, double w
   }
 }
 
-// Bending is explicit with its substeps, the rest solved to the end: layers are kept apart by the line
-// search. Bending's force is that at the start of a stage, also where the stage is then taken in parts.
+// Takes bending explicitly with its substeps and solves the rest to the end: the line search keeps layers
+// apart.  Bending's force is that at the start of a stage, even if the stage is then taken in parts.
 template <class Real, class Device>
 void ImplicitIntegrator<Real, Device>::take_lagged_step(double start, double whole) {
   for (int k = 0; k < substeps_; ++k) {

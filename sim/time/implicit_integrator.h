@@ -1,5 +1,5 @@
-// Steps that are solved by Newton's method: `implicit`, `bdf2`, `tr-bdf2` and `quasi-static`, with every
-// force at the end of the step or stage; and `semi-implicit` with self-contact, whose bending lags.
+// Takes steps that Newton's method solves: `implicit`, `bdf2`, `tr-bdf2` and `quasi-static`, with every force
+// at the end of the step or stage; and `semi-implicit` with self-contact, whose bending lags.
 #pragma once
 
 #include "sim/time/implicit_step.h"
@@ -7,8 +7,8 @@
 
 namespace hysteron {
 
-// One solve for the whole step, in halves where that fails, or in as many parts as the scene's tolerance asks
-// for.
+// Solves once for the whole step, in halves where that fails, or in as many parts as the scene's tolerance
+// asks for.
 template <class Real, class Device>
 class ImplicitIntegrator : public TimeIntegrator<Real, Device> {
  public:
@@ -17,7 +17,7 @@ class ImplicitIntegrator : public TimeIntegrator<Real, Device> {
   void become_static() override {
     if (bending_lags()) return TimeIntegrator<Real, Device>::become_static();
     solver_.become_static();
-    tolerance_ = 0;  // of steps in time
+    tolerance_ = 0;  // the tolerance is for steps in time
   }
   std::vector<Vec3<Real>> handle_forces() override { return solver_.handle_forces(); }
   void serialise(Archive& archive) override {
@@ -30,7 +30,7 @@ class ImplicitIntegrator : public TimeIntegrator<Real, Device> {
   using TimeIntegrator<Real, Device>::body_;
   bool bending_lags() const { return body_.scene.integrator == Integrator::semi_implicit; }
   void take_lagged_step(double start, double whole);
-  // From start to start + h, in halves if it does not converge.
+  // Goes from start to start + h, in halves if it does not converge.
   void take_interval(double start, double h, int halvings);
   void take_adaptive_step(double start, double whole);
   void finish(double start, double h, int halvings);
@@ -43,10 +43,10 @@ class ImplicitIntegrator : public TimeIntegrator<Real, Device> {
   double load_fraction(double time) const;
 
   ImplicitStep<Real, Device> solver_;
-  int substeps_;                // of bending that lags
-  double tolerance_;            // 0: steps as given
-  NewtonOutcome last_outcome_;  // of the attempt last made
-  double part_ = 0;             // of adaptive steps: the coming one [s]
+  int substeps_;                // of lagged bending
+  double tolerance_;            // [m]; 0: steps are not divided
+  NewtonOutcome last_outcome_;  // outcome of the last attempt
+  double part_ = 0;             // the next part of an adaptive step [s]
 };
 
 }  // namespace hysteron

@@ -1,11 +1,11 @@
-// Ledger.  Over a displacement d = x_{n+1} - x_n all forces together do the work m a.d, where the
-// acceleration is a = (v_{n+1} - v^)/beta_dt with v^ the formula's combination of older velocities.  What of
-// it does not become kinetic energy,
+// The ledger: over a displacement d = x_{n+1} - x_n all forces together do the work m a.d, where the
+// acceleration is a = (v_{n+1} - v^)/beta_dt with v^ the formula's combination of older velocities.  The part
+// of it that does not become kinetic energy,
 //   m a.d - m (|v_{n+1}|^2 - |v_n|^2)/2,   in backward Euler m |dv|^2/2,
 // the integrator has taken away; so it has, of each energy, the gap between its change and the work of its
-// forces at x_{n+1}: W_n - W_{n+1} - W'_{n+1}.(x_n - x_{n+1}).
-// Quasi-static scenes go through equilibria: there the work is that of the mean of the forces at both ends,
-// whose gap is of third order in a smooth step.  What is left are jumps from one equilibrium to another.
+// forces at x_{n+1}: W_n - W_{n+1} - W'_{n+1}.(x_n - x_{n+1}).  Quasi-static scenes go through equilibria:
+// there the work is that of the mean of the forces at both ends, whose gap is of third order in a smooth
+// step.  The gaps that remain are jumps from one equilibrium to another.
 #include "sim/time/implicit_step.h"
 
 #include <algorithm>
@@ -28,13 +28,13 @@ NewtonLimits newton_limits(const Scene& scene, bool statics) {
   constexpr double kMinVelocity = sizeof(Real) == 8 ? 0 : 1e-5;
   limits.velocity = std::max(scene.newton_velocity, kMinVelocity);
   if (statics && scene.integrator != Integrator::quasi_static) {
-    // What is good enough for steps in time, whose own error hides it, is not for the equilibrium after them.
+    // The error of steps in time hides a loose tolerance; the equilibrium after them needs a tight one.
     limits.residual = std::min(limits.residual, 1e-6);
     limits.velocity = std::max(std::min(scene.newton_velocity, 1e-9), kMinVelocity);
   }
   if (statics) {
     limits.iterations = 400;
-    // Parts of a step find no other equilibrium after a motion: the caller sees whether cloth still moves.
+    // After a motion, parts of a step find no other equilibrium: the caller sees whether cloth still moves.
     limits.take_unconverged = scene.integrator != Integrator::quasi_static;
     limits.first_shift = 1e4;  // as in a step of 10 ms
     limits.least_shift = 1e-4;
@@ -71,7 +71,7 @@ ImplicitStep<Real, Device>::ImplicitStep(Body<Real, Device>& body)
       v_before_(*body.device, two_step_ ? body.vertices : 0),
       displacement_(*body.device, body.self_contact ? body.vertices : 0),
       forces_(*body.device, static_ ? body.vertices : 0) {
-  // Solves in one launch take the whole matrix.
+  // A solve in one launch takes the whole matrix.
   if (Device::kGpu && !bending_lags_ && body.vertices <= kMaxRowsInOneLaunch) potential_.assemble();
 }
 
@@ -80,7 +80,7 @@ void ImplicitStep<Real, Device>::become_static() {
   static_ = true;
   two_step_ = two_stage_ = false;
   newton_.set_limits(newton_limits<Real>(body_.scene, true));
-  last_h_ = 0;  // velocities that were are no guess
+  last_h_ = 0;  // past velocities are no guess for statics
 }
 
 template <class Real, class Device>
@@ -93,7 +93,7 @@ NewtonOutcome ImplicitStep<Real, Device>::solve(double h, double fraction, bool 
                     predicted_.data(), body_.held.data(), body_.gravity(), body_.drag(), fraction_,
                     body_.pins.compliant_pins()});
   const PotentialValue begun = begin_at_best_guess(is_first_stage);
-  if (!std::isfinite(begun.energy)) {  // the handles' motion is not free, or the state not finite
+  if (!std::isfinite(begun.energy)) {  // the pins' motion is barred, or the state is not finite
     NewtonOutcome outcome;
     outcome.blocked = potential_.has_self_contact() && !keep_apart();
     return outcome;
@@ -124,7 +124,7 @@ std::vector<Vec3<Real>> ImplicitStep<Real, Device>::handle_forces() const {
 
 template <class Real, class Device>
 Unbalanced ImplicitStep<Real, Device>::most_unbalanced() {
-  potential_.evaluate(end_.data(), nullptr);  // the last trial of a line search may have been another
+  potential_.evaluate(end_.data(), nullptr);  // the last trial of a line search may have been elsewhere
   const std::vector<Vec3<Real>> gradient = downloaded(*body_.device, potential_.gradient(), body_.vertices);
   const std::vector<char> held = body_.held.download();
   Unbalanced result;
@@ -138,8 +138,8 @@ Unbalanced ImplicitStep<Real, Device>::most_unbalanced() {
   return result;
 }
 
-// The guess of the lowest potential.  The one that was best last time is compared with its neighbours, and
-// comes last, so that it need not be taken up again.
+// Begins at the guess of the lowest potential. Last time's best guess is compared with its neighbours, and
+// evaluated last, so that it need not be evaluated again.
 template <class Real, class Device>
 PotentialValue ImplicitStep<Real, Device>::begin_at_best_guess(bool is_first_stage) {
   if (!(last_h_ > 0)) return potential_of_guess(Guess::steady);
@@ -161,7 +161,7 @@ PotentialValue ImplicitStep<Real, Device>::begin_at_best_guess(bool is_first_sta
   }
   const PotentialValue value = potential_of_guess(favourite);
   if (std::isfinite(value.energy) && value.energy <= lowest) return value;
-  // Where no way to a guess with acceleration is free, that of constant velocity may be.
+  // Where the path to every guess with acceleration is barred, that of constant velocity may be free.
   favourite = std::isfinite(lowest) ? best : Guess::steady;
   return potential_of_guess(favourite);
 }
@@ -177,7 +177,7 @@ PotentialValue ImplicitStep<Real, Device>::potential_of_guess(Guess which) {
   return potential_.evaluate(end_.data(), nullptr);
 }
 
-// What the formula starts from.
+// Sets the positions and velocities from which the formula starts.
 template <class Real, class Device>
 void ImplicitStep<Real, Device>::place() {
   const Real beta_dt = static_ ? Real(0) : static_cast<Real>(formula_.beta_dt);
@@ -206,7 +206,7 @@ void ImplicitStep<Real, Device>::place() {
 template <class Real, class Device>
 void ImplicitStep<Real, Device>::guess(Guess which) {
   const Real h = static_cast<Real>(formula_.dt);
-  // Of the acceleration in the guess [s^2]; in statics, which keep a velocity in its place, [s].
+  // The weight of the acceleration in the guess [s^2]; for statics, which store a velocity in its place, [s].
   const double full_weight = static_ ? formula_.dt : formula_.beta_dt * formula_.beta_dt;
   const Real weight = which == Guess::steady ? Real(0) : static_cast<Real>(full_weight),
              trend = which == Guess::extrapolated ? static_cast<Real>(formula_.dt / last_h_) : Real(0);
@@ -229,12 +229,12 @@ void ImplicitStep<Real, Device>::guess(Guess which) {
 }
 
 // Shortens the guess until the cloth does not pass through itself on the path there; held vertices have to go
-// all of theirs.
+// all their way.  Returns whether such a guess was found.
 template <class Real, class Device>
 bool ImplicitStep<Real, Device>::keep_apart() {
   constexpr int kMaxShortenings = 12;
   constexpr double kWithin = 0.99, kFastest = 0.1;
-  constexpr double kKeptShell = 0.4;  // a guess that presses layers further begins with forces out of scale
+  constexpr double kKeptShell = 0.4;  // a guess that presses layers further begins with huge forces
   double shorter = 1, whole = 1;
   potential_.begin_guess();
   for (int k = 0; k < kMaxShortenings; ++k) {
@@ -253,7 +253,8 @@ bool ImplicitStep<Real, Device>::keep_apart() {
   return false;
 }
 
-// The displacement to the guess, of free vertices (and of bodies) times `step_length`; the guess moves there.
+// Sets the displacement to the guess, that of free vertices (and of bodies) times `step_length`, and moves
+// the guess there.
 template <class Real, class Device>
 void ImplicitStep<Real, Device>::shorten_guess(Real step_length) {
   const Vec3<Real>* x = body_.x.data();
@@ -297,7 +298,7 @@ double ImplicitStep<Real, Device>::local_error() {
 
 template <class Real, class Device>
 void ImplicitStep<Real, Device>::accept() {
-  // The last trial of a line search may have been another.
+  // The last trial of a line search may have been elsewhere.
   if (!evaluated_) potential_.evaluate(end_.data(), nullptr);
   if (!bending_lags_) body_.bending.accept();
   book();
@@ -309,8 +310,8 @@ void ImplicitStep<Real, Device>::accept() {
   knows_acceleration_ = true;
 }
 
-// Work of the forces over the way to the end of the step.  Membrane and contact: what is left of the
-// gradient.
+// Adds up the work of the forces over the way to the end of the step.  Membrane and contact have the rest of
+// the gradient.
 template <class Real, class Device>
 void ImplicitStep<Real, Device>::book() {
   const Real rate = static_cast<Real>(1 / formula_.beta_dt);  // 0 in statics
@@ -350,10 +351,10 @@ void ImplicitStep<Real, Device>::book() {
                                                  (of.bending + of.remainder).dot(arc_displacement));
           return;
         }
-        // What Newton's method has left unbalanced acts like one more force on the masses.
+        // The unbalanced rest that Newton's method has left acts like one more force on the masses.
         sum.unbalanced -= static_cast<double>(gradient[i].dot(d));
         sum.air -= static_cast<double>(air.dot(d));
-        // Statics take the velocities of a motion before them; what they let go of drives nothing.
+        // Statics begin with the velocities of the motion before them, which then drive nothing.
         const Vec3<Real> moved =
             rate > 0 ? Vec3<Real>(drift[i] + rate * (end[i] - predicted[i])) : Vec3<Real>(Vec3<Real>::Zero());
         sum.inertia += static_cast<double>((inertial + of.sum() - now.sum()).dot(d) -

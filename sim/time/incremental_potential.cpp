@@ -70,7 +70,7 @@ std::string IncrementalPotential<Real, Device>::not_finite(const Vec3<Real>* x) 
   return "inertia, weight or the pull of hands";
 }
 
-// Inertia, drag and weight with their energies; the gradients of membrane and bending.
+// Computes inertia, drag and weight with their energies, and gathers the gradients of membrane and bending.
 template <class Real, class Device>
 void IncrementalPotential<Real, Device>::compute_gradient(const Vec3<Real>* x) {
   const StepStart<Real> s = start_;
@@ -109,7 +109,7 @@ void IncrementalPotential<Real, Device>::compute_gradient(const Vec3<Real>* x) {
       });
 }
 
-// The energies of each list are added up by themselves, in the order of their elements.
+// Adds up the energies, each list by itself, in the order of its elements.
 template <class Real, class Device>
 void IncrementalPotential<Real, Device>::add_up(const Energies& energies, const Vec3<Real>* x,
                                                 const Vec3<Real>* direction) {

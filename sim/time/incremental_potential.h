@@ -1,14 +1,14 @@
-// An implicit step as a minimum problem (Martin et al. 2011 for elastic bodies; with hysteresis because
+// Poses an implicit step as a minimum problem (Martin et al. 2011 for elastic bodies; with hysteresis because
 // moment is a function of curvature from the accepted history on):
 //
 //   Phi(x) = sum m/2 |x - y|^2/beta_dt^2 + drag m/2 |x - r|^2/beta_dt - m g.(x - x_n)
-//            + membrane + bending law + viscosity + contact + friction + hands of limited strength [J]
+//            + membrane + bending law + viscosity + contact + friction + pins of limited strength [J]
 //
-// Lagged bending (of `semi-implicit`) is the force of the state accepted last: -f.(x - x_n) takes the place
-// of its energy.
+// Bending that lags (in `semi-implicit`) has the force of the state accepted last: -f.(x - x_n) takes the
+// place of its energy.
 //
-// r = the formula's reference position, y = r + beta_dt * (the same combination of velocities).  Statics have
-// beta_dt = infinity: no inertia, drag or viscosity.
+// The reference position r is the formula's, and y = r + beta_dt * (the same combination of velocities).
+// Statics have beta_dt = infinity: no inertia, drag or viscosity.
 #pragma once
 
 #include <optional>
@@ -25,24 +25,24 @@
 
 namespace hysteron {
 
-// Where a step starts; arrays of vertices.
+// The data from which a step starts; pointers are to arrays of n vertices.
 template <class Real>
 struct StepStart {
-  StepFormula formula, rates;              // of motion; of strains and angles, for viscosity
-  const Vec3<Real>*now, *before;           // x_n, x_{n-1} (not read without extrapolation)
-  const Vec3<Real>*reference, *predicted;  // r, y
-  const char* held;
-  Vec3<Real> gravity;  // [m/s^2]
-  Real drag;           // air drag over mass [1/s]
-  Real fraction;       // of the weight that acts: the load of statics grows
+  StepFormula formula, rates;              // for motion, and for the strain and angle rates of viscosity
+  const Vec3<Real>*now, *before;           // x_n, x_{n-1} [m] (the latter unused without extrapolation)
+  const Vec3<Real>*reference, *predicted;  // r, y [m]
+  const char* held;                        // n flags
+  Vec3<Real> gravity;                      // [m/s^2]
+  Real drag;                               // air drag over mass [1/s]
+  Real fraction;                           // acting share of the weight: statics let the load grow
   CompliantPins<Real> compliant_pins = {};
 };
 
 struct PotentialValue {
   double energy = 0;    // Phi [J]
-  double size = 0;      // sum of the terms' magnitudes, for what rounding makes of it [J]
+  double size = 0;      // sum of the terms' magnitudes, which bounds rounding [J]
   double residual = 0;  // norm of the gradient over all free vertices [N]
-  double reaction = 0;  // norm over the held and gripped ones of what the handles carry [N]
+  double reaction = 0;  // norm of the pins' forces on held and gripped vertices [N]
   double inertia = 0;   // norm of mass times acceleration over all free vertices [N]
   double internal = 0;  // norm of the membrane's and bending's forces over all vertices [N]
   double weight = 0;    // norm of the whole weight of all free vertices [N]
@@ -62,11 +62,11 @@ class IncrementalPotential {
     membrane_.begin_step(start.rates, start.now, start.before);
     if (!bending_lags_) bending_.begin_step(start.rates);
   }
-  // Largest step length along `direction` from x, up to `max_step`, on which the cloth does not pass through
-  // itself; feasible_step() also counts obstacles.  evaluate() then serves points up to there;
-  // accept_iterate() tells which of them was taken.
-  // Bodies of triangles begin a guess at the start of their way, and aim at a fraction of it; each step that
-  // is tried takes them along.  They have to arrive before the potential is that of the stage's end.
+  // Returns the largest step length along `direction` (n vertices [m]) from x, up to `max_step`, on which the
+  // cloth does not pass through itself; feasible_step() also counts obstacles.  Points up to there may then
+  // be evaluated; accept_iterate() states which of them was taken.  Bodies of triangles are at the start of
+  // their way when a guess begins, and aim at a fraction of it; each trial step takes them along.  They have
+  // to arrive before the potential is that of the stage's end.
   void begin_guess() {
     if (self_contact_) self_contact_->begin_guess();
   }
@@ -88,7 +88,7 @@ class IncrementalPotential {
   void accept_iterate(const Vec3<Real>* x) {
     if (self_contact_) self_contact_->accept_iterate(x);
   }
-  // Ends the paths of free vertices to `end` before the obstacles that bar them; whether none does.
+  // Ends the paths of free vertices to `end` before obstacles that bar them; true if none does.
   void clip_to_obstacles(Vec3<Real>* end) {
     if (contact_) contact_->clip_to_obstacles(start_.now, end, start_.held);
   }
@@ -96,34 +96,35 @@ class IncrementalPotential {
     return !contact_ || contact_->path_is_clear(start_.now, end, start_.held);
   }
   bool has_self_contact() const { return self_contact_ != nullptr; }
-  // Limits of friction from the contact at x; Phi changes with them.
+  // Updates the limits of friction from the contact at x, which changes Phi.
   void update_friction_limits(const Vec3<Real>* x) {
     if (contact_) contact_->lag(x);
     if (self_contact_) self_contact_->lag(x);
   }
-  // Phi and its gradient; the direction may be null.  The host waits for the device.
+  // Returns Phi with its gradient at x (n vertices [m]); the direction may be null.  The host waits for the
+  // device.
   PotentialValue evaluate(const Vec3<Real>* x, const Vec3<Real>* direction) {
     membrane_.evaluate(x);
     if (!bending_lags_) bending_.evaluate(x);
     return balance(x, direction);
   }
-  // Both at x, where evaluate() was called last, with limits of friction from there.
+  // Returns the same at x, where evaluate() was called last, with limits of friction from there.
   PotentialValue renew_friction(const Vec3<Real>* x) {
-    // Membrane and bending stand as they are.
+    // Membrane and bending need no new evaluation.
     update_friction_limits(x);
     return balance(x, nullptr);
   }
-  // The Hessian where evaluate() was called last, and what descends from there, with `shift` times the masses
-  // added [1/s^2].  It is positive semidefinite unless it is `full`, for near the minimum: then with what
-  // compression takes away, and with friction that slides more easily (sliding_stop.h).  Bending's part is
+  // Returns the Hessian where evaluate() was called last, with `shift` times the masses added [1/s^2], and
+  // fills descent().  It is positive semidefinite unless `full` (for use near the minimum): that includes the
+  // softening under compression, and friction that slides more easily (sliding_stop.h).  Bending's part is
   // Gauss-Newton's, without the second derivatives of angles.
   LinearSystem<Real, Device> linearise(const Vec3<Real>* x, Real shift, bool full);
-  // From now on linearise() assembles the whole Hessian but for self-contact; bending must not lag.
+  // Makes linearise() assemble the whole Hessian but for self-contact; bending must not lag.
   void assemble() { whole_.emplace(device_, matrix_, bending_); }
   void serialise(Archive& archive) { hysteron::serialise(archive, device_, gradient_); }
-  const Vec3<Real>* gradient() const { return gradient_.data(); }  // of held vertices as well [N]
-  const Vec3<Real>* descent() const { return descent_.data(); }    // -gradient of the last linearise() [N]
-  // Which part is not finite at x, in a user's words; "" if none.
+  const Vec3<Real>* gradient() const { return gradient_.data(); }  // held vertices included [N]
+  const Vec3<Real>* descent() const { return descent_.data(); }    // -gradient at the last linearise() [N]
+  // Returns which part is not finite at x, in a user's words; "" if none.
   std::string not_finite(const Vec3<Real>* x);
   bool has_friction() const { return contact_ || self_contact_; }
   std::size_t bytes() const {
@@ -135,7 +136,7 @@ class IncrementalPotential {
   struct Totals {
     double energy, size, internal2, inertia2, weight2, residual2, reaction2, slope;
   };
-  // Energies of contact, self-contact, membrane and bending, in the order in which they are added.
+  // The energies of contact, self-contact, membrane and bending, in the order in which they are added.
   struct Energies {
     const double* list[4] = {};  // [J]
     int count[4] = {};
@@ -164,7 +165,7 @@ class IncrementalPotential {
   Buffer<Mat3<Real>, Device> rest_diagonal_;
   Buffer<Real, Device> softening_off_diagonal_, softening_diagonal_;
   std::optional<AssembledStiffness<Real, Device>> whole_;
-  Buffer<Totals, Device> vertex_totals_;  // what compute_gradient() knows
+  Buffer<Totals, Device> vertex_totals_;  // partial sums of compute_gradient()
   HostResult<Totals, Device> totals_;
 };
 

@@ -21,7 +21,7 @@ double Ledger::integrator_share() const {
   const double numerical = std::abs(integrator());
   const double physical = std::abs(bending_friction) + bending_relaxation + membrane_friction + viscous +
                           air + std::abs(contact_friction);
-  constexpr double kRounding = 1e-13;  // of the energies, whose differences the losses are
+  constexpr double kRounding = 1e-13;  // of the energies, whose differences are the losses
   const double energies = std::abs(kinetic) + std::abs(gravitational) + std::abs(membrane) +
                           std::abs(bending) + std::abs(contact) + std::abs(initial);
   return numerical > kRounding * energies ? numerical / (numerical + physical) : 0;

@@ -1,4 +1,4 @@
-// Where the energy went.
+// The ledger of energies: where the energy of a simulation went.
 #pragma once
 
 #include <string>
@@ -7,47 +7,46 @@
 
 namespace hysteron {
 
-// All in joules.  Balance: (kinetic + gravitational + membrane + bending + contact) - initial
+// All terms are in joules.  The balance is (kinetic + gravitational + membrane + bending + contact) - initial
 //   = handle_work + obstacle_work - commands - bending_friction - bending_relaxation - membrane_friction
 //     - viscous - air - contact_friction - inertia - unbalanced - bending_gap - implicit_gap - gravity_gap +
 //     remainder.
 // The five integrator terms come from their own formulas (headers of semi_implicit.cpp and
 // implicit_step.cpp), so the remainder is the arithmetic's alone.
 struct Ledger {
-  double kinetic = 0, gravitational = 0, membrane = 0, bending = 0,
-         contact = 0;                                                       // now; gravity from the start
+  // These are present energies; gravity's is relative to the start.
+  double kinetic = 0, gravitational = 0, membrane = 0, bending = 0, contact = 0;
   double initial = 0;                                                       // their sum at the start
   double handle_work = 0, obstacle_work = 0;                                // done on the cloth
   double bending_friction = 0, viscous = 0, air = 0, contact_friction = 0;  // lost to physics
-  double bending_relaxation = 0;  // lost to it by branches that relax
-  double membrane_friction = 0;   // lost to it by stops in the plane
-  double commands = 0;    // recoverable bending energy taken away by ironing and edits, less what they gave
-  double inertia = 0;     // lost by the integrator: sum of m |dv|^2/2 over all velocity changes
-  double unbalanced = 0;  // lost to forces that an implicit solve has left unbalanced
-  double bending_gap =
-      0;  // lost by explicit bending: -(change of bending energy + losses + work of its forces)
+  double bending_relaxation = 0;  // lost to physics by relaxing branches
+  double membrane_friction = 0;   // lost to physics by stops in the plane
+  double commands = 0;      // recoverable bending energy that ironing and edits took, less what they gave
+  double inertia = 0;       // lost by the integrator: sum of m |dv|^2/2 over all velocity changes
+  double unbalanced = 0;    // lost to forces that an implicit solve has left unbalanced
+  double bending_gap = 0;   // lost by explicit bending: -(change of its energy + losses + work of its forces)
   double implicit_gap = 0;  // lost by the implicit stage: the same for membrane and contact
   double gravity_gap = 0;   // lost by splitting: gravity acts in the substeps, the implicit stage moves on
-  double remainder = 0;     // what no term explains
+  double remainder = 0;     // not explained by any term
   double remainder_relative = 0;  // over the sum of the terms' magnitudes
 
   double integrator() const { return inertia + unbalanced + bending_gap + implicit_gap + gravity_gap; }
-  // What the integrator took, or gave, over all that was dissipated; 0 where nothing was.
+  // Returns the energy that the integrator took, or gave, over all that was dissipated; 0 where nothing was.
   double integrator_share() const;
-  // Sets remainder from the other terms.
+  // Sets the remainder from the other terms.
   void close();
   std::vector<std::pair<std::string, double>> rows() const;  // name, value, in the balance's order
 };
 
-// Running sums of one vertex.  All in joules; the sums' differences are the ledger's integrator terms.
+// The running sums of one vertex [J]; the sums' differences are the ledger's integrator terms.
 struct VertexLedger {
-  double bending_work = 0;   // of bending forces over the displacements
-  double gravity_work = 0;   // of gravity
+  double bending_work = 0;   // work of bending forces over the displacements
+  double gravity_work = 0;   // work of gravity
   double air = 0;            // lost to air drag
   double inertia = 0;        // lost by the integrator: work of all forces less the change of kinetic energy
-  double unbalanced = 0;     // taken away by forces that the solve has left unbalanced
-  double implicit_work = 0;  // of membrane and contact
-  double handle_work = 0;    // done on the cloth by the hand that moves this vertex
+  double unbalanced = 0;     // taken by forces that the solve has left unbalanced
+  double implicit_work = 0;  // work of membrane and contact
+  double handle_work = 0;    // done on the cloth by the pin that moves this vertex
 };
 
 }  // namespace hysteron

@@ -1,4 +1,4 @@
-// The scene's linear solver for a device.
+// Makes the scene's linear solver for a device.
 #pragma once
 
 #include <memory>
@@ -14,7 +14,7 @@
 
 namespace hysteron {
 
-// A factorisation whose triangular solves are short on a CPU, or whose waiting is on a GPU.
+// Makes a factorisation that suits the device: on a CPU its triangular solves are short, on a GPU its waits.
 template <class Real>
 std::unique_ptr<Factorisation<Real, Cpu>> make_factorisation(const Body<Real, Cpu>& body) {
   std::unique_ptr<ElementStiffness> bending;
@@ -30,7 +30,7 @@ std::unique_ptr<Factorisation<Real, Device>> make_factorisation(const Body<Real,
   return std::make_unique<DissectedFactorisation<Real, Device>>(device, std::move(definite));
 }
 
-// Conjugate gradients in a precision that need not be the body's.
+// Makes conjugate gradients in a precision that may differ from the body's.
 template <class Real, class BodyReal, class Device>
 std::unique_ptr<LinearSolver<Real, Device>> make_gradient_solver(const Body<BodyReal, Device>& body) {
   const Scene& scene = body.scene;
@@ -52,7 +52,7 @@ std::unique_ptr<LinearSolver<double, Device>> make_float_solver(const Body<doubl
                                                std::move(bending));
 }
 
-// Of a scene whose choice is made (method_choice.h).
+// Makes the solver of a scene whose method is chosen (method_choice.h).
 template <class Real, class Device>
 std::unique_ptr<LinearSolver<Real, Device>> make_linear_solver(const Body<Real, Device>& body) {
   if (body.scene.linear_solver == Preconditioning::cholesky)

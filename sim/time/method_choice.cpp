@@ -11,23 +11,24 @@ namespace hysteron {
 
 namespace {
 
-// Multiplications of a factorisation for each vertex, up to which it pays (docs/performance.md, "Strips and
-// small meshes"): they grow with the square of a strip's width in vertices, not with its length, and a
-// multigrid iteration's with neither.
-constexpr double kWorkOfVertex = 3e4, kSoft = 1e3;  // and threads for which that holds [N/m]
-// The same on a GPU, whatever threads are softer than 10 kN/m; stiffer ones raise it as below.  Of 10 kN/m on
-// an H200, multigrid's time of a step over the factorisation's: creases of 480, 1,600 and 4,000
-// triangles 1.4, 1.8 and 5.5, folds of 2,496 and 4,992 1.2 and 1.0, squares of 1,000, 2,000 and 4,608 1.1,
-// 0.73 and 0.46; of 1 kN/m 1.4, 1.8 and 3.9, 1.3 and 1.1, 0.82, 0.72 and 0.43.
-constexpr double kGpuWorkOfVertex = 5.8e4, kGpuStiff = 1e4;  // and [N/m]
-// The same in all, up to which one core keeps up with a GPU, which takes some 2 ms for any step.
+// A factorisation pays up to this many multiplications per vertex (docs/performance.md, "Strips and small
+// meshes"): they grow with the square of a strip's width in vertices, not with its length; a multigrid
+// iteration's grow with neither.
+constexpr double kWorkOfVertex = 3e4, kSoft = 1e3;  // kSoft: threads for which that holds [N/m]
+// The same holds on a GPU for all threads softer than 10 kN/m; stiffer ones raise it as below.  Measured on
+// an H200 with 10 kN/m, multigrid's time of a step over the factorisation's is 1.4, 1.8 and 5.5 for creases
+// of 480, 1,600 and 4,000 triangles, 1.2 and 1.0 for folds of 2,496 and 4,992, and 1.1, 0.73 and 0.46 for
+// squares of 1,000, 2,000 and 4,608; with 1 kN/m 1.4, 1.8 and 3.9; 1.3 and 1.1; 0.82, 0.72 and 0.43.
+constexpr double kGpuWorkOfVertex = 5.8e4, kGpuStiff = 1e4;  // kGpuStiff [N/m]
+// Up to this many multiplications in all, one core keeps up with a GPU, which takes some 2 ms for any step.
 constexpr double kCpuWork = 2e6;
-// Ordering larger cloths would take seconds.
+// Larger cloths would take seconds to order.
 constexpr int kMaxVertices = 10000;
 
-// By which threads stiffer than `soft` [N/m] raise it: multigrid then takes more iterations, a factorisation
-// does not.  Seconds of multigrid over those of factorisations in `drape --quick`: of 600 triangles 0.66 at 1
-// kN/m and 1.15 at 10, of 1,200 1.13 at 10 and 1.67 at 100, of 2,400 0.57 at 10 and 0.86 at 100.
+// Returns the factor by which threads stiffer than `soft` [N/m] raise that limit: multigrid then takes more
+// iterations, a factorisation does not.  Measured in `drape --quick`, seconds of multigrid over those of
+// factorisations: for 600 triangles 0.66 at 1 kN/m and 1.15 at 10, for 1,200 1.13 at 10 and 1.67 at 100, for
+// 2,400 0.57 at 10 and 0.86 at 100.
 double stiffness_share(const Fabric& fabric, double soft) {
   constexpr double kPower = 0.35;
   return std::pow(std::max(1.0, std::max(fabric.warp, fabric.weft) / soft), kPower);

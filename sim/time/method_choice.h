@@ -1,4 +1,4 @@
-// On which device a scene runs and how its linear systems are solved, where the scene leaves that open.
+// Chooses the device of a scene and how its linear systems are solved, where the scene leaves that open.
 #pragma once
 
 #include <string>
@@ -10,17 +10,18 @@ namespace hysteron {
 
 struct MethodChoice {
   bool gpu = false;
-  // Of Newton's method; automatic: the integrator does without.
+  // The solver of Newton's linear systems; automatic: the integrator solves none.
   Preconditioning linear_solver = Preconditioning::automatic;
-  bool in_float = false;    // its systems, in a scene of double precision
-  std::string reason = {};  // why the CPU where there is a GPU; empty: no choice of ours
+  bool in_float = false;    // solves its systems in float, in a scene of double precision
+  std::string reason = {};  // why the CPU is taken where there is a GPU; empty: the user chose
 };
 
-// `gpus`: how many there are.  Error::invalid_input where a GPU is asked for what it cannot do.
+// Chooses among `gpus` GPUs and the CPU.  Throws Error::invalid_input where a GPU is asked for what it cannot
+// do.
 MethodChoice choose_method(const Scene& scene, const Cloth& cloth, const CurvatureOperator& op, int gpus);
 
-// Multiplications of a Cholesky factorisation of the matrix, whose off-diagonal blocks beside bending's are
-// `couplings`.
+// Returns the number of multiplications of a Cholesky factorisation of the matrix, whose off-diagonal blocks
+// beside bending's are `couplings`.
 double factorisation_work(const ClothMesh& mesh, const Adjacency& couplings, const CurvatureOperator& op);
 
 }  // namespace hysteron

@@ -7,58 +7,60 @@
 namespace hysteron {
 
 namespace {
-constexpr double kEnough = 1e-4;  // share of the predicted decrease that a step must reach (Armijo 1966)
+constexpr double kEnough = 1e-4;  // share of the predicted decrease that a step has to reach (Armijo 1966)
 constexpr int kMaxSearchHalvings = 30;
-// What rounding leaves of a difference of potentials, relative to the terms' magnitudes.
+// The rounding error of a difference of potentials, relative to the terms' magnitudes.
 template <class Real>
 constexpr double kRounding = sizeof(Real) == 8 ? 1e-14 : 1e-6;
-// Rounding of positions.  What it makes of forces, stiffness times position times this, may exceed the forces
-// that decide, as those of a thin strip on edge, or the weight of fine cloth in single precision: it ends a
-// step only of free cloth without weight, whose forces have nothing else to compare with.
+// The rounding of positions.  The force that it causes, stiffness times position times this, may exceed the
+// forces that decide, such as those of a thin strip on edge, or the weight of fine cloth in single precision.
+// It ends a step only for free cloth without weight, whose forces have nothing else to compare with.
 template <class Real>
 constexpr double kBlur = sizeof(Real) == 8 ? 1e-16 : 6e-8;
-// In single precision forces that are mere rounding may keep corrections above that: predicted decreases of
-// the potential then no longer fall from one iteration to the next.
+// In single precision rounding alone may keep corrections above that; then predicted decreases of the
+// potential no longer fall from one iteration to the next.
 constexpr double kIdle = 0.95;
-// Corrections that rounding of positions cannot tell from none, relative to the positions.
+// Corrections below this share of the positions cannot be told from none.
 template <class Real>
 constexpr double kUnmoved = sizeof(Real) == 8 ? 1e-15 : 5e-7;
-// A correction too small to matter ends a step only where the unbalanced force, over the forces at work, has
-// become small, too: a stiffness far above the true one makes any correction small.
+// A tiny correction ends a step only where the unbalanced force, over the forces at work, has become small,
+// too: a stiffness far above the true one makes any correction small.
 template <class Real>
 constexpr double kBalanced = sizeof(Real) == 8 ? 1e-3 : 1;
 
 // The loosest linear solve where an iteration costs many of the solver's, as with contact or a factorisation:
-// falls of a million triangles take a tenth longer with it, creases a third less.
+// with it falls of a million triangles take a tenth longer, creases a third less.
 constexpr double kLoosestOfDear = 0.03;
 constexpr double kTightest = 1e-5;
 
-// How iterations have come on: how well the next linear system is worth solving, and what would follow.
+// Tracks the progress of iterations: how tightly the next linear system is worth solving, and which
+// corrections would follow.
 class Progress {
  public:
   Progress(double loosest, bool has_contact)
       : loosest_(loosest), margin_(has_contact ? kMarginOfContact : 1), forcing_(loosest) {}
 
-  // Relative residual of the next linear solve: the better the nearer the minimum (Eisenstat & Walker 1996,
-  // choice 2), but no better than what is wanted asks for (Kelley 1995, section 6.3): a share of the force
-  // that is unbalanced now, and a correction [m].
+  // Returns the relative residual of the next linear solve: it is smaller near the minimum (Eisenstat &
+  // Walker 1996, choice 2), but no smaller than needed (Kelley 1995, section 6.3), given the wanted share of
+  // the present unbalanced force and the wanted correction [m].
   double tolerance(double wanted_force, double wanted_correction) const {
     constexpr double kShareOfForce = 0.2, kShareOfCorrection = 0.05;
     double least = std::max(kTightest, kShareOfForce * wanted_force);
     if (before_ > 0) least = std::max(least, kShareOfCorrection * wanted_correction / before_);
     return std::min(loosest_, std::max(forcing_, least));
   }
-  // Root mean square of a correction [m]; `full`: taken in full length.
+  // Adds the root mean square of a correction [m]; `full`: it was taken in full length.
   void add_correction(double length, bool full) {
     const bool falls = full && before_ > 0 && length < 0.5 * before_;
     left_ = falls ? length * length / (before_ - length) : std::numeric_limits<double>::infinity();
     before_ = full ? length : 0;
   }
-  // What is unbalanced after it over what was before.
+  // Adds the unbalanced force after an iteration over that before it.
   void add_ratio(double ratio) { forcing_ = 0.9 * ratio * ratio; }
-  // Corrections of full length, each less than half of the one before, go on as a geometric series: what is
-  // left after the last is theta/(1 - theta) of it, theta being the last ratio (Hairer & Wanner 1996, section
-  // IV.8) [m]; infinite: unknown.  Contact breaks the series off: with it, that counts many times.
+  // Returns the sum of the corrections that would follow [m]; infinite: unknown.  Corrections of full length,
+  // each less than half of the one before, go on as a geometric series: the rest after the last is theta/(1 -
+  // theta) of it, theta being the last ratio (Hairer & Wanner 1996, section IV.8).  Contact breaks the series
+  // off: with it, the rest counts several times.
   double left() const { return margin_ * left_; }
 
  private:
@@ -87,7 +89,7 @@ NewtonOutcome Newton<Real, Device>::minimise(Buffer<Vec3<Real>, Device>& x, Pote
   const SolverTuning& tuning = limits_.tuning;
   NewtonOutcome outcome;
   const double weight = value.weight, first = value.residual;
-  // What a step may meet costs the more the longer it is: the next direction is looked along as far as a few
+  // The longer a step, the more contact it may meet: the next direction is searched only as far as a few
   // times the last step.
   double farthest = std::numeric_limits<double>::infinity();  // [m]
   const double loosest = potential_.has_friction() || solver_.is_direct()
@@ -100,7 +102,8 @@ NewtonOutcome Newton<Real, Device>::minimise(Buffer<Vec3<Real>, Device>& x, Pote
     outcome.residual = value.residual;
     outcome.velocity = value.residual * beta_dt * std::sqrt(vertices_) / total_mass;
     outcome.load = std::max(std::hypot(weight, value.reaction), value.inertia);
-    // What is unbalanced is small beside the load, rounding, or would hardly move the cloth within the step.
+    // Converged: the unbalanced force is small beside the load, is rounding, or would hardly move the cloth
+    // within the step.
     const double enough = std::max(limits_.residual * outcome.load, rounding);  // [N]
     const bool arrived = potential_.bodies_have_arrived();
     outcome.converged |= value.residual <= enough || outcome.velocity <= limits_.velocity;
@@ -124,7 +127,7 @@ NewtonOutcome Newton<Real, Device>::minimise(Buffer<Vec3<Real>, Device>& x, Pote
     const bool unmoved = std::sqrt(correction.size2) <= kUnmoved<Real> * std::sqrt(correction.extent2);
     const double before = value.residual;
     const double length = std::sqrt(correction.size2 / total_mass);
-    // Of potentials: what their sum loses, and what forces make of rounded positions.
+    // The rounding of potentials: that of their sum, and that of forces times rounded positions.
     const double extent = std::sqrt(correction.extent2 / total_mass * vertices_);
     const double lost = kRounding<Real> * value.size,
                  blurred = std::max(lost, kBlur<Real> * value.internal * extent);
@@ -157,12 +160,11 @@ NewtonOutcome Newton<Real, Device>::minimise(Buffer<Vec3<Real>, Device>& x, Pote
   return outcome;
 }
 
-// In a `full` system the membrane's softening under compression counts, and where the stiffness is indefinite
-// the direction leads down along its negative curvature, away from the saddle; without, the stiffness is
-// positive.  Longva et al. 2023 compare such choices.
+// Makes the first trial step.  A `full` system includes the membrane's softening under compression; where the
+// stiffness is indefinite the direction leads down along its negative curvature, away from the saddle.
+// Otherwise the stiffness is positive.  Longva et al. 2023 compare such choices.
 //
-// Layers limit the step by its length: only there the host has to know the correction before it asks for a
-// trial.
+// Only where layers limit the step by its length does the host have to know the correction before the trial.
 template <class Real, class Device>
 typename Newton<Real, Device>::Trial Newton<Real, Device>::first_try(const Vec3<Real>* x, double farthest,
                                                                      double total_mass) {
@@ -180,8 +182,8 @@ typename Newton<Real, Device>::Trial Newton<Real, Device>::first_try(const Vec3<
 
 // Takes the first step along the direction, as long as is feasible or shorter, that lowers the potential
 // enough, and returns its length; 0 if there is none.  Where the difference is within rounding, the slope
-// must have become flatter instead (Hager & Zhang 2005).  A step that takes bodies along goes from one
-// potential to another: it is taken as it is.
+// must have become flatter instead (Hager & Zhang 2005).  A step that moves bodies along goes from one
+// potential to another: it is taken unchecked.
 template <class Real, class Device>
 double Newton<Real, Device>::search(Buffer<Vec3<Real>, Device>& x, PotentialValue& value, Trial tried,
                                     double slope, double blurred) {
@@ -199,7 +201,7 @@ double Newton<Real, Device>::search(Buffer<Vec3<Real>, Device>& x, PotentialValu
       return step_length;
     }
     if (halving == kMaxSearchHalvings) return 0;
-    const double curved = 2 * (rise - step_length * slope);  // minimum of the parabola through what is known
+    const double curved = 2 * (rise - step_length * slope);  // for the known parabola's minimum
     const double next = curved > 0 ? -slope * step_length * step_length / curved : 0;
     tried = try_step(x.data(),
                      std::clamp(std::isfinite(next) ? next : 0.0, 0.1 * step_length, 0.5 * step_length));
@@ -219,7 +221,7 @@ void Newton<Real, Device>::measure_correction(const LinearSystem<Real, Device>& 
         sums.term[0] += static_cast<double>(mass[i] * d[i].squaredNorm());
         sums.term[1] += static_cast<double>(gradient[i].dot(d[i]));
         sums.term[2] += static_cast<double>(mass[i] * x[i].squaredNorm());
-        if (!with_forces) return;  // the blocks are most of what would be read
+        if (!with_forces) return;  // the blocks would be most of the data read
         const Real stiffness = diagonal[i].trace() + remainder_diagonal[i].trace();
         sums.term[3] += static_cast<double>(stiffness * stiffness * x[i].squaredNorm());
       },

@@ -1,4 +1,4 @@
-// Stands in for gpu_back_end.cpp in a build without CUDA.
+// Replaces gpu_back_end.cpp in a build without CUDA.
 #include "sim/base/error.h"
 #include "sim/device/visible_gpus.h"
 #include "sim/time/back_end.h"

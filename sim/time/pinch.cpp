@@ -8,8 +8,8 @@ namespace hysteron {
 
 namespace {
 
-// Which free vertices are pressed from the other side of a solid in which they are, by layers or by other
-// solids; and which held ones a solid has come over.
+// Marks free vertices in a solid that layers or other solids press from the other side, and held vertices
+// that a solid has come over.
 template <class Real, class Device>
 std::vector<char> pinched_vertices(Body<Real, Device>& body, const ObstacleSet<double>& set,
                                    const std::vector<Eigen::Vector3d>& x, const std::vector<char>& held) {

@@ -10,10 +10,10 @@
 namespace hysteron {
 
 namespace {
-constexpr double kYieldFraction = 0.5;  // of the fabric's thickness: what a hand gives under all its strength
-constexpr double kStrongest = 10 * kTestPressure;  // of rigid hands that give way [Pa]
+constexpr double kYieldFraction = 0.5;  // over the fabric's thickness: how far a pin gives under its strength
+constexpr double kStrongest = 10 * kTestPressure;  // the strongest pull of rigid pins that give way [Pa]
 
-// Layers that hands hold can meet where two are rigid and one of them moves.
+// Can pinned layers meet? They can where two pins are rigid and one of them moves.
 bool may_meet(const Scene& scene) {
   int rigid = 0;
   bool moves = false;
@@ -94,7 +94,7 @@ bool Pins<Real, Device>::attach_and_release(Body<Real, Device>& body, double sta
   return changed;
 }
 
-// A hand's strength is that on all its vertices together, in equal shares.
+// Divides a pin's strength among its vertices in equal shares.
 template <class Real, class Device>
 void Pins<Real, Device>::share_strength(const Scene& scene, const std::vector<int>& pins) {
   std::vector<int> count(scene.pin.size());
@@ -106,8 +106,8 @@ void Pins<Real, Device>::share_strength(const Scene& scene, const std::vector<in
   strength_.upload(strength);
 }
 
-// A hand stops what it takes, and leaves what it lets go in motion: the balance counts no kinetic energy of
-// held vertices.
+// Books the energy of taking hold and letting go: a pin stops the vertices it takes, and leaves those it lets
+// go in motion, since the balance counts no kinetic energy of held vertices.
 template <class Real, class Device>
 bool Pins<Real, Device>::book(Body<Real, Device>& body, const std::vector<char>& held) {
   const std::vector<char> before = body.held.download();
@@ -121,7 +121,7 @@ bool Pins<Real, Device>::book(Body<Real, Device>& body, const std::vector<char>&
   return true;
 }
 
-// What a hand takes starts where it is.
+// Makes vertices that a pin takes start where they are.
 template <class Real, class Device>
 void Pins<Real, Device>::take(Body<Real, Device>& body, const std::vector<int>& pins, double time) {
   const std::vector<int> before = pin_.download();
@@ -160,7 +160,7 @@ template <class Real, class Device>
 void Pins<Real, Device>::serialise(Archive& archive, Body<Real, Device>& body) {
   Device& device = *body.device;
   archive(moving_);
-  for (Pin& pin : body.scene.pin) {  // which may have been driven
+  for (Pin& pin : body.scene.pin) {  // drive() may have changed them
     visit_keyframes(archive, pin.motion.keys);
     archive(pin.motion.cycles);
   }
@@ -219,7 +219,7 @@ bool Pins<Real, Device>::are_blocked(Body<Real, Device>& body, Real h) {
   return !sweep_->is_free(body.x.data(), displacement, held, pin_.data());
 }
 
-// What gives way starts at rest: the balance counts no kinetic energy of held vertices.
+// Vertices of rigid pins that give way start at rest: the balance counts no kinetic energy of held vertices.
 template <class Real, class Device>
 bool Pins<Real, Device>::yield_to_cloth(Body<Real, Device>& body, Real h) {
   rigid_ = body.held.download();
@@ -249,7 +249,7 @@ bool Pins<Real, Device>::yield_to_cloth(Body<Real, Device>& body, Real h) {
   return yields_ = pulls_ = true;
 }
 
-// Before another stage: hands are rigid, whether the last one was accepted or not.
+// Makes pins rigid again before another stage, whether the last one was accepted or not.
 template <class Real, class Device>
 void Pins<Real, Device>::regain(Body<Real, Device>& body) {
   if (!pulls_) return;
@@ -262,7 +262,8 @@ void Pins<Real, Device>::regain(Body<Real, Device>& body) {
   yields_ = pulls_ = false;
 }
 
-// The hand stops what it holds again.  Until the next stage its pull is known, as the force on the cloth.
+// Stops the vertices that are held again.  Until the next stage the pull on them is known, as the force on
+// the cloth.
 template <class Real, class Device>
 void Pins<Real, Device>::hold_again(Body<Real, Device>& body) {
   const std::vector<char> held = body.held.download();

@@ -1,6 +1,6 @@
-// The step of hi = alpha he (Wong, Leach, Zambetta 2013, 4.3; Schroeder et al. 2011): bending explicit,
-// tension, damping and contact implicit, alpha the least number of substeps for which explicit bending is
-// stable.
+// The step of hi = alpha he (Wong, Leach, Zambetta 2013, 4.3; Schroeder et al. 2011) takes bending
+// explicitly, and tension, damping and contact implicitly, with alpha the least number of substeps for which
+// explicit bending is stable.
 //
 // implicit-every = step, as the chapter writes it:
 //   alpha times   v += he M^-1 (f_bend(x) + m g + f_air),  x += he v;  bending history committed at each x
@@ -14,13 +14,13 @@
 // unknowns; the shorter implicit steps take fewer iterations each.  As the chapter writes it, forces that
 // balance act one after the other: bending accelerates the cloth through the substeps and tension throws it
 // back, so that a resting cloth trembles by about |a| hi^2, which rubs its bending friction away and feeds
-// energy in; and bending waves whose period resonates with hi grow unless viscosity damps them.  Acting
-// together they rest exactly.
+// energy in; and bending waves whose period resonates with hi grow unless viscosity damps them.  If they act
+// together, the cloth rests exactly.
 //
 // With self-contact the implicit part is solved to the end, as a minimum problem whose line search and
 // collision detection keep layers apart (implicit_integrator.h); bending stays explicit.
 //
-// Ledger.  Each velocity change dv under a force F over a displacement d = dt v_new gives exactly
+// The ledger: each velocity change dv under a force F over a displacement d = dt v_new gives exactly
 //   change of kinetic energy = F.d - m |dv|^2/2,
 // so the integrator's own loss is the sum of m |dv|^2/2 plus, for each energy, the gap between its change and
 // the work -F.d of the force that stands for it: the convexity gap W_n - W_{n+1} + F.(x_{n+1} - x_n) and the
@@ -37,9 +37,10 @@ namespace hysteron {
 namespace {
 constexpr int kMaxIterations = 2000;
 
-// Of cloth that starts so, what need not be solved for of positions [m].  Their rounding is a force of the
-// stiffness that holds them, another in each step; a hundredth of that moves a hanging cloth by less than
-// single precision does.  In double precision no solve comes near it.
+// Returns the accuracy [m] beyond which positions of cloth that starts so need not be solved for.  The
+// rounding of positions causes a force through the stiffness that holds them, another in each step; a
+// hundredth of that moves a hanging cloth by less than single precision does.  In double precision no solve
+// comes near it.
 template <class Real>
 double rounding_allowance(const std::vector<Eigen::Vector3d>& start) {
   constexpr double kRounding = sizeof(Real) == 8 ? 0 : 6e-8, kRoundingFraction = 0.01;
@@ -78,7 +79,7 @@ void SemiImplicit<Real, Device>::stage(double start, Real h) {
   body_.end_stage(start + static_cast<double>(h));
 }
 
-// Steps that cannot be taken back: the error of one sets the length of the next.
+// Takes steps that cannot be taken back: the error of one sets the length of the next.
 template <class Real, class Device>
 void SemiImplicit<Real, Device>::take_adaptive_step(double start, double whole) {
   const Scene& scene = body_.scene;
@@ -89,7 +90,7 @@ void SemiImplicit<Real, Device>::take_adaptive_step(double start, double whole) 
     stage(now, static_cast<Real>(h));
     ++body_.counts.parts;
     now += h;
-    // x_n + h v_n misses by h dv, of which half is the error of a first-order step.
+    // x_n + h v_n misses by h dv; half of that is the error of a first-order step.
     const double error = h * change_size() / 2;
     part_ = std::max(least, next_part(h, std::sqrt(scene.tolerance / error)));
   }
@@ -189,7 +190,8 @@ void SemiImplicit<Real, Device>::solve(Real h, const Vec3<Real>* impulse) {
   body_.membrane.commit_friction(body_.x.data());
 }
 
-// rhs = explicit impulse + h (f_m + f_d + f_c) - M dv, matrix = M + h^2 K + h D at the present iterate.
+// Sets rhs = explicit impulse + h (f_m + f_d + f_c) - M dv and matrix = M + h^2 K + h D at the present
+// iterate.
 template <class Real, class Device>
 void SemiImplicit<Real, Device>::assemble(Real h, const Vec3<Real>* impulse, bool first) {
   body_.clock.begin(Stage::membrane);
@@ -233,9 +235,9 @@ void SemiImplicit<Real, Device>::correct(Real h, bool first) {
       });
 }
 
-// The impulse that really acted is M dv, whatever the linearisation and the solver's tolerance made of it.
-// The impulse on a held vertex is that of the last linear system: rhs - matrix dv, without the mass because
-// its own dv is 0.
+// Books energies.  The impulse that really acted is M dv, whatever the errors of the linearisation and the
+// solver.  The impulse on a held vertex is that of the last linear system: rhs - matrix dv, without the mass
+// because its own dv is 0.
 template <class Real, class Device>
 void SemiImplicit<Real, Device>::book(Real h, const Vec3<Real>* explicit_impulse) {
   const Real* mass = body_.mass.data();

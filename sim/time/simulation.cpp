@@ -1,4 +1,4 @@
-// Host code: which device, which precision, how many substeps.
+// Host code that chooses the device, the precision and the number of substeps.
 #include "sim/time/simulation.h"
 
 #include <cmath>
@@ -24,8 +24,8 @@ namespace {
 constexpr double kStabilityMargin = 0.75;
 constexpr int kMaxSubsteps = 100000;
 
-// Stiffness of the law over that of `linear` bounds the frequency; the chapter's printed force has 1/2 in
-// place of |e|.
+// Returns the bound on the frequency's square [1/s^2], scaled by the law's stiffness over that of `linear`;
+// the chapter's printed force has 1/2 in place of |e|.
 double bending_eigenvalue(const Scene& scene, const Cloth& cloth, const CurvatureOperator& op,
                           const std::vector<double>& mass, const std::vector<char>& held, double stiffness) {
   double lambda = bending_spectral_radius(cloth.mesh, op, stiffness, mass, held);
@@ -38,14 +38,14 @@ double bending_eigenvalue(const Scene& scene, const Cloth& cloth, const Curvatur
   return lambda;
 }
 
-// Symplectic Euler with viscosity: lambda dt^2 + 2 nu dt <= 4, lambda the largest eigenvalue of M^-1 K
-// [1/s^2] and nu that of the viscous matrix [1/s].
+// Returns the stable step [s] of symplectic Euler with viscosity: lambda dt^2 + 2 nu dt <= 4, lambda the
+// largest eigenvalue of M^-1 K [1/s^2] and nu that of the viscous matrix [1/s].
 double stable_step(double lambda, double nu) {
   if (lambda <= 0 && nu <= 0) return 1e30;
   return kStabilityMargin * 4 / (nu + std::sqrt(nu * nu + 4 * lambda));
 }
 
-// Largest stable steps of what the integrator takes explicitly.
+// Returns the largest stable steps for the forces that the integrator takes explicitly.
 StepLimits stable_steps(const Scene& scene, const Cloth& cloth, const CurvatureOperator& op) {
   const std::vector<char> held = cloth.held_throughout(scene);
   std::vector<double> mass;
@@ -89,7 +89,7 @@ StepLimits choose_substeps(const Scene& scene, const Cloth& cloth, const Curvatu
   return limits;
 }
 
-// GPUs that the scene may run on.
+// Returns the number of GPUs that the scene may run on.
 int usable_gpus(const Scene& scene) {
   if (scene.device == DeviceChoice::cpu) return 0;
   std::string reason;
@@ -117,7 +117,7 @@ void check(const Scene& scene, const Cloth& cloth) {
   check_start(scene, cloth);
 }
 
-// b2 as the elements have it along warp [N m].
+// Returns b2 of the elements along warp [N m].
 double own_rigidity(const Scene& scene) {
   const LawChoice law = choose_law(scene.law, scene.fabric.virgin_curve(), scene.param, LawUse::cloth);
   const double of_both_sides = law.curve.b2 * std::min(1.0, law.curve.parts.faces.bending);

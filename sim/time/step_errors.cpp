@@ -12,14 +12,14 @@ namespace {
 
 std::string at_time(double time) { return "at t = " + number_text(time, 6) + " s "; }
 
-// "obstacle[1] (box) and the cloth itself"
+// Joins names: "obstacle[1] (box) and the cloth itself".
 std::string together(const std::vector<std::string>& words) {
   std::string text;
   for (const std::string& word : words) text += (text.empty() ? "" : " and ") + word;
   return text;
 }
 
-// "edge 3-4 and edge 8-9", "vertex 12 and triangle 3-4-5"
+// Names a pair: "edge 3-4 and edge 8-9", "vertex 12 and triangle 3-4-5".
 template <class Real>
 std::string pair_text(const SelfPair<Real>& pair) {
   const auto dash = [](int a, int b) { return std::to_string(a) + "-" + std::to_string(b); };
@@ -29,7 +29,7 @@ std::string pair_text(const SelfPair<Real>& pair) {
          std::to_string(pair.v[3]);
 }
 
-// What a vertex at x touches.
+// Names the objects that touch a vertex at x.
 template <class Real, class Device>
 std::vector<std::string> pressing(Body<Real, Device>& body, int vertex, const Eigen::Vector3d& x,
                                   double time) {
@@ -56,7 +56,7 @@ void throw_if_arrival(Body<Real, Device>& body, double met, double time) {
   const Scene& scene = body.scene;
   std::vector<Obstacle> fresh = scene.obstacle;
   for (Obstacle& o : fresh)
-    if (o.from <= met) o.until = o.from;  // never there
+    if (o.from <= met) o.until = o.from;  // it was never there
   const std::vector<Eigen::Vector3d> x = cast_to<double>(body.x.download());
   const std::vector<char> held = body.cloth.held(scene, time);
   const auto set = obstacles_during<double>(fresh, scene.fabric.friction, time, time);

@@ -1,4 +1,4 @@
-// When a run cannot go on: Error::simulation that says where, when, and what presses there.
+// Throws Error::simulation when a run cannot go on, with where, when, and what presses there.
 #pragma once
 
 #include <vector>
@@ -8,14 +8,14 @@
 
 namespace hysteron {
 
-// An obstacle that has come since `met` is where the cloth is.  What hands hold may be inside it: contact is
-// told.
+// Throws if an obstacle that has come since `met` [s] is where the cloth is.  Pinned vertices may be inside
+// it, which contact is told.
 template <class Real, class Device>
 void throw_if_arrival(Body<Real, Device>& body, double met, double time);
-// Pins release cloth inside an obstacle.
+// Throws if pins release cloth inside an obstacle.
 template <class Real, class Device>
 void throw_if_release(Body<Real, Device>& body, const std::vector<char>& held, double time);
-// A step has no solution, even in parts of h.
+// Throws that a step has no solution, even in parts of h [s].
 template <class Real, class Device>
 void throw_if_unbalanced(Body<Real, Device>& body, ImplicitStep<Real, Device>& step, double start, double h,
                          const NewtonOutcome& outcome);

@@ -21,7 +21,7 @@ void throw_if_divergence(Body<Real, Device>& body, double time) {
                           " s: take a smaller step (step = " + std::to_string(body.scene.step) + " s)");
 }
 
-// The one that the body's scene names.
+// Makes the integrator that the body's scene names.
 template <class Real, class Device>
 std::unique_ptr<TimeIntegrator<Real, Device>> make_integrator(Body<Real, Device>& body,
                                                               const StepLimits& limits) {
@@ -114,7 +114,7 @@ std::uint64_t Stepper<Real, Device>::state_hash() {
 template <class Real, class Device>
 std::vector<std::pair<std::string, double>> Stepper<Real, Device>::stage_seconds() {
   StageSeconds seconds = body_.clock.seconds();
-  if (body_.self_contact) {  // inside the solve
+  if (body_.self_contact) {  // it runs inside the solve
     const double contact = body_.self_contact->seconds();
     seconds[static_cast<int>(Stage::contact)] += contact;
     seconds[static_cast<int>(Stage::solve)] -= contact;

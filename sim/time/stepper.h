@@ -1,4 +1,4 @@
-// A simulation: a body on one device in one precision, and the integrator that moves it.
+// Implements a simulation: a body on one device in one precision, and the integrator that moves it.
 #pragma once
 
 #include "sim/scene/motion.h"
@@ -73,13 +73,13 @@ class Stepper : public Simulation {
     body_.serialise(archive);
     integrator_->serialise(archive);
   }
-  bool is_shifted() const { return !body_.origin.isZero(0); }  // positions are not the world's
+  bool is_shifted() const { return !body_.origin.isZero(0); }  // positions are relative to a shifted origin
   const Pin& pin(int number) const;
   static InPlace in_place(const Buffer<Vec3<Real>, Device>& buffer);
 
   Body<Real, Device> body_;
   std::unique_ptr<TimeIntegrator<Real, Device>> integrator_;
-  double extra_time_ = 0;  // by which steps of other lengths have exceeded the scene's [s]
+  double extra_time_ = 0;  // excess of steps of other lengths over the scene's [s]
 };
 
 }  // namespace hysteron

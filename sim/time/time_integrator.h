@@ -1,4 +1,4 @@
-// What moves a body from one state to the next.
+// Declares an integrator, which moves a body from one state to the next.
 #pragma once
 
 #include <algorithm>
@@ -17,16 +17,16 @@ class TimeIntegrator {
  public:
   explicit TimeIntegrator(Body<Real, Device>& body) : body_(body) {}
   virtual ~TimeIntegrator() = default;
-  // Goes from `start` to `start` + `h` [s].  A step that is longer than the scene's is
-  // Error::invalid_input where steps do not lead from equilibrium to equilibrium (refuse_longer()).
+  // Goes from `start` to `start` + `h` [s].  Throws Error::invalid_input for a step longer than the scene's
+  // where steps do not lead from equilibrium to equilibrium (refuse_longer()).
   virtual void step(double start, double h) = 0;
-  // Steps are equilibria from now on; Error::invalid_input where there is no equilibrium solve.
+  // Makes steps equilibria from now on; throws Error::invalid_input where there is no equilibrium solve.
   virtual void become_static() {
     refuse("has no equilibrium solve: use implicit | bdf2 | tr-bdf2 | quasi-static");
   }
-  // Of the step accepted last, on each vertex [N]; empty where they are not known.
+  // Returns the pins' forces on each vertex in the step accepted last [N]; empty where they are not known.
   virtual std::vector<Vec3<Real>> handle_forces() { return {}; }
-  virtual void serialise(Archive& archive) = 0;  // what outlives a step, without the body
+  virtual void serialise(Archive& archive) = 0;  // state that outlives a step, without the body's
   virtual std::size_t bytes() const = 0;
 
  protected:
@@ -42,18 +42,18 @@ class TimeIntegrator {
   }
 };
 
-// Lengths of the parts of adaptive steps.
+// The lengths of the parts of adaptive steps.
 
-inline constexpr int kMaxHalvings = 12;  // of a step
+inline constexpr int kMaxHalvings = 12;  // a step is halved at most so often
 
-// The next part after one of h, had h grown by `growth` met the tolerance: aim below it, and change slowly
-// (Hairer, Norsett & Wanner 1993, II.4).
+// Returns the next part after one of h [s], if h grown by `growth` would have met the tolerance: it aims
+// below it, and changes slowly (Hairer, Norsett & Wanner 1993, II.4).
 inline double next_part(double h, double growth) {
   constexpr double kAim = 0.9, kFastestGrowth = 2, kFastestFall = 0.3;
   return h * std::clamp(kAim * growth, kFastestFall, kFastestGrowth);
 }
 
-// The rest of a step in equal parts of at most `part`.
+// Divides the rest of a step into equal parts of at most `part` [s].
 inline double equal_part(double remainder, double part) {
   return remainder / std::ceil(remainder / part * (1 - 1e-9));
 }

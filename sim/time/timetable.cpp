@@ -7,10 +7,10 @@
 namespace hysteron {
 namespace {
 
-// Of a step, by which a duration may miss a whole number of steps that its decimals were meant to be.
+// The share of a step by which a duration may miss a whole number of steps that its decimals meant.
 constexpr double kRounding = 1e-4;
 
-// Sums of the lengths, from `time` on.
+// Returns the sums of the lengths, from `time` on [s].
 std::vector<double> ends(const std::vector<double>& lengths, double time) {
   std::vector<double> result;
   for (const double length : lengths) result.push_back(time += length);
@@ -82,7 +82,7 @@ double Timetable::largest_shift(double rate) const {
 
 void advance_along(const Timetable& timetable, Simulation& simulation, long to) {
   const long from = simulation.steps();
-  long even = from;  // as far as steps are of the scene's length, one after the other
+  long even = from;  // up to here, steps of the scene's length follow one another
   while (even < to && timetable.is_even(even)) ++even;
   if (even > from) simulation.advance(static_cast<int>(even - from));
   for (long n = even; n < to; ++n) {

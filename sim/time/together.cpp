@@ -14,7 +14,7 @@ void run_together(bool on_gpu, int count, const std::function<void(int)>& job) {
   if (count <= 0) return;
   if (!on_gpu) return in_parallel(count, 1, [&](std::size_t i) { job(static_cast<int>(i)); });
   in_parallel(1, 1, [&](std::size_t) {
-    members_here = count;  // of a thread that ends with them
+    members_here = count;  // this thread ends with them
     run_on_gpu_together(count, job);
   });
 }

@@ -1,6 +1,7 @@
-// A law with elasticity of the direction beside it: what cloth has whose friction bends otherwise along weft
-// than its rigidity (CurvatureOperator::elastic, which may be negative; the sum is convex).  It is measured
-// now and then: the law's own copies are called, which compilers, nvcc above all, need not compile again.
+// Puts elasticity that differs by direction beside a law: cloth whose friction has other ratios along weft
+// than its rigidity needs it (CurvatureOperator::elastic, which may be negative; the sum is convex).  It
+// serves measurements alone: they call the law's own copies, which compilers, nvcc above all, need not
+// compile again.
 #pragma once
 
 #include "sim/bending/laws/law.h"
@@ -33,7 +34,7 @@ struct BesideElasticity {
   HYST_HD Scalar largest_stiffness() const { return law.largest_stiffness() + elastic.cwiseAbs().maxCoeff(); }
 };
 
-// The curvature of no moment [1/m], sought from where the law alone has none.
+// Returns the curvature of zero moment [1/m], sought from that of the law alone.
 template <class Law>
 HYST_HD CurvatureOf<Law> beside_elasticity(const Law& law, const CurvatureOf<Law>& elastic,
                                            const HistoryOf<Law>& history) {

@@ -1,7 +1,7 @@
 // Elasticity, friction and relaxing branches side by side: the theory of wrinkle recovery in which a fold's
 // moment relaxes while it is held and its angle comes back in time after release, as far as friction lets it
 // (measured_law.h).  Friction is the fabric's stops, or those that b1, b2 and k0 make; the branches are the
-// fabric's: one without them has elasticity and friction alone.
+// fabric's, and a fabric without branches has elasticity and friction alone.
 #pragma once
 
 #include "sim/bending/laws/law_description.h"

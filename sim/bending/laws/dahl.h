@@ -52,7 +52,8 @@ struct Dahl {
     return result;
   }
 
-  // The Hessian of W; at a step of length zero, where it depends on the direction to come, that of F_r = 0.
+  // Returns the Hessian of W; at a step of length zero, where it depends on the direction to come, that for
+  // F_r = 0.
   HYST_HD Tangent<Real, D> tangent(const Vec<Real, D>& curvature, const Memory& before) const {
     const Tangent<Real, D> one = Tangent<Real, D>::Identity();
     const Increment increment = increment_to(curvature, before);
@@ -70,7 +71,7 @@ struct Dahl {
   HYST_HD Vec<Real, D> residual(const Memory& history) const {
     return zero_moment(*this, history, load_set<Real, D>(history));
   }
-  // Where a step turns against friction that slides, its first slope is twice b1 - b2.
+  // A step that turns against sliding friction has a first slope of twice b1 - b2.
   HYST_HD Real largest_stiffness() const { return b2 + 2 * g; }
 
  private:
@@ -81,9 +82,8 @@ struct Dahl {
     Real fraction;       // phi
     Real z;              // length / l
 
-    static constexpr Real kSeries =
-        Real(sizeof(Real) == 8 ? 1e-3 : 3e-2);   // below: differences by their series
-    HYST_HD Real fraction_slope(Real l) const {  // d phi/d length
+    static constexpr Real kSeries = Real(sizeof(Real) == 8 ? 1e-3 : 3e-2);  // below this z series are used
+    HYST_HD Real fraction_slope(Real l) const {                             // d phi/d length [m]
       return z < kSeries ? (Real(-0.5) + z / 3 - z * z / 8) / l : (left - fraction) / length;
     }
     HYST_HD Real fraction_bend(Real l) const {

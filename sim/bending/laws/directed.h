@@ -1,15 +1,16 @@
-// A law of a fabric whose stops differ by direction, on hinges: each has the one of a bend across its edge.
+// Runs laws of a fabric whose stops differ by direction on hinges: each hinge has the law of a bend across
+// its edge.
 //
-// Stops, relaxing branches and set are as on any element; what depends on the direction, the stops, is made
-// for each hinge anew (SpectrumStops::turn), so that a hinge keeps two numbers of its direction beside the
-// history of a scalar law.
+// Stops, relaxing branches and set are as on any element.  The stops alone depend on the direction and are
+// made anew for each hinge (SpectrumStops::turn), so that a hinge keeps two numbers of its direction beside
+// the history of a scalar law.
 #pragma once
 
 #include "sim/bending/laws/law.h"
 
 namespace hysteron {
 
-// What the wrappers of measured_law.h hold innermost.
+// Returns the innermost law of the wrappers of measured_law.h.
 template <class Law>
 HYST_HD auto& innermost(Law& law) {
   if constexpr (requires { law.law; })
@@ -18,7 +19,7 @@ HYST_HD auto& innermost(Law& law) {
     return law;
 }
 
-// Whose stops can be turned to a direction.
+// A law whose stops can be turned to a direction.
 template <class Law>
 concept LawOfOneDirection = requires(Law& law, typename Law::Scalar part) {
   innermost(law).turn(part, part);
@@ -32,7 +33,8 @@ struct Directed {
 
   Law law;  // along warp
 
-  // That of element i, whose numbers `direction` has (CurvatureOperator); along warp where it is null.
+  // Returns the law of element i with the two numbers of `direction` (2 per element, CurvatureOperator);
+  // along warp if it is null.
   HYST_HD Law of(const Scalar* direction, int i) const {
     Law own = law;
     if (direction) innermost(own).turn(direction[2 * i], direction[2 * i + 1]);
@@ -46,7 +48,7 @@ concept DirectedLaw = requires(const Law& law, const typename Law::Scalar* direc
   law.of(direction, 0);
 };
 
-// The law of element i: that of all elements, or its own.
+// Returns the law of element i: that of all elements, or its own.
 template <class Law>
 HYST_HD decltype(auto) law_in_direction(const Law& law, const typename Law::Scalar* direction, int i) {
   if constexpr (DirectedLaw<Law>)

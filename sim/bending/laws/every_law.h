@@ -1,5 +1,5 @@
-// Every law, and the groups that their loops are compiled with (sim/CMakeLists.txt).  A new law is an include
-// here and its name in EveryLaw and in its groups.
+// Lists every law, and the groups by which their loops are compiled (sim/CMakeLists.txt).  A new law needs an
+// include here and its name in EveryLaw and in its groups.
 #pragma once
 
 #include "sim/bending/laws/bilinear.h"
@@ -21,21 +21,21 @@
 
 namespace hysteron {
 
-// In the order of `hysteron list laws`.
+// The laws are in the order of `hysteron list laws`.
 using EveryLaw =
     LawList<LinearLaw, BridsonLaw, FlexionSpringLaw, PabstLaw, BilinearLaw, WongLaw, PrandtlLaw,
             GrinspunEditLaw, TerzopoulosLaw, ObrienLaw, KimLaw, NarainLaw, DahlLaw, GongLaw, ChapmanLaw>;
 
-// A law's own group, where it takes three numbers of its fabric alone.
+// The groups of laws that take only the three numbers of their fabric.
 struct MemorylessLaws : LawList<LinearLaw, BridsonLaw, FlexionSpringLaw, PabstLaw, GrinspunEditLaw> {};
 struct FrictionLaws : LawList<BilinearLaw, WongLaw, PrandtlLaw, DahlLaw> {};
 struct PlasticLaws : LawList<TerzopoulosLaw, ObrienLaw, KimLaw, NarainLaw, GongLaw> {};
-// Laws that follow faces that differ.
+// These laws follow faces that differ.
 struct FacesLaws : LawList<LinearLaw, PrandtlLaw> {};
-// Laws whose friction can weaken.
+// The friction of these laws can weaken.
 struct FatigueLaws : LawList<BilinearLaw, WongLaw, PrandtlLaw> {};
-// Laws that take what a fabric has beyond b1, b2 and k0: with room for few or for many stops, without or with
-// relaxing branches.
+// These laws take the fabric's parts beyond b1, b2 and k0: with room for few or for many stops, without or
+// with relaxing branches.
 struct PartsLaws : LawList<PrandtlLaw, ChapmanLaw> {
   static constexpr int kStops = kFewStops;
   static constexpr bool kWithoutBranches = true, kWithBranches = true;

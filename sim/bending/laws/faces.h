@@ -1,5 +1,5 @@
-// Cloth that bends otherwise to its back (K < 0) than to its face (K > 0): B and 2HB by the sign of
-// curvature.
+// Models cloth that bends otherwise to its back (K < 0) than to its face (K > 0): B and 2HB depend on the
+// sign of curvature.
 //
 //   M = M_common(K) + dB s max(s K, 0) + s' m(phi(s' K)) phi'(s' K)
 //
@@ -25,7 +25,7 @@
 
 namespace hysteron {
 
-// What one side has beyond the other along one direction.
+// The excess of one side's friction and elasticity over the other's, along one direction.
 template <class Real, int N>
 struct FaceExcess : StopMemory<Real, 1, N> {
   using Memory = StopMemory<Real, 1, N>;
@@ -33,14 +33,15 @@ struct FaceExcess : StopMemory<Real, 1, N> {
   using Memory::limit;
   using Past = History<Real, kHistory>;
 
-  // What depends on the direction where friction has directions of its own (CurvatureOperator::elastic).
+  // The numbers that depend on the direction where friction has directions of its own
+  // (CurvatureOperator::elastic).
   struct Direction {
     Real elastic;  // dB [N m]
     Real width;    // w [1/m]
-    Real shorter;  // phi(k0)/k0: stops see phi over it
+    Real shorter;  // phi(k0)/k0: stops see phi divided by it
   };
   Direction own = {0, 0, 1}, weft = {0, 0, 1};
-  Real elastic_side = 1;   // of bends with K > 0: 1; with K < 0: -1
+  Real elastic_side = 1;   // 1 if bends with K > 0 have the excess, -1 if those with K < 0
   Real friction_side = 1;  // likewise
   Real knee = 0;           // k0 [1/m]
   Real p[N] = {};          // stiffness of each stop [N m]
@@ -57,7 +58,7 @@ struct FaceExcess : StopMemory<Real, 1, N> {
     result.dissipated = own.shorter * sum(PerStop(stiffnesses() * limits() * (now.length - held)));
     return result;
   }
-  // Less than zero where all stops slip back while their moment comes or goes.
+  // The tangent is negative where all stops slip back while their moment comes or goes.
   HYST_HD Tangent<Real, 1> tangent(const Vec<Real, 1>& curvature, const Past& before) const {
     const Seen seen = seen_at(curvature[0], own);
     const Stretch now = stretch(Vec<Real, 1>(seen.phi / own.shorter), before);
@@ -67,19 +68,20 @@ struct FaceExcess : StopMemory<Real, 1, N> {
     return Tangent<Real, 1>(beside + seen.slope * seen.slope / own.shorter * sum(holding) +
                             seen.bend * sum(PerStop(stiffnesses() * spring)));
   }
-  HYST_HD Vec<Real, 1> residual(const Past&) const { return Vec<Real, 1>(Real(0)); }  // beside a common law
+  // It stands beside a common law.
+  HYST_HD Vec<Real, 1> residual(const Past&) const { return Vec<Real, 1>(Real(0)); }
   HYST_HD Real largest_stiffness() const {
     return most_of(own) > most_of(weft) ? most_of(own) : most_of(weft);
   }
 
-  // Along weft, where four directions ask for it.
+  // Returns the excess along weft, for four directions.
   HYST_HD FaceExcess along_weft() const {
     FaceExcess other = *this;
     other.own = weft;
     return other;
   }
-  // From warp to a direction between (directed.h): the share of twist is half of either, as four directions
-  // have it along the bias.
+  // Turns from warp to a direction between (directed.h): the share of twist counts half for either, as it
+  // does for four directions along the bias.
   HYST_HD void turn(Real warp, Real weftwards) {
     const Real twist = (1 - warp - weftwards) / 2, first = warp + twist, second = weftwards + twist;
     own.elastic = first * own.elastic + second * weft.elastic;
@@ -87,7 +89,7 @@ struct FaceExcess : StopMemory<Real, 1, N> {
     own.width = 1 / (first / own.width + second / weft.width);
     own.shorter = shorter_by(own.width);
   }
-  // phi(k0)/k0 for a change of this width [1/m].
+  // Returns phi(k0)/k0 for a change of this width [1/m].
   HYST_HD Real shorter_by(Real width) const {
     if (!(width > 0 && knee > 0)) return 1;
     return knee > width ? 1 - width / (4 * knee) : Real(0.5) + knee / (4 * width);
@@ -120,7 +122,7 @@ struct FaceExcess : StopMemory<Real, 1, N> {
   }
 };
 
-// Prandtl's stops, N of them, and the excess of one side beside them.
+// Prandtl's N stops with the excess of one side beside them.
 template <class Real, int D, int N>
 struct WithFaces {
   using Common = PrandtlStops<Real, D, N>;
@@ -135,7 +137,7 @@ struct WithFaces {
   Real hb = 0;               // friction moment of the common stops [N]
   bool two_spectra = false;  // the excess differs by direction: turn()
 
-  // N stops of b1, b2 and k0, or those of the fabric, N at most.
+  // Makes N stops from b1, b2 and k0, or the fabric's own, N at most.
   static WithFaces make(const VirginCurve& curve) {
     const Faces& faces = curve.parts.faces;
     const Spectrum stops =
@@ -163,7 +165,7 @@ struct WithFaces {
     return law;
   }
 
-  // From a bend along warp to one across an edge (directed.h).
+  // Turns from a bend along warp to one across an edge (directed.h).
   HYST_HD void turn(Real warp, Real weft) requires(D == 1) { excess.turn(warp, weft); }
 
   HYST_HD LawStep<Real, D, kHistory> step(const Vec<Real, D>& curvature, const Past& before) const {
@@ -184,7 +186,7 @@ struct WithFaces {
   HYST_HD Vec<Real, D> residual(const Past& history) const {
     return zero_moment(*this, history, Vec<Real, D>(Vec<Real, D>::Zero()));
   }
-  // |F|/HB of the common stops, which slide on both sides.
+  // Returns |F|/HB of the common stops, which slide on both sides.
   HYST_HD Real utilisation(const Vec<Real, D>& curvature, const Past& history) const {
     const auto now = called_step(common, curvature, history_of<Common>(history));
     return hb > 0 ? (now.moment - common.b2 * curvature).norm() / hb : Real(0);
@@ -192,7 +194,7 @@ struct WithFaces {
   HYST_HD Real largest_stiffness() const { return common.largest_stiffness() + excess.largest_stiffness(); }
 
  private:
-  // Stops with `share` of these moments.
+  // Gives the law stops with `share` of these moments.
   template <class Stops>
   static void put(const Spectrum& stops, double share, Stops& law) {
     constexpr double kSomeLimit = 1;  // any positive number: without stiffness a stop carries nothing

@@ -8,9 +8,9 @@
 // and no published one ties 2HB to dissipated energy.  m and K_p are those of the step's beginning within the
 // step, and change at its end: the error is of first order in the energy of one step over Dc.
 //
-// Lost in a step: m times the law's own loss; then, at the end, the friction energy of what weakened and the
-// elastic energy that the set takes; never negative for a law that never gives energy back.  Only what is
-// lost, not what `wong` gives back, weakens.  |K_p| <= eta (M0 - M_inf)/b2.  b2 = 0 has no set.
+// A step loses m times the law's own loss, then, at its end, the energy of the friction that weakened and the
+// elastic energy that the set takes; this is never negative for a law that never gives energy back.  Only
+// energy that is lost weakens, not what `wong` gives back.  |K_p| <= eta (M0 - M_inf)/b2.  b2 = 0 has no set.
 #pragma once
 
 #include <cmath>
@@ -27,7 +27,7 @@ struct Fatigue {
   using Real = Scalar;
   static constexpr int kDimension = Law::kDimension;
   static constexpr int D = kDimension;
-  static constexpr int kHistory = Law::kHistory + 1 + D;  // the law's, D [J/m^2], K_p [1/m]
+  static constexpr int kHistory = Law::kHistory + 1 + D;  // the law's history, D [J/m^2], K_p [1/m]
   using Memory = History<Real, kHistory>;
 
   Law law;           // friction alone, at full strength
@@ -37,7 +37,7 @@ struct Fatigue {
   Real m_least = 0;  // M_inf/M0
   Real eta = 1;      // share of the lost friction moment that sets
 
-  // `friction` is the law of a fabric {b1 - b2, 0, k0}: the curve without its straight branch.
+  // Takes as `friction` the law of a fabric {b1 - b2, 0, k0}: the curve without its straight branch.
   static Fatigue make(const VirginCurve& curve, const FatigueChoice& choice, const Law& friction) {
     const double m0 = curve.friction_moment();
     return {friction,        Real(curve.b2), Real(m0), Real(choice.dc), Real(m0 > 0 ? choice.m_inf / m0 : 1),
@@ -61,32 +61,32 @@ struct Fatigue {
   HYST_HD Vec<Real, D> residual(const Memory& history) const {
     return zero_moment(*this, history, load_set<Real, D>(history, kSet));
   }
-  // |F|/M0 of the law at full strength.
+  // Returns |F|/M0 of the law at full strength.
   HYST_HD Real utilisation(const Vec<Real, D>& curvature, const Memory& history) const {
     return m0 > 0 ? called_step(law, curvature, history_of<Law>(history)).moment.norm() / m0 : Real(0);
   }
   HYST_HD Real largest_stiffness() const { return b2 + law.largest_stiffness(); }
 
-  // Ironing flattens the set and the memory of bends; what has weakened stays weak.
+  // Ironing flattens the set and erases the memory of bends; weakened friction stays weak.
   HYST_HD Memory ironed(const Memory& before) const {
     Memory after;
     after[kSpent] = before[kSpent];
     return after;
   }
 
-  // K_p [1/m]
+  // Returns K_p [1/m].
   HYST_HD static Vec<Real, D> set_curvature(const Memory& m) { return load_set<Real, D>(m, kSet); }
   HYST_HD Real strength(const Memory& m) const { return strength_at(m[kSpent]); }  // M0(D)/M0
 
  private:
   static constexpr int kSpent = Law::kHistory, kSet = kSpent + 1;
   struct Weakening {
-    Real loss;         // of m
+    Real loss;         // decrease of m
     Vec<Real, D> set;  // change of K_p [1/m]
     Real released;     // energy that friction and elasticity lose by it [J/m^2]
   };
 
-  // With the step, with the potential of the law at full strength.
+  // Completes a step of the law at full strength by weakening and set.
   HYST_HD LawStep<Real, D, kHistory> weakened_step(const LawStep<Real, D, Law::kHistory>& sound,
                                                    const Vec<Real, D>& curvature,
                                                    const Memory& before) const {
@@ -98,7 +98,8 @@ struct Fatigue {
     result.history = before;
     put_history(sound.history, result.history);
 
-    // D counts what weakening itself releases; the release depends on the weakening: two rounds.
+    // D includes the energy that weakening itself releases, which depends on the weakening: two rounds are
+    // made.
     Weakening after = weakened(m, strength_at(spent), sound.moment, sound.stored, elastic);
     after = weakened(m, strength_at(spent + after.released), sound.moment, sound.stored, elastic);
     result.history[kSpent] = spent + after.released;
@@ -109,7 +110,7 @@ struct Fatigue {
     store_set<Real, D>(curvature - left, result.history, kSet);
     return result;
   }
-  // Strength and set act from the next step on.
+  // Strength and set stay fixed within the step.
   HYST_HD Real trial_potential(Real sound, const Vec<Real, D>& curvature, const Memory& before) const {
     return b2 * (curvature - load_set<Real, D>(before, kSet)).squaredNorm() / 2 + strength(before) * sound;
   }
@@ -123,7 +124,7 @@ struct Fatigue {
     const Vec<Real, D> set = set_by(friction, elastic, loss);
     return {loss, set, loss * friction_energy + b2 * set.dot(elastic - set / 2)};
   }
-  // Towards the fold, and never so far that it would store energy.
+  // Moves the set towards the fold, never so far that it would store energy.
   HYST_HD Vec<Real, D> set_by(const Vec<Real, D>& friction, const Vec<Real, D>& elastic,
                               Real weakened) const {
     if (!(b2 > 0 && weakened > 0 && friction.dot(elastic) < 0)) return Vec<Real, D>::Zero();

@@ -1,6 +1,5 @@
-// Flexion springs of mass-spring cloth (Provot 1995; the seed's chapter 3): a spring of rest length 2 h
-// between the two corners opposite to an edge.  Folded by theta it is 2 h cos(theta/2) long, and with K =
-// theta/h
+// Flexion springs of mass-spring cloth (Provot 1995; the seed's chapter 3) have rest length 2 h and join the
+// two corners opposite to an edge.  Folded by theta a spring is 2 h cos(theta/2) long, and with K = theta/h
 //   M = c (1 - cos(K h/2)) sin(K h/2),   c such that M(K0) = b2 K0.
 // It carries nothing at small bends (M ~ K^3) and grows very stiff when folded: dM/dK up to 9/16 c h.
 #pragma once
@@ -50,7 +49,8 @@ struct FlexionSpringLaw {
       "flexion springs across the hinge, matched to b2 K at K0 (mass-spring model)";
   static std::vector<LawParameter> parameters() { return {law_parameter::height()}; }
   static void check(const LawChoice& c, LawUse) {
-    // Folded, the springs are 9/(k0 height)^2 times as rigid as where they are matched: here 90,000 times.
+    // When folded, the springs are 9/(k0 height)^2 times as rigid as where they are matched: here 90,000
+    // times.
     constexpr double kMin = 0.01;
     const double angle = c.curve.k0 * c.height;
     if (!(angle >= kMin && angle < 2 * std::numbers::pi))

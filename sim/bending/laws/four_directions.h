@@ -1,4 +1,4 @@
-// A scalar law on the curvature tensor: four copies along fixed material directions.
+// Runs a scalar law on the curvature tensor: four copies act along fixed material directions.
 //
 //   K_d = w_d . S,   M = omega/4 sum_d M_d w_d,   w_d = s (nu(n_d) + beta nu(t_d))
 //   nu(n) = (n_x^2, n_y^2, sqrt2 n_x n_y),   n_d at 22.5 + 45 d degrees, t_d across it
@@ -31,12 +31,12 @@ struct FourDirections {
   static constexpr Real kBeta = Real(-0.17157287525380990240);  // -(sqrt2 - 1)^2
   static constexpr Real kScale = Real(1.202);                   // s
   static constexpr Real kWeight = Real(2.016);                  // omega
-  // Rigidity over the scalar law's: omega s^2 (1 - beta)^2/4.
+  // The rigidity over the scalar law's is omega s^2 (1 - beta)^2/4.
   static constexpr Real kElasticity = kWeight / kDirections * kScale * kScale * (1 - kBeta) * (1 - kBeta);
 
   ScalarLaw law;
 
-  // Takes the fabric and whatever else the scalar law is made from.
+  // Takes the fabric and the other parameters of the scalar law.
   template <class... Parameters>
   static FourDirections make(const VirginCurve& curve, const Parameters&... parameters) {
     return {ScalarLaw::make(curve, parameters...)};
@@ -84,7 +84,7 @@ struct FourDirections {
     for (int d = 0; d < kDirections; ++d) put_history(law.ironed(part(before, d)), after, d * kScalarHistory);
     return after;
   }
-  // The direction where it is used most.
+  // Returns the largest utilisation of the four directions.
   HYST_HD Real utilisation(const Vec<Real, 3>& curvature,
                            const History<Real, kHistory>& history) const requires LawWithUse<ScalarLaw> {
     Real most = 0;
@@ -96,7 +96,7 @@ struct FourDirections {
   }
   HYST_HD Real largest_stiffness() const { return kElasticity * law.largest_stiffness(); }
 
-  // w_d: K_d = w_d . S for direction d = 0..3.
+  // Returns w_d, for K_d = w_d . S with d = 0..3.
   HYST_HD static Vec<Real, 3> direction(int d) {
     constexpr Real kNear = Real(0.85355339059327376220), kFar = Real(0.14644660940672623780);  // cos^2, sin^2
     constexpr Real kAlong = kScale * (kNear + kBeta * kFar), kAcross = kScale * (kFar + kBeta * kNear);
@@ -106,7 +106,7 @@ struct FourDirections {
   }
 
  private:
-  // The scalar law of direction d: 0 and 3 are bent along warp, 1 and 2 along weft.
+  // Returns the scalar law of direction d: 0 and 3 are bent along warp, 1 and 2 along weft.
   HYST_HD decltype(auto) along(int d) const {
     if constexpr (requires { law.along_weft(); })
       return d == 0 || d == 3 ? law : law.along_weft();

@@ -5,7 +5,7 @@
 namespace hysteron {
 namespace {
 
-// z of Phi(z) = 9/16, 11/16, 13/16, 15/16: the upper half of the quantiles.
+// The z of Phi(z) = 9/16, 11/16, 13/16, 15/16, the upper half of the quantiles.
 constexpr double kNormal[] = {0.15731068461017067, 0.4887764111146694, 0.8871465590188758,
                               1.5341205443525459};
 static_assert(2 * std::size(kNormal) == kShapedStops);
@@ -15,7 +15,8 @@ static_assert(2 * std::size(kNormal) == kShapedStops);
 KesPair kes_pair(double b2, const Spectrum& stops, const KesWindow& w) {
   const auto friction = [&](double k) { return stops.friction_at(k); };
   const double a = w.amplitude, at = w.width_at;
-  // On the virgin curve, and on the branch that it makes doubled from the amplitude.
+  // Friction rises by `up` on the virgin curve, and by `down` on the branch after the reversal, which is that
+  // curve doubled.
   const double up = friction(w.slope_to) - friction(w.slope_from);
   const double down = 2 * (friction((a + w.slope_to) / 2) - friction((a + w.slope_from) / 2));
   const double width =

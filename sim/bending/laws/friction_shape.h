@@ -1,5 +1,5 @@
-// Bending friction of fabrics of which a tester printed B and 2HB alone: a family of stops (bending_parts.h)
-// with two numbers for its shape.
+// Bending friction of fabrics for which a tester printed only B and 2HB: a family of stops (bending_parts.h)
+// whose shape has two numbers.
 //
 // Friction moments follow a lognormal distribution over the curvature at which they slip: half of HB has
 // slipped at the median m, and the logarithm of the threshold has the standard deviation s (the spread).  N
@@ -24,30 +24,31 @@ struct FrictionShape {
   bool on() const { return median > 0; }
 };
 
-inline constexpr int kShapedStops = 8;  // as many as laws of few stops have room for
+inline constexpr int kShapedStops = 8;  // laws of few stops have room for no more
 
-// Where the tester bends to and what it reads there.
+// The curvatures to which the tester bends, and at which it reads.
 struct KesWindow {
   double amplitude = 250;  // largest curvature [1/m]
   double slope_from = 50;  // B is the slope between these two curvatures [1/m]
-  double slope_to = 150;   //
-  double width_at = 100;   // curvature at which 2HB, the loop's width, is read [1/m]
+  double slope_to = 150;
+  double width_at = 100;  // curvature at which 2HB, the loop's width, is read [1/m]
 };
 
 struct KesPair {
   double rigidity = 0, loop_width = 0;  // B [N m], 2HB [N]
 };
 
-// What the tester reads of the first loop of stops beside a rigidity b2 [N m]; exact.
+// Returns the pair that the tester reads on the first loop of stops beside a rigidity b2 [N m]; this is
+// exact.
 KesPair kes_pair(double b2, const Spectrum& stops, const KesWindow& window = {});
 
-// N stops of that shape whose friction moment is HB [N].
+// Returns N stops of that shape whose friction moment is HB [N].
 Spectrum shaped_stops(const FrictionShape& shape, double friction_moment);
 
-// Stops beside b2 of which KES-FB2 reads that pair.  b2 <= 0 [N m] where so slow a friction alone would have
-// a larger slope B: such a fabric does not exist.
+// The stops beside b2 for which KES-FB2 reads that pair. b2 is <= 0 [N m] where such slow friction alone
+// would already have a larger slope than B: such a fabric does not exist.
 struct ShapedFriction {
-  double b2;
+  double b2;  // [N m]
   Spectrum stops;
 };
 ShapedFriction friction_from_kes(const KesPair& read, const FrictionShape& shape);

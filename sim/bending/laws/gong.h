@@ -1,5 +1,5 @@
-// Plastic rest curvature with hardening, and a friction anchor, both with hold-time dependence (Gong et al.
-// 2025; rules as published, thresholds in angle read as curvatures).
+// The law has a plastic rest curvature with hardening and a friction anchor, both depending on the time held
+// (Gong et al. 2025; rules as published, thresholds in angle read as curvatures).
 //
 //   plastic:   e = K - K_p, yields at |e| > y: d = (|e| - y) b2/(k + b2), K_p += sgn(e) d, hard += d,
 //              y = y0 + hard k/b2,  k = k_h (1 - (1 - exp(-t/tau)) k_h0)
@@ -8,7 +8,7 @@
 //
 // Two clocks: t, the time held, starts again at the end of a step that turned back; s, the time stuck, at the
 // end of one in which the anchor slipped.  So a bend that is held strengthens the friction that its release
-// meets.  Within a step both are fixed, so that the moment has a potential.  k_h = 5 b2, k_h0 = 0.99, r_0 =
+// meets.  Within a step both are fixed, so that the moment has a potential. k_h = 5 b2, k_h0 = 0.99, r_0 =
 // r_inf/12, tau = 30 s are theirs.  Ours: y0 = `yield`, k0 by default; r_inf = K0/2, so that the friction
 // moment held for long is M0 = HB.  The threshold falls when s starts again: the anchor slips on at once, and
 // that energy is lost.
@@ -81,7 +81,7 @@ struct Gong {
   HYST_HD Vec<Real, 1> residual(const Memory& history) const {
     return zero_moment(*this, history, Vec<Real, 1>(history[kSet]));
   }
-  HYST_HD Real utilisation(const Vec<Real, 1>& curvature, const Memory& history) const {  // |u|/r(s)
+  HYST_HD Real utilisation(const Vec<Real, 1>& curvature, const Memory& history) const {  // returns |u|/r(s)
     const Real now = limit_after(history[kStuck]);
     return now > 0 ? absolute(curvature[0] - history[kAnchor]) / now : Real(0);
   }
@@ -91,12 +91,13 @@ struct Gong {
   enum Slot { kSet, kHard, kAnchor, kHeld, kPosition, kDirection, kStuck };
   struct Hold {
     Real k;      // hardening modulus over b2
-    Real kept;   // k/(k + b2): share of the excess that stays elastic
+    Real kept;   // k/(k + b2), share of the excess that stays elastic
     Real limit;  // r(s) [1/m]
   };
   struct Aged {
-    Real set, hard;  // K_p and hard after a softer k has let the held stretch yield [1/m]
-    Real lost;       // per unit of stiffness [1/m^2]
+    // K_p and hard after a softer k has let the held stretch yield [1/m].
+    Real set, hard;
+    Real lost;  // loss per unit of stiffness [1/m^2]
   };
 
   HYST_HD static Real absolute(Real x) { return x < 0 ? -x : x; }

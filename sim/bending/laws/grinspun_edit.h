@@ -32,7 +32,7 @@ struct GrinspunEdit {
   HYST_HD Tangent<Real, D> tangent(const Vec<Real, D>&, const Memory&) const {
     return b2 * Tangent<Real, D>::Identity();
   }
-  // History after the command at this curvature.
+  // Returns the history after the command at this curvature.
   HYST_HD Memory edited(const Vec<Real, D>& curvature, const Memory&) const {
     Memory after;
     store_set<Real, D>(curvature, after);

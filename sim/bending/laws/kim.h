@@ -1,4 +1,4 @@
-// Creeping rest curvature with loss of stiffness (after Kim et al. 2011, persistent wrinkles; their ten
+// The rest curvature creeps and stiffness is lost (after Kim et al. 2011, persistent wrinkles; their ten
 // parameters were not available, and the four here are ours).
 //
 //   e = K - K_p;  while |e| > y:  dK_p/dt = e/tau;   M = b2/(1 + w d) e;   d += |dK_p|/y
@@ -52,8 +52,8 @@ struct Kim {
   HYST_HD Tangent<Real, D> tangent(const Vec<Real, D>& curvature, const Memory& before) const {
     return stiffness(before[D]) * flow_to(curvature, before).tangent;
   }
-  // int of the held stretch over the trial one: n below y, y up to y/f, then f n; n - moved again where the
-  // set meets its bound.
+  // Integrates the held stretch over the trial one: it is n below y, y up to y/f, then f n, and again n -
+  // moved where the set meets its bound.
   HYST_HD Real potential(const Vec<Real, D>& curvature, const Memory& before) const {
     using std::exp;
     const Vec<Real, D> set = residual(before), trial = curvature - set;
@@ -72,7 +72,7 @@ struct Kim {
     return stiffness(before[D]) * sum;
   }
   HYST_HD Vec<Real, D> residual(const Memory& history) const { return load_set<Real, D>(history); }
-  HYST_HD Real utilisation(const Vec<Real, D>& curvature, const Memory& history) const {  // |e|/y
+  HYST_HD Real utilisation(const Vec<Real, D>& curvature, const Memory& history) const {  // returns |e|/y
     return yield > 0 ? (curvature - residual(history)).norm() / yield : Real(0);
   }
   HYST_HD Real largest_stiffness() const { return b2; }

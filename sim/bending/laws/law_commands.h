@@ -1,11 +1,11 @@
-// What is done to a law from outside: the time of its steps, editing its rest curvature, ironing.
+// Acts on a law from outside: sets the time of its steps, edits its rest curvature, irons it.
 #pragma once
 
 #include "sim/bending/laws/law.h"
 
 namespace hysteron {
 
-// Tells a law that creeps or ages how long the coming step takes [s]; others have no time.
+// Tells a law that creeps or ages how long the coming step takes [s]; other laws ignore it.
 template <class Law, class Real>
 HYST_HD void set_step_time(Law& law, Real seconds) {
   if constexpr (TimedLaw<Law>)
@@ -14,7 +14,8 @@ HYST_HD void set_step_time(Law& law, Real seconds) {
     set_step_time(law.law, seconds);
 }
 
-// History after making this curvature the rest curvature; unchanged for laws that cannot be edited.
+// Returns the history after making this curvature the rest curvature; unchanged for laws that cannot be
+// edited.
 template <class Law, class Real, int D, int N>
 HYST_HD History<Real, N> edited(const Law& law, const Vec<Real, D>& curvature,
                                 const History<Real, N>& before) {
@@ -24,8 +25,8 @@ HYST_HD History<Real, N> edited(const Law& law, const Vec<Real, D>& curvature,
     return before;
 }
 
-// History after ironing at this curvature: as if virgin cloth had been bent there in one step, at once.  A
-// law with ironed() says what of its history ironing leaves.
+// Returns the history after ironing at this curvature: as if virgin cloth had been bent there in one step, at
+// once.  A law with ironed() decides itself which part of its history remains.
 template <class Law, class Real, int D, int N>
 HYST_HD History<Real, N> ironed(Law law, const Vec<Real, D>& curvature, const History<Real, N>& before) {
   set_step_time(law, Real(0));
@@ -34,7 +35,7 @@ HYST_HD History<Real, N> ironed(Law law, const Vec<Real, D>& curvature, const Hi
   return called_step(law, curvature, fresh).history;
 }
 
-// How far friction or plasticity is used, 0 to 1: what the law says of itself, else |M - b2 K|/M0.
+// Returns how far friction or plasticity is used, 0 to 1: the law's own measure, else |M - b2 K|/M0.
 template <class Law, class Real, int D, int N>
 HYST_HD Real friction_utilisation(const Law& law, const Vec<Real, D>& curvature,
                                   const History<Real, N>& memory, Real b2, Real m0) {

@@ -1,5 +1,5 @@
-// What a law's header says of its law besides the formula: the name, a line for the list of laws, its
-// parameters, and how it is made from them.
+// Each law's header describes its law: the name, a line for the list of laws, its parameters, and how it is
+// made from them.
 //
 //   struct SomeLaw {
 //     static constexpr const char* kName = ...;     // of the law in scenes and flags
@@ -54,7 +54,7 @@ concept LawDescription = requires {
   std::string(Law::kName) + Law::kMeaning;
 };
 
-// Text of a parameter, to be read; what is not allowed is refused by Error::invalid_input.
+// The text of a parameter, from which a number is read; Error::invalid_input refuses what is not allowed.
 struct ParameterText {
   std::string law, key, text;
   LawUse use;
@@ -67,7 +67,7 @@ struct ParameterText {
   bool is_second(const std::string& first, const std::string& second) const;
 };
 
-// Parameters that several laws take.
+// These parameters are shared by several laws.
 namespace law_parameter {
 LawParameter yield();
 LawParameter max_set();
@@ -78,7 +78,7 @@ LawParameter stops();
 std::vector<LawParameter> with_fatigue(std::vector<LawParameter> own);
 }  // namespace law_parameter
 
-// A number as messages show it.
+// Writes a number as messages show it.
 std::string shown(double x);
 
 template <LawDescription Law>

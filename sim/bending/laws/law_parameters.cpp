@@ -176,7 +176,7 @@ LawChoice choose_law(const LawEntry& law, const VirginCurve& curve, const LawPar
     }
     known->read({law.name, key, text, use}, choice);
   }
-  // A law whose memory can be no stack has the stops that it is given.
+  // A law that may have a stack as its memory has stops instead if the user gives their number.
   const std::vector<std::string> names = parameter_names(law.parameters);
   if (given.contains("stops") && !std::ranges::count(names, "stack")) choice.stack = false;
   check_fatigue(choice);

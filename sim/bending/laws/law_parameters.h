@@ -1,4 +1,4 @@
-// A law with all its parameters, read from names and texts as scene files and flags give them.
+// A law with all its parameters, which are read from names and texts as scene files and flags give them.
 #pragma once
 
 #include <map>
@@ -32,19 +32,19 @@ struct LawChoice {
   double weakening = 1;     // weakening  w: rigidity b2/(1 + w damage) (narain, kim)
   double height = 5e-3;     // height     mean height of a hinge's triangles [m] (bridson, spring)
   double tau = 1;           // tau        time of creep or of hold [s]; 1 (terzopoulos, kim), 30 (gong)
-  std::map<std::string, double> own;  // parameters of one law alone, as its header reads them
+  std::map<std::string, double> own;  // parameters that only one law has, as its header reads them
 
-  // A parameter of the law's own, or its default.
+  // Returns a parameter that only this law has, or its default.
   double own_or(const std::string& parameter, double otherwise) const {
     const auto found = own.find(parameter);
     return found == own.end() ? otherwise : found->second;
   }
-  // Throws Error::invalid_input of a parameter: the law, and what is wrong with it.
+  // Throws Error::invalid_input about a parameter: the message has the law, and `what` is wrong.
   [[noreturn]] void refuse(const std::string& key, const std::string& what) const;
 };
 
-// A cloth has one history per element, so that its memory is kept small: `prandtl` with 8 stops by default.
-// A law alone is exact: `prandtl` with a stack of 64.
+// A cloth has one history per element, so that its memory is kept small: `prandtl` has 8 stops by default.  A
+// law alone is exact: `prandtl` has a stack of 64.
 enum class LawUse { cloth, alone };
 
 struct ParameterText;
@@ -53,33 +53,34 @@ struct LawParameter {
   void (*read)(const ParameterText&, LawChoice&);
 };
 
-// What a law's header says of it (law_description.h).
+// The description that a law's header gives (law_description.h).
 struct LawEntry {
   std::string name;
   std::string description;  // one line
   std::vector<LawParameter> parameters = {};
-  bool has_friction_beside_b2 = false;  // M = b2 K + F, F a friction that knows nothing of b2
-  bool has_faces = false;               // follows another B and 2HB of bends with K < 0
+  bool has_friction_beside_b2 = false;  // M = b2 K + F, where the friction F does not depend on b2
+  bool has_faces = false;               // follows another B and 2HB for bends with K < 0
   void (*set_defaults)(LawChoice&) = nullptr;
   void (*check)(const LawChoice&, LawUse) = nullptr;
 };
 
-// Every value checked.  Error::invalid_input for unknown laws, parameters that the law does not have, and
-// values out of range; its message names the law and the parameter.
+// Chooses a law and checks every value.  Throws Error::invalid_input, naming the law and the parameter, for
+// unknown laws, parameters that the law does not have, and values out of range.
 LawChoice choose_law(const std::string& name, const VirginCurve& curve, const LawParameters& parameters,
                      LawUse use = LawUse::cloth);
 LawChoice choose_law(const LawEntry& law, const VirginCurve& curve, const LawParameters& parameters,
                      LawUse use = LawUse::cloth);
 
-// Names of the parameters that law `name` takes, in the order of LawChoice; none of an unknown law.
+// Returns the names of the parameters that law `name` takes, in the order of LawChoice; none for an unknown
+// law.
 std::vector<std::string> law_parameter_names(const std::string& name);
-// LawEntry::has_friction_beside_b2 of law `name`; false of an unknown law.
+// Returns LawEntry::has_friction_beside_b2 of law `name`; false for an unknown law.
 bool has_friction_beside_b2(const std::string& name);
-bool has_faces(const std::string& name);  // LawEntry::has_faces likewise
-// The fabric as laws have it that do not follow faces that differ: with the mean of both B and of both 2HB.
+bool has_faces(const std::string& name);  // likewise LawEntry::has_faces
+// Returns the fabric for laws that do not follow faces that differ: with the mean of both B and of both 2HB.
 VirginCurve mean_of_faces(VirginCurve curve);
 
-// All laws of the interface in its order, which is that of every_law.h.
+// Returns all laws of the interface in the order of every_law.h.
 const std::vector<LawEntry>& law_catalogue();
 
 }  // namespace hysteron

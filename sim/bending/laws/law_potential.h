@@ -1,5 +1,5 @@
-// A step of a law as a minimum problem: the incremental potential W(K) = int M dK at a fixed history, and a
-// tangent that stays positive semidefinite.
+// Poses a step of a law as a minimum problem: the incremental potential W(K) = int M dK at a fixed history,
+// and a tangent that stays positive semidefinite.
 #pragma once
 
 #include "sim/bending/laws/law.h"
@@ -16,8 +16,8 @@ concept LawWithTriedStep = requires(const Law& law, const CurvatureOf<Law>& k, c
   { law.step_and_potential(k, h) } -> std::same_as<StepAndPotential<Law>>;
 };
 
-// W up to a constant of the history [J/m^2].  Where all that is lost is lost on the way to K, it is what is
-// stored and what is lost; laws that creep or weaken at the end of their step say it themselves.
+// Returns W up to a constant of the history [J/m^2].  Where all loss happens on the way to K, it is the
+// energy stored plus that lost; laws that creep or weaken at the end of their step compute it themselves.
 template <class Law, class Real, int D, int N>
 HYST_HD Real step_potential(const Law& law, const Vec<Real, D>& curvature, const History<Real, N>& before) {
   if constexpr (LawWithPotential<Law>) {
@@ -30,7 +30,7 @@ HYST_HD Real step_potential(const Law& law, const Vec<Real, D>& curvature, const
   }
 }
 
-// A step and its potential at once: laws around other laws have them made once for both.
+// Computes a step and its potential at once: laws around other laws evaluate them once for both.
 template <class Law>
 HYST_HD StepAndPotential<Law> step_and_potential(const Law& law, const CurvatureOf<Law>& curvature,
                                                  const HistoryOf<Law>& before) {
@@ -45,7 +45,7 @@ HYST_HD StepAndPotential<Law> step_and_potential(const Law& law, const Curvature
   }
 }
 
-// dM/dK, without what falls where a law's moment falls.
+// Returns dM/dK without its negative part, which a law has where its moment falls.
 template <class Law, class Real, int D, int N>
 HYST_HD Tangent<Real, D> convex_tangent(const Law& law, const Vec<Real, D>& curvature,
                                         const History<Real, N>& before) {

@@ -20,7 +20,7 @@ struct LawWalk::State {
 
 namespace {
 
-// A law with its memory, on the way through the rows.
+// A law with its memory on the way through the rows.
 template <class L>
 struct Drive final : LawWalk::State {
   L law;
@@ -80,7 +80,7 @@ struct Drive final : LawWalk::State {
   }
 };
 
-// Whether set_step_time() reaches the law, or one inside it.
+// Does set_step_time() reach the law, or one inside it?
 template <class Law>
 constexpr bool has_step_time() {
   if constexpr (TimedLaw<Law>)

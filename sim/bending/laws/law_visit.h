@@ -1,5 +1,5 @@
-// From a LawChoice to a law as a type: each function calls visit(law) and returns true if the law is one of
-// its list.  D = 1 (scalar, hinge) or 3 (tensor, shape; scalar laws run along four directions).
+// Turns a LawChoice into a law as a type: each function calls visit(law) and returns true if the law is in
+// its list.  D = 1 is scalar (hinge), D = 3 the tensor (shape; scalar laws run along four directions).
 #pragma once
 
 #include <type_traits>
@@ -12,7 +12,7 @@
 
 namespace hysteron {
 
-// Sizes of the memory of `prandtl` that exist: every one is a type of its own and takes its time to compile.
+// The memory sizes of `prandtl` that exist: each is a type of its own and takes its time to compile.
 struct LawMemorySizes {
   using Stops = Sizes<4, 8, 16, 32>;
   using Depths = Sizes<4, 6, 8, 16, 32, 64>;
@@ -30,7 +30,7 @@ struct ClothMemory {
   using Faced = Sizes<kFewStops>;
 };
 
-// A scalar law for D components.
+// Makes a scalar law act on D components.
 template <int D, MomentCurvatureLaw Law>
 auto in_dimension(const Law& law) {
   if constexpr (D == Law::kDimension) {
@@ -40,7 +40,7 @@ auto in_dimension(const Law& law) {
   }
 }
 
-// visit() gets the law in D components, or a scalar one that in_dimension() completes.
+// Calls visit() with the law in D components, or with a scalar one that in_dimension() completes.
 template <LawDescription Law, class Real, int D, class Memory, class Visit>
 void visit_made(const LawChoice& c, const Visit& visit) {
   if constexpr (requires { Law::template make<Real, D>(c); })
@@ -58,7 +58,7 @@ void visit_in_dimension(const LawChoice& c, const Visit& visit) {
   visit_made<Law, Real, D, Memory>(c, complete);
 }
 
-// The same friction law, weakening: of a fabric without its straight branch.
+// Makes the same law with friction that weakens, for a fabric without its straight branch.
 template <LawDescription Law, class Real, int D, class Memory, class Visit>
 void visit_fatigued(const LawChoice& c, const Visit& visit) {
   LawChoice friction = c;
@@ -72,8 +72,8 @@ void visit_fatigued(const LawChoice& c, const Visit& visit) {
     visit_made<Law, Real, D, Memory>(friction, weaken);
 }
 
-// With faces that differ: as many stops as the fabric's or the law's memory need, none where the law has no
-// friction.
+// Makes the law with faces that differ, with as many stops as the fabric or the law's memory needs, none if
+// the law has no friction.
 template <LawDescription Law, class Real, int D, class Visit, int... n>
 void visit_faced(const LawChoice& c, const Visit& visit, Sizes<n...>) {
   constexpr bool kFriction = requires { Law::kFrictionBesideB2; };
@@ -85,7 +85,7 @@ void visit_faced(const LawChoice& c, const Visit& visit, Sizes<n...>) {
   (void)((size == n && (visit(WithFaces<Real, D, n>::make(curve)), true)) || ...);
 }
 
-// Whether the law is another type for what its fabric has beyond b1, b2 and k0.
+// Do the fabric's parts beyond b1, b2 and k0 make the law another type?
 template <LawDescription Law>
 bool takes_parts(const LawChoice& c) {
   if constexpr (requires { Law::takes_parts(c); })
@@ -94,9 +94,9 @@ bool takes_parts(const LawChoice& c) {
     return false;
 }
 
-// The law if c names it and it belongs to the group (every_law.h): the laws of FatigueLaws weaken, those of
-// FacesLaws have faces that differ, those of groups with kStops take a fabric's parts, where the group has
-// room for their stops and branches, and those of the others take three numbers alone.
+// Visits the law if c names it and it belongs to the group (every_law.h): laws of FatigueLaws weaken, those
+// of FacesLaws have faces that differ, those of groups with kStops take a fabric's parts if the group has
+// room for their stops and branches, and the others take three numbers alone.
 template <LawDescription Law, class Group, class Real, int D, class Memory, class Visit>
 bool visit_in_group(const LawChoice& c, const Visit& visit) {
   constexpr bool kWeakens = std::is_same_v<Group, FatigueLaws>;
@@ -126,7 +126,7 @@ bool visit_group(const LawChoice& c, const Visit& visit) {
   return visit_laws<Group, Real, D, Memory>(Group{}, c, visit);
 }
 
-// Every group.
+// Tries every group.
 template <class Real, int D, class Memory, class Visit, class... Groups>
 bool visit_groups(LawList<Groups...>, const LawChoice& c, const Visit& visit) {
   return (visit_group<Groups, Real, D, Memory>(c, visit) || ...);

@@ -1,8 +1,8 @@
 // Linear bending without memory: M = b2 K.
 //
-// On the tensor S it is the isotropic plate with Poisson's ratio 0.  Constants of others, for a hinge of edge
-// length |e| and heights h0, h1, mean h = (h0 + h1)/2: Baraff & Witkin 1998, E = k theta^2/2, has k = b2
-// |e|/h; Grinspun et al. 2003, E = k theta^2 |e|/(h/3), has k = b2/6.
+// On the tensor S it is the isotropic plate with Poisson's ratio 0.  Others' constants for a hinge follow,
+// with edge length |e| and heights h0, h1, and mean h = (h0 + h1)/2: Baraff & Witkin 1998, E = k theta^2/2,
+// has k = b2 |e|/h; Grinspun et al. 2003, E = k theta^2 |e|/(h/3), has k = b2/6.
 #pragma once
 
 #include "sim/bending/laws/law_description.h"

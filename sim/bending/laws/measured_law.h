@@ -1,8 +1,8 @@
-// From what a fabric has beyond three numbers to a law as a type: stops, relaxing branches beside them, both
-// behind a rest curvature that sets.
+// Builds a law as a type from a fabric's parts beyond three numbers: stops, relaxing branches beside them,
+// both behind a rest curvature that sets.
 //
-// A part that the fabric does not have is not in the type, so that it takes neither history nor time.  The
-// number of stops has two capacities: each is a type of its own and takes its time to compile.
+// A part that the fabric lacks is not in the type, so that it takes neither history nor time.  The number of
+// stops has two capacities: each is a type of its own and takes its time to compile.
 #pragma once
 
 #include <cmath>
@@ -33,7 +33,7 @@ struct Setting {
   static constexpr int kDimension = Law::kDimension;
   static constexpr int D = kDimension;
   static constexpr bool kRelaxes = RelaxingLaw<Law>;
-  static constexpr int kHistory = Law::kHistory + D;  // the law's, K_p [1/m]
+  static constexpr int kHistory = Law::kHistory + D;  // the law's history, K_p [1/m]
   using Memory = History<Real, kHistory>;
 
   Law law;
@@ -80,19 +80,20 @@ struct Setting {
   }
   HYST_HD Real largest_stiffness() const { return law.largest_stiffness(); }
 
-  HYST_HD static Vec<Real, D> set_curvature(const Memory& m) {  // K_p [1/m]
+  HYST_HD static Vec<Real, D> set_curvature(const Memory& m) {  // returns K_p [1/m]
     return load_set<Real, D>(m, Law::kHistory);
   }
 
  private:
-  static constexpr Real kPrecision = Real(sizeof(Real) == 8 ? 1e-13 : 2e-6);  // of the moments in balance
+  // Precision of the balance, relative to its moments.
+  static constexpr Real kPrecision = Real(sizeof(Real) == 8 ? 1e-13 : 2e-6);
 
   HYST_HD Tangent<Real, D> flow_stiffness(const Vec<Real, D>& moved) const {
     const Real size = moved.norm();
     const Tangent<Real, D> one = Tangent<Real, D>::Identity();
     return hardening * one + limit / size * (one - moved * moved.transpose() / (size * size));
   }
-  // With what the law makes of the step from its rest curvature.
+  // Completes the law's own step from the moved rest curvature.
   HYST_HD LawStep<Real, D, kHistory> step_around(const LawStep<Real, D, Law::kHistory>& inner,
                                                  const Vec<Real, D>& moved, const Memory& before) const {
     const Vec<Real, D> set = set_curvature(before) + moved;
@@ -105,7 +106,7 @@ struct Setting {
     result.relaxed = inner.relaxed;
     return result;
   }
-  // The law's potential, what hardening stores and what the flow loses.
+  // Adds up the law's potential, the energy that hardening stores and the flow's loss.
   HYST_HD Real with_flow_cost(const Vec<Real, D>& moved, const Vec<Real, D>& set, Real potential) const {
     return potential + hardening * set.squaredNorm() / 2 + limit * moved.norm();
   }
@@ -116,11 +117,11 @@ struct Setting {
                           step_potential(law, Vec<Real, D>(curvature - set), history_of<Law>(before)));
   }
 
-  // d of the step, by damped Newton steps on its potential.  From the length that the law's largest stiffness
-  // would leave, which is no more than the step's, so that d is never zero on the way.
-  // Inlined, though it holds the whole law: called on a GPU, it wrote beyond the stack that nvcc 13.0 had
-  // given it.  So that it holds it but once for each of step, potential and tangent, first look, steps and
-  // halvings are one loop.
+  // Finds d of the step by damped Newton steps on its potential. They begin at the length that the law's
+  // largest stiffness would leave, which is no more than the step's, so that d is never zero on the way.  The
+  // function is inlined, though it holds the whole law: as a call on a GPU it wrote beyond the stack that
+  // nvcc 13.0 had given it.  First look, steps and halvings are one loop, so that the law is inlined only
+  // once for each of step, potential and tangent.
   HYST_HD Vec<Real, D> flow(const Vec<Real, D>& curvature, const Memory& before) const {
     constexpr int kMaxSteps = 40, kMaxHalvings = 20;
     constexpr Real kEnoughDescent = Real(1e-4);  // Armijo's fraction of the predicted decrease
@@ -141,7 +142,7 @@ struct Setting {
         continue;
       }
       const Vec<Real, D> slope = limit / next.norm() * next - driving;
-      if (steps > 0 && !(slope.norm() <= half_slope) &&  // as it nearly always is; else the potential decides
+      if (steps > 0 && !(slope.norm() <= half_slope) &&  // nearly always true; else the potential decides
           !descends(next, moved, fraction * descent, curvature, before) && ++halvings < kMaxHalvings) {
         fraction /= 2;
         next = moved + fraction * newton;
@@ -160,7 +161,7 @@ struct Setting {
     }
     return moved;
   }
-  // Whether the potential falls by so much from one flow to another.
+  // Does the potential fall by at least `by` from one flow to another?
   HYST_HD bool descends(const Vec<Real, D>& to, const Vec<Real, D>& from, Real by,
                         const Vec<Real, D>& curvature, const Memory& before) const {
     Real potential[2];
@@ -171,7 +172,7 @@ struct Setting {
   }
 };
 
-// A law of elasticity and friction with relaxing branches beside it: springs c_i in series with dashpots.
+// Puts relaxing branches beside a law of elasticity and friction: springs c_i in series with dashpots,
 //
 //   dm_i/dt = c_i dK/dt - m_i/tau_i
 //
@@ -185,17 +186,17 @@ struct Setting {
 //   f0 = (1 - e^-2x)/2,  f1 = (1 - e^-x)^2/(2x),  f2 = ((1 - e^-2x)/2 - 2 (1 - e^-x) + x)/x^2.
 // Without time, h = 0, a branch is a spring.
 
-// What a step of x = h/tau makes of a branch.
+// The coefficients of a branch for a step of x = h/tau.
 template <class Real>
 struct Relaxation {
   Real left;        // e^-x
   Real stiff;       // (1 - e^-x)/x
-  Real f0, f1, f2;  // of the loss
+  Real f0, f1, f2;  // coefficients of the loss
 
   HYST_HD static Relaxation over(Real x) {
     using std::exp;
     using std::expm1;
-    constexpr Real kSeries = Real(sizeof(Real) == 8 ? 1e-2 : 0.3);  // below: differences by their series
+    constexpr Real kSeries = Real(sizeof(Real) == 8 ? 1e-2 : 0.3);  // below this x series are used
     const Real gone = -expm1(-x), gone_twice = -expm1(-2 * x) / 2;
     if (!(x > 0)) return {1, 1, 0, 0, 0};
     const Real series =
@@ -212,7 +213,7 @@ struct Relaxing {
   static constexpr int kDimension = Law::kDimension;
   static constexpr int D = kDimension;
   static constexpr bool kRelaxes = true;
-  static constexpr int kHistory = Law::kHistory + (1 + B) * D;  // the law's, K [1/m], m_i [N]
+  static constexpr int kHistory = Law::kHistory + (1 + B) * D;  // the law's history, K [1/m], m_i [N]
   using Memory = History<Real, kHistory>;
 
   Law law;
@@ -220,7 +221,7 @@ struct Relaxing {
   Real tau[B] = {};  // times [s]
   Real dt = 0;       // time of the step [s]
 
-  // At most B branches.
+  // Takes at most B branches.
   static Relaxing make(const Law& law, const RelaxingBranches& branches) {
     Relaxing result{law};
     for (std::size_t i = 0; i < B; ++i) {
@@ -244,11 +245,11 @@ struct Relaxing {
     for (int i = 0; i < B; ++i) stiff += c[i] * Relaxation<Real>::over(dt / tau[i]).stiff;
     return law.tangent(curvature, history_of<Law>(before)) + stiff * Tangent<Real, D>::Identity();
   }
-  // Alone, as a law that sets around this one asks for it.
+  // Computes the potential alone, for a law around this one that sets.
   HYST_HD Real potential(const Vec<Real, D>& curvature, const Memory& before) const {
     return potential_around(step_potential(law, curvature, history_of<Law>(before)), curvature, before);
   }
-  // At once, as springs.
+  // Unloads at once, so that branches act as springs.
   HYST_HD Vec<Real, D> residual(const Memory& history) const {
     Relaxing at_once = *this;
     at_once.dt = 0;
@@ -267,7 +268,7 @@ struct Relaxing {
  private:
   static constexpr int kCurvature = Law::kHistory, kBranch = kCurvature + D;
 
-  // With what the law itself makes of the step.
+  // Completes the law's own step by the branches.
   HYST_HD LawStep<Real, D, kHistory> step_around(const LawStep<Real, D, Law::kHistory>& inner,
                                                  const Vec<Real, D>& curvature, const Memory& before) const {
     LawStep<Real, D, kHistory> result;
@@ -304,21 +305,21 @@ struct Relaxing {
   }
 };
 
-// The fabric's stops along warp, or those that b1, b2 and k0 make (prandtl_stops.h): as many as the law is to
-// have, the most where it would remember by a stack.
+// Returns the fabric's stops along warp, or those of b1, b2 and k0 (prandtl_stops.h): as many as the law has,
+// or the largest number where it would remember by a stack.
 inline Spectrum measured_stops(const LawChoice& c) {
   if (!c.curve.parts.stops.empty()) return c.curve.parts.stops;
   return parabola_stops(c.curve.b1 - c.curve.b2, c.curve.k0, c.stack ? kMaxStops : c.stops);
 }
 
-// The law for few stops or for the most.
+// The capacity of a law for few stops; others have room for kMaxStops.
 constexpr int kFewStops = 8;
 inline int room_for_stops(const LawChoice& c) {
   return measured_stops(c).size() <= kFewStops ? kFewStops : kMaxStops;
 }
 
-// visit(law), with these branches around the stops and setting if the fabric does; false where the group
-// (every_law.h) has no room for the stops, or is not for the branches.
+// Calls visit(law) with these branches around the stops, and a set if the fabric has one; returns false where
+// the group (every_law.h) has no room for the stops, or for the branches.
 template <class Real, int D, class Group, class Visit>
 bool visit_measured(const LawChoice& c, const RelaxingBranches& branches, const Visit& visit) {
   if (room_for_stops(c) != Group::kStops) return false;

@@ -48,7 +48,7 @@ struct Narain {
     return stiffness(before[D]) * plastic.tangent(curvature, history_of<Obrien<Real, D>>(before));
   }
   HYST_HD Vec<Real, D> residual(const Memory& history) const { return load_set<Real, D>(history); }
-  HYST_HD Real utilisation(const Vec<Real, D>& curvature, const Memory& history) const {  // |e|/y
+  HYST_HD Real utilisation(const Vec<Real, D>& curvature, const Memory& history) const {  // returns |e|/y
     return plastic.utilisation(curvature, history_of<Obrien<Real, D>>(history));
   }
   HYST_HD Real largest_stiffness() const { return plastic.b2; }

@@ -43,7 +43,7 @@ struct Obrien {
     return b2 * flow_to(curvature, before).tangent;
   }
   HYST_HD Vec<Real, D> residual(const Memory& history) const { return load_set<Real, D>(history); }
-  HYST_HD Real utilisation(const Vec<Real, D>& curvature, const Memory& history) const {  // |e|/y
+  HYST_HD Real utilisation(const Vec<Real, D>& curvature, const Memory& history) const {  // returns |e|/y
     return yield > 0 ? (curvature - residual(history)).norm() / yield : Real(0);
   }
   HYST_HD Real largest_stiffness() const { return b2; }

@@ -3,8 +3,8 @@
 //   M(K) = b1 K + c1 K^2   for 0 <= K <= K0,      M0 + b2 K   beyond,      odd in K      (Wong, Eq. 4.2)
 //
 // with K0 = (b2 - b1)/(2 c1), M0 = (b1 - b2) K0/2.  The chapter prints b1 <= b2; a stiffness that falls with
-// curvature needs b1 >= b2.  Source not had: Pabst's own fit to Clapp's cantilever profiles; the three
-// numbers of the fabric stand for it.  K0 = 0 leaves M = b2 K.
+// curvature needs b1 >= b2.  The source was not available: Pabst's own fit to Clapp's cantilever profiles;
+// the three numbers of the fabric stand for it.  K0 = 0 leaves M = b2 K.
 #pragma once
 
 #include "sim/bending/laws/law_description.h"

@@ -1,4 +1,4 @@
-// What an elastic stretch that yields becomes: the step that all laws with a plastic rest curvature share.
+// Returns an elastic stretch that yields: the step that all laws with a plastic rest curvature share.
 //
 // A trial stretch e = K - K_p of length n beyond the yield curvature y is returned along itself to a length
 //   held = y + f (n - y)      `hardening`:  f = 0 perfectly plastic, f > 0 what is left of the excess
@@ -26,7 +26,7 @@ struct PlasticReturn {
     return f * n > y ? PlasticReturn{f * n, f} : PlasticReturn{y, 0};
   }
 
-  // [1/m^2]; times the rigidity: J/m^2.
+  // Return losses [1/m^2], which times the rigidity are [J/m^2].
   HYST_HD Real lost_by_yielding(Real n, Real y) const { return (n - held) * (y + held) / 2; }
   HYST_HD Real lost_by_creep(Real n) const { return (n - held) * (n + held) / 2; }
 };
@@ -40,8 +40,8 @@ struct PlasticFlow {
   Tangent<Real, D> tangent;  // d elastic/d K
 };
 
-// K_p moves along the trial stretch; a scalar one no further than |K_p| <= bound, beyond which the cloth is
-// elastic.  (A tensor that meets a bound would have to slide along it: bounded laws run along four
+// Moves K_p along the trial stretch; a scalar one no further than |K_p| <= bound, beyond which the cloth is
+// elastic. (A tensor that meets a bound would have to slide along it: bounded laws run along four
 // directions.)
 template <class Real, int D>
 HYST_HD PlasticFlow<Real, D> plastic_flow(const Vec<Real, D>& trial, Real n, const Vec<Real, D>& set,

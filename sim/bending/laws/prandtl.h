@@ -1,7 +1,7 @@
-// The Prandtl-Ishlinskii law in its two forms: stops (prandtl_stops.h) or a stack of reversals
-// (prandtl_stack.h); and that of a fabric with stops of its own, or a set (measured_law.h).
+// The Prandtl-Ishlinskii law in its two forms, stops (prandtl_stops.h) or a stack of reversals
+// (prandtl_stack.h), and for fabrics with stops of their own, or a set (measured_law.h).
 //
-// Every size of its memory is a type of its own and takes its time to compile.
+// Every memory size is a type of its own and takes its time to compile.
 #pragma once
 
 #include "sim/bending/laws/law_description.h"
@@ -47,7 +47,7 @@ struct PrandtlLaw {
   }
   static RelaxingBranches branches(const LawChoice&) { return {}; }
 
-  // Friction alone, that weakens: visit(law).
+  // Visits friction alone, which weakens: calls visit(law).
   template <class Real, int D, class Memory, class Visit>
   static void visit_friction(const LawChoice& c, const Visit& visit) {
     if (c.curve.parts.stops.empty())

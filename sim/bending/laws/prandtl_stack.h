@@ -1,4 +1,5 @@
-// Bending hysteresis with exact memory of reversals: the Prandtl-Ishlinskii law on a scalar curvature.
+// Bending hysteresis with exact memory of reversals: this is the Prandtl-Ishlinskii law on a scalar
+// curvature.
 //
 // M = b2 K + F.  With g = b1 - b2 and x the curvature travelled since the branch began:
 //   virgin            |F| = g x - g x^2/(2 K0),             x <= K0     (Wong, Eq. 4.2)
@@ -64,7 +65,7 @@ struct PrandtlStack {
     return Tangent<Real, 1>(b2 + (x < branch.reach ? g - 2 * branch.bend * x : Real(0)));
   }
 
-  // Walks the branches that unloading follows and takes the root on the one where the moment vanishes.
+  // Walks the branches that unloading follows and returns the root on the one where the moment vanishes.
   HYST_HD Vec<Real, 1> residual(const Memory& history) const {
     Memory memory = history;
     const Branch current = active_branch(memory);
@@ -80,12 +81,14 @@ struct PrandtlStack {
   }
   HYST_HD Real largest_stiffness() const { return b2 + g; }
 
-  // Pairs of reversals dropped so far because the stack was full; 0 means that the memory is exact.
+  // Returns how many pairs of reversals were dropped because the stack was full; 0 means that the memory is
+  // exact.
   HYST_HD static int dropped_pairs(const Memory& history) { return int(history[kDropped]); }
 
  private:
-  // History: where we are, which way we last moved (0 at rest), how many turns are kept, whether the first of
-  // them stands for full slip (otherwise it lies on the virgin curve), pairs dropped; then the turns.
+  // The history holds the present curvature, the last direction (0 at rest), the number of reversals kept,
+  // whether the first of them stands for full slip (otherwise it lies on the virgin curve), the pairs
+  // dropped, and then the reversals.
   enum Slot { kCurvature, kDirection, kCount, kSlippedThrough, kDropped, kTurns };
 
   struct Turn {
@@ -166,14 +169,14 @@ struct PrandtlStack {
     m[kDirection] = direction;
   }
 
-  // Full slip in direction s: as if the branch had begun 2 K0 before, with all stops slipping along -s.
+  // Sets full slip in direction s, as if the branch had begun 2 K0 before, with all stops slipping along -s.
   HYST_HD void slip_through(Real s, Real curvature, Memory& m) const {
     put(m, 0, {curvature - s * 2 * k0, -s * m0, m0 * k0 / 3});
     m[kCount] = 1, m[kSlippedThrough] = 1;
   }
   HYST_HD static bool runs_out(const Memory& m) { return count(m) == 1 && m[kSlippedThrough] != 0; }
 
-  // Position at which the branch hands over to another one.
+  // Returns the position at which the branch ends and another one begins.
   HYST_HD Real branch_end(const Branch& b, const Memory& m) const {
     using std::abs;
     const int n = count(m);
@@ -184,7 +187,7 @@ struct PrandtlStack {
     return meeting(b, turn(m, n - 3), back);
   }
 
-  // Where branch b meets the branch of the same direction from `outer`; `back` if they coincide.
+  // Returns where branch b meets the branch of the same direction from `outer`; `back` if they coincide.
   HYST_HD Real meeting(const Branch& b, const Turn& outer, Real back) const {
     using std::sqrt;
     const Real ahead = b.direction * (b.start.curvature - outer.curvature);
@@ -206,7 +209,8 @@ struct PrandtlStack {
     return at;
   }
 
-  // Position at which b2 K + F = 0 on this branch, or beyond its reach on the straight line that follows.
+  // Returns the position at which b2 K + F = 0 on this branch, or beyond its reach on the straight line that
+  // follows.
   HYST_HD Real root(const Branch& b) const {
     using std::sqrt;
     const Real c = -b.direction * (b2 * b.start.curvature + b.start.friction);

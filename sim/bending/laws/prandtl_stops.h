@@ -1,4 +1,4 @@
-// Bending hysteresis as N elastic-frictional stops beside an elastic plate: Prandtl-Ishlinskii.
+// Models bending hysteresis by N elastic-frictional stops beside an elastic plate (Prandtl-Ishlinskii).
 //
 //   U_j = S - S_j,   E_j = U_j min(1, r_j/|U_j|),   M = b2 S + sum_j p_j E_j,   accepted: S_j = S - E_j
 //   r_j = K0 (j^2 - j + 1/2)/N^2,   p_j = (b1 - b2) (2 j - 1)/N^2,   j = 1..N

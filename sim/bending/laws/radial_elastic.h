@@ -26,7 +26,7 @@ struct RadialElastic {
     const R k = curvature.norm();
     return along_and_across(curvature, k, law().slope(k), law().secant(k));
   }
-  // The same without negative stiffness.
+  // Returns the tangent without negative stiffness.
   HYST_HD Tangent<R, D> convex_tangent(const Vec<R, D>& curvature, const History<R, 0>&) const {
     const R k = curvature.norm(), slope = law().slope(k), secant = law().secant(k);
     return along_and_across(curvature, k, slope > 0 ? slope : R(0), secant > 0 ? secant : R(0));

@@ -5,8 +5,8 @@
 namespace hysteron {
 namespace {
 
-// Smaller root x >= 0 of q x^2 - p x + c = 0 (p, c >= 0); beyond `reach` the straight line of slope b2 goes
-// on.
+// Returns the smaller root x >= 0 of q x^2 - p x + c = 0 (p, c >= 0); infinity if there is none, where the
+// straight line of slope b2 goes on.
 double first_root(double q, double p, double c) {
   const double square = p * p - 4 * q * c;
   return square >= 0 ? 2 * c / (p + std::sqrt(square)) : INFINITY;
@@ -15,7 +15,7 @@ double first_root(double q, double p, double c) {
 }  // namespace
 
 RecoveryCase recovery_case(const VirginCurve& curve, double moment) {
-  if (!(curve.friction_moment() > 0)) return RecoveryCase::elastic;  // k0 is without effect
+  if (!(curve.friction_moment() > 0)) return RecoveryCase::elastic;  // k0 has no effect
   const Faces alike, &faces = moment < 0 ? curve.parts.faces : alike;
   const double limit = curve.friction_moment() * faces.friction + curve.b2 * faces.bending * curve.k0;
   const double m = std::abs(moment);

@@ -1,5 +1,5 @@
-// Friction elements with thresholds and stiffnesses of their own beside an elastic plate: what `prandtl` and
-// `chapman` make of a fabric's stops.
+// Friction elements with their own thresholds and stiffnesses stand beside an elastic plate: this is how
+// `prandtl` and `chapman` use a fabric's stops.
 //
 //   M = b2 S + sum_j p_j E_j,   E_j as stop_memory.h returns it,   accepted: S_j = S - E_j
 //
@@ -42,8 +42,8 @@ struct StopEllipsoid {
   Vec<Real, 3> stiffness;  // A [N m]
   Vec<Real, 3> bound;      // B [m^2]
 
-  // The multiplier by Newton's method on 1/|B^1/2 E| - 1, which is nearly linear in it and concave, so that
-  // from l = 0 every step stays on one side (as for trust regions: More & Sorensen 1983).
+  // Finds the multiplier by Newton's method on 1/|B^1/2 E| - 1, which is nearly linear in it and concave, so
+  // that from l = 0 every step stays on one side (as for trust regions: More & Sorensen 1983).
   [[gnu::noinline]] HYST_HD StopReturn<Real> returned(const Vec<Real, 3>& offset) const {
     using std::sqrt;
     constexpr int kMaxSteps = 40;
@@ -63,7 +63,7 @@ struct StopEllipsoid {
     return {elastic, multiplier};
   }
 
-  // d(A E)/dU
+  // Returns d(A E)/dU [N m].
   HYST_HD Tangent<Real, 3> tangent(const StopReturn<Real>& now) const {
     const Vec<Real, 3> softer = stiffness + now.multiplier * bound;
     Tangent<Real, 3> result = Tangent<Real, 3>::Zero();
@@ -87,10 +87,10 @@ struct SpectrumStops : StopMemory<Real, D, N> {
   Real b2 = 0;               // rigidity of the straight branch [N m]
   Real hb = 0;               // friction moment sum p_j r_j [N]
   Real p[N] = {};            // stiffness of stop j [N m]
-  bool two_spectra = false;  // that along weft as well:
+  bool two_spectra = false;  // the weft spectrum differs and follows below
   Real weft_limit[N] = {}, weft_p[N] = {};
 
-  // At most N stops, as many along weft as along warp, or none.
+  // Takes at most N stops, as many along weft as along warp, or none.
   static SpectrumStops make(double b2, const Spectrum& warp, const Spectrum& weft) {
     constexpr double kSomeLimit = 1;  // any positive number: without stiffness a stop carries nothing
     SpectrumStops law;
@@ -107,10 +107,10 @@ struct SpectrumStops : StopMemory<Real, D, N> {
     return law;
   }
 
-  // From a bend along warp to one whose unit tensor u behind the metric has u_xx^2 = warp, u_yy^2 = weft and
-  // twist for the rest.  On the tensor a stop that is bent so starts with the stiffness u.A u and, held in
-  // that direction, ends with the largest moment along u on its ellipsoid, (u.A B^-1 A u)^1/2 with B of the
-  // half axes; so does the scalar stop made here, whose corner lies between.  Chosen here.
+  // Turns from a bend along warp to one whose unit tensor u behind the metric has u_xx^2 = warp, u_yy^2 =
+  // weft and twist for the rest.  On the tensor a stop that is bent along u starts with the stiffness u.A u
+  // and, held in that direction, ends with the largest moment along u on its ellipsoid, (u.A B^-1 A u)^1/2
+  // with B of the half axes; so does the scalar stop made here, whose corner lies between.  Chosen here.
   HYST_HD void turn(Real warp, Real weft) requires(D == 1) {
     Eigen::Map<PerStop> own(p), own_limit(limit);
     const Eigen::Map<const PerStop> other(weft_p), other_limit(weft_limit);
@@ -186,7 +186,7 @@ struct SpectrumStops : StopMemory<Real, D, N> {
     return {curvature[0] - before[j], curvature[1] - before[N + j], curvature[2] - before[2 * N + j]};
   }
 
-  // Not inlined, so that the usual loop over one spectrum stays short.
+  // This is not inlined, so that the usual loop over one spectrum stays short.
   [[gnu::noinline]] HYST_HD Step step_on_ellipsoids(const Vec<Real, 3>& curvature, const Past& before) const {
     Step result;
     result.moment = b2 * curvature;

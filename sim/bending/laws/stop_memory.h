@@ -1,4 +1,4 @@
-// What laws made of N friction elements ("stops") have in common: thresholds, memory, stretches.
+// The common base of laws made of N friction elements ("stops"): thresholds, memory, stretches.
 //
 //   U_j = S - S_j,   E_j = U_j min(1, r_j/|U_j|),   accepted: S_j = S - E_j
 //
@@ -12,8 +12,7 @@ namespace hysteron {
 template <class Real, int D, int N>
 struct StopMemory {
   static constexpr int kDimension = D;
-  static constexpr int kHistory =
-      N * D;  // slip S_j [1/m], laid out [component][stop] so that stops vectorise
+  static constexpr int kHistory = N * D;  // slips S_j [1/m] by [component][stop], so that stops vectorise
   using Scalar = Real;
   using PerStop = Eigen::Array<Real, N, 1>;  // compiles to vector registers on the CPU
 
@@ -47,13 +46,13 @@ struct StopMemory {
     return now;
   }
 
-  // Of the slipping stops, what turns stretches into d(scale)/d(stretch); 0 of the others [m^2].
+  // Returns for slipping stops the factor from stretches to d(scale)/d(stretch), and 0 for the others [m^2].
   HYST_HD static PerStop turning(const Stretch& now) {
     const PerStop squared = now.length * now.length;
     return (now.scale < Real(1)).select(now.scale / squared, PerStop::Zero());
   }
 
-  // By halves, so that the order of the sum does not depend on the width of a vector register.
+  // Sums by halves, so that the order does not depend on the width of a vector register.
   template <int n>
   HYST_HD static Real sum(const Eigen::Array<Real, n, 1>& term) {
     if constexpr (n == 1) {

@@ -1,10 +1,10 @@
-// Viscoplastic rest curvature (after Terzopoulos & Fleischer 1988, whose inelastic models creep above a yield
-// limit; this form is ours).
+// The rest curvature is viscoplastic (after Terzopoulos & Fleischer 1988, whose inelastic models creep above
+// a yield limit; this form is ours).
 //
 //   M = b2 (K - K_p),   dK_p/dt = sgn(M) (|M| - M0)+ / (b2 tau),   tau = 1 s by default
 //
-// Over a step of length dt at its final curvature the excess over M0 decays by exp(-dt/tau), exactly.
-// Radial on the tensor.  Source not had: their constants, which are per material and not for bending.
+// Over a step of length dt at its final curvature the excess over M0 decays by exp(-dt/tau), exactly.  Radial
+// on the tensor.  Not taken from the source: its constants, which are per material and not for bending.
 #pragma once
 
 #include <cmath>
@@ -49,14 +49,14 @@ struct Terzopoulos {
     return b2 *
            plastic_flow<Real, D>(trial, n, Vec<Real, D>::Zero(), returned(n), 2 * n).tangent;  // no bound
   }
-  // Creep ends at a shorter stretch for each longer trial one: the moment follows `held`, whatever is lost.
+  // A longer trial stretch creeps to a longer held one: the moment follows `held`, whatever is lost.
   HYST_HD Real potential(const Vec<Real, D>& curvature, const Memory& before) const {
     const Real n = (curvature - residual(before)).norm();
     const PlasticReturn<Real> now = returned(n);
     return b2 * (now.held * now.held / 2 + now.lost_by_yielding(n, yield < n ? yield : n));
   }
   HYST_HD Vec<Real, D> residual(const Memory& history) const { return load_set<Real, D>(history); }
-  HYST_HD Real utilisation(const Vec<Real, D>& curvature, const Memory& history) const {  // |e|/y
+  HYST_HD Real utilisation(const Vec<Real, D>& curvature, const Memory& history) const {  // returns |e|/y
     return yield > 0 ? (curvature - residual(history)).norm() / yield : Real(0);
   }
   HYST_HD Real largest_stiffness() const { return b2; }

@@ -9,14 +9,14 @@ std::string unused(const std::string& parameter, const std::string& why) {
   return "param " + parameter + " is not used: " + why;
 }
 
-// The memory of a law whose fabric has stops of its own.
+// Says which memory a law has whose fabric has stops of its own.
 std::string stops_text(const BendingParts& parts, const std::string& fabric) {
   return "the " + std::to_string(parts.stops.size()) + " stops of " + fabric +
          " are the law's memory; a fabric without stops leaves it to the "
          "parameter";
 }
 
-// Why a number of the memory is not read; "" where it is.
+// Says why a number of the memory is not read; "" where it is.
 std::string memory_text(const LawChoice& choice, const std::string& parameter, const std::string& fabric) {
   const BendingParts& parts = choice.curve.parts;
   if (parameter != "memory" && parameter != "stops" && parameter != "stack") return "";
@@ -47,7 +47,7 @@ std::string part_text(const std::string& part, const std::string& fabric, const 
          " it";
 }
 
-// What a fabric states beyond b1, b2 and k0 and the law does not take.
+// Warns of the fabric's parts beyond b1, b2 and k0 that the law does not take.
 std::vector<std::string> unused_part_warnings(const std::string& law, const BendingParts& parts, LawUse use,
                                               const std::string& fabric) {
   std::vector<std::string> warnings;

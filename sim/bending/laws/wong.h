@@ -70,11 +70,12 @@ struct Wong {
   static constexpr int kVirgin = 0, kTurned = 1, kReturning = 2;
 
   HYST_HD static Real travelled(const Memory& m, Real k) { return m[kDirection] * (k - m[kTurnCurvature]); }
-  HYST_HD Real gap(const Memory& m) const { return m0 - m[kDirection] * m[kTurnFriction]; }  // |s M0 - F_r|
-  HYST_HD Real span(const Memory& m) const { return g > 0 ? 2 * gap(m) / g : Real(0); }      // S [1/m]
+  // Returns |s M0 - F_r| [N].
+  HYST_HD Real gap(const Memory& m) const { return m0 - m[kDirection] * m[kTurnFriction]; }
+  HYST_HD Real span(const Memory& m) const { return g > 0 ? 2 * gap(m) / g : Real(0); }  // S [1/m]
 
-  // As differences from the reversal: nothing cancels where k0 is large and the friction that is left with
-  // it.
+  // Computes friction from differences to the reversal: nothing cancels where k0, and with it the remaining
+  // friction, is large.
   HYST_HD Real friction(const Memory& m, Real k) const {
     const Real s = m[kDirection], x = travelled(m, k);
     if (m[kBranch] == kReturning) return m[kTurnFriction] + s * x * (g - returning_bend() * x);
@@ -88,7 +89,7 @@ struct Wong {
     const Real end = span(m);
     return x < end ? g * (1 - x / end) : Real(0);
   }
-  // int F dK from the reversal to k, over a direct way.
+  // Returns int F dK from the reversal to k on a direct way [J/m^2].
   HYST_HD Real work(const Memory& m, Real k) const {
     const Real x = travelled(m, k), reversal = m[kDirection] * m[kTurnFriction];
     if (m[kBranch] == kReturning) return reversal * x + x * x * (g / 2 - returning_bend() * x / 3);
@@ -123,7 +124,8 @@ struct Wong {
     m[kDirection] = direction;
   }
 
-  // Curvature at which b2 K + F = 0 ahead on this branch: a v^2 + b v - c = 0 for v = 1 - u, else -s M0/b2.
+  // Returns the curvature at which b2 K + F = 0 ahead on this branch: a v^2 + b v - c = 0 for v = 1 - u, else
+  // -s M0/b2.
   HYST_HD Real root(const Memory& m) const {
     using std::sqrt;
     const Real s = m[kDirection], a = gap(m), end = span(m), b = b2 * end;

@@ -1,4 +1,4 @@
-// The curvature at which a law carries no moment: the minimum of its incremental potential.
+// Finds the curvature at which a law carries no moment: the minimum of its incremental potential.
 //
 // From a given state W(K) = stored + dissipated is convex with dW/dK = M, so that damped Newton on W finds
 // the one curvature where a piece of cloth at rest would stay (the residual curvature, Anandjiwala & Leaf
@@ -28,8 +28,8 @@ HYST_HD Vec<Real, D> solve_definite(Tangent<Real, D> a, Vec<Real, D> b) {
   return b;
 }
 
-// Curvature [1/m] of zero moment, reached from the state `history`; `start` is where the search begins.
-// Precision: last Newton step below 1e-12 (double) or 1e-5 (float) of the curvature, at most 60 steps.
+// Returns the curvature [1/m] of zero moment, reached from the state `history`; the search begins at `start`.
+// It ends when a Newton step is below 1e-12 (double) or 1e-5 (float) of the curvature, or after 60 steps.
 template <class Law, class Real, int D, int N>
 HYST_HD Vec<Real, D> zero_moment(const Law& law, const History<Real, N>& history, Vec<Real, D> start) {
   using std::abs;
@@ -39,7 +39,7 @@ HYST_HD Vec<Real, D> zero_moment(const Law& law, const History<Real, N>& history
   const Real softest = law.largest_stiffness() * kPrecision;  // keeps the tangent invertible where b2 = 0
   Vec<Real, D> curvature = start, newton = Vec<Real, D>::Zero();
   Real fraction = 1, energy = 0, descent = 0;
-  Real half_moment = 0;  // decides where the energy differs by rounding only, else steps could go to and fro
+  Real half_moment = 0;  // decides where energies differ only by rounding, so that steps cannot go to and fro
   for (int step = 0, halving = kMaxHalvings; step <= kMaxSteps;) {
     const Vec<Real, D> tried = curvature + fraction * newton;
     const LawStep<Real, D, N> here = called_step(law, tried, history);
