@@ -254,7 +254,7 @@ void crease_once(const CommandLine& line) {
   Setup setup = set_up_crease(line, choice);
   if (choice.release == "quick") let_go_quickly(setup.scene);
   const bool pressed = choice.fold == "plate";
-  const double plate = !pressed                ? 0.0
+  const double plate = !pressed ? 0.0
                        : setup.options.explain || Run::only_checks_requests
                            ? 2 * setup.scene.fabric.thickness  // nothing is pressed
                            : loaded_plate(setup.scene, choice);

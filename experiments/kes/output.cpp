@@ -163,10 +163,10 @@ render::Panels empty_grid(const KesTests& tests, const KesProtocol& p, const std
 
 render::Panels loops(const KesTests& tests, const KesProtocol& p) {
   render::Panels grid = empty_grid(tests, p, "KES-FB2 pure bending");
-  grid.subtitle = std::to_string(p.cycles) + " cycles" +
-                  fmt::format(" to ±{:.4g}/m", p.amplitude) + fmt::format(" at {:.4g}/(m s);", p.rate) +
-                  fmt::format(" B from {:.4g}", p.slope_from) + fmt::format(" to {:.4g}/m,", p.slope_to) +
-                  fmt::format(" 2HB at {:.4g}/m.", p.width_at) + "  Grey: prandtl";
+  grid.subtitle = std::to_string(p.cycles) + " cycles" + fmt::format(" to ±{:.4g}/m", p.amplitude) +
+                  fmt::format(" at {:.4g}/(m s);", p.rate) + fmt::format(" B from {:.4g}", p.slope_from) +
+                  fmt::format(" to {:.4g}/m,", p.slope_to) + fmt::format(" 2HB at {:.4g}/m.", p.width_at) +
+                  "  Grey: prandtl";
   for (const KesResult& result : tests.results) {
     render::Panel panel{result.law,
                         {},

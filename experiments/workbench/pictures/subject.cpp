@@ -94,8 +94,8 @@ class ReferenceRun {
   }
 
   // True if one of its instants is that of `time` [s] of a run with steps of `step` [s]: both runs record the
-  // step nearest to an instant, so that they agree to half of both.  A run that has come to rest stays at its last
-  // instant.
+  // step nearest to an instant, so that they agree to half of both.  A run that has come to rest stays at its
+  // last instant.
   bool has_instant(double time, double step) const {
     constexpr double kRounding = 1e-9;  // rounding in sums of steps [s]
     return (rests_ && time > time_.back()) ||

@@ -224,7 +224,8 @@ class Folds : public Observer {
   void serialise(Archive& archive) override { archive(largest_); }
 
  private:
-  // Facets that lie oblique to a fold of this angle an edge [rad] tilt along it (docs/limits.md, sharp folds).
+  // Facets that lie oblique to a fold of this angle an edge [rad] tilt along it (docs/limits.md, sharp
+  // folds).
   static constexpr double kSharp = 0.5;
 
   const ClothMesh& mesh_;

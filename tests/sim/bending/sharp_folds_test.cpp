@@ -1,5 +1,5 @@
-// What a fold costs that is sharp for its triangles: facets with vertices on a cylinder tilt along its axis unless an
-// edge lies along it, and their bending is too soft by two thirds of the mean square of that tilt.
+// What a fold costs that is sharp for its triangles: facets with vertices on a cylinder tilt along its axis
+// unless an edge lies along it, and their bending is too soft by two thirds of the mean square of that tilt.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -22,8 +22,8 @@ std::vector<Eigen::Vector3d> wrapped(const ClothMesh& mesh, double curvature) {
   return x;
 }
 
-// Returns the tilt of a facet along the cylinder's axis [rad]: curvature times the product of its sides' extents along
-// the bend over four areas.
+// Returns the tilt of a facet along the cylinder's axis [rad]: curvature times the product of its sides'
+// extents along the bend over four areas.
 double tilt(const ClothMesh& mesh, int face, double curvature) {
   const auto at = mesh.corners(face);
   double product = 1;
