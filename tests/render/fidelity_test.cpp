@@ -148,7 +148,7 @@ double deviation_of_cell(const Image& sheet, int left, int width, int bottom) {
 // sight.
 TEST(RecordedPicture, OfCrumpledSheetsShowsWhatPrandtlKeepsAndLinearForgets) {
   const Image recorded =
-      read_png(std::filesystem::path(HYSTERON_TEST_FOLDER) / "../../results/crumple-table-h100/sheet.png");
+      read_png(std::filesystem::path(HYSTERON_TEST_FOLDER) / "../../results/crumple-table-h200/sheet.png");
   const Image sheet = shrink(recorded, 838, 838 * recorded.height() / recorded.width());
   // linear, narain, prandtl, prandtl with set, beside the rows' names.
   const int left = sheet.width() * 113 / 1000, cell = (sheet.width() - left) / 4,
