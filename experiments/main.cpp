@@ -21,7 +21,7 @@ using namespace hysteron::experiments;
 
 // Prints the summary of a run on stdout, but not with --json, where stdout holds JSON alone, and not for
 // subcommands that scripts call.
-void say_last_words(const CommandLine& line) {
+void print_summary(const CommandLine& line) {
   if (Run::first_folder().empty() || last_text(line.flags, "json", "") == "true") return;
   if (experiment_named(line.experiment).hidden) return;
   std::cout << closing_summary(Run::first_folder());
@@ -51,17 +51,17 @@ int main(int count, char** words) {
   spin_shortly(words);
   std::string experiment;
   std::optional<CommandLine> line;
-  const Ending ending = run_ending(experiment, [&] {
+  const ExitStatus ending = run_guarded(experiment, [&] {
     line = parse_command_line({words, words + count});
     if (!line) return flushed(0);
     experiment = line->experiment;
     choose_gpu(*line);
     const int exit_code = experiment_named(experiment).run(*line);
-    say_last_words(*line);
+    print_summary(*line);
     return flushed(exit_code);
   });
   if (ending.error.empty()) return ending.exit_code;
-  if (line && ending.exit_code == kCouldNotGoOn) say_last_words(*line);
+  if (line && ending.exit_code == kCouldNotGoOn) print_summary(*line);
   // Files that could not be written are reported, unless the machine's failure is the reason.
   if (ending.exit_code != kMachineFailed && !Run::unwritten().empty())
     std::cerr << "hysteron: " << Run::unwritten() << std::endl;

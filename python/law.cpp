@@ -17,7 +17,7 @@ namespace {
 using Loop = LawLoop<double, Cpu>;
 
 struct Law {
-  LawChoice choice;
+  LawParams choice;
   int dimension;
 };
 
@@ -165,7 +165,7 @@ Law make_law(const std::string& name, py::object fabric, int dimension, const py
         .with_key("dimension", std::to_string(dimension));
   const LawParameters texts = law_parameters(name, parameters);
   const Fabric of = fabric_from_python(fabric);
-  const LawChoice choice = choose_law(name, of.virgin_curve(), texts);
+  const LawParams choice = choose_law(name, of.virgin_curve(), texts);
   warn(unused_parameter_warnings(name, of.virgin_curve(), texts, LawUse::cloth, of.name));
   return {choice, dimension};
 }

@@ -132,8 +132,8 @@ render::Image SimulationValue::drawn(const PictureChoice& choice, Simulation& si
     if (!renderer.view().shows_cloth())
       throw Error::simulation("the picture shows no cloth: bounds must frame where it is");
     if (!choice.caption.empty())
-      experiments::letter(image, camera, bounds.center(), choice.caption,
-                          experiments::value_color_bar(scene_, choice.options, look));
+      experiments::annotate(image, camera, bounds.center(), choice.caption,
+                            experiments::value_color_bar(scene_, choice.options, look));
     return image;
   });
 }

@@ -50,7 +50,7 @@ std::string dots_of(int pattern) {
   return " pt " + std::to_string(kFilled[static_cast<std::size_t>(pattern) % std::size(kFilled)]) + " ps 0.9";
 }
 
-std::string style_words(const Series& series, const std::string& color, int pattern) {
+std::string style_commands(const Series& series, const std::string& color, int pattern) {
   const std::string lines = dashes(pattern) + " lw " + number(series.line_width) + " lc rgb '" + color + "'",
                     dots = dots_of(pattern);
   switch (series.style) {
@@ -212,7 +212,7 @@ std::string plot_command(const std::vector<Series>& series, std::size_t first) {
   for (size_t i = 0; i < series.size(); ++i) {
     const std::string name = series[i].label.empty() ? " notitle" : " title " + label_text(series[i].label);
     script += std::string(i ? ", " : "") + "$series" + std::to_string(first + i) + " using 1:2" + name +
-              " with " + style_words(series[i], colors[i], patterns[i]);
+              " with " + style_commands(series[i], colors[i], patterns[i]);
   }
   return script + "\n";
 }

@@ -15,7 +15,7 @@
 
 namespace hysteron::experiments {
 
-Scene with(const Setting& setting, Scene scene) {
+Scene with(const MethodSetting& setting, Scene scene) {
   scene.mesh = setting.mesh;
   scene.element = setting.element;
   scene.law = setting.law;
@@ -87,7 +87,7 @@ std::vector<Problem> chosen_problems(const F& flags) {
 
 // Solves the problem with a setting.  A setting that cannot be solved is a result too; a failing machine is
 // not.
-Found tried(const Problem& problem, const Setting& setting) {
+Found tried(const Problem& problem, const MethodSetting& setting) {
   try {
     return problem.solve(setting);
   } catch (const Error& error) {
@@ -100,7 +100,7 @@ Found tried(const Problem& problem, const Setting& setting) {
 
 Solution solved(const Problem& problem, Run& run) {
   Solution solution{problem, {}};
-  for (const Setting& setting : problem.settings) {
+  for (const MethodSetting& setting : problem.settings) {
     const Found found = tried(problem, setting);
     solution.solved.push_back({setting, found});
     run.progress(fmt::format("{}, {}: {}", problem.name, describe(solution, setting),

@@ -17,7 +17,7 @@
 namespace hysteron::experiments {
 
 // A setting is one way to solve a problem.
-struct Setting {
+struct MethodSetting {
   std::string factor =
       "base";  // the factor it varies: mesh, size, element, law, integrator, step, tolerance, ...
   std::string mesh = "unionjack", law = "linear";
@@ -34,7 +34,7 @@ struct Setting {
 
 // Returns `base` with one factor changed.
 template <class Change>
-Setting varied(Setting base, const std::string& factor, const Change& change) {
+MethodSetting varied(MethodSetting base, const std::string& factor, const Change& change) {
   base.factor = factor;
   change(base);
   return base;
@@ -42,9 +42,10 @@ Setting varied(Setting base, const std::string& factor, const Change& change) {
 
 // Adds one setting to the list for each value of a factor that is a member of the setting.
 template <class T>
-void vary(std::vector<Setting>& list, const Setting& base, const std::string& factor, T Setting::*member,
-          const std::vector<std::type_identity_t<T>>& values) {
-  for (const T& value : values) list.push_back(varied(base, factor, [&](Setting& s) { s.*member = value; }));
+void vary(std::vector<MethodSetting>& list, const MethodSetting& base, const std::string& factor,
+          T MethodSetting::*member, const std::vector<std::type_identity_t<T>>& values) {
+  for (const T& value : values)
+    list.push_back(varied(base, factor, [&](MethodSetting& s) { s.*member = value; }));
 }
 
 // The result of solving a problem with a setting.
@@ -64,8 +65,8 @@ struct Problem {
   std::string title;      // title of the plot
   std::string error;      // how `error` is defined
   std::string reference;  // where the reference value comes from
-  std::vector<Setting> settings;
-  std::function<Found(const Setting&)>
+  std::vector<MethodSetting> settings;
+  std::function<Found(const MethodSetting&)>
       solve;                        // Error::invalid_input and Error::simulation are recorded as failures
   std::string load = "load";        // what Setting::load means
   bool reference_per_mesh = false;  // true: errors on different meshes, or sizes, are not comparable
@@ -78,7 +79,7 @@ struct Effort {
 };
 
 // Returns the scene with the setting's choices; keys that the setting does not have stay the scene's.
-Scene with(const Setting& setting, Scene scene);
+Scene with(const MethodSetting& setting, Scene scene);
 
 // Stores the simulation's number of steps, its bytes, and the seconds passed since `start` in `found`.
 void note_cost(Simulation& simulation, const Scene& scene, std::chrono::steady_clock::time_point start,
@@ -87,7 +88,7 @@ void note_cost(Simulation& simulation, const Scene& scene, std::chrono::steady_c
 // A motion whose settings are compared: its scene for a setting, its length and sampling, and the value read
 // off it.
 struct MotionQuestion {
-  std::function<Scene(const Setting&)> scene;
+  std::function<Scene(const MethodSetting&)> scene;
   double length = 0, sampling = 0;  // [m], [s]
   double reference_step = 0;        // step of the reference runs by bdf2, one run per mesh and size [s]
   std::function<double(const Cloth&, const std::vector<Eigen::Vector3d>&)> value;
@@ -105,7 +106,7 @@ Problem swing_problem(const Effort& effort);   // measures the order in time of 
 Problem crease_problem(const Effort& effort);  // measures the error of a motion through reversals
 
 struct Solved {
-  Setting setting;
+  MethodSetting setting;
   Found found;
 };
 
@@ -116,7 +117,7 @@ struct Solution {
 
   // True if the setting answers the same question as the base: it has the same law and load, and the same
   // mesh where each mesh has a reference of its own.
-  bool comparable(const Setting& setting) const;
+  bool comparable(const MethodSetting& setting) const;
 };
 
 // Returns the indices of the comparable settings that no other one beats in both error and time, fastest
@@ -137,8 +138,8 @@ struct Order {
 std::vector<Order> observed_orders(const Solution& solution);
 
 // Names the factors in which the problem's settings differ: "bdf2, 1/120 s", "shape, random, 512 triangles".
-std::string describe(const Solution& solution, const Setting& setting);
+std::string describe(const Solution& solution, const MethodSetting& setting);
 // Names the setting's curve in the plot, without its size and step.
-std::string curve_label(const Solution& solution, const Setting& setting);
+std::string curve_label(const Solution& solution, const MethodSetting& setting);
 
 }  // namespace hysteron::experiments

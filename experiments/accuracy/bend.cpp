@@ -19,7 +19,7 @@ double largest_reading_difference(const StripDifference& d) {
   return largest;
 }
 
-Found bend(const Setting& setting) {
+Found bend(const MethodSetting& setting) {
   const Fabric fabric = Scene{}.fabric;
   KesProtocol protocol;
   protocol.cycles = 1;
@@ -56,40 +56,41 @@ Problem bend_problem(const Effort& effort) {
                   {},
                   bend};
   problem.load = "warp angle";
-  Setting base;
+  MethodSetting base;
   base.mesh = "aligned";
   base.law = "prandtl";
   base.device = effort.device;
   base.triangles = effort.quick ? 96 : kTriangles;
   base.step = effort.quick ? 1.0 / 28 : 1.0 / 63;
   base.tolerance = 1e-6;
-  std::vector<Setting>& list = problem.settings;
+  std::vector<MethodSetting>& list = problem.settings;
   list.push_back(base);
-  Setting hinge = base;
+  MethodSetting hinge = base;
   hinge.element = BendingElement::hinge;
   if (effort.quick) {
-    vary(list, base, "mesh", &Setting::mesh, {"random"});
-    vary(list, base, "size", &Setting::triangles, {24});
-    vary(list, hinge, "element", &Setting::mesh, {base.mesh});
+    vary(list, base, "mesh", &MethodSetting::mesh, {"random"});
+    vary(list, base, "size", &MethodSetting::triangles, {24});
+    vary(list, hinge, "element", &MethodSetting::mesh, {base.mesh});
     return problem;
   }
-  vary(list, base, "mesh", &Setting::mesh, {"aligned-45", "flipped", "unionjack", "equilateral", "random"});
-  vary(list, base, "size", &Setting::triangles, {24, 96, 1360});
+  vary(list, base, "mesh", &MethodSetting::mesh,
+       {"aligned-45", "flipped", "unionjack", "equilateral", "random"});
+  vary(list, base, "size", &MethodSetting::triangles, {24, 96, 1360});
   for (const char* mesh : {"unionjack", "random"}) {
-    Setting other = base;
+    MethodSetting other = base;
     other.mesh = mesh;
-    vary(list, other, "size", &Setting::triangles, {24, 96});
+    vary(list, other, "size", &MethodSetting::triangles, {24, 96});
   }
-  vary(list, hinge, "element", &Setting::mesh,
+  vary(list, hinge, "element", &MethodSetting::mesh,
        {"aligned", "aligned-45", "flipped", "unionjack", "equilateral", "random"});
-  vary(list, base, "law", &Setting::law, {"linear", "bilinear", "dahl", "obrien"});
+  vary(list, base, "law", &MethodSetting::law, {"linear", "bilinear", "dahl", "obrien"});
   // The scalar law `wong` runs along four directions of the fabric, so its error depends on where these lie.
-  Setting wong = base;
+  MethodSetting wong = base;
   wong.law = "wong";
-  vary(list, wong, "warp angle", &Setting::load, {0, 11.25, 22.5, 33.75, 45});
-  vary(list, base, "step", &Setting::step, {1.0 / 13, 1.0 / 28});
-  list.push_back(
-      varied(base, "precision", [&](Setting& s) { s.precision = Precision::fp32, s.tolerance = 1e-4; }));
+  vary(list, wong, "warp angle", &MethodSetting::load, {0, 11.25, 22.5, 33.75, 45});
+  vary(list, base, "step", &MethodSetting::step, {1.0 / 13, 1.0 / 28});
+  list.push_back(varied(base, "precision",
+                        [&](MethodSetting& s) { s.precision = Precision::fp32, s.tolerance = 1e-4; }));
   return problem;
 }
 

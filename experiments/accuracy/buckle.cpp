@@ -12,11 +12,11 @@ constexpr double kLength = 0.1;              // [m]
 constexpr double kUpright = 10, kEdge = 20;  // ratio of length to width
 constexpr int kTriangles = 320;              // upright: 40 square cells along, 4 across; on edge: 57 and 3
 
-Buckling buckling_kind(const Setting& setting) {
+Buckling buckling_kind(const MethodSetting& setting) {
   return setting.load == 0 ? Buckling::upright : Buckling::edge;
 }
 
-Found solve(const Setting& setting) {
+Found solve(const MethodSetting& setting) {
   const Buckling kind = buckling_kind(setting);
   Scene scene = with(setting, {});
   scene.cloth.width = kLength / (kind == Buckling::upright ? kUpright : kEdge);
@@ -32,16 +32,16 @@ Found solve(const Setting& setting) {
   return found;
 }
 
-void vary_all(const Setting& base, bool quick, std::vector<Setting>& list) {
+void vary_all(const MethodSetting& base, bool quick, std::vector<MethodSetting>& list) {
   list.push_back(base);
   for (const std::string& mesh : strip_meshes()) {
-    Setting on = base;
+    MethodSetting on = base;
     on.mesh = mesh;
-    if (mesh != base.mesh) vary(list, base, "mesh", &Setting::mesh, {mesh});
+    if (mesh != base.mesh) vary(list, base, "mesh", &MethodSetting::mesh, {mesh});
     if (quick && mesh != base.mesh) continue;
-    vary(list, on, "size", &Setting::triangles, {kTriangles / 4});
-    if (!quick) vary(list, on, "size", &Setting::triangles, {4 * kTriangles});
-    vary(list, on, "element", &Setting::element, {BendingElement::hinge});
+    vary(list, on, "size", &MethodSetting::triangles, {kTriangles / 4});
+    if (!quick) vary(list, on, "size", &MethodSetting::triangles, {4 * kTriangles});
+    vary(list, on, "element", &MethodSetting::element, {BendingElement::hinge});
   }
 }
 
@@ -56,7 +56,7 @@ Problem buckle_problem(const Effort& effort) {
       "warping",
       {},
       solve};
-  Setting base;
+  MethodSetting base;
   base.device = effort.device;
   base.triangles = kTriangles;
   for (double kind : {0.0, 1.0}) {

@@ -16,7 +16,7 @@ constexpr double kFolded = 0.3, kReleased = 0.4,
                  kSampling = 1.0 / 30;  // end of the fold, release, sampling interval [s]
 constexpr double kFrame = 1.0 / 60;     // [s]
 
-Scene crease(const Setting& setting) {
+Scene crease(const MethodSetting& setting) {
   Scene scene = with(setting, {});
   scene.cloth.shape = "strip";
   scene.cloth.length = kLength;
@@ -51,11 +51,11 @@ double opening_angle(const Cloth& cloth, const std::vector<Eigen::Vector3d>& x) 
 // Adds the chapter's method as printed at 1/60 s, and with the moment's energy-consistent force at 1/60 s and
 // at 1/`parts` of it, where the printed force takes too many substeps.  Their references have the method's
 // law and element.
-void add_chapter_method(const Setting& base, int parts, std::vector<Setting>& list) {
+void add_chapter_method(const MethodSetting& base, int parts, std::vector<MethodSetting>& list) {
   Scene method;
   apply_scene_file(method, "chapter-method");
   const auto add = [&](ForceConvention force, double step) {
-    list.push_back(varied(base, "method", [&](Setting& s) {
+    list.push_back(varied(base, "method", [&](MethodSetting& s) {
       s.law = method.law;
       s.element = method.element;
       s.force = force;
@@ -69,10 +69,10 @@ void add_chapter_method(const Setting& base, int parts, std::vector<Setting>& li
   add(ForceConvention::energy, kFrame / parts);
 }
 
-void vary_steps(const Setting& base, bool quick, std::vector<Setting>& list) {
+void vary_steps(const MethodSetting& base, bool quick, std::vector<MethodSetting>& list) {
   const int most = quick ? 2 : 16;
   const auto add = [&](Integrator integrator, ImplicitEvery implicit_every, double step, double tolerance) {
-    list.push_back(varied(base, tolerance > 0 ? "tolerance" : "step", [&](Setting& s) {
+    list.push_back(varied(base, tolerance > 0 ? "tolerance" : "step", [&](MethodSetting& s) {
       s.integrator = integrator, s.implicit_every = implicit_every, s.step = step, s.tolerance = tolerance;
     }));
   };
@@ -99,7 +99,7 @@ Problem crease_problem(const Effort& effort) {
                   {},
                   {}};
   ask_for_motion({crease, kLength, kSampling, kFrame / (effort.quick ? 16 : 64), opening_angle}, problem);
-  Setting base;
+  MethodSetting base;
   base.mesh = "random";
   base.law = "prandtl";
   base.device = effort.device;
@@ -109,7 +109,7 @@ Problem crease_problem(const Effort& effort) {
   vary_steps(base, effort.quick, problem.settings);
   if (effort.quick) return problem;
   for (int triangles : {36, 150}) {
-    Setting smaller = base;
+    MethodSetting smaller = base;
     smaller.triangles = triangles;
     vary_steps(smaller, false, problem.settings);
   }

@@ -14,11 +14,11 @@ constexpr int kParts =
 constexpr DecayKind kKinds[] = {DecayKind::hyperbolic, DecayKind::linear, DecayKind::exponential};
 
 // Returns the kind of decay, which Setting::load numbers from 0.
-DecayKind decay_kind(const Setting& setting) { return kKinds[std::lround(setting.load)]; }
+DecayKind decay_kind(const MethodSetting& setting) { return kKinds[std::lround(setting.load)]; }
 
-Setting base_setting(DecayKind kind, const Effort& effort) {
+MethodSetting base_setting(DecayKind kind, const Effort& effort) {
   const Scene scene = decay_scene(kind);
-  Setting base;
+  MethodSetting base;
   base.factor = kind == DecayKind::hyperbolic ? "base" : "kind";
   base.law = scene.law;
   base.integrator = Integrator::bdf2;
@@ -30,35 +30,38 @@ Setting base_setting(DecayKind kind, const Effort& effort) {
 }
 
 // Adds a setting with `times` the base's step.  The semi-implicit integrator takes its step from the mesh.
-void vary_step(const Setting& base, Integrator integrator, double times, std::vector<Setting>& list) {
-  list.push_back(varied(base, "step", [&](Setting& s) { s.integrator = integrator, s.step *= times; }));
+void vary_step(const MethodSetting& base, Integrator integrator, double times,
+               std::vector<MethodSetting>& list) {
+  list.push_back(varied(base, "step", [&](MethodSetting& s) { s.integrator = integrator, s.step *= times; }));
 }
 
 // Adds every factor for the hyperbolic kind, and only time and size for the others.
-void vary_all(const Setting& base, std::vector<Setting>& list) {
+void vary_all(const MethodSetting& base, std::vector<MethodSetting>& list) {
   list.push_back(base);
-  vary(list, base, "integrator", &Setting::integrator, {Integrator::semi_implicit, Integrator::implicit});
+  vary(list, base, "integrator", &MethodSetting::integrator,
+       {Integrator::semi_implicit, Integrator::implicit});
   for (double times : {2.0, 0.5}) vary_step(base, Integrator::bdf2, times, list);
-  vary(list, base, "size", &Setting::triangles, {32, 192});
+  vary(list, base, "size", &MethodSetting::triangles, {32, 192});
   if (decay_kind(base) != DecayKind::hyperbolic) return;
-  list.push_back(varied(base, "integrator", [](Setting& s) {
+  list.push_back(varied(base, "integrator", [](MethodSetting& s) {
     s.integrator = Integrator::semi_implicit, s.implicit_every = ImplicitEvery::step;
   }));
   vary_step(base, Integrator::bdf2, 4, list);
   for (double times : {4.0, 0.5}) vary_step(base, Integrator::implicit, times, list);
-  vary(list, base, "size", &Setting::triangles, {64});
-  vary(list, base, "mesh", &Setting::mesh, {"aligned", "aligned-45", "flipped", "equilateral", "random"});
-  vary(list, base, "element", &Setting::element, {BendingElement::hinge});
+  vary(list, base, "size", &MethodSetting::triangles, {64});
+  vary(list, base, "mesh", &MethodSetting::mesh,
+       {"aligned", "aligned-45", "flipped", "equilateral", "random"});
+  vary(list, base, "element", &MethodSetting::element, {BendingElement::hinge});
 }
 
-void vary_a_few(const Setting& base, std::vector<Setting>& list) {
+void vary_a_few(const MethodSetting& base, std::vector<MethodSetting>& list) {
   list.push_back(base);
   if (decay_kind(base) != DecayKind::hyperbolic) return;
-  vary(list, base, "integrator", &Setting::integrator, {Integrator::semi_implicit});
+  vary(list, base, "integrator", &MethodSetting::integrator, {Integrator::semi_implicit});
   vary_step(base, Integrator::implicit, 3, list);
 }
 
-Found solve(const Setting& setting) {
+Found solve(const MethodSetting& setting) {
   Found found;
   const Scene scene = with(setting, decay_scene(decay_kind(setting)));
   const auto amplitudes =

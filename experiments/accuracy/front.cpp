@@ -11,7 +11,7 @@
 namespace hysteron::experiments {
 namespace {
 
-bool is_static(const Setting& s) { return s.integrator == Integrator::quasi_static; }
+bool is_static(const MethodSetting& s) { return s.integrator == Integrator::quasi_static; }
 
 std::string duration(double seconds) {
   if (seconds >= 1e-3) return fmt::format("1/{:.0f} s", 1 / seconds);
@@ -20,14 +20,14 @@ std::string duration(double seconds) {
 
 // Names the method: "the chapter's method" is that of assets/scenes/chapter-method.toml, "the chapter's
 // splitting" its order of stages with another law, element or force.
-std::string method_name(const Setting& s) {
+std::string method_name(const MethodSetting& s) {
   if (s.integrator != Integrator::semi_implicit || s.implicit_every != ImplicitEvery::step)
     return enum_name(s.integrator);
   return s.force == ForceConvention::chapter ? "the chapter's method" : "the chapter's splitting";
 }
 
-std::vector<std::string> setting_words(const Solution& solution, const Setting& s) {
-  const Setting& base = solution.problem.settings.front();
+std::vector<std::string> setting_text(const Solution& solution, const MethodSetting& s) {
+  const MethodSetting& base = solution.problem.settings.front();
   std::vector<std::string> words;
   if (is_static(base)) {
     words = {enum_name(s.element), s.mesh};
@@ -44,8 +44,8 @@ std::vector<std::string> setting_words(const Solution& solution, const Setting& 
 }
 
 // Names the group whose settings differ in the size, or in the step, alone.
-std::string setting_group(const Solution& solution, const Setting& s, bool in_space) {
-  std::vector<std::string> words = setting_words(solution, s);
+std::string setting_group(const Solution& solution, const MethodSetting& s, bool in_space) {
+  std::vector<std::string> words = setting_text(solution, s);
   words.push_back(in_space ? duration(s.step) : std::to_string(s.triangles) + " triangles");
   words.push_back(fmt::format("tolerance {:g}", s.tolerance));
   return join(words, ", ");
@@ -75,8 +75,8 @@ void add_orders(const Solution& solution, bool in_space, std::vector<Order>& ord
 
 }  // namespace
 
-bool Solution::comparable(const Setting& s) const {
-  const Setting& base = problem.settings.front();
+bool Solution::comparable(const MethodSetting& s) const {
+  const MethodSetting& base = problem.settings.front();
   const bool same_mesh = s.mesh == base.mesh && s.triangles == base.triangles && s.element == base.element;
   return s.law == base.law && s.load == base.load && (!problem.reference_per_mesh || same_mesh);
 }
@@ -115,19 +115,19 @@ std::vector<Order> observed_orders(const Solution& solution) {
 
 // Labels few enough curves to colour them all: other elements, and other meshes of a motion, are one curve
 // each.
-std::string curve_label(const Solution& solution, const Setting& setting) {
-  const Setting& base = solution.problem.settings.front();
+std::string curve_label(const Solution& solution, const MethodSetting& setting) {
+  const MethodSetting& base = solution.problem.settings.front();
   if (setting.element != base.element) return enum_name(setting.element) + ", every mesh";
   if (!is_static(base) && setting.mesh != base.mesh) return "other meshes";
   if (setting.precision != base.precision) return enum_name(setting.precision);
-  return join(setting_words(solution, setting), ", ");
+  return join(setting_text(solution, setting), ", ");
 }
 
-std::string describe(const Solution& solution, const Setting& s) {
-  std::vector<std::string> words = setting_words(solution, s);
+std::string describe(const Solution& solution, const MethodSetting& s) {
+  std::vector<std::string> words = setting_text(solution, s);
   words.push_back(std::to_string(s.triangles) + " triangles");
   if (!is_static(s)) words.push_back(duration(s.step));
-  const Setting& base = solution.problem.settings.front();
+  const MethodSetting& base = solution.problem.settings.front();
   if (is_static(s) && s.step != base.step) words.push_back(fmt::format("{:.0f} load steps", 1 / s.step));
   if (s.tolerance != base.tolerance) words.push_back(fmt::format("tolerance {:g}", s.tolerance));
   return join(words, ", ");

@@ -47,8 +47,8 @@ struct Reference {
   std::exception_ptr failure{};
 };
 
-Trajectory reference_run(const MotionQuestion& question, const Setting& setting, double step) {
-  Setting tiny = setting;
+Trajectory reference_run(const MotionQuestion& question, const MethodSetting& setting, double step) {
+  MethodSetting tiny = setting;
   tiny.integrator = Integrator::bdf2;
   tiny.implicit_every = ImplicitEvery::substep;
   tiny.force = ForceConvention::energy;  // the printed force has no potential
@@ -67,7 +67,7 @@ class References {
 
   // Returns the reference, computed at the first request; what its runs throw is thrown then and at every
   // later request.
-  const Reference& of(const Setting& setting) {
+  const Reference& of(const MethodSetting& setting) {
     const auto [at, is_new] = known_.try_emplace(setting_key(setting));
     Reference& found = at->second;
     if (is_new) try {
@@ -84,7 +84,7 @@ class References {
 
  private:
   using Key = std::tuple<std::string, std::string, int, std::string>;
-  static Key setting_key(const Setting& setting) {
+  static Key setting_key(const MethodSetting& setting) {
     return {setting.mesh, enum_name(setting.element), setting.triangles, setting.law};
   }
 
@@ -97,7 +97,7 @@ class References {
 void ask_for_motion(const MotionQuestion& question, Problem& problem) {
   problem.reference_per_mesh = true;
   const auto references = std::make_shared<References>(question);
-  problem.solve = [question, references](const Setting& setting) {
+  problem.solve = [question, references](const MethodSetting& setting) {
     const Reference& exact = references->of(setting);
     Found found;
     const Scene scene = question.scene(setting);

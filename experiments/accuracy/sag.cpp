@@ -15,7 +15,7 @@ constexpr double kLength = 0.1, kWidth = 0.025;  // [m]
 constexpr int kAlong64 = 2048;                   // 64 square cells along the strip, 16 across
 constexpr double kGamma = 10;                    // heaviness: density g L^3/b2
 
-Scene sag_scene(const Setting& setting, bool unloaded) {
+Scene sag_scene(const MethodSetting& setting, bool unloaded) {
   Scene scene = with(setting, {});
   scene.cloth.width = kWidth;
   scene.fabric.density = setting.load * scene.fabric.b2 / (scene.gravity.norm() * std::pow(kLength, 3));
@@ -56,7 +56,7 @@ Sag sag_of_curve(const Scene& scene) {
 
 // The curves by law and load: one reference serves many settings.
 using Curves = std::map<std::pair<std::string, double>, Sag>;
-const Sag& curve_of(Curves& known, const Scene& scene, const Setting& setting) {
+const Sag& curve_of(Curves& known, const Scene& scene, const MethodSetting& setting) {
   const auto [at, is_new] = known.try_emplace({setting.law, setting.load});
   if (is_new) at->second = sag_of_curve(scene);
   return at->second;
@@ -79,8 +79,8 @@ Sag sag_of_cloth(const Scene& scene, Found& found) {
   return sag;
 }
 
-Setting base_setting(const Effort& effort) {
-  Setting base;
+MethodSetting base_setting(const Effort& effort) {
+  MethodSetting base;
   base.device = effort.device;
   base.triangles = effort.quick ? kAlong64 / 4 : kAlong64;
   base.step = 0.05;
@@ -89,23 +89,23 @@ Setting base_setting(const Effort& effort) {
   return base;
 }
 
-void vary_meshes_and_sizes(const Setting& base, bool quick, std::vector<Setting>& list) {
+void vary_meshes_and_sizes(const MethodSetting& base, bool quick, std::vector<MethodSetting>& list) {
   for (const std::string& mesh : strip_meshes()) {
-    if (mesh != base.mesh) vary(list, base, "mesh", &Setting::mesh, {mesh});
+    if (mesh != base.mesh) vary(list, base, "mesh", &MethodSetting::mesh, {mesh});
     if (quick && mesh != "unionjack" && mesh != "random") continue;
     for (int triangles : {kAlong64 / 64, kAlong64 / 16, kAlong64 / 4, kAlong64, 4 * kAlong64}) {
       if (triangles == base.triangles || (quick && triangles > base.triangles)) continue;
       if (triangles > kAlong64 && mesh != "unionjack") continue;
-      list.push_back(varied(base, "size", [&](Setting& s) { s.mesh = mesh, s.triangles = triangles; }));
+      list.push_back(varied(base, "size", [&](MethodSetting& s) { s.mesh = mesh, s.triangles = triangles; }));
     }
   }
 }
 
-void vary_elements(const Setting& base, bool quick, std::vector<Setting>& list) {
+void vary_elements(const MethodSetting& base, bool quick, std::vector<MethodSetting>& list) {
   for (const std::string& mesh : strip_meshes())
     for (int triangles : {kAlong64 / 16, kAlong64 / 4, kAlong64}) {
       if (quick && triangles != kAlong64 / 16) continue;
-      list.push_back(varied(base, "element", [&](Setting& s) {
+      list.push_back(varied(base, "element", [&](MethodSetting& s) {
         s.element = BendingElement::hinge, s.mesh = mesh, s.triangles = triangles;
       }));
     }
@@ -120,26 +120,26 @@ Problem sag_problem(const Effort& effort) {
                   "the heavy elastica with the same law, extrapolated from 60 and 120 segments",
                   {},
                   {}};
-  const Setting base = base_setting(effort);
-  std::vector<Setting>& list = problem.settings;
+  const MethodSetting base = base_setting(effort);
+  std::vector<MethodSetting>& list = problem.settings;
   list.push_back(base);
   vary_meshes_and_sizes(base, effort.quick, list);
   vary_elements(base, effort.quick, list);
   for (const std::string& mesh : strip_meshes())
     for (double gamma : {0.1, 1.0, 100.0, 1000.0}) {
       if (effort.quick && (gamma == 0.1 || gamma == 1000 || mesh != base.mesh)) continue;
-      list.push_back(varied(base, "heaviness", [&](Setting& s) { s.mesh = mesh, s.load = gamma; }));
+      list.push_back(varied(base, "heaviness", [&](MethodSetting& s) { s.mesh = mesh, s.load = gamma; }));
     }
-  vary(list, base, "law", &Setting::law, {"prandtl"});
+  vary(list, base, "law", &MethodSetting::law, {"prandtl"});
   if (!effort.quick) {
-    vary(list, base, "law", &Setting::law, {"bilinear", "dahl", "wong", "pabst", "obrien"});
-    vary(list, base, "step", &Setting::step, {1, 0.2, 0.0125});
-    vary(list, base, "tolerance", &Setting::tolerance, {1e-2, 1e-4, 1e-8});
+    vary(list, base, "law", &MethodSetting::law, {"bilinear", "dahl", "wong", "pabst", "obrien"});
+    vary(list, base, "step", &MethodSetting::step, {1, 0.2, 0.0125});
+    vary(list, base, "tolerance", &MethodSetting::tolerance, {1e-2, 1e-4, 1e-8});
   }
-  list.push_back(
-      varied(base, "precision", [&](Setting& s) { s.precision = Precision::fp32, s.tolerance = 1e-4; }));
+  list.push_back(varied(base, "precision",
+                        [&](MethodSetting& s) { s.precision = Precision::fp32, s.tolerance = 1e-4; }));
   problem.load = "Gamma";
-  problem.solve = [curves = std::make_shared<Curves>()](const Setting& setting) {
+  problem.solve = [curves = std::make_shared<Curves>()](const MethodSetting& setting) {
     Found found;
     const Scene scene = sag_scene(setting, false);
     found.reference = curve_of(*curves, scene, setting).loaded;
@@ -157,23 +157,23 @@ Problem droop_problem(const Effort& effort) {
                   "the heavy elastica with the same law and history, extrapolated from 60 and 120 segments",
                   {},
                   {}};
-  Setting base = base_setting(effort);
+  MethodSetting base = base_setting(effort);
   base.law = "prandtl";
   base.triangles = kAlong64 / 4;
-  std::vector<Setting>& list = problem.settings;
+  std::vector<MethodSetting>& list = problem.settings;
   list.push_back(base);
   std::vector<std::string> meshes = strip_meshes();
   std::erase(meshes, base.mesh);
-  if (!effort.quick) vary(list, base, "mesh", &Setting::mesh, meshes);
-  vary(list, base, "size", &Setting::triangles, {kAlong64 / 64, kAlong64 / 16});
-  if (!effort.quick) vary(list, base, "size", &Setting::triangles, {kAlong64});
-  vary(list, base, "element", &Setting::element, {BendingElement::hinge});
+  if (!effort.quick) vary(list, base, "mesh", &MethodSetting::mesh, meshes);
+  vary(list, base, "size", &MethodSetting::triangles, {kAlong64 / 64, kAlong64 / 16});
+  if (!effort.quick) vary(list, base, "size", &MethodSetting::triangles, {kAlong64});
+  vary(list, base, "element", &MethodSetting::element, {BendingElement::hinge});
   if (!effort.quick) {
-    vary(list, base, "law", &Setting::law, {"bilinear", "dahl", "obrien", "wong"});
-    vary(list, base, "step", &Setting::step, {0.2, 0.0125});
+    vary(list, base, "law", &MethodSetting::law, {"bilinear", "dahl", "obrien", "wong"});
+    vary(list, base, "step", &MethodSetting::step, {0.2, 0.0125});
   }
   problem.load = "Gamma";
-  problem.solve = [curves = std::make_shared<Curves>()](const Setting& setting) {
+  problem.solve = [curves = std::make_shared<Curves>()](const MethodSetting& setting) {
     Found found;
     const Scene scene = sag_scene(setting, true);
     const Sag& curve = curve_of(*curves, scene, setting);

@@ -9,7 +9,7 @@ namespace {
 constexpr double kLength = 0.06, kWidth = 0.02, kClamp = 0.01;  // [m]
 constexpr double kSampling = 1.0 / 60;                          // [s]
 
-Scene swing_scene(const Setting& setting) {
+Scene swing_scene(const MethodSetting& setting) {
   Scene scene = with(setting, {});
   scene.cloth.shape = "strip";
   scene.cloth.length = kLength;
@@ -41,14 +41,14 @@ Problem swing_problem(const Effort& effort) {
                   {},
                   {}};
   ask_for_motion({swing_scene, kLength, kSampling, 1.0 / (effort.quick ? 7680 : 15360), tip_height}, problem);
-  Setting base;
+  MethodSetting base;
   base.device = effort.device;
   base.integrator = Integrator::bdf2;
   base.triangles = 96;
   base.step = 1.0 / 240;
   const auto add = [&](Integrator integrator, int rate) {
     problem.settings.push_back(
-        varied(base, "step", [&](Setting& s) { s.integrator = integrator, s.step = 1.0 / rate; }));
+        varied(base, "step", [&](MethodSetting& s) { s.integrator = integrator, s.step = 1.0 / rate; }));
   };
   for (Integrator integrator : {Integrator::bdf2, Integrator::implicit})
     for (int rate = 60; rate <= (effort.quick ? 960 : 3840); rate *= 2) add(integrator, rate);

@@ -30,7 +30,7 @@ namespace {
 struct Member {
   std::string experiment;           // empty until it is known
   std::optional<CommandLine> line;  // empty once the run has ended, as `ending` says
-  Ending ending;
+  ExitStatus ending;
 };
 
 // Keeps the stdout of the process for reports alone: what the runs print is discarded, as if each were a
@@ -51,7 +51,7 @@ class Reports {
   Reports(const Reports&) = delete;
   Reports& operator=(const Reports&) = delete;
 
-  void say(int run, const Ending& ending) const {
+  void say(int run, const ExitStatus& ending) const {
     const Json report = {{"run", run}, {"exit_code", ending.exit_code}, {"error", ending.error}};
     const std::string line = report.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
     for (std::size_t done = 0; done < line.size();) {
@@ -73,7 +73,7 @@ Member parsed(std::vector<std::string> words) {
   if (std::any_of(known.begin(), known.end(), [&](const Experiment& e) { return e.name == name; }))
     known = {experiment_named(name)};
   words.insert(words.begin(), std::filesystem::read_symlink("/proc/self/exe").string());
-  member.ending = run_ending(member.experiment, [&] {
+  member.ending = run_guarded(member.experiment, [&] {
     member.line = parse_command_line(words, known);
     if (!member.line) return 0;
     member.experiment = member.line->experiment;
@@ -111,11 +111,11 @@ int run_batch(const CommandLine&) {
   std::optional<Interrupts> interrupts;
   if (any(members, [](const CommandLine& line) { return last_text(line.flags, "checkpoint", "0") != "0"; }))
     interrupts.emplace();
-  run_together(on_gpu, static_cast<int>(members.size()), [&](int i) {
+  run_batched_scenes(on_gpu, static_cast<int>(members.size()), [&](int i) {
     Member& member = members[static_cast<std::size_t>(i)];
     if (member.line)
-      member.ending = run_ending(member.experiment,
-                                 [&] { return experiment_named(member.experiment).run(*member.line); });
+      member.ending = run_guarded(member.experiment,
+                                  [&] { return experiment_named(member.experiment).run(*member.line); });
     reports.say(i, member.ending);
   });
   return 0;

@@ -199,7 +199,7 @@ void bench_sizes(const Request& request) {
                               {"fraction_of_copy_bandwidth", "fraction", 8, 3},
                               {"skipped", "left out since it", -1}},
                              request.json());
-  SizeChoice choice{request.own.sizes_triangles, {}, request.single_steps(), request.own.budget};
+  SizeParams choice{request.own.sizes_triangles, {}, request.single_steps(), request.own.budget};
   for (const std::string& name : split(request.own.sizes_integrators))
     choice.integrators.push_back(value_named<Integrator>(name));
   Run run = request.run();
@@ -238,13 +238,13 @@ void bench_kernels(const Request& request) {
 }
 
 // Returns the scene's keys that the request decides itself.
-std::vector<DecidedKey> left_out_by(const BenchOptions& own) {
-  std::vector<DecidedKey> keys = {{"seconds", "steps are timed", true}};
-  const auto decided = [&](std::initializer_list<const char*> paths) {
+std::vector<FixedKey> left_out_by(const BenchOptions& own) {
+  std::vector<FixedKey> keys = {{"seconds", "steps are timed", true}};
+  const auto fixed_keys = [&](std::initializer_list<const char*> paths) {
     for (const char* path : paths) keys.push_back({path, "the table is of several"});
   };
-  if (own.sizes) decided({"triangles", "integrator", "step", "substeps"});
-  if (!own.sizes && !own.profile) decided({"law", "param", "element"});
+  if (own.sizes) fixed_keys({"triangles", "integrator", "step", "substeps"});
+  if (!own.sizes && !own.profile) fixed_keys({"law", "param", "element"});
   return keys;
 }
 

@@ -53,7 +53,7 @@ Metrics blank_row(const Scene& scene, int triangles, const std::string& skipped)
 
 class TimesBySize {
  public:
-  TimesBySize(const Scene& scene, const SizeChoice& choice,
+  TimesBySize(const Scene& scene, const SizeParams& choice,
               const std::function<void(const Metrics&)>& measured)
       : scene_(scene), choice_(choice), measured_(measured) {
     std::sort(choice_.triangles.begin(), choice_.triangles.end());
@@ -149,7 +149,7 @@ class TimesBySize {
   }
 
   Scene scene_;  // its step is the longest explicit one
-  SizeChoice choice_;
+  SizeParams choice_;
   const std::function<void(const Metrics&)>& measured_;
   Stopwatch clock_;
   Experience fall_;
@@ -211,7 +211,7 @@ FigureCaption size_caption(const SizeTable& table) {
 
 }  // namespace
 
-SizeTable times_by_size(const Scene& scene, const SizeChoice& choice,
+SizeTable times_by_size(const Scene& scene, const SizeParams& choice,
                         const std::function<void(const Metrics&)>& measured) {
   return TimesBySize(scene, choice, measured).table();
 }

@@ -11,7 +11,7 @@
 
 namespace hysteron::experiments {
 
-struct SizeChoice {
+struct SizeParams {
   std::vector<double> triangles;
   std::vector<Integrator> integrators;
   int steps = 9;        // number of steps, each timed by itself
@@ -32,7 +32,7 @@ struct SizeTable {
 // Steps that are implicit in all forces take 1/60 s.  The floor is the bytes that the loops state they must
 // move, over the bandwidth of a plain copy.  Rows that would exceed the budget, extrapolated from fewer
 // triangles, and rows that cannot go on give the reason in `skipped`; their numbers are unknown.
-SizeTable times_by_size(const Scene& scene, const SizeChoice& choice,
+SizeTable times_by_size(const Scene& scene, const SizeParams& choice,
                         const std::function<void(const Metrics&)>& measured);
 
 // Writes table.csv and, with pictures, plot_sizes with its caption in README.md.

@@ -14,11 +14,11 @@
 namespace hysteron::experiments {
 namespace {
 
-struct BuckleChoice {
+struct BuckleParams {
   Buckling kind = Buckling::upright;
   double width = 0;
 };
-using B = BuckleChoice;
+using B = BuckleParams;
 // clang-format off
 const KeyRow<B> kRows[] = {
     {"buckle.kind", at<&B::kind>, "", any(), "", "upright: stands on its clamp; edge: clamped level, width vertical; law = linear unless named. Gamma is the weight times L^3/b2, b2 along warp whatever the strip's direction"},
@@ -47,8 +47,8 @@ Setup defaults() {
   return setup;
 }
 
-std::vector<DecidedKey> decided() {
-  std::vector<DecidedKey> keys = decided_by_clamped_strips();
+std::vector<FixedKey> fixed_keys() {
+  std::vector<FixedKey> keys = decided_by_clamped_strips();
   const char* weight = "the strip's weight grows through that of theory, whatever it was";
   keys.insert(keys.end(), {{"cloth.rotation", "buckle.kind says how the strip stands"},
                            {"integrator", "it looks for equilibria (quasi-static)"},
@@ -72,7 +72,7 @@ render::Box strip_bounds(const BucklingStrip& strip, double width, const Eigen::
 }
 
 // Returns the scene with the measured strip's width in place of the pictured one's.
-Scene measured_scene(Scene scene, const BuckleChoice& choice) {
+Scene measured_scene(Scene scene, const BuckleParams& choice) {
   const double default_width = choice.kind == Buckling::upright ? 0.1 : 1.0 / 80;
   scene.cloth.width = scene.cloth.length * (choice.width > 0 ? choice.width : default_width);
   return scene;
@@ -199,7 +199,7 @@ Experiment buckle() {
       .simulates = true,
       .own_keys = own_key_descriptions<kRows>,
       .defaults = defaults,
-      .decided = decided,
+      .fixed_keys = fixed_keys,
       .conditions = {{"seed", "mesh = random"}},
       .headlines = {.all = {{"critical_gamma", "critical gamma (weight L^3/b2, b2 along warp)", "", "{:.3f}"},
                             {"reference_gamma", "that of theory", "", "{:.3f}", 1, kNoErrors}},

@@ -14,10 +14,10 @@
 namespace hysteron::experiments {
 namespace {
 
-struct CantileverChoice {
+struct CantileverParams {
   double gamma = 0;
 };
-using C = CantileverChoice;
+using C = CantileverParams;
 // clang-format off
 const KeyRow<C> kRows[] = {
     {"gamma", at<&C::gamma>, "", at_least(0), "", "weight over stiffness, density g L^3/b2: sets the density, and law = linear unless named; 0: the fabric's own"},
@@ -44,8 +44,8 @@ Setup defaults() {
   return setup;
 }
 
-std::vector<DecidedKey> decided() {
-  std::vector<DecidedKey> keys = decided_by_clamped_strips();
+std::vector<FixedKey> fixed_keys() {
+  std::vector<FixedKey> keys = decided_by_clamped_strips();
   keys.push_back({"seconds", "the weight grows in ramp and goes in unload"});
   keys.push_back({"integrator", "the strip is in equilibrium while its weight grows and goes"});
   return keys;
@@ -124,7 +124,7 @@ int run_cantilever(const CommandLine& line) {
   scene.integrator = Integrator::quasi_static;
   scene.seconds = scene.ramp + scene.unload;
   if (choice.gamma > 0) {
-    const DecidedKey density = {"fabric.density", "gamma says how heavy the strip is"};
+    const FixedKey density = {"fabric.density", "gamma says how heavy the strip is"};
     decide(line, setup, {density});
     note_setter(scene, line.experiment, density);
     if (!names_law(line)) scene.law = "linear";
@@ -187,7 +187,7 @@ Experiment cantilever() {
       .simulates = true,
       .own_keys = own_key_descriptions<kRows>,
       .defaults = defaults,
-      .decided = decided,
+      .fixed_keys = fixed_keys,
       .conditions = {{"seed", "mesh = random"}},
       .headlines = {.all = {{"tip_drop_over_length", "tip drop over length", "", "{:.4f}"},
                             {"elastica_drop_over_length", "that of the elastica", "", "{:.4f}", 1, kNoErrors},

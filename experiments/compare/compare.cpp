@@ -27,9 +27,9 @@
 namespace hysteron::experiments {
 namespace {
 
-using C = CompareChoice;
+using C = CompareParams;
 // clang-format off
-const KeyRow<CompareChoice> kRows[] = {
+const KeyRow<CompareParams> kRows[] = {
     {"laws", at<&C::laws>, "", any(), "", "columns: laws separated by commas, or all; each may carry further keys, as in linear+fabric.damping=1e-3; default linear,pabst,obrien,narain,kim,dahl,prandtl"},
     {"fabrics", at<&C::fabrics>, "", any(), "", "columns: fabrics separated by commas, or all"},
     {"integrators", at<&C::integrators>, "", any(), "", "columns: integrators separated by commas, or all"},
@@ -76,7 +76,7 @@ std::string comparison_title(const CommandLine& line, const std::string& own,
 
 // Says what the columns are matched to; nothing if laws cannot differ in stiffness by their own
 // definitions.
-std::vector<std::string> comparison_notes(const CompareChoice& choice, const Plan& plan) {
+std::vector<std::string> comparison_notes(const CompareParams& choice, const Plan& plan) {
   const bool scaled = std::ranges::any_of(plan.scales, [](double scale) { return scale != 1; });
   if (plan.laws < 2 && !scaled) return {};
   if (choice.match == Match::fabric)
@@ -112,7 +112,7 @@ std::vector<KeyDescription> own_keys() {
 }
 
 // Reads the page's own flags; all others are left to the columns.
-void read_flags(const CommandLine& line, CompareChoice& choice, Options& options) {
+void read_flags(const CommandLine& line, CompareParams& choice, Options& options) {
   const Keys own = bind(kRows, choice), general = bind_options(options);
   for (const Flag& flag : line.flags)
     for (const Keys* keys : {&own, &general})
@@ -143,7 +143,7 @@ void take_scene_options(CommandLine& inner, Options& options) {
 
 // Throws without pictures: the columns' curvatures are subtracted as their pictures are drawn, from those
 // that the first one keeps.
-void check_difference(const CompareChoice& choice, bool with_images) {
+void check_difference(const CompareParams& choice, bool with_images) {
   if (with_images || choice.to.empty() || choice.difference != "curvature") return;
   throw Error::invalid_input(
       "compare.difference = curvature needs pictures, and no-images draws none: leave one of both out "
@@ -152,7 +152,7 @@ void check_difference(const CompareChoice& choice, bool with_images) {
 }
 
 // Throws unless there is a name for each column.
-void check_names(const CompareChoice& choice, const std::vector<ChildRun>& columns) {
+void check_names(const CompareParams& choice, const std::vector<ChildRun>& columns) {
   const std::size_t named = split(choice.names).size();
   if (named == 0 || named == columns.size()) return;
   throw Error::invalid_input(fmt::format("compare.names = {} must be as many names as there are columns, {} "
@@ -163,7 +163,7 @@ void check_names(const CompareChoice& choice, const std::vector<ChildRun>& colum
 
 // How far other draws of the mesh are from the columns shown: of the first headline that was repeated for it,
 // or that none was; "" of experiments whose meshes do not decide.
-std::string draws_note(const Experiment& experiment, const CompareChoice& choice, const Plan& plan) {
+std::string draws_note(const Experiment& experiment, const CompareParams& choice, const Plan& plan) {
   if (!experiment.by_chance) return "";
   const std::vector<std::string> names = column_names(plan.columns, split(choice.names));
   for (const Headline& headline : experiment.headlines.all) {
@@ -183,7 +183,7 @@ std::string draws_note(const Experiment& experiment, const CompareChoice& choice
   return "One draw of the mesh is shown: others fold elsewhere (--errors says how far apart they are).";
 }
 
-std::vector<std::string> page_notes(const Experiment& experiment, const CompareChoice& choice,
+std::vector<std::string> page_notes(const Experiment& experiment, const CompareParams& choice,
                                     const Plan& plan) {
   std::vector<std::string> notes = comparison_notes(choice, plan);
   notes.push_back(draws_note(experiment, choice, plan));
@@ -192,7 +192,7 @@ std::vector<std::string> page_notes(const Experiment& experiment, const CompareC
   return notes;
 }
 
-void draw_page(Run& run, const CommandLine& line, const std::string& experiment, const CompareChoice& choice,
+void draw_page(Run& run, const CommandLine& line, const std::string& experiment, const CompareParams& choice,
                const Options& options, const Plan& plan) {
   const ComparisonPage page{.title = comparison_title(line, choice.title, plan.columns),
                             .notes = page_notes(experiment_named(experiment), choice, plan),
@@ -229,7 +229,7 @@ void check_metrics(const std::vector<ChildRun>& columns, const std::vector<std::
 
 // Throws for metrics that no column has, before anything is touched, if every column is complete.
 void check_known_metrics(std::vector<ChildRun> columns, const std::vector<std::string>& names) {
-  if (names.empty() || !std::ranges::all_of(columns, recall)) return;
+  if (names.empty() || !std::ranges::all_of(columns, load_cached_run)) return;
   check_metrics(columns, names);
 }
 
@@ -241,7 +241,7 @@ int run_compare(const CommandLine& line) {
                                " is one file, and every column has a scene of its own: dump that of the "
                                "experiment with the column's flags")
         .with_key("dump-scene", file);
-  CompareChoice choice;
+  CompareParams choice;
   Options options;
   read_flags(line, choice, options);
   CommandLine inner = line_of_columns(line, choice);
@@ -249,8 +249,10 @@ int run_compare(const CommandLine& line) {
   check_difference(choice, !options.no_images);
   film_formats("compare.video", choice.video);
   std::vector<Variant> variants = named_variants(inner);
-  if (options.explain)
-    return explain_columns(comparison_plan(inner, variants, choice, options.out).columns), 0;
+  if (options.explain) {
+    explain_columns(comparison_plan(inner, variants, choice, options.out).columns);
+    return 0;
+  }
   Plan plan = comparison_plan(inner, variants, choice, options.out);
   check_names(choice, plan.columns);
   check_batch(plan.columns, choice.batch);

@@ -78,7 +78,7 @@ LawRequest reference_request(const std::vector<Scene>& scenes, const std::vector
 
 // Returns flags that make the column as stiff as the law of `reference` on the same fabric.  Its viscosity,
 // fabric.damping times b1, is scaled with it.
-std::vector<Flag> matched(const Scene& column, const LawRequest& reference, const CompareChoice& choice,
+std::vector<Flag> matched(const Scene& column, const LawRequest& reference, const CompareParams& choice,
                           double& scale) {
   scale = 1;
   if (choice.match == Match::fabric) return {};
@@ -98,7 +98,7 @@ std::vector<Flag> matched(const Scene& column, const LawRequest& reference, cons
 }
 
 // Throws for a column that names its own stiffness, as it would run with another one.
-void refuse_rescaled(const Variant& variant, double scale, const CompareChoice& choice) {
+void refuse_rescaled(const Variant& variant, double scale, const CompareParams& choice) {
   constexpr const char* kStiffnesses[] = {"fabric.b1", "fabric.b2", "fabric.k0", "fabric.kes-b",
                                           "fabric.kes-2hb"};
   if (scale == 1) return;
@@ -119,7 +119,7 @@ Flag shared_range(const CommandLine& inner, const std::vector<Scene>& columns) {
 }
 
 // Returns the flags that the page adds to those of the experiment alone.
-std::vector<Flag> requested_for_page(const CommandLine& inner, const CompareChoice& choice,
+std::vector<Flag> requested_for_page(const CommandLine& inner, const CompareParams& choice,
                                      const std::filesystem::path& out, bool is_reference) {
   std::vector<Flag> flags = for_sheets(inner);
   std::string look = last_text(inner.flags, "look", "cloth");
@@ -157,7 +157,7 @@ void refuse_beside_list(const CommandLine& line, const std::string& key, const s
 
 }  // namespace
 
-CommandLine line_of_columns(const CommandLine& line, const CompareChoice& choice) {
+CommandLine line_of_columns(const CommandLine& line, const CompareParams& choice) {
   refuse_beside_list(line, "law", choice.laws);
   refuse_beside_list(line, "fabric", choice.fabrics);
   refuse_beside_list(line, "integrator", choice.integrators);
@@ -183,7 +183,7 @@ CommandLine line_of_columns(const CommandLine& line, const CompareChoice& choice
 }
 
 Plan comparison_plan(const CommandLine& inner, const std::vector<Variant>& variants,
-                     const CompareChoice& choice, const std::filesystem::path& out) {
+                     const CompareParams& choice, const std::filesystem::path& out) {
   Plan plan;
   std::vector<Scene> scenes;
   for (const Variant& variant : variants) scenes.push_back(bending_scene(with_variant(inner, variant)));

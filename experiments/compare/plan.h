@@ -11,7 +11,7 @@
 
 namespace hysteron::experiments {
 
-struct CompareChoice {
+struct CompareParams {
   std::string laws, fabrics, integrators;
   std::string to;  // column that others differ from; "": no such rows
   std::string difference = "picture";
@@ -32,7 +32,7 @@ struct CompareChoice {
 std::string compared_experiments();
 
 // Returns the line for the experiment itself: lists become its --law, --fabric and --integrator.
-CommandLine line_of_columns(const CommandLine& line, const CompareChoice& choice);
+CommandLine line_of_columns(const CommandLine& line, const CompareParams& choice);
 
 struct Plan {
   std::vector<ChildRun> columns;
@@ -48,7 +48,7 @@ struct Plan {
 // Returns a column per variant of that line, in OUT/<name>/.  Throws Error::invalid_input if the column to
 // subtract is none of them.
 Plan comparison_plan(const CommandLine& inner, const std::vector<Variant>& variants,
-                     const CompareChoice& choice, const std::filesystem::path& out);
+                     const CompareParams& choice, const std::filesystem::path& out);
 
 // Throws Error::invalid_input for a time [s] after the end of the longest run of the columns, as their scenes
 // have it.

@@ -47,10 +47,10 @@ double metric_in(const ChildRun& column, const std::string& metric) {
 }
 
 // Returns the first column with a number for the tuned key, and the second one.
-Plan tried_columns(const CommandLine& inner, const std::vector<Variant>& variants, CompareChoice choice,
+Plan tried_columns(const CommandLine& inner, const std::vector<Variant>& variants, CompareParams choice,
                    const Options& options, const std::string& key, const std::string& number) {
   CommandLine line = inner;
-  line.flags = with_later(without_unread_flags(line, "no-images", "true"), {{"no-images", "true"}});
+  line.flags = override_flags(without_unread_flags(line, "no-images", "true"), {{"no-images", "true"}});
   choice.to.clear();
   return comparison_plan(line, {with_key(variants, key, number), variants[1]}, choice,
                          std::filesystem::path(options.out) / "tries");
@@ -109,7 +109,7 @@ std::string tuned(const Tuning& tuning, const Excess& excess) {
   return best;
 }
 
-void check_tuning(const CommandLine& inner, const std::vector<Variant>& variants, const CompareChoice& choice,
+void check_tuning(const CommandLine& inner, const std::vector<Variant>& variants, const CompareParams& choice,
                   const Options& options) {
   const Tuning tuning = parsed_tuning(choice.tune, choice.tune_metric);
   if (variants.size() < 2)
@@ -121,7 +121,7 @@ void check_tuning(const CommandLine& inner, const std::vector<Variant>& variants
 }
 
 Json tune_first_column(Run& run, const CommandLine& inner, std::vector<Variant>& variants,
-                       const CompareChoice& choice, SweepJobs jobs, const Options& options) {
+                       const CompareParams& choice, SweepJobs jobs, const Options& options) {
   const Tuning tuning = parsed_tuning(choice.tune, choice.tune_metric);
   const auto say = [&](const std::string& line) { run.progress(line); };
   std::map<std::string, double> missed;  // relative excess over the target, by number

@@ -33,7 +33,7 @@ std::string tuned(const Tuning& tuning, const Excess& excess);
 
 // Throws for a wrong compare.tune of the choice, and what its first tries would refuse before their
 // first step.
-void check_tuning(const CommandLine& inner, const std::vector<Variant>& variants, const CompareChoice& choice,
+void check_tuning(const CommandLine& inner, const std::vector<Variant>& variants, const CompareParams& choice,
                   const Options& options);
 
 // Tunes by the choice's compare.tune: the first two columns run without pictures in OUT/tries with each
@@ -41,6 +41,6 @@ void check_tuning(const CommandLine& inner, const std::vector<Variant>& variants
 // stdout, "fabric.damping=0.004839".  Warns of a miss of more than a percent.  Returns the manifest's
 // entry.  Throws Error::invalid_input, Error::simulation if a try could not go on, and what running throws.
 Json tune_first_column(Run& run, const CommandLine& inner, std::vector<Variant>& variants,
-                       const CompareChoice& choice, SweepJobs jobs, const Options& options);
+                       const CompareParams& choice, SweepJobs jobs, const Options& options);
 
 }  // namespace hysteron::experiments

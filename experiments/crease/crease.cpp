@@ -23,7 +23,7 @@
 namespace hysteron::experiments {
 namespace {
 
-using C = CreaseChoice;
+using C = CreaseParams;
 // clang-format off
 const KeyRow<C> kRows[] = {
     {"crease.fold", at<&C::fold>, "", any(), "plate | rod | pleat", "how it is folded: flat under a plate, softly around a rod, or a pleat that is pulled straight"},
@@ -61,8 +61,8 @@ Setup defaults() {
   return setup;
 }
 
-std::vector<DecidedKey> decided() {
-  std::vector<DecidedKey> keys = unused_but(
+std::vector<FixedKey> fixed_keys() {
+  std::vector<FixedKey> keys = unused_but(
       "cloth.",
       {"cloth.shape", "cloth.length", "cloth.width", "cloth.position", "cloth.rotation", "cloth.warp-angle"},
       "the specimen is one flat strip");
@@ -321,7 +321,7 @@ Experiment crease() {
           .simulates = true,
           .own_keys = own_key_descriptions<kRows, page_keys>,
           .defaults = defaults,
-          .decided = decided,
+          .fixed_keys = fixed_keys,
           .compared = true,
           .plot_columns = plot_protractor,
           .conditions = {{"crease.force", "crease.fold = plate"},

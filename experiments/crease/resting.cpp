@@ -30,9 +30,9 @@ void add_growing(std::vector<double>& lengths, double seconds, double step, doub
 
 }  // namespace
 
-CreaseChoice by_standard(const std::string& standard) {
+CreaseParams by_standard(const std::string& standard) {
   constexpr double kFiveMinutes = 300, kHalfKilogram = 0.5 * 9.80665, kTenNewton = 10;
-  CreaseChoice choice;
+  CreaseParams choice;
   choice.standard = standard;
   choice.force = standard == "aatcc66" ? kHalfKilogram : kTenNewton;
   choice.hold = choice.recovery = kFiveMinutes;

@@ -46,7 +46,7 @@ Motion unfolding(double begin, double radius, double turn) {
   return motion;
 }
 
-CreaseTimes soft_fold_times(const CreaseChoice& choice) {
+CreaseTimes soft_fold_times(const CreaseParams& choice) {
   CreaseTimes times{};
   times.folded = kTurn;
   times.pressed = times.folded + kRest;
@@ -56,7 +56,7 @@ CreaseTimes soft_fold_times(const CreaseChoice& choice) {
   return times;
 }
 
-Crease begun(const Scene& given, const CreaseChoice& choice) {
+Crease begun(const Scene& given, const CreaseParams& choice) {
   Crease crease{given, {}, soft_fold_times(choice)};
   crease.scene.seconds = crease.times.end;
   crease.scene.cloth.shape = "strip";
@@ -72,7 +72,7 @@ Crease finished(Crease crease, ClothMesh mesh) {
 
 }  // namespace
 
-Crease wrapped(const Scene& given, const CreaseChoice& choice) {
+Crease wrapped(const Scene& given, const CreaseParams& choice) {
   Crease crease = begun(given, choice);
   Scene& scene = crease.scene;
   const double limbs = scene.cloth.length, taken = std::numbers::pi * choice.radius;
@@ -95,7 +95,7 @@ Crease wrapped(const Scene& given, const CreaseChoice& choice) {
   return finished(std::move(crease), crease_specimen(scene, taken / 2));
 }
 
-Crease pleated(const Scene& given, const CreaseChoice& choice) {
+Crease pleated(const Scene& given, const CreaseParams& choice) {
   Crease crease = begun(given, choice);
   Scene& scene = crease.scene;
   const double length = scene.cloth.length, turn = 180 - choice.pleat;

@@ -97,7 +97,7 @@ Obstacle pressing_plate(const Scene& scene, const CreaseTimes& times, double low
 
 }  // namespace
 
-Crease creased(const Scene& given, const CreaseChoice& choice, double plate) {
+Crease creased(const Scene& given, const CreaseParams& choice, double plate) {
   Crease crease{given, {}, {}};
   Scene& scene = crease.scene;
   CreaseTimes& times = crease.times;
@@ -196,7 +196,7 @@ Error too_small_force(double asked, double found, double underside, double thick
 
 }  // namespace
 
-double loaded_plate(const Scene& scene, const CreaseChoice& choice) {
+double loaded_plate(const Scene& scene, const CreaseParams& choice) {
   const double thickness = scene.fabric.thickness, lowest = 2.05 * thickness;
   const Crease crease = creased(scene, choice, lowest);
   const auto simulation = make_simulation(crease.scene, crease.cloth);

@@ -8,7 +8,7 @@
 
 namespace hysteron::experiments {
 
-struct CreaseChoice {
+struct CreaseParams {
   std::string fold = "plate";     // plate | rod | pleat
   std::string release = "slow";   // slow: from equilibrium to equilibrium | quick: let go in motion
   double force = 10;              // force of the plate [N] (ISO 2313)
@@ -27,7 +27,7 @@ struct CreaseChoice {
 // Returns the load and times of a standard, with steps that grow:
 //   iso2313   10 N for 5 min, read after 5 min (ISO 2313-2)
 //   aatcc66   500 g for 5 min, read after 5 min (AATCC 66)
-CreaseChoice by_standard(const std::string& standard);
+CreaseParams by_standard(const std::string& standard);
 
 // The times at which the phases of the test end [s].
 struct CreaseTimes {
@@ -89,15 +89,15 @@ std::vector<double> growing_steps(const CreaseTimes& times, double step, double 
 // across the crease, which is in its middle.  Its near limb is clamped on a plane; a pin takes the end of the
 // far limb over by 180 degrees, then a plate presses both down until its underside is `plate` above the
 // plane [m], stays, and goes.  There is no gravity, as the standards turn its moment away.
-Crease creased(const Scene& scene, const CreaseChoice& choice, double plate);
+Crease creased(const Scene& scene, const CreaseParams& choice, double plate);
 
 // Builds a strip whose near limb is clamped; a pin wraps the rest halfway around a rod, holds it there, and
 // lets go as the rod is taken away.  Its limbs are `scene.cloth.length` long in all, excluding the part
 // around the rod.
-Crease wrapped(const Scene& scene, const CreaseChoice& choice);
+Crease wrapped(const Scene& scene, const CreaseParams& choice);
 // Builds a strip that is at rest with a sharp pleat in its middle: a pin opens it until it is straight, holds
 // it there, and lets go.
-Crease pleated(const Scene& scene, const CreaseChoice& choice);
+Crease pleated(const Scene& scene, const CreaseParams& choice);
 
 // Returns the mesh that the three specimens share; columns across the crease are at most a thickness wide up
 // to `fine` [m] from it.
@@ -106,6 +106,6 @@ ClothMesh crease_specimen(const Scene& scene, double fine);
 Pin crease_clamp(const Scene& scene);
 
 // Finds by pressing the height of the plate's underside at which it first bears the force [m].
-double loaded_plate(const Scene& scene, const CreaseChoice& choice);
+double loaded_plate(const Scene& scene, const CreaseParams& choice);
 
 }  // namespace hysteron::experiments

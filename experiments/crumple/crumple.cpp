@@ -23,10 +23,10 @@
 namespace hysteron::experiments {
 namespace {
 
-struct CrumpleChoice {
+struct CrumpleParams {
   double ridge = 20;
 };
-using C = CrumpleChoice;
+using C = CrumpleParams;
 // clang-format off
 const KeyRow<C> kRows[] = {
     {"crumple.ridge", at<&C::ridge>, "1/m", positive(), "", "residual curvature from which a place counts as part of a ridge"},

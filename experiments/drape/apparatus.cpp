@@ -79,7 +79,7 @@ std::string name_of_cloth(const Scene& scene) {
 }
 
 // Returns the strokes up and down that begin when the plate has let go.
-Motion shaking(const DrapeChoice& choice) {
+Motion shaking(const DrapeParams& choice) {
   Motion motion;
   for (int k = 0; k <= 2 * choice.shakes; ++k)
     motion.keys.push_back({choice.lowered() + k * choice.period / 2, {0, 0, k % 2 ? choice.stroke : 0}});
@@ -103,8 +103,8 @@ Specimen disc_specimen(const Scene& scene, const Cloth& cloth) {
 
 double specimen_radius(const std::string& standard) { return standard == "jis" ? 0.127 : 0.15; }
 
-DrapeChoice drape_by_standard(const std::string& standard) {
-  DrapeChoice choice;
+DrapeParams drape_by_standard(const std::string& standard) {
+  DrapeParams choice;
   choice.standard = standard;
   if (standard != "jis") return choice;
   choice.release = "shaken";
@@ -113,12 +113,12 @@ DrapeChoice drape_by_standard(const std::string& standard) {
   return choice;
 }
 
-bool is_own_tester(const PublishedNumber& number, const DrapeChoice& choice, double specimen_radius) {
+bool is_own_tester(const PublishedNumber& number, const DrapeParams& choice, double specimen_radius) {
   if (number.tester != choice.standard) return false;
   const auto is_near = [](double size, double standard) {
     return std::abs(size - standard) <= kRound * standard;
   };
-  const DrapeChoice own = drape_by_standard(number.tester);
+  const DrapeParams own = drape_by_standard(number.tester);
   return is_near(choice.disc, own.disc) &&
          is_near(specimen_radius, experiments::specimen_radius(number.tester)) &&
          choice.release == own.release && choice.offset == 0 && choice.curl == 0 && choice.uneven == 0 &&
@@ -126,7 +126,7 @@ bool is_own_tester(const PublishedNumber& number, const DrapeChoice& choice, dou
          choice.wait == own.wait;
 }
 
-std::string other_tester_message(const Fabric& fabric, const DrapeChoice& choice, double specimen_radius) {
+std::string other_tester_message(const Fabric& fabric, const DrapeParams& choice, double specimen_radius) {
   for (const char* name : {"drape-coefficient", "node-count"}) {
     const auto found = fabric.published.find(name);
     if (found == fabric.published.end()) continue;
@@ -164,7 +164,7 @@ std::string tilt_warning(const Scene& scene) {
 namespace {
 
 // The plate sinks; where the ring is lifted again it waits below, rises and sinks a second time.
-std::vector<Keyframe> plate_keys(const DrapeChoice& choice) {
+std::vector<Keyframe> plate_keys(const DrapeParams& choice) {
   const Eigen::Vector3d above = Eigen::Vector3d::Zero(), below(0, 0, -choice.plate);
   std::vector<Keyframe> keys = {{0, above}, {choice.lowering, below}};
   if (!choice.is_relifted()) return keys;
@@ -175,7 +175,7 @@ std::vector<Keyframe> plate_keys(const DrapeChoice& choice) {
 
 }  // namespace
 
-void add_apparatus(Scene& scene, const DrapeChoice& choice, const Specimen& specimen) {
+void add_apparatus(Scene& scene, const DrapeParams& choice, const Specimen& specimen) {
   // The discs press the specimen by a few times its own weight: both contacts stay closed, as in the
   // apparatus, and the plate throws nothing up when it goes down.
   constexpr double kOwnWeights = 4;
@@ -224,7 +224,7 @@ std::vector<double> random_field(const std::vector<Eigen::Vector2d>& at, double 
 
 }  // namespace
 
-void make_uneven(ClothMesh& mesh, const DrapeChoice& choice, unsigned seed) {
+void make_uneven(ClothMesh& mesh, const DrapeParams& choice, unsigned seed) {
   if (choice.uneven > 0) {
     const double log_deviation = std::sqrt(std::log1p(choice.uneven * choice.uneven));
     std::vector<Eigen::Vector2d> middle(mesh.faces());
@@ -244,7 +244,7 @@ void make_uneven(ClothMesh& mesh, const DrapeChoice& choice, unsigned seed) {
   }
 }
 
-void seed_folds(std::vector<Eigen::Vector3d>& start, const DrapeChoice& choice, double radius) {
+void seed_folds(std::vector<Eigen::Vector3d>& start, const DrapeParams& choice, double radius) {
   if (choice.folds == 0) return;
   if (choice.release != "dropped")
     throw Error::invalid_input("drape.folds needs drape.release = dropped: a plate would press them flat")

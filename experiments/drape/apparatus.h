@@ -18,7 +18,7 @@ struct Specimen {
 // Error::invalid_input unless it is a disc that lies flat.
 Specimen disc_specimen(const Scene& scene, const Cloth& cloth);
 
-struct DrapeChoice {
+struct DrapeParams {
   std::string standard = "iso9073";  // the standard that sets sizes and release
   std::string release = "lowered";   // lowered: a plate under the ring sinks; dropped: it is gone at once;
                                      // relifted: lowered, lifted flat again, lowered a second time; shaken:
@@ -51,14 +51,14 @@ struct DrapeChoice {
 // 30 cm on a disc of 18 cm; `jis` has one of 25.4 cm on 12.7 cm, shaken three times and read after a minute
 // (a Japanese teaching page on the tester; stroke and period, which no source states, are chosen here).
 double specimen_radius(const std::string& standard);
-DrapeChoice drape_by_standard(const std::string& standard);
+DrapeParams drape_by_standard(const std::string& standard);
 
 // True if a published number was measured on this tester: the fabric's file names its standard, with the
 // sizes and the release of that standard.
-bool is_own_tester(const PublishedNumber& number, const DrapeChoice& choice, double specimen_radius);
+bool is_own_tester(const PublishedNumber& number, const DrapeParams& choice, double specimen_radius);
 // Returns why the fabric's published drape is not comparable with this one, and which tester to ask for; ""
 // if it is, or if none is published.
-std::string other_tester_message(const Fabric& fabric, const DrapeChoice& choice, double specimen_radius);
+std::string other_tester_message(const Fabric& fabric, const DrapeParams& choice, double specimen_radius);
 
 // Throws Error::invalid_input unless gravity pulls the specimen onto the pedestal, within 45 degrees of
 // straight down.  Returns the warning of any tilt, or "".
@@ -68,7 +68,7 @@ inline constexpr double kPedestalHeight = 0.14;  // [m]
 
 // Adds the pedestal, the upper disc that holds the specimen (not shown), and the plate that lowers the ring;
 // the specimen is centred on the pedestal.
-void add_apparatus(Scene& scene, const DrapeChoice& choice, const Specimen& specimen);
+void add_apparatus(Scene& scene, const DrapeParams& choice, const Specimen& specimen);
 
 // Height of the initial folds [m]: six of them strain the rim by 0.2 % at most; at half a millimetre, folds
 // merge.
@@ -76,10 +76,10 @@ inline constexpr double kFoldSeed = 2e-3;
 // Makes the disc as uneven as real specimens are.  Rigidities vary along the cloth, drawn by the seed from a
 // lognormal field whose correlation falls as exp(-d^2/(2 l^2)) with the distance d, l = uneven_length; and
 // the cloth curls: its rest shape is a cylinder, concave above if the curl is positive.
-void make_uneven(ClothMesh& mesh, const DrapeChoice& choice, unsigned seed);
+void make_uneven(ClothMesh& mesh, const DrapeParams& choice, unsigned seed);
 
 // Raises the ring in `folds` waves, highest at the rim by `kFoldSeed`, so that equilibria under different
 // methods are compared with the same folds.
-void seed_folds(std::vector<Eigen::Vector3d>& start, const DrapeChoice& choice, double radius);
+void seed_folds(std::vector<Eigen::Vector3d>& start, const DrapeParams& choice, double radius);
 
 }  // namespace hysteron::experiments

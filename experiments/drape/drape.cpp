@@ -17,9 +17,9 @@
 namespace hysteron::experiments {
 namespace {
 
-using D = DrapeChoice;
+using D = DrapeParams;
 // clang-format off
-const KeyRow<DrapeChoice> kRows[] = {
+const KeyRow<DrapeParams> kRows[] = {
     {"drape.standard", at<&D::standard>, "", any(), "iso9073 | jis", "sizes and release of a standard: a specimen of 30 cm on a disc of 18 cm, lowered; or of 25.4 cm on 12.7 cm, shaken three times and read after a minute; cloth.radius and other drape keys that are given win"},
     {"drape.release", at<&D::release>, "", any(), "lowered | dropped | relifted | shaken", "how the overhanging ring is released: a plate below it sinks; all at once; the plate sinks, lifts it flat again and sinks a second time; or it sinks, and pedestal and disc shake the specimen"},
     {"drape.folds", at<&D::folds>, "", between(0, 100), "", "dropped: so many waves, 2 mm high, raise the ring at the start and become its folds, the same under every method; 0: folds form by themselves"},
@@ -71,7 +71,7 @@ Setup defaults() {
   return setup;
 }
 
-std::vector<DecidedKey> decided() {
+std::vector<FixedKey> fixed_keys() {
   return {{"cloth.position", "the specimen lies in the middle of the pedestal"}};
 }
 
@@ -81,7 +81,7 @@ void keep_the_step(Scene& scene) {
 }
 
 // Throws unless the disc is smaller than the specimen, which otherwise has no free ring.
-void check_disc(const Scene& scene, const DrapeChoice& choice, const Specimen& specimen) {
+void check_disc(const Scene& scene, const DrapeParams& choice, const Specimen& specimen) {
   if (choice.disc < specimen.radius) return;
   const std::string file = rest_file(scene);
   const std::string of = file.empty() ? "cloth.radius = " + number_text(specimen.radius) + " m"
@@ -92,7 +92,7 @@ void check_disc(const Scene& scene, const DrapeChoice& choice, const Specimen& s
 
 // Throws unless the specimen's middle lies on the pedestal and its rim hangs over all around: otherwise it
 // slips off, or parts of the ring are missing.
-void check_offset(const DrapeChoice& choice, const Specimen& specimen) {
+void check_offset(const DrapeParams& choice, const Specimen& specimen) {
   const double ring = specimen.radius - choice.disc;
   if (choice.offset < std::min(choice.disc, ring)) return;
   const std::string why = choice.disc <= ring
@@ -104,7 +104,7 @@ void check_offset(const DrapeChoice& choice, const Specimen& specimen) {
 }
 
 // Lays the specimen on the pedestal, in the scene and in the cloth.
-Specimen lay_on_pedestal(Scene& scene, const DrapeChoice& choice, Cloth& cloth) {
+Specimen lay_on_pedestal(Scene& scene, const DrapeParams& choice, Cloth& cloth) {
   const Specimen specimen = disc_specimen(scene, cloth);
   check_disc(scene, choice, specimen);
   check_offset(choice, specimen);
@@ -126,7 +126,7 @@ void check_coefficient(double percent) {
 
 // Draws the cloth's shadow from above with the rims of the pedestal and of the flat specimen, and returns the
 // drape coefficient of its dark area [%].
-double shadow_coefficient(Session& session, const DrapeChoice& choice, double radius) {
+double shadow_coefficient(Session& session, const DrapeParams& choice, double radius) {
   double metres = 0;
   render::Image shadow = session.pictures()->silhouette(1.08 * radius, kShadowPixels, metres);
   const double found = drape_coefficient(render::covered_area(shadow, metres), choice.disc, radius);
@@ -156,7 +156,7 @@ std::string changed_numbers(const Scene& scene) {
 }
 
 // Returns why the published drape is of another test than this one, and of which; "" if it is comparable.
-std::string other_drape_message(const Scene& scene, const DrapeChoice& choice, double radius) {
+std::string other_drape_message(const Scene& scene, const DrapeParams& choice, double radius) {
   const std::string tester = other_tester_message(scene.fabric, choice, radius);
   const auto& published = scene.fabric.published;
   if (!tester.empty() || (!published.contains("drape-coefficient") && !published.contains("node-count")))
@@ -166,12 +166,12 @@ std::string other_drape_message(const Scene& scene, const DrapeChoice& choice, d
   return changed.empty() ? "" : "is of " + scene.fabric.name + " without " + changed;
 }
 
-bool is_of_this_tester(const PublishedNumber& number, const Scene& scene, const DrapeChoice& choice,
+bool is_of_this_tester(const PublishedNumber& number, const Scene& scene, const DrapeParams& choice,
                        double radius) {
   return is_own_tester(number, choice, radius) && has_usual_gravity(scene);
 }
 
-void plot_series(Session& session, const DrapeChoice& choice, double radius) {
+void plot_series(Session& session, const DrapeParams& choice, double radius) {
   const auto csv = session.run().path("metrics.csv");
   render::Plot drape{
       "Drape coefficient, " + session.scene().fabric.name, {"time [s]"}, {"drape coefficient [%]"}};
@@ -226,7 +226,7 @@ Setup set_up_drape(const CommandLine& line, D& choice) {
 }
 
 // Records numbers published for this tester, or names the tester they are of.
-void note_published(Run& run, const Scene& scene, const DrapeChoice& choice, double radius) {
+void note_published(Run& run, const Scene& scene, const DrapeParams& choice, double radius) {
   for (const auto& [name, number] : scene.fabric.published) {
     if (!is_of_this_tester(number, scene, choice, radius)) continue;
     if (name == "drape-coefficient") run.metric("published_drape_coefficient_percent", number.value);
@@ -247,7 +247,7 @@ struct Draping {
   }
 };
 
-RunPlan run_plan(Session& session, const DrapeChoice& choice, double radius, Draping& draping) {
+RunPlan run_plan(Session& session, const DrapeParams& choice, double radius, Draping& draping) {
   const float r = static_cast<float>(radius);
   RunPlan plan;
   plan.bounds = {{-r, -r, -0.6f * r}, {r, r, 0.02f}};
@@ -287,7 +287,7 @@ RunPlan run_plan(Session& session, const DrapeChoice& choice, double radius, Dra
 }
 
 int run_drape(const CommandLine& line) {
-  DrapeChoice choice;
+  DrapeParams choice;
   Setup setup = set_up_drape(line, choice);
   keep_the_step(setup.scene);
   if (!is_given(setup.scene, "seconds")) setup.scene.seconds += choice.released();
@@ -349,7 +349,7 @@ Experiment drape() {
           .simulates = true,
           .own_keys = own_key_descriptions<kRows>,
           .defaults = defaults,
-          .decided = decided,
+          .fixed_keys = fixed_keys,
           .compared = true,
           .plot_columns = plot_histories,
           .conditions = {{"drape.folds", "drape.release = dropped"},

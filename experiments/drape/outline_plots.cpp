@@ -70,7 +70,7 @@ void write_outlines(Run& run, const DrapeOutlines& outlines) {
   table.write(run.path(kFile));
 }
 
-void plot_outlines(Session& session, const DrapeChoice& choice, double radius,
+void plot_outlines(Session& session, const DrapeParams& choice, double radius,
                    const DrapeOutlines& outlines) {
   render::Plot plot{"Outline from above, " + session.scene().fabric.name, {"x [cm]"}, {"y [cm]"}};
   plot.equal_scales = true;

@@ -22,7 +22,7 @@ struct DrapeOutlines {
 // outline.csv: angle [degree], radius [cm] and, of two outlines, first_radius [cm].
 void write_outlines(Run& run, const DrapeOutlines& outlines);
 // plot_outline: the outlines beside the pedestal and the flat specimen of this radius [m].
-void plot_outlines(Session& session, const DrapeChoice& choice, double radius, const DrapeOutlines& outlines);
+void plot_outlines(Session& session, const DrapeParams& choice, double radius, const DrapeOutlines& outlines);
 // plot_histories of a comparison: a panel for each column that hung twice, both outlines over each other, and
 // how much of them is the same.  No plot where no column did.
 void plot_histories(Run& run, const ComparisonPage& page, const std::vector<ChildRun>& columns);

@@ -48,7 +48,7 @@ class FlexingMachine {
   Session& session_;
   FoldGauge gauge_;
   LawWalk material_;
-  Record cycles_, materials_;
+  TimeSeriesWriter cycles_, materials_;
   int count_ = 0;          // number of watched instants
   LawPoint crown_;         // state of the law at the crown
   double curvature_ = 0;   // current curvature of the crown [1/m]

@@ -21,7 +21,7 @@
 namespace hysteron::experiments {
 namespace {
 
-using C = FoldChoice;
+using C = FoldParams;
 // clang-format off
 const KeyRow<C> kRows[] = {
     {"fold.cycles", at<&C::cycles>, "", between(1, 10'000'000), "", "number of folds; default 100"},
@@ -50,8 +50,8 @@ Setup defaults() {
   return setup;
 }
 
-std::vector<DecidedKey> decided() {
-  std::vector<DecidedKey> keys = decided_by_clamped_strips();
+std::vector<FixedKey> fixed_keys() {
+  std::vector<FixedKey> keys = decided_by_clamped_strips();
   keys.insert(keys.end(),
               {{"cloth.position", "the clamps lie along x from the origin"},
                {"cloth.rotation", "the clamps lie along x, one over against the other"},
@@ -103,11 +103,11 @@ Request read(const CommandLine& line) {
   return request;
 }
 
-std::string law_words(const Scene& scene) {
+std::string law_text(const Scene& scene) {
   return scene.law + (scene.param.contains("fatigue.dc") ? " with fatigue" : "");
 }
 
-std::string what(const Scene& scene) { return scene.fabric.name + ", law " + law_words(scene); }
+std::string what(const Scene& scene) { return scene.fabric.name + ", law " + law_text(scene); }
 
 using Numbers = std::vector<std::pair<std::string, double>>;
 
@@ -194,9 +194,9 @@ void fold_cloth(const CommandLine& line, Request& request) {
 }
 
 void write_cycles(Run& run, const std::vector<BendingCycle>& all) {
-  Record file(run.path("cycles.csv"),
-              {"cycle", "M0 [N]", "2HB [N]", "set_curvature [1/m]", "permanent_set [1/m]",
-               "dissipated [J/m^2]", "dissipated_in_all [J/m^2]"});
+  TimeSeriesWriter file(run.path("cycles.csv"),
+                        {"cycle", "M0 [N]", "2HB [N]", "set_curvature [1/m]", "permanent_set [1/m]",
+                         "dissipated [J/m^2]", "dissipated_in_all [J/m^2]"});
   for (const BendingCycle& c : all)
     file.row({static_cast<double>(c.cycle), c.material.friction, c.material.loop_width, c.set,
               c.material.permanent_set, c.dissipated, c.total});
@@ -239,7 +239,10 @@ void fold_law(const CommandLine& line, const Request& request) {
 
 void fold_once(const CommandLine& line) {
   Request request = read(line);
-  request.choice.law_alone ? fold_law(line, request) : fold_cloth(line, request);
+  if (request.choice.law_alone)
+    fold_law(line, request);
+  else
+    fold_cloth(line, request);
 }
 
 // Lists laws with fatigue twice: without it, and with it as NAME-fatigue.  If the line has a flag for it
@@ -280,7 +283,7 @@ Experiment fold() {
           .simulates = true,
           .own_keys = own_key_descriptions<kRows, page_keys>,
           .defaults = defaults,
-          .decided = decided,
+          .fixed_keys = fixed_keys,
           .compared = true,
           .conditions =
               {{"fold.curvature", "fold.law-alone"},

@@ -52,7 +52,7 @@ LawRequest law_in_cloth(const Scene& scene) {
   return law;
 }
 
-std::vector<BendingCycle> bend_repeatedly(const Scene& scene, const FoldChoice& choice) {
+std::vector<BendingCycle> bend_repeatedly(const Scene& scene, const FoldParams& choice) {
   LawRequest law = scene_law(scene);
   // This memory is exact: between two reversals no more of them are remembered.
   if (law.name == "prandtl" && !law.parameters.contains("memory")) law.parameters.try_emplace("stack", "8");

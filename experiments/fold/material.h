@@ -31,6 +31,6 @@ struct BendingCycle {
 
 // Bends the law alone from 0 to choice.curvature and back choice.cycles times; returns the chosen cycles.
 // Throws Error::invalid_input as run_law() does.
-std::vector<BendingCycle> bend_repeatedly(const Scene& scene, const FoldChoice& choice);
+std::vector<BendingCycle> bend_repeatedly(const Scene& scene, const FoldParams& choice);
 
 }  // namespace hysteron::experiments

@@ -19,7 +19,7 @@ constexpr double kNoContact = 3;    // gap between cloth and the drawn clamps, i
 
 Keyframe shifted(double time, double distance) { return {time, {-distance, 0, 0}}; }
 
-Motion clamp_motion(const FoldChoice& choice, double free_length) {
+Motion clamp_motion(const FoldParams& choice, double free_length) {
   Motion motion;
   motion.keys = {shifted(0, 0)};
   for (int n = 0; n < choice.cycles; ++n) {
@@ -43,7 +43,7 @@ Obstacle jaw(const Scene& scene, double end, double outwards) {
 
 // Returns a named phase around either end of each stroke; their times sum to the scene's seconds to half a
 // step.
-std::vector<Phase> phases(const FoldChoice& choice, const Scene& scene) {
+std::vector<Phase> phases(const FoldParams& choice, const Scene& scene) {
   const double quarter = choice.period / 4;
   std::vector<Phase> all = {{"straight", quarter}};
   for (int n = 1; n <= choice.cycles; ++n) {
@@ -66,7 +66,7 @@ int cycle_decade(int cycle) {
 
 }  // namespace
 
-void give_fatigue(Scene& scene, const FoldChoice& choice) {
+void give_fatigue(Scene& scene, const FoldParams& choice) {
   const std::vector<std::string> known = law_parameter_names(scene.law);
   const char* const name = "fatigue.dc";
   if (choice.fatigue > 0 && std::find(known.begin(), known.end(), name) != known.end())
@@ -85,7 +85,7 @@ double stroke_rate(double fps, double period) {
   return std::max(1.0, std::round(period / 2 * fps)) / (period / 2);
 }
 
-Fold folded(const Scene& given, const FoldChoice& choice, double rate) {
+Fold folded(const Scene& given, const FoldParams& choice, double rate) {
   if (given.element != BendingElement::shape)
     throw Error::invalid_input("element = " + enum_name(given.element) +
                                " must be shape: recovery is read from the curvature tensors of faces")

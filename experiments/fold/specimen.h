@@ -9,7 +9,7 @@
 
 namespace hysteron::experiments {
 
-struct FoldChoice {
+struct FoldParams {
   int cycles = 100;
   double period = 1;       // duration of a cycle [s]
   double stroke = 0.4;     // stroke of the moving clamp, over the length of cloth between the clamps
@@ -36,13 +36,13 @@ struct Fold {
 // the last return the moving clamp lets go.  The step and the `rate` of watched instants [1/s] are changed so
 // that half a cycle has a whole number of either.  Throws Error::invalid_input for element `hinge`: recovery
 // is read from the tensors of faces.
-Fold folded(const Scene& scene, const FoldChoice& choice, double rate);
+Fold folded(const Scene& scene, const FoldParams& choice, double rate);
 
 // Returns the nearest rate of pictures [1/s] at which both ends of every stroke are pictured; 0 stays 0.
 double stroke_rate(double fps, double period);
 
 // Sets fatigue.dc as chosen, for a law that has it and was not given a value.
-void give_fatigue(Scene& scene, const FoldChoice& choice);
+void give_fatigue(Scene& scene, const FoldParams& choice);
 
 // Chosen cycles are 1, 2, 5, 10, 20, 50, ... and the last; pictured ones 1, 10, 100, ... and the last.
 bool is_chosen(int cycle, int last);

@@ -231,7 +231,7 @@ std::string stops_summary(const LawRequest& request) {
 }
 
 std::string recovery_summary(const LawRequest& request, const std::vector<LawRow>& rows, const LawRun& run) {
-  const LawChoice choice = choose_law(request.name, request.curve, request.parameters, LawUse::alone);
+  const LawParams choice = choose_law(request.name, request.curve, request.parameters, LawUse::alone);
   const RecoveryCounts counts = count_recoveries(choice.curve, rows, run);
   std::string text = fmt::format(
       "reversals from |M| <= Ma: {}, <= 2 Ma: {}, > 2 Ma: {}\nresidual curvature after the last row: {}",

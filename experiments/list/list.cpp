@@ -233,7 +233,7 @@ std::string key_tables() {
   Pin pin;
   Obstacle obstacle;
   Keyframe keyframe;
-  Command command;
+  SceneEvent command;
   Phase phase;
   MetricRequest metric;
   return section("Scene", without_fabric(bind_scene(scene))) + section("`[[pin]]`", bind_pin(pin)) +

@@ -208,7 +208,10 @@ void draw_kept(const CommandLine& line, const fs::path& file) {
       apply_flags(line, setup.options);
       return draw_part_relief(line, file, kept, setup, part);
     }
-    is_page(kept.sheet) ? draw_comparison(line, file, kept) : draw_run(line, file, kept);
+    if (is_page(kept.sheet))
+      draw_comparison(line, file, kept);
+    else
+      draw_run(line, file, kept);
   } catch (const Json::exception& e) {
     throw Error::invalid_input(file.string() + ": " + e.what());
   }

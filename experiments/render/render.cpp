@@ -255,7 +255,7 @@ void note_sequences(const std::vector<Column>& columns, Run& run) {
   run.note("sequences", notes);
 }
 
-std::string direction_words(const Eigen::Vector3d& direction) {
+std::string direction_text(const Eigen::Vector3d& direction) {
   constexpr double kSteep = 0.9;  // limit of the sine of the elevation
   return direction.normalized().z() > kSteep ? "from above" : "from elsewhere";
 }
@@ -297,7 +297,7 @@ class FramesAndSheet {
     if (const auto rms = pictures_.curvature_rms()) run_.metric(column.name + ".curvature_rms_per_m", *rms);
     if (flags_.also.isZero()) return;
     pictures_.look_from(flags_.also);
-    add_cell(picture(frame, column.name), frame, direction_words(flags_.also));
+    add_cell(picture(frame, column.name), frame, direction_text(flags_.also));
     pictures_.look_from(flags_.options.camera_direction);
   }
 
@@ -416,7 +416,10 @@ CommandLine from_within(CommandLine line) {
 }
 
 int run_render(const CommandLine& asked) {
-  if (const auto kept = kept_geometry_file(asked); !kept.empty()) return draw_kept(asked, kept), 0;
+  if (const auto kept = kept_geometry_file(asked); !kept.empty()) {
+    draw_kept(asked, kept);
+    return 0;
+  }
   const CommandLine line = from_within(asked);
   F flags;
   flags.options.out = "out/render";

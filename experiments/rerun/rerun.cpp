@@ -23,11 +23,11 @@ namespace hysteron::experiments {
 namespace {
 namespace fs = std::filesystem;
 
-struct RerunChoice {
+struct RerunParams {
   bool no_errors = false;
   std::string snakemake;
 };
-using R = RerunChoice;
+using R = RerunParams;
 // clang-format off
 const KeyRow<R> kRows[] = {
     {"no-errors", at<&R::no_errors>, "", any(), "", "without the repeats of --errors"},
@@ -46,7 +46,7 @@ std::vector<KeyDescription> device_keys() {
 }
 
 std::vector<KeyDescription> own_keys() {
-  RerunChoice choice;
+  RerunParams choice;
   Options options;
   std::vector<KeyDescription> keys = descriptions(with_output_options(bind(kRows, choice), options));
   std::erase_if(keys, [](const KeyDescription& key) { return key.path == "quick"; });
@@ -200,7 +200,7 @@ int write_runs(const CommandLine& line, const std::string& flow) {
                                      [](const WorkflowJob& job) { return job.resources.gpus > 0; });
   for (const std::string& words : left_out) std::cout << "left out: " << words << "\n";
   std::cout << fmt::format("{} runs, {} of them on a GPU: {}\n", workflow.jobs.size(), on_gpus,
-                           starting_words(flow));
+                           starting_text(flow));
   return 0;
 }
 

@@ -63,15 +63,15 @@ ClampedMesh clamped_mesh(const std::string& family, double free_length, double w
   return {flat_mesh(growth.points, std::move(growth.triangles), "strip"), d, between + clamps * d};
 }
 
-std::vector<DecidedKey> unused_by_clamped_meshes() {
+std::vector<FixedKey> unused_by_clamped_meshes() {
   return unused_but(
       "cloth.",
       {"cloth.shape", "cloth.length", "cloth.width", "cloth.position", "cloth.rotation", "cloth.warp-angle"},
       "the specimen is one flat rectangle, meshed to fit its clamp");
 }
 
-std::vector<DecidedKey> decided_by_clamped_strips() {
-  std::vector<DecidedKey> keys = unused_by_clamped_meshes();
+std::vector<FixedKey> decided_by_clamped_strips() {
+  std::vector<FixedKey> keys = unused_by_clamped_meshes();
   keys.push_back({"cloth.shape", "the specimen is a strip"});
   keys.push_back({"pin", "clamps hold the strip"});
   return keys;

@@ -26,9 +26,9 @@ ClampedMesh clamped_mesh(const std::string& family, double free_length, double w
                          int clamps, unsigned seed);
 
 // Returns the keys of scenes that do not affect such a mesh, and what fixes them.
-std::vector<DecidedKey> unused_by_clamped_meshes();
+std::vector<FixedKey> unused_by_clamped_meshes();
 // Returns the same keys and those that are fixed if the cloth is always such a strip.
-std::vector<DecidedKey> decided_by_clamped_strips();
+std::vector<FixedKey> decided_by_clamped_strips();
 
 // Returns a pin that holds everything in between along x at rest, over the whole width [m].
 Pin held_between(double from, double to);

@@ -75,8 +75,8 @@ std::vector<std::string> chosen_names(const std::string& key, const std::string&
   return names;
 }
 
-SweepChoice sweep_choice(const F& flags) {
-  SweepChoice choice;
+SweepParams sweep_choice(const F& flags) {
+  SweepParams choice;
   const auto integrators = names(Integrator{});
   if (flags.integrator != "all")
     choice.integrators =
@@ -245,7 +245,7 @@ void draw_ripples(Run& run, const std::vector<Ripple>& ripples) {
 // Writes ripple.csv with a row for each case, ripple-amplitudes.csv with the drawn curves, and
 // ripple_verdict, which states whether hysteresis damps ripples at short steps.
 void measure_ripples(const F& flags, Run& run) {
-  const SweepChoice choice = sweep_choice(flags);
+  const SweepParams choice = sweep_choice(flags);
   std::vector<std::string> laws = choice.laws;
   if (laws.empty()) laws = {"prandtl", "wong"};
   const std::vector<RippleCase> cases = ripple_cases(choice.integrators, laws, choice.quick);

@@ -69,7 +69,7 @@ Scene falling_square() {
 
 // Returns a sweep with a map for each variant; `vary` applies the variant to a scene that has its value and
 // its step.
-Sweep against_step(const NumberSweep& of, const SweepChoice& choice, const std::vector<std::string>& variants,
+Sweep against_step(const NumberSweep& of, const SweepParams& choice, const std::vector<std::string>& variants,
                    const std::function<void(Scene& scene, int variant)>& vary) {
   Sweep sweep{of.name, of.title, {of.label, {}}, {"step", {}}, variants, {}};
   std::vector<double> values, steps;
@@ -93,7 +93,7 @@ Sweep against_step(const NumberSweep& of, const SweepChoice& choice, const std::
 }
 
 // Returns the sweep of the chapter's method, with the printed force and with the energy-consistent one.
-Sweep chapter_sweep(const SweepChoice& choice) {
+Sweep chapter_sweep(const SweepParams& choice) {
   NumberSweep of = kNumberSweeps[0];
   of.name = "chapter-method";
   of.title = "The chapter's method: bending rigidity b2 (b1 = 3.1 b2) against the step";
@@ -108,7 +108,7 @@ Sweep chapter_sweep(const SweepChoice& choice) {
 
 }  // namespace
 
-std::vector<Sweep> number_sweeps(const SweepChoice& choice) {
+std::vector<Sweep> number_sweeps(const SweepParams& choice) {
   std::vector<Sweep> sweeps;
   const std::vector<std::string> laws = choice.few_laws();
   for (const NumberSweep& of : kNumberSweeps)

@@ -314,7 +314,7 @@ void set_step_of_contact(Scene& scene, int variant) { scene.step = variant == 0 
 
 }  // namespace
 
-std::vector<Sweep> scene_sweeps(const SweepChoice& choice) {
+std::vector<Sweep> scene_sweeps(const SweepParams& choice) {
   const std::vector<std::string> few = choice.few_laws(), steps = {"step 1 ms", "step 1/60 s"};
   const bool all = choice.laws.empty() && !choice.quick;
   return {

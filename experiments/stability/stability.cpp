@@ -89,7 +89,7 @@ std::string names_of(const std::vector<Sweep>& sweeps) {
   return join(names, ", ");
 }
 
-std::vector<std::string> integrators_of(const Sweep& sweep, const SweepChoice& choice) {
+std::vector<std::string> integrators_of(const Sweep& sweep, const SweepParams& choice) {
   if (sweep.integrators.empty()) return choice.integrators;
   std::vector<std::string> common;
   for (const std::string& integrator : choice.integrators)
@@ -100,13 +100,13 @@ std::vector<std::string> integrators_of(const Sweep& sweep, const SweepChoice& c
 
 }  // namespace
 
-std::vector<std::string> SweepChoice::few_laws() const {
+std::vector<std::string> SweepParams::few_laws() const {
   if (!laws.empty()) return laws;
   if (quick) return {"prandtl"};
   return {"linear", "prandtl", "wong"};
 }
 
-Finding find_out(const Attempt& attempt, const CellEffort& effort) {
+Finding probe_stability(const Attempt& attempt, const CellEffort& effort) {
   Finding finding;
   const auto start = std::chrono::steady_clock::now();
   Scene scene = attempt.scene;
@@ -123,7 +123,7 @@ Finding find_out(const Attempt& attempt, const CellEffort& effort) {
   return finding;
 }
 
-std::vector<Sweep> named_sweeps(const std::vector<std::string>& names, const SweepChoice& choice) {
+std::vector<Sweep> named_sweeps(const std::vector<std::string>& names, const SweepParams& choice) {
   std::vector<Sweep> all = number_sweeps(choice), sweeps;
   for (Sweep& sweep : scene_sweeps(choice)) all.push_back(std::move(sweep));
   if (names == std::vector<std::string>{"all"}) {
@@ -146,7 +146,7 @@ std::vector<Sweep> named_sweeps(const std::vector<std::string>& names, const Swe
   return sweeps;
 }
 
-std::vector<SweepCell> untried_cells(const std::vector<Sweep>& sweeps, const SweepChoice& choice) {
+std::vector<SweepCell> untried_cells(const std::vector<Sweep>& sweeps, const SweepParams& choice) {
   std::vector<SweepCell> cells;
   for (const Sweep& sweep : sweeps)
     for (std::size_t v = 0; v < sweep.variants.size(); ++v)
@@ -168,7 +168,7 @@ void try_all(std::vector<SweepCell>& cells, const CellEffort& effort, int thread
   std::size_t finished = 0;
   std::mutex reporting;
   in_parallel(cells.size(), threads, [&](std::size_t i) {
-    cells[i].finding = find_out(cells[i].attempt, effort);
+    cells[i].finding = probe_stability(cells[i].attempt, effort);
     const std::lock_guard lock(reporting);
     done(++finished);
   });

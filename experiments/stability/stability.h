@@ -57,7 +57,7 @@ struct Finding {
 inline constexpr double kLargestGrowth = 1.1;
 
 // Tries the simulation.  Refusals and broken-off runs are findings; Error::system is thrown.
-Finding find_out(const Attempt& attempt, const CellEffort& effort);
+Finding probe_stability(const Attempt& attempt, const CellEffort& effort);
 
 // A sweep is one map for each variant and integrator.
 struct Sweep {
@@ -70,7 +70,7 @@ struct Sweep {
 };
 
 // The choices that the sweeps cover.
-struct SweepChoice {
+struct SweepParams {
   std::vector<std::string> integrators = {"semi-implicit", "implicit", "bdf2", "tr-bdf2", "explicit"};
   std::vector<std::string> laws = {};  // empty: linear, prandtl and wong in maps, all in extreme scenes
   DeviceChoice device = DeviceChoice::cpu;
@@ -78,12 +78,12 @@ struct SweepChoice {
 
   std::vector<std::string> few_laws() const;  // the named laws, or those of maps
 };
-std::vector<Sweep> number_sweeps(const SweepChoice& choice);  // maps.cpp
-std::vector<Sweep> scene_sweeps(const SweepChoice& choice);   // scenes.cpp
+std::vector<Sweep> number_sweeps(const SweepParams& choice);  // maps.cpp
+std::vector<Sweep> scene_sweeps(const SweepParams& choice);   // scenes.cpp
 // Returns the named sweeps of both kinds, in this order, or for "all" those that concern one of the choice's
 // integrators.  Throws Error::invalid_input for an unknown name, and for one that concerns none of these
 // integrators.
-std::vector<Sweep> named_sweeps(const std::vector<std::string>& names, const SweepChoice& choice);
+std::vector<Sweep> named_sweeps(const std::vector<std::string>& names, const SweepParams& choice);
 
 // A cell of a map with its finding.
 struct SweepCell {
@@ -92,7 +92,7 @@ struct SweepCell {
   Finding finding = {};
 };
 // Returns the cells of all sweeps under all integrators, not yet tried.
-std::vector<SweepCell> untried_cells(const std::vector<Sweep>& sweeps, const SweepChoice& choice);
+std::vector<SweepCell> untried_cells(const std::vector<Sweep>& sweeps, const SweepParams& choice);
 // Tries the cells, `threads` at a time; `done` is called after each with the number done.
 void try_all(std::vector<SweepCell>& cells, const CellEffort& effort, int threads,
              const std::function<void(std::size_t done)>& done);

@@ -189,9 +189,9 @@ class StudyFile {
   const KeyDescription& known_key(const std::string& key, const ValueTree& node) const {
     if (kSweepFlags.contains(key))
       throw refusal(node, key + " is given to sweep (--" + key + "), not to its runs").with_key(key, "");
-    for (const DecidedKey& decided : experiment_named(study_.experiment).decided())
-      if (decided.path == key)
-        throw refusal(node, key + " cannot be set: " + decided_words(study_.experiment, decided))
+    for (const FixedKey& fixed_keys : experiment_named(study_.experiment).fixed_keys())
+      if (fixed_keys.path == key)
+        throw refusal(node, key + " cannot be set: " + fixed_key_message(study_.experiment, fixed_keys))
             .with_key(key, "");
     return find_key(keys_, key == "fabric" ? "fabric.name" : flag_of(key, "").path, at(node)).description;
   }

@@ -29,14 +29,14 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-struct SweepChoice {
+struct SweepParams {
   int jobs = 0, batch = 1;
   int threads = 1;
   bool resume = false;
   bool collect = false;
   std::string only, part, snakemake;
 };
-using S = SweepChoice;
+using S = SweepParams;
 // clang-format off
 const KeyRow<S> kRows[] = {
     {"jobs", at<&S::jobs>, "", between(0, 1024), "", "how many runs at a time; 0: one for each GPU, or for each --threads of the cores"},
@@ -50,14 +50,14 @@ const KeyRow<S> kRows[] = {
 };
 // clang-format on
 
-Keys option_keys(SweepChoice& choice, Options& options) {
+Keys option_keys(SweepParams& choice, Options& options) {
   Keys keys = with_output_options(bind(kRows, choice), options);
   std::erase_if(keys, [](const BoundKey& key) { return key.description.path == "quick"; });
   return keys;
 }
 
 std::vector<KeyDescription> own_keys() {
-  SweepChoice choice;
+  SweepParams choice;
   Options options;
   return descriptions(option_keys(choice, options));
 }
@@ -70,7 +70,7 @@ std::vector<ChildRun> study_columns(const Study& study, const std::filesystem::p
   return columns;
 }
 
-SweepJobs sweep_jobs(const SweepChoice& choice, const std::vector<ChildRun>& runs) {
+SweepJobs sweep_jobs(const SweepParams& choice, const std::vector<ChildRun>& runs) {
   SweepJobs jobs;
   jobs.at_once = choice.jobs;
   jobs.threads = choice.threads;
@@ -84,7 +84,7 @@ SweepJobs sweep_jobs(const SweepChoice& choice, const std::vector<ChildRun>& run
 }
 
 // Writes the study as a workflow: a job for each run, or for a few, and one that makes the table.
-void write_study(const SweepChoice& choice, const Study& study, const std::filesystem::path& out) {
+void write_study(const SweepParams& choice, const Study& study, const std::filesystem::path& out) {
   namespace fs = std::filesystem;
   const auto all = static_cast<int>(study.runs.size());
   const int jobs = (all + study.runs_a_job - 1) / study.runs_a_job;
@@ -105,7 +105,7 @@ void write_study(const SweepChoice& choice, const Study& study, const std::files
     workflow.jobs.push_back({std::to_string(k), with(words), study.resources});
   }
   write_workflow(choice.snakemake, workflow);
-  std::cout << all << " runs in " << jobs << " jobs: " << starting_words(choice.snakemake) << "\n";
+  std::cout << all << " runs in " << jobs << " jobs: " << starting_text(choice.snakemake) << "\n";
 }
 
 // Reports and counts the runs of a study as they end.
@@ -179,7 +179,7 @@ void throw_if_unknown_metric(const Study& study, const std::vector<ChildRun>& ru
 void check_known_metrics(const Study& study, std::vector<ChildRun> runs) {
   if (study.metrics.empty()) return;
   for (ChildRun& column : runs) {
-    if (!recall(column)) return;
+    if (!load_cached_run(column)) return;
     drop_scene(column);
   }
   throw_if_unknown_metric(study, runs);
@@ -197,12 +197,12 @@ void run_all(Run& run, const Study& study, std::vector<ChildRun>& runs, const Sw
         progress.ended(column);
         if (column.stopped.empty() && std::exchange(none_complete, false))
           warn_of_unknown_metric(run, study, column);
-        warnings.hear(column);
+        warnings.add(column);
         drop_scene(column);
       },
       [&](const std::string& line) { progress.running(line); });
   run.keep_from_here();
-  warnings.say(run);
+  warnings.emit(run);
   progress.stop();
   progress.note(run, processes_at_once(runs, jobs));
 }
@@ -211,12 +211,12 @@ void collect(Run& run, std::vector<ChildRun>& runs) {
   std::size_t failed = 0;
   ColumnWarnings warnings;
   for (ChildRun& column : runs) {
-    recall_outcome(column);
-    warnings.hear(column);
+    load_outcome(column);
+    warnings.add(column);
     drop_scene(column);
     if (!column.stopped.empty()) ++failed;
   }
-  warnings.say(run);
+  warnings.emit(run);
   run.metric("runs_count", runs.size());
   run.metric("failed_count", failed);
 }
@@ -247,7 +247,7 @@ void throw_if_failed(const Run& run, const std::vector<ChildRun>& runs) {
 }
 
 // Returns the runs that --only or --part selects.
-std::vector<ChildRun> chosen(const std::vector<ChildRun>& runs, const SweepChoice& choice) {
+std::vector<ChildRun> chosen(const std::vector<ChildRun>& runs, const SweepParams& choice) {
   std::vector<ChildRun> some;
   if (!choice.only.empty()) {
     std::copy_if(runs.begin(), runs.end(), std::back_inserter(some),
@@ -273,7 +273,7 @@ std::vector<ChildRun> chosen(const std::vector<ChildRun>& runs, const SweepChoic
 
 // Runs a part of the study without its common files, beside other such processes.  A run that is refused or
 // cannot go on would do so in another attempt, too; a failing machine ends this part.
-int run_some(std::vector<ChildRun> runs, const SweepChoice& choice, bool quiet) {
+int run_some(std::vector<ChildRun> runs, const SweepParams& choice, bool quiet) {
   for (const ChildRun& column : runs)
     if (std::filesystem::is_directory(column.folder)) const FolderLock free(column.folder);
   run_columns(
@@ -292,7 +292,7 @@ int run_some(std::vector<ChildRun> runs, const SweepChoice& choice, bool quiet) 
 int run_sweep(const CommandLine& line) {
   if (line.positionals.size() != 1)
     throw Error::invalid_input("needs one study: a file, or a name in assets/studies");
-  SweepChoice choice;
+  SweepParams choice;
   Options options;
   set_keys(line, option_keys(choice, options));
   const Study study = read_study(line.positionals[0]);
@@ -300,7 +300,10 @@ int run_sweep(const CommandLine& line) {
     options.out = "out/sweep-" + std::filesystem::path(line.positionals[0]).stem().string();
   std::vector<ChildRun> runs = study_columns(study, options.out);
   check_batch(runs, choice.batch);
-  if (!choice.snakemake.empty()) return write_study(choice, study, options.out), 0;
+  if (!choice.snakemake.empty()) {
+    write_study(choice, study, options.out);
+    return 0;
+  }
   if (!choice.only.empty() || !choice.part.empty())
     return run_some(chosen(runs, choice), choice, options.quiet);
   check_known_metrics(study, runs);

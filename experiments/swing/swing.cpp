@@ -55,7 +55,7 @@ constexpr const char* kDecayCaption =
     "saturated friction a line, friction that has not saturated a hyperbola, viscosity an exponential.";
 // Writes turns.csv with a row for each amplitude.
 void write_turns(Run& run, const std::vector<Amplitude>& amplitudes) {
-  Record file(run.path("turns.csv"), {"turn", "time [s]", "amplitude [mm]"});
+  TimeSeriesWriter file(run.path("turns.csv"), {"turn", "time [s]", "amplitude [mm]"});
   for (const Amplitude& a : amplitudes) file.row({1.0 * a.turn, a.time, 1e3 * a.value});
   file.finish();
 }

@@ -59,7 +59,7 @@ render::Plot budget_plot(const std::vector<BudgetRow>& rows) {
   return plot;
 }
 
-Drape on_other_tester(Drape drape) {
+Drape with_swapped_standard(Drape drape) {
   const bool shaken = drape.standard == "jis";
   drape.standard = shaken ? "iso9073" : "jis";
   drape.release = shaken ? "lowered" : "shaken";
@@ -92,7 +92,7 @@ std::vector<Trial> budget_trials(const std::string& fabric, const ValidateFlags&
       trials.push_back({key, number_text(end), nominal});
       trials.back().drape.further = drape_flags(sample);
     }
-  const Drape other = on_other_tester(nominal);
+  const Drape other = with_swapped_standard(nominal);
   trials.push_back({"tester", other.standard, other});
   Drape finer = nominal;
   finer.triangles *= 4;

@@ -21,14 +21,14 @@ namespace hysteron::experiments {
 namespace {
 namespace fs = std::filesystem;
 
-struct VerifyChoice {
+struct VerifyParams {
   double at_most = 0;
   std::string device;
   int threads = 0;
   bool exact = false;
   std::string limits = "pictures", junit;
 };
-using V = VerifyChoice;
+using V = VerifyParams;
 // clang-format off
 const KeyRow<V> kRows[] = {
     {"at-most", at<&V::at_most>, "s", at_least(0), "", "only runs that have taken this wall clock time or less, and no GPU; 0: all; with --quick 4 s unless given"},
@@ -43,14 +43,14 @@ const KeyRow<V> kRows[] = {
 constexpr double kQuickSeconds = 4;
 constexpr const char* kRunsSeconds = "runs_wall_s";  // sum over all runs of a sweep
 
-Keys bind_verify(VerifyChoice& choice, Options& options) {
+Keys bind_verify(VerifyParams& choice, Options& options) {
   Keys keys = with_output_options(bind(kRows, choice), options);
   std::erase_if(keys, [](const BoundKey& key) { return key.description.path == "json"; });
   return keys;
 }
 
 std::vector<KeyDescription> own_keys() {
-  VerifyChoice choice;
+  VerifyParams choice;
   Options options;
   return descriptions(bind_verify(choice, options));
 }
@@ -86,7 +86,7 @@ bool has_runs_inside(const fs::path& folder) {
 }
 
 // Returns why the run is not repeated, or "" if it is.
-std::string why_skipped(const Manifest& m, const fs::path& folder, const VerifyChoice& choice) {
+std::string why_skipped(const Manifest& m, const fs::path& folder, const VerifyParams& choice) {
   if (!m.complete) return "is not complete";
   if (experiment_named(m.experiment).timed) return "measures durations, which no two runs share";
   if (!m.state_hash && has_runs_inside(folder)) return "a page of several runs, each of which has a line";
@@ -180,7 +180,7 @@ RepeatedRun run_in(const fs::path& folder, const std::string& name) {
   }
 }
 
-Line compared(const RepeatedRun& run, const ChildRun& now, const VerifyChoice& choice, const Limits& limits) {
+Line compared(const RepeatedRun& run, const ChildRun& now, const VerifyParams& choice, const Limits& limits) {
   if (!now.stopped.empty()) return {Outcome::failed, "could not be repeated: " + now.stopped};
   const Manifest& before = run.recorded.manifest;
   Repetition repetition = compare_runs(before, now.manifest.value(), limits, choice.exact);
@@ -202,7 +202,7 @@ Line compared(const RepeatedRun& run, const ChildRun& now, const VerifyChoice& c
 }
 
 // Returns the runs that are repeated as columns below OUT, and reports why the others are not.
-std::vector<ChildRun> repeated_columns(std::vector<RepeatedRun>& runs, const VerifyChoice& choice,
+std::vector<ChildRun> repeated_columns(std::vector<RepeatedRun>& runs, const VerifyParams& choice,
                                        const Options& options) {
   std::vector<ChildRun> columns;
   for (RepeatedRun& run : runs) {
@@ -290,7 +290,7 @@ void warn_of_idle_limits(const CommandLine& line, const Limits& limits, const Op
 int run_verify(const CommandLine& line) {
   if (line.positionals.size() != 1)
     throw Error::invalid_input("needs a run's folder, or a folder of many runs");
-  VerifyChoice choice;
+  VerifyParams choice;
   Options options;
   options.out = "out/verify";
   set_keys(line, bind_verify(choice, options), [&] { choice.at_most = kQuickSeconds; });

@@ -7,7 +7,7 @@ namespace {
 
 template <int D, class Real, class Device, class... Groups>
 std::unique_ptr<LawLoop<Real, Device>> of_any_group(LawList<Groups...>, Device& device,
-                                                    const LawChoice& choice, int elements) {
+                                                    const LawParams& choice, int elements) {
   std::unique_ptr<LawLoop<Real, Device>> loop;
   (void)((loop = make_group_loop<Groups, Real, Device, D>(device, choice, elements)) || ...);
   return loop;
@@ -16,13 +16,13 @@ std::unique_ptr<LawLoop<Real, Device>> of_any_group(LawList<Groups...>, Device& 
 }  // namespace
 
 template <class Real, class Device>
-std::unique_ptr<LawLoop<Real, Device>> make_law_loop(Device& device, const LawChoice& choice, int dimension,
+std::unique_ptr<LawLoop<Real, Device>> make_law_loop(Device& device, const LawParams& choice, int dimension,
                                                      int elements) {
   return dimension == 1 ? of_any_group<1, Real>(LawGroups{}, device, choice, elements)
                         : of_any_group<3, Real>(LawGroups{}, device, choice, elements);
 }
 
-template std::unique_ptr<LawLoop<double, ThisDevice>> make_law_loop(ThisDevice&, const LawChoice&, int, int);
-template std::unique_ptr<LawLoop<float, ThisDevice>> make_law_loop(ThisDevice&, const LawChoice&, int, int);
+template std::unique_ptr<LawLoop<double, ThisDevice>> make_law_loop(ThisDevice&, const LawParams&, int, int);
+template std::unique_ptr<LawLoop<float, ThisDevice>> make_law_loop(ThisDevice&, const LawParams&, int, int);
 
 }  // namespace hysteron

@@ -100,11 +100,11 @@ class LawLoop {
 
 // Makes the law for D = 1 (hinge) or D = 3 (shape; laws of scalar form run along four material directions).
 template <class Real, class Device>
-std::unique_ptr<LawLoop<Real, Device>> make_law_loop(Device& device, const LawChoice& choice, int dimension,
+std::unique_ptr<LawLoop<Real, Device>> make_law_loop(Device& device, const LawParams& choice, int dimension,
                                                      int elements);
 
 // Makes a law of one group (every_law.h), which is compiled apart; null for a law of another group.
 template <class Group, class Real, class Device, int D>
-std::unique_ptr<LawLoop<Real, Device>> make_group_loop(Device&, const LawChoice&, int elements);
+std::unique_ptr<LawLoop<Real, Device>> make_group_loop(Device&, const LawParams&, int elements);
 
 }  // namespace hysteron

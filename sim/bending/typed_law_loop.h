@@ -214,7 +214,7 @@ class LawLoopOf : public LawLoop<Real, Device> {
 // Makes the loops of a group of laws. law_loops.cpp.in instantiates them, a file for each group, dimension
 // and precision: they are the slowest to compile.
 template <class Group, class Real, class Device, int D>
-std::unique_ptr<LawLoop<Real, Device>> make_group_loop(Device& device, const LawChoice& choice,
+std::unique_ptr<LawLoop<Real, Device>> make_group_loop(Device& device, const LawParams& choice,
                                                        int elements) {
   std::unique_ptr<LawLoop<Real, Device>> loop;
   const auto make = [&]<class Law>(const Law& law) {

@@ -72,7 +72,7 @@ void Contact<Real, Device>::add(const Vec3<Real>* x, const Vec3<Real>* before, R
       });
   if (!faces_) return;
   const FacePoints<Real> faces = faces_->points(set_);
-  faces_->lag(faces, x);
+  faces_->update_lagged_friction(faces, x);
   faces_->add_forces(faces, x, before, step, rhs, nullptr);
   if (matrix) faces_->add_stiffness(faces, x, before, step * step, *matrix, Real(0));
 }
@@ -108,9 +108,9 @@ std::size_t Contact<Real, Device>::bytes() const {
 }
 
 template <class Real, class Device>
-void Contact<Real, Device>::lag(const Vec3<Real>* x) {
-  vertices_.lag(points(), x);
-  if (faces_) faces_->lag(faces_->points(set_), x);
+void Contact<Real, Device>::update_lagged_friction(const Vec3<Real>* x) {
+  vertices_.update_lagged_friction(points(), x);
+  if (faces_) faces_->update_lagged_friction(faces_->points(set_), x);
 }
 
 template <class Real, class Device>

@@ -30,7 +30,7 @@ class Contact {
   // potential, to which evaluate() adds the shells': it adds the gradient (n vertices [N]) to `gradient`, and
   // sets energies() per vertex and triangle. add_stiffness() adds the positive semidefinite part of the
   // Hessian (sliding_fraction: sliding_stop.h).
-  void lag(const Vec3<Real>* position);
+  void update_lagged_friction(const Vec3<Real>* position);
   void evaluate(const Vec3<Real>* position, const Vec3<Real>* before, Vec3<Real>* gradient);
   const double* energies() const { return energy_.data(); }  // energies_count() of them [J]
   int energies_count() const { return static_cast<int>(energy_.size()); }

@@ -5,7 +5,7 @@
 namespace hysteron {
 
 template <class Real, class Device, class Points>
-void PointContact<Real, Device, Points>::lag(const Points& points, const Vec3<Real>* x) {
+void PointContact<Real, Device, Points>::update_lagged_friction(const Points& points, const Vec3<Real>* x) {
   if (lagged_.size() == 0) lagged_ = Buffer<typename Points::Friction, Device>(device_, count_);
   const StopView<Real> stops = stops_.view();
   typename Points::Friction* lagged = lagged_.data();

@@ -21,7 +21,7 @@ class PointContact {
   // These work as in Contact. x, before, start, end and direction have n vertices [m], held n flags, energy
   // one number per point [J] or is null. evaluate() passes its forces to `target` (give() of the points);
   // store_energies() adds the stops' energies.
-  void lag(const Points& points, const Vec3<Real>* x);
+  void update_lagged_friction(const Points& points, const Vec3<Real>* x);
   void evaluate(const Points& points, const Vec3<Real>* x, const Vec3<Real>* before, Vec3<Real>* target,
                 double* energy);
   void store_energies(const Points& points, const Vec3<Real>* x, double* energy);

@@ -178,7 +178,7 @@ void SelfContact<Real, Device>::serialise(Archive& archive) {
 }
 
 template <class Real, class Device>
-void SelfContact<Real, Device>::lag(const Vec3<Real>* cloth) {
+void SelfContact<Real, Device>::update_lagged_friction(const Vec3<Real>* cloth) {
   if (!rubs()) return;
   clock_.begin(Stage::contact);
   const Vec3<Real>* x = bodies_.positions(cloth);

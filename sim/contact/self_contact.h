@@ -77,7 +77,7 @@ class SelfContact {
   void invalidate_pairs() { pending_ = ready_; }
 
   // These work as in Contact: x, before and gradient have n vertices, those of the cloth.
-  void lag(const Vec3<Real>* x);
+  void update_lagged_friction(const Vec3<Real>* x);
   void evaluate(const Vec3<Real>* x, const Vec3<Real>* before, Vec3<Real>* gradient);
   const double* energies() const { return energy_.data(); }  // one per pair [J]
   int pairs() const { return pairs_.count(); }

@@ -29,12 +29,12 @@ inline constexpr int kSumBlock = 256;
 // The number of cores that others use meanwhile, as a renderer without graphics hardware does: threads that
 // wait for one that has no core would spin in vain.  No result depends on the number of threads.
 inline std::atomic<int> lent_cores = 0;
-class LentCore {
+class ReservedCore {
  public:
-  LentCore() { ++lent_cores; }
-  ~LentCore() { --lent_cores; }
-  LentCore(const LentCore&) = delete;
-  LentCore& operator=(const LentCore&) = delete;
+  ReservedCore() { ++lent_cores; }
+  ~ReservedCore() { --lent_cores; }
+  ReservedCore(const ReservedCore&) = delete;
+  ReservedCore& operator=(const ReservedCore&) = delete;
 };
 
 struct Cpu {

@@ -34,7 +34,7 @@ struct Cuda {
   unsigned* arrived = nullptr;  // number of blocks that have delivered their partial sums
   void* staging = nullptr;      // pinned memory of the host
   bool graphs;                  // loops may be graphs (while_loop.h); HYSTERON_CUDA_GRAPHS=0: none
-  bool early_blocks;            // does after_the_last_loop() work?
+  bool early_blocks;            // does grid_dependency_wait() work?
   std::unique_ptr<KernelProfile<Cuda>> profile;
 
   explicit Cuda(int device);
@@ -91,7 +91,7 @@ inline constexpr unsigned kMaxEarlyBlocks = 4096;
 // Where a GPU can, a loop's blocks start while the last ones of the loop before are at work, so that they are
 // there when it ends (programmatic dependent launch): here they wait for its end, and let the next loop's
 // blocks start.  Every kernel that is launched so calls it first.
-__device__ inline void after_the_last_loop() {
+__device__ inline void grid_dependency_wait() {
 #if __CUDA_ARCH__ >= 900
   if (gridDim.x > kMaxEarlyBlocks) return;
   asm volatile("griddepcontrol.wait;" ::: "memory");
@@ -102,7 +102,7 @@ __device__ inline void after_the_last_loop() {
 // A loop is an object that a kernel takes by value; its blocks are part of it.
 template <class Loop>
 __global__ void loop_kernel(const Loop loop) {
-  after_the_last_loop();
+  grid_dependency_wait();
   loop();
 }
 

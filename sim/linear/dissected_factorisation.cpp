@@ -60,13 +60,13 @@ DissectedFactorisation<Real, Device>::DissectedFactorisation(Device& device,
       pairs_(device, static_cast<int>(matrix_.row_ptr().size()) - 1),
       scale_(device, 3 * (matrix_.row_ptr().size() - 1)),
       b_(device, matrix_.row_ptr().size() - 1) {
-  Couplings always = CouplingList(matrix_.pattern()).take();
+  SparsityPattern always = CouplingList(matrix_.pattern()).take();
   shape_ = shape ? *shape : choose_shape(always);
   take_couplings(std::move(always));
 }
 
 template <class Real, class Device>
-void DissectedFactorisation<Real, Device>::take_couplings(Couplings couplings) {
+void DissectedFactorisation<Real, Device>::take_couplings(SparsityPattern couplings) {
   couplings_ = std::move(couplings);
   plan_ = plan_dissection(couplings_, shape_);
   check_size(plan_);
@@ -135,7 +135,7 @@ void DissectedFactorisation<Real, Device>::factorise(const char* held) {
   fill(held);
   pairs_.add(held, scale_.data(), number_.data());
   for (int l = 0; l < static_cast<int>(level_.size()); ++l) {
-    if (l > 0) take_over(l);
+    if (l > 0) extend_add(l);
     sweep_level<Real>(device_, level_[l].swept, level_[l].tiles, level_[l].pivot_tiles);
   }
   for (int l = 0; l < static_cast<int>(level_.size()); ++l) finish(l);
@@ -180,7 +180,7 @@ void DissectedFactorisation<Real, Device>::fill(const char* held) {
 
 // Adds the updates that the sweeps of children have left, child after child.
 template <class Real, class Device>
-void DissectedFactorisation<Real, Device>::take_over(int level) {
+void DissectedFactorisation<Real, Device>::extend_add(int level) {
   const FrontOfLevel* front = level_[level].front.data();
   const FrontChild* child = child_.data();
   const int *child_row = child_row_.data(), most = level_[level].stride();
@@ -272,7 +272,7 @@ int DissectedFactorisation<Real, Device>::worth() const {
 
 template <class Real, class Device>
 void DissectedFactorisation<Real, Device>::serialise(Archive& archive, const std::vector<char>& held) {
-  Couplings couplings = couplings_;
+  SparsityPattern couplings = couplings_;
   archive(couplings.start);
   archive(couplings.item);
   const bool is_other = couplings.start != couplings_.start || couplings.item != couplings_.item;

@@ -33,7 +33,7 @@ class DissectedFactorisation : public Factorisation<Real, Device> {
   // The parts; public because nvcc allows no device lambda in a private member function.
   void take_matrix(const BlockRowsView<Real>& rows);
   void fill(const char* held);
-  void take_over(int level);
+  void extend_add(int level);
   void finish(int level);
 
  private:
@@ -48,7 +48,7 @@ class DissectedFactorisation : public Factorisation<Real, Device> {
     std::size_t bytes() const { return total_bytes(front, swept, above, solved); }
   };
 
-  void take_couplings(Couplings couplings);
+  void take_couplings(SparsityPattern couplings);
   void make_levels(const FrontTables& tables);
   void factorise(const char* held);
   FrontsView<Real> view() const;
@@ -58,7 +58,7 @@ class DissectedFactorisation : public Factorisation<Real, Device> {
   DissectionShape shape_;
   BlockRows<Real, Device> matrix_;  // the factorised matrix, with the pairs
   FrontPairs<Real, Device> pairs_;
-  Couplings couplings_;  // of the plan; pairs that no longer touch stay until others come
+  SparsityPattern couplings_;  // of the plan; pairs that no longer touch stay until others come
   TiledPlan plan_;
   Buffer<double, Device> number_, scratch_, scale_;
   Buffer<int, Device> source_, child_row_;

@@ -166,7 +166,7 @@ TiledCost cost_of(const TiledPlan& plan) {
   return cost;
 }
 
-TiledPlan tiled(Elimination elimination) {
+TiledPlan tiled(SymbolicFactorization elimination) {
   TiledPlan plan;
   plan.elimination = std::move(elimination);
   const std::vector<Front>& fronts = plan.elimination.front;
@@ -200,12 +200,12 @@ Dissection dissect(const Adjacency& graph, const DissectionShape& shape) {
   return Dissector(graph, shape).run();
 }
 
-TiledPlan plan_dissection(const Couplings& couplings, const DissectionShape& shape) {
+TiledPlan plan_dissection(const SparsityPattern& couplings, const DissectionShape& shape) {
   Dissection cut = dissect(both_ways(couplings), shape);
   return tiled(plan_elimination(couplings, std::move(cut.order), cut.columns));
 }
 
-DissectionShape choose_shape(const Couplings& couplings) {
+DissectionShape choose_shape(const SparsityPattern& couplings) {
   constexpr int kMaxDepth = 6;
   constexpr double kApplications = 15;  // per renewal, as Newton's method needs
   DissectionShape best;

@@ -41,7 +41,7 @@ struct TiledCost {
 };
 
 struct TiledPlan {
-  Elimination elimination;
+  SymbolicFactorization elimination;
   std::vector<TiledFront> front;        // in the order of elimination.front
   std::vector<std::vector<int>> level;  // the fronts of each level, whose numbers are contiguous
   std::size_t numbers = 0;              // how many numbers all fronts have
@@ -52,9 +52,9 @@ struct TiledPlan {
 inline constexpr int kTile = 32;  // rows of a tile, which a block of GPU threads handles
 inline constexpr int kMaxFrontLevels = 4;
 
-TiledPlan plan_dissection(const Couplings& couplings, const DissectionShape& shape);
+TiledPlan plan_dissection(const SparsityPattern& couplings, const DissectionShape& shape);
 // Returns the shape of the lowest estimated cost.
-DissectionShape choose_shape(const Couplings& couplings);
+DissectionShape choose_shape(const SparsityPattern& couplings);
 
 inline int TiledFront::stride() const { return tiles * kTile; }
 inline int TiledFront::pivot_rows() const { return pivot_tiles * kTile; }

@@ -20,13 +20,13 @@ void CouplingList::add(std::span<const int> nodes) {
       if (j < i) below_[i].push_back(j);
 }
 
-Couplings CouplingList::take() {
-  Couplings result = compressed(below_);
+SparsityPattern CouplingList::take() {
+  SparsityPattern result = compressed(below_);
   below_.clear();
   return result;
 }
 
-SymmetricBlocks::SymmetricBlocks(Couplings couplings)
+SymmetricBlocks::SymmetricBlocks(SparsityPattern couplings)
     : diagonal(couplings.start.size() - 1), below(couplings.item.size()), couplings_(std::move(couplings)) {
   set_zero();
 }
@@ -78,7 +78,7 @@ void SymmetricBlocks::hold(const char* held) {
   }
 }
 
-Adjacency both_ways(const Couplings& below) {
+Adjacency both_ways(const SparsityPattern& below) {
   std::vector<std::vector<int>> rows(below.start.size() - 1);
   for (int i = 0; i < static_cast<int>(rows.size()); ++i)
     for (int j = below.start[i]; j < below.start[i + 1]; ++j) {
@@ -185,7 +185,7 @@ std::vector<ColumnRange> join_columns(const std::vector<std::vector<int>>& colum
   return range;
 }
 
-void add_front(const ColumnRange& range, const std::vector<int>& beyond, Elimination& plan) {
+void add_front(const ColumnRange& range, const std::vector<int>& beyond, SymbolicFactorization& plan) {
   Front front{};
   front.first = range.first;
   front.pivots = range.count;
@@ -203,7 +203,7 @@ void add_front(const ColumnRange& range, const std::vector<int>& beyond, Elimina
 }
 
 // Finds the rows of their parents that the fronts update.
-void link_fronts(Elimination& plan) {
+void link_fronts(SymbolicFactorization& plan) {
   std::vector<int> owner(plan.order.size()), at(plan.order.size());
   for (std::size_t f = 0; f < plan.front.size(); ++f)
     for (int k = 0; k < plan.front[f].pivots; ++k) owner[plan.front[f].first + k] = static_cast<int>(f);
@@ -219,7 +219,7 @@ void link_fronts(Elimination& plan) {
   }
 }
 
-void place_blocks(const Adjacency& graph, const Couplings& below, Elimination& plan) {
+void place_blocks(const Adjacency& graph, const SparsityPattern& below, SymbolicFactorization& plan) {
   const std::vector<int> rank = ranks(plan.order);
   std::vector<int> at(plan.order.size());
   for (Front& front : plan.front) {
@@ -263,9 +263,9 @@ std::size_t highest_stack(const std::vector<Front>& fronts) {
 
 }  // namespace
 
-Elimination plan_elimination(const Couplings& couplings) {
+SymbolicFactorization plan_elimination(const SparsityPattern& couplings) {
   const Adjacency graph = both_ways(couplings);
-  Elimination plan;
+  SymbolicFactorization plan;
   plan.order = minimum_degree_order(graph);
   plan.order = in_postorder(plan.order, elimination_tree(graph, plan.order));
   const std::vector<std::vector<int>> column = factor_columns(graph, plan.order);
@@ -277,15 +277,15 @@ Elimination plan_elimination(const Couplings& couplings) {
   return plan;
 }
 
-Elimination plan_elimination(const Couplings& couplings, std::vector<int> order,
-                             const std::vector<int>& columns) {
+SymbolicFactorization plan_elimination(const SparsityPattern& couplings, std::vector<int> order,
+                                       const std::vector<int>& columns) {
   const Adjacency graph = both_ways(couplings);
   const std::vector<int> rank = ranks(order);
   std::vector<int> owner;
   for (std::size_t f = 0; f < columns.size(); ++f)
     owner.resize(owner.size() + columns[f], static_cast<int>(f));
   std::vector<std::vector<int>> beyond(columns.size());  // the children's rows are there already
-  Elimination plan;
+  SymbolicFactorization plan;
   plan.order = std::move(order);
   int first = 0;
   for (std::size_t f = 0; f < columns.size(); first += columns[f++]) {

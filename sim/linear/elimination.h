@@ -15,7 +15,7 @@ namespace hysteron {
 // A symmetric sparse matrix of 3x3 blocks is assembled on the host: diagonal blocks and those below them.
 
 // The pairs of nodes that a matrix couples, each once: row i lists the coupled j < i in ascending order.
-using Couplings = Adjacency;
+using SparsityPattern = Adjacency;
 
 // Collects couplings from sets of nodes, such as the vertices of a mesh's triangles.
 class CouplingList {
@@ -23,7 +23,7 @@ class CouplingList {
   explicit CouplingList(int nodes) : below_(nodes) {}
   explicit CouplingList(const Adjacency& couplings);  // each in both directions, or in the lower row
   void add(std::span<const int> nodes);               // couples any two of them
-  Couplings take();
+  SparsityPattern take();
 
  private:
   std::vector<std::vector<int>> below_;
@@ -32,9 +32,9 @@ class CouplingList {
 class SymmetricBlocks {
  public:
   SymmetricBlocks() = default;
-  explicit SymmetricBlocks(Couplings couplings);
+  explicit SymmetricBlocks(SparsityPattern couplings);
 
-  const Couplings& couplings() const { return couplings_; }
+  const SparsityPattern& couplings() const { return couplings_; }
   int nodes() const { return static_cast<int>(diagonal.size()); }
   int slot(int i, int j) const;                    // position of block (i, j), j < i, in `below`; -1: none
   bool couples(std::span<const int> nodes) const;  // are any two of them coupled?
@@ -51,7 +51,7 @@ class SymmetricBlocks {
   std::vector<Eigen::Matrix3d> below;  // one for each (i, j) in the couplings
 
  private:
-  Couplings couplings_;
+  SparsityPattern couplings_;
   ElementStiffness::Rates rates_, forces_;  // scratch
 };
 
@@ -77,7 +77,7 @@ struct EnteringBlock {
   bool transposed;
 };
 
-struct Elimination {
+struct SymbolicFactorization {
   std::vector<int> order;  // the node that is eliminated k-th
   std::vector<Front> front;
   std::vector<int> row;    // for each front: the positions of its rows in the order
@@ -90,14 +90,14 @@ struct Elimination {
 
 // Orders nodes by approximate minimum degree (Amestoy, Davis & Duff 1996) and joins columns of the factor to
 // fronts, even where that makes some zeros explicit (Ashcraft & Grimes 1989).
-Elimination plan_elimination(const Couplings& couplings);
+SymbolicFactorization plan_elimination(const SparsityPattern& couplings);
 
 // Plans fronts of so many columns each in this order, whose nodes need not be connected, without `stack` and
 // `block`: children need not be right before their parents, and the caller fills the fronts.
-Elimination plan_elimination(const Couplings& couplings, std::vector<int> order,
-                             const std::vector<int>& columns);
+SymbolicFactorization plan_elimination(const SparsityPattern& couplings, std::vector<int> order,
+                                       const std::vector<int>& columns);
 
 // Returns the couplings in both directions, each node's in ascending order.
-Adjacency both_ways(const Couplings& below);
+Adjacency both_ways(const SparsityPattern& below);
 
 }  // namespace hysteron

@@ -91,7 +91,7 @@ bool FrontPairs<Real, Device>::fit() {
 }
 
 template <class Real, class Device>
-Couplings FrontPairs<Real, Device>::couplings_with(const Adjacency& pattern) const {
+SparsityPattern FrontPairs<Real, Device>::couplings_with(const Adjacency& pattern) const {
   CouplingList list(pattern);
   for (const PairStiffness<Real>& pair : downloaded(device_, pair_.data(), count_)) list.add(pair.v);
   return list.take();

@@ -21,7 +21,7 @@ class FrontPairs {
   // Has the plan a front for any two vertices of each pair? The host waits for the device.
   bool fit();
   // Returns the couplings of the pattern and those of the pairs.
-  Couplings couplings_with(const Adjacency& pattern) const;
+  SparsityPattern couplings_with(const Adjacency& pattern) const;
   // Adds the pairs to the fronts' numbers, whose rows and columns are scaled by `scale` (n x 3), except for
   // held vertices (n flags).
   void add(const char* held, const double* scale, double* number);

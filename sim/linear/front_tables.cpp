@@ -144,7 +144,7 @@ class TableMaker {
 
 FrontPlaces::FrontPlaces(const TiledPlan& plan)
     : rank(plan.elimination.order.size()), owner(rank.size()), row(plan.elimination.row) {
-  const Elimination& of = plan.elimination;
+  const SymbolicFactorization& of = plan.elimination;
   for (std::size_t k = 0; k < of.order.size(); ++k) rank[of.order[k]] = static_cast<int>(k);
   for (std::size_t f = 0; f < of.front.size(); ++f) {
     const Front& nodes = of.front[f];

@@ -77,7 +77,7 @@ int eliminate(Dense a, int rows, int pivots, const double* least_pivot) {
 
 }  // namespace
 
-SparseCholesky::SparseCholesky(const Couplings& couplings)
+SparseCholesky::SparseCholesky(const SparsityPattern& couplings)
     : plan_(plan_elimination(couplings)),
       factor_(plan_.entries),
       updates_(plan_.stack),
@@ -110,8 +110,8 @@ void SparseCholesky::assemble(const Front& front, const SymmetricBlocks& matrix,
 }
 
 // Adds the child's update to the front's own columns and to the rest.
-void SparseCholesky::take_over(const Front& child, const Front& front, const double* update, double* panel,
-                               double* remainder) const {
+void SparseCholesky::extend_add(const Front& child, const Front& front, const double* update, double* panel,
+                                double* remainder) const {
   const int* place = plan_.place.data() + child.place_start;
   const std::ptrdiff_t own_stride = 3 * front.rows, rest_stride = 3 * front.updated(),
                        stride = 3 * child.updated();
@@ -147,7 +147,7 @@ int SparseCholesky::factorise(const SymmetricBlocks& matrix) {
     std::fill(remainder, remainder + size, 0.0);
     const std::size_t others = waiting.size() - front.children;
     for (std::size_t w = others; w < waiting.size(); ++w)
-      take_over(*waiting[w].front, front, waiting[w].update, panel, remainder);
+      extend_add(*waiting[w].front, front, waiting[w].update, panel, remainder);
     replaced += eliminate({panel, rows}, rows, pivots, least_pivot_.data() + 3 * front.first);
     subtract_square({remainder, updated}, {panel + pivots, rows}, updated, updated, pivots);
     if (front.children > 0) {

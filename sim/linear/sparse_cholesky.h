@@ -9,7 +9,7 @@ namespace hysteron {
 
 class SparseCholesky {
  public:
-  explicit SparseCholesky(const Couplings& couplings);
+  explicit SparseCholesky(const SparsityPattern& couplings);
 
   // Factorises a matrix with the couplings of the constructor.  A pivot that rounding leaves without a digit,
   // as in a singular matrix, is replaced by the matrix's own diagonal number: L L^T is then another matrix,
@@ -18,15 +18,15 @@ class SparseCholesky {
   // Solves L L^T x = x in place, n x 3 numbers in the order of the nodes.
   void solve(double* x) const;
 
-  const Elimination& plan() const { return plan_; }
+  const SymbolicFactorization& plan() const { return plan_; }
   std::size_t bytes() const;
 
  private:
   void assemble(const Front& front, const SymmetricBlocks& matrix, double* panel) const;
-  void take_over(const Front& child, const Front& front, const double* update, double* panel,
-                 double* remainder) const;
+  void extend_add(const Front& child, const Front& front, const double* update, double* panel,
+                  double* remainder) const;
 
-  Elimination plan_;
+  SymbolicFactorization plan_;
   std::vector<double> factor_, updates_, least_pivot_;
   mutable std::vector<double> ordered_, front_;  // scratch of solve()
 };

@@ -48,7 +48,7 @@ SparseFactorisation<Real>::SparseFactorisation(Cpu& device, const BlockRows<Real
 }
 
 template <class Real>
-void SparseFactorisation<Real>::take_couplings(Couplings couplings) {
+void SparseFactorisation<Real>::take_couplings(SparsityPattern couplings) {
   matrix_ = SymmetricBlocks(std::move(couplings));
   factor_.emplace(matrix_.couplings());
   row_slot_.clear();
@@ -107,7 +107,7 @@ void SparseFactorisation<Real>::renew(const LinearSystem<Real, Cpu>& system, con
 
 template <class Real>
 int SparseFactorisation<Real>::worth() const {
-  const Elimination& plan = factor_->plan();
+  const SymbolicFactorization& plan = factor_->plan();
   return std::max(kMinWorth, static_cast<int>(kAssembly * plan.multiplications /
                                               (kMultiplicationsOfEntry * static_cast<double>(plan.entries))));
 }
@@ -129,7 +129,7 @@ void SparseFactorisation<Real>::apply(const Vec3<Real>* r, Vec3<Real>* z, PcgSca
 
 template <class Real>
 void SparseFactorisation<Real>::serialise(Archive& archive, const std::vector<char>& held) {
-  Couplings couplings = matrix_.couplings();
+  SparsityPattern couplings = matrix_.couplings();
   archive(couplings.start);
   archive(couplings.item);
   if (archive.loads()) take_couplings(couplings);

@@ -26,13 +26,13 @@ class SparseFactorisation : public Factorisation<Real, Cpu> {
  private:
   bool are_coupled(const PairProduct<Real>& pairs) const;
   void couple(const PairProduct<Real>& pairs);
-  void take_couplings(Couplings couplings);
+  void take_couplings(SparsityPattern couplings);
   void assemble(const LinearSystem<Real, Cpu>& system, const char* held);
 
   Cpu& device_;
   std::unique_ptr<ElementStiffness> bending_;
-  Adjacency pattern_;  // of the systems' matrices
-  Couplings always_;   // of the pattern and of bending
+  Adjacency pattern_;       // of the systems' matrices
+  SparsityPattern always_;  // of the pattern and of bending
   std::vector<int> row_slot_, bending_slot_;
   SymmetricBlocks matrix_;  // the factorised matrix
   std::optional<SparseCholesky> factor_;

@@ -33,7 +33,7 @@ double locking_number(const Scene& scene, const ClothMesh& mesh) {
   return stiffness * edge * edge / mean_of_faces(scene.fabric.virgin_curve()).b2;
 }
 
-std::string locking_words(const Scene& scene, const ClothMesh& mesh) {
+std::string locking_warning(const Scene& scene, const ClothMesh& mesh) {
   const double number = locking_number(scene, mesh);
   if (!(number > kLocks) || !std::isfinite(number)) return "";
   const bool averages = split_membrane(scene.fabric, scene.membrane_element).averages;

@@ -18,6 +18,6 @@ namespace hysteron {
 double locking_number(const Scene& scene, const ClothMesh& mesh);
 
 // Warns if the number is above the one that was measured to matter (locking.cpp); "" below.
-std::string locking_words(const Scene& scene, const ClothMesh& mesh);
+std::string locking_warning(const Scene& scene, const ClothMesh& mesh);
 
 }  // namespace hysteron

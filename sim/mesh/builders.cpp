@@ -247,7 +247,7 @@ std::array<std::array<Point, 3>, kPieces> pieces(const std::array<Point, 3>& at,
 
 }  // namespace
 
-std::vector<Eigen::Vector3d> with_middles(const ClothMesh& mesh, std::vector<Eigen::Vector3d> x) {
+std::vector<Eigen::Vector3d> subdivide(const ClothMesh& mesh, std::vector<Eigen::Vector3d> x) {
   x.reserve(x.size() + mesh.edge.size());
   for (const Edge& e : mesh.edge) x.push_back((x[e.p2] + x[e.p3]) / 2);
   return x;
@@ -260,7 +260,7 @@ ClothMesh subdivided(const ClothMesh& mesh) {
   ClothMesh fine;
   fine.warp_axis = mesh.warp_axis;
   fine.sewn = mesh.sewn;
-  fine.rest = with_middles(mesh, mesh.rest);
+  fine.rest = subdivide(mesh, mesh.rest);
   fine.pattern = mesh.pattern;
   if (!mesh.pattern.empty())
     for (const Edge& e : mesh.edge) fine.pattern.push_back((mesh.pattern[e.p2] + mesh.pattern[e.p3]) / 2);

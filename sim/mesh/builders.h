@@ -36,6 +36,6 @@ ClothMesh flat_mesh(const std::vector<Eigen::Vector2d>& points, std::vector<Eige
 ClothMesh subdivided(const ClothMesh& mesh);
 
 // Returns the positions of the vertices [m], followed by those of the edges' middles.
-std::vector<Eigen::Vector3d> with_middles(const ClothMesh& mesh, std::vector<Eigen::Vector3d> x);
+std::vector<Eigen::Vector3d> subdivide(const ClothMesh& mesh, std::vector<Eigen::Vector3d> x);
 
 }  // namespace hysteron

@@ -189,7 +189,7 @@ KesTest test_in_kes(const LawRequest& request, const KesProtocol& protocol) {
   if (protocol.steps < kFineSteps) read_coarse_steps(request, protocol, test);
   count_cases(request.curve, test.walk, test.moment, test.recovery_cases);
 
-  const LawChoice law = choose_law(request.name, request.curve, request.parameters, LawUse::alone);
+  const LawParams law = choose_law(request.name, request.curve, request.parameters, LawUse::alone);
   test.reading.residual_by_formula =
       has_residual_formula(law)
           ? residual_by_formula(law, protocol.amplitude, test.moment[test.walk.start[1] - 1])

@@ -165,7 +165,7 @@ Cloth make_cloth(const Scene& scene) {
   ClothMesh mesh = rest_mesh(scene, doubts);
   std::vector<Eigen::Vector3d> start = start_shape(scene, mesh);
   for (int i = 0; i < scene.cloth.subdivisions; ++i) {
-    start = with_middles(mesh, std::move(start));
+    start = subdivide(mesh, std::move(start));
     mesh = subdivided(mesh);
   }
   for (const std::string& doubt : cloth_doubts(scene, mesh, start)) doubts.push_back(doubt);
@@ -199,7 +199,7 @@ Eigen::Vector3d local_origin(const std::vector<Eigen::Vector3d>& x) {
   return middle;
 }
 
-Scene seen_from(const Eigen::Vector3d& origin, Scene scene) {
+Scene relative_to(const Eigen::Vector3d& origin, Scene scene) {
   if (origin.isZero(0)) return scene;
   for (Pin& pin : scene.pin) pin.motion.center -= origin;
   for (Obstacle& o : scene.obstacle) {
@@ -210,7 +210,7 @@ Scene seen_from(const Eigen::Vector3d& origin, Scene scene) {
   return scene;
 }
 
-Cloth seen_from(const Eigen::Vector3d& origin, Cloth cloth) {
+Cloth relative_to(const Eigen::Vector3d& origin, Cloth cloth) {
   if (origin.isZero(0)) return cloth;
   for (Eigen::Vector3d& x : cloth.start) x -= origin;
   return cloth;

@@ -61,8 +61,8 @@ Eigen::Vector3d local_origin(const std::vector<Eigen::Vector3d>& x);
 
 // Return the scene or cloth with all positions relative to `origin` [m].  Selections on the flat cloth, and
 // keyframes, which are relative to the start, stay as they are.
-Scene seen_from(const Eigen::Vector3d& origin, Scene scene);
-Cloth seen_from(const Eigen::Vector3d& origin, Cloth cloth);
+Scene relative_to(const Eigen::Vector3d& origin, Scene scene);
+Cloth relative_to(const Eigen::Vector3d& origin, Cloth cloth);
 
 // Returns the spacing of floating-point numbers [m], in the scene's precision, at the coordinate that is
 // farthest from the simulation's origin.

@@ -140,11 +140,11 @@ const KeyRow<Obstacle> kObstacleRows[] = {
     {"motion-center", at<&Obstacle::motion, &Motion::center>, "m", any(), "", "of the motion's rotation"},
 };
 
-const KeyRow<Command> kCommandRows[] = {
-    {"kind", at<&Command::kind>, "", any(), "", "iron: removes all bends and permanent set; edit: the present shape becomes the rest shape (law grinspun-edit)"},
-    {"time", at<&Command::time>, "s", at_least(0), "", "when"},
-    {"low", at<&Command::low>, "m", any(), "", "corner of the box that contains the elements, on the flat cloth"},
-    {"high", at<&Command::high>, "m", any(), "", "opposite corner of the box, >= low"},
+const KeyRow<SceneEvent> kCommandRows[] = {
+    {"kind", at<&SceneEvent::kind>, "", any(), "", "iron: removes all bends and permanent set; edit: the present shape becomes the rest shape (law grinspun-edit)"},
+    {"time", at<&SceneEvent::time>, "s", at_least(0), "", "when"},
+    {"low", at<&SceneEvent::low>, "m", any(), "", "corner of the box that contains the elements, on the flat cloth"},
+    {"high", at<&SceneEvent::high>, "m", any(), "", "opposite corner of the box, >= low"},
 };
 
 const KeyRow<Phase> kPhaseRows[] = {
@@ -278,7 +278,7 @@ void note_numbers_beside_pair(Scene& scene) {
 
 // Keeps the statement of friction that was set last: KES-FB2's pair, with k0 or a shape, or b1 with b2 and
 // k0, or stops.  Setting a number that already follows from the present statement changes nothing.
-void keep_friction_whole(bool was_shaped, const std::string& set, Scene& scene) {
+void reconcile_friction(bool was_shaped, const std::string& set, Scene& scene) {
   Fabric& fabric = scene.fabric;
   if (set.starts_with("kes-") || set == "stops-median" || set == "stops-spread") {
     if (was_shaped && !fabric.kes.on()) fabric.bending.stops = {};
@@ -322,7 +322,7 @@ Keys bind_scene(Scene& scene) {
 }
 Keys bind_pin(Pin& pin) { return bind(kPinRows, pin); }
 Keys bind_obstacle(Obstacle& obstacle) { return bind(kObstacleRows, obstacle); }
-Keys bind_command(Command& command) { return bind(kCommandRows, command); }
+Keys bind_command(SceneEvent& command) { return bind(kCommandRows, command); }
 Keys bind_phase(Phase& phase) { return bind(kPhaseRows, phase); }
 Keys bind_keyframe(Keyframe& keyframe) { return bind(kKeyframeRows, keyframe); }
 
@@ -343,7 +343,7 @@ void set_key(Scene& scene, const BoundKey& key, const Value& value, const std::s
     scene.seconds = phases_end(scene);
   if (!path.starts_with(kFabricPrefix)) return;
   const std::string set = path.substr(kFabricPrefix.size());
-  keep_friction_whole(was_shaped, set, scene);
+  reconcile_friction(was_shaped, set, scene);
   keep_bias_between(set, scene.fabric);
 }
 

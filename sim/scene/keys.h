@@ -18,7 +18,7 @@ std::vector<KeyDescription> scene_keys();
 Keys bind_scene(Scene& scene);
 Keys bind_pin(Pin& pin);
 Keys bind_obstacle(Obstacle& obstacle);
-Keys bind_command(Command& command);
+Keys bind_command(SceneEvent& command);
 Keys bind_phase(Phase& phase);
 Keys bind_keyframe(Keyframe& keyframe);
 

@@ -207,7 +207,7 @@ struct Obstacle {
 };
 
 // An event of the bending elements whose middle lies in the box on the flat cloth.
-struct Command {
+struct SceneEvent {
   CommandKind kind = CommandKind::iron;
   double time = 0;                        // [s]
   Eigen::Vector3d low{-1e3, -1e3, -1e3};  // [m], corner of the box
@@ -268,7 +268,7 @@ struct Scene {
   unsigned seed = 1;
   std::vector<Pin> pin;
   std::vector<Obstacle> obstacle;
-  std::vector<Command> command;
+  std::vector<SceneEvent> command;
   std::vector<Phase> phase;
   // Messages use where each key that is not at its default was set, "scene.toml:7" or "--step", by key
   // ("step", "obstacle[0].radius") and by table ("pin[1]").

@@ -331,14 +331,14 @@ std::string origin_in(const Scene& scene, const std::string& path, const std::st
 }
 
 // Refuses a command that is due when the scene is over, and would never be carried out.
-void check_due(const Scene& scene, const Command& command, const std::string& path) {
+void check_due(const Scene& scene, const SceneEvent& command, const std::string& path) {
   if (command.time < scene.seconds) return;
   throw Error::invalid_input(path + ".time = " + number_text(command.time) + " s (" +
                              origin_in(scene, path, "time") + ") must be < " +
                              shown(scene, "seconds", scene.seconds, "s") + ", the end of the scene");
 }
 
-void check_command(const Scene& scene, const Command& command, const std::string& path) {
+void check_command(const Scene& scene, const SceneEvent& command, const std::string& path) {
   if ((command.low.array() > command.high.array()).any())
     throw Error::invalid_input(path + ".low must be <= " + path + ".high in x, y and z [m]")
         .with_origin(origin_in(scene, path, "low"));

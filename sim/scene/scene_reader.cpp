@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // A value of the file with its full path: [cloth] length has the path "cloth.length".
-struct Setting {
+struct FileKey {
   std::string path;
   const ValueTree* node;
 };
@@ -25,7 +25,7 @@ struct Setting {
 // Flattens a tree into settings.  Names in `lists` have to be arrays of tables; a plain table of that name is
 // not taken apart.
 void flatten(const std::string& prefix, const ValueTree& table, const std::vector<std::string>& lists,
-             std::vector<Setting>& settings) {
+             std::vector<FileKey>& settings) {
   for (const ValueTree& child : table.children) {
     const std::string path = prefix.empty() ? child.key : prefix + "." + child.key;
     if (child.kind == ValueTree::Kind::table && !std::count(lists.begin(), lists.end(), path)) {
@@ -53,11 +53,11 @@ class SceneKeys {
   void apply(const ValueTree& root) {
     std::vector<std::string> lists = {"pin", "obstacle", "command", "phase"};
     lists.insert(lists.end(), left_out_.begin(), left_out_.end());
-    std::vector<Setting> settings;
+    std::vector<FileKey> settings;
     flatten("", root, lists, settings);
-    const auto come_first = [](const Setting& s) { return s.path == "fabric.name" || s.path == "phase"; };
+    const auto come_first = [](const FileKey& s) { return s.path == "fabric.name" || s.path == "phase"; };
     std::stable_partition(settings.begin(), settings.end(), come_first);
-    for (const Setting& setting : settings) apply(setting);
+    for (const FileKey& setting : settings) apply(setting);
     repeat_motions(scene_);
   }
 
@@ -75,7 +75,7 @@ class SceneKeys {
   }
 
  private:
-  void apply(const Setting& setting) {
+  void apply(const FileKey& setting) {
     const ValueTree& node = *setting.node;
     const std::string origin = place(file_, node);
     if (setting.path == "pin") return read_tables(node, scene_.pin, bind_pin);
@@ -83,7 +83,10 @@ class SceneKeys {
     if (setting.path == "command") return read_tables(node, scene_.command, bind_command);
     if (setting.path == "obstacle") return read_tables(node, scene_.obstacle, bind_obstacle);
     if (setting.path.starts_with("param.")) return set_parameter(setting.path.substr(6), node, origin);
-    if (std::count(left_out_.begin(), left_out_.end(), setting.path)) return void(tables(node, file_));
+    if (std::count(left_out_.begin(), left_out_.end(), setting.path)) {
+      tables(node, file_);  // which the experiment reads; here its form alone is checked
+      return;
+    }
     if (node.kind == ValueTree::Kind::array && is_table(setting.path))
       throw Error::invalid_input(setting.path + " must be one table, [" + setting.path + "] (" + origin +
                                  ")");

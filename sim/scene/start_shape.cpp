@@ -170,7 +170,10 @@ void check_start_shape(const Scene& scene) {
     throw Error::invalid_input(shown(scene, "cloth.start", c.start, "") + " needs cloth.shape = strip" +
                                (knot ? "" : " or square") + ", not " +
                                (of_file ? "the mesh " + scene.mesh : c.shape));
-  knot ? check_knot(scene) : check_pleats(scene);
+  if (knot)
+    check_knot(scene);
+  else
+    check_pleats(scene);
 }
 
 std::vector<Vector3d> start_shape(const Scene& scene, const ClothMesh& mesh) {

@@ -25,8 +25,8 @@ Body<Real, Device>::Body(std::unique_ptr<Device> on, const Scene& s, const Cloth
                          const CurvatureOperator& op)
     : device(std::move(on)),
       origin(local_origin(c.start)),
-      scene(seen_from(origin, s)),
-      cloth(seen_from(origin, c)),
+      scene(relative_to(origin, s)),
+      cloth(relative_to(origin, c)),
       vertices(c.mesh.vertices()),
       clock(*device),
       matrix(*device, membrane_couplings(c.mesh, s.fabric, s.membrane_element)),
@@ -107,7 +107,7 @@ void Body<Real, Device>::end_stage(double time) {
 
 template <class Real, class Device>
 void Body<Real, Device>::carry_out_commands(double start, double end) {
-  for (const Command& command : scene.command) {
+  for (const SceneEvent& command : scene.command) {
     if (command.time < start || command.time >= end) continue;
     std::vector<char> chosen;
     for (const Eigen::Vector3d& center : command_center_)

@@ -88,14 +88,14 @@ NewtonOutcome ImplicitStep<Real, Device>::solve(double h, double fraction, bool 
   formula_ = step_formula(h, is_first_stage);
   if (is_first_stage || !two_stage_) solver_->begin();
   fraction_ = static_cast<Real>(fraction);
-  place();
+  predict();
   potential_.begin({formula_, rate_formula(h), body_.x.data(), x_before_.data(), reference_.data(),
                     predicted_.data(), body_.held.data(), body_.gravity(), body_.drag(), fraction_,
                     body_.pins.compliant_pins()});
   const PotentialValue begun = begin_at_best_guess(is_first_stage);
   if (!std::isfinite(begun.energy)) {  // the pins' motion is barred, or the state is not finite
     NewtonOutcome outcome;
-    outcome.blocked = potential_.has_self_contact() && !keep_apart();
+    outcome.blocked = potential_.has_self_contact() && !limit_guess_by_ccd();
     return outcome;
   }
   const double beta_dt = static_ ? 1.0 : formula_.beta_dt;
@@ -170,7 +170,7 @@ template <class Real, class Device>
 PotentialValue ImplicitStep<Real, Device>::potential_of_guess(Guess which) {
   guess(which);
   potential_.clip_to_obstacles(end_.data());
-  const bool apart = !potential_.has_self_contact() || keep_apart();
+  const bool apart = !potential_.has_self_contact() || limit_guess_by_ccd();
   if (!apart || !potential_.path_is_clear(end_.data()))
     return {.energy = std::numeric_limits<double>::infinity()};
   potential_.update_friction_limits(end_.data());
@@ -179,7 +179,7 @@ PotentialValue ImplicitStep<Real, Device>::potential_of_guess(Guess which) {
 
 // Sets the positions and velocities from which the formula starts.
 template <class Real, class Device>
-void ImplicitStep<Real, Device>::place() {
+void ImplicitStep<Real, Device>::predict() {
   const Real beta_dt = static_ ? Real(0) : static_cast<Real>(formula_.beta_dt);
   const Real extrapolation = static_cast<Real>(formula_.extrapolation),
              carried = static_cast<Real>(formula_.carried);
@@ -231,7 +231,7 @@ void ImplicitStep<Real, Device>::guess(Guess which) {
 // Shortens the guess until the cloth does not pass through itself on the path there; held vertices have to go
 // all their way.  Returns whether such a guess was found.
 template <class Real, class Device>
-bool ImplicitStep<Real, Device>::keep_apart() {
+bool ImplicitStep<Real, Device>::limit_guess_by_ccd() {
   constexpr int kMaxShortenings = 12;
   constexpr double kWithin = 0.99, kFastest = 0.1;
   constexpr double kKeptShell = 0.4;  // a guess that presses layers further begins with huge forces
@@ -301,10 +301,10 @@ void ImplicitStep<Real, Device>::accept() {
   // The last trial of a line search may have been elsewhere.
   if (!evaluated_) potential_.evaluate(end_.data(), nullptr);
   if (!bending_lags_) body_.bending.accept();
-  book();
+  update_ledger();
   body_.membrane.add_viscous_loss();
   body_.membrane.commit_friction(end_.data());
-  move_on();
+  commit_state();
   knows_trend_ = last_h_ > 0;
   last_h_ = formula_.dt;
   knows_acceleration_ = true;
@@ -313,7 +313,7 @@ void ImplicitStep<Real, Device>::accept() {
 // Adds up the work of the forces over the way to the end of the step.  Membrane and contact have the rest of
 // the gradient.
 template <class Real, class Device>
-void ImplicitStep<Real, Device>::book() {
+void ImplicitStep<Real, Device>::update_ledger() {
   const Real rate = static_cast<Real>(1 / formula_.beta_dt);  // 0 in statics
   const Real inertia = rate * rate, drag = body_.drag() * rate;
   const Vec3<Real> g = body_.gravity(), carried = (1 - fraction_) * g;
@@ -363,7 +363,7 @@ void ImplicitStep<Real, Device>::book() {
 }
 
 template <class Real, class Device>
-void ImplicitStep<Real, Device>::move_on() {
+void ImplicitStep<Real, Device>::commit_state() {
   const Real rate = static_cast<Real>(1 / formula_.beta_dt), h = static_cast<Real>(formula_.dt);
   const bool two_step = two_step_, statics = static_, at_end = two_stage_;
   Vec3<Real>*x = body_.x.data(), *v = body_.v.data(), *x0 = x_before_.data(), *v0 = v_before_.data();

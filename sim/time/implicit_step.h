@@ -89,12 +89,12 @@ class ImplicitStep {
 
   // The parts of solve() and accept(); public because nvcc allows no device lambda in a private member
   // function.
-  void place();
+  void predict();
   void guess(Guess which);
-  bool keep_apart();
+  bool limit_guess_by_ccd();
   void shorten_guess(Real step_length);
-  void book();
-  void move_on();
+  void update_ledger();
+  void commit_state();
 
  private:
   static constexpr double kMaxGrowth = 2.4;  // over the last step; bdf2 is stable below 1 + sqrt2

@@ -98,8 +98,8 @@ class IncrementalPotential {
   bool has_self_contact() const { return self_contact_ != nullptr; }
   // Updates the limits of friction from the contact at x, which changes Phi.
   void update_friction_limits(const Vec3<Real>* x) {
-    if (contact_) contact_->lag(x);
-    if (self_contact_) self_contact_->lag(x);
+    if (contact_) contact_->update_lagged_friction(x);
+    if (self_contact_) self_contact_->update_lagged_friction(x);
   }
   // Returns Phi with its gradient at x (n vertices [m]); the direction may be null.  The host waits for the
   // device.

@@ -44,11 +44,11 @@ Pins<Real, Device>::Pins(Device& device, const Scene& scene, const Cloth& cloth,
       if (time > 0 && time < scene.seconds) times_.push_back(time);
   }
   std::sort(times_.begin(), times_.end());
-  if (moving_) set_out(device, scene, cloth, 0);
+  if (moving_) allocate(device, scene, cloth, 0);
 }
 
 template <class Real, class Device>
-void Pins<Real, Device>::set_out(Device& device, const Scene& scene, const Cloth& cloth, double time) {
+void Pins<Real, Device>::allocate(Device& device, const Scene& scene, const Cloth& cloth, double time) {
   const std::vector<Vec3<Real>> start = cast_to<Real>(cloth.start);
   const int vertices = cloth.mesh.vertices();
   if (start_.size() == 0) {
@@ -74,18 +74,18 @@ void Pins<Real, Device>::drive(Body<Real, Device>& body, int pin, double now, co
   Motion& motion = body.scene.pin[pin].motion;
   motion = steady_from(motion, now, velocity, spin);
   moving_ = true;
-  set_out(*body.device, body.scene, body.cloth, now);
+  allocate(*body.device, body.scene, body.cloth, now);
 }
 
 template <class Real, class Device>
 bool Pins<Real, Device>::attach_and_release(Body<Real, Device>& body, double start) {
-  regain(body);
+  restore_rigid(body);
   if (start < next_) return false;
   const auto next = std::upper_bound(times_.begin(), times_.end(), start);
   next_ = next == times_.end() ? 1e30 : *next;
   const std::vector<int> pins = body.cloth.pins(body.scene, start);
   const std::vector<char> held = body.cloth.held(body.scene, start);
-  bool changed = book(body, held);
+  bool changed = update_ledger(body, held);
   if (body.contact) throw_if_release(body, held, start);
   body.held.upload(held);
   if (limited_) changed |= pins != pin_.download();
@@ -109,7 +109,7 @@ void Pins<Real, Device>::share_strength(const Scene& scene, const std::vector<in
 // Books the energy of taking hold and letting go: a pin stops the vertices it takes, and leaves those it lets
 // go in motion, since the balance counts no kinetic energy of held vertices.
 template <class Real, class Device>
-bool Pins<Real, Device>::book(Body<Real, Device>& body, const std::vector<char>& held) {
+bool Pins<Real, Device>::update_ledger(Body<Real, Device>& body, const std::vector<char>& held) {
   const std::vector<char> before = body.held.download();
   if (held == before) return false;
   const std::vector<Vec3<Real>> v = body.v.download();
@@ -164,10 +164,10 @@ void Pins<Real, Device>::serialise(Archive& archive, Body<Real, Device>& body) {
     visit_keyframes(archive, pin.motion.keys);
     archive(pin.motion.cycles);
   }
-  if (archive.loads() && moving_) set_out(device, body.scene, body.cloth, 0);
+  if (archive.loads() && moving_) allocate(device, body.scene, body.cloth, 0);
   archive(next_);
   hysteron::serialise(archive, device, start_, pin_);
-  archive(work_, behind_, pulls_);
+  archive(work_, behind_, pulling_now_);
   hysteron::serialise(archive, device, place_, strength_);
 }
 
@@ -175,10 +175,10 @@ template <class Real, class Device>
 void Pins<Real, Device>::move(Body<Real, Device>& body, double start, Real h) {
   if (!moving_) return;
   const PinPlacements<Real> placed = placements(body.scene, start, static_cast<double>(h));
-  goes_ = false;
+  moving_now_ = false;
   for (std::size_t p = 0; p < body.scene.pin.size(); ++p)
-    goes_ |= !(body.scene.pin[p].strength > 0) &&
-             (placed.homewards[p] != 0 || !placed.turn[p].isZero(0) || !placed.shift[p].isZero(0));
+    moving_now_ |= !(body.scene.pin[p].strength > 0) &&
+                   (placed.homewards[p] != 0 || !placed.turn[p].isZero(0) || !placed.shift[p].isZero(0));
   const int* pin = pin_.data();
   const char* held = body.held.data();
   const Real* strength = strength_.data();
@@ -208,7 +208,7 @@ void Pins<Real, Device>::move(Body<Real, Device>& body, double start, Real h) {
 template <class Real, class Device>
 bool Pins<Real, Device>::are_blocked(Body<Real, Device>& body, Real h) {
   if (behind_ > yield_distance_) return true;
-  if (!sweep_ || !(goes_ || behind_ > 0)) return false;
+  if (!sweep_ || !(moving_now_ || behind_ > 0)) return false;
   const char* held = body.held.data();
   const Vec3<Real>* v = body.v.data();
   Vec3<Real>* displacement = displacement_.data();
@@ -246,20 +246,20 @@ bool Pins<Real, Device>::yield_to_cloth(Body<Real, Device>& body, Real h) {
   body.v.upload(v);
   body.held.upload(held);
   body.self_contact->invalidate_pairs();
-  return yields_ = pulls_ = true;
+  return compliant_now_ = pulling_now_ = true;
 }
 
 // Makes pins rigid again before another stage, whether the last one was accepted or not.
 template <class Real, class Device>
-void Pins<Real, Device>::regain(Body<Real, Device>& body) {
-  if (!pulls_) return;
-  if (yields_) body.held.upload(rigid_);
+void Pins<Real, Device>::restore_rigid(Body<Real, Device>& body) {
+  if (!pulling_now_) return;
+  if (compliant_now_) body.held.upload(rigid_);
   const std::vector<char> held = body.held.download();
   std::vector<Real> strength = strength_.download();
   for (int i = 0; i < body.vertices; ++i)
     if (held[i]) strength[i] = 0;
   strength_.upload(strength);
-  yields_ = pulls_ = false;
+  compliant_now_ = pulling_now_ = false;
 }
 
 // Stops the vertices that are held again.  Until the next stage the pull on them is known, as the force on
@@ -275,7 +275,7 @@ void Pins<Real, Device>::hold_again(Body<Real, Device>& body) {
     behind_ = std::max(behind_, (x[i] - place[i]).norm());
   }
   body.held.upload(rigid_);
-  yields_ = false;
+  compliant_now_ = false;
 }
 
 template <class Real, class Device>
@@ -296,11 +296,11 @@ Real Pins<Real, Device>::farthest_behind(Body<Real, Device>& body) {
 template <class Real, class Device>
 void Pins<Real, Device>::end_stage(Body<Real, Device>& body) {
   behind_ = 0;
-  if (!limited_ && !yields_) return;
+  if (!limited_ && !compliant_now_) return;
   const Real largest = farthest_behind(body);
   body.counts.pin_lag = std::max(body.counts.pin_lag, static_cast<double>(largest));
   if (largest > yield_distance_) ++body.counts.saturated_pins;
-  if (!yields_) return;
+  if (!compliant_now_) return;
   ++body.counts.blocked_pins;
   hold_again(body);
 }

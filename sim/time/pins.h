@@ -76,21 +76,22 @@ class Pins {
  private:
   // Allocates the arrays that moving pins need, where they are missing; vertices held at `time` [s] start
   // where they were at t = 0.
-  void set_out(Device& device, const Scene& scene, const Cloth& cloth, double time);
+  void allocate(Device& device, const Scene& scene, const Cloth& cloth, double time);
   // Returns whether `held` differs from the present flags.
-  bool book(Body<Real, Device>& body, const std::vector<char>& held);
+  bool update_ledger(Body<Real, Device>& body, const std::vector<char>& held);
   void take(Body<Real, Device>& body, const std::vector<int>& pins, double time);
   void share_strength(const Scene& scene, const std::vector<int>& pins);
-  void regain(Body<Real, Device>& body);
+  void restore_rigid(Body<Real, Device>& body);
   void hold_again(Body<Real, Device>& body);
   PinPlacements<Real> placements(const Scene& scene, double start, double h) const;
 
   const bool with_arcs_;
-  bool moving_ = false;                  // a pin moves or has limited strength
-  bool limited_ = false;                 // a pin has limited strength
-  bool goes_ = false;                    // a rigid pin moves in this stage
-  bool yields_ = false, pulls_ = false;  // rigid pins give way now; now or in the stage accepted last
-  double next_ = 0;                      // when pins take hold or let go next [s]
+  bool moving_ = false;      // a pin moves or has limited strength
+  bool limited_ = false;     // a pin has limited strength
+  bool moving_now_ = false;  // a rigid pin moves in this stage
+  bool compliant_now_ = false,
+       pulling_now_ = false;  // rigid pins give way now; now or in the stage accepted last
+  double next_ = 0;           // when pins take hold or let go next [s]
   double work_ = 0;
   Real yield_distance_;
   Real behind_ = 0;                   // how far pins that gave way lagged in the stage accepted last [m]

@@ -185,7 +185,7 @@ void SemiImplicit<Real, Device>::solve(Real h, const Vec3<Real>* impulse) {
     correct(h, first);
     body_.clock.end(Stage::solve);
   }
-  book(h, impulse);
+  update_ledger(h, impulse);
   body_.membrane.add_viscous_loss(body_.v.data(), h);
   body_.membrane.commit_friction(body_.x.data());
 }
@@ -239,7 +239,7 @@ void SemiImplicit<Real, Device>::correct(Real h, bool first) {
 // solver.  The impulse on a held vertex is that of the last linear system: rhs - matrix dv, without the mass
 // because its own dv is 0.
 template <class Real, class Device>
-void SemiImplicit<Real, Device>::book(Real h, const Vec3<Real>* explicit_impulse) {
+void SemiImplicit<Real, Device>::update_ledger(Real h, const Vec3<Real>* explicit_impulse) {
   const Real* mass = body_.mass.data();
   const char* held = body_.held.data();
   const Vec3<Real>*v = body_.v.data(), *total = change_.data(), *rhs = rhs_.data(),

@@ -29,7 +29,7 @@ class SemiImplicit : public TimeIntegrator<Real, Device> {
   void substep(Real dt);  // takes an explicit substep
   void assemble(Real h, const Vec3<Real>* impulse, bool first);
   void correct(Real h, bool first);
-  void book(Real h, const Vec3<Real>* impulse);
+  void update_ledger(Real h, const Vec3<Real>* impulse);
   double change_size();  // returns the last stage's velocity change, root mean square by mass [m/s]
 
  private:

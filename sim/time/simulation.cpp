@@ -119,7 +119,7 @@ void check(const Scene& scene, const Cloth& cloth) {
 
 // Returns b2 of the elements along warp [N m].
 double own_rigidity(const Scene& scene) {
-  const LawChoice law = choose_law(scene.law, scene.fabric.virgin_curve(), scene.param, LawUse::cloth);
+  const LawParams law = choose_law(scene.law, scene.fabric.virgin_curve(), scene.param, LawUse::cloth);
   const double of_both_sides = law.curve.b2 * std::min(1.0, law.curve.parts.faces.bending);
   return scene.element == BendingElement::hinge ? of_both_sides : of_both_sides * rigidity_on_the_tensor(law);
 }

@@ -10,7 +10,7 @@ thread_local int members_here = 1;
 
 }  // namespace
 
-void run_together(bool on_gpu, int count, const std::function<void(int)>& job) {
+void run_batched_scenes(bool on_gpu, int count, const std::function<void(int)>& job) {
   if (count <= 0) return;
   if (!on_gpu) return in_parallel(count, 1, [&](std::size_t i) { job(static_cast<int>(i)); });
   in_parallel(1, 1, [&](std::size_t) {

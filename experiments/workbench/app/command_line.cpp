@@ -147,7 +147,7 @@ void throw_if_unknown(const Command& command) {
     throw Error::invalid_input("unexpected argument \"" + word + "\"").with_experiment(experiment);
   std::vector<std::string> known;
   for (const auto& flag : command.flags) known.push_back("--" + flag.first);
-  const std::string owner = whose(word.substr(std::min(word.find_first_not_of('-'), word.size())));
+  const std::string owner = owners_of_key(word.substr(std::min(word.find_first_not_of('-'), word.size())));
   const std::string nearest = nearest_name(word, known);
   std::string more = owner;
   if (!nearest.empty()) more = "did you mean " + nearest + "?" + (owner.empty() ? "" : " (" + owner + ")");
@@ -189,8 +189,8 @@ CommandLine taken_apart(const Command& command, std::string shell_command) {
 
 std::vector<KeyDescription> experiment_options(const Experiment& experiment, Defaults defaults) {
   std::vector<KeyDescription> keys = every_option(experiment, defaults);
-  const std::vector<DecidedKey> decided = experiment.decided();
-  std::erase_if(keys, [&](const KeyDescription& key) { return has_key(decided, key.path); });
+  const std::vector<FixedKey> fixed_keys = experiment.fixed_keys();
+  std::erase_if(keys, [&](const KeyDescription& key) { return has_key(fixed_keys, key.path); });
   return keys;
 }
 
@@ -207,7 +207,10 @@ std::string shell_text(const std::vector<std::string>& words) {
 std::optional<CommandLine> parse_command_line(const std::vector<std::string>& words,
                                               const std::vector<Experiment>& known) {
   const std::vector<std::string> given(words.begin() + 1, words.end());
-  if (const auto help = help_asked(given, known, terminal_width())) return std::cout << *help, std::nullopt;
+  if (const auto help = help_asked(given, known, terminal_width())) {
+    std::cout << *help;
+    return std::nullopt;
+  }
   CLI::App program("", "hysteron");
   program.set_help_flag();
   program.set_version_flag("--version", program_version());

@@ -9,34 +9,34 @@
 
 namespace hysteron::experiments {
 
-std::vector<DecidedKey> unused_but(const std::string& beginning, const std::set<std::string>& used,
-                                   const std::string& why) {
-  std::vector<DecidedKey> keys;
+std::vector<FixedKey> unused_but(const std::string& beginning, const std::set<std::string>& used,
+                                 const std::string& why) {
+  std::vector<FixedKey> keys;
   for (const KeyDescription& key : scene_keys())
     if (key.path.starts_with(beginning) && !used.contains(key.path)) keys.push_back({key.path, why, true});
   return keys;
 }
 
-std::string decided_words(const std::string& experiment, const DecidedKey& key) {
+std::string fixed_key_message(const std::string& experiment, const FixedKey& key) {
   return experiment + (key.unused ? " does not use " : " sets ") + key.path + (key.unused ? "" : " itself") +
          ": " + key.why;
 }
 
-void throw_if_flags(const CommandLine& line, const std::vector<DecidedKey>& decided) {
+void throw_if_flags(const CommandLine& line, const std::vector<FixedKey>& fixed_keys) {
   for (const Flag& flag : line.flags)
-    for (const DecidedKey& key : decided)
+    for (const FixedKey& key : fixed_keys)
       if ((flag.path == "fabric" ? "fabric.name" : flag.path) == key.path)
         throw Error::invalid_input("--" + flag.path + (flag.text == "true" ? "" : " " + flag.text) + ": " +
-                                   decided_words(line.experiment, key))
+                                   fixed_key_message(line.experiment, key))
             .with_key(key.path, flag.text);
 }
 
-void decide(const CommandLine& line, Setup& setup, const std::vector<DecidedKey>& keys) {
+void decide(const CommandLine& line, Setup& setup, const std::vector<FixedKey>& keys) {
   throw_if_flags(line, keys);
-  setup.decided.insert(setup.decided.end(), keys.begin(), keys.end());
+  setup.fixed_keys.insert(setup.fixed_keys.end(), keys.begin(), keys.end());
 }
 
-void note_setter(Scene& scene, const std::string& experiment, const DecidedKey& key) {
+void note_setter(Scene& scene, const std::string& experiment, const FixedKey& key) {
   scene.origin[key.path] = kSetBy + experiment + ": " + key.why;
 }
 
@@ -54,22 +54,22 @@ bool is_of_fabric_file(const Scene& scene, const std::string& path) {
 }  // namespace
 
 // A dumped file has every key; those that equal the experiment's defaults request nothing.
-std::vector<std::string> lost_words(const CommandLine& line, const Setup& setup) {
+std::vector<std::string> ignored_key_warnings(const CommandLine& line, const Setup& setup) {
   std::vector<std::string> words;
   const auto defaults = experiment_named(line.experiment).defaults;
-  if (!defaults || setup.decided.empty()) return words;
+  if (!defaults || setup.fixed_keys.empty()) return words;
   const Json default_values = to_json(defaults().scene), requested = to_json(*setup.requested),
              now = to_json(setup.scene);
-  for (const DecidedKey& key : setup.decided) {
+  for (const FixedKey& key : setup.fixed_keys) {
     if (const std::string place = key_origin(setup.scene, key.path + "[0]", ""); !place.empty())
       words.push_back("[[" + key.path + "]] (" + place +
-                      ") is not used: " + decided_words(line.experiment, key));
+                      ") is not used: " + fixed_key_message(line.experiment, key));
     if (!is_given(*setup.requested, key.path) || is_of_fabric_file(*setup.requested, key.path)) continue;
     const Json& value = json_at(requested, key.path);
     if (value == json_at(default_values, key.path) || (!key.unused && value == json_at(now, key.path)))
       continue;
     words.push_back(key.path + " = " + value.dump() + " (" + key_origin(*setup.requested, key.path) +
-                    ") is not used: " + decided_words(line.experiment, key));
+                    ") is not used: " + fixed_key_message(line.experiment, key));
   }
   return words;
 }

@@ -10,11 +10,11 @@
 namespace hysteron::experiments {
 namespace {
 
-Ending failed(const std::string& experiment, const std::string& message, int exit_code) {
+ExitStatus failed(const std::string& experiment, const std::string& message, int exit_code) {
   return {exit_code, "hysteron" + (experiment.empty() ? "" : " " + experiment) + ": " + message};
 }
 
-Ending ending_of(const std::string& experiment, const std::function<int()>& body) {
+ExitStatus ending_of(const std::string& experiment, const std::function<int()>& body) {
   try {
     return {body()};
   } catch (const Error& error) {
@@ -32,9 +32,9 @@ Ending ending_of(const std::string& experiment, const std::function<int()>& body
 
 }  // namespace
 
-Ending run_ending(const std::string& experiment, const std::function<int()>& body) {
+ExitStatus run_guarded(const std::string& experiment, const std::function<int()>& body) {
   Job job;
-  Ending ending = ending_of(experiment, body);
+  ExitStatus ending = ending_of(experiment, body);
   job.end(ending.exit_code);
   return ending;
 }

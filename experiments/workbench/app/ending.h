@@ -22,7 +22,7 @@ inline constexpr ExitCode kExitCodes[] = {
     {kRefused, "the request is wrong"},
     {kCouldNotGoOn, "the run could not go on; what was written so far is kept and marked incomplete"}};
 
-struct Ending {
+struct ExitStatus {
   int exit_code = 0;
   std::string error{};  // the line for stderr; "" if there is none
 };
@@ -30,6 +30,6 @@ struct Ending {
 // Runs `body`, a job (sim/base/job.h), and returns what it returns or throws.  The error names the
 // experiment, which `body` may set before it throws: "hysteron drape: fabric.b2 = -1 N m must be >= 0
 // (drape.toml:7)".
-Ending run_ending(const std::string& experiment, const std::function<int()>& body);
+ExitStatus run_guarded(const std::string& experiment, const std::function<int()>& body);
 
 }  // namespace hysteron::experiments

@@ -72,7 +72,7 @@ std::string last_text(const std::vector<Flag>& flags, const std::string& path, c
   return text;
 }
 
-std::string whose(const std::string& key) {
+std::string owners_of_key(const std::string& key) {
   if (has_key(scene_keys(), key)) return "it is an option of what simulates a cloth";
   std::vector<std::string> owners;
   for (const Experiment& experiment : experiments()) {
@@ -89,7 +89,7 @@ namespace {
 // Returns the error with the name of the experiment that has its key, if this one does not.
 Error with_owner(const Error& error, const Keys& known) {
   if (has_key(scene_keys(), error.key()) || has_key(descriptions(known), error.key())) return error;
-  const std::string owner = error.key().empty() ? "" : whose(error.key());
+  const std::string owner = error.key().empty() ? "" : owners_of_key(error.key());
   return owner.empty() ? error
                        : Error::invalid_input(error.what() + ("; " + owner)).with_key(error.key(), "");
 }
@@ -125,7 +125,7 @@ KeyValues all_values(Scene& scene, const Keys& extra) {
 
 Setup set_up(const CommandLine& line, Setup setup, const Keys& own,
              const std::function<void(Setup&)>& quick) {
-  decide(line, setup, experiment_named(line.experiment).decided());
+  decide(line, setup, experiment_named(line.experiment).fixed_keys());
   Keys extra = bind_options(setup.options);
   extra.insert(extra.end(), own.begin(), own.end());
   const KeyValues usual = all_values(setup.scene, extra);

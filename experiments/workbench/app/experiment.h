@@ -40,7 +40,7 @@ class Run;
 struct Setup;
 
 // A key of scenes that an experiment fixes, whatever is requested, or does not use.
-struct DecidedKey {
+struct FixedKey {
   std::string path;     // key, "cloth.position"; for an array of tables its name, "pin"
   std::string why;      // reason: "the specimen lies on the pedestal"
   bool unused = false;  // it stays in the scene as given, without any effect
@@ -66,7 +66,7 @@ struct Experiment {
   // has flags for it.  Null if the box does not depend on the scene.
   std::optional<render::Box> (*framing)(const CommandLine&) = nullptr;
   // Returns the keys that a simulating experiment fixes, whose flags are refused.
-  std::vector<DecidedKey> (*decided)() = [] { return std::vector<DecidedKey>(); };
+  std::vector<FixedKey> (*fixed_keys)() = [] { return std::vector<FixedKey>(); };
   const char* positionals = "";  // meaning of CommandLine::positionals ("DIR"); "": not allowed
   const char* differs = "";      // meaning of exit code 4; "": it does not occur
   bool hidden = false;           // called by scripts of the project, so not in --help
@@ -90,7 +90,7 @@ struct Catalogue {
 const Experiment& experiment_named(const std::string& name);
 
 // Returns "it is an option of drape" for a key that no scene has; "" if no experiment has it.
-std::string whose(const std::string& key);
+std::string owners_of_key(const std::string& key);
 
 // A scene and options, resolved and checked: defaults < scene file < --quick < flags.  `own` are the
 // experiment's own keys, bound to its own struct; `quick` applies --quick to scene, options and those keys.
@@ -106,7 +106,8 @@ struct Setup {
   std::vector<MeshRecord> recorded_meshes = {};  // mesh files of the manifest that the scene is from
   std::vector<std::string> requested_metrics =
       {};  // metrics of the scene file, printed at the end; --errors measures theirs, too
-  std::vector<DecidedKey> decided = {};  // keys that the experiment fixes, whose values in a file are ignored
+  std::vector<FixedKey> fixed_keys =
+      {};                                // keys that the experiment fixes, whose values in a file are ignored
   std::vector<std::string> unread = {};  // warnings of keys of the scene's file that nothing reads
 };
 Setup set_up(const CommandLine& line, Setup defaults, const Keys& own = {},

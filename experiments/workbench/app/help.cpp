@@ -69,7 +69,7 @@ std::string other_owner(const KeyDescription& key, const std::string& experiment
 }
 
 // Splits a text into words; lists without spaces that are longer than `most` are split after commas.
-std::vector<std::string> breakable_words(const std::string& text, std::size_t most) {
+std::vector<std::string> breakable_text(const std::string& text, std::size_t most) {
   std::istringstream stream(text);
   std::vector<std::string> words;
   for (std::string word; stream >> word;) {
@@ -86,7 +86,7 @@ std::vector<std::string> breakable_words(const std::string& text, std::size_t mo
 std::string wrapped(const std::string& text, int width, int indent, int begun) {
   std::string all;
   int column = begun;
-  for (const std::string& word : breakable_words(text, static_cast<std::size_t>(width - indent))) {
+  for (const std::string& word : breakable_text(text, static_cast<std::size_t>(width - indent))) {
     const int length = static_cast<int>(word.size());
     if (column > indent && column + 1 + length > width) {
       all += "\n" + std::string(indent, ' ');

@@ -202,7 +202,7 @@ std::string unread_message(const Request& request, const KeyCondition& condition
 }
 
 // True if a condition depends on a key that the experiment fixes; it must then declare that condition itself.
-bool depends_on_fixed_key(const KeyCondition& condition, const std::vector<DecidedKey>& fixed) {
+bool depends_on_fixed_key(const KeyCondition& condition, const std::vector<FixedKey>& fixed) {
   for (const std::string& alternative : parts(condition.needs, " or "))
     for (const std::string& term : parts(alternative, " and "))
       if (has_key(fixed, parsed_term(term).key)) return true;
@@ -214,7 +214,7 @@ bool depends_on_fixed_key(const KeyCondition& condition, const std::vector<Decid
 std::vector<KeyCondition> key_conditions(const Experiment& experiment) {
   std::vector<KeyCondition> all = experiment.conditions;
   if (!experiment.simulates) return all;
-  const std::vector<DecidedKey> fixed = experiment.decided();
+  const std::vector<FixedKey> fixed = experiment.fixed_keys();
   for (const KeyCondition& condition : kSceneConditions)
     if (!depends_on_fixed_key(condition, fixed)) all.push_back(condition);
   all.insert(all.end(), std::begin(kRunConditions), std::end(kRunConditions));

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 // Splits a command quoted for a shell, for programs that recorded nothing else; returns nothing if it cannot
 // be parsed.
-std::vector<std::string> command_words(const std::string& command) {
+std::vector<std::string> command_text(const std::string& command) {
   wordexp_t found{};
   if (wordexp(command.c_str(), &found, WRDE_NOCMD | WRDE_UNDEF) != 0) return {};
   const std::vector<std::string> words(found.we_wordv, found.we_wordv + found.we_wordc);
@@ -33,7 +33,7 @@ CommandLine recorded_line(const RecordedRun& run) {
       throw Error::invalid_input(run.file.string() + ": there is no experiment " + line.experiment);
     return line;
   }
-  const std::vector<std::string> words = command_words(run.manifest.command);
+  const std::vector<std::string> words = command_text(run.manifest.command);
   if (words.size() < 2)
     throw Error::invalid_input(run.file.string() + " holds no command that could be repeated")
         .with_key("command", "");

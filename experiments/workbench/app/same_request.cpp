@@ -149,11 +149,11 @@ std::string changed_error_flags(const Manifest& before, const CommandLine& line)
       [](const auto& flag) { return flag.second; });
   const auto now = words(
       line.flags, [](const Flag& flag) { return flag.path; }, [](const Flag& flag) { return flag.text; });
-  return join(changed_words(then, now), ", ");
+  return join(changed_text(then, now), ", ");
 }
 
-std::vector<std::string> changed_words(const std::vector<std::string>& then,
-                                       const std::vector<std::string>& now) {
+std::vector<std::string> changed_text(const std::vector<std::string>& then,
+                                      const std::vector<std::string>& now) {
   std::vector<std::string> names;
   const auto add_missing = [&](const std::vector<std::string>& words,
                                const std::vector<std::string>& others) {

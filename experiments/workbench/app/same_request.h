@@ -30,8 +30,8 @@ std::string changed_keys(const Manifest& before, const Setup& setup);
 std::string changed_error_flags(const Manifest& before, const CommandLine& line);
 
 // Returns the flags, "--fabric.b2", that differ between two lists of words "--fabric.b2=1e-5".
-std::vector<std::string> changed_words(const std::vector<std::string>& then,
-                                       const std::vector<std::string>& now);
+std::vector<std::string> changed_text(const std::vector<std::string>& then,
+                                      const std::vector<std::string>& now);
 
 // Returns the tables and fabric files among these files of a run's folder.
 std::vector<InputRecord> written_tables(const std::vector<std::string>& files,

@@ -98,7 +98,7 @@ std::vector<std::string> shown_metrics(const std::vector<ChildRun>& columns,
 }
 
 // Describes a shape of decay.
-std::string decay_words(const std::string& shape) {
+std::string decay_text(const std::string& shape) {
   static const std::map<std::string, std::string> kWords = {
       {"linear", "decays straight"},           {"two-step", "decays at two rates"},
       {"exponential", "decays exponentially"}, {"hyperbolic", "decays as 1/t"},
@@ -110,7 +110,7 @@ std::string decay_words(const std::string& shape) {
 }  // namespace
 
 std::string short_number(const std::string& metric, const MetricValue& value) {
-  if (metric == "decay_shape" && value.is_text()) return decay_words(value.text());
+  if (metric == "decay_shape" && value.is_text()) return decay_text(value.text());
   const std::string symbol = symbol_of(metric);
   const std::string number = value.is_text()      ? value.text()
                              : value.is_integer() ? shown(value)
@@ -145,7 +145,7 @@ std::vector<render::Rgb8> column_colors(const std::vector<ChildRun>& columns) {
 namespace {
 
 // Formats "fabric.damping=0.006378" for readers: "damping 0.00638".
-std::string setting_words(const std::string& setting) {
+std::string setting_text(const std::string& setting) {
   const std::size_t equal = setting.find('=');
   std::string key = setting.substr(0, equal), value = setting.substr(std::min(setting.size(), equal + 1));
   if (key == "fabric") return value;
@@ -167,12 +167,12 @@ double integrators_share(const ChildRun& column) {
 
 }  // namespace
 
-std::string column_words(const std::string& name) {
+std::string column_text(const std::string& name) {
   std::string words;
   for (std::size_t start = 0; start <= name.size();) {
     const std::size_t end = std::min(name.find('+', start), name.size());
     const std::string part = name.substr(start, end - start);
-    words += words.empty() ? part : ", " + setting_words(part);
+    words += words.empty() ? part : ", " + setting_text(part);
     start = end + 1;
   }
   return words;
@@ -185,7 +185,7 @@ std::vector<std::string> column_names(const std::vector<ChildRun>& columns,
     if (c < names.size())
       shown.push_back(names[c]);
     else
-      shown.push_back(column_words(columns[c].name));
+      shown.push_back(column_text(columns[c].name));
   }
   return shown;
 }

@@ -23,8 +23,8 @@ std::vector<std::string> column_families(const std::vector<ChildRun>& columns);
 // of one law share; for others colours that repeat only after 12 columns.
 std::vector<render::Rgb8> column_colors(const std::vector<ChildRun>& columns);
 // Formats "prandtl+fabric.damping=0.006378" for readers: "prandtl, damping 0.00638".
-std::string column_words(const std::string& name);
-// Returns the columns' names on sheets: `names` if there are any, else column_words().
+std::string column_text(const std::string& name);
+// Returns the columns' names on sheets: `names` if there are any, else column_text().
 std::vector<std::string> column_names(const std::vector<ChildRun>& columns,
                                       const std::vector<std::string>& names = {});
 // Returns the columns' names on plots, with the integrator's share of what was lost if that is above 5 %.

@@ -36,12 +36,12 @@ void warn_of_missing(Run& run, const ChildRun& column, const std::vector<std::st
 
 }  // namespace
 
-void ColumnWarnings::hear(const ChildRun& column) {
-  if (column.manifest) hear(column.name, column.manifest->warnings);
-  if (!column.stopped.empty()) hear(column.name, {column.stopped});
+void ColumnWarnings::add(const ChildRun& column) {
+  if (column.manifest) add(column.name, column.manifest->warnings);
+  if (!column.stopped.empty()) add(column.name, {column.stopped});
 }
 
-void ColumnWarnings::hear(const std::string& name, const std::vector<std::string>& texts) {
+void ColumnWarnings::add(const std::string& name, const std::vector<std::string>& texts) {
   for (const std::string& text : texts) {
     auto known = std::find_if(heard_.begin(), heard_.end(), [&](const Heard& h) { return h.text == text; });
     if (known == heard_.end()) known = heard_.insert(heard_.end(), {text, {}});
@@ -49,7 +49,7 @@ void ColumnWarnings::hear(const std::string& name, const std::vector<std::string
   }
 }
 
-void ColumnWarnings::say(Run& run) const {
+void ColumnWarnings::emit(Run& run) const {
   for (std::size_t i = 0; i < std::min(heard_.size(), kMaxTexts); ++i)
     run.warn(listed_names(heard_[i].names) + ": " + heard_[i].text);
   if (heard_.size() > kMaxTexts)
@@ -88,8 +88,8 @@ void run_columns(Run& run, std::vector<ChildRun>& columns, const SweepJobs& jobs
       [&](const std::string& line) { run.progress(line); });
   run.keep_from_here();
   ColumnWarnings warnings;
-  for (const ChildRun& column : columns) warnings.hear(column);
-  warnings.say(run);
+  for (const ChildRun& column : columns) warnings.add(column);
+  warnings.emit(run);
 }
 
 void write_comparison_table(Run& run, const std::string& varied, const std::vector<ChildRun>& columns,

@@ -13,11 +13,11 @@ namespace hysteron::experiments {
 class ColumnWarnings {
  public:
   // Adds the warnings of the run's manifest, and why it could not go on.
-  void hear(const ChildRun& column);
-  void hear(const std::string& name, const std::vector<std::string>& texts);
+  void add(const ChildRun& column);
+  void add(const std::string& name, const std::vector<std::string>& texts);
   // Emits each text once, with the names of the runs that gave it: "linear, dahl: in 3 parts of steps ...".
   // Of many texts it emits the first and their number.
-  void say(Run& run) const;
+  void emit(Run& run) const;
 
  private:
   struct Heard {

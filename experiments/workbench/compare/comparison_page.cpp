@@ -302,8 +302,8 @@ PageTable columns_table(const ComparisonPage& page, const std::vector<ChildRun>&
 }
 
 // Returns the times of rows that show something new, or all requested ones.
-std::vector<double> telling_times(const ComparisonPage& page, const std::vector<ChildRun>& columns,
-                                  const std::vector<double>& times) {
+std::vector<double> representative_times(const ComparisonPage& page, const std::vector<ChildRun>& columns,
+                                         const std::vector<double>& times) {
   if (!page.times.empty()) return times;
   const PageTable table(page, columns);
   std::vector<double> telling;
@@ -318,7 +318,7 @@ std::vector<double> telling_times(const ComparisonPage& page, const std::vector<
 render::Image page_sheet(const ComparisonPage& page, const std::vector<ChildRun>& columns,
                          const std::vector<double>& shown) {
   render::Image sheet;
-  for (std::vector<double> times = telling_times(page, columns, shown);; times.erase(times.begin())) {
+  for (std::vector<double> times = representative_times(page, columns, shown);; times.erase(times.begin())) {
     sheet = render::draw_comparison(columns_table(page, columns, times).sheet());
     if (times.size() == 1 || !page.times.empty() || sheet.height() <= 2 * sheet.width()) return sheet;
   }

@@ -21,7 +21,7 @@ List first_list(const std::vector<ChildRun>& columns, List (*noted)(const Manife
 }
 
 // Returns "probe1_curvature_warp [1/m]" as the title of an axis.
-std::string axis_title_words(std::string column) {
+std::string axis_title(std::string column) {
   std::replace(column.begin(), column.end(), '_', ' ');
   return column;
 }
@@ -33,11 +33,8 @@ void plot_series(Run& run, const ComparisonPage& page, const std::vector<ChildRu
        first_list<Names>(columns, [](const Manifest& m) { return m.series.value_or(Names{}); })) {
     const std::string word = name.substr(0, name.find(" ["));
     draw(run,
-         TablePlot{"plot_" + word,
-                   {page.title, {"time [s]"}, {axis_title_words(name)}},
-                   "metrics.csv",
-                   "time",
-                   word},
+         TablePlot{
+             "plot_" + word, {page.title, {"time [s]"}, {axis_title(name)}}, "metrics.csv", "time", word},
          columns, page.names);
   }
 }
@@ -50,8 +47,8 @@ void plot_curves(Run& run, const ComparisonPage& page, const std::vector<ChildRu
     draw(run,
          TablePlot{curve.plot,
                    {page.title,
-                    {axis_title_words(curve.x), curve.logarithmic_x},
-                    {axis_title_words(curve.y), curve.logarithmic}},
+                    {axis_title(curve.x), curve.logarithmic_x},
+                    {axis_title(curve.y), curve.logarithmic}},
                    curve.file,
                    curve.x,
                    curve.y,

@@ -100,9 +100,9 @@ void warn_about_columns(const std::vector<ChildRun>& columns, Run& run) {
     std::vector<std::string> texts = column.manifest->warnings;
     std::erase_if(texts,
                   [&](const std::string& text) { return std::count(own.begin(), own.end(), text) > 0; });
-    warnings.hear("errors, " + column.name, texts);
+    warnings.add("errors, " + column.name, texts);
   }
-  warnings.say(run);
+  warnings.emit(run);
 }
 
 // Writes errors.csv with a row for each repeat.

@@ -73,7 +73,7 @@ std::vector<std::string> words_in(const Json& list) {
 }
 
 // Returns the words recorded in a run's manifest.
-std::vector<std::string> noted_words(const RunSpec& spec, const std::string& experiment) {
+std::vector<std::string> noted_text(const RunSpec& spec, const std::string& experiment) {
   CommandLine line{experiment, "", {}, spec.positionals};
   for (const auto& [path, text] : spec.flags)
     if (!page_flags().contains(path)) line.flags.push_back({path, text});
@@ -89,16 +89,16 @@ std::vector<std::string> words_to_note(const ChildRun& column) {
 }
 
 // Adds "--gravity differs" for each differing flag.
-void add_differing_words(const std::vector<std::string>& then, const std::vector<std::string>& now,
-                         std::vector<std::string>& changes) {
-  for (const std::string& name : changed_words(then, now)) changes.push_back(name + " differs");
+void add_differing_text(const std::vector<std::string>& then, const std::vector<std::string>& now,
+                        std::vector<std::string>& changes) {
+  for (const std::string& name : changed_text(then, now)) changes.push_back(name + " differs");
 }
 
 // Returns the changes since a run that was interrupted before the page could record how it ended.
 std::vector<std::string> changes_since(const ChildRun& column, const Manifest& manifest) {
   std::vector<std::string> changes;
   if (manifest.spec)
-    add_differing_words(noted_words(*manifest.spec, manifest.experiment), words_to_note(column), changes);
+    add_differing_text(noted_text(*manifest.spec, manifest.experiment), words_to_note(column), changes);
   std::ranges::copy(input_changes(manifest.inputs), std::back_inserter(changes));
   if (const std::string program = program_change(manifest); !program.empty()) changes.push_back(program);
   return changes;
@@ -109,7 +109,7 @@ std::vector<std::string> changes_since(const ChildRun& column, const Manifest* m
                                        const Json& outcome) {
   std::vector<std::string> changes;
   const Json& asked = json_at(outcome, "asked");
-  add_differing_words(words_in(json_at(asked, "words")), line_arguments(column.line), changes);
+  add_differing_text(words_in(json_at(asked, "words")), line_arguments(column.line), changes);
   if (manifest) std::ranges::copy(input_changes(manifest->inputs), std::back_inserter(changes));
   if (json_at(asked, "build") != Json(program_build()))
     changes.push_back("its program is another build of " + program_version());
@@ -165,7 +165,7 @@ void write_outcome(const ChildRun& column, bool make_folder) {
 }
 
 // Collects the results that the run has left.
-void take_back(ChildRun& column, const SweepJobs& jobs, int exit_code, const std::string& error) {
+void collect_result(ChildRun& column, const SweepJobs& jobs, int exit_code, const std::string& error) {
   const bool has_results = exit_code == 0 || exit_code == kCouldNotGoOn;
   column.exit_code = exit_code;
   if (!has_results && !jobs.tolerates_failures) {
@@ -203,13 +203,13 @@ void run_chunk(std::vector<ChildRun>& columns, const Chunk& chunk, const SweepJo
     const Clock::time_point now = Clock::now();
     columns[i].seconds = std::chrono::duration<double>(now - std::exchange(begun, now)).count();
     try {
-      take_back(columns[i], jobs, exit_code, error);
+      collect_result(columns[i], jobs, exit_code, error);
       ended(i);
     } catch (...) {
       if (!failure) failure = std::current_exception();
     }
   };
-  const auto hear = [&](const std::string& line) {
+  const auto on_line = [&](const std::string& line) {
     const Json said = parsed_json(line);
     if (said.is_object()) end(chunk.at(said.at("run")), said.at("exit_code"), said.at("error"));
   };
@@ -218,7 +218,7 @@ void run_chunk(std::vector<ChildRun>& columns, const Chunk& chunk, const SweepJo
   std::string lines;
   for (const std::size_t i : chunk)
     lines += Json(child_arguments(columns[i], jobs, process_share.threads)).dump() + "\n";
-  const ProcessResult result = run_process(command, lines, hear);
+  const ProcessResult result = run_process(command, lines, on_line);
   if (!result.started) throw Error::system("cannot start the run " + columns[chunk[0]].name);
   for (const std::size_t i : std::set(waiting)) end(i, result.exit_code, result.first_error_line);
   if (failure) std::rethrow_exception(failure);
@@ -327,7 +327,7 @@ ChildRun child_run(const std::string& name, const CommandLine& line, const std::
                    const fs::path& out) {
   ChildRun column{name, line, out / name};
   std::erase_if(column.line.flags, [](const Flag& flag) { return page_flags().contains(flag.path); });
-  column.line.flags = with_later(column.line.flags, own);
+  column.line.flags = override_flags(column.line.flags, own);
   return column;
 }
 
@@ -351,7 +351,7 @@ std::string progress_in(const fs::path& folder) {
   return fmt::format("{:.2f}/{:.4g} s", std::strtod(row.c_str(), nullptr), manifest->number("seconds"));
 }
 
-bool recall(ChildRun& column) {
+bool load_cached_run(ChildRun& column) {
   std::optional<Manifest> manifest = manifest_or_none(column.folder / kManifestFile);
   const Json outcome = json_or_none(column.folder / kOutcomeFile);
   column.kept = false;
@@ -383,8 +383,8 @@ bool lacks_a_file(ChildRun& column) {
 
 }  // namespace
 
-void recall_outcome(ChildRun& column) {
-  if (recall(column)) return;
+void load_outcome(ChildRun& column) {
+  if (load_cached_run(column)) return;
   const Json outcome = json_or_none(column.folder / kOutcomeFile);
   const bool known = column.changed.empty() && outcome.is_object() &&
                      outcome.value("exit_code", Json()).is_number_integer() &&
@@ -447,7 +447,7 @@ void run_columns(std::vector<ChildRun>& columns, const SweepJobs& jobs,
   };
   const auto finish = [&](Chunk chunk, int its_threads) {
     std::erase_if(chunk, [&](std::size_t i) {
-      if (!jobs.resume || !recall(columns[i]) || lacks_a_file(columns[i])) return false;
+      if (!jobs.resume || !load_cached_run(columns[i]) || lacks_a_file(columns[i])) return false;
       tell(i);
       return true;
     });

@@ -46,7 +46,7 @@ struct SweepJobs {
   int cores = 0;                    // cores that they share; 0: all
   bool tolerates_failures = false;  // marks a wrong or failed run as stopped, without an error
   bool checkpoints = false;         // continues an interrupted run from its checkpoint, if it takes any
-  bool keep_reasons = false;        // makes a folder for a run that did not begin, for recall_outcome()
+  bool keep_reasons = false;        // makes a folder for a run that did not begin, for load_outcome()
   int batch = 1;                    // most runs that share a process and, on a GPU, its launches
 };
 // The limit and documentation of the key `batch`.
@@ -65,10 +65,10 @@ std::vector<Chunk> batch_chunks(const std::vector<ChildRun>& columns, int larges
 
 // Loads the finished run in the column's folder if its request, its program, and every file that it has read
 // are the same; it is then `kept`.  Otherwise returns false, and `changed` gives the reason.
-bool recall(ChildRun& column);
+bool load_cached_run(ChildRun& column);
 // Loads the run likewise, or how the column ended, whoever ran it; "not run" if nothing of this request is
 // left.
-void recall_outcome(ChildRun& column);
+void load_outcome(ChildRun& column);
 
 // Returns how many processes the columns take at a time.
 int processes_at_once(const std::vector<ChildRun>& columns, const SweepJobs& jobs);

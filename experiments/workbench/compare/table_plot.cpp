@@ -70,7 +70,7 @@ std::string bare_name(const std::string& label) { return label.substr(0, label.f
 
 // Removes the series that are zero compared with the others, or with rounding of sums, and returns their
 // names.
-std::vector<std::string> take_what_shows_nothing(std::vector<render::Series>& all) {
+std::vector<std::string> remove_zero_series(std::vector<render::Series>& all) {
   constexpr double kBeside = 1e-6, kLeft = 1e-12;
   double most = 0;
   for (const render::Series& series : all) most = std::max(most, largest(series));
@@ -148,7 +148,7 @@ void draw(Run& run, TablePlot plot, const std::vector<ChildRun>& columns,
       if (const auto mark = knee_mark(series, knee.number())) plot.plot.marks.push_back(*mark);
     own.push_back(std::move(series));
   }
-  const std::vector<std::string> nothing = take_what_shows_nothing(own);
+  const std::vector<std::string> nothing = remove_zero_series(own);
   if (own.empty()) return;
   const std::string united = unite_equal(own);
   const bool banded = std::ranges::any_of(own, [](const auto& series) { return !series.spread.empty(); });

@@ -75,7 +75,10 @@ int run_variants(const CommandLine& given, void (*once)(const CommandLine&),
   CommandLine line = given;
   SweepJobs jobs = taken_from(line);
   std::vector<Variant> variants = named_variants(line);
-  if (variants.size() == 1) return once(line), 0;
+  if (variants.size() == 1) {
+    once(line);
+    return 0;
+  }
   VariantPage page = first_page(without_lists(line), variants);
   const Scene& scene = page.setup.scene;
   if (page.setup.options.checkpoint > 0)
@@ -84,7 +87,10 @@ int run_variants(const CommandLine& given, void (*once)(const CommandLine&),
   std::vector<ChildRun> columns;
   for (const Variant& variant : in_one_frame(line, variants))
     columns.push_back(child_run(variant.name, line, variant.flags, page.setup.options.out));
-  if (page.setup.options.explain) return explain_columns(columns), 0;
+  if (page.setup.options.explain) {
+    explain_columns(columns);
+    return 0;
+  }
   check_batch(columns, jobs.batch);
   check_columns(columns);
   page.keys["fabric"] = to_json(scene)["fabric"];  // for variants that name none

@@ -87,7 +87,7 @@ void name_apart(std::vector<Variant>& variants) {
 
 }  // namespace
 
-std::vector<Flag> with_later(std::vector<Flag> flags, const std::vector<Flag>& later) {
+std::vector<Flag> override_flags(std::vector<Flag> flags, const std::vector<Flag>& later) {
   std::erase_if(flags, [&](const Flag& flag) {
     return std::any_of(later.begin(), later.end(),
                        [&](const Flag& own) { return flag_key(own) == flag_key(flag); });
@@ -151,7 +151,7 @@ std::string varied_key(const std::vector<Variant>& variants) {
 }
 
 CommandLine with_variant(CommandLine line, const Variant& variant) {
-  line.flags = with_later(line.flags, variant.flags);
+  line.flags = override_flags(line.flags, variant.flags);
   return line;
 }
 

@@ -26,7 +26,7 @@ std::string folder_name(const std::string& name);
 // Returns the one key in which they differ: "law", "fabric", "integrator"; "column" if there are several.
 std::string varied_key(const std::vector<Variant>& variants);
 // Returns the flags and behind them the later ones, which replace those of the same key.
-std::vector<Flag> with_later(std::vector<Flag> flags, const std::vector<Flag>& later);
+std::vector<Flag> override_flags(std::vector<Flag> flags, const std::vector<Flag>& later);
 // Returns the line of that variant.
 CommandLine with_variant(CommandLine line, const Variant& variant);
 // `without_lists` returns the line without lists, with which the page itself is set up.

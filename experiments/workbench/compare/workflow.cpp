@@ -40,7 +40,7 @@ void write_workflow(const fs::path& folder, const Workflow& workflow) {
   write_text(folder / "config.json", config.dump(1) + "\n");
 }
 
-std::string starting_words(const fs::path& folder) {
+std::string starting_text(const fs::path& folder) {
   return "cd " + folder.string() +
          " && snakemake --cores all --keep-going --rerun-incomplete, or snakemake --profile slurm";
 }

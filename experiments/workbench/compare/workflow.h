@@ -35,6 +35,6 @@ struct Workflow {
 void write_workflow(const std::filesystem::path& folder, const Workflow& workflow);
 
 // Returns the command that starts it: "cd FOLDER && snakemake ...".
-std::string starting_words(const std::filesystem::path& folder);
+std::string starting_text(const std::filesystem::path& folder);
 
 }  // namespace hysteron::experiments

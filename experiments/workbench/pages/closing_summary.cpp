@@ -14,10 +14,10 @@ namespace hysteron::experiments {
 namespace {
 
 // Returns "86.0 % ± 0.10 step ± 0.6 mesh ± 0.8 draw"; "" if the run has no such number.
-std::string value_words(const Headline& headline, const Metrics& metrics) {
+std::string shown_value(const Headline& headline, const Metrics& metrics) {
   const MetricValue& value = metrics[headline.metric];
   if (value.is_text()) return value.text();
-  return value.is_number() ? headline_words(metrics, headline).text() : "";
+  return value.is_number() ? headline_text(metrics, headline).text() : "";
 }
 
 std::string row(const std::string& words, const std::string& value) {
@@ -33,10 +33,10 @@ using Finding = std::pair<std::string, std::string>;
 std::vector<Finding> findings_in(const Manifest& manifest, const Metrics& metrics) {
   std::vector<Finding> findings;
   for (const Headline& headline : column_headlines(manifest))
-    findings.emplace_back(headline.words, value_words(headline, metrics));
+    findings.emplace_back(headline.words, shown_value(headline, metrics));
   for (const std::string& name : manifest.requested_metrics)
     if (metrics.contains(name))
-      findings.emplace_back(split_unit(name).name, metric_words(metrics, name).text());
+      findings.emplace_back(split_unit(name).name, metric_text(metrics, name).text());
   std::erase_if(findings, [](const Finding& finding) { return finding.second.empty(); });
   return findings;
 }
@@ -69,7 +69,7 @@ std::string not_at_rest_warning(const Metrics& metrics) {
   return text;
 }
 
-std::string result_words(const Manifest& manifest) {
+std::string result_text(const Manifest& manifest) {
   const Metrics& metrics = manifest.metrics;
   std::string text;
   for (const auto& [words, value] : findings_in(manifest, metrics)) text += row(words, value);
@@ -90,7 +90,7 @@ std::string closing_summary(const std::filesystem::path& folder) {
   std::string text = manifest.experiment;
   if (!fabric.empty()) text += ": " + fabric;
   if (manifest.law) text += (fabric.empty() ? ": law " : ", law ") + *manifest.law;
-  text += "\n" + result_words(manifest) + row("folder", folder.string());
+  text += "\n" + result_text(manifest) + row("folder", folder.string());
   const std::pair<const char*, const char*> places[] = {
       {"report", "report.html"}, {"contact sheet", "sheet.png"}, {"picture sequence", "frames"}};
   for (const auto& [words, name] : places)

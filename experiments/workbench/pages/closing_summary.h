@@ -15,9 +15,9 @@ std::string not_at_rest_warning(const Metrics& metrics);
 
 // Returns a line for each headline of the manifest's experiment and its scene, with its errors if known;
 // several laws or fabrics have a line each.
-std::string result_words(const Manifest& manifest);
+std::string result_text(const Manifest& manifest);
 
-// Returns result_words(), and the run's folder, page and pictures, if they exist.
+// Returns result_text(), and the run's folder, page and pictures, if they exist.
 std::string closing_summary(const std::filesystem::path& folder);
 
 }  // namespace hysteron::experiments

@@ -40,7 +40,7 @@ std::string value_text(const MetricValue& value, double largest, double scale) {
 }
 
 // Formats value and errors of a headline whose errors were measured.
-ShownQuantity scaled_words(const Metrics& metrics, const std::string& name, double scale) {
+ShownQuantity scaled_text(const Metrics& metrics, const std::string& name, double scale) {
   const auto metric_error = [&](const std::string& key) { return scale * std::abs(metrics[key].number()); };
   ShownQuantity words;
   double largest = 0;
@@ -91,17 +91,17 @@ ShownQuantity with_rest_warning(ShownQuantity words, const Metrics& metrics, con
   return words;
 }
 
-ShownQuantity headline_words(const Metrics& metrics, const std::string& name) {
-  ShownQuantity words = scaled_words(metrics, name, 1);
+ShownQuantity headline_text(const Metrics& metrics, const std::string& name) {
+  ShownQuantity words = scaled_text(metrics, name, 1);
   words.unit = split_unit(name).unit;
   return with_rest_warning(std::move(words), metrics, name);
 }
 
-ShownQuantity headline_words(const Metrics& metrics, const Headline& headline) {
+ShownQuantity headline_text(const Metrics& metrics, const Headline& headline) {
   ShownQuantity words;
   const std::string name = headline.metric, fitted = name + kStandardError;
   if (is_headline(metrics, name)) {
-    words = scaled_words(metrics, name, headline.scale);
+    words = scaled_text(metrics, name, headline.scale);
   } else if (is_number(metrics, fitted)) {
     const double error = headline.scale * std::abs(metrics[fitted].number());
     words = {value_text(metrics[name], error, headline.scale), "", "± " + rounded_error(error)};
@@ -117,7 +117,7 @@ std::string with_errors(const Metrics& metrics, const std::string& name) {
   const bool plain = !is_headline(metrics, name);
   return words + " " +
          (plain ? joined({fmt::format("{:.4g}", metrics[name].number()), unit}, " ")
-                : headline_words(metrics, name).text());
+                : headline_text(metrics, name).text());
 }
 
 }  // namespace hysteron::experiments

@@ -27,9 +27,9 @@ std::string described_headline(const Metrics& metrics, const std::string& name);
 
 // Formats a headline in parts.  Errors have one significant digit, two if the first is 1, and the value ends
 // at the decimal of the largest.  An error that could not be measured is marked as unknown.
-ShownQuantity headline_words(const Metrics& metrics, const std::string& name);
+ShownQuantity headline_text(const Metrics& metrics, const std::string& name);
 // Formats in the headline's unit; without measured errors, with the standard error of its fit, or alone.
-ShownQuantity headline_words(const Metrics& metrics, const Headline& headline);
+ShownQuantity headline_text(const Metrics& metrics, const Headline& headline);
 
 // Marks a result of cloth that should have come to rest and did not, because its shape cannot be measured.
 ShownQuantity with_rest_warning(ShownQuantity words, const Metrics& metrics, const std::string& name);

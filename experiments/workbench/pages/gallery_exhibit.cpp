@@ -73,7 +73,7 @@ void collect(const fs::path& folder, const std::string& name, std::vector<Exhibi
 }
 
 // Explains the names of files, see Options::look and Options::light.
-std::string stem_words(std::string stem) {
+std::string stem_text(std::string stem) {
   static const std::map<std::string, std::string> kWords = {
       {"sheet", "contact sheet"},
       {"shadow", "shadow, from above"},
@@ -127,7 +127,7 @@ std::string first_sentences(const std::string& caption) {
 }
 
 // Returns ": cotton-broad, law prandtl, 0 to 3.67 s".
-std::string subject_words(const Manifest& manifest) {
+std::string subject_text(const Manifest& manifest) {
   std::string words = scene_subject(manifest);
   if (const auto& seconds = manifest.seconds_simulated)
     words += (words.empty() ? "" : ", ") + ("0 to " + seconds_text(*seconds));
@@ -162,8 +162,8 @@ std::vector<Picture> exhibit_pictures(const Exhibit& exhibit, const std::string&
     std::string caption = written;
     if (written.empty()) {
       const std::string stem = file.stem().string();
-      caption = first_upper(prefix + stem_words(stem)) + curve_caption(exhibit, stem);
-      if (file.stem() == "sheet" && exhibit.manifest) caption += subject_words(*exhibit.manifest);
+      caption = first_upper(prefix + stem_text(stem)) + curve_caption(exhibit, stem);
+      if (file.stem() == "sheet" && exhibit.manifest) caption += subject_text(*exhibit.manifest);
     }
     pictures.push_back({file, exhibit.name + "/" + name, caption});
   }

@@ -21,14 +21,14 @@ std::string text_of(const Json& entry, const char* key, const fs::path& file) {
 }
 
 // Formats a metric with its errors, or in three digits if it has none.
-ShownQuantity number_words(const fs::path& folder, const std::string& metric, const fs::path& file) {
+ShownQuantity printed_number(const fs::path& folder, const std::string& metric, const fs::path& file) {
   const fs::path manifest = folder / "manifest.json";
   if (!is_there(manifest))
     throw Error::invalid_input(file.string() + ": there is no run in " + folder.string());
   const Metrics metrics = read_manifest(manifest).metrics;
   if (!metrics.contains(metric))
     throw Error::invalid_input(file.string() + ": " + manifest.string() + " has no metric " + metric);
-  ShownQuantity words = metric_words(metrics, metric);
+  ShownQuantity words = metric_text(metrics, metric);
   if (words.errors.empty() && metrics[metric].is_number())
     words.value = fmt::format("{:.3g}", metrics[metric].number());
   return words;
@@ -46,7 +46,7 @@ std::string questions_html(const fs::path& folder, PageForm form) {
     const std::string question = text_of(entry, "question", file), path = text_of(entry, "picture", file),
                       run = text_of(entry, "run", file);
     if (!is_there(folder / path)) throw Error::invalid_input(file.string() + ": there is no picture " + path);
-    const ShownQuantity number = number_words(folder / run, text_of(entry, "metric", file), file);
+    const ShownQuantity number = printed_number(folder / run, text_of(entry, "metric", file), file);
     const std::string image = image_element({folder / path, path, question, kQuestionWidth}, form);
     questions.push_back(
         {{"question", question},

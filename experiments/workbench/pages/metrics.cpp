@@ -28,8 +28,8 @@ const std::vector<Headline>& column_headlines(const Manifest& manifest) {
   return experiment_headlines(compared.empty() ? manifest.experiment : compared).all;
 }
 
-ShownQuantity metric_words(const Metrics& metrics, const std::string& key) {
-  if (is_headline(metrics, key)) return headline_words(metrics, key);
+ShownQuantity metric_text(const Metrics& metrics, const std::string& key) {
+  if (is_headline(metrics, key)) return headline_text(metrics, key);
   const ShownQuantity words{shown(metrics[key]), split_unit(key).unit};
   return is_asked_for(key) ? with_rest_warning(words, metrics, key) : words;
 }
@@ -52,7 +52,7 @@ ShownQuantity prefixed(ShownQuantity words, const Metrics& metrics, const std::s
 
 Fields headline_card(const Metrics& metrics, const Headline& headline, const std::string& name) {
   const std::string key = headline.metric;
-  const ShownQuantity words = headline_words(metrics, headline);
+  const ShownQuantity words = headline_text(metrics, headline);
   const bool has_errors = is_headline(metrics, key) || metrics.contains(key + kStandardError);
   return card(has_errors || headline.scale == 1 ? words : prefixed(words, metrics, key), name);
 }
@@ -88,7 +88,7 @@ std::string metric_cards(const Metrics& metrics) {
   std::vector<Fields> cards;
   for (const auto& [key, value] : metrics) {
     if (key.find('.') != key.npos || !described_headline(metrics, key).empty()) continue;
-    const ShownQuantity words = metric_words(metrics, key);
+    const ShownQuantity words = metric_text(metrics, key);
     cards.push_back(
         card(is_headline(metrics, key) ? words : prefixed(words, metrics, key), split_unit(key).name));
   }
@@ -141,7 +141,7 @@ std::string metric_table(const Metrics& metrics) {
   for (const auto& [name, own] : columns) {
     rows.push_back({name});
     for (const std::string& key : keys) {
-      const ShownQuantity words = own.contains(key) ? metric_words(own, key) : ShownQuantity{};
+      const ShownQuantity words = own.contains(key) ? metric_text(own, key) : ShownQuantity{};
       rows.back().push_back(joined({words.value, words.errors}, " "));
     }
   }

@@ -17,7 +17,7 @@ std::vector<std::pair<std::string, Metrics>> columns_in(const Metrics& metrics);
 const std::vector<Headline>& column_headlines(const Manifest& manifest);
 
 // Returns value, unit and, for a headline, errors of any metric.
-ShownQuantity metric_words(const Metrics& metrics, const std::string& key);
+ShownQuantity metric_text(const Metrics& metrics, const std::string& key);
 
 // Returns cards with the metrics of the run itself.
 std::string metric_cards(const Metrics& metrics);

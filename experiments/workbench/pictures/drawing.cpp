@@ -48,7 +48,7 @@ render::Camera framed_camera(const Options& options, const render::Box& bounds) 
   return render::Camera::perspective(eye, box.center(), fov);
 }
 
-render::Look lit(render::Look look, const Options& options) {
+render::Look apply_lighting(render::Look look, const Options& options) {
   look.background = options.background;
   look.shown = std::min(1.0f, static_cast<float>(kShownWidth) / static_cast<float>(options.width()));
   look.raking = options.light == "raking";
@@ -56,8 +56,8 @@ render::Look lit(render::Look look, const Options& options) {
   return look;
 }
 
-void letter(render::Image& image, const render::Camera& camera, const Eigen::Vector3f& middle,
-            const std::string& caption, const std::optional<render::ColorBar>& bar) {
+void annotate(render::Image& image, const render::Camera& camera, const Eigen::Vector3f& middle,
+              const std::string& caption, const std::optional<render::ColorBar>& bar) {
   render::draw_caption(image, caption, render::Corner::top_left);
   render::draw_scale_bar(image, camera.metres_per_pixel(middle, image.height()), render::Corner::bottom_left,
                          "at the cloth's middle");

@@ -22,11 +22,11 @@ float picture_aspect(const Options& options);
 // give a distance.
 render::Camera framed_camera(const Options& options, const render::Box& bounds);
 // Returns the look in the options' light, "studio" or "raking", before their background is applied.
-render::Look lit(render::Look look, const Options& options);
+render::Look apply_lighting(render::Look look, const Options& options);
 
 // Draws caption, scale bar (valid at `middle`) and, if there is one, colour bar.
-void letter(render::Image& image, const render::Camera& camera, const Eigen::Vector3f& middle,
-            const std::string& caption, const std::optional<render::ColorBar>& bar);
+void annotate(render::Image& image, const render::Camera& camera, const Eigen::Vector3f& middle,
+              const std::string& caption, const std::optional<render::ColorBar>& bar);
 
 // Convert triangles and points to the renderer's flat arrays.
 std::vector<int> flat_triangles(const std::vector<Eigen::Vector3i>& face);

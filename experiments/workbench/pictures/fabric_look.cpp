@@ -52,7 +52,7 @@ render::Rgb8 rgb8(const Eigen::Vector3d& color) {
 
 }  // namespace
 
-render::Look dressed(render::Look look, const std::string& fabric) {
+render::Look apply_fabric_look(render::Look look, const std::string& fabric) {
   if (look.show != render::Show::cloth || look.weave == 0) return look;
   const std::string file = find_asset("fabrics", fabric, "the look of pictures").string();
   const ValueTree root = read_toml(file);

@@ -18,6 +18,6 @@ namespace hysteron::experiments {
 // Returns `look` in the colours and weave of a fabric of assets/fabrics or a file; looks that show something
 // else than cloth, and fabrics without [look], change nothing.  Throws Error::invalid_input with file and
 // line for an unknown key or a value out of range.
-render::Look dressed(render::Look look, const std::string& fabric);
+render::Look apply_fabric_look(render::Look look, const std::string& fabric);
 
 }  // namespace hysteron::experiments

@@ -18,8 +18,8 @@ render::Look mesh_look(const Options& options, const MeshPictures::Choice& choic
     look.value_high = static_cast<float>(choice.range);
     look.value_low = -look.value_high;
   }
-  look = lit(look, options);
-  return choice.fabric.empty() ? look : dressed(look, choice.fabric);
+  look = apply_lighting(look, options);
+  return choice.fabric.empty() ? look : apply_fabric_look(look, choice.fabric);
 }
 
 }  // namespace
@@ -60,7 +60,7 @@ render::Image MeshPictures::picture(const Surface& frame, const std::string& wha
 }
 
 void MeshPictures::letter_picture(render::Image& image, const std::string& caption) const {
-  letter(image, camera(), choice_.bounds.center(), caption, color_bar());
+  annotate(image, camera(), choice_.bounds.center(), caption, color_bar());
 }
 
 double MeshPictures::metres_per_pixel() const {

@@ -78,7 +78,7 @@ Pictures::Pictures(const Setup& setup, const Cloth& cloth, Simulation& simulatio
                    std::optional<float> floor)
     : Pictures(setup, simulated(setup.scene, cloth, simulation, setup.options.reference), bounds, floor) {}
 
-Pictures::Pictures(const Setup& setup, std::unique_ptr<Subject> subject, const render::Box& bounds,
+Pictures::Pictures(const Setup& setup, std::unique_ptr<FrameSource> subject, const render::Box& bounds,
                    std::optional<float> floor)
     : scene_(setup.scene),
       options_(setup.options),
@@ -148,19 +148,19 @@ render::Image Pictures::single(SceneRenderer& studio, const std::string& look, c
   render::Image image = studio.draw(scene_look(scene_, options_, look), camera, shown);
   if (!studio.view().shows_cloth()) throw no_cloth_in("the picture of look " + look, shown.time);
   if (!options_.plain)
-    letter(image, camera, bounds_.center(), captioned(text), value_color_bar(scene_, options_, look));
+    annotate(image, camera, bounds_.center(), captioned(text), value_color_bar(scene_, options_, look));
   return image;
 }
 
 // Records what a page that compares runs needs to know of their pictures.
-void Pictures::note_frame(Run& run, const std::vector<Order>& orders, const std::vector<float>& xyz,
+void Pictures::note_frame(Run& run, const std::vector<FrameJob>& orders, const std::vector<float>& xyz,
                           std::optional<double> difference) {
   std::optional<Frames>& frames = run.manifest().frames;
   if (!frames) frames.emplace();
   frames->looks.clear();
   Frames::Instant instant{subject_->time(), scene_.phase_at(subject_->time())};
   instant.difference_rms = difference;
-  for (const Order& order : orders) {
+  for (const FrameJob& order : orders) {
     frames->looks.push_back({order.look});
     if (const auto bar = value_color_bar(scene_, options_, order.look))
       frames->looks.back().bar = {bar->label, bar->unit, bar->low, bar->high};
@@ -188,7 +188,7 @@ void Pictures::frame(Run& run, const std::vector<float>& xyz, const render::Path
   KeptState instant{
       subject_->time(), rounded(xyz, subject_->mesh().quantum, before), {}, loop.curvature.size(), {}};
   take_positions(instant.xyz);
-  std::vector<Order> orders;
+  std::vector<FrameJob> orders;
   for (const std::string& look : options_.looks()) {
     orders.push_back({look,
                       run.path(frame_file(look, orders.empty(), frames_)),
@@ -198,7 +198,7 @@ void Pictures::frame(Run& run, const std::vector<float>& xyz, const render::Path
   watch_border(run, orders.front().file, instant.xyz);
   ++frames_;
   std::optional<double> difference;
-  for (Order& order : orders) {
+  for (FrameJob& order : orders) {
     if (order.shown.values.empty()) continue;
     if (!subject_->has_values(order.look))
       run.warn(
@@ -215,12 +215,12 @@ void Pictures::frame(Run& run, const std::vector<float>& xyz, const render::Path
                         file = run.path(kKeptFrames)](SceneRenderer& studio) {
     const Stopwatch watch(render_seconds_);
     kept_frames_.add(file, instant);
-    for (const Order& order : orders) fill(studio, order);
+    for (const FrameJob& order : orders) fill(studio, order);
   });
 }
 
 // Draws a job's picture on the studio's thread.
-void Pictures::fill(SceneRenderer& studio, const Order& order) {
+void Pictures::fill(SceneRenderer& studio, const FrameJob& order) {
   render::Image image =
       studio.draw_with_ghosts(scene_look(scene_, options_, order.look), camera(), order.shown);
   if (!studio.view().shows_cloth()) {
@@ -229,7 +229,7 @@ void Pictures::fill(SceneRenderer& studio, const Order& order) {
   }
   if (!options_.plain) {
     const auto bar = value_color_bar(scene_, options_, order.look);
-    letter(image, camera(), bounds_.center(), captioned(caption(order.shown.time)), bar);
+    annotate(image, camera(), bounds_.center(), captioned(caption(order.shown.time)), bar);
     render::draw_loop(image, order.loop, bar ? render::Corner::top_right : render::Corner::bottom_right,
                       kInsetFraction, render::text_size(image));
   }

@@ -37,7 +37,7 @@ class Pictures {
   Pictures(const Setup& setup, const Cloth& cloth, Simulation& simulation, const render::Box& bounds,
            std::optional<float> floor);
   // Draws any subject, which the pictures then own.
-  Pictures(const Setup& setup, std::unique_ptr<Subject> subject, const render::Box& bounds,
+  Pictures(const Setup& setup, std::unique_ptr<FrameSource> subject, const render::Box& bounds,
            std::optional<float> floor);
 
   const std::string& renderer() const { return renderer_; }
@@ -82,7 +82,7 @@ class Pictures {
 
  private:
   // A picture to be drawn while the simulation goes on.
-  struct Order {
+  struct FrameJob {
     std::string look;
     std::filesystem::path file;
     SceneRenderer::Shown shown;
@@ -96,10 +96,10 @@ class Pictures {
 
   void take_positions(const std::vector<float>& xyz);
   // `difference` is the root mean square of what look "difference" shows, if it is drawn.
-  void note_frame(Run& run, const std::vector<Order>& orders, const std::vector<float>& xyz,
+  void note_frame(Run& run, const std::vector<FrameJob>& orders, const std::vector<float>& xyz,
                   std::optional<double> difference);
   void watch_border(Run& run, const std::filesystem::path& file, const std::vector<float>& xyz);
-  void fill(SceneRenderer& studio, const Order& order);
+  void fill(SceneRenderer& studio, const FrameJob& order);
   render::Image single(SceneRenderer& studio, const std::string& look, const render::Camera& camera,
                        const std::string& caption, const SceneRenderer::Shown& shown);
   SheetView sheet_view(const std::vector<KeptInstant>& instants) const;
@@ -119,7 +119,7 @@ class Pictures {
 
   Scene scene_;
   Options options_;
-  std::unique_ptr<Subject> subject_;
+  std::unique_ptr<FrameSource> subject_;
   render::Box bounds_;
   KeptFrames kept_frames_;
   std::string why_host_;  // why positions pass the host; empty if they do not

@@ -80,7 +80,7 @@ render::Look scene_look(const Scene& scene, const Options& options, const std::s
     look.value_high = 1;
   }
   look.thickness = static_cast<float>(scene.fabric.thickness);
-  return dressed(lit(look, options), fabric_to_read(scene));
+  return apply_fabric_look(apply_lighting(look, options), fabric_to_read(scene));
 }
 
 std::optional<render::ColorBar> value_color_bar(const Scene& scene, const Options& options,
@@ -150,7 +150,7 @@ void SceneRenderer::place_obstacles(double time, bool visible) {
 
 render::Image SceneRenderer::draw(const render::Look& look, const render::Camera& camera,
                                   const Shown& shown) {
-  std::optional<LentCore> core;
+  std::optional<ReservedCore> core;
   if (!offscreen_->egl_device_is_hardware()) core.emplace();
   if (!shown.values.empty()) view_->set_values(shown.values);
   view_->set_look(look);

@@ -133,7 +133,7 @@ class ReferenceRun {
   bool rests_ = false;        // it has ended at rest
 };
 
-class SimulatedSubject : public Subject {
+class SimulatedSubject : public FrameSource {
  public:
   SimulatedSubject(const Scene& scene, const Cloth& cloth, Simulation& simulation,
                    const std::string& reference)
@@ -223,8 +223,8 @@ void check_reference(const std::string& reference, const ClothMesh& mesh, const 
   if (!reference.empty()) ReferenceRun(reference).check(mesh, shape);
 }
 
-std::unique_ptr<Subject> simulated(const Scene& scene, const Cloth& cloth, Simulation& simulation,
-                                   const std::string& reference) {
+std::unique_ptr<FrameSource> simulated(const Scene& scene, const Cloth& cloth, Simulation& simulation,
+                                       const std::string& reference) {
   return std::make_unique<SimulatedSubject>(scene, cloth, simulation, reference);
 }
 

@@ -13,9 +13,9 @@
 
 namespace hysteron::experiments {
 
-class Subject {
+class FrameSource {
  public:
-  virtual ~Subject() = default;
+  virtual ~FrameSource() = default;
   virtual const DrawnMesh& mesh() const = 0;
   virtual double time() const = 0;             // [s]
   virtual std::vector<float> positions() = 0;  // x, y, z of each vertex [m]
@@ -43,15 +43,15 @@ std::vector<double> vertex_areas(const std::vector<int>& triangles, const std::v
 
 // `reference` is the folder of the run that look "difference" subtracts; "": none.  Cloth and simulation must
 // outlive the result.
-std::unique_ptr<Subject> simulated(const Scene& scene, const Cloth& cloth, Simulation& simulation,
-                                   const std::string& reference);
+std::unique_ptr<FrameSource> simulated(const Scene& scene, const Cloth& cloth, Simulation& simulation,
+                                       const std::string& reference);
 
 // Throws Error::invalid_input if `reference` is no such folder, or of a run with other triangles or another
 // rest shape; never for "".
 void check_reference(const std::string& reference, const ClothMesh& mesh, const ClothShape& shape);
 
 // Cloth from a file, one instant after the other.  The kept data must outlive it.
-class KeptSubject : public Subject {
+class KeptSubject : public FrameSource {
  public:
   KeptSubject(const DrawnMesh& mesh, const std::vector<KeptState>& instants)
       : mesh_(mesh), instants_(instants) {}

@@ -26,7 +26,7 @@ constexpr double kCoarsest = 0.01;
 constexpr double kNoticed = 0.1;
 
 // Warns of pressed layers, which push each other off as soon as they may.
-std::string pressed_words(const Scene& scene, const Cloth& cloth, Simulation& simulation) {
+std::string pressed_text(const Scene& scene, const Cloth& cloth, Simulation& simulation) {
   const double stored = simulation.ledger().contact;
   const auto& areas = cloth.mesh.vertex_area;
   const double mass = scene.fabric.density * std::accumulate(areas.begin(), areas.end(), 0.0);
@@ -39,7 +39,7 @@ std::string pressed_words(const Scene& scene, const Cloth& cloth, Simulation& si
       stored, speed, 1e3 * scene.fabric.thickness);
 }
 
-std::string stretch_words(double stretched) {
+std::string stretch_text(double stretched) {
   if (!(stretched > kExtremeStretch)) return "";
   return fmt::format(
       "the cloth was stretched by up to {:.0f} %, where woven cloth tears at some 10 to 40 %, and "
@@ -47,7 +47,7 @@ std::string stretch_words(double stretched) {
       100 * stretched);
 }
 
-std::string resolution_words(const Scene& scene, const Cloth& cloth, const std::vector<Eigen::Vector3d>& x) {
+std::string resolution_text(const Scene& scene, const Cloth& cloth, const std::vector<Eigen::Vector3d>& x) {
   const double step = resolution(scene, cloth, x);
   if (!(step > kCoarsest * scene.fabric.thickness)) return "";
   return fmt::format(
@@ -62,7 +62,7 @@ std::string command_warning(const Scene& scene, const Cloth& cloth, int dimensio
   if (scene.command.empty()) return "";
   const std::vector<Eigen::Vector3d> centers = cloth.element_centers(dimension);
   for (std::size_t c = 0; c < scene.command.size(); ++c) {
-    const Command& command = scene.command[c];
+    const SceneEvent& command = scene.command[c];
     const auto is_inside = [&](const Eigen::Vector3d& x) { return is_in_box(x, command.low, command.high); };
     if (std::none_of(centers.begin(), centers.end(), is_inside))
       return "[[command]] " + std::to_string(c + 1) +
@@ -187,7 +187,7 @@ std::vector<std::string> doubts_at_start(const Scene& scene, const Cloth& cloth,
   const std::vector<std::string> of_parameters = unused_parameter_warnings(
       scene.law, scene.fabric.virgin_curve(), scene.param, LawUse::cloth, scene.fabric.name);
   doubts.insert(doubts.end(), of_parameters.begin(), of_parameters.end());
-  doubts.insert(doubts.end(), {locking_words(scene, cloth.mesh), pressed_words(scene, cloth, simulation),
+  doubts.insert(doubts.end(), {locking_warning(scene, cloth.mesh), pressed_text(scene, cloth, simulation),
                                command_warning(scene, cloth, simulation.dimension()), phases_warning(scene),
                                facets_warning(scene, simulation), loose_newton_warning(scene),
                                weft_friction_warning(scene.fabric, scene.law), partial_load_warning(scene)});
@@ -207,10 +207,10 @@ std::string triangle_count_warning(int asked, const std::string& origin, int tri
 
 std::vector<std::string> doubts_at_end(const Scene& scene, const Cloth& cloth,
                                        const std::vector<Eigen::Vector3d>& x, double stretched) {
-  return said({stretch_words(stretched), resolution_words(scene, cloth, x)});
+  return said({stretch_text(stretched), resolution_text(scene, cloth, x)});
 }
 
-std::string drawing_words(const Scene& scene, const Cloth& cloth) {
+std::string drawing_text(const Scene& scene, const Cloth& cloth) {
   constexpr double kSeen = 0.1;  // share of the thickness
   double farthest = 0;           // [m]
   for (const Eigen::Vector3d& x : cloth.start) farthest = std::max(farthest, x.cwiseAbs().maxCoeff());
@@ -223,7 +223,7 @@ std::string drawing_words(const Scene& scene, const Cloth& cloth) {
       step);
 }
 
-std::string integrator_words(double fraction, double step) {
+std::string integrator_text(double fraction, double step) {
   constexpr double kMax = 0.25, kMin = 0.01;
   if (!(fraction > kMax) || fraction == 1) return "";
   const double factor = kMax / (1 - kMax) * (1 - fraction) / fraction;

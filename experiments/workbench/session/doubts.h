@@ -27,11 +27,11 @@ std::vector<std::string> doubts_at_end(const Scene& scene, const Cloth& cloth,
 
 // Warns if pictures and point caches, which hold floats in world coordinates, visibly round a start far from
 // the origin; "" otherwise.
-std::string drawing_words(const Scene& scene, const Cloth& cloth);
+std::string drawing_text(const Scene& scene, const Cloth& cloth);
 
 // Warns if the integrator dissipated more than a quarter of all dissipated energy; "" otherwise.  The step
 // [s] that it recommends is an estimate, assuming that the share falls as the step does: it is not named if
 // it is less than a hundredth of the current one, nor for cloth that dissipates nothing itself.
-std::string integrator_words(double fraction, double step);
+std::string integrator_text(double fraction, double step);
 
 }  // namespace hysteron::experiments

@@ -45,7 +45,7 @@ class Series : public Observer {
   void serialise(Archive& archive) override { rows_->serialise(archive); }
 
  private:
-  std::optional<Record> rows_;
+  std::optional<TimeSeriesWriter> rows_;
 };
 
 // Draws frames with the loop of a probe, the contact sheet, and the plots of probes.
@@ -77,7 +77,7 @@ class Drawing : public Observer {
 };
 
 // Records the solver's statistics: energies, convergence, largest stretch.
-class Account : public Observer {
+class SolverStats : public Observer {
  public:
   void begin(Session& session) override;
   void watch(Session& session, const Snapshot&) override {
@@ -90,11 +90,11 @@ class Account : public Observer {
   double stretched_ = 0;  // largest principal stretch minus 1 over the watched instants
 };
 
-void Account::begin(Session& session) {
+void SolverStats::begin(Session& session) {
   const Options& options = session.setup().options;
   const std::string& format = options.export_format;
   const bool draws = !options.no_images || format == "pc2" || AnimationExport::writes(format);
-  const std::string doubt = drawing_words(session.scene(), session.cloth());
+  const std::string doubt = drawing_text(session.scene(), session.cloth());
   if (draws && !doubt.empty()) session.run().warn(doubt);
 }
 
@@ -124,7 +124,7 @@ void note_energy(Run& run, const Ledger& ledger, const Scene& scene) {
   run.metric("energy_remainder_relative", ledger.remainder_relative);
   run.metric("integrator_share_percent", 100 * fraction);
   if (scene.integrator == Integrator::quasi_static) return;
-  const std::string doubt = integrator_words(fraction, scene.step);
+  const std::string doubt = integrator_text(fraction, scene.step);
   if (!doubt.empty()) run.warn(doubt);
 }
 
@@ -188,7 +188,7 @@ void note_saturated_pins(Run& run, const Diagnostics& counts, const Scene& scene
                   blocked, 1e3 * counts.pin_lag));
 }
 
-void Account::finish(Session& session, const std::string&) {
+void SolverStats::finish(Session& session, const std::string&) {
   Run& run = session.run();
   Simulation& simulation = session.simulation();
   const Scene& scene = session.scene();
@@ -203,9 +203,9 @@ void Account::finish(Session& session, const std::string&) {
   note_saturated_pins(run, counts, scene);
 }
 
-class Folds : public Observer {
+class SharpEdgeCount : public Observer {
  public:
-  explicit Folds(const ClothMesh& mesh) : mesh_(mesh), rest_angle_(rest_angles(mesh)) {}
+  explicit SharpEdgeCount(const ClothMesh& mesh) : mesh_(mesh), rest_angle_(rest_angles(mesh)) {}
   void watch(Session&, const Snapshot& instant) override {
     const std::vector<double> angle = hinge_angles(mesh_, instant.x);
     long sharp = 0;
@@ -259,12 +259,12 @@ Observers session_observers(Session& session, std::unique_ptr<Probes> probes,
   const Probes& loops = *probes;
   all.push_back(std::move(probes));
   if (!options.no_images) all.push_back(std::make_unique<Drawing>(loops));
-  all.push_back(std::make_unique<Account>());
+  all.push_back(std::make_unique<SolverStats>());
   if (options.check_intersections || session.scene().self_contact)
     all.push_back(
         std::make_unique<IntersectionCount>(mesh.face, session.simulation().cuda_device() >= 0,
                                             [&](const std::string& text) { session.run().warn(text); }));
-  all.push_back(std::make_unique<Folds>(mesh));
+  all.push_back(std::make_unique<SharpEdgeCount>(mesh));
   all.push_back(std::make_unique<Recoveries>(session.scene()));
   if (!animates) all.push_back(std::make_unique<MeshExport>());
   all.push_back(std::make_unique<MeasuredErrors>());

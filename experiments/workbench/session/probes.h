@@ -61,7 +61,7 @@ class Probes : public Observer {
   const ClothMesh& mesh_;
   int dimension_;
   std::vector<Probe> all_;
-  std::optional<Record> series_;
+  std::optional<TimeSeriesWriter> series_;
   std::vector<render::Path> loops_;  // paths of the first point, one per direction
 };
 

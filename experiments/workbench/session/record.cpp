@@ -17,7 +17,7 @@ Error failure(const std::string& attempt, const std::filesystem::path& file, int
 
 }  // namespace
 
-Record::Record(std::filesystem::path file, const std::vector<std::string>& columns)
+TimeSeriesWriter::TimeSeriesWriter(std::filesystem::path file, const std::vector<std::string>& columns)
     : file_(std::move(file)), growing_(file_.string() + ".part"), columns_(columns.size()) {
   errno = 0;
   stream_.open(growing_, std::ios::trunc);
@@ -25,14 +25,14 @@ Record::Record(std::filesystem::path file, const std::vector<std::string>& colum
   write(csv_row(columns));
 }
 
-Record::~Record() {
+TimeSeriesWriter::~TimeSeriesWriter() {
   if (finished_ || !whole_) return;
   stream_.close();
   std::error_code ignored;
   std::filesystem::rename(growing_, file_, ignored);
 }
 
-void Record::row(const std::vector<double>& values) {
+void TimeSeriesWriter::row(const std::vector<double>& values) {
   if (values.size() != columns_) {
     throw Error::simulation(file_.string() + ": a row of " + std::to_string(values.size()) + " numbers for " +
                             std::to_string(columns_) + " columns");
@@ -40,13 +40,13 @@ void Record::row(const std::vector<double>& values) {
   write(exact_csv_row(values));
 }
 
-void Record::finish() {
+void TimeSeriesWriter::finish() {
   stream_.close();
   if (std::rename(growing_.c_str(), file_.c_str()) != 0) throw failure("rename to", file_, errno);
   finished_ = true;
 }
 
-void Record::serialise(Archive& archive) {
+void TimeSeriesWriter::serialise(Archive& archive) {
   const std::string head = text_;
   archive(text_);
   if (!archive.loads()) return;
@@ -56,7 +56,7 @@ void Record::serialise(Archive& archive) {
   write(rows);
 }
 
-void Record::write(const std::string& row) {
+void TimeSeriesWriter::write(const std::string& row) {
   errno = 0;
   text_ += row;
   stream_ << row << std::flush;

@@ -15,13 +15,13 @@ namespace hysteron::experiments {
 // The file is a CSV with named columns and units in the header, "time [s]".  Every row is flushed, so that a
 // run can be watched in FILE.part; the file gets its name in finish() or, after an exception elsewhere, on
 // destruction.  A file that could not be written (full disk) never gets it.
-class Record {
+class TimeSeriesWriter {
  public:
   // Throws Error::system if the file cannot be created or written, as the others below do.
-  Record(std::filesystem::path file, const std::vector<std::string>& columns);
-  ~Record();
-  Record(const Record&) = delete;
-  Record& operator=(const Record&) = delete;
+  TimeSeriesWriter(std::filesystem::path file, const std::vector<std::string>& columns);
+  ~TimeSeriesWriter();
+  TimeSeriesWriter(const TimeSeriesWriter&) = delete;
+  TimeSeriesWriter& operator=(const TimeSeriesWriter&) = delete;
 
   // Writes one number per column, with 17 significant digits.
   void row(const std::vector<double>& values);

@@ -27,7 +27,7 @@ std::vector<double> law_moment(Simulation& simulation) {
 }
 
 // Returns the residual curvature of each element by the closed form [1/m], with the simulation's components.
-std::vector<double> residual_of_elements(Simulation& simulation, const LawChoice& law) {
+std::vector<double> residual_of_elements(Simulation& simulation, const LawParams& law) {
   const int d = simulation.dimension();
   const std::vector<double> metric = simulation.metric(), m = law_moment(simulation);
   std::vector<double> k = simulation.curvature();
@@ -60,7 +60,7 @@ void Recoveries::finish(Session& session, const std::string&) {
   run.metric("recovery_elastic_count", count[0]);
   run.metric("recovery_partial_count", count[1]);
   run.metric("recovery_full_slip_count", count[2]);
-  const LawChoice law = choose_law(scene.law, curve_, scene.param);
+  const LawParams law = choose_law(scene.law, curve_, scene.param);
   run.metric("residual_curvature_formula_rms_per_m",
              curvature_rms(residual_of_elements(simulation, law), area, d));
 }

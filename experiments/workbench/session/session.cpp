@@ -108,7 +108,7 @@ Session::Session(const CommandLine& line, const Setup& setup, std::optional<Clot
   run_->begun_at(begun_);
   describe_start();
   observers_ = session_observers(*this, std::move(probes), std::move(checkpoints));
-  for (const std::string& words : lost_words(line, setup)) run_->warn(words);
+  for (const std::string& words : ignored_key_warnings(line, setup)) run_->warn(words);
   for (const std::string& warning : setup.unread) run_->warn(warning);
   for (const std::string& warning : late_table_warnings(setup.scene)) run_->warn(warning);
 }
@@ -167,7 +167,7 @@ void Session::record(const Snapshot& instant, const std::string& left) {
 }
 
 // Returns "cotton-broad, law prandtl, 6,000 triangles, 4 s in 480 steps on cpu".
-std::string Session::opening_words() const {
+std::string Session::opening_text() const {
   const Scene& scene = setup_.scene;
   return scene.fabric.name + ", law " + scene.law + ", " + grouped(cloth_.mesh.faces()) + " triangles, " +
          number_text(scene.seconds) + " s in " + grouped(timetable_.steps()) + " steps on " +
@@ -265,7 +265,7 @@ bool Session::simulate(const RunPlan& plan) {
   instant_steps_.clear();
   for (const RunPlan::Instant& instant : plan.instants)
     instant_steps_.push_back(timetable_.first_end(instant.time));
-  run_->progress(opening_words());
+  run_->progress(opening_text());
   if (plan.time_steps.empty()) note_rounded_instants();
   bounds_ = framed();
   bool settled = run_to_end();

@@ -159,7 +159,7 @@ class Session {
   bool look(const std::string& left);
   bool run_to_end();
   bool find_rest();
-  std::string opening_words() const;
+  std::string opening_text() const;
 
   const std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
   CommandLine line_;

@@ -25,7 +25,7 @@ struct BilinearLaw {
   static std::vector<LawParameter> parameters() { return law_parameter::with_fatigue({}); }
 
   template <class Real, int D>
-  static PrandtlStops<Real, D, 1> make(const LawChoice& c) {
+  static PrandtlStops<Real, D, 1> make(const LawParams& c) {
     return make_bilinear<Real, D>(c.curve);
   }
 };

@@ -48,7 +48,7 @@ struct BridsonLaw {
   static std::vector<LawParameter> parameters() { return {law_parameter::height()}; }
 
   template <class Real, int D>
-  static Bridson<Real, D> make(const LawChoice& c) {
+  static Bridson<Real, D> make(const LawParams& c) {
     return Bridson<Real, D>::make(c.curve, c.height);
   }
 };

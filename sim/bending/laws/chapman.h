@@ -16,8 +16,8 @@ struct ChapmanLaw {
   static constexpr bool kFrictionBesideB2 = true;
   static std::vector<LawParameter> parameters() { return {law_parameter::stops()}; }
 
-  static bool takes_parts(const LawChoice&) { return true; }
-  static RelaxingBranches branches(const LawChoice& c) { return c.curve.parts.branches; }
+  static bool takes_parts(const LawParams&) { return true; }
+  static RelaxingBranches branches(const LawParams& c) { return c.curve.parts.branches; }
 };
 
 }  // namespace hysteron

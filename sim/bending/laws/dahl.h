@@ -110,7 +110,7 @@ struct DahlLaw {
   static constexpr bool kFrictionBesideB2 = true;
 
   template <class Real, int D>
-  static Dahl<Real, D> make(const LawChoice& c) {
+  static Dahl<Real, D> make(const LawParams& c) {
     return Dahl<Real, D>::make(c.curve);
   }
 };

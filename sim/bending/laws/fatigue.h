@@ -38,7 +38,7 @@ struct Fatigue {
   Real eta = 1;      // share of the lost friction moment that sets
 
   // Takes as `friction` the law of a fabric {b1 - b2, 0, k0}: the curve without its straight branch.
-  static Fatigue make(const VirginCurve& curve, const FatigueChoice& choice, const Law& friction) {
+  static Fatigue make(const VirginCurve& curve, const FatigueParams& choice, const Law& friction) {
     const double m0 = curve.friction_moment();
     return {friction,        Real(curve.b2), Real(m0), Real(choice.dc), Real(m0 > 0 ? choice.m_inf / m0 : 1),
             Real(choice.set)};

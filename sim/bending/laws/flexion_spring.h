@@ -48,7 +48,7 @@ struct FlexionSpringLaw {
   static constexpr const char* kMeaning =
       "flexion springs across the hinge, matched to b2 K at K0 (mass-spring model)";
   static std::vector<LawParameter> parameters() { return {law_parameter::height()}; }
-  static void check(const LawChoice& c, LawUse) {
+  static void check(const LawParams& c, LawUse) {
     // When folded, the springs are 9/(k0 height)^2 times as rigid as where they are matched: here 90,000
     // times.
     constexpr double kMin = 0.01;
@@ -62,7 +62,7 @@ struct FlexionSpringLaw {
   }
 
   template <class Real, int D>
-  static FlexionSpring<Real, D> make(const LawChoice& c) {
+  static FlexionSpring<Real, D> make(const LawParams& c) {
     return FlexionSpring<Real, D>::make(c.curve, c.height);
   }
 };

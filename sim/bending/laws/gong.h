@@ -133,10 +133,10 @@ struct GongLaw {
   static constexpr const char* kMeaning =
       "friction anchor and plastic rest curvature with hold time (Gong et al. 2025)";
   static std::vector<LawParameter> parameters() { return {law_parameter::yield(), law_parameter::tau()}; }
-  static void set_defaults(LawChoice& c) { c.tau = 30; }  // hold time [s], theirs
+  static void set_defaults(LawParams& c) { c.tau = 30; }  // hold time [s], theirs
 
   template <class Real, int>
-  static Gong<Real> make(const LawChoice& c) {
+  static Gong<Real> make(const LawParams& c) {
     return Gong<Real>::make(c.curve, c.yield, c.tau);
   }
 };

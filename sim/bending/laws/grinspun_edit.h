@@ -48,7 +48,7 @@ struct GrinspunEditLaw {
   static constexpr const char* kMeaning = "rest curvature set on command (Grinspun et al. 2003)";
 
   template <class Real, int D>
-  static GrinspunEdit<Real, D> make(const LawChoice& c) {
+  static GrinspunEdit<Real, D> make(const LawParams& c) {
     return GrinspunEdit<Real, D>::make(c.curve);
   }
 };

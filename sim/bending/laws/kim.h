@@ -96,14 +96,14 @@ struct KimLaw {
     return {law_parameter::yield(), law_parameter::max_set(), law_parameter::weakening(),
             law_parameter::tau()};
   }
-  static void check(const LawChoice& c, LawUse) {
+  static void check(const LawParams& c, LawUse) {
     if (c.yield == 0) c.refuse("yield", "yield must be given and > 0 1/m where k0 is 0");
   }
   // A bounded set has a scalar form only.
-  static bool runs_along_directions(const LawChoice& c) { return std::isfinite(c.max_set); }
+  static bool runs_along_directions(const LawParams& c) { return std::isfinite(c.max_set); }
 
   template <class Real, int D>
-  static Kim<Real, D> make(const LawChoice& c) {
+  static Kim<Real, D> make(const LawParams& c) {
     return Kim<Real, D>::make(c.curve, c.yield, c.max_set, c.weakening, c.tau);
   }
 };

@@ -5,7 +5,7 @@
 //     static constexpr const char* kName = ...;     // of the law in scenes and flags
 //     static constexpr const char* kMeaning = ...;  // one line
 //     template <class Real, int D>                  // D components, or a scalar law whatever D is
-//     static Some<Real, D> make(const LawChoice&);
+//     static Some<Real, D> make(const LawParams&);
 //   };
 //
 // It may also have
@@ -16,24 +16,24 @@
 //     static constexpr bool kFrictionBesideB2 = true;
 //     // Whether it follows faces that differ (faces.h); others have the mean of both.
 //     static constexpr bool kHasFaces = true;
-//     // The parameters that the law takes, in the order of LawChoice.
+//     // The parameters that the law takes, in the order of LawParams.
 //     static std::vector<LawParameter> parameters();
 //     // Where a parameter's default is the law's own.
-//     static void set_defaults(LawChoice&);
+//     static void set_defaults(LawParams&);
 //     // Refuses what no parameter shows alone.
-//     static void check(const LawChoice&, LawUse);
+//     static void check(const LawParams&, LawUse);
 //     // Whether on the tensor the law of D = 1 is run along four directions.
-//     static bool runs_along_directions(const LawChoice&);
+//     static bool runs_along_directions(const LawParams&);
 //     // In place of make(), where parameters decide on the type of law: calls visit(law).
 //     template <class Real, int D, class Memory, class Visit>
-//     static void visit(const LawChoice&, const Visit& visit);
+//     static void visit(const LawParams&, const Visit& visit);
 //     // Of a law that can weaken, where the fabric's parts decide on its friction: calls visit(law).
 //     template <class Real, int D, class Memory, class Visit>
-//     static void visit_friction(const LawChoice&, const Visit& visit);
+//     static void visit_friction(const LawParams&, const Visit& visit);
 //     // Of a law of a group with kStops: whether what the fabric has beyond three numbers makes it
 //     // another type of law (measured_law.h), and the branches that relax beside its stops.
-//     static bool takes_parts(const LawChoice&);
-//     static RelaxingBranches branches(const LawChoice&);
+//     static bool takes_parts(const LawParams&);
+//     static RelaxingBranches branches(const LawParams&);
 #pragma once
 
 #include <cmath>
@@ -87,8 +87,8 @@ LawEntry law_entry() {
   if constexpr (requires { Law::kFrictionBesideB2; }) entry.has_friction_beside_b2 = Law::kFrictionBesideB2;
   if constexpr (requires { Law::kHasFaces; }) entry.has_faces = Law::kHasFaces;
   if constexpr (requires { Law::parameters(); }) entry.parameters = Law::parameters();
-  if constexpr (requires(LawChoice & c) { Law::set_defaults(c); }) entry.set_defaults = Law::set_defaults;
-  if constexpr (requires(const LawChoice& c) { Law::check(c, LawUse::cloth); }) entry.check = Law::check;
+  if constexpr (requires(LawParams & c) { Law::set_defaults(c); }) entry.set_defaults = Law::set_defaults;
+  if constexpr (requires(const LawParams& c) { Law::check(c, LawUse::cloth); }) entry.check = Law::check;
   return entry;
 }
 

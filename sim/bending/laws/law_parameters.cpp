@@ -13,8 +13,8 @@ namespace {
 
 constexpr double kLargest = 1e300;
 
-LawChoice defaults(const LawEntry& law, const VirginCurve& curve, LawUse use) {
-  LawChoice choice;
+LawParams defaults(const LawEntry& law, const VirginCurve& curve, LawUse use) {
+  LawParams choice;
   choice.name = law.name;
   choice.curve = law.has_faces ? curve : mean_of_faces(curve);
   choice.stack = use == LawUse::alone;
@@ -44,7 +44,7 @@ std::vector<std::string> parameter_names(const std::vector<LawParameter>& parame
   return names;
 }
 
-void check_fatigue(const LawChoice& choice) {
+void check_fatigue(const LawParams& choice) {
   const double m0 = choice.curve.friction_moment();
   if (choice.fatigue.m_inf > m0)
     choice.refuse("fatigue.m-inf", "fatigue.m-inf = " + shown(choice.fatigue.m_inf) + " N must be in [0, " +
@@ -88,31 +88,31 @@ bool ParameterText::is_second(const std::string& first, const std::string& secon
 namespace law_parameter {
 
 LawParameter yield() {
-  return {"yield", [](const ParameterText& t, LawChoice& c) { c.yield = t.positive("1/m"); }};
+  return {"yield", [](const ParameterText& t, LawParams& c) { c.yield = t.positive("1/m"); }};
 }
 LawParameter max_set() {
-  return {"max-set", [](const ParameterText& t, LawChoice& c) { c.max_set = t.not_negative("1/m"); }};
+  return {"max-set", [](const ParameterText& t, LawParams& c) { c.max_set = t.not_negative("1/m"); }};
 }
 LawParameter weakening() {
-  return {"weakening", [](const ParameterText& t, LawChoice& c) { c.weakening = t.not_negative(""); }};
+  return {"weakening", [](const ParameterText& t, LawParams& c) { c.weakening = t.not_negative(""); }};
 }
 LawParameter height() {
-  return {"height", [](const ParameterText& t, LawChoice& c) { c.height = t.positive("m"); }};
+  return {"height", [](const ParameterText& t, LawParams& c) { c.height = t.positive("m"); }};
 }
 LawParameter tau() {
-  return {"tau", [](const ParameterText& t, LawChoice& c) { c.tau = t.positive("s"); }};
+  return {"tau", [](const ParameterText& t, LawParams& c) { c.tau = t.positive("s"); }};
 }
 LawParameter stops() {
-  return {"stops", [](const ParameterText& t, LawChoice& c) { c.stops = t.allowed_integer({4, 8, 16, 32}); }};
+  return {"stops", [](const ParameterText& t, LawParams& c) { c.stops = t.allowed_integer({4, 8, 16, 32}); }};
 }
 
 std::vector<LawParameter> with_fatigue(std::vector<LawParameter> own) {
   own.push_back(
-      {"fatigue.dc", [](const ParameterText& t, LawChoice& c) { c.fatigue.dc = t.positive("J/m^2"); }});
+      {"fatigue.dc", [](const ParameterText& t, LawParams& c) { c.fatigue.dc = t.positive("J/m^2"); }});
   own.push_back(
-      {"fatigue.m-inf", [](const ParameterText& t, LawChoice& c) { c.fatigue.m_inf = t.not_negative("N"); }});
+      {"fatigue.m-inf", [](const ParameterText& t, LawParams& c) { c.fatigue.m_inf = t.not_negative("N"); }});
   own.push_back({"fatigue.set",
-                 [](const ParameterText& t, LawChoice& c) { c.fatigue.set = t.number(0, 1, "in [0, 1]"); }});
+                 [](const ParameterText& t, LawParams& c) { c.fatigue.set = t.number(0, 1, "in [0, 1]"); }});
   return own;
 }
 
@@ -124,7 +124,7 @@ std::string shown(double x) {
   return text.str();
 }
 
-void LawChoice::refuse(const std::string& key, const std::string& what) const {
+void LawParams::refuse(const std::string& key, const std::string& what) const {
   throw Error::invalid_input("law " + name + ": " + what).with_key(key, "");
 }
 
@@ -156,13 +156,13 @@ std::vector<std::string> law_parameter_names(const std::string& name) {
   return law ? parameter_names(law->parameters) : std::vector<std::string>();
 }
 
-LawChoice choose_law(const std::string& name, const VirginCurve& curve, const LawParameters& given,
+LawParams choose_law(const std::string& name, const VirginCurve& curve, const LawParameters& given,
                      LawUse use) {
   return choose_law(law_named(name), curve, given, use);
 }
 
-LawChoice choose_law(const LawEntry& law, const VirginCurve& curve, const LawParameters& given, LawUse use) {
-  LawChoice choice = defaults(law, curve, use);
+LawParams choose_law(const LawEntry& law, const VirginCurve& curve, const LawParameters& given, LawUse use) {
+  LawParams choice = defaults(law, curve, use);
   for (const auto& [key, text] : given) {
     const auto known = std::find_if(law.parameters.begin(), law.parameters.end(),
                                     [&, &key = key](const LawParameter& p) { return p.name == key; });

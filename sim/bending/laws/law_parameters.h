@@ -12,21 +12,21 @@ namespace hysteron {
 using LawParameters = std::map<std::string, std::string>;
 
 // Weakening of the friction moment with dissipated energy; fatigue.h says how.
-struct FatigueChoice {
+struct FatigueParams {
   double dc = 0;     // fatigue.dc     energy per area over which M0 falls to 1/e [J/m^2]; 0: no fatigue
   double m_inf = 0;  // fatigue.m-inf  friction moment that is left in the end [N]
   double set = 1;    // fatigue.set    eta: share of the lost friction moment that becomes permanent set
   bool on() const { return dc > 0; }
 };
 
-struct LawChoice {
+struct LawParams {
   std::string name;
   VirginCurve curve;
   bool stack = false;       // memory     stops | stack (prandtl)
   int stops = 8;            // stops      4 | 8 | 16 | 32
   int depth = 8;            // stack      reversal points kept: 4 | 6 | 8 | 16, and 32 | 64 for a law alone
   bool reversible = false;  // recovery   masing | reversible (wong)
-  FatigueChoice fatigue;    // fatigue.*  (bilinear, prandtl, wong)
+  FatigueParams fatigue;    // fatigue.*  (bilinear, prandtl, wong)
   double yield = 0;         // yield      curvature at which plastic flow begins [1/m]; default k0
   double max_set = 0;       // max-set    largest plastic curvature [1/m]; default: no bound
   double weakening = 1;     // weakening  w: rigidity b2/(1 + w damage) (narain, kim)
@@ -50,7 +50,7 @@ enum class LawUse { cloth, alone };
 struct ParameterText;
 struct LawParameter {
   std::string name;
-  void (*read)(const ParameterText&, LawChoice&);
+  void (*read)(const ParameterText&, LawParams&);
 };
 
 // The description that a law's header gives (law_description.h).
@@ -60,18 +60,18 @@ struct LawEntry {
   std::vector<LawParameter> parameters = {};
   bool has_friction_beside_b2 = false;  // M = b2 K + F, where the friction F does not depend on b2
   bool has_faces = false;               // follows another B and 2HB for bends with K < 0
-  void (*set_defaults)(LawChoice&) = nullptr;
-  void (*check)(const LawChoice&, LawUse) = nullptr;
+  void (*set_defaults)(LawParams&) = nullptr;
+  void (*check)(const LawParams&, LawUse) = nullptr;
 };
 
 // Chooses a law and checks every value.  Throws Error::invalid_input, naming the law and the parameter, for
 // unknown laws, parameters that the law does not have, and values out of range.
-LawChoice choose_law(const std::string& name, const VirginCurve& curve, const LawParameters& parameters,
+LawParams choose_law(const std::string& name, const VirginCurve& curve, const LawParameters& parameters,
                      LawUse use = LawUse::cloth);
-LawChoice choose_law(const LawEntry& law, const VirginCurve& curve, const LawParameters& parameters,
+LawParams choose_law(const LawEntry& law, const VirginCurve& curve, const LawParameters& parameters,
                      LawUse use = LawUse::cloth);
 
-// Returns the names of the parameters that law `name` takes, in the order of LawChoice; none for an unknown
+// Returns the names of the parameters that law `name` takes, in the order of LawParams; none for an unknown
 // law.
 std::vector<std::string> law_parameter_names(const std::string& name);
 // Returns LawEntry::has_friction_beside_b2 of law `name`; false for an unknown law.

@@ -93,7 +93,7 @@ constexpr bool has_step_time() {
 
 template <class Visit>
 void with_law(const LawRequest& request, const Visit& visit) {
-  const LawChoice choice = choose_law(request.name, request.curve, request.parameters, LawUse::alone);
+  const LawParams choice = choose_law(request.name, request.curve, request.parameters, LawUse::alone);
   visit_groups<double, 1, LawMemorySizes>(LawGroups{}, choice, visit);
 }
 
@@ -121,7 +121,7 @@ bool takes_time(const LawRequest& request) {
   return timed;
 }
 
-double rigidity_on_the_tensor(const LawChoice& choice) {
+double rigidity_on_the_tensor(const LawParams& choice) {
   double share = 1;
   visit_groups<double, 3, ClothMemory>(LawGroups{}, choice, [&]<class Law>(const Law&) {
     if constexpr (requires { Law::kElasticity; }) share = Law::kElasticity;

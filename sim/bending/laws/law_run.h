@@ -43,7 +43,7 @@ bool takes_time(const LawRequest& request);
 
 // Returns the rigidity on the tensor over the law's own b2: 1, or the factor of four directions
 // (four_directions.h).  Throws as run_law() does.
-double rigidity_on_the_tensor(const LawChoice& choice);
+double rigidity_on_the_tensor(const LawParams& choice);
 
 // The state after an accepted step.
 struct LawPoint {

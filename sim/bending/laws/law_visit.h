@@ -1,4 +1,4 @@
-// Turns a LawChoice into a law as a type: each function calls visit(law) and returns true if the law is in
+// Turns a LawParams into a law as a type: each function calls visit(law) and returns true if the law is in
 // its list.  D = 1 is scalar (hinge), D = 3 the tensor (shape; scalar laws run along four directions).
 #pragma once
 
@@ -42,7 +42,7 @@ auto in_dimension(const Law& law) {
 
 // Calls visit() with the law in D components, or with a scalar one that in_dimension() completes.
 template <LawDescription Law, class Real, int D, class Memory, class Visit>
-void visit_made(const LawChoice& c, const Visit& visit) {
+void visit_made(const LawParams& c, const Visit& visit) {
   if constexpr (requires { Law::template make<Real, D>(c); })
     visit(Law::template make<Real, D>(c));
   else
@@ -50,7 +50,7 @@ void visit_made(const LawChoice& c, const Visit& visit) {
 }
 
 template <LawDescription Law, class Real, int D, class Memory, class Visit>
-void visit_in_dimension(const LawChoice& c, const Visit& visit) {
+void visit_in_dimension(const LawParams& c, const Visit& visit) {
   const auto complete = [&](const auto& law) { visit(in_dimension<D>(law)); };
   if constexpr (D > 1 && requires { Law::runs_along_directions(c); }) {
     if (Law::runs_along_directions(c)) return visit_made<Law, Real, 1, Memory>(c, complete);
@@ -60,8 +60,8 @@ void visit_in_dimension(const LawChoice& c, const Visit& visit) {
 
 // Makes the same law with friction that weakens, for a fabric without its straight branch.
 template <LawDescription Law, class Real, int D, class Memory, class Visit>
-void visit_fatigued(const LawChoice& c, const Visit& visit) {
-  LawChoice friction = c;
+void visit_fatigued(const LawParams& c, const Visit& visit) {
+  LawParams friction = c;
   friction.curve = {c.curve.b1 - c.curve.b2, 0, c.curve.k0, {c.curve.parts.stops, {}, {}, {}, {}}};
   const auto weaken = [&]<class Friction>(const Friction& law) {
     visit(in_dimension<D>(Fatigue<Friction>::make(c.curve, c.fatigue, law)));
@@ -75,7 +75,7 @@ void visit_fatigued(const LawChoice& c, const Visit& visit) {
 // Makes the law with faces that differ, with as many stops as the fabric or the law's memory needs, none if
 // the law has no friction.
 template <LawDescription Law, class Real, int D, class Visit, int... n>
-void visit_faced(const LawChoice& c, const Visit& visit, Sizes<n...>) {
+void visit_faced(const LawParams& c, const Visit& visit, Sizes<n...>) {
   constexpr bool kFriction = requires { Law::kFrictionBesideB2; };
   VirginCurve curve = c.curve;
   if (!kFriction) curve.b1 = curve.b2, curve.parts.stops = {};
@@ -87,7 +87,7 @@ void visit_faced(const LawChoice& c, const Visit& visit, Sizes<n...>) {
 
 // Do the fabric's parts beyond b1, b2 and k0 make the law another type?
 template <LawDescription Law>
-bool takes_parts(const LawChoice& c) {
+bool takes_parts(const LawParams& c) {
   if constexpr (requires { Law::takes_parts(c); })
     return Law::takes_parts(c);
   else
@@ -98,7 +98,7 @@ bool takes_parts(const LawChoice& c) {
 // of FacesLaws have faces that differ, those of groups with kStops take a fabric's parts if the group has
 // room for their stops and branches, and the others take three numbers alone.
 template <LawDescription Law, class Group, class Real, int D, class Memory, class Visit>
-bool visit_in_group(const LawChoice& c, const Visit& visit) {
+bool visit_in_group(const LawParams& c, const Visit& visit) {
   constexpr bool kWeakens = std::is_same_v<Group, FatigueLaws>;
   constexpr bool kFaced = std::is_same_v<Group, FacesLaws>;
   if (c.name != Law::kName || c.fatigue.on() != kWeakens || c.curve.parts.faces.on() != kFaced) return false;
@@ -118,17 +118,17 @@ bool visit_in_group(const LawChoice& c, const Visit& visit) {
 }
 
 template <class Group, class Real, int D, class Memory, class Visit, class... Laws>
-bool visit_laws(LawList<Laws...>, const LawChoice& c, const Visit& visit) {
+bool visit_laws(LawList<Laws...>, const LawParams& c, const Visit& visit) {
   return (visit_in_group<Laws, Group, Real, D, Memory>(c, visit) || ...);
 }
 template <class Group, class Real, int D, class Memory, class Visit>
-bool visit_group(const LawChoice& c, const Visit& visit) {
+bool visit_group(const LawParams& c, const Visit& visit) {
   return visit_laws<Group, Real, D, Memory>(Group{}, c, visit);
 }
 
 // Tries every group.
 template <class Real, int D, class Memory, class Visit, class... Groups>
-bool visit_groups(LawList<Groups...>, const LawChoice& c, const Visit& visit) {
+bool visit_groups(LawList<Groups...>, const LawParams& c, const Visit& visit) {
   return (visit_group<Groups, Real, D, Memory>(c, visit) || ...);
 }
 

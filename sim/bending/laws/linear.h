@@ -29,7 +29,7 @@ struct LinearLaw {
   static constexpr bool kHasFaces = true;
 
   template <class Real, int D>
-  static Linear<Real, D> make(const LawChoice& c) {
+  static Linear<Real, D> make(const LawParams& c) {
     return Linear<Real, D>::make(c.curve);
   }
 };

@@ -27,7 +27,7 @@ namespace hysteron {
 // straight branches; a tensor flows along the direction that the minimum has, which for a cylinder is its
 // own. Chosen here, not in a source: the form, linear hardening, and that the whole moment drives the flow.
 template <class Law>
-struct Setting {
+struct PermanentSetLaw {
   using Scalar = typename Law::Scalar;
   using Real = Scalar;
   static constexpr int kDimension = Law::kDimension;
@@ -40,7 +40,7 @@ struct Setting {
   Real limit = 0;      // b2 K_y [N]
   Real hardening = 1;  // h [N m]
 
-  static Setting make(const Law& law, double b2, const PermanentSet& set) {
+  static PermanentSetLaw make(const Law& law, double b2, const PermanentSet& set) {
     return {law, Real(b2 * set.yield), Real(set.hardening)};
   }
 
@@ -50,8 +50,8 @@ struct Setting {
         law.step(Vec<Real, D>(curvature - (set_curvature(before) + moved)), history_of<Law>(before)), moved,
         before);
   }
-  HYST_HD StepAndPotential<Setting> step_and_potential(const Vec<Real, D>& curvature,
-                                                       const Memory& before) const {
+  HYST_HD StepAndPotential<PermanentSetLaw> step_and_potential(const Vec<Real, D>& curvature,
+                                                               const Memory& before) const {
     const Vec<Real, D> moved = flow(curvature, before), set = set_curvature(before) + moved;
     const auto inner =
         hysteron::step_and_potential(law, Vec<Real, D>(curvature - set), history_of<Law>(before));
@@ -70,7 +70,7 @@ struct Setting {
     return stiff - (product + product.transpose()) / 2;
   }
   HYST_HD Vec<Real, D> residual(const Memory& history) const {
-    Setting at_once = *this;
+    PermanentSetLaw at_once = *this;
     if constexpr (TimedLaw<Law>) at_once.law.dt = 0;
     return zero_moment(at_once, history, set_curvature(history));
   }
@@ -307,21 +307,21 @@ struct Relaxing {
 
 // Returns the fabric's stops along warp, or those of b1, b2 and k0 (prandtl_stops.h): as many as the law has,
 // or the largest number where it would remember by a stack.
-inline Spectrum measured_stops(const LawChoice& c) {
+inline Spectrum measured_stops(const LawParams& c) {
   if (!c.curve.parts.stops.empty()) return c.curve.parts.stops;
   return parabola_stops(c.curve.b1 - c.curve.b2, c.curve.k0, c.stack ? kMaxStops : c.stops);
 }
 
 // The capacity of a law for few stops; others have room for kMaxStops.
 constexpr int kFewStops = 8;
-inline int room_for_stops(const LawChoice& c) {
+inline int room_for_stops(const LawParams& c) {
   return measured_stops(c).size() <= kFewStops ? kFewStops : kMaxStops;
 }
 
 // Calls visit(law) with these branches around the stops, and a set if the fabric has one; returns false where
 // the group (every_law.h) has no room for the stops, or for the branches.
 template <class Real, int D, class Group, class Visit>
-bool visit_measured(const LawChoice& c, const RelaxingBranches& branches, const Visit& visit) {
+bool visit_measured(const LawParams& c, const RelaxingBranches& branches, const Visit& visit) {
   if (room_for_stops(c) != Group::kStops) return false;
   if (branches.empty() ? !Group::kWithoutBranches : !Group::kWithBranches) return false;
   const BendingParts& parts = c.curve.parts;
@@ -329,7 +329,7 @@ bool visit_measured(const LawChoice& c, const RelaxingBranches& branches, const 
       SpectrumStops<Real, D, Group::kStops>::make(c.curve.b2, measured_stops(c), parts.weft_stops);
   const auto setting_or_not = [&]<class Law>(const Law& law) {
     if (parts.set.on())
-      visit(Setting<Law>::make(law, c.curve.b2, parts.set));
+      visit(PermanentSetLaw<Law>::make(law, c.curve.b2, parts.set));
     else
       visit(law);
   };

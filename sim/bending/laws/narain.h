@@ -63,14 +63,14 @@ struct NarainLaw {
   static std::vector<LawParameter> parameters() {
     return {law_parameter::yield(), law_parameter::max_set(), law_parameter::weakening()};
   }
-  static void check(const LawChoice& c, LawUse) {
+  static void check(const LawParams& c, LawUse) {
     if (c.yield == 0) c.refuse("yield", "yield must be given and > 0 1/m where k0 is 0");
   }
   // A bounded set has a scalar form only.
-  static bool runs_along_directions(const LawChoice& c) { return std::isfinite(c.max_set); }
+  static bool runs_along_directions(const LawParams& c) { return std::isfinite(c.max_set); }
 
   template <class Real, int D>
-  static Narain<Real, D> make(const LawChoice& c) {
+  static Narain<Real, D> make(const LawParams& c) {
     return Narain<Real, D>::make(c.curve, c.yield, c.max_set, c.weakening);
   }
 };

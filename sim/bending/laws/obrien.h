@@ -62,10 +62,10 @@ struct ObrienLaw {
       "plastic rest curvature above a yield curvature (O'Brien et al. 2002)";
   static std::vector<LawParameter> parameters() { return {law_parameter::yield(), law_parameter::max_set()}; }
   // A bounded set has a scalar form only.
-  static bool runs_along_directions(const LawChoice& c) { return std::isfinite(c.max_set); }
+  static bool runs_along_directions(const LawParams& c) { return std::isfinite(c.max_set); }
 
   template <class Real, int D>
-  static Obrien<Real, D> make(const LawChoice& c) {
+  static Obrien<Real, D> make(const LawParams& c) {
     return Obrien<Real, D>::make(c.curve, c.yield, c.max_set);
   }
 };

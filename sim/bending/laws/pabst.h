@@ -45,7 +45,7 @@ struct PabstLaw {
   static constexpr bool kFrictionBesideB2 = true;
 
   template <class Real, int D>
-  static Pabst<Real, D> make(const LawChoice& c) {
+  static Pabst<Real, D> make(const LawParams& c) {
     return Pabst<Real, D>::make(c.curve);
   }
 };

@@ -18,14 +18,14 @@ struct PrandtlLaw {
   static constexpr bool kFrictionBesideB2 = true, kHasFaces = true;
   static std::vector<LawParameter> parameters() {
     return law_parameter::with_fatigue(
-        {{"memory", [](const ParameterText& t, LawChoice& c) { c.stack = t.is_second("stops", "stack"); }},
+        {{"memory", [](const ParameterText& t, LawParams& c) { c.stack = t.is_second("stops", "stack"); }},
          law_parameter::stops(),
-         {"stack", [](const ParameterText& t, LawChoice& c) {
+         {"stack", [](const ParameterText& t, LawParams& c) {
             c.depth = t.use == LawUse::alone ? t.allowed_integer({4, 6, 8, 16, 32, 64})
                                              : t.allowed_integer({4, 6, 8, 16});
           }}});
   }
-  static void check(const LawChoice& c, LawUse use) {
+  static void check(const LawParams& c, LawUse use) {
     const BendingParts& parts = c.curve.parts;
     if (c.fatigue.on() && (parts.set.on() || !parts.weft_stops.empty()))
       c.refuse("fatigue.dc",
@@ -42,14 +42,14 @@ struct PrandtlLaw {
   }
 
   // The fabric's own stops are the law's memory, whatever `memory` says.
-  static bool takes_parts(const LawChoice& c) {
+  static bool takes_parts(const LawParams& c) {
     return !c.curve.parts.stops.empty() || c.curve.parts.set.on();
   }
-  static RelaxingBranches branches(const LawChoice&) { return {}; }
+  static RelaxingBranches branches(const LawParams&) { return {}; }
 
   // Visits friction alone, which weakens: calls visit(law).
   template <class Real, int D, class Memory, class Visit>
-  static void visit_friction(const LawChoice& c, const Visit& visit) {
+  static void visit_friction(const LawParams& c, const Visit& visit) {
     if (c.curve.parts.stops.empty())
       PrandtlLaw::visit<Real, D, Memory>(c, visit);
     else
@@ -57,7 +57,7 @@ struct PrandtlLaw {
   }
 
   template <class Real, int D, class Memory, class Visit>
-  static void visit(const LawChoice& c, const Visit& visit) {
+  static void visit(const LawParams& c, const Visit& visit) {
     if (c.stack)
       visit_depth<Real>(c, visit, typename Memory::Depths{});
     else
@@ -65,7 +65,7 @@ struct PrandtlLaw {
   }
 
  private:
-  static void check_faces(const LawChoice& c, LawUse use) {
+  static void check_faces(const LawParams& c, LawUse use) {
     const BendingParts& parts = c.curve.parts;
     const auto refuse = [&](const char* key, const std::string& what) {
       c.refuse(key, what + " where fabric.back-bending or fabric.back-friction is not 1");
@@ -90,11 +90,11 @@ struct PrandtlLaw {
   }
 
   template <class Real, class Visit, int... n>
-  static void visit_depth(const LawChoice& c, const Visit& visit, Sizes<n...>) {
+  static void visit_depth(const LawParams& c, const Visit& visit, Sizes<n...>) {
     (void)((c.depth == n && (visit(PrandtlStack<Real, n>::make(c.curve)), true)) || ...);
   }
   template <class Real, int D, class Visit, int... n>
-  static void visit_stops(const LawChoice& c, const Visit& visit, Sizes<n...>) {
+  static void visit_stops(const LawParams& c, const Visit& visit, Sizes<n...>) {
     (void)((c.stops == n && (visit(PrandtlStops<Real, D, n>::make(c.curve)), true)) || ...);
   }
 };

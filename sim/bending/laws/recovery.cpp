@@ -24,7 +24,7 @@ RecoveryCase recovery_case(const VirginCurve& curve, double moment) {
                           : RecoveryCase::full_slip;
 }
 
-bool has_residual_formula(const LawChoice& law) {
+bool has_residual_formula(const LawParams& law) {
   const bool elastic =
       law.name == "linear" || law.name == "bridson" || law.name == "spring" || law.name == "pabst";
   const bool friction = law.name == "bilinear" || law.name == "wong" || law.name == "prandtl";
@@ -33,7 +33,7 @@ bool has_residual_formula(const LawChoice& law) {
   return elastic || (friction && !law.fatigue.on() && !parts);
 }
 
-double residual_by_formula(const LawChoice& law, double curvature, double moment) {
+double residual_by_formula(const LawParams& law, double curvature, double moment) {
   const VirginCurve& c = law.curve;
   const double m0 = c.friction_moment(), g = c.b1 - c.b2, k = std::abs(curvature), m = std::abs(moment);
   if (law.name != "bilinear" && law.name != "wong" && law.name != "prandtl") return 0;

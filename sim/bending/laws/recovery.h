@@ -17,7 +17,7 @@ RecoveryCase recovery_case(const VirginCurve& curve, double moment);
 
 // Does residual_by_formula() know the law? It knows bilinear, wong, and prandtl without fatigue, a fabric's
 // own stops or a set; for elastic laws the residual is 0.
-bool has_residual_formula(const LawChoice& law);
+bool has_residual_formula(const LawParams& law);
 
 // Returns the curvature [1/m] at which the moment is zero on the branch that begins at a reversal at
 // (curvature [1/m], moment [N]), both of one sign, which lies on the virgin curve or on the straight line
@@ -26,7 +26,7 @@ bool has_residual_formula(const LawChoice& law);
 //   wong, prandtl: the root of b2 K + F on the quadratic branch, M0/b2 where the branch has run out
 //   wong with recovery = reversible: 0 in case 1 on the virgin quadratic
 // The branch of a bilinear law runs out at 2 K0 beyond the reversal as well.
-double residual_by_formula(const LawChoice& law, double curvature, double moment);
+double residual_by_formula(const LawParams& law, double curvature, double moment);
 
 // Counts of a driven law's reversals that unload, by case.
 struct RecoveryCounts {

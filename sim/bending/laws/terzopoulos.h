@@ -75,7 +75,7 @@ struct TerzopoulosLaw {
   static std::vector<LawParameter> parameters() { return {law_parameter::tau()}; }
 
   template <class Real, int D>
-  static Terzopoulos<Real, D> make(const LawChoice& c) {
+  static Terzopoulos<Real, D> make(const LawParams& c) {
     return Terzopoulos<Real, D>::make(c.curve, c.tau);
   }
 };

@@ -17,7 +17,7 @@ std::string stops_text(const BendingParts& parts, const std::string& fabric) {
 }
 
 // Says why a number of the memory is not read; "" where it is.
-std::string memory_text(const LawChoice& choice, const std::string& parameter, const std::string& fabric) {
+std::string memory_text(const LawParams& choice, const std::string& parameter, const std::string& fabric) {
   const BendingParts& parts = choice.curve.parts;
   if (parameter != "memory" && parameter != "stops" && parameter != "stack") return "";
   if (!parts.stops.empty()) return stops_text(parts, fabric);
@@ -34,7 +34,7 @@ std::string memory_text(const LawChoice& choice, const std::string& parameter, c
   return "";
 }
 
-std::string fatigue_text(const LawChoice& choice, const std::string& parameter) {
+std::string fatigue_text(const LawParams& choice, const std::string& parameter) {
   const bool follows = parameter == "fatigue.m-inf" || parameter == "fatigue.set";
   return follows && !choice.fatigue.on() ? "friction does not weaken without param fatigue.dc" : "";
 }
@@ -76,7 +76,7 @@ std::string weft_stops_warning(const std::string& law, const BendingParts& parts
 std::vector<std::string> unused_parameter_warnings(const std::string& law, const VirginCurve& curve,
                                                    const LawParameters& given, LawUse use,
                                                    const std::string& fabric) {
-  const LawChoice choice = choose_law(law, curve, given, use);
+  const LawParams choice = choose_law(law, curve, given, use);
   std::vector<std::string> warnings = unused_part_warnings(law, curve.parts, use, fabric);
   for (const auto& [parameter, text] : given)
     for (const std::string& why : {memory_text(choice, parameter, fabric), fatigue_text(choice, parameter)})

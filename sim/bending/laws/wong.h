@@ -141,13 +141,13 @@ struct WongLaw {
       "quadratic loop, last reversal remembered (Wong, Eqs. 4.2, 4.4, 4.5)";
   static constexpr bool kFrictionBesideB2 = true;
   static std::vector<LawParameter> parameters() {
-    return law_parameter::with_fatigue({{"recovery", [](const ParameterText& t, LawChoice& c) {
+    return law_parameter::with_fatigue({{"recovery", [](const ParameterText& t, LawParams& c) {
                                            c.reversible = t.is_second("masing", "reversible");
                                          }}});
   }
 
   template <class Real, int>
-  static Wong<Real> make(const LawChoice& c) {
+  static Wong<Real> make(const LawParams& c) {
     return Wong<Real>::make(c.curve, c.reversible ? Recovery::kReversible : Recovery::kMasing);
   }
 };

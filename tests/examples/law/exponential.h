@@ -47,11 +47,11 @@ struct ExponentialLaw {
   static constexpr const char* kName = "exponential";
   static constexpr const char* kMeaning = "softens exponentially from b1 to b2, no memory (an example)";
   static std::vector<LawParameter> parameters() {
-    return {{"softness", [](const ParameterText& t, LawChoice& c) { c.own["softness"] = t.positive(""); }}};
+    return {{"softness", [](const ParameterText& t, LawParams& c) { c.own["softness"] = t.positive(""); }}};
   }
 
   template <class Real, int D>
-  static Exponential<Real, D> make(const LawChoice& c) {
+  static Exponential<Real, D> make(const LawParams& c) {
     return Exponential<Real, D>::make(c.curve, c.own_or("softness", 0.5));
   }
 };

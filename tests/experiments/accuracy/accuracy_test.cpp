@@ -59,7 +59,7 @@ const Effort kQuick{true, DeviceChoice::cpu};
 TEST(Crease, HasTheChaptersMethodAsPrintedUnderItsOwnName) {
   Solution solution{crease_problem(kQuick), {}};
   std::vector<std::string> names;
-  for (const Setting& s : solution.problem.settings) {
+  for (const MethodSetting& s : solution.problem.settings) {
     names.push_back(describe(solution, s));
     if (s.force != ForceConvention::chapter) continue;
     EXPECT_EQ(s.law, "wong");
@@ -76,7 +76,7 @@ TEST(Crease, HasTheChaptersMethodAsPrintedUnderItsOwnName) {
 // Second order: a quarter of the triangles has four times the error.
 TEST(Sag, ConvergesWithTheMesh) {
   const Problem problem = sag_problem(kQuick);
-  Setting setting = problem.settings.front();
+  MethodSetting setting = problem.settings.front();
   double before = 0;
   for (const int triangles : {32, 128, 512}) {
     setting.triangles = triangles;
@@ -90,7 +90,7 @@ TEST(Sag, ConvergesWithTheMesh) {
 
 TEST(Sag, OfHingesOnACutGridDropsTooFar) {
   const Problem problem = sag_problem(kQuick);
-  Setting setting = problem.settings.front();
+  MethodSetting setting = problem.settings.front();
   setting.element = BendingElement::hinge;
   setting.load = 1;
   const Found found = problem.solve(setting);
@@ -100,7 +100,7 @@ TEST(Sag, OfHingesOnACutGridDropsTooFar) {
 // Observed orders of the integrators on a smooth motion.
 double order_in_time(const std::string& integrator, double step) {
   const Problem problem = swing_problem(kQuick);
-  Setting setting = problem.settings.front();
+  MethodSetting setting = problem.settings.front();
   setting.integrator = value_named<Integrator>(integrator);
   setting.step = step;
   const double coarse = problem.solve(setting).error;

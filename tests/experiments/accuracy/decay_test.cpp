@@ -231,7 +231,7 @@ TEST(DecayProblem, IsSolvedByAllButBackwardEuler) {
   effort.quick = true;
   const Problem problem = decay_problem(effort);
   std::vector<int> of_kind(3);
-  for (const Setting& setting : problem.settings) {
+  for (const MethodSetting& setting : problem.settings) {
     const Found found = problem.solve(setting);
     ++of_kind[std::lround(setting.load)];
     if (setting.integrator == Integrator::implicit)

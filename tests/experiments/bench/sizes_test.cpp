@@ -22,12 +22,12 @@ Scene hanging() {
   return scene;
 }
 
-SizeTable sizes_table(const SizeChoice& choice) {
+SizeTable sizes_table(const SizeParams& choice) {
   return times_by_size(hanging(), choice, [](const Metrics&) {});
 }
 
 TEST(TimesBySize, HaveARowForEachSizeAndIntegrator) {
-  const SizeChoice choice{
+  const SizeParams choice{
       {72, 18}, {Integrator::explicit_euler, Integrator::semi_implicit, Integrator::implicit}, 1};
   int heard = 0;
   const SizeTable table = times_by_size(hanging(), choice, [&](const Metrics&) { ++heard; });
@@ -74,7 +74,7 @@ TEST(TimesBySize, AreOfOneStableStep) {
 }
 
 TEST(TimesBySize, AreLeftOutWhereTheBudgetCannotHoldThem) {
-  SizeChoice choice{{18, 72}, {Integrator::implicit}, 1};
+  SizeParams choice{{18, 72}, {Integrator::implicit}, 1};
   choice.budget = 1e-9;
   const SizeTable table = sizes_table(choice);
   ASSERT_EQ(table.rows.size(), 2u);

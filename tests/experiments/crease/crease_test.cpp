@@ -276,7 +276,7 @@ TEST(CreaseInTime, RecoversOverMinutesWithARelaxingBranchOnly) {
 TEST(SoftFold, OfAPleatKeepsSomeOfBeingStraight) { expect_opening("pleat", 5, 65, 120); }
 
 TEST(SoftFold, OfAPleatBeginsAtItsAngle) {
-  CreaseChoice choice;
+  CreaseParams choice;
   choice.pleat = 60;
   const Crease crease = pleated(small_scene(), choice);
   EXPECT_NEAR(crease.opening(crease.cloth.start), 60, 1e-6);

@@ -10,7 +10,7 @@
 namespace hysteron::experiments {
 namespace {
 
-Scene with_apparatus(const DrapeChoice& choice) {
+Scene with_apparatus(const DrapeParams& choice) {
   Scene scene = default_scene();
   add_apparatus(scene, choice, {specimen_radius(choice.standard), {0, 0, 0}});
   return scene;
@@ -27,7 +27,7 @@ Metrics quick_drape(const Folder& folder, const std::vector<Flag>& further) {
 // Three times up and down once the plate has gone, then at rest; the disc goes with the pedestal, so that the
 // specimen stays pressed as it was.
 TEST(ShakenDrape, GoesUpAndDownAndStops) {
-  const DrapeChoice choice = drape_by_standard("jis");
+  const DrapeParams choice = drape_by_standard("jis");
   const Scene scene = with_apparatus(choice);
   ASSERT_EQ(scene.obstacle.size(), 3u);
   const auto height = [&](int obstacle, double time) {
@@ -49,7 +49,7 @@ TEST(ShakenDrape, GoesUpAndDownAndStops) {
 
 // A published drape is one of its own tester: of that standard, with its sizes.
 TEST(PublishedDrape, StandsBesideDrapesOfItsOwnTesterOnly) {
-  const DrapeChoice iso = drape_by_standard("iso9073"), jis = drape_by_standard("jis");
+  const DrapeParams iso = drape_by_standard("iso9073"), jis = drape_by_standard("jis");
   Fabric fabric;
   EXPECT_EQ(other_tester_message(fabric, iso, 0.15), "") << "none is published";
   fabric.published["drape-coefficient"] = {82.9, "%", {}, "jis"};
@@ -58,11 +58,11 @@ TEST(PublishedDrape, StandsBesideDrapesOfItsOwnTesterOnly) {
   EXPECT_EQ(other_tester_message(fabric, jis, 0.127), "");
   EXPECT_FALSE(is_own_tester(number, iso, 0.15));
   EXPECT_TRUE(says(other_tester_message(fabric, iso, 0.15), "--drape.standard jis"));
-  DrapeChoice dropped = jis, beside = jis;
-  DrapeChoice shaken_once = jis, read_at_once = jis;
+  DrapeParams dropped = jis, beside = jis;
+  DrapeParams shaken_once = jis, read_at_once = jis;
   dropped.release = "dropped", beside.offset = 0.02;
   shaken_once.shakes = 1, read_at_once.wait = 0;
-  for (const DrapeChoice& other : {dropped, beside, shaken_once, read_at_once}) {
+  for (const DrapeParams& other : {dropped, beside, shaken_once, read_at_once}) {
     EXPECT_FALSE(is_own_tester(number, other, 0.127));
     EXPECT_TRUE(says(other_tester_message(fabric, other, 0.127), "another way: --drape.standard jis"));
   }
@@ -110,7 +110,7 @@ TEST(Drape, RefusesGravityThatPullsTheSpecimenOffAndWarnsOfATilt) {
 
 TEST(LoweredDrape, DoesNotShake) {
   for (const char* release : {"lowered", "relifted", "dropped"}) {
-    DrapeChoice choice;
+    DrapeParams choice;
     choice.release = release;
     const Scene scene = with_apparatus(choice);
     EXPECT_TRUE(scene.obstacle[0].motion.keys.empty()) << release;
@@ -155,7 +155,7 @@ TEST(DroppedDrape, HangsInTheFoldsThatWereSeeded) {
 }
 
 TEST(SeededFolds, RaiseTheRimAloneAndNeedARingThatNothingCarries) {
-  DrapeChoice choice;
+  DrapeParams choice;
   choice.folds = 4;
   std::vector<Eigen::Vector3d> start{{0.15, 0, 0}, {0, -0.15, 0}, {0.12, 0, 0}, {0.05, 0.05, 0}};
   EXPECT_THROW(seed_folds(start, choice, 0.15), Error);

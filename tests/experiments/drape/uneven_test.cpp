@@ -18,8 +18,8 @@ ClothMesh disc(int triangles) {
 
 // Means over seeds; of one disc of 15 cm a field over 1 cm has some hundred independent places.
 TEST(UnevenSpecimen, HasTheMeanDeviationAndLengthAskedFor) {
-  const DrapeChoice choice = [] {
-    DrapeChoice wanted;
+  const DrapeParams choice = [] {
+    DrapeParams wanted;
     wanted.uneven = 0.1;
     wanted.uneven_length = 0.01;
     return wanted;
@@ -65,7 +65,7 @@ TEST(UnevenSpecimen, BendsByItsFactors) {
 
 // The rest shape is a cylinder of that curvature: a flat specimen is bent by as much against it.
 TEST(UnevenSpecimen, IsAtRestAsCurled) {
-  DrapeChoice choice;
+  DrapeParams choice;
   choice.curl = 2;
   ClothMesh mesh = disc(2000);
   const std::vector<Eigen::Vector3d> flat = mesh.rest;

@@ -26,7 +26,7 @@ Scene small_scene() {
 double friction_moment(const Fabric& fabric) { return fabric.virgin_curve().friction_moment(); }
 
 TEST(FoldSpecimen, IsClosedByItsStrokeAndNeverStretched) {
-  FoldChoice choice;
+  FoldParams choice;
   choice.cycles = 3;
   choice.stroke = 0.35;
   const Fold fold = folded(small_scene(), choice, 40);
@@ -43,7 +43,7 @@ TEST(FoldSpecimen, IsClosedByItsStrokeAndNeverStretched) {
 TEST(FoldSpecimen, HasAWholeNumberOfStepsAndMomentsInHalfACycle) {
   Scene scene = small_scene();
   scene.step = 1.0 / 77;
-  FoldChoice choice;
+  FoldParams choice;
   choice.period = 0.9;
   const Fold fold = folded(scene, choice, 33);
   EXPECT_NEAR(fold.half / fold.rate, 0.45, 1e-12);
@@ -54,7 +54,7 @@ TEST(FoldSpecimen, HasAWholeNumberOfStepsAndMomentsInHalfACycle) {
 // Long cycles, and moments that the second after them is no multiple of.
 TEST(FoldSpecimen, TakesAsLongAsItsPhases) {
   for (const double period : {0.9, 1.0, 3.0, 30.0, 1000.0}) {
-    FoldChoice choice;
+    FoldParams choice;
     choice.cycles = 2;
     choice.period = period;
     const Scene scene = folded(small_scene(), choice, 33).scene;
@@ -110,8 +110,8 @@ TEST(Fold, GoesUpWhereGravityDoesWithTheSameAngleAndSag) {
     EXPECT_NEAR(up[metric].get<double>() / down[metric].get<double>(), 1, kMirrored) << metric;
 }
 
-FoldChoice many(int cycles) {
-  FoldChoice choice;
+FoldParams many(int cycles) {
+  FoldParams choice;
   choice.cycles = cycles;
   choice.curvature = 150;
   return choice;

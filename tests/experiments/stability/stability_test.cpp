@@ -29,7 +29,7 @@ Attempt hanging() {
 }
 
 TEST(Attempt, OfAQuietSceneEndsWithinTheEnergyThatWasPutIn) {
-  const Finding f = find_out(hanging(), kShort);
+  const Finding f = probe_stability(hanging(), kShort);
   EXPECT_EQ(f.outcome, Outcome::ended) << f.message;
   EXPECT_GT(f.energy_growth, 0);
   constexpr double kNothingCreated = 1 + 1e-6;  // the integrator's share in a swing of a few mm
@@ -42,7 +42,7 @@ TEST(Attempt, OfAQuietSceneEndsWithinTheEnergyThatWasPutIn) {
 TEST(Attempt, ThatTheProgramRefusesKeepsItsReason) {
   Attempt attempt = hanging();
   attempt.scene.fabric.k0 = 0;
-  const Finding f = find_out(attempt, kShort);
+  const Finding f = probe_stability(attempt, kShort);
   EXPECT_EQ(f.outcome, Outcome::refused);
   EXPECT_TRUE(says(f.message, "fabric.k0 = 0"));
   EXPECT_EQ(f.steps, 0);
@@ -57,7 +57,7 @@ TEST(Attempt, ThatOverstretchesAnExplicitMembraneDiverges) {
   attempt.scene.fabric.warp = attempt.scene.fabric.weft = 1;
   attempt.scene.fabric.shear = 0.1;
   attempt.scene.gravity *= 1000;
-  const Finding f = find_out(attempt, {0.5, 5000});
+  const Finding f = probe_stability(attempt, {0.5, 5000});
   EXPECT_EQ(f.outcome, Outcome::diverged);
   EXPECT_FALSE(f.message.empty());
   EXPECT_FALSE(f.energy_growth <= kLargestGrowth);
@@ -68,14 +68,14 @@ TEST(Attempt, IsCutShortWhenItsWorkIsDone) {
   attempt.scene.integrator = Integrator::semi_implicit;
   attempt.scene.step = 1e-3;
   attempt.scene.substeps = 10;
-  const Finding f = find_out(attempt, {1, 200});
+  const Finding f = probe_stability(attempt, {1, 200});
   EXPECT_EQ(f.steps, 20);
   EXPECT_EQ(f.requested_seconds, 1);
   EXPECT_NEAR(f.seconds_simulated, 20 * attempt.scene.step, 1e-12);
 }
 
 TEST(Sweeps, CoverWhatTheProgramPromises) {
-  const SweepChoice all;
+  const SweepParams all;
   const std::vector<Sweep> sweeps = named_sweeps({"all"}, all);
   const std::vector<SweepCell> cells = untried_cells(sweeps, all);
   EXPECT_GE(cells.size(), 600u);
@@ -123,7 +123,7 @@ TEST(Sweeps, HaveMeshesOfTheQualityThatTheyName) {
 }
 
 TEST(Sweeps, OfTheChapterHaveItsWholeMethodAndNoOtherIntegrator) {
-  SweepChoice quick;
+  SweepParams quick;
   quick.quick = true;
   const std::vector<SweepCell> cells = untried_cells(named_sweeps({"chapter-method"}, quick), quick);
   EXPECT_EQ(cells.size(), 2u * 2 * 2) << "two forces, two rigidities, two steps";
@@ -137,7 +137,7 @@ TEST(Sweeps, OfTheChapterHaveItsWholeMethodAndNoOtherIntegrator) {
     printed += s.force == ForceConvention::chapter;
   }
   EXPECT_EQ(printed, 4);
-  SweepChoice other = quick;
+  SweepParams other = quick;
   other.integrators = {"bdf2"};
   for (const Sweep& sweep : named_sweeps({"all"}, other)) EXPECT_NE(sweep.name, "chapter-method");
   EXPECT_TRUE(says(test::refusal([&] { named_sweeps({"chapter-method"}, other); }), "semi-implicit"));
@@ -194,7 +194,7 @@ INSTANTIATE_TEST_SUITE_P(EveryLaw, ClosingSphere, testing::ValuesIn(law_names())
 });
 
 TEST_P(ClosingSphere, CrushesASheetWithoutACrossingAndWithBoundedEnergy) {
-  SweepChoice choice;
+  SweepParams choice;
   choice.laws = {GetParam()};
   const Sweep sweep = named_sweeps({"contact"}, choice).front();
   const auto row = std::find(sweep.y.ticks.begin(), sweep.y.ticks.end(), "sphere, friction 0.3");
@@ -205,14 +205,14 @@ TEST_P(ClosingSphere, CrushesASheetWithoutACrossingAndWithBoundedEnergy) {
   attempt.scene.integrator = Integrator::implicit;
   attempt.scene.device = DeviceChoice::cpu;
   attempt.scene.threads = 1;
-  const Finding f = find_out(attempt, {});
+  const Finding f = probe_stability(attempt, {});
   EXPECT_TRUE(f.outcome == Outcome::ended || f.outcome == Outcome::retried) << f.message;
   EXPECT_LE(f.energy_growth, kLargestGrowth);
   EXPECT_NEAR(f.seconds_simulated, attempt.scene.seconds, attempt.scene.step);
 }
 
 TEST(Cells, AreTriedAllOnceByAnyNumberOfThreads) {
-  const SweepChoice quick{{"semi-implicit"}, {"linear"}, DeviceChoice::cpu, true};
+  const SweepParams quick{{"semi-implicit"}, {"linear"}, DeviceChoice::cpu, true};
   const std::vector<Sweep> sweeps = named_sweeps({"density-step"}, quick);
   std::vector<SweepCell> one = untried_cells(sweeps, quick), three = one;
   std::size_t calls = 0;

@@ -81,7 +81,7 @@ TEST(SelfContact, HandsTheStretchOfItsStopsToThePairsThatFollow) {
   const auto arrive = [&](const std::vector<Vector3d>& before) {
     ASSERT_EQ(contact.prepare(x.data(), still.data(), held.data()), 1);
     contact.accept_iterate(x.data());
-    contact.lag(x.data());
+    contact.update_lagged_friction(x.data());
     contact.commit(x.data(), before.data());
   };
   arrive(x);

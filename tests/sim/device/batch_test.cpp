@@ -18,34 +18,34 @@ using test::Trial;
 TEST(Together, OnACpuEveryJobIsTakenOnce) {
   for (const int count : {0, 1, 7}) {
     std::vector<int> taken(count);
-    run_together(false, count, [&](int i) { ++taken[i]; });
+    run_batched_scenes(false, count, [&](int i) { ++taken[i]; });
     EXPECT_EQ(taken, std::vector<int>(count, 1));
   }
 }
 
 TEST(Together, OnACpuAJobSharesNoLaunches) {
   EXPECT_EQ(jobs_together(), 1);
-  run_together(false, 4, [](int) { EXPECT_EQ(jobs_together(), 1); });
+  run_batched_scenes(false, 4, [](int) { EXPECT_EQ(jobs_together(), 1); });
 }
 
 class BatchTogether : public test::OnGpu {};
 
 TEST_F(BatchTogether, LetsAJobKnowHowManyShareItsLaunches) {
-  run_together(true, 5, [](int) { EXPECT_EQ(jobs_together(), 5); });
+  run_batched_scenes(true, 5, [](int) { EXPECT_EQ(jobs_together(), 5); });
   EXPECT_EQ(jobs_together(), 1);
 }
 
 TEST(Together, AskForAGpuWhereThereIsNone) {
   std::string reason;
   if (gpu_count(reason) > 0) GTEST_SKIP() << "there is a GPU";
-  EXPECT_THROW(run_together(true, 2, [](int) {}), Error);
+  EXPECT_THROW(run_batched_scenes(true, 2, [](int) {}), Error);
 }
 
 // Members whose loops differ in length and in how often they are repeated.
 TEST_F(BatchTogether, HasLoopsThatGiveWhatTheyGiveAlone) {
   constexpr int kMembers = 9, kTimes = 3;
   const auto alone = test::gpu_primitives();
-  run_together(true, kMembers, [&](int i) {
+  run_batched_scenes(true, kMembers, [&](int i) {
     const auto member = test::gpu_primitives();
     const int n = i < 2 ? 1 + i : 1 << (2 * i), goal = 1 + 5 * i;
     std::vector<int> count(n + 1);
@@ -98,7 +98,8 @@ INSTANTIATE_TEST_SUITE_P(Cases, BatchOnGpu, testing::ValuesIn(methods()), test::
 TEST_P(BatchOnGpu, EveryClothHasTheBitsThatItHasAlone) {
   constexpr int kMembers = 5, kSteps = 20;
   std::vector<std::uint64_t> together(kMembers), alone;
-  run_together(true, kMembers, [&](int i) { together[i] = hash_after(member_scene(GetParam(), i), kSteps); });
+  run_batched_scenes(true, kMembers,
+                     [&](int i) { together[i] = hash_after(member_scene(GetParam(), i), kSteps); });
   for (int i = 0; i < kMembers; ++i) alone.push_back(hash_after(member_scene(GetParam(), i), kSteps));
   EXPECT_EQ(together, alone);
   EXPECT_NE(alone[0], alone[1]);
@@ -118,7 +119,7 @@ TEST_F(BatchOfContact, EveryClothHasTheBitsThatItHasAlone) {
       return scene;
     };
     std::vector<std::uint64_t> together(kMembers), alone;
-    run_together(true, kMembers, [&](int i) { together[i] = hash_after(batch_scene(i), kSteps); });
+    run_batched_scenes(true, kMembers, [&](int i) { together[i] = hash_after(batch_scene(i), kSteps); });
     for (int i = 0; i < kMembers; ++i) alone.push_back(hash_after(batch_scene(i), kSteps));
     EXPECT_EQ(together, alone) << enum_name(solver);
   }
@@ -133,7 +134,7 @@ TEST_F(BatchTogether, FactorisesEveryClothWithTheBitsThatItHasAlone) {
     return scene;
   };
   std::vector<std::uint64_t> together(kMembers), alone;
-  run_together(true, kMembers, [&](int i) { together[i] = hash_after(batch_scene(i), kSteps); });
+  run_batched_scenes(true, kMembers, [&](int i) { together[i] = hash_after(batch_scene(i), kSteps); });
   for (int i = 0; i < kMembers; ++i) alone.push_back(hash_after(batch_scene(i), kSteps));
   EXPECT_EQ(together, alone);
 }
@@ -149,7 +150,7 @@ TEST_F(BatchTogether, LeavesTheOthersTheirStatesWhereOneFails) {
     }
     together[i] = hash_after(member_scene(method, i), kSteps);
   };
-  EXPECT_THROW(run_together(true, kMembers, job), Error);
+  EXPECT_THROW(run_batched_scenes(true, kMembers, job), Error);
   for (int i = 0; i < kMembers; ++i)
     if (i != kFails) {
       EXPECT_EQ(together[i], hash_after(member_scene(method, i), kSteps)) << i;

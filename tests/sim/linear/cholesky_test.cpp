@@ -165,11 +165,11 @@ TEST_P(Cholesky, GoesOnFromAnArchiveWithTheSameBits) {
 }
 
 // The factor of a chain has no more blocks than the matrix.
-TEST(Elimination, OfAChainFillsNothingThatIsNotWorthwhile) {
+TEST(SymbolicFactorization, OfAChainFillsNothingThatIsNotWorthwhile) {
   constexpr int kNodes = 500;
   CouplingList list(kNodes);
   for (int i = 1; i < kNodes; ++i) list.add(std::array{i - 1, i});
-  const Elimination plan = plan_elimination(list.take());
+  const SymbolicFactorization plan = plan_elimination(list.take());
   EXPECT_EQ(plan.order.size(), static_cast<std::size_t>(kNodes));
   EXPECT_LT(plan.multiplications,
             12 * 3 * 3 * 3 * kNodes);  // fronts of at most four nodes and their neighbours

@@ -27,7 +27,7 @@ Adjacency strip(int wide, int length) {
   return compressed(rows);
 }
 
-Couplings couplings_of(const Adjacency& graph) { return CouplingList(graph).take(); }
+SparsityPattern couplings_of(const Adjacency& graph) { return CouplingList(graph).take(); }
 
 TEST(Dissection, EliminatesEveryNodeOnce) {
   const Adjacency graph = strip(6, 60);
@@ -48,7 +48,7 @@ TEST(Dissection, HasNoCouplingBetweenFrontsOfOneLevelAndAPlaceForEveryOther) {
     const TiledPlan plan = plan_dissection(couplings_of(graph), {depth, joined});
     EXPECT_EQ(static_cast<int>(plan.level.size()), depth - joined + 2);
     std::vector<int> owner(graph.start.size() - 1);
-    const Elimination& of = plan.elimination;
+    const SymbolicFactorization& of = plan.elimination;
     for (std::size_t f = 0; f < of.front.size(); ++f)
       for (int k = 0; k < of.front[f].pivots; ++k)
         owner[of.order[of.front[f].first + k]] = static_cast<int>(f);
@@ -86,7 +86,7 @@ TEST(Dissection, OfPartsThatDoNotSeeOneAnotherNeedsNoSeparator) {
 // It divides once more, and has hardly more tiles in sequence.
 TEST(Dissection, OfAStripCostsFarLessThanTwiceThatOfHalfItsLength) {
   const auto renewal = [](const Adjacency& graph) {
-    const Couplings couplings = couplings_of(graph);
+    const SparsityPattern couplings = couplings_of(graph);
     return plan_dissection(couplings, choose_shape(couplings)).cost.renewal;
   };
   const double once = renewal(strip(6, 120)), twice = renewal(strip(6, 240));

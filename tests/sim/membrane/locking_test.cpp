@@ -21,7 +21,7 @@ Scene drape(int triangles, double stiffness) {
   return scene;
 }
 
-std::string words_on(const Scene& scene) { return locking_words(scene, make_cloth(scene).mesh); }
+std::string words_on(const Scene& scene) { return locking_warning(scene, make_cloth(scene).mesh); }
 
 TEST(Locking, NumberIsStiffnessTimesTheSquareOfAnEdgeOverRigidity) {
   Scene scene;

@@ -98,7 +98,7 @@ TEST_F(SceneWithBody, HasItAtTheSamePlaceSeenFromElsewhere) {
              "keys = [{time = 0}, {time = 1, angle = 50, scale = 1.5, position = [0, 1, 0]}]\n");
   const Vector3d origin(100, -200, 50);
   const std::vector<Vector3d> here = body_positions(scene.obstacle[0], 0.7),
-                              there = body_positions(seen_from(origin, scene).obstacle[0], 0.7);
+                              there = body_positions(relative_to(origin, scene).obstacle[0], 0.7);
   for (std::size_t v = 0; v < here.size(); ++v) EXPECT_LT((here[v] - origin - there[v]).norm(), 1e-12);
 }
 

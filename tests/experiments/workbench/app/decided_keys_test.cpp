@@ -43,7 +43,7 @@ TEST(DecidedKeys, OfEveryExperimentAreKeysThatItTakesNoFlagOf) {
   for (const Experiment& experiment : experiments()) {
     const std::vector<KeyDescription> taken = experiment_options(experiment, Defaults::left_out),
                                       known = scene_keys();
-    for (const DecidedKey& key : experiment.decided()) {
+    for (const FixedKey& key : experiment.fixed_keys()) {
       EXPECT_FALSE(has_key(taken, key.path)) << experiment.name << " " << key.path;
       if (std::count(tables.begin(), tables.end(), key.path)) continue;
       EXPECT_TRUE(has_key(known, key.path)) << key.path;
@@ -76,7 +76,7 @@ TEST(DecidedKeys, AreAllThatAnExperimentChangesButWhatItMakesFit) {
     changed_in(run.manifest()["asked"], "", changed);
     for (std::string path : changed) {
       if (path.starts_with("origin.")) path.erase(0, std::string("origin.").size());  // of a key it decides
-      const bool known = has_key(experiment_named(name).decided(), path);
+      const bool known = has_key(experiment_named(name).fixed_keys(), path);
       const bool of_swing =
           name == std::string("swing") && path == "pin";  // which has one if the scene has none
       EXPECT_TRUE(known || of_swing || std::count(fitted.begin(), fitted.end(), path) ||

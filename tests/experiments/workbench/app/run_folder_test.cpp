@@ -203,12 +203,12 @@ class SuccessorOfARun : public RunFolder {
   }
   // Its exit code; `end` may write and throw.
   int run(const std::function<void(ExperimentRun&)>& end) const {
-    return run_ending("drape",
-                      [&] {
-                        ExperimentRun run(drape_line(), setup_in(out_));
-                        end(run);
-                        return 0;
-                      })
+    return run_guarded("drape",
+                       [&] {
+                         ExperimentRun run(drape_line(), setup_in(out_));
+                         end(run);
+                         return 0;
+                       })
         .exit_code;
   }
 };
@@ -275,7 +275,7 @@ TEST_F(SuccessorOfARun, ThatIsKilledLeavesTheRunBeforeBesideIt) {
 TEST_F(SuccessorOfARun, MayNotReadWhatItReplaces) {
   const std::string frame = out_ / "frames/0000.png";
   const auto before = contents();
-  const Ending ending = run_ending("drape", [&] {
+  const ExitStatus ending = run_guarded("drape", [&] {
     whole_file(frame, "");  // as a scene may name it
     ExperimentRun(drape_line(), setup_in(out_));
     return 0;
@@ -286,13 +286,13 @@ TEST_F(SuccessorOfARun, MayNotReadWhatItReplaces) {
 
 TEST_F(RunFolder, ThatWasNotThereIsNotThereAfterARefusal) {
   const fs::path out = out_ / "new" / "run";
-  EXPECT_EQ(run_ending("drape",
-                       [&] {
-                         ExperimentRun run(drape_line(), setup_in(out));
-                         write(run.path("frames/0000.png"));
-                         throw Error::invalid_input("no");
-                         return 0;
-                       })
+  EXPECT_EQ(run_guarded("drape",
+                        [&] {
+                          ExperimentRun run(drape_line(), setup_in(out));
+                          write(run.path("frames/0000.png"));
+                          throw Error::invalid_input("no");
+                          return 0;
+                        })
                 .exit_code,
             2);
   EXPECT_FALSE(fs::exists(out_ / "new"));

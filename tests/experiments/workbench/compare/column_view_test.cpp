@@ -71,9 +71,9 @@ TEST(ColumnColors, OrDashesTellAllLawsApart) {
 }
 
 TEST(ColumnLabels, AreWhatOneWouldWriteAndSayWhatTheIntegratorTook) {
-  EXPECT_EQ(column_words("linear+fabric.damping=0.006378"), "linear, damping 0.00638");
-  EXPECT_EQ(column_words("prandtl+fabric=cotton-broad-creasing"), "prandtl, cotton-broad-creasing");
-  EXPECT_EQ(column_words("prandtl"), "prandtl");
+  EXPECT_EQ(column_text("linear+fabric.damping=0.006378"), "linear, damping 0.00638");
+  EXPECT_EQ(column_text("prandtl+fabric=cotton-broad-creasing"), "prandtl, cotton-broad-creasing");
+  EXPECT_EQ(column_text("prandtl"), "prandtl");
   std::vector<ChildRun> columns = {of_law("linear"), of_law("prandtl")};
   columns[0].name = "linear", columns[1].name = "prandtl";
   columns[0].manifest->metrics = {{"integrator_share_percent", 71.2}};

@@ -9,7 +9,7 @@ namespace {
 std::vector<std::string> said(const ColumnWarnings& warnings) {
   const Folder folder;
   ExperimentRun run(drape_line(), setup_in(folder.path()));
-  warnings.say(run);
+  warnings.emit(run);
   run.finish();
   return run.manifest().warnings;
 }
@@ -25,9 +25,9 @@ ChildRun column(const std::string& name, const std::vector<std::string>& texts,
 
 TEST(ColumnWarnings, AreSaidOnceWithTheColumnsThatGiveThem) {
   ColumnWarnings warnings;
-  warnings.hear(column("linear", {"coarse", "thin"}));
-  warnings.hear(column("dahl", {"thin"}, "no convergence"));
-  warnings.hear(column("prandtl", {}));
+  warnings.add(column("linear", {"coarse", "thin"}));
+  warnings.add(column("dahl", {"thin"}, "no convergence"));
+  warnings.add(column("prandtl", {}));
   EXPECT_EQ(said(warnings),
             (std::vector<std::string>{"linear: coarse", "linear, dahl: thin", "dahl: no convergence"}));
 }
@@ -35,7 +35,7 @@ TEST(ColumnWarnings, AreSaidOnceWithTheColumnsThatGiveThem) {
 TEST(ColumnWarnings, OfManyRunsAreCounted) {
   ColumnWarnings warnings;
   for (int i = 1; i <= 30; ++i)
-    warnings.hear("run-" + std::to_string(i), {"thin", "of run " + std::to_string(i)});
+    warnings.add("run-" + std::to_string(i), {"thin", "of run " + std::to_string(i)});
   const std::vector<std::string> all = said(warnings);
   ASSERT_EQ(all.size(), 21u);
   EXPECT_EQ(all.front(), "run-1, run-2, run-3, run-4 and 26 others: thin");

@@ -18,11 +18,11 @@ Manifest manifest_with(const std::string& experiment, const Metrics& metrics) {
 Manifest drape_manifest(const Metrics& metrics) { return manifest_with("drape", metrics); }
 
 TEST(ResultWords, NameTheNumberItsUnitAndItsErrors) {
-  const std::string words = result_words(drape_manifest({{"drape_coefficient_percent", 86.04},
-                                                         {"drape_coefficient_percent_step_error", 0.8},
-                                                         {"drape_coefficient_percent_mesh_error", 0.61},
-                                                         {"node_count", 8},
-                                                         {"settled", true}}));
+  const std::string words = result_text(drape_manifest({{"drape_coefficient_percent", 86.04},
+                                                        {"drape_coefficient_percent_step_error", 0.8},
+                                                        {"drape_coefficient_percent_mesh_error", 0.61},
+                                                        {"node_count", 8},
+                                                        {"settled", true}}));
   EXPECT_TRUE(
       says(words, "drape coefficient             86.0 % ± 0.8 step ± 0.6 mesh, draw error unknown\n"));
   EXPECT_TRUE(says(words, "folds                         8\n"));
@@ -33,17 +33,17 @@ TEST(ResultWords, NameTheNumberItsUnitAndItsErrors) {
 TEST(ResultWords, OfAFitShowItsStandardError) {
   const Manifest manifest =
       manifest_with("swing", {{"decay_per_turn_percent", 2.0412}, {"decay_per_turn_percent_stderr", 0.0523}});
-  EXPECT_TRUE(says(result_words(manifest), "mean loss in half a period of the run 2.04 % ± 0.05\n"));
+  EXPECT_TRUE(says(result_text(manifest), "mean loss in half a period of the run 2.04 % ± 0.05\n"));
 }
 
 TEST(ResultWords, SayAloudThatTheClothDidNotComeToRest) {
   const Metrics metrics = {{"settled", false}, {"fastest_m_per_s", 4.1e-3}, {"settling_limit_m_per_s", 2e-3}};
   EXPECT_TRUE(
-      says(result_words(drape_manifest(metrics)), "NOT at rest: fastest vertex 4.1 mm/s, limit 2 mm/s\n"));
+      says(result_text(drape_manifest(metrics)), "NOT at rest: fastest vertex 4.1 mm/s, limit 2 mm/s\n"));
   // Nor is a number given as if it had: what was published is no result of the run.
-  const std::string words = result_words(drape_manifest({{"drape_coefficient_percent", 86.04},
-                                                         {"published_drape_coefficient_percent", 82.9},
-                                                         {"settled", false}}));
+  const std::string words = result_text(drape_manifest({{"drape_coefficient_percent", 86.04},
+                                                        {"published_drape_coefficient_percent", 82.9},
+                                                        {"settled", false}}));
   EXPECT_TRUE(says(words, "drape coefficient             86.0 % (not at rest)\n"));
   EXPECT_TRUE(says(words, "published coefficient         82.9 %\n"));
   EXPECT_EQ(not_at_rest_warning({{"settled", true}}), "");
@@ -55,7 +55,7 @@ TEST(ResultWords, OfAComparisonHaveALineForEachColumn) {
                                                 {"linear.settled", false},
                                                 {"prandtl.drape_coefficient_percent", 86.0}});
   manifest.keys = std::make_shared<const Json>(Json{{"compared", "drape"}});
-  const std::string words = result_words(manifest);
+  const std::string words = result_text(manifest);
   EXPECT_TRUE(
       says(words, "  linear                        drape coefficient 72.2 % (not at rest); NOT at rest\n"));
   EXPECT_TRUE(says(words, "  prandtl                       drape coefficient 86.0 %\n"));
@@ -63,9 +63,9 @@ TEST(ResultWords, OfAComparisonHaveALineForEachColumn) {
 
 TEST(ResultWords, NameWhatASceneAsksFor) {
   Manifest manifest = manifest_with("run", {{"gap_m", 0.0125}, {"gap_m_step_error", 2e-5}, {"fold_deg", 40}});
-  EXPECT_EQ(result_words(manifest), "");
+  EXPECT_EQ(result_text(manifest), "");
   manifest.requested_metrics = {"fold_deg", "gap_m"};
-  EXPECT_TRUE(says(result_words(manifest),
+  EXPECT_TRUE(says(result_text(manifest),
                    "  fold                          40 °\n"
                    "  gap                           0.01250 m ± 2e-05 step, mesh and draw error unknown\n"));
 }
@@ -73,7 +73,7 @@ TEST(ResultWords, NameWhatASceneAsksFor) {
 TEST(ResultWords, OfARunThatWasCutShortSaySo) {
   Manifest manifest = drape_manifest({});
   manifest.complete = false;
-  EXPECT_TRUE(says(result_words(manifest), "INCOMPLETE"));
+  EXPECT_TRUE(says(result_text(manifest), "INCOMPLETE"));
 }
 
 TEST(LastWords, AreTheResultAndItsPlacesOnStdoutEvenIfQuiet) {

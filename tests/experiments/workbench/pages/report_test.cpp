@@ -31,7 +31,7 @@ class Report : public testing::Test {
     run.metric("drape_coefficient_percent", 49.8);
     run.metric("energy_remainder_relative", 2.60106e-16);
     run.manifest().energy = {{"bending_friction", 0.25}};
-    Record record(run.path("metrics.csv"), {"time [s]", "kinetic [J]"});
+    TimeSeriesWriter record(run.path("metrics.csv"), {"time [s]", "kinetic [J]"});
     for (int i = 0; i < 5; ++i) record.row({0.1 * i, 1.0 - 0.1 * i});
     record.finish();
     render::write_png(run.path("sheet.png"), render::Image(64, 32, render::Rgb8{200, 10, 10}));

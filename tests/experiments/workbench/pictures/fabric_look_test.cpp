@@ -13,7 +13,7 @@ TEST(FabricLook, EveryShippedFabricHasOneOfItsOwn) {
   std::set<render::Rgb8> colors;
   std::set<render::Weave> weaves;
   for (const std::string& name : list_assets("fabrics")) {
-    const render::Look look = dressed({}, name);
+    const render::Look look = apply_fabric_look({}, name);
     colors.insert(look.front);
     weaves.insert(look.weave_kind);
     EXPECT_GT(look.thread_spacing, 0) << name;
@@ -25,7 +25,7 @@ TEST(FabricLook, EveryShippedFabricHasOneOfItsOwn) {
 TEST(FabricLook, LeavesLooksThatShowSomethingElseAsTheyAre) {
   for (const char* name : {"curvature", "wireframe", "clay"}) {
     const render::Look look = render::look_named(name);
-    EXPECT_EQ(dressed(look, "denim-c-friction").front, look.front) << name;
+    EXPECT_EQ(apply_fabric_look(look, "denim-c-friction").front, look.front) << name;
   }
 }
 
@@ -34,7 +34,7 @@ class FabricFileLook : public testing::Test {
   // Returns the refusal of a fabric's table [look], which begins in line 3.
   std::string refusal(const std::string& lines) {
     folder_.write("look.toml", "name = \"x\"\n\n[look]\n" + lines);
-    return test::refusal([&] { dressed({}, file_); });
+    return test::refusal([&] { apply_fabric_look({}, file_); });
   }
 
   const Folder folder_;
@@ -45,7 +45,7 @@ TEST_F(FabricFileLook, ABackThatIsNotNamedIsThePalerFront) {
   ASSERT_EQ(refusal("colour = [100, 0, 255]\nweave = \"twill\"\nthreads = [25, 20]\nsheen = 0\n"
                     "source = \"assumed\"\n"),
             "(accepted)");
-  const render::Look look = dressed({}, file_);
+  const render::Look look = apply_fabric_look({}, file_);
   EXPECT_EQ(look.weave_kind, render::Weave::twill);
   EXPECT_FLOAT_EQ(look.thread_spacing, 4e-4f);
   EXPECT_FLOAT_EQ(look.weft_spacing, 5e-4f);

@@ -18,21 +18,21 @@ void expect_one(const std::vector<std::string>& texts, const std::string& part) 
 }
 
 TEST(Integrator, ThatTakesMoreThanAQuarterIsSaidWithTheStepThatWouldDo) {
-  EXPECT_EQ(integrator_words(0.25, 1e-3), "");
+  EXPECT_EQ(integrator_text(0.25, 1e-3), "");
   // The step over the rest's share is to the one taken as 1/3 is to s/(1 - s).
   for (const double fraction : {0.5, 0.75, 0.9}) {
-    const std::string text = integrator_words(fraction, 1e-3);
+    const std::string text = integrator_text(fraction, 1e-3);
     EXPECT_TRUE(says(text, fmt::format("{:.2g} s would take 25 %", 1e-3 / 3 * (1 - fraction) / fraction)));
   }
 }
 
 TEST(Integrator, ThatTakesNearlyAllGetsNoAdvice) {
   for (const double fraction : {0.98, 0.9999999, 1 - 1e-12}) {
-    const std::string text = integrator_words(fraction, 1.0 / 120);
+    const std::string text = integrator_text(fraction, 1.0 / 120);
     EXPECT_TRUE(says(text, fmt::format("took {:.0f} %", 100 * fraction)));
     EXPECT_FALSE(says(text, "steps of"));
   }
-  EXPECT_EQ(integrator_words(1, 1e-3), "") << "of cloth that dissipates nothing itself";
+  EXPECT_EQ(integrator_text(1, 1e-3), "") << "of cloth that dissipates nothing itself";
 }
 
 TEST(Start, WithLayersThatPressIsSaidWithTheirEnergy) {
@@ -122,9 +122,9 @@ TEST(End, WithClothTornApartIsSaidWithQuietToo) {
 
 TEST(Drawing, FarFromTheOriginIsSaidToBeRounded) {
   Scene scene = test::free_square(60);
-  EXPECT_EQ(drawing_words(scene, Trial(scene).cloth), "");
+  EXPECT_EQ(drawing_text(scene, Trial(scene).cloth), "");
   scene.cloth.position.x() = 1e4;
-  const std::string text = drawing_words(scene, Trial(scene).cloth);
+  const std::string text = drawing_text(scene, Trial(scene).cloth);
   EXPECT_TRUE(says(text, fmt::format("round positions to {:.2g} m", 1e4 * std::pow(2.0, -23))));
 }
 

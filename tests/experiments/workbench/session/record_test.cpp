@@ -18,7 +18,7 @@ class RecordFile : public testing::Test {
 };
 
 TEST_F(RecordFile, ReadsBackTheSameNumbers) {
-  Record record(file_, kColumns);
+  TimeSeriesWriter record(file_, kColumns);
   record.row({0.1, std::sqrt(2.0)});
   record.row({1.0 / 3, -1e-300});
   record.finish();
@@ -28,7 +28,7 @@ TEST_F(RecordFile, ReadsBackTheSameNumbers) {
 }
 
 TEST_F(RecordFile, CanBeWatchedWhileItGrows) {
-  Record record(file_, {"time [s]"});
+  TimeSeriesWriter record(file_, {"time [s]"});
   record.row({1});
   EXPECT_EQ(file_content(folder_.path() / "metrics.csv.part"), "time [s]\n1\n");
   EXPECT_FALSE(fs::exists(file_));
@@ -36,7 +36,7 @@ TEST_F(RecordFile, CanBeWatchedWhileItGrows) {
 
 TEST_F(RecordFile, KeepsItsRowsWhenTheRunEndsEarly) {
   try {
-    Record record(file_, {"time [s]"});
+    TimeSeriesWriter record(file_, {"time [s]"});
     record.row({1});
     throw Error::simulation("no convergence");
   } catch (const Error&) {
@@ -46,7 +46,7 @@ TEST_F(RecordFile, KeepsItsRowsWhenTheRunEndsEarly) {
 
 TEST_F(RecordFile, NeverTakesItsNameOnAFullDisk) {
   fs::create_symlink("/dev/full", file_.string() + ".part");
-  const Error error = test::thrown_error([&] { Record(file_, kColumns); });
+  const Error error = test::thrown_error([&] { TimeSeriesWriter(file_, kColumns); });
   EXPECT_EQ(error.exit_code(), 1);
   EXPECT_TRUE(says(error.what(), "No space left on device"));
   EXPECT_FALSE(fs::exists(fs::symlink_status(file_)));
@@ -55,7 +55,7 @@ TEST_F(RecordFile, NeverTakesItsNameOnAFullDisk) {
 TEST_F(RecordFile, ThatFillsTheDiskLaterNeverTakesItsNameEither) {
   const int exit_code = on_a_disk_with(1000, [&] {
     try {
-      Record record(file_, kColumns);
+      TimeSeriesWriter record(file_, kColumns);
       for (int row = 0; row < 1000; ++row) record.row({1.0 * row, 0});
     } catch (const Error& error) {
       return error.exit_code();
@@ -67,7 +67,7 @@ TEST_F(RecordFile, ThatFillsTheDiskLaterNeverTakesItsNameEither) {
 }
 
 TEST_F(RecordFile, RefusesARowThatDoesNotFitItsColumns) {
-  Record record(file_, kColumns);
+  TimeSeriesWriter record(file_, kColumns);
   EXPECT_THROW(record.row({1}), Error);
 }
 

@@ -136,7 +136,7 @@ TEST(Chapman, StaysWhereFrictionHoldsItsSpringBack) {
 TEST(Chapman, IsFrictionAloneWhereTheFabricHasNoBranches) {
   VirginCurve fabric = kCotton;
   fabric.parts.stops = {{5, 20}, {1e-5, 4e-6}};
-  const LawChoice choice = choose_law("chapman", fabric, {});
+  const LawParams choice = choose_law("chapman", fabric, {});
   const bool found = visit_group<PartsLaws, double, 3, LawMemorySizes>(choice, []<class Of>(const Of&) {
     EXPECT_TRUE((std::is_same_v<Of, SpectrumStops<double, 3, kFewStops>>));
   });

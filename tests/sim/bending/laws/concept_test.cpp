@@ -44,7 +44,7 @@ static_assert(!LawWithIroning<FourDirections<Gong<double>>>);
 
 template <class Real, int D, class Memory>
 void expect_contract(const LawEntry& entry, const LawParameters& parameters) {
-  const LawChoice choice = choose_law(entry, {2e-5, 1e-5, 100}, parameters);
+  const LawParams choice = choose_law(entry, {2e-5, 1e-5, 100}, parameters);
   int visited = 0;
   visit_groups<Real, D, Memory>(LawGroups{}, choice, [&]<class Law>(const Law& law) {
     static_assert(MomentCurvatureLaw<Law> && Law::kDimension == D);

@@ -73,7 +73,7 @@ TEST(RecoveryFormula, EqualsTheRootOnTheLaw) {
        {RecoveryLaw{"bilinear", {}}, RecoveryLaw{"wong", {}}, RecoveryLaw{"prandtl", {}},
         RecoveryLaw{"wong", {{"recovery", "reversible"}}}, RecoveryLaw{"pabst", {}}}) {
     const LawRequest request{law.name, kCotton, law.parameters};
-    const LawChoice choice = choose_law(law.name, kCotton, law.parameters, LawUse::alone);
+    const LawParams choice = choose_law(law.name, kCotton, law.parameters, LawUse::alone);
     ASSERT_TRUE(has_residual_formula(choice));
     for (double k : {0.2, 0.7, 0.99, 1.01, 1.5, 2.2, 3.0, 4.0, 9.0})
       for (double sign : {1., -1.}) {

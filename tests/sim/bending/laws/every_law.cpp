@@ -118,7 +118,7 @@ struct TestedMemory {
 };
 
 template <class Real, int D>
-std::unique_ptr<AnyLaw> make_any_law(const LawChoice& choice) {
+std::unique_ptr<AnyLaw> make_any_law(const LawParams& choice) {
   std::unique_ptr<AnyLaw> made;
   const auto make = [&]<class Law>(const Law& law) { made = std::make_unique<AnyLawOf<Law>>(law); };
   const bool found = visit_groups<Real, D, TestedMemory>(LawGroups{}, choice, make) ||
@@ -166,7 +166,7 @@ std::vector<LawCase> law_cases() {
 std::unique_ptr<AnyLaw> any_law(const LawCase& c, As as, double seconds, const VirginCurve& curve) {
   VirginCurve fabric = curve;
   fabric.parts = sample_parts(c.parts, curve);
-  const LawChoice choice = choose_law(law_or_example(c.law), fabric, c.parameters);
+  const LawParams choice = choose_law(law_or_example(c.law), fabric, c.parameters);
   auto law = as == As::kScalar   ? make_any_law<double, 1>(choice)
              : as == As::kTensor ? make_any_law<double, 3>(choice)
                                  : make_any_law<float, 3>(choice);

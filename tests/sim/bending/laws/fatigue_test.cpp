@@ -13,7 +13,7 @@ namespace hysteron::testing {
 namespace {
 
 template <class Law>
-Fatigue<Law> tired(const FatigueChoice& choice) {
+Fatigue<Law> tired(const FatigueParams& choice) {
   return Fatigue<Law>::make(kCotton, choice, Law::make({kCotton.b1 - kCotton.b2, 0, kCotton.k0}));
 }
 
