@@ -28,7 +28,7 @@ double tilt(const ClothMesh& mesh, int face, double curvature) {
   const auto at = mesh.corners(face);
   double product = 1;
   for (int k = 0; k < 3; ++k) product *= at[(k + 1) % 3].x() - at[k].x();
-  return curvature * product / (4 * mesh.area[face]);
+  return curvature * product / (4 * mesh.face_area[face]);
 }
 
 bool is_inner(const ClothMesh& mesh, int face) {

@@ -14,15 +14,16 @@ constexpr double kSetRounding = 1e-11;                         // relative
 
 using SettingStops = SpectrumStops<double, 1, 8>;
 
-Setting<SettingStops> setting_law(const Spectrum& friction = {}) {
-  return Setting<SettingStops>::make(SettingStops::make(kB2, friction, {}), kB2, {kYield, kHardening});
+PermanentSetLaw<SettingStops> setting_law(const Spectrum& friction = {}) {
+  return PermanentSetLaw<SettingStops>::make(SettingStops::make(kB2, friction, {}), kB2,
+                                             {kYield, kHardening});
 }
-double set_curvature(const Driven<Setting<SettingStops>>& cloth) {
-  return Setting<SettingStops>::set_curvature(cloth.history)[0];
+double set_curvature(const Driven<PermanentSetLaw<SettingStops>>& cloth) {
+  return PermanentSetLaw<SettingStops>::set_curvature(cloth.history)[0];
 }
 
 TEST(PermanentSet, IsNoneBelowTheYieldCurvature) {
-  Driven<Setting<SettingStops>> cloth(setting_law());
+  Driven<PermanentSetLaw<SettingStops>> cloth(setting_law());
   for (double k : {kYield, -kYield, 0.5 * kYield}) {
     EXPECT_NEAR(cloth.moment(k), kB2 * k, kSetRounding * kB2 * kYield);
     EXPECT_EQ(set_curvature(cloth), 0);
@@ -32,7 +33,7 @@ TEST(PermanentSet, IsNoneBelowTheYieldCurvature) {
 
 // b2 (K - K_p) - h K_p = b2 K_y:  K_p = b2 (K - K_y)/(b2 + h), slope b2 h/(b2 + h) beyond.
 TEST(PermanentSet, GrowsWithTheBendAsHardeningHasIt) {
-  Driven<Setting<SettingStops>> cloth(setting_law());
+  Driven<PermanentSetLaw<SettingStops>> cloth(setting_law());
   for (double k : {200.0, 400.0, 600.0}) {
     const double moment = cloth.moment(k), set = kB2 * (k - kYield) / (kB2 + kHardening);
     EXPECT_NEAR(set_curvature(cloth), set, kSetRounding * k);
@@ -48,7 +49,7 @@ TEST(PermanentSet, GrowsWithTheBendAsHardeningHasIt) {
 // Let go, a set that has hardened beyond b2 K_y flows back until it has not: h K_p = b2 K_y.
 TEST(PermanentSet, IsLeftUpToTheYieldMomentOverTheHardening) {
   for (double k : {700.0, 1200.0, 5000.0}) {
-    Driven<Setting<SettingStops>> cloth(setting_law());
+    Driven<PermanentSetLaw<SettingStops>> cloth(setting_law());
     cloth.moment(k);
     ASSERT_GT(kHardening * set_curvature(cloth), kB2 * kYield);
     const double most = kB2 * kYield / kHardening;
@@ -61,7 +62,7 @@ TEST(PermanentSet, IsLeftUpToTheYieldMomentOverTheHardening) {
 TEST(PermanentSet, AndFrictionLeaveTheirResidualCurvaturesSideBySide) {
   const Spectrum friction{{5, 30}, {2e-5, 1e-5}};
   const double hb = friction.friction_moment(), k = 600;
-  Driven<Setting<SettingStops>> cloth(setting_law(friction));
+  Driven<PermanentSetLaw<SettingStops>> cloth(setting_law(friction));
   cloth.moment(k);
   const double set = (kB2 * (k - kYield) + hb) / (kB2 + kHardening);
   EXPECT_NEAR(set_curvature(cloth), set, kSetRounding * k);
@@ -72,7 +73,7 @@ TEST(PermanentSet, AndFrictionLeaveTheirResidualCurvaturesSideBySide) {
 TEST(PermanentSet, IsTheSameInOneStepAsInManyOfOneDirection) {
   const Spectrum friction{{5, 30}, {2e-5, 1e-5}};
   for (double turn : {700.0, -900.0}) {
-    Driven<Setting<SettingStops>> one(setting_law(friction)), many(setting_law(friction));
+    Driven<PermanentSetLaw<SettingStops>> one(setting_law(friction)), many(setting_law(friction));
     one.moment(turn);
     for (int i = 1; i <= 1000; ++i) many.moment(turn * i / 1000);
     EXPECT_NEAR(set_curvature(many), set_curvature(one), 1e-9 * std::abs(turn));
@@ -86,10 +87,10 @@ TEST(PermanentSet, IsLargerInAFastFoldThanInASlowOne) {
   using Relaxed = Relaxing<SettingStops, kMaxBranches>;
   const auto folded = [](double seconds) {
     const Relaxed inner = Relaxed::make(SettingStops::make(kB2, {}, {}), {{1}, {5e-6}});
-    Driven cloth(Setting<Relaxed>::make(inner, kB2, {kYield, kHardening}));
+    Driven cloth(PermanentSetLaw<Relaxed>::make(inner, kB2, {kYield, kHardening}));
     cloth.law.law.dt = seconds / 100;
     for (int i = 1; i <= 100; ++i) cloth.moment(300.0 * i / 100);
-    return Setting<Relaxed>::set_curvature(cloth.history)[0];
+    return PermanentSetLaw<Relaxed>::set_curvature(cloth.history)[0];
   };
   const double fast = (1.5e-5 * 300 - kB2 * kYield) / (1.5e-5 + kHardening),
                slow = (kB2 * 300 - kB2 * kYield) / (kB2 + kHardening);
