@@ -295,12 +295,23 @@ def number_from(target, title, folder):
 # Links
 
 
+def anchors_of(text):
+    """Anchors of a page's headings, as GitHub makes them."""
+    prose = re.sub(r"^```.*?^```", "", text, flags=re.M | re.S)
+    headings = re.findall(r"^#+ +(.+?) *$", prose, re.M)
+    return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings}
+
+
 def check_file(page, target, line):
-    if re.match(r"#|mailto:", target) or "://" in target:
-        return  # leads out of the checkout, or stays in its page
-    file = target.partition("#")[0]
-    if not (page.folder / file).exists():
+    if target.startswith("mailto:") or "://" in target:
+        return  # leads out of the checkout
+    file, _, anchor = target.partition("#")
+    place = page.folder / file
+    if file and not place.exists():
         page.fault(line, f"no file {file}")
+    elif anchor and (not file or file.endswith(".md")):
+        if anchor not in anchors_of(place.read_text() if file else page.text):
+            page.fault(line, f"no heading #{anchor} in {file or 'this page'}")
 
 
 def definitions_in(page, prose):

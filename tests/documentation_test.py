@@ -144,7 +144,7 @@ class LinkedNumbers(Checkout):
                 ('See [1][nowhere].\n\n[idle]: ../results/bench.json "/1/ms .2f"\n',
                  "1: [nowhere] is not defined\n3: [idle] is defined and never used\n"),
                 ("See [a][gone] and\n[b](../gone.md#part), [c](#part), [d](https://example.org).\n\n[gone]: gone.md\n",
-                 "2: no file ../gone.md\n4: no file gone.md\n"),
+                 "2: no file ../gone.md\n2: no heading #part in this page\n4: no file gone.md\n"),
                 ('See [2][x].\n\n[x]: ../results/bench.json "/1/ms .0f"\n[x]: ../results/bench.json "/0/ms .0f"\n',
                  "4: [x] is defined twice\n"),
                 ('See [5][x].\n\n[x]: ../results/bench.json "/7/ms .0f"\n',
