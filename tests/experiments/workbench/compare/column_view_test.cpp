@@ -97,8 +97,8 @@ TEST(Crop, IsAllThatAPictureShowsWhereItIncludesOne) {
   crop.include_shown(picture);
   EXPECT_DOUBLE_EQ(crop.width(), 0.5);
   const render::Image part = crop.of(picture);
-  EXPECT_NEAR(part.width(), 112, 2) << "6 % of room on either side";
-  EXPECT_NEAR(part.height(), 45, 2);
+  EXPECT_NEAR(part.width(), 116, 2) << "8 % of room on either side";
+  EXPECT_NEAR(part.height(), 46, 2);
   Crop nothing;
   nothing.include_shown(render::Image(20, 10, render::Rgb8{255, 255, 255}));
   EXPECT_EQ(nothing.width(), 0);
@@ -111,8 +111,8 @@ TEST(Crop, IsWhatTheInstantsReachAndSomeRoom) {
   crop.include({.time = 0, .phase = "", .cloth = {0.25, 0.3, 0.4, 0.6}});
   crop.include({.time = 0, .phase = "", .cloth = {0.35, 0.4, 0.5, 0.7}});
   const render::Image part = crop.of(picture);
-  EXPECT_NEAR(part.width(), 50 * 1.12, 2);
-  EXPECT_NEAR(part.height(), 40 * 1.12, 2);
+  EXPECT_NEAR(part.width(), 50 * 1.16, 2);
+  EXPECT_NEAR(part.height(), 40 * 1.16, 2);
   EXPECT_EQ(Crop().of(picture), picture) << "nothing is known";
   Crop whole;
   whole.include({});
