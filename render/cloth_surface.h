@@ -1,4 +1,4 @@
-// The cloth on the GPU: positions that change every picture, normals computed from them there.
+// The cloth on the GPU: positions change with every picture, and normals are computed from them there.
 #pragma once
 
 #include <cstddef>
@@ -12,9 +12,9 @@ namespace hysteron::render {
 
 struct ClothTopology {
   size_t vertices = 0;
-  std::span<const int> triangles;  // 3 a triangle, counter-clockwise seen from the front
+  std::span<const int> triangles;  // 3 per triangle, counter-clockwise seen from the front
   std::span<const float>
-      pattern;  // (warp, weft) coordinates, 2 a vertex [m]; may be empty: no threads are drawn
+      pattern;  // (warp, weft) coordinates, 2 per vertex [m]; if empty, no threads are drawn
 };
 
 // Texture units of the buffers that shaders read vertex by vertex.
@@ -30,20 +30,21 @@ class ClothSurface {
   size_t vertices() const { return vertices_; }
   size_t triangles() const { return triangles_; }
 
-  // x, y, z each [m].  Error::invalid_input if their number is not the topology's.
+  // Takes x, y, z of each vertex [m].  Error::invalid_input if their number is not the topology's.
   void set_positions(std::span<const float> xyz);
-  // One a vertex, for the colour map; an empty span stands for zero everywhere.
+  // Takes one value per vertex for the colour map; an empty span stands for zero everywhere.
   void set_values(std::span<const float> values);
   // The buffer of x, y, z floats, for a writer on the same GPU (CUDA interop); update_normals() reads it.
   GLuint position_buffer() const { return positions_.name(); }
 
-  // Area-weighted normals from the position buffer, without the host; the sums' order is the adjacency's.
+  // Computes area-weighted normals from the position buffer on the GPU; they are summed in the adjacency's
+  // order.
   void update_normals() const;
-  // Sky light at every vertex from up-to-date maps and normals; draw() hands it on.
+  // Computes the sky light at every vertex from up-to-date maps and normals; draw() passes it on.
   void update_sky(const ShadowMaps& shadows) const;
-  // One draw call of all triangles with the program in use.
+  // Draws all triangles in one call with the program in use.
   void draw() const;
-  // The sides that belong to one triangle only, as lines in its sense.
+  // Draws the sides that belong to one triangle only as lines, in that triangle's direction.
   void draw_boundary() const;
 
  private:

@@ -1,4 +1,4 @@
-// How far apart two colours are for whoever looks at them.
+// Differences of two colours for eyes with and without colour deficiencies.
 #pragma once
 
 #include <string>
@@ -8,14 +8,15 @@
 
 namespace hysteron::render {
 
-// CIEDE2000 of two sRGB colours (Sharma, Wu & Dalal 2005, "The CIEDE2000 color-difference formula").
+// Returns the CIEDE2000 difference of two sRGB colours (Sharma, Wu & Dalal 2005, "The CIEDE2000
+// color-difference formula").
 double color_difference(const Rgb8& a, const Rgb8& b);
-// The least of it for the eye without a deficiency and for one without either of its three kinds of cones:
-// protanopia, deuteranopia, tritanopia (Machado, Oliveira & Fernandes 2009, severity 1).
+// Returns the least color_difference() for the eye without a deficiency and for protanopia, deuteranopia and
+// tritanopia (Machado, Oliveira & Fernandes 2009, severity 1).
 double least_color_difference(const Rgb8& a, const Rgb8& b);
 
-// Of colours that are drawn as lines or dots in one picture, "#RRGGBB" each: the number of the pattern, 0 for
-// the plain one, that tells each from all before it of less than 12 of least_color_difference().
+// Returns a pattern for each colour ("#RRGGBB") of lines or dots in one picture, 0 for the plain one, that
+// differs from those of all earlier colours within a least_color_difference() of 12.
 std::vector<int> patterns_beside(const std::vector<std::string>& colors);
 
 }  // namespace hysteron::render

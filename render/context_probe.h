@@ -1,4 +1,4 @@
-// Whether a driver crashes, found out by a child process.
+// A child process finds out whether a driver crashes.
 #pragma once
 
 #include <functional>
@@ -8,18 +8,17 @@
 
 namespace hysteron::render {
 
-// Calls it in a child process that says nothing, and waits.  Throws Error::system if a signal ends the child,
-// or it takes longer than ten seconds: "it ends by a signal (Segmentation fault)".  What the call throws is
-// no crash.
+// Runs `call` in a silent child process and waits.  Throws Error::system if a signal ends the child ("it ends
+// by a signal (Segmentation fault)") or it takes longer than ten seconds.  An exception from `call` is no
+// crash.
 void try_in_child(const std::function<void()>& call);
 
-// "GALLIUM_DRIVER = zink" where the environment names a driver of Mesa that is none of its own software
+// Returns "GALLIUM_DRIVER = zink" if the environment names a driver of Mesa other than its own software
 // renderers; empty otherwise.
 std::string named_driver();
 
-// Where a driver is named, a context that would be drawn in software is created in a child process first:
-// Mesa's OSMesa crashes with drivers that need a window system.  Throws Error::system if it does.  Costs
-// nothing where none is named.
+// Creates a context that would be drawn in software in a child process first if a driver is named, because
+// Mesa's OSMesa crashes with drivers that need a window system.  Throws Error::system if the child crashes.
 void require_no_crash(const Candidate& candidate);
 
 }  // namespace hysteron::render

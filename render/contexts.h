@@ -15,7 +15,7 @@ namespace hysteron::render {
 // A shared library opened at run time.  It is never closed: drivers keep threads and exit handlers.
 class SharedLibrary {
  public:
-  // The first of `names` that opens.
+  // Opens the first of `names` that can be opened.
   explicit SharedLibrary(std::initializer_list<const char*> names) {
     for (const char* name : names) {
       handle_ = dlopen(name, RTLD_NOW | RTLD_LOCAL);
@@ -24,7 +24,7 @@ class SharedLibrary {
     }
   }
 
-  // Error::system where none did, or it has nothing of that name.
+  // Loads a function; Error::system if no library was opened or it lacks the function.
   template <class Function>
   void load(const char* name, Function& function) const {
     if (handle_ == nullptr) throw Error::system(reason_);
@@ -37,19 +37,19 @@ class SharedLibrary {
   std::string reason_;
 };
 
-// EGL's devices and the surfaceless platform; empty if libEGL cannot be opened.
+// Lists EGL's devices and the surfaceless platform; empty if libEGL cannot be opened.
 std::vector<Candidate> egl_candidates();
 
-// Why there are no candidates, in a few words.
+// Says in a few words why there are no candidates.
 std::string egl_unavailable();
 
-// Error::system if EGL refuses.
+// Creates a context through EGL; Error::system if EGL refuses.
 std::unique_ptr<Offscreen> create_egl_context(const Candidate& candidate);
 
 // OpenGL contexts through OSMesa, Mesa's renderer into plain memory, opened at run time.  Mesa dropped it
 // in 25.1.
 
-// Error::system if there is no libOSMesa or it refuses.
+// Creates a context through OSMesa; Error::system if there is no libOSMesa or it refuses.
 std::unique_ptr<Offscreen> create_osmesa_context(const Candidate& candidate);
 
 }  // namespace hysteron::render

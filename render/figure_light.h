@@ -1,5 +1,5 @@
 // The light of a figure: many directions of a key light, of the sky and of the floor, each with a depth map
-// of what hides it.  A figure is drawn in several passes, and each pass is lit from a few directions of its
+// of its casters.  A figure is drawn in several passes, and each pass is lit from a few directions of its
 // own, so that every pixel averages all of them: soft shadows and ambient light without noise, the same on
 // every driver.
 #pragma once
@@ -15,28 +15,29 @@
 
 namespace hysteron::render {
 
-// Directions of one pass, as in figure_light.glsl.
+// Numbers of directions in one pass, as in figure_light.glsl.
 inline constexpr int kPassKeys = 4, kPassSkies = 6, kPassFloors = 2;
 inline constexpr int kPassLights = kPassKeys + kPassSkies + kPassFloors;
 
-// What a figure is lit by, for a path tracer: light on a surface that faces the key light, a disc; of the sky
-// on one that faces up; of the floor, a grey table without shadows, on one that faces down.
+// The light of a figure for a path tracer: that of the key light, a disc, on a surface that faces it, of the
+// sky on one that faces up, and of the floor, a grey table without shadows, on one that faces down.
 struct StudioLight {
   Eigen::Vector3f key, sky, floor;
-  float key_radius;  // over its distance
+  float key_radius;  // radius of the key light over its distance
   float exposure;    // the brightness of a white surface over the light on it
 };
-// `room`: brightness of sky and floor (Look).
+// `room` is the brightness of sky and floor (Look).
 StudioLight studio_light(float room);
 
 class FigureLight {
  public:
-  // `passes`: of the picture; 16 of them have 64 directions of the key, 96 of the sky, 32 of the floor.
+  // `passes` is the picture's number of passes; 16 of them have 64 directions of the key, 96 of the sky, 32
+  // of the floor.
   FigureLight(const GlFunctions& gl, int passes);
 
   int passes() const { return passes_; }
-  // `casters`: box of everything that throws a shadow; `to_light`: direction to the middle of the key light;
-  // `room`: brightness of sky and floor (Look).
+  // `casters` is the box of everything that throws a shadow, `to_light` the direction to the middle of the
+  // key light, `room` the brightness of sky and floor (Look).
   void aim(const Box& casters, const Eigen::Vector3f& to_light, float room);
   // Draws the maps of one pass; `draw_casters` draws with the depth program in use, setting "model", "keep"
   // and "inset".
@@ -61,7 +62,7 @@ class FigureLight {
   float room_ = 1;
   std::array<Direction, kPassLights> directions_;
   std::array<Eigen::Matrix4f, kPassLights> matrices_;
-  std::array<float, kPassLights> texels_{};  // [m]
+  std::array<float, kPassLights> texels_{};  // size of a map's texel [m]
 };
 
 }  // namespace hysteron::render

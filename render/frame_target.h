@@ -1,4 +1,4 @@
-// The multisampled framebuffer that a picture, or a part of it, is drawn into, and the way back to the host.
+// The multisampled framebuffer that a picture, or a part of it, is drawn into and read from.
 #pragma once
 
 #include <vector>
@@ -7,7 +7,7 @@
 
 namespace hysteron::render {
 
-// Pixels of a framebuffer, from the bottom.
+// A rectangle of a framebuffer [pixels], counted from the bottom.
 struct Area {
   int left = 0, bottom = 0, width = 0, height = 0;
 };
@@ -19,14 +19,14 @@ class FrameTarget {
   FrameTarget(const GlFunctions& gl, int width, int height, int samples);
 
   Area whole() const { return {0, 0, width_, height_}; }
-  int samples() const { return samples_; }  // a pixel
+  int samples() const { return samples_; }  // samples per pixel
 
   void bind() const { gl_->BindFramebuffer(GL_FRAMEBUFFER, multisampled_.name()); }
-  // Binds the framebuffer and clears this area of it, which alone is drawn until finish(), to light from 0,
-  // transparent, to 1, white, and its depth to far.
+  // Binds the framebuffer, restricts drawing to this area until finish(), and clears the area to light from
+  // 0, transparent, to 1, white, and its depth to far.
   void begin(float light, const Area& area);
-  // The mean of each pixel's samples: RGBA in linear light, rows from the bottom.  Beside the area it is what
-  // it was.
+  // Returns the mean of each pixel's samples: RGBA in linear light, rows from the bottom.  Pixels outside the
+  // area keep their earlier values.
   std::vector<float>& finish();
 
  private:

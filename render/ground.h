@@ -14,22 +14,24 @@ namespace hysteron::render {
 
 class Ground {
  public:
-  // `figure`: lit per pixel by the light of a figure (figure_light.h), else by a texture that lies on it.
+  // A `figure` ground is lit per pixel by the light of a figure (figure_light.h), another by a texture that
+  // lies on it.
   Ground(const GlFunctions& gl, bool figure);
 
-  // Whether its shadow is a layer without a backdrop; to be said before it is drawn.
+  // Sets whether the shadow is a layer without a backdrop; must be called before drawing.
   void be_layer(bool layer);
-  // Where a figure's ground lies: below and around `box`, at `height` [m].
+  // Places a figure's ground below and around `box`, at `height` [m].
   void place(const Box& box, float height);
 
-  // Computes the light on the ground at `height` [m] under casters in `box`; the shadow maps are up to date.
+  // Computes the light on the ground at `height` [m] under casters in `box`; the shadow maps must be up to
+  // date.
   void update(const ShadowMaps& shadows, const Box& box, float height);
-  // The program that draws the patch, in use; the caller sets the camera and the backdrop.
+  // Puts the patch's program in use and returns it; the caller sets the camera and the backdrop.
   const Program& begin() const;
   void draw() const;
 
  private:
-  // Covers a texture with the program in use.
+  // Draws the program in use over the whole of a texture, `side` texels wide.
   void fill(const Program& program, const GlFramebuffer& target, int side) const;
 
   const GlFunctions* gl_;

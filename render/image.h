@@ -42,14 +42,15 @@ class Image {
   std::vector<std::uint8_t> pixels_;
 };
 
-// The pixels of `source` with its top left corner at (x, y); what lies outside is cut off.  A
-// transparent source is blended over the target's colours as viewers do it, in encoded values.
+// Pastes `source` with its top left corner at (x, y); pixels outside are cut off.  A transparent source is
+// blended over the target's colours as viewers do it, in encoded values.
 void paste(Image& target, const Image& source, int x, int y);
 
-// Averages over exact pixel footprints in linear light: for supersampling and contact sheets.  Only shrinks;
-// Error::invalid_input if a side grows.
+// Averages over exact pixel footprints in linear light, for supersampling and contact sheets.
+// Error::invalid_input if a side would grow.
 Image shrink(const Image& source, int width, int height);
-// Pixels that shrink() has read on this thread so far: what a page of pictures costs, on any machine.
+// Returns how many pixels shrink() has read on this thread so far, the cost of a page of pictures on any
+// machine.
 std::size_t pixels_shrunk();
 
 enum class PngEffort {
@@ -57,7 +58,7 @@ enum class PngEffort {
   best,  // every filter tried, zlib level 5 (6 takes twice as long for 4 % less): pictures to keep
 };
 
-// PNG file in memory.
+// Encodes a PNG file in memory.
 std::vector<std::uint8_t> encode_png(const Image& image, PngEffort effort = PngEffort::fast);
 
 // A chunk of text that every PNG of this program holds.
@@ -67,18 +68,18 @@ inline const std::string kPngMark{"tEXtSoftware\0hysteron", 21};
 // Error::system if the folder cannot be written or the disk is full.
 void write_png(const std::filesystem::path& path, const Image& image, PngEffort effort = PngEffort::fast);
 
-// A PNG file in memory; `name` stands for it in errors.  Otherwise as read_png.
+// Decodes a PNG file in memory; `name` stands for it in errors, which are those of read_png().
 Image decode_png(std::span<const std::uint8_t> bytes, const std::string& name);
 
 struct ImageSize {
   int width = 0, height = 0;
   bool operator==(const ImageSize&) const = default;
 };
-// Of a PNG file, of which only the header and the end are looked at.  Errors as read_png.
+// Reads a PNG file's size from its header and checks its end.  Errors as in read_png().
 ImageSize png_size(const std::filesystem::path& path);
 
-// RGB or RGBA as in the file (grey becomes RGB).  Error::invalid_input if the file is missing or not a
-// picture.
+// Reads a PNG file as RGB or RGBA, as the file has it (grey becomes RGB).  Error::invalid_input if the file
+// is missing or not a picture.
 Image read_png(const std::filesystem::path& path);
 
 }  // namespace hysteron::render

@@ -1,4 +1,4 @@
-// Colours as eyes tell them apart: CIELAB of sRGB pixels.
+// CIELAB coordinates of sRGB pixels, by which eyes tell colours apart.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,7 +9,7 @@
 
 namespace hysteron::render {
 
-// L*, a*, b* over the white D65 (CIE 15:2004) of red, green and blue light, 1 for white.
+// Returns L*, a*, b* over the white D65 (CIE 15:2004) of red, green and blue light, 1 for white.
 inline Eigen::Vector3d lab_of_linear(const Eigen::Vector3d& light) {
   const Eigen::Matrix3d xyz{
       {0.4124, 0.3576, 0.1805}, {0.2126, 0.7152, 0.0722}, {0.0193, 0.1192, 0.9505}};  // IEC 61966-2-1
@@ -26,7 +26,7 @@ inline Eigen::Vector3d lab(const std::uint8_t* rgb) {
 
 inline double lightness(const std::uint8_t* rgb) { return lab(rgb).x(); }
 
-// CIE 1976, which is the strictest for what is saturated.
+// Returns the CIE 1976 difference, which is the strictest for saturated colours.
 inline double delta_e(const std::uint8_t* a, const std::uint8_t* b) { return (lab(a) - lab(b)).norm(); }
 
 }  // namespace hysteron::render

@@ -1,5 +1,5 @@
-// Which pixels of a picture have to be lit: no surface that cloth hides, and after the first pass only those
-// that differ from a neighbour, for further passes are for edges, threads and rims of shadows (adaptive
+// Selects the pixels of a picture to be lit: those that cloth does not hide and, after the first pass, only
+// those that differ from a neighbour, for further passes are for edges, threads and rims of shadows (adaptive
 // sampling by contrast: Mitchell 1987).
 #pragma once
 
@@ -14,18 +14,18 @@ namespace hysteron::render {
 
 class LitPixels {
  public:
-  // Of a framebuffer of so many pixels.
+  // Takes the size of the framebuffer [pixels].
   LitPixels(const GlFunctions& gl, int width, int height);
 
-  // What is drawn next, until another framebuffer is bound, is the cloth that hides.
+  // Starts the depth of the cloth that hides other surfaces, drawn next until another framebuffer is bound.
   void begin_cloth() const;
-  // To the program in use, which includes needed.glsl.
+  // Sets the uniforms of needed.glsl in the program in use.
   void bind(const Program& program, bool first_pass) const;
   // Takes the first pass: RGBA rows from the bottom, linear light.
   void take_first(const std::vector<float>& rgba);
-  // All that further passes have to draw lies within.
+  // The area that holds all that further passes have to draw.
   const Area& uneven_area() const { return uneven_area_; }
-  // Gives a further pass the first one's colours where it was not needed.
+  // Copies the first pass's colours to pixels that a further pass did not need to draw.
   void complete(std::vector<float>& rgba) const;
 
  private:
@@ -34,7 +34,7 @@ class LitPixels {
   GlTexture depth_, uneven_;
   GlFramebuffer depth_target_;
   std::vector<float> first_;
-  std::vector<std::uint8_t> is_uneven_;  // 255: it is
+  std::vector<std::uint8_t> is_uneven_;  // 255 where a pixel is uneven, else 0
   Area uneven_area_;
 };
 

@@ -1,4 +1,4 @@
-// How much relief is seen in a picture of cloth.
+// A measure of the relief seen in a picture of cloth.
 #pragma once
 
 #include <vector>
@@ -8,13 +8,14 @@
 namespace hysteron::render {
 
 struct LocalDeviation {
-  double median = 0;  // [L*]; NaN of no pixel
-  long pixels = 0;    // that it is the median of
+  double median = 0;  // median deviation [L*]; NaN without pixels
+  long pixels = 0;    // number of pixels with a deviation
 };
 
-// Standard deviation of the lightness L* (CIE 15:2004) in a square of `side` pixels, an odd number, around
-// each pixel of `part` whose square lies wholly in `cloth`: their median.  Both masks have one truth a pixel,
-// rows from the top.  Of a sine that is finer than the square and of amplitude a: a/sqrt 2.
+// Returns the median, over the pixels of `part`, of the standard deviation of the lightness L* (CIE 15:2004)
+// in a square of `side` pixels (an odd number) around each; squares must lie wholly in `cloth`.  Both masks
+// have one truth value per pixel, rows from the top.  A sine finer than the square and of amplitude a gives
+// a/sqrt 2.
 LocalDeviation local_deviation(const Image& image, const std::vector<char>& cloth,
                                const std::vector<char>& part, int side = 21);
 

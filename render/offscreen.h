@@ -19,7 +19,7 @@ struct Candidate {
   enum class Kind { egl_device, egl_surfaceless, osmesa };
   Kind kind = Kind::egl_device;
   int device = -1;        // index among EGL's devices, egl_device only
-  bool hardware = false;  // no EGL_MESA_device_software among the device's extensions
+  bool hardware = false;  // the device's extensions lack EGL_MESA_device_software
   int cuda_device = -1;   // the CUDA device behind it (EGL_NV_device_cuda), -1 if none
 
   std::string name() const;
@@ -27,14 +27,14 @@ struct Candidate {
 
 class Offscreen {
  public:
-  // The first candidate that gives a context; each failing one is tried twice, because GPU drivers fail now
-  // and then while another process starts.  `preferred_cuda_device` is tried first, so that positions need
-  // not leave it. Error::system lists in one line what was tried.  The new context is current.
+  // Creates the first candidate's context that succeeds; each failing one is tried twice, because GPU drivers
+  // fail now and then while another process starts.  `preferred_cuda_device` is tried first, so that
+  // positions need not leave it. Error::system lists in one line what was tried.  The new context is current.
   static std::unique_ptr<Offscreen> create(Renderer renderer, int preferred_cuda_device = -1);
   static std::unique_ptr<Offscreen> create(const Candidate& candidate);
 
-  // In the order in which create() tries them: EGL hardware devices, EGL software devices, surfaceless,
-  // OSMesa.
+  // Lists candidates in the order in which create() tries them: EGL hardware devices, EGL software devices,
+  // surfaceless, OSMesa.
   static std::vector<Candidate> candidates(Renderer renderer, int preferred_cuda_device = -1);
 
   virtual ~Offscreen() = default;
@@ -45,7 +45,7 @@ class Offscreen {
   virtual void make_current() = 0;
 
   const GlFunctions& gl() const { return gl_; }
-  // Candidate, vendor, renderer and version, for logs and manifests.
+  // Names the candidate, vendor, renderer and version, for logs and manifests.
   const std::string& description() const { return description_; }
   bool egl_device_is_hardware() const { return hardware_; }
   int cuda_device() const { return candidate_.cuda_device; }

@@ -18,15 +18,15 @@ struct Panel {
 
 struct Panels {
   std::string title;
-  std::string subtitle;  // what colours mean; series' own labels are not drawn
-  Axis x, y;             // of all panels; low == high: from all panels' data
+  std::string subtitle;  // explains the colours; series' own labels are not drawn
+  Axis x, y;             // axes of all panels; low == high: range of all panels' data
   std::vector<Panel> panels;
   int columns = 4;
-  int panel_width = 400, panel_height = 300;  // [pixels], without titles and axes
+  int panel_width = 400, panel_height = 300;  // size of a panel [pixels], without titles and axes
 };
 
-// Writes BASE.png and BASE.svg, each whole or not at all.  What lies beyond a given range is cut off.
-// Error::system and Error::invalid_input as write_plot().
+// Writes BASE.png and BASE.svg, each whole or not at all.  Data beyond a given range are cut off.
+// Error::system and Error::invalid_input as in write_plot().
 void write_panels(const std::filesystem::path& base, const Panels& grid);
 
 }  // namespace hysteron::render

@@ -8,7 +8,7 @@
 namespace hysteron::render {
 
 struct Series {
-  std::string label;  // empty: not in the key
+  std::string label;  // name in the key; an empty one is left out
   std::vector<double> x, y;
   enum class Style { line, points, line_and_points, dashed, bars, rings } style = Style::line;
   std::string color{};  // "#RRGGBB"; empty: the next of a palette that colour-blind eyes can tell apart
@@ -23,50 +23,50 @@ struct Series {
 struct Mark {
   std::string text;
   double x, y;
-  double dx = 1, dy = 0;          // of the text from the point [letters]; dx < 0: the text ends there
-  std::string color = "#222222";  // of text and dot
+  double dx = 1, dy = 0;          // offset of the text from the point [letters]; dx < 0: the text ends there
+  std::string color = "#222222";  // colour of text and dot
   bool dot = true;
 };
 
 struct Axis {
-  std::string label;  // with its unit: "curvature [1/m]"
+  std::string label;  // label with its unit: "curvature [1/m]"
   bool logarithmic = false;
-  double low = 0, high = 0;               // low == high: from the data
-  std::vector<std::string> categories{};  // names that stand at 0, 1, 2, ... instead of numbers; along x
+  double low = 0, high = 0;               // range; low == high: from the data
+  std::vector<std::string> categories{};  // names at 0, 1, 2, ... along x instead of numbers
 };
 
 struct Plot {
   std::string title;
   Axis x, y;
   std::vector<Series> series{};
-  int width = 960, height = 640;  // of the PNG [pixels]
-  bool equal_scales = false;      // one unit is as long along x as along y: outlines
+  int width = 960, height = 640;  // size of the PNG [pixels]
+  bool equal_scales = false;      // one unit is as long along x as along y, for outlines
   std::vector<Mark> marks{};
-  bool axes_at_zero = false;  // lines through the origin instead of a grid
-  bool key_inside = false;    // in the lower right corner; else lines have their labels at their ends
-  double bar_width = 0.8;     // in units of x
+  bool axes_at_zero = false;  // lines through the origin replace the grid
+  bool key_inside = false;    // key in the lower right corner; else lines have labels at their ends
+  double bar_width = 0.8;     // width of bars in units of x
   std::string note{};         // a line below the title
 };
 
-// "m" and 1e-3 for numbers from 1e-3 to below 1; of zero none.
+// An SI prefix and its factor: "m" and 1e-3 for numbers from 1e-3 to below 1; zero has none.
 struct SiPrefix {
   const char* prefix = "";
   double factor = 1;
 };
 SiPrefix si_prefix(double value);
 
-// Two columns of a CSV file, chosen by their names in the first line (the part before " [unit]" suffices).
-// Error::invalid_input if the file or a column is missing or a cell is no number (the line is named); empty
-// cells are gaps.
+// Reads two columns of a CSV file, chosen by their names in the first line (the part before " [unit]"
+// suffices). Error::invalid_input if the file or a column is missing or a cell is no number (the line is
+// named); empty cells are gaps.
 Series series_from_csv(const std::filesystem::path& csv, const std::string& x, const std::string& y,
                        const std::string& label);
 
-// Errors of bars, a vertical line each from value - error to value + error at 0, 1, 2, ...; none where the
-// error is not finite.
+// Returns the errors of bars as a vertical line each from value - error to value + error at 0, 1, 2, ...; an
+// error that is not finite has none.
 Series bar_errors(const std::vector<double>& values, const std::vector<double>& errors);
 
-// Series of bars, a group at each category: `values` by series and category, `labels` by series.  Numbers
-// that are not finite make no bar.
+// Returns series of bars, a group at each category: `values` by series and category, `labels` by series.
+// Numbers that are not finite make no bar.
 std::vector<Series> grouped_bars(const std::vector<std::string>& labels,
                                  const std::vector<std::vector<double>>& values, double bar_width);
 

@@ -10,15 +10,15 @@
 namespace hysteron::render {
 
 struct PagePlot {
-  Plot plot;                      // its width and height are the page's
-  std::string key = "top right";  // where the key stands, in gnuplot's words; "off": nowhere
+  Plot plot;                      // the page sets its width and height
+  std::string key = "top right";  // place of the key in gnuplot's words; "off": none
 };
 
 struct PlotPage {
   std::string title, subtitle;
-  std::vector<PagePlot> plots;  // row by row
+  std::vector<PagePlot> plots;  // plots row by row
   int columns = 2;
-  int plot_width = 480, plot_height = 350;  // [pixels], without titles and axes
+  int plot_width = 480, plot_height = 350;  // size of a plot [pixels], without titles and axes
 };
 
 // Writes BASE.png and BASE.svg, each whole or not at all.  Error::system and Error::invalid_input as

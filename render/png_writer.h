@@ -15,10 +15,10 @@ namespace hysteron::render {
 
 class PngWriter {
  public:
-  // `threads`: workers, 0 = half the cores, at least one.  `capacity`: pictures that may wait; then write()
-  // waits too, so that a slow disk bounds memory instead of filling it.
+  // `threads` is the number of workers, 0 for half the cores, at least one.  `capacity` pictures may wait;
+  // then write() waits too, so that a slow disk bounds memory instead of filling it.
   explicit PngWriter(int threads = 0, int capacity = 8);
-  // Waits for what was handed over; errors are lost then: call finish() to see them.
+  // Waits for all pictures handed over; errors are lost then: call finish() to see them.
   ~PngWriter();
   PngWriter(const PngWriter&) = delete;
   PngWriter& operator=(const PngWriter&) = delete;

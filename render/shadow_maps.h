@@ -1,6 +1,6 @@
-// What hides the light: one map for the key light, drawn sharp, and one small map for each of a few
+// Maps of what hides the light: one for the key light, drawn sharp, and one small map for each of a few
 // directions of the sky.  The sky's are looked up per vertex, on the ground per texel, and averaged: ambient
-// occlusion by what is really in the way, the same on every driver, for the price of depth-only passes.
+// occlusion by the bodies in the way, the same on every driver, for the price of depth-only passes.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,12 +15,13 @@ namespace hysteron::render {
 
 // Textures of depth as a light sees it, and the framebuffers that draw them.
 
-// Looked up between four texels; what lies outside is what lies at its border; bound when it returns.
-// `stored`: the format of a texel; `channels` of it.
+// Returns a texture that is bound, interpolates between four texels and repeats its border outside; `stored`
+// is the format of a texel, `channels` its components.
 GlTexture filtered_texture(const GlFunctions& gl, GLint stored, GLenum channels, int width, int height);
-// Compared with in lookups, between four texels; what lies outside is what lies at its border.  [texels]
+// Returns a depth map of this size [texels] whose lookups compare, interpolate between four texels and repeat
+// its border outside.
 GlTexture depth_map(const GlFunctions& gl, int width, int height);
-// Draws depth alone into the map.
+// Returns a framebuffer that draws depth alone into the map.
 GlFramebuffer depth_target(const GlFunctions& gl, const GlTexture& map);
 
 inline constexpr int kSkyLights = 24;
@@ -29,14 +30,14 @@ class ShadowMaps {
  public:
   explicit ShadowMaps(const GlFunctions& gl);
 
-  // `casters`: box of everything that throws a shadow; `to_light`: direction to the key light;
-  // `room`: brightness of the room (Look).
+  // `casters` is the box of everything that throws a shadow, `to_light` the direction to the key light,
+  // `room` the brightness of the room (Look).
   void aim(const Box& casters, const Eigen::Vector3f& to_light, float room);
   // Draws all maps; `draw_casters` draws with the depth program in use, setting "model", "keep"
   // and "inset".
   void draw(const std::function<void(const Program&)>& draw_casters) const;
-  // Gives the program in use the maps and how to look things up in them; `sky_blur`: radius of a lookup in
-  // the sky maps, `sky_lift`: height above the surface from which they are asked, both in their texels.
+  // Gives the program in use the maps and the parameters of lookups: `sky_blur` is the radius of a lookup in
+  // the sky maps, `sky_lift` the height above the surface from which they are asked, both in their texels.
   void bind(const Program& program, float sky_blur = 1.6f, float sky_lift = 1.2f) const;
   const Eigen::Vector3f& to_light() const { return to_light_; }
 
@@ -51,7 +52,7 @@ class ShadowMaps {
   Eigen::Matrix4f key_matrix_;
   Eigen::Vector3f to_light_{0, 0, 1};
   float room_ = 1;
-  float radius_ = 1;  // of the casters [m]
+  float radius_ = 1;  // radius of the casters' box [m]
 };
 
 }  // namespace hysteron::render

@@ -1,5 +1,4 @@
-// Where the parts of a comparison's sheet are: columns in blocks, captions, margins; decided before anything
-// is drawn.
+// The layout of a comparison's sheet, decided before anything is drawn: columns in blocks, captions, margins.
 #pragma once
 
 #include <cmath>
@@ -10,26 +9,26 @@
 
 namespace hysteron::render {
 
-inline constexpr float kSheetLine = 1.65f;   // from baseline to baseline, in letters
-inline constexpr float kSheetTitle = 1.35f;  // letters of the title
-inline constexpr double kMaxEnlarged = 1.5;  // of a picture on the page: more shows its pixels
+inline constexpr float kSheetLine = 1.65f;   // distance of baselines, in letters
+inline constexpr float kSheetTitle = 1.35f;  // size of the title's letters, in letters
+inline constexpr double kMaxEnlarged = 1.5;  // largest enlargement of a picture: more shows its pixels
 
-inline constexpr float kInsetFraction = 0.28f;  // of a cell's shorter side
-inline constexpr float kLoopKey = 10;           // side of what says what insets are, in letters
+inline constexpr float kInsetFraction = 0.28f;  // side of an inset, of a cell's width or twice its height
+inline constexpr float kLoopKey = 10;           // side of the insets' key, in letters
 
-using SheetPlaces = std::vector<std::size_t>;  // of columns
+using SheetPlaces = std::vector<std::size_t>;  // indices of columns
 
-// Where things are; decided before anything is drawn.
+// The sizes and places of everything on a page.
 struct SheetPage {
-  int width, gap, margin, cell_width;  // [pixels]; `margin` is that of times
-  std::size_t numbers;                 // behind a name, or below it
-  int name_lines;                      // of the name that takes the most
-  bool numbers_below;                  // where no number finds room behind a name, or a name takes two lines
+  int width, gap, margin, cell_width;  // [pixels]; `margin` is the width of the column of times
+  std::size_t numbers;                 // how many numbers stand behind a name, or below it
+  int name_lines;                      // lines of the longest name
+  bool numbers_below;                  // true if no number fits behind a name, or a name takes two lines
   float letters;
   std::vector<SheetPlaces> blocks;
-  std::vector<int> row_height;  // of pictures, and of notes below them
+  std::vector<int> row_height;  // height of each row's pictures and the notes below them [pixels]
   std::vector<int> note_height;
-  bool names_loops;  // at the foot: insets are too small for it
+  bool names_loops;  // the foot names the axes of insets that are too small for it
   bool families;
   int title_lines, note_lines, foot;
 
@@ -49,19 +48,20 @@ struct SheetPage {
   double aspect() const { return 1.0 * width / height(); }
 };
 
-// Broken between words; a word longer than the room stays whole.
+// Breaks a text between words; a word longer than the room [pixels] stays whole.
 std::vector<std::string> broken(const std::string& text, float letters, float room);
-// Of the mark before a name.
+// Returns the width of the mark before a name [pixels].
 float mark_width(const ComparisonColumn& column, float letters);
-// A name that is too long is broken before its keys and values: "linear", "+fabric.damping", "=1e-3".
+// Returns a name in lines; one that is too long is broken before its keys and values: "linear",
+// "+fabric.damping", "=1e-3".
 std::vector<std::string> name_lines(const ComparisonColumn& column, float letters, int cell_width);
-// What stands before numbers, and as many of them.
+// Appends the first `numbers` of a column's numbers to a text.
 std::string with_numbers(std::string text, const ComparisonColumn& column, std::size_t numbers);
-// Rows have a scale each, or one that stands for all at the foot.
+// Returns true if one scale at the foot stands for all rows.
 bool has_one_scale(const ComparisonSheet& sheet);
-// For words in the margin, whose last letter keeps off the pictures.
+// Returns the room for words in the margin [pixels], whose last letter keeps off the pictures.
 float phase_room(const SheetPage& page);
-// That which leaves least to be wished for.
+// Returns the layout with the least penalty.
 SheetPage best_page(const ComparisonSheet& sheet);
 
 }  // namespace hysteron::render

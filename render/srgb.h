@@ -27,8 +27,8 @@ inline const std::array<float, 256>& linear_of_srgb8() {
   return table;
 }
 
-// In 256ths of an 8-bit step, 0 to 65280.  From a table of 2^16 steps, because pictures ask millions of
-// times; it is off by up to 1/40 of an 8-bit step, where the curve is steepest.
+// Returns the encoded value in 256ths of an 8-bit step, 0 to 65280, from a table of 2^16 steps, because
+// pictures ask millions of times; it is off by up to 1/40 of an 8-bit step, where the curve is steepest.
 inline std::uint16_t srgb16_of_linear(float light) {
   constexpr int kLast = 65535;
   static const std::vector<std::uint16_t> table = [] {

@@ -9,9 +9,9 @@ namespace hysteron::render {
 class StaticMesh {
  public:
   StaticMesh(const GlFunctions& gl, const TriangleMesh& mesh);
-  // One draw call with the program in use; attribute 0 is the position, 1 the normal.
+  // Draws the mesh in one call with the program in use; attribute 0 is the position, 1 the normal.
   void draw() const;
-  // Keeps what the program in use captures at every vertex, 4 floats, as attribute 4 of draw().
+  // Stores the output of the program in use at every vertex, 4 floats, as attribute 4 of draw().
   void update_sky() const;
 
  private:

@@ -50,7 +50,7 @@ HYSTERON_GL_HANDLE(GlQuery, GenQueries, DeleteQueries)
 HYSTERON_GL_HANDLE(GlRenderbuffer, GenRenderbuffers, DeleteRenderbuffers)
 #undef HYSTERON_GL_HANDLE
 
-// Of two dimensions, to be read through that texture unit.
+// Binds a two-dimensional texture to a texture unit.
 inline void bind_texture(const GlFunctions& gl, int unit, const GlTexture& texture) {
   gl.ActiveTexture(static_cast<GLenum>(GL_TEXTURE0 + unit));
   gl.BindTexture(GL_TEXTURE_2D, texture.name());
@@ -68,7 +68,7 @@ void upload(const GlFunctions& gl, const GlBuffer& buffer, std::span<const Item>
   gl.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(items.size_bytes()), items.data(), usage);
 }
 
-// Of the vertex array that is bound: floats, so many for each vertex.
+// Gives the bound vertex array an attribute of so many floats per vertex.
 inline void attribute(const GlFunctions& gl, GLuint index, const GlBuffer& buffer, GLint components) {
   gl.BindBuffer(GL_ARRAY_BUFFER, buffer.name());
   gl.EnableVertexAttribArray(index);

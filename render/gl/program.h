@@ -42,7 +42,7 @@ class Program {
   mutable std::unordered_map<std::string, GLint> locations_;
 };
 
-// A vertex program's output kept in a buffer.
+// The output of a vertex program is kept in a buffer.
 
 // Runs the program in use for vertices 0 to count - 1 of `arrays` and writes what it captures to `output`.
 void capture(const GlFunctions& gl, const GlVertexArray& arrays, GLsizei count, const GlBuffer& output);

@@ -6,8 +6,8 @@
 
 namespace hysteron::render {
 
-// Bytes of a file by its name without folder ("surface.vert", "DejaVuSans.ttf").  Error::system if it is
-// unknown, which a list forgotten in render/CMakeLists.txt causes.
+// Returns the bytes of a file by its name without folder ("surface.vert", "DejaVuSans.ttf").  Error::system
+// if it is unknown, which a list forgotten in render/CMakeLists.txt causes.
 std::span<const unsigned char> embedded_file(std::string_view name);
 
 }  // namespace hysteron::render
