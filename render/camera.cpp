@@ -11,9 +11,9 @@
 namespace hysteron::render {
 namespace {
 
-constexpr float kMargin = 1.02f;  // free border around what is framed
+constexpr float kMargin = 1.02f;  // scale that leaves a border around what is framed
 
-// Rows: right, up, backward of a camera that looks along `forward`.
+// Returns the axes right, up and backward, as rows, of a camera that looks along `forward`.
 Eigen::Matrix3f view_axes(const Eigen::Vector3f& forward, const Eigen::Vector3f& up) {
   const Eigen::Vector3f right = forward.cross(up).normalized();
   Eigen::Matrix3f axes;
@@ -82,8 +82,8 @@ Camera Camera::framing(const Box& box, const Eigen::Vector3f& direction, float f
   return camera;
 }
 
-// The eye keeps to the planes that bound the picture: along each axis of the view, the points nearest to the
-// two borders say how far it has to be and where between them.
+// The eye lies where the planes that bound the picture meet: along each axis of the view, the points nearest
+// to the two borders say how far it has to be and where between them.
 Camera Camera::around(std::span<const float> points, const Eigen::Vector3f& direction, float fov_degree,
                       float aspect, float margin) {
   const Box box = bounding_box(points);
@@ -111,7 +111,7 @@ Camera Camera::around(std::span<const float> points, const Eigen::Vector3f& dire
 
 Camera Camera::top(const Box& box, float aspect) {
   const Eigen::Vector3f size = box.high - box.low, center = box.center();
-  // Far above: nothing that leaves the box a little is cut off by the near plane.
+  // The eye is far above, so that the near plane cuts off nothing that leaves the box a little.
   const float room = 2 * size.norm() + 1e-3f;
   Camera camera;
   camera.eye_ = {center.x(), center.y(), box.high.z() + room};

@@ -15,17 +15,17 @@ namespace {
 constexpr Rgb8 kInk{38, 40, 44};
 constexpr Rgb8 kPaper{240, 240, 240};
 constexpr Rgb8 kWhite{255, 255, 255};
-constexpr float kLineSpacing = 1.9f;   // of the letter height
-constexpr float kTitleGrowth = 1.25f;  // first line of a caption
-constexpr float kDescent = 0.35f;      // what letters have below the line, of their height
-constexpr float kSmallest = 6;         // letters that can be read [pixels]
+constexpr float kLineSpacing = 1.9f;   // distance of baselines, in letter heights
+constexpr float kTitleGrowth = 1.25f;  // size of a caption's first line over the others'
+constexpr float kDescent = 0.35f;      // depth of letters below the line, in letter heights
+constexpr float kSmallest = 6;         // smallest letters that can be read [pixels]
 
 std::string number_text(double value) { return fmt::format("{:.3g}", value == 0 ? 0.0 : value); }
 
-// Transparent pictures are meant for white pages.
+// The rim is white on transparent pictures, which are meant for white pages.
 const Rgb8& rim_color(const Image& image) { return image.channels() == 4 ? kWhite : kPaper; }
 
-// Text with a pale rim, so that it can be read over dark cloth too.
+// Draws text with a pale rim, so that it can be read over dark cloth too.
 void draw_label(Image& image, std::string_view text, float x, float y, float size) {
   const float rim = std::max(1.0f, size / 9);
   for (int i = 0; i < 8; ++i) {
@@ -35,7 +35,7 @@ void draw_label(Image& image, std::string_view text, float x, float y, float siz
   draw_text(image, text, x, y, {kInk, size});
 }
 
-// Top left corner of a block of this size in a corner of the picture.
+// The top left corner of a block in a corner of the picture [pixels].
 struct Place {
   float x, y;
 };
@@ -82,7 +82,7 @@ float block_height(const std::vector<Line>& lines, float size) {
   return size * (kTitleGrowth + kLineSpacing * (static_cast<float>(lines.size()) - 1) + kDescent);
 }
 
-// As large as fits into the given space, at most `size`, which becomes the size taken.
+// Sets lines as large as fit into the given space, at most `size`, which becomes the size taken.
 std::vector<Line> fitted_lines(std::string_view text, float width, float height, float& size) {
   const auto fits = [width](const Line& line) { return line.width <= width; };
   for (;; size *= 0.95f) {
@@ -95,12 +95,12 @@ std::vector<Line> fitted_lines(std::string_view text, float width, float height,
   }
 }
 
-// Half of the picture without its margins.
+// Returns half of the picture's width without its margins [pixels].
 float half_width(const Image& image) {
   return 0.5f * static_cast<float>(image.width()) - 1.25f * static_cast<float>(margin(image));
 }
 
-// A size at which the text is no wider than its half of the picture.
+// Returns a size at which the text is no wider than its half of the picture.
 float fitting_size(const Image& image, std::string_view text, float size) {
   return std::min(size, size * half_width(image) / std::max(text_width(text, size), 1e-3f));
 }
@@ -110,7 +110,7 @@ int widest_number(const ColorBar& bar, float letters) {
       std::max({text_width(number_text(bar.low), letters), text_width(number_text(bar.high), letters)})));
 }
 
-// Every how many ticks a number finds room.
+// Returns how many ticks apart numbers stand to find room.
 int number_stride(const ColorBar& bar, int ticks, int step, float letters) {
   for (int stride = 1; stride < ticks - 1; ++stride)
     if ((ticks - 1) % stride == 0 &&
@@ -193,7 +193,8 @@ ColorBarPlace draw_color_bar(Image& image, const ColorBar& bar, Corner corner) {
   const float overhang = 0.5f * static_cast<float>(widest_number(bar, letters));
   const int ticks = std::max(2, bar.ticks);
   const float room = std::min(0.24f * static_cast<float>(image.width()), half_width(image) - 2 * overhang);
-  const int step = static_cast<int>(room) / (ticks - 1);  // a whole number of pixels: ticks stand on columns
+  const int step =
+      static_cast<int>(room) / (ticks - 1);  // a whole number of pixels, so that ticks stand on columns
   ColorBarPlace at;
   at.width = step * (ticks - 1) + 1;
   at.height = std::max(3, static_cast<int>(0.9f * size));

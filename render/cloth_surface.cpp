@@ -94,8 +94,8 @@ void ClothSurface::upload_topology(const ClothTopology& topology) {
   view_as_texture(*gl_, index_texture_, GL_R32I, indices_);
 }
 
-// For vertex a the pairs (b, c) of its triangles (a, b, c), those of vertex i at start[i] to start[i + 1]
-// - 1.
+// Uploads for vertex a the pairs (b, c) of its triangles (a, b, c); those of vertex i are at start[i] to
+// start[i + 1] - 1.
 void ClothSurface::upload_adjacency(const ClothTopology& topology) {
   const auto& triangles = topology.triangles;
   std::vector<int> start(vertices_ + 1, 0);
@@ -140,7 +140,7 @@ void ClothSurface::bind_attributes(const ClothTopology& topology) {
     const GlBuffer& indices = arrays == &arrays_ ? indices_ : boundary_indices_;
     gl_->BindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices.name());
   }
-  gl_->BindVertexArray(point_arrays_.name());  // without the sky light, which is written from it
+  gl_->BindVertexArray(point_arrays_.name());  // it lacks the sky light, which is captured from it
   attribute(*gl_, kPosition, positions_, 3);
   attribute(*gl_, kNormal, normals_, 3);
 }

@@ -13,21 +13,21 @@
 namespace hysteron::render {
 namespace {
 
-// Of a pixel: the standard pattern of D3D 11 and Vulkan.  Eight lie elsewhere on every driver, which shows
-// along every edge when pictures are compared.
+// Samples per pixel drawn at once, in the standard pattern of D3D 11 and Vulkan.  Eight lie elsewhere on
+// every driver, which shows along every edge when pictures are compared.
 constexpr int kSamplesAtOnce = 4;
 constexpr int kFigureSamples = 1;  // a figure has passes enough
 constexpr int kColorMapUnit = 2;
 constexpr Rgb8 kPageWhite{255, 255, 255};
-constexpr float kMinThickness = 1.2f;  // of cloth as it is drawn [pixels]
-// Of the key light beside the camera [degree].
+constexpr float kMinThickness = 1.2f;  // least thickness of cloth as it is drawn [pixels]
+// The direction of the key light beside the camera [degree].
 constexpr float kKeyAzimuth = 100, kKeyElevation = 30;
 constexpr float kRaking = 0.2f;    // elevation of a raking light above the cloth's plane [rad]
-constexpr float kMinAlong = 0.2f;  // of a light's direction that must lie in that plane
+constexpr float kMinAlong = 0.2f;  // least part of a light's direction that lies in that plane
 // Longest side of an obstacle's triangles over its diagonal: their corners carry the room's soft shadows.
 constexpr float kSkySpacing = 1.0f / 12;
-constexpr float kBodySkyBlur = 3.2f, kBodySkyLift = 2.4f;  // texels: neighbouring directions blend
-constexpr int kLargestSide = 65536;                        // [pixels] of a picture; a mistake beyond
+constexpr float kBodySkyBlur = 3.2f, kBodySkyLift = 2.4f;  // [texels]; neighbouring directions blend
+constexpr int kLargestSide = 65536;  // largest side of a picture [pixels]; more is a mistake
 
 Eigen::Vector3f linear(const Rgb8& color) {
   const auto& table = linear_of_srgb8();
@@ -53,8 +53,8 @@ ProgramFiles cloth_files(Show show, bool figure) {
   return {.vertex = "surface.vert", .fragment = fragment, .defines = cloth_defines(show, figure)};
 }
 
-// Whether the cloth is drawn as thick as it is.  A drape meter's shadow and a mesh's lines are those of its
-// middle.
+// Returns true if the cloth is drawn as thick as it is.  A drape meter's shadow and a mesh's lines are those
+// of its middle.
 bool has_thickness(Show show) { return show != Show::silhouette && show != Show::wireframe; }
 
 // The middle of a sheet on the ground rests a thickness above it, its lower side half of that.
@@ -90,7 +90,7 @@ void upload_color_map(const GlFunctions& gl, const GlTexture& texture, ColorMap 
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
 }
 
-// The size with parts that the driver can hold.
+// Returns the size with parts that the driver can hold.
 PictureSize checked(Offscreen& offscreen, PictureSize size) {
   const int largest = std::min(size.width, size.height) < 1 ? 0 : std::max(size.width, size.height);
   if (largest < 1 || largest > kLargestSide || size.samples < 1 || size.supersample < 1 || size.tile < 2)
@@ -104,7 +104,8 @@ PictureSize checked(Offscreen& offscreen, PictureSize size) {
   return size;
 }
 
-// Of the equal parts that a side is drawn in; even, so that drivers group the same pixels for derivatives.
+// Returns the side of the equal parts of a picture; even, so that drivers group the same pixels for
+// derivatives.
 int part_side(int side, int most) {
   if (side <= most) return side;
   const int parts = (side + most - 1) / most;
@@ -167,7 +168,7 @@ void ClothView::resize(const PictureSize& size) {
   lit_pixels_.emplace(gl_, across, up);
 }
 
-// The members' names must be deleted in their own context.
+// The members' GL names must be deleted in their own context.
 ClothView::~ClothView() { offscreen_.make_current(); }
 
 void ClothView::set_cloth(const ClothTopology& topology) {
@@ -289,7 +290,7 @@ void ClothView::set_look(const Look& look) {
   upload_color_map(gl_, color_map_, look.map);
 }
 
-// Of a figure the box of its own instant, if known: the tighter, the sharper its shadows.
+// A figure has the box of its own instant, if known: the tighter, the sharper its shadows.
 Box ClothView::bounds() const {
   if (given_bounds_ && !(is_figure() && position_bounds_)) return *given_bounds_;
   std::optional<Box> box = position_bounds_;
@@ -311,7 +312,7 @@ Image ClothView::draw(const Camera& camera) {
   return image;
 }
 
-// What does not depend on the camera.
+// Updates everything that the picture's parts share: normals, shadows and light.
 void ClothView::prepare(const Camera& camera) {
   offscreen_.make_current();
   gl_.Enable(GL_DEPTH_TEST);
@@ -336,7 +337,7 @@ void ClothView::prepare(const Camera& camera) {
   if (ground_height_) ground_->update(shadows_, bounds(), pictured_ground(*ground_height_, look_));
 }
 
-// All that shadows and the room's light depend on, but for the cloth's positions.
+// Returns all that shadows and the room's light depend on, but for the cloth's positions.
 std::vector<float> ClothView::what_lights(const Camera& camera) const {
   const Box box = bounds();
   const Eigen::Vector3f key = key_direction(look_, camera, cloth_normal_);
@@ -374,7 +375,7 @@ void ClothView::update_body_sky() const {
   }
 }
 
-// The part of the picture whose upper left pixel is at (left, top).
+// Draws the part of the picture whose upper left pixel is at (left, top).
 Image ClothView::draw_part(const Camera& camera, int left, int top) {
   Exposure exposure(part_width_, part_height_, size_.supersample);
   const bool lit = is_figure() && look_.show != Show::silhouette;
@@ -418,8 +419,8 @@ ClothView::View ClothView::camera_view(const Camera& camera, int left, int top, 
           camera.metres_per_pixel(size_.height * size_.supersample)};
 }
 
-// The placement of a body that is drawn smaller by `inset` [m] on all sides, stretched upright so that one
-// that stands on the ground keeps standing.
+// Returns the placement of a body that is drawn smaller by `inset` [m] on all sides, stretched upright so
+// that one that stands on the ground keeps standing.
 Eigen::Matrix4f ClothView::standing(const Obstacle& obstacle, float inset) const {
   const Box box = placed_box(obstacle.box, obstacle.placement);
   const float low = box.low.z(), height = box.high.z() - low;
@@ -453,7 +454,7 @@ void ClothView::draw_casters(const Program& program) const {
   if (cloth_) cloth_->draw();
 }
 
-// From front to back, as far as that is known: hidden pixels cost a software renderer most.
+// Draws from front to back, as far as that is known: hidden pixels cost a software renderer most.
 void ClothView::draw_scene(const View& view, bool counts) const {
   if (cloth_) draw_cloth(view, *cloth_programs_);
   if (counts) count_cloth(view, alone_samples_);
@@ -574,7 +575,7 @@ void ClothView::begin_cloth(const Program& program, const View& view) const {
   bind_texture(gl_, kColorMapUnit, color_map_);
 }
 
-// A sheet's two sides and its rim; where it has no thickness, its middle.
+// Draws a sheet's two sides and its rim; where it has no thickness, its middle.
 void ClothView::draw_cloth(const View& view, const ClothPrograms& programs) const {
   begin_cloth(programs.sides, view);
   if (!has_thickness(look_.show)) return cloth_->draw();

@@ -15,7 +15,7 @@ struct Oklch {
   float lightness, chroma, hue_degree;
 };
 
-// Ottosson 2020: Oklab to linear sRGB.
+// Converts Oklab to linear sRGB (Ottosson 2020).
 Eigen::Vector3f linear_srgb(const Oklch& color) {
   const float hue = color.hue_degree * std::numbers::pi_v<float> / 180;
   const float a = color.chroma * std::cos(hue), b = color.chroma * std::sin(hue);

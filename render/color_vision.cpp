@@ -10,16 +10,16 @@
 namespace hysteron::render {
 namespace {
 
-constexpr double kToldApart = 12;  // of CIEDE2000, by thin lines
+constexpr double kToldApart = 12;  // CIEDE2000 at which thin lines are told apart
 constexpr double kDegree = std::numbers::pi / 180;
 
-// Hue angle in degrees from 0 to 360.
+// Returns the hue angle in degrees from 0 to 360.
 double hue(double a, double b) {
   const double angle = std::atan2(b, a) / kDegree;
   return angle < 0 ? angle + 360 : angle;
 }
 
-// Of two hues on their circle; of a grey that of the other.
+// Returns the mean of two hues on their circle; if one colour is grey, the other's hue.
 double mean_hue(double first, double second, bool grey) {
   if (grey) return first + second;
   const double sum = first + second;

@@ -12,14 +12,14 @@ namespace hysteron::render {
 namespace {
 
 constexpr Rgb8 kPaper{255, 255, 255}, kInk{38, 40, 44}, kGrey{96, 99, 104};
-constexpr float kPlateEdge = 0.02f;  // of an inset, around its frame
-constexpr int kMinCell = 32;         // [pixels]
+constexpr float kPlateEdge = 0.02f;  // edge around an inset's frame, over its side
+constexpr int kMinCell = 32;         // least width of a cell [pixels]
 
-// Text that fits: its end gives way to an ellipsis.
+// Shortens a text until it fits; its end gives way to an ellipsis.
 std::string fitting(std::string text, float letters, float room) {
   while (text.size() > 4 && text_width(text, letters) > room) {
     std::size_t cut = text.ends_with("…") ? text.size() - std::string("…").size() - 1 : text.size() - 1;
-    while (cut > 0 && (text[cut] & 0xC0) == 0x80) --cut;  // not inside a letter
+    while (cut > 0 && (text[cut] & 0xC0) == 0x80) --cut;  // the cut is not inside a letter
     text = text.substr(0, cut) + "…";
   }
   return text_width(text, letters) > room ? "" : text;
@@ -50,7 +50,7 @@ Image enlarged(const Image& source, int width, int height) {
   return result;
 }
 
-// As large as the place and its pixels allow; the cell's own aspect stays.
+// Scales a picture as large as the place and its pixels allow; its aspect stays.
 Image fitted(const Image& image, int width, int height) {
   const double scale = std::min({static_cast<double>(width) / image.width(),
                                  static_cast<double>(height) / image.height(), kMaxEnlarged});
@@ -59,13 +59,13 @@ Image fitted(const Image& image, int width, int height) {
   return w <= image.width() && h <= image.height() ? shrink(image, w, h) : enlarged(image, w, h);
 }
 
-// 1, 2 or 5 times a power of ten [m], the longest whose bar has room.
+// Returns the longest length, 1, 2 or 5 times a power of ten [m], whose bar has room.
 double bar_metres(double metres_per_pixel, double room) {
   const double most = metres_per_pixel * room, decade = std::pow(10, std::floor(std::log10(most)));
   return (most >= 5 * decade ? 5 : most >= 2 * decade ? 2 : 1) * decade;
 }
 
-// White on the right.
+// Adds a white margin on the right [pixels].
 Image with_margin(const Image& source, int margin) {
   Image result(source.width() + margin, source.height(), kPaper);
   paste(result, source, 0, 0);
@@ -76,15 +76,16 @@ int inset_side(const Image& cell) {
   return std::max(1, static_cast<int>(kInsetFraction * std::min(cell.width(), 2 * cell.height())));
 }
 
-// Of a square within a picture, in shares of the room that it has.
+// The place of a square within a picture, in shares of its free room from the upper left corner.
 struct Place {
   double x = 1, y = 1;
 };
 
-// Sums of what is not white over rectangles of a picture, by the sums from its upper left corner.  Shadows
+// A table of sums from a picture's upper left corner gives the darkness of any rectangle of it.  Shadows
 // count little.
 class Darkness {
-  static constexpr int kShadow = 60, kShadows = 32;  // 8-bit steps below white; how many are as bad as cloth
+  static constexpr int kShadow = 60,
+                       kShadows = 32;  // darkest shadow, in 8-bit steps below white; weight of what is darker
 
  public:
   explicit Darkness(const Image& image) : width_(image.width()), side_(inset_side(image)) {
@@ -100,7 +101,7 @@ class Darkness {
     height_ = image.height();
   }
 
-  // Mean over an inset there, in 8-bit steps.
+  // Returns the mean darkness under an inset there, in 8-bit steps.
   double under(const Place& place) const {
     const int x = static_cast<int>(place.x * (width_ - side_)),
               y = static_cast<int>(place.y * (height_ - side_));
@@ -118,10 +119,10 @@ class Darkness {
   std::vector<long> sum_;
 };
 
-// Lower right, unless it hides less elsewhere.
+// Returns the lower right corner, unless an inset hides less elsewhere.
 Place emptiest_place(const std::vector<Darkness>& pictures) {
   constexpr int kSteps = 8;
-  constexpr double kFar = 3;  // 8-bit steps for all of the way from the lower right corner
+  constexpr double kFar = 3;  // cost of all the way from the lower right corner, in 8-bit steps
   Place best;
   double least = std::numeric_limits<double>::infinity();
   for (int j = kSteps; j >= 0; --j)
@@ -134,7 +135,7 @@ Place emptiest_place(const std::vector<Darkness>& pictures) {
   return best;
 }
 
-// These are the row's pictures that have an inset.
+// Returns the row's pictures that have an inset.
 std::vector<Darkness> pictures_with_insets(const ComparisonSheet& sheet, std::size_t r) {
   std::vector<Darkness> pictures;
   for (const ComparisonColumn& column : sheet.columns)
@@ -212,7 +213,7 @@ class Drawing {
     if (page_.numbers_below) text(with_numbers("", column, page_.numbers), x + mark, y, kGrey, room);
   }
 
-  // In the margin: its time, and what is happening; a scale where rows differ in it.
+  // Writes a row's time and phase into the margin, and its scale where rows differ in it.
   void instant(const ComparisonRow& row, std::size_t r) {
     const float x = static_cast<float>(page_.gap), room = static_cast<float>(page_.margin);
     if (page_.margin == 0) return;
@@ -224,7 +225,7 @@ class Drawing {
       scale(row.metres_per_pixel * shown_pixels(r), x, y + 2 * page_.line(), 0.8 * page_.margin, "");
   }
 
-  // Of a picture for one of the page, in row r.
+  // Returns how many pixels of a picture in row r one pixel of the page shows.
   double shown_pixels(std::size_t r) const {
     for (const ComparisonColumn& column : sheet_.columns)
       if (const Image& image = column.cells[r].image; !image.empty())
@@ -253,7 +254,7 @@ class Drawing {
           static_cast<int>(std::lround(place.y * (cell.height() - side))));
   }
 
-  // A bar with its length behind it; returns where that ends.
+  // Draws a scale bar with its length below; returns the right end of both.
   float scale(double metres_per_pixel, float x, int top, double room, const std::string& note) {
     const double metres = bar_metres(metres_per_pixel, room);
     const float length = static_cast<float>(metres / metres_per_pixel), letters = page_.letters,
@@ -271,7 +272,7 @@ class Drawing {
     if (first.metres_per_pixel > 0 && has_one_scale(sheet_))
       x = scale(first.metres_per_pixel * shown_pixels(0), x, y_, 0.6 * page_.cell_width, sheet_.scale_note) +
           2 * page_.letters;
-    // On a picture of their own, whose size sets that of their letters.
+    // Each bar is drawn on a picture of its own, whose size sets that of its letters.
     for (const ColorBar& bar : sheet_.bars) {
       const int wide = static_cast<int>(80 * page_.letters), high = static_cast<int>(45 * page_.letters);
       Image whole(wide, high, kPaper);
@@ -284,7 +285,7 @@ class Drawing {
     if (page_.names_loops) loop_key(x);
   }
 
-  // What insets are, in their own frame: axes alone, with a tick, its value and unit each.
+  // Draws the insets' key: axes of their frame alone, each with a tick, its value and unit.
   void loop_key(float x) {
     const int side = static_cast<int>(kLoopKey * page_.letters);
     for (const ComparisonColumn& column : sheet_.columns)
@@ -308,8 +309,8 @@ class Drawing {
   const ComparisonSheet& sheet_;
   SheetPage page_;
   Image image_;
-  std::vector<Place> places_;  // of insets, by row
-  std::string family_;         // that was named last
+  std::vector<Place> places_;  // places of insets by row
+  std::string family_;         // family that was named last
   int y_ = 0;
 };
 
@@ -318,10 +319,11 @@ bool is_dark(const Image& image, int x, int y) {
   return image.at(x, y)[0] < 128;
 }
 
-// Where an inset would hide something of a row's pictures, they have a margin for it on the right.
+// A row's pictures get a margin on the right if an inset would hide something of them.
 ComparisonSheet with_room_for_insets(ComparisonSheet sheet) {
-  constexpr double kNothing = 1;                                     // 8-bit steps in the mean
-  constexpr double kMargin = kInsetFraction / (1 - kInsetFraction);  // of a picture's shorter side
+  constexpr double kNothing = 1;  // mean darkness of nothing, in 8-bit steps
+  constexpr double kMargin =
+      kInsetFraction / (1 - kInsetFraction);  // margin over a picture's width or twice its height
   for (std::size_t r = 0; r < sheet.rows.size(); ++r) {
     const std::vector<Darkness> pictures = pictures_with_insets(sheet, r);
     const auto is_clear = [](const std::vector<Darkness>& beside) {
@@ -352,7 +354,7 @@ void check(const ComparisonSheet& sheet) {
                                  std::to_string(sheet.rows.size()) + " rows");
 }
 
-// Most of the picture's border is nearly white.
+// Returns true if most of the picture's border is nearly white.
 bool has_white_border(const Image& image) {
   constexpr int kNearlyWhite = 244;
   const int w = image.width(), h = image.height();

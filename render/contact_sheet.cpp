@@ -30,7 +30,7 @@ Image contact_sheet(const std::vector<SheetEntry>& entries, ComparisonSheet page
 }
 
 Image onion_skin(const std::vector<Image>& pictures) {
-  constexpr double kPalest = 0.72;  // share of white in the first
+  constexpr double kPalest = 0.72;  // share of white in the first picture
   if (pictures.empty()) throw Error::invalid_input("onion skin: there are no pictures");
   Image over = pictures.back();
   for (std::size_t i = 0; i + 1 < pictures.size(); ++i) {
@@ -55,7 +55,7 @@ std::vector<int> spread(int total, int count) {
 }
 
 std::vector<int> spread_by_displacement(const std::vector<double>& moved, int count) {
-  std::vector<double> distance_so_far;  // so far, at each
+  std::vector<double> distance_so_far;  // distance moved up to each entry
   for (double step : moved)
     distance_so_far.push_back((distance_so_far.empty() ? 0 : distance_so_far.back() + step));
   std::vector<int> indices;
@@ -75,7 +75,7 @@ std::vector<int> spread_by_displacement(const std::vector<double>& moved, int co
 SeenPicture on_front_page(const Image& picture) { return seen_picture(front_page_copy(picture)); }
 
 bool look_alike(const SeenPicture& a, const SeenPicture& b) {
-  constexpr double kAlike = 0.02;  // FLIP
+  constexpr double kAlike = 0.02;  // FLIP below which pictures look alike
   return flip(a, b) < kAlike;
 }
 

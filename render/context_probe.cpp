@@ -12,7 +12,7 @@ void try_in_child(const std::function<void()>& call) {
   answer_of_child([&] {
     try {
       call();
-    } catch (...) {  // the parent meets the same, and says it
+    } catch (...) {  // the parent meets the same error and reports it
     }
     return std::string();
   });

@@ -12,7 +12,7 @@
 namespace hysteron::render {
 namespace {
 
-// libEGL's calls, looked up once; extension calls are null where the driver lacks them.
+// libEGL's calls are looked up once; extension calls are null where the driver lacks them.
 struct Egl {
   PFNEGLGETPROCADDRESSPROC GetProcAddress;
   PFNEGLGETERRORPROC GetError;

@@ -10,7 +10,8 @@
 namespace hysteron::render {
 namespace {
 
-// Sum of two numbers from 0 to 255, less 255, by the place alone: integer mixing as in weave.glsl.
+// Returns the sum of two numbers from 0 to 255, less 255, which depend on the place alone by integer mixing
+// as in weave.glsl.
 int triangular_noise(int x, int y, int channel) {
   std::uint32_t h = static_cast<std::uint32_t>(x) * 0x9e3779b9u +
                     static_cast<std::uint32_t>(y) * 0x7f4a7c15u +
@@ -76,7 +77,8 @@ Image Exposure::image(bool alpha, int left, int top) const {
   for (int y = 0; y < height_; ++y)
     for (int x = 0; x < width_; ++x, from += 4) {
       std::uint8_t* to = result.at(x, y);
-      const float fraction = alpha ? std::max(from[3], 1e-6f) : 1 / weight;  // what colours are multiplied by
+      const float fraction =
+          alpha ? std::max(from[3], 1e-6f) : 1 / weight;  // factor that colours are multiplied by
       for (int c = 0; c < 3; ++c) to[c] = rounded(from[c] / fraction, left + x, top + y, c);
       if (alpha) to[3] = static_cast<std::uint8_t>(255 * std::min(weight * from[3], 1.0f) + 0.5f);
     }

@@ -14,19 +14,20 @@ namespace {
 
 constexpr int kKeyUnit = 0, kRoomUnit = 1;
 constexpr int kKeySide = 1024, kRoomSide = 512;     // texels of one direction's tile
-constexpr int kKeyColumns = 2, kRoomColumns = 4;    // of tiles, as in figure_light.glsl
-constexpr float kKeyRadius = 0.15f;                 // of the key light over its distance: 8.5 degrees
-constexpr float kBorder = 1.04f;                    // the maps' border stays empty: outside of them is light
-const Eigen::Vector3f kKey{4.1f, 4.0f, 3.87f};      // on a surface that faces it
-const Eigen::Vector3f kSky{0.96f, 1.0f, 1.06f};     // on a surface that faces up
-const Eigen::Vector3f kFloor{0.91f, 0.90f, 0.88f};  // on a surface that faces down
+constexpr int kKeyColumns = 2, kRoomColumns = 4;    // columns of tiles, as in figure_light.glsl
+constexpr float kKeyRadius = 0.15f;                 // radius of the key light over its distance: 8.5 degrees
+constexpr float kBorder = 1.04f;                    // keeps the maps' border empty: outside is light
+const Eigen::Vector3f kKey{4.1f, 4.0f, 3.87f};      // light on a surface that faces the key light
+const Eigen::Vector3f kSky{0.96f, 1.0f, 1.06f};     // light on a surface that faces up
+const Eigen::Vector3f kFloor{0.91f, 0.90f, 0.88f};  // light on a surface that faces down
 
-constexpr float kOpenLight = 3;      // of the studio on open ground: half the key's and the sky's
+constexpr float kOpenLight = 3;      // light of the studio on open ground: half the key's, and the sky's
 constexpr float kMinExposed = 0.3f;  // a dim room is exposed longer, for its key light alone
 
 float u(int index, int base) { return static_cast<float>(radical_inverse(index, base)); }
 
-// World to clip space of a parallel light that sees the box; `texel`: of a map of `side` texels [m].
+// Returns the transform from world to clip space of a parallel light that sees the box; `texel` becomes the
+// size of a texel in a map of `side` texels [m].
 Eigen::Matrix4f light_matrix(const Eigen::Vector3f& to_light, const Box& box, int side, float& texel) {
   const Eigen::Matrix3f turn =
       Eigen::Quaternionf::FromTwoVectors(to_light, Eigen::Vector3f::UnitZ()).toRotationMatrix();
@@ -35,7 +36,7 @@ Eigen::Matrix4f light_matrix(const Eigen::Vector3f& to_light, const Box& box, in
       kBorder * (turn.cwiseAbs() * half).cwiseMax(1e-3f * box.radius()).cwiseMax(1e-6f);
   texel = 2 * std::max(reach.x(), reach.y()) / static_cast<float>(side);
   Eigen::Matrix4f matrix = Eigen::Matrix4f::Identity();
-  // The light's own z points to it; depth grows away from it.
+  // The light's own z axis points to it; depth grows away from it.
   const Eigen::Matrix3f scaled = Eigen::Vector3f(1, 1, -1).cwiseQuotient(reach).asDiagonal() * turn;
   matrix.topLeftCorner<3, 3>() = scaled;
   matrix.topRightCorner<3, 1>() = -scaled * box.center();
@@ -61,7 +62,8 @@ FigureLight::FigureLight(const GlFunctions& gl, int passes)
   check_gl(gl, "making a figure's shadow maps");
 }
 
-// Discs and hemispheres covered evenly, in an order of which every beginning is spread as well (Halton 1960).
+// Directions cover discs and hemispheres evenly, in an order of which every beginning is spread as well
+// (Halton 1960).
 FigureLight::Direction FigureLight::direction(int pass, int light) const {
   const auto angle = [](float turn) { return 2 * std::numbers::pi_v<float> * turn; };
   if (light < kPassKeys) {
@@ -119,7 +121,7 @@ void FigureLight::bind(const Program& program) const {
   bind_texture(*gl_, kRoomUnit, room_map_);
   program.set("key_map", kKeyUnit);
   program.set("room_map", kRoomUnit);
-  const auto passes = static_cast<float>(passes_);  // each draws the whole light of its directions
+  const auto passes = static_cast<float>(passes_);  // each pass draws the whole light of its directions
   program.set("open_ground", open_);
   program.set("exposure", studio_light(room_).exposure);
   for (int k = 0; k < kPassLights; ++k) {

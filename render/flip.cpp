@@ -19,19 +19,19 @@ constexpr double kPi = std::numbers::pi;
 constexpr double kColorExponent = 0.7;         // q_c
 constexpr double kKnee = 0.4;                  // p_c, share of the largest colour difference
 constexpr double kKneeError = 0.95;            // p_t, error that this share is mapped to
-constexpr double kFeatureWidth = 0.082;        // w [degree], of the edges and points that are looked for
+constexpr double kFeatureWidth = 0.082;        // w [degree], width of the edges and points
 constexpr double kFeatureExponent = 0.5;       // q_f
 constexpr double kMinPpd = 1, kMaxPpd = 1000;  // [pixels/degree]: filters of 3 to 273 pixels
 
-constexpr int kSerialRows = 64;  // pictures this small are done before threads have started
+constexpr int kSerialRows = 64;  // pictures of so few rows are done before threads have started
 
 // ------------------------------------------------------------------------------------------- colour spaces
 
-// XYZ of a colour of unit luminance.
+// Returns the XYZ of a colour of unit luminance.
 Eigen::Vector3d xyz_of_chromaticity(double x, double y) { return {x / y, 1, (1 - x - y) / y}; }
 
-// Linear sRGB to X/Xn, Y/Yn, Z/Zn, from the primaries of IEC 61966-2-1 and the white D65 (CIE 15:2004): full
-// red, green and blue together are that white.
+// Returns the matrix from linear sRGB to X/Xn, Y/Yn, Z/Zn, by the primaries of IEC 61966-2-1 and the white
+// D65 (CIE 15:2004): full red, green and blue together are that white.
 Eigen::Matrix3d relative_xyz_of_rgb() {
   const Eigen::Vector3d white = xyz_of_chromaticity(0.31271, 0.32902);
   Eigen::Matrix3d primaries;
@@ -41,11 +41,12 @@ Eigen::Matrix3d relative_xyz_of_rgb() {
   return white.cwiseInverse().asDiagonal() * primaries * primary_luminances.asDiagonal();
 }
 
-// Relative XYZ to luminance, red-green and blue-yellow: YyCxCz (CIE 1976 without its roots, Flohr et al.
-// 1993) with Y/Yn in place of Yy = 116 Y/Yn - 16, because filters that keep constants commute with both.
+// The matrix from relative XYZ to luminance, red-green and blue-yellow is YyCxCz (CIE 1976 without its roots,
+// Flohr et al. 1993) with Y/Yn in place of Yy = 116 Y/Yn - 16, because filters that keep constants commute
+// with both.
 const Eigen::Matrix3d kOpponent{{0, 1, 0}, {500, -500, 0}, {0, 200, -200}};
 
-// L*a*b* of relative XYZ (CIE 15:2004).
+// Returns the L*a*b* of relative XYZ (CIE 15:2004).
 Eigen::Vector3d cie_lab(const Eigen::Vector3d& xyz) {
   constexpr double kDelta = 6.0 / 29;
   const auto root = [](double t) {
@@ -60,12 +61,12 @@ Eigen::Vector3d hunt_adjusted(const Eigen::Vector3d& lab) {
   return {lab.x(), 0.01 * lab.x() * lab.y(), 0.01 * lab.x() * lab.z()};
 }
 
-// Abasi, Tehran, Fairchild 2020: city-block in lightness, Euclidean in the plane of a* and b*.
+// HyAB is city-block in lightness, Euclidean in the plane of a* and b* (Abasi, Tehran, Fairchild 2020).
 double hyab(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::abs(a.x() - b.x()) + std::hypot(a.y() - b.y(), a.z() - b.z());
 }
 
-// ---------------------------------------------------------------------------------------- what an eye sees
+// --------------------------------------------------------------------------------------------- perception
 
 // A contrast sensitivity as a sum of Gaussians, weight a sqrt(pi / b) exp(-pi^2 d^2 / b) at the angle d
 // [degree] (Andersson et al. 2020, spatial filtering).
@@ -100,7 +101,7 @@ Plane seen(const Plane& plane, const Sensitivity& sensitivity, double ppd) {
   return sum;
 }
 
-// Luminance, red-green, blue-yellow of a picture.
+// The planes of luminance, red-green and blue-yellow of a picture.
 using Opponent = std::array<Plane, 3>;
 
 Opponent opponent_colors(const Image& image) {
@@ -118,7 +119,7 @@ Opponent opponent_colors(const Image& image) {
   return planes;
 }
 
-// Hunt-adjusted L*a*b* of what is seen of each pixel.
+// Returns the Hunt-adjusted L*a*b* that an eye perceives at each pixel.
 Opponent perceived(const Opponent& picture, double ppd) {
   Opponent planes;
   for (int c = 0; c < 3; ++c) planes[c] = seen(picture[c], kSensitivities[c], ppd);
@@ -135,7 +136,7 @@ Opponent perceived(const Opponent& picture, double ppd) {
   return planes;
 }
 
-// The largest HyAB^q_c in the gamut, between green and blue.
+// Returns the largest HyAB^q_c in the gamut, between green and blue.
 double largest_color_difference() {
   const auto of = [](const Eigen::Vector3d& rgb) {
     return hunt_adjusted(cie_lab(relative_xyz_of_rgb() * rgb));
@@ -143,7 +144,7 @@ double largest_color_difference() {
   return std::pow(hyab(of({0, 1, 0}), of({0, 0, 1})), kColorExponent);
 }
 
-// Two straight pieces: the small differences get most of the range.
+// Maps differences to errors by two straight pieces: the small differences get most of the range.
 double redistributed(double difference, double largest) {
   const double knee = kKnee * largest;
   return difference < knee ? kKneeError / knee * difference
@@ -152,7 +153,7 @@ double redistributed(double difference, double largest) {
 
 // ------------------------------------------------------------------------------------------ edges, points
 
-// Weights whose positive ones sum to 1 and whose negative ones sum to -1.
+// Scales weights so that the positive ones sum to 1 and the negative ones to -1.
 Kernel balanced(Kernel kernel) {
   double positive = 0, negative = 0;
   for (double weight : kernel) (weight > 0 ? positive : negative) += std::abs(weight);
@@ -184,7 +185,7 @@ Plane length(Plane x, const Plane& y) {
   return x;
 }
 
-// How much of an edge, and of a point, there is at each pixel.
+// The strength of edges and of points at each pixel.
 struct Features {
   Plane edges, points;
 };

@@ -20,14 +20,14 @@ namespace hysteron::render::gnuplot {
 
 namespace {
 
-// A gnuplot string: single quotes are doubled, line ends become spaces.
+// Writes a gnuplot string: single quotes are doubled, line ends become spaces.
 std::string single_quoted(const std::string& text) {
   std::string result = "'";
   for (const char c : text) result += c == '\'' ? std::string("''") : std::string(1, c == '\n' ? ' ' : c);
   return result + "'";
 }
 
-// Without markup; gnuplot reads `escape` as one backslash.
+// Escapes all markup; gnuplot reads `escape` as one backslash.
 std::string unmarked(const std::string& text, const char* escape) {
   std::string plain;
   for (const char c : text) {
@@ -37,14 +37,14 @@ std::string unmarked(const std::string& text, const char* escape) {
   return plain;
 }
 
-// Dashes and dots of a pattern; the last one stands for all that follow.
+// Returns the dashes of a pattern; the last one stands for all that follow.
 std::string dashes(int pattern) {
   constexpr const char* kDashes[] = {
       "", " dt (14,5)", " dt (3,4)", " dt (14,4,3,4)", " dt (14,4,3,4,3,4)", " dt (7,7)"};
   return kDashes[std::min<std::size_t>(static_cast<std::size_t>(pattern), std::size(kDashes) - 1)];
 }
 
-// Circles, squares, triangles, diamonds.
+// Returns the dots of a pattern: circles, squares, triangles, diamonds, inverted triangles.
 std::string dots_of(int pattern) {
   constexpr int kFilled[] = {7, 5, 9, 13, 11};
   return " pt " + std::to_string(kFilled[static_cast<std::size_t>(pattern) % std::size(kFilled)]) + " ps 0.9";
@@ -73,7 +73,8 @@ bool has_line(const Series& series) {
   return series.style == Series::Style::line || series.style == Series::Style::line_and_points;
 }
 
-// Of what has a name: lines among each other, and dots.  Dashed lines are what others are held against.
+// Returns patterns that tell named series apart, lines from lines and dots from dots.  Dashed lines get none:
+// others are held against them.
 std::vector<int> patterns_of(const std::vector<Series>& series, const std::vector<std::string>& colors) {
   std::vector<int> patterns(series.size());
   for (const bool lines : {true, false}) {
@@ -95,7 +96,7 @@ std::string output_commands(const char* terminal, int width, int height, const s
          single_quoted(file.string()) + "\n";
 }
 
-// 1, 2, 5, 10, ... within the axis; more where few of them would be.
+// Numbers an axis at 1, 2, 5, 10, ..., and at more places where few of these lie within it.
 std::string numbers_of_short(const char* name, const Axis& axis) {
   const bool few = axis.high < 5 * axis.low;
   const std::vector<double> digits =
@@ -121,12 +122,12 @@ std::string category_commands(const char* name, const std::vector<std::string>& 
          "range [-0.6:" + number(static_cast<double>(categories.size()) - 0.4) + "]\n";
 }
 
-// Of gnuplot, by without_letters().
+// The exit status of gnuplot that without_letters() sets.
 constexpr int kNoLetters = 9;
 
 // Ends gnuplot where a character of the picture before is less than a pixel high or wide: without any font,
-// gnuplot draws on and leaves every letter out.  What fontconfig says does not tell: it goes on without its
-// configuration, and may find fonts all the same.  Of gnuplot 6 the height is then any number.
+// gnuplot draws on and leaves every letter out.  Fontconfig's messages do not tell: it goes on without its
+// configuration, and may find fonts all the same.  The height is then any number in gnuplot 6.
 std::string without_letters(int width) {
   const std::string pixel = " * " + std::to_string(width) + " < GPVAL_TERM_XSIZE";
   return "if (exists('GPVAL_TERM_VCHAR') && (GPVAL_TERM_VCHAR" + pixel + " || GPVAL_TERM_HCHAR" + pixel +
@@ -138,7 +139,8 @@ bool has_content(const std::string& file) {
   return std::filesystem::file_size(file, error) > 0 && !error;
 }
 
-// Whether this stands in the last bytes of the file: gnuplot ends well where it could not write all of one.
+// Returns true if the last bytes of the file hold `end`: gnuplot ends well where it could not write all of
+// one.
 bool has_end(const std::string& file, std::string_view end) {
   constexpr std::streamoff kTail = 64;
   std::ifstream in(file, std::ios::binary | std::ios::ate);
@@ -147,9 +149,10 @@ bool has_end(const std::string& file, std::string_view end) {
   return tail.find(end) != tail.npos;
 }
 
-// A gnuplot that cannot write PDF leaves that empty, and so does a disk without room for it.
+// Returns true if the disk has no room for a page: the PDF is empty then, too, not only where gnuplot cannot
+// write any.
 bool is_full(const std::filesystem::path& folder) {
-  constexpr std::uintmax_t kLeast = 1 << 16;  // [byte] of a page
+  constexpr std::uintmax_t kLeast = 1 << 16;  // least size of a page [byte]
   std::error_code failure;
   const auto room = std::filesystem::space(folder.empty() ? "." : folder, failure);
   return !failure && room.available < kLeast;
@@ -190,7 +193,7 @@ std::string data_blocks(const std::vector<Series>& series, std::size_t first) {
       if (std::isfinite(x) && std::isfinite(y)) script += number(x) + " " + number(y);
       if (std::isfinite(x) && std::isfinite(y) && !series[i].spread.empty())
         script += " " + number(series[i].spread[k]);
-      script += "\n";  // a line ends before an empty one: gnuplot draws on through what is called missing
+      script += "\n";  // an empty line ends the curve: gnuplot draws on through what is called missing
     }
     script += "END\n";
   }
@@ -203,7 +206,7 @@ std::string plot_command(const std::vector<Series>& series, std::size_t first) {
   for (std::size_t i = 0; i < series.size(); ++i)
     colors.push_back(series[i].color.empty() ? hex(method_color(i)) : series[i].color);
   const std::vector<int> patterns = patterns_of(series, colors);
-  for (size_t i = 0; i < series.size(); ++i)  // behind all lines
+  for (size_t i = 0; i < series.size(); ++i)  // bands are drawn behind all lines
     if (!series[i].spread.empty())
       script +=
           "$series" + std::to_string(first + i) +
@@ -245,7 +248,7 @@ std::string mark_commands(const std::vector<Mark>& marks) {
   return script;
 }
 
-// A page of as many points as the PNG has pixels; a gnuplot that cannot write PDF ends here.
+// Starts a PDF page of as many points as the PNG has pixels; a gnuplot that cannot write PDF ends here.
 std::string pdf_commands(int width, int height, const std::filesystem::path& file) {
   constexpr double kPoint = 1. / 72;  // [inch]
   return "if (strstrt(GPVAL_TERMINALS, 'pdfcairo') == 0) exit\nset terminal pdfcairo enhanced size " +
@@ -253,7 +256,7 @@ std::string pdf_commands(int width, int height, const std::filesystem::path& fil
          single_quoted(file.string()) + "\n";
 }
 
-// The time at which it was written would make two files of the same plot differ: the same in all of them, but
+// Overwrites a PDF's time of creation, which would make two files of the same plot differ, with zeros, except
 // where cairo packs it with other objects (1.18).
 void forget_when(const std::filesystem::path& pdf) {
   constexpr std::string_view kKey = "/CreationDate (D:";

@@ -10,11 +10,11 @@ namespace {
 
 constexpr int kSkySide = 64;        // texels of the sky light's texture
 constexpr int kSide = 224;          // texels of the light texture: its shadows are soft
-constexpr float kFigureReach = 12;  // beyond it lies no shadow that can be seen
+constexpr float kFigureReach = 12;  // half side of a figure's patch in radii of the scene: shadows end within
 constexpr float kReach = 2.6f;      // half side of the patch in radii of the scene
 constexpr int kLightUnit = 7;
 constexpr int kSkyTextureUnit = 9;
-constexpr float kSkyBlur = 4.0f;  // texels of the sky maps
+constexpr float kSkyBlur = 4.0f;  // radius of a lookup in the sky maps [texels]
 
 TriangleMesh ground_square() {
   TriangleMesh mesh;
@@ -73,7 +73,7 @@ void Ground::place(const Box& box, float height) {
 void Ground::update(const ShadowMaps& shadows, const Box& box, float height) {
   const float reach = kReach * box.radius();
   const Eigen::Vector3f center = box.center(), to_light = shadows.to_light();
-  // Between the scene and its shadow.
+  // The patch's middle is between the scene and its shadow.
   const float shift = 0.5f * (center.z() - height) / std::max(to_light.z(), 0.3f);
   placement_ = Eigen::Matrix4f::Identity();
   placement_.diagonal() << reach, reach, 1, 1;

@@ -8,13 +8,13 @@
 namespace hysteron::render {
 namespace {
 
-// [pixels]
+// Lengths are in pixels.
 constexpr int kTop = 136, kRight = 24, kGapX = 20, kGapY = 44;
-constexpr int kBesideLabel = 52, kBelowLabel = 54;  // where the axes' labels stand
+constexpr int kBesideLabel = 52, kBelowLabel = 54;  // room of the axes' labels
 constexpr int kLetter = 8;                          // width of a tick's letter
 constexpr int kLegend = 78, kSwatch = 15, kLegendLetter = 9, kLegendGap = 34;
-constexpr int kMinMap = 380, kMinPage = 1000;  // widths: of a map, and of all maps together
-constexpr double kHalfCell = 0.47;             // in cells: the rest is the grid between them
+constexpr int kMinMap = 380, kMinPage = 1000;  // least widths of a map and of all maps together
+constexpr double kHalfCell = 0.47;             // half side of a cell's colour, in cells: the rest is the grid
 
 std::size_t longest(const std::vector<std::string>& words) {
   std::size_t most = 0;
@@ -22,7 +22,7 @@ std::size_t longest(const std::vector<std::string>& words) {
   return most;
 }
 
-// Room for a map's title.
+// Returns the width of a map [pixels], with room for its title.
 int map_width(const HeatMaps& page) {
   return std::max(kMinMap, page.cell_width * static_cast<int>(page.x.ticks.size()));
 }
@@ -49,7 +49,7 @@ gnuplot::PanelPage layout(const HeatMaps& page) {
           kGapY};
 }
 
-// A swatch and a name for each kind, in a row below the subtitle.
+// Draws a swatch and a name for each kind, in a row below the subtitle.
 std::string legend(const HeatMaps& page, const gnuplot::PanelPage& at) {
   std::string script;
   int x = at.left;
@@ -71,7 +71,7 @@ std::string tick_list(const std::vector<std::string>& ticks, bool shown) {
   return "(" + list + ")";
 }
 
-// `$cellsI` with middle and colour, `$textsI` with middle and text.
+// Writes `$cellsI` with middle and colour, and `$textsI` with middle and text of each cell.
 std::string cell_blocks(const HeatMaps& page, int index) {
   std::string cells = "$cells" + std::to_string(index) + " << END\n",
               texts = "$texts" + std::to_string(index) + " << END\n";

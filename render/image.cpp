@@ -19,7 +19,7 @@ namespace {
 
 thread_local std::size_t pixels_read = 0;
 
-// Which source pixels one target pixel covers along a side, and how much of each.
+// The source pixels that one target pixel covers along a side, and how much of each.
 struct Footprint {
   int first;
   std::vector<float> weights;
@@ -39,8 +39,7 @@ std::vector<Footprint> footprints(int source, int target) {
   return result;
 }
 
-// One target row of linear light, times alpha where there is one: columns summed over the rows' footprint
-// first, then along x.
+// Returns the columns of linear light, times alpha where there is one, summed over the rows' footprint.
 std::vector<float> summed_columns(const Image& source, const Footprint& rows) {
   std::vector<float> sums(source.row_bytes(), 0.0f);
   pixels_read += rows.weights.size() * static_cast<std::size_t>(source.width());
@@ -136,7 +135,8 @@ void choose_effort(png_structp png, PngEffort effort) {
   const bool fast = effort == PngEffort::fast;
   png_set_filter(png, PNG_FILTER_TYPE_BASE, fast ? PNG_FILTER_UP : PNG_ALL_FILTERS);
   png_set_compression_level(png, fast ? 1 : 5);
-  if (fast) png_set_compression_strategy(png, Z_RLE);  // as quick, and dithered colours repeat nowhere else
+  if (fast)
+    png_set_compression_strategy(png, Z_RLE);  // RLE is as quick, and dithered colours repeat nowhere else
 }
 
 // libpng leaves through longjmp; this function holds no object with a destructor.
@@ -160,15 +160,15 @@ bool encode(png_structp png, png_infop header, const Image& image, PngEffort eff
   return true;
 }
 
-// What a header announces, against what the rest of the file can hold: "" if it may be so.
+// Compares what a header announces with what the rest of the file can hold: "" if it may be so.
 std::string announced_excess(std::int64_t width, std::int64_t height, std::size_t bytes) {
   constexpr std::int64_t kMaxPixels = std::int64_t{1} << 28;  // 1 GiB of RGBA
-  constexpr std::int64_t kMaxDeflated = 1032;  // zlib's technical details: bytes that one byte can stand for
+  constexpr std::int64_t kMaxDeflated = 1032;  // most bytes from one (zlib's technical details)
   const std::string announced =
       "its header announces " + std::to_string(width) + "x" + std::to_string(height) + " pixels, ";
   if (width * height > kMaxPixels)
     return announced + "more than the " + std::to_string(kMaxPixels) + " that are read";
-  if (height * ((width + 7) / 8) > kMaxDeflated * static_cast<std::int64_t>(bytes))  // of one bit a pixel
+  if (height * ((width + 7) / 8) > kMaxDeflated * static_cast<std::int64_t>(bytes))  // at one bit per pixel
     return announced + "more than its bytes can hold";
   return "";
 }
@@ -186,7 +186,8 @@ struct Opened {
     header.version = PNG_IMAGE_VERSION;
     if (!png_image_begin_read_from_memory(&header, bytes.data(), bytes.size()))
       throw Error::invalid_input(reading + "not a PNG picture (" + header.message + ")");
-    header.flags |= PNG_IMAGE_FLAG_16BIT_sRGB;  // where no gAMA or sRGB chunk says otherwise, as of 8 bits
+    header.flags |=
+        PNG_IMAGE_FLAG_16BIT_sRGB;  // 16 bits are sRGB without a gAMA or sRGB chunk, as 8 bits are
     const std::string excess = announced_excess(header.width, header.height, bytes.size());
     if (excess.empty() && has_end(bytes)) return;
     png_image_free(&header);

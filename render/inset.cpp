@@ -7,7 +7,7 @@
 namespace hysteron::render {
 namespace {
 
-constexpr float kMaxOfThickness = 0.35f;  // on either side: three tenths of a plate are left
+constexpr float kMaxOfThickness = 0.35f;  // inset on either side: three tenths of a plate are left
 // A chord of length s around an edge that turns by 60 degrees passes s/2 sin 30 = s/4 from it at most, and an
 // edge that recedes by d along both its faces gives way by d (sin 30 + cos 30) across the chord.
 constexpr float kEdgeFraction = 0.5f / (1 + std::numbers::sqrt3_v<float>);

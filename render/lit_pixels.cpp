@@ -10,7 +10,7 @@ namespace hysteron::render {
 namespace {
 
 constexpr int kClothDepthUnit = 10, kUnevenUnit = 11;
-// What neighbours differ by at least, in linear light: three steps of 256 in the middle tones.
+// Uneven neighbours differ by at least this in linear light: three steps of 256 in the middle tones.
 constexpr float kContrast = 0.05f, kDark = 0.001f;
 
 bool differ(const float* a, const float* b) {
@@ -18,7 +18,7 @@ bool differ(const float* a, const float* b) {
   return ((p - q).abs() - kContrast * p.max(q)).maxCoeff() > kDark;
 }
 
-// The least one that holds every pixel that is set; one pixel where none is.
+// Returns the least area that holds every pixel that is set; one pixel where none is.
 Area area_of(const std::vector<std::uint8_t>& pixels, int width, int height) {
   int left = width, right = 0, bottom = height, top = 0;
   for (int y = 0; y < height; ++y) {

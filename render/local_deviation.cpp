@@ -8,14 +8,14 @@
 namespace hysteron::render {
 namespace {
 
-// Sums over the rectangle from the picture's first pixel to each.
+// The sums over the rectangle from the picture's first pixel to each.
 class Sums {
  public:
   Sums(int width, int height)
       : stride_(width + 1), sum_(static_cast<std::size_t>(stride_) * (height + 1), 0) {}
 
   void add(int x, int y, double value) { at(x + 1, y + 1) = value + at(x, y + 1) + at(x + 1, y) - at(x, y); }
-  // Of a square with its first pixel there.
+  // Returns the sum over a square whose first pixel is (x, y).
   double of(int x, int y, int side) const {
     return at(x + side, y + side) - at(x, y + side) - at(x + side, y) + at(x, y);
   }
@@ -33,7 +33,7 @@ class Sums {
 LocalDeviation local_deviation(const Image& image, const std::vector<char>& cloth,
                                const std::vector<char>& part, int side) {
   const int width = image.width(), height = image.height(), half = side / 2;
-  constexpr double kMiddle = 50;  // subtracted from L*, for what differences of sums lose
+  constexpr double kMiddle = 50;  // subtracted from L*, because differences of sums lose digits
   Sums count(width, height), light(width, height), square(width, height);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {

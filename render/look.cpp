@@ -8,7 +8,7 @@ namespace hysteron::render {
 
 namespace {
 
-// Near white stands for values then: the paper must not.
+// Near white stands for values in these looks, so the paper must be darker.
 void shade_backdrop(Look& look) { look.backdrop_top = look.backdrop_bottom = {224, 225, 226}; }
 
 }  // namespace

@@ -14,9 +14,9 @@ namespace hysteron::render {
 namespace {
 
 constexpr Rgb8 kPlate{255, 255, 255}, kAxis{150, 153, 158}, kGhost{176, 178, 182}, kAxisName{70, 73, 78};
-constexpr float kOpacity = 0.86f;  // of the white behind the loop
-constexpr double kAir = 0.12;      // of the extent, beyond the largest values
-constexpr float kEdge = 0.02f;     // between the inset and the picture's border, of the shorter side
+constexpr float kOpacity = 0.86f;  // opacity of the white behind the loop
+constexpr double kAir = 0.12;      // room beyond the largest values, over the extent
+constexpr float kEdge = 0.02f;     // distance from the picture's border, over the shorter side
 
 struct Frame {
   float left, top, side;  // [pixels]
@@ -59,7 +59,7 @@ void pale(Image& image, const Frame& at) {
       mix(image.at(x, y), kPlate, kOpacity);
 }
 
-// The part of a line that is within the frame (Liang & Barsky 1984); false if none is.
+// Clips a line to the frame (Liang & Barsky 1984); false if no part of it is within.
 bool clip(const Frame& at, float& x0, float& y0, float& x1, float& y1) {
   const float dx = x1 - x0, dy = y1 - y0;
   const std::array<std::array<float, 2>, 4> sides{
@@ -85,7 +85,8 @@ void draw_path(Image& image, const Frame& at, const Path& path, float width, con
   }
 }
 
-// 1, 2 or 5 times a power of ten, most of the way to the end that is farther from zero.
+// Returns the tick of an axis, 1, 2 or 5 times a power of ten, most of the way to the end that is farther
+// from zero.
 double tick(double low, double high) {
   constexpr double kMost = 0.9;
   const double end = std::abs(low) > std::abs(high) ? low : high, most = kMost * std::abs(end),
@@ -93,7 +94,7 @@ double tick(double low, double high) {
   return std::copysign((most >= 5 * decade ? 5 : most >= 2 * decade ? 2 : 1) * decade, end);
 }
 
-// Of an axis: its tick, and what stands there.
+// The tick of an axis and its text.
 struct AxisName {
   double at;
   std::string text;
@@ -110,8 +111,8 @@ AxisName moment_name(const LoopFrame& shown) {
   return {at, fmt::format("M = {:.3g} {}N", at / factor, prefix)};
 }
 
-// Names stand where loops are not: that of κ below its axis where values are positive, above it where they
-// are negative; that of M beyond the end of its own.
+// Names stand where loops are not: κ's is below its axis where values are positive, above it where they are
+// negative; M's is beyond the end of its axis.
 void leave_room_for_names(Frame& at, float letters) {
   const float high = 1.6f * letters, y = at.y(0) - at.top;
   const bool right = curvature_name(at.shown).at > 0, up = moment_name(at.shown).at > 0;
@@ -120,7 +121,7 @@ void leave_room_for_names(Frame& at, float letters) {
   at.top += above;
   at.side -= above + below;
   if (right) return;
-  at.left += above + below;  // its axis stays at the border
+  at.left += above + below;  // M's axis stays at the border
 }
 
 void name_axes(Image& image, const Frame& at, float letters) {
@@ -161,7 +162,7 @@ LoopFrame LoopFrame::of_most(const std::vector<LoopFrame>& frames) {
   constexpr double kReach = 3;
   LoopFrame all;
   const auto farther = [](double a, double b) { return std::abs(a) < std::abs(b); };
-  // Both ends of an axis.
+  // Sets both ends of an axis.
   const auto take = [&](double LoopFrame::*low, double LoopFrame::*high) {
     std::vector<double> ends[2];
     for (const LoopFrame& frame : frames) ends[0].push_back(frame.*low), ends[1].push_back(frame.*high);
@@ -181,7 +182,7 @@ LoopFrame LoopFrame::of_most(const std::vector<LoopFrame>& frames) {
 }
 
 bool names_loop_axes(float side, float letters) {
-  constexpr float kLeast = 8;  // letters
+  constexpr float kLeast = 8;  // least side, in letters
   return side >= kLeast * letters;
 }
 

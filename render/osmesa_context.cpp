@@ -5,8 +5,8 @@
 namespace hysteron::render {
 namespace {
 
-// Declared here because the header comes with libosmesa6-dev, which would also put libOSMesa on the linker's
-// path. Values from Mesa's GL/osmesa.h.
+// These are declared here because the header comes with libosmesa6-dev, which would also put libOSMesa on the
+// linker's path. Values are from Mesa's GL/osmesa.h.
 struct OSMesaContextRecord;
 constexpr int kFormat = 0x22;
 constexpr int kProfile = 0x33;

@@ -9,10 +9,10 @@
 namespace hysteron::render {
 namespace {
 
-// [pixels]
-constexpr int kLeft = 96, kRight = 20, kTop = 104, kBottom = 76;  // of the page, around the grid
-constexpr int kGapX = 22, kGapY = 46;                             // between panels; a title fits into kGapY
-constexpr double kRoom = 0.05;                                    // beyond the data, of their extent
+// Lengths are in pixels.
+constexpr int kLeft = 96, kRight = 20, kTop = 104, kBottom = 76;  // margins of the page around the grid
+constexpr int kGapX = 22, kGapY = 46;  // gaps between panels; a title fits into kGapY
+constexpr double kRoom = 0.05;         // room beyond the data, over their extent
 
 Axis fitted(const Axis& axis, const Panels& grid, std::vector<double> Series::*values) {
   if (axis.low != axis.high) return axis;

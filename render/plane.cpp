@@ -12,9 +12,9 @@ namespace {
 
 int kernel_radius(const Kernel& kernel) { return static_cast<int>(kernel.size() / 2); }
 
-constexpr int kStrip = 64;  // [rows] filtered along both axes while they are in the cache
+constexpr int kStrip = 64;  // rows that are filtered along both axes while in the cache
 
-// Whole rows at a time, because that vectorises.
+// Adds whole rows at a time, because that vectorises.
 void add_scaled(double weight, const double* from, double* to, int count) {
 #pragma omp simd
   for (int i = 0; i < count; ++i) to[i] += weight * from[i];
@@ -29,7 +29,7 @@ void filter_row(const double* row, int width, const Kernel& kernel, std::vector<
   for (int k = 0; k <= 2 * radius; ++k) add_scaled(kernel[k], &padded[k], to, width);
 }
 
-// Rows [begin, end) of filtered().
+// Computes rows [begin, end) of filtered().
 void filter_strip(const Plane& plane, const Kernel& x, const Kernel& y, int begin, int end, Plane& result) {
   const int radius = kernel_radius(y), width = plane.width;
   Plane rows(width, end - begin + 2 * radius);
@@ -65,12 +65,12 @@ Plane filtered(const Plane& plane, const Kernel& x, const Kernel& y) {
 
 namespace {
 
-constexpr int kRadius = 5;      // [pixels] of the window
-constexpr double kSigma = 1.5;  // [pixels] of its weights
-constexpr double kRange = 255;  // L, of the values
+constexpr int kRadius = 5;      // radius of the window [pixels]
+constexpr double kSigma = 1.5;  // width of its weights [pixels]
+constexpr double kRange = 255;  // L, range of the values
 constexpr double kC1 = (0.01 * kRange) * (0.01 * kRange), kC2 = (0.03 * kRange) * (0.03 * kRange);
 
-// ITU-R BT.601, on encoded values: what pictures are usually turned to grey with for this index.
+// Returns the luma of ITU-R BT.601 from encoded values, the grey that is usual for this index.
 Plane luma(const Image& image) {
   Plane result(image.width(), image.height());
   for (int y = 0; y < image.height(); ++y)
@@ -87,7 +87,7 @@ Plane product(const Plane& a, const Plane& b) {
   return result;
 }
 
-// Wang et al. 2004, Eq. 13.
+// Returns the index of Wang et al. 2004, Eq. 13.
 double index(double mean_a, double mean_b, double square_a, double square_b, double cross) {
   const double variance_a = square_a - mean_a * mean_a, variance_b = square_b - mean_b * mean_b;
   const double covariance = cross - mean_a * mean_b;

@@ -31,7 +31,7 @@ std::string frame_commands(const Plot& plot) {
             (plot.note.empty() ? "0.3\n" : "1.2\nset tmargin 5\n");
   std::string note;
   if (!plot.note.empty()) {
-    // Below the title, which is over the plot's middle; a long one is over the picture's, and small.
+    // The note stands below the title over the plot's middle; a long one is over the picture's, and small.
     constexpr std::size_t kLong = 60, kTooLong = 100;  // letters
     note = "set label " + gnuplot::label_text(plot.note) + " at " +
            (plot.note.size() > kLong ? "screen 0.5,graph 1.03" : "graph 0.5,1.03") + " center font '," +
@@ -57,7 +57,7 @@ Axis limited(Axis axis, const std::vector<Series>& all, std::vector<double> Seri
   return axis;
 }
 
-// "tip height [m]": of a unit that takes prefixes.
+// Returns true for a label whose unit takes prefixes: "tip height [m]".
 bool takes_prefix(const std::string& label) {
   const std::size_t open = label.rfind('['), close = label.rfind(']');
   if (open == std::string::npos || close == std::string::npos || close < open) return false;
@@ -97,7 +97,7 @@ bool has_end_labels(const Plot& plot) {
          std::count_if(plot.series.begin(), plot.series.end(), is_labelled) > 1;
 }
 
-// With limits of its own, a little beyond the data, so that it is known where lines end.
+// Gives an axis limits a little beyond the data, so that it is known where lines end.
 Axis bounded(Axis axis, const std::vector<Series>& all, std::vector<double> Series::*values, double air) {
   if (axis.low != axis.high) return axis;
   double low = std::numeric_limits<double>::infinity(), high = -low;
@@ -134,13 +134,13 @@ Axis not_stretched(Axis axis, const std::vector<Series>& all, std::vector<double
 
 struct EndLabel {
   std::size_t series;
-  double at, end;  // of its middle and of the line's end, in heights of the plot
-  bool reaches;    // the border on the right, where the label is
+  double at, end;  // its middle and the line's end, in heights of the plot
+  bool reaches;    // true if the line reaches the right border, where the label is
 };
 
-// Where each line ends, from the lowest; then apart by `step`, as near to there as order allows.
+// Returns labels where lines end, from the lowest, moved apart by `step` as near to there as order allows.
 std::vector<EndLabel> end_labels(const Plot& plot, double step) {
-  constexpr double kNear = 0.01;  // of the axis
+  constexpr double kNear = 0.01;  // over the axis's length
   const auto height = [&](double y) {
     const double t = plot.y.logarithmic ? std::log(y / plot.y.low) / std::log(plot.y.high / plot.y.low)
                                         : (y - plot.y.low) / (plot.y.high - plot.y.low);
@@ -169,9 +169,9 @@ std::string series_color(const Plot& plot, std::size_t series) {
   return plot.series[series].color.empty() ? hex(method_color(series)) : plot.series[series].color;
 }
 
-// Labels beside the plot, with leaders to lines that end at the right border.
+// Draws labels beside the plot, with leaders to lines that end at the right border.
 std::string end_label_commands(const Plot& plot) {
-  constexpr double kLetters = 14, kAround = 160;  // [pixels]; title and axes
+  constexpr double kLetters = 14, kAround = 160;  // height of letters, and of title and axes [pixels]
   constexpr double kLeader = 0.018, kAir = 0.006;
   const double step = 1.35 * kLetters / std::max(1.0, plot.height - kAround);
   constexpr std::size_t kWidest = 40;  // letters: a wider margin would leave no plot

@@ -6,9 +6,9 @@
 namespace hysteron::render {
 namespace {
 
-// [pixels]
-constexpr int kLeft = 112, kRight = 26, kTop = 122, kBottom = 76;  // of the page, around the plots
-constexpr int kGapX = 110, kGapY = 134;  // between plots: an axis and, below each other, a title
+// Lengths are in pixels.
+constexpr int kLeft = 112, kRight = 26, kTop = 122, kBottom = 76;  // margins of the page around the plots
+constexpr int kGapX = 110, kGapY = 134;  // gaps for an axis and, below each other, a title
 
 std::string plot_commands(const gnuplot::PanelPage& page, int index, const PagePlot& one,
                           std::size_t first_series) {

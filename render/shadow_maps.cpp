@@ -39,26 +39,27 @@ namespace {
 constexpr int kKeyUnit = 0;
 constexpr int kSkyUnit = 1;
 constexpr int kDepthUnit = 8;
-constexpr int kKeySide = 1024;  // texels; 0.5 mm each for a 0.5 m scene
+constexpr int kKeySide = 1024;  // texels of the key map; 0.5 mm each for a 0.5 m scene
 constexpr int kSkySide = 256;   // texels of one direction's tile
-constexpr int kSkyColumns = 6;  // of tiles, as in sky.glsl
+constexpr int kSkyColumns = 6;  // columns of tiles, as in sky.glsl
 constexpr int kSkyRows = kSkyLights / kSkyColumns;
 // Casters fill the map but for this border, which stays empty, so that a clamped lookup outside finds light.
 constexpr float kBorder = 1.05f;
 
-// World to clip space of a parallel light that sees the sphere around the casters.
+// Returns the transform from world to clip space of a parallel light that sees the sphere around the casters.
 Eigen::Matrix4f light_matrix(const Eigen::Vector3f& to_light, const Eigen::Vector3f& center, float radius) {
   Eigen::Matrix4f matrix = Eigen::Matrix4f::Identity();
   const Eigen::Matrix3f turn =
       Eigen::Quaternionf::FromTwoVectors(to_light.normalized(), Eigen::Vector3f::UnitZ()).toRotationMatrix();
-  // The light's own z points to it; depth grows away from it.
+  // The light's own z axis points to it; depth grows away from it.
   const Eigen::Matrix3f scaled = Eigen::Vector3f(1, 1, -1).asDiagonal() * turn / (kBorder * radius);
   matrix.topLeftCorner<3, 3>() = scaled;
   matrix.topRightCorner<3, 1>() = -scaled * center;
   return matrix;
 }
 
-// Equal shares of the upper hemisphere, along a spiral of golden angles (Vogel 1979; Swinbank & Purser 2006).
+// Returns directions for equal shares of the upper hemisphere, along a spiral of golden angles (Vogel 1979;
+// Swinbank & Purser 2006).
 std::array<Eigen::Vector3f, kSkyLights> sky_directions() {
   std::array<Eigen::Vector3f, kSkyLights> directions;
   for (int k = 0; k < kSkyLights; ++k) {

@@ -22,7 +22,7 @@ void require_positive(const char* what, float length) {
     throw Error::invalid_input(std::string(what) + " = " + std::to_string(length) + " m must be > 0");
 }
 
-// Point of an outline in the (distance from the axis, z) half plane, with its outward normal.
+// A point of an outline in the (distance from the axis, z) half plane, with its outward normal.
 struct OutlinePoint {
   float distance, z;
   float normal_distance, normal_z;
@@ -36,7 +36,7 @@ void add_line(std::vector<OutlinePoint>& outline, Eigen::Vector2f from, Eigen::V
   }
 }
 
-// Arc about `center` from elevation `from` to `to` [rad].
+// Adds an arc about `center` from elevation `from` to `to` [rad].
 void add_arc(std::vector<OutlinePoint>& outline, Eigen::Vector2f center, float radius, float from, float to,
              int bands) {
   for (int i = 0; i <= bands; ++i) {
@@ -54,7 +54,7 @@ void add_quads(TriangleMesh& mesh, std::uint32_t first, int rows, int columns) {
     }
 }
 
-// Outline from the top of the axis to its bottom, turned about z.
+// Turns an outline from the top of the axis to its bottom about z.
 TriangleMesh turned(const std::vector<OutlinePoint>& outline, float roundness, int sectors) {
   TriangleMesh mesh;
   mesh.roundness = roundness;
@@ -70,7 +70,7 @@ TriangleMesh turned(const std::vector<OutlinePoint>& outline, float roundness, i
   return mesh;
 }
 
-// One face of the rounded box: a grid on the cube's face, pushed from the inner box outward by the rim.
+// Adds one face of the rounded box: a grid on the cube's face, pushed from the inner box outward by the rim.
 void add_box_face(TriangleMesh& mesh, const Eigen::Vector3f& half, float rim, const ShapeDetail& detail,
                   int axis, float sign) {
   const int u = (axis + 1) % 3, v = (axis + 2) % 3;
@@ -190,7 +190,7 @@ class Halving {
  public:
   Halving(TriangleMesh& mesh, float longest) : mesh_(mesh), longest_(longest) {}
 
-  // The vertex halfway from a to b; a where the side is short enough.
+  // Returns the vertex halfway from a to b, or a where the side is short enough.
   Index middle(Index a, Index b) {
     if ((mesh_.positions[a] - mesh_.positions[b]).norm() <= longest_) return a;
     const auto [entry, is_new] =
@@ -214,12 +214,12 @@ void add(std::vector<Index>& triangles, Index a, Index b, Index c) {
   triangles.insert(triangles.end(), {a, b, c});
 }
 
-// Splits the triangle (a, b, c) at the middles of its sides ab, bc, ca; a middle that is the side's first
-// vertex is none.
+// Splits the triangle (a, b, c) at the middles of its sides ab, bc, ca; a middle equal to the side's first
+// vertex stands for none.
 void split(std::vector<Index>& triangles, std::array<Index, 3> corner, std::array<Index, 3> middle) {
   const auto halved = [&](int k) { return middle[k] != corner[k]; };
   const int count = halved(0) + halved(1) + halved(2);
-  // Turned until side ab is halved and, of two, ca is not.
+  // The corners turn until side ab is halved and, of two halved sides, ca is none.
   while (count > 0 && (!halved(0) || (count == 2 && halved(2)))) {
     corner = {corner[1], corner[2], corner[0]};
     middle = {middle[1], middle[2], middle[0]};

@@ -7,8 +7,8 @@
 namespace hysteron::render {
 namespace {
 
-constexpr double kTallest = 0.5, kWidest = 3, kPleasant = 1.5;  // aspects of a page
-constexpr int kScaleLines = 3;  // of a row's own scale: a blank one, its bar, its length
+constexpr double kTallest = 0.5, kWidest = 3, kPleasant = 1.5;  // least, largest and best aspect of a page
+constexpr int kScaleLines = 3;  // lines of a row's scale: a blank one, its bar, its length
 constexpr const char* kBetween = " · ";
 
 bool cuts_a_name(const ComparisonSheet& sheet, float letters, int cell_width) {
@@ -19,7 +19,7 @@ bool cuts_a_name(const ComparisonSheet& sheet, float letters, int cell_width) {
   return false;
 }
 
-// Of names with their marks and so many numbers, or of the numbers alone.
+// Returns the width of the widest caption [pixels]: a mark with so many numbers, behind the name if `named`.
 float widest_caption(const ComparisonSheet& sheet, std::size_t numbers, float letters, bool named) {
   float widest = 0;
   for (const ComparisonColumn& column : sheet.columns)
@@ -35,7 +35,7 @@ std::size_t most_numbers(const ComparisonSheet& sheet) {
   return most;
 }
 
-// Families one after the other, in the order of their first columns.
+// Groups columns by family, in the order of the families' first columns.
 std::vector<SheetPlaces> column_families(const ComparisonSheet& sheet) {
   std::vector<SheetPlaces> families;
   for (std::size_t c = 0; c < sheet.columns.size(); ++c) {
@@ -94,7 +94,7 @@ std::vector<int> row_heights(const ComparisonSheet& sheet, int cell_width) {
   return heights;
 }
 
-// Of the pictures in row r [m]; 0 of a row without scale or pictures.
+// Returns the width of the pictures in row r [m]; 0 for a row without scale or pictures.
 double metres_across(const ComparisonSheet& sheet, std::size_t r) {
   for (const ComparisonColumn& column : sheet.columns)
     if (const Image& image = column.cells[r].image; !image.empty())
@@ -146,7 +146,7 @@ SheetPage page_with(const ComparisonSheet& sheet, std::size_t beside) {
     page.note_height.push_back(noted ? page.line() : 0);
     page.row_height[r] += page.note_height[r];
   }
-  // Low pictures leave room for what stands beside them.
+  // Rows of low pictures are as high as the texts in the margin.
   const int scale_lines = has_one_scale(sheet) ? 0 : kScaleLines;
   const auto lines = [&](const ComparisonRow& row) {
     return static_cast<int>(1 + broken(row.phase, page.letters, phase_room(page)).size()) +
@@ -168,8 +168,8 @@ SheetPage page_with(const ComparisonSheet& sheet, std::size_t beside) {
   return page;
 }
 
-// How much a page leaves to be wished for: an aspect that is not allowed, names that are cut, headline
-// numbers that found no room, empty places.
+// The penalty of a page counts an aspect that is not allowed, names that are cut, headline numbers that found
+// no room, empty places.
 double want(const ComparisonSheet& sheet, const SheetPage& page) {
   const double aspect = page.aspect();
   double want = 10 * std::max({0.0, std::log(aspect / kWidest), std::log(kTallest / aspect)});

@@ -33,7 +33,7 @@ const stbtt_fontinfo& font() {
 
 float font_scale(float size) { return stbtt_ScaleForMappingEmToPixels(&font(), size / kCapitalOfEm); }
 
-// Next code point of UTF-8 text; a broken sequence counts byte by byte.
+// Takes the next code point of UTF-8 text; a broken sequence counts byte by byte.
 int next_code_point(std::string_view& text) {
   const auto first = static_cast<unsigned char>(text.front());
   const size_t length = first >= 0xF0 ? 4 : first >= 0xE0 ? 3 : first >= 0xC0 ? 2 : 1;
@@ -64,7 +64,7 @@ float for_each_glyph(std::string_view text, float scale, const Place& place) {
   return x;
 }
 
-// In linear light; over what a transparent picture has there.
+// Blends a colour in linear light over the pixel, which may be transparent.
 void blend(Image& image, int x, int y, const Rgb8& color, float coverage) {
   if (x < 0 || y < 0 || x >= image.width() || y >= image.height() || coverage <= 0) return;
   const auto& linear = linear_of_srgb8();
