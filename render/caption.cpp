@@ -193,8 +193,7 @@ ColorBarPlace draw_color_bar(Image& image, const ColorBar& bar, Corner corner) {
   const float overhang = 0.5f * static_cast<float>(widest_number(bar, letters));
   const int ticks = std::max(2, bar.ticks);
   const float room = std::min(0.24f * static_cast<float>(image.width()), half_width(image) - 2 * overhang);
-  const int step =
-      static_cast<int>(room) / (ticks - 1);  // a whole number of pixels, so that ticks stand on columns
+  const int step = static_cast<int>(room) / (ticks - 1);  // whole pixels, so that ticks stand on columns
   ColorBarPlace at;
   at.width = step * (ticks - 1) + 1;
   at.height = std::max(3, static_cast<int>(0.9f * size));

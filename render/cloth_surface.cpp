@@ -140,7 +140,7 @@ void ClothSurface::bind_attributes(const ClothTopology& topology) {
     const GlBuffer& indices = arrays == &arrays_ ? indices_ : boundary_indices_;
     gl_->BindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices.name());
   }
-  gl_->BindVertexArray(point_arrays_.name());  // it lacks the sky light, which is captured from it
+  gl_->BindVertexArray(point_arrays_.name());  // these arrays lack the sky light, which is captured from them
   attribute(*gl_, kPosition, positions_, 3);
   attribute(*gl_, kNormal, normals_, 3);
 }

@@ -108,9 +108,8 @@ class ClothView {
 
  private:
   struct Obstacle {
-    StaticMesh mesh,
-        caster;  // the drawn mesh, fine enough for the room's light, and the one that casts shadows
-    Box box;     // bounds of the mesh before its placement [m]
+    StaticMesh mesh, caster;  // `mesh` is drawn, fine enough for the room's light; `caster` casts shadows
+    Box box;                  // bounds of the mesh before its placement [m]
     BodyMeasure measure;
     bool closed;
     Eigen::Matrix4f placement;
@@ -187,13 +186,12 @@ class ClothView {
   std::unique_ptr<GlPositions> shared_positions_;  // writer into cloth_, declared below it to be closed first
   std::vector<Obstacle> obstacles_;
   std::vector<float> positions_;  // positions of the cloth; empty unless they were given
-  std::vector<float> lighting_;  // what_lights() at the last update of shadows and sky light; empty: outdated
-  std::vector<int> triangles_;   // triangles of the cloth, kept until positions tell its sides
-  float cloth_side_ = 0;         // long_side() of the cloth [m]
+  std::vector<float> lighting_;   // what_lights() of the present shadows and sky light; empty: outdated
+  std::vector<int> triangles_;    // triangles of the cloth, kept until positions tell its sides
+  float cloth_side_ = 0;          // long_side() of the cloth [m]
   std::optional<float> ground_height_;
   std::optional<Box> given_bounds_, position_bounds_;
-  std::optional<Eigen::Vector3f>
-      cloth_normal_;  // normal of the cloth's plane, for a figure with known positions
+  std::optional<Eigen::Vector3f> cloth_normal_;  // the cloth plane's, if a figure's positions are known
   Look look_;
 };
 

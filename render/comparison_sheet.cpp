@@ -84,8 +84,8 @@ struct Place {
 // A table of sums from a picture's upper left corner gives the darkness of any rectangle of it.  Shadows
 // count little.
 class Darkness {
-  static constexpr int kShadow = 60,
-                       kShadows = 32;  // darkest shadow, in 8-bit steps below white; weight of what is darker
+  // A shadow is at most kShadow 8-bit steps below white; darker pixels count kShadows times as much.
+  static constexpr int kShadow = 60, kShadows = 32;
 
  public:
   explicit Darkness(const Image& image) : width_(image.width()), side_(inset_side(image)) {
@@ -321,9 +321,8 @@ bool is_dark(const Image& image, int x, int y) {
 
 // A row's pictures get a margin on the right if an inset would hide something of them.
 ComparisonSheet with_room_for_insets(ComparisonSheet sheet) {
-  constexpr double kNothing = 1;  // mean darkness of nothing, in 8-bit steps
-  constexpr double kMargin =
-      kInsetFraction / (1 - kInsetFraction);  // margin over a picture's width or twice its height
+  constexpr double kNothing = 1;  // mean darkness under which an inset hides nothing, in 8-bit steps
+  constexpr double kMargin = kInsetFraction / (1 - kInsetFraction);  // over a picture's size
   for (std::size_t r = 0; r < sheet.rows.size(); ++r) {
     const std::vector<Darkness> pictures = pictures_with_insets(sheet, r);
     const auto is_clear = [](const std::vector<Darkness>& beside) {

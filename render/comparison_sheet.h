@@ -23,7 +23,7 @@ struct ComparisonCell {
   Image image{};       // empty: the cell stays white
   std::string note{};  // a few words below the picture, "stopped at 0.90 s"
   LoopInset loop{};    // inset, placed where it hides nothing in its row; empty: none
-  Image busy{};  // picture that the inset must not hide, of a film all over each other; empty: the image
+  Image busy{};        // picture that the inset must not hide; empty: the image
 };
 
 struct ComparisonColumn {
@@ -49,8 +49,7 @@ struct ComparisonSheet {
   std::string loop_note{};       // second line of the insets' key
   int width = kSheetWidth;       // width of the page [pixels]
   int beside = 0;                // columns beside each other, at most kMaxBeside; 0: the best number
-  std::vector<ComparisonRow>
-      further_rows{};        // rows of a film's other pictures, for a margin of the same width
+  std::vector<ComparisonRow> further_rows{};  // rows of a film's other pictures: the margin fits them
   bool in_sequence = false;  // columns are instants, in blocks that bring the page near 3 : 2
 
   static constexpr int kSheetWidth = 1676;  // twice the width of a repository's front page

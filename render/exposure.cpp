@@ -77,8 +77,7 @@ Image Exposure::image(bool alpha, int left, int top) const {
   for (int y = 0; y < height_; ++y)
     for (int x = 0; x < width_; ++x, from += 4) {
       std::uint8_t* to = result.at(x, y);
-      const float fraction =
-          alpha ? std::max(from[3], 1e-6f) : 1 / weight;  // factor that colours are multiplied by
+      const float fraction = alpha ? std::max(from[3], 1e-6f) : 1 / weight;  // factor in the colours
       for (int c = 0; c < 3; ++c) to[c] = rounded(from[c] / fraction, left + x, top + y, c);
       if (alpha) to[3] = static_cast<std::uint8_t>(255 * std::min(weight * from[3], 1.0f) + 0.5f);
     }

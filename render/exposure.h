@@ -26,8 +26,7 @@ class Exposure {
   std::vector<float> sum_;  // linear light, 4 values per pixel, rows from the top
 };
 
-inline constexpr double kBell =
-    0.42;  // standard deviation [pixels] that makes edges neither stairs nor blurred
+inline constexpr double kBell = 0.42;  // standard deviation [pixels]: edges are neither stairs nor blurred
 
 // The offset of a pass's samples [pixels].
 struct Shift {

@@ -250,7 +250,7 @@ std::string mark_commands(const std::vector<Mark>& marks) {
 
 // Starts a PDF page of as many points as the PNG has pixels; a gnuplot that cannot write PDF ends here.
 std::string pdf_commands(int width, int height, const std::filesystem::path& file) {
-  constexpr double kPoint = 1. / 72;  // [inch]
+  constexpr double kPoint = 1. / 72;  // size of a point [inch]
   return "if (strstrt(GPVAL_TERMINALS, 'pdfcairo') == 0) exit\nset terminal pdfcairo enhanced size " +
          number(kPoint * width) + "in," + number(kPoint * height) + "in font 'DejaVu Sans,15'\nset output " +
          single_quoted(file.string()) + "\n";

@@ -51,7 +51,7 @@ Trial try_gnuplot();
 
 struct PanelPage {
   int count, columns;             // number of panels, and of panels in a row
-  int panel_width, panel_height;  // [pixels]
+  int panel_width, panel_height;  // size of a panel [pixels]
   int left, right, top, bottom;   // margins around the grid [pixels]
   int gap_x, gap_y;               // gaps between panels [pixels]; a panel's title fits into gap_y
 

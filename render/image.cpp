@@ -135,8 +135,8 @@ void choose_effort(png_structp png, PngEffort effort) {
   const bool fast = effort == PngEffort::fast;
   png_set_filter(png, PNG_FILTER_TYPE_BASE, fast ? PNG_FILTER_UP : PNG_ALL_FILTERS);
   png_set_compression_level(png, fast ? 1 : 5);
-  if (fast)
-    png_set_compression_strategy(png, Z_RLE);  // RLE is as quick, and dithered colours repeat nowhere else
+  // RLE is as quick, and dithered colours repeat nowhere else.
+  if (fast) png_set_compression_strategy(png, Z_RLE);
 }
 
 // libpng leaves through longjmp; this function holds no object with a destructor.
@@ -186,8 +186,8 @@ struct Opened {
     header.version = PNG_IMAGE_VERSION;
     if (!png_image_begin_read_from_memory(&header, bytes.data(), bytes.size()))
       throw Error::invalid_input(reading + "not a PNG picture (" + header.message + ")");
-    header.flags |=
-        PNG_IMAGE_FLAG_16BIT_sRGB;  // 16 bits are sRGB without a gAMA or sRGB chunk, as 8 bits are
+    // A 16-bit file without a gAMA or sRGB chunk is sRGB, as an 8-bit one is.
+    header.flags |= PNG_IMAGE_FLAG_16BIT_sRGB;
     const std::string excess = announced_excess(header.width, header.height, bytes.size());
     if (excess.empty() && has_end(bytes)) return;
     png_image_free(&header);

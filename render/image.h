@@ -11,10 +11,10 @@
 
 namespace hysteron::render {
 
-// sRGB-encoded red, green, blue.
+// An sRGB-encoded colour: red, green, blue.
 using Rgb8 = std::array<std::uint8_t, 3>;
 
-// 8 bits a channel, 3 (RGB) or 4 (RGBA) channels, rows from the top, no padding.
+// A picture of 8 bits a channel, 3 (RGB) or 4 (RGBA) channels, rows from the top, no padding.
 class Image {
  public:
   Image() = default;

@@ -25,7 +25,7 @@ enum class Show {
 enum class Background {
   studio,       // a pale backdrop that ends in the white page; a figure's is white at once
   white,        // white paper
-  transparent,  // no backdrop: the picture is RGBA, whose alpha is what the ground's shadow takes from white
+  transparent,  // no backdrop: the picture is RGBA, with the ground's shadow as alpha
 };
 constexpr std::array<const char*, 3> names(Background) { return {"studio", "white", "transparent"}; }
 

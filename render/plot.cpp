@@ -134,13 +134,13 @@ Axis not_stretched(Axis axis, const std::vector<Series>& all, std::vector<double
 
 struct EndLabel {
   std::size_t series;
-  double at, end;  // its middle and the line's end, in heights of the plot
+  double at, end;  // the label's middle and the line's end, in heights of the plot
   bool reaches;    // true if the line reaches the right border, where the label is
 };
 
 // Returns labels where lines end, from the lowest, moved apart by `step` as near to there as order allows.
 std::vector<EndLabel> end_labels(const Plot& plot, double step) {
-  constexpr double kNear = 0.01;  // over the axis's length
+  constexpr double kNear = 0.01;  // distance from the axis's end at which a line reaches it, over its length
   const auto height = [&](double y) {
     const double t = plot.y.logarithmic ? std::log(y / plot.y.low) / std::log(plot.y.high / plot.y.low)
                                         : (y - plot.y.low) / (plot.y.high - plot.y.low);

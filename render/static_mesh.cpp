@@ -19,7 +19,7 @@ StaticMesh::StaticMesh(const GlFunctions& gl, const TriangleMesh& mesh)
   gl.BindBuffer(GL_ARRAY_BUFFER, sky_.name());
   gl.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(4 * sizeof(float)) * vertices_, nullptr,
                 GL_DYNAMIC_COPY);
-  gl.BindVertexArray(point_arrays_.name());  // it lacks the sky light, which is captured from it
+  gl.BindVertexArray(point_arrays_.name());  // these arrays lack the sky light, which is captured from them
   attribute(gl, 0, positions_, 3);
   attribute(gl, 1, normals_, 3);
   gl.BindVertexArray(arrays_.name());
