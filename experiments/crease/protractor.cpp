@@ -21,8 +21,8 @@ using Style = render::Series::Style;
 
 Vector2d in_profile(const Eigen::Vector3d& point) { return {point.x(), point.z()}; }
 
-// Where the lines through both limbs meet; of lines that are nearly parallel, the middle between their inner
-// ends.
+// Returns where the lines through both limbs meet; if they are nearly parallel, the middle between their
+// inner ends.
 Vector2d apex(const Limbs& limbs) {
   constexpr double kParallel = 0.05;  // sine of the angle between them
   const Vector2d p = in_profile(limbs.near.inner), d = in_profile(limbs.near.direction()),
@@ -78,9 +78,8 @@ double extent(const CreasedStrip& strip) {
 
 // Lengths as the run has written them.
 Limbs limbs_in(const std::filesystem::path& file) {
-  const std::vector<double> x = render::series_from_csv(file, "point", "x", "").y,
-                            z = render::series_from_csv(file, "point", "z", "").y;
-  const auto at = [&](std::size_t i) { return Eigen::Vector3d(x.at(i), 0, z.at(i)); };
+  const render::Series points = render::series_from_csv(file, "x", "z", "");
+  const auto at = [&](std::size_t i) { return Eigen::Vector3d(points.x.at(i), 0, points.y.at(i)); };
   return {{at(0), at(1)}, {at(2), at(3)}};
 }
 
@@ -157,9 +156,9 @@ void plot_protractor(Run& run, const ComparisonPage& page, const std::vector<Chi
   for (std::size_t c = 0; c < columns.size(); ++c) {
     const auto profile = columns[c].folder / kProfile;
     if (!std::filesystem::exists(profile)) continue;
-    strips.push_back({names[c], render::hex(colors[c]), render::series_from_csv(profile, "point", "x", "").y,
-                      render::series_from_csv(profile, "point", "z", "").y,
-                      limbs_in(columns[c].folder / kLimbs)});
+    const render::Series middle = render::series_from_csv(profile, "x", "z", "");
+    strips.push_back(
+        {names[c], render::hex(colors[c]), middle.x, middle.y, limbs_in(columns[c].folder / kLimbs)});
     shown.push_back(c);
   }
   if (strips.empty()) return;

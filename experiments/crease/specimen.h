@@ -57,7 +57,7 @@ struct Crease {
   double plate_force(const std::vector<Eigen::Vector3d>& x, double time) const;
   Limbs limbs(const std::vector<Eigen::Vector3d>& x) const;
   double opening(const std::vector<Eigen::Vector3d>& x) const { return limbs(x).opening(); }  // [degree]
-  // Of each column of vertices across the strip, from the clamp to the far end, the middle [m].
+  // Returns the middle of each column of vertices across the strip, from the clamp to the far end [m].
   std::vector<Eigen::Vector3d> profile(const std::vector<Eigen::Vector3d>& x) const;
   double along(std::size_t vertex) const;  // the strip, at rest and flat [m]
 };

@@ -236,7 +236,7 @@ void note_published(Run& run, const Scene& scene, const DrapeParams& choice, dou
   if (!message.empty()) run.metric("published_drape", message);
 }
 
-// What is read off the specimen as time goes on.
+// The readings of the specimen as time goes on.
 struct Draping {
   double covered = 0;                  // the coefficient when it was watched last [%]
   double change = 0;                   // of it since the time before [%]

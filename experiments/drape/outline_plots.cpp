@@ -43,13 +43,12 @@ render::Series circle(double radius, const std::string& label) {
 
 // The column's first and last outline over each other.
 render::PagePlot history_panel(const ChildRun& column, const std::string& name, const std::string& color) {
-  const auto file = column.folder / kFile;
-  const auto radius = [&](const char* which) { return render::series_from_csv(file, "angle", which, "").y; };
+  const render::Series both = render::series_from_csv(column.folder / kFile, "first_radius", "radius", "");
   const double same = column.metrics()["outline_overlap"].number();
   render::Plot plot{fmt::format("{}: {:.1f} % the same", name, 100 * same), {"x [cm]"}, {"y [cm]"}};
   plot.equal_scales = true;
-  plot.series = {closed_line("lowered", radius("first_radius"), Style::line, kFirstColor),
-                 closed_line("lifted flat and lowered again", radius("radius"), Style::line, color)};
+  plot.series = {closed_line("lowered", both.x, Style::line, kFirstColor),
+                 closed_line("lifted flat and lowered again", both.y, Style::line, color)};
   plot.series[0].line_width = 5;
   return {plot, "center center"};
 }

@@ -12,7 +12,7 @@
 
 namespace hysteron::experiments {
 
-// What a drape leaves: its outline at the end and, where the ring was lifted and lowered again, that of the
+// The outlines of a drape: the one at the end and, where the ring was lifted and lowered again, that of the
 // first time.
 struct DrapeOutlines {
   Outline last;

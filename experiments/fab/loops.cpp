@@ -31,10 +31,11 @@ void add_line(const std::vector<Eigen::Vector2d>& line, double up, render::Serie
   }
 }
 
-double rms_difference(const BranchForces& a, const BranchForces& b) {
+// Returns the rms over the branches from `first` to before `end`.
+double rms_difference(const BranchForces& a, const BranchForces& b, std::size_t first, std::size_t end) {
   double sum = 0;
   std::size_t count = 0;
-  for (std::size_t i = 0; i < a.size(); ++i)
+  for (std::size_t i = first; i < end; ++i)
     for (std::size_t k = 0; k < a[i].size(); ++k, ++count) sum += std::pow(a[i][k] - b[i][k], 2);
   return std::sqrt(sum / static_cast<double>(count));
 }
@@ -85,7 +86,7 @@ void add_metrics(Run& run, const ComparedLoops& compared) {
     if (compared.measured) add("measured_", measured);
   }
   if (compared.measured) {
-    run.metric("difference_rms_N_per_m", rms_difference(compared.run.force, measured));
+    run.metric("difference_rms_N_per_m", rms_difference(compared.run.force, measured, 0, measured.size()));
     run.metric("measured_force_zero_N_per_m", compared.zero);
   }
   const FabRun& r = compared.run;
@@ -161,25 +162,17 @@ render::Series repeat_bars(const ComparedLoops& compared, const ComparedLoops& r
   return bars;
 }
 
-double rms_in_cycle(const ComparedLoops& compared, int cycle) {
-  const BranchForces measured = compared.measured_forces();
-  double sum = 0;
-  std::size_t count = 0;
-  for (int b = 2 * cycle; b <= 2 * cycle + 1; ++b)
-    for (std::size_t i = 0; i < measured[b].size(); ++i, ++count)
-      sum += std::pow(compared.run.force[b][i] - measured[b][i], 2);
-  return std::sqrt(sum / static_cast<double>(count));
-}
-
 render::PagePlot cycle_panel(const std::string& kind, double noise, const ComparedLoops& compared,
                              const ComparedLoops* repeat, int cycle) {
   const BranchForces measured = compared.measured_forces();
   const double area =
       loop_area(compared.loops, compared.run.force, cycle) / loop_area(compared.loops, measured, cycle);
-  render::Plot plot{fmt::format("{}: area {:+.0f} %, rms {:.1f} of the noise", kind, 100 * (area - 1),
-                                rms_in_cycle(compared, cycle) / noise),
-                    {"distance of the clamps [mm]"},
-                    {"force per width [N/m]"}};
+  const auto out = static_cast<std::size_t>(2 * cycle);  // the cycle's first branch; the second leads back
+  const double rms = rms_difference(compared.run.force, measured, out, out + 2);
+  render::Plot plot{
+      fmt::format("{}: area {:+.0f} %, rms {:.1f} of the noise", kind, 100 * (area - 1), rms / noise),
+      {"distance of the clamps [mm]"},
+      {"force per width [N/m]"}};
   render::Series data = cycle_series(compared.loops, measured, cycle, Style::points);
   data.label = "measured", data.color = kMeasuredColor;
   if (repeat) data = repeat_bars(compared, *repeat, cycle);

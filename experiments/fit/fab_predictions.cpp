@@ -60,7 +60,7 @@ bool was_fitted(const FabAnswer& answer, const FabLoops& loops, int cycle) {
          std::find(answer.cycles.begin(), answer.cycles.end(), cycle) != answer.cycles.end();
 }
 
-// Of records along that direction, or of the first that was fitted.
+// Returns the noise of records along that direction, or else along the first that was fitted [N].
 double noise_of(const FabAnswer& answer, const std::string& direction) {
   std::size_t i = 0;
   for (std::size_t k = 0; k < answer.found.bending.size(); ++k)
