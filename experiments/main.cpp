@@ -8,7 +8,7 @@
 
 #include "experiments/notes/notes.h"
 #include "experiments/workbench/app/command_line.h"
-#include "experiments/workbench/app/ending.h"
+#include "experiments/workbench/app/exit_status.h"
 #include "experiments/workbench/app/gpu_choice.h"
 #include "experiments/workbench/app/run.h"
 #include "experiments/workbench/pages/closing_summary.h"

@@ -22,7 +22,7 @@ SimulationValue::SimulationValue(const Scene& scene) : scene_(scene) {
     simulation_ = make_simulation(scene_, cloth_);
   });
   warn(cloth_.warnings);
-  warn(body_doubts(scene_));
+  warn(body_warnings(scene_));
   warn(unused_parameter_warnings(scene_.law, scene_.fabric.virgin_curve(), scene_.param, LawUse::cloth,
                                  scene_.fabric.name));
 }
@@ -138,8 +138,8 @@ Of cloth that starts far from the origin, which is simulated relative to its sta
           "friction_share", [](const S& self) { return numpy_array(self.at_rest().friction_share(), 1); },
           "Friction moment of the elements over M0, 0 to 1.")
       .def_property_readonly(
-          "handle_forces", [](const S& self) { return numpy_array(self.at_rest().handle_forces()); },
-          "Forces of the hands on the vertices at the end of the last step [N], (n, 3); implicit "
+          "handle_forces", [](const S& self) { return numpy_array(self.at_rest().pin_forces()); },
+          "Forces of the pins on the vertices at the end of the last step [N], (n, 3); implicit "
           "integrators.")
       .def_property_readonly(
           "ledger", [](const S& self) { return dict_of(self.at_rest().ledger().rows()); },
@@ -184,12 +184,12 @@ void bind_control(py::class_<S>& simulation) {
 
 RunError where the state is no longer finite, no equilibrium is found, or an obstacle crushes the cloth.)")
       .def("drive", &drive, py::arg("pin"), py::arg("velocity"), py::arg("spin") = 0.0,
-           R"(From now on the hand of that pin goes on from where it is, whatever its motion was.
+           R"(From now on that pin goes on from where it is, whatever its motion was.
 
 velocity [m/s]: three components; spin: about the pin's axis and centre [degree/s].  It keeps both until it is
-driven again: a loop that controls a hand drives it before every step.)")
+driven again: a loop that controls a pin drives it before every step.)")
       .def("hand", &pin_displacement, py::arg("pin"),
-           "How far the hand of that pin has come from its start: displacement [m] and angle [degree].")
+           "How far that pin has come from its start: displacement [m] and angle [degree].")
       .def(
           "become_static", [](const S& self) { self.at_rest().become_static(); },
           "From now on steps look for equilibrium, without inertia; implicit integrators.")

@@ -8,8 +8,8 @@
 
 #include "experiments/bench/sizes.h"
 #include "experiments/bench/step_profile.h"
-#include "experiments/workbench/app/decided_keys.h"
 #include "experiments/workbench/app/experiment.h"
+#include "experiments/workbench/app/fixed_keys.h"
 #include "experiments/workbench/app/manifest_file.h"
 #include "sim/base/comma_list.h"
 #include "sim/base/csv.h"

@@ -8,7 +8,7 @@
 
 #include "experiments/specimens/cantilever_strip.h"
 #include "experiments/specimens/clamped_mesh.h"
-#include "experiments/workbench/app/decided_keys.h"
+#include "experiments/workbench/app/fixed_keys.h"
 #include "experiments/workbench/session/session.h"
 
 namespace hysteron::experiments {

@@ -18,9 +18,9 @@
 #include "experiments/workbench/compare/comparison.h"
 #include "experiments/workbench/compare/comparison_page.h"
 #include "experiments/workbench/compare/film.h"
-#include "experiments/workbench/pages/error_words.h"
+#include "experiments/workbench/pages/error_notes.h"
 #include "experiments/workbench/pages/report.h"
-#include "experiments/workbench/pictures/kept_geometry.h"
+#include "experiments/workbench/pictures/archived_geometry.h"
 #include "sim/base/comma_list.h"
 #include "sim/base/error.h"
 
@@ -97,7 +97,7 @@ std::vector<std::string> comparison_notes(const CompareParams& choice, const Pla
 void claim_files(Run& run, bool with_images) {
   for (const char* name : {"table.csv", "report.html"}) run.path(name);
   if (!with_images) return;
-  for (const char* name : {"sheet.png", kKeptSheet}) run.path(name);
+  for (const char* name : {"sheet.png", kArchivedSheet}) run.path(name);
 }
 
 std::vector<KeyDescription> own_keys() {

@@ -11,7 +11,7 @@
 #include "experiments/crease/protractor.h"
 #include "experiments/crease/specimen.h"
 #include "experiments/specimens/cantilever_strip.h"
-#include "experiments/workbench/app/decided_keys.h"
+#include "experiments/workbench/app/fixed_keys.h"
 #include "experiments/workbench/compare/variant_page.h"
 #include "experiments/workbench/session/probes.h"
 #include "experiments/workbench/session/session.h"
@@ -72,7 +72,7 @@ std::vector<FixedKey> fixed_keys() {
                            {"mesh", "its mesh has its finest columns along the crease", true},
                            {"seed", "no part of its mesh is drawn at random", true},
                            {"seconds", "crease.hold, crease.lift and crease.recovery say how long it takes"},
-                           {"pin", "a clamp and a hand hold the specimen"},
+                           {"pin", "a clamp and a moving pin hold the specimen"},
                            {"obstacle", "crease.fold says what it is folded with"}});
   return keys;
 }

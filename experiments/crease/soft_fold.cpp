@@ -78,8 +78,9 @@ Crease wrapped(const Scene& given, const CreaseParams& choice) {
   const double limbs = scene.cloth.length, taken = std::numbers::pi * choice.radius;
   scene.cloth.length = limbs + taken;
   crease.limb_part = kHeldFraction * limbs / scene.cloth.length;
-  const double shell = choice.radius + scene.fabric.thickness;  // radius of the cloth's middle around the rod
-  const Eigen::Vector3d axis_at{limbs / 2, scene.cloth.width / 2, kAbove + shell};
+  const double activation_distance =
+      choice.radius + scene.fabric.thickness;  // radius of the cloth's middle around the rod
+  const Eigen::Vector3d axis_at{limbs / 2, scene.cloth.width / 2, kAbove + activation_distance};
   Obstacle rod;
   rod.kind = ObstacleKind::cylinder;
   rod.axis = {0, 1, 0};
@@ -90,7 +91,7 @@ Crease wrapped(const Scene& given, const CreaseParams& choice) {
   scene.obstacle = {rod};
   Pin moving_pin = held_between(scene.cloth.length - kHeldFraction * limbs, 2 * scene.cloth.length);
   moving_pin.until = crease.times.released;
-  moving_pin.motion = around_rod(shell, axis_at);
+  moving_pin.motion = around_rod(activation_distance, axis_at);
   scene.pin = {held_between(-1, kHeldFraction * limbs), moving_pin};
   return finished(std::move(crease), crease_specimen(scene, taken / 2));
 }

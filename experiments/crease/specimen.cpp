@@ -124,12 +124,13 @@ double Crease::plate_force(const std::vector<Eigen::Vector3d>& x, double time) c
   if (scene.obstacle.size() < 2) return 0;
   const Obstacle& plate = scene.obstacle[1];
   const double underside = placement(plate.motion, time)(plate.center).z() - plate.size.z();
-  const ObstacleShell<double> shell = obstacle_shell(scene);
+  const ObstacleShell<double> activation_distance = obstacle_activation_distance(scene);
   double force = 0;
   for (std::size_t i = 0; i < x.size(); ++i) {
     const bool under = (x[i] - plate.center).cwiseAbs().x() < plate.size.x();
     const double distance = underside - x[i].z();
-    if (under && distance < shell.thickness) force -= cloth.mesh.vertex_area[i] * shell.at(distance).slope;
+    if (under && distance < activation_distance.thickness)
+      force -= cloth.mesh.vertex_area[i] * activation_distance.at(distance).slope;
   }
   return force;
 }

@@ -6,14 +6,14 @@
 #include <set>
 
 #include "experiments/diff/diff.h"
-#include "experiments/workbench/app/ending.h"
+#include "experiments/workbench/app/exit_status.h"
 #include "experiments/workbench/app/experiment.h"
 #include "experiments/workbench/app/run_files.h"
 #include "experiments/workbench/pages/junit.h"
 #include "sim/base/atomic_file.h"
 #include "sim/base/csv.h"
 #include "sim/base/error.h"
-#include "sim/mesh/file_ending.h"
+#include "sim/mesh/file_extension.h"
 
 namespace hysteron::experiments {
 namespace {

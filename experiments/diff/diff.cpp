@@ -7,7 +7,7 @@
 #include "render/compare.h"
 #include "render/plane.h"
 #include "sim/base/error.h"
-#include "sim/mesh/file_ending.h"
+#include "sim/mesh/file_extension.h"
 
 namespace hysteron::experiments {
 namespace {

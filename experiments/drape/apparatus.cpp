@@ -95,8 +95,8 @@ Specimen disc_specimen(const Scene& scene, const Cloth& cloth) {
   const std::string fault = disc_fault(cloth, found);
   if (!fault.empty()) {
     // A warning about the mesh may explain the fault.
-    const std::string doubt = cloth.warnings.empty() ? "" : "; " + cloth.warnings.front();
-    throw Error::invalid_input(name_of_cloth(scene) + " is no disc: " + fault + doubt);
+    const std::string warning = cloth.warnings.empty() ? "" : "; " + cloth.warnings.front();
+    throw Error::invalid_input(name_of_cloth(scene) + " is no disc: " + fault + warning);
   }
   return rest_file(scene).empty() ? Specimen{scene.cloth.radius, scene.cloth.position} : found;
 }
@@ -180,8 +180,8 @@ void add_apparatus(Scene& scene, const DrapeParams& choice, const Specimen& spec
   // apparatus, and the plate throws nothing up when it goes down.
   constexpr double kOwnWeights = 4;
   const double pressure = kOwnWeights * scene.fabric.density * scene.gravity.norm();
-  const double shell = distance_under(obstacle_shell(scene), pressure);
-  scene.cloth.position += Eigen::Vector3d(choice.offset, 0, shell) - specimen.middle;
+  const double activation_distance = distance_under(obstacle_activation_distance(scene), pressure);
+  scene.cloth.position += Eigen::Vector3d(choice.offset, 0, activation_distance) - specimen.middle;
   Obstacle pedestal;
   pedestal.kind = ObstacleKind::cylinder;
   pedestal.radius = choice.disc;
@@ -189,7 +189,7 @@ void add_apparatus(Scene& scene, const DrapeParams& choice, const Specimen& spec
   pedestal.center = {0, 0, -kPedestalHeight / 2};
   Obstacle clamp = pedestal;
   clamp.height = 0.01;
-  clamp.center = {0, 0, 2 * shell + clamp.height / 2};
+  clamp.center = {0, 0, 2 * activation_distance + clamp.height / 2};
   clamp.visible = false;
   if (choice.release == "shaken") pedestal.motion = clamp.motion = shaking(choice);
   scene.obstacle.insert(scene.obstacle.end(), {pedestal, clamp});

@@ -134,7 +134,7 @@ int run_test(const CommandLine& line) {
   set_keys(line, keys, [&] { flags.steps = std::min(flags.steps, kQuickSteps); });
   flags.fabric = last_text(line.flags, "fabric", flags.fabric);
   check_test(flags.test);
-  const std::vector<std::string> doubts = checked_fabric_warnings(flags.fabric);
+  const std::vector<std::string> warnings = checked_fabric_warnings(flags.fabric);
   const Fabric fabric = read_fabric(flags.fabric, "--fabric").fabric;
   const FabStrip strip = fab_fabric(fabric).strip(flags.direction);
   const bool measured = !flags.data.empty(), bends = flags.test.front() != 'S';
@@ -146,7 +146,7 @@ int run_test(const CommandLine& line) {
                                           flags.direction, flags.test)
                              : loops_without_data(flags, flags.steps);
   Run run(line, flags.options, to_json(keys));
-  for (const auto* texts : {&doubts, &loops.doubts})
+  for (const auto* texts : {&warnings, &loops.warnings})
     for (const std::string& text : *texts) run.warn(text);
   for (const std::string& text : {unsimulated_warning(fabric), bends ? mean_of_faces_warning(fabric) : ""})
     if (!text.empty()) run.warn(text);

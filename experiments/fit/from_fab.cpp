@@ -347,7 +347,7 @@ std::string beyond_reach_warning(const FabBending& b, const RecordTexts& texts) 
 
 // Warns that the numbers may mean little because the law stays this far from the data.
 std::string misses_warning(const FabBending& b, const RecordTexts& texts) {
-  if (!(b.residual_share > kDoubtfulMiss)) return "";
+  if (!(b.residual_share > kImplausibleMiss)) return "";
   return fmt::format("along {} the fit misses the fitted {} by {:.2g} % of {} (rms): {}", b.direction,
                      texts.data, 100 * b.residual_share, texts.range, texts.remedy);
 }
@@ -388,7 +388,7 @@ std::vector<std::string> decay_fit_warnings(const FabBending& b, const std::vect
 
 void report_fab(Run& run, const FabAnswer& answer, const FabricNotes& notes) {
   for (const FabLoops& loops : answer.loops)
-    for (const std::string& doubt : loops.doubts) run.warn(doubt);
+    for (const std::string& warning : loops.warnings) run.warn(warning);
   for (std::size_t i = 0; i < answer.found.bending.size(); ++i)
     for (const std::string& warning :
          bending_warnings(answer.found.bending[i], answer.forms[i], answer.repeats[i]))

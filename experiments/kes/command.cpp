@@ -15,7 +15,7 @@
 #include "experiments/workbench/app/run.h"
 #include "experiments/workbench/pages/report.h"
 #include "experiments/workbench/pictures/pictures.h"
-#include "experiments/workbench/session/doubts.h"
+#include "experiments/workbench/session/run_warnings.h"
 #include "render/look.h"
 #include "sim/base/error.h"
 #include "sim/bending/laws/unused_parameters.h"

@@ -10,7 +10,7 @@
 #include "experiments/specimens/clamped_mesh.h"
 #include "experiments/workbench/app/run.h"
 #include "experiments/workbench/pages/report.h"
-#include "experiments/workbench/session/doubts.h"
+#include "experiments/workbench/session/run_warnings.h"
 #include "render/plot.h"
 #include "sim/base/csv.h"
 #include "sim/base/error.h"
@@ -127,7 +127,7 @@ ClampForces forces_at(const Fabric& fabric, Along along, const InPlaneSpecimen& 
   const auto start = Clock::now();
   for (std::size_t i = 0; i < places.size(); ++i) {
     simulation->advance(1);
-    const std::vector<Eigen::Vector3d> force = simulation->handle_forces();
+    const std::vector<Eigen::Vector3d> force = simulation->pin_forces();
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     for (const int vertex : cloth.pin_vertices[1]) sum += force[vertex];
     result.force.push_back({sum.x() / kInPlaneWidth, sum.y() / kInPlaneWidth});

@@ -175,7 +175,7 @@ StripTest test_strip(const ClampedStrip& strip, const LawRequest& law, const Kes
       const auto start = Clock::now();
       simulation->advance(1);
       test.seconds += std::chrono::duration<double>(Clock::now() - start).count();
-      const std::vector<Eigen::Vector3d> force = simulation->handle_forces();
+      const std::vector<Eigen::Vector3d> force = simulation->pin_forces();
       test.moment.push_back(clamp_moment(strip, i, simulation->positions(), force));
       test.largest_force = std::max(test.largest_force, clamp_force(strip, force));
     }

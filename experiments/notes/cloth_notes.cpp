@@ -7,7 +7,7 @@
 
 #include "experiments/notes/notes.h"
 #include "experiments/workbench/app/law_family.h"
-#include "experiments/workbench/pages/error_words.h"
+#include "experiments/workbench/pages/error_notes.h"
 #include "experiments/workbench/pages/manifest.h"
 #include "sim/bending/laws/law_parameters.h"
 

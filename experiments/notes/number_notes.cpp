@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/notes/notes.h"
-#include "experiments/workbench/pages/error_words.h"
+#include "experiments/workbench/pages/error_notes.h"
 #include "experiments/workbench/pages/metrics.h"
 #include "sim/scene/key_table.h"
 

@@ -9,8 +9,8 @@
 #include "experiments/workbench/app/manifest_file.h"
 #include "experiments/workbench/app/run.h"
 #include "experiments/workbench/pages/report.h"
+#include "experiments/workbench/pictures/archived_geometry.h"
 #include "experiments/workbench/pictures/drawing.h"
-#include "experiments/workbench/pictures/kept_geometry.h"
 #include "experiments/workbench/pictures/pictures.h"
 #include "experiments/workbench/pictures/raster.h"
 #include "experiments/workbench/session/metric_request.h"
@@ -126,7 +126,7 @@ void fade(render::Image& image, const std::vector<char>& part) {
 }
 
 // Returns the last kept instant that is not after a time, up to rounding; the first one if there is none.
-std::size_t instant_at(const std::vector<KeptState>& instants, double time) {
+std::size_t instant_at(const std::vector<ArchivedState>& instants, double time) {
   constexpr double kRounding = 1e-9;  // [s]
   std::size_t found = 0;
   for (std::size_t i = 0; i < instants.size(); ++i)
@@ -135,8 +135,8 @@ std::size_t instant_at(const std::vector<KeptState>& instants, double time) {
 }
 
 // Returns the instants before the wrinkles, at the ends of cycles, and at the end.
-std::vector<std::size_t> chosen_instants(const std::vector<KeptState>& instants, const MetricRequest& request,
-                                         const Scene& scene) {
+std::vector<std::size_t> chosen_instants(const std::vector<ArchivedState>& instants,
+                                         const MetricRequest& request, const Scene& scene) {
   std::vector<std::size_t> chosen = {instant_at(instants, request.from)};
   const Cycles cycles = scene_cycles(scene);
   for (int cycle = 1; cycles.repeat() && cycle <= cycles.count; ++cycle)
@@ -148,10 +148,10 @@ std::vector<std::size_t> chosen_instants(const std::vector<KeptState>& instants,
 
 class PartRelief {
  public:
-  PartRelief(Run& run, const Setup& setup, const DrawnMesh& mesh, const KeptCloth& cloth,
+  PartRelief(Run& run, const Setup& setup, const DrawnMesh& mesh, const ArchivedCloth& cloth,
              const std::vector<char>& part, const std::string& name)
       : run_(run), setup_(setup), mesh_(mesh), cloth_(cloth), part_(part), name_(name) {
-    auto subject = std::make_unique<KeptSubject>(mesh, cloth.instants);
+    auto subject = std::make_unique<ArchivedSource>(mesh, cloth.instants);
     subject_ = subject.get();
     pictures_ = std::make_unique<Pictures>(setup, std::move(subject), cloth.bounds, cloth.floor);
   }
@@ -177,7 +177,7 @@ class PartRelief {
   long pixels() const { return pixels_; }  // pixels of the part in the last picture
 
  private:
-  Nearest seen(const KeptState& state, const render::Camera& camera, int width, int height) const {
+  Nearest seen(const ArchivedState& state, const render::Camera& camera, int width, int height) const {
     Nearest nearest(camera, width, height);
     for (std::size_t t = 0; t < part_.size(); ++t) {
       const auto at = [&](std::size_t k) -> Eigen::Vector3f {
@@ -193,10 +193,10 @@ class PartRelief {
   Run& run_;
   const Setup& setup_;
   const DrawnMesh& mesh_;
-  const KeptCloth& cloth_;
+  const ArchivedCloth& cloth_;
   const std::vector<char>& part_;
   const std::string name_;
-  KeptSubject* subject_ = nullptr;
+  ArchivedSource* subject_ = nullptr;
   std::unique_ptr<Pictures> pictures_;
   int drawn_ = 0;
   long pixels_ = 0;
@@ -204,10 +204,10 @@ class PartRelief {
 
 }  // namespace
 
-void draw_part_relief(const CommandLine& line, const fs::path& file, const Kept& kept, Setup setup,
+void draw_part_relief(const CommandLine& line, const fs::path& file, const Archived& kept, Setup setup,
                       const std::string& name) {
   if (kept.cloths.size() > 1) throw refusal(name, "is of one run, and " + file.string() + " keeps several");
-  const KeptCloth& cloth = kept.cloths.front();
+  const ArchivedCloth& cloth = kept.cloths.front();
   const DrawnMesh& mesh = kept.meshes.at(cloth.mesh);
   const fs::path manifest = file.parent_path() / "manifest.json";
   const MetricRequest request = request_named(name, manifest, setup.scene);

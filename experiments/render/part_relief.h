@@ -8,7 +8,7 @@
 
 namespace hysteron::experiments {
 
-struct Kept;
+struct Archived;
 
 // Implements `render DIR --render.part NAME`, where NAME is a metric of the run's scene that is measured on a
 // part.  It computes the local deviation of lightness (render/local_deviation.h) where that part is seen, at
@@ -17,7 +17,7 @@ struct Kept;
 // ....  Looks and light are those of the line.  Throws Error::invalid_input for a page of several runs, a
 // name that is no metric with a part, cloth that is not the kept one, and pictures that show too little of
 // the part.
-void draw_part_relief(const CommandLine& line, const std::filesystem::path& file, const Kept& kept,
+void draw_part_relief(const CommandLine& line, const std::filesystem::path& file, const Archived& kept,
                       Setup setup, const std::string& name);
 
 }  // namespace hysteron::experiments

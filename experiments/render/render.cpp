@@ -10,8 +10,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "experiments/render/archived_pictures.h"
 #include "experiments/render/instants.h"
-#include "experiments/render/kept_pictures.h"
 #include "experiments/workbench/app/experiment.h"
 #include "experiments/workbench/app/manifest_file.h"
 #include "experiments/workbench/app/run.h"
@@ -204,7 +204,7 @@ void warn_of_loose_parts(const F& flags, const std::vector<Column>& columns, Run
   for (const Column& column : columns) {
     const std::string what = "mesh " + column.files.front().string();
     const ClothMesh mesh = frame_mesh(read_frame(column.files.front(), column.axes), what);
-    for (const std::string& doubt : mesh_doubts(mesh, {what, {}, {}})) run.warn(doubt);
+    for (const std::string& warning : mesh_warnings(mesh, {what, {}, {}})) run.warn(warning);
   }
 }
 
@@ -416,8 +416,8 @@ CommandLine from_within(CommandLine line) {
 }
 
 int run_render(const CommandLine& asked) {
-  if (const auto kept = kept_geometry_file(asked); !kept.empty()) {
-    draw_kept(asked, kept);
+  if (const auto kept = archived_geometry_file(asked); !kept.empty()) {
+    draw_archived(asked, kept);
     return 0;
   }
   const CommandLine line = from_within(asked);

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <iostream>
 
-#include "experiments/workbench/app/ending.h"
+#include "experiments/workbench/app/exit_status.h"
 #include "experiments/workbench/app/experiment.h"
 #include "experiments/workbench/app/manifest_file.h"
 #include "experiments/workbench/app/run_files.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "experiments/workbench/app/decided_keys.h"
+#include "experiments/workbench/app/fixed_keys.h"
 #include "sim/base/error.h"
 #include "sim/mesh/builders.h"
 

@@ -269,7 +269,7 @@ Scene led_through_itself(double strength) {
 
 std::vector<NamedAttempt> contact_scenes() {
   return {
-      {"through itself, hand of 1 N", {led_through_itself(1)}},
+      {"through itself, pin of 1 N", {led_through_itself(1)}},
       {"four sheets hit at 1 m/s", {sheets(4, slow_ball())}},
       {"three sheets onto an edge", {sheets(3, sharp_wall(0, 0))}},
       {"six layers to 1.2 thicknesses", {pressed(1.2)}},
@@ -320,7 +320,7 @@ std::vector<Sweep> scene_sweeps(const SweepParams& choice) {
   return {
       sweep_of("mesh", "Mesh quality: a strip or square held at one end; steps of 1 ms", "mesh",
                extreme_meshes(), few, {"shape", "hinge"}, set_element),
-      sweep_of("contact", "Layers, solids and hands", "scene", contact_scenes(), few,
+      sweep_of("contact", "Layers, solids and pins", "scene", contact_scenes(), few,
                {"step 1/240 s", "step 1/60 s"}, set_step_of_contact),
       sweep_of("scenes", "Scenes that ask too much, in double precision", "scene", extreme_scenes(),
                all ? law_names() : few, steps, set_step),

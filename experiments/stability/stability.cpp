@@ -39,9 +39,9 @@ void look(Simulation& simulation, double weight, double& most_work, Finding& fin
   const Ledger l = simulation.ledger();
   const double stretch = simulation.largest_stretch();
   const double now = l.kinetic + l.gravitational + l.membrane + l.bending + l.contact;
-  most_work = std::max(most_work, std::abs(l.handle_work) + std::abs(l.obstacle_work));
+  most_work = std::max(most_work, std::abs(l.pin_work) + std::abs(l.obstacle_work));
   const double scale = l.initial + most_work + weight;
-  const double excess = now - l.initial - l.handle_work - l.obstacle_work;
+  const double excess = now - l.initial - l.pin_work - l.obstacle_work;
   const double growth = scale > 0 ? 1 + excess / scale : 1;
   finding.remainder = scale > 0 ? l.remainder / scale : 0;
   const bool finite = std::isfinite(growth) && std::isfinite(stretch);

@@ -8,7 +8,7 @@
 
 #include "experiments/sweep/study.h"
 #include "experiments/workbench/app/command_line.h"
-#include "experiments/workbench/app/decided_keys.h"
+#include "experiments/workbench/app/fixed_keys.h"
 #include "experiments/workbench/app/manifest_file.h"
 #include "experiments/workbench/app/scene_source.h"
 #include "sim/base/error.h"

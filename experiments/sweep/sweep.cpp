@@ -15,7 +15,7 @@
 
 #include "experiments/sweep/study.h"
 #include "experiments/sweep/tables.h"
-#include "experiments/workbench/app/ending.h"
+#include "experiments/workbench/app/exit_status.h"
 #include "experiments/workbench/app/gpu_choice.h"
 #include "experiments/workbench/app/run.h"
 #include "experiments/workbench/app/run_folder.h"

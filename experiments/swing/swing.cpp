@@ -8,7 +8,7 @@
 
 #include "experiments/specimens/clamped_mesh.h"
 #include "experiments/swing/clamped_sheet.h"
-#include "experiments/workbench/app/decided_keys.h"
+#include "experiments/workbench/app/fixed_keys.h"
 #include "experiments/workbench/session/probes.h"
 #include "experiments/workbench/session/record.h"
 #include "experiments/workbench/session/session.h"
@@ -174,8 +174,8 @@ int run_swing(const CommandLine& line) {
   if (session.is_over()) return 0;
   session.reserve({"turns.csv"}, {"plot_decay", "plot_decay_log", "plot_tip", "plot_energy"});
   if (!has_own_pins)
-    if (const std::string doubt = long_side_warning(setup.scene, session.cloth().mesh); !doubt.empty())
-      session.run().warn(doubt);
+    if (const std::string warning = long_side_warning(setup.scene, session.cloth().mesh); !warning.empty())
+      session.run().warn(warning);
   const SheetPlacement sheet = sheet_placement(setup.scene, session.cloth(), !has_own_pins);
   const int tip = sheet.tip;
   std::vector<double> times, swing;

@@ -10,7 +10,7 @@
 #include "experiments/workbench/app/headlines.h"
 #include "experiments/workbench/app/json_file.h"
 #include "experiments/workbench/app/same_request.h"
-#include "experiments/workbench/pages/error_words.h"
+#include "experiments/workbench/pages/error_notes.h"
 #include "sim/base/error.h"
 #include "sim/base/whole_file.h"
 

@@ -8,7 +8,7 @@
 
 #include "experiments/verify/recorded_tables.h"
 #include "experiments/verify/repetition.h"
-#include "experiments/workbench/app/ending.h"
+#include "experiments/workbench/app/exit_status.h"
 #include "experiments/workbench/app/manifest_file.h"
 #include "experiments/workbench/app/recorded_command.h"
 #include "experiments/workbench/app/run.h"

@@ -175,7 +175,7 @@ bool shows_decimals(const std::string& field, char mark) {
 // Returns the marks that may stand before decimals or between thousands in this table, whose columns no comma
 // separates.  Other numbers of the table can show that a comma stands before decimals; points do unless
 // commas do.
-std::string doubtful_marks(const Table& table) {
+std::string implausible_marks(const Table& table) {
   bool comma = false, point = false;
   for (const std::vector<std::string>& row : table.rows)
     for (const std::string& field : row) {
@@ -188,8 +188,8 @@ std::string doubtful_marks(const Table& table) {
 // Turns decimal commas into points where they are certain.  "1,125" becomes "1.1250", which cannot have
 // thousands.
 void read_decimal_commas(Table& table) {
-  table.doubtful_marks = doubtful_marks(table);
-  const bool certain = table.doubtful_marks.find(',') == table.doubtful_marks.npos;
+  table.implausible_marks = implausible_marks(table);
+  const bool certain = table.implausible_marks.find(',') == table.implausible_marks.npos;
   for (std::vector<std::string>& row : table.rows)
     for (std::string& field : row) {
       const bool open = may_be_thousands(field, ',');
@@ -313,17 +313,17 @@ std::size_t Table::at(const std::string& column) const {
 
 double Table::number(std::size_t row, const std::string& column) const {
   const std::string& field = word(row, column);
-  return doubtful_mark(field) ? NAN : vector_component(field).value_or(NAN);
+  return implausible_mark(field) ? NAN : vector_component(field).value_or(NAN);
 }
 
-char Table::doubtful_mark(std::string_view field) const {
-  for (const char mark : doubtful_marks)
+char Table::implausible_mark(std::string_view field) const {
+  for (const char mark : implausible_marks)
     if (may_be_thousands(field, mark)) return mark;
   return 0;
 }
 
 double Table::finite(std::size_t row, std::size_t column) const {
-  if (const char mark = doubtful_mark(rows[row][column]))
+  if (const char mark = implausible_mark(rows[row][column]))
     throw refusal(row, thousands_message(head[column], trimmed(rows[row][column]), mark));
   const std::optional<double> value = vector_component(rows[row][column]);
   if (!value || !std::isfinite(*value))

@@ -48,7 +48,7 @@ struct Table {
   std::string file{}, reader{};  // the file that it was read from, and on whose behalf ("law")
   // The marks among "," and "." that may stand before decimals or between thousands: "1,000" is then not a
   // number.
-  std::string doubtful_marks{};
+  std::string implausible_marks{};
 
   Table() = default;
   // Takes the names of the columns: "fabric,law,step [s]".
@@ -66,7 +66,7 @@ struct Table {
   const std::string& word(std::size_t row, const std::string& column) const { return rows[row][at(column)]; }
   double number(std::size_t row, const std::string& column) const;  // NaN if the cell is not a number
   // Returns the mark for which a field may be one number or another; 0 if the number is certain.
-  char doubtful_mark(std::string_view field) const;
+  char implausible_mark(std::string_view field) const;
   // Throws Error::invalid_input, with file and line, if the cell is not a finite number.
   double finite(std::size_t row, std::size_t column) const;
   // Returns the finite numbers of all rows; throws as finite() does.

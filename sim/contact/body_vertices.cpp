@@ -35,7 +35,7 @@ std::vector<Vec3<Real>> positions_at(const std::vector<Obstacle>& bodies, double
 // Returns the share of a shell of a body and cloth at which it bears kYieldPressure.
 double yield_share(double thickness) {
   SelfPair<double> pair{};
-  pair.shell = thickness;
+  pair.activation_distance = thickness;
   const double k = barrier_stiffness(thickness);
   double low = kClosest, high = 1;
   constexpr double kWithin = 1e-12;
@@ -168,7 +168,7 @@ void BodyVertices<Real, Device>::find_recession(const PressedPairs<Real>& presse
         Vec3<Real> at[4];
         pair.gather(x, at);
         const ClosestPoints<Real> closest = pair.is_edges() ? edge_edge(at) : point_triangle(at);
-        const Real distance = closest.offset.norm(), yield = share * pair.shell;
+        const Real distance = closest.offset.norm(), yield = share * pair.activation_distance;
         if (!(distance < yield)) return;
         const Vec3<Real> normal = closest.offset / distance;
         Real after = distance;

@@ -58,14 +58,14 @@ struct ObstacleShell {
 };
 
 // Returns a scene's shell: `contact-stiffness` is its stiffness at the compression of the test.
-ObstacleShell<double> obstacle_shell(const Scene& scene);
+ObstacleShell<double> obstacle_activation_distance(const Scene& scene);
 // Returns the distance [m] at which a shell bears a pressure [Pa] that it does not yield to.
-double distance_under(const ObstacleShell<double>& shell, double pressure);
+double distance_under(const ObstacleShell<double>& activation_distance, double pressure);
 
 // The common model of contact with obstacles for vertices and triangles.
 template <class Real>
 struct ContactModel {
-  ObstacleShell<Real> shell;
+  ObstacleShell<Real> activation_distance;
   Real slip;        // elastic slip of friction [m]
   Real tangential;  // bound on the stiffness of friction [N/m^3]
 

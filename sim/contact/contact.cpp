@@ -13,11 +13,11 @@ constexpr double kTangential = 0.5;
 
 template <class Real>
 ContactModel<Real> contact_model(const Scene& scene) {
-  const ObstacleShell<double> shell = obstacle_shell(scene);
-  return {{static_cast<Real>(shell.thickness), static_cast<Real>(shell.k), static_cast<Real>(shell.last),
-           static_cast<Real>(shell.yield)},
-          static_cast<Real>(kElasticSlip * shell.thickness),
-          static_cast<Real>(kTangential * shell.stiffest())};
+  const ObstacleShell<double> activation_distance = obstacle_activation_distance(scene);
+  return {{static_cast<Real>(activation_distance.thickness), static_cast<Real>(activation_distance.k),
+           static_cast<Real>(activation_distance.last), static_cast<Real>(activation_distance.yield)},
+          static_cast<Real>(kElasticSlip * activation_distance.thickness),
+          static_cast<Real>(kTangential * activation_distance.stiffest())};
 }
 
 }  // namespace
@@ -143,8 +143,8 @@ template <class Real, class Device>
 void Contact<Real, Device>::clip_to_obstacles(const Vec3<Real>* start, Vec3<Real>* end, const char* held) {
   if (!set_.has_thin()) return;
   const VertexPoints<Real> vertices = points();
-  const Real rest_distance =
-      static_cast<Real>(1 - kCompressed) * model_.shell.thickness;  // cloth is pressed back to here
+  const Real rest_distance = static_cast<Real>(1 - kCompressed) *
+                             model_.activation_distance.thickness;  // cloth is pressed back to here
   for_each(
       device_, "contact: guess", vertices_.count(), HYST_KERNEL(int i) {
         if (!held[i]) clip_path(vertices, i, start, end, rest_distance);

@@ -35,9 +35,10 @@ template <class Real>
 HYST_HD VertexTouch<Real> vertex_touch(const ObstacleSet<Real>& set, int o, const ContactModel<Real>& model,
                                        const Vec3<Real>& x, Real area) {
   VertexTouch<Real> touch;
-  const BodyDistance<Real> d = distance_to_body(set, o, x, static_cast<Real>(kBlend) * model.shell.thickness);
-  if (!(d.value < model.shell.thickness)) return touch;
-  const Barrier<Real> b = model.shell.at(d.value);
+  const BodyDistance<Real> d =
+      distance_to_body(set, o, x, static_cast<Real>(kBlend) * model.activation_distance.thickness);
+  if (!(d.value < model.activation_distance.thickness)) return touch;
+  const Barrier<Real> b = model.activation_distance.at(d.value);
   touch.energy = static_cast<double>(area * b.energy);
   touch.force = -area * b.slope;
   touch.stiffness = area * b.stiffness;

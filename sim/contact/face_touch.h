@@ -154,7 +154,7 @@ HYST_HD HYST_NOINLINE FaceTouch<Real> face_touch(const Obstacle3<Real>& obstacle
                                                  const ContactModel<Real>& model, const Vec3<Real> (&x)[3],
                                                  Real area) {
   FaceTouch<Real> touch;
-  const Real thickness = model.shell.thickness;
+  const Real thickness = model.activation_distance.thickness;
   Vec3<Real> p[3];
   for (int k = 0; k < 3; ++k) p[k] = obstacle.rotation.transpose() * (x[k] - obstacle.center);
   if (!(least_possible(obstacle.shape, p) < thickness)) return touch;
@@ -170,12 +170,12 @@ HYST_HD HYST_NOINLINE FaceTouch<Real> face_touch(const Obstacle3<Real>& obstacle
   if (corner_is_nearest) return touch;
   const FacePoint<Real> point = face_point<Real>(obstacle.shape, p, static_cast<Real>(kCentring) * thickness);
   if (!(point.distance < thickness)) return touch;
-  const Barrier<Real> b = model.shell.at(point.distance);
+  const Barrier<Real> b = model.activation_distance.at(point.distance);
   Real left = 1, sum = 0, curved = 0, slope[3], of_b[3];
   for (int k = 0; k < 3; ++k) {
     slope[k] = of_b[k] = 0;
     if (corner[k].value < thickness) {
-      const Barrier<Real> v = model.shell.at(corner[k].value);
+      const Barrier<Real> v = model.activation_distance.at(corner[k].value);
       of_b[k] = v.energy / b.energy;
       slope[k] = v.slope;
     }

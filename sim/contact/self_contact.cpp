@@ -48,14 +48,14 @@ SelfContact<Real, Device>::SelfContact(Device& device, const ClothMesh& mesh,
       friction_(device),
       old_friction_(device),
       presses_(device),
-      pressing_(device),
+      active_(device),
       stiffness_(device),
       push_(device),
       body_force_(device, scene.integrator == Integrator::quasi_static ? bodies_.count() : 0),
       rows_(device, bodies_.all()),
       stiffness_rows_(device, vertices_),
-      bearing_end_(device, bodies_.all()),
-      bearing_item_(device),
+      active_end_(device, bodies_.all()),
+      active_item_(device),
       slot_(device),
       energy_(device),
       sum_(device, 2),
@@ -85,7 +85,8 @@ Real SelfContact<Real, Device>::farthest(const Vec3<Real>* x, const Vec3<Real>* 
 
 template <class Real, class Device>
 double SelfContact<Real, Device>::prepare(const Vec3<Real>* cloth, const Vec3<Real>* along_cloth,
-                                          const char* held, double max_step, double kept_shell) {
+                                          const char* held, double max_step,
+                                          double archived_activation_distance) {
   clock_.begin(Stage::contact);
   bodies_.try_step(0);
   const Vec3<Real>*x = bodies_.positions(cloth), *direction = bodies_.directions(along_cloth);
@@ -103,7 +104,7 @@ double SelfContact<Real, Device>::prepare(const Vec3<Real>* cloth, const Vec3<Re
   const PairFriction<Real>* friction = friction_.data();
   Real* feasible = step_length_.reserve(pairs_.count());
   char* near = near_.reserve(pairs_.count());
-  const Real kept = static_cast<Real>(kept_shell);
+  const Real kept = static_cast<Real>(archived_activation_distance);
   for_each(
       device_, "self-contact: collisions", pairs_.count(), HYST_KERNEL(int p) {
         const SelfPair<Real> pair = pairs[p];
@@ -112,9 +113,11 @@ double SelfContact<Real, Device>::prepare(const Vec3<Real>* cloth, const Vec3<Re
         pair.gather(direction, along);
         for (Vec3<Real>& d : along) d *= step_length;
         const Approach<Real> start = approach(from, along, pair.is_edges());
-        near[p] = start.distance - start.speed < Real(kSafely) * pair.shell || friction[p].limit > 0;
+        near[p] =
+            start.distance - start.speed < Real(kSafely) * pair.activation_distance || friction[p].limit > 0;
         const Real least = least_distance(pair), nearer = Real(kPressedNearer) * start.distance;
-        const Real wanted = kept * pair.shell < nearer ? kept * pair.shell : nearer;
+        const Real wanted =
+            kept * pair.activation_distance < nearer ? kept * pair.activation_distance : nearer;
         feasible[p] = feasible_step(start, from, along, pair.is_edges(), wanted > least ? wanted : least);
       });
   const double least = smallest(device_, pairs_.scratch(), feasible, pairs_.count(), Real(1));
@@ -149,7 +152,7 @@ void SelfContact<Real, Device>::index_corners() {
   const int count = pairs_.count();
   slot_.reserve(4 * static_cast<std::size_t>(count));
   energy_.reserve(count);
-  bearing_item_.reserve(4 * static_cast<std::size_t>(count));
+  active_item_.reserve(4 * static_cast<std::size_t>(count));
   int* key = rows_.key.reserve(4 * static_cast<std::size_t>(count));
   const SelfPair<Real>* pairs = pairs_.pairs();
   for_each(
@@ -242,7 +245,7 @@ void SelfContact<Real, Device>::evaluate(const Vec3<Real>* cloth, const Vec3<Rea
 
 // Numbers the stiffnesses of the pairs that touch or have friction; returns how many there are.
 template <class Real, class Device>
-int SelfContact<Real, Device>::find_pressing(const Vec3<Real>* x) {
+int SelfContact<Real, Device>::find_active(const Vec3<Real>* x) {
   const int count = pairs_.count();
   const SelfPair<Real>* pairs = pairs_.pairs();
   const PairFriction<Real>* friction = friction_.data();
@@ -255,12 +258,12 @@ int SelfContact<Real, Device>::find_pressing(const Vec3<Real>* x) {
         if (!near[p]) return;
         Vec3<Real> at[4];
         pairs[p].gather(x, at);
-        const bool touches = pair_distance(at, pairs[p].is_edges()) < pairs[p].shell;
+        const bool touches = pair_distance(at, pairs[p].is_edges()) < pairs[p].activation_distance;
         presses[p] = touches && stiffens_parallel && are_fading(pairs[p], at) ? 2
                      : touches || friction[p].limit > 0                       ? 1
                                                                               : 0;
       });
-  return exclusive_scan(device_, pairs_.scratch(), presses, count, pressing_.reserve(count + 1));
+  return exclusive_scan(device_, pairs_.scratch(), presses, count, active_.reserve(count + 1));
 }
 
 template <class Real, class Device>
@@ -268,13 +271,13 @@ void SelfContact<Real, Device>::linearise(const Vec3<Real>* cloth, const Vec3<Re
                                           Real sliding_fraction) {
   clock_.begin(Stage::contact);
   const Vec3<Real>*x = bodies_.positions(cloth), *before = bodies_.positions_before(cloth_before);
-  pressing_count_ = find_pressing(x);
-  const std::size_t entries = 4 * static_cast<std::size_t>(pressing_count_);
+  active_count_ = find_active(x);
+  const std::size_t entries = 4 * static_cast<std::size_t>(active_count_);
   const SelfContactModel<Real> model = model_;
   const SelfPair<Real>* pairs = pairs_.pairs();
   const PairFriction<Real>* friction = friction_.data();
-  const int *presses = presses_.data(), *number = pressing_.data();
-  PairStiffness<Real>* stiffness = stiffness_.reserve(pressing_count_);
+  const int *presses = presses_.data(), *number = active_.data();
+  PairStiffness<Real>* stiffness = stiffness_.reserve(active_count_);
   int* key = stiffness_rows_.key.reserve(entries);
   for_each(
       device_, "self-contact: stiffness", pairs_.count(), HYST_KERNEL(int p) {
@@ -296,7 +299,7 @@ void SelfContact<Real, Device>::linearise(const Vec3<Real>* cloth, const Vec3<Re
         s.block += sliding_stiffness<Real>(e, f.normal, f.limit / model.slip, model.slip, sliding_fraction);
       });
   if (bodies_.any()) leave_cloth_alone();
-  group(device_, pairs_.scratch(), key, 4 * pressing_count_, vertices_, stiffness_rows_.start.data(),
+  group(device_, pairs_.scratch(), key, 4 * active_count_, vertices_, stiffness_rows_.start.data(),
         stiffness_rows_.item.reserve(entries));
   clock_.end(Stage::contact);
 }
@@ -310,9 +313,9 @@ void SelfContact<Real, Device>::leave_cloth_alone() {
   const Vec3<Real>* way = bodies_.way();
   PairStiffness<Real>* stiffness = stiffness_.data();
   int* key = stiffness_rows_.key.data();
-  Vec3<Real>* push = push_.reserve(pressing_count_);
+  Vec3<Real>* push = push_.reserve(active_count_);
   for_each(
-      device_, "self-contact: push", pressing_count_, HYST_KERNEL(int i) {
+      device_, "self-contact: push", active_count_, HYST_KERNEL(int i) {
         PairStiffness<Real>& s = stiffness[i];
         Vec3<Real> apart = Vec3<Real>::Zero();
         int own = 0;
@@ -395,7 +398,7 @@ SelfPair<Real> SelfContact<Real, Device>::blocking_pair() const {
 template <class Real, class Device>
 std::size_t SelfContact<Real, Device>::bytes() const {
   return pairs_.bytes() + center_.bytes() + step_length_.bytes() + friction_.bytes() + old_friction_.bytes() +
-         near_.bytes() + bearing_end_.bytes() + bearing_item_.bytes() + presses_.bytes() + pressing_.bytes() +
+         near_.bytes() + active_end_.bytes() + active_item_.bytes() + presses_.bytes() + active_.bytes() +
          stiffness_.bytes() + push_.bytes() + body_force_.bytes() + bodies_.bytes() + rows_.bytes() +
          stiffness_rows_.bytes() + slot_.bytes() + energy_.bytes() + sum_.bytes();
 }
@@ -406,10 +409,10 @@ std::size_t SelfContact<Real, Device>::bytes() const {
 // Gathers for each vertex the entries of active pairs, in the order of all: they are few, and most pairs
 // search them.
 template <class Real, class Device>
-void SelfContact<Real, Device>::gather_bearing() {
+void SelfContact<Real, Device>::gather_active() {
   const int *start = rows_.start.data(), *item = rows_.item.data();
   const PairFriction<Real>* friction = friction_.data();
-  int *end = bearing_end_.data(), *bearing = bearing_item_.data();
+  int *end = active_end_.data(), *bearing = active_item_.data();
   for_each(
       device_, "self-contact: bearing", bodies_.all(), HYST_KERNEL(int i) {
         int n = start[i];
@@ -422,13 +425,13 @@ void SelfContact<Real, Device>::gather_bearing() {
 // Carries over the friction of pairs that stay in the list, or follow their neighbours.
 template <class Real, class Device>
 void SelfContact<Real, Device>::carry_over() {
-  if (ready_) gather_bearing();
+  if (ready_) gather_active();
   friction_.swap(old_friction_);
   PairFriction<Real>* friction = friction_.reserve(pairs_.count());
   const PairFriction<Real>* old = old_friction_.data();
   const SelfPair<Real>*pairs = pairs_.pairs(), *old_pairs = pairs_.old_pairs();
   const int *start = pairs_.start(), *old_start = pairs_.old_start();
-  const BearingRows bearing = this->bearing();  // of the list before
+  const ActiveRows bearing = this->bearing();  // of the list before
   const bool has_old = ready_;
   for_each(
       device_, "self-contact: carry over", pairs_.rows(), HYST_KERNEL(int row) {
@@ -511,9 +514,9 @@ void SelfContact<Real, Device>::book_body_work() {
 // Passes the stretch of active pairs' stops on to pairs that are not active yet.
 template <class Real, class Device>
 void SelfContact<Real, Device>::pass_friction_on() {
-  gather_bearing();
+  gather_active();
   const SelfPair<Real>* pairs = pairs_.pairs();
-  const BearingRows bearing = this->bearing();
+  const ActiveRows bearing = this->bearing();
   PairFriction<Real>* friction = friction_.data();
   for_each(
       device_, "self-contact: hand over", pairs_.count(), HYST_KERNEL(int p) {

@@ -45,7 +45,7 @@ struct PairRows {
 };
 
 // The entries of active pairs in a PairRows: a vertex's begin where all its entries do, and end earlier.
-struct BearingRows {
+struct ActiveRows {
   const int *start, *end, *item;
 };
 
@@ -64,7 +64,7 @@ class SelfContact {
   // from the mean displacement (arrays of n vertices [m], n flags).  Then evaluate() and the like may be
   // called on the path up to there; accept_iterate() tells which of its points was taken.
   double prepare(const Vec3<Real>* x, const Vec3<Real>* direction, const char* held, double max_step = 1,
-                 double kept_shell = 0);
+                 double archived_activation_distance = 0);
   // Moves bodies of triangles along with the step: try_step() precedes evaluate(), accept_iterate() follows
   // it.
   void try_step(double step_length) { bodies_.try_step(step_length); }
@@ -92,7 +92,7 @@ class SelfContact {
   void add_push(Vec3<Real>* force);
   // Returns the stiffnesses of linearise(), on the device.
   PairProduct<Real> product() const {
-    return {stiffness_rows_.start.data(), stiffness_rows_.item.data(), stiffness_.data(), pressing_count_};
+    return {stiffness_rows_.start.data(), stiffness_rows_.item.data(), stiffness_.data(), active_count_};
   }
   // Accepts x, where evaluate() was called last.
   void commit(const Vec3<Real>* x, const Vec3<Real>* before);
@@ -116,17 +116,17 @@ class SelfContact {
   // These are parts of the above; public because nvcc allows no device lambda in a private member function.
   void rebuild(const Vec3<Real>* x, const Vec3<Real>* direction, Real step_length, const char* held,
                Real reach);
-  void gather_bearing();
+  void gather_active();
   void carry_over();
   void pass_friction_on();
   void index_corners();
   // From here on arrays have all vertices, the cloth's and the bodies'.
   Real longest_displacement(const Vec3<Real>* direction);
   Real farthest(const Vec3<Real>* x, const Vec3<Real>* direction, Real step_length);
-  int find_pressing(const Vec3<Real>* x);
+  int find_active(const Vec3<Real>* x);
   void book_body_work();
   void leave_cloth_alone();
-  BearingRows bearing() const { return {rows_.start.data(), bearing_end_.data(), bearing_item_.data()}; }
+  ActiveRows bearing() const { return {rows_.start.data(), active_end_.data(), active_item_.data()}; }
 
  private:
   bool rubs() const { return model_.friction > 0 || bodies_.rubs(); }
@@ -149,14 +149,14 @@ class SelfContact {
   GrowingBuffer<PairFriction<Real>, Device> friction_, old_friction_;
   // The stiffnesses of the pairs that touched or had friction at the last linearise(), one or two for each:
   // `pressing_`, a running count, gives their indices.
-  int pressing_count_ = 0;
-  GrowingBuffer<int, Device> presses_, pressing_;
+  int active_count_ = 0;
+  GrowingBuffer<int, Device> presses_, active_;
   GrowingBuffer<PairStiffness<Real>, Device> stiffness_;
   GrowingBuffer<Vec3<Real>, Device> push_;  // add_push() of each of them; with bodies alone
   Buffer<Vec3<Real>, Device> body_force_;   // at the last commit() of quasi-static scenes with bodies [N]
   PairRows<Device> rows_, stiffness_rows_;
-  Buffer<int, Device> bearing_end_;  // the ends of BearingRows in rows_
-  GrowingBuffer<int, Device> bearing_item_;
+  Buffer<int, Device> active_end_;  // the ends of BearingRows in rows_
+  GrowingBuffer<int, Device> active_item_;
   GrowingBuffer<Vec3<Real>, Device> slot_;  // four per pair
   GrowingBuffer<double, Device> energy_;
   Buffer<double, Device> sum_;  // two numbers

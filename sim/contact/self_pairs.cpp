@@ -57,9 +57,9 @@ struct Candidates {  // the data of the loops, passed by value
     if (near > thickness) return false;
     pair.gather(rest, x);
     const Real apart = Real(kRestDistanceFraction) * pair_distance(x, edges);
-    pair.shell = apart < thickness && !with_body ? apart : thickness;
+    pair.activation_distance = apart < thickness && !with_body ? apart : thickness;
     pair.parallel = edges ? Real(kParallel) * (x[1] - x[0]).squaredNorm() * (x[3] - x[2]).squaredNorm() : 0;
-    return near <= pair.shell;
+    return near <= pair.activation_distance;
   }
 
   HYST_HD bool vertex_on_triangle(int vertex, int triangle, SelfPair<Real>& pair) const {
@@ -251,13 +251,13 @@ bool PinSweep<Real, Device>::is_free(const Vec3<Real>* x, const Vec3<Real>* disp
   const SelfPair<Real>* pairs = pairs_.pairs();
   Real* fraction = fraction_.reserve(pairs_.count());
   for_each(
-      device_, "hands: collisions", pairs_.count(), HYST_KERNEL(int p) {
+      device_, "pins: collisions", pairs_.count(), HYST_KERNEL(int p) {
         const SelfPair<Real> pair = pairs[p];
         Vec3<Real> from[4], along[4];
         pair.gather(x, from);
         pair.gather(displacement, along);
         const Approach<Real> start = approach(from, along, pair.is_edges());
-        const Real hardest = static_cast<Real>(kHardest) * pair.shell,
+        const Real hardest = static_cast<Real>(kHardest) * pair.activation_distance,
                    nearer = static_cast<Real>(kNearer) * start.distance;
         fraction[p] = feasible_step(start, from, along, pair.is_edges(), nearer < hardest ? nearer : hardest);
       });

@@ -12,10 +12,10 @@ namespace hysteron {
 template <class Real>
 struct SelfPair {
   int v[4];
-  int other;      // triangle, or rank of the second edge: with the row it identifies the pair
-  Real shell;     // distance from which they repel each other [m]
-  Real area;      // share of the cloth that the pair represents [m^2]
-  Real parallel;  // for edges: where the fade of parallel ones ends [m^4]; otherwise 0
+  int other;                 // triangle, or rank of the second edge: with the row it identifies the pair
+  Real activation_distance;  // distance from which they repel each other [m]
+  Real area;                 // share of the cloth that the pair represents [m^2]
+  Real parallel;             // for edges: where the fade of parallel ones ends [m^4]; otherwise 0
 
   HYST_HD bool is_edges() const { return parallel > 0; }
   HYST_HD void gather(const Vec3<Real>* values, Vec3<Real> (&out)[4]) const {

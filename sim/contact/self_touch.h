@@ -13,7 +13,7 @@ inline constexpr double kLastStiff = 3e3;  // stiffness of the second barrier ov
 
 template <class Real>
 HYST_HD Real least_distance(const SelfPair<Real>& pair) {
-  return static_cast<Real>(kClosest) * pair.shell;
+  return static_cast<Real>(kClosest) * pair.activation_distance;
 }
 
 // Returns the barrier of a pair at this distance, below its shell.  Neighbours on the flat cloth have a small
@@ -22,8 +22,9 @@ HYST_HD Real least_distance(const SelfPair<Real>& pair) {
 // above it.
 template <class Real>
 HYST_HD Barrier<Real> pair_barrier(const SelfPair<Real>& pair, Real k, Real distance) {
-  const Real hardest = static_cast<Real>(kHardest) * pair.shell, last = static_cast<Real>(kLast) * pair.shell;
-  const Barrier<Real> first = barrier(k, distance - hardest, pair.shell - hardest);
+  const Real hardest = static_cast<Real>(kHardest) * pair.activation_distance,
+             last = static_cast<Real>(kLast) * pair.activation_distance;
+  const Barrier<Real> first = barrier(k, distance - hardest, pair.activation_distance - hardest);
   if (!(distance < last)) return first;
   const Real least = least_distance(pair);
   return first + barrier(static_cast<Real>(kLastStiff) * k, distance - least, last - least);
@@ -49,7 +50,7 @@ HYST_HD HYST_NOINLINE SelfTouch<Real> self_touch(const SelfPair<Real>& pair,
   const ClosestPoints<Real> closest = pair.is_edges() ? edge_edge(x) : point_triangle(x);
   SelfTouch<Real> touch;
   const Real distance = closest.offset.norm();
-  if (!(distance < pair.shell)) return touch;
+  if (!(distance < pair.activation_distance)) return touch;
   touch.touches = true;
   touch.normal = closest.offset / distance;
   touch.weight = closest.weight;
@@ -136,7 +137,7 @@ HYST_HD bool are_neighbours(const SelfPair<Real>& p, const SelfPair<Real>& q, bo
 // that edge.
 template <class Real>
 HYST_HD HYST_NOINLINE Vec3<Real> inherited_slip(const SelfPair<Real>& pair, const SelfPair<Real>* others,
-                                                const PairFriction<Real>* friction, const BearingRows& rows) {
+                                                const PairFriction<Real>* friction, const ActiveRows& rows) {
   Vec3<Real> sum = Vec3<Real>::Zero();
   Real limits = 0, lengths = 0;
   for (int k = 0; k < (pair.is_edges() ? 2 : 1); ++k)

@@ -63,14 +63,14 @@ class WhileLoop<Cuda> {
 
  private:
   static constexpr std::size_t kMaxKept = 8;
-  struct Kept {
+  struct Archived {
     std::vector<const void*> key;
     const double* partial;  // scratch of sums, which grows
     cudaGraphExec_t loop;
   };
 
   cudaGraphExec_t known(const std::vector<const void*>& key, const double* partial) const {
-    for (const Kept& kept : kept_)
+    for (const Archived& kept : kept_)
       if (kept.key == key && kept.partial == partial) return kept.loop;
     return nullptr;
   }
@@ -134,12 +134,12 @@ class WhileLoop<Cuda> {
 #endif
 
   void forget() {
-    for (const Kept& kept : kept_) cudaGraphExecDestroy(kept.loop);
+    for (const Archived& kept : kept_) cudaGraphExecDestroy(kept.loop);
     kept_.clear();
   }
 
   bool works_ = true;
-  std::vector<Kept> kept_;
+  std::vector<Archived> kept_;
 };
 #endif
 

@@ -43,7 +43,7 @@ constexpr SheetQuantity kKesQuantities[] = {
 constexpr double kLargestTension = InPlaneProtocol().largest;  // [N/m]
 constexpr double kLargestPressure = 50 * 98.0665;              // [Pa]
 
-struct Doubts {
+struct Warnings {
   KesSheet& sheet;
 
   // Returns WT over LT T EMT/2 with T = 500 gf/cm; in one test they are equal.
@@ -121,15 +121,15 @@ void check_sheet(KesSheet& sheet, const std::string& file) {
                           "TM",
                           "under 50 gf/cm^2 than under 0.5"},
                          file);
-  Doubts doubts{sheet};
-  doubts.of_tension();
-  doubts.of_compression();
-  doubts.of_ratio("2HB", "B", 1, "1/m", kLeastWidthOverB, kMostWidthOverB);
-  doubts.of_ratio("2HG", "G", kDegree, "degree", 0.3, 8);
-  doubts.of_ratio("2HG5", "2HG", 1, "times", 0.8, 5);
-  doubts.of_directions();
-  doubts.of_faces();
-  doubts.of_weight();
+  Warnings warnings{sheet};
+  warnings.of_tension();
+  warnings.of_compression();
+  warnings.of_ratio("2HB", "B", 1, "1/m", kLeastWidthOverB, kMostWidthOverB);
+  warnings.of_ratio("2HG", "G", kDegree, "degree", 0.3, 8);
+  warnings.of_ratio("2HG5", "2HG", 1, "times", 0.8, 5);
+  warnings.of_directions();
+  warnings.of_faces();
+  warnings.of_weight();
 }
 
 }  // namespace

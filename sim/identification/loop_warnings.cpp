@@ -56,7 +56,7 @@ std::vector<std::string> loop_warnings(const MomentSeries& series, const std::ve
 
 std::string misses_warning(const Identification& found) {
   const double share = found.residual_rms() / found.largest_moment();
-  if (share <= kDoubtfulMiss) return "";
+  if (share <= kImplausibleMiss) return "";
   const std::string miss = " them by " + rounded(100 * share) + " % of the largest moment (rms)";
   if (!(share <= kMisses)) return found.law + " does not describe these data: it misses" + miss;
   return found.law + " is not near these data: it misses" + miss +

@@ -16,7 +16,7 @@ namespace hysteron {
 
 // This is a fraction of the data's range (rms): instruments repeat to some percent, and a fit that is farther
 // off has another shape.
-inline constexpr double kDoubtfulMiss = 0.08;
+inline constexpr double kImplausibleMiss = 0.08;
 
 // These say what is doubtful before a fit: laws that take time and rows without it, parameters that the laws
 // do not read, and, unless it is sought (`seeks_curvature_offset`), a zero of curvature that seems to be off.

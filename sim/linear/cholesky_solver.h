@@ -20,7 +20,7 @@ class Factorisation : public Preconditioner<Real, Device> {
  public:
   // Factorises anew; rows and columns of held vertices (n flags) become those of the identity.
   virtual void renew(const LinearSystem<Real, Device>& system, const char* held) = 0;
-  virtual int worth() const = 0;  // number of iterations that cost as much as renew()
+  virtual int refactor_threshold() const = 0;  // number of iterations that cost as much as renew()
   // Saves the matrix, which is factorised again on loading; `held` is as when the factorisation was made.
   virtual void serialise(Archive& archive, const std::vector<char>& held) = 0;
 };
@@ -42,8 +42,8 @@ class CholeskySolver : public LinearSolver<Real, Device> {
       return pcg_.solve(preconditioned, held, rhs, nullptr, nullptr, x, {tolerance, most});
     };
     int before = 0;
-    if (holds_the_same(held) && spent_ < factor_->worth()) {
-      const int most = factor_->worth();
+    if (holds_the_same(held) && spent_ < factor_->refactor_threshold()) {
+      const int most = factor_->refactor_threshold();
       const PcgOutcome outcome = attempt(most);
       spent_ += std::max(0, outcome.iterations - kWithNew);
       if (outcome.converged || outcome.iterations < most) return outcome;

@@ -55,7 +55,7 @@ class DenseInverse<Real, Cpu> {
       y[i] = sum.template cast<Real>();
     });
   }
-  double worth() const { return 0; }  // iterations of a solve that take about as long as make()
+  double refactor_threshold() const { return 0; }  // iterations of a solve that take about as long as make()
   std::size_t bytes() const { return blocks_.bytes() + next_.bytes() + pivot_.bytes(); }
 
  private:

@@ -64,7 +64,7 @@ class DenseInverse<Real, Cuda> {
     return {matrix_.data(), stride(), rows_, b->data(), y->data()};
   }
   // This is half of the iterations that take as long as make(), since several solves may take them.
-  double worth() const { return tiles_ / 4.0; }
+  double refactor_threshold() const { return tiles_ / 4.0; }
   std::size_t bytes() const { return total_bytes(matrix_, scratch_, scale_); }
 
   // The parts of make(); public because nvcc allows no device lambda in a private member function.

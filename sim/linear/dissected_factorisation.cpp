@@ -13,7 +13,7 @@ namespace {
 
 // The time that an iteration of conjugate gradients takes an H100 beside the application [us].
 constexpr double kIteration = 8;
-constexpr int kMinWorth = 6;  // as on the CPU
+constexpr int kMinRefactorThreshold = 6;  // as on the CPU
 
 template <class Real>
 void sweep_level(Cpu& cpu, const Buffer<SweptFront, Cpu>& fronts, int /*tiles*/, int /*pivots*/) {
@@ -266,8 +266,9 @@ bool DissectedFactorisation<Real, Device>::in_one_launch(OneLaunchView<Real>& to
 }
 
 template <class Real, class Device>
-int DissectedFactorisation<Real, Device>::worth() const {
-  return std::max(kMinWorth, static_cast<int>(plan_.cost.renewal / (kIteration + plan_.cost.application)));
+int DissectedFactorisation<Real, Device>::refactor_threshold() const {
+  return std::max(kMinRefactorThreshold,
+                  static_cast<int>(plan_.cost.renewal / (kIteration + plan_.cost.application)));
 }
 
 template <class Real, class Device>

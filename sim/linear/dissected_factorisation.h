@@ -22,7 +22,7 @@ class DissectedFactorisation : public Factorisation<Real, Device> {
                          std::optional<DissectionShape> shape = {});
 
   void renew(const LinearSystem<Real, Device>& system, const char* held) override;
-  int worth() const override;
+  int refactor_threshold() const override;
   void apply(const Vec3<Real>* r, Vec3<Real>* z, PcgScalars* scalars) override;
   bool in_one_launch(OneLaunchView<Real>& view) override;
   void serialise(Archive& archive, const std::vector<char>& held) override;

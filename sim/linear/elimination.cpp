@@ -159,7 +159,7 @@ struct ColumnRange {
 };
 
 // Is this share of zeros acceptable in fronts of so many columns? Small fronts are not worth their overhead.
-bool is_worthwhile(int columns, double zeros) {
+bool is_fill_acceptable(int columns, double zeros) {
   return zeros == 0 || zeros < (columns <= 4 ? 0.6 : columns <= 12 ? 0.3 : 0.08);
 }
 
@@ -176,7 +176,7 @@ std::vector<ColumnRange> join_columns(const std::vector<std::vector<int>>& colum
       const int count = last.count + joined.count;
       const double added = last.count * (joined.count + beyond - static_cast<double>(rows.size())),
                    zeros = last.zeros + joined.zeros + added;
-      if (!is_worthwhile(count, zeros / (count * (count + beyond)))) break;
+      if (!is_fill_acceptable(count, zeros / (count * (count + beyond)))) break;
       joined = {last.first, count, zeros};
       range.pop_back();
     }

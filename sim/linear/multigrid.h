@@ -39,7 +39,7 @@ class Multigrid : public Preconditioner<Real, Device> {
   void apply(const Vec3<Real>* r, Vec3<Real>* z, PcgScalars* scalars = nullptr) override;
   bool step_and_apply(const Advance<Real>& step, Vec3<Real>* z, PcgScalars* scalars) override;
   // Returns the number of iterations that take about as long as new coarse levels.
-  double worth() const { return 2 + (dense_ ? dense_->worth() : 0); }
+  double refactor_threshold() const { return 2 + (dense_ ? dense_->refactor_threshold() : 0); }
   bool in_one_launch(OneLaunchView<Real>& view) override;
   std::size_t bytes() const override;
   int levels() const { return 1 + coarse(); }

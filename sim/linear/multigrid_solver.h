@@ -29,7 +29,8 @@ class MultigridSolver : public LinearSolver<Real, Device> {
     const PcgOutcome outcome =
         pcg_.solve(preconditioned, held, rhs, nullptr, nullptr, x, {tolerance, kMaxIterations});
     if (renews) iterations_when_new_ = outcome.iterations / decades(tolerance);
-    is_stale_ = outcome.iterations > iterations_when_new_ * decades(tolerance) + multigrid_.worth();
+    is_stale_ =
+        outcome.iterations > iterations_when_new_ * decades(tolerance) + multigrid_.refactor_threshold();
     return outcome;
   }
   void begin() override { is_stale_ = true; }

@@ -19,7 +19,7 @@ using Eigen::Vector3d;
 
 constexpr int kCoarsestNodes = 24;  // on a CPU a dense inverse of more takes longer than another level
 // A level that keeps more than this share of the nodes is not worth its cost (cloth in many small pieces).
-constexpr double kWorthwhile = 0.5;
+constexpr double kAcceptableFill = 0.5;
 // Edges longer than this many times the shortest one at either end do not keep roots apart: a mesh of slender
 // triangles is coarsened along its short edges first, which couple most.
 constexpr double kLongEdge = 2.5;
@@ -356,7 +356,7 @@ RestHierarchy make_rest_hierarchy(const ClothMesh& mesh, const Adjacency& coupli
     const std::vector<char> root = choose_roots(surface);
     const std::vector<int> cell = cells(surface, root);
     Surface coarse = coarser(surface, root, cell);
-    if (coarse.size() > kWorthwhile * surface.size()) break;
+    if (coarse.size() > kAcceptableFill * surface.size()) break;
     RestLevel level;
     level.nodes = coarse.size();
     level.finer = interpolations(surface, root, cell, coarse);

@@ -10,7 +10,7 @@ namespace {
 // factorisation, which run on cached data.
 constexpr double kMultiplicationsOfEntry = 12;
 constexpr double kAssembly = 1.5;  // least time of a factorisation with assembly over that without
-constexpr int kMinWorth = 6;
+constexpr int kMinRefactorThreshold = 6;
 
 // Presents a system's pairs of layers as elements.
 template <class Real>
@@ -106,10 +106,11 @@ void SparseFactorisation<Real>::renew(const LinearSystem<Real, Cpu>& system, con
 }
 
 template <class Real>
-int SparseFactorisation<Real>::worth() const {
+int SparseFactorisation<Real>::refactor_threshold() const {
   const SymbolicFactorization& plan = factor_->plan();
-  return std::max(kMinWorth, static_cast<int>(kAssembly * plan.multiplications /
-                                              (kMultiplicationsOfEntry * static_cast<double>(plan.entries))));
+  return std::max(kMinRefactorThreshold,
+                  static_cast<int>(kAssembly * plan.multiplications /
+                                   (kMultiplicationsOfEntry * static_cast<double>(plan.entries))));
 }
 
 template <class Real>

@@ -18,7 +18,7 @@ class SparseFactorisation : public Factorisation<Real, Cpu> {
                       std::unique_ptr<ElementStiffness> bending);
 
   void renew(const LinearSystem<Real, Cpu>& system, const char* held) override;
-  int worth() const override;
+  int refactor_threshold() const override;
   void apply(const Vec3<Real>* r, Vec3<Real>* z, PcgScalars* scalars) override;
   void serialise(Archive& archive, const std::vector<char>& held) override;
   std::size_t bytes() const override;

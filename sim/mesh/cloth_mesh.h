@@ -119,12 +119,12 @@ ClothMesh copied_mesh(const ClothMesh& mesh, int copies, const Eigen::Vector3d& 
 
 // Reads a Wavefront OBJ of triangles and quads (quads are cut along the shorter diagonal) in that unit.
 // Texture coordinates, where every corner has one, become the pattern, or panels if they have seams. weld > 0
-// merges each vertex into the first one closer than that distance [m].  Adds the doubts of mesh_doubts()
-// (topology.h) to `doubts` unless it is null.  Throws Error::system for a file that cannot be read;
+// merges each vertex into the first one closer than that distance [m].  Adds the warnings of mesh_warnings()
+// (topology.h) to `warnings` unless it is null.  Throws Error::system for a file that cannot be read;
 // Error::invalid_input, naming the file and the line, for malformed lines, numbers that are not finite, quads
 // that cross themselves, and meshes that build_topology refuses.
 ClothMesh read_obj(const std::string& file, double weld, LengthUnit unit = LengthUnit::metre,
-                   std::vector<std::string>* doubts = nullptr);
+                   std::vector<std::string>* warnings = nullptr);
 // These write one frame, atomically (temporary name, then rename): position [m] per vertex, value (a
 // curvature [1/m], or empty) per vertex as the property `curvature`.  OBJ has shortest exact decimals with
 // its texture coordinates; PLY is binary little-endian, in doubles.  They throw Error::system.

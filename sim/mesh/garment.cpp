@@ -11,8 +11,8 @@
 namespace hysteron {
 namespace {
 
-constexpr double kLargestStretch = 2;      // of all sides together; sewn cloth stretches by far less
-constexpr double kDoubtfulStretch = 1.15;  // of all sides, or along one texture coordinate over the other
+constexpr double kLargestStretch = 2;         // of all sides together; sewn cloth stretches by far less
+constexpr double kImplausibleStretch = 1.15;  // of all sides, or along one texture coordinate over the other
 
 bool is_mirrored(const ClothMesh& mesh, int f) {
   const auto at = mesh.corners(f);
@@ -87,7 +87,9 @@ void check_scale(double stretch, double scale, const std::string& what) {
                              fitting_scale(stretch, scale));
 }
 
-bool is_doubtful(double stretch) { return stretch > kDoubtfulStretch || stretch < 1 / kDoubtfulStretch; }
+bool is_implausible(double stretch) {
+  return stretch > kImplausibleStretch || stretch < 1 / kImplausibleStretch;
+}
 
 // Returns how much longer the worn cloth is along the texture's first coordinate than along its second, in
 // the root mean square over the area.
@@ -107,13 +109,13 @@ double unevenness(const ClothMesh& mesh, const std::vector<Eigen::Vector3d>& wor
 }
 
 // Warns of a doubtful size; "" where there is none.
-std::string size_doubt(double uneven, double stretch, double scale) {
-  if (is_doubtful(uneven))
+std::string size_warning(double uneven, double stretch, double scale) {
+  if (is_implausible(uneven))
     return "where it starts, its triangles are " + number_text(uneven, 3) +
            " times as long along the first texture coordinate, compared with that along the second: where a "
            "program has scaled each of them to 0 to 1, multiply the first by " +
            number_text(uneven, 3);
-  return is_doubtful(stretch) ? scale_text(stretch, scale) + ": " + fitting_scale(stretch, scale) : "";
+  return is_implausible(stretch) ? scale_text(stretch, scale) + ": " + fitting_scale(stretch, scale) : "";
 }
 
 }  // namespace
@@ -128,8 +130,8 @@ bool is_seam(const ClothMesh& mesh, int edge) {
 }
 
 ClothMesh read_pattern(const std::string& file, double weld, double scale, LengthUnit unit,
-                       std::vector<std::string>* doubts) {
-  ClothMesh mesh = read_obj(file, weld, unit, doubts);
+                       std::vector<std::string>* warnings) {
+  ClothMesh mesh = read_obj(file, weld, unit, warnings);
   const std::string what = "mesh " + file;
   if (mesh.pattern.empty() && mesh.panel.empty())
     throw Error::invalid_input(what + ": its texture coordinates are no flat cloth: corners have none");
@@ -144,8 +146,8 @@ ClothMesh read_pattern(const std::string& file, double weld, double scale, Lengt
   check_folds(mesh, what);
   const double stretch = sides / length_of_sides(mesh);
   check_scale(stretch, scale, what);
-  const std::string doubt = size_doubt(unevenness(mesh, worn), stretch, scale);
-  if (doubts && !doubt.empty()) doubts->push_back(what + ": " + doubt);
+  const std::string warning = size_warning(unevenness(mesh, worn), stretch, scale);
+  if (warnings && !warning.empty()) warnings->push_back(what + ": " + warning);
   return mesh;
 }
 

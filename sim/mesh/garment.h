@@ -11,11 +11,11 @@ namespace hysteron {
 // Reads the cloth of an OBJ whose rest shape is its texture coordinates, `scale` metres per unit.  Where each
 // vertex has one, the cloth is flat in z = 0.  Where vertices on seams have several, the islands of the
 // texture are panels sewn together (ClothMesh::sewn), `rest` is the OBJ's vertices (in `unit`), and an island
-// may be mirrored as a whole.  Throws as read_obj does, which takes `unit` and `doubts`, and
+// may be mirrored as a whole.  Throws as read_obj does, which takes `unit` and `warnings`, and
 // Error::invalid_input where a corner has none, a triangle is turned over against its neighbours or has no
 // area there, or the OBJ's triangles are more than twice or less than half as long.
 ClothMesh read_pattern(const std::string& file, double weld, double scale,
-                       LengthUnit unit = LengthUnit::metre, std::vector<std::string>* doubts = nullptr);
+                       LengthUnit unit = LengthUnit::metre, std::vector<std::string>* warnings = nullptr);
 
 // Does an interior edge join two panels, or two sides of one?
 bool is_seam(const ClothMesh& mesh, int edge);

@@ -10,7 +10,7 @@
 #include <optional>
 
 #include "sim/base/error.h"
-#include "sim/mesh/file_ending.h"
+#include "sim/mesh/file_extension.h"
 
 namespace hysteron {
 namespace {

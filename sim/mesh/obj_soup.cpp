@@ -354,7 +354,7 @@ std::string without_texture(const std::string& what, const std::vector<int>& lin
 }
 
 // Warns if only some faces have texture coordinates, which `continued` ones got from their neighbours.
-std::string texture_doubt(const ObjSoup& soup, const std::vector<int>& continued, const std::string& what) {
+std::string texture_warning(const ObjSoup& soup, const std::vector<int>& continued, const std::string& what) {
   std::vector<int> without;
   for (std::size_t f = 0; f < soup.uv.size(); ++f)
     if (!has_texture(soup.uv[f])) without.push_back(soup.face_line[f]);
@@ -378,7 +378,8 @@ void take_pattern(const ObjSoup& soup, ClothMesh& mesh) {
 
 }  // namespace
 
-ClothMesh read_obj(const std::string& file, double weld, LengthUnit unit, std::vector<std::string>* doubts) {
+ClothMesh read_obj(const std::string& file, double weld, LengthUnit unit,
+                   std::vector<std::string>* warnings) {
   MeshNames names{"mesh " + file, {}, {}};
   check_weld(weld, names.what);
   ObjSoup soup = read_obj_soup(file, names.what);
@@ -392,10 +393,10 @@ ClothMesh read_obj(const std::string& file, double weld, LengthUnit unit, std::v
   weld_vertices(weld, soup, mesh, names);
   take_pattern(soup, mesh);
   build_topology(mesh, names);
-  if (const std::string doubt = texture_doubt(soup, continued, names.what); doubts && !doubt.empty())
-    doubts->push_back(doubt);
-  if (doubts)
-    for (const std::string& doubt : mesh_doubts(mesh, names)) doubts->push_back(doubt);
+  if (const std::string warning = texture_warning(soup, continued, names.what); warnings && !warning.empty())
+    warnings->push_back(warning);
+  if (warnings)
+    for (const std::string& warning : mesh_warnings(mesh, names)) warnings->push_back(warning);
   return mesh;
 }
 

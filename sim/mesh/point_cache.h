@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/mesh/file_ending.h"
+#include "sim/mesh/file_extension.h"
 
 namespace hysteron {
 

@@ -4,7 +4,7 @@
 
 #include "sim/base/error.h"
 #include "sim/base/whole_file.h"
-#include "sim/mesh/file_ending.h"
+#include "sim/mesh/file_extension.h"
 #include "sim/mesh/obj_soup.h"
 #include "sim/mesh/ply_header.h"
 

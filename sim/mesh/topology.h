@@ -38,7 +38,7 @@ void measure_areas(ClothMesh& mesh, const MeshNames& names);
 //   fans that meet in a vertex    corners of the surface hang together by a point, about which both turn
 //
 // A slit, a second cloth or an eyelet may be meant: none of these is refused.  The mesh has its topology.
-std::vector<std::string> mesh_doubts(const ClothMesh& mesh, const MeshNames& names);
+std::vector<std::string> mesh_warnings(const ClothMesh& mesh, const MeshNames& names);
 
 // This joins vertices that lie on each other, as exporters leave them along seams.
 

@@ -309,7 +309,7 @@ void check_loops(FabLoops& loops, const FabRequest& request, const std::string& 
       check_clamp_path(loops, file, reader);
     } catch (const Error& error) {
       loops.is_usable = false;
-      loops.doubts.push_back(std::string("not predicted: ") + error.what());
+      loops.warnings.push_back(std::string("not predicted: ") + error.what());
     }
     return;
   }
@@ -318,8 +318,8 @@ void check_loops(FabLoops& loops, const FabRequest& request, const std::string& 
   for (int cycle = 0; cycle < loops.cycles(); ++cycle) {
     const std::vector<int>& cycles = request.cycles;
     if (!cycles.empty() && std::find(cycles.begin(), cycles.end(), cycle + 1) == cycles.end()) continue;
-    const std::string doubt = checks.forces(cycle, request.noise);
-    if (!doubt.empty()) loops.doubts.push_back(loops.name() + ": " + doubt);
+    const std::string warning = checks.forces(cycle, request.noise);
+    if (!warning.empty()) loops.warnings.push_back(loops.name() + ": " + warning);
   }
 }
 

@@ -17,13 +17,13 @@ struct FabBranch {  // one way, out or back
 };
 
 struct FabLoops {
-  std::string direction;                 // "L", "W", "B": direction along which the strip was cut
-  std::string test;                      // "U1" bends up, "D1" down, "S1" stretches; gauges 1, 2
-  double gauge = 0;                      // length of the strip between the clamps [m]
-  double width = 0;                      // [m]
-  std::vector<FabBranch> branches;       // out, back, out, back, ...
-  std::vector<std::string> doubts = {};  // sentences on possible errors of the record
-  bool is_usable = true;                 // a test that nobody asked for may be unusable
+  std::string direction;                   // "L", "W", "B": direction along which the strip was cut
+  std::string test;                        // "U1" bends up, "D1" down, "S1" stretches; gauges 1, 2
+  double gauge = 0;                        // length of the strip between the clamps [m]
+  double width = 0;                        // [m]
+  std::vector<FabBranch> branches;         // out, back, out, back, ...
+  std::vector<std::string> warnings = {};  // sentences on possible errors of the record
+  bool is_usable = true;                   // a test that nobody asked for may be unusable
 
   int cycles() const { return static_cast<int>(branches.size()) / 2; }
   bool bends() const { return test.front() != 'S'; }

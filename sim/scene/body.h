@@ -25,7 +25,7 @@ std::vector<Eigen::Vector3d> body_positions(const Obstacle& obstacle, double tim
 // Returns a sentence for each doubtful body: one that passes through itself, in the first of up to twelve
 // frames; a closed one whose triangles face inward, so that it is a hollow; a sequence in which a vertex goes
 // farther from one frame to the next than animations do, or whose files have no even numbers.
-std::vector<std::string> body_doubts(const Scene& scene);
+std::vector<std::string> body_warnings(const Scene& scene);
 // Returns a line for each body, for --explain: "obstacle[0]: mesh torso.obj, 1280 triangles, 642 vertices,
 // closed, 0.42 x 0.3 x 0.9 m, 48 frames in 1.567 s".
 std::vector<std::string> body_lines(const Scene& scene);

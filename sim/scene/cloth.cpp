@@ -8,7 +8,7 @@
 #include "sim/base/error.h"
 #include "sim/base/number_in.h"
 #include "sim/mesh/builders.h"
-#include "sim/mesh/file_ending.h"
+#include "sim/mesh/file_extension.h"
 #include "sim/mesh/garment.h"
 #include "sim/scene/motion.h"
 #include "sim/scene/shown_key.h"
@@ -21,13 +21,13 @@ namespace {
 constexpr double kDegree = 3.14159265358979323846 / 180;
 constexpr double kSelectionSlack = 1e-9;  // [m]: lets box corners meet grid vertices in spite of rounding
 
-// Builds or reads one copy's mesh.  Doubts about a mesh that is read go into `doubts`.
-ClothMesh one_rest_mesh(const Scene& scene, std::vector<std::string>& doubts) {
+// Builds or reads one copy's mesh.  Warnings about a mesh that is read go into `warnings`.
+ClothMesh one_rest_mesh(const Scene& scene, std::vector<std::string>& warnings) {
   const ClothShape& c = scene.cloth;
   const int triangles = scene.triangles / c.copies;
-  if (names_an_obj(scene.mesh)) return read_obj(scene.mesh, c.weld, c.unit, &doubts);
-  if (c.shape == "file") return read_obj(c.file, c.weld, c.unit, &doubts);
-  if (c.shape == "pattern") return read_pattern(c.file, c.weld, c.texture_scale, c.unit, &doubts);
+  if (names_an_obj(scene.mesh)) return read_obj(scene.mesh, c.weld, c.unit, &warnings);
+  if (c.shape == "file") return read_obj(c.file, c.weld, c.unit, &warnings);
+  if (c.shape == "pattern") return read_pattern(c.file, c.weld, c.texture_scale, c.unit, &warnings);
   const MeshFamily family = mesh_family(scene.mesh);
   if (c.shape == "disc") return make_disc(c.radius, triangles, family, scene.seed);
   if (c.shape == "tube") return make_tube(c.length, c.radius, triangles, family, scene.seed);
@@ -50,8 +50,8 @@ void check_copies(const Scene& scene, const ClothMesh& one) {
                              " m, twice the fabric's thickness");
 }
 
-ClothMesh rest_mesh(const Scene& scene, std::vector<std::string>& doubts) {
-  ClothMesh one = one_rest_mesh(scene, doubts);
+ClothMesh rest_mesh(const Scene& scene, std::vector<std::string>& warnings) {
+  ClothMesh one = one_rest_mesh(scene, warnings);
   if (scene.cloth.copies == 1) return one;
   check_copies(scene, one);
   return copied_mesh(one, scene.cloth.copies, scene.cloth.copy_offset);
@@ -161,16 +161,16 @@ std::vector<char> Cloth::held_throughout(const Scene& scene) const {
 }
 
 Cloth make_cloth(const Scene& scene) {
-  std::vector<std::string> doubts;
-  ClothMesh mesh = rest_mesh(scene, doubts);
+  std::vector<std::string> warnings;
+  ClothMesh mesh = rest_mesh(scene, warnings);
   std::vector<Eigen::Vector3d> start = start_shape(scene, mesh);
   for (int i = 0; i < scene.cloth.subdivisions; ++i) {
     start = subdivide(mesh, std::move(start));
     mesh = subdivided(mesh);
   }
-  for (const std::string& doubt : cloth_doubts(scene, mesh, start)) doubts.push_back(doubt);
+  for (const std::string& warning : cloth_warnings(scene, mesh, start)) warnings.push_back(warning);
   Cloth cloth = placed(scene, std::move(mesh), std::move(start));
-  cloth.warnings = std::move(doubts);
+  cloth.warnings = std::move(warnings);
   return cloth;
 }
 

@@ -48,8 +48,8 @@ Cloth place_cloth(const Scene& scene, ClothMesh mesh);
 // Returns a sentence for each doubt: size, weight or edges that no cloth of that fabric has, with the units
 // in which they would be usual; a start that stretches the cloth; a start whose history no file holds.
 // `start` [m] is where the vertices of the mesh start.
-std::vector<std::string> cloth_doubts(const Scene& scene, const ClothMesh& mesh,
-                                      const std::vector<Eigen::Vector3d>& start);
+std::vector<std::string> cloth_warnings(const Scene& scene, const ClothMesh& mesh,
+                                        const std::vector<Eigen::Vector3d>& start);
 
 // The origin of a simulation's coordinates.  Far from the world's origin a position's rounding, above all in
 // single precision, grows with the distance: there positions are relative to where the cloth starts.

@@ -1,6 +1,6 @@
 #include "sim/scene/mesh_files.h"
 
-#include "sim/mesh/file_ending.h"
+#include "sim/mesh/file_extension.h"
 #include "sim/scene/body.h"
 
 namespace hysteron {

@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <numeric>
 
-#include "sim/mesh/file_ending.h"
+#include "sim/mesh/file_extension.h"
 #include "sim/scene/cloth.h"
 #include "sim/scene/mesh_files.h"
 #include "sim/scene/shown_key.h"
@@ -81,7 +81,7 @@ std::string fitting_units(const Size& size, LengthUnit unit) {
 
 // Warns of a size beyond the limits.  It ignores the edges of a cloth that is built, which were asked for,
 // and the weight if an experiment has set the density, since no unit of length is then to blame.
-std::string size_doubt(const Scene& scene, const ClothMesh& mesh) {
+std::string size_warning(const Scene& scene, const ClothMesh& mesh) {
   Size size = scene_size(scene, mesh);
   if (is_set_by_experiment(scene, "fabric.density")) size.weight = kLightest;
   const std::string file = rest_file(scene);
@@ -100,8 +100,8 @@ std::string size_doubt(const Scene& scene, const ClothMesh& mesh) {
 
 // Warns of edges that no bend or stretch of a weave makes so long or short: the vertices have another order,
 // or are another cloth's.
-std::string stretch_doubt(const Scene& scene, const ClothMesh& mesh,
-                          const std::vector<Eigen::Vector3d>& start) {
+std::string stretch_warning(const Scene& scene, const ClothMesh& mesh,
+                            const std::vector<Eigen::Vector3d>& start) {
   double largest = 0;
   long stretched = 0;
   for (std::size_t e = 0; e < mesh.edge.size(); ++e) {
@@ -118,19 +118,19 @@ std::string stretch_doubt(const Scene& scene, const ClothMesh& mesh,
 
 }  // namespace
 
-std::vector<std::string> cloth_doubts(const Scene& scene, const ClothMesh& mesh,
-                                      const std::vector<Eigen::Vector3d>& start) {
-  std::vector<std::string> doubts;
-  const auto add = [&](const std::string& doubt) {
-    if (!doubt.empty()) doubts.push_back(doubt);
+std::vector<std::string> cloth_warnings(const Scene& scene, const ClothMesh& mesh,
+                                        const std::vector<Eigen::Vector3d>& start) {
+  std::vector<std::string> warnings;
+  const auto add = [&](const std::string& warning) {
+    if (!warning.empty()) warnings.push_back(warning);
   };
-  add(size_doubt(scene, mesh));
-  if (!names_an_obj(scene.cloth.start)) return doubts;
-  add(stretch_doubt(scene, mesh, start));
+  add(size_warning(scene, mesh));
+  if (!names_an_obj(scene.cloth.start)) return warnings;
+  add(stretch_warning(scene, mesh, start));
   add(shown(scene, "cloth.start", scene.cloth.start, "") +
       " is a shape without a history: friction and set begin as if the cloth were bent to it once, from "
       "rest");
-  return doubts;
+  return warnings;
 }
 
 }  // namespace hysteron

@@ -4,7 +4,7 @@
 
 #include "sim/base/error.h"
 #include "sim/bending/laws/law_parameters.h"
-#include "sim/mesh/file_ending.h"
+#include "sim/mesh/file_extension.h"
 #include "sim/scene/body.h"
 #include "sim/scene/cycles.h"
 #include "sim/scene/fabric_limits.h"

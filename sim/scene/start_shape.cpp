@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "sim/base/error.h"
-#include "sim/mesh/file_ending.h"
+#include "sim/mesh/file_extension.h"
 #include "sim/mesh/garment.h"
 #include "sim/mesh/random_points.h"
 #include "sim/scene/shown_key.h"

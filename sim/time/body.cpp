@@ -173,9 +173,9 @@ Ledger Body<Real, Device>::balance() {
     sum.air += of.air;
     sum.inertia += of.inertia;
     sum.unbalanced += of.unbalanced;
-    sum.handle_work += of.handle_work;
+    sum.pin_work += of.pin_work;
   }
-  sum.handle_work += pins.work();
+  sum.pin_work += pins.work();
   const double relaxed = bending.relaxed_energy();
   sum.bending_relaxation = relaxed - initial_.bending_relaxation;
   sum.bending_friction = bending.dissipated_energy() - relaxed - initial_.bending_friction;

@@ -19,7 +19,7 @@ class ImplicitIntegrator : public TimeIntegrator<Real, Device> {
     solver_.become_static();
     tolerance_ = 0;  // the tolerance is for steps in time
   }
-  std::vector<Vec3<Real>> handle_forces() override { return solver_.handle_forces(); }
+  std::vector<Vec3<Real>> pin_forces() override { return solver_.pin_forces(); }
   void serialise(Archive& archive) override {
     archive(part_, tolerance_);
     solver_.serialise(archive);

@@ -106,7 +106,7 @@ NewtonOutcome ImplicitStep<Real, Device>::solve(double h, double fraction, bool 
 }
 
 template <class Real, class Device>
-std::vector<Vec3<Real>> ImplicitStep<Real, Device>::handle_forces() const {
+std::vector<Vec3<Real>> ImplicitStep<Real, Device>::pin_forces() const {
   std::vector<Vec3<Real>> force = downloaded(*body_.device, potential_.gradient(), body_.vertices);
   const std::vector<char> held = body_.held.download();
   for (int i = 0; i < body_.vertices; ++i)
@@ -234,7 +234,8 @@ template <class Real, class Device>
 bool ImplicitStep<Real, Device>::limit_guess_by_ccd() {
   constexpr int kMaxShortenings = 12;
   constexpr double kWithin = 0.99, kFastest = 0.1;
-  constexpr double kKeptShell = 0.4;  // a guess that presses layers further begins with huge forces
+  constexpr double kArchivedActivationDistance =
+      0.4;  // a guess that presses layers further begins with huge forces
   double shorter = 1, whole = 1;
   potential_.begin_guess();
   for (int k = 0; k < kMaxShortenings; ++k) {
@@ -242,7 +243,7 @@ bool ImplicitStep<Real, Device>::limit_guess_by_ccd() {
     whole *= shorter;
     potential_.aim_bodies(whole);
     const double feasible =
-        potential_.collision_free_step(body_.x.data(), displacement_.data(), 1, kKeptShell);
+        potential_.collision_free_step(body_.x.data(), displacement_.data(), 1, kArchivedActivationDistance);
     if (feasible >= 1) {
       potential_.take_bodies(1);
       potential_.accept_iterate(end_.data());
@@ -324,9 +325,9 @@ void ImplicitStep<Real, Device>::update_ledger() {
   const char* held = body_.held.data();
   const Real* mass = body_.mass.data();
   VertexLedger* ledger = body_.ledger.data();
-  const Vec3<Real>* handle_displacement = body_.pins.arcs();
+  const Vec3<Real>* moved_pin = body_.pins.arcs();
   const CompliantPins<Real> compliant_pins = body_.pins.compliant_pins();
-  const bool knows_forces = knows_forces_, along_arc = handle_displacement && !knows_forces;
+  const bool knows_forces = knows_forces_, along_arc = moved_pin && !knows_forces;
   knows_forces_ = forces_.size() > 0;
   VertexForces<Real>* kept = knows_forces_ ? forces_.data() : nullptr;
   const std::size_t bytes =
@@ -334,7 +335,7 @@ void ImplicitStep<Real, Device>::update_ledger() {
   for_each(
       *body_.device, {"implicit ledger", bytes}, body_.vertices, HYST_KERNEL(int i) {
         const Vec3<Real> d = end[i] - x[i], weight = mass[i] * g;
-        const Vec3<Real> arc_displacement = held[i] && along_arc ? handle_displacement[i] : d;
+        const Vec3<Real> arc_displacement = held[i] && along_arc ? moved_pin[i] : d;
         const Vec3<Real> air = -mass[i] * drag * (end[i] - reference[i]);
         const Vec3<Real> inertial = mass[i] * inertia * (end[i] - predicted[i]);
         VertexForces<Real> now{bending.at(i), compliant_pins.force(i, end[i]) - mass[i] * carried, {}};
@@ -345,10 +346,10 @@ void ImplicitStep<Real, Device>::update_ledger() {
         sum.bending_work += static_cast<double>(of.bending.dot(arc_displacement));
         sum.gravity_work += static_cast<double>(weight.dot(d));
         sum.implicit_work += static_cast<double>(of.remainder.dot(arc_displacement));
-        sum.handle_work += static_cast<double>(of.pins.dot(d));
+        sum.pin_work += static_cast<double>(of.pins.dot(d));
         if (held[i]) {
-          sum.handle_work -= static_cast<double>((weight + of.pins).dot(d) +
-                                                 (of.bending + of.remainder).dot(arc_displacement));
+          sum.pin_work -= static_cast<double>((weight + of.pins).dot(d) +
+                                              (of.bending + of.remainder).dot(arc_displacement));
           return;
         }
         // The unbalanced rest that Newton's method has left acts like one more force on the masses.

@@ -77,7 +77,7 @@ class ImplicitStep {
     solver_->serialise(archive);
   }
   // Returns the forces of the pins on held vertices [N], for the step accepted last; zero on free vertices.
-  std::vector<Vec3<Real>> handle_forces() const;
+  std::vector<Vec3<Real>> pin_forces() const;
   // Returns where solve() has failed to converge.
   Unbalanced most_unbalanced();
   // Returns which part of the potential is not finite at the start, in a user's words; "" if none.

@@ -67,7 +67,7 @@ std::string IncrementalPotential<Real, Device>::not_finite(const Vec3<Real>* x) 
       return std::string("the energy of ") + kPart[l] + " (element " + std::to_string(bad - energy.begin()) +
              " of " + std::to_string(of.count[l]) + ")";
   }
-  return "inertia, weight or the pull of hands";
+  return "inertia, weight or the pull of pins";
 }
 
 // Computes inertia, drag and weight with their energies, and gathers the gradients of membrane and bending.

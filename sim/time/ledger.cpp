@@ -8,10 +8,10 @@ void Ledger::close() {
   const double now = kinetic + gravitational + membrane + bending + contact;
   const double losses = commands + bending_friction + bending_relaxation + membrane_friction + viscous + air +
                         contact_friction + integrator();
-  remainder = now - initial - handle_work - obstacle_work + losses;
+  remainder = now - initial - pin_work - obstacle_work + losses;
   double scale = 0;
   for (double term :
-       {kinetic, gravitational, membrane, bending, contact, handle_work, obstacle_work, commands,
+       {kinetic, gravitational, membrane, bending, contact, pin_work, obstacle_work, commands,
         bending_friction, bending_relaxation, membrane_friction, viscous, air, contact_friction, inertia})
     scale += std::abs(term);
   remainder_relative = scale > 0 ? std::abs(remainder) / scale : 0;
@@ -34,7 +34,7 @@ std::vector<std::pair<std::string, double>> Ledger::rows() const {
           {"bending", bending},
           {"contact", contact},
           {"initial", initial},
-          {"handle_work", handle_work},
+          {"handle_work", pin_work},
           {"obstacle_work", obstacle_work},
           {"commands", commands},
           {"bending_friction", bending_friction},

@@ -17,7 +17,7 @@ struct Ledger {
   // These are present energies; gravity's is relative to the start.
   double kinetic = 0, gravitational = 0, membrane = 0, bending = 0, contact = 0;
   double initial = 0;                                                       // their sum at the start
-  double handle_work = 0, obstacle_work = 0;                                // done on the cloth
+  double pin_work = 0, obstacle_work = 0;                                   // done on the cloth
   double bending_friction = 0, viscous = 0, air = 0, contact_friction = 0;  // lost to physics
   double bending_relaxation = 0;  // lost to physics by relaxing branches
   double membrane_friction = 0;   // lost to physics by stops in the plane
@@ -46,7 +46,7 @@ struct VertexLedger {
   double inertia = 0;        // lost by the integrator: work of all forces less the change of kinetic energy
   double unbalanced = 0;     // taken by forces that the solve has left unbalanced
   double implicit_work = 0;  // work of membrane and contact
-  double handle_work = 0;    // done on the cloth by the pin that moves this vertex
+  double pin_work = 0;       // done on the cloth by the pin that moves this vertex
 };
 
 }  // namespace hysteron

@@ -186,7 +186,7 @@ void Pins<Real, Device>::move(Body<Real, Device>& body, double start, Real h) {
   const Vec3<Real>*origin = start_.data(), *home = home_.data(), *x = body.x.data();
   Vec3<Real>*v = body.v.data(), *arc = arc_.data();
   for_each(
-      *body.device, "handles", body.vertices, HYST_KERNEL(int i) {
+      *body.device, "pins: positions", body.vertices, HYST_KERNEL(int i) {
         const bool gripped = strength && strength[i] > 0;
         if (!held[i] && !gripped) return;
         const int p = pin[i];
@@ -213,7 +213,7 @@ bool Pins<Real, Device>::are_blocked(Body<Real, Device>& body, Real h) {
   const Vec3<Real>* v = body.v.data();
   Vec3<Real>* displacement = displacement_.data();
   for_each(
-      *body.device, "ways of hands", body.vertices, HYST_KERNEL(int i) {
+      *body.device, "pins: motion over the step", body.vertices, HYST_KERNEL(int i) {
         displacement[i] = held[i] ? Vec3<Real>(h * v[i]) : Vec3<Real>(Vec3<Real>::Zero());
       });
   return !sweep_->is_free(body.x.data(), displacement, held, pin_.data());
@@ -288,7 +288,7 @@ Real Pins<Real, Device>::farthest_behind(Body<Real, Device>& body) {
   const Vec3<Real>* x = body.x.data();
   Real* lag = lag_.data();
   for_each(
-      *body.device, "lag of hands", body.vertices,
+      *body.device, "pins: lag", body.vertices,
       HYST_KERNEL(int i) { lag[i] = -compliant_pins.lag(i, x[i]); });
   return -smallest(*body.device, *scratch_, lag, body.vertices, Real(0));
 }

@@ -147,7 +147,7 @@ void SemiImplicit<Real, Device>::substep(Real dt) {
         VertexLedger& sum = ledger[i];
         if (held[i]) {
           const Vec3<Real> d = dt * v[i];
-          sum.handle_work -= static_cast<double>((force + weight).dot(d));
+          sum.pin_work -= static_cast<double>((force + weight).dot(d));
           sum.bending_work += static_cast<double>(force.dot(d));
           sum.gravity_work += static_cast<double>(weight.dot(d));
           x[i] += d;
@@ -265,14 +265,14 @@ void SemiImplicit<Real, Device>::update_ledger(Real h, const Vec3<Real>* explici
           sum.bending_work += static_cast<double>(bend.dot(d));
           sum.gravity_work += static_cast<double>(weight.dot(d));
           if (held[i])
-            sum.handle_work -= static_cast<double>((bend + weight).dot(d));
+            sum.pin_work -= static_cast<double>((bend + weight).dot(d));
           else
             sum.air -= static_cast<double>((explicit_impulse[i] - h * (bend + weight)).dot(v[i]));
           impulse -= explicit_impulse[i];
         }
         const double work = static_cast<double>(impulse.dot(v[i]));
         sum.implicit_work += work;
-        if (held[i]) sum.handle_work -= work;
+        if (held[i]) sum.pin_work -= work;
       });
 }
 
@@ -344,7 +344,7 @@ void ExplicitEuler<Real, Device>::substep(Real dt) {
         sum.gravity_work += static_cast<double>(weight.dot(d));
         sum.implicit_work += static_cast<double>(other_force.dot(d));
         sum.air -= static_cast<double>(air.dot(d));
-        if (held[i]) sum.handle_work -= static_cast<double>((bend + other_force + weight).dot(d));
+        if (held[i]) sum.pin_work -= static_cast<double>((bend + other_force + weight).dot(d));
       });
   body_.membrane.add_viscous_loss(body_.v.data(), dt);
   body_.membrane.commit_friction(body_.x.data());

@@ -74,7 +74,7 @@ class Simulation {
                                                        std::string& reason) = 0;
   // Returns the forces of the pins on each vertex at the end of the last step [N], zero on free vertices;
   // empty for integrators that are not implicit in all forces.
-  virtual std::vector<Eigen::Vector3d> handle_forces() = 0;
+  virtual std::vector<Eigen::Vector3d> pin_forces() = 0;
   virtual Ledger ledger() = 0;
   virtual double largest_stretch() = 0;    // largest principal stretch minus 1
   virtual std::uint64_t state_hash() = 0;  // hashes positions and velocities, bit for bit

@@ -51,9 +51,7 @@ class Stepper : public Simulation {
   std::vector<double> metric() const override { return body_.bending.metric(); }
   std::unique_ptr<GlPositions> share_positions(unsigned gl_buffer, int gl_device,
                                                std::string& reason) override;
-  std::vector<Eigen::Vector3d> handle_forces() override {
-    return cast_to<double>(integrator_->handle_forces());
-  }
+  std::vector<Eigen::Vector3d> pin_forces() override { return cast_to<double>(integrator_->pin_forces()); }
   Ledger ledger() override { return body_.balance(); }
   double largest_stretch() override { return body_.membrane.largest_stretch(body_.x.data()); }
   std::uint64_t state_hash() override;

@@ -25,7 +25,7 @@ class TimeIntegrator {
     refuse("has no equilibrium solve: use implicit | bdf2 | tr-bdf2 | quasi-static");
   }
   // Returns the pins' forces on each vertex in the step accepted last [N]; empty where they are not known.
-  virtual std::vector<Vec3<Real>> handle_forces() { return {}; }
+  virtual std::vector<Vec3<Real>> pin_forces() { return {}; }
   virtual void serialise(Archive& archive) = 0;  // state that outlives a step, without the body's
   virtual std::size_t bytes() const = 0;
 

@@ -47,7 +47,7 @@ std::string_view bytes_of(const std::vector<T>& values) {
 }
 // Returns a generator that keeps the array's values.
 template <class T>
-std::function<void(const GlbArrays::Sink&)> kept_numbers(std::vector<T> values) {
+std::function<void(const GlbArrays::Sink&)> archived_numbers(std::vector<T> values) {
   return [all = std::make_shared<const std::vector<T>>(std::move(values))](const GlbArrays::Sink& sink) {
     sink(bytes_of(*all));
   };

@@ -131,7 +131,7 @@ GlbFile::GlbFile(const AnimatedScene& scene) : scene_(scene), targets_(scene.ins
   if (targets_ > 0) {
     std::vector<float> times;
     for (const Instant& at : scene.instants) times.push_back(static_cast<float>(at.time));
-    GlbArrays::Array array{times.size(), 1, kept_numbers(times)};
+    GlbArrays::Array array{times.size(), 1, archived_numbers(times)};
     array.bounded = true;
     times_ = arrays_.add(std::move(array));
   }
@@ -160,7 +160,7 @@ void GlbFile::animate(std::size_t node, const char* path, const char* interpolat
   for (std::size_t i = step; i < numbers.size(); ++i) changes = changes || numbers[i] != numbers[i % step];
   if (!changes) return;
   animate(node, path, interpolation,
-          arrays_.add({scene_.instants.size(), components, kept_numbers(std::move(numbers))}));
+          arrays_.add({scene_.instants.size(), components, archived_numbers(std::move(numbers))}));
 }
 
 // Returns the weights: at each instant but the first its own target has weight 1, the others 0.
@@ -199,12 +199,12 @@ std::size_t GlbFile::add_mesh(const AnimatedPart& part) {
   const auto of = std::make_shared<const FileVertices>(file_vertices(part));
   const SurfaceState base = surface_at(part, scene_.instants.front());
   GlbJson attributes = {
-      {"POSITION", arrays_.add(vertex_array(of->count(), 3, true, kept_numbers(of->of(base.points))))},
-      {"NORMAL", arrays_.add(vertex_array(of->count(), 3, false, kept_numbers(of->of(base.normals))))}};
+      {"POSITION", arrays_.add(vertex_array(of->count(), 3, true, archived_numbers(of->of(base.points))))},
+      {"NORMAL", arrays_.add(vertex_array(of->count(), 3, false, archived_numbers(of->of(base.normals))))}};
   if (!of->texture.empty())
     attributes["TEXCOORD_0"] =
-        arrays_.add(vertex_array(of->count(), 2, false, kept_numbers(from_the_top(of->texture))));
-  GlbArrays::Array corners{of->triangles.size(), 1, kept_numbers(of->triangles)};
+        arrays_.add(vertex_array(of->count(), 2, false, archived_numbers(from_the_top(of->texture))));
+  GlbArrays::Array corners{of->triangles.size(), 1, archived_numbers(of->triangles)};
   corners.is_index = true;
   GlbJson color = numbers_in(part.color);
   color.push_back(1);

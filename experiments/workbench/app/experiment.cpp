@@ -7,7 +7,7 @@
 #include <set>
 
 #include "experiments/workbench/app/camera_file.h"
-#include "experiments/workbench/app/decided_keys.h"
+#include "experiments/workbench/app/fixed_keys.h"
 #include "experiments/workbench/app/key_conditions.h"
 #include "experiments/workbench/app/scene_source.h"
 #include "sim/base/comma_list.h"

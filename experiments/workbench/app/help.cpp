@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "experiments/workbench/app/command_line.h"
-#include "experiments/workbench/app/ending.h"
+#include "experiments/workbench/app/exit_status.h"
 #include "experiments/workbench/app/key_conditions.h"
 #include "sim/base/error.h"
 #include "sim/base/number_in.h"

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "experiments/workbench/app/ending.h"
+#include "experiments/workbench/app/exit_status.h"
 #include "experiments/workbench/app/json_file.h"
 #include "experiments/workbench/app/manifest_file.h"
 #include "experiments/workbench/app/same_request.h"

@@ -7,9 +7,9 @@
 #include <optional>
 #include <set>
 
+#include "experiments/workbench/compare/archived_page.h"
 #include "experiments/workbench/compare/column_view.h"
 #include "experiments/workbench/compare/film.h"
-#include "experiments/workbench/compare/kept_page.h"
 #include "experiments/workbench/pictures/scene_renderer.h"
 #include "render/color_map.h"
 #include "render/compare.h"

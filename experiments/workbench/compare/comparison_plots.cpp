@@ -5,7 +5,7 @@
 #include "experiments/workbench/compare/column_view.h"
 #include "experiments/workbench/compare/comparison_page.h"
 #include "experiments/workbench/compare/table_plot.h"
-#include "experiments/workbench/pages/error_words.h"
+#include "experiments/workbench/pages/error_notes.h"
 #include "experiments/workbench/pages/manifest.h"
 #include "render/color_map.h"
 

@@ -7,7 +7,7 @@
 #include "experiments/workbench/app/headlines.h"
 #include "experiments/workbench/app/key_conditions.h"
 #include "experiments/workbench/compare/comparison.h"
-#include "experiments/workbench/pages/error_words.h"
+#include "experiments/workbench/pages/error_notes.h"
 #include "sim/base/csv.h"
 #include "sim/base/error.h"
 #include "sim/scene/mesh_files.h"

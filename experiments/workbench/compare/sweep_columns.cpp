@@ -17,7 +17,7 @@
 #include <utility>
 
 #include "experiments/workbench/app/command_line.h"
-#include "experiments/workbench/app/ending.h"
+#include "experiments/workbench/app/exit_status.h"
 #include "experiments/workbench/app/gpu_choice.h"
 #include "experiments/workbench/app/json_file.h"
 #include "experiments/workbench/app/manifest_file.h"

@@ -7,7 +7,7 @@
 #include "experiments/workbench/compare/comparison.h"
 #include "experiments/workbench/compare/comparison_page.h"
 #include "experiments/workbench/pages/report.h"
-#include "experiments/workbench/pictures/kept_geometry.h"
+#include "experiments/workbench/pictures/archived_geometry.h"
 #include "sim/base/error.h"
 
 namespace hysteron::experiments {
@@ -55,7 +55,7 @@ void draw_page(Run& run, const VariantPage& page, const std::vector<ChildRun>& c
 void reserve_page(const Run& run, const VariantPage& page) {
   run.reserve({"table.csv"});
   if (page.setup.options.no_images) return;
-  run.reserve({"sheet.png", kKeptSheet});
+  run.reserve({"sheet.png", kArchivedSheet});
   for (const TablePlot& plot : page.plots) run.reserve({plot.name});
 }
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "experiments/workbench/app/manifest_file.h"
-#include "experiments/workbench/pages/error_words.h"
+#include "experiments/workbench/pages/error_notes.h"
 #include "experiments/workbench/pages/manifest.h"
 #include "experiments/workbench/pages/metrics.h"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "experiments/workbench/app/manifest.h"
-#include "experiments/workbench/pages/error_words.h"
+#include "experiments/workbench/pages/error_notes.h"
 
 namespace hysteron::experiments {
 

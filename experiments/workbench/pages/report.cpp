@@ -10,7 +10,7 @@
 #include "experiments/workbench/pages/page.h"
 #include "experiments/workbench/pages/pictures.h"
 #include "experiments/workbench/pages/text_table.h"
-#include "experiments/workbench/pictures/kept_geometry.h"
+#include "experiments/workbench/pictures/archived_geometry.h"
 #include "sim/base/atomic_file.h"
 #include "sim/base/error.h"
 
@@ -121,7 +121,7 @@ std::string pictures(const fs::path& folder, const Manifest& manifest, PageForm 
 // Returns the cloth as a view that a script rotates; kept geometry of usual size is embedded in the page.
 std::string turning_cloth(const fs::path& folder) {
   constexpr std::uintmax_t kMax = 400000;  // [bytes]
-  const fs::path file = folder / kKeptSheet;
+  const fs::path file = folder / kArchivedSheet;
   if (!is_there(file) || fs::file_size(file) > kMax) return "";
   return filled("turn.html",
                 {{"caption", "The cloth, to be turned: drag it, or use the arrow keys, + and -."},

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiments/workbench/pictures/archived_geometry.h"
 #include "experiments/workbench/pictures/drawing.h"
-#include "experiments/workbench/pictures/kept_geometry.h"
 
 namespace hysteron::experiments {
 

@@ -46,9 +46,9 @@ std::vector<render::SheetEntry> distinct_cells(const std::vector<render::SheetEn
   return kept;
 }
 
-std::vector<double> instant_times(const std::vector<KeptInstant>& instants) {
+std::vector<double> instant_times(const std::vector<ArchivedInstant>& instants) {
   std::vector<double> times;
-  for (const KeptInstant& instant : instants) times.push_back(instant.time);
+  for (const ArchivedInstant& instant : instants) times.push_back(instant.time);
   return times;
 }
 
@@ -70,7 +70,7 @@ class Stopwatch {
 std::vector<std::string> picture_files(const Options& options) {
   std::vector<std::string> names = {"sheet.png", "camera.json"};
   for (const std::string& look : options.looks()) names.push_back(frame_file(look, names.size() == 2, 0));
-  names.insert(names.end(), {kKeptFrames, kKeptSheet});
+  names.insert(names.end(), {kArchivedFrames, kArchivedSheet});
   return names;
 }
 
@@ -84,7 +84,7 @@ Pictures::Pictures(const Setup& setup, std::unique_ptr<FrameSource> subject, con
       options_(setup.options),
       subject_(std::move(subject)),
       bounds_(bounds),
-      kept_frames_(setup, subject_->mesh(), bounds, floor),
+      archived_frames_(setup, subject_->mesh(), bounds, floor),
       scene_renderer_([this, floor] {
         return std::make_unique<SceneRenderer>(scene_, options_, subject_->mesh(), bounds_, floor,
                                                subject_->cuda_device());
@@ -185,7 +185,7 @@ void Pictures::watch_border(Run& run, const std::filesystem::path& file, const s
 void Pictures::frame(Run& run, const std::vector<float>& xyz, const render::Path& loop) {
   const Stopwatch waited(waited_seconds_);
   const std::vector<float> before = kept_.empty() ? std::vector<float>{} : kept_.last().xyz;
-  KeptState instant{
+  ArchivedState instant{
       subject_->time(), rounded(xyz, subject_->mesh().quantum, before), {}, loop.curvature.size(), {}};
   take_positions(instant.xyz);
   std::vector<FrameJob> orders;
@@ -207,14 +207,14 @@ void Pictures::frame(Run& run, const std::vector<float>& xyz, const render::Path
           "these, and their root mean square is left out");
     else if (order.look == "difference")
       difference = root_mean_square(order.shown.values, subject_->vertex_areas());
-    order.shown.values = rounded(order.shown.values, kept_frames_.quantum(order.look));
+    order.shown.values = rounded(order.shown.values, archived_frames_.quantum(order.look));
     instant.values[order.look] = order.shown.values;
   }
   note_frame(run, orders, instant.xyz, difference);
   scene_renderer_.post([this, orders = std::move(orders), instant = std::move(instant),
-                        file = run.path(kKeptFrames)](SceneRenderer& studio) {
+                        file = run.path(kArchivedFrames)](SceneRenderer& studio) {
     const Stopwatch watch(render_seconds_);
-    kept_frames_.add(file, instant);
+    archived_frames_.add(file, instant);
     for (const FrameJob& order : orders) fill(studio, order);
   });
 }
@@ -270,18 +270,20 @@ void Pictures::serialise(Archive& archive, Run& run) {
   if (!archive.loads()) return;
   if (side) scene_renderer_.run([side](SceneRenderer& studio) { studio.view().set_first_side(*side); });
   encode_seconds_ = encode;
-  if (frames_ > 0) kept_frames_.continue_file(run.path(kKeptFrames), static_cast<std::size_t>(frames_));
+  if (frames_ > 0)
+    archived_frames_.continue_file(run.path(kArchivedFrames), static_cast<std::size_t>(frames_));
 }
 
 // Returns a view as near as all instants are entirely visible, unless the options set it; its aspect is that
 // of their contents.
-SheetView Pictures::sheet_view(const std::vector<KeptInstant>& instants) const {
+SheetView Pictures::sheet_view(const std::vector<ArchivedInstant>& instants) const {
   constexpr float kTallest = 0.7f, kWidest = 2.4f;
   const Options& o = options_;
   if (!o.camera_box.empty() || !o.camera_target.empty() || o.camera_distance > 0)
     return {camera(), picture_aspect(o)};
   std::vector<float> all;
-  for (const KeptInstant& instant : instants) all.insert(all.end(), instant.xyz.begin(), instant.xyz.end());
+  for (const ArchivedInstant& instant : instants)
+    all.insert(all.end(), instant.xyz.begin(), instant.xyz.end());
   const Eigen::Vector3f direction = o.camera_direction.cast<float>();
   const float fov = static_cast<float>(o.camera_fov);
   const render::Window square =
@@ -300,7 +302,7 @@ render::Look Pictures::sheet_look() const {
   return scene_look(scene_, options, look);
 }
 
-render::Image Pictures::sheet_picture(SceneRenderer& studio, const KeptInstant& instant,
+render::Image Pictures::sheet_picture(SceneRenderer& studio, const ArchivedInstant& instant,
                                       const SheetView& view) const {
   studio.view().set_positions(instant.xyz);
   render::Image image = studio.draw_with_ghosts(sheet_look(), view.camera, {instant.time, instant.values});
@@ -309,8 +311,8 @@ render::Image Pictures::sheet_picture(SceneRenderer& studio, const KeptInstant& 
 }
 
 // Leaves out instants that look like an earlier one, but keeps the last.
-std::vector<render::SheetEntry> Pictures::sheet_cells(const std::vector<KeptInstant>& instants,
-                                                      const std::vector<KeptInstant>& motion,
+std::vector<render::SheetEntry> Pictures::sheet_cells(const std::vector<ArchivedInstant>& instants,
+                                                      const std::vector<ArchivedInstant>& motion,
                                                       const SheetView& view) {
   const int width = static_cast<int>(std::lround(std::sqrt(kCellPixels * view.aspect))),
             height = static_cast<int>(std::lround(width / view.aspect));
@@ -322,11 +324,11 @@ std::vector<render::SheetEntry> Pictures::sheet_cells(const std::vector<KeptInst
       cells.push_back({std::move(image), words, {.path = loop, .color = color_of_law(scene_.law)}});
     };
     std::vector<render::Image> skins;
-    for (const KeptInstant& instant : motion) skins.push_back(sheet_picture(studio, instant, view));
+    for (const ArchivedInstant& instant : motion) skins.push_back(sheet_picture(studio, instant, view));
     if (!skins.empty())
       add(render::onion_skin(skins), fmt::format("0–{:.2f} s, over each other", motion.back().time),
           motion.back().loop);
-    for (const KeptInstant& instant : instants)
+    for (const ArchivedInstant& instant : instants)
       add(sheet_picture(studio, instant, view), instant.caption, instant.loop);
     cells = distinct_cells(cells);
     for (const FurtherView& view_from : further_) cells.push_back(further_cell(studio, view_from, view));
@@ -337,7 +339,7 @@ std::vector<render::SheetEntry> Pictures::sheet_cells(const std::vector<KeptInst
 // Draws the last instant at the scale of the others.
 render::SheetEntry Pictures::further_cell(SceneRenderer& studio, const FurtherView& from,
                                           const SheetView& view) const {
-  const KeptInstant& last = kept_.last();
+  const ArchivedInstant& last = kept_.last();
   const float fov = static_cast<float>(options_.camera_fov);
   const render::Camera near = render::Camera::around(last.xyz, from.direction, fov, view.aspect, kSheetRoom);
   const float distance =
@@ -352,10 +354,10 @@ render::SheetEntry Pictures::further_cell(SceneRenderer& studio, const FurtherVi
 
 void Pictures::write_sheet(Run& run, const std::string& title) {
   if (kept_.empty()) return run.warn("there is no contact sheet: no instant was pictured");
-  const std::vector<KeptInstant> instants = chosen(cell_times_, kSheetCells, INFINITY),
-                                 skins = onion_until_ > 0 ? chosen(skin_times_, kSkins, onion_until_)
-                                                          : std::vector<KeptInstant>{};
-  std::vector<KeptInstant> shown = instants;
+  const std::vector<ArchivedInstant> instants = chosen(cell_times_, kSheetCells, INFINITY),
+                                     skins = onion_until_ > 0 ? chosen(skin_times_, kSkins, onion_until_)
+                                                              : std::vector<ArchivedInstant>{};
+  std::vector<ArchivedInstant> shown = instants;
   shown.insert(shown.end(), skins.begin(), skins.end());
   const SheetView view = sheet_view(shown);
   std::vector<render::SheetEntry> cells = sheet_cells(instants, skins, view);
@@ -381,18 +383,19 @@ void Pictures::show_as(const Json& sheet) {
 }
 
 // Returns the instants at these times, or `count` of those up to `until` [s] if none are given.
-std::vector<KeptInstant> Pictures::chosen(const std::vector<double>& times, int count, double until) const {
+std::vector<ArchivedInstant> Pictures::chosen(const std::vector<double>& times, int count,
+                                              double until) const {
   if (times.empty()) return kept_.chosen(count, until);
-  std::vector<KeptInstant> found;
-  for (const KeptInstant& instant : kept_.all())
+  std::vector<ArchivedInstant> found;
+  for (const ArchivedInstant& instant : kept_.all())
     if (std::count(times.begin(), times.end(), instant.time)) found.push_back(instant);
   return found;
 }
 
 // Keeps the sheet's geometry, found among the frames by their times.
-void Pictures::keep_sheet(Run& run, const std::vector<KeptInstant>& cells,
-                          const std::vector<KeptInstant>& skins, const std::string& title) const {
-  const std::filesystem::path frames = run.folder() / kKeptFrames;
+void Pictures::keep_sheet(Run& run, const std::vector<ArchivedInstant>& cells,
+                          const std::vector<ArchivedInstant>& skins, const std::string& title) const {
+  const std::filesystem::path frames = run.folder() / kArchivedFrames;
   std::vector<int> instants;
   const std::vector<double> cell_times = instant_times(cells), skin_times = instant_times(skins);
   const std::vector<Frames::Instant>& all = run.manifest().frames->instants;
@@ -400,7 +403,7 @@ void Pictures::keep_sheet(Run& run, const std::vector<KeptInstant>& cells,
     if (std::count(cell_times.begin(), cell_times.end(), all[f].time) +
         std::count(skin_times.begin(), skin_times.end(), all[f].time))
       instants.push_back(static_cast<int>(f));
-  KeptRecord sheet{
+  ArchivedRecord sheet{
       {{"record", "sheet"},
        {"title", title},
        {"cells", cell_times},
@@ -412,10 +415,10 @@ void Pictures::keep_sheet(Run& run, const std::vector<KeptInstant>& cells,
   for (const FurtherView& from : further_)
     sheet.head["further"].push_back(
         {{"direction", {from.direction.x(), from.direction.y(), from.direction.z()}}, {"words", from.words}});
-  std::vector<KeptRecord> records = chosen_records(frames, instants);
+  std::vector<ArchivedRecord> records = chosen_records(frames, instants);
   records.push_back(sheet);
-  write_records(run.path(kKeptSheet), records);
-  KeptFrames::end(frames, sheet);
+  write_records(run.path(kArchivedSheet), records);
+  ArchivedFrames::end(frames, sheet);
 }
 
 void Pictures::finish(Run& run, const std::string& title) {

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "experiments/workbench/app/run.h"
-#include "experiments/workbench/pictures/kept_frames.h"
-#include "experiments/workbench/pictures/kept_instants.h"
+#include "experiments/workbench/pictures/archived_frames.h"
+#include "experiments/workbench/pictures/archived_instants.h"
 #include "experiments/workbench/pictures/scene_renderer.h"
 #include "experiments/workbench/pictures/subject.h"
 #include "render/contact_sheet.h"
@@ -102,17 +102,19 @@ class Pictures {
   void fill(SceneRenderer& studio, const FrameJob& order);
   render::Image single(SceneRenderer& studio, const std::string& look, const render::Camera& camera,
                        const std::string& caption, const SceneRenderer::Shown& shown);
-  SheetView sheet_view(const std::vector<KeptInstant>& instants) const;
+  SheetView sheet_view(const std::vector<ArchivedInstant>& instants) const;
   render::Look sheet_look() const;
-  render::Image sheet_picture(SceneRenderer& studio, const KeptInstant& instant, const SheetView& view) const;
-  std::vector<render::SheetEntry> sheet_cells(const std::vector<KeptInstant>& instants,
-                                              const std::vector<KeptInstant>& motion, const SheetView& view);
+  render::Image sheet_picture(SceneRenderer& studio, const ArchivedInstant& instant,
+                              const SheetView& view) const;
+  std::vector<render::SheetEntry> sheet_cells(const std::vector<ArchivedInstant>& instants,
+                                              const std::vector<ArchivedInstant>& motion,
+                                              const SheetView& view);
   render::SheetEntry further_cell(SceneRenderer& studio, const FurtherView& from,
                                   const SheetView& view) const;
   void write_sheet(Run& run, const std::string& title);
-  std::vector<KeptInstant> chosen(const std::vector<double>& times, int count, double until) const;
-  void keep_sheet(Run& run, const std::vector<KeptInstant>& cells, const std::vector<KeptInstant>& skins,
-                  const std::string& title) const;
+  std::vector<ArchivedInstant> chosen(const std::vector<double>& times, int count, double until) const;
+  void keep_sheet(Run& run, const std::vector<ArchivedInstant>& cells,
+                  const std::vector<ArchivedInstant>& skins, const std::string& title) const;
   std::string when(double time) const;  // returns "t = 0.50 s, lift"
   std::string caption(double time) const;
   std::string captioned(const std::string& text) const;
@@ -121,11 +123,11 @@ class Pictures {
   Options options_;
   std::unique_ptr<FrameSource> subject_;
   render::Box bounds_;
-  KeptFrames kept_frames_;
+  ArchivedFrames archived_frames_;
   std::string why_host_;  // why positions pass the host; empty if they do not
   render::PngWriter writer_;
   int frames_ = 0;
-  KeptInstants kept_;  // instants for the contact sheet
+  ArchivedInstants kept_;  // instants for the contact sheet
   std::vector<FurtherView> further_;
   double onion_until_ = 0;                       // [s]; 0: none
   std::vector<double> cell_times_, skin_times_;  // times of a kept sheet [s]; empty: found

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "experiments/workbench/app/options.h"
-#include "experiments/workbench/pictures/kept_geometry.h"
+#include "experiments/workbench/pictures/archived_geometry.h"
 #include "render/camera.h"
 #include "render/caption.h"
 #include "render/cloth_view.h"

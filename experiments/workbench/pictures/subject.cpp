@@ -85,9 +85,9 @@ class ReferenceRun {
   // Throws Error::invalid_input if its triangles, or their rest shape, are not those of `mesh`.
   void check(const ClothMesh& mesh, const ClothShape& shape) const {
     curvature_in(mesh, 0);
-    const fs::path kept = folder_ / kKeptFrames;
+    const fs::path kept = folder_ / kArchivedFrames;
     std::error_code ignored;
-    if (fs::exists(kept, ignored) && !has_same_rest_shape(drawn_mesh(mesh, shape), read_kept_mesh(kept)))
+    if (fs::exists(kept, ignored) && !has_same_rest_shape(drawn_mesh(mesh, shape), read_archived_mesh(kept)))
       throw refusal(
           "has another rest shape than this cloth, though as many triangles: run it with the same "
           "mesh");
@@ -228,8 +228,8 @@ std::unique_ptr<FrameSource> simulated(const Scene& scene, const Cloth& cloth, S
   return std::make_unique<SimulatedSubject>(scene, cloth, simulation, reference);
 }
 
-std::vector<float> KeptSubject::values(const std::string& look) {
-  const KeptState& instant = instants_[now_];
+std::vector<float> ArchivedSource::values(const std::string& look) {
+  const ArchivedState& instant = instants_[now_];
   if (const auto kept = instant.values.find(look); kept != instant.values.end()) return kept->second;
   if (look == "height") return heights(instant.xyz);
   if (look == "residual" || look == "friction" || look == "difference")

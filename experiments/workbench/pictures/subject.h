@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "experiments/workbench/app/experiment.h"
-#include "experiments/workbench/pictures/kept_geometry.h"
+#include "experiments/workbench/pictures/archived_geometry.h"
 #include "sim/device/gl_positions.h"
 #include "sim/scene/cloth.h"
 #include "sim/time/simulation.h"
@@ -51,9 +51,9 @@ std::unique_ptr<FrameSource> simulated(const Scene& scene, const Cloth& cloth, S
 void check_reference(const std::string& reference, const ClothMesh& mesh, const ClothShape& shape);
 
 // Cloth from a file, one instant after the other.  The kept data must outlive it.
-class KeptSubject : public FrameSource {
+class ArchivedSource : public FrameSource {
  public:
-  KeptSubject(const DrawnMesh& mesh, const std::vector<KeptState>& instants)
+  ArchivedSource(const DrawnMesh& mesh, const std::vector<ArchivedState>& instants)
       : mesh_(mesh), instants_(instants) {}
 
   void go_to(std::size_t instant) { now_ = instant; }
@@ -75,7 +75,7 @@ class KeptSubject : public FrameSource {
 
  private:
   const DrawnMesh& mesh_;
-  const std::vector<KeptState>& instants_;
+  const std::vector<ArchivedState>& instants_;
   std::size_t now_ = 0;
 };
 

@@ -14,7 +14,7 @@
 namespace hysteron::experiments {
 namespace {
 
-constexpr const char* kKeptPositions = "mesh/cloth.pc2";
+constexpr const char* kArchivedPositions = "mesh/cloth.pc2";
 
 std::string animation_file(const std::string& format) {
   return format == "usd" ? "mesh/cloth.usda" : "mesh/cloth.glb";
@@ -25,7 +25,7 @@ std::string animation_file(const std::string& format) {
 bool AnimationExport::writes(const std::string& format) { return format == "usd" || format == "glb"; }
 
 std::vector<std::string> AnimationExport::files(const std::string& format) {
-  return {kKeptPositions, animation_file(format)};
+  return {kArchivedPositions, animation_file(format)};
 }
 
 AnimationExport::~AnimationExport() {
@@ -46,7 +46,7 @@ void AnimationExport::begin(Session& session) {
   scene_.rate = session.setup().options.fps;
   scene_.view = picture_view(session.setup(), session.bounds(), session.plan().floor);
   scene_.parts = {animated_cloth(mesh, session.scene().cloth, scene_.view)};
-  scene_.parts[0].points_at = [file = (run_->folder() / kKeptPositions).string()](const Instant& at) {
+  scene_.parts[0].points_at = [file = (run_->folder() / kArchivedPositions).string()](const Instant& at) {
     return read_from_point_cache(file, at.number);
   };
   for (AnimatedPart& body : animated_bodies(session.scene(), scene_.view, side))
@@ -58,7 +58,7 @@ void AnimationExport::record(Session& session, const Snapshot& instant) {
   const auto stage = run_->stage("io");
   if (!times_.empty() && !(static_cast<float>(instant.time) > static_cast<float>(times_.back())))
     times_.pop_back();
-  write_to_point_cache(run_->path(kKeptPositions).string(), times_.size(), instant.x);
+  write_to_point_cache(run_->path(kArchivedPositions).string(), times_.size(), instant.x);
   times_.push_back(instant.time);
 }
 
@@ -69,7 +69,7 @@ void AnimationExport::close() {
   if (format_ == "glb") warn_of_many_targets();
 }
 
-void AnimationExport::finish(Session&, const std::string&) { run_->forget(kKeptPositions); }
+void AnimationExport::finish(Session&, const std::string&) { run_->forget(kArchivedPositions); }
 
 void AnimationExport::write() {
   const auto stage = run_->stage("io");

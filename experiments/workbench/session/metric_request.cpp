@@ -22,7 +22,7 @@ using M = MetricRequest;
 // clang-format off
 const KeyRow<M> kRows[] = {
     {"name", at<&M::name>, "", any(), "", "of the column in metrics.csv and, with its unit, of the metric: small letters, digits and _"},
-    {"kind", at<&M::kind>, "", any(), "distance | height | angle | force | residual-curvature | ridge-length | ridge-height | silhouette", "distance of point and to; height of point; angle between the mean normals of two parts, 0 when they are parallel; force of a hand on the cloth; of a part: root mean square of its residual curvature over the area, length of the ridges where that exceeds threshold, their height from valley to crest, share of its silhouette that has changed"},
+    {"kind", at<&M::kind>, "", any(), "distance | height | angle | force | residual-curvature | ridge-length | ridge-height | silhouette", "distance of point and to; height of point; angle between the mean normals of two parts, 0 when they are parallel; force of a pin on the cloth; of a part: root mean square of its residual curvature over the area, length of the ridges where that exceeds threshold, their height from valley to crest, share of its silhouette that has changed"},
     {"from", at<&M::from>, "s", at_least(-1), "", "less its value at this time, which may name a phase, and 0 before it; silhouette: against that at this time; negative: the value itself"},
     {"point", at<&M::point>, "m", any(), "", "distance, height: of the vertex nearest to this on the flat cloth"},
     {"to", at<&M::to>, "m", any(), "", "distance: to the vertex nearest to this"},

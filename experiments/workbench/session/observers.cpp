@@ -9,13 +9,13 @@
 #include "experiments/workbench/pages/closing_summary.h"
 #include "experiments/workbench/pictures/drawing.h"
 #include "experiments/workbench/session/animation_export.h"
-#include "experiments/workbench/session/doubts.h"
 #include "experiments/workbench/session/intersection_count.h"
 #include "experiments/workbench/session/mesh_export.h"
 #include "experiments/workbench/session/probes.h"
 #include "experiments/workbench/session/record.h"
 #include "experiments/workbench/session/recoveries.h"
 #include "experiments/workbench/session/resuming.h"
+#include "experiments/workbench/session/run_warnings.h"
 #include "sim/bending/curvature_operator.h"
 #include "sim/contact/compression.h"
 
@@ -94,8 +94,8 @@ void SolverStats::begin(Session& session) {
   const Options& options = session.setup().options;
   const std::string& format = options.export_format;
   const bool draws = !options.no_images || format == "pc2" || AnimationExport::writes(format);
-  const std::string doubt = drawing_text(session.scene(), session.cloth());
-  if (draws && !doubt.empty()) session.run().warn(doubt);
+  const std::string warning = drawing_text(session.scene(), session.cloth());
+  if (draws && !warning.empty()) session.run().warn(warning);
 }
 
 // Records launches and waits per step, except in a batch, whose runs share them.
@@ -124,8 +124,8 @@ void note_energy(Run& run, const Ledger& ledger, const Scene& scene) {
   run.metric("energy_remainder_relative", ledger.remainder_relative);
   run.metric("integrator_share_percent", 100 * fraction);
   if (scene.integrator == Integrator::quasi_static) return;
-  const std::string doubt = integrator_text(fraction, scene.step);
-  if (!doubt.empty()) run.warn(doubt);
+  const std::string warning = integrator_text(fraction, scene.step);
+  if (!warning.empty()) run.warn(warning);
 }
 
 // Records how much was left unbalanced, in the units of --newton-residual and --newton-velocity.
@@ -196,8 +196,9 @@ void SolverStats::finish(Session& session, const std::string&) {
   fill_manifest(run, simulation, counts);
   run.metric("max_stretch_percent", 100 * simulation.largest_stretch());
   note_energy(run, simulation.ledger(), scene);
-  for (const std::string& doubt : doubts_at_end(scene, session.cloth(), simulation.positions(), stretched_))
-    run.warn(doubt);
+  for (const std::string& warning :
+       warnings_at_end(scene, session.cloth(), simulation.positions(), stretched_))
+    run.warn(warning);
   note_convergence(run, counts, scene);
   if (!scene.obstacle.empty()) note_deep_contact(run, counts);
   note_saturated_pins(run, counts, scene);

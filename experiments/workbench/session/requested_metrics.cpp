@@ -101,10 +101,10 @@ void RequestedMetric::check_force() const {
                            std::to_string(scene_.pin.size()) + ", the number of [[pin]] tables");
   if (!scene_.is_implicit())
     throw request_.refusal("integrator = " + enum_name(scene_.integrator) +
-                           " does not tell the forces of hands; implicit, bdf2, tr-bdf2 and quasi-static do");
+                           " does not tell the forces of pins; implicit, bdf2, tr-bdf2 and quasi-static do");
 }
 
-std::string RequestedMetric::doubt(double seconds) const {
+std::string RequestedMetric::warning(double seconds) const {
   if (request_.from >= seconds)
     return "it is not measured, since from = " + number_text(request_.from) + " s is not before the end, " +
            number_text(seconds) + " s";
@@ -147,7 +147,7 @@ double RequestedMetric::angle(const std::vector<Eigen::Vector3d>& x) const {
 }
 
 double RequestedMetric::force(Simulation& simulation) const {
-  const std::vector<Eigen::Vector3d> forces = simulation.handle_forces();
+  const std::vector<Eigen::Vector3d> forces = simulation.pin_forces();
   const std::vector<int> pins = cloth_.pins(scene_, simulation.time());
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < forces.size(); ++i)
@@ -194,8 +194,8 @@ RequestedMetrics::RequestedMetrics(const std::vector<MetricRequest>& requests, S
   for (const MetricRequest& request : requests) {
     session.reserve({}, {"plot_" + request.name});
     metrics_.emplace_back(request, session.scene(), session.cloth(), session.simulation().dimension());
-    if (const std::string doubt = metrics_.back().doubt(session.scene().seconds); !doubt.empty())
-      run.warn("metric " + request.name + ": " + doubt + " (" + request.origin + ")");
+    if (const std::string warning = metrics_.back().warning(session.scene().seconds); !warning.empty())
+      run.warn("metric " + request.name + ": " + warning + " (" + request.origin + ")");
   }
 }
 

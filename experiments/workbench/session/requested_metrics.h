@@ -22,7 +22,7 @@ class RequestedMetric {
 
   const MetricRequest& request() const { return request_; }
   // Returns why it may not measure what was meant in a run of so long [s]; "" if there is no reason.
-  std::string doubt(double seconds) const;
+  std::string warning(double seconds) const;
   bool has_begun() const { return has_begun_; }
   // Stores the state at the time `from`, to which later values are relative.
   void begin(Simulation& simulation, const std::vector<Eigen::Vector3d>& x);

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "experiments/workbench/app/ending.h"
+#include "experiments/workbench/app/exit_status.h"
 #include "experiments/workbench/session/session.h"
 #include "sim/base/error.h"
 

@@ -77,13 +77,13 @@ Checkpoints::Checkpoints(const CommandLine& line, const Setup& setup, const Clot
     std::cerr << folder.string() << " is complete" << std::endl;
 }
 
-std::vector<std::string> Checkpoints::kept_files() const {
+std::vector<std::string> Checkpoints::archived_files() const {
   if (state_.empty()) return {};
   std::vector<std::string> files, kept = {kFile};
   Archive archive{state_};
   archive(files);
   for (const std::string& name : files)
-    if (is_numbered(name) || name == kKeptFrames || name.starts_with("mesh/cloth.")) kept.push_back(name);
+    if (is_numbered(name) || name == kArchivedFrames || name.starts_with("mesh/cloth.")) kept.push_back(name);
   return kept;
 }
 

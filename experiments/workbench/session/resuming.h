@@ -19,7 +19,7 @@ class Checkpoints : public Observer {
 
   bool is_complete() const { return is_complete_; }  // true if the run of --resume is complete
   // Returns the files of the interrupted run that are kept; its others are written anew.
-  std::vector<std::string> kept_files() const;
+  std::vector<std::string> archived_files() const;
 
   void begin(Session& session) override;  // restores the checkpoint
   // Takes a checkpoint if one is due.  Throws Error::simulation if a signal has asked for the end.

@@ -7,16 +7,16 @@
 #include <cmath>
 #include <iostream>
 
-#include "experiments/workbench/app/decided_keys.h"
+#include "experiments/workbench/app/fixed_keys.h"
 #include "experiments/workbench/app/scene_source.h"
 #include "experiments/workbench/pages/manifest.h"
 #include "experiments/workbench/pages/report.h"
 #include "experiments/workbench/pictures/framing.h"
-#include "experiments/workbench/session/doubts.h"
 #include "experiments/workbench/session/interrupts.h"
 #include "experiments/workbench/session/probes.h"
 #include "experiments/workbench/session/resting.h"
 #include "experiments/workbench/session/resuming.h"
+#include "experiments/workbench/session/run_warnings.h"
 #include "sim/scene/body.h"
 #include "sim/scene/mesh_files.h"
 #include "sim/scene/shown_key.h"
@@ -44,7 +44,7 @@ void explain(const Scene& scene, const Cloth& cloth, const Simulation& simulatio
             << cloth.mesh.vertices() << " vertices on " << simulation.device() << "\n";
   for (const std::string& body : body_lines(scene)) std::cout << body << "\n";
   for (const std::string& warning : cloth.warnings) std::cout << "warning: " << warning << "\n";
-  for (const std::string& doubt : body_doubts(scene)) std::cout << "warning: " << doubt << "\n";
+  for (const std::string& warning : body_warnings(scene)) std::cout << "warning: " << warning << "\n";
   const MethodChoice& method = simulation.method;
   if (!method.reason.empty()) std::cout << method.reason << "\n";
   if (method.linear_solver != Preconditioning::automatic)
@@ -104,7 +104,7 @@ Session::Session(const CommandLine& line, const Setup& setup, std::optional<Clot
   check_reference(setup.options.reference, cloth_.mesh, setup.scene.cloth);
   auto checkpoints = std::make_unique<Checkpoints>(line, setup, cloth_, *simulation_);
   if (checkpoints->is_complete()) return;
-  run_ = std::make_unique<Run>(line, setup, checkpoints->kept_files());
+  run_ = std::make_unique<Run>(line, setup, checkpoints->archived_files());
   run_->begun_at(begun_);
   describe_start();
   observers_ = session_observers(*this, std::move(probes), std::move(checkpoints));
@@ -124,9 +124,10 @@ void Session::describe_start() {
     manifest.linear_solver = enum_name(method.linear_solver);
   if (!method.reason.empty()) run_->progress(method.reason);
   for (const std::string& warning : cloth_.warnings) run_->warn(warning);
-  for (const std::string& doubt : body_doubts(setup_.scene)) run_->warn(doubt);
+  for (const std::string& warning : body_warnings(setup_.scene)) run_->warn(warning);
   warn_of_triangle_count();
-  for (const std::string& doubt : doubts_at_start(setup_.scene, cloth_, *simulation_)) run_->warn(doubt);
+  for (const std::string& warning : warnings_at_start(setup_.scene, cloth_, *simulation_))
+    run_->warn(warning);
 }
 
 // Warns if the number of triangles differs from the request, except for a mesh file, and for a default

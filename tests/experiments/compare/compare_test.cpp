@@ -5,7 +5,7 @@
 #include "experiments/workbench/compare/comparison.h"
 #include "experiments/workbench/compare/matching.h"
 #include "experiments/workbench/compare/variants.h"
-#include "experiments/workbench/pictures/kept_geometry.h"
+#include "experiments/workbench/pictures/archived_geometry.h"
 #include "render/color_map.h"
 #include "render/comparison_sheet.h"
 #include "sim/base/error.h"
@@ -255,7 +255,7 @@ TEST(Compare, ShowsTheInstantsAndTheMetricsThatItIsAskedForInTheirOrder) {
   EXPECT_EQ(metrics["linear.decay_shape"], "unknown");
   // Pictures are 1/30 s apart: the one at 0.033 s is the nearest to 0.035 s.
   std::vector<double> times;
-  for (const KeptState& instant : read_kept(run.out / "sheet.hyg").cloths.at(0).instants)
+  for (const ArchivedState& instant : read_archived(run.out / "sheet.hyg").cloths.at(0).instants)
     times.push_back(instant.time);
   ASSERT_EQ(times.size(), 3u) << "the first is kept beside the rows'";
   EXPECT_NEAR(times[1], 1 / 30.0, 1e-3);

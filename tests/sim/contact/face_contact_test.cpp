@@ -69,8 +69,9 @@ Obstacle rod(double radius, const Vector3d& center) {
 Obstacle3<double> placed(const Obstacle& o) { return obstacles_during<double>({o}, 0.3, 0, 0).item[0]; }
 
 ContactModel<double> scene_contact_model(const Scene& scene) {
-  const ObstacleShell<double> shell = obstacle_shell(scene);
-  return {shell, kElasticSlip * shell.thickness, 0.5 * shell.stiffest()};
+  const ObstacleShell<double> activation_distance = obstacle_activation_distance(scene);
+  return {activation_distance, kElasticSlip * activation_distance.thickness,
+          0.5 * activation_distance.stiffest()};
 }
 
 TEST(PlacedObstacle, IsABoxTurnedWithItsEdgesAlongZ) {

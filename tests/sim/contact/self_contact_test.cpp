@@ -146,10 +146,12 @@ TEST(Barrier, GoesOnSmoothlyWhereNextToNothingOfTheGapIsLeft) {
 // stiffness and range; it begins without a jump in pressure or stiffness, and above it is none.
 TEST(Barrier, OfAPairThatIsCrushedEndsInAnotherBeforeTheLeastDistance) {
   SelfPair<double> pair{};
-  pair.shell = 1e-4;
-  const double k = 3e7, range = (kLast - kClosest) * pair.shell, begins = kLast * pair.shell;
+  pair.activation_distance = 1e-4;
+  const double k = 3e7, range = (kLast - kClosest) * pair.activation_distance,
+               begins = kLast * pair.activation_distance;
   const auto first = [&](double distance) {
-    return barrier(k, distance - kHardest * pair.shell, (1 - kHardest) * pair.shell);
+    return barrier(k, distance - kHardest * pair.activation_distance,
+                   (1 - kHardest) * pair.activation_distance);
   };
   EXPECT_EQ(pair_barrier(pair, k, begins).slope, first(begins).slope);
   const double just_below = begins - 1e-9 * range, middle = begins - range / 2;

@@ -142,12 +142,12 @@ TEST(SelfPairs, MissNoneThatComesNear) {
   const auto check = [&](std::array<int, 4> v, bool edges) {
     Vector at_rest[4];
     for (int i = 0; i < 4; ++i) at_rest[i] = mesh.rest[v[i]];
-    const double shell = std::min(kThickness, pair_distance(at_rest, edges) / 2);
+    const double activation_distance = std::min(kThickness, pair_distance(at_rest, edges) / 2);
     bool comes_near = false;
     for (int step = 0; step <= 8; ++step) {
       Vector y[4];
       for (int i = 0; i < 4; ++i) y[i] = x[v[i]] + step / 8.0 * direction[v[i]];
-      comes_near |= pair_distance(y, edges) < shell;
+      comes_near |= pair_distance(y, edges) < activation_distance;
     }
     if (!comes_near) return;
     ++near;

@@ -52,7 +52,7 @@ TEST(Start, ThatPassesThroughItselfIsRefusedWithTheTriangles) {
 // Returns the least distance of pairs that are far apart at rest.
 double least_start_distance(double thickness) {
   SelfPair<double> pair{};
-  pair.shell = thickness;
+  pair.activation_distance = thickness;
   return least_distance(pair);
 }
 

@@ -133,14 +133,14 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"ThinnerUnpressed", kPair + "T0,mm,,,0.4\nTM,mm,,,0.6\n", "T0 must be >= TM", "sheet.csv:4"}),
     [](const auto& test) { return std::string(test.param.name); });
 
-struct Doubt {
+struct Warning {
   const char* name;
   std::string text;
   const char *says, *where;
 };
-class DoubtfulSheet : public testing::TestWithParam<Doubt> {};
+class ImplausibleSheet : public testing::TestWithParam<Warning> {};
 
-TEST_P(DoubtfulSheet, IsWarnedOf) {
+TEST_P(ImplausibleSheet, IsWarnedOf) {
   const std::vector<std::string> warnings = sheet_of(kHead + GetParam().text).warnings;
   ASSERT_FALSE(warnings.empty());
   EXPECT_TRUE(says(warnings[0], GetParam().says, GetParam().where)) << warnings[0];
@@ -149,19 +149,20 @@ TEST_P(DoubtfulSheet, IsWarnedOf) {
 // LT T EMT/2 is 0.78 * 500 * 0.04 / 2 = 7.8 gf cm/cm^2 along warp and 0.6 * 500 * 0.08 / 2 = 12 along weft.
 const std::string kTension = kPair + "LT,1,0.78,0.6,\nEMT,%,4,8,\n";
 INSTANTIATE_TEST_SUITE_P(
-    Sheets, DoubtfulSheet,
+    Sheets, ImplausibleSheet,
     testing::Values(
-        Doubt{"TenfoldBending", "B,gf cm^2/cm,1.18,0.94,\n2HB,gf cm/cm,0.124,0.1,\n",
-              "is one of them in another unit", "sheet.csv:3"},
-        Doubt{"BackUnlikeTheFace", kPair + "B-back,gf cm^2/cm,0.4,0.1,\n", "times of B, and", "sheet.csv:4"},
-        Doubt{"WeightOfTwoDirections", kPair + "W,mg/cm^2,15,30,\n", "has no direction", "sheet.csv:4"},
-        Doubt{"TenfoldShear", kPair + "G,gf/(cm degree),7,7,\n2HG,gf/cm,1.5,1.5,\n", "degree of G",
-              "sheet.csv:5"},
-        Doubt{"ExchangedColumns", kTension + "WT,gf cm/cm^2,12,7.8,\n", "exchanged", "sheet.csv:6"},
-        Doubt{"AnotherUnitOfWork", kTension + "WT,gf cm/cm^2,76,76,\n", "in another unit", "sheet.csv:6"},
-        Doubt{"MeanOfNeither", kPair + "G,gf/(cm degree),1,2,9\n", "a mean that is 6 times", "sheet.csv:4"},
-        Doubt{"BlankOfAMergedCell", "B,gf cm^2/cm,0.118,,\n2HB,gf cm/cm,0.124,0.1,\n",
-              "no number in the column weft", "sheet.csv:2"}),
+        Warning{"TenfoldBending", "B,gf cm^2/cm,1.18,0.94,\n2HB,gf cm/cm,0.124,0.1,\n",
+                "is one of them in another unit", "sheet.csv:3"},
+        Warning{"BackUnlikeTheFace", kPair + "B-back,gf cm^2/cm,0.4,0.1,\n", "times of B, and",
+                "sheet.csv:4"},
+        Warning{"WeightOfTwoDirections", kPair + "W,mg/cm^2,15,30,\n", "has no direction", "sheet.csv:4"},
+        Warning{"TenfoldShear", kPair + "G,gf/(cm degree),7,7,\n2HG,gf/cm,1.5,1.5,\n", "degree of G",
+                "sheet.csv:5"},
+        Warning{"ExchangedColumns", kTension + "WT,gf cm/cm^2,12,7.8,\n", "exchanged", "sheet.csv:6"},
+        Warning{"AnotherUnitOfWork", kTension + "WT,gf cm/cm^2,76,76,\n", "in another unit", "sheet.csv:6"},
+        Warning{"MeanOfNeither", kPair + "G,gf/(cm degree),1,2,9\n", "a mean that is 6 times", "sheet.csv:4"},
+        Warning{"BlankOfAMergedCell", "B,gf cm^2/cm,0.118,,\n2HB,gf cm/cm,0.124,0.1,\n",
+                "no number in the column weft", "sheet.csv:2"}),
     [](const auto& test) { return std::string(test.param.name); });
 
 TEST(KesSheet, ThatAgreesWithItselfIsNotDoubted) {

@@ -113,18 +113,18 @@ TEST(ObjFile, FacesWithoutTextureTakeThatOfTheirNeighbours) {
   const std::string file = folder.file("mixed.obj");
   for (const int uncovered :
        {1, 3}) {  // the vertices of one have coordinates in other faces, those of three have none
-    std::vector<std::string> doubts;
+    std::vector<std::string> warnings;
     const ClothMesh mesh =
-        read_obj(folder.write("mixed.obj", partly_covered(uncovered)), 0, LengthUnit::metre, &doubts);
+        read_obj(folder.write("mixed.obj", partly_covered(uncovered)), 0, LengthUnit::metre, &warnings);
     ASSERT_EQ(mesh.pattern.size(), 5u);
     EXPECT_NEAR((mesh.pattern[3] - Eigen::Vector2d(-1, 0)).norm(), 0, 1e-12);
     for (int f = 0; f < mesh.faces(); ++f)
       EXPECT_NEAR((mesh.face_axes(f)[0] - Eigen::Vector3d(0, -1, 0)).norm(), 0, 1e-12) << f;
     EXPECT_EQ(read_surface(file).pattern.size(), 5u);
     if (uncovered == 1)
-      EXPECT_TRUE(doubts.empty());
+      EXPECT_TRUE(warnings.empty());
     else
-      EXPECT_EQ(doubts,
+      EXPECT_EQ(warnings,
                 std::vector<std::string>{
                     "mesh " + file +
                     ": line 12: the face has no texture coordinates, nor have 2 further triangles: those of "
@@ -134,13 +134,13 @@ TEST(ObjFile, FacesWithoutTextureTakeThatOfTheirNeighbours) {
 
 TEST(ObjFile, FacesWhoseTextureNoNeighbourTellsAreWarnedOf) {
   const Folder folder;
-  std::vector<std::string> doubts;
+  std::vector<std::string> warnings;
   const std::string file =
       folder.write("mixed.obj", partly_covered(0) + "v 5 0 0\nv 6 0 0\nv 5 1 0\nf 6 7 8\n");
-  const ClothMesh mesh = read_obj(file, 0, LengthUnit::metre, &doubts);
+  const ClothMesh mesh = read_obj(file, 0, LengthUnit::metre, &warnings);
   EXPECT_TRUE(mesh.pattern.empty());
-  ASSERT_FALSE(doubts.empty());
-  EXPECT_EQ(doubts[0],
+  ASSERT_FALSE(warnings.empty());
+  EXPECT_EQ(warnings[0],
             "mesh " + file +
                 ": line 18: the face has no texture coordinates, and no neighbour to tell them, while 4 "
                 "others have: none are used, and warp is along x at rest; give them to all faces");

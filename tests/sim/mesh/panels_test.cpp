@@ -115,7 +115,7 @@ TEST(Panels, OfAnotherSizeThanTheWornClothAreRefusedWithTheScaleThatFits) {
 }
 
 // Returns the warnings about the tube with other lengths along and around.
-std::vector<std::string> doubts(double along, double around) {
+std::vector<std::string> warnings(double along, double around) {
   const auto stretched = [&](const Vector3d& x) {
     return Vector3d(along * x.x(), around * x.y(), around * x.z());
   };
@@ -127,19 +127,19 @@ std::vector<std::string> doubts(double along, double around) {
 
 TEST(Panels, WhoseCoordinatesAreScaledEachByItsOwnAreDoubtedWithTheFactorThatMakesThemEqual) {
   for (const auto& [along, factor] : {std::pair(1.5, "1.5"), std::pair(0.75, "0.75")}) {
-    const std::vector<std::string> found = doubts(along, 1);
+    const std::vector<std::string> found = warnings(along, 1);
     ASSERT_EQ(found.size(), 1u) << along;
     EXPECT_TRUE(test::says(found[0], std::string("multiply the first by ") + factor)) << found[0];
   }
 }
 
 TEST(Panels, OfDoubtfulSizeAreDoubtedWithTheScaleThatFitsAndThoseThatStrainAreNot) {
-  const std::vector<std::string> found = doubts(0.75, 0.75);
+  const std::vector<std::string> found = warnings(0.75, 0.75);
   ASSERT_EQ(found.size(), 1u);
   EXPECT_TRUE(test::says(found[0], "sides are 0.75 times as long", "cloth.texture-scale = 0.75 m makes"));
   for (const double strained : {1 / 1.1, 1.0, 1.1}) {
-    EXPECT_EQ(doubts(strained, 1), std::vector<std::string>()) << strained;
-    EXPECT_EQ(doubts(strained, strained), std::vector<std::string>()) << strained;
+    EXPECT_EQ(warnings(strained, 1), std::vector<std::string>()) << strained;
+    EXPECT_EQ(warnings(strained, strained), std::vector<std::string>()) << strained;
   }
 }
 

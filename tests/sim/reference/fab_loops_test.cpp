@@ -188,9 +188,9 @@ TEST_F(FabRecord, WhoseZeroDriftsIsReadWithADoubtAndOnlyWhereItIsAskedFor) {
   const std::string file = folder_.write("drift.csv", text());
   const auto read = [&](const FabRequest& request) { return read_fab(file, TesterUnits::si, "t", request); };
   ASSERT_EQ(read({}).size(), 1u);
-  ASSERT_EQ(read({})[0].doubts.size(), 1u);
-  EXPECT_TRUE(says(read({})[0].doubts[0], "L D1: in cycle 1 forces fall as the clamps part, by no more"));
-  EXPECT_TRUE(read({{}, {2}, 0})[0].doubts.empty());
+  ASSERT_EQ(read({})[0].warnings.size(), 1u);
+  EXPECT_TRUE(says(read({})[0].warnings[0], "L D1: in cycle 1 forces fall as the clamps part, by no more"));
+  EXPECT_TRUE(read({{}, {2}, 0})[0].warnings.empty());
   change_forces([](double force) { return -force; });
   const FabRequest another{[](const FabLoops& one) { return one.direction == "W"; }, {}, 0};
   const std::string turned = folder_.write("turned.csv", text());

@@ -41,7 +41,7 @@ class SceneWithBody : public testing::Test {
   std::string refused(const std::string& text) const {
     return refusal([&] { loaded(text); });
   }
-  std::vector<std::string> doubts(const std::string& text) const { return body_doubts(loaded(text)); }
+  std::vector<std::string> warnings(const std::string& text) const { return body_warnings(loaded(text)); }
 
   const test::Folder folder_;
   const test::Body ball_ = test::ball(0.1, 2);
@@ -53,7 +53,7 @@ TEST_F(SceneWithBody, HasItBesideItsFile) {
   EXPECT_EQ(scene.obstacle[0].file, folder_.file("body.obj"));
   EXPECT_EQ(scene.obstacle[0].mesh->face, ball_.face);
   EXPECT_EQ(body_positions(scene.obstacle[0], 5), ball_.moved({1, 2, 3}).vertex);
-  EXPECT_EQ(body_doubts(scene), std::vector<std::string>());
+  EXPECT_EQ(body_warnings(scene), std::vector<std::string>());
 }
 
 TEST_F(SceneWithBody, MovesItByKeyframesAndItsSequence) {
@@ -166,7 +166,7 @@ test::Body with_second(const test::Body& body, const Eigen::Vector3d& way) {
 
 TEST_F(SceneWithBody, IsDoubtedWhereItPassesThroughItself) {
   folder_.write("body.obj", obj_text(with_second(ball_, {0.1, 0.003, 0.005})));
-  const std::vector<std::string> said = doubts(kBody);
+  const std::vector<std::string> said = warnings(kBody);
   ASSERT_EQ(said.size(), 1u);
   EXPECT_TRUE(says(said[0], "obstacle[0], mesh " + folder_.file("body.obj"),
                    "passes through itself in its first frame: triangles ", "pairs in all"));
@@ -176,20 +176,20 @@ TEST_F(SceneWithBody, IsDoubtedWhereItComesToPassThroughItself) {
   folder_.write("body.obj", obj_text(with_second(ball_, {0.21, 0, 0})));
   folder_.write("walk1.obj", obj_text(with_second(ball_, {0.21, 0, 0})));
   folder_.write("walk2.obj", obj_text(with_second(ball_, {0.18, 0.003, 0.005})));
-  const std::vector<std::string> said = doubts(kBody + "sequence = \"walk*.obj\"\nfps = 10\n");
+  const std::vector<std::string> said = warnings(kBody + "sequence = \"walk*.obj\"\nfps = 10\n");
   ASSERT_EQ(said.size(), 1u);
   EXPECT_TRUE(says(said[0], "passes through itself in its frame 2, at t = 0.1 s: triangles "));
 }
 
 TEST_F(SceneWithBody, IsDoubtedWhereItsTrianglesFaceInward) {
   folder_.write("body.obj", obj_text(test::tetrahedron().inside_out()));
-  const std::vector<std::string> said = doubts(kBody);
+  const std::vector<std::string> said = warnings(kBody);
   ASSERT_EQ(said.size(), 1u);
   EXPECT_TRUE(says(said[0], "face inward (signed volume -0.167 m^3)", "turn its faces over"));  // -1/6
   test::Body open = test::tetrahedron().inside_out();
   open.face.pop_back();
   folder_.write("body.obj", obj_text(open));
-  EXPECT_EQ(doubts(kBody), std::vector<std::string>()) << "a sheet has no inside";
+  EXPECT_EQ(warnings(kBody), std::vector<std::string>()) << "a sheet has no inside";
 }
 
 TEST_F(SceneWithBody, IsDoubtedWhereItJumpsFromFrameToFrame) {
@@ -200,14 +200,14 @@ TEST_F(SceneWithBody, IsDoubtedWhereItJumpsFromFrameToFrame) {
       folder_.write("walk" + std::to_string(++k) + ".obj", obj_text(ball_.moved({x, 0, 0})));
   };
   frames({0, 0.01, 0.02});
-  EXPECT_EQ(doubts(walk + "fps = 30\n"), std::vector<std::string>());
+  EXPECT_EQ(warnings(walk + "fps = 30\n"), std::vector<std::string>());
   frames({0, 0.011, 0.021});
-  const std::vector<std::string> fast = doubts(walk + "fps = 6000\n");
+  const std::vector<std::string> fast = warnings(walk + "fps = 6000\n");
   ASSERT_EQ(fast.size(), 1u);
   EXPECT_TRUE(
       says(fast[0], "goes 0.011 m from frame 1 to frame 2, at t = 0 s, with 66 m/s", "of 2 such ways"));
   frames({0, 0.01, 0.11});  // of a diagonal of 0.2 * 3^1/2
-  const std::vector<std::string> far = doubts(walk + "fps = 30\n");
+  const std::vector<std::string> far = warnings(walk + "fps = 30\n");
   ASSERT_EQ(far.size(), 1u);
   EXPECT_TRUE(says(
       far[0],
@@ -216,7 +216,7 @@ TEST_F(SceneWithBody, IsDoubtedWhereItJumpsFromFrameToFrame) {
 
 TEST_F(SceneWithBody, IsDoubtedWhereFramesAreMissing) {
   for (const int k : {1, 2, 4}) folder_.write("walk" + std::to_string(k) + ".obj", obj_text(ball_));
-  const std::vector<std::string> said = doubts(kBody + "sequence = \"walk*.obj\"\nfps = 30\n");
+  const std::vector<std::string> said = warnings(kBody + "sequence = \"walk*.obj\"\nfps = 30\n");
   ASSERT_EQ(said.size(), 1u);
   EXPECT_TRUE(says(said[0], "after walk2.obj comes walk4.obj"));
 }

@@ -77,9 +77,9 @@ TEST(BuiltCloth, TooLargeOrHeavyIsDoubted) {
   Scene scene;
   scene.cloth.length = 30;
   scene.triangles = 200;
-  const std::vector<std::string> doubts = make_cloth(scene).warnings;
-  ASSERT_EQ(doubts.size(), 1u);
-  EXPECT_TRUE(says(doubts[0], "30 m long", "weighs 111 kg"));  // 900 m^2 of 0.1238 kg/m^2
+  const std::vector<std::string> warnings = make_cloth(scene).warnings;
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_TRUE(says(warnings[0], "30 m long", "weighs 111 kg"));  // 900 m^2 of 0.1238 kg/m^2
   scene.cloth.length = 0.3;
   EXPECT_EQ(make_cloth(scene).warnings, std::vector<std::string>());
 }
@@ -116,17 +116,17 @@ class StartFile : public DiscFile {
 };
 
 TEST_F(StartFile, BeginsWithoutHistory) {
-  const std::vector<std::string> doubts = make_cloth(started(disc_.rest)).warnings;
-  ASSERT_EQ(doubts.size(), 1u);
-  EXPECT_TRUE(says(doubts[0], "is a shape without a history"));
+  const std::vector<std::string> warnings = make_cloth(started(disc_.rest)).warnings;
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_TRUE(says(warnings[0], "is a shape without a history"));
 }
 
 TEST_F(StartFile, OfVerticesInAnotherOrderIsRefusedOrDoubted) {
   std::vector<Eigen::Vector3d> at = disc_.rest;
   std::swap(at.front(), at.back());
-  const std::vector<std::string> doubts = make_cloth(started(at)).warnings;
-  ASSERT_EQ(doubts.size(), 2u);
-  EXPECT_TRUE(says(doubts[0], "edges by more than 50 %"));
+  const std::vector<std::string> warnings = make_cloth(started(at)).warnings;
+  ASSERT_EQ(warnings.size(), 2u);
+  EXPECT_TRUE(says(warnings[0], "edges by more than 50 %"));
   for (Eigen::Vector3d& x : at) x *= 100;
   EXPECT_TRUE(says(refusal([&] { make_cloth(started(at)); }),
                    "times as long as at rest, which must be 0.5 to 2: both files must be in cloth.unit"));

@@ -90,7 +90,7 @@ TEST(BlockedPins, AreNotPutWhereTheyCouldNotGo) {
 TEST(BlockedPins, PressWithTheirPressureOnTheAreaOfWhatTheyHold) {
   const Trial trial = led_through(kAll);
   const auto simulation = trial.at(kTime);
-  const auto force = simulation->handle_forces();
+  const auto force = simulation->pin_forces();
   Vector3d sum = Vector3d::Zero();
   double area = 0;
   for (int i : trial.cloth.pin_vertices[1]) {

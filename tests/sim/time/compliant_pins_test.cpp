@@ -95,9 +95,9 @@ TEST(PinsOfLimitedStrength, GiveInProportionToWhatTheyCarry) {
   const auto simulation = trial.simulation();
   simulation->become_static();
   simulation->advance(60);
-  EXPECT_NEAR(force_sum(simulation->handle_forces()).y(), cloth_weight(trial), 1e-5 * cloth_weight(trial));
+  EXPECT_NEAR(force_sum(simulation->pin_forces()).y(), cloth_weight(trial), 1e-5 * cloth_weight(trial));
   const auto x = simulation->positions();
-  const auto force = simulation->handle_forces();
+  const auto force = simulation->pin_forces();
   int pins = 0;
   for (std::size_t i = 0; i < x.size(); ++i) {
     if (force[i].isZero(0)) continue;
@@ -133,7 +133,7 @@ TEST(PinsOfLimitedStrength, LetGoOfWhatIsTooHeavyButPullOn) {
   EXPECT_NEAR((third - 2 * second + first) / (t * t), -(1 - kFraction) * g, 0.02 * g);
   EXPECT_GT(simulation->counts().saturated_pins, kSteps);
   EXPECT_GT(simulation->counts().pin_lag, 0.05);
-  for (const Vector3d& f : simulation->handle_forces())
+  for (const Vector3d& f : simulation->pin_forces())
     EXPECT_LE(f.norm(), kFraction * weight / 2 * (1 + 1e-12));
 }
 
@@ -147,7 +147,7 @@ TEST(PinsOfLimitedStrength, DoWorkThatTheBalanceCloses) {
     trial.scene.pin[1].motion.keys = {{0, {0, 0, 0}, 0}, {0.2, {0, 0.05, 0}, 0}};
     const auto simulation = trial.after(60);
     const Ledger ledger = simulation->ledger();
-    EXPECT_GT(std::abs(ledger.handle_work), 1e-3 * cloth_weight(trial) * 0.05);
+    EXPECT_GT(std::abs(ledger.pin_work), 1e-3 * cloth_weight(trial) * 0.05);
     EXPECT_LT(std::abs(ledger.remainder_relative), 1e-9) << enum_name(integrator);
   }
 }
@@ -162,7 +162,7 @@ TEST(PinsOfLimitedStrength, ThatPushTheClothThroughItselfLagBehind) {
   EXPECT_EQ(simulation->counts().unbalanced, 0);
   EXPECT_GT(simulation->counts().saturated_pins, 0);
   EXPECT_GT(simulation->counts().pin_lag, kTravel - kGap);
-  const std::vector<Vector3d> force = simulation->handle_forces();
+  const std::vector<Vector3d> force = simulation->pin_forces();
   Vector3d pull = Vector3d::Zero();
   for (int i : trial.cloth.pin_vertices[1]) pull += force[i];
   EXPECT_LT(pull.z(), -0.1 * kStrength);

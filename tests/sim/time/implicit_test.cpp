@@ -184,7 +184,7 @@ TEST(QuasiStatic, BooksTheWeightThatTheHandStillCarries) {
   scene.ramp = 1;
   const Ledger ledger = Trial(scene).after(10)->ledger();
   EXPECT_LT(ledger.gravitational, 0);
-  EXPECT_LT(ledger.handle_work, 0);
+  EXPECT_LT(ledger.pin_work, 0);
   EXPECT_LT(ledger.remainder_relative, 1e-5);
 }
 

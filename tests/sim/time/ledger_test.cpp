@@ -63,7 +63,7 @@ TEST_P(Balance, ClosesForASwingingCloth) {
   }
   EXPECT_LT(ledger.remainder_relative, kClosed);
   EXPECT_EQ(ledger.viscous, 0);
-  EXPECT_EQ(ledger.handle_work, 0);
+  EXPECT_EQ(ledger.pin_work, 0);
 }
 
 TEST_P(Balance, ClosesWithDampingAirMovingHandleMovingObstacleAndARelease) {
@@ -88,7 +88,7 @@ TEST_P(Balance, ClosesWithDampingAirMovingHandleMovingObstacleAndARelease) {
     EXPECT_GT(ledger.viscous, 0);
     EXPECT_GT(ledger.air, 0);
   }
-  EXPECT_NE(ledger.handle_work, 0);
+  EXPECT_NE(ledger.pin_work, 0);
   EXPECT_LT(ledger.remainder_relative, kClosed);
 }
 
@@ -178,7 +178,7 @@ TEST(Ledger, OfEquilibriaMissesWorkWithSecondOrderInTheStep) {
     const Ledger ledger = Trial(scene).after(10 << level)->ledger();
     missed[level] = std::abs(ledger.integrator());
     stored = ledger.membrane + ledger.bending;
-    EXPECT_NEAR(ledger.handle_work / stored, 1, 0.02);
+    EXPECT_NEAR(ledger.pin_work / stored, 1, 0.02);
   }
   constexpr double kSlack = 0.3;  // the next order of ten and twenty steps
   EXPECT_GT(missed[1], 1e-9 * stored);

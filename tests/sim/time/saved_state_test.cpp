@@ -137,7 +137,7 @@ void expect_same(Simulation& a, Simulation& b) {
   EXPECT_EQ(a.ledger().rows(), b.ledger().rows());
   EXPECT_EQ(a.moment(), b.moment());
   EXPECT_EQ(a.residual_curvature(), b.residual_curvature());
-  EXPECT_EQ(a.handle_forces(), b.handle_forces());
+  EXPECT_EQ(a.pin_forces(), b.pin_forces());
   EXPECT_EQ(a.steps(), b.steps());
   EXPECT_EQ(a.counts().linear, b.counts().linear);
   EXPECT_EQ(a.counts().newton, b.counts().newton);

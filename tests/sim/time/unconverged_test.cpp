@@ -69,7 +69,7 @@ TEST(HandsThatBringHome, AreThereInTime) {
   simulation->advance(24);
   EXPECT_LT((simulation->positions()[corner] - trial.cloth.start[corner]).norm(), kUnconvergedRounding);
   const Ledger ledger = simulation->ledger();
-  EXPECT_GT(ledger.handle_work, 0);
+  EXPECT_GT(ledger.pin_work, 0);
   EXPECT_LT(ledger.remainder_relative, 1e-6);
 }
 

@@ -50,7 +50,7 @@ TEST_F(RefusedRequest, ReplacesNoFileButTheProgramsOwn) {
   const std::string picture = file("a.png", "");
   render::write_png(picture, render::Image(8, 8));
   const fs::path own = folder_.path() / "own", own_png = folder_.path() / "own.png";
-  const auto expect_kept = [&](const std::string& line, const fs::path& target) {
+  const auto expect_archived = [&](const std::string& line, const fs::path& target) {
     write_text(target, notes);
     EXPECT_TRUE(says(refused(line + target.string()), target.string() + " is a file that is there already"))
         << line;
@@ -60,10 +60,10 @@ TEST_F(RefusedRequest, ReplacesNoFileButTheProgramsOwn) {
     finished(line + target.string());
     fs::remove(target);
   };
-  expect_kept("law --in " + curvatures + " --out ", own);
-  expect_kept("drape --quick --triangles 40 --dump-scene ", own);
-  expect_kept("diff " + picture + " " + picture + " --junit ", own);
-  expect_kept("diff " + picture + " " + picture + " --out ", own_png);
+  expect_archived("law --in " + curvatures + " --out ", own);
+  expect_archived("drape --quick --triangles 40 --dump-scene ", own);
+  expect_archived("diff " + picture + " " + picture + " --junit ", own);
+  expect_archived("diff " + picture + " " + picture + " --out ", own_png);
   EXPECT_TRUE(says(refused("verify " + out_.string() + " --junit " + curvatures), "is not a JUnit file"));
   fs::create_directories(folder_.path() / "flow");
   write_text(folder_.path() / "flow" / "Snakefile", notes);

@@ -4,7 +4,7 @@
 #include <fstream>
 #include <map>
 
-#include "experiments/workbench/app/ending.h"
+#include "experiments/workbench/app/exit_status.h"
 #include "experiments/workbench/app/set_aside.h"
 #include "sim/base/error.h"
 #include "sim/base/whole_file.h"

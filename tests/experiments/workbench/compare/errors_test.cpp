@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "experiments/workbench/compare/errors.h"
-#include "experiments/workbench/pages/error_words.h"
+#include "experiments/workbench/pages/error_notes.h"
 #include "experiments/workbench/pages/metrics.h"
 #include "experiments/workbench/pages/text_table.h"
 #include "sim/base/csv.h"

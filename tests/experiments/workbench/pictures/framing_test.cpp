@@ -5,7 +5,7 @@
 
 #include "experiments/workbench/app/camera_file.h"
 #include "experiments/workbench/app/manifest_file.h"
-#include "experiments/workbench/pictures/kept_instants.h"
+#include "experiments/workbench/pictures/archived_instants.h"
 #include "render/image.h"
 #include "sim/base/error.h"
 #include "tests/experiments/program.h"
@@ -80,8 +80,8 @@ TEST(CameraFile, IsRefusedWhereItIsNone) {
 }
 
 // Instants without motion are dropped first; the first and the last stay.
-TEST(KeptInstants, KeepThoseThatMove) {
-  KeptInstants kept;
+TEST(ArchivedInstants, KeepThoseThatMove) {
+  ArchivedInstants kept;
   for (int i = 0; i < 200; ++i) {
     const float x = static_cast<float>(std::min(i, 100));  // then it is at rest
     EXPECT_NEAR(kept.add({1.0 * i, {x, 0, 0, x, 0, 0}, {}, "", {}}), i > 0 && i <= 100, 1e-6);
@@ -89,7 +89,7 @@ TEST(KeptInstants, KeepThoseThatMove) {
   ASSERT_LE(kept.all().size(), 48u);
   EXPECT_EQ(kept.all().front().time, 0);
   EXPECT_EQ(kept.last().time, 199);
-  const std::vector<KeptInstant> chosen = kept.chosen(5);
+  const std::vector<ArchivedInstant> chosen = kept.chosen(5);
   ASSERT_EQ(chosen.size(), 5u);
   for (std::size_t i = 0; i < 5; ++i) EXPECT_NEAR(chosen[i].xyz[0], 25.0 * i, 4) << i;
 }

@@ -1,5 +1,5 @@
 // A key that experiments decide themselves is refused as a flag, and gives a warning where a file sets it.
-#include "experiments/workbench/app/decided_keys.h"
+#include "experiments/workbench/app/fixed_keys.h"
 
 #include <algorithm>
 

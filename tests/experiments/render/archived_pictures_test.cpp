@@ -30,7 +30,7 @@ struct Recorded {
   }
 };
 
-TEST(KeptPictures, ARunsFolderIsDrawnAgainToTheByte) {
+TEST(ArchivedPictures, ARunsFolderIsDrawnAgainToTheByte) {
   const Recorded swing("swing --look curvature,cloth --export usd");
   ASSERT_TRUE(fs::is_directory(swing.run / "mesh")) << "which has no meshes to be drawn";
   finished(swing.drawing(swing.run));
@@ -39,7 +39,7 @@ TEST(KeptPictures, ARunsFolderIsDrawnAgainToTheByte) {
     EXPECT_EQ(file_content(swing.again / name), file_content(swing.run / name)) << name;
 }
 
-TEST(KeptPictures, ARecordedFolderGivesItsSheetOrWhatFlagsAskFor) {
+TEST(ArchivedPictures, ARecordedFolderGivesItsSheetOrWhatFlagsAskFor) {
   const Recorded swing("swing");
   finished(swing.drawing(swing.kept));
   EXPECT_EQ(file_content(swing.again / "sheet.png"), file_content(swing.run / "sheet.png"));
@@ -57,7 +57,7 @@ TEST(KeptPictures, ARecordedFolderGivesItsSheetOrWhatFlagsAskFor) {
                    "--render.range 50 is not used: render.range needs --look curvature (look = cloth)"));
 }
 
-TEST(KeptPictures, OfAFileThatIsCutOffAreSaidToBeAPart) {
+TEST(ArchivedPictures, OfAFileThatIsCutOffAreSaidToBeAPart) {
   const Recorded swing("swing");
   EXPECT_FALSE(says(finished(swing.drawing(swing.run)).err, "without the sheet"));
   const fs::path frames = swing.run / "frames.hyg";
@@ -66,7 +66,7 @@ TEST(KeptPictures, OfAFileThatIsCutOffAreSaidToBeAPart) {
       says(finished(swing.drawing(swing.run)).err, "and without the sheet that a whole run writes last"));
 }
 
-TEST(KeptPictures, AComparisonsFolderGivesItsSheet) {
+TEST(ArchivedPictures, AComparisonsFolderGivesItsSheet) {
   const Recorded page("compare swing --laws linear,prandtl --quality draft");
   finished(page.drawing(page.kept));
   EXPECT_EQ(file_content(page.again / "sheet.png"), file_content(page.run / "sheet.png"));

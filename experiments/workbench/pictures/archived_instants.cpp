@@ -1,4 +1,4 @@
-#include "experiments/workbench/pictures/kept_instants.h"
+#include "experiments/workbench/pictures/archived_instants.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +17,7 @@ double distance(const std::vector<float>& a, const std::vector<float>& b) {
 
 }  // namespace
 
-double KeptInstants::add(KeptInstant instant) {
+double ArchivedInstants::add(ArchivedInstant instant) {
   const double since = distance(instant.xyz, last_);
   last_ = instant.xyz;
   moved_.push_back(all_.empty() ? 0 : distance(instant.xyz, all_.back().xyz));
@@ -30,20 +30,20 @@ double KeptInstants::add(KeptInstant instant) {
   return since;
 }
 
-std::vector<KeptInstant> KeptInstants::chosen(int count, double until) const {
+std::vector<ArchivedInstant> ArchivedInstants::chosen(int count, double until) const {
   std::vector<double> moved;
   for (std::size_t i = 0; i < all_.size() && all_[i].time <= until; ++i) moved.push_back(moved_[i]);
-  std::vector<KeptInstant> chosen;
+  std::vector<ArchivedInstant> chosen;
   for (int i : render::spread_by_displacement(moved, count))
     chosen.push_back(all_[static_cast<std::size_t>(i)]);
   return chosen;
 }
 
-void KeptInstants::serialise(Archive& archive) {
+void ArchivedInstants::serialise(Archive& archive) {
   archive(moved_);
   archive(last_);
   all_.resize(archive.size(all_.size()));
-  for (KeptInstant& instant : all_) {
+  for (ArchivedInstant& instant : all_) {
     archive(instant.time);
     archive(instant.xyz);
     archive(instant.values);

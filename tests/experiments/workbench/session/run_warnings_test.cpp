@@ -1,5 +1,5 @@
 // These tests check warnings of a run that goes on.
-#include "experiments/workbench/session/doubts.h"
+#include "experiments/workbench/session/run_warnings.h"
 
 #include <fmt/core.h>
 
@@ -40,10 +40,10 @@ TEST(Start, WithLayersThatPressIsSaidWithTheirEnergy) {
   const auto simulation = pressed.simulation();
   const double stored = simulation->ledger().contact;
   EXPECT_GT(stored, 0);
-  expect_one(doubts_at_start(pressed.scene, pressed.cloth, *simulation),
+  expect_one(warnings_at_start(pressed.scene, pressed.cloth, *simulation),
              fmt::format("contact stores {:.2g} J at the start", stored));
   const Trial kissing = test::two_sheets(Fabric{}.thickness, 60);
-  EXPECT_TRUE(doubts_at_start(kissing.scene, kissing.cloth, *kissing.simulation()).empty());
+  EXPECT_TRUE(warnings_at_start(kissing.scene, kissing.cloth, *kissing.simulation()).empty());
 }
 
 bool one_says(const std::vector<std::string>& texts, const std::string& part) {
@@ -54,27 +54,28 @@ TEST(Start, WithLimitsThatTheWeightMeetsAtOnceIsSaid) {
   Trial trial(test::hanging_square(60));
   trial.scene.integrator = Integrator::implicit;
   trial.scene.step = 0.01;
-  const auto doubts = [&] { return doubts_at_start(trial.scene, trial.cloth, *trial.simulation()); };
-  EXPECT_FALSE(one_says(doubts(), "cloth may not move at all"));
+  const auto warnings = [&] { return warnings_at_start(trial.scene, trial.cloth, *trial.simulation()); };
+  EXPECT_FALSE(one_says(warnings(), "cloth may not move at all"));
   trial.scene.newton_velocity = 0.01;  // gravity gives 0.098 m/s
-  EXPECT_TRUE(one_says(doubts(), "is more than a twentieth of the 0.0981 m/s that gravity gives in a step"));
+  EXPECT_TRUE(
+      one_says(warnings(), "is more than a twentieth of the 0.0981 m/s that gravity gives in a step"));
   trial.scene.newton_residual = 0.3;
-  EXPECT_TRUE(one_says(doubts(), "leaves so much of the load out of balance"));
+  EXPECT_TRUE(one_says(warnings(), "leaves so much of the load out of balance"));
 }
 
 TEST(Start, WithALoadThatTheEndCutsOffIsSaid) {
   Trial trial(test::hanging_square(60));
   trial.scene.integrator = Integrator::quasi_static;
   trial.scene.seconds = 1;
-  const auto doubts = [&](double ramp, double unload) {
+  const auto warnings = [&](double ramp, double unload) {
     trial.scene.ramp = ramp, trial.scene.unload = unload;
-    return doubts_at_start(trial.scene, trial.cloth, *trial.simulation());
+    return warnings_at_start(trial.scene, trial.cloth, *trial.simulation());
   };
-  EXPECT_FALSE(one_says(doubts(1, 0), "of the weight"));
-  EXPECT_FALSE(one_says(doubts(0.5, 0.5), "of the weight"));
+  EXPECT_FALSE(one_says(warnings(1, 0), "of the weight"));
+  EXPECT_FALSE(one_says(warnings(0.5, 0.5), "of the weight"));
   EXPECT_TRUE(
-      one_says(doubts(2, 0), "ends with 50 % of the weight: ramp = 2 s (default) is how long it grows"));
-  EXPECT_TRUE(one_says(doubts(0.5, 2), "ends with 75 % of the weight"));
+      one_says(warnings(2, 0), "ends with 50 % of the weight: ramp = 2 s (default) is how long it grows"));
+  EXPECT_TRUE(one_says(warnings(0.5, 2), "ends with 75 % of the weight"));
 }
 
 TEST(Start, WithInstantsWithinAStepIsSaid) {
@@ -82,20 +83,20 @@ TEST(Start, WithInstantsWithinAStepIsSaid) {
   trial.scene.step = 0.01, trial.scene.seconds = 1;
   trial.scene.pin.resize(1);
   trial.scene.pin[0].until = 0.1001, trial.scene.origin["pin[0].until"] = "a test";
-  const auto doubts = [&] { return doubts_at_start(trial.scene, trial.cloth, *trial.simulation()); };
+  const auto warnings = [&] { return warnings_at_start(trial.scene, trial.cloth, *trial.simulation()); };
   EXPECT_TRUE(
-      one_says(doubts(),
+      one_says(warnings(),
                "pin[0].until = 0.1001 s (a test) lies within a step of 0.01 s: it counts from the next "
                "one on, at 0.11 s"));
   trial.scene.pin[0].until = 0.11;
-  EXPECT_FALSE(one_says(doubts(), "lies within a step"));
+  EXPECT_FALSE(one_says(warnings(), "lies within a step"));
 }
 
 TEST(End, WithClothStretchedAsNoneIsSaysByHowMuch) {
   const Trial trial(test::hanging_square(60));
   const auto& x = trial.cloth.start;
-  expect_one(doubts_at_end(trial.scene, trial.cloth, x, 65.57), "stretched by up to 6557 %");
-  EXPECT_TRUE(doubts_at_end(trial.scene, trial.cloth, x, 0.3).empty());
+  expect_one(warnings_at_end(trial.scene, trial.cloth, x, 65.57), "stretched by up to 6557 %");
+  EXPECT_TRUE(warnings_at_end(trial.scene, trial.cloth, x, 0.3).empty());
 }
 
 // A pin tears at one side of a sheet of 10 cm.
@@ -135,10 +136,10 @@ TEST(End, FarFromTheStartSaysWhatSinglePrecisionIsRoundedTo) {
   const Trial trial(scene);
   test::Positions far = trial.cloth.start;
   for (Eigen::Vector3d& x : far) x.z() -= 1000;
-  expect_one(doubts_at_end(trial.scene, trial.cloth, far, 0),
+  expect_one(warnings_at_end(trial.scene, trial.cloth, far, 0),
              fmt::format("rounded to {:.2g} m", 1000 * std::pow(2.0, -23)));
   scene.precision = Precision::fp64;
-  EXPECT_TRUE(doubts_at_end(scene, trial.cloth, far, 0).empty());
+  EXPECT_TRUE(warnings_at_end(scene, trial.cloth, far, 0).empty());
 }
 
 TEST(Triangles, ThatAreATenthMoreOrFewerThanAskedForAreCounted) {

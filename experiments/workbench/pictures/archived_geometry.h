@@ -27,8 +27,8 @@
 
 namespace hysteron::experiments {
 
-inline constexpr const char* kKeptFrames = "frames.hyg";  // data of all pictures of a run
-inline constexpr const char* kKeptSheet = "sheet.hyg";    // data of those on its sheet
+inline constexpr const char* kArchivedFrames = "frames.hyg";  // data of all pictures of a run
+inline constexpr const char* kArchivedSheet = "sheet.hyg";    // data of those on its sheet
 
 // Returns the nearest multiple of `quantum`, as a count, or for each value.
 int quantum_count(double value, double quantum);
@@ -45,7 +45,7 @@ struct DrawnMesh {
   double quantum = 0;          // quantum of positions [m]
 };
 
-struct KeptState {
+struct ArchivedState {
   double time = 0;                                   // [s]
   std::vector<float> xyz;                            // 3 per vertex [m]
   std::map<std::string, std::vector<float>> values;  // by look, one per vertex
@@ -54,58 +54,58 @@ struct KeptState {
 };
 
 // An obstacle of kind mesh.
-struct KeptBody {
+struct ArchivedBody {
   std::size_t obstacle = 0;  // index in the scene
   DrawnMesh mesh;            // has no pattern
   bool closed = false;
   std::vector<float> xyz;  // 3 per vertex in its own frame [m]; empty if the instants have them
 };
 
-struct KeptCloth {
+struct ArchivedCloth {
   std::string name;  // name of a comparison's column
   std::size_t mesh = 0;
   Json setup;  // "scene", "options"; for a column also "manifest" and "stopped"
   render::Box bounds;
   std::optional<float> floor;  // [m]
-  std::vector<KeptState> instants;
-  std::vector<KeptBody> bodies;
+  std::vector<ArchivedState> instants;
+  std::vector<ArchivedBody> bodies;
 };
 
-struct Kept {
+struct Archived {
   std::vector<DrawnMesh> meshes;
-  std::vector<KeptCloth> cloths;
+  std::vector<ArchivedCloth> cloths;
   Json sheet;  // null if the file has none
 };
 
 // A record as stored in the file.
-struct KeptRecord {
+struct ArchivedRecord {
   Json head;
   std::vector<std::string> blocks;
   std::string kind() const { return head.value("record", ""); }
 };
 
-KeptRecord mesh_record(const DrawnMesh& mesh);
+ArchivedRecord mesh_record(const DrawnMesh& mesh);
 // These records lack the index of their mesh, which is added when they are written.
-KeptRecord cloth_record(const KeptCloth& cloth);
-KeptRecord body_record(const KeptBody& body);
+ArchivedRecord cloth_record(const ArchivedCloth& cloth);
+ArchivedRecord body_record(const ArchivedBody& body);
 // `quanta` are those of each look's values.  Bodies are added by add_body().
-KeptRecord instant_record(const DrawnMesh& mesh, const MeshPacker& packer, const KeptState& instant,
-                          const std::map<std::string, double>& quanta);
+ArchivedRecord instant_record(const DrawnMesh& mesh, const MeshPacker& packer, const ArchivedState& instant,
+                              const std::map<std::string, double>& quanta);
 // Adds the vertices of a body at that instant, 3 numbers each [m]; `packer` is that of its mesh.
-void add_body(KeptRecord& instant, const KeptBody& body, const MeshPacker& packer,
+void add_body(ArchivedRecord& instant, const ArchivedBody& body, const MeshPacker& packer,
               const std::vector<float>& xyz);
 
-std::string record_text(const KeptRecord& record);
+std::string record_text(const ArchivedRecord& record);
 // Returns the complete records and drops what follows the last.  Throws Error::invalid_input, naming the
 // file, if it has another format, Error::system if it cannot be read.
-std::vector<KeptRecord> read_records(const std::filesystem::path& file);
+std::vector<ArchivedRecord> read_records(const std::filesystem::path& file);
 // Reads the file.  Throws Error::invalid_input, naming the file, for damaged records.
-Kept read_kept(const std::filesystem::path& file);
+Archived read_archived(const std::filesystem::path& file);
 // Reads its first mesh alone; throws as read_kept() does.
-DrawnMesh read_kept_mesh(const std::filesystem::path& file);
+DrawnMesh read_archived_mesh(const std::filesystem::path& file);
 
 // Returns the file of a run's or a recorded folder: that of all frames, else that of the sheet; "" if there
 // is none.
-std::filesystem::path kept_file_in(const std::filesystem::path& folder);
+std::filesystem::path archived_file_in(const std::filesystem::path& folder);
 
 }  // namespace hysteron::experiments

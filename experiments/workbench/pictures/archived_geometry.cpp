@@ -1,4 +1,4 @@
-#include "experiments/workbench/pictures/kept_geometry.h"
+#include "experiments/workbench/pictures/archived_geometry.h"
 
 #include <algorithm>
 #include <cmath>
@@ -27,10 +27,10 @@ std::vector<float> all_values(const std::vector<int>& steps, double quantum) {
 }
 
 // Removes the next record from the text and returns it; nothing if it is not complete.
-std::optional<KeptRecord> next_record(std::string_view& text) {
+std::optional<ArchivedRecord> next_record(std::string_view& text) {
   const std::size_t end = text.substr(0, kMaxHead).find('\n');
   if (end == text.npos) return {};
-  KeptRecord record{parsed_json(text.substr(0, end)), {}};
+  ArchivedRecord record{parsed_json(text.substr(0, end)), {}};
   if (!record.head.is_object()) throw Error::invalid_input("a record is no JSON");
   std::size_t at = end + 1;
   for (const Json& size : record.head.value("bytes", Json::array())) {
@@ -43,12 +43,12 @@ std::optional<KeptRecord> next_record(std::string_view& text) {
   return record;
 }
 
-const std::string& block(const KeptRecord& record, std::size_t i) {
+const std::string& block(const ArchivedRecord& record, std::size_t i) {
   if (i >= record.blocks.size()) throw Error::invalid_input("a record lacks a block");
   return record.blocks[i];
 }
 
-DrawnMesh record_mesh(const KeptRecord& record) {
+DrawnMesh record_mesh(const ArchivedRecord& record) {
   DrawnMesh mesh;
   mesh.vertices = record.head.at("vertices");
   mesh.quantum = record.head.at("quantum");
@@ -59,8 +59,8 @@ DrawnMesh record_mesh(const KeptRecord& record) {
   return mesh;
 }
 
-KeptCloth kept_cloth(const KeptRecord& record, std::size_t meshes) {
-  KeptCloth cloth;
+ArchivedCloth archived_cloth(const ArchivedRecord& record, std::size_t meshes) {
+  ArchivedCloth cloth;
   cloth.name = record.head.at("name");
   cloth.mesh = record.head.at("mesh");
   if (cloth.mesh >= meshes) throw Error::invalid_input("a record names a mesh that is not there");
@@ -73,8 +73,8 @@ KeptCloth kept_cloth(const KeptRecord& record, std::size_t meshes) {
   return cloth;
 }
 
-KeptBody kept_body(const KeptRecord& record) {
-  KeptBody body;
+ArchivedBody archived_body(const ArchivedRecord& record) {
+  ArchivedBody body;
   body.obstacle = record.head.at("obstacle");
   body.closed = record.head.at("closed");
   body.mesh.vertices = record.head.at("vertices");
@@ -93,20 +93,20 @@ struct Packers {
 };
 
 // Reads the bodies that change their shape, behind the values, from block `next` on.
-void read_bodies(const KeptRecord& record, std::size_t next, const KeptCloth& cloth, const Packers& packers,
-                 KeptState& instant) {
+void read_bodies(const ArchivedRecord& record, std::size_t next, const ArchivedCloth& cloth,
+                 const Packers& packers, ArchivedState& instant) {
   for (const Json& number : record.head.value("bodies", Json::array())) {
     const auto obstacle = number.get<std::size_t>();
-    const auto body = std::ranges::find(cloth.bodies, obstacle, &KeptBody::obstacle);
+    const auto body = std::ranges::find(cloth.bodies, obstacle, &ArchivedBody::obstacle);
     if (body == cloth.bodies.end()) throw Error::invalid_input("an instant names a body that is not there");
     const MeshPacker& packer = packers.bodies[static_cast<std::size_t>(body - cloth.bodies.begin())];
     instant.bodies[obstacle] = all_values(packer.unpacked(block(record, next++), 3), body->mesh.quantum);
   }
 }
 
-KeptState instant_state(const KeptRecord& record, const DrawnMesh& mesh, const KeptCloth& cloth,
-                        const Packers& packers) {
-  KeptState instant;
+ArchivedState instant_state(const ArchivedRecord& record, const DrawnMesh& mesh, const ArchivedCloth& cloth,
+                            const Packers& packers) {
+  ArchivedState instant;
   instant.time = record.head.at("time");
   instant.loop = record.head.at("loop");
   instant.xyz = all_values(packers.cloth->unpacked(block(record, 0), 3), mesh.quantum);
@@ -117,26 +117,26 @@ KeptState instant_state(const KeptRecord& record, const DrawnMesh& mesh, const K
   return instant;
 }
 
-Kept kept_contents(const std::vector<KeptRecord>& records) {
-  Kept kept;
+Archived archived_contents(const std::vector<ArchivedRecord>& records) {
+  Archived kept;
   std::vector<MeshPacker> packers;
   Packers of_cloth;
-  for (const KeptRecord& record : records) {
+  for (const ArchivedRecord& record : records) {
     const std::string kind = record.kind();
     if (kind == "mesh") {
       kept.meshes.push_back(record_mesh(record));
       packers.emplace_back(kept.meshes.back().vertices, kept.meshes.back().triangles);
     } else if (kind == "cloth") {
-      kept.cloths.push_back(kept_cloth(record, kept.meshes.size()));
+      kept.cloths.push_back(archived_cloth(record, kept.meshes.size()));
       of_cloth = {nullptr, {}};
     } else if (kind == "body") {
       if (kept.cloths.empty()) throw Error::invalid_input("a body stands before its cloth");
-      kept.cloths.back().bodies.push_back(kept_body(record));
+      kept.cloths.back().bodies.push_back(archived_body(record));
       const DrawnMesh& mesh = kept.cloths.back().bodies.back().mesh;
       of_cloth.bodies.emplace_back(mesh.vertices, mesh.triangles);
     } else if (kind == "instant") {
       if (kept.cloths.empty()) throw Error::invalid_input("an instant stands before its cloth");
-      KeptCloth& cloth = kept.cloths.back();
+      ArchivedCloth& cloth = kept.cloths.back();
       of_cloth.cloth = &packers[cloth.mesh];
       cloth.instants.push_back(instant_state(record, kept.meshes[cloth.mesh], cloth, of_cloth));
     } else if (kind == "sheet") {
@@ -162,7 +162,7 @@ std::vector<float> rounded(std::span<const float> values, double quantum, std::s
   return result;
 }
 
-KeptRecord mesh_record(const DrawnMesh& mesh) {
+ArchivedRecord mesh_record(const DrawnMesh& mesh) {
   const MeshPacker packer(mesh.vertices, mesh.triangles);
   return {{{"record", "mesh"},
            {"format", kFormat},
@@ -173,7 +173,7 @@ KeptRecord mesh_record(const DrawnMesh& mesh) {
            mesh.pattern.empty() ? "" : packer.packed(all_steps(mesh.pattern, mesh.quantum), 2)}};
 }
 
-KeptRecord cloth_record(const KeptCloth& cloth) {
+ArchivedRecord cloth_record(const ArchivedCloth& cloth) {
   const std::string setup = cloth.setup.dump();
   const Eigen::Vector3f &low = cloth.bounds.low, &high = cloth.bounds.high;
   return {{{"record", "cloth"},
@@ -185,7 +185,7 @@ KeptRecord cloth_record(const KeptCloth& cloth) {
           {deflated(setup)}};
 }
 
-KeptRecord body_record(const KeptBody& body) {
+ArchivedRecord body_record(const ArchivedBody& body) {
   const DrawnMesh& mesh = body.mesh;
   return {{{"record", "body"},
            {"obstacle", body.obstacle},
@@ -199,15 +199,15 @@ KeptRecord body_record(const KeptBody& body) {
                : MeshPacker(mesh.vertices, mesh.triangles).packed(all_steps(body.xyz, mesh.quantum), 3)}};
 }
 
-void add_body(KeptRecord& instant, const KeptBody& body, const MeshPacker& packer,
+void add_body(ArchivedRecord& instant, const ArchivedBody& body, const MeshPacker& packer,
               const std::vector<float>& xyz) {
   instant.head["bodies"].push_back(body.obstacle);
   instant.blocks.push_back(packer.packed(all_steps(xyz, body.mesh.quantum), 3));
 }
 
-KeptRecord instant_record(const DrawnMesh& mesh, const MeshPacker& packer, const KeptState& instant,
-                          const std::map<std::string, double>& quanta) {
-  KeptRecord record{
+ArchivedRecord instant_record(const DrawnMesh& mesh, const MeshPacker& packer, const ArchivedState& instant,
+                              const std::map<std::string, double>& quanta) {
+  ArchivedRecord record{
       {{"record", "instant"}, {"time", instant.time}, {"loop", instant.loop}, {"values", Json::object()}},
       {packer.packed(all_steps(instant.xyz, mesh.quantum), 3)}};
   for (const auto& [look, values] : instant.values) {
@@ -217,7 +217,7 @@ KeptRecord instant_record(const DrawnMesh& mesh, const MeshPacker& packer, const
   return record;
 }
 
-std::string record_text(const KeptRecord& record) {
+std::string record_text(const ArchivedRecord& record) {
   Json head = record.head;
   head["bytes"] = Json::array();
   for (const std::string& block : record.blocks) head["bytes"].push_back(block.size());
@@ -226,10 +226,10 @@ std::string record_text(const KeptRecord& record) {
   return text;
 }
 
-std::vector<KeptRecord> read_records(const fs::path& file) {
+std::vector<ArchivedRecord> read_records(const fs::path& file) {
   const std::string bytes = whole_file(file, "cannot read " + file.string());
   std::string_view text = bytes;
-  std::vector<KeptRecord> records;
+  std::vector<ArchivedRecord> records;
   try {
     while (auto record = next_record(text)) records.push_back(std::move(*record));
   } catch (const std::exception& e) {
@@ -240,20 +240,20 @@ std::vector<KeptRecord> read_records(const fs::path& file) {
   return records;
 }
 
-Kept read_kept(const fs::path& file) {
-  const std::vector<KeptRecord> records = read_records(file);
+Archived read_archived(const fs::path& file) {
+  const std::vector<ArchivedRecord> records = read_records(file);
   try {
-    return kept_contents(records);
+    return archived_contents(records);
   } catch (const std::exception& e) {
     throw Error::invalid_input(file.string() + ": " + e.what());
   }
 }
 
-DrawnMesh read_kept_mesh(const fs::path& file) {
-  const std::vector<KeptRecord> records = read_records(file);
+DrawnMesh read_archived_mesh(const fs::path& file) {
+  const std::vector<ArchivedRecord> records = read_records(file);
   try {
     const auto mesh =
-        std::ranges::find_if(records, [](const KeptRecord& record) { return record.kind() == "mesh"; });
+        std::ranges::find_if(records, [](const ArchivedRecord& record) { return record.kind() == "mesh"; });
     if (mesh == records.end()) throw Error::invalid_input("no record is a mesh");
     return record_mesh(*mesh);
   } catch (const std::exception& e) {
@@ -261,9 +261,9 @@ DrawnMesh read_kept_mesh(const fs::path& file) {
   }
 }
 
-fs::path kept_file_in(const fs::path& folder) {
+fs::path archived_file_in(const fs::path& folder) {
   std::error_code ignored;
-  for (const char* name : {kKeptFrames, kKeptSheet})
+  for (const char* name : {kArchivedFrames, kArchivedSheet})
     if (fs::exists(folder / name, ignored)) return folder / name;
   return {};
 }

@@ -1,4 +1,4 @@
-#include "experiments/workbench/pages/error_words.h"
+#include "experiments/workbench/pages/error_notes.h"
 
 #include <fmt/core.h>
 

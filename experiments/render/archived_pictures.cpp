@@ -1,4 +1,4 @@
-#include "experiments/render/kept_pictures.h"
+#include "experiments/render/archived_pictures.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,10 +6,10 @@
 
 #include "experiments/render/part_relief.h"
 #include "experiments/workbench/app/run.h"
+#include "experiments/workbench/compare/archived_page.h"
 #include "experiments/workbench/compare/film.h"
-#include "experiments/workbench/compare/kept_page.h"
 #include "experiments/workbench/pages/report.h"
-#include "experiments/workbench/pictures/kept_frames.h"
+#include "experiments/workbench/pictures/archived_frames.h"
 #include "experiments/workbench/pictures/pictures.h"
 #include "sim/base/atomic_file.h"
 #include "sim/base/comma_list.h"
@@ -65,10 +65,10 @@ render::Path loop_until(const Json& sheet, std::size_t points) {
 }
 
 // Draws every instant, then the sheet as its record describes it, if there is one.
-void draw_instants(Run& run, const Setup& setup, const DrawnMesh& mesh, const KeptCloth& cloth,
+void draw_instants(Run& run, const Setup& setup, const DrawnMesh& mesh, const ArchivedCloth& cloth,
                    const Json& sheet, const std::string& title) {
-  auto subject = std::make_unique<KeptSubject>(mesh, cloth.instants);
-  KeptSubject& shown = *subject;
+  auto subject = std::make_unique<ArchivedSource>(mesh, cloth.instants);
+  ArchivedSource& shown = *subject;
   Pictures pictures(setup, std::move(subject), cloth.bounds, cloth.floor);
   for (std::size_t i = 0; i < cloth.instants.size(); ++i) {
     shown.go_to(i);
@@ -78,20 +78,20 @@ void draw_instants(Run& run, const Setup& setup, const DrawnMesh& mesh, const Ke
   pictures.finish(run, title);
 }
 
-Json keys_of_kept(const fs::path& file, const KeptCloth& cloth) {
+Json keys_of_archived(const fs::path& file, const ArchivedCloth& cloth) {
   return {{"kept", file.string()}, {"scene", cloth.setup.at("scene")}};
 }
 
-void draw_run(const CommandLine& line, const fs::path& file, const Kept& kept) {
+void draw_run(const CommandLine& line, const fs::path& file, const Archived& kept) {
   if (const std::string film = last_text(line.flags, kFilm, "none"); film != "none")
     throw Error::invalid_input(std::string(kFilm) + " = " + film + " is of comparisons, and " +
                                file.string() + " is of one run (--" + kFilm + ")")
         .with_key(kFilm, film);
-  const KeptCloth& cloth = kept.cloths.at(0);
-  Setup setup = kept_setup(cloth, file.string());
+  const ArchivedCloth& cloth = kept.cloths.at(0);
+  Setup setup = archived_setup(cloth, file.string());
   apply_flags(line, setup.options);
   require_range_is_used(line, setup.options.looks());
-  Run run(line, setup.options, keys_of_kept(file, cloth));
+  Run run(line, setup.options, keys_of_archived(file, cloth));
   if (!kept.sheet.is_object())
     run.warn(file.string() + " ends after " + std::to_string(cloth.instants.size()) +
              " instants and without the sheet that a whole run writes last: what is drawn is the part of an "
@@ -112,27 +112,27 @@ std::string page_looks(const ComparisonPage& page, const std::string& requested,
 }
 
 // Returns the looks of all columns.
-std::vector<std::string> shown_looks(const CommandLine& line, const fs::path& file, const Kept& kept,
+std::vector<std::string> shown_looks(const CommandLine& line, const fs::path& file, const Archived& kept,
                                      const ComparisonPage& page) {
   std::vector<std::string> all;
-  for (const KeptCloth& cloth : kept.cloths) {
-    const std::string recorded = kept_setup(cloth, file.string()).options.look;
+  for (const ArchivedCloth& cloth : kept.cloths) {
+    const std::string recorded = archived_setup(cloth, file.string()).options.look;
     for (const std::string& look : split(page_looks(page, last_text(line.flags, "look", ""), recorded)))
       if (!std::ranges::count(all, look)) all.push_back(look);
   }
   return all;
 }
 
-ChildRun draw_column(const CommandLine& line, const fs::path& file, const Kept& kept, const KeptCloth& cloth,
-                     const ComparisonPage& page, const fs::path& out) {
-  Setup setup = kept_setup(cloth, file.string());
+ChildRun draw_column(const CommandLine& line, const fs::path& file, const Archived& kept,
+                     const ArchivedCloth& cloth, const ComparisonPage& page, const fs::path& out) {
+  Setup setup = archived_setup(cloth, file.string());
   const std::string recorded = setup.options.look;
   apply_flags(line, setup.options);
   setup.options.out = (out / cloth.name).string();
   setup.options.look = page_looks(page, last_text(line.flags, "look", ""), recorded);
   setup.options.plain = true;  // the page adds the text
   setup.options.json = false;
-  Run run(line, setup.options, keys_of_kept(file, cloth));
+  Run run(line, setup.options, keys_of_archived(file, cloth));
   draw_instants(run, setup, kept.meshes.at(cloth.mesh), cloth, {}, cloth.name);
   if (cloth.setup.contains("probes"))
     write_text(run.path("probes.csv"), cloth.setup.at("probes").get<std::string>());
@@ -154,16 +154,16 @@ void take_films(const CommandLine& line, ComparisonPage& page) {
 }
 
 // Replaces the sheet's instants by all instants, which a film shows and the columns' own folders keep.
-void take_all_instants(const fs::path& file, Kept& kept) {
-  for (KeptCloth& cloth : kept.cloths) {
-    const fs::path frames = file.parent_path() / cloth.name / kKeptFrames;
+void take_all_instants(const fs::path& file, Archived& kept) {
+  for (ArchivedCloth& cloth : kept.cloths) {
+    const fs::path frames = file.parent_path() / cloth.name / kArchivedFrames;
     std::error_code ignored;
     if (!fs::exists(frames, ignored))
       throw Error::invalid_input(std::string(kFilm) + " needs all instants, and " + file.string() +
                                  " keeps those of the sheet: there is no " + frames.string() + " (--" +
                                  kFilm + ")")
           .with_key(kFilm, "");
-    Kept column = read_kept(frames);
+    Archived column = read_archived(frames);
     const DrawnMesh &own = column.meshes.at(0), &shown = kept.meshes.at(cloth.mesh);
     if (own.triangles != shown.triangles || own.quantum != shown.quantum)
       throw Error::invalid_input(frames.string() + " is of another mesh than " + file.string());
@@ -171,8 +171,8 @@ void take_all_instants(const fs::path& file, Kept& kept) {
   }
 }
 
-void draw_comparison(const CommandLine& line, const fs::path& file, Kept kept) {
-  ComparisonPage page = kept_comparison_page(kept.sheet);
+void draw_comparison(const CommandLine& line, const fs::path& file, Archived kept) {
+  ComparisonPage page = archived_comparison_page(kept.sheet);
   page.title = last_text(line.flags, kTitle, page.title);
   take_films(line, page);
   if (!page.films.empty()) take_all_instants(file, kept);
@@ -182,7 +182,7 @@ void draw_comparison(const CommandLine& line, const fs::path& file, Kept kept) {
   page.look = last_text(line.flags, "look", page.look);
   Run run(line, options, {{"kept", file.string()}});
   std::vector<ChildRun> columns;
-  for (const KeptCloth& cloth : kept.cloths) {
+  for (const ArchivedCloth& cloth : kept.cloths) {
     run.progress(cloth.name + ": " + std::to_string(cloth.instants.size()) + " instants");
     columns.push_back(draw_column(line, file, kept, cloth, page, run.folder()));
   }
@@ -192,19 +192,19 @@ void draw_comparison(const CommandLine& line, const fs::path& file, Kept kept) {
 
 }  // namespace
 
-fs::path kept_geometry_file(const CommandLine& line) {
+fs::path archived_geometry_file(const CommandLine& line) {
   if (line.positionals.size() != 1) return {};
   const fs::path name = line.positionals[0];
   if (name.extension() == ".hyg") return name;
-  return holds_meshes(name / "mesh") ? fs::path() : kept_file_in(name);
+  return holds_meshes(name / "mesh") ? fs::path() : archived_file_in(name);
 }
 
-void draw_kept(const CommandLine& line, const fs::path& file) {
-  const Kept kept = read_kept(file);
+void draw_archived(const CommandLine& line, const fs::path& file) {
+  const Archived kept = read_archived(file);
   if (kept.cloths.empty()) throw Error::invalid_input(file.string() + " keeps no cloth");
   try {
     if (const std::string part = last_text(line.flags, "render.part", ""); !part.empty()) {
-      Setup setup = kept_setup(kept.cloths.front(), file.string());
+      Setup setup = archived_setup(kept.cloths.front(), file.string());
       apply_flags(line, setup.options);
       return draw_part_relief(line, file, kept, setup, part);
     }

@@ -1,10 +1,10 @@
-#include "experiments/workbench/compare/kept_page.h"
+#include "experiments/workbench/compare/archived_page.h"
 
 #include <algorithm>
 
 #include "experiments/workbench/app/json_file.h"
 #include "experiments/workbench/app/manifest_file.h"
-#include "experiments/workbench/pictures/kept_frames.h"
+#include "experiments/workbench/pictures/archived_frames.h"
 #include "sim/base/whole_file.h"
 
 namespace hysteron::experiments {
@@ -19,7 +19,7 @@ Json page_manifest(const Manifest& manifest) {
   return json;
 }
 
-KeptRecord with_column(KeptRecord record, const ChildRun& column, std::size_t mesh) {
+ArchivedRecord with_column(ArchivedRecord record, const ChildRun& column, std::size_t mesh) {
   Json setup = parsed_json(inflated(record.blocks.at(0), record.head.at("setup_bytes")));
   setup["manifest"] = page_manifest(*column.manifest);
   setup["stopped"] = column.stopped;
@@ -35,7 +35,8 @@ KeptRecord with_column(KeptRecord record, const ChildRun& column, std::size_t me
 }
 
 // Returns the index of the mesh among those already written; a new one is appended.
-std::size_t mesh_index(const KeptRecord& mesh, std::vector<KeptRecord>& known, std::vector<KeptRecord>& all) {
+std::size_t mesh_index(const ArchivedRecord& mesh, std::vector<ArchivedRecord>& known,
+                       std::vector<ArchivedRecord>& all) {
   for (std::size_t i = 0; i < known.size(); ++i)
     if (known[i].head == mesh.head && known[i].blocks == mesh.blocks) return i;
   known.push_back(mesh);
@@ -54,12 +55,12 @@ Json page_json(const ComparisonPage& page) {
 
 void keep_page(Run& run, const ComparisonPage& page, const std::vector<ChildRun>& columns,
                const std::vector<std::vector<int>>& frames) {
-  std::vector<KeptRecord> meshes, all;
+  std::vector<ArchivedRecord> meshes, all;
   for (std::size_t c = 0; c < columns.size(); ++c) {
     std::error_code ignored;
-    if (frames[c].empty() || !fs::exists(columns[c].folder / kKeptFrames, ignored)) continue;
+    if (frames[c].empty() || !fs::exists(columns[c].folder / kArchivedFrames, ignored)) continue;
     std::size_t mesh = 0;
-    for (const KeptRecord& record : chosen_records(columns[c].folder / kKeptFrames, frames[c])) {
+    for (const ArchivedRecord& record : chosen_records(columns[c].folder / kArchivedFrames, frames[c])) {
       if (record.kind() == "mesh")
         mesh = mesh_index(record, meshes, all);
       else
@@ -68,12 +69,12 @@ void keep_page(Run& run, const ComparisonPage& page, const std::vector<ChildRun>
   }
   if (all.empty()) return;
   all.push_back({{{"record", "sheet"}, {"page", page_json(page)}}, {}});
-  write_records(run.path(kKeptSheet), all);
+  write_records(run.path(kArchivedSheet), all);
 }
 
 bool is_page(const Json& sheet) { return sheet.is_object() && sheet.contains("page"); }
 
-ComparisonPage kept_comparison_page(const Json& sheet) {
+ComparisonPage archived_comparison_page(const Json& sheet) {
   const Json& json = sheet.at("page");
   ComparisonPage page;
   page.title = json.at("title");
@@ -90,7 +91,8 @@ ComparisonPage kept_comparison_page(const Json& sheet) {
   return page;
 }
 
-ChildRun redrawn_column(const KeptCloth& cloth, const fs::path& folder, const std::optional<Frames>& frames) {
+ChildRun redrawn_column(const ArchivedCloth& cloth, const fs::path& folder,
+                        const std::optional<Frames>& frames) {
   ChildRun column{cloth.name, {}, folder};
   column.stopped = cloth.setup.at("stopped");
   Json json = cloth.setup.at("manifest");

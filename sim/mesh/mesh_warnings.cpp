@@ -19,9 +19,9 @@ std::string counted(int n, const char* one, const char* several) {
   return std::to_string(n) + " " + (n == 1 ? one : several);
 }
 
-class Doubts {
+class Warnings {
  public:
-  Doubts(const ClothMesh& mesh, const MeshNames& names) : mesh_(mesh), names_(names) {
+  Warnings(const ClothMesh& mesh, const MeshNames& names) : mesh_(mesh), names_(names) {
     double length = 0;
     std::vector<char> seen(mesh.rest.size(), 0);
     for (std::size_t e = 0; e < mesh.edge.size(); ++e) {
@@ -137,8 +137,8 @@ class Doubts {
 
 }  // namespace
 
-std::vector<std::string> mesh_doubts(const ClothMesh& mesh, const MeshNames& names) {
-  return Doubts(mesh, names).all();
+std::vector<std::string> mesh_warnings(const ClothMesh& mesh, const MeshNames& names) {
+  return Warnings(mesh, names).all();
 }
 
 }  // namespace hysteron

@@ -1,4 +1,4 @@
-#include "experiments/workbench/pictures/kept_frames.h"
+#include "experiments/workbench/pictures/archived_frames.h"
 
 #include <fstream>
 #include <set>
@@ -49,12 +49,12 @@ void append(const fs::path& file, std::ios::openmode mode, const std::string& te
   if (!stream.flush()) throw Error::system("cannot write " + file.string());
 }
 
-std::vector<KeptBody> kept_bodies(const std::vector<Obstacle>& obstacles, double cloth_quantum) {
-  std::vector<KeptBody> bodies;
+std::vector<ArchivedBody> archived_bodies(const std::vector<Obstacle>& obstacles, double cloth_quantum) {
+  std::vector<ArchivedBody> bodies;
   for (std::size_t i = 0; i < obstacles.size(); ++i) {
     const Obstacle& o = obstacles[i];
     if (!is_body(o) || !o.visible || !o.mesh) continue;
-    KeptBody body{i, {}, o.mesh->closed, {}};
+    ArchivedBody body{i, {}, o.mesh->closed, {}};
     body.mesh.vertices = static_cast<std::size_t>(o.mesh->vertices());
     body.mesh.triangles = flat_triangles(o.mesh->face);
     body.mesh.quantum = body_quantum(o, cloth_quantum);
@@ -65,7 +65,8 @@ std::vector<KeptBody> kept_bodies(const std::vector<Obstacle>& obstacles, double
 }
 
 // Returns the body with its kept positions: at the instants, or once for all.
-std::shared_ptr<const BodyMesh> body_mesh(const KeptBody& body, const std::vector<KeptState>& instants) {
+std::shared_ptr<const BodyMesh> body_mesh(const ArchivedBody& body,
+                                          const std::vector<ArchivedState>& instants) {
   auto mesh = std::make_shared<BodyMesh>();
   mesh->closed = body.closed;
   for (std::size_t t = 0; t + 2 < body.mesh.triangles.size(); t += 3)
@@ -78,7 +79,7 @@ std::shared_ptr<const BodyMesh> body_mesh(const KeptBody& body, const std::vecto
     add(body.xyz);
     return mesh;
   }
-  for (const KeptState& instant : instants) {
+  for (const ArchivedState& instant : instants) {
     const auto found = instant.bodies.find(body.obstacle);
     if (found == instant.bodies.end() || (!mesh->time.empty() && !(instant.time > mesh->time.back())))
       continue;
@@ -90,27 +91,28 @@ std::shared_ptr<const BodyMesh> body_mesh(const KeptBody& body, const std::vecto
 
 }  // namespace
 
-KeptFrames::KeptFrames(const Setup& setup, const DrawnMesh& mesh, const render::Box& bounds,
-                       std::optional<float> floor)
+ArchivedFrames::ArchivedFrames(const Setup& setup, const DrawnMesh& mesh, const render::Box& bounds,
+                               std::optional<float> floor)
     : mesh_(mesh),
       packer_(mesh.vertices, mesh.triangles),
-      cloth_{"", 0, setup_json(setup), bounds, floor, {}, kept_bodies(setup.scene.obstacle, mesh.quantum)},
+      cloth_{
+          "", 0, setup_json(setup), bounds, floor, {}, archived_bodies(setup.scene.obstacle, mesh.quantum)},
       obstacles_(setup.scene.obstacle),
       quanta_(storage_quanta(setup)) {
-  for (const KeptBody& body : cloth_.bodies)
+  for (const ArchivedBody& body : cloth_.bodies)
     body_packers_.emplace_back(body.mesh.vertices, body.mesh.triangles);
 }
 
-void KeptFrames::add(const fs::path& file, KeptState instant) {
+void ArchivedFrames::add(const fs::path& file, ArchivedState instant) {
   if (!has_begun_) {
     std::string head = record_text(mesh_record(mesh_)) + record_text(cloth_record(cloth_));
-    for (const KeptBody& body : cloth_.bodies) head += record_text(body_record(body));
+    for (const ArchivedBody& body : cloth_.bodies) head += record_text(body_record(body));
     append(file, std::ios::trunc, head);
   }
   has_begun_ = true;
-  KeptRecord record = instant_record(mesh_, packer_, instant, quanta_);
+  ArchivedRecord record = instant_record(mesh_, packer_, instant, quanta_);
   for (std::size_t b = 0; b < cloth_.bodies.size(); ++b) {
-    const KeptBody& body = cloth_.bodies[b];
+    const ArchivedBody& body = cloth_.bodies[b];
     if (body.xyz.empty())
       add_body(record, body, body_packers_[b],
                drawn_body(obstacles_[body.obstacle], instant.time, body.mesh.quantum));
@@ -118,21 +120,21 @@ void KeptFrames::add(const fs::path& file, KeptState instant) {
   append(file, std::ios::app, record_text(record));
 }
 
-void KeptFrames::end(const fs::path& file, const KeptRecord& sheet) {
+void ArchivedFrames::end(const fs::path& file, const ArchivedRecord& sheet) {
   append(file, std::ios::app, record_text(sheet));
 }
 
-void KeptFrames::continue_file(const fs::path& file, std::size_t instants) {
+void ArchivedFrames::continue_file(const fs::path& file, std::size_t instants) {
   std::vector<int> all(instants);
   for (std::size_t i = 0; i < instants; ++i) all[i] = static_cast<int>(i);
   write_records(file, chosen_records(file, all));
   has_begun_ = true;
 }
 
-std::vector<KeptRecord> chosen_records(const fs::path& frames, const std::vector<int>& instants) {
-  const std::vector<KeptRecord> all = read_records(frames);
-  std::vector<KeptRecord> head, found;
-  for (const KeptRecord& record : all) {
+std::vector<ArchivedRecord> chosen_records(const fs::path& frames, const std::vector<int>& instants) {
+  const std::vector<ArchivedRecord> all = read_records(frames);
+  std::vector<ArchivedRecord> head, found;
+  for (const ArchivedRecord& record : all) {
     if (record.kind() == "instant")
       found.push_back(record);
     else if (record.kind() != "sheet")
@@ -146,18 +148,18 @@ std::vector<KeptRecord> chosen_records(const fs::path& frames, const std::vector
   return head;
 }
 
-void write_records(const fs::path& file, const std::vector<KeptRecord>& records) {
+void write_records(const fs::path& file, const std::vector<ArchivedRecord>& records) {
   std::string text;
-  for (const KeptRecord& record : records) text += record_text(record);
+  for (const ArchivedRecord& record : records) text += record_text(record);
   write_text(file, text);
 }
 
-Setup kept_setup(const KeptCloth& cloth, const std::string& file) {
+Setup archived_setup(const ArchivedCloth& cloth, const std::string& file) {
   Setup setup{default_scene(), {}};
   Json keys = cloth.setup.at("scene");
   keys.merge_patch(cloth.setup.at("options"));
   apply_recorded_scene(setup.scene, std::move(keys), file, bind_options(setup.options));
-  for (const KeptBody& body : cloth.bodies)
+  for (const ArchivedBody& body : cloth.bodies)
     if (body.obstacle < setup.scene.obstacle.size())
       setup.scene.obstacle[body.obstacle].mesh = body_mesh(body, cloth.instants);
   return setup;

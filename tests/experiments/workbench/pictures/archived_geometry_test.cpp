@@ -1,5 +1,5 @@
 // The geometry from which pictures are drawn is packed and unpacked here.
-#include "experiments/workbench/pictures/kept_geometry.h"
+#include "experiments/workbench/pictures/archived_geometry.h"
 
 #include <cmath>
 #include <fstream>
@@ -40,7 +40,7 @@ std::vector<int> steps(const std::vector<float>& values) {
   return all;
 }
 
-TEST(KeptGeometry, NumbersComeBackAsTheyWere) {
+TEST(ArchivedGeometry, NumbersComeBackAsTheyWere) {
   const DrawnMesh mesh = grid();
   const MeshPacker packer(mesh.vertices, mesh.triangles);
   const std::vector<int> values = steps(wave());
@@ -52,20 +52,20 @@ TEST(KeptGeometry, NumbersComeBackAsTheyWere) {
   EXPECT_EQ(packer.unpacked(packer.packed(extreme, 1), 1), extreme);
 }
 
-TEST(KeptGeometry, AVertexTakesLessThanFourBytes) {
+TEST(ArchivedGeometry, AVertexTakesLessThanFourBytes) {
   const DrawnMesh mesh = grid();
   const std::string packed = MeshPacker(mesh.vertices, mesh.triangles).packed(steps(wave()), 3);
   EXPECT_LT(static_cast<double>(packed.size()) / static_cast<double>(mesh.vertices), 4);
 }
 
-TEST(KeptGeometry, RoundingTwiceIsRoundingOnce) {
+TEST(ArchivedGeometry, RoundingTwiceIsRoundingOnce) {
   const std::vector<float> once = wave();
   EXPECT_EQ(rounded(once, kQuantum), once);
 }
 
 // The point moves to and fro by a fifth of a quantum about the middle between two multiples, then by more
 // than one.
-TEST(KeptGeometry, StaysWhereItWasUntilItMovesByMostOfAQuantum) {
+TEST(ArchivedGeometry, StaysWhereItWasUntilItMovesByMostOfAQuantum) {
   const auto at = [](double steps) { return std::vector<float>{static_cast<float>(steps * kQuantum)}; };
   std::vector<float> now = rounded(at(3.4), kQuantum);
   for (const double steps : {3.6, 3.4, 3.6, 3.7}) {
@@ -77,7 +77,7 @@ TEST(KeptGeometry, StaysWhereItWasUntilItMovesByMostOfAQuantum) {
   EXPECT_EQ(rounded(at(3.6), kQuantum, {}), at(4));
 }
 
-TEST(KeptGeometry, DamagedBytesAreRefused) {
+TEST(ArchivedGeometry, DamagedBytesAreRefused) {
   const DrawnMesh mesh = grid();
   const MeshPacker packer(mesh.vertices, mesh.triangles);
   const std::string good = packer.packed(steps(wave()), 3);
@@ -90,16 +90,16 @@ TEST(KeptGeometry, DamagedBytesAreRefused) {
 }
 
 // A file that was being written when its run was killed.
-TEST(KeptGeometry, AFileThatEndsWithinARecordHasAllBeforeIt) {
+TEST(ArchivedGeometry, AFileThatEndsWithinARecordHasAllBeforeIt) {
   const Folder folder;
   const DrawnMesh mesh = grid();
   const MeshPacker packer(mesh.vertices, mesh.triangles);
-  const KeptCloth cloth{"", 0, {{"scene", Json::object()}}, {{-1, -2, -3}, {1, 2, 3}}, -0.5f, {}};
+  const ArchivedCloth cloth{"", 0, {{"scene", Json::object()}}, {{-1, -2, -3}, {1, 2, 3}}, -0.5f, {}};
   std::string text = record_text(mesh_record(mesh)) + record_text(cloth_record(cloth));
   for (const double time : {0.0, 0.1})
     text += record_text(instant_record(mesh, packer, {time, wave(), {}, 0}, {}));
   std::ofstream(folder.path() / "frames.hyg", std::ios::binary) << text.substr(0, text.size() - 5);
-  const Kept kept = read_kept(folder.path() / "frames.hyg");
+  const Archived kept = read_archived(folder.path() / "frames.hyg");
   ASSERT_EQ(kept.cloths.size(), 1u);
   ASSERT_EQ(kept.cloths[0].instants.size(), 1u);
   EXPECT_EQ(kept.cloths[0].instants[0].xyz, wave());
@@ -107,11 +107,11 @@ TEST(KeptGeometry, AFileThatEndsWithinARecordHasAllBeforeIt) {
   EXPECT_EQ(kept.cloths[0].bounds.high.z(), 3);
 }
 
-TEST(KeptSubject, ShowsHeightsFromTheLowestToTheHighestPoint) {
+TEST(ArchivedSource, ShowsHeightsFromTheLowestToTheHighestPoint) {
   const DrawnMesh mesh{3, {0, 1, 2}, {}, 1e-3};
-  const std::vector<KeptState> instants = {{0, {0, 0, 2, 1, 0, 3, 0, 1, 4}, {}, 0},
-                                           {1, {0, 0, 1, 1, 0, 1, 0, 1, 1}, {}, 0}};
-  KeptSubject subject(mesh, instants);
+  const std::vector<ArchivedState> instants = {{0, {0, 0, 2, 1, 0, 3, 0, 1, 4}, {}, 0},
+                                               {1, {0, 0, 1, 1, 0, 1, 0, 1, 1}, {}, 0}};
+  ArchivedSource subject(mesh, instants);
   EXPECT_EQ(subject.values("height"), (std::vector<float>{0, 0.5f, 1}));
   subject.go_to(1);
   EXPECT_EQ(subject.values("height"), (std::vector<float>{0, 0, 0})) << "flat";

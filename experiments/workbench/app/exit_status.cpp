@@ -1,4 +1,4 @@
-#include "experiments/workbench/app/ending.h"
+#include "experiments/workbench/app/exit_status.h"
 
 #include <exception>
 #include <filesystem>

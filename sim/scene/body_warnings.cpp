@@ -49,7 +49,7 @@ std::vector<std::size_t> looked_at(const BodyMesh& body) {
   return frames;
 }
 
-std::string crossing_doubt(const BodyMesh& body) {
+std::string crossing_warning(const BodyMesh& body) {
   for (const std::size_t frame : looked_at(body)) {
     const auto pairs = intersecting_triangles(body.face, body.frames[frame]);
     if (pairs.empty()) continue;
@@ -62,7 +62,7 @@ std::string crossing_doubt(const BodyMesh& body) {
   return "";
 }
 
-std::string facing_doubt(const BodyMesh& body) {
+std::string facing_warning(const BodyMesh& body) {
   const double volume = body.closed ? signed_volume(body) : 0;
   if (!(volume < 0)) return "";
   return "has triangles that face inward (signed volume " + number_text(volume, 3) +
@@ -85,7 +85,7 @@ Jump farthest_way(const BodyMesh& body, std::size_t frame) {
   return jump;
 }
 
-std::string jump_doubt(const BodyMesh& body) {
+std::string jump_warning(const BodyMesh& body) {
   if (!body.moves()) return "";
   const double diagonal = box_of(body).diagonal().norm();
   std::vector<Jump> jumps;
@@ -106,7 +106,7 @@ std::string jump_doubt(const BodyMesh& body) {
 }
 
 // Names the files that a sequence lacks, by the gaps in their numbers.
-std::string numbering_doubt(const Obstacle& o) {
+std::string numbering_warning(const Obstacle& o) {
   if (o.sequence.empty() || names_a_point_cache(o.sequence)) return "";
   std::vector<std::string> words;
   for (const std::filesystem::path& file : files_like(o.sequence)) words.push_back(file.string());
@@ -129,16 +129,16 @@ std::string extent_text(const Eigen::Vector3d& size) {
 
 }  // namespace
 
-std::vector<std::string> body_doubts(const Scene& scene) {
-  std::vector<std::string> doubts;
+std::vector<std::string> body_warnings(const Scene& scene) {
+  std::vector<std::string> warnings;
   for (std::size_t i = 0; i < scene.obstacle.size(); ++i) {
     const Obstacle& o = scene.obstacle[i];
     if (!is_body(o) || !o.mesh) continue;
-    for (const std::string& doubt :
-         {crossing_doubt(*o.mesh), facing_doubt(*o.mesh), jump_doubt(*o.mesh), numbering_doubt(o)})
-      if (!doubt.empty()) doubts.push_back(named(o, i) + ", " + doubt);
+    for (const std::string& warning :
+         {crossing_warning(*o.mesh), facing_warning(*o.mesh), jump_warning(*o.mesh), numbering_warning(o)})
+      if (!warning.empty()) warnings.push_back(named(o, i) + ", " + warning);
   }
-  return doubts;
+  return warnings;
 }
 
 std::vector<std::string> body_lines(const Scene& scene) {

@@ -1,4 +1,4 @@
-#include "experiments/workbench/session/doubts.h"
+#include "experiments/workbench/session/run_warnings.h"
 
 #include <fmt/core.h>
 
@@ -182,19 +182,20 @@ std::string weft_friction_warning(const Fabric& fabric, const std::string& law) 
          " has no friction beside b2, and bends along weft as fabric.weft-bending says";
 }
 
-std::vector<std::string> doubts_at_start(const Scene& scene, const Cloth& cloth, Simulation& simulation) {
-  std::vector<std::string> doubts = fabric_warnings(scene);
+std::vector<std::string> warnings_at_start(const Scene& scene, const Cloth& cloth, Simulation& simulation) {
+  std::vector<std::string> warnings = fabric_warnings(scene);
   const std::vector<std::string> of_parameters = unused_parameter_warnings(
       scene.law, scene.fabric.virgin_curve(), scene.param, LawUse::cloth, scene.fabric.name);
-  doubts.insert(doubts.end(), of_parameters.begin(), of_parameters.end());
-  doubts.insert(doubts.end(), {locking_warning(scene, cloth.mesh), pressed_text(scene, cloth, simulation),
-                               command_warning(scene, cloth, simulation.dimension()), phases_warning(scene),
-                               facets_warning(scene, simulation), loose_newton_warning(scene),
-                               weft_friction_warning(scene.fabric, scene.law), partial_load_warning(scene)});
+  warnings.insert(warnings.end(), of_parameters.begin(), of_parameters.end());
+  warnings.insert(warnings.end(),
+                  {locking_warning(scene, cloth.mesh), pressed_text(scene, cloth, simulation),
+                   command_warning(scene, cloth, simulation.dimension()), phases_warning(scene),
+                   facets_warning(scene, simulation), loose_newton_warning(scene),
+                   weft_friction_warning(scene.fabric, scene.law), partial_load_warning(scene)});
   for (const std::vector<std::string>& more :
        {pin_warnings(scene, cloth), instant_warnings(scene), idle_key_warnings(scene)})
-    doubts.insert(doubts.end(), more.begin(), more.end());
-  return said(doubts);
+    warnings.insert(warnings.end(), more.begin(), more.end());
+  return said(warnings);
 }
 
 std::string triangle_count_warning(int asked, const std::string& origin, int triangles) {
@@ -205,8 +206,8 @@ std::string triangle_count_warning(int asked, const std::string& origin, int tri
       asked, origin, triangles);
 }
 
-std::vector<std::string> doubts_at_end(const Scene& scene, const Cloth& cloth,
-                                       const std::vector<Eigen::Vector3d>& x, double stretched) {
+std::vector<std::string> warnings_at_end(const Scene& scene, const Cloth& cloth,
+                                         const std::vector<Eigen::Vector3d>& x, double stretched) {
   return said({stretch_text(stretched), resolution_text(scene, cloth, x)});
 }
 

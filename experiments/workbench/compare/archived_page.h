@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "experiments/workbench/compare/comparison_page.h"
-#include "experiments/workbench/pictures/kept_geometry.h"
+#include "experiments/workbench/pictures/archived_geometry.h"
 
 namespace hysteron::experiments {
 
@@ -15,9 +15,9 @@ void keep_page(Run& run, const ComparisonPage& page, const std::vector<ChildRun>
 
 // `is_page` is true if `sheet` is that of a comparison; `kept_comparison_page` reads it.
 bool is_page(const Json& sheet);
-ComparisonPage kept_comparison_page(const Json& sheet);
+ComparisonPage archived_comparison_page(const Json& sheet);
 // Returns the column whose pictures were drawn again into that folder, described by `frames`.
-ChildRun redrawn_column(const KeptCloth& cloth, const std::filesystem::path& folder,
+ChildRun redrawn_column(const ArchivedCloth& cloth, const std::filesystem::path& folder,
                         const std::optional<Frames>& frames);
 
 }  // namespace hysteron::experiments

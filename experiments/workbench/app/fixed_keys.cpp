@@ -1,4 +1,4 @@
-#include "experiments/workbench/app/decided_keys.h"
+#include "experiments/workbench/app/fixed_keys.h"
 
 #include <nlohmann/json.hpp>
 

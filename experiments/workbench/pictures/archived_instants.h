@@ -12,7 +12,7 @@
 
 namespace hysteron::experiments {
 
-struct KeptInstant {
+struct ArchivedInstant {
   double time = 0;            // [s]
   std::vector<float> xyz;     // x, y, z of each vertex [m]
   std::vector<float> values;  // one per vertex, in looks that show a value
@@ -20,23 +20,23 @@ struct KeptInstant {
   render::Path loop;  // path of a probe up to here
 };
 
-class KeptInstants {
+class ArchivedInstants {
  public:
   // Adds an instant, and if there are too many drops the one nearest to its predecessor; the first and the
   // last stay.  Returns how far the vertices are from those of the instant added before, root mean square
   // [m].
-  double add(KeptInstant instant);
+  double add(ArchivedInstant instant);
   bool empty() const { return all_.empty(); }
-  const KeptInstant& last() const { return all_.back(); }
-  const std::vector<KeptInstant>& all() const { return all_; }
+  const ArchivedInstant& last() const { return all_.back(); }
+  const std::vector<ArchivedInstant>& all() const { return all_; }
   // Returns `count` of the instants up to a time [s], spread by displacement.
-  std::vector<KeptInstant> chosen(int count, double until = INFINITY) const;
+  std::vector<ArchivedInstant> chosen(int count, double until = INFINITY) const;
   void serialise(Archive& archive);
 
  private:
   static constexpr std::size_t kMax = 48;
 
-  std::vector<KeptInstant> all_;
+  std::vector<ArchivedInstant> all_;
   std::vector<double> moved_;  // displacement of each from its predecessor [m]
   std::vector<float> last_;    // vertices of the instant added before
 };

@@ -10,7 +10,7 @@ namespace hysteron::experiments {
 
 // Checks before the first step for a membrane that locks (sim/membrane/locking.h), and for layers or
 // obstacles that press already.
-std::vector<std::string> doubts_at_start(const Scene& scene, const Cloth& cloth, Simulation& simulation);
+std::vector<std::string> warnings_at_start(const Scene& scene, const Cloth& cloth, Simulation& simulation);
 
 // Warns if the law does not follow a friction of the fabric's own along weft; "" if it does, or there is
 // none.
@@ -22,8 +22,8 @@ std::string triangle_count_warning(int asked, const std::string& origin, int tri
 
 // Checks after the last step for cloth that stretched as none does (`stretched` is the largest principal
 // stretch minus 1), or went so far that the precision no longer resolves it.  `x` are its positions [m].
-std::vector<std::string> doubts_at_end(const Scene& scene, const Cloth& cloth,
-                                       const std::vector<Eigen::Vector3d>& x, double stretched);
+std::vector<std::string> warnings_at_end(const Scene& scene, const Cloth& cloth,
+                                         const std::vector<Eigen::Vector3d>& x, double stretched);
 
 // Warns if pictures and point caches, which hold floats in world coordinates, visibly round a start far from
 // the origin; "" otherwise.
