@@ -72,6 +72,17 @@ Image with_margin(const Image& source, int margin) {
   return result;
 }
 
+// Multiplies the part of `below` under `above`, whose upper left corner lies at x, y, by it, as ink on paper
+// does.
+void multiply(Image& below, const Image& above, int x, int y) {
+  for (int j = 0; j < above.height(); ++j)
+    for (int i = 0; i < above.width(); ++i)
+      for (int c = 0; c < 3; ++c) {
+        std::uint8_t& value = below.at(x + i, y + j)[c];
+        value = static_cast<std::uint8_t>(value * above.at(i, j)[c] / 255);
+      }
+}
+
 int inset_side(const Image& cell) {
   return std::max(1, static_cast<int>(kInsetFraction * std::min(cell.width(), 2 * cell.height())));
 }
@@ -250,8 +261,9 @@ class Drawing {
     const int side = inset_side(cell);
     Image plate(side, side, kPaper);
     draw_loop(plate, loop, Corner::bottom_right, 1 - 2 * kPlateEdge, page_.letters);
-    paste(cell, plate, static_cast<int>(std::lround(place.x * (cell.width() - side))),
-          static_cast<int>(std::lround(place.y * (cell.height() - side))));
+    // Its white is that of the page: a shadow goes on below it.
+    multiply(cell, plate, static_cast<int>(std::lround(place.x * (cell.width() - side))),
+             static_cast<int>(std::lround(place.y * (cell.height() - side))));
   }
 
   // Draws a scale bar with its length below; returns the right end of both.

@@ -176,6 +176,23 @@ TEST(ComparisonSheet, PutsInsetsWhereTheyHideNothing) {
   EXPECT_GT(color_extent(full, {0, 0, 220}).left, color_extent(full, {90, 91, 92}).right);
 }
 
+// A shadow goes on below an inset, whose white would cut it off.
+TEST(ComparisonSheet, DrawsInsetsOverShadows) {
+  ComparisonSheet sheet = sample_sheet(1, 1);
+  sheet.columns[0].cells[0].image = Image(400, 300, Rgb8{230, 230, 230});
+  sheet.columns[0].cells[0].loop = {.path = {{0, 50, 100}, {0, 2e-4, 3e-4}}, .color = {0, 0, 220}};
+  const Image page = draw_comparison(sheet);
+  const Extent cell = color_extent(page, {230, 230, 230});
+  int lighter = 0, loop = 0;
+  for (int y = cell.top; y <= cell.bottom; ++y)
+    for (int x = cell.left; x <= cell.right; ++x) {
+      lighter += page.at(x, y)[1] > 230;
+      loop += page.at(x, y)[2] > page.at(x, y)[0] + 100;
+    }
+  EXPECT_GT(loop, 40);
+  EXPECT_EQ(lighter, 0);
+}
+
 // Insets of narrow cells have no letters: once at the foot their axes have ticks with values and units.
 TEST(ComparisonSheet, SaysOnceWhatSmallInsetsAre) {
   ComparisonSheet sheet = sample_sheet(5, 2);
