@@ -48,7 +48,7 @@ NewtonOutcome ImplicitIntegrator<Real, Device>::attempt(double start, double h, 
   const bool yields =
       body_.self_contact && pins.are_blocked(body_, length) && pins.yield_to_cloth(body_, length);
   const NewtonOutcome outcome = solve(start, h, is_first_stage);
-  const bool fails = outcome.blocked || (is_last_resort && !outcome.converged);
+  const bool fails = outcome.end == NewtonEnd::blocked || (is_last_resort && !outcome.is_accepted());
   if (!fails || yields || !body_.self_contact || !pins.yield_to_cloth(body_, length)) return outcome;
   return solve(start, h, is_first_stage);
 }
@@ -60,7 +60,7 @@ NewtonOutcome ImplicitIntegrator<Real, Device>::solve(double start, double h, bo
   body_.clock.end(Stage::solve);
   body_.counts.newton += outcome.iterations;
   body_.counts.linear += outcome.linear_iterations;
-  body_.counts.unbalanced += outcome.unbalanced;
+  body_.counts.unbalanced += outcome.end == NewtonEnd::unbalanced;
   body_.counts.time_steps += outcome.time_steps;
   last_outcome_ = outcome;
   return outcome;
@@ -87,7 +87,7 @@ template <class Real, class Device>
 void ImplicitIntegrator<Real, Device>::take_interval(double start, double h, int halvings) {
   const NewtonOutcome outcome =
       attempt(start, first_stage(h), solver_.has_two_stages(), halvings == kMaxHalvings);
-  outcome.converged ? finish(start, h, halvings) : take_halves(start, h, halvings, outcome);
+  outcome.is_accepted() ? finish(start, h, halvings) : take_halves(start, h, halvings, outcome);
 }
 
 // Accepts the first stage and takes the rest of the way: each stage leaves a state from which steps can
@@ -99,15 +99,15 @@ void ImplicitIntegrator<Real, Device>::finish(double start, double h, int halvin
   ++body_.counts.parts;
   if (!solver_.has_two_stages()) return;
   const NewtonOutcome outcome = attempt(start + first, remainder, false, halvings == kMaxHalvings);
-  outcome.converged ? accept(start + first + remainder)
-                    : take_halves(start + first, remainder, halvings, outcome);
+  outcome.is_accepted() ? accept(start + first + remainder)
+                        : take_halves(start + first, remainder, halvings, outcome);
 }
 
 template <class Real, class Device>
 void ImplicitIntegrator<Real, Device>::take_halves(double start, double h, int halvings,
                                                    const NewtonOutcome& outcome) {
   const bool is_shortest = halvings == kMaxHalvings;
-  if (is_shortest && (outcome.blocked || !stiffen_parallel_edges()))
+  if (is_shortest && (outcome.end == NewtonEnd::blocked || !stiffen_parallel_edges()))
     throw_if_unbalanced(body_, solver_, start, h, outcome);
   ++body_.counts.retried;
   if (is_shortest) return take_interval(start, h, halvings);
@@ -134,9 +134,9 @@ void ImplicitIntegrator<Real, Device>::take_adaptive_step(double start, double w
   for (double now = start; end - now > least / 2;) {
     const double h = equal_part(end - now, part_);
     const NewtonOutcome outcome = attempt(now, first_stage(h), solver_.has_two_stages(), false);
-    const double error = outcome.converged ? solver_.local_error() : 1e30;
+    const double error = outcome.is_accepted() ? solver_.local_error() : 1e30;
     const double wanted = next_part(h, std::pow(tolerance_ / error, 1 / solver_.error_order()));
-    if (outcome.converged && error <= tolerance_) {
+    if (outcome.is_accepted() && error <= tolerance_) {
       finish(now, h, 0);
       now += h;
     } else if (wanted < least) {

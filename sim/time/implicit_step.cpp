@@ -95,7 +95,7 @@ NewtonOutcome ImplicitStep<Real, Device>::solve(double h, double fraction, bool 
   const PotentialValue begun = begin_at_best_guess(is_first_stage);
   if (!std::isfinite(begun.energy)) {  // the pins' motion is barred, or the state is not finite
     NewtonOutcome outcome;
-    outcome.blocked = potential_.has_self_contact() && !limit_guess_by_ccd();
+    if (potential_.has_self_contact() && !limit_guess_by_ccd()) outcome.end = NewtonEnd::blocked;
     return outcome;
   }
   const double beta_dt = static_ ? 1.0 : formula_.beta_dt;

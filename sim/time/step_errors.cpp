@@ -90,7 +90,7 @@ void throw_if_unbalanced(Body<Real, Device>& body, ImplicitStep<Real, Device>& s
                          const NewtonOutcome& outcome) {
   std::string message = "no equilibrium of the step " + at_time(start) + "was found, even in parts of " +
                         number_text(h, 6) + " s: ";
-  if (outcome.blocked) {
+  if (outcome.end == NewtonEnd::blocked) {
     message += "every motion leads the cloth through itself";
     if (body.self_contact->pairs() > 0) message += ", " + pair_text(body.self_contact->blocking_pair());
     throw Error::simulation(message);
