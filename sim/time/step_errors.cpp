@@ -86,8 +86,8 @@ void throw_if_release(Body<Real, Device>& body, const std::vector<char>& held, d
 }
 
 template <class Real, class Device>
-void throw_if_unbalanced(Body<Real, Device>& body, ImplicitStep<Real, Device>& step, double start, double h,
-                         const NewtonOutcome& outcome) {
+void throw_no_equilibrium(Body<Real, Device>& body, ImplicitStep<Real, Device>& step, double start, double h,
+                          const NewtonOutcome& outcome) {
   std::string message = "no equilibrium of the step " + at_time(start) + "was found, even in parts of " +
                         number_text(h, 6) + " s: ";
   if (outcome.end == NewtonEnd::blocked) {
@@ -115,9 +115,9 @@ template void throw_if_arrival(Body<double, ThisDevice>&, double, double);
 template void throw_if_arrival(Body<float, ThisDevice>&, double, double);
 template void throw_if_release(Body<double, ThisDevice>&, const std::vector<char>&, double);
 template void throw_if_release(Body<float, ThisDevice>&, const std::vector<char>&, double);
-template void throw_if_unbalanced(Body<double, ThisDevice>&, ImplicitStep<double, ThisDevice>&, double,
-                                  double, const NewtonOutcome&);
-template void throw_if_unbalanced(Body<float, ThisDevice>&, ImplicitStep<float, ThisDevice>&, double, double,
-                                  const NewtonOutcome&);
+template void throw_no_equilibrium(Body<double, ThisDevice>&, ImplicitStep<double, ThisDevice>&, double,
+                                   double, const NewtonOutcome&);
+template void throw_no_equilibrium(Body<float, ThisDevice>&, ImplicitStep<float, ThisDevice>&, double, double,
+                                   const NewtonOutcome&);
 
 }  // namespace hysteron
