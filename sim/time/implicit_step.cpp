@@ -234,8 +234,7 @@ template <class Real, class Device>
 bool ImplicitStep<Real, Device>::limit_guess_by_ccd() {
   constexpr int kMaxShortenings = 12;
   constexpr double kWithin = 0.99, kFastest = 0.1;
-  constexpr double kArchivedActivationDistance =
-      0.4;  // a guess that presses layers further begins with huge forces
+  constexpr double kKeptShare = 0.4;  // a guess that presses layers further begins with huge forces
   double shorter = 1, whole = 1;
   potential_.begin_guess();
   for (int k = 0; k < kMaxShortenings; ++k) {
@@ -243,7 +242,7 @@ bool ImplicitStep<Real, Device>::limit_guess_by_ccd() {
     whole *= shorter;
     potential_.aim_bodies(whole);
     const double feasible =
-        potential_.collision_free_step(body_.x.data(), displacement_.data(), 1, kArchivedActivationDistance);
+        potential_.collision_free_step(body_.x.data(), displacement_.data(), 1, kKeptShare);
     if (feasible >= 1) {
       potential_.take_bodies(1);
       potential_.accept_iterate(end_.data());

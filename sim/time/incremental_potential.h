@@ -78,10 +78,8 @@ class IncrementalPotential {
   }
   bool bodies_have_arrived() const { return !self_contact_ || self_contact_->bodies_have_arrived(); }
   double collision_free_step(const Vec3<Real>* x, const Vec3<Real>* direction, double max_step,
-                             double archived_activation_distance = 0) {
-    return self_contact_
-               ? self_contact_->prepare(x, direction, start_.held, max_step, archived_activation_distance)
-               : max_step;
+                             double kept_share = 0) {
+    return self_contact_ ? self_contact_->prepare(x, direction, start_.held, max_step, kept_share) : max_step;
   }
   double feasible_step(const Vec3<Real>* x, const Vec3<Real>* direction, double max_step) {
     const double outside = contact_ ? contact_->feasible_step(x, direction, start_.held, max_step) : max_step;
