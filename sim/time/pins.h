@@ -48,7 +48,7 @@ class Pins {
   // Gives held vertices the constant velocity that brings them to their place at the end of the stage.
   void move(Body<Real, Device>& body, double start, Real h);
 
-  bool any_moves() const { return moving_; }
+  bool any_moves() const { return kind_ != Kind::still; }
   // Returns the way of a stage along the arcs, as its end sees them: duration times velocity, n vertices [m];
   // null if no pin moves.
   const Vec3<Real>* arcs() const { return arc_.data(); }
@@ -77,6 +77,7 @@ class Pins {
   // Allocates the arrays that moving pins need, where they are missing; vertices held at `time` [s] start
   // where they were at t = 0.
   void allocate(Device& device, const Scene& scene, const Cloth& cloth, double time);
+  bool has_limited() const { return kind_ == Kind::limited; }
   // Returns whether `held` differs from the present flags.
   bool update_ledger(Body<Real, Device>& body, const std::vector<char>& held);
   void take(Body<Real, Device>& body, const std::vector<int>& pins, double time);
@@ -85,13 +86,29 @@ class Pins {
   void hold_again(Body<Real, Device>& body);
   PinPlacements<Real> placements(const Scene& scene, double start, double h) const;
 
+  // The most that any of the scene's pins does.
+  enum class Kind : char {
+    still,
+    moving,
+    limited,  // has limited strength, in motion or not
+  };
+  // The state of the rigid pins, from stage to stage.
+  enum class Rigidity : char {
+    rigid,
+    compliant,  // they give way in this stage: their vertices are free
+    restored,   // they gave way in the stage accepted last, whose pull is still known, and hold again
+  };
+
+  static Kind kind_of(const Pin& pin) {
+    if (pin.strength > 0) return Kind::limited;
+    return !pin.motion.keys.empty() || pin.from > 0 ? Kind::moving : Kind::still;
+  }
+
   const bool with_arcs_;
-  bool moving_ = false;      // a pin moves or has limited strength
-  bool limited_ = false;     // a pin has limited strength
+  Kind kind_ = Kind::still;
+  Rigidity rigidity_ = Rigidity::rigid;
   bool moving_now_ = false;  // a rigid pin moves in this stage
-  bool compliant_now_ = false,
-       pulling_now_ = false;  // rigid pins give way now; now or in the stage accepted last
-  double next_ = 0;           // when pins take hold or let go next [s]
+  double next_ = 0;          // when pins take hold or let go next [s]
   double work_ = 0;
   Real yield_distance_;
   Real behind_ = 0;                   // how far pins that gave way lagged in the stage accepted last [m]
