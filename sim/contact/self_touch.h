@@ -26,7 +26,7 @@ struct RubbingRows {
   const int *start, *end, *item;
 };
 
-inline constexpr double kClosest = 0.1;    // share of a shell that no step goes below
+inline constexpr double kClosest = 0.1;    // share of the activation distance that no step goes below
 inline constexpr double kLast = 0.2;       // share below which a second barrier protects that
 inline constexpr double kLastStiff = 3e3;  // stiffness of the second barrier over the first's
 
@@ -35,10 +35,10 @@ HYST_HD Real least_distance(const SelfPair<Real>& pair) {
   return static_cast<Real>(kClosest) * pair.activation_distance;
 }
 
-// Returns the barrier of a pair at this distance, below its shell.  Neighbours on the flat cloth have a small
-// shell, and their barrier is weak in proportion: a sharp fold of triangles finer than the thickness presses
-// through it.  At the least distance no step could then lead anywhere, so that a second barrier ends a little
-// above it.
+// Returns the barrier of a pair at this distance, below its activation distance.  That of neighbours on the
+// flat cloth is small, and their barrier is weak in proportion: a sharp fold of triangles finer than the
+// thickness presses through it.  At the least distance no step could then lead anywhere, so that a second
+// barrier ends a little above it.
 template <class Real>
 HYST_HD Barrier<Real> pair_barrier(const SelfPair<Real>& pair, Real k, Real distance) {
   const Real hardest = static_cast<Real>(kHardest) * pair.activation_distance,

@@ -114,9 +114,9 @@ std::vector<Vec3<Real>> ImplicitStep<Real, Device>::pin_forces() const {
     if (!held[i]) force[i].setZero();
   CompliantPins<Real> pins = body_.pins.compliant_pins();
   if (!pins.strength) return force;
-  const std::vector<Vec3<Real>> place = downloaded(*body_.device, pins.place, body_.vertices);
+  const std::vector<Vec3<Real>> target = downloaded(*body_.device, pins.target, body_.vertices);
   const std::vector<Real> strength = downloaded(*body_.device, pins.strength, body_.vertices);
-  pins.place = place.data();
+  pins.target = target.data();
   pins.strength = strength.data();
   const std::vector<Vec3<Real>> x = body_.x.download();
   for (int i = 0; i < body_.vertices; ++i) force[i] += pins.force(i, x[i]);

@@ -42,7 +42,7 @@ struct PotentialValue {
   double energy = 0;    // Phi [J]
   double size = 0;      // sum of the terms' magnitudes, which bounds rounding [J]
   double residual = 0;  // norm of the gradient over all free vertices [N]
-  double reaction = 0;  // norm of the pins' forces on held and gripped vertices [N]
+  double reaction = 0;  // norm of the forces of rigid and compliant pins [N]
   double inertia = 0;   // norm of mass times acceleration over all free vertices [N]
   double internal = 0;  // norm of the membrane's and bending's forces over all vertices [N]
   double weight = 0;    // norm of the whole weight of all free vertices [N]

@@ -62,8 +62,8 @@ void Pins<Real, Device>::allocate(Device& device, const Scene& scene, const Clot
     displacement_ = Buffer<Vec3<Real>, Device>(device, vertices);
     sweep_ = std::make_unique<PinSweep<Real, Device>>(device, cloth.mesh, scene.fabric.thickness);
   }
-  if (!has_limited() || place_.size() > 0) return;
-  place_ = Buffer<Vec3<Real>, Device>(device, start);
+  if (!has_limited() || target_.size() > 0) return;
+  target_ = Buffer<Vec3<Real>, Device>(device, start);
   strength_ = Buffer<Real, Device>(device, vertices);
 }
 
@@ -167,7 +167,7 @@ void Pins<Real, Device>::serialise(Archive& archive, Body<Real, Device>& body) {
   archive(next_);
   hysteron::serialise(archive, device, start_, pin_);
   archive(work_, behind_, rigidity_);
-  hysteron::serialise(archive, device, place_, strength_);
+  hysteron::serialise(archive, device, target_, strength_);
 }
 
 template <class Real, class Device>
@@ -181,13 +181,13 @@ void Pins<Real, Device>::move(Body<Real, Device>& body, double start, Real h) {
   const int* pin = pin_.data();
   const char* held = body.held.data();
   const Real* strength = strength_.data();
-  Vec3<Real>* place = place_.data();
+  Vec3<Real>* target = target_.data();
   const Vec3<Real>*origin = start_.data(), *home = home_.data(), *x = body.x.data();
   Vec3<Real>*v = body.v.data(), *arc = arc_.data();
   for_each(
       *body.device, "pins: positions", body.vertices, HYST_KERNEL(int i) {
-        const bool gripped = strength && strength[i] > 0;
-        if (!held[i] && !gripped) return;
+        const bool compliant = strength && strength[i] > 0;
+        if (!held[i] && !compliant) return;
         const int p = pin[i];
         Vec3<Real> from = origin[i], more = Vec3<Real>::Zero();
         if (home) {
@@ -195,8 +195,8 @@ void Pins<Real, Device>::move(Body<Real, Device>& body, double start, Real h) {
           more = placed.homewards[p] * (placed.rotation[p] * (home[i] - origin[i]));
         }
         const Vec3<Real> end = placed.rotation[p] * from + placed.translation[p];
-        if (gripped) {
-          place[i] = end;
+        if (compliant) {
+          target[i] = end;
           return;
         }
         v[i] = (end - x[i]) / h;
@@ -223,24 +223,24 @@ template <class Real, class Device>
 bool Pins<Real, Device>::yield_to_cloth(Body<Real, Device>& body, Real h) {
   rigid_ = body.held.download();
   const std::vector<Vec3<Real>> x = body.x.download();
-  std::vector<Vec3<Real>> v = body.v.download(), place = place_.download();
+  std::vector<Vec3<Real>> v = body.v.download(), target = target_.download();
   std::vector<Real> strength = strength_.download();
   std::vector<char> held = rigid_;
-  place.resize(body.vertices);
+  target.resize(body.vertices);
   strength.resize(body.vertices);
   for (int i = 0; i < body.vertices; ++i) {
     if (!held[i] || v[i].isZero(0)) continue;
-    place[i] = x[i] + h * v[i];
+    target[i] = x[i] + h * v[i];
     strength[i] = static_cast<Real>(kStrongest * body.cloth.mesh.vertex_area[i]);
     v[i].setZero();
     held[i] = 0;
   }
   if (held == rigid_) return false;
-  if (place_.size() == 0) {
-    place_ = Buffer<Vec3<Real>, Device>(*body.device, place);
+  if (target_.size() == 0) {
+    target_ = Buffer<Vec3<Real>, Device>(*body.device, target);
     strength_ = Buffer<Real, Device>(*body.device, strength);
   }
-  place_.upload(place);
+  target_.upload(target);
   strength_.upload(strength);
   body.v.upload(v);
   body.held.upload(held);
@@ -267,12 +267,12 @@ void Pins<Real, Device>::restore_rigid(Body<Real, Device>& body) {
 template <class Real, class Device>
 void Pins<Real, Device>::hold_again(Body<Real, Device>& body) {
   const std::vector<char> held = body.held.download();
-  const std::vector<Vec3<Real>> x = body.x.download(), v = body.v.download(), place = place_.download();
+  const std::vector<Vec3<Real>> x = body.x.download(), v = body.v.download(), target = target_.download();
   const std::vector<Real> mass = body.mass.download();
   for (int i = 0; i < body.vertices; ++i) {
     if (!rigid_[i] || held[i]) continue;
     work_ -= static_cast<double>(mass[i]) / 2 * v[i].template cast<double>().squaredNorm();
-    behind_ = std::max(behind_, (x[i] - place[i]).norm());
+    behind_ = std::max(behind_, (x[i] - target[i]).norm());
   }
   body.held.upload(rigid_);
   rigidity_ = Rigidity::restored;

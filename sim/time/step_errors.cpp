@@ -31,7 +31,7 @@ std::string pair_text(const SelfPair<Real>& pair) {
 
 // Names the objects that touch a vertex at x.
 template <class Real, class Device>
-std::vector<std::string> pressing(Body<Real, Device>& body, int vertex, const Eigen::Vector3d& x,
+std::vector<std::string> touching(Body<Real, Device>& body, int vertex, const Eigen::Vector3d& x,
                                   double time) {
   const Scene& scene = body.scene;
   std::vector<std::string> by;
@@ -105,7 +105,7 @@ void throw_no_equilibrium(Body<Real, Device>& body, ImplicitStep<Real, Device>& 
              " N remains (weight, pins and inertia: " + number_text(outcome.load, 6) + " N)";
   const Unbalanced worst = step.most_unbalanced();
   if (worst.vertex < 0) throw Error::simulation(message);
-  const std::vector<std::string> by = pressing(body, worst.vertex, worst.position, start + h);
+  const std::vector<std::string> by = touching(body, worst.vertex, worst.position, start + h);
   throw Error::simulation(message + ", most of it, " + number_text(worst.force, 6) + " N, at " +
                           vertex_text(worst.vertex, worst.position + body.origin) +
                           (by.empty() ? "" : ", pressed by " + together(by)));
