@@ -1,4 +1,4 @@
-// The barrier between two layers of cloth exerts no force at a distance of the shell, and one that grows
+// The barrier between two layers of cloth exerts no force at the activation distance, and one that grows
 // without bound as the gap (the distance less that of the hardest compression) becomes small against its
 // range.  Where hardly any gap is left, the force goes on growing with constant stiffness: a step that does
 // not end in equilibrium must not leave a pair so near that nothing can move any more.

@@ -32,7 +32,7 @@ std::vector<Vec3<Real>> positions_at(const std::vector<Obstacle>& bodies, double
   return all;
 }
 
-// Returns the share of a shell of a body and cloth at which it bears kYieldPressure.
+// Returns the share of the activation distance of a body and cloth at which the pressure is kYieldPressure.
 double yield_share(double thickness) {
   SelfPair<double> pair{};
   pair.activation_distance = thickness;

@@ -132,10 +132,10 @@ class BodyVertices {
   double gone_ = 1, at_ = 1, aim_ = 1;       // fractions of the way: accepted, of the last trial, aimed at
   bool rubs_ = false, has_yielded_ = false;  // has_yielded_: in this stage
   int steps_ = 0;                            // in the stage so far
-  Real yield_share_;                         // share of a shell at which it bears kYieldPressure
-  double thickness_, deepest_ = 0;           // [m]
-  std::vector<Vec3<Real>> end_;              // the scene's positions at end_time_ [m]
-  double end_time_ = 0;                      // of the last stage [s]
+  Real yield_share_;                // share of the activation distance with the pressure kYieldPressure
+  double thickness_, deepest_ = 0;  // [m]
+  std::vector<Vec3<Real>> end_;     // the scene's positions at end_time_ [m]
+  double end_time_ = 0;             // of the last stage [s]
   // These are of bodies alone [m]: they go start + fraction way, and began the stage at `from`; `dent` is how
   // far they are from the scene's positions, `behind` how far they will be at the end of the stage.
   Buffer<Vec3<Real>, Device> from_, start_, way_, dent_, behind_;

@@ -27,10 +27,10 @@ std::vector<int> along_curve(const std::vector<std::array<int, 3>>& corners,
   const double extent = std::max((high - low).maxCoeff(), 1e-30);
   std::vector<std::uint64_t> code;
   for (const auto& c : corners) {
-    const Eigen::Vector3d place =
+    const Eigen::Vector3d cell =
         ((rest[c[0]] + rest[c[1]] + rest[c[2]]) / 3 - low) / extent * ((1 << 20) - 1);
-    code.push_back(morton(static_cast<std::uint64_t>(place.x()), static_cast<std::uint64_t>(place.y()),
-                          static_cast<std::uint64_t>(place.z())));
+    code.push_back(morton(static_cast<std::uint64_t>(cell.x()), static_cast<std::uint64_t>(cell.y()),
+                          static_cast<std::uint64_t>(cell.z())));
   }
   std::vector<int> order(corners.size());
   std::iota(order.begin(), order.end(), 0);

@@ -10,26 +10,26 @@
 namespace hysteron {
 
 inline constexpr double kTestPressure = 50 * 98.0665;  // 50 gf/cm^2 [Pa]
-inline constexpr double kHardest = 0.5;                // share of a shell to which pressure can compress it
-inline constexpr double kCompressed = 0.2;  // share of the shell by which the test's pressure compresses it
+inline constexpr double kHardest = 0.5;     // share of the activation distance to which pressure can compress
+inline constexpr double kCompressed = 0.2;  // share of it by which the test's pressure compresses
 inline constexpr double kCrushed = 0.4;     // share of the thickness where an obstacle's last barrier begins
 inline constexpr double kLastGap = 0.01;    // share of its range below which its stiffness is constant
 inline constexpr double kYieldPressure = 130 * kTestPressure;  // pressure at which solids yield [Pa]
 inline constexpr double kElasticSlip = 0.01;                   // slip of friction over the thickness
 
-// Returns the stiffness k of the barrier of a shell of this thickness [m] in N/m^3.
+// Returns the stiffness k [N/m^3] of the barrier of an activation distance, the thickness [m].
 double barrier_stiffness(double thickness);
 
-// The response of an obstacle's shell is a barrier up to the compression that was measured; beyond, its
-// stiffness stays.  Where it is crushed to kCrushed, under some five times the test's pressure, a last
-// barrier begins, which ends at the surface of the solid: the pressure on single vertices, such as the tips
-// of folds, grows with the mesh.  Steps that do not end in equilibrium, as explicit ones, have no last
-// barrier: a blow would end in it beyond the stiffness that they bear.  Under kYieldPressure, next to the
-// surface, the solid yields: from there on it is no stiffer than the compression that was measured, so that
-// solids which close on cloth pinch it and go on.
+// The response of an obstacle to cloth within the activation distance is a barrier up to the compression that
+// was measured; beyond, its stiffness stays.  Where it is crushed to kCrushed, under some five times the
+// test's pressure, a last barrier begins, which ends at the surface of the solid: the pressure on single
+// vertices, such as the tips of folds, grows with the mesh.  Steps that do not end in equilibrium, as
+// explicit ones, have no last barrier: a blow would end in it beyond the stiffness that they bear.  Under
+// kYieldPressure, next to the surface, the solid yields: from there on it is no stiffer than the compression
+// that was measured, so that solids which close on cloth pinch it and go on.
 template <class Real>
 struct ObstacleShell {
-  Real thickness;  // of the shell [m]
+  Real thickness;  // of the cloth, the activation distance [m]
   Real k;          // of the barrier [N/m^3]
   Real last;       // distance at which the last barrier begins [m]; 0: none
   Real yield;      // distance below which the solid yields [m]
@@ -57,15 +57,16 @@ struct ObstacleShell {
   }
 };
 
-// Returns a scene's shell: `contact-stiffness` is its stiffness at the compression of the test.
+// Returns the response of a scene's obstacles: `contact-stiffness` is its stiffness at the compression of the
+// test.
 ObstacleShell<double> obstacle_activation_distance(const Scene& scene);
-// Returns the distance [m] at which a shell bears a pressure [Pa] that it does not yield to.
-double distance_under(const ObstacleShell<double>& activation_distance, double pressure);
+// Returns the distance [m] at which obstacles answer with a pressure [Pa] that they do not yield to.
+double distance_under(const ObstacleShell<double>& response, double pressure);
 
 // The common model of contact with obstacles for vertices and triangles.
 template <class Real>
 struct ContactModel {
-  ObstacleShell<Real> activation_distance;
+  ObstacleShell<Real> response;
   Real slip;        // elastic slip of friction [m]
   Real tangential;  // bound on the stiffness of friction [N/m^3]
 

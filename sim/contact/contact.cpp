@@ -8,16 +8,16 @@ namespace hysteron {
 
 namespace {
 
-// The largest stiffness of friction's stop, over that of the shell at its stiffest.
+// The largest stiffness of friction's stop, over that of the barrier at its stiffest.
 constexpr double kTangential = 0.5;
 
 template <class Real>
 ContactModel<Real> contact_model(const Scene& scene) {
-  const ObstacleShell<double> activation_distance = obstacle_activation_distance(scene);
-  return {{static_cast<Real>(activation_distance.thickness), static_cast<Real>(activation_distance.k),
-           static_cast<Real>(activation_distance.last), static_cast<Real>(activation_distance.yield)},
-          static_cast<Real>(kElasticSlip * activation_distance.thickness),
-          static_cast<Real>(kTangential * activation_distance.stiffest())};
+  const ObstacleShell<double> response = obstacle_activation_distance(scene);
+  return {{static_cast<Real>(response.thickness), static_cast<Real>(response.k),
+           static_cast<Real>(response.last), static_cast<Real>(response.yield)},
+          static_cast<Real>(kElasticSlip * response.thickness),
+          static_cast<Real>(kTangential * response.stiffest())};
 }
 
 }  // namespace
@@ -61,7 +61,7 @@ void Contact<Real, Device>::add(const Vec3<Real>* x, const Vec3<Real>* before, R
   const StopView<Real> stops = vertices_.stops().view();
   for_each(
       device_, "contact", vertices_.count(), HYST_KERNEL(int i) {
-        const auto b = bearing<Real>(vertices, i, x);
+        const auto b = active_contacts<Real>(vertices, i, x);
         if (b.index < 0) return;
         const Slip<Real> s = vertices.slip(i, b, x, before, stops);
         const Real kt = s.stiffness * s.fraction;
@@ -129,7 +129,7 @@ void Contact<Real, Device>::add_stiffness(const Vec3<Real>* x, const Vec3<Real>*
   Mat3<Real>* diagonal = matrix.diagonal;
   for_each(
       device_, "contact: stiffness", vertices_.count(), HYST_KERNEL(int i) {
-        diagonal[i] += bearing<Real>(vertices, i, x).stiffness;
+        diagonal[i] += active_contacts<Real>(vertices, i, x).stiffness;
         if (!(lagged[i].limit > 0)) return;
         const Real k = vertices.model.stop_stiffness(lagged[i].limit, vertices.area[i]);
         diagonal[i] +=
@@ -143,8 +143,8 @@ template <class Real, class Device>
 void Contact<Real, Device>::clip_to_obstacles(const Vec3<Real>* start, Vec3<Real>* end, const char* held) {
   if (!set_.has_thin()) return;
   const VertexPoints<Real> vertices = points();
-  const Real rest_distance = static_cast<Real>(1 - kCompressed) *
-                             model_.activation_distance.thickness;  // cloth is pressed back to here
+  const Real rest_distance =
+      static_cast<Real>(1 - kCompressed) * model_.response.thickness;  // cloth is pressed back to here
   for_each(
       device_, "contact: guess", vertices_.count(), HYST_KERNEL(int i) {
         if (!held[i]) clip_path(vertices, i, start, end, rest_distance);

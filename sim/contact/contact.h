@@ -1,11 +1,11 @@
-// Computes cloth against obstacles: a shell that yields to pressure as layers do, with Coulomb friction,
-// inside the implicit solve.
+// Computes cloth against obstacles, whose response yields to pressure as that of layers does, with Coulomb
+// friction, inside the implicit solve.
 //
 // The normal force is the barrier of compression.h at each vertex whose distance is less than the cloth's
-// thickness; its Gauss-Newton Hessian is positive semidefinite.  Iterates may be in a solid, where the shell
-// is stiff and pushes them out; a state of equilibrium is not, unless it is crushed.  Friction is a Prandtl
-// stop in the tangent plane: an elastic slip of up to 1 % of the thickness, limited to mu f_n by radial
-// return.  It holds a resting cloth for good, where a velocity-smoothed friction would let it creep.
+// thickness; its Gauss-Newton Hessian is positive semidefinite.  Iterates may be in a solid, where the
+// barrier is stiff and pushes them out; a state of equilibrium is not, unless it is crushed.  Friction is a
+// Prandtl stop in the tangent plane: an elastic slip of up to 1 % of the thickness, limited to mu f_n by
+// radial return.  It holds a resting cloth for good, where a velocity-smoothed friction would let it creep.
 //
 // Obstacles that are sharper than the mesh act on the triangles between the vertices, too (face_contact.h).
 #pragma once
@@ -26,10 +26,10 @@ class Contact {
   // Adds step * force to rhs (n vertices) and step^2 * stiffness to the matrix, unless that is null.
   void add(const Vec3<Real>* position, const Vec3<Real>* before, Real step, Vec3<Real>* rhs,
            const BlockRowsView<Real>* matrix);
-  // These serve implicit steps. lag() fixes normals and limits of friction at `position`; friction then has a
-  // potential, to which evaluate() adds the shells': it adds the gradient (n vertices [N]) to `gradient`, and
-  // sets energies() per vertex and triangle. add_stiffness() adds the positive semidefinite part of the
-  // Hessian (sliding_fraction: sliding_stop.h).
+  // These serve implicit steps. update_lagged_friction() fixes normals and limits of friction at `position`;
+  // friction then has a potential, to which evaluate() adds the barriers': it adds the gradient (n vertices
+  // [N]) to `gradient`, and sets energies() per vertex and triangle. add_stiffness() adds the positive
+  // semidefinite part of the Hessian (sliding_fraction: sliding_stop.h).
   void update_lagged_friction(const Vec3<Real>* position);
   void evaluate(const Vec3<Real>* position, const Vec3<Real>* before, Vec3<Real>* gradient);
   const double* energies() const { return energy_.data(); }  // energies_count() of them [J]

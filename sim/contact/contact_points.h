@@ -9,8 +9,8 @@
 
 namespace hysteron {
 
-// One vertex in the shell of one obstacle, or of the body that the obstacle is part of; like FaceTouch for
-// triangles.
+// One vertex within the activation distance of one obstacle, or of the body that the obstacle is part of;
+// like FaceTouch for triangles.
 template <class Real>
 struct VertexTouch {
   double energy = 0;              // [J]
@@ -21,7 +21,7 @@ struct VertexTouch {
   int nearest = 0;                // index of the nearest obstacle in the set
   bool inside = false;            // true inside the solid
 
-  HYST_HD bool bears() const { return force > 0; }
+  HYST_HD bool is_active() const { return force > 0; }
   HYST_HD Vec3<Real> normal() const { return outward; }
   HYST_HD int obstacle(int) const { return nearest; }
   HYST_HD Real weight_of(int) const { return 1; }
@@ -36,9 +36,9 @@ HYST_HD VertexTouch<Real> vertex_touch(const ObstacleSet<Real>& set, int o, cons
                                        const Vec3<Real>& x, Real area) {
   VertexTouch<Real> touch;
   const BodyDistance<Real> d =
-      distance_to_body(set, o, x, static_cast<Real>(kBlend) * model.activation_distance.thickness);
-  if (!(d.value < model.activation_distance.thickness)) return touch;
-  const Barrier<Real> b = model.activation_distance.at(d.value);
+      distance_to_body(set, o, x, static_cast<Real>(kBlend) * model.response.thickness);
+  if (!(d.value < model.response.thickness)) return touch;
+  const Barrier<Real> b = model.response.at(d.value);
   touch.energy = static_cast<double>(area * b.energy);
   touch.force = -area * b.slope;
   touch.stiffness = area * b.stiffness;
@@ -53,12 +53,12 @@ HYST_HD VertexTouch<Real> vertex_touch(const ObstacleSet<Real>& set, int o, cons
   return touch;
 }
 
-// The forces of all obstacles on one contact point.
+// Sums up the forces of all obstacles on one contact point.
 template <class Real, int kCorners>
-struct Bearing {
-  double energy = 0;                          // energy of the shells [J]
-  Vec3<Real> force[kCorners];                 // force of the shells on each corner [N]
-  Mat3<Real> stiffness = Mat3<Real>::Zero();  // stiffness of the shells at the points [N/m]
+struct ActiveContacts {
+  double energy = 0;                          // of their barriers [J]
+  Vec3<Real> force[kCorners];                 // on each corner [N]
+  Mat3<Real> stiffness = Mat3<Real>::Zero();  // of the barriers at the points [N/m]
   bool inside = false;                        // true inside a solid
   // The following describe the obstacle that presses most.
   int index = -1;  // in the scene; -1: none
@@ -69,24 +69,24 @@ struct Bearing {
 };
 
 template <class Real, class Points>
-HYST_HD HYST_NOINLINE Bearing<Real, Points::kCorners> bearing(const Points& points, int point,
-                                                              const Vec3<Real>* x) {
+HYST_HD HYST_NOINLINE ActiveContacts<Real, Points::kCorners> active_contacts(const Points& points, int point,
+                                                                             const Vec3<Real>* x) {
   constexpr int kCorners = Points::kCorners;
-  Bearing<Real, kCorners> all;
+  ActiveContacts<Real, kCorners> all;
   for (Vec3<Real>& force : all.force) force.setZero();
   Real strongest = 0;
   for (int o = 0; o < points.set.count; ++o) {
     if (!points.feels(o)) continue;
     const auto t = points.touch(point, o, x);
     all.inside |= t.inside;
-    if (!t.bears()) continue;
+    if (!t.is_active()) continue;
     all.energy += t.energy;
     all.stiffness += t.stiffness * t.direction * t.direction.transpose();
     for (int k = 0; k < kCorners; ++k) all.force[k] += t.on_corner(k);
     if (!(t.force > strongest)) continue;
     strongest = t.force;
-    const Obstacle3<Real>& pressing = points.set.item[t.obstacle(o)];
-    all.index = pressing.index;
+    const Obstacle3<Real>& obstacle = points.set.item[t.obstacle(o)];
+    all.index = obstacle.index;
     all.limit = t.limit;
     all.normal = t.normal();
     Vec3<Real> at = Vec3<Real>::Zero();
@@ -94,12 +94,12 @@ HYST_HD HYST_NOINLINE Bearing<Real, Points::kCorners> bearing(const Points& poin
       all.weight[k] = t.weight_of(k);
       at += all.weight[k] * x[points.vertex(point, k)];
     }
-    all.motion = motion_over_step(pressing, at);
+    all.motion = motion_over_step(obstacle, at);
   }
   return all;
 }
 
-// Returns the stretch of a point's stop [m], with its friction as fixed by lag().
+// Returns the stretch of a point's stop [m], with its friction as fixed by update_lagged_friction().
 template <class Real, class Points>
 HYST_HD Vec3<Real> lagged_slip(const Points& points, int point, const typename Points::Friction& friction,
                                const Vec3<Real>* x, const Vec3<Real>* before) {
@@ -137,15 +137,15 @@ struct VertexPoints {
   HYST_HD VertexTouch<Real> touch(int i, int obstacle, const Vec3<Real>* x) const {
     return vertex_touch(set, obstacle, model, x[i], area[i]);
   }
-  // Fixes friction against the obstacle that presses most, for lag().
-  HYST_HD Friction friction(int i, const Bearing<Real, 1>& b, const StopView<Real>& stops) const {
+  // Fixes friction against the obstacle that presses most, for update_lagged_friction().
+  HYST_HD Friction friction(int i, const ActiveContacts<Real, 1>& b, const StopView<Real>& stops) const {
     Friction friction{b.normal, -b.motion, b.limit};
     if (stops.goes_on(i, b.index)) friction.start += stops.slip[i];
     return friction;
   }
   // Returns the slip of the stop over the step that ends at x.
-  HYST_HD Slip<Real> slip(int i, const Bearing<Real, 1>& b, const Vec3<Real>* x, const Vec3<Real>* before,
-                          const StopView<Real>& stops) const {
+  HYST_HD Slip<Real> slip(int i, const ActiveContacts<Real, 1>& b, const Vec3<Real>* x,
+                          const Vec3<Real>* before, const StopView<Real>& stops) const {
     Vec3<Real> e = x[i] - before[i] - b.motion;
     if (stops.goes_on(i, b.index)) e += stops.slip[i];
     e -= b.normal * b.normal.dot(e);
@@ -188,13 +188,13 @@ struct FacePoints {
     const Vec3<Real> at[3] = {x[corner[f][0]], x[corner[f][1]], x[corner[f][2]]};
     return face_touch(set.item[obstacle], model, at, area[f]);
   }
-  HYST_HD Friction friction(int f, const Bearing<Real, 3>& b, const StopView<Real>& stops) const {
+  HYST_HD Friction friction(int f, const ActiveContacts<Real, 3>& b, const StopView<Real>& stops) const {
     Friction friction{{b.normal, -b.motion, b.limit}, b.weight, b.index};
     if (stops.goes_on(f, b.index)) friction.start += stops.slip[f];
     return friction;
   }
-  HYST_HD Slip<Real> slip(int f, const Bearing<Real, 3>& b, const Vec3<Real>* x, const Vec3<Real>* before,
-                          const StopView<Real>& stops) const {
+  HYST_HD Slip<Real> slip(int f, const ActiveContacts<Real, 3>& b, const Vec3<Real>* x,
+                          const Vec3<Real>* before, const StopView<Real>& stops) const {
     const Vec3<Real> e = lagged_slip(*this, f, friction(f, b, stops), x, before);
     return slip_within<Real>(e, b.limit, model.stop_stiffness(b.limit, area[f]));
   }

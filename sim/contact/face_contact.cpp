@@ -46,11 +46,11 @@ void FaceContact<Real, Device>::add_stiffness(const FacePoints<Real>& faces, con
           const FaceFriction<Real> friction = lagged[f];
           const bool rubs = friction.limit > 0 && friction.index == faces.set.item[o].index;
           FaceStiffness<Real>& s = stiffness[f];
-          s.acts = t.bears() || rubs;
+          s.acts = t.is_active() || rubs;
           if (!s.acts) return;
           s.block.setZero();
           s.weight = friction.weight;
-          if (t.bears()) {
+          if (t.is_active()) {
             s.weight = t.weight;
             s.block = t.stiffness * t.direction * t.direction.transpose();
           }

@@ -1,8 +1,8 @@
 // Computes triangles of the cloth against obstacles that are sharper than the mesh: edges, corners, rods.
 //
 // Vertices alone do not feel an obstacle between them.  Each triangle therefore also has a contact at its
-// point nearest to such an obstacle (face_touch.h), with the shell and the friction of vertices (contact.h);
-// the force is spread over its corners by barycentric coordinates and gathered in a fixed order.
+// point nearest to such an obstacle (face_touch.h), with the barrier and the friction of vertices
+// (contact.h); the force is spread over its corners by barycentric coordinates and gathered in a fixed order.
 //
 // An obstacle is sharper than the mesh if a triangle that lies on its vertices could reach its surface: on a
 // sphere of radius R the middle of an equilateral triangle with edges h lies h^2/(6 R) lower.

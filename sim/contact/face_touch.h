@@ -1,13 +1,14 @@
 // Computes one triangle against one obstacle that is sharper than the mesh, beyond what its corners feel.
 //
-// With B the shell's energy per area at the nearest point and V_k those at the corners,
+// With B the barrier's energy per area at the nearest point and V_k those at the corners,
 //
 //   E = A/6 B prod_k (1 - V_k/B)_+^2
 //
 // Where a corner is the nearest point, as on anything flat, E = 0: the corners carry all force, and nothing
-// is counted twice.  Where no corner is in the shell, the point carries the shell's pressure on half of a
-// corner's share of the area.  E has a gradient everywhere outside the solid, and never attracts a corner by
-// more than the corner's own shell repels it.  Stiffness is Gauss-Newton's, of the point's distance alone.
+// is counted twice.  Where no corner is within the activation distance, the point carries the barrier's
+// pressure on half of a corner's share of the area.  E has a gradient everywhere outside the solid, and never
+// attracts a corner by more than the corner's own barrier repels it.  Stiffness is Gauss-Newton's, of the
+// point's distance alone.
 #pragma once
 
 #include "sim/contact/compression.h"
@@ -142,7 +143,7 @@ struct FaceTouch {
   Real limit = 0;                 // net force, times the coefficient of friction [N]
   bool inside = false;
 
-  HYST_HD bool bears() const { return force > 0; }
+  HYST_HD bool is_active() const { return force > 0; }
   HYST_HD Vec3<Real> normal() const { return direction.normalized(); }
   HYST_HD Real weight_of(int k) const { return weight[k]; }
   HYST_HD int obstacle(int touched) const { return touched; }
@@ -154,7 +155,7 @@ HYST_HD HYST_NOINLINE FaceTouch<Real> face_touch(const Obstacle3<Real>& obstacle
                                                  const ContactModel<Real>& model, const Vec3<Real> (&x)[3],
                                                  Real area) {
   FaceTouch<Real> touch;
-  const Real thickness = model.activation_distance.thickness;
+  const Real thickness = model.response.thickness;
   Vec3<Real> p[3];
   for (int k = 0; k < 3; ++k) p[k] = obstacle.rotation.transpose() * (x[k] - obstacle.center);
   if (!(least_possible(obstacle.shape, p) < thickness)) return touch;
@@ -170,12 +171,12 @@ HYST_HD HYST_NOINLINE FaceTouch<Real> face_touch(const Obstacle3<Real>& obstacle
   if (corner_is_nearest) return touch;
   const FacePoint<Real> point = face_point<Real>(obstacle.shape, p, static_cast<Real>(kCentring) * thickness);
   if (!(point.distance < thickness)) return touch;
-  const Barrier<Real> b = model.activation_distance.at(point.distance);
+  const Barrier<Real> b = model.response.at(point.distance);
   Real left = 1, sum = 0, curved = 0, slope[3], of_b[3];
   for (int k = 0; k < 3; ++k) {
     slope[k] = of_b[k] = 0;
     if (corner[k].value < thickness) {
-      const Barrier<Real> v = model.activation_distance.at(corner[k].value);
+      const Barrier<Real> v = model.response.at(corner[k].value);
       of_b[k] = v.energy / b.energy;
       slope[k] = v.slope;
     }

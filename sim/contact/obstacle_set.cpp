@@ -99,10 +99,10 @@ Immersion deepest(const ObstacleSet<double>& set, const std::vector<Eigen::Vecto
   return result;
 }
 
-bool is_squeezed(const ObstacleSet<double>& set, const ObstacleShell<double>& activation_distance,
+bool is_squeezed(const ObstacleSet<double>& set, const ObstacleShell<double>& response,
                  const Eigen::Vector3d& x, const Eigen::Vector3d& pressure) {
   const auto pressure_at = [&](double distance) {
-    return distance < activation_distance.thickness ? -activation_distance.at(distance).slope : 0.0;
+    return distance < response.thickness ? -response.at(distance).slope : 0.0;
   };
   Distance<double> at[kMaxObstacles];
   for (int o = 0; o < set.count; ++o) {

@@ -11,7 +11,7 @@ void PointContact<Real, Device, Points>::update_lagged_friction(const Points& po
   typename Points::Friction* lagged = lagged_.data();
   for_each(
       device_, "contact: lagged friction", count_,
-      HYST_KERNEL(int p) { lagged[p] = points.friction(p, bearing<Real>(points, p, x), stops); });
+      HYST_KERNEL(int p) { lagged[p] = points.friction(p, active_contacts<Real>(points, p, x), stops); });
 }
 
 // Friction follows the normal force and therefore has no potential; with the force of the last iterate it has
@@ -23,7 +23,7 @@ void PointContact<Real, Device, Points>::evaluate(const Points& points, const Ve
   const typename Points::Friction* lagged = lagged_.data();
   for_each(
       device_, "contact: forces", count_, HYST_KERNEL(int p) {
-        const auto b = bearing<Real>(points, p, x);
+        const auto b = active_contacts<Real>(points, p, x);
         const typename Points::Friction friction = lagged[p];
         double sum = b.energy;
         Vec3<Real> back = Vec3<Real>::Zero();
@@ -42,7 +42,7 @@ void PointContact<Real, Device, Points>::store_energies(const Points& points, co
   const double* stored = stops_.stored.data();
   for_each(
       device_, "contact: energy", count_,
-      HYST_KERNEL(int p) { energy[p] = bearing<Real>(points, p, x).energy + stored[p]; });
+      HYST_KERNEL(int p) { energy[p] = active_contacts<Real>(points, p, x).energy + stored[p]; });
 }
 
 template <class Real, class Device, class Points>
@@ -54,7 +54,7 @@ int PointContact<Real, Device, Points>::commit(const Points& points, const Vec3<
       device_, "contact: history", count_,
       HYST_KERNEL(int p, Sums<1>& sums) {
         constexpr int kCorners = Points::kCorners;
-        const auto b = bearing<Real>(points, p, x);
+        const auto b = active_contacts<Real>(points, p, x);
         for (int k = 0; stops.force && k < kCorners; ++k)
           stops.work_before(p, kCorners * p + k,
                             surface_motion(points.set, stops.touching[p] - 1, x[points.vertex(p, k)]));

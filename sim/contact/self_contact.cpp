@@ -8,21 +8,6 @@
 
 namespace hysteron {
 
-namespace {
-
-constexpr double kDisplacementOfEdge = 5;  // largest displacement of a step, over the mean edge length
-constexpr double kReachOfEdge = 0.2;       // largest reach of lists beyond a path, over the mean edge length
-constexpr double kPressedNearer = 0.9;  // share of their distance that a guess leaves pressed layers at least
-constexpr double kSafely = 1.01;        // exceeds the rounding of distances beside the thickness
-
-double mean_edge(const ClothMesh& mesh) {
-  double sum = 0;
-  for (const Edge& e : mesh.edge) sum += (mesh.rest[e.p3] - mesh.rest[e.p2]).norm();
-  return sum / static_cast<double>(mesh.edge.size());
-}
-
-}  // namespace
-
 template <class Real, class Device>
 SelfContact<Real, Device>::SelfContact(Device& device, const ClothMesh& mesh, const Scene& scene)
     : SelfContact(device, mesh,
@@ -35,149 +20,73 @@ SelfContact<Real, Device>::SelfContact(Device& device, const ClothMesh& mesh,
     : device_(device),
       vertices_(mesh.vertices()),
       bodies_(device, scene, vertices_),
-      thickness_(static_cast<Real>(scene.fabric.thickness)),
-      least_reach_(thickness_ / 4),
-      most_reach_(std::max(thickness_, static_cast<Real>(kReachOfEdge * mean_edge(mesh)))),
-      max_displacement_(std::max(4 * thickness_, static_cast<Real>(kDisplacementOfEdge * mean_edge(mesh)))),
       model_{static_cast<Real>(barrier_stiffness(scene.fabric.thickness)),
-             static_cast<Real>(scene.fabric.friction), static_cast<Real>(kElasticSlip) * thickness_},
-      pairs_(device, all ? *all : mesh, scene.fabric.thickness, vertices_, scene.self_contact),
-      center_(device, bodies_.all()),
-      step_length_(device),
-      near_(device),
+             static_cast<Real>(scene.fabric.friction),
+             static_cast<Real>(kElasticSlip) * static_cast<Real>(scene.fabric.thickness)},
+      near_(device, mesh, all ? *all : mesh, scene),
       friction_(device),
       old_friction_(device),
-      presses_(device),
-      active_(device),
       stiffness_(device),
+      stiffness_rows_(device, vertices_),
       push_(device),
       body_force_(device, scene.integrator == Integrator::quasi_static ? bodies_.count() : 0),
-      rows_(device, bodies_.all()),
-      stiffness_rows_(device, vertices_),
-      active_end_(device, bodies_.all()),
-      active_item_(device),
       slot_(device),
       energy_(device),
       sum_(device, 2),
       clock_(device) {}
 
-// Returns the longest displacement of any vertex of the cloth at the full step, less the mean of all [m].
-template <class Real, class Device>
-Real SelfContact<Real, Device>::longest_displacement(const Vec3<Real>* direction) {
-  const Vec3<Real> mean = pairs_.mean_direction(direction);
-  Real* lengths = step_length_.reserve(vertices_);
-  for_each(
-      device_, "self-contact: displacements", vertices_,
-      HYST_KERNEL(int i) { lengths[i] = -(direction[i] - mean).norm(); });
-  return -smallest(device_, pairs_.scratch(), lengths, vertices_, Real(0));
-}
-
-// Returns the largest distance of the step's end from the positions for which the list of pairs was made [m].
-template <class Real, class Device>
-Real SelfContact<Real, Device>::farthest(const Vec3<Real>* x, const Vec3<Real>* direction, Real step_length) {
-  const Vec3<Real>* center = center_.data();
-  Real* lengths = step_length_.reserve(bodies_.all());
-  for_each(
-      device_, "self-contact: lengths", bodies_.all(),
-      HYST_KERNEL(int i) { lengths[i] = -(x[i] + step_length * direction[i] - center[i]).norm(); });
-  return -smallest(device_, pairs_.scratch(), lengths, bodies_.all(), Real(0));
-}
-
 template <class Real, class Device>
 double SelfContact<Real, Device>::prepare(const Vec3<Real>* cloth, const Vec3<Real>* along_cloth,
-                                          const char* held, double max_step,
-                                          double archived_activation_distance) {
+                                          const char* held, double max_step, double kept_share) {
   clock_.begin(Stage::contact);
   bodies_.try_step(0);
-  const Vec3<Real>*x = bodies_.positions(cloth), *direction = bodies_.directions(along_cloth);
-  if (bodies_.are_barred()) {
-    bodies_.yield({pairs_.pairs(), pairs_.count(), rows_.start.data(), rows_.item.data(), slot_.data()}, x,
-                  direction, held);
-    direction = bodies_.directions(along_cloth);
-  }
-  const Real longest = longest_displacement(direction), requested = static_cast<Real>(max_step),
-             step_length = requested * longest > max_displacement_ ? max_displacement_ / longest : requested;
-  if (!ready_ || pending_ || !(farthest(x, direction, step_length) <= reach_))
-    rebuild(x, direction, step_length, bodies_.held(held),
-            std::clamp(step_length * longest / 2, least_reach_, most_reach_));
-  const SelfPair<Real>* pairs = pairs_.pairs();
-  const PairFriction<Real>* friction = friction_.data();
-  Real* feasible = step_length_.reserve(pairs_.count());
-  char* near = near_.reserve(pairs_.count());
-  const Real kept = static_cast<Real>(archived_activation_distance);
-  for_each(
-      device_, "self-contact: collisions", pairs_.count(), HYST_KERNEL(int p) {
-        const SelfPair<Real> pair = pairs[p];
-        Vec3<Real> from[4], along[4];
-        pair.gather(x, from);
-        pair.gather(direction, along);
-        for (Vec3<Real>& d : along) d *= step_length;
-        const Approach<Real> start = approach(from, along, pair.is_edges());
-        near[p] =
-            start.distance - start.speed < Real(kSafely) * pair.activation_distance || friction[p].limit > 0;
-        const Real least = least_distance(pair), nearer = Real(kPressedNearer) * start.distance;
-        const Real wanted =
-            kept * pair.activation_distance < nearer ? kept * pair.activation_distance : nearer;
-        feasible[p] = feasible_step(start, from, along, pair.is_edges(), wanted > least ? wanted : least);
-      });
-  const double least = smallest(device_, pairs_.scratch(), feasible, pairs_.count(), Real(1));
+  const Vec3<Real>* x = bodies_.positions(cloth);
+  if (bodies_.are_barred()) yield_bodies(x, bodies_.directions(along_cloth), held);
+  const StepPath<Real> path = near_.bounded_path(x, bodies_.directions(along_cloth), max_step);
+  if (!near_.covers(path)) renew_list(path, bodies_.held(held));
+  const double feasible = near_.feasible_fraction(path, friction_.data(), static_cast<Real>(kept_share));
   clock_.end(Stage::contact);
-  return static_cast<double>(step_length) * least;
+  return static_cast<double>(path.step_length) * feasible;
+}
+
+template <class Real, class Device>
+void SelfContact<Real, Device>::yield_bodies(const Vec3<Real>* x, const Vec3<Real>* direction,
+                                             const char* held) {
+  const PairRows<Device>& corners = near_.corners();
+  bodies_.yield({near_.pairs(), near_.count(), corners.start.data(), corners.item.data(), slot_.data()}, x,
+                direction, held);
+}
+
+template <class Real, class Device>
+void SelfContact<Real, Device>::renew_list(const StepPath<Real>& path, const char* held) {
+  const bool had_list = near_.has_list();
+  near_.find(path, held);
+  carry_friction_over(had_list);  // while corners are those of the list before
+  near_.index_corners();
+  reserve_results();
+}
+
+template <class Real, class Device>
+void SelfContact<Real, Device>::reserve_results() {
+  slot_.reserve(4 * static_cast<std::size_t>(near_.count()));
+  energy_.reserve(near_.count());
 }
 
 template <class Real, class Device>
 void SelfContact<Real, Device>::accept_iterate(const Vec3<Real>* cloth) {
   bodies_.accept();
-  if (!pending_) return;
-  pending_ = false;
-  const Vec3<Real>* x = bodies_.positions(cloth);
-  Vec3<Real>* center = center_.data();
-  for_each(
-      device_, "self-contact: moved", bodies_.all(), HYST_KERNEL(int i) { center[i] = x[i]; });
-}
-
-template <class Real, class Device>
-void SelfContact<Real, Device>::rebuild(const Vec3<Real>* x, const Vec3<Real>* direction, Real step_length,
-                                        const char* held, Real reach) {
-  reach_ = reach;
-  pairs_.find(x, direction, step_length, held, reach);
-  carry_over();
-  index_corners();
-  ready_ = pending_ = true;
-}
-
-// Finds the pairs of each vertex, and makes room for their results.
-template <class Real, class Device>
-void SelfContact<Real, Device>::index_corners() {
-  const int count = pairs_.count();
-  slot_.reserve(4 * static_cast<std::size_t>(count));
-  energy_.reserve(count);
-  active_item_.reserve(4 * static_cast<std::size_t>(count));
-  int* key = rows_.key.reserve(4 * static_cast<std::size_t>(count));
-  const SelfPair<Real>* pairs = pairs_.pairs();
-  for_each(
-      device_, "self-contact: corners", count, HYST_KERNEL(int p) {
-        for (int k = 0; k < 4; ++k) key[4 * p + k] = pairs[p].v[k];
-      });
-  group(device_, pairs_.scratch(), key, 4 * count, bodies_.all(), rows_.start.data(),
-        rows_.item.reserve(4 * static_cast<std::size_t>(count)));
+  if (near_.lacks_center()) near_.set_center(bodies_.positions(cloth));
 }
 
 template <class Real, class Device>
 void SelfContact<Real, Device>::serialise(Archive& archive) {
-  pairs_.serialise(archive);
-  hysteron::serialise(archive, device_, friction_.reserve(pairs_.count()), pairs_.count());
-  archive(ready_);
-  archive(pending_);
-  archive(reach_);
-  archive(stored_);
-  archive(loss_);
-  archive(body_work_);
+  near_.serialise(archive);
+  hysteron::serialise(archive, device_, friction_.reserve(near_.count()), near_.count());
+  archive(stored_, loss_, body_work_);
   bodies_.serialise(archive);
   hysteron::serialise(archive, device_, body_force_);
-  hysteron::serialise(archive, device_, center_);
   hysteron::serialise(archive, clock_);
-  if (archive.loads()) index_corners();
+  if (archive.loads()) reserve_results();
 }
 
 template <class Real, class Device>
@@ -188,11 +97,11 @@ void SelfContact<Real, Device>::update_lagged_friction(const Vec3<Real>* cloth) 
   const Real* of_body = bodies_.friction();
   const int first_body = vertices_;
   const SelfContactModel<Real> model = model_;
-  const SelfPair<Real>* pairs = pairs_.pairs();
-  const char* near = near_.data();
+  const SelfPair<Real>* pairs = near_.pairs();
+  const char* near = near_.near();
   PairFriction<Real>* friction = friction_.data();
   for_each(
-      device_, "self-contact: lagged friction", pairs_.count(), HYST_KERNEL(int p) {
+      device_, "self-contact: lagged friction", near_.count(), HYST_KERNEL(int p) {
         if (!near[p]) return;  // its limit is 0
         const SelfTouch<Real> touch = self_touch(pairs[p], model, x);
         const int last = pairs[p].v[0] < pairs[p].v[3] ? pairs[p].v[3] : pairs[p].v[0];
@@ -211,13 +120,13 @@ void SelfContact<Real, Device>::evaluate(const Vec3<Real>* cloth, const Vec3<Rea
   clock_.begin(Stage::contact);
   const Vec3<Real>*x = bodies_.positions(cloth), *before = bodies_.positions_before(cloth_before);
   const SelfContactModel<Real> model = model_;
-  const SelfPair<Real>* pairs = pairs_.pairs();
+  const SelfPair<Real>* pairs = near_.pairs();
   const PairFriction<Real>* friction = friction_.data();
-  const char* near = near_.data();
+  const char* near = near_.near();
   Vec3<Real>* slot = slot_.data();
   double* energy = energy_.data();
   for_each(
-      device_, "self-contact: barrier", pairs_.count(), HYST_KERNEL(int p) {
+      device_, "self-contact: barrier", near_.count(), HYST_KERNEL(int p) {
         if (!near[p]) {
           for (int k = 0; k < 4; ++k) slot[4 * p + k].setZero();
           energy[p] = 0;
@@ -237,33 +146,10 @@ void SelfContact<Real, Device>::evaluate(const Vec3<Real>* cloth, const Vec3<Rea
         const Vec3<Real> force = (slides ? f.limit / length : k_t) * e;
         for (int k = 0; k < 4; ++k) slot[4 * p + k] += f.weight[k] * force;
       });
-  const GatheredForces<Real> forces{rows_.start.data(), rows_.item.data(), slot};
+  const GatheredForces<Real> forces = gradients();
   for_each(
       device_, "self-contact: forces", vertices_, HYST_KERNEL(int i) { gradient[i] += forces.at(i); });
   clock_.end(Stage::contact);
-}
-
-// Numbers the stiffnesses of the pairs that touch or have friction; returns how many there are.
-template <class Real, class Device>
-int SelfContact<Real, Device>::find_active(const Vec3<Real>* x) {
-  const int count = pairs_.count();
-  const SelfPair<Real>* pairs = pairs_.pairs();
-  const PairFriction<Real>* friction = friction_.data();
-  const char* near = near_.data();
-  const bool stiffens_parallel = stiffens_parallel_;
-  int* presses = presses_.reserve(count);
-  for_each(
-      device_, "self-contact: pressing", count, HYST_KERNEL(int p) {
-        presses[p] = 0;
-        if (!near[p]) return;
-        Vec3<Real> at[4];
-        pairs[p].gather(x, at);
-        const bool touches = pair_distance(at, pairs[p].is_edges()) < pairs[p].activation_distance;
-        presses[p] = touches && stiffens_parallel && are_fading(pairs[p], at) ? 2
-                     : touches || friction[p].limit > 0                       ? 1
-                                                                              : 0;
-      });
-  return exclusive_scan(device_, pairs_.scratch(), presses, count, active_.reserve(count + 1));
 }
 
 template <class Real, class Device>
@@ -271,23 +157,23 @@ void SelfContact<Real, Device>::linearise(const Vec3<Real>* cloth, const Vec3<Re
                                           Real sliding_fraction) {
   clock_.begin(Stage::contact);
   const Vec3<Real>*x = bodies_.positions(cloth), *before = bodies_.positions_before(cloth_before);
-  active_count_ = find_active(x);
-  const std::size_t entries = 4 * static_cast<std::size_t>(active_count_);
+  stiffnesses_ = near_.number_active(x, friction_.data(), stiffens_parallel_);
+  const std::size_t entries = 4 * static_cast<std::size_t>(stiffnesses_);
   const SelfContactModel<Real> model = model_;
-  const SelfPair<Real>* pairs = pairs_.pairs();
+  const SelfPair<Real>* pairs = near_.pairs();
   const PairFriction<Real>* friction = friction_.data();
-  const int *presses = presses_.data(), *number = active_.data();
-  PairStiffness<Real>* stiffness = stiffness_.reserve(active_count_);
+  const int *stiffnesses_of = near_.stiffnesses_of(), *first_of = near_.first_stiffness_of();
+  PairStiffness<Real>* stiffness = stiffness_.reserve(stiffnesses_);
   int* key = stiffness_rows_.key.reserve(entries);
   for_each(
-      device_, "self-contact: stiffness", pairs_.count(), HYST_KERNEL(int p) {
-        if (!presses[p]) return;
+      device_, "self-contact: stiffness", near_.count(), HYST_KERNEL(int p) {
+        if (!stiffnesses_of[p]) return;
         const SelfTouch<Real> touch = self_touch(pairs[p], model, x);
         const PairFriction<Real> f = friction[p];
-        PairStiffness<Real>& s = stiffness[number[p]];
+        PairStiffness<Real>& s = stiffness[first_of[p]];
         for (int k = 0; k < 4; ++k) s.v[k] = pairs[p].v[k];
-        for (int k = 0; k < 4 * presses[p]; ++k) key[4 * number[p] + k] = s.v[k % 4];
-        if (presses[p] == 2) stiffness[number[p] + 1] = turning_stiffness(pairs[p], touch);
+        for (int k = 0; k < 4 * stiffnesses_of[p]; ++k) key[4 * first_of[p] + k] = s.v[k % 4];
+        if (stiffnesses_of[p] == 2) stiffness[first_of[p] + 1] = turning_stiffness(pairs[p], touch);
         s.block.setZero();
         s.weight = f.weight;
         if (touch.touches) {
@@ -298,8 +184,8 @@ void SelfContact<Real, Device>::linearise(const Vec3<Real>* cloth, const Vec3<Re
         const Vec3<Real> e = pair_slip(pairs[p], f, x, before);
         s.block += sliding_stiffness<Real>(e, f.normal, f.limit / model.slip, model.slip, sliding_fraction);
       });
-  if (bodies_.any()) leave_cloth_alone();
-  group(device_, pairs_.scratch(), key, 4 * active_count_, vertices_, stiffness_rows_.start.data(),
+  if (bodies_.any()) take_bodies_out();
+  group(device_, near_.scratch(), key, 4 * stiffnesses_, vertices_, stiffness_rows_.start.data(),
         stiffness_rows_.item.reserve(entries));
   clock_.end(Stage::contact);
 }
@@ -307,15 +193,15 @@ void SelfContact<Real, Device>::linearise(const Vec3<Real>* cloth, const Vec3<Re
 // Takes the bodies' vertices out of the stiffnesses: a vertex of the cloth replaces them with weight 0, and
 // the push of the rest of their way is stored.
 template <class Real, class Device>
-void SelfContact<Real, Device>::leave_cloth_alone() {
+void SelfContact<Real, Device>::take_bodies_out() {
   const int cloth = vertices_;
   const Real left = static_cast<Real>(bodies_.left());
   const Vec3<Real>* way = bodies_.way();
   PairStiffness<Real>* stiffness = stiffness_.data();
   int* key = stiffness_rows_.key.data();
-  Vec3<Real>* push = push_.reserve(active_count_);
+  Vec3<Real>* push = push_.reserve(stiffnesses_);
   for_each(
-      device_, "self-contact: push", active_count_, HYST_KERNEL(int i) {
+      device_, "self-contact: push", stiffnesses_, HYST_KERNEL(int i) {
         PairStiffness<Real>& s = stiffness[i];
         Vec3<Real> apart = Vec3<Real>::Zero();
         int own = 0;
@@ -360,10 +246,10 @@ template <class Real, class Device>
 double SelfContact<Real, Device>::stored_energy(const Vec3<Real>* cloth) {
   const Vec3<Real>* x = bodies_.positions(cloth);
   const SelfContactModel<Real> model = model_;
-  const SelfPair<Real>* pairs = pairs_.pairs();
+  const SelfPair<Real>* pairs = near_.pairs();
   double* sum = sum_.data();
   for_each_sum<1>(
-      device_, "self-contact: energy", pairs_.count(),
+      device_, "self-contact: energy", near_.count(),
       HYST_KERNEL(int p, Sums<1>& sums) {
         const SelfTouch<Real> touch = self_touch(pairs[p], model, x);
         if (touch.touches) sums.term[0] += touch.energy;
@@ -374,11 +260,11 @@ double SelfContact<Real, Device>::stored_energy(const Vec3<Real>* cloth) {
 
 template <class Real, class Device>
 std::vector<Vec3<Real>> SelfContact<Real, Device>::forces() const {
-  const std::vector<int> start = rows_.start.download();
-  std::vector<int> item(4 * static_cast<std::size_t>(pairs_.count()));
+  const std::vector<int> start = near_.corners().start.download();
+  std::vector<int> item(4 * static_cast<std::size_t>(near_.count()));
   std::vector<Vec3<Real>> slot(item.size()), forces(vertices_, Vec3<Real>::Zero());
   if (item.empty()) return forces;
-  device_download(device_, item.data(), rows_.item.data(), item.size() * sizeof(int));
+  device_download(device_, item.data(), near_.corners().item.data(), item.size() * sizeof(int));
   device_download(device_, slot.data(), slot_.data(), slot.size() * sizeof(Vec3<Real>));
   for (int i = 0; i < vertices_; ++i)
     for (int j = start[i]; j < start[i + 1]; ++j) forces[i] -= slot[item[j]];
@@ -386,55 +272,27 @@ std::vector<Vec3<Real>> SelfContact<Real, Device>::forces() const {
 }
 
 template <class Real, class Device>
-SelfPair<Real> SelfContact<Real, Device>::blocking_pair() const {
-  std::vector<Real> feasible(pairs_.count());
-  device_download(device_, feasible.data(), step_length_.data(), feasible.size() * sizeof(Real));
-  const auto least = std::min_element(feasible.begin(), feasible.end()) - feasible.begin();
-  SelfPair<Real> pair;
-  device_download(device_, &pair, pairs_.pairs() + least, sizeof pair);
-  return pair;
-}
-
-template <class Real, class Device>
 std::size_t SelfContact<Real, Device>::bytes() const {
-  return pairs_.bytes() + center_.bytes() + step_length_.bytes() + friction_.bytes() + old_friction_.bytes() +
-         near_.bytes() + active_end_.bytes() + active_item_.bytes() + presses_.bytes() + active_.bytes() +
-         stiffness_.bytes() + push_.bytes() + body_force_.bytes() + bodies_.bytes() + rows_.bytes() +
-         stiffness_rows_.bytes() + slot_.bytes() + energy_.bytes() + sum_.bytes();
+  return total_bytes(bodies_, near_, friction_, old_friction_, stiffness_, stiffness_rows_, push_,
+                     body_force_, slot_, energy_, sum_);
 }
 
 // The following keep the memory of friction between layers: the stops' stretch from step to step and from
 // list to list.
 
-// Gathers for each vertex the entries of active pairs, in the order of all: they are few, and most pairs
-// search them.
-template <class Real, class Device>
-void SelfContact<Real, Device>::gather_active() {
-  const int *start = rows_.start.data(), *item = rows_.item.data();
-  const PairFriction<Real>* friction = friction_.data();
-  int *end = active_end_.data(), *bearing = active_item_.data();
-  for_each(
-      device_, "self-contact: bearing", bodies_.all(), HYST_KERNEL(int i) {
-        int n = start[i];
-        for (int j = start[i]; j < start[i + 1]; ++j)
-          if (friction[item[j] / 4].limit > 0) bearing[n++] = item[j];
-        end[i] = n;
-      });
-}
-
 // Carries over the friction of pairs that stay in the list, or follow their neighbours.
 template <class Real, class Device>
-void SelfContact<Real, Device>::carry_over() {
-  if (ready_) gather_active();
+void SelfContact<Real, Device>::carry_friction_over(bool had_list) {
+  if (had_list) near_.gather_rubbing(friction_.data());
   friction_.swap(old_friction_);
-  PairFriction<Real>* friction = friction_.reserve(pairs_.count());
+  PairFriction<Real>* friction = friction_.reserve(near_.count());
   const PairFriction<Real>* old = old_friction_.data();
-  const SelfPair<Real>*pairs = pairs_.pairs(), *old_pairs = pairs_.old_pairs();
-  const int *start = pairs_.start(), *old_start = pairs_.old_start();
-  const ActiveRows bearing = this->bearing();  // of the list before
-  const bool has_old = ready_;
+  const SelfPairs<Real, Device>& list = near_.list();
+  const SelfPair<Real>*pairs = list.pairs(), *old_pairs = list.old_pairs();
+  const int *start = list.start(), *old_start = list.old_start();
+  const RubbingRows rubbing = near_.rubbing();  // of the list before
   for_each(
-      device_, "self-contact: carry over", pairs_.rows(), HYST_KERNEL(int row) {
+      device_, "self-contact: carry over", list.rows(), HYST_KERNEL(int row) {
         for (int p = start[row]; p < start[row + 1]; ++p) {
           int same = -1;
           for (int q = old_start[row]; q < old_start[row + 1]; ++q)
@@ -443,7 +301,7 @@ void SelfContact<Real, Device>::carry_over() {
             friction[p] = old[same];
           } else {
             const Vec3<Real> slip =
-                has_old ? inherited_slip(pairs[p], old_pairs, old, bearing) : Vec3<Real>(Vec3<Real>::Zero());
+                had_list ? inherited_slip(pairs[p], old_pairs, old, rubbing) : Vec3<Real>(Vec3<Real>::Zero());
             friction[p] = {slip, Vec3<Real>::Zero(), Vec<Real, 4>::Zero(), 0};
           }
         }
@@ -454,18 +312,18 @@ void SelfContact<Real, Device>::carry_over() {
 template <class Real, class Device>
 void SelfContact<Real, Device>::commit(const Vec3<Real>* cloth, const Vec3<Real>* cloth_before) {
   if (bodies_.any()) {
-    book_body_work();
+    add_body_work();
     bodies_.keep_dents();
   }
   if (!rubs()) return;
   clock_.begin(Stage::contact);
   const Vec3<Real>*x = bodies_.positions(cloth), *before = bodies_.positions_before(cloth_before);
   const SelfContactModel<Real> model = model_;
-  const SelfPair<Real>* pairs = pairs_.pairs();
+  const SelfPair<Real>* pairs = near_.pairs();
   PairFriction<Real>* friction = friction_.data();
   double* sum = sum_.data();
   for_each_sum<2>(
-      device_, "self-contact: history", pairs_.count(),
+      device_, "self-contact: history", near_.count(),
       HYST_KERNEL(int p, Sums<2>& sums) {
         PairFriction<Real>& f = friction[p];
         if (!(f.limit > 0)) {
@@ -493,8 +351,8 @@ void SelfContact<Real, Device>::commit(const Vec3<Real>* cloth, const Vec3<Real>
 // Adds the work of moving bodies on the cloth: that of the forces on their vertices over their way; in
 // statics of the mean of the forces before and after it.
 template <class Real, class Device>
-void SelfContact<Real, Device>::book_body_work() {
-  const GatheredForces<Real> forces{rows_.start.data(), rows_.item.data(), slot_.data()};
+void SelfContact<Real, Device>::add_body_work() {
+  const GatheredForces<Real> forces = gradients();
   const int first = vertices_;
   const Vec3<Real>*from = bodies_.from(), *start = bodies_.start(), *way = bodies_.way();
   Vec3<Real>* kept = body_force_.size() > 0 ? body_force_.data() : nullptr;
@@ -511,16 +369,16 @@ void SelfContact<Real, Device>::book_body_work() {
   body_work_ += sum_.download()[0];
 }
 
-// Passes the stretch of active pairs' stops on to pairs that are not active yet.
+// Passes the stretch of rubbing pairs' stops on to pairs that do not rub yet.
 template <class Real, class Device>
 void SelfContact<Real, Device>::pass_friction_on() {
-  gather_active();
-  const SelfPair<Real>* pairs = pairs_.pairs();
-  const ActiveRows bearing = this->bearing();
+  near_.gather_rubbing(friction_.data());
+  const SelfPair<Real>* pairs = near_.pairs();
+  const RubbingRows rubbing = near_.rubbing();
   PairFriction<Real>* friction = friction_.data();
   for_each(
-      device_, "self-contact: hand over", pairs_.count(), HYST_KERNEL(int p) {
-        if (!(friction[p].limit > 0)) friction[p].slip = inherited_slip(pairs[p], pairs, friction, bearing);
+      device_, "self-contact: inherit", near_.count(), HYST_KERNEL(int p) {
+        if (!(friction[p].limit > 0)) friction[p].slip = inherited_slip(pairs[p], pairs, friction, rubbing);
       });
 }
 

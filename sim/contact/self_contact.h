@@ -3,23 +3,22 @@
 // friction.
 //
 // A start without intersections stays so: every path that Newton's method takes is checked (additive_ccd.h)
-// against all pairs that it could bring together (self_pairs.h).
+// against all pairs that it could bring together (near_pairs.h).  This file is the response of these pairs.
 //
 // The barrier acts between layers from a distance of the thickness on and keeps them from coming nearer than
 // half of it; its stiffness is that of compression.h.  Friction is a Prandtl stop per pair as against
 // obstacles (contact.h), which slides after an elastic slip of 1 % of the thickness; its force limit is fixed
-// at the iterate of the last lag().  A pair that becomes active takes the stretch of its neighbours' stops.
-// The stiffness is Gauss-Newton's: positive semidefinite, without the second derivatives of distances.  It
-// also leaves out the resistance of the fade of parallel edges (barrier.h) to their turning, unless
-// stiffen_parallel_edges() asks for it: where pressure holds such edges, full steps then turn them several
-// times too far.
+// at the iterate of the last update_lagged_friction().  A pair that becomes active takes the stretch of its
+// neighbours' stops. The stiffness is Gauss-Newton's: positive semidefinite, without the second derivatives
+// of distances.  It also leaves out the resistance of the fade of parallel edges (barrier.h) to their
+// turning, unless stiffen_parallel_edges() asks for it: where pressure holds such edges, full steps then turn
+// them several times too far.
 #pragma once
 
 #include <optional>
-#include <span>
 
 #include "sim/contact/body_vertices.h"
-#include "sim/contact/self_pairs.h"
+#include "sim/contact/near_pairs.h"
 #include "sim/device/stage_clock.h"
 #include "sim/linear/gathered_forces.h"
 #include "sim/linear/pair_product.h"
@@ -27,44 +26,17 @@
 
 namespace hysteron {
 
-template <class Real>
-struct PairFriction {
-  Vec3<Real> slip, normal;  // elastic slip at the start of the step [m]; the rest is from lag()
-  Vec<Real, 4> weight;
-  Real limit;  // mu f_n [N]; 0: no contact
-};
-
-// The entries of pairs' vertices, sorted by vertex.
-template <class Device>
-struct PairRows {
-  PairRows(Device& device, int vertices) : start(device, vertices + 1), item(device), key(device) {}
-  Buffer<int, Device> start;        // n + 1 row starts, one row per vertex
-  GrowingBuffer<int, Device> item;  // 4 * pair + corner
-  GrowingBuffer<int, Device> key;   // the vertex of each entry
-  std::size_t bytes() const { return start.bytes() + item.bytes() + key.bytes(); }
-};
-
-// The entries of active pairs in a PairRows: a vertex's begin where all its entries do, and end earlier.
-struct ActiveRows {
-  const int *start, *end, *item;
-};
-
-template <class Real>
-struct SelfContactModel {
-  Real stiffness, friction, slip;  // [N/m^3], Coulomb coefficient, [m]
-};
-
 template <class Real, class Device>
 class SelfContact {
  public:
   SelfContact(Device& device, const ClothMesh& mesh, const Scene& scene);
 
   // Returns the largest step length along `direction` from x, up to `max_step`, that keeps layers apart by
-  // more than `kept_shell` of their shells or most of their distance, and no vertex farther than some edges
-  // from the mean displacement (arrays of n vertices [m], n flags).  Then evaluate() and the like may be
-  // called on the path up to there; accept_iterate() tells which of its points was taken.
+  // more than `kept_share` of their activation distances or most of their distance, and no vertex farther
+  // than some edges from the mean displacement (arrays of n vertices [m], n flags).  Then evaluate() and the
+  // like may be called on the path up to there; accept_iterate() tells which of its points was taken.
   double prepare(const Vec3<Real>* x, const Vec3<Real>* direction, const char* held, double max_step = 1,
-                 double archived_activation_distance = 0);
+                 double kept_share = 0);
   // Moves bodies of triangles along with the step: try_step() precedes evaluate(), accept_iterate() follows
   // it.
   void try_step(double step_length) { bodies_.try_step(step_length); }
@@ -74,13 +46,13 @@ class SelfContact {
   void aim_bodies(double fraction) { bodies_.aim(fraction); }
   bool bodies_have_arrived() const { return bodies_.have_arrived(); }
   // Tells that held vertices have become free: the next prepare() finds their pairs, too.
-  void invalidate_pairs() { pending_ = ready_; }
+  void invalidate_pairs() { near_.invalidate(); }
 
   // These work as in Contact: x, before and gradient have n vertices, those of the cloth.
   void update_lagged_friction(const Vec3<Real>* x);
   void evaluate(const Vec3<Real>* x, const Vec3<Real>* before, Vec3<Real>* gradient);
   const double* energies() const { return energy_.data(); }  // one per pair [J]
-  int pairs() const { return pairs_.count(); }
+  int pairs() const { return near_.count(); }
   // Makes the next linearise() include the stiffness against the turning of nearly parallel edges.
   void stiffen_parallel_edges(bool on) { stiffens_parallel_ = on; }
   bool stiffens_parallel_edges() const { return stiffens_parallel_; }
@@ -92,7 +64,7 @@ class SelfContact {
   void add_push(Vec3<Real>* force);
   // Returns the stiffnesses of linearise(), on the device.
   PairProduct<Real> product() const {
-    return {stiffness_rows_.start.data(), stiffness_rows_.item.data(), stiffness_.data(), active_count_};
+    return {stiffness_rows_.start.data(), stiffness_rows_.item.data(), stiffness_.data(), stiffnesses_};
   }
   // Accepts x, where evaluate() was called last.
   void commit(const Vec3<Real>* x, const Vec3<Real>* before);
@@ -104,7 +76,7 @@ class SelfContact {
   // These serve messages: the forces on vertices where evaluate() was called last [N], and the pair that
   // limited the step of the last prepare().
   std::vector<Vec3<Real>> forces() const;
-  SelfPair<Real> blocking_pair() const;
+  SelfPair<Real> blocking_pair() const { return near_.blocking_pair(); }
 
   double stored_energy(const Vec3<Real>* x);                      // [J]
   double friction_loss() const { return loss_; }                  // since the start [J]
@@ -114,52 +86,42 @@ class SelfContact {
   std::size_t bytes() const;
 
   // These are parts of the above; public because nvcc allows no device lambda in a private member function.
-  void rebuild(const Vec3<Real>* x, const Vec3<Real>* direction, Real step_length, const char* held,
-               Real reach);
-  void gather_active();
-  void carry_over();
+  void carry_friction_over(bool had_list);
   void pass_friction_on();
-  void index_corners();
-  // From here on arrays have all vertices, the cloth's and the bodies'.
-  Real longest_displacement(const Vec3<Real>* direction);
-  Real farthest(const Vec3<Real>* x, const Vec3<Real>* direction, Real step_length);
-  int find_active(const Vec3<Real>* x);
-  void book_body_work();
-  void leave_cloth_alone();
-  ActiveRows bearing() const { return {rows_.start.data(), active_end_.data(), active_item_.data()}; }
+  void take_bodies_out();
+  void add_body_work();
 
  private:
-  bool rubs() const { return model_.friction > 0 || bodies_.rubs(); }
   // `all` is the mesh with the bodies; empty without bodies.
   SelfContact(Device& device, const ClothMesh& mesh, const std::optional<ClothMesh>& all, const Scene& scene);
+  bool rubs() const { return model_.friction > 0 || bodies_.rubs(); }
+  void yield_bodies(const Vec3<Real>* x, const Vec3<Real>* direction, const char* held);
+  void renew_list(const StepPath<Real>& path, const char* held);
+  void reserve_results();
+  // Returns the gradient of each vertex, the cloth's and the bodies', where evaluate() was called last.
+  GatheredForces<Real> gradients() const {
+    return {near_.corners().start.data(), near_.corners().item.data(), slot_.data()};
+  }
 
   Device& device_;
   int vertices_;  // of the cloth
   BodyVertices<Real, Device> bodies_;
-  Real thickness_, least_reach_, most_reach_, max_displacement_;
   SelfContactModel<Real> model_;
-  SelfPairs<Real, Device> pairs_;
-  bool ready_ = false, pending_ = false, stiffens_parallel_ = false;
-  Real reach_ = 0;
+  NearPairs<Real, Device> near_;
+  bool stiffens_parallel_ = false;
   double stored_ = 0, loss_ = 0;  // energies of friction [J]
   double body_work_ = 0;          // [J]
-  Buffer<Vec3<Real>, Device> center_;
-  GrowingBuffer<Real, Device> step_length_;
-  GrowingBuffer<char, Device> near_;  // the pair may touch on the path of the last prepare(), or has friction
   GrowingBuffer<PairFriction<Real>, Device> friction_, old_friction_;
-  // The stiffnesses of the pairs that touched or had friction at the last linearise(), one or two for each:
-  // `pressing_`, a running count, gives their indices.
-  int active_count_ = 0;
-  GrowingBuffer<int, Device> presses_, active_;
+  // The stiffnesses of the pairs that were active at the last linearise(), one or two for each
+  // (NearPairs::number_active).
+  int stiffnesses_ = 0;
   GrowingBuffer<PairStiffness<Real>, Device> stiffness_;
+  PairRows<Device> stiffness_rows_;
   GrowingBuffer<Vec3<Real>, Device> push_;  // add_push() of each of them; with bodies alone
   Buffer<Vec3<Real>, Device> body_force_;   // at the last commit() of quasi-static scenes with bodies [N]
-  PairRows<Device> rows_, stiffness_rows_;
-  Buffer<int, Device> active_end_;  // the ends of BearingRows in rows_
-  GrowingBuffer<int, Device> active_item_;
-  GrowingBuffer<Vec3<Real>, Device> slot_;  // four per pair
-  GrowingBuffer<double, Device> energy_;
-  Buffer<double, Device> sum_;  // two numbers
+  GrowingBuffer<Vec3<Real>, Device> slot_;  // the gradient at each corner of a pair, four per pair [N]
+  GrowingBuffer<double, Device> energy_;    // of each pair [J]
+  Buffer<double, Device> sum_;              // two numbers
   StageClock<Device> clock_;
 };
 

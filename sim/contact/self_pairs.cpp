@@ -8,8 +8,9 @@ namespace hysteron {
 
 namespace {
 
-constexpr double kRestDistanceFraction = 0.5;  // largest share of the distance at rest that a shell may have
-constexpr double kParallel = 1e-3;             // sine squared at rest below which edges fade (Li et al. 2020)
+constexpr double kRestDistanceFraction =
+    0.5;  // largest share of the distance at rest that an activation distance may have
+constexpr double kParallel = 1e-3;  // sine squared at rest below which edges fade (Li et al. 2020)
 
 std::vector<std::array<int, 3>> triangle_corners(const ClothMesh& mesh) {
   std::vector<std::array<int, 3>> corners;

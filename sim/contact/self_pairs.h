@@ -24,20 +24,20 @@ struct SelfPair {
 };
 
 // Lists the pairs that can matter while vertices go from x by a step along `direction`, and anywhere within
-// `reach` of a point of that path: all that come nearer to each other than their shells.  The rows are
-// vertices, then edges by rank in their tree.  Pairs that share a vertex are excluded, as are those whose
-// vertices are all held; PinSweep lists those whose vertices are held by different pins.
+// `reach` of a point of that path: all that come nearer to each other than their activation distances.  The
+// rows are vertices, then edges by rank in their tree.  Pairs that share a vertex are excluded, as are those
+// whose vertices are all held; PinSweep lists those whose vertices are held by different pins.
 //
-// A pair's shell is the cloth's thickness, or half its distance at rest if that is less: neighbours on the
-// flat cloth are not in contact.  On flat layers one upon the other the areas of vertices right above
-// triangles and of edges that cross add up to that of the contact, half by each (on average over directions).
-// Pairs beside these are in reach as well; all areas are reduced for them, so that the pressure of flat
-// layers is that of the barrier within 10 % where edges are 4 to 25 thicknesses long.
+// A pair's activation distance is the cloth's thickness, or half its distance at rest if that is less:
+// neighbours on the flat cloth are not in contact.  On flat layers one upon the other the areas of vertices
+// right above triangles and of edges that cross add up to that of the contact, half by each (on average over
+// directions). Pairs beside these are in reach as well; all areas are reduced for them, so that the pressure
+// of flat layers is that of the barrier within 10 % where edges are 4 to 25 thicknesses long.
 template <class Real, class Device>
 class SelfPairs {
  public:
   // `mesh` may have bodies behind the cloth's `cloth` vertices, which are held; pairs of a body with the
-  // cloth have shells of the whole thickness.  Without `layers` these are the only pairs.
+  // cloth have the whole thickness for it.  Without `layers` these are the only pairs.
   SelfPairs(Device& device, const ClothMesh& mesh, double thickness, int cloth, bool layers);
   SelfPairs(Device& device, const ClothMesh& mesh, double thickness)
       : SelfPairs(device, mesh, thickness, mesh.vertices(), true) {}

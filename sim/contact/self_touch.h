@@ -3,11 +3,30 @@
 
 #include "sim/contact/additive_ccd.h"
 #include "sim/contact/compression.h"
-#include "sim/contact/self_contact.h"
+#include "sim/contact/self_pairs.h"
+#include "sim/linear/pair_product.h"
 
 namespace hysteron {
 
-inline constexpr double kClosest = 0.1;    // share of a shell that no step goes below
+template <class Real>
+struct SelfContactModel {
+  Real stiffness, friction, slip;  // [N/m^3], Coulomb coefficient, [m]
+};
+
+template <class Real>
+struct PairFriction {
+  Vec3<Real> slip, normal;  // elastic slip at the start of the step [m]; the rest is of the lagged contact
+  Vec<Real, 4> weight;
+  Real limit;  // mu f_n [N]; 0: no contact
+};
+
+// The entries of pairs with friction among those of all (PairRows): a vertex's begin where all its entries
+// do, and end earlier.
+struct RubbingRows {
+  const int *start, *end, *item;
+};
+
+inline constexpr double kClosest = 0.1;    // share of the activation distance that no step goes below
 inline constexpr double kLast = 0.2;       // share below which a second barrier protects that
 inline constexpr double kLastStiff = 3e3;  // stiffness of the second barrier over the first's
 
@@ -16,10 +35,10 @@ HYST_HD Real least_distance(const SelfPair<Real>& pair) {
   return static_cast<Real>(kClosest) * pair.activation_distance;
 }
 
-// Returns the barrier of a pair at this distance, below its shell.  Neighbours on the flat cloth have a small
-// shell, and their barrier is weak in proportion: a sharp fold of triangles finer than the thickness presses
-// through it.  At the least distance no step could then lead anywhere, so that a second barrier ends a little
-// above it.
+// Returns the barrier of a pair at this distance, below its activation distance.  That of neighbours on the
+// flat cloth is small, and their barrier is weak in proportion: a sharp fold of triangles finer than the
+// thickness presses through it.  At the least distance no step could then lead anywhere, so that a second
+// barrier ends a little above it.
 template <class Real>
 HYST_HD Barrier<Real> pair_barrier(const SelfPair<Real>& pair, Real k, Real distance) {
   const Real hardest = static_cast<Real>(kHardest) * pair.activation_distance,
@@ -132,12 +151,12 @@ HYST_HD bool are_neighbours(const SelfPair<Real>& p, const SelfPair<Real>& q, bo
   return first && second;
 }
 
-// Returns the stretch of the stop with which a pair becomes active: the mean of its active neighbours',
+// Returns the stretch of the stop with which a pair becomes active: the mean of its rubbing neighbours',
 // weighted by their limits, so that a layer which rests or slides across an edge of another does not feel
 // that edge.
 template <class Real>
 HYST_HD HYST_NOINLINE Vec3<Real> inherited_slip(const SelfPair<Real>& pair, const SelfPair<Real>* others,
-                                                const PairFriction<Real>* friction, const ActiveRows& rows) {
+                                                const PairFriction<Real>* friction, const RubbingRows& rows) {
   Vec3<Real> sum = Vec3<Real>::Zero();
   Real limits = 0, lengths = 0;
   for (int k = 0; k < (pair.is_edges() ? 2 : 1); ++k)

@@ -4,7 +4,7 @@
 // distance can be followed like a vertex's.
 //
 // Solids give way by design, so that a vertex may be a little inside; past the middle of the thinnest part
-// the shell would push it out on the other side.  A segment therefore goes deeper by at most half of the
+// the barrier would push it out on the other side.  A segment therefore goes deeper by at most half of the
 // remaining way to the middle.  Where the obstacle moves, the path is that beside it: it starts where the
 // vertex would be had the obstacle carried it along, and is straight in the obstacle's frame.
 #pragma once
@@ -44,13 +44,13 @@ struct Path {
     for (const Vec3<Real>& w : displacement) longest = w.norm() > longest ? w.norm() : longest;
     return longest;
   }
-  HYST_HD void place(const Obstacle3<Real>& obstacle, Real fraction, Vec3<Real> (&p)[kCorners]) const {
+  HYST_HD void locate(const Obstacle3<Real>& obstacle, Real fraction, Vec3<Real> (&p)[kCorners]) const {
     for (int k = 0; k < kCorners; ++k)
       p[k] = obstacle.rotation.transpose() * (from[k] + fraction * displacement[k] - obstacle.center);
   }
   HYST_HD Real distance_at(const Obstacle3<Real>& obstacle, Real fraction) const {
     Vec3<Real> p[kCorners];
-    place(obstacle, fraction, p);
+    locate(obstacle, fraction, p);
     return least_distance(obstacle.shape, p);
   }
   // Does the path stay away, as far as can be told without the triangle's nearest point?
@@ -59,7 +59,7 @@ struct Path {
       return false;
     } else {
       Vec3<Real> p[kCorners];
-      place(obstacle, Real(0), p);
+      locate(obstacle, Real(0), p);
       return least_possible(obstacle.shape, p) > length();
     }
   }

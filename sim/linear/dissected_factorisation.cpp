@@ -214,12 +214,12 @@ void DissectedFactorisation<Real, Device>::finish(int level) {
         if (!at.is_lower() || at.column >= at.front.pivot_rows) return;
         const int i = source[at.front.source + at.row], j = source[at.front.source + at.column];
         if (i < 0 || j < 0) return;
-        const std::size_t stride = at.front.stride, place = at.front.number + at.row * stride + at.column,
+        const std::size_t stride = at.front.stride, entry = at.front.number + at.row * stride + at.column,
                           mirror = at.front.number + at.column * stride + at.row;
         const bool is_pivot = at.row < at.front.pivot_rows;
         const double value =
-            is_pivot ? -number[place] * scale[i] * scale[j] : number[place] * scale[j] / scale[i];
-        number[place] = value;
+            is_pivot ? -number[entry] * scale[i] * scale[j] : number[entry] * scale[j] / scale[i];
+        number[entry] = value;
         number[mirror] = is_pivot ? value : -value;
       });
 }

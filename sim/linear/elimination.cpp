@@ -208,14 +208,15 @@ void link_fronts(SymbolicFactorization& plan) {
   for (std::size_t f = 0; f < plan.front.size(); ++f)
     for (int k = 0; k < plan.front[f].pivots; ++k) owner[plan.front[f].first + k] = static_cast<int>(f);
   for (Front& front : plan.front) {
-    front.place_start = static_cast<int>(plan.place.size());
+    front.parent_row_start = static_cast<int>(plan.parent_row.size());
     front.parent = -1;
     if (front.updated() == 0) continue;
     front.parent = owner[plan.row[front.row_start + front.pivots]];
     Front& parent = plan.front[front.parent];
     ++parent.children;
     for (int r = 0; r < parent.rows; ++r) at[plan.row[parent.row_start + r]] = r;
-    for (int r = front.pivots; r < front.rows; ++r) plan.place.push_back(at[plan.row[front.row_start + r]]);
+    for (int r = front.pivots; r < front.rows; ++r)
+      plan.parent_row.push_back(at[plan.row[front.row_start + r]]);
   }
 }
 

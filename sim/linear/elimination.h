@@ -60,9 +60,9 @@ class SymmetricBlocks {
 struct Front {
   int first, pivots;           // its own nodes are first ... first + pivots - 1 in the order of elimination
   int rows;                    // number of nodes, own ones first
-  int row_start;               // in Elimination::row
-  int place_start;             // in Elimination::place
-  int block_start, block_end;  // in Elimination::block
+  int row_start;               // in SymbolicFactorization::row
+  int parent_row_start;        // in SymbolicFactorization::parent_row
+  int block_start, block_end;  // in SymbolicFactorization::block
   int parent;                  // the front that receives its update; -1: none
   int children;                // its children are this many of the last waiting fronts
   std::size_t panel;           // start of its 3 rows x 3 pivots numbers in the factor
@@ -80,8 +80,8 @@ struct EnteringBlock {
 struct SymbolicFactorization {
   std::vector<int> order;  // the node that is eliminated k-th
   std::vector<Front> front;
-  std::vector<int> row;    // for each front: the positions of its rows in the order
-  std::vector<int> place;  // for each front's updated rows: the row of the parent
+  std::vector<int> row;         // for each front: the positions of its rows in the order
+  std::vector<int> parent_row;  // for each front's updated rows: the row of the parent
   std::vector<EnteringBlock> block;
   std::size_t entries = 0;     // entries of the factor, including those above pivots
   std::size_t stack = 0;       // the most numbers of waiting updates

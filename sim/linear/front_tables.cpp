@@ -71,10 +71,10 @@ class TableMaker {
     const int start = static_cast<int>(tables_.child_row.size());
     tables_.child.push_back({tiles.number, tiles.stride(), start});
     tables_.child_row.resize(start + plan_.front[f].stride(), -1);
-    const int* place = plan_.elimination.place.data() + front(child).place_start;
+    const int* parent_row = plan_.elimination.parent_row.data() + front(child).parent_row_start;
     for (int k = 0; k < front(child).updated(); ++k)
       for (int c = 0; c < 3; ++c)
-        tables_.child_row[start + first_number(plan_.front[f], front(f), place[k]) + c] =
+        tables_.child_row[start + first_number(plan_.front[f], front(f), parent_row[k]) + c] =
             tiles.pivot_rows() + 3 * k + c;
   }
 

@@ -90,7 +90,7 @@ std::size_t SparseCholesky::bytes() const {
       factor_.size() + updates_.size() + least_pivot_.size() + ordered_.size() + front_.size();
   return numbers * sizeof(double) + plan_.front.size() * sizeof(Front) +
          plan_.block.size() * sizeof(EnteringBlock) +
-         (plan_.order.size() + plan_.row.size() + plan_.place.size()) * sizeof(int);
+         (plan_.order.size() + plan_.row.size() + plan_.parent_row.size()) * sizeof(int);
 }
 
 void SparseCholesky::assemble(const Front& front, const SymmetricBlocks& matrix, double* panel) const {
@@ -112,18 +112,18 @@ void SparseCholesky::assemble(const Front& front, const SymmetricBlocks& matrix,
 // Adds the child's update to the front's own columns and to the rest.
 void SparseCholesky::extend_add(const Front& child, const Front& front, const double* update, double* panel,
                                 double* remainder) const {
-  const int* place = plan_.place.data() + child.place_start;
+  const int* parent_row = plan_.parent_row.data() + child.parent_row_start;
   const std::ptrdiff_t own_stride = 3 * front.rows, rest_stride = 3 * front.updated(),
                        stride = 3 * child.updated();
   for (int j = 0; j < child.updated(); ++j) {
-    const bool is_own = place[j] < front.pivots;
+    const bool is_own = parent_row[j] < front.pivots;
     const int below = is_own ? 0 : front.pivots;
     for (int k = 0; k < 3; ++k) {
       const double* from = update + (3 * j + k) * stride;
-      double* to = is_own ? panel + (3 * place[j] + k) * own_stride
-                          : remainder + (3 * (place[j] - front.pivots) + k) * rest_stride;
+      double* to = is_own ? panel + (3 * parent_row[j] + k) * own_stride
+                          : remainder + (3 * (parent_row[j] - front.pivots) + k) * rest_stride;
       for (int i = j; i < child.updated(); ++i)
-        for (int l = 0; l < 3; ++l) to[3 * (place[i] - below) + l] += from[3 * i + l];
+        for (int l = 0; l < 3; ++l) to[3 * (parent_row[i] - below) + l] += from[3 * i + l];
     }
   }
 }

@@ -18,9 +18,9 @@ void join_along(const ClothMesh& mesh, const Edge& edge, Sets& sets) {
     pair[k][0] = corner_at(mesh, edge.face0, ends[k]);
     pair[k][1] = corner_at(mesh, edge.face1, ends[k]);
   }
-  const auto place = [&](int corner) { return mesh.panel[corner / 3][corner % 3]; };
+  const auto panel_vertex = [&](int corner) { return mesh.panel[corner / 3][corner % 3]; };
   for (int k = 0; k < 2 && !mesh.panel.empty(); ++k)
-    if (place(pair[k][0]) != place(pair[k][1])) return;
+    if (panel_vertex(pair[k][0]) != panel_vertex(pair[k][1])) return;
   for (int k = 0; k < 2; ++k) sets.join(pair[k][0], pair[k][1]);
 }
 

@@ -123,10 +123,11 @@ std::string size_warning(double uneven, double stretch, double scale) {
 bool is_seam(const ClothMesh& mesh, int edge) {
   if (mesh.panel.empty()) return false;
   const Edge& e = mesh.edge[edge];
-  const auto place = [&](int f, int vertex) {
+  const auto panel_vertex = [&](int f, int vertex) {
     return mesh.panel[f][mesh.face[f][0] == vertex ? 0 : mesh.face[f][1] == vertex ? 1 : 2];
   };
-  return place(e.face0, e.p2) != place(e.face1, e.p2) || place(e.face0, e.p3) != place(e.face1, e.p3);
+  return panel_vertex(e.face0, e.p2) != panel_vertex(e.face1, e.p2) ||
+         panel_vertex(e.face0, e.p3) != panel_vertex(e.face1, e.p3);
 }
 
 ClothMesh read_pattern(const std::string& file, double weld, double scale, LengthUnit unit,

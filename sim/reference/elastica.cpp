@@ -133,11 +133,11 @@ class Solver {
         points_(strip.law, strip.rigidity, strip.segments),
         h_(strip.segments),
         curvature_(VectorXd::Zero(strip.segments)) {
-    const auto place = [&](int i) {  // ends at u = i/n are dense at the clamp, where heavy strips bend
+    const auto end = [&](int i) {  // ends at u = i/n are dense at the clamp, where heavy strips bend
       const double u = static_cast<double>(i) / strip.segments;
       return strip.length * u * (0.2 + 0.8 * u);
     };
-    for (int i = 0; i < strip.segments; ++i) h_[i] = place(i + 1) - place(i);
+    for (int i = 0; i < strip.segments; ++i) h_[i] = end(i + 1) - end(i);
   }
 
   // Goes from the accepted load to another.

@@ -79,9 +79,9 @@ void load_bodies(Scene& scene) {
 
 std::vector<Eigen::Vector3d> body_positions(const Obstacle& o, double time) {
   if (!o.mesh) throw Error::invalid_input("an obstacle of kind mesh has no triangles: they were not loaded");
-  const Placement place = placement(o.motion, time);
+  const Placement at = placement(o.motion, time);
   std::vector<Eigen::Vector3d> x = o.mesh->positions(time);
-  for (Eigen::Vector3d& p : x) p = place(p + o.center);
+  for (Eigen::Vector3d& p : x) p = at(p + o.center);
   return x;
 }
 

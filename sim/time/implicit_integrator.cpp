@@ -23,7 +23,7 @@ void ImplicitIntegrator<Real, Device>::step(double start, double h) {
   if (!finds_equilibria) this->refuse_longer(h);
   if (bending_lags()) return take_lagged_step(start, h);
   if (tolerance_ > 0) return take_adaptive_step(start, h);
-  take_interval(start, h, 0);
+  take_interval(start, h);
 }
 
 // Returns the share of the weight at `time`.  Statics let it grow over the scene's `ramp` and fall over its
@@ -48,7 +48,7 @@ NewtonOutcome ImplicitIntegrator<Real, Device>::attempt(double start, double h, 
   const bool yields =
       body_.self_contact && pins.are_blocked(body_, length) && pins.yield_to_cloth(body_, length);
   const NewtonOutcome outcome = solve(start, h, is_first_stage);
-  const bool fails = outcome.blocked || (is_last_resort && !outcome.converged);
+  const bool fails = outcome.end == NewtonEnd::blocked || (is_last_resort && !outcome.is_accepted());
   if (!fails || yields || !body_.self_contact || !pins.yield_to_cloth(body_, length)) return outcome;
   return solve(start, h, is_first_stage);
 }
@@ -60,7 +60,7 @@ NewtonOutcome ImplicitIntegrator<Real, Device>::solve(double start, double h, bo
   body_.clock.end(Stage::solve);
   body_.counts.newton += outcome.iterations;
   body_.counts.linear += outcome.linear_iterations;
-  body_.counts.unbalanced += outcome.unbalanced;
+  body_.counts.unbalanced += outcome.end == NewtonEnd::unbalanced;
   body_.counts.time_steps += outcome.time_steps;
   last_outcome_ = outcome;
   return outcome;
@@ -83,37 +83,69 @@ void ImplicitIntegrator<Real, Device>::accept(double end) {
   body_.end_stage(end);
 }
 
+// Goes from start to start + h, in halves where that finds no equilibrium.
 template <class Real, class Device>
-void ImplicitIntegrator<Real, Device>::take_interval(double start, double h, int halvings) {
-  const NewtonOutcome outcome =
-      attempt(start, first_stage(h), solver_.has_two_stages(), halvings == kMaxHalvings);
-  outcome.converged ? finish(start, h, halvings) : take_halves(start, h, halvings, outcome);
+void ImplicitIntegrator<Real, Device>::take_interval(double start, double h) {
+  if (const auto failure = take_part({start, h})) take_in_halves(*failure);
 }
 
-// Accepts the first stage and takes the rest of the way: each stage leaves a state from which steps can
-// start.
+// Takes what is left of an interval in halves, and in halves of these, down to the shortest parts.
 template <class Real, class Device>
-void ImplicitIntegrator<Real, Device>::finish(double start, double h, int halvings) {
-  const double first = first_stage(h), remainder = h - first;
-  accept(start + first);
-  ++body_.counts.parts;
-  if (!solver_.has_two_stages()) return;
-  const NewtonOutcome outcome = attempt(start + first, remainder, false, halvings == kMaxHalvings);
-  outcome.converged ? accept(start + first + remainder)
-                    : take_halves(start + first, remainder, halvings, outcome);
+void ImplicitIntegrator<Real, Device>::take_in_halves(const Failure& failure) {
+  std::vector<Part> ahead;  // the next part is the last
+  push_halves(failure, ahead);
+  while (!ahead.empty()) {
+    const Part part = ahead.back();
+    ahead.pop_back();
+    if (const auto next = take_part(part)) push_halves(*next, ahead);
+  }
+  if (body_.self_contact) body_.self_contact->stiffen_parallel_edges(false);
 }
 
+// Puts the halves of what is left before all that is ahead; or the same once more, if it is the shortest part
+// and stiffer edges may find its equilibrium.  Throws Error::simulation if nothing is left to try.
 template <class Real, class Device>
-void ImplicitIntegrator<Real, Device>::take_halves(double start, double h, int halvings,
-                                                   const NewtonOutcome& outcome) {
-  const bool is_shortest = halvings == kMaxHalvings;
-  if (is_shortest && (outcome.blocked || !stiffen_parallel_edges()))
-    throw_if_unbalanced(body_, solver_, start, h, outcome);
+void ImplicitIntegrator<Real, Device>::push_halves(const Failure& failure, std::vector<Part>& ahead) {
+  const auto& [start, h, halvings] = failure.rest;
+  const bool is_shortest = failure.rest.is_shortest();
+  if (is_shortest && (failure.outcome.end == NewtonEnd::blocked || !stiffen_parallel_edges()))
+    throw_no_equilibrium(body_, solver_, start, h, failure.outcome);
   ++body_.counts.retried;
-  if (is_shortest) return take_interval(start, h, halvings);
-  take_interval(start, h / 2, halvings + 1);
-  take_interval(start + h / 2, h / 2, halvings + 1);
-  if (halvings == 0 && body_.self_contact) body_.self_contact->stiffen_parallel_edges(false);
+  if (is_shortest) {
+    ahead.push_back(failure.rest);
+  } else {
+    ahead.push_back({start + h / 2, h / 2, halvings + 1});
+    ahead.push_back({start, h / 2, halvings + 1});
+  }
+}
+
+template <class Real, class Device>
+std::optional<typename ImplicitIntegrator<Real, Device>::Failure> ImplicitIntegrator<Real, Device>::take_part(
+    const Part& part) {
+  const NewtonOutcome outcome = attempt_first_stage(part);
+  if (!outcome.is_accepted()) return Failure{part, outcome};
+  return finish_part(part);
+}
+
+template <class Real, class Device>
+NewtonOutcome ImplicitIntegrator<Real, Device>::attempt_first_stage(const Part& part) {
+  return attempt(part.start, first_stage(part.h), solver_.has_two_stages(), part.is_shortest());
+}
+
+// Accepts the first stage, which has converged, and takes the second if there is one: each stage leaves a
+// state from which steps can start.
+template <class Real, class Device>
+std::optional<typename ImplicitIntegrator<Real, Device>::Failure>
+ImplicitIntegrator<Real, Device>::finish_part(const Part& part) {
+  const double first = first_stage(part.h);
+  const Part second{part.start + first, part.h - first, part.halvings};
+  accept(second.start);
+  ++body_.counts.parts;
+  if (!solver_.has_two_stages()) return std::nullopt;
+  const NewtonOutcome outcome = attempt(second.start, second.h, false, second.is_shortest());
+  if (!outcome.is_accepted()) return Failure{second, outcome};
+  accept(second.start + second.h);
+  return std::nullopt;
 }
 
 // Stiffens parallel edges for the rest of the step; returns whether that is new.  Layers that pressure holds
@@ -133,11 +165,12 @@ void ImplicitIntegrator<Real, Device>::take_adaptive_step(double start, double w
   if (part_ <= 0) part_ = whole / 16;
   for (double now = start; end - now > least / 2;) {
     const double h = equal_part(end - now, part_);
-    const NewtonOutcome outcome = attempt(now, first_stage(h), solver_.has_two_stages(), false);
-    const double error = outcome.converged ? solver_.local_error() : 1e30;
+    const Part part{now, h};
+    const NewtonOutcome outcome = attempt_first_stage(part);
+    const double error = outcome.is_accepted() ? solver_.local_error() : 1e30;
     const double wanted = next_part(h, std::pow(tolerance_ / error, 1 / solver_.error_order()));
-    if (outcome.converged && error <= tolerance_) {
-      finish(now, h, 0);
+    if (outcome.is_accepted() && error <= tolerance_) {
+      if (const auto failure = finish_part(part)) take_in_halves(*failure);
       now += h;
     } else if (wanted < least) {
       throw Error::simulation("tolerance = " + std::to_string(tolerance_) +
@@ -161,7 +194,7 @@ void ImplicitIntegrator<Real, Device>::take_lagged_step(double start, double who
     body_.clock.begin(Stage::bending);
     body_.bending.commit(body_.x.data(), body_.v.data(), h);
     body_.clock.end(Stage::bending);
-    take_interval(from, static_cast<double>(h), 0);
+    take_interval(from, static_cast<double>(h));
   }
 }
 

@@ -2,6 +2,9 @@
 // at the end of the step or stage; and `semi-implicit` with self-contact, whose bending lags.
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include "sim/time/implicit_step.h"
 #include "sim/time/time_integrator.h"
 
@@ -29,12 +32,26 @@ class ImplicitIntegrator : public TimeIntegrator<Real, Device> {
  private:
   using TimeIntegrator<Real, Device>::body_;
   bool bending_lags() const { return body_.scene.integrator == Integrator::semi_implicit; }
+  // A stretch of a step, which has been halved so many times to get there.
+  struct Part {
+    double start, h;  // [s]
+    int halvings = 0;
+
+    bool is_shortest() const { return halvings == kMaxHalvings; }
+  };
+  // What is left of a part where a stage of it found no equilibrium.
+  struct Failure {
+    Part rest;
+    NewtonOutcome outcome;
+  };
   void take_lagged_step(double start, double whole);
-  // Goes from start to start + h, in halves if it does not converge.
-  void take_interval(double start, double h, int halvings);
   void take_adaptive_step(double start, double whole);
-  void finish(double start, double h, int halvings);
-  void take_halves(double start, double h, int halvings, const NewtonOutcome& outcome);
+  void take_interval(double start, double h);
+  void take_in_halves(const Failure& failure);
+  void push_halves(const Failure& failure, std::vector<Part>& ahead);
+  std::optional<Failure> take_part(const Part& part);
+  std::optional<Failure> finish_part(const Part& part);
+  NewtonOutcome attempt_first_stage(const Part& part);
   bool stiffen_parallel_edges();
   double first_stage(double h) const { return solver_.has_two_stages() ? kTrapezoidalFraction * h : h; }
   NewtonOutcome attempt(double start, double h, bool is_first_stage, bool is_last_resort);

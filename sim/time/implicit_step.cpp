@@ -85,23 +85,24 @@ void ImplicitStep<Real, Device>::become_static() {
 
 template <class Real, class Device>
 NewtonOutcome ImplicitStep<Real, Device>::solve(double h, double fraction, bool is_first_stage) {
+  solution_.reset();
   formula_ = step_formula(h, is_first_stage);
   if (is_first_stage || !two_stage_) solver_->begin();
-  fraction_ = static_cast<Real>(fraction);
+  const Real share = static_cast<Real>(fraction);
   predict();
   potential_.begin({formula_, rate_formula(h), body_.x.data(), x_before_.data(), reference_.data(),
-                    predicted_.data(), body_.held.data(), body_.gravity(), body_.drag(), fraction_,
+                    predicted_.data(), body_.held.data(), body_.gravity(), body_.drag(), share,
                     body_.pins.compliant_pins()});
   const PotentialValue begun = begin_at_best_guess(is_first_stage);
   if (!std::isfinite(begun.energy)) {  // the pins' motion is barred, or the state is not finite
     NewtonOutcome outcome;
-    outcome.blocked = potential_.has_self_contact() && !limit_guess_by_ccd();
+    if (potential_.has_self_contact() && !limit_guess_by_ccd()) outcome.end = NewtonEnd::blocked;
     return outcome;
   }
   const double beta_dt = static_ ? 1.0 : formula_.beta_dt;
   const NewtonOutcome outcome =
       newton_.minimise(end_, begun, body_.held.data(), body_.mass.data(), total_mass_, beta_dt);
-  evaluated_ = outcome.evaluated;
+  if (outcome.is_accepted()) solution_ = Solution{formula_, share, outcome.evaluated};
   return outcome;
 }
 
@@ -113,9 +114,9 @@ std::vector<Vec3<Real>> ImplicitStep<Real, Device>::pin_forces() const {
     if (!held[i]) force[i].setZero();
   CompliantPins<Real> pins = body_.pins.compliant_pins();
   if (!pins.strength) return force;
-  const std::vector<Vec3<Real>> place = downloaded(*body_.device, pins.place, body_.vertices);
+  const std::vector<Vec3<Real>> target = downloaded(*body_.device, pins.target, body_.vertices);
   const std::vector<Real> strength = downloaded(*body_.device, pins.strength, body_.vertices);
-  pins.place = place.data();
+  pins.target = target.data();
   pins.strength = strength.data();
   const std::vector<Vec3<Real>> x = body_.x.download();
   for (int i = 0; i < body_.vertices; ++i) force[i] += pins.force(i, x[i]);
@@ -221,10 +222,10 @@ void ImplicitStep<Real, Device>::guess(Guess which) {
           end[i] = x[i] + h * v[i];
           return;
         }
-        Vec3<Real> place = predicted[i];
-        if (weight > 0) place += weight * a[i];
-        if (trend > 0) place += weight * trend * (a[i] - before[i]);
-        end[i] = place;
+        Vec3<Real> guessed = predicted[i];
+        if (weight > 0) guessed += weight * a[i];
+        if (trend > 0) guessed += weight * trend * (a[i] - before[i]);
+        end[i] = guessed;
       });
 }
 
@@ -234,8 +235,7 @@ template <class Real, class Device>
 bool ImplicitStep<Real, Device>::limit_guess_by_ccd() {
   constexpr int kMaxShortenings = 12;
   constexpr double kWithin = 0.99, kFastest = 0.1;
-  constexpr double kArchivedActivationDistance =
-      0.4;  // a guess that presses layers further begins with huge forces
+  constexpr double kKeptShare = 0.4;  // a guess that presses layers further begins with huge forces
   double shorter = 1, whole = 1;
   potential_.begin_guess();
   for (int k = 0; k < kMaxShortenings; ++k) {
@@ -243,7 +243,7 @@ bool ImplicitStep<Real, Device>::limit_guess_by_ccd() {
     whole *= shorter;
     potential_.aim_bodies(whole);
     const double feasible =
-        potential_.collision_free_step(body_.x.data(), displacement_.data(), 1, kArchivedActivationDistance);
+        potential_.collision_free_step(body_.x.data(), displacement_.data(), 1, kKeptShare);
     if (feasible >= 1) {
       potential_.take_bodies(1);
       potential_.accept_iterate(end_.data());
@@ -274,14 +274,15 @@ void ImplicitStep<Real, Device>::shorten_guess(Real step_length) {
 // of that.
 template <class Real, class Device>
 double ImplicitStep<Real, Device>::local_error() {
-  const double w = last_h_ > 0 ? formula_.dt / last_h_ : 1;
+  const StepFormula& formula = solution_.value().formula;
+  const double w = last_h_ > 0 ? formula.dt / last_h_ : 1;
   const double of_bdf2 = (1 + w) * (1 + w) / (6 * w * (1 + 2 * w)), of_extrapolation = 1.0 / 6 + 1 / (4 * w);
   const double of_step = (std::sqrt(2.0) - 1) / 2 - 1.0 / 6, of_stage = std::pow(kTrapezoidalFraction, 3) / 4;
   const bool second = error_order() == 3;
-  const double fraction = formula_.carried > 0 ? of_step / of_stage
-                          : second             ? of_bdf2 / (of_bdf2 + of_extrapolation)
-                                               : 0.5;
-  const Real h = static_cast<Real>(formula_.dt), curved = second ? h * h / 2 : Real(0);
+  const double fraction = formula.carried > 0 ? of_step / of_stage
+                          : second            ? of_bdf2 / (of_bdf2 + of_extrapolation)
+                                              : 0.5;
+  const Real h = static_cast<Real>(formula.dt), curved = second ? h * h / 2 : Real(0);
   const Vec3<Real>*x = body_.x.data(), *v = body_.v.data(), *a = acceleration_.data(), *end = end_.data();
   const char* held = body_.held.data();
   const Real* mass = body_.mass.data();
@@ -297,27 +298,30 @@ double ImplicitStep<Real, Device>::local_error() {
   return fraction * std::sqrt(size_.download()[0] / total_mass_);
 }
 
+// Histories and ledger see the way from the old state to the new one: commit_state() comes last.
 template <class Real, class Device>
 void ImplicitStep<Real, Device>::accept() {
+  const Solution solution = solution_.value();
+  solution_.reset();
   // The last trial of a line search may have been elsewhere.
-  if (!evaluated_) potential_.evaluate(end_.data(), nullptr);
+  if (!solution.evaluated) potential_.evaluate(end_.data(), nullptr);
   if (!bending_lags_) body_.bending.accept();
-  update_ledger();
+  update_ledger(solution);
   body_.membrane.add_viscous_loss();
   body_.membrane.commit_friction(end_.data());
-  commit_state();
+  commit_state(solution);
   knows_trend_ = last_h_ > 0;
-  last_h_ = formula_.dt;
+  last_h_ = solution.formula.dt;
   knows_acceleration_ = true;
 }
 
 // Adds up the work of the forces over the way to the end of the step.  Membrane and contact have the rest of
 // the gradient.
 template <class Real, class Device>
-void ImplicitStep<Real, Device>::update_ledger() {
-  const Real rate = static_cast<Real>(1 / formula_.beta_dt);  // 0 in statics
+void ImplicitStep<Real, Device>::update_ledger(const Solution& solution) {
+  const Real rate = static_cast<Real>(1 / solution.formula.beta_dt);  // 0 in statics
   const Real inertia = rate * rate, drag = body_.drag() * rate;
-  const Vec3<Real> g = body_.gravity(), carried = (1 - fraction_) * g;
+  const Vec3<Real> g = body_.gravity(), carried = (1 - solution.fraction) * g;
   const GatheredForces<Real> bending = body_.bending.forces();
   const Vec3<Real>*x = body_.x.data(), *v = body_.v.data(), *end = end_.data(),
         *reference = reference_.data();
@@ -364,8 +368,9 @@ void ImplicitStep<Real, Device>::update_ledger() {
 }
 
 template <class Real, class Device>
-void ImplicitStep<Real, Device>::commit_state() {
-  const Real rate = static_cast<Real>(1 / formula_.beta_dt), h = static_cast<Real>(formula_.dt);
+void ImplicitStep<Real, Device>::commit_state(const Solution& solution) {
+  const Real rate = static_cast<Real>(1 / solution.formula.beta_dt),
+             h = static_cast<Real>(solution.formula.dt);
   const bool two_step = two_step_, statics = static_, at_end = two_stage_;
   Vec3<Real>*x = body_.x.data(), *v = body_.v.data(), *x0 = x_before_.data(), *v0 = v_before_.data();
   const Vec3<Real>*end = end_.data(), *reference = reference_.data(), *drift = drift_.data();

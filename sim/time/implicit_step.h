@@ -12,6 +12,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "sim/time/body.h"
 #include "sim/time/newton.h"
@@ -44,13 +45,22 @@ struct Unbalanced {
 
 inline constexpr double kTrapezoidalFraction = 0.58578643762690495;  // of tr-bdf2's step: 2 - sqrt 2
 
+// A stage of a step goes from the state accepted last to the next one in this order:
+//
+//   solve()        predict, guess the end, minimise the potential: finds the end, and changes no lasting
+//   state local_error()  if the caller wants to know it accept()       commit the laws' histories, update the
+//   ledger over the way, commit the state
+//
+// A caller that does not like the end that solve() has found, or whose solve() has failed, calls solve()
+// again with another h.  accept() and local_error() throw std::bad_optional_access unless solve() has just
+// found an end.
 template <class Real, class Device>
 class ImplicitStep {
  public:
   explicit ImplicitStep(Body<Real, Device>& body);
 
-  // Finds the positions after h [s] without changing any lasting state.  `fraction` of the weight acts at the
-  // end.  The first stage of tr-bdf2 is its trapezoidal one.
+  // Finds the positions after h [s].  `fraction` of the weight acts at the end.  The first stage of tr-bdf2
+  // is its trapezoidal one.
   NewtonOutcome solve(double h, double fraction, bool is_first_stage);
   bool is_static() const { return static_; }
   bool has_two_stages() const { return two_stage_; }  // tr-bdf2
@@ -58,14 +68,14 @@ class ImplicitStep {
   void forget_acceleration() { knows_acceleration_ = false; }
   // Makes steps equilibria from now on.
   void become_static();
-  // Commits the result of solve(): positions, velocities, history of bending and membrane, losses.  The
-  // caller commits contact's history.
+  // Commits the end that solve() has found: positions, velocities, history of bending and membrane, losses.
+  // The caller commits contact's history.
   void accept();
   // Returns the estimated error of the positions that solve() has found, by the difference from an
   // extrapolation: root mean square by mass [m].  It is of the order error_order() in the step.
   double local_error();
   double error_order() const { return formula_.extrapolation > 0 || formula_.carried > 0 ? 3 : 2; }
-  // Saves or loads the state that outlives a step: the motion before it, and the forces that handle_forces()
+  // Saves or loads the state that outlives a step: the motion before it, and the forces that pin_forces()
   // returns.
   void serialise(Archive& archive) {
     archive(knows_acceleration_, last_h_, knows_trend_);
@@ -87,14 +97,19 @@ class ImplicitStep {
            2 * x_before_.bytes() + displacement_.bytes() + forces_.bytes();
   }
 
-  // The parts of solve() and accept(); public because nvcc allows no device lambda in a private member
-  // function.
+  // An end that solve() has found and accept() has not taken yet.
+  struct Solution {
+    StepFormula formula;
+    Real fraction;   // acting share of the weight
+    bool evaluated;  // the potential was last evaluated there
+  };
+  // The parts of solve(), and of accept(), which alone has a solution; public because nvcc allows no device
+  // lambda in a private member function.
   void predict();
   void guess(Guess which);
-  bool limit_guess_by_ccd();
   void shorten_guess(Real step_length);
-  void update_ledger();
-  void commit_state();
+  void update_ledger(const Solution& solution);
+  void commit_state(const Solution& solution);
 
  private:
   static constexpr double kMaxGrowth = 2.4;  // over the last step; bdf2 is stable below 1 + sqrt2
@@ -108,20 +123,20 @@ class ImplicitStep {
     return two_steps ? StepFormula::bdf2(h, last_h_) : StepFormula::backward_euler(h);
   }
   PotentialValue begin_at_best_guess(bool is_first_stage);
+  bool limit_guess_by_ccd();
   PotentialValue potential_of_guess(Guess which);
   std::size_t vectors(int count) const { return count * end_.bytes(); }
 
   Body<Real, Device>& body_;
   bool two_step_, two_stage_, static_, bending_lags_;
   bool knows_acceleration_ = false;  // acceleration_ is that of the state accepted last
-  bool evaluated_ = false;           // the potential was last evaluated at the end of the solve
-  Real fraction_ = 1;                // acting share of the weight
   double total_mass_;
   IncrementalPotential<Real, Device> potential_;
   std::unique_ptr<LinearSolver<Real, Device>> solver_;
   Newton<Real, Device> newton_;
-  StepFormula formula_;
-  double last_h_ = 0;  // length of the step before [s]; 0: none
+  StepFormula formula_;               // of the last solve()
+  std::optional<Solution> solution_;  // of the last solve(), if it has found one
+  double last_h_ = 0;                 // length of the step before [s]; 0: none
   Buffer<double, Device> size_;
   Buffer<Vec3<Real>, Device> end_;                            // the positions sought [m]
   Buffer<Vec3<Real>, Device> reference_, drift_, predicted_;  // r [m], its velocity [m/s], y [m]

@@ -42,7 +42,7 @@ struct PotentialValue {
   double energy = 0;    // Phi [J]
   double size = 0;      // sum of the terms' magnitudes, which bounds rounding [J]
   double residual = 0;  // norm of the gradient over all free vertices [N]
-  double reaction = 0;  // norm of the pins' forces on held and gripped vertices [N]
+  double reaction = 0;  // norm of the forces of rigid and compliant pins [N]
   double inertia = 0;   // norm of mass times acceleration over all free vertices [N]
   double internal = 0;  // norm of the membrane's and bending's forces over all vertices [N]
   double weight = 0;    // norm of the whole weight of all free vertices [N]
@@ -78,10 +78,8 @@ class IncrementalPotential {
   }
   bool bodies_have_arrived() const { return !self_contact_ || self_contact_->bodies_have_arrived(); }
   double collision_free_step(const Vec3<Real>* x, const Vec3<Real>* direction, double max_step,
-                             double archived_activation_distance = 0) {
-    return self_contact_
-               ? self_contact_->prepare(x, direction, start_.held, max_step, archived_activation_distance)
-               : max_step;
+                             double kept_share = 0) {
+    return self_contact_ ? self_contact_->prepare(x, direction, start_.held, max_step, kept_share) : max_step;
   }
   double feasible_step(const Vec3<Real>* x, const Vec3<Real>* direction, double max_step) {
     const double outside = contact_ ? contact_->feasible_step(x, direction, start_.held, max_step) : max_step;

@@ -38,13 +38,12 @@ template <class Real, class Device>
 Pins<Real, Device>::Pins(Device& device, const Scene& scene, const Cloth& cloth, bool with_arcs)
     : with_arcs_(with_arcs), yield_distance_(static_cast<Real>(kYieldFraction * scene.fabric.thickness)) {
   for (const Pin& pin : scene.pin) {
-    limited_ |= pin.strength > 0;
-    moving_ |= !pin.motion.keys.empty() || pin.from > 0 || limited_;
+    kind_ = std::max(kind_, kind_of(pin));
     for (double time : {pin.from, pin.until})
       if (time > 0 && time < scene.seconds) times_.push_back(time);
   }
   std::sort(times_.begin(), times_.end());
-  if (moving_) allocate(device, scene, cloth, 0);
+  if (any_moves()) allocate(device, scene, cloth, 0);
 }
 
 template <class Real, class Device>
@@ -63,8 +62,8 @@ void Pins<Real, Device>::allocate(Device& device, const Scene& scene, const Clot
     displacement_ = Buffer<Vec3<Real>, Device>(device, vertices);
     sweep_ = std::make_unique<PinSweep<Real, Device>>(device, cloth.mesh, scene.fabric.thickness);
   }
-  if (!limited_ || place_.size() > 0) return;
-  place_ = Buffer<Vec3<Real>, Device>(device, start);
+  if (!has_limited() || target_.size() > 0) return;
+  target_ = Buffer<Vec3<Real>, Device>(device, start);
   strength_ = Buffer<Real, Device>(device, vertices);
 }
 
@@ -73,7 +72,7 @@ void Pins<Real, Device>::drive(Body<Real, Device>& body, int pin, double now, co
                                double spin) {
   Motion& motion = body.scene.pin[pin].motion;
   motion = steady_from(motion, now, velocity, spin);
-  moving_ = true;
+  kind_ = std::max(kind_, Kind::moving);
   allocate(*body.device, body.scene, body.cloth, now);
 }
 
@@ -88,9 +87,9 @@ bool Pins<Real, Device>::attach_and_release(Body<Real, Device>& body, double sta
   bool changed = update_ledger(body, held);
   if (body.contact) throw_if_release(body, held, start);
   body.held.upload(held);
-  if (limited_) changed |= pins != pin_.download();
-  if (moving_) take(body, pins, start);
-  if (limited_) share_strength(body.scene, pins);
+  if (has_limited()) changed |= pins != pin_.download();
+  if (any_moves()) take(body, pins, start);
+  if (has_limited()) share_strength(body.scene, pins);
   return changed;
 }
 
@@ -159,21 +158,21 @@ PinPlacements<Real> Pins<Real, Device>::placements(const Scene& scene, double st
 template <class Real, class Device>
 void Pins<Real, Device>::serialise(Archive& archive, Body<Real, Device>& body) {
   Device& device = *body.device;
-  archive(moving_);
+  archive(kind_);
   for (Pin& pin : body.scene.pin) {  // drive() may have changed them
     visit_keyframes(archive, pin.motion.keys);
     archive(pin.motion.cycles);
   }
-  if (archive.loads() && moving_) allocate(device, body.scene, body.cloth, 0);
+  if (archive.loads() && any_moves()) allocate(device, body.scene, body.cloth, 0);
   archive(next_);
   hysteron::serialise(archive, device, start_, pin_);
-  archive(work_, behind_, pulling_now_);
-  hysteron::serialise(archive, device, place_, strength_);
+  archive(work_, behind_, rigidity_);
+  hysteron::serialise(archive, device, target_, strength_);
 }
 
 template <class Real, class Device>
 void Pins<Real, Device>::move(Body<Real, Device>& body, double start, Real h) {
-  if (!moving_) return;
+  if (!any_moves()) return;
   const PinPlacements<Real> placed = placements(body.scene, start, static_cast<double>(h));
   moving_now_ = false;
   for (std::size_t p = 0; p < body.scene.pin.size(); ++p)
@@ -182,13 +181,13 @@ void Pins<Real, Device>::move(Body<Real, Device>& body, double start, Real h) {
   const int* pin = pin_.data();
   const char* held = body.held.data();
   const Real* strength = strength_.data();
-  Vec3<Real>* place = place_.data();
+  Vec3<Real>* target = target_.data();
   const Vec3<Real>*origin = start_.data(), *home = home_.data(), *x = body.x.data();
   Vec3<Real>*v = body.v.data(), *arc = arc_.data();
   for_each(
       *body.device, "pins: positions", body.vertices, HYST_KERNEL(int i) {
-        const bool gripped = strength && strength[i] > 0;
-        if (!held[i] && !gripped) return;
+        const bool compliant = strength && strength[i] > 0;
+        if (!held[i] && !compliant) return;
         const int p = pin[i];
         Vec3<Real> from = origin[i], more = Vec3<Real>::Zero();
         if (home) {
@@ -196,8 +195,8 @@ void Pins<Real, Device>::move(Body<Real, Device>& body, double start, Real h) {
           more = placed.homewards[p] * (placed.rotation[p] * (home[i] - origin[i]));
         }
         const Vec3<Real> end = placed.rotation[p] * from + placed.translation[p];
-        if (gripped) {
-          place[i] = end;
+        if (compliant) {
+          target[i] = end;
           return;
         }
         v[i] = (end - x[i]) / h;
@@ -224,42 +223,43 @@ template <class Real, class Device>
 bool Pins<Real, Device>::yield_to_cloth(Body<Real, Device>& body, Real h) {
   rigid_ = body.held.download();
   const std::vector<Vec3<Real>> x = body.x.download();
-  std::vector<Vec3<Real>> v = body.v.download(), place = place_.download();
+  std::vector<Vec3<Real>> v = body.v.download(), target = target_.download();
   std::vector<Real> strength = strength_.download();
   std::vector<char> held = rigid_;
-  place.resize(body.vertices);
+  target.resize(body.vertices);
   strength.resize(body.vertices);
   for (int i = 0; i < body.vertices; ++i) {
     if (!held[i] || v[i].isZero(0)) continue;
-    place[i] = x[i] + h * v[i];
+    target[i] = x[i] + h * v[i];
     strength[i] = static_cast<Real>(kStrongest * body.cloth.mesh.vertex_area[i]);
     v[i].setZero();
     held[i] = 0;
   }
   if (held == rigid_) return false;
-  if (place_.size() == 0) {
-    place_ = Buffer<Vec3<Real>, Device>(*body.device, place);
+  if (target_.size() == 0) {
+    target_ = Buffer<Vec3<Real>, Device>(*body.device, target);
     strength_ = Buffer<Real, Device>(*body.device, strength);
   }
-  place_.upload(place);
+  target_.upload(target);
   strength_.upload(strength);
   body.v.upload(v);
   body.held.upload(held);
   body.self_contact->invalidate_pairs();
-  return compliant_now_ = pulling_now_ = true;
+  rigidity_ = Rigidity::compliant;
+  return true;
 }
 
 // Makes pins rigid again before another stage, whether the last one was accepted or not.
 template <class Real, class Device>
 void Pins<Real, Device>::restore_rigid(Body<Real, Device>& body) {
-  if (!pulling_now_) return;
-  if (compliant_now_) body.held.upload(rigid_);
+  if (rigidity_ == Rigidity::rigid) return;
+  if (rigidity_ == Rigidity::compliant) body.held.upload(rigid_);
   const std::vector<char> held = body.held.download();
   std::vector<Real> strength = strength_.download();
   for (int i = 0; i < body.vertices; ++i)
     if (held[i]) strength[i] = 0;
   strength_.upload(strength);
-  compliant_now_ = pulling_now_ = false;
+  rigidity_ = Rigidity::rigid;
 }
 
 // Stops the vertices that are held again.  Until the next stage the pull on them is known, as the force on
@@ -267,15 +267,15 @@ void Pins<Real, Device>::restore_rigid(Body<Real, Device>& body) {
 template <class Real, class Device>
 void Pins<Real, Device>::hold_again(Body<Real, Device>& body) {
   const std::vector<char> held = body.held.download();
-  const std::vector<Vec3<Real>> x = body.x.download(), v = body.v.download(), place = place_.download();
+  const std::vector<Vec3<Real>> x = body.x.download(), v = body.v.download(), target = target_.download();
   const std::vector<Real> mass = body.mass.download();
   for (int i = 0; i < body.vertices; ++i) {
     if (!rigid_[i] || held[i]) continue;
     work_ -= static_cast<double>(mass[i]) / 2 * v[i].template cast<double>().squaredNorm();
-    behind_ = std::max(behind_, (x[i] - place[i]).norm());
+    behind_ = std::max(behind_, (x[i] - target[i]).norm());
   }
   body.held.upload(rigid_);
-  compliant_now_ = false;
+  rigidity_ = Rigidity::restored;
 }
 
 template <class Real, class Device>
@@ -296,11 +296,11 @@ Real Pins<Real, Device>::farthest_behind(Body<Real, Device>& body) {
 template <class Real, class Device>
 void Pins<Real, Device>::end_stage(Body<Real, Device>& body) {
   behind_ = 0;
-  if (!limited_ && !compliant_now_) return;
+  if (!has_limited() && rigidity_ != Rigidity::compliant) return;
   const Real largest = farthest_behind(body);
   body.counts.pin_lag = std::max(body.counts.pin_lag, static_cast<double>(largest));
   if (largest > yield_distance_) ++body.counts.saturated_pins;
-  if (!compliant_now_) return;
+  if (rigidity_ != Rigidity::compliant) return;
   ++body.counts.blocked_pins;
   hold_again(body);
 }

@@ -247,7 +247,7 @@ void SemiImplicit<Real, Device>::update_ledger(Real h, const Vec3<Real>* explici
   const BlockRowsView<Real> matrix = body_.matrix.view();
   const GatheredForces<Real> bending = body_.bending.forces();
   const Vec3<Real> g = body_.gravity();
-  const bool handles = body_.pins.any_moves();
+  const bool pins_move = body_.pins.any_moves();
   VertexLedger* ledger = body_.ledger.data();
   const std::size_t explicit_bytes = explicit_impulse ? body_.bending.force_bytes() + rhs_.bytes() : 0;
   for_each(
@@ -255,7 +255,7 @@ void SemiImplicit<Real, Device>::update_ledger(Real h, const Vec3<Real>* explici
       {"implicit ledger",
        explicit_bytes + total_bytes(body_.mass, body_.held, body_.v, change_, body_.ledger, body_.ledger)},
       body_.vertices, HYST_KERNEL(int i) {
-        if (held[i] && !handles) return;
+        if (held[i] && !pins_move) return;
         VertexLedger& sum = ledger[i];
         Vec3<Real> impulse =
             held[i] ? Vec3<Real>(rhs[i] - matrix.times(i, last)) : Vec3<Real>(mass[i] * total[i]);

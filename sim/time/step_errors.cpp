@@ -31,7 +31,7 @@ std::string pair_text(const SelfPair<Real>& pair) {
 
 // Names the objects that touch a vertex at x.
 template <class Real, class Device>
-std::vector<std::string> pressing(Body<Real, Device>& body, int vertex, const Eigen::Vector3d& x,
+std::vector<std::string> touching(Body<Real, Device>& body, int vertex, const Eigen::Vector3d& x,
                                   double time) {
   const Scene& scene = body.scene;
   std::vector<std::string> by;
@@ -86,11 +86,11 @@ void throw_if_release(Body<Real, Device>& body, const std::vector<char>& held, d
 }
 
 template <class Real, class Device>
-void throw_if_unbalanced(Body<Real, Device>& body, ImplicitStep<Real, Device>& step, double start, double h,
-                         const NewtonOutcome& outcome) {
+void throw_no_equilibrium(Body<Real, Device>& body, ImplicitStep<Real, Device>& step, double start, double h,
+                          const NewtonOutcome& outcome) {
   std::string message = "no equilibrium of the step " + at_time(start) + "was found, even in parts of " +
                         number_text(h, 6) + " s: ";
-  if (outcome.blocked) {
+  if (outcome.end == NewtonEnd::blocked) {
     message += "every motion leads the cloth through itself";
     if (body.self_contact->pairs() > 0) message += ", " + pair_text(body.self_contact->blocking_pair());
     throw Error::simulation(message);
@@ -105,7 +105,7 @@ void throw_if_unbalanced(Body<Real, Device>& body, ImplicitStep<Real, Device>& s
              " N remains (weight, pins and inertia: " + number_text(outcome.load, 6) + " N)";
   const Unbalanced worst = step.most_unbalanced();
   if (worst.vertex < 0) throw Error::simulation(message);
-  const std::vector<std::string> by = pressing(body, worst.vertex, worst.position, start + h);
+  const std::vector<std::string> by = touching(body, worst.vertex, worst.position, start + h);
   throw Error::simulation(message + ", most of it, " + number_text(worst.force, 6) + " N, at " +
                           vertex_text(worst.vertex, worst.position + body.origin) +
                           (by.empty() ? "" : ", pressed by " + together(by)));
@@ -115,9 +115,9 @@ template void throw_if_arrival(Body<double, ThisDevice>&, double, double);
 template void throw_if_arrival(Body<float, ThisDevice>&, double, double);
 template void throw_if_release(Body<double, ThisDevice>&, const std::vector<char>&, double);
 template void throw_if_release(Body<float, ThisDevice>&, const std::vector<char>&, double);
-template void throw_if_unbalanced(Body<double, ThisDevice>&, ImplicitStep<double, ThisDevice>&, double,
-                                  double, const NewtonOutcome&);
-template void throw_if_unbalanced(Body<float, ThisDevice>&, ImplicitStep<float, ThisDevice>&, double, double,
-                                  const NewtonOutcome&);
+template void throw_no_equilibrium(Body<double, ThisDevice>&, ImplicitStep<double, ThisDevice>&, double,
+                                   double, const NewtonOutcome&);
+template void throw_no_equilibrium(Body<float, ThisDevice>&, ImplicitStep<float, ThisDevice>&, double, double,
+                                   const NewtonOutcome&);
 
 }  // namespace hysteron

@@ -17,7 +17,7 @@ template <class Real, class Device>
 void throw_if_release(Body<Real, Device>& body, const std::vector<char>& held, double time);
 // Throws that a step has no solution, even in parts of h [s].
 template <class Real, class Device>
-void throw_if_unbalanced(Body<Real, Device>& body, ImplicitStep<Real, Device>& step, double start, double h,
-                         const NewtonOutcome& outcome);
+void throw_no_equilibrium(Body<Real, Device>& body, ImplicitStep<Real, Device>& step, double start, double h,
+                          const NewtonOutcome& outcome);
 
 }  // namespace hysteron

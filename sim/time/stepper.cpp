@@ -79,13 +79,13 @@ const Pin& Stepper<Real, Device>::pin(int number) const {
 
 template <class Real, class Device>
 Simulation::InPlace Stepper<Real, Device>::in_place(const Buffer<Vec3<Real>, Device>& buffer) {
-  InPlace place;
-  if constexpr (Device::kGpu) return place;
+  InPlace result;
+  if constexpr (Device::kGpu) return result;
   if constexpr (std::is_same_v<Real, double>)
-    place.fp64 = reinterpret_cast<const double*>(buffer.data());
+    result.fp64 = reinterpret_cast<const double*>(buffer.data());
   else
-    place.fp32 = reinterpret_cast<const float*>(buffer.data());
-  return place;
+    result.fp32 = reinterpret_cast<const float*>(buffer.data());
+  return result;
 }
 
 template <class Real, class Device>
@@ -178,7 +178,7 @@ std::vector<ScenePart> Stepper<Real, Device>::parts() const {
   add("commands", !scene.command.empty(), 0, "bending command", "no command");
   add("viscous damping", scene.fabric.damping > 0, 0, "bending rates, viscous loss", "fabric.damping = 0");
   add("air drag", scene.air_drag > 0, 0, "substep", "air-drag = 0");
-  add("moving handles", body_.pins.any_moves(), body_.pins.bytes(), "handles", "no pin moves");
+  add("moving pins", body_.pins.any_moves(), body_.pins.bytes(), "pins", "no pin moves");
   add("obstacles", contact.has_value(), contact ? contact->bytes() + body_.before.bytes() : 0,
       "contact, contact history", "no obstacles");
   add("self-contact", self_contact.has_value(), self_contact ? self_contact->bytes() : 0,

@@ -117,49 +117,72 @@ struct PermanentSetLaw {
                           step_potential(law, Vec<Real, D>(curvature - set), history_of<Law>(before)));
   }
 
-  // Finds d of the step by damped Newton steps on its potential. They begin at the length that the law's
-  // largest stiffness would leave, which is no more than the step's, so that d is never zero on the way.  The
-  // function is inlined, though it holds the whole law: as a call on a GPU it wrote beyond the stack that
-  // nvcc 13.0 had given it.  First look, steps and halvings are one loop, so that the law is inlined only
-  // once for each of step, potential and tangent.
-  HYST_HD Vec<Real, D> flow(const Vec<Real, D>& curvature, const Memory& before) const {
-    constexpr int kMaxSteps = 40, kMaxHalvings = 20;
-    constexpr Real kEnoughDescent = Real(1e-4);  // Armijo's fraction of the predicted decrease
-    const Vec<Real, D> old = set_curvature(before);
-    const auto past = history_of<Law>(before);
-    Vec<Real, D> moved = Vec<Real, D>::Zero(), next = moved, newton = moved;
-    Real fraction = 1, precise = 0, half_slope = 0, descent = 0;
-    int halvings = 0;
-    for (int steps = -1; steps <= kMaxSteps;) {
-      const Vec<Real, D> set = old + next;
-      const Vec<Real, D> driving = law.step(Vec<Real, D>(curvature - set), past).moment - hardening * set;
-      if (steps < 0) {  // does it flow at all?
-        const Real size = driving.norm();
-        precise = kPrecision * (size + 2 * hardening * old.norm() + limit);
-        if (!(size > limit + precise)) return moved;
-        next = (size - limit) / ((law.largest_stiffness() + hardening) * size) * driving;
-        steps = 0;
-        continue;
-      }
-      const Vec<Real, D> slope = limit / next.norm() * next - driving;
-      if (steps > 0 && !(slope.norm() <= half_slope) &&  // nearly always true; else the potential decides
-          !descends(next, moved, fraction * descent, curvature, before) && ++halvings < kMaxHalvings) {
-        fraction /= 2;
-        next = moved + fraction * newton;
-        continue;
-      }
-      moved = next;
-      if (steps == kMaxSteps || !(slope.norm() > precise)) return moved;
-      const Tangent<Real, D> stiff =
-          law.tangent(Vec<Real, D>(curvature - old - moved), past) + flow_stiffness(moved);
-      newton = -solve_definite<Real, D>(stiff, slope);
+  // Damped Newton steps on the potential of the step, from one flow that is accepted to the next.
+  struct FlowSearch {
+    Vec<Real, D> moved = Vec<Real, D>::Zero();   // the flow accepted last [1/m]
+    Vec<Real, D> newton = Vec<Real, D>::Zero();  // the Newton step from there [1/m]
+    Vec<Real, D> trial = Vec<Real, D>::Zero();   // the flow that is tried, a fraction of that step away [1/m]
+    Real fraction = 1;
+    Real half_slope = 0;  // half of the slope's size there: a trial with less is good [N]
+    Real descent = 0;     // the decrease of the potential that the whole Newton step has to reach
+    int steps = 0, halvings = 0;
+
+    // Tries half of the fraction; false if it has been halved often enough.
+    HYST_HD bool halve() {
+      constexpr int kMaxHalvings = 20;
+      if (++halvings == kMaxHalvings) return false;
+      fraction /= 2;
+      trial = moved + fraction * newton;
+      return true;
+    }
+    // Tries a whole Newton step from the flow accepted last, where the potential has this slope.
+    HYST_HD void go_on(const Vec<Real, D>& slope, const Vec<Real, D>& step) {
+      constexpr Real kEnoughDescent = Real(1e-4);  // Armijo's fraction of the predicted decrease
+      newton = step;
       descent = kEnoughDescent * slope.dot(newton);
       half_slope = slope.norm() / 2;
-      fraction = 1, halvings = 0;
-      next = moved + newton;
+      fraction = 1;
+      halvings = 0;
+      trial = moved + newton;
       ++steps;
     }
-    return moved;
+  };
+
+  // Finds d of the step.  The search begins at the length that the law's largest stiffness would leave, which
+  // is no more than the step's, so that d is never zero on the way.  The function is inlined, though it holds
+  // the whole law: as a call on a GPU it wrote beyond the stack that nvcc 13.0 had given it.  First look,
+  // steps and halvings are one loop, so that the law is inlined only once for each of step, potential and
+  // tangent.
+  HYST_HD Vec<Real, D> flow(const Vec<Real, D>& curvature, const Memory& before) const {
+    constexpr int kMaxSteps = 40;
+    const Vec<Real, D> old = set_curvature(before);
+    const auto past = history_of<Law>(before);
+    FlowSearch search;
+    Real precise = 0;  // slopes below this are rounding [N]
+    for (bool begun = false; search.steps <= kMaxSteps;) {
+      const Vec<Real, D> set = old + search.trial;
+      const Vec<Real, D> driving = law.step(Vec<Real, D>(curvature - set), past).moment - hardening * set;
+      if (!begun) {  // does it flow at all?
+        const Real size = driving.norm();
+        precise = kPrecision * (size + 2 * hardening * old.norm() + limit);
+        if (!(size > limit + precise)) return search.moved;
+        search.trial = (size - limit) / ((law.largest_stiffness() + hardening) * size) * driving;
+        begun = true;
+        continue;
+      }
+      const Vec<Real, D> slope = limit / search.trial.norm() * search.trial - driving;
+      // A step that halves the slope is good, as nearly all are; else the potential decides.
+      const bool good =
+          search.steps == 0 || slope.norm() <= search.half_slope ||
+          descends(search.trial, search.moved, search.fraction * search.descent, curvature, before);
+      if (!good && search.halve()) continue;
+      search.moved = search.trial;
+      if (search.steps == kMaxSteps || !(slope.norm() > precise)) return search.moved;
+      const Tangent<Real, D> stiff =
+          law.tangent(Vec<Real, D>(curvature - old - search.moved), past) + flow_stiffness(search.moved);
+      search.go_on(slope, -solve_definite<Real, D>(stiff, slope));
+    }
+    return search.moved;
   }
   // Does the potential fall by at least `by` from one flow to another?
   HYST_HD bool descends(const Vec<Real, D>& to, const Vec<Real, D>& from, Real by,

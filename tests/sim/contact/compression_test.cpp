@@ -18,12 +18,11 @@ TEST(ObstacleShell, HasTheStiffnessOfTheSceneThereAndUntilItIsCrushed) {
   Scene scene;
   scene.integrator = Integrator::implicit;
   scene.contact_stiffness = 1e7;
-  const ObstacleShell<double> activation_distance = obstacle_activation_distance(scene);
+  const ObstacleShell<double> response = obstacle_activation_distance(scene);
   const double t = scene.fabric.thickness;
-  for (double fraction : {0.8, 0.5, 0.4})
-    EXPECT_NEAR(activation_distance.at(fraction * t).stiffness / 1e7, 1, 1e-12);
-  EXPECT_LT(activation_distance.at(0.9 * t).stiffness, 0.5e7);
-  EXPECT_GT(activation_distance.at(0.1 * t).stiffness, 5e7);
+  for (double fraction : {0.8, 0.5, 0.4}) EXPECT_NEAR(response.at(fraction * t).stiffness / 1e7, 1, 1e-12);
+  EXPECT_LT(response.at(0.9 * t).stiffness, 0.5e7);
+  EXPECT_GT(response.at(0.1 * t).stiffness, 5e7);
 }
 
 // A blow must not end in a stiffness that steps without equilibrium do not bear.
@@ -32,9 +31,9 @@ TEST(ObstacleShell, KeepsItsStiffnessBeyondThatWhereStepsFindNoEquilibrium) {
     Scene scene;
     scene.contact_stiffness = 1e7;
     scene.integrator = integrator;
-    const ObstacleShell<double> activation_distance = obstacle_activation_distance(scene);
+    const ObstacleShell<double> response = obstacle_activation_distance(scene);
     for (double fraction : {0.8, 0.4, 0.0, -3.0})
-      EXPECT_NEAR(activation_distance.at(fraction * scene.fabric.thickness).stiffness / 1e7, 1, 1e-12);
+      EXPECT_NEAR(response.at(fraction * scene.fabric.thickness).stiffness / 1e7, 1, 1e-12);
   }
 }
 
@@ -49,16 +48,15 @@ TEST(ObstacleShell, KeepsClothOutOfTheSolidUnderAHundredTimesThatPressure) {
 TEST(ObstacleShell, YieldsNextToTheSurface) {
   Scene scene;
   scene.integrator = Integrator::implicit;
-  const ObstacleShell<double> activation_distance = obstacle_activation_distance(scene);
-  EXPECT_GT(activation_distance.yield, 0);
-  EXPECT_LT(activation_distance.yield, 0.01 * activation_distance.thickness);
-  EXPECT_NEAR(-activation_distance.at(activation_distance.yield).slope / kYieldPressure, 1, 1e-6);
+  const ObstacleShell<double> response = obstacle_activation_distance(scene);
+  EXPECT_GT(response.yield, 0);
+  EXPECT_LT(response.yield, 0.01 * response.thickness);
+  EXPECT_NEAR(-response.at(response.yield).slope / kYieldPressure, 1, 1e-6);
   for (double depth : {0.0, 1e-3, 1.0}) {
-    EXPECT_EQ(activation_distance.at(-depth).stiffness, activation_distance.stiffest());
-    const double pressure =
-        kYieldPressure + activation_distance.stiffest() * (activation_distance.yield + depth);
-    EXPECT_NEAR(-activation_distance.at(-depth).slope / pressure, 1, 1e-6);
-    EXPECT_NEAR(distance_under(activation_distance, pressure), -depth, 1e-9);
+    EXPECT_EQ(response.at(-depth).stiffness, response.stiffest());
+    const double pressure = kYieldPressure + response.stiffest() * (response.yield + depth);
+    EXPECT_NEAR(-response.at(-depth).slope / pressure, 1, 1e-6);
+    EXPECT_NEAR(distance_under(response, pressure), -depth, 1e-9);
   }
 }
 
@@ -66,22 +64,20 @@ TEST(ObstacleShell, YieldsNextToTheSurface) {
 TEST(ObstacleShell, HasSmoothEnergyPressureAndStiffness) {
   Scene scene;
   scene.integrator = Integrator::implicit;
-  const ObstacleShell<double> activation_distance = obstacle_activation_distance(scene);
-  const double t = activation_distance.thickness, h = 1e-5 * t;
+  const ObstacleShell<double> response = obstacle_activation_distance(scene);
+  const double t = response.thickness, h = 1e-5 * t;
   for (double fraction : {0.999, 0.95, 0.85, 0.8001, 0.7999, 0.6, 0.399, 0.1, 0.0041, 0.0039, -0.5}) {
     const double d = fraction * t;
-    const auto low = activation_distance.at(d - h), high = activation_distance.at(d + h),
-               middle = activation_distance.at(d);
+    const auto low = response.at(d - h), high = response.at(d + h), middle = response.at(d);
     EXPECT_NEAR((high.energy - low.energy) / (2 * h) / middle.slope, 1, 1e-4) << fraction;
     EXPECT_NEAR((high.slope - low.slope) / (2 * h) / middle.stiffness, 1, 1e-3) << fraction;
   }
 }
 
 TEST(ObstacleShell, PressesFromItsThicknessOn) {
-  const ObstacleShell<double> activation_distance = obstacle_activation_distance(Scene{});
-  EXPECT_NEAR(activation_distance.at(activation_distance.thickness).slope, 0, 1e-12);
-  EXPECT_NEAR(distance_under(activation_distance, 0), activation_distance.thickness,
-              1e-9 * activation_distance.thickness);
+  const ObstacleShell<double> response = obstacle_activation_distance(Scene{});
+  EXPECT_NEAR(response.at(response.thickness).slope, 0, 1e-12);
+  EXPECT_NEAR(distance_under(response, 0), response.thickness, 1e-9 * response.thickness);
 }
 
 }  // namespace

@@ -69,9 +69,8 @@ Obstacle rod(double radius, const Vector3d& center) {
 Obstacle3<double> placed(const Obstacle& o) { return obstacles_during<double>({o}, 0.3, 0, 0).item[0]; }
 
 ContactModel<double> scene_contact_model(const Scene& scene) {
-  const ObstacleShell<double> activation_distance = obstacle_activation_distance(scene);
-  return {activation_distance, kElasticSlip * activation_distance.thickness,
-          0.5 * activation_distance.stiffest()};
+  const ObstacleShell<double> response = obstacle_activation_distance(scene);
+  return {response, kElasticSlip * response.thickness, 0.5 * response.stiffest()};
 }
 
 TEST(PlacedObstacle, IsABoxTurnedWithItsEdgesAlongZ) {
@@ -140,7 +139,7 @@ TEST(FaceTouch, LeavesFlatContactToTheVertices) {
     Triangle x;
     random_triangle(generator, 0.02, x);
     for (Vector3d& p : x) p.z() = scene.fabric.thickness * (0.5 + p.z() / 0.05);
-    EXPECT_FALSE(face_touch(table, model, x, 1e-4).bears());
+    EXPECT_FALSE(face_touch(table, model, x, 1e-4).is_active());
     EXPECT_EQ(face_touch(table, model, x, 1e-4).energy, 0);
   }
 }
@@ -151,7 +150,7 @@ TEST(FaceTouch, ForceIsTheGradientOfItsEnergy) {
   const ContactModel<double> model = scene_contact_model(scene);
   const double thickness = scene.fabric.thickness, area = 5e-5;
   std::mt19937 generator(11);
-  int bearing = 0, with_corners = 0;
+  int active = 0, with_corners = 0;
   for (const Obstacle& o : convex_obstacles()) {
     const Obstacle3<double> obstacle = placed(o);
     for (int n = 0; n < 60; ++n) {
@@ -160,8 +159,8 @@ TEST(FaceTouch, ForceIsTheGradientOfItsEnergy) {
       random_triangle(generator, 1, d);
       put_at(obstacle, 0.3 * thickness, x);
       const FaceTouch<double> touch = face_touch(obstacle, model, x, area);
-      if (!touch.bears()) continue;
-      ++bearing;
+      if (!touch.is_active()) continue;
+      ++active;
       with_corners += touch.pull[0].norm() + touch.pull[1].norm() + touch.pull[2].norm() > 0;
       double slope = 0;
       for (int k = 0; k < 3; ++k) slope -= touch.on_corner(k).dot(d[k]);
@@ -181,11 +180,11 @@ TEST(FaceTouch, ForceIsTheGradientOfItsEnergy) {
       EXPECT_LT(fine, coarse / 10 + rounding) << enum_name(o.kind) << " " << n;
     }
   }
-  EXPECT_GT(bearing, 100);
+  EXPECT_GT(active, 100);
   EXPECT_GT(with_corners, 10);
 }
 
-// Off corners in the shell and along the normal of a side that is straight there, nothing else curves it.
+// Off corners that are active and along the normal of a side that is straight there, nothing else curves it.
 TEST(FaceTouch, StiffnessIsTheSecondDerivativeAlongTheNormal) {
   const Scene scene;
   const ContactModel<double> model = scene_contact_model(scene);

@@ -46,8 +46,8 @@ std::string press(const Trial& trial, Simulation& simulation) {
 // The plate goes up again as far as it came down, in the same time.
 void lift_press(Scene& scene) { scene.obstacle[1].motion.keys.push_back({2.2 * kDown, {0, 0, 0.03}, 0}); }
 
-// Between two plates h apart, both shells give in alike: each is sunk into by t - h/2.  At h = t that is half
-// of the shell, where it is so stiff that the cloth's weight takes next to nothing.
+// Between two plates h apart, both barriers give in alike: each is sunk into by t - h/2.  At h = t that is
+// half of the activation distance, where they are so stiff that the cloth's weight takes next to nothing.
 TEST(Press, DownToTheThicknessLeavesTheSheetInTheMiddle) {
   for (const char* integrator : {"implicit", "semi-implicit"}) {
     const double t = Fabric{}.thickness;
@@ -191,7 +191,7 @@ TEST(Press, OfBodiesOfTrianglesGoesOnFromASavedState) {
   EXPECT_EQ(second->counts().pinch_depth, first->counts().pinch_depth);
 }
 
-// A ball that hits a free sheet drives it in for a moment where its shell is soft: it is thrown off, not
+// A ball that hits a free sheet drives it in for a moment where its barrier is soft: it is thrown off, not
 // pinched.
 TEST(Blow, ThatDrivesTheClothDeepIntoAnObstacleIsNoPinch) {
   Scene scene = test::free_square(200);

@@ -109,7 +109,7 @@ TEST(ParallelEdges, FadeSmoothly) {
   EXPECT_EQ(parallel_fade(1.0, 1.0).slope, 0);
 }
 
-// A crumpled cloth that moves: every pair that is ever nearer than its shell is in the list.
+// A crumpled cloth that moves: every pair that is ever nearer than its activation distance is in the list.
 TEST(SelfPairs, MissNoneThatComesNear) {
   ClothMesh mesh = make_rectangle(0.1, 0.1, 300, MeshFamily::random, 1);
   build_topology(mesh, "test");

@@ -5,7 +5,7 @@
 
 #include "sim/base/enum_names.h"
 #include "sim/contact/obstacle_set.h"
-#include "sim/contact/self_touch.h"
+#include "sim/contact/self_contact.h"
 #include "sim/mesh/intersections.h"
 #include "tests/sim/base/refusal.h"
 #include "tests/sim/contact/two_sheets.h"
@@ -112,7 +112,7 @@ TEST(Start, OfAThicknessBeyondTheMeshIsAtRestOnTheFlatCloth) {
   const std::vector<Vector3d> still(trial.cloth.start.size(), Vector3d::Zero());
   const std::vector<char> held(still.size());
   EXPECT_EQ(contact.prepare(trial.cloth.start.data(), still.data(), held.data()), 1);
-  EXPECT_GT(contact.pairs(), 0);  // looked at, but none within its shell
+  EXPECT_GT(contact.pairs(), 0);  // looked at, but none within its activation distance
   EXPECT_EQ(contact.stored_energy(trial.cloth.start.data()), 0);
   const auto x = trial.after(5)->positions();
   constexpr double kRounding = 1e-12;  // [m]

@@ -18,7 +18,7 @@ using test::Trial;
 
 constexpr int kCudaSteps = 50;
 
-// Every part of the simulation at work: moving handle, obstacle with friction, air, damping.
+// Every part of the simulation at work: moving pin, obstacle with friction, air, damping.
 Scene busy_scene(const std::string& law, const std::string& element, const std::string& integrator) {
   Scene scene = test::hanging_square(1000);
   scene.law = law;

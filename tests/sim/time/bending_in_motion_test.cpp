@@ -216,13 +216,13 @@ TEST(Scene, PaysForObstaclesHandlesAndTheImplicitSolveOnlyWhereItHasThem) {
     return test::scene_part(*Trial(s).simulation(), name).bytes;
   };
   EXPECT_EQ(bytes(scene, "obstacles"), 0u);
-  EXPECT_EQ(bytes(scene, "moving handles"), 0u);
+  EXPECT_EQ(bytes(scene, "moving pins"), 0u);
   EXPECT_GT(bytes(scene, "implicit solve"), 0u);
   const std::size_t plain = Trial(scene).simulation()->counts().bytes;
   scene.obstacle = {test::ground_at(-1)};
   scene.pin[0].motion.keys = {{0, {0, 0, 0}, 0}, {1, {0, 0, 1}, 0}};
   EXPECT_GT(bytes(scene, "obstacles"), 0u);
-  EXPECT_GT(bytes(scene, "moving handles"), 0u);
+  EXPECT_GT(bytes(scene, "moving pins"), 0u);
   EXPECT_GT(Trial(scene).simulation()->counts().bytes, plain);
   scene = test::hanging_square();
   scene.integrator = Integrator::explicit_euler;

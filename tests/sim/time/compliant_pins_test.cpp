@@ -20,16 +20,16 @@ constexpr double kYieldFractionOfThickness = 0.5;
 
 // The pin of one vertex pulls with 2 N beyond 0.1 mm.
 struct OneCompliantPin {
-  Vector3d place{1e-3, 2e-3, 3e-3};
+  Vector3d target{1e-3, 2e-3, 3e-3};
   double strength = 2;
-  CompliantPins<double> compliant_pins{&place, &strength, 1e-4};
+  CompliantPins<double> compliant_pins{&target, &strength, 1e-4};
 };
 
 TEST(CompliantPin, PullsByTheDerivativeOfItsEnergyToSecondOrder) {
   const OneCompliantPin one;
   const Vector3d d = Vector3d(0.3, -0.5, 0.8).normalized();
   for (double lag : {0.4e-4, 5e-4}) {
-    const Vector3d x = one.place + lag * Vector3d(0.6, 0, 0.8);
+    const Vector3d x = one.target + lag * Vector3d(0.6, 0, 0.8);
     const auto error = [&](double h) {
       const double rise = one.compliant_pins.energy(0, x + h * d) - one.compliant_pins.energy(0, x - h * d);
       return std::abs(rise / (2 * h) + one.compliant_pins.force(0, x).dot(d));
@@ -43,7 +43,7 @@ TEST(CompliantPin, PullsByTheDerivativeOfItsEnergyToSecondOrder) {
 
 TEST(CompliantPin, LosesAShareOfItsStiffnessAlongTheWay) {
   const OneCompliantPin one;
-  const Vector3d n(0.6, 0, 0.8), x = one.place + 5e-4 * n;
+  const Vector3d n(0.6, 0, 0.8), x = one.target + 5e-4 * n;
   const Matrix3d far = one.compliant_pins.stiffness(0, x, 0), near = one.compliant_pins.stiffness(0, x, 0.75);
   const Vector3d across(0, 1, 0);
   const double h = 1e-8;  // across the way both are the derivative of the force
@@ -60,7 +60,7 @@ TEST(CompliantPin, LiesBelowTheParabolaOfItsStiffness) {
   std::normal_distribution<double> normal;
   const auto draw = [&] { return Vector3d(normal(random), normal(random), normal(random)); };
   for (int k = 0; k < 1000; ++k) {
-    const Vector3d x = one.place + 3e-4 * draw(), d = 5e-4 * draw();
+    const Vector3d x = one.target + 3e-4 * draw(), d = 5e-4 * draw();
     const double bound = one.compliant_pins.energy(0, x) - one.compliant_pins.force(0, x).dot(d) +
                          d.dot(one.compliant_pins.stiffness(0, x, 0) * d) / 2;
     EXPECT_LE(one.compliant_pins.energy(0, x + d), bound + 1e-15);

@@ -89,7 +89,8 @@ TEST(FarFromTheOrigin, FlatClothIsAtRestThough) {
   scene.integrator = Integrator::implicit;
   scene.gravity.setZero();
   scene.precision = Precision::fp32;
-  scene.fabric.thickness = 0.02;  // beyond its edges: each pair's shell comes from their distance at rest
+  scene.fabric.thickness =
+      0.02;  // beyond its edges: each pair's activation distance comes from their distance at rest
   Trial trial(scene);
   for (Vector3d& x : trial.cloth.mesh.rest) x.x() += 1e6;  // floats are 6 cm apart there
   const auto simulation = trial.after(5);

@@ -69,7 +69,7 @@ TEST_P(Balance, ClosesForASwingingCloth) {
 TEST_P(Balance, ClosesWithDampingAirMovingHandleMovingObstacleAndARelease) {
   Scene scene = law_scene(GetParam().law, GetParam().integrator);
   if (scene.integrator == Integrator::explicit_euler) {
-    scene.step = 1e-4;  // the contact shell is stiff
+    scene.step = 1e-4;  // the barrier is stiff
     scene.contact_stiffness = 1e6;
   }
   const bool statics = scene.integrator == Integrator::quasi_static;

@@ -1,4 +1,4 @@
-// Momentum, pins and handles, and invariance of whole steps.
+// Momentum, pins that hold and pins that move, and invariance of whole steps.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
