@@ -21,7 +21,6 @@ program_packages=(
   "nlohmann-json3-dev|manifests"
   "libceres-dev|least squares of hysteron fit"
   "libcgal-dev|exact predicates that check for intersections; reads PLY meshes"
-  "libtinyobjloader-dev|reads OBJ meshes"
   "libstb-dev|text in pictures"
   "fonts-dejavu-core|font of the captions"
   "libpng-dev|reads and writes PNG, with zlib"
