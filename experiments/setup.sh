@@ -20,7 +20,7 @@ program_packages=(
   "libtomlplusplus-dev|scene and fabric files"
   "nlohmann-json3-dev|manifests"
   "libceres-dev|least squares of hysteron fit"
-  "libcgal-dev|exact predicates that check for intersections; reads PLY meshes"
+  "libcgal-dev|exact predicates that check for intersections"
   "libstb-dev|text in pictures"
   "fonts-dejavu-core|font of the captions"
   "libpng-dev|reads and writes PNG, with zlib"
