@@ -1,13 +1,12 @@
 #include "render/caption.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "sim/base/comma_list.h"
 #include "sim/base/error.h"
+#include "sim/base/number_in.h"
 
 namespace hysteron::render {
 namespace {
@@ -20,7 +19,8 @@ constexpr float kTitleGrowth = 1.25f;  // size of a caption's first line over th
 constexpr float kDescent = 0.35f;      // depth of letters below the line, in letter heights
 constexpr float kSmallest = 6;         // smallest letters that can be read [pixels]
 
-std::string number_text(double value) { return fmt::format("{:.3g}", value == 0 ? 0.0 : value); }
+// Writes three digits, and zero without a sign.
+std::string tick_text(double value) { return number_text(value == 0 ? 0.0 : value, 3); }
 
 // The rim is white on transparent pictures, which are meant for white pages.
 const Rgb8& rim_color(const Image& image) { return image.channels() == 4 ? kWhite : kPaper; }
@@ -107,7 +107,7 @@ float fitting_size(const Image& image, std::string_view text, float size) {
 
 int widest_number(const ColorBar& bar, float letters) {
   return static_cast<int>(std::ceil(
-      std::max({text_width(number_text(bar.low), letters), text_width(number_text(bar.high), letters)})));
+      std::max({text_width(tick_text(bar.low), letters), text_width(tick_text(bar.high), letters)})));
 }
 
 // Returns how many ticks apart numbers stand to find room.
@@ -131,10 +131,10 @@ void draw_ramp(Image& image, ColorMap map, const ColorBarPlace& at) {
 }  // namespace
 
 std::string length_text(double metres) {
-  if (metres < 0.99e-3) return number_text(metres * 1e6) + " µm";
-  if (metres < 0.99e-2) return number_text(metres * 1e3) + " mm";
-  if (metres < 0.99) return number_text(metres * 1e2) + " cm";
-  return number_text(metres) + " m";
+  if (metres < 0.99e-3) return number_text(metres * 1e6, 3, "µm");
+  if (metres < 0.99e-2) return number_text(metres * 1e3, 3, "mm");
+  if (metres < 0.99) return number_text(metres * 1e2, 3, "cm");
+  return number_text(metres, 3, "m");
 }
 
 float text_size(const Image& image) {
@@ -185,8 +185,8 @@ double draw_scale_bar(Image& image, double metres_per_pixel, Corner corner, std:
 
 ColorBarPlace draw_color_bar(Image& image, const ColorBar& bar, Corner corner) {
   if (!(bar.low < bar.high))
-    throw Error::invalid_input("colour bar: low = " + number_text(bar.low) +
-                               " must be below high = " + number_text(bar.high));
+    throw Error::invalid_input("colour bar: low = " + tick_text(bar.low) +
+                               " must be below high = " + tick_text(bar.high));
   const std::string title = bar.label + (bar.unit.empty() ? "" : " [" + bar.unit + "]");
   const float size = fitting_size(image, title, text_size(image)), letters = 0.85f * size;
   // The first and the last number are centred under the bar's ends.
@@ -211,7 +211,7 @@ ColorBarPlace draw_color_bar(Image& image, const ColorBar& bar, Corner corner) {
     const auto x = static_cast<float>(at.tick_columns.back()), below = static_cast<float>(at.top + at.height);
     draw_rectangle(image, x, below, x + 1, below + 0.45f * size, kInk);
     if (i % stride != 0) continue;
-    const std::string number = number_text(bar.low + (bar.high - bar.low) * i / (ticks - 1));
+    const std::string number = tick_text(bar.low + (bar.high - bar.low) * i / (ticks - 1));
     draw_label(image, number, x + 0.5f - 0.5f * text_width(number, letters), below + 1.6f * size, letters);
   }
   return at;

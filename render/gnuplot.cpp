@@ -1,6 +1,5 @@
 #include "render/gnuplot.h"
 
-#include <fmt/core.h>
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -14,6 +13,7 @@
 #include "render/color_vision.h"
 #include "sim/base/atomic_file.h"
 #include "sim/base/error.h"
+#include "sim/base/number_in.h"
 #include "sim/base/process.h"
 
 namespace hysteron::render::gnuplot {
@@ -167,7 +167,7 @@ void require_complete(const std::filesystem::path& base, const AtomicFile& file,
 
 }  // namespace
 
-std::string number(double value) { return std::isfinite(value) ? fmt::format("{:.17g}", value) : "NaN"; }
+std::string number(double value) { return std::isfinite(value) ? number_text(value, 17) : "NaN"; }
 
 std::string label_text(const std::string& text) { return single_quoted(unmarked(text, "\\")); }
 

@@ -37,6 +37,10 @@ enum class Weave {
 };
 constexpr std::array<const char*, 4> names(Weave) { return {"plain", "twill", "satin", "knit"}; }
 
+// Returns true if the cloth is drawn as thick as it is.  A drape meter's shadow and a mesh's lines are those
+// of its middle.
+constexpr bool has_thickness(Show show) { return show != Show::silhouette && show != Show::wireframe; }
+
 struct Look {
   Show show = Show::cloth;
   Background background = Background::studio;  // a silhouette is always on white

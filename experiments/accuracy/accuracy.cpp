@@ -12,6 +12,7 @@
 #include "sim/base/comma_list.h"
 #include "sim/base/csv.h"
 #include "sim/base/error.h"
+#include "sim/base/number_in.h"
 
 namespace hysteron::experiments {
 
@@ -114,7 +115,6 @@ Solution solved(const Problem& problem, Run& run) {
 constexpr double kTargets[] = {0.1, 0.03, 0.01, 0.003};
 
 // Formats a number for the table; values that are not finite are printed as such, not left out.
-std::string number(double value) { return fmt::format("{:.6g}", value); }
 
 void write_table(Run& run, const std::vector<Solution>& solutions) {
   Table table(
@@ -132,20 +132,20 @@ void write_table(Run& run, const std::vector<Solution>& solutions) {
                  s.mesh,
                  enum_name(s.element),
                  s.law,
-                 number(s.load),
+                 number_text(s.load, 6),
                  enum_name(s.integrator),
                  enum_name(s.implicit_every),
-                 number(s.step),
-                 number(s.tolerance),
+                 number_text(s.step, 6),
+                 number_text(s.tolerance, 6),
                  enum_name(s.precision),
                  enum_name(s.device),
-                 number(f.triangles),
-                 number(f.value),
-                 number(f.reference),
-                 number(f.error),
-                 number(f.uncertainty),
+                 number_text(f.triangles, 6),
+                 number_text(f.value, 6),
+                 number_text(f.reference, 6),
+                 number_text(f.error, 6),
+                 number_text(f.uncertainty, 6),
                  f.steps,
-                 number(f.seconds),
+                 number_text(f.seconds, 6),
                  f.bytes,
                  on_front ? "yes" : "no",
                  f.failed});
@@ -158,8 +158,8 @@ void write_orders(Run& run, const std::vector<Solution>& solutions) {
   Table table("problem,in,group,from,to,error from,error to,order");
   for (const Solution& solution : solutions)
     for (const Order& o : observed_orders(solution))
-      table.row({solution.problem.name, o.in, o.group, number(o.from), number(o.to), number(o.error_from),
-                 number(o.error_to), number(o.order)});
+      table.row({solution.problem.name, o.in, o.group, number_text(o.from, 6), number_text(o.to, 6),
+                 number_text(o.error_from, 6), number_text(o.error_to, 6), number_text(o.order, 6)});
   table.write(run.path("orders.csv"));
 }
 

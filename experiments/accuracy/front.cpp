@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "sim/base/number_in.h"
 #include "sim/scene/key_table.h"
 
 namespace hysteron::experiments {
@@ -15,7 +16,7 @@ bool is_static(const MethodSetting& s) { return s.integrator == Integrator::quas
 
 std::string duration(double seconds) {
   if (seconds >= 1e-3) return fmt::format("1/{:.0f} s", 1 / seconds);
-  return fmt::format("{:.2g} ms", 1e3 * seconds);
+  return number_text(1e3 * seconds, 2, "ms");
 }
 
 // Names the method: "the chapter's method" is that of assets/scenes/chapter-method.toml, "the chapter's
@@ -38,7 +39,7 @@ std::vector<std::string> setting_text(const Solution& solution, const MethodSett
     if (s.mesh != base.mesh) words.push_back(s.mesh);
   }
   if (s.law != base.law) words.push_back(s.law);
-  if (s.load != base.load) words.push_back(solution.problem.load + " = " + fmt::format("{:g}", s.load));
+  if (s.load != base.load) words.push_back(solution.problem.load + " = " + number_text(s.load, 6));
   if (s.precision != base.precision) words.push_back(enum_name(s.precision));
   return words;
 }

@@ -10,6 +10,7 @@
 #include "experiments/workbench/app/scene_source.h"
 #include "experiments/workbench/session/session.h"
 #include "sim/base/error.h"
+#include "sim/base/number_in.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -234,7 +235,7 @@ void check_times(const std::vector<double>& times, const std::vector<ChildRun>& 
   throw Error::invalid_input(
       fmt::format("compare.times = {:g} s must be in [0, {:g}] s, the time of the run (--compare.times)",
                   last, end))
-      .with_key("compare.times", fmt::format("{:g}", last));
+      .with_key("compare.times", number_text(last, 6));
 }
 
 }  // namespace hysteron::experiments

@@ -15,10 +15,8 @@
 namespace hysteron::experiments {
 namespace {
 
-std::string four_digits(double value) { return fmt::format("{:.4g}", value); }
-
 std::string geometric_middle(const std::string& low, const std::string& high) {
-  return four_digits(std::sqrt(*number_in(low) * *number_in(high)));
+  return number_text(std::sqrt(*number_in(low) * *number_in(high)), 4);
 }
 
 // The first column with one more key, "linear+fabric.damping=1e-3", by a name that none of the others has.
@@ -133,8 +131,8 @@ Json tune_first_column(Run& run, const CommandLine& inner, std::vector<Variant>&
     jobs.resume = true;  // so that the second column, which never changes, is reused
     const double own = metric_in(plan.columns[0], tuning.metric),
                  target = metric_in(plan.columns[1], tuning.target);
-    say(tuning.key + "=" + number + ": " + tuning.metric + " " + four_digits(own) + ", target " +
-        four_digits(target));
+    say(tuning.key + "=" + number + ": " + tuning.metric + " " + number_text(own, 4) + ", target " +
+        number_text(target, 4));
     missed[number] = 100 * (own - target) / std::abs(target);
     return own - target;
   };

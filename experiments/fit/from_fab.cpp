@@ -410,7 +410,7 @@ void report_fab(Run& run, const FabAnswer& answer, const FabricNotes& notes) {
 
 // Formats the rigidity; with a free vibration it is given, so it has no error.
 std::string rigidity_text(const FabBending& b) {
-  if (b.spring_error == 0) return fmt::format("{:.3g} N m (of kes.b, taken as exact)", b.law.spring);
+  if (b.spring_error == 0) return number_text(b.law.spring, 3, "N m") + " (of kes.b, taken as exact)";
   return fmt::format("{:.3g} +- {:.2g} N m", b.law.spring, b.spring_error);
 }
 

@@ -7,6 +7,7 @@
 
 #include "render/panels.h"
 #include "sim/base/csv.h"
+#include "sim/base/number_in.h"
 #include "sim/scene/key_table.h"
 
 namespace hysteron::experiments {
@@ -51,7 +52,7 @@ void write_rows(Run& run, const std::vector<Identification>& fits) {
 }
 
 std::string percent_text(const Identification& fit) {
-  return fmt::format("{:.2g} %", 100 * fit.residual_rms() / fit.largest_moment());
+  return number_text(100 * fit.residual_rms() / fit.largest_moment(), 2, "%");
 }
 
 std::string with_error(const Row& row) {
@@ -148,9 +149,9 @@ void draw_panels(Run& run, const std::vector<Identification>& fits, const std::s
   for (const Identification& fit : fits) {
     const std::vector<double> fit_residuals = milli(left_over(fit));
     all_left.insert(all_left.end(), fit_residuals.begin(), fit_residuals.end());
-    const std::vector<std::string> numbers = {"b1 " + rounded(1e6 * fit.b1.value) + " µN m",
-                                              "b2 " + rounded(1e6 * fit.b2.value) + " µN m",
-                                              "k0 " + rounded(fit.k0.value) + " /m"};
+    const std::vector<std::string> numbers = {"b1 " + number_text(1e6 * fit.b1.value, 4) + " µN m",
+                                              "b2 " + number_text(1e6 * fit.b2.value, 4) + " µN m",
+                                              "k0 " + number_text(fit.k0.value, 4) + " /m"};
     data.panels.push_back({fit.law + ", " + share_text(fit), curves(fit), numbers, {}});
     left.panels.push_back({fit.law + ", " + share_text(fit), residuals(fit), {}, {}});
   }
@@ -188,8 +189,8 @@ std::string summary(const std::vector<Identification>& fits) {
   for (const Identification& fit : fits) {
     if (fits.size() == 1) break;
     const std::vector<std::string> open = fit.undetermined();
-    text += fit.law + ": rms " + percent_text(fit) + "; b1 " + rounded(fit.b1.value) + ", b2 " +
-            rounded(fit.b2.value) + " N m, k0 " + rounded(fit.k0.value) + "/m" +
+    text += fit.law + ": rms " + percent_text(fit) + "; b1 " + number_text(fit.b1.value, 4) + ", b2 " +
+            number_text(fit.b2.value, 4) + " N m, k0 " + number_text(fit.k0.value, 4) + "/m" +
             (open.empty() ? "" : "; undetermined: " + join(open, ", ")) + "\n";
   }
   return text + fit_summary(fits[0]);

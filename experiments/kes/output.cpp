@@ -8,6 +8,7 @@
 #include "experiments/workbench/app/law_family.h"
 #include "render/panels.h"
 #include "sim/base/csv.h"
+#include "sim/base/number_in.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -84,11 +85,11 @@ void write_readings(Run& run, const KesTests& tests) {
     const KesReading& r = result.test.reading;
     std::vector<Cell> fields = {tests.fabric.name, result.law};
     for (double value : {r.rigidity, r.loop_width, r.residual, r.residual_by_formula, r.loop_area})
-      fields.push_back(std::isnan(value) ? "" : fmt::format("{:.9g}", value));
+      fields.push_back(std::isnan(value) ? "" : number_text(value, 9));
     for (int count : result.test.recovery_cases) fields.push_back(count);
     if (has_faces)
       for (const KesPair& side : {r.face, r.back})
-        for (double value : {side.rigidity, side.loop_width}) fields.push_back(fmt::format("{:.9g}", value));
+        for (double value : {side.rigidity, side.loop_width}) fields.push_back(number_text(value, 9));
     table.row(fields);
   }
   table.write(run.path("table.csv"));
@@ -134,7 +135,7 @@ std::vector<std::string> remarks(const KesResult& result, double shown_moment) {
   if (std::abs(result.test.reading.area_change) > kSettled) lines.push_back("not settled");
   const double largest = largest_moment(result.test);
   if (kMilli * largest > shown_moment)
-    lines.push_back("cut: reaches " + fmt::format("{:.2g} mN", kMilli * largest));
+    lines.push_back("cut: reaches " + number_text(kMilli * largest, 2, "mN"));
   return lines;
 }
 

@@ -9,6 +9,7 @@
 #include "experiments/specimens/cantilever_strip.h"
 #include "experiments/specimens/clamped_mesh.h"
 #include "sim/base/error.h"
+#include "sim/base/number_in.h"
 #include "sim/scene/key_table.h"
 
 namespace hysteron::experiments {
@@ -57,7 +58,7 @@ void check_strip(const StripShape& shape, const LawRequest& law, const KesProtoc
         .with_key("law", law.name)
         .with_experiment("kes");
   if (protocol.amplitude * kGauge >= 2 * kPi) {
-    const std::string amplitude = fmt::format("{:g}", protocol.amplitude);
+    const std::string amplitude = number_text(protocol.amplitude, 6);
     throw Error::invalid_input(
         fmt::format("amplitude = {} 1/m bends a strip of {:g} m by a whole turn or more: the "
                     "clamps would meet; it must be < {:g} 1/m",

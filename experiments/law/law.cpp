@@ -68,18 +68,16 @@ void check_numbers(const CommandLine& line, const LawFlags& flags) {
   for (const std::string& text : warnings) warn(text);
 }
 
-std::string with_unit(double value, const char* unit) { return fmt::format("{:g} {}", value, unit); }
-
 void check_curve(const VirginCurve& curve) {
   const auto refuse = [](const char* name, double value, const char* unit, const std::string& allowed) {
-    throw Error::invalid_input(std::string("--") + name + " = " + with_unit(value, unit) + " must be " +
+    throw Error::invalid_input(std::string("--") + name + " = " + number_text(value, 6, unit) + " must be " +
                                allowed)
-        .with_key(name, fmt::format("{:g}", value))
+        .with_key(name, number_text(value, 6))
         .with_experiment("law");
   };
   if (!(curve.b2 >= 0) || !std::isfinite(curve.b2)) refuse("b2", curve.b2, "N m", "finite and >= 0");
   if (!(curve.b1 >= curve.b2) || !std::isfinite(curve.b1))
-    refuse("b1", curve.b1, "N m", "finite and >= b2 = " + with_unit(curve.b2, "N m"));
+    refuse("b1", curve.b1, "N m", "finite and >= b2 = " + number_text(curve.b2, 6, "N m"));
   if (!(curve.k0 >= 0) || !std::isfinite(curve.k0)) refuse("k0", curve.k0, "1/m", "finite and >= 0");
 }
 
@@ -92,8 +90,8 @@ void check_time(const Table& table) {
   const std::vector<double> time = metric_values(table, kTime);
   for (size_t row = 1; row < time.size(); ++row) {
     if (time[row] < time[row - 1]) {
-      throw table.refusal(row, "time = " + with_unit(time[row], "s") + " must be >= " +
-                                   with_unit(time[row - 1], "s") + ", the time of the row before");
+      throw table.refusal(row, "time = " + number_text(time[row], 6, "s") + " must be >= " +
+                                   number_text(time[row - 1], 6, "s") + ", the time of the row before");
     }
   }
 }
@@ -102,7 +100,7 @@ void check_edit(const Table& table) {
   const std::vector<double> edit = metric_values(table, kEdit);
   for (size_t row = 0; row < edit.size(); ++row) {
     if (edit[row] != 0 && edit[row] != 1) {
-      throw table.refusal(row, "edit = " + with_unit(edit[row], "must be 0 or 1"));
+      throw table.refusal(row, "edit = " + number_text(edit[row], 6) + " must be 0 or 1");
     }
   }
 }
@@ -113,8 +111,8 @@ void check_curvature(const Table& table) {
   const std::vector<double> curvature = table.numbers(kCurvature);
   for (size_t row = 0; row < curvature.size(); ++row) {
     if (std::abs(curvature[row]) > kSharpest)
-      throw table.refusal(row, "curvature = " + with_unit(curvature[row], "1/m") + " must be within +-" +
-                                   with_unit(kSharpest, "1/m"));
+      throw table.refusal(row, "curvature = " + number_text(curvature[row], 6, "1/m") + " must be within +-" +
+                                   number_text(kSharpest, 6, "1/m"));
   }
 }
 
@@ -123,7 +121,7 @@ void check_results(const std::vector<Column>& results, const Table& table) {
   for (size_t row = 0; row < table.lines.size(); ++row) {
     for (const Column& column : results) {
       if (!std::isfinite(column.values[row]))
-        throw table.refusal(row, "at curvature = " + with_unit(results[0].values[row], "1/m") +
+        throw table.refusal(row, "at curvature = " + number_text(results[0].values[row], 6, "1/m") +
                                      " the law's " + column.name +
                                      " is no finite number; take smaller b1, b2, k0 or parameters");
     }
@@ -147,7 +145,7 @@ std::vector<LawRow> law_table_rows(const Table& table) {
 void check_time_passes(const Table& table, const LawRequest& request) {
   const std::vector<double> time = metric_values(table, kTime);
   if (time.size() < 2 || time.back() > time.front() || !takes_time(request)) return;
-  throw table.refusal(time.size() - 1, "time = " + with_unit(time.back(), "s") +
+  throw table.refusal(time.size() - 1, "time = " + number_text(time.back(), 6, "s") +
                                            " must rise from the first row to the last: law " + request.name +
                                            " takes time");
 }
@@ -225,9 +223,9 @@ std::string stops_summary(const LawRequest& request) {
   const KesPair pair = kes_pair(request.curve, p);
   return fmt::format("stops{}: B = {} between {:g} and {}, 2HB = {} at {}, HB/B = {}\n",
                      request.curve.parts.faces.on() ? " (bends to the face)" : "",
-                     with_unit(pair.rigidity, "N m"), p.slope_from, with_unit(p.slope_to, "1/m"),
-                     with_unit(pair.loop_width, "N"), with_unit(p.width_at, "1/m"),
-                     with_unit(pair.loop_width / 2 / pair.rigidity, "1/m"));
+                     number_text(pair.rigidity, 6, "N m"), p.slope_from, number_text(p.slope_to, 6, "1/m"),
+                     number_text(pair.loop_width, 6, "N"), number_text(p.width_at, 6, "1/m"),
+                     number_text(pair.loop_width / 2 / pair.rigidity, 6, "1/m"));
 }
 
 std::string recovery_summary(const LawRequest& request, const std::vector<LawRow>& rows, const LawRun& run) {
@@ -235,10 +233,12 @@ std::string recovery_summary(const LawRequest& request, const std::vector<LawRow
   const RecoveryCounts counts = count_recoveries(choice.curve, rows, run);
   std::string text = fmt::format(
       "reversals from |M| <= Ma: {}, <= 2 Ma: {}, > 2 Ma: {}\nresidual curvature after the last row: {}",
-      counts.of[0], counts.of[1], counts.of[2], with_unit(residual_after(request, rows), "1/m (root)"));
+      counts.of[0], counts.of[1], counts.of[2],
+      number_text(residual_after(request, rows), 6, "1/m") + " (root)");
   if (has_residual_formula(choice))
-    text += ", " + with_unit(residual_by_formula(choice, rows.back().curvature, run.moment.back()),
-                             "1/m (formula, if that row lies on the virgin curve)");
+    text += ", " +
+            number_text(residual_by_formula(choice, rows.back().curvature, run.moment.back()), 6, "1/m") +
+            " (formula, if that row lies on the virgin curve)";
   return text + "\n";
 }
 

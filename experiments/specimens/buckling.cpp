@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "sim/base/error.h"
+#include "sim/base/number_in.h"
 #include "sim/bending/laws/law_run.h"
 #include "sim/scene/shown_key.h"
 
@@ -54,7 +55,7 @@ void check_axis(const Scene& scene) {
           "buckle.kind = edge has no reference for a strip that twists as it bends: cloth.warp-angle = "
           "{:g} degree must be a multiple of 90, or fabric.weft-bending and fabric.bias-bending 1",
           angle))
-      .with_key("cloth.warp-angle", fmt::format("{:g}", angle));
+      .with_key("cloth.warp-angle", number_text(angle, 6));
 }
 
 // Throws for unequal sides: a twist bends one diagonal to the face and the other to the back, and which of
@@ -68,7 +69,7 @@ void check_sides(const Scene& scene) {
           "buckle.kind = edge has no reference for a strip that twists with one rigidity to its face and "
           "another to its back: fabric.back-bending = {:g} must be 1, or buckle.kind = upright",
           scene.fabric.bending.faces.bending))
-      .with_key("fabric.back-bending", fmt::format("{:g}", scene.fabric.bending.faces.bending));
+      .with_key("fabric.back-bending", number_text(scene.fabric.bending.faces.bending, 6));
 }
 
 double weight_number(const Scene& scene, double length) {

@@ -18,6 +18,7 @@
 #include "sim/base/comma_list.h"
 #include "sim/base/csv.h"
 #include "sim/base/error.h"
+#include "sim/base/number_in.h"
 #include "sim/base/parallel.h"
 #include "sim/scene/scene_reader.h"
 
@@ -282,7 +283,7 @@ void measure_ripples(const F& flags, Run& run) {
 void check_limit_steps(double steps) {
   if (steps == std::floor(steps)) return;
   throw Error::invalid_input(fmt::format("limit-steps = {:g} must be a whole number", steps))
-      .with_key("limit-steps", fmt::format("{:g}", steps));
+      .with_key("limit-steps", number_text(steps, 6));
 }
 
 // Returns the names of the requested sweeps; `all` stands alone.

@@ -253,7 +253,7 @@ class StudyPlots {
         for (render::HeatMapCell& cell : row) {
           const double x = cell.kind < 0 ? NAN : means[static_cast<std::size_t>(cell.kind)];
           const int kind = part > 0 ? std::min(kParts - 1, static_cast<int>((x - low) / part)) : 0;
-          cell = std::isnan(x) ? render::HeatMapCell{} : render::HeatMapCell{kind, fmt::format("{:.3g}", x)};
+          cell = std::isnan(x) ? render::HeatMapCell{} : render::HeatMapCell{kind, number_text(x, 3)};
         }
     return true;
   }

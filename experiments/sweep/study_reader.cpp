@@ -65,7 +65,7 @@ ValueTree recorded_study(const Manifest& manifest, const std::string& file) {
 // Formats a number as flags take it: integers without an exponent.
 std::string flag_text(double x) {
   constexpr double kExact = 1e15;
-  return x == std::floor(x) && std::abs(x) < kExact ? fmt::format("{:.0f}", x) : number_text(x);
+  return x == std::floor(x) && std::abs(x) < kExact ? number_text(x, {.decimals = 0}) : number_text(x);
 }
 
 std::string flag_text(const Value& value) {
@@ -287,7 +287,7 @@ class StudyFile {
     if (part == 0) return flag_text(from);
     if (part == 1) return flag_text(to);
     const double x = axis.logarithmic ? from * std::pow(to / from, part) : from + (to - from) * part;
-    return flag_text(*number_in(fmt::format("{:.{}g}", x, kDigits)));
+    return flag_text(*number_in(number_text(x, kDigits)));
   }
 
   // Returns an integer; each one has an equal part of the range, the last one too.

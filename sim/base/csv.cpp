@@ -17,6 +17,8 @@
 namespace hysteron {
 namespace {
 
+constexpr int kExact = 17;  // digits of which reading makes the same double
+
 // Returns the separator of the fields below this head: a semicolon or a tab that stands there outside of
 // quotes, else the comma.
 char separator_in(std::string_view head) {
@@ -242,8 +244,6 @@ std::string quoted_where_needed(const std::string& text) {
   return quoted + "\"";
 }
 
-std::string exact_field(double value) { return fmt::format("{:.17g}", value); }
-
 }  // namespace
 
 namespace {
@@ -284,7 +284,7 @@ Table::Table(const std::vector<Column>& columns) {
   for (const Column& column : columns) head.push_back(column.name);
   rows.resize(columns.empty() ? 0 : columns[0].values.size());
   for (std::size_t r = 0; r < rows.size(); ++r)
-    for (const Column& column : columns) rows[r].push_back(exact_field(column.values[r]));
+    for (const Column& column : columns) rows[r].push_back(number_text(column.values[r], kExact));
 }
 
 void Table::row(const std::vector<Cell>& cells) {
@@ -421,7 +421,7 @@ Table read_csv(const std::filesystem::path& file, const std::vector<std::string>
   }
 }
 
-std::string number_field(double value) { return std::isfinite(value) ? fmt::format("{:.6g}", value) : ""; }
+std::string number_field(double value) { return std::isfinite(value) ? number_text(value, 6) : ""; }
 
 std::string csv_row(const std::vector<std::string>& fields) {
   std::string row;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "sim/base/error.h"
+#include "sim/base/number_in.h"
 #include "sim/identification/least_squares.h"
 #include "sim/identification/model.h"
 #include "sim/scene/key_table.h"
@@ -156,8 +157,8 @@ void take(const Solution& solution, const std::string& source, Identification& r
 }
 
 std::string range_text(const Interval& interval, bool open, const char* unit) {
-  if (open) return "values above " + rounded(interval.low) + " " + unit;
-  return "values from " + rounded(interval.low) + " to " + rounded(interval.high) + " " + unit;
+  if (open) return "values above " + number_text(interval.low, 4) + " " + unit;
+  return "values from " + number_text(interval.low, 4) + " to " + number_text(interval.high, 4) + " " + unit;
 }
 
 void say_undetermined(const Solution& solution, Identification& result) {
@@ -224,7 +225,7 @@ bool assume_ratio(const MomentModel& model, const Assumptions& assumptions, Solu
   const double c1 = tied.best.curve().c1();
   result.further.emplace_back("c1_N_m2", c1);
   result.further.emplace_back("c1_N_m2_stderr", -c1 * std::sqrt(c(0, 0) + c(1, 1) - 2 * c(0, 1)));
-  result.statements.push_back("the data fix b1 and the bend c1 = (b2 - b1)/(2 k0) = " + rounded(c1) +
+  result.statements.push_back("the data fix b1 and the bend c1 = (b2 - b1)/(2 k0) = " + number_text(c1, 4) +
                               " N m^2; " + assumptions.ratio_source());
   return true;
 }
@@ -255,8 +256,8 @@ bool assume_k0(const MomentModel& model, const Assumptions& assumptions, Solutio
   const double hb = tied.best.curve().friction_moment();
   result.further.emplace_back("HB_N", hb);
   result.further.emplace_back("HB_N_stderr", hb * std::sqrt(c(1, 1)));
-  result.statements.push_back("the data fix b2 and the friction moment HB = (b1 - b2) k0/2 = " + rounded(hb) +
-                              " N; " + assumptions.k0_source());
+  result.statements.push_back("the data fix b2 and the friction moment HB = (b1 - b2) k0/2 = " +
+                              number_text(hb, 4) + " N; " + assumptions.k0_source());
   return true;
 }
 
@@ -276,7 +277,7 @@ bool is_straight(const MomentModel& model, const Assumptions& assumptions, Solut
   result.b1.standard_error = result.b1.determined ? line.best.b2 * std::sqrt(c.matrix(0, 0)) : kNone;
   result.b2 = {line.best.b2, kNone, false, "b2 = b1: the data show no bend", "assumed"};
   result.k0 = assumptions.assumed_k0();
-  const std::string range = " up to " + rounded(model.largest_curvature()) + " 1/m; b2 = b1 is taken";
+  const std::string range = " up to " + number_text(model.largest_curvature(), 4) + " 1/m; b2 = b1 is taken";
   result.statements.push_back(solution.covariance.widening > 1
                                   ? "the law describes these data no better with friction than without it" +
                                         range
@@ -391,16 +392,16 @@ void say_how(const MomentSeries& series, const Solution& solution, bool cycling,
   }
   if (solution.covariance.widening > 1) {
     result.statements.push_back("neighbouring residuals are correlated (" +
-                                rounded(solution.covariance.correlation) +
+                                number_text(solution.covariance.correlation, 4) +
                                 "): the law does not describe all of the curve, or the instrument drifts; "
                                 "standard errors are widened " +
-                                rounded(solution.covariance.widening) + " times");
+                                number_text(solution.covariance.widening, 4) + " times");
   }
 }
 
 void say_turns(const MomentModel& model, const Solution& solution, Identification& result) {
   std::vector<std::string> curvatures;
-  for (const double k : model.turning_curvatures(solution.used)) curvatures.push_back(rounded(k));
+  for (const double k : model.turning_curvatures(solution.used)) curvatures.push_back(number_text(k, 4));
   result.statements.push_back(
       "rows are not close beside the turns for this k0: the turns were sought "
       "between the rows, too, and lie at " +

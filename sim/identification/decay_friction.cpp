@@ -6,6 +6,7 @@
 
 #include "sim/base/csv.h"
 #include "sim/base/error.h"
+#include "sim/base/number_in.h"
 #include "sim/identification/swinging_strip.h"
 #include "sim/scene/key_table.h"
 
@@ -174,9 +175,9 @@ constexpr double kMillimetre = 1e-3;                        // [m]
 // Suggests the amplitude in millimetres, or as half of the way from peak to peak.
 std::string amplitude_hint(double amplitude, double length) {
   if (amplitude * kMillimetre >= kMillimetre && amplitude * kMillimetre < length)
-    return "; millimetres given as metres? Then it is " + rounded(amplitude * kMillimetre) + " m";
+    return "; millimetres given as metres? Then it is " + number_text(amplitude * kMillimetre, 4) + " m";
   if (amplitude / 2 < length)
-    return "; from peak to peak? An amplitude is half of that, " + rounded(amplitude / 2) + " m";
+    return "; from peak to peak? An amplitude is half of that, " + number_text(amplitude / 2, 4) + " m";
   return "";
 }
 
@@ -197,7 +198,8 @@ void check_decay(const DecaySeries& series, const DecayQuestion& question, const
                                  amplitude_hint(amplitude, length))
           .with_key("decay", file);
   if (!(last < first + question.noise))
-    throw Error::invalid_input(file + ": amplitudes rise from " + rounded(first) + " m to " + rounded(last) +
+    throw Error::invalid_input(file + ": amplitudes rise from " + number_text(first, 4) + " m to " +
+                               number_text(last, 4) +
                                " m, and must fall, since friction takes energy: do the rows run backwards "
                                "in time?")
         .with_key("decay", file);
@@ -224,7 +226,8 @@ std::string large_amplitudes_warning(const DecaySeries& series, double length) {
   const std::size_t large = large_amplitudes(series, length), all = series.time.size();
   if (large == 0) return "";
   const std::string which = std::to_string(large) + " of " + std::to_string(all) +
-                            " amplitudes are above half of the strip's length, " + rounded(length / 2) +
+                            " amplitudes are above half of the strip's length, " +
+                            number_text(length / 2, 4) +
                             " m, where it does not swing in the mode of small ones";
   return all - large < kFewest ? which + ": HB and k0 may come out a fifth low; write down smaller ones, too"
                                : which + ": they are left out";
@@ -251,14 +254,15 @@ std::vector<std::string> decay_warnings(const DecaySeries& series, const DecayQu
   std::vector<std::string> warnings;
   if (usual > longest || usual < shortest)
     warnings.push_back(
-        "a turn takes " + rounded(usual) + " s, and half a period of a hanging strip of this length, " +
-        "weight and rigidity takes " + rounded(shortest) + " to " + rounded(longest) +
+        "a turn takes " + number_text(usual, 4) +
+        " s, and half a period of a hanging strip of this length, " + "weight and rigidity takes " +
+        number_text(shortest, 4) + " to " + number_text(longest, 4) +
         " s: HB goes with the inverse square of the time; are the times in seconds, and is there an "
         "amplitude of every turn, on both sides?");
   for (std::size_t i = 0; i < turns.size(); ++i)
     if (turns[i] > kLongest * usual) {
       warnings.push_back("the turn from t = " + number_text(series.time[i]) + " s takes " +
-                         rounded(turns[i]) + " s, and the others some " + rounded(usual) +
+                         number_text(turns[i], 4) + " s, and the others some " + number_text(usual, 4) +
                          " s: is an amplitude missing?");
       break;
     }
@@ -316,8 +320,8 @@ std::string pace_warning(const DecaySeries& series, const DecayQuestion& questio
           .front();
   const double fitted = std::numbers::pi / state.omega;
   if (measured < different * fitted && fitted < different * measured) return "";
-  return "at its smallest amplitudes the fitted strip takes " + rounded(fitted) +
-         " s for a turn, and the data " + rounded(measured) +
+  return "at its smallest amplitudes the fitted strip takes " + number_text(fitted, 4) +
+         " s for a turn, and the data " + number_text(measured, 4) +
          " s: the fit contradicts itself, and HB goes with the inverse square of the time; is there an "
          "amplitude of every turn, on both sides, and are kes.b and fabric.density the strip's?";
 }

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "sim/base/error.h"
+#include "sim/base/number_in.h"
 #include "sim/reference/buckled_strip.h"
 #include "sim/scene/key_table.h"
 
@@ -337,7 +338,7 @@ FabBending identify_fab_bending(const std::vector<FabLoops>& loops, const FabBen
   if (!best.residuals.allFinite())
     throw Error::simulation("along " + loops[0].direction +
                             " no equilibrium is found of a strip as stiff as its loops' " +
-                            "work suggests, b2 = " + rounded(model.prior_spring()) +
+                            "work suggests, b2 = " + number_text(model.prior_spring(), 4) +
                             " N m: check gauge, width, density and the units of forces");
   FabBending found;
   found.take(best, loops, model.rows());

@@ -1,7 +1,5 @@
 #include "sim/identification/identification.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -28,8 +26,6 @@ double Identification::largest_moment() const {
   for (double value : moment) largest = std::max(largest, std::abs(value));
   return largest;
 }
-
-std::string rounded(double x) { return fmt::format("{:.4g}", x); }
 
 std::string Assumptions::ratio_source() const {
   return "assumed: b2/b1 = " + number_text(ratio) +

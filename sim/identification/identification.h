@@ -37,9 +37,6 @@ struct Identification {
   double largest_moment() const;  // [N]
 };
 
-// Writes four digits, for sentences.
-std::string rounded(double x);
-
 inline constexpr double kNormal95 = 1.96;  // half width of a 95 % interval over the standard deviation
 
 // A quantity whose 95 % interval spans more than this factor is called undetermined.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/base/number_in.h"
 #include "sim/bending/laws/unused_parameters.h"
 #include "sim/scene/key_table.h"
 
@@ -57,7 +58,7 @@ std::vector<std::string> loop_warnings(const MomentSeries& series, const std::ve
 std::string misses_warning(const Identification& found) {
   const double share = found.residual_rms() / found.largest_moment();
   if (share <= kImplausibleMiss) return "";
-  const std::string miss = " them by " + rounded(100 * share) + " % of the largest moment (rms)";
+  const std::string miss = " them by " + number_text(100 * share, 4) + " % of the largest moment (rms)";
   if (!(share <= kMisses)) return found.law + " does not describe these data: it misses" + miss;
   return found.law + " is not near these data: it misses" + miss +
          "; another law may be nearer (--law all), and plot_residual shows where";

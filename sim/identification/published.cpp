@@ -4,6 +4,7 @@
 
 #include "sim/base/csv.h"
 #include "sim/base/error.h"
+#include "sim/base/number_in.h"
 #include "sim/bending/laws/friction_shape.h"
 #include "sim/identification/least_squares.h"
 #include "sim/identification/series.h"
@@ -89,7 +90,7 @@ Identification identify_virgin(const VirginNumbers& numbers, const Assumptions& 
   const double k0 = (b2 - b1) / (2 * c1);
   if (!(k0 >= kSmallestK0 && k0 <= kLargestK0))
     throw Error::invalid_input("virgin.c1 = " + number_text(c1) + " N m^2 makes k0 = (b2 - b1)/(2 c1) = " +
-                               rounded(k0) + " 1/m, must be in [" + number_text(kSmallestK0) + ", " +
+                               number_text(k0, 4) + " 1/m, must be in [" + number_text(kSmallestK0) + ", " +
                                number_text(kLargestK0) + "] 1/m; 1 gf cm^3/cm is 9.80665e-07 N m^2")
         .with_key("virgin.c1", number_text(c1));
   Identification result;
@@ -116,7 +117,7 @@ Identification identify_virgin(const VirginNumbers& numbers, const Assumptions& 
   result.statements.push_back(
       "b1 and c1 fix the start of the virgin curve and leave open where it ends: any b2 "
       "below b1 goes with a k0 = (b2 - b1)/(2 c1) up to " +
-      rounded(-b1 / (2 * c1)) + " 1/m; " + assumptions.ratio_source());
+      number_text(-b1 / (2 * c1), 4) + " 1/m; " + assumptions.ratio_source());
   say_friction(result);
   say_no_errors(result);
   return result;
@@ -139,11 +140,11 @@ void check_kes(const KesNumbers& numbers) {
   }
   if (hb / b > kLargestHbOverB) {
     throw Error::invalid_input(
-        "kes.2hb = " + number_text(2 * hb) + " N must be at most " + rounded(2 * kLargestHbOverB * b) +
-        " N: HB/B = " + rounded(hb / b) +
+        "kes.2hb = " + number_text(2 * hb) + " N must be at most " + number_text(2 * kLargestHbOverB * b, 4) +
+        " N: HB/B = " + number_text(hb / b, 4) +
         " 1/m would leave folds of a radius below a millimetre; KES prints gf cm/cm, which is "
         "0.00980665 N, and times 0.00980665 it is " +
-        rounded(2 * hb * kGramForceCentimetrePerCentimetre) + " N")
+        number_text(2 * hb * kGramForceCentimetrePerCentimetre, 4) + " N")
         .with_key("kes.2hb", number_text(2 * hb));
   }
 }
@@ -186,7 +187,8 @@ Identification identify_kes(const KesNumbers& numbers, const Assumptions& assump
   const double b = numbers.b.value, k0 = known ? numbers.k0.value : assumptions.k0;
   const double b1 = b + numbers.two_hb.value / k0;
   if (b1 > kGreatestRigidity)
-    throw Error::invalid_input("k0 = " + number_text(k0) + " 1/m makes b1 = B + 2HB/k0 = " + rounded(b1) +
+    throw Error::invalid_input("k0 = " + number_text(k0) +
+                               " 1/m makes b1 = B + 2HB/k0 = " + number_text(b1, 4) +
                                " N m, must be <= " + number_text(kGreatestRigidity) + " N m, as fabrics are")
         .with_key(known ? "kes.k0" : "assume.k0", number_text(k0));
   Identification result;

@@ -5,6 +5,7 @@
 
 #include "sim/base/csv.h"
 #include "sim/base/error.h"
+#include "sim/base/number_in.h"
 #include "sim/base/plain_text.h"
 #include "sim/identification/identification.h"
 #include "sim/reference/tester_table.h"
@@ -116,7 +117,7 @@ void check_order(const MomentSeries& series) {
 void check_magnitudes(const MomentSeries& series) {
   const double slope = overall_slope(series);
   if (!(slope > 0)) {
-    throw Error::invalid_input(series.name + ": moments fall with curvature (slope " + rounded(slope) +
+    throw Error::invalid_input(series.name + ": moments fall with curvature (slope " + number_text(slope, 4) +
                                " N m), and must rise: turn the sign of one of the columns");
   }
   check_rigidity(slope, "the slope of " + series.name);
@@ -230,12 +231,12 @@ void check_rigidity(double value, const std::string& what) {
   const bool large = value > kGreatestRigidity;
   const double factor = kGramForceSquareCentimetrePerCentimetre;
   throw Error::invalid_input(
-      what + " = " + rounded(value) + " N m must be in [" + number_text(kMinRigidity) + ", " +
+      what + " = " + number_text(value, 4) + " N m must be in [" + number_text(kMinRigidity) + ", " +
       number_text(kGreatestRigidity) + "] N m, as fabrics are; " +
       (large ? "KES prints gf cm^2/cm, which is 9.80665e-05 N m (moments in gf cm/cm: 0.00980665 N, "
                "curvatures in 1/cm: 100/m), and times 9.80665e-05 it is "
              : "converted from gf cm^2/cm twice? Divided by 9.80665e-05 it is ") +
-      rounded(large ? value * factor : value / factor) + " N m");
+      number_text(large ? value * factor : value / factor, 4) + " N m");
 }
 
 void prepare(MomentSeries& series, double ripple) {

@@ -20,7 +20,8 @@ namespace {
 // In each decade some 2 points are the sheet's own, as means at nodes show (results/drape-tension).
 constexpr double kLocks = 1e5;
 
-double mean_edge(const ClothMesh& mesh) {
+// Returns the side of the equilateral triangle that has the mean area [m].
+double equilateral_side(const ClothMesh& mesh) {
   const double area = std::accumulate(mesh.face_area.begin(), mesh.face_area.end(), 0.0);
   return std::sqrt(4 / std::sqrt(3.0) * area / mesh.faces());
 }
@@ -29,7 +30,7 @@ double mean_edge(const ClothMesh& mesh) {
 
 double locking_number(const Scene& scene, const ClothMesh& mesh) {
   const MembraneStiffness<double> of = split_membrane(scene.fabric, scene.membrane_element).faces;
-  const double edge = mean_edge(mesh), stiffness = std::max(of.warp, of.weft);
+  const double edge = equilateral_side(mesh), stiffness = std::max(of.warp, of.weft);
   return stiffness * edge * edge / mean_of_faces(scene.fabric.virgin_curve()).b2;
 }
 
@@ -45,7 +46,7 @@ std::string locking_warning(const Scene& scene, const ClothMesh& mesh) {
       "the membrane may lock: edges of %.3g mm are long for fabric.warp = %.3g N/m, fabric.weft = %.3g "
       "N/m and fabric.b2 = %.3g N m%s, so that the cloth bends less than it should (E h^2/b2 = %.2g, "
       "above %.0e): take %ssome %.0f times as many triangles, or a softer membrane",
-      1e3 * mean_edge(mesh), scene.fabric.warp, scene.fabric.weft,
+      1e3 * equilateral_side(mesh), scene.fabric.warp, scene.fabric.weft,
       mean_of_faces(scene.fabric.virgin_curve()).b2,
       scene.fabric.bending.faces.on() ? " (the mean of both sides)" : "", number, kLocks,
       may_average ? "membrane.element = nodal, or " : "", std::ceil(number / kLocks));

@@ -67,6 +67,10 @@ struct ClothMesh {
   FaceSide side(int f, int e) const;
   // Returns the length of an edge at rest [m]; along a seam the mean of its two sides.
   double edge_length(int e) const;
+  // Return the mean length of the edges [m]: at rest, by edge_length(), and in `rest`, where seams hold a
+  // sewn cloth.
+  double mean_edge_length() const;
+  double mean_edge_in_space() const;
   // Returns orthogonal warp and weft unit vectors of face f in its plane, relative to its corners at rest:
   // warp is the direction of warp_axis in texture coordinates, or, where there are none or they are
   // degenerate, warp_axis projected; weft = normal x warp.  A triangle that warp_axis pierces at a right

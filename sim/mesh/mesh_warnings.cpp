@@ -22,17 +22,15 @@ std::string counted(int n, const char* one, const char* several) {
 class Warnings {
  public:
   Warnings(const ClothMesh& mesh, const MeshNames& names) : mesh_(mesh), names_(names) {
-    double length = 0;
     std::vector<char> seen(mesh.rest.size(), 0);
     for (std::size_t e = 0; e < mesh.edge.size(); ++e) {
-      length += (to(e) - from(e)).norm();
       if (mesh.edge[e].interior()) continue;
       for (const int v : {mesh.edge[e].p2, mesh.edge[e].p3})
         if (!std::exchange(seen[v], 1)) boundary_.push_back(v);
     }
     std::sort(boundary_.begin(), boundary_.end());
     for (const int v : boundary_) at_.push_back(mesh.rest[v]);
-    mean_ = length / static_cast<double>(mesh.edge.size());
+    mean_ = mesh.mean_edge_in_space();
     near_ = std::pow(10, std::floor(std::log10(kCoincident * mean_)));
   }
 

@@ -1,40 +1,38 @@
-// tinyobjloader resolves faces and relative indices, but reads a malformed number as 0, wraps one of more
-// than 32 bits and may round the last bit.  Numbers are therefore read, and refused, here, and the loader
-// only sees what it resolves.
 #include "sim/mesh/obj_soup.h"
 
-#include <tiny_obj_loader.h>
 #include <algorithm>
 #include <cctype>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <optional>
-#include <sstream>
 #include <string_view>
 
 #include "sim/base/error.h"
 #include "sim/base/plain_text.h"
 #include "sim/base/whole_file.h"
-#include "sim/mesh/topology.h"
 
 namespace hysteron {
 
 namespace {
 
-// The file's own vertices and texture coordinates, the lines of vertices and faces, and the loader's part of
-// each line.
-struct Lines {
+// Numbers of a face's corner, counted from 0; below 0 they count back beyond the file's first.
+struct Corner {
+  std::int64_t vertex = 0;
+  std::optional<std::int64_t> texture;
+};
+
+struct Face {
+  std::vector<Corner> corner;  // three or four
+  int line;
+};
+
+// What a file says, line by line: faces may use vertices that come later.
+struct Records {
   std::vector<Eigen::Vector3d> vertex;
   std::vector<Eigen::Vector2d> texture;
-  std::vector<int> vertex_line, face_line;
-  std::string resolved;
-  // The first face that counts back beyond the beginning, which some versions of the loader do not accept.
-  struct BeforeFirst {
-    int line;
-    bool texture;
-  };
-  std::optional<BeforeFirst> before_first;
+  std::vector<int> vertex_line;
+  std::vector<Face> face;
 };
 
 Error bad_line(const std::string& what, int line, const std::string& problem) {
@@ -63,31 +61,41 @@ double finite_number(std::string_view word, const std::string& what, int line) {
   return value;
 }
 
-// Checks a corner, "vertex", "vertex/texture", "vertex//normal" or "vertex/texture/normal", counted from 1,
-// or from -1 backwards.
-void check_corner(std::string_view corner, const std::string& what, int line, Lines& lines) {
+// Reads a corner, "vertex", "vertex/texture", "vertex//normal" or "vertex/texture/normal", counted from 1, or
+// from -1 backwards.
+Corner corner_in(std::string_view word, const std::string& what, int line, const Records& records) {
+  const auto from_first = [](std::int32_t index, std::size_t count) {
+    return index > 0 ? index - std::int64_t{1} : static_cast<std::int64_t>(count) + index;
+  };
+  Corner corner;
   for (std::size_t at = 0, place = 0; place < 3; ++place) {
-    const std::size_t end = std::min(corner.find('/', at), corner.size());
+    const std::size_t end = std::min(word.find('/', at), word.size());
     std::int32_t index = 0;
-    const auto [rest, code] = std::from_chars(corner.data() + at, corner.data() + end, index);
-    const bool left_out = place == 1 && end == at && end < corner.size();
-    const bool whole = code == std::errc() && rest == corner.data() + end && index != 0;
+    const auto [rest, code] = std::from_chars(word.data() + at, word.data() + end, index);
+    const bool left_out = place == 1 && end == at && end < word.size();
+    const bool whole = code == std::errc() && rest == word.data() + end && index != 0;
     if (!left_out && !whole) break;
-    const std::size_t count = place == 0 ? lines.vertex.size() : lines.texture.size();
-    if (whole && place < 2 && index < -static_cast<std::int64_t>(count) && !lines.before_first)
-      lines.before_first = {line, place == 1};
-    if (end == corner.size()) return;
+    if (whole && place == 0) corner.vertex = from_first(index, records.vertex.size());
+    if (whole && place == 1) corner.texture = from_first(index, records.texture.size());
+    if (end == word.size()) return corner;
     at = end + 1;
   }
   throw bad_line(what, line,
-                 "corner \"" + std::string(corner) +
+                 "corner \"" + std::string(word) +
                      "\" must be a vertex, vertex/texture or vertex/texture/normal, as whole numbers of 32 "
                      "bits other than 0");
 }
 
-void add_face(const std::vector<std::string_view>& word, std::string& line) {
-  line += "f";
-  for (std::size_t i = 1; i < word.size(); ++i) line.append(" ").append(word[i]);
+Face face_in(const std::vector<std::string_view>& word, const std::string& what, int line,
+             const Records& records) {
+  if (word.size() != 4 && word.size() != 5)
+    throw bad_line(what, line,
+                   "a face of " + std::to_string(word.size() - 1) +
+                       " corners; allowed are triangles and quads, triangulate the mesh first");
+  Face face{{}, line};
+  for (std::size_t i = 1; i < word.size(); ++i)
+    face.corner.push_back(corner_in(word[i], what, line, records));
+  return face;
 }
 
 // Refuses vertices and faces behind bytes that no editor shows, or in capitals: a reader that passes over
@@ -110,29 +118,20 @@ void check_weight(const std::vector<std::string_view>& word, const std::string& 
           " of the vertex must be 1 or be left out: divide its coordinates by it, if they are homogeneous");
 }
 
-void scan_line(const std::vector<std::string_view>& word, const std::string& what, int line, Lines& lines) {
+void read_line(const std::vector<std::string_view>& word, const std::string& what, int line,
+               Records& records) {
   if (word.empty()) return;
+  const auto number = [&](std::size_t i) { return finite_number(word[i], what, line); };
   if (word[0] == "v") {
     if (word.size() < 4) throw bad_line(what, line, "a vertex needs three coordinates");
     check_weight(word, what, line);
-    lines.vertex.emplace_back(finite_number(word[1], what, line), finite_number(word[2], what, line),
-                              finite_number(word[3], what, line));
-    lines.vertex_line.push_back(line);
-    lines.resolved += "v 0 0 0";  // only counted
+    records.vertex.emplace_back(number(1), number(2), number(3));
+    records.vertex_line.push_back(line);
   } else if (word[0] == "vt") {
     if (word.size() < 3) throw bad_line(what, line, "a texture coordinate needs two numbers");
-    lines.texture.emplace_back(finite_number(word[1], what, line), finite_number(word[2], what, line));
-    lines.resolved += "vt 0 0";  // only counted
-  } else if (word[0] == "vn") {
-    lines.resolved += "vn 0 0 1";                  // only counted
+    records.texture.emplace_back(number(1), number(2));
   } else if (word[0] == "f" || word[0] == "fo") {  // the notation of files before OBJ 3.0
-    if (word.size() != 4 && word.size() != 5)
-      throw bad_line(what, line,
-                     "a face of " + std::to_string(word.size() - 1) +
-                         " corners; allowed are triangles and quads, triangulate the mesh first");
-    for (std::size_t i = 1; i < word.size(); ++i) check_corner(word[i], what, line, lines);
-    add_face(word, lines.resolved);
-    lines.face_line.push_back(line);
+    records.face.push_back(face_in(word, what, line, records));
   } else {
     check_record(word[0], what, line);
   }
@@ -143,10 +142,6 @@ std::string file_text(const std::string& file, const std::string& what) {
   if (text.find('\0') != text.npos)
     throw Error::invalid_input(what + ": not an OBJ: it holds bytes that are no text");
   return text;
-}
-
-Error no_such_index(const std::string& what, int line, const std::string& which, std::size_t count) {
-  return bad_line(what, line, "the face uses " + which + "; the file has " + std::to_string(count));
 }
 
 // Walks through the lines of a text.  A vertex or a face continues in the next line where its line ends in a
@@ -191,109 +186,80 @@ class TextLines {
   int read_ = 0, first_ = 0;
 };
 
-Lines scan(const std::string& text, const std::string& what) {
-  Lines lines;
+Records records_of(const std::string& text, const std::string& what) {
+  Records records;
   TextLines all(text);
-  for (std::string line; all.next(line);) {
-    scan_line(words(line), what, all.number(), lines);
-    lines.resolved += '\n';
-  }
-  if (const auto& before = lines.before_first)
-    throw no_such_index(
-        what, before->line,
-        before->texture ? "a texture coordinate before the first" : "a vertex before the first",
-        before->texture ? lines.texture.size() : lines.vertex.size());
-  return lines;
+  for (std::string line; all.next(line);) read_line(words(line), what, all.number(), records);
+  if (records.vertex.empty() && records.face.empty())
+    throw Error::invalid_input(
+        what + ": not an OBJ: none of its lines is a vertex, \"v X Y Z\", or a face, \"f A B C\"");
+  return records;
 }
 
-// Resolves faces of three or four corners in the file's order, which the loader keeps.
-class Faces {
+// Makes triangles of the faces, in the file's order.
+class Triangles {
  public:
-  Faces(const std::string& what, const Lines& lines) : what_(what), lines_(lines) {
-    std::vector<tinyobj::shape_t> shapes;
-    std::vector<tinyobj::material_t> materials;
-    std::string warning, error;
-    std::istringstream in(lines.resolved);
-    if (!tinyobj::LoadObj(&attributes_, &shapes, &materials, &warning, &error, &in, nullptr, false, false))
-      throw Error::invalid_input(what + ": " + error);
-    for (const auto& shape : shapes) {
-      auto corner = shape.mesh.indices.begin();
-      for (const int corners : shape.mesh.num_face_vertices) {
-        add_face({corner, corner + corners});
-        corner += corners;
-      }
-    }
+  Triangles(const std::string& what, const Records& records) : what_(what), records_(records) {
+    for (const Face& face : records.face) add_face(face);
   }
 
   ObjSoup take_soup() { return std::move(soup_); }
 
  private:
-  void add_face(const std::vector<tinyobj::index_t>& corner) {
-    const int line = lines_.face_line.at(faces_++);
-    for (const auto& c : corner) check_index(c.vertex_index, lines_.vertex.size(), "vertex", line);
-    if (corner.size() == 3) return add_triangle(corner[0], corner[1], corner[2], line);
-    const auto at = [&](int i) { return lines_.vertex[corner[i].vertex_index]; };
-    if (crosses_itself(at(0), at(1), at(2), at(3))) soup_.crossed_line.push_back(line);
+  void add_face(const Face& face) {
+    for (const Corner& c : face.corner) check_index(c.vertex, records_.vertex.size(), "vertex", face.line);
+    for (const Corner& c : face.corner)
+      if (c.texture) check_index(*c.texture, records_.texture.size(), "texture coordinate", face.line);
+    if (face.corner.size() == 3) return add_triangle(face, {0, 1, 2});
+    const auto at = [&](int i) { return records_.vertex[face.corner[i].vertex]; };
+    if (crosses_itself(at(0), at(1), at(2), at(3))) soup_.crossed_line.push_back(face.line);
     if (is_cut_from_first(at(0), at(1), at(2), at(3))) {
-      add_triangle(corner[0], corner[1], corner[2], line);
-      add_triangle(corner[0], corner[2], corner[3], line);
+      add_triangle(face, {0, 1, 2});
+      add_triangle(face, {0, 2, 3});
     } else {
-      add_triangle(corner[0], corner[1], corner[3], line);
-      add_triangle(corner[1], corner[2], corner[3], line);
+      add_triangle(face, {0, 1, 3});
+      add_triangle(face, {1, 2, 3});
     }
   }
 
-  void add_triangle(const tinyobj::index_t& a, const tinyobj::index_t& b, const tinyobj::index_t& c,
-                    int line) {
-    soup_.face.emplace_back(a.vertex_index, b.vertex_index, c.vertex_index);
-    soup_.uv.push_back({uv(a, line), uv(b, line), uv(c, line)});
-    soup_.face_line.push_back(line);
+  void add_triangle(const Face& face, const std::array<int, 3>& corners) {
+    Eigen::Vector3i vertices;
+    std::array<Uv, 3> uv;
+    for (int i = 0; i < 3; ++i) {
+      const Corner& corner = face.corner[corners[i]];
+      vertices[i] = static_cast<int>(corner.vertex);
+      if (corner.texture) uv[i] = records_.texture[*corner.texture];
+    }
+    soup_.face.push_back(vertices);
+    soup_.uv.push_back(uv);
+    soup_.face_line.push_back(face.line);
   }
 
-  Uv uv(const tinyobj::index_t& corner, int line) const {
-    if (corner.texcoord_index == -1) return {};
-    check_index(corner.texcoord_index, lines_.texture.size(), "texture coordinate", line);
-    return lines_.texture[corner.texcoord_index];
-  }
-
-  void check_index(int index, std::size_t count, const std::string& of, int line) const {
-    if (index >= 0 && index < static_cast<int>(count)) return;
-    throw no_such_index(what_, line, of + " " + std::to_string(index + 1), count);
+  void check_index(std::int64_t index, std::size_t count, const std::string& of, int line) const {
+    if (index >= 0 && index < static_cast<std::int64_t>(count)) return;
+    throw bad_line(what_, line,
+                   "the face uses " +
+                       (index < 0 ? "a " + of + " before the first" : of + " " + std::to_string(index + 1)) +
+                       "; the file has " + std::to_string(count));
   }
 
   const std::string& what_;
-  const Lines& lines_;
-  tinyobj::attrib_t attributes_;
+  const Records& records_;
   ObjSoup soup_;
-  std::size_t faces_ = 0;
 };
 
 }  // namespace
 
-namespace {
-
-bool has_texture(const std::array<Uv, 3>& corners) {
-  return std::all_of(corners.begin(), corners.end(), [](const Uv& at) { return at.has_value(); });
-}
-
-}  // namespace
-
 ObjSoup read_obj_soup(const std::string& file, const std::string& what) {
-  Lines lines = scan(file_text(file, what), what);
-  if (lines.vertex.empty() && lines.face_line.empty())
-    throw Error::invalid_input(
-        what + ": not an OBJ: none of its lines is a vertex, \"v X Y Z\", or a face, \"f A B C\"");
-  ObjSoup soup = Faces(what, lines).take_soup();
-  soup.vertex = std::move(lines.vertex);
-  soup.vertex_line = std::move(lines.vertex_line);
+  Records records = records_of(file_text(file, what), what);
+  ObjSoup soup = Triangles(what, records).take_soup();
+  soup.vertex = std::move(records.vertex);
+  soup.vertex_line = std::move(records.vertex_line);
   share_texture(soup);
   return soup;
 }
 
-bool has_texture(const ObjSoup& soup) {
-  return std::all_of(soup.uv.begin(), soup.uv.end(),
-                     [](const std::array<Uv, 3>& corners) { return has_texture(corners); });
-}
+bool has_texture(const ObjSoup& soup) { return std::all_of(soup.uv.begin(), soup.uv.end(), is_whole); }
 
 std::vector<Eigen::Vector2d> vertex_texture(const ObjSoup& soup, const std::vector<Eigen::Vector3i>& face,
                                             std::size_t vertices) {
@@ -309,95 +275,6 @@ std::vector<Eigen::Vector2d> vertex_texture(const ObjSoup& soup, const std::vect
   texture.reserve(vertices);
   for (const Uv& at : known) texture.push_back(at.value_or(Eigen::Vector2d::Zero()));
   return texture;
-}
-
-// The following reads a Wavefront OBJ as a cloth.
-
-namespace {
-
-void check_weld(double distance, const std::string& what) {
-  if (distance >= 0 && std::isfinite(distance)) return;
-  std::ostringstream text;
-  text << what << ": weld = " << distance << " m must be >= 0";
-  throw Error::invalid_input(text.str());
-}
-
-// Refuses quads that cross themselves, which no two triangles can represent.
-void check_quads(const ObjSoup& soup, const std::string& what) {
-  if (soup.crossed_line.empty()) return;
-  throw Error::invalid_input(what + ": line " + std::to_string(soup.crossed_line.front()) +
-                             ": sides of the quad cross: its corners must follow one another around it");
-}
-
-// Renumbers the soup's vertices to the kept ones; fills rest and the vertices' lines.
-void weld_vertices(double distance, const ObjSoup& soup, ClothMesh& mesh, MeshNames& names) {
-  std::vector<int> number(soup.vertex.size());
-  std::vector<int> representative;
-  if (distance > 0) representative = nearby_representatives(soup.vertex, distance);
-  for (std::size_t v = 0; v < soup.vertex.size(); ++v) {
-    if (distance > 0 && representative[v] != static_cast<int>(v)) {
-      number[v] = number[representative[v]];
-      continue;
-    }
-    number[v] = mesh.vertices();
-    mesh.rest.push_back(soup.vertex[v]);
-    names.vertex_line.push_back(soup.vertex_line[v]);
-  }
-  for (auto& face : mesh.face) face = {number[face[0]], number[face[1]], number[face[2]]};
-}
-
-// Tells which faces lack texture coordinates: "the face has no texture coordinates, nor have 3 further
-// triangles".
-std::string without_texture(const std::string& what, const std::vector<int>& lines) {
-  return what + ": line " + std::to_string(lines.front()) + ": the face has no texture coordinates" +
-         (lines.size() > 1 ? ", nor have " + std::to_string(lines.size() - 1) + " further triangles" : "");
-}
-
-// Warns if only some faces have texture coordinates, which `continued` ones got from their neighbours.
-std::string texture_warning(const ObjSoup& soup, const std::vector<int>& continued, const std::string& what) {
-  std::vector<int> without;
-  for (std::size_t f = 0; f < soup.uv.size(); ++f)
-    if (!has_texture(soup.uv[f])) without.push_back(soup.face_line[f]);
-  if (without.size() == soup.uv.size()) return "";
-  if (!without.empty())
-    return without_texture(what, without) + ", and no neighbour to tell them, while " +
-           std::to_string(soup.uv.size() - without.size()) +
-           " others have: none are used, and warp is along x at rest; give them to all faces";
-  if (continued.empty()) return "";
-  return without_texture(what, continued) + ": those of neighbours go on there, and warp with them";
-}
-
-// Makes the texture coordinates the pattern where each vertex has one.  Along seams it has several: then each
-// triangle keeps those of its own corners.
-void take_pattern(const ObjSoup& soup, ClothMesh& mesh) {
-  if (!has_texture(soup)) return;
-  mesh.pattern = vertex_texture(soup, mesh.face, mesh.rest.size());
-  for (int f = 0; mesh.pattern.empty() && f < mesh.faces(); ++f)
-    mesh.panel.push_back({*soup.uv[f][0], *soup.uv[f][1], *soup.uv[f][2]});
-}
-
-}  // namespace
-
-ClothMesh read_obj(const std::string& file, double weld, LengthUnit unit,
-                   std::vector<std::string>* warnings) {
-  MeshNames names{"mesh " + file, {}, {}};
-  check_weld(weld, names.what);
-  ObjSoup soup = read_obj_soup(file, names.what);
-  check_quads(soup, names.what);
-  const std::vector<int> continued = continue_texture(soup);
-  for (Eigen::Vector3d& x : soup.vertex)
-    for (double& length : x) length = in_metres(length, unit);
-  ClothMesh mesh;
-  mesh.face = soup.face;
-  names.face_line = soup.face_line;
-  weld_vertices(weld, soup, mesh, names);
-  take_pattern(soup, mesh);
-  build_topology(mesh, names);
-  if (const std::string warning = texture_warning(soup, continued, names.what); warnings && !warning.empty())
-    warnings->push_back(warning);
-  if (warnings)
-    for (const std::string& warning : mesh_warnings(mesh, names)) warnings->push_back(warning);
-  return mesh;
 }
 
 }  // namespace hysteron

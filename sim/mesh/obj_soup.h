@@ -43,6 +43,11 @@ inline bool crosses_itself(const Eigen::Vector3d& a, const Eigen::Vector3d& b, c
 
 using Uv = std::optional<Eigen::Vector2d>;
 
+// Has every corner a texture coordinate?
+inline bool is_whole(const std::array<Uv, 3>& corners) {
+  return std::all_of(corners.begin(), corners.end(), [](const Uv& at) { return at.has_value(); });
+}
+
 struct ObjSoup {
   std::vector<Eigen::Vector3d> vertex;
   std::vector<int> vertex_line;

@@ -7,10 +7,6 @@
 namespace hysteron {
 namespace {
 
-bool is_whole(const std::array<Uv, 3>& corners) {
-  return std::all_of(corners.begin(), corners.end(), [](const Uv& at) { return at.has_value(); });
-}
-
 // The triangles at each edge, by its vertices in ascending order.
 using Edges = std::map<std::pair<int, int>, std::vector<std::size_t>>;
 

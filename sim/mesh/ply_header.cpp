@@ -1,5 +1,3 @@
-// The header is read here because CGAL's reader passes over unknown parts, and then takes the numbers of one
-// property for those of another.
 #include "sim/mesh/ply_header.h"
 
 #include <charconv>

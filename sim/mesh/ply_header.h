@@ -56,7 +56,7 @@ struct PlyHeader {
 // starts with a header of PLY's own types and is long enough for the elements it announces.
 PlyHeader read_ply_header(std::string_view text, const std::string& what);
 
-// The numbers of a PLY file, read by CGAL.
+// The numbers of a PLY file.
 struct PlyContent {
   std::vector<Eigen::Vector3d> vertex;
   std::vector<double> curvature;                // per vertex; empty: not in the file

@@ -213,6 +213,18 @@ double ClothMesh::edge_length(int e) const {
   return sewn && edge[e].interior() ? (first + in_face(edge[e].face1)) / 2 : first;
 }
 
+double ClothMesh::mean_edge_length() const {
+  double sum = 0;
+  for (std::size_t e = 0; e < edge.size(); ++e) sum += edge_length(static_cast<int>(e));
+  return sum / static_cast<double>(edge.size());
+}
+
+double ClothMesh::mean_edge_in_space() const {
+  double sum = 0;
+  for (const Edge& e : edge) sum += (rest[e.p3] - rest[e.p2]).norm();
+  return sum / static_cast<double>(edge.size());
+}
+
 std::array<Eigen::Vector3d, 2> ClothMesh::face_axes(int f) const {
   const Corners at = corners(f);
   const Eigen::Vector3d normal = area_vector(at).normalized();

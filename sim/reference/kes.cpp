@@ -1,11 +1,10 @@
 #include "sim/reference/kes.h"
 
-#include <fmt/core.h>
-
 #include <cmath>
 #include <limits>
 
 #include "sim/base/error.h"
+#include "sim/base/number_in.h"
 #include "sim/bending/laws/recovery.h"
 
 namespace hysteron {
@@ -119,7 +118,7 @@ void read_coarse_steps(const LawRequest& request, const KesProtocol& p, KesTest&
     test.area_error = test.reading.loop_area / fine.loop_area - 1;
 }
 
-std::string per_metre(double curvature) { return fmt::format("{:g} 1/m", curvature); }
+std::string per_metre(double curvature) { return number_text(curvature, 6, "1/m"); }
 
 }  // namespace
 
@@ -128,13 +127,13 @@ void check_protocol(const KesProtocol& p) {
     throw Error::invalid_input("slope-from = " + per_metre(p.slope_from) +
                                ", slope-to = " + per_metre(p.slope_to) +
                                " must be 0 <= slope-from < slope-to <= amplitude = " + per_metre(p.amplitude))
-        .with_key("slope-from", fmt::format("{:g}", p.slope_from))
+        .with_key("slope-from", number_text(p.slope_from, 6))
         .with_experiment("kes");
   }
   if (!(p.width_at > 0 && p.width_at < p.amplitude)) {
     throw Error::invalid_input("width-at = " + per_metre(p.width_at) +
                                " must be > 0 and < amplitude = " + per_metre(p.amplitude))
-        .with_key("width-at", fmt::format("{:g}", p.width_at))
+        .with_key("width-at", number_text(p.width_at, 6))
         .with_experiment("kes");
   }
 }

@@ -16,8 +16,6 @@ std::string table_path(const std::string& list, std::size_t i) {
   return list + "[" + std::to_string(i) + "]";
 }
 
-std::string seconds_text(double time) { return number_text(time, 6) + " s"; }
-
 void check_phases_that_repeat(const Scene& scene) {
   bool began = false, ended = false;
   for (std::size_t i = 0; i < scene.phase.size(); ++i) {
@@ -41,9 +39,9 @@ void check_happens_before(const Scene& scene, const std::string& path, const std
   const double start = scene_cycles(scene).start;
   if (time <= start || time >= kNever) return;
   const std::string of = path + "." + key;
-  throw Error::invalid_input(of + " = " + seconds_text(time) + " (" +
+  throw Error::invalid_input(of + " = " + number_text(time, 6, "s") + " (" +
                              key_origin(scene, of, key_origin(scene, path)) +
-                             ") must be <= " + seconds_text(start) + ", where the first of " +
+                             ") must be <= " + number_text(start, 6, "s") + ", where the first of " +
                              shown(scene, "cycles", std::to_string(scene.cycles), "") +
                              " begins: it happens once, and only motions come again")
       .with_key(of, number_text(time));
@@ -61,12 +59,12 @@ void check_comes_back(const Scene& scene, const std::string& path, const Motion&
   const double scaled = std::abs(last.scale / first.scale - 1);
   if (std::max({turned, moved, scaled}) <= kRounding) return;
   constexpr double kDegrees = 180 / 3.14159265358979323846;
-  throw Error::invalid_input(path + ".keys (" + key_origin(scene, path) + ") must come back from " +
-                             seconds_text(cycles.start) + " to " + seconds_text(cycles.once_over()) +
-                             ", which " + shown(scene, "cycles", std::to_string(scene.cycles), "") +
-                             " repeat: they end " + number_text(moved, 3) + " m, " +
-                             number_text(kDegrees * turned, 3) + " degree and " +
-                             number_text(100 * scaled, 3) + " % of the size beside where they begin")
+  throw Error::invalid_input(
+      path + ".keys (" + key_origin(scene, path) + ") must come back from " +
+      number_text(cycles.start, 6, "s") + " to " + number_text(cycles.once_over(), 6, "s") + ", which " +
+      shown(scene, "cycles", std::to_string(scene.cycles), "") + " repeat: they end " +
+      number_text(moved, 3) + " m, " + number_text(kDegrees * turned, 3) + " degree and " +
+      number_text(100 * scaled, 3) + " % of the size beside where they begin")
       .with_key(path + ".keys", "");
 }
 
@@ -131,8 +129,8 @@ void check_cycles(const Scene& scene, const BodyMesh& body, const std::string& p
     farthest = std::max(farthest, (last[v] - first[v]).norm());
   }
   if (farthest <= kRounding * box.diagonal().norm()) return;
-  throw Error::invalid_input(path + ".sequence must come back from " + seconds_text(cycles.start) + " to " +
-                             seconds_text(cycles.once_over()) + ", which " +
+  throw Error::invalid_input(path + ".sequence must come back from " + number_text(cycles.start, 6, "s") +
+                             " to " + number_text(cycles.once_over(), 6, "s") + ", which " +
                              shown(scene, "cycles", std::to_string(scene.cycles), "") +
                              " repeat: a vertex ends " + number_text(farthest, 3) +
                              " m beside where it begins")

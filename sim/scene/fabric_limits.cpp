@@ -1,7 +1,5 @@
 #include "sim/scene/fabric_limits.h"
 
-#include <cstdio>
-
 #include "sim/base/error.h"
 #include "sim/scene/fabric_reader.h"
 #include "sim/scene/scene_reader.h"
@@ -116,16 +114,6 @@ const FabricLimit* limit_of(const std::string& parameter) {
   return nullptr;
 }
 
-std::string three_digits(double x) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", x);
-  return text;
-}
-
-std::string with_unit(const std::string& number, const FabricLimit& limit) {
-  return *limit.unit ? number + " " + limit.unit : number;
-}
-
 // Suggests a unit in which the value would be usual: "; g/m^2 given? Then it is 0.124 kg/m^2".  A ratio as
 // small as a rigidity was probably meant as a rigidity.
 std::string slip_text(const FabricLimit& limit, double value) {
@@ -134,17 +122,17 @@ std::string slip_text(const FabricLimit& limit, double value) {
     return "; a rigidity in N m given? It is a ratio, over the rigidity along warp";
   if (!limit.slip.unit || !limit.usual.contains(value * limit.slip.factor)) return "";
   return std::string("; ") + limit.slip.unit + " given? Then it is " +
-         with_unit(three_digits(value * limit.slip.factor), limit);
+         number_text(value * limit.slip.factor, 3, limit.unit);
 }
 
 std::string shown_number(const FabricLimit& limit, double value, const std::string& key) {
-  return key + " = " + with_unit(number_text(value), limit);
+  return key + " = " + number_text(value, {.unit = limit.unit});
 }
 
 void check_number(const FabricLimit& limit, double value, const std::string& key, const std::string& origin) {
   if (limit.possible.contains(value)) return;
   throw Error::invalid_input(shown_number(limit, value, key) + " must be " +
-                             with_unit(limit.possible.text(), limit) + ", as fabrics can be" +
+                             with_unit(limit.possible.text(), limit.unit) + ", as fabrics can be" +
                              slip_text(limit, value))
       .with_origin(origin)
       .with_key(key, number_text(value));
@@ -156,7 +144,7 @@ std::string number_warning(const FabricLimit& limit, double value, const std::st
   if (value == 0 || limit.usual.contains(value)) return "";
   const bool was_given = !origin.starts_with(kSetBy);  // only a number that was given can have the wrong unit
   return shown_number(limit, value, key) + " (" + origin + ") is unusual: fabrics have " +
-         with_unit(three_digits(limit.usual.low) + " to " + three_digits(limit.usual.high), limit) +
+         number_text(limit.usual.low, 3) + " to " + number_text(limit.usual.high, 3, limit.unit) +
          (was_given ? slip_text(limit, value) : "");
 }
 
@@ -175,8 +163,8 @@ std::string threshold_warning(const Spectrum& stops) {
   const Range usual = between(2, 1e4);  // [1/m]: the largest threshold is above low, the smallest below high
   if (stops.empty() || (stops.thresholds.back() >= usual.low && stops.thresholds.front() <= usual.high))
     return "";
-  return "thresholds of bending stops from " + three_digits(stops.thresholds.front()) + " to " +
-         three_digits(stops.thresholds.back()) + " 1/m are unusual: are they in 1/m, not in 1/cm?";
+  return "thresholds of bending stops from " + number_text(stops.thresholds.front(), 3) + " to " +
+         number_text(stops.thresholds.back(), 3) + " 1/m are unusual: are they in 1/m, not in 1/cm?";
 }
 
 }  // namespace

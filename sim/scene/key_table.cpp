@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <utility>
@@ -162,11 +161,7 @@ void split_choices(const char* text, KeyDescription& key) {
 
 // Writes a default with four digits; "" for a value that is not set.
 std::string described_default(const Field& field) {
-  const auto rounded = [](double x) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.4g", x);
-    return std::isfinite(x) ? std::string(text) : "";
-  };
+  const auto rounded = [](double x) { return std::isfinite(x) ? number_text(x, 4) : ""; };
   return std::visit(
       Overload{
           [](bool*) { return std::string(); }, [](int* x) { return std::to_string(*x); },

@@ -1,7 +1,6 @@
 // Warns of cloths that were probably not meant so.
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numeric>
 
 #include "sim/mesh/file_extension.h"
@@ -35,34 +34,25 @@ Size scene_size(const Scene& scene, const ClothMesh& mesh) {
   Eigen::AlignedBox3d box;
   for (int f = 0; f < faces; ++f)
     for (const Eigen::Vector3d& x : mesh.corners(f)) box.extend(x);
-  double edges = 0;
-  for (std::size_t e = 0; e < mesh.edge.size(); ++e) edges += mesh.edge_length(static_cast<int>(e));
   const double area = std::accumulate(mesh.face_area.begin(), mesh.face_area.begin() + faces, 0.0);
   return {box.sizes().maxCoeff(), scene.fabric.density * area,
-          edges / static_cast<double>(mesh.edge.size()) / scene.fabric.thickness};
+          mesh.mean_edge_length() / scene.fabric.thickness};
 }
 
 bool is_within(double x, double low, double high) { return x >= low && x <= high; }
-
-// Writes three digits.
-std::string rounded(double x) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", x);
-  return text;
-}
 
 // Describes what is beyond the limits: "is 24 m long (...), weighs 56 kg (...)"; "" where nothing is.
 std::string beyond(const Size& size) {
   std::vector<std::string> words;
   if (!is_within(size.extent, kSmallest, kLargest))
-    words.push_back("is " + rounded(size.extent) + " m long (" + rounded(kSmallest) + " to " +
-                    rounded(kLargest) + " m would be plausible)");
+    words.push_back("is " + number_text(size.extent, 3) + " m long (" + number_text(kSmallest, 3) + " to " +
+                    number_text(kLargest, 3) + " m would be plausible)");
   if (!is_within(size.weight, kLightest, kHeaviest))
-    words.push_back("weighs " + rounded(size.weight) + " kg (" + rounded(kLightest) + " to " +
-                    rounded(kHeaviest) + " kg)");
+    words.push_back("weighs " + number_text(size.weight, 3) + " kg (" + number_text(kLightest, 3) + " to " +
+                    number_text(kHeaviest, 3) + " kg)");
   if (!is_within(size.edge, kShortestEdge, kLongestEdge))
-    words.push_back("has edges " + rounded(size.edge) + " times as long as it is thick (" +
-                    rounded(kShortestEdge) + " to " + rounded(kLongestEdge) + ")");
+    words.push_back("has edges " + number_text(size.edge, 3) + " times as long as it is thick (" +
+                    number_text(kShortestEdge, 3) + " to " + number_text(kLongestEdge, 3) + ")");
   return join(words, ", ");
 }
 
@@ -74,7 +64,7 @@ std::string fitting_units(const Size& size, LengthUnit unit) {
     const Size then = size.times(in_metres(1, other) / in_metres(1, unit));
     if (other != unit && beyond(then).empty())
       fitting.push_back(enum_name(other) + (fitting.empty() ? " would make it " : " ") +
-                        rounded(then.extent) + " m" + (fitting.empty() ? " long" : ""));
+                        number_text(then.extent, 3) + " m" + (fitting.empty() ? " long" : ""));
   }
   return fitting.empty() ? "" : "cloth.unit = " + join(fitting, ", ");
 }
@@ -112,8 +102,8 @@ std::string stretch_warning(const Scene& scene, const ClothMesh& mesh,
   }
   if (stretched == 0) return "";
   return shown(scene, "cloth.start", scene.cloth.start, "") + " stretches " + std::to_string(stretched) +
-         " edges by more than " + rounded(100 * kStretched) + " %, one by " + rounded(100 * largest) +
-         " %: are its vertices in the order of those at rest?";
+         " edges by more than " + number_text(100 * kStretched, 3) + " %, one by " +
+         number_text(100 * largest, 3) + " %: are its vertices in the order of those at rest?";
 }
 
 }  // namespace

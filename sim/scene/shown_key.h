@@ -33,7 +33,7 @@ inline bool is_set_by_experiment(const Scene& scene, const std::string& key) {
 // Shows a key with its value and origin: "fabric.b1 = 1e-6 N m (--fabric.b1)".
 inline std::string shown(const Scene& scene, const std::string& key, const std::string& value,
                          const std::string& unit) {
-  return key + " = " + value + (unit.empty() ? "" : " " + unit) + " (" + key_origin(scene, key) + ")";
+  return key + " = " + with_unit(value, unit) + " (" + key_origin(scene, key) + ")";
 }
 inline std::string shown(const Scene& scene, const std::string& key, double value, const std::string& unit) {
   return shown(scene, key, number_text(value), unit);

@@ -9,8 +9,8 @@
 #include <iterator>
 #include <numbers>
 
-#include "render/cloth_view.h"
 #include "render/figure_light.h"
+#include "render/key_light.h"
 #include "sim/base/atomic_file.h"
 
 namespace hysteron::experiments {

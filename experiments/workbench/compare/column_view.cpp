@@ -11,6 +11,7 @@
 #include "experiments/workbench/pages/manifest.h"
 #include "render/color_map.h"
 #include "render/plot.h"
+#include "sim/base/number_in.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -48,15 +49,15 @@ bool is_shown(const MetricValue& value) {
 // Formats three digits without an exponent, for 0.001 to 999999.
 std::string three_digits(double value) {
   const double size = std::abs(value);
-  return fmt::format("{:.{}f}", value, size >= 99.95 || size == 0 ? 0 : size >= 9.995 ? 1 : 2);
+  return number_text(value, {.decimals = size >= 99.95 || size == 0 ? 0 : size >= 9.995 ? 1 : 2});
 }
 
 // Formats "0.94 mN", with prefixes for units that take them, from half of one on.
-std::string with_unit(double value, const std::string& unit) {
+std::string readable(double value, const std::string& unit) {
   constexpr double kNothing = 1e-9;
   if (std::abs(value) < kNothing) value = 0;
   if (unit == "°") return fmt::format("{:.0f}°", value);
-  const std::string plain = std::abs(value) < 999.5 ? fmt::format("{:.3g}", value) : three_digits(value);
+  const std::string plain = std::abs(value) < 999.5 ? number_text(value, 3) : three_digits(value);
   if (unit == "%") return plain + " %";
   if (unit == "1/m") return plain + " /m";
   const auto [prefix, factor] = unit.empty() ? render::SiPrefix{} : render::si_prefix(2 * value);
@@ -114,7 +115,7 @@ std::string short_number(const std::string& metric, const MetricValue& value) {
   const std::string symbol = symbol_of(metric);
   const std::string number = value.is_text()      ? value.text()
                              : value.is_integer() ? shown(value)
-                                                  : with_unit(value.number(), split_unit(metric).unit);
+                                                  : readable(value.number(), split_unit(metric).unit);
   if (symbol == "folds" || symbol == "turns")
     return number + " " + (number == "1" ? symbol.substr(0, symbol.size() - 1) : symbol);
   return symbol.empty() ? number : symbol + " " + number;
@@ -153,7 +154,7 @@ std::string setting_text(const std::string& setting) {
   std::ranges::replace(key, '-', ' ');
   char* end = nullptr;
   const double number = std::strtod(value.c_str(), &end);
-  return key + " " + (!value.empty() && *end == '\0' ? fmt::format("{:.3g}", number) : value);
+  return key + " " + (!value.empty() && *end == '\0' ? number_text(number, 3) : value);
 }
 
 // Returns the integrator's share of what the column lost in time, if a curve shows it [%]; else 0. Statics

@@ -16,6 +16,7 @@
 #include "render/comparison_sheet.h"
 #include "render/contact_sheet.h"
 #include "sim/base/error.h"
+#include "sim/base/number_in.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -229,7 +230,7 @@ class PageTable {
     const render::Image image = crop.of(picture_at(columns_[c], time)),
                         other = crop.of(picture_at(columns_[to], time));
     return {render::heat_map(image, other, kDifferenceScale),
-            fmt::format("{:.2g} % differ", render::compare(image, other).pixels_over_8_percent),
+            number_text(render::compare(image, other).pixels_over_8_percent, 2, "%") + " differ",
             {}};
   }
 

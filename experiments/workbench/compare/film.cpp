@@ -10,6 +10,7 @@
 #include "render/image.h"
 #include "sim/base/comma_list.h"
 #include "sim/base/error.h"
+#include "sim/base/number_in.h"
 #include "sim/base/process.h"
 #include "sim/scene/key_table.h"
 
@@ -63,7 +64,7 @@ class Encoder {
     const std::string filter =
         fmt::format("scale={}:-1:flags=area,pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white", attempt.width);
     std::vector<std::string> words = {
-        "ffmpeg",           "-y",  "-loglevel", "error", "-framerate", fmt::format("{:g}", rate_), "-i",
+        "ffmpeg",           "-y",  "-loglevel", "error", "-framerate", number_text(rate_, 6), "-i",
         pictures_.string(), "-vf", filter};
     words.insert(words.end(), format_.words.begin(), format_.words.end());
     if (*format_.quality) words.insert(words.end(), {format_.quality, std::to_string(attempt.quality)});

@@ -1,4 +1,5 @@
 #include "experiments/workbench/pages/error_notes.h"
+#include "sim/base/number_in.h"
 
 #include <fmt/core.h>
 
@@ -116,7 +117,7 @@ std::string with_errors(const Metrics& metrics, const std::string& name) {
   const auto [words, unit] = split_unit(name);
   const bool plain = !is_headline(metrics, name);
   return words + " " +
-         (plain ? joined({fmt::format("{:.4g}", metrics[name].number()), unit}, " ")
+         (plain ? joined({number_text(metrics[name].number(), 4), unit}, " ")
                 : headline_text(metrics, name).text());
 }
 

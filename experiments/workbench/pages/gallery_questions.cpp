@@ -1,12 +1,11 @@
 #include "experiments/workbench/pages/gallery_questions.h"
 
-#include <fmt/core.h>
-
 #include "experiments/workbench/app/json_file.h"
 #include "experiments/workbench/app/manifest_file.h"
 #include "experiments/workbench/pages/metrics.h"
 #include "experiments/workbench/pages/pictures.h"
 #include "sim/base/error.h"
+#include "sim/base/number_in.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -30,7 +29,7 @@ ShownQuantity printed_number(const fs::path& folder, const std::string& metric, 
     throw Error::invalid_input(file.string() + ": " + manifest.string() + " has no metric " + metric);
   ShownQuantity words = metric_text(metrics, metric);
   if (words.errors.empty() && metrics[metric].is_number())
-    words.value = fmt::format("{:.3g}", metrics[metric].number());
+    words.value = number_text(metrics[metric].number(), 3);
   return words;
 }
 

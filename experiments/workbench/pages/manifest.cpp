@@ -1,13 +1,12 @@
 #include "experiments/workbench/pages/manifest.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
 #include <set>
 #include <vector>
 
 #include "experiments/workbench/pages/page.h"
+#include "sim/base/number_in.h"
 #include "sim/scene/key_table.h"
 
 namespace hysteron::experiments {
@@ -35,7 +34,7 @@ std::string shown(const MetricValue& value) {
   if (value.is(true)) return "yes";
   if (value.is(false)) return "no";
   if (value.is_integer()) return std::to_string(std::get<std::int64_t>(value.variant()));
-  return value.is_number() ? fmt::format("{:g}", value.number()) : value.text();
+  return value.is_number() ? number_text(value.number(), 6) : value.text();
 }
 
 NamedUnit split_unit(std::string key) {
@@ -61,12 +60,12 @@ ShownQuantity shown_quantity(const MetricValue& value, const std::string& unit) 
   constexpr int kNone = 4, kLast = 6;
   constexpr double kZero = 1e-12;
   double number = value.number();
-  if (!kPrefixed.contains(unit)) return {fmt::format("{:.4g}", number), unit};
+  if (!kPrefixed.contains(unit)) return {number_text(number, 4), unit};
   if (std::abs(number) < kZero) return {"0", unit};
   int prefix = kNone;
   for (; std::abs(number) < 1 && prefix > 0; --prefix) number *= 1e3;
   for (; std::abs(number) >= 1e3 && prefix < kLast; ++prefix) number /= 1e3;
-  return {fmt::format("{:.4g}", number), kPrefixes[prefix] + unit};
+  return {number_text(number, 4), kPrefixes[prefix] + unit};
 }
 
 std::string ShownQuantity::more() const { return joined({unit, errors}, " "); }
@@ -112,14 +111,9 @@ std::string counted(std::size_t count, const std::string& thing) {
   return std::to_string(count) + " " + thing + (count == 1 ? "" : "s");
 }
 
-std::string grouped(long count) {
-  std::string text = std::to_string(count);
-  for (int at = static_cast<int>(text.size()) - 3; at > (count < 0); at -= 3) text.insert(at, 1, ',');
-  return text;
-}
-
 std::string seconds_text(double seconds) {
-  return seconds < 100 ? fmt::format("{:.3g} s", seconds) : fmt::format("{:.0f} s", seconds);
+  return number_text(
+      seconds, seconds < 100 ? NumberForm{.digits = 3, .unit = "s"} : NumberForm{.decimals = 0, .unit = "s"});
 }
 
 std::string scene_subject(const Manifest& manifest) {

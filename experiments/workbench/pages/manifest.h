@@ -41,8 +41,6 @@ std::string joined(std::vector<std::string> texts, const std::string& between);
 std::string first_upper(std::string text);
 // Returns "3 rows", "1 row".
 std::string counted(std::size_t count, const std::string& thing);
-// Formats 1000 as "1,000".
-std::string grouped(long count);
 // Formats "0.35 s", "20.6 s", "1042 s".
 std::string seconds_text(double seconds);
 

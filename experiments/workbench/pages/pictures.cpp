@@ -8,6 +8,7 @@
 
 #include "render/contact_sheet.h"
 #include "sim/base/csv.h"
+#include "sim/base/number_in.h"
 #include "sim/base/parallel.h"
 #include "sim/base/whole_file.h"
 
@@ -48,8 +49,8 @@ std::string line_chart(const std::string& title, const std::vector<double>& x, c
   }
   return filled("chart.svg", {{"title", title},
                               {"points", points},
-                              {"high", fmt::format("{:.4g}", *y_high)},
-                              {"low", fmt::format("{:.4g}", *y_low)},
+                              {"high", number_text(*y_high, 4)},
+                              {"low", number_text(*y_low, 4)},
                               {"axis", fmt::format("{} {:.4g} … {:.4g}", x_name, *x_low, *x_high)}});
 }
 

@@ -9,8 +9,8 @@
 #include "experiments/workbench/app/options.h"
 #include "render/camera.h"
 #include "render/caption.h"
-#include "render/cloth_view.h"
 #include "render/look.h"
+#include "render/picture_parts.h"
 
 namespace hysteron::experiments {
 

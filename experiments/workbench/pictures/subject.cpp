@@ -23,12 +23,6 @@ namespace fs = std::filesystem;
 
 constexpr double kStepsAnEdge = 256;  // quanta in the mean edge: normals rotate by 0.2 degrees at most
 
-double mean_edge(const ClothMesh& mesh) {
-  double sum = 0;
-  for (std::size_t e = 0; e < mesh.edge.size(); ++e) sum += mesh.edge_length(static_cast<int>(e));
-  return sum / static_cast<double>(mesh.edge.size());
-}
-
 // Returns the height of each vertex, from 0 for the lowest to 1 for the highest.
 std::vector<float> heights(const std::vector<float>& xyz) {
   std::vector<float> height;
@@ -200,7 +194,7 @@ std::vector<float> pattern_coordinates(const ClothMesh& mesh, const ClothShape& 
 
 DrawnMesh drawn_mesh(const ClothMesh& mesh, const ClothShape& shape) {
   DrawnMesh drawn{mesh.rest.size(), flat_triangles(mesh.face), pattern_coordinates(mesh, shape),
-                  mean_edge(mesh) / kStepsAnEdge};
+                  mesh.mean_edge_length() / kStepsAnEdge};
   drawn.pattern = rounded(drawn.pattern, drawn.quantum);
   return drawn;
 }

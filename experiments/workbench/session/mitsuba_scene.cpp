@@ -6,10 +6,10 @@
 #include <numbers>
 
 #include "experiments/workbench/pictures/scene_renderer.h"
-#include "render/cloth_view.h"
 #include "render/exposure.h"
 #include "render/figure_light.h"
 #include "render/inset.h"
+#include "render/key_light.h"
 #include "render/srgb.h"
 #include "sim/base/atomic_file.h"
 

@@ -40,7 +40,7 @@ Eigen::Vector3d mean_normal(const ClothMesh& mesh, const std::vector<int>& faces
 }
 
 // Returns the mean length of the edges at these vertices [m].
-double mean_edge(const ClothMesh& mesh, const std::vector<int>& vertices) {
+double mean_edge_at(const ClothMesh& mesh, const std::vector<int>& vertices) {
   std::vector<char> chosen(mesh.vertices(), 0);
   for (const int v : vertices) chosen[v] = 1;
   double sum = 0;
@@ -109,7 +109,7 @@ std::string RequestedMetric::warning(double seconds) const {
     return "it is not measured, since from = " + number_text(request_.from) + " s is not before the end, " +
            number_text(seconds) + " s";
   if (request_.kind != "ridge-height") return "";
-  const double edge = mean_edge(cloth_.mesh, items_);
+  const double edge = mean_edge_at(cloth_.mesh, items_);
   if (edge * kEdgesOfAWave <= request_.cutoff) return "";
   return "edges of " + number_text(edge, 2) +
          " m are more than a quarter of cutoff = " + number_text(request_.cutoff) +

@@ -17,6 +17,7 @@
 #include "experiments/workbench/session/resting.h"
 #include "experiments/workbench/session/resuming.h"
 #include "experiments/workbench/session/run_warnings.h"
+#include "sim/base/number_in.h"
 #include "sim/scene/body.h"
 #include "sim/scene/mesh_files.h"
 #include "sim/scene/shown_key.h"
@@ -170,9 +171,9 @@ void Session::record(const Snapshot& instant, const std::string& left) {
 // Returns "cotton-broad, law prandtl, 6,000 triangles, 4 s in 480 steps on cpu".
 std::string Session::opening_text() const {
   const Scene& scene = setup_.scene;
-  return scene.fabric.name + ", law " + scene.law + ", " + grouped(cloth_.mesh.faces()) + " triangles, " +
-         number_text(scene.seconds) + " s in " + grouped(timetable_.steps()) + " steps on " +
-         simulation_->device();
+  return scene.fabric.name + ", law " + scene.law + ", " + number_text(cloth_.mesh.faces(), kCount) +
+         " triangles, " + number_text(scene.seconds) + " s in " + number_text(timetable_.steps(), kCount) +
+         " steps on " + simulation_->device();
 }
 
 // Reports by how much instants of --fps deviate from their times.

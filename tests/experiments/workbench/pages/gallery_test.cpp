@@ -163,11 +163,6 @@ TEST_F(Gallery, PassesOverOtherSequences) {
   EXPECT_EQ(occurrences(page(), "<figure>"), before);
 }
 
-TEST(Grouped, AreThousands) {
-  EXPECT_EQ(grouped(999), "999");
-  EXPECT_EQ(grouped(-1234567), "-1,234,567");
-}
-
 TEST_F(Gallery, TakesCaptionsThatTheRunWrote) {
   write_text(results_ / "z-drape/README.md",
              "# Drape\n\n![The sheet](sheet.png)\n\n**The sheet.** Let down by `a plate`.\n");

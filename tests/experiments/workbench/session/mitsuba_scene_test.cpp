@@ -6,7 +6,7 @@
 #include <sstream>
 #include <vector>
 
-#include "render/cloth_view.h"
+#include "render/key_light.h"
 #include "render/srgb.h"
 #include "sim/scene/scene_reader.h"
 #include "tests/experiments/folder.h"
