@@ -49,7 +49,7 @@ py::object get(const Scene& scene, const std::string& name) {
   Scene copy = scene;
   const Keys keys = bind_scene(copy);
   const std::string path = key_named(name, paths(scene_keys()));
-  return to_python(find_key(keys, path == "fabric" ? "fabric.name" : path, kOfScenes).field);
+  return to_python(find_key(keys, key_of_flag(path), kOfScenes).field);
 }
 
 void set(Scene& scene, const std::string& name, py::object value) {

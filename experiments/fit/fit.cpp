@@ -100,10 +100,7 @@ const KeyRow<FitFlags> kRows[] = {
 
 Keys bind_flags(FitFlags& flags) {
   Keys keys = bind(kRows, flags);
-  for (BoundKey& key : bind_output_options(flags.options)) {
-    if (key.description.path == "quick" || key.description.path == "no-images") continue;
-    keys.push_back(std::move(key));
-  }
+  for (BoundKey& key : bind_options_of(Takers::all, flags.options)) keys.push_back(std::move(key));
   return keys;
 }
 

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <set>
 
 #include "experiments/render/archived_pictures.h"
 #include "experiments/render/instants.h"
@@ -65,13 +64,8 @@ const KeyRow<F> kRows[] = {
 constexpr int kCells = 12, kInstants = 5;  // pictures on the sheet of one sequence, or of each of several
 
 Keys option_keys(F& flags) {
-  static const std::set<std::string> kNames = {"size",       "quality", "renderer", "look", "light",
-                                               "background", "out",     "quiet",    "json"};
   Keys keys = bind(kRows, flags);
-  for (BoundKey& key : bind_options(flags.options)) {
-    const std::string& path = key.description.path;
-    if (kNames.contains(path) || path.starts_with("camera.")) keys.push_back(std::move(key));
-  }
+  for (BoundKey& key : bind_options_of(Takers::files, flags.options)) keys.push_back(std::move(key));
   return keys;
 }
 
@@ -410,7 +404,7 @@ CommandLine from_within(CommandLine line) {
   if (columns.empty() || columns.size() != recorded->spec->positionals.size()) return line;
   line.positionals = columns;
   for (const auto& [path, text] : recorded->spec->flags)
-    if (path != "out" && path != "quiet" && path != "json" && last_text(line.flags, path, "").empty())
+    if (!simulation_traits(path).is_of_page() && last_text(line.flags, path, "").empty())
       line.flags.push_back({path, text});
   return line;
 }

@@ -39,8 +39,7 @@ const KeyRow<R> kRows[] = {
 // gives the same bits.
 std::vector<KeyDescription> device_keys() {
   std::vector<KeyDescription> keys = scene_keys();
-  std::erase_if(keys,
-                [](const KeyDescription& key) { return key.path != "device" && key.path != "threads"; });
+  std::erase_if(keys, [](const KeyDescription& key) { return key.traits.scope != Scope::run; });
   for (KeyDescription& key : keys) key.default_text = "";
   return keys;
 }

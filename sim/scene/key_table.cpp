@@ -189,8 +189,8 @@ std::string Range::text() const {
 }
 
 KeyDescription describe(const char* path, const Field& field, const char* unit, Range range,
-                        const char* choices, const char* doc) {
-  KeyDescription key{path, type_name(field), unit, range, {}, doc, described_default(field)};
+                        const char* choices, const char* doc, const KeyTraits& traits) {
+  KeyDescription key{path, type_name(field), unit, range, {}, doc, described_default(field), traits};
   split_choices(choices, key);
   if (const auto* named = std::get_if<NamedValue>(&field)) key.choices = named->names;
   return key;

@@ -56,7 +56,9 @@ struct Options {
 };
 
 Keys bind_options(Options& options);
-// Binds the options of experiments that simulate nothing: out, no-images, quick, quiet, json.
+// Binds the options that `takers`, which are tools or files, take beside their own.
+Keys bind_options_of(Takers takers, Options& options);
+// Binds those of tools: out, no-images, quick, quiet, json.
 Keys bind_output_options(Options& options);
 Keys with_output_options(Keys own, Options& options);
 

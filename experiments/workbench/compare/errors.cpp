@@ -52,14 +52,9 @@ Flag finer_mesh(const Scene& scene) {
 ChildRun child_run(const Run& run, const CommandLine& line, const ErrorRun& error_run) {
   std::vector<Flag> own = error_run.changes;
   // These flags override the scene's file.
-  own.insert(own.end(), {{"errors", "false"},
-                         {"json", "false"},
-                         {"no-images", "true"},
-                         {"look", "cloth"},
-                         {"reference", ""},
-                         {"export", "none"},
-                         {"checkpoint", "0"},
-                         {"resume", "false"}});
+  own.push_back({"no-images", "true"});
+  for (const KeyDescription& key : simulation_keys())
+    if (!key.traits.repeats) own.push_back({key.flag(), key.type == "flag" ? "false" : key.default_text});
   CommandLine once = line;
   for (const Flag& change : error_run.changes)
     if (change.path == experiment_headlines(line.experiment).release)
