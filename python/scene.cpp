@@ -99,7 +99,8 @@ the keys of their tables, and `keys`, a list of keyframes, where they move.)")
       .def(
           "copy", [](const Scene& scene) { return scene; }, "Another one with the same keys.")
       .def("__repr__", [](const Scene& scene) {
-        return "Scene(" + scene.cloth.shape + " of " + scene.fabric.name + ", law " + scene.law + ")";
+        return "Scene(" + enum_name(scene.cloth.shape) + " of " + scene.fabric.name + ", law " + scene.law +
+               ")";
       });
   module.def("scene_keys", &keys, "Every key of a scene: its type, unit, default, choices and meaning.");
 }

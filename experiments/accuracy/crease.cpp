@@ -18,7 +18,7 @@ constexpr double kFrame = 1.0 / 60;     // [s]
 
 Scene crease(const MethodSetting& setting) {
   Scene scene = with(setting, {});
-  scene.cloth.shape = "strip";
+  scene.cloth.shape = ClothOutline::strip;
   scene.cloth.length = kLength;
   scene.cloth.width = kWidth;
   scene.seconds = 0.8;

@@ -49,7 +49,7 @@ Setup defaults() {
   scene.mesh = "aligned";
   scene.triangles = 4608;
   Pin corner;
-  corner.select = "nearest";
+  corner.select = PinSelection::nearest;
   scene.pin.assign(2, corner);
   scene.pin[0].point = {0, 0.5, 0};
   scene.pin[1].point = {0.5, 0.5, 0};

@@ -34,7 +34,7 @@ Setup defaults() {
   Scene& scene = setup.scene = default_scene();
   scene.law = "linear";
   scene.integrator = Integrator::quasi_static;
-  scene.cloth.shape = "strip";
+  scene.cloth.shape = ClothOutline::strip;
   scene.cloth.length = 0.1;
   scene.cloth.width = 0.01;
   scene.mesh = "unionjack";

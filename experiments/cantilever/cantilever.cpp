@@ -28,7 +28,7 @@ Setup defaults() {
   Setup setup;
   Scene& scene = setup.scene = default_scene();
   scene.integrator = Integrator::quasi_static;
-  scene.cloth.shape = "strip";
+  scene.cloth.shape = ClothOutline::strip;
   scene.cloth.length = 0.1;
   scene.cloth.width = 0.025;  // width of a specimen for ASTM D1388
   scene.mesh = "unionjack";

@@ -34,7 +34,7 @@ const KeyRow<CompareParams> kRows[] = {
     {"fabrics", at<&C::fabrics>, "", any(), "", "columns: fabrics separated by commas, or all"},
     {"integrators", at<&C::integrators>, "", any(), "", "columns: integrators separated by commas, or all"},
     {"compare.to", at<&C::to>, "", any(), "", "column to subtract from the others, in rows of their own"},
-    {"compare.difference", at<&C::difference>, "", any(), "picture | curvature", "what compare.to subtracts"},
+    {"compare.difference", at<&C::difference>, "", any(), "", "what compare.to subtracts"},
     {"compare.rows", at<&C::rows>, "", between(1, 64), "", "instants on the page"},
     {"compare.times", at<&C::times>, "s", at_least(0), "", "these instants on the page, a row each, in place of compare.rows: of each the picture nearest to it"},
     {"compare.metrics", at<&C::metrics>, "", any(), "", "metrics separated by commas: what the table, the numbers below the columns and the bars show, in this order; without it the table has all, the page those of the experiment"},
@@ -144,11 +144,11 @@ void take_scene_options(CommandLine& inner, Options& options) {
 // Throws without pictures: the columns' curvatures are subtracted as their pictures are drawn, from those
 // that the first one keeps.
 void check_difference(const CompareParams& choice, bool with_images) {
-  if (with_images || choice.to.empty() || choice.difference != "curvature") return;
+  if (with_images || choice.to.empty() || choice.difference != Difference::curvature) return;
   throw Error::invalid_input(
       "compare.difference = curvature needs pictures, and no-images draws none: leave one of both out "
       "(--compare.difference)")
-      .with_key("compare.difference", choice.difference);
+      .with_key("compare.difference", enum_name(choice.difference));
 }
 
 // Throws unless there is a name for each column.
@@ -202,7 +202,7 @@ void draw_page(Run& run, const CommandLine& line, const std::string& experiment,
                             .metrics = split(choice.metrics),
                             .look = options.looks().front(),
                             .to = plan.to,
-                            .curvature = choice.difference == "curvature",
+                            .curvature = choice.difference == Difference::curvature,
                             .onion = experiment_named(experiment).onion,
                             .outlines = !choice.no_outlines,
                             .films = film_formats("compare.video", choice.video),
@@ -277,7 +277,7 @@ int run_compare(const CommandLine& line) {
     if (is_subtracted) choice.to = variants[0].name;
     plan = comparison_plan(inner, variants, choice, options.out);
   }
-  if (choice.difference == "curvature") jobs.first = plan.to;
+  if (choice.difference == Difference::curvature) jobs.first = plan.to;
   for (std::size_t c = 0; c < plan.columns.size(); ++c)
     keys["columns"].push_back({{"name", plan.columns[c].name}, {"stiffness_times", plan.scales[c]}});
   if (choice.match != Match::fabric) keys["matched_to"] = plan.reference;

@@ -147,7 +147,7 @@ ClampedStrip clamped_strip(const StripShape& shape, const LawRequest& law, const
   ClampedMesh clamped = clamped_mesh(shape.mesh, kGauge, shape.width, shape.triangles, 2, 1);
   const double d = strip.spacing = clamped.spacing;
   Scene& scene = strip.scene = strip_scene(shape, law, fabric, strip.walk);
-  scene.cloth.shape = "strip";
+  scene.cloth.shape = ClothOutline::strip;
   scene.cloth.length = clamped.length;
   scene.cloth.width = shape.width;
   scene.cloth.warp_angle = shape.warp_angle;

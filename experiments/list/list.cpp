@@ -124,7 +124,7 @@ Json fabric_json(const FabricFile& file) {
                        {"unit", number.unit},
                        {"known", number.provenance.confidence},
                        {"source", number.provenance.source}};
-    if (!number.tester.empty()) published[name]["tester"] = number.tester;
+    if (number.tester) published[name]["tester"] = enum_name(*number.tester);
   }
   return {{"name", file.fabric.name},
           {"description", file.description},

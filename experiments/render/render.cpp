@@ -30,9 +30,13 @@
 namespace hysteron::experiments {
 namespace {
 
+enum class CurvatureSource { geometry, file };
+constexpr std::array<const char*, 2> names(CurvatureSource) { return {"geometry", "file"}; }
+
 struct RenderFlags {
   std::string fps, unit = "metre", up = "z";  // one for all sequences, or one for each, separated by commas
-  std::string title, ground = "none", body, curvature = "geometry", fabric, part;
+  std::string title, ground = "none", body, fabric, part;
+  CurvatureSource curvature = CurvatureSource::geometry;
   double range = 100;  // [1/m]; 2 k0 of the shipped fabrics, as in the pictures of their runs
   Eigen::Vector3d low{0, 0, 0}, high{0, 0, 0}, also{0, 0, 0};
   std::string video = "none";
@@ -47,7 +51,7 @@ const KeyRow<F> kRows[] = {
     {"render.unit", at<&F::unit>, "", any(), "", "unit of length in the files: metre | centimetre | millimetre | inch, for all or for each"},
     {"render.up", at<&F::up>, "", any(), "", "the files' upward axis: z | y, for all or for each"},
     {"render.range", at<&F::range>, "1/m", positive(), "", "curvature at the ends of the colour bar; 100, as in runs of the shipped fabrics; of kept geometry without it that of its run"},
-    {"render.curvature", at<&F::curvature>, "", any(), "geometry | file", "computed from positions, or the property of that name in a PLY"},
+    {"render.curvature", at<&F::curvature>, "", any(), "", "computed from positions, or the property of that name in a PLY"},
     {"render.title", at<&F::title>, "", any(), "", "of the sheet, and of a single sequence's pictures; else the sequences' names, or what was recorded"},
     {"render.ground", at<&F::ground>, "", any(), "", "height of a visible ground [m], or none"},
     {"render.body", at<&F::body>, "", any(), "", "a mesh that does not move, drawn matte as obstacles are; in the unit and axes of the first sequence"},
@@ -184,17 +188,17 @@ ClothMesh frame_mesh(const Surface& frame, const std::string& what) {
 
 void check_curvature(const F& flags, const Surface& frame, const std::string& what) {
   if (flags.options.look != "curvature") return;
-  if (flags.curvature == "file") {
+  if (flags.curvature == CurvatureSource::file) {
     if (!frame.curvature.empty()) return;
     throw Error::invalid_input(what + ": no property curvature of its vertices (--render.curvature file)")
-        .with_key("render.curvature", flags.curvature);
+        .with_key("render.curvature", enum_name(flags.curvature));
   }
   frame_mesh(frame, what);
 }
 
 // Warns of what is doubtful about each sequence's first mesh: curvature needs an edge between two triangles.
 void warn_of_loose_parts(const F& flags, const std::vector<Column>& columns, Run& run) {
-  if (flags.options.look != "curvature" || flags.curvature == "file") return;
+  if (flags.options.look != "curvature" || flags.curvature == CurvatureSource::file) return;
   for (const Column& column : columns) {
     const std::string what = "mesh " + column.files.front().string();
     const ClothMesh mesh = frame_mesh(read_frame(column.files.front(), column.axes), what);
@@ -260,8 +264,8 @@ class FramesAndSheet {
       : flags_(flags),
         columns_(columns),
         run_(run),
-        pictures_(flags.options,
-                  {bounds, ground_height(flags), flags.range, flags.curvature == "file", flags.fabric}) {}
+        pictures_(flags.options, {bounds, ground_height(flags), flags.range,
+                                  flags.curvature == CurvatureSource::file, flags.fabric}) {}
 
   void draw() {
     if (!flags_.body.empty()) pictures_.add_body(moving_obstacle(flags_, columns_.front().axes));

@@ -32,7 +32,7 @@ constexpr const char* kIntegratorSweeps =
 constexpr const char* kLawSweeps = "sweep = all | *-step | mesh | contact | scenes* | ripple";
 
 struct StabilityFlags {
-  std::string device = "cpu";
+  NamedDevice device = NamedDevice::cpu;
   std::string integrator = "all", law, sweep = "all";
   CellEffort effort;
   double threads = 0, limit_steps = 2000;
@@ -42,7 +42,7 @@ struct StabilityFlags {
 using F = StabilityFlags;
 // clang-format off
 const KeyRow<F> kRows[] = {
-    {"device", at<&F::device>, "", any(), "cpu | cuda", "where cells are simulated; ripple and explicit-limit run on the cpu"},
+    {"device", at<&F::device>, "", any(), "", "where cells are simulated; ripple and explicit-limit run on the cpu"},
     {"integrator", at<&F::integrator>, "", any(), "", "NAME, several separated by commas, or all"},
     {"law", at<&F::law>, "", any(), "", "NAME, several separated by commas, or all; default: linear, prandtl and wong in maps, all in scenes, prandtl and wong beside linear in ripple"},
     {"sweep", at<&F::sweep>, "", any(), "", "NAME, several separated by commas, or all"},
@@ -58,7 +58,9 @@ Keys option_keys(F& flags) { return with_output_options(bind(kRows, flags), flag
 
 int thread_choice(const F& flags) {
   if (flags.threads > 0) return static_cast<int>(flags.threads);
-  return flags.device == "cuda" ? 1 : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  return flags.device == NamedDevice::cuda
+             ? 1
+             : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
 // Returns the listed ones of the known names, each once, or all of them.
@@ -82,7 +84,7 @@ SweepParams sweep_choice(const F& flags) {
     choice.integrators =
         chosen_names("integrator", flags.integrator, {integrators.begin(), integrators.end()});
   if (!flags.law.empty()) choice.laws = chosen_names("law", flags.law, law_names());
-  choice.device = value_named<DeviceChoice>(flags.device);
+  choice.device = device_choice(flags.device);
   choice.quick = flags.options.quick;
   return choice;
 }

@@ -22,10 +22,10 @@ using F = ValidateFlags;
 const KeyRow<F> kRows[] = {
     {"parts", at<&F::parts>, "", any(), "", "separated by commas: spread (drapes with uncertain numbers), budget (what each uncertain number explains), figure (of recorded results)"},
     {"recorded", at<&F::recorded>, "", any(), "", "folder of results that the part `figure` draws"},
-    {"standard", at<&F::standard>, "", any(), "published | iso9073 | jis", "of the drapes: the tester that the fabric's file names, or one for all"},
+    {"standard", at<&F::standard>, "", any(), "", "of the drapes: the tester that the fabric's file names, or one for all"},
     {"fabrics", at<&F::fabrics>, "", any(), "", "those that publish a drape coefficient, separated by commas"},
     {"laws", at<&F::law>, "", any(), "", "of the drapes; one"},
-    {"device", at<&F::device>, "", any(), "cpu | cuda", "of the drapes"},
+    {"device", at<&F::device>, "", any(), "", "of the drapes"},
     {"triangles", at<&F::triangles>, "", between(100, 1e6), "", "of the disc; a budget has four times as many, too"},
     {"step", at<&F::step>, "s", positive(), "", "of the drapes"},
     {"tolerance", at<&F::tolerance>, "m", at_least(0), "", "of the parts of a step, as --tolerance of drape"},

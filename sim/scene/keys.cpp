@@ -37,7 +37,7 @@ constexpr const char* kNewton = "integrator = implicit | bdf2 | tr-bdf2 | quasi-
 constexpr const char* kNewtonWords = "--integrator implicit, bdf2, tr-bdf2 or quasi-static, or --self-contact";
 
 const KeyRow<Scene> kSceneRows[] = {
-    {"cloth.shape", at<&S::cloth, &C::shape>, "", any(), "square | strip | disc | tube | file | pattern", "outline of the cloth; file: an OBJ; pattern: the texture coordinates of an OBJ, whose islands are panels sewn along their seams, and which starts where its vertices are", kCloth},
+    {"cloth.shape", at<&S::cloth, &C::shape>, "", any(), "", "outline of the cloth; file: an OBJ; pattern: the texture coordinates of an OBJ, whose islands are panels sewn along their seams, and which starts where its vertices are", kCloth},
     {"cloth.length", at<&S::cloth, &C::length>, "m", positive(), "", "along warp (square, strip, tube)", kCloth.needing("cloth.shape = square | strip | tube and mesh != *.obj", "--cloth.shape square, strip or tube")},
     {"cloth.width", at<&S::cloth, &C::width>, "m", positive(), "", "along weft (strip; a square takes cloth.length)", kCloth.needing("cloth.shape = strip and mesh != *.obj", "--cloth.shape strip")},
     {"cloth.radius", at<&S::cloth, &C::radius>, "m", positive(), "", "of the disc, the tube, the loops of a knot or the turns of pleats", kCloth.needing("cloth.shape = disc | tube and mesh != *.obj or cloth.start = knot | pleats", "--cloth.shape disc or tube, or --cloth.start knot or pleats")},
@@ -124,7 +124,7 @@ const KeyRow<Scene> kSceneRows[] = {
 };
 
 const KeyRow<Pin> kPinRows[] = {
-    {"select", at<&Pin::select>, "", any(), "box | nearest | all-boundary", "which vertices of the rest shape are held"},
+    {"select", at<&Pin::select>, "", any(), "", "which vertices of the rest shape are held"},
     {"low", at<&Pin::low>, "m", any(), "", "corner of the box"},
     {"high", at<&Pin::high>, "m", any(), "", "opposite corner of the box, >= low"},
     {"point", at<&Pin::point>, "m", any(), "", "the nearest vertex to this is held (nearest)"},
@@ -205,7 +205,7 @@ Json published_json(const Fabric& fabric) {
                  {"unit", number.unit},
                  {"source", number.provenance.source},
                  {"confidence", number.provenance.confidence}};
-    if (!number.tester.empty()) all[name]["tester"] = number.tester;
+    if (number.tester) all[name]["tester"] = enum_name(*number.tester);
   }
   return all;
 }

@@ -33,14 +33,14 @@ const KeyRow<Options> kRows[] = {
     {"out", at<&O::out>, "", any(), "", "folder of the results; default out/<experiment>", kPlace},
     {"size", at<&O::size>, "", any(), "", "size of the pictures, WIDTHxHEIGHT pixels", kLook},
     {"fps", at<&O::fps>, "1/s", between(0, 10000), "", "pictures and rows of series per simulated second, at the ends of steps; 0: of the start and the end alone; no result depends on it", kPicture},
-    {"quality", at<&O::quality>, "", any(), "draft | final | figure", "of the pictures: a draft is drawn with 4 samples a pixel in place of 8; a figure, for pictures that are published, is lit from 192 directions and takes seconds", kLook},
+    {"quality", at<&O::quality>, "", any(), "", "of the pictures: a draft is drawn with 4 samples a pixel in place of 8; a figure, for pictures that are published, is lit from 192 directions and takes seconds", kLook},
     {"renderer", at<&O::renderer>, "", any(), "", "how pictures are drawn", kLook.needing("not no-images")},
     {"no-images", at<&O::no_images>, "", any(), "", "draw no pictures; options that say how they look may stand beside it, a renderer may not", {.scope = Scope::output, .group = KeyGroup::pictures, .takers = Takers::tools}},
     {"look", at<&O::look>, "", any(), "", "what pictures show: cloth | grid (printed, 1 cm) | clay | curvature | residual | difference | friction | height (from the lowest to the highest point) | wireframe | silhouette; of several, separated by commas, each but the first has a sequence of its own, frames-LOOK/", once(kLook)},
     {"curvature-range", at<&O::curvature_range>, "1/m", at_least(0), "", "curvature at the ends of the colours, half of it for residual and difference; 0: 2 k0", kPicture},
     {"reference", at<&O::reference>, "", any(), "", "folder of a run on the same mesh with --export ply: look difference subtracts its curvature", once(kPicture).needing("look = difference")},
     {"plain", at<&O::plain>, "", any(), "", "pictures of the sequence without captions and bars", kPicture},
-    {"light", at<&O::light>, "", any(), "studio | raking", "raking: light from the side, almost in the plane of the picture, as wrinkles are photographed", kLook},
+    {"light", at<&O::light>, "", any(), "", "raking: light from the side, almost in the plane of the picture, as wrinkles are photographed", kLook},
     {"background", at<&O::background>, "", any(), "", "behind the cloth; transparent: for figures, with the shadow on the ground and bars but without captions", kLook},
     {"camera", at<&O::camera>, "", any(), "", "a camera as a run writes it, OUT/camera.json; keys camera.* that are given win", {.scope = Scope::preset, .group = KeyGroup::running}},
     {"camera.direction", at<&O::camera_direction>, "", any(), "", "from the cloth to the eye, any length", kLook},
@@ -48,7 +48,7 @@ const KeyRow<Options> kRows[] = {
     {"camera.target", at<&O::camera_target>, "m", any(), "", "three numbers: what is in the middle of the picture; none: the middle of what moves", kLook},
     {"camera.distance", at<&O::camera_distance>, "m", at_least(0), "", "from the target to the eye; 0: as near as all that moves stays in the picture", kLook},
     {"camera.box", at<&O::camera_box>, "m", any(), "", "six numbers, lowest corner, then highest: what the picture frames in place of what moves", kLook},
-    {"export", at<&O::export_format>, "", any(), "none | ply | obj | vtk | pc2 | usd | glb | mitsuba", "meshes, OUT/mesh/0000.obj ...; vtk: 0000.vtp ... with fields, and cloth.pvd for ParaView; mitsuba: 0000.xml ... beside 0000.ply, scenes that the path tracer Mitsuba 3 draws; pc2: cloth.obj and cloth.pc2, one animated mesh for Blender and Houdini; usd: cloth.usda, and glb: cloth.glb (glTF), one animated scene with obstacles and camera", once(kPicture)},
+    {"export", at<&O::export_format>, "", any(), "", "meshes, OUT/mesh/0000.obj ...; vtk: 0000.vtp ... with fields, and cloth.pvd for ParaView; mitsuba: 0000.xml ... beside 0000.ply, scenes that the path tracer Mitsuba 3 draws; pc2: cloth.obj and cloth.pc2, one animated mesh for Blender and Houdini; usd: cloth.usda, and glb: cloth.glb (glTF), one animated scene with obstacles and camera", once(kPicture)},
     {"probe", at<&O::probe>, "", any(), "", "material points as they lie on the flat cloth [m], 'x,y' or 'x,y;x,y...': a time series of their positions, curvatures, moments and friction, OUT/probes.csv; pictures show the moment of the first against its curvature so far; none: not that of the experiment either", kPicture},
     {"check-intersections", at<&O::check_intersections>, "", any(), "", "count the triangles that pass through each other at every recorded instant, by exact predicates; always on with self-contact", {.scope = Scope::output, .group = KeyGroup::running}},
     {"errors", at<&O::errors>, "", any(), "", "repeat the run at half the step, with four times the triangles and on other meshes: the error of each headline number", once(kRun)},
@@ -119,7 +119,8 @@ int Options::width() const { return sides(size).first; }
 int Options::height() const { return sides(size).second; }
 std::vector<std::string> Options::looks() const { return split(look); }
 bool Options::has_view() const {
-  return !no_images || export_format == "mitsuba" || export_format == "usd" || export_format == "glb";
+  return !no_images || export_format == MeshFormat::mitsuba || export_format == MeshFormat::usd ||
+         export_format == MeshFormat::glb;
 }
 
 Keys bind_options(Options& options) { return bind(kRows, options); }

@@ -22,7 +22,7 @@ constexpr std::size_t kDrawsForAMean = 3;
 std::vector<std::string> other_families(const Scene& scene) {
   if (scene.mesh == "random") return {};
   std::vector<std::string> families = {"unionjack", "equilateral"};
-  if (scene.cloth.shape == "tube") families = {"unionjack", "flipped"};
+  if (scene.cloth.shape == ClothOutline::tube) families = {"unionjack", "flipped"};
   std::erase(families, scene.mesh);
   return families;
 }
