@@ -40,7 +40,7 @@ render::Image image_from_python(py::handle picture, const std::string& what) {
 py::dict diff(py::object a, py::object b, double pixels_per_degree, const std::string& map) {
   experiments::DiffFlags flags;
   flags.pixels_per_degree = pixels_per_degree;
-  const auto quantity = value_if_named<HeatMap>(map);
+  const auto quantity = value_if_named<experiments::HeatMap>(map);
   if (!quantity) throw Error::invalid_input("map = " + map + " must be steps | flip").with_key("map", map);
   flags.map = *quantity;
   experiments::Comparison found;

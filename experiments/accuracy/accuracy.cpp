@@ -16,7 +16,7 @@
 namespace hysteron::experiments {
 
 Scene with(const MethodSetting& setting, Scene scene) {
-  scene.mesh = setting.mesh;
+  scene.mesh = enum_name(setting.mesh);
   scene.element = setting.element;
   scene.law = setting.law;
   scene.integrator = setting.integrator;
@@ -130,7 +130,7 @@ void write_table(Run& run, const std::vector<Solution>& solutions) {
       table.row({solution.problem.name,
                  s.factor,
                  describe(solution, s),
-                 s.mesh,
+                 enum_name(s.mesh),
                  enum_name(s.element),
                  s.law,
                  number(s.load),

@@ -100,7 +100,7 @@ Problem crease_problem(const Effort& effort) {
                   {}};
   ask_for_motion({crease, kLength, kSampling, kFrame / (effort.quick ? 16 : 64), opening_angle}, problem);
   MethodSetting base;
-  base.mesh = "random";
+  base.mesh = MeshFamily::random;
   base.law = "prandtl";
   base.device = effort.device;
   base.integrator = Integrator::bdf2;

@@ -45,9 +45,9 @@ Scene strip_scene(const StripShape& shape, const LawRequest& law, const Fabric& 
 }
 
 void check_strip(const StripShape& shape, const LawRequest& law, const KesProtocol& protocol) {
-  const auto& meshes = strip_meshes();
-  if (std::find(meshes.begin(), meshes.end(), shape.mesh) == meshes.end())
-    throw Error::invalid_input("mesh = " + shape.mesh + " of a strip is not one of: " + join(meshes, ", "))
+  if (!value_if_named<MeshFamily>(shape.mesh))
+    throw Error::invalid_input("mesh = " + shape.mesh +
+                               " of a strip is not one of: " + join(every_name<MeshFamily>(), ", "))
         .with_key("mesh", shape.mesh)
         .with_experiment("kes");
   if (law.name == "grinspun-edit")
@@ -108,12 +108,6 @@ LawRequest as_in_cloth(LawRequest law) {
 }
 
 }  // namespace
-
-const std::vector<std::string>& strip_meshes() {
-  static const std::vector<std::string> kMeshes = {"aligned",   "aligned-45",  "flipped",
-                                                   "unionjack", "equilateral", "random"};
-  return kMeshes;
-}
 
 KesWalk strip_walk(const KesProtocol& p, int steps) {
   const int between = 2 * steps - 1;  // in amplitudes

@@ -113,9 +113,8 @@ std::string listed_value(const std::string& key, const std::string& list, std::s
 }
 
 LengthUnit parsed_unit(const std::string& unit) {
-  const auto units = names(LengthUnit{});
-  if (std::count(units.begin(), units.end(), unit)) return value_named<LengthUnit>(unit);
-  throw refusal("render.unit", unit, join({units.begin(), units.end()}, " | "));
+  if (const auto known = value_if_named<LengthUnit>(unit)) return *known;
+  throw refusal("render.unit", unit, join(every_name<LengthUnit>(), " | "));
 }
 
 bool is_y_up(const std::string& up) {

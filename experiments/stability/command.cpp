@@ -190,8 +190,8 @@ std::string beyond_search_warning(const std::vector<MeasuredLimit>& limits, doub
   for (const MeasuredLimit& limit : limits) {
     const LimitCase& of = limit.of;
     if (limit.is_beyond_search)
-      beyond.push_back(
-          fmt::format("{} {} {} {}", of.mesh, enum_name(of.element), of.held ? "held" : "free", of.law));
+      beyond.push_back(fmt::format("{} {} {} {}", enum_name(of.mesh), enum_name(of.element),
+                                   of.held ? "held" : "free", of.law));
   }
   if (beyond.empty()) return "";
   return fmt::format(
@@ -212,8 +212,8 @@ void measure_limits(const F& flags, Run& run) {
   double least = kMaxRatio, most = 0, least_resonant = kMaxRatio;
   for (const MeasuredLimit& limit : limits) {
     const LimitCase& of = limit.of;
-    table.row({of.mesh, enum_name(of.element), of.held ? "held" : "free", of.law, of.damping, of.amplitude,
-               limit.bound, limit.measured, limit.ratio()});
+    table.row({enum_name(of.mesh), enum_name(of.element), of.held ? "held" : "free", of.law, of.damping,
+               of.amplitude, limit.bound, limit.measured, limit.ratio()});
     if (of.resonates() && of.damping == 0) {
       least_resonant = std::min(least_resonant, limit.ratio());
       continue;

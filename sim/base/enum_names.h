@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "sim/base/error.h"
 
@@ -20,6 +21,19 @@ concept Named = requires(E value) {
 template <Named E>
 std::string enum_name(E value) {
   return names(value)[static_cast<std::size_t>(value)];
+}
+
+// Returns all values, and all names.
+template <Named E>
+constexpr auto every_value() {
+  std::array<E, names(E{}).size()> all{};
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<E>(i);
+  return all;
+}
+template <Named E>
+std::vector<std::string> every_name() {
+  const auto all = names(E{});
+  return {all.begin(), all.end()};
 }
 
 // Returns the value of that name; nothing for another.

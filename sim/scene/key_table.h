@@ -49,9 +49,7 @@ struct NamedValue {
 };
 template <Named E>
 NamedValue named_value(E* value) {
-  const auto all = names(E{});
-  return {value,
-          {all.begin(), all.end()},
+  return {value, every_name<E>(),
           [](void* of, std::size_t place) { *static_cast<E*>(of) = static_cast<E>(place); },
           [](const void* of) { return static_cast<std::size_t>(*static_cast<const E*>(of)); }};
 }

@@ -152,8 +152,7 @@ void check_mesh(const Scene& scene) {
     throw Error::invalid_input(shown(scene, "cloth.shape", enum_name(cloth.shape), "") +
                                " needs cloth.file, an OBJ");
   }
-  const auto all = names(MeshFamily{});
-  const std::vector<std::string> families(all.begin(), all.end());
+  const std::vector<std::string> families = every_name<MeshFamily>();
   if (names_an_obj(scene.mesh) || std::count(families.begin(), families.end(), scene.mesh)) return;
   throw Error::invalid_input(shown(scene, "mesh", scene.mesh, "") + " must be " + join(families, " | ") +
                              " | FILE.obj" + suggestion(scene.mesh, families));
