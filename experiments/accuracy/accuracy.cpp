@@ -55,8 +55,8 @@ struct AccuracyFlags {
 using F = AccuracyFlags;
 // clang-format off
 const KeyRow<F> kRows[] = {
-    {"problem", at<&F::problem>, "", any(), "", "bend, sag, droop, buckle, decay, swing, crease; several separated by commas, or all"},
-    {"device", at<&F::device>, "", any(), "", "where settings are computed, one after the other; on the cpu by one thread"},
+    {"problem", at<&F::problem>, "", any(), "bend, sag, droop, buckle, decay, swing, crease; several separated by commas, or all"},
+    {"device", at<&F::device>, "", any(), "where settings are computed, one after the other; on the cpu by one thread"},
 };
 // clang-format on
 

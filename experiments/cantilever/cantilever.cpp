@@ -20,7 +20,7 @@ struct CantileverParams {
 using C = CantileverParams;
 // clang-format off
 const KeyRow<C> kRows[] = {
-    {"gamma", at<&C::gamma>, "", at_least(0), "", "weight over stiffness, density g L^3/b2: sets the density, and law = linear unless named; 0: the fabric's own"},
+    {"gamma", at<&C::gamma>, "", at_least(0), "weight over stiffness, density g L^3/b2: sets the density, and law = linear unless named; 0: the fabric's own"},
 };
 // clang-format on
 

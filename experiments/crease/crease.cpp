@@ -26,16 +26,16 @@ namespace {
 using C = CreaseParams;
 // clang-format off
 const KeyRow<C> kRows[] = {
-    {"crease.fold", at<&C::fold>, "", any(), "", "how it is folded: flat under a plate, softly around a rod, or a pleat that is pulled straight"},
-    {"crease.release", at<&C::release>, "", any(), "", "slow: the plate rises within crease.lift, without inertia, from equilibrium to equilibrium; quick: within 0.1 s, in motion, damped by fabric.damping and air-drag"},
-    {"crease.standard", at<&C::standard>, "", any(), "", "load and times of a standard, with steps that grow: both 5 min under the load and 5 min to recover, ISO 2313 10 N, AATCC 66 500 g; other crease keys that are given win"},
-    {"crease.force", at<&C::force>, "N", positive(), "", "force of the plate"},
-    {"crease.radius", at<&C::radius>, "m", positive(), "", "radius of the rod"},
-    {"crease.pleat", at<&C::pleat>, "degree", between(5, 175), "", "angle between the limbs of the pleat at rest"},
-    {"crease.hold", at<&C::hold>, "s", positive(), "", "time under the full load"},
-    {"crease.lift", at<&C::lift>, "s", positive(), "", "slow release: time in which the plate rises"},
-    {"crease.recovery", at<&C::recovery>, "s", positive(), "", "time to recover"},
-    {"crease.grow-after", at<&C::grow_after>, "s", at_least(0), "", "time t of rest, under the load or after release, after which a step is twice as long; steps grow as 1 + t over it; 0: they do not grow"},
+    {"crease.fold", at<&C::fold>, "", any(), "how it is folded: flat under a plate, softly around a rod, or a pleat that is pulled straight"},
+    {"crease.release", at<&C::release>, "", any(), "slow: the plate rises within crease.lift, without inertia, from equilibrium to equilibrium; quick: within 0.1 s, in motion, damped by fabric.damping and air-drag"},
+    {"crease.standard", at<&C::standard>, "", any(), "load and times of a standard, with steps that grow: both 5 min under the load and 5 min to recover, ISO 2313 10 N, AATCC 66 500 g; other crease keys that are given win"},
+    {"crease.force", at<&C::force>, "N", positive(), "force of the plate"},
+    {"crease.radius", at<&C::radius>, "m", positive(), "radius of the rod"},
+    {"crease.pleat", at<&C::pleat>, "degree", between(5, 175), "angle between the limbs of the pleat at rest"},
+    {"crease.hold", at<&C::hold>, "s", positive(), "time under the full load"},
+    {"crease.lift", at<&C::lift>, "s", positive(), "slow release: time in which the plate rises"},
+    {"crease.recovery", at<&C::recovery>, "s", positive(), "time to recover"},
+    {"crease.grow-after", at<&C::grow_after>, "s", at_least(0), "time t of rest, under the load or after release, after which a step is twice as long; steps grow as 1 + t over it; 0: they do not grow"},
 };
 // clang-format on
 

@@ -29,7 +29,7 @@ struct CrumpleParams {
 using C = CrumpleParams;
 // clang-format off
 const KeyRow<C> kRows[] = {
-    {"crumple.ridge", at<&C::ridge>, "1/m", positive(), "", "residual curvature from which a place counts as part of a ridge"},
+    {"crumple.ridge", at<&C::ridge>, "1/m", positive(), "residual curvature from which a place counts as part of a ridge"},
 };
 // clang-format on
 

@@ -37,16 +37,16 @@ struct TestFlags {
 using F = TestFlags;
 // clang-format off
 const KeyRow<TestFlags> kRows[] = {
-    {"fabric.name", at<&F::fabric>, "", any(), "", "NAME or FILE, as `fit --fab` writes it or any other"},
-    {"fab.data", at<&F::data>, "", any(), "", "measured loops, whose way the clamps go; CSV with direction, test, branch, clamp_distance_m, force_N, gauge_length_m, width_m"},
-    {"units", at<&F::units>, "", any(), "", "of the data: m and N, or the tester's cm and gf (columns _cm, _gf)"},
-    {"fab.direction", at<&F::direction>, "", any(), "", "along which the strip is cut: length (warp), width (weft), bias"},
-    {"fab.test", at<&F::test>, "", any(), "", "U1 bends up, D1 down, S1 stretches; another number is another gauge"},
-    {"fab.gauge", at<&F::gauge>, "m", between(1e-3, 1), "", "without data: length of the strip between the clamps"},
-    {"fab.slack", at<&F::slack>, "m", positive(), "", "without data: by which the clamps are closer at first, in bending"},
-    {"fab.compressions", at<&F::compressions>, "", any(), "", "without data: of the cycles, from the gauge on, separated by commas [m]"},
-    {"fab.width", at<&F::width>, "m", between(1e-3, 1), "", "without data: of the strip"},
-    {"fab.steps", at<&F::steps>, "", between(4, 1e5), "", "without data: rows of a branch, as they are written; areas and peaks are those of 60 rows or more"},
+    {"fabric.name", at<&F::fabric>, "", any(), "NAME or FILE, as `fit --fab` writes it or any other"},
+    {"fab.data", at<&F::data>, "", any(), "measured loops, whose way the clamps go; CSV with direction, test, branch, clamp_distance_m, force_N, gauge_length_m, width_m"},
+    {"units", at<&F::units>, "", any(), "of the data: m and N, or the tester's cm and gf (columns _cm, _gf)"},
+    {"fab.direction", at<&F::direction>, "", any(), "along which the strip is cut: length (warp), width (weft), bias"},
+    {"fab.test", at<&F::test>, "", any(), "U1 bends up, D1 down, S1 stretches; another number is another gauge"},
+    {"fab.gauge", at<&F::gauge>, "m", between(1e-3, 1), "without data: length of the strip between the clamps"},
+    {"fab.slack", at<&F::slack>, "m", positive(), "without data: by which the clamps are closer at first, in bending"},
+    {"fab.compressions", at<&F::compressions>, "", any(), "without data: of the cycles, from the gauge on, separated by commas [m]"},
+    {"fab.width", at<&F::width>, "m", between(1e-3, 1), "without data: of the strip"},
+    {"fab.steps", at<&F::steps>, "", between(4, 1e5), "without data: rows of a branch, as they are written; areas and peaks are those of 60 rows or more"},
 };
 // clang-format on
 constexpr int kQuickSteps = 20;

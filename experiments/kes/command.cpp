@@ -43,26 +43,26 @@ using P = KesProtocol;
 using S = StripShape;
 // clang-format off
 const KeyRow<KesFlags> kRows[] = {
-    {"test", at<&K::test>, "", any(), "", "KES-FB2 bending, or shear or tension of KES-FB1, which take load, on, mesh, triangles and strip-steps"},
-    {"law", at<&K::law>, "", any(), "", "NAME, several separated by commas, or all; see `hysteron list laws`"},
-    {"param", at<&K::param>, "", any(), "", "parameters, for those of the laws that have them"},
-    {"amplitude", at<&K::protocol, &P::amplitude>, "1/m", positive(), "", "largest curvature; the tester's is 2.5 per cm"},
-    {"rate", at<&K::protocol, &P::rate>, "1/(m s)", positive(), "", "rate of the curvature; the tester's is 0.5 per cm and second"},
-    {"slope-from", at<&K::protocol, &P::slope_from>, "1/m", at_least(0), "", "curvature from which the slope B is taken"},
-    {"slope-to", at<&K::protocol, &P::slope_to>, "1/m", positive(), "", "curvature up to which the slope B is taken"},
-    {"width-at", at<&K::protocol, &P::width_at>, "1/m", positive(), "", "curvature at which 2HB is read"},
-    {"steps", at<&K::protocol, &P::steps>, "", between(10, 1e6), "", "accepted steps from zero to the amplitude, as they are drawn; what the tester reads of a law that takes no time does not depend on them"},
-    {"cycles", at<&K::protocol, &P::cycles>, "", between(1, 1000), "", "number of cycles; the tester reads the first, the area is that of the last"},
-    {"along", at<&K::along>, "", any(), "", "along which the specimen is bent, or led from clamp to clamp"},
-    {"on", at<&K::on>, "", any(), "", "the law alone, or beside it a strip of cloth between rotating clamps"},
-    {"renderer", at<&K::options, &Options::renderer>, "", any(), "", "how pictures of strips are drawn"},
+    {"test", at<&K::test>, "", any(), "KES-FB2 bending, or shear or tension of KES-FB1, which take load, on, mesh, triangles and strip-steps"},
+    {"law", at<&K::law>, "", any(), "NAME, several separated by commas, or all; see `hysteron list laws`"},
+    {"param", at<&K::param>, "", any(), "parameters, for those of the laws that have them"},
+    {"amplitude", at<&K::protocol, &P::amplitude>, "1/m", positive(), "largest curvature; the tester's is 2.5 per cm"},
+    {"rate", at<&K::protocol, &P::rate>, "1/(m s)", positive(), "rate of the curvature; the tester's is 0.5 per cm and second"},
+    {"slope-from", at<&K::protocol, &P::slope_from>, "1/m", at_least(0), "curvature from which the slope B is taken"},
+    {"slope-to", at<&K::protocol, &P::slope_to>, "1/m", positive(), "curvature up to which the slope B is taken"},
+    {"width-at", at<&K::protocol, &P::width_at>, "1/m", positive(), "curvature at which 2HB is read"},
+    {"steps", at<&K::protocol, &P::steps>, "", between(10, 1e6), "accepted steps from zero to the amplitude, as they are drawn; what the tester reads of a law that takes no time does not depend on them"},
+    {"cycles", at<&K::protocol, &P::cycles>, "", between(1, 1000), "number of cycles; the tester reads the first, the area is that of the last"},
+    {"along", at<&K::along>, "", any(), "along which the specimen is bent, or led from clamp to clamp"},
+    {"on", at<&K::on>, "", any(), "the law alone, or beside it a strip of cloth between rotating clamps"},
+    {"renderer", at<&K::options, &Options::renderer>, "", any(), "how pictures of strips are drawn"},
 };
 const KeyRow<KesFlags> kStripRows[] = {
-    {"mesh", at<&K::strip, &S::mesh>, "", any(), "", "of strips: aligned, aligned-45, flipped, unionjack, equilateral, random"},
-    {"element", at<&K::strip, &S::element>, "", any(), "", "bending element of strips"},
-    {"triangles", at<&K::strip, &S::triangles>, "", between(20, 1e6), "", "about how many a strip has; their size times the amplitude must stay small"},
-    {"cloth.width", at<&K::strip, &S::width>, "m", positive(), "", "of strips; 1 cm is between the clamps"},
-    {"strip-steps", at<&K::strip, &S::steps>, "", between(4, 1e5), "", "equilibria of a strip from zero to the amplitude"},
+    {"mesh", at<&K::strip, &S::mesh>, "", any(), "of strips: aligned, aligned-45, flipped, unionjack, equilateral, random"},
+    {"element", at<&K::strip, &S::element>, "", any(), "bending element of strips"},
+    {"triangles", at<&K::strip, &S::triangles>, "", between(20, 1e6), "about how many a strip has; their size times the amplitude must stay small"},
+    {"cloth.width", at<&K::strip, &S::width>, "m", positive(), "of strips; 1 cm is between the clamps"},
+    {"strip-steps", at<&K::strip, &S::steps>, "", between(4, 1e5), "equilibria of a strip from zero to the amplitude"},
 };
 // clang-format on
 constexpr int kQuickSteps = 1000, kQuickStripSteps = 28;

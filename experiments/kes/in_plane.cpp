@@ -43,16 +43,16 @@ using S = InPlaneSpecimen;
 using P = InPlaneProtocol;
 // clang-format off
 const KeyRow<InPlaneFlags> kOwnRows[] = {
-    {"along", at<&F::along>, "", any(), "", "shear, tension: the direction from clamp to clamp"},
-    {"load", at<&F::protocol, &P::largest>, "N/m", positive(), "", "tension: largest force per width; the tester's is 500 gf/cm"},
+    {"along", at<&F::along>, "", any(), "shear, tension: the direction from clamp to clamp"},
+    {"load", at<&F::protocol, &P::largest>, "N/m", positive(), "tension: largest force per width; the tester's is 500 gf/cm"},
 };
 // These keys are shared with the bending test.
 const KeyRow<InPlaneFlags> kSharedRows[] = {
-    {"test", at<&F::test>, "", any(), "", "KES-FB2 bending, KES-FB1 shear or tension"},
-    {"on", at<&F::on>, "", any(), "", "the law alone, or beside it a specimen of cloth"},
-    {"mesh", at<&F::specimen, &S::mesh>, "", any(), "", "of the specimen"},
-    {"triangles", at<&F::specimen, &S::triangles>, "", between(80, 1e6), "", "about how many it has"},
-    {"strip-steps", at<&F::specimen, &S::steps>, "", between(4, 1e5), "", "its equilibria from zero to the largest"},
+    {"test", at<&F::test>, "", any(), "KES-FB2 bending, KES-FB1 shear or tension"},
+    {"on", at<&F::on>, "", any(), "the law alone, or beside it a specimen of cloth"},
+    {"mesh", at<&F::specimen, &S::mesh>, "", any(), "of the specimen"},
+    {"triangles", at<&F::specimen, &S::triangles>, "", between(80, 1e6), "about how many it has"},
+    {"strip-steps", at<&F::specimen, &S::steps>, "", between(4, 1e5), "its equilibria from zero to the largest"},
 };
 // clang-format on
 constexpr int kQuickTriangles = 400;

@@ -263,7 +263,7 @@ struct ListFlags {
 };
 // clang-format off
 const KeyRow<ListFlags> kRows[] = {
-    {"json", at<&ListFlags::json>, "", any(), "", "one JSON object on stdout: an array for each of the lists; of fabrics that are named, an array of those"},
+    {"json", at<&ListFlags::json>, "", any(), "one JSON object on stdout: an array for each of the lists; of fabrics that are named, an array of those"},
 };
 // clang-format on
 

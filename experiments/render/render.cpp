@@ -47,21 +47,21 @@ struct RenderFlags {
 using F = RenderFlags;
 // clang-format off
 const KeyRow<F> kRows[] = {
-    {"fps", at<&F::fps>, "", any(), "", "frames per second of the files, one number for all sequences or one for each, separated by commas; files are frames by the numbers in their names; without it pictures carry the frame's number"},
-    {"render.unit", at<&F::unit>, "", any(), "", "unit of length in the files: metre | centimetre | millimetre | inch, for all or for each"},
-    {"render.up", at<&F::up>, "", any(), "", "the files' upward axis: z | y, for all or for each"},
-    {"render.range", at<&F::range>, "1/m", positive(), "", "curvature at the ends of the colour bar; 100, as in runs of the shipped fabrics; of kept geometry without it that of its run"},
-    {"render.curvature", at<&F::curvature>, "", any(), "", "computed from positions, or the property of that name in a PLY"},
-    {"render.title", at<&F::title>, "", any(), "", "of the sheet, and of a single sequence's pictures; else the sequences' names, or what was recorded"},
-    {"render.ground", at<&F::ground>, "", any(), "", "height of a visible ground [m], or none"},
-    {"render.body", at<&F::body>, "", any(), "", "a mesh that does not move, drawn matte as obstacles are; in the unit and axes of the first sequence"},
-    {"render.fabric", at<&F::fabric>, "", any(), "", "a fabric of assets/fabrics or a file, whose colours and weave the cloth has"},
-    {"render.also", at<&F::also>, "", any(), "", "a further row of the sheet has each sequence's last frame from this direction, which points to the eye; 0,0,0: none"},
-    {"render.part", at<&F::part>, "", any(), "", "of a run's folder: how much relief is seen of the part that this [[metric]] of its scene is measured on, before and after: the median of the deviation of L* within 21 pixels, in this --light"},
-    {"render.low", at<&F::low>, "m", any(), "", "with render.high: corners of what is framed; else the box of all frames"},
-    {"render.high", at<&F::high>, "m", any(), "", "see render.low"},
-    {"render.video", at<&F::video>, "", any(), "", "of a comparison whose columns' folders stand in its own: a film, as compare.video"},
-    {"render.video-size", at<&F::video_size>, "MB", positive(), "", "as compare.video-size"},
+    {"fps", at<&F::fps>, "", any(), "frames per second of the files, one number for all sequences or one for each, separated by commas; files are frames by the numbers in their names; without it pictures carry the frame's number"},
+    {"render.unit", at<&F::unit>, "", any(), "unit of length in the files: metre | centimetre | millimetre | inch, for all or for each"},
+    {"render.up", at<&F::up>, "", any(), "the files' upward axis: z | y, for all or for each"},
+    {"render.range", at<&F::range>, "1/m", positive(), "curvature at the ends of the colour bar; 100, as in runs of the shipped fabrics; of kept geometry without it that of its run"},
+    {"render.curvature", at<&F::curvature>, "", any(), "computed from positions, or the property of that name in a PLY"},
+    {"render.title", at<&F::title>, "", any(), "of the sheet, and of a single sequence's pictures; else the sequences' names, or what was recorded"},
+    {"render.ground", at<&F::ground>, "", any(), "height of a visible ground [m], or none"},
+    {"render.body", at<&F::body>, "", any(), "a mesh that does not move, drawn matte as obstacles are; in the unit and axes of the first sequence"},
+    {"render.fabric", at<&F::fabric>, "", any(), "a fabric of assets/fabrics or a file, whose colours and weave the cloth has"},
+    {"render.also", at<&F::also>, "", any(), "a further row of the sheet has each sequence's last frame from this direction, which points to the eye; 0,0,0: none"},
+    {"render.part", at<&F::part>, "", any(), "of a run's folder: how much relief is seen of the part that this [[metric]] of its scene is measured on, before and after: the median of the deviation of L* within 21 pixels, in this --light"},
+    {"render.low", at<&F::low>, "m", any(), "with render.high: corners of what is framed; else the box of all frames"},
+    {"render.high", at<&F::high>, "m", any(), "see render.low"},
+    {"render.video", at<&F::video>, "", any(), "of a comparison whose columns' folders stand in its own: a film, as compare.video"},
+    {"render.video-size", at<&F::video_size>, "MB", positive(), "as compare.video-size"},
 };
 // clang-format on
 

@@ -30,8 +30,8 @@ struct RerunParams {
 using R = RerunParams;
 // clang-format off
 const KeyRow<R> kRows[] = {
-    {"no-errors", at<&R::no_errors>, "", any(), "", "without the repeats of --errors"},
-    {"snakemake", at<&R::snakemake>, "", any(), "", "folder: write all runs below DIR as a Snakemake workflow there, and run nothing"},
+    {"no-errors", at<&R::no_errors>, "", any(), "without the repeats of --errors"},
+    {"snakemake", at<&R::snakemake>, "", any(), "folder: write all runs below DIR as a Snakemake workflow there, and run nothing"},
 };
 // clang-format on
 

@@ -42,14 +42,14 @@ struct StabilityFlags {
 using F = StabilityFlags;
 // clang-format off
 const KeyRow<F> kRows[] = {
-    {"device", at<&F::device>, "", any(), "", "where cells are simulated; ripple and explicit-limit run on the cpu"},
-    {"integrator", at<&F::integrator>, "", any(), "", "NAME, several separated by commas, or all"},
-    {"law", at<&F::law>, "", any(), "", "NAME, several separated by commas, or all; default: linear, prandtl and wong in maps, all in scenes, prandtl and wong beside linear in ripple"},
-    {"sweep", at<&F::sweep>, "", any(), "", "NAME, several separated by commas, or all"},
-    {"seconds", at<&F::effort, &CellEffort::seconds>, "s", positive(), "", "simulated time of a cell"},
-    {"work", at<&F::effort, &CellEffort::work>, "", positive(), "", "explicit substeps after which a cell's time is cut short; a step of implicit or bdf2 counts 20"},
-    {"limit-steps", at<&F::limit_steps>, "", between(100, 1e7), "", "steps through which the energy must stay bounded (sweep explicit-limit)"},
-    {"threads", at<&F::threads>, "", between(0, 1024), "", "of the host, a cell at a time each; 0: all cores, or 1 on cuda"},
+    {"device", at<&F::device>, "", any(), "where cells are simulated; ripple and explicit-limit run on the cpu"},
+    {"integrator", at<&F::integrator>, "", any(), "NAME, several separated by commas, or all"},
+    {"law", at<&F::law>, "", any(), "NAME, several separated by commas, or all; default: linear, prandtl and wong in maps, all in scenes, prandtl and wong beside linear in ripple"},
+    {"sweep", at<&F::sweep>, "", any(), "NAME, several separated by commas, or all"},
+    {"seconds", at<&F::effort, &CellEffort::seconds>, "s", positive(), "simulated time of a cell"},
+    {"work", at<&F::effort, &CellEffort::work>, "", positive(), "explicit substeps after which a cell's time is cut short; a step of implicit or bdf2 counts 20"},
+    {"limit-steps", at<&F::limit_steps>, "", between(100, 1e7), "steps through which the energy must stay bounded (sweep explicit-limit)"},
+    {"threads", at<&F::threads>, "", between(0, 1024), "of the host, a cell at a time each; 0: all cores, or 1 on cuda"},
 };
 // clang-format on
 constexpr double kQuickWork = 300, kQuickLimitSteps = 600;

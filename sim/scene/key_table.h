@@ -2,7 +2,7 @@
 // table with a line per key; reading, flags, messages, checks and the manifest all come from that table:
 //
 //   const KeyRow<Scene> kRows[] = {
-//       {"fabric.b2", at<&Scene::fabric, &Fabric::b2>, "N m", positive(), "", "bending rigidity B"}, ...
+//       {"fabric.b2", at<&Scene::fabric, &Fabric::b2>, "N m", positive(), "bending rigidity B"}, ...
 //
 #pragma once
 
@@ -141,14 +141,13 @@ struct BoundKey {
 };
 using Keys = std::vector<BoundKey>;
 
-// One line of a table.  Choices are written "sphere | box"; for an enumeration they are its names.
+// One line of a table.  The choices of an enumeration are its names.
 template <class Owner>
 struct KeyRow {
   const char* path;
   Field (*field)(Owner&);
   const char* unit;
   Range range;
-  const char* choices;
   const char* doc;
   KeyTraits traits = {};
 };
@@ -164,15 +163,15 @@ Field at(Owner& owner) {
     return member;
 }
 
-KeyDescription describe(const char* path, const Field& field, const char* unit, Range range,
-                        const char* choices, const char* doc, const KeyTraits& traits);
+KeyDescription describe(const char* path, const Field& field, const char* unit, Range range, const char* doc,
+                        const KeyTraits& traits = {});
 
 template <class Owner, class Rows>
 Keys bind(const Rows& rows, Owner& owner) {
   Keys keys;
   for (const KeyRow<Owner>& row : rows) {
     const Field field = row.field(owner);
-    keys.push_back({describe(row.path, field, row.unit, row.range, row.choices, row.doc, row.traits), field});
+    keys.push_back({describe(row.path, field, row.unit, row.range, row.doc, row.traits), field});
   }
   return keys;
 }

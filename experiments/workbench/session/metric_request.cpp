@@ -20,19 +20,19 @@ namespace {
 using M = MetricRequest;
 // clang-format off
 const KeyRow<M> kRows[] = {
-    {"name", at<&M::name>, "", any(), "", "of the column in metrics.csv and, with its unit, of the metric: small letters, digits and _"},
-    {"kind", at<&M::kind>, "", any(), "", "distance of point and to; height of point; angle between the mean normals of two parts, 0 when they are parallel; force of a pin on the cloth; of a part: root mean square of its residual curvature over the area, length of the ridges where that exceeds threshold, their height from valley to crest, share of its silhouette that has changed"},
-    {"from", at<&M::from>, "s", at_least(-1), "", "less its value at this time, which may name a phase, and 0 before it; silhouette: against that at this time; negative: the value itself"},
-    {"point", at<&M::point>, "m", any(), "", "distance, height: of the vertex nearest to this on the flat cloth"},
-    {"to", at<&M::to>, "m", any(), "", "distance: to the vertex nearest to this"},
-    {"low", at<&M::low>, "m", any(), "", "corner of the box that contains the part, on the flat cloth"},
-    {"high", at<&M::high>, "m", any(), "", "opposite corner of the box, >= low"},
-    {"other-low", at<&M::other_low>, "m", any(), "", "angle: the same of the other part"},
-    {"other-high", at<&M::other_high>, "m", any(), "", "angle: the same of the other part"},
-    {"hand", at<&M::hand>, "", between(1, 1e6), "", "force: number of the [[pin]], the first is 1"},
-    {"direction", at<&M::direction>, "", any(), "", "force: its component along this; zero: its size; silhouette: seen along this"},
-    {"threshold", at<&M::threshold>, "1/m", positive(), "", "ridge-length: residual curvature from which a place counts as part of a ridge"},
-    {"cutoff", at<&M::cutoff>, "m", positive(), "", "ridge-height: wavelength of which half counts as shape and not as ridges"},
+    {"name", at<&M::name>, "", any(), "of the column in metrics.csv and, with its unit, of the metric: small letters, digits and _"},
+    {"kind", at<&M::kind>, "", any(), "distance of point and to; height of point; angle between the mean normals of two parts, 0 when they are parallel; force of a pin on the cloth; of a part: root mean square of its residual curvature over the area, length of the ridges where that exceeds threshold, their height from valley to crest, share of its silhouette that has changed"},
+    {"from", at<&M::from>, "s", at_least(-1), "less its value at this time, which may name a phase, and 0 before it; silhouette: against that at this time; negative: the value itself"},
+    {"point", at<&M::point>, "m", any(), "distance, height: of the vertex nearest to this on the flat cloth"},
+    {"to", at<&M::to>, "m", any(), "distance: to the vertex nearest to this"},
+    {"low", at<&M::low>, "m", any(), "corner of the box that contains the part, on the flat cloth"},
+    {"high", at<&M::high>, "m", any(), "opposite corner of the box, >= low"},
+    {"other-low", at<&M::other_low>, "m", any(), "angle: the same of the other part"},
+    {"other-high", at<&M::other_high>, "m", any(), "angle: the same of the other part"},
+    {"hand", at<&M::hand>, "", between(1, 1e6), "force: number of the [[pin]], the first is 1"},
+    {"direction", at<&M::direction>, "", any(), "force: its component along this; zero: its size; silhouette: seen along this"},
+    {"threshold", at<&M::threshold>, "1/m", positive(), "ridge-length: residual curvature from which a place counts as part of a ridge"},
+    {"cutoff", at<&M::cutoff>, "m", positive(), "ridge-height: wavelength of which half counts as shape and not as ridges"},
 };
 // clang-format on
 

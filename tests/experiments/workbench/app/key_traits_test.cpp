@@ -22,9 +22,9 @@ struct HemKeys {
   bool is_told = false;
 };
 const KeyRow<HemKeys> kHemRows[] = {
-    {"hem.width", at<&HemKeys::width>, "m", positive(), "", "of the hem"},
-    {"hem.stitch", at<&HemKeys::stitch>, "", any(), "", "by which it is held"},
-    {"hem.told", at<&HemKeys::is_told>, "", any(), "", "say so", {.scope = Scope::run}}};
+    {"hem.width", at<&HemKeys::width>, "m", positive(), "of the hem"},
+    {"hem.stitch", at<&HemKeys::stitch>, "", any(), "by which it is held"},
+    {"hem.told", at<&HemKeys::is_told>, "", any(), "say so", {.scope = Scope::run}}};
 
 struct HemRun {
   HemKeys keys;
